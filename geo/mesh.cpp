@@ -1,0 +1,34 @@
+#include "geo/mesh.h"
+
+#include <algorithm>
+
+namespace sunload {
+
+void PolygonModel::add_polygon(const std::vector<std::vector<std::int32_t>>& rings,
+                               Facts polygon_facts) {
+  for (const auto& ring : rings) {
+    ring_vertex.insert(ring_vertex.end(), ring.begin(), ring.end());
+    ring_begin.push_back(static_cast<std::int64_t>(ring_vertex.size()));
+  }
+  polygon_ring.push_back(static_cast<std::int64_t>(ring_begin.size()) - 1);
+  facts.push_back(polygon_facts);
+}
+
+void PolygonModel::add_triangle(std::int32_t a, std::int32_t b, std::int32_t c,
+                                Facts polygon_facts) {
+  for (const auto vertex : {a, b, c}) ring_vertex.push_back(vertex);
+  ring_begin.push_back(static_cast<std::int64_t>(ring_vertex.size()));
+  polygon_ring.push_back(static_cast<std::int64_t>(ring_begin.size()) - 1);
+  facts.push_back(polygon_facts);
+}
+
+Box bounding_box(const std::vector<Vec3>& points) {
+  Box box;
+  for (const auto& p : points) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+  }
+  return box;
+}
+
+}  // namespace sunload

@@ -1,0 +1,25 @@
+/// Colour of the clear sky for pictures: the two models of METHOD 2 (Holubář 2007).
+#pragma once
+
+#include "geo/vec.h"
+
+namespace sunload {
+
+/// Linear red, green, blue; 1 is white.
+struct Rgb {
+  double red = 0, green = 0, blue = 0;
+};
+
+/// first: one colour, reddened as a whole towards dusk. second: disc, halo and background
+/// of the sky reddened each on its own, so that a low sun stands out.
+enum class SkyColourModel { first, second };
+
+/// Colour in [0, 1] of the unit direction `w` on or above the horizon (below counts as on
+/// it), sun in the unit direction `sun`, z up. `gain` strengthens the sun of the second
+/// model. Brightness follows Kittler's clear sky relative to that at the sun.
+Rgb sky_colour(SkyColourModel model, Vec3 w, Vec3 sun, double gain = 1);
+
+/// Colour of parallel sunlight: that of the disc at this elevation of the sun [degrees].
+Rgb sunlight_colour(double sun_elevation_deg);
+
+}  // namespace sunload

@@ -1,0 +1,82 @@
+#include "tests/support/reference.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <stdexcept>
+
+namespace sunload::test {
+
+namespace {
+
+std::vector<std::string> split_line(const std::string& line) {
+  std::vector<std::string> cells;
+  std::string cell;
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      cells.push_back(cell);
+      cell.clear();
+    } else if (c != '\r') {
+      cell += c;
+    }
+  }
+  cells.push_back(cell);
+  return cells;
+}
+
+std::ifstream open_reference(const std::string& name) {
+  std::ifstream file(shared_path("reference/" + name));
+  if (!file) throw std::runtime_error("cannot read reference/" + name);
+  return file;
+}
+
+}  // namespace
+
+std::string shared_path(const std::string& relative_path) {
+  return std::string(SUNLOAD_SHARED_DIR) + "/" + relative_path;
+}
+
+std::vector<Row> read_csv(const std::string& name) {
+  auto file = open_reference(name);
+  std::vector<std::string> header;
+  std::vector<Row> rows;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    const auto cells = split_line(line);
+    if (header.empty()) {
+      header = cells;
+      continue;
+    }
+    Row row;
+    for (std::size_t i = 0; i < header.size() && i < cells.size(); ++i) row[header[i]] = cells[i];
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+nlohmann::json read_json(const std::string& name) {
+  auto file = open_reference(name);
+  return nlohmann::json::parse(file);
+}
+
+double number(const nlohmann::json& value) {
+  return value.is_string() ? std::stod(value.get<std::string>()) : value.get<double>();
+}
+
+double number(const Row& row, const std::string& column) { return std::stod(row.at(column)); }
+
+bool shared_missing(const std::string& relative_path) {
+  if (std::filesystem::exists(shared_path(relative_path))) return false;
+  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+  std::cout << "NOT RUN: " << (info ? info->test_suite_name() : "?") << "."
+            << (info ? info->name() : "?") << ": " << relative_path << " is missing" << std::endl;
+  return true;
+}
+
+}  // namespace sunload::test

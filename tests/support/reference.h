@@ -1,0 +1,31 @@
+/// Reference values, read in place from the folder beside the project.
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace sunload::test {
+
+/// One row of a CSV table by column name.
+using Row = std::map<std::string, std::string>;
+
+/// Rows of `reference/<name>`; lines that begin with # are comments.
+std::vector<Row> read_csv(const std::string& name);
+
+/// A whole `reference/<name>` JSON file.
+nlohmann::json read_json(const std::string& name);
+
+/// A number that the JSON files give as number or as text with all its digits.
+double number(const nlohmann::json& value);
+double number(const Row& row, const std::string& column);
+
+/// True where the file or folder (relative to the shared folder) is not there; prints
+/// `NOT RUN: <test>: <path> is missing` so that the test's output names it.
+bool shared_missing(const std::string& relative_path);
+
+/// Absolute path of something in the shared folder.
+std::string shared_path(const std::string& relative_path);
+
+}  // namespace sunload::test

@@ -1,0 +1,63 @@
+/// Small scenes made of triangles, and one solve of them.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "solver/solver.h"
+
+namespace sunload::test {
+
+/// Builds a scene triangle by triangle; every call of `object` begins a new one.
+class SceneBuilder {
+ public:
+  SceneBuilder() { object("object"); }
+  int material(const Material& material);
+  SceneBuilder& object(const std::string& name);
+  SceneBuilder& triangle(Vec3 a, Vec3 b, Vec3 c, int material);
+  /// Counter-clockwise seen from the front.
+  SceneBuilder& quad(Vec3 a, Vec3 b, Vec3 c, Vec3 d, int material);
+  /// Axis-aligned box; fronts outward, or inward (a room).
+  enum class Facing { outward, inward };
+  SceneBuilder& box(Vec3 low, Vec3 high, int material, Facing facing);
+  /// The next triangles are two-sided.
+  SceneBuilder& sides(Sides sides);
+  const Scene& scene() const { return scene_; }
+
+ private:
+  Scene scene_;
+  ObjectId object_;
+  Sides sides_ = Sides::one;
+};
+
+/// A faceted sphere (subdivided icosahedron) with fronts inward; `material_of`
+/// chooses by the facet's centre.
+Scene inward_sphere(int subdivisions, std::vector<Material> materials,
+                    const std::function<int(Vec3)>& material_of);
+
+/// One second of light, so that exposures are irradiances.
+SunLight one_second(Vec3 sun_direction, double dni);
+/// Adds a uniform sky of that horizontal irradiance.
+SunLight with_uniform_sky(SunLight light, double dhi, const SkyGrid& grid = SkyGrid());
+
+struct Solved {
+  std::vector<double> area;
+  std::vector<Patch> patches;
+  BatchTally tally;
+  std::vector<double> sky_view;
+  int bounces = 0;
+  WorkDone work;
+  /// Area-weighted mean irradiance over the chosen patches, per realization.
+  std::vector<double> means(const std::function<bool(std::size_t)>& chosen) const;
+  std::vector<double> of_patch(std::size_t patch) const;
+  /// A ledger quantity per realization.
+  std::vector<double> ledger(const std::function<double(const Ledger&)>& quantity) const;
+};
+
+/// Solves one batch; the defaults suit tests: 16 realizations, errors of totals.
+SolverRules test_rules();
+Solved solve(const Scene& scene, const std::vector<SunLight>& light, const SolverRules& rules,
+             const SplitRules& split = {});
+
+}  // namespace sunload::test

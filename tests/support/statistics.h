@@ -1,0 +1,31 @@
+/// Statistical acceptance (DESIGN 8): no tolerance is typed in.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sunload::test {
+
+/// False alarms of the whole suite that are accepted per run, shared by its
+/// statistical tests (Šidák).
+inline constexpr double suite_false_alarms = 1e-3;
+inline constexpr int declared_statistical_tests = 1000;
+
+/// Quantile 1 - α'/2 of Student's t, α' this test's share of the budget.
+double accepted_t(std::size_t realizations);
+
+struct Verdict {
+  bool accepted = false;
+  double mean = 0, standard_error = 0, limit = 0;
+  std::string text;  ///< n, mean, truth, SE, limit: for the failure message
+  explicit operator bool() const { return accepted; }
+};
+
+/// |mean - truth| <= t·SE + bias_bound + rounding, at least 16 realizations.
+/// `bias_bound` is the model's own bias, from a formula or from halving a mesh.
+Verdict expect_mean(const std::vector<double>& realizations, double truth, double bias_bound = 0);
+
+/// Float series carry about this relative rounding (DESIGN 8).
+inline constexpr double float_rounding = 1e-5;
+
+}  // namespace sunload::test
