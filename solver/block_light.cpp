@@ -1,0 +1,97 @@
+#include "solver/block_light.h"
+
+#include <array>
+
+#include "geo/units.h"
+#include "solver/parallel.h"
+
+namespace sunload {
+
+namespace {
+
+constexpr std::size_t patches_per_task = 1024;
+
+/// Irradiance by emitters, straight or by mirrors.
+std::vector<float> lamps(const LineSet& lines, const PatchOptics& optics) {
+  std::vector<float> out(optics.emission.size(), 0.0f);
+  if (!optics.any_emission) return out;
+  const std::vector<double> emission(optics.emission.begin(), optics.emission.end());
+  std::vector<double> irradiance(emission.size());
+  gather(lines.patches, emission, irradiance, Into::replace);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>(irradiance[i]);
+  return out;
+}
+
+}  // namespace
+
+BlockSources::BlockSources(std::span<const SunLight> block, std::size_t sky_cells)
+    : suns(block), sky(columns(sky_cells)) {
+  for (std::size_t k = 0; k < suns.size(); ++k) {
+    ground_exitance[k] = static_cast<float>(suns[k].ground_exitance);
+    for (std::size_t c = 0; c < suns[k].sky.size(); ++c)
+      sky[c * block_width + k] = static_cast<float>(pi * suns[k].sky[c]);
+  }
+}
+
+BlockLight block_light(const LineSet& lines, const PatchOptics& optics, const BlockSources& sources,
+                       Columns direct, Columns sun_by_mirror, int bounces) {
+  const std::size_t patches = optics.diffuse.size();
+  BlockLight light;
+  light.direct = std::move(direct);
+  light.sky = columns(patches);
+  gather(lines.sky, sources.sky, light.sky, Into::replace);
+  light.mirror = std::move(sun_by_mirror);
+  if (optics.any_mirror) gather(lines.sky_by_mirror, sources.sky, light.mirror, Into::add);
+  light.lamps = lamps(lines, optics);
+
+  Columns base = columns(patches), ground = columns(patches);
+  parallel_for(patches, [&](std::size_t i) {
+    const float seen = lines.ends[i].ground + lines.ends[i].ground_by_mirror;
+    for (std::size_t k = 0; k < block_width; ++k) {
+      const std::size_t at = i * block_width + k;
+      base[at] = light.direct[at] + light.sky[at] + light.mirror[at] + light.lamps[i];
+      ground[at] = seen * sources.ground_exitance[k];
+    }
+  }, patches_per_task);
+
+  Reflected reflected = reflect(lines, optics, base, ground, bounces);
+  light.reflected = std::move(reflected.irradiance);
+  light.followed = std::move(reflected.followed);
+  return light;
+}
+
+std::vector<Ledger> block_ledger(const LineSet& lines, const PatchOptics& optics,
+                                 const std::vector<double>& area, const BlockSources& sources,
+                                 const BlockLight& light) {
+  using Ledgers = std::array<Ledger, block_width>;
+  const std::size_t suns = sources.suns.size();
+  const std::size_t tasks = (area.size() + patches_per_task - 1) / patches_per_task;
+  std::vector<Ledgers> parts(tasks);
+  parallel_chunks(area.size(), patches_per_task, [&](std::size_t begin, std::size_t end) {
+    Ledgers& part = parts[begin / patches_per_task];
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t k = 0; k < suns; ++k) {
+        const std::size_t at = i * block_width + k;
+        part[k] += booked({area[i], static_cast<double>(optics.diffuse[i]),
+                           static_cast<double>(optics.mirror[i]),
+                           static_cast<double>(optics.emission[i]),
+                           static_cast<double>(light.direct[at]),
+                           static_cast<double>(light.sky[at]),
+                           static_cast<double>(sources.ground_exitance[k]),
+                           static_cast<double>(light.total(i, k)),
+                           static_cast<double>(light.followed[at])},
+                          lines.ends[i]);
+      }
+  });
+  std::vector<Ledger> ledger(suns);
+  for (std::size_t k = 0; k < suns; ++k) {
+    for (const auto& part : parts) ledger[k] += part[k];
+    ledger[k] += booked(
+        lines.first_light,
+        [&](std::size_t c) { return static_cast<double>(sources.sky[c * block_width + k]); },
+        static_cast<double>(sources.ground_exitance[k]));
+  }
+  return ledger;
+}
+
+}  // namespace sunload

@@ -1,0 +1,70 @@
+/// Zeroth light iteration, the sun's part: direct sun by stratified shadow rays.
+///
+///     E_0[i][k] = dni[k] * cosθ * (visible samples / samples)
+///
+/// Every realization has its own randomised points, addressed by patch and sun.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solver/hierarchy.h"
+#include "solver/ray_caster.h"
+#include "solver/sun_block.h"
+
+namespace sunload {
+
+struct DirectRules {
+  int samples = 16;  ///< per patch and sun, over all realizations together
+  int realizations = 8;
+  std::uint64_t seed = 1;
+};
+
+/// Sample points of the patches for the sun, addressable one by one.
+class SunSampler {
+ public:
+  SunSampler(const Hierarchy& hierarchy, const RayCaster& caster, const DirectRules& rules);
+
+  std::size_t samples() const { return realization_.size(); }
+  std::size_t packets() const { return (samples() + packet_size - 1) / packet_size; }
+  std::size_t realization(std::size_t sample) const { return realization_[sample]; }
+
+  /// What the samples of one patch have in common.
+  struct Geometry {
+    float a[3], ab[3], ac[3];  ///< corner (lifted off the surface) and edges
+    Vec3 normal;
+  };
+  Geometry geometry(std::size_t patch) const;
+
+  /// Scrambling seeds of one (patch, sun) for all realizations.
+  struct Seeds {
+    std::vector<std::uint32_t> u, v;
+  };
+  void seed(std::size_t patch, std::uint32_t sun, Seeds& seeds) const;
+  /// Origins of samples [16·packet, …) of that patch.
+  Packet origins(const Geometry& geometry, const Seeds& seeds, std::size_t packet) const;
+  /// Bits of the samples that packet really holds.
+  std::uint32_t active(std::size_t packet) const;
+
+ private:
+  const Hierarchy& hierarchy_;
+  double offset_m_;
+  DirectRules rules_;
+  std::vector<std::uint32_t> realization_, point_u_, point_v_;
+};
+
+/// Result of one block of suns. Sizes: patches N, realizations R.
+struct DirectSun {
+  Columns irradiance;             ///< [N][block] pooled, W m-2
+  Columns sunlit;                 ///< [N][block] visible share, for every sun above the horizon
+  std::uint64_t rays = 0;
+};
+
+/// Adds to `exposure` ([R][N], J m-2) the time-integrated direct irradiance of
+/// each realization. `of_realizations`, if not null, receives [R] irradiance columns.
+DirectSun direct_sun(const Hierarchy& hierarchy, const RayCaster& caster, const SunSampler& sampler,
+                     std::span<const SunLight> block, std::vector<std::vector<double>>& exposure,
+                     std::vector<Columns>* of_realizations);
+
+}  // namespace sunload

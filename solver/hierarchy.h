@@ -1,0 +1,70 @@
+/// Trees of elements: every input triangle is a root, longest edges are
+/// bisected, leaves are the patches of the result.
+///
+/// A leaf of a two-sided triangle makes two patches (side 0 the front, side 1
+/// the back). Patches are ordered by object, input triangle, tree path (depth
+/// first), side. Floors have no patches: they cast shadows only.
+/// Rivara (1984), Algorithms for refining triangular grids: longest-edge bisection.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "solver/material.h"
+
+namespace sunload {
+
+struct SplitRules {
+  double max_edge_m = 1e9;   ///< split while the longest edge is longer
+  double min_area_m2 = 0;    ///< never split an element below twice this area
+  std::size_t max_patches = 100'000'000;
+};
+
+struct Patch {
+  std::array<std::int32_t, 3> vertices;  ///< counter-clockwise from its own side
+  std::int32_t triangle = -1;
+  std::uint8_t side = 0;
+};
+
+class Hierarchy {
+ public:
+  /// Splits every triangle of the scene; frozen afterwards.
+  /// Throws InputError where more than `max_patches` would result.
+  Hierarchy(const Scene& scene, const SplitRules& rules);
+
+  std::size_t patch_count() const { return patches_.size(); }
+  const std::vector<Patch>& patches() const { return patches_; }
+  /// Vertices of the mesh, then midpoints of split edges [m].
+  const std::vector<Vec3>& vertices() const { return vertices_; }
+  const std::vector<double>& area() const { return area_; }
+  /// Stable random key of a patch: object name, triangle within it, path, side.
+  const std::vector<std::uint64_t>& key() const { return key_; }
+  Vec3 corner(std::size_t patch, std::size_t k) const {
+    return vertices_[static_cast<std::size_t>(patches_[patch].vertices[k])];
+  }
+  Vec3 normal(std::size_t patch) const;  ///< unit, of the patch's own side
+  Vec3 centroid(std::size_t patch) const;
+
+  /// Patch at the barycentric weights (u, v of corners 1 and 2) of an input
+  /// triangle, or -1 where that side has none.
+  std::int32_t patch_at(std::int32_t triangle, double u, double v, bool front) const;
+
+ private:
+  struct Node {
+    std::int32_t first_child = -1;  ///< its sibling follows; -1 for a leaf
+    std::int32_t first_patch = -1;
+    std::uint8_t apex = 0;          ///< corner opposite of the split edge
+  };
+  class Builder;
+
+  std::vector<Node> nodes_;
+  std::vector<std::int32_t> root_;  ///< per input triangle, -1: no patches
+  std::vector<bool> two_sided_;     ///< per input triangle
+  std::vector<Patch> patches_;
+  std::vector<Vec3> vertices_;
+  std::vector<double> area_;
+  std::vector<std::uint64_t> key_;
+};
+
+}  // namespace sunload

@@ -1,0 +1,51 @@
+/// Books the power of one patch, or of mirrored first light, into the ledger.
+#pragma once
+
+#include "solver/lines.h"
+#include "solver/tally.h"
+
+namespace sunload {
+
+/// What one patch receives and sends, all W m-2 (or J m-2).
+struct PatchLight {
+  double area = 0;
+  double diffuse = 0, mirror = 0;  ///< reflectances
+  double emission = 0;             ///< exitance of an emitter
+  double direct = 0, sky = 0;      ///< irradiance straight from sun and sky
+  double ground_exitance = 0;      ///< of the far ground
+  double total = 0;                ///< irradiance in all
+  double followed = 0;             ///< reflected radiosity that was gathered last
+};
+
+/// Terms of one patch; every one from its own estimate, none by difference:
+/// its lines tell where what it sends ends, its irradiance what it absorbs.
+inline Ledger booked(const PatchLight& p, const LineEnds& ends) {
+  const double sent = p.area * (p.followed + p.emission);
+  Ledger ledger;
+  ledger[Term::sun] = p.area * p.direct;
+  ledger[Term::sky] = p.area * p.sky;
+  ledger[Term::ground] = p.area * static_cast<double>(ends.ground) * p.ground_exitance;
+  ledger[Term::emitted] = p.area * p.emission;
+  ledger[Term::absorbed] = p.area * (1 - p.diffuse - p.mirror) * p.total +
+                           sent * static_cast<double>(ends.backs);
+  ledger[Term::escaped] = sent * static_cast<double>(ends.escaped);
+  ledger[Term::unshot] = p.area * (p.diffuse * p.total - p.followed) +
+                         sent * static_cast<double>(ends.cut);
+  return ledger;
+}
+
+/// First light of sky and far ground that mirrors sent on. `sky(c)` is π times
+/// the radiance of cell c.
+template <class SkyOfCell>
+Ledger booked(const MirroredFirstLight& first, SkyOfCell&& sky, double ground_exitance) {
+  Ledger ledger;
+  for (std::size_t c = 0; c < first.escaped.size(); ++c) {
+    const double source = c + 1 < first.escaped.size() ? sky(c) : ground_exitance;
+    ledger[Term::escaped] += source * first.escaped[c];
+    ledger[Term::absorbed] += source * first.backs[c];
+    ledger[Term::unshot] += source * first.cut[c];
+  }
+  return ledger;
+}
+
+}  // namespace sunload

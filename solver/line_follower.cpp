@@ -1,0 +1,115 @@
+#include "solver/line_follower.h"
+
+#include "geo/check.h"
+
+namespace sunload {
+
+namespace {
+
+/// Unit normal of the side of a triangle that was met.
+Vec3 met_normal(const Mesh& mesh, const Hit& hit) {
+  const Vec3 n = normalized(mesh.area_vector2(static_cast<std::size_t>(hit.triangle)));
+  return hit.front ? n : -n;
+}
+
+}  // namespace
+
+void LineCollector::clear() {
+  patches.clear();
+  sky.clear();
+  sky_by_mirror.clear();
+  ends = {};
+}
+
+LineFollower::LineFollower(const Scene& scene, const Hierarchy& hierarchy,
+                           const RayCaster& caster, const SkyGrid& grid, int mirror_depth)
+    : scene_(scene),
+      hierarchy_(hierarchy),
+      caster_(caster),
+      grid_(grid),
+      mirror_depth_(mirror_depth) {}
+
+const Material& LineFollower::material_of(std::int32_t triangle) const {
+  return scene_.materials[scene_.material[static_cast<std::size_t>(triangle)].index()];
+}
+
+double LineFollower::mirror_of(std::size_t patch) const {
+  return material_of(hierarchy_.patches()[patch].triangle).mirror;
+}
+
+Vec3 LineFollower::offset_point(std::int32_t triangle, const Hit& hit, Vec3 side_normal) const {
+  const auto t = static_cast<std::size_t>(triangle);
+  const Mesh& mesh = scene_.mesh;
+  const Vec3 point = mesh.corner(t, 0) * (1 - hit.u - hit.v) + mesh.corner(t, 1) * hit.u +
+                     mesh.corner(t, 2) * hit.v;
+  return point + side_normal * caster_.offset_m();
+}
+
+std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first, LineCollector& into) const {
+  std::uint64_t rays = 0;
+  double weight = 1;
+  Hit hit = first;
+  for (int reflections = 0;; ++reflections) {
+    const auto share = static_cast<float>(weight);
+    if (hit.left_scene()) {
+      into.ends.escaped += share;
+      if (w.z > 0) {
+        if (reflections == 0) into.ends.sky += share;
+        (reflections == 0 ? into.sky : into.sky_by_mirror).push_back({sky_cell(w), share});
+      } else {
+        (reflections == 0 ? into.ends.ground : into.ends.ground_by_mirror) += share;
+      }
+      return rays;
+    }
+    const auto patch = hierarchy_.patch_at(hit.triangle, hit.u, hit.v, hit.front);
+    if (patch < 0) {
+      into.ends.backs += share;
+      return rays;
+    }
+    const Material& material = material_of(hit.triangle);
+    if (material.diffuse > 0 || material.emission_w_m2 > 0)
+      into.patches.push_back({static_cast<std::uint32_t>(patch), share});
+    const Vec3 n = met_normal(scene_.mesh, hit);
+    weight *= mirror_reflectance(material, -dot(w, n));
+    if (weight <= 0) return rays;
+    if (reflections == mirror_depth_) {
+      into.ends.cut += static_cast<float>(weight);
+      return rays;
+    }
+    origin = offset_point(hit.triangle, hit, n);
+    w = mirrored(-w, n);
+    hit = caster_.first_hit(origin, w);
+    ++rays;
+  }
+}
+
+LineFollower::Fate LineFollower::mirrored_on(Vec3 origin, Vec3 w, std::size_t mirror_patch) const {
+  Fate fate;
+  Vec3 n = hierarchy_.normal(mirror_patch);
+  double weight = mirror_reflectance(
+      material_of(hierarchy_.patches()[mirror_patch].triangle), dot(w, n));
+  w = mirrored(w, n);
+  for (int reflections = 1; weight > 0; ++reflections) {
+    if (reflections > mirror_depth_) {
+      fate.cut += weight;
+      break;
+    }
+    const Hit hit = caster_.first_hit(origin, w);
+    ++fate.rays;
+    if (hit.left_scene()) {
+      fate.escaped += weight;
+      break;
+    }
+    if (hierarchy_.patch_at(hit.triangle, hit.u, hit.v, hit.front) < 0) {
+      fate.backs += weight;
+      break;
+    }
+    n = met_normal(scene_.mesh, hit);
+    weight *= mirror_reflectance(material_of(hit.triangle), -dot(w, n));
+    origin = offset_point(hit.triangle, hit, n);
+    w = mirrored(-w, n);
+  }
+  return fate;
+}
+
+}  // namespace sunload

@@ -1,0 +1,246 @@
+#include "solver/lines.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "geo/check.h"
+#include "solver/line_follower.h"
+#include "solver/parallel.h"
+#include "solver/rng.h"
+#include "solver/sampling.h"
+
+namespace sunload {
+
+LinkTable::LinkTable(std::size_t rows) : blocks((rows + rows_per_block - 1) / rows_per_block) {}
+
+std::size_t LinkTable::link_count() const {
+  std::size_t count = 0;
+  for (const auto& block : blocks) count += block.target.size();
+  return count;
+}
+
+std::size_t LinkTable::memory_bytes() const {
+  std::size_t bytes = 0;
+  for (const auto& b : blocks)
+    bytes += 4 * (b.begin.capacity() + b.target.capacity() + b.weight.capacity());
+  return bytes;
+}
+
+void LinkTable::append_row(Block& block, std::vector<Link>& links, float scale) {
+  std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
+    return a.target != b.target ? a.target < b.target : a.weight < b.weight;
+  });
+  for (std::size_t l = 0; l < links.size();) {
+    const auto target = links[l].target;
+    float weight = 0;
+    for (; l < links.size() && links[l].target == target; ++l) weight += links[l].weight;
+    block.target.push_back(target);
+    block.weight.push_back(weight * scale);
+  }
+  block.begin.push_back(static_cast<std::uint32_t>(block.target.size()));
+}
+
+namespace {
+
+/// Lines of the patches of one block, all realizations: the unit of parallel work.
+class BlockTracer {
+ public:
+  BlockTracer(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
+              const SkyGrid& grid, const LineRules& rules)
+      : hierarchy_(hierarchy),
+        caster_(caster),
+        rules_(rules),
+        follower_(scene, hierarchy, caster, grid, rules.mirror_depth),
+        ground_source_(static_cast<std::size_t>(grid.cell_count())) {}
+
+  struct Output {
+    std::vector<MirroredFirstLight> first_light;  ///< per realization, empty without mirrors
+    std::uint64_t rays = 0;
+  };
+
+  Output trace(std::size_t begin, std::size_t end, Lines& lines) const {
+    Output output;
+    output.first_light.resize(lines.realizations.size());
+    LineCollector own, pooled;
+    for (std::size_t patch = begin; patch < end; ++patch) {
+      pooled.clear();
+      for (std::size_t r = 0; r < lines.realizations.size(); ++r) {
+        own.clear();
+        trace_patch(patch, r, own, output);
+        pool(own, pooled);
+        store(lines.realizations[r], patch, own, lines_per_realization());
+      }
+      store(lines.pooled, patch, pooled, rules_.lines_per_patch);
+    }
+    return output;
+  }
+
+ private:
+  int lines_per_realization() const { return rules_.lines_per_patch / rules_.realizations; }
+
+  void trace_patch(std::size_t patch, std::size_t realization, LineCollector& into,
+                   Output& output) const {
+    const Start start(hierarchy_, patch, caster_.offset_m());
+    const auto seeds = random_words({.seed = rules_.seed,
+                                     .purpose = Purpose::lines,
+                                     .realization = static_cast<std::uint32_t>(realization),
+                                     .element = hierarchy_.key()[patch]});
+    const auto count = static_cast<std::size_t>(lines_per_realization());
+    for (std::size_t first = 0; first < count; first += packet_size)
+      trace_packet(start, patch, seeds, first, std::min(packet_size, count - first), into,
+                   output.first_light[realization], output.rays);
+  }
+
+  /// Geometry of the patch that its lines start on.
+  struct Start {
+    Start(const Hierarchy& h, std::size_t patch, double offset_m)
+        : a(h.corner(patch, 0)), b(h.corner(patch, 1)), c(h.corner(patch, 2)),
+          n(h.normal(patch)), axes(tangents(n)), lift(n * offset_m) {}
+    Vec3 a, b, c, n;
+    Tangents axes;
+    Vec3 lift;
+  };
+
+  void trace_packet(const Start& start, std::size_t patch, const RandomWords& seeds,
+                    std::size_t first, std::size_t count, LineCollector& into,
+                    MirroredFirstLight& first_light, std::uint64_t& rays) const {
+    Vec3 origin[packet_size], w[packet_size];
+    Packet origins{}, directions{};
+    for (std::size_t l = 0; l < count; ++l) {
+      double x[sobol_dimensions];
+      for (int d = 0; d < sobol_dimensions; ++d)
+        x[d] = owen_scrambled(sobol(static_cast<std::uint32_t>(first + l), d),
+                              seeds[static_cast<std::size_t>(d)]) * 0x1p-32;
+      const Vec3 local = sample_cosine(x[0], x[1]);
+      const Barycentric at = sample_triangle(x[2], x[3]);
+      w[l] = start.axes.tangent * local.x + start.axes.bitangent * local.y + start.n * local.z;
+      origin[l] = start.a * at.w0 + start.b * at.w1 + start.c * at.w2 + start.lift;
+      put(origins, l, origin[l]);
+      put(directions, l, w[l]);
+    }
+    const auto hits = caster_.first_hits(origins, directions, (1u << count) - 1u);
+    rays += count;
+    for (std::size_t l = 0; l < count; ++l) {
+      const Hit hit{hits.triangle[l], static_cast<double>(hits.u[l]),
+                    static_cast<double>(hits.v[l]), 0, hits.front[l]};
+      rays += follower_.follow(origin[l], w[l], hit, into);
+      if (hit.left_scene() && follower_.mirror_of(patch) > 0)
+        rays += book_mirrored(origin[l], w[l], patch, first_light);
+    }
+  }
+
+  static void put(Packet& packet, std::size_t l, Vec3 v) {
+    packet.x[l] = static_cast<float>(v.x);
+    packet.y[l] = static_cast<float>(v.y);
+    packet.z[l] = static_cast<float>(v.z);
+  }
+
+  /// The line brings first light to a mirror: its way on is booked here, since
+  /// no patch's own lines see it leave.
+  std::uint64_t book_mirrored(Vec3 origin, Vec3 w, std::size_t patch,
+                              MirroredFirstLight& book) const {
+    const auto fate = follower_.mirrored_on(origin, w, patch);
+    const double share = hierarchy_.area()[patch] / lines_per_realization();
+    const std::size_t source = w.z > 0 ? follower_.sky_cell(w) : ground_source_;
+    if (book.escaped.empty()) {
+      for (auto* entry : {&book.escaped, &book.backs, &book.cut})
+        entry->assign(ground_source_ + 1, 0);
+    }
+    book.escaped[source] += share * fate.escaped;
+    book.backs[source] += share * fate.backs;
+    book.cut[source] += share * fate.cut;
+    return fate.rays;
+  }
+
+  static void pool(const LineCollector& own, LineCollector& pooled) {
+    const auto append = [](auto& to, const auto& from) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
+    append(pooled.patches, own.patches);
+    append(pooled.sky, own.sky);
+    append(pooled.sky_by_mirror, own.sky_by_mirror);
+    pooled.ends.sky += own.ends.sky;
+    pooled.ends.ground += own.ends.ground;
+    pooled.ends.ground_by_mirror += own.ends.ground_by_mirror;
+    pooled.ends.escaped += own.ends.escaped;
+    pooled.ends.backs += own.ends.backs;
+    pooled.ends.cut += own.ends.cut;
+  }
+
+  static void store(LineSet& set, std::size_t patch, LineCollector& lines, int count) {
+    const float scale = 1.0f / static_cast<float>(count);
+    const std::size_t block = patch / LinkTable::rows_per_block;
+    LinkTable::append_row(set.patches.blocks[block], lines.patches, scale);
+    LinkTable::append_row(set.sky.blocks[block], lines.sky, scale);
+    LinkTable::append_row(set.sky_by_mirror.blocks[block], lines.sky_by_mirror, scale);
+    const LineEnds& e = lines.ends;
+    set.ends[patch] = {e.sky * scale,     e.ground * scale, e.ground_by_mirror * scale,
+                       e.escaped * scale, e.backs * scale,  e.cut * scale};
+  }
+
+  const Hierarchy& hierarchy_;
+  const RayCaster& caster_;
+  const LineRules& rules_;
+  LineFollower follower_;
+  std::size_t ground_source_;
+};
+
+LineSet empty_set(std::size_t patches) {
+  return {LinkTable(patches), LinkTable(patches), LinkTable(patches),
+          std::vector<LineEnds>(patches), {}};
+}
+
+void add(std::vector<double>& to, const std::vector<double>& from, double factor) {
+  if (from.empty()) return;
+  to.resize(from.size(), 0);
+  for (std::size_t i = 0; i < from.size(); ++i) to[i] += factor * from[i];
+}
+
+void add(MirroredFirstLight& to, const MirroredFirstLight& from, double factor) {
+  add(to.escaped, from.escaped, factor);
+  add(to.backs, from.backs, factor);
+  add(to.cut, from.cut, factor);
+}
+
+void trim(LineSet& set, std::size_t block) {
+  for (auto* table : {&set.patches, &set.sky, &set.sky_by_mirror}) {
+    auto& b = table->blocks[block];
+    b.target.shrink_to_fit();
+    b.weight.shrink_to_fit();
+  }
+}
+
+}  // namespace
+
+Lines trace_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
+                  const SkyGrid& grid, const LineRules& rules, Watch& watch) {
+  SUNLOAD_EXPECT(rules.realizations >= 1 && rules.lines_per_patch % rules.realizations == 0,
+                 "lines are shared equally by the realizations");
+  const std::size_t patches = hierarchy.patch_count();
+  Lines lines;
+  lines.realizations.assign(static_cast<std::size_t>(rules.realizations), empty_set(patches));
+  lines.pooled = empty_set(patches);
+
+  const BlockTracer tracer(scene, hierarchy, caster, grid, rules);
+  std::vector<BlockTracer::Output> outputs(lines.pooled.patches.blocks.size());
+  std::atomic<std::size_t> done = 0;
+  parallel_chunks(patches, LinkTable::rows_per_block, [&](std::size_t begin, std::size_t end) {
+    if (watch.stop_requested()) throw Interrupted("stopped while tracing lines");
+    const std::size_t block = begin / LinkTable::rows_per_block;
+    outputs[block] = tracer.trace(begin, end, lines);
+    for (auto& set : lines.realizations) trim(set, block);
+    trim(lines.pooled, block);
+    watch.advance(Stage::lines, static_cast<double>(done += end - begin) / static_cast<double>(patches));
+  });
+
+  for (const auto& output : outputs) {
+    lines.rays += output.rays;
+    for (std::size_t r = 0; r < output.first_light.size(); ++r) {
+      add(lines.realizations[r].first_light, output.first_light[r], 1);
+      add(lines.pooled.first_light, output.first_light[r], 1.0 / rules.realizations);
+    }
+  }
+  return lines;
+}
+
+}  // namespace sunload

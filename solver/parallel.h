@@ -1,0 +1,44 @@
+/// Fixed chunks, ordered reduction, exceptions collected and rethrown: the only
+/// file that knows OpenMP.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace sunload {
+
+/// Threads that parallel loops use; at start the processors this process may run on.
+int thread_count();
+/// At least 1. Results never depend on it.
+void set_thread_count(int threads);
+
+/// Calls body(begin, end) for the chunks [0, chunk), [chunk, 2·chunk), … of
+/// [0, count), any order, any thread. Of several exceptions that of the first
+/// chunk is rethrown after the loop.
+void parallel_chunks(std::size_t count, std::size_t chunk,
+                     const std::function<void(std::size_t begin, std::size_t end)>& body);
+
+/// Calls body(i) for every i in [0, count).
+template <class Body>
+void parallel_for(std::size_t count, Body&& body, std::size_t chunk = 1) {
+  parallel_chunks(count, chunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  });
+}
+
+/// Sum of body(begin, end) over fixed chunks, added in chunk order: the same
+/// bits for any number of threads.
+template <class Sum, class Body>
+Sum ordered_sum(std::size_t count, std::size_t chunk, Sum zero, Body&& body) {
+  std::vector<Sum> parts((count + chunk - 1) / chunk, zero);
+  parallel_chunks(count, chunk, [&](std::size_t begin, std::size_t end) {
+    parts[begin / chunk] = body(begin, end);
+  });
+  Sum total = zero;
+  for (const auto& part : parts) total += part;
+  return total;
+}
+
+}  // namespace sunload

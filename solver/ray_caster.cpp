@@ -1,0 +1,211 @@
+#include "solver/ray_caster.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+
+#include "geo/check.h"
+#include "solver/parallel.h"
+
+namespace sunload {
+
+namespace {
+
+// Rounding of a coordinate to float is half an ulp; an interpolated point sums
+// three products, and its offset adds one more rounding: below 4 ulp in each
+// axis, 7 in space. The factor 16 leaves more than twice that.
+constexpr double offset_ulps = 16;
+constexpr double float_ulp = 1.0 / (1 << 24);
+
+constexpr float no_end = std::numeric_limits<float>::infinity();
+
+std::string embree_config(const std::string& isa, int threads) {
+  return "threads=" + std::to_string(threads) + ",set_affinity=0,isa=" + isa;
+}
+
+bool processor_has(const std::string& isa) {
+  if (isa == "avx512")
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
+           __builtin_cpu_supports("avx512cd");
+  if (isa == "avx2") return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return __builtin_cpu_supports("sse4.2");
+}
+
+/// The last error of Embree; kept by its callback, thrown after the call.
+struct DeviceError {
+  RTCError code = RTC_ERROR_NONE;
+  std::string text;
+};
+
+void keep_error(void* user, RTCError code, const char* text) {
+  auto* error = static_cast<DeviceError*>(user);
+  if (error->code == RTC_ERROR_NONE) *error = {code, text ? text : ""};
+}
+
+void throw_kept(const DeviceError& error) {
+  if (error.code == RTC_ERROR_NONE) return;
+  if (error.code == RTC_ERROR_OUT_OF_MEMORY)
+    throw MachineError("out of memory for the ray caster: " + error.text);
+  throw std::logic_error("ray caster: " + error.text);
+}
+
+double largest_coordinate(const Mesh& mesh) {
+  double largest = 0;
+  for (const auto& p : mesh.vertices)
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return largest;
+}
+
+}  // namespace
+
+std::string usable_isa(const std::string& wanted) {
+  if (wanted != "auto") {
+    if (wanted != "sse4.2" && wanted != "avx2" && wanted != "avx512")
+      throw InputError({}, "solver.isa = " + wanted, "not an instruction set of the ray caster",
+                       "use auto, sse4.2, avx2 or avx512");
+    if (!processor_has(wanted))
+      throw InputError({}, "solver.isa = " + wanted, "this processor does not have it",
+                       "use auto or a smaller one");
+    return wanted;
+  }
+  for (const char* isa : {"avx512", "avx2", "sse4.2"})
+    if (processor_has(isa)) return isa;
+  throw InputError({}, "this processor is too old", "SSE4.2 is needed", "run on another machine");
+}
+
+struct RayCaster::Embree {
+  DeviceError error;
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+
+  ~Embree() {
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+};
+
+RayCaster::RayCaster(const Mesh& mesh, const std::string& isa)
+    : embree_(std::make_unique<Embree>()),
+      isa_(usable_isa(isa)),
+      offset_m_(offset_ulps * float_ulp * largest_coordinate(mesh)) {
+  embree_->device = rtcNewDevice(embree_config(isa_, thread_count()).c_str());
+  if (!embree_->device) throw std::logic_error("ray caster: no device");
+  rtcSetDeviceErrorFunction(embree_->device, keep_error, &embree_->error);
+  embree_->scene = rtcNewScene(embree_->device);
+  rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(embree_->scene, RTC_BUILD_QUALITY_HIGH);
+
+  RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+      mesh.vertices.size()));
+  auto* corners = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
+      mesh.triangle_count()));
+  if (points && corners) {
+    for (const auto& p : mesh.vertices)
+      for (const double coordinate : {p.x, p.y, p.z}) *points++ = static_cast<float>(coordinate);
+    for (const auto& triangle : mesh.triangles)
+      for (const auto vertex : triangle) *corners++ = static_cast<unsigned>(vertex);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(embree_->scene, geometry, 0);
+  }
+  rtcReleaseGeometry(geometry);
+  if (points && corners) rtcCommitScene(embree_->scene);
+  throw_kept(embree_->error);
+}
+
+RayCaster::~RayCaster() = default;
+
+Hit RayCaster::first_hit(Vec3 origin, Vec3 direction) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit query{};
+  query.ray.org_x = static_cast<float>(origin.x);
+  query.ray.org_y = static_cast<float>(origin.y);
+  query.ray.org_z = static_cast<float>(origin.z);
+  query.ray.dir_x = static_cast<float>(direction.x);
+  query.ray.dir_y = static_cast<float>(direction.y);
+  query.ray.dir_z = static_cast<float>(direction.z);
+  query.ray.tfar = no_end;
+  query.ray.mask = ~0u;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(embree_->scene, &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  const double facing = static_cast<double>(query.hit.Ng_x) * direction.x +
+                        static_cast<double>(query.hit.Ng_y) * direction.y +
+                        static_cast<double>(query.hit.Ng_z) * direction.z;
+  return {static_cast<std::int32_t>(query.hit.primID), static_cast<double>(query.hit.u),
+          static_cast<double>(query.hit.v),
+          static_cast<double>(query.ray.tfar) * norm(direction), facing < 0};
+}
+
+PacketHits RayCaster::first_hits(const Packet& origins, const PacketDirections& directions,
+                                 std::uint32_t active) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit16 query;
+  alignas(64) int valid[packet_size];
+  for (std::size_t r = 0; r < packet_size; ++r) {
+    valid[r] = (active >> r & 1u) ? -1 : 0;
+    query.ray.org_x[r] = origins.x[r];
+    query.ray.org_y[r] = origins.y[r];
+    query.ray.org_z[r] = origins.z[r];
+    query.ray.dir_x[r] = directions.x[r];
+    query.ray.dir_y[r] = directions.y[r];
+    query.ray.dir_z[r] = directions.z[r];
+    query.ray.tnear[r] = 0;
+    query.ray.tfar[r] = no_end;
+    query.ray.time[r] = 0;
+    query.ray.mask[r] = ~0u;
+    query.hit.geomID[r] = RTC_INVALID_GEOMETRY_ID;
+  }
+  rtcIntersect16(valid, embree_->scene, &context, &query);
+  PacketHits hits;
+  for (std::size_t r = 0; r < packet_size; ++r) {
+    const bool hit = valid[r] != 0 && query.hit.geomID[r] != RTC_INVALID_GEOMETRY_ID;
+    hits.triangle[r] = hit ? static_cast<std::int32_t>(query.hit.primID[r]) : -1;
+    hits.u[r] = query.hit.u[r];
+    hits.v[r] = query.hit.v[r];
+    hits.front[r] = query.hit.Ng_x[r] * directions.x[r] + query.hit.Ng_y[r] * directions.y[r] +
+                        query.hit.Ng_z[r] * directions.z[r] < 0;
+  }
+  return hits;
+}
+
+std::uint32_t RayCaster::unoccluded(const Packet& origins, Vec3 direction,
+                                    std::uint32_t active) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCRay16 ray;
+  alignas(64) int valid[packet_size];
+  const auto dx = static_cast<float>(direction.x), dy = static_cast<float>(direction.y),
+             dz = static_cast<float>(direction.z);
+  for (std::size_t r = 0; r < packet_size; ++r) {
+    valid[r] = (active >> r & 1u) ? -1 : 0;
+    ray.org_x[r] = origins.x[r];
+    ray.org_y[r] = origins.y[r];
+    ray.org_z[r] = origins.z[r];
+    ray.dir_x[r] = dx;
+    ray.dir_y[r] = dy;
+    ray.dir_z[r] = dz;
+    ray.tnear[r] = 0;
+    ray.tfar[r] = no_end;
+    ray.time[r] = 0;
+    ray.mask[r] = ~0u;
+    ray.flags[r] = 0;
+  }
+  rtcOccluded16(valid, embree_->scene, &context, &ray);
+  std::uint32_t seen = 0;
+  // Embree marks an occluded ray by a negative end.
+  for (std::size_t r = 0; r < packet_size; ++r)
+    if (ray.tfar[r] > 0) seen |= 1u << r;
+  return seen & active;
+}
+
+}  // namespace sunload

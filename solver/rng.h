@@ -1,0 +1,47 @@
+/// Random numbers by address: a key names every number, no state is shared, any
+/// sample can be replayed alone. Philox 4×32 with 10 rounds (Salmon et al. 2011,
+/// Parallel Random Numbers: As Easy as 1, 2, 3), from the Random123 library.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace sunload {
+
+/// What a number is for: uses never share numbers.
+enum class Purpose : std::uint32_t { lines = 1, direct_sun = 2, mirror_sun = 3, pilot = 4 };
+
+/// Address of a block of random words.
+struct RandomKey {
+  std::uint64_t seed = 1;           ///< of the study
+  Purpose purpose = Purpose::lines;
+  std::uint32_t realization = 0;
+  std::uint64_t element = 0;        ///< stable key of a patch (object, input triangle, path, side)
+  std::uint32_t sun = 0;            ///< number of the interval in the period, 0 for lines
+  std::uint32_t block = 0;          ///< further words for the same address
+};
+
+using RandomWords = std::array<std::uint32_t, 4>;
+
+RandomWords random_words(const RandomKey& key);
+
+/// random_words for the realizations 0 … 15 at once, as lanes [word][realization].
+struct alignas(64) RandomLanes {
+  std::uint32_t word[4][16];
+};
+RandomLanes random_lanes(const RandomKey& key_of_first);
+
+/// Mixes two numbers into a stable 64-bit key (finalizer of SplitMix64, Steele et al. 2014).
+constexpr std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
+  std::uint64_t z = a + 0x9e3779b97f4a7c15u * (b + 1);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+/// Uniform number in [0, 1) of 24 bits, exact in float.
+constexpr float uniform(std::uint32_t word) {
+  return static_cast<float>(word >> 8) * (1.0f / 16777216.0f);
+}
+
+}  // namespace sunload

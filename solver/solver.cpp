@@ -1,0 +1,284 @@
+#include "solver/solver.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "geo/check.h"
+#include "geo/units.h"
+#include "solver/parallel.h"
+
+namespace sunload {
+
+namespace {
+
+constexpr std::size_t patches_per_task = 1024;
+
+/// Adds the time until its end to a counter [s].
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& seconds_;
+  Clock::time_point start_ = Clock::now();
+};
+
+Lines timed_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
+                  const SkyGrid& grid, const SolverRules& rules, Watch& watch, WorkDone& work) {
+  const Stopwatch time(work.lines_s);
+  Lines lines = trace_lines(scene, hierarchy, caster, grid,
+                            {rules.lines_per_patch, rules.realizations, rules.mirror_depth,
+                             rules.seed},
+                            watch);
+  work.line_rays = lines.rays;
+  return lines;
+}
+
+Ledger scaled(Ledger ledger, double factor) {
+  for (auto& term : ledger.terms) term *= factor;
+  return ledger;
+}
+
+Ledger sun_sent_on(const MirroredSun& fate, std::size_t k) {
+  Ledger ledger;
+  ledger[Term::escaped] = fate.escaped[k];
+  ledger[Term::absorbed] = fate.backs[k];
+  ledger[Term::unshot] = fate.cut[k];
+  return ledger;
+}
+
+}  // namespace
+
+/// Sources of a batch integrated over time, per realization where they are
+/// estimates of their own [J m-2], [J].
+struct LightSolver::TimeSums {
+  std::vector<std::vector<double>> direct, by_mirror;  ///< [R][N]
+  std::vector<double> sky;                             ///< [cells] π·radiance·time
+  double ground = 0;
+  double length_s = 0;                                 ///< for lamps
+  std::vector<Ledger> sent_on;                         ///< [R] the sun's light that mirrors sent on
+};
+
+LightSolver::LightSolver(const Scene& scene, const SplitRules& split, const SolverRules& rules,
+                         Watch& watch)
+    : scene_(scene),
+      rules_(rules),
+      hierarchy_(scene, split),
+      caster_(scene.mesh, rules.isa),
+      optics_(patch_optics(scene, hierarchy_)),
+      lines_(timed_lines(scene, hierarchy_, caster_, grid_, rules, watch, work_)),
+      sampler_(hierarchy_, caster_, {rules.direct_samples, rules.realizations, rules.seed}),
+      mirror_sun_(scene, hierarchy_, caster_, sampler_, optics_, rules.mirror_depth),
+      bounces_(bounces_needed(lines_.pooled, optics_, hierarchy_.area(), rules.bounces,
+                              rules.unshot)) {}
+
+bool LightSolver::has_part(Part part) const {
+  if (part == Part::mirror) return optics_.any_mirror;
+  if (part == Part::lamps) return optics_.any_emission;
+  return true;
+}
+
+std::vector<double> LightSolver::sky_view_factor() const {
+  std::vector<double> share;
+  for (const auto& ends : lines_.pooled.ends) share.push_back(static_cast<double>(ends.sky));
+  return share;
+}
+
+BatchTally LightSolver::solve(std::span<const SunLight> batch, Watch& watch) {
+  const std::size_t patches = hierarchy_.patch_count();
+  const auto realizations = static_cast<std::size_t>(rules_.realizations);
+  BatchTally tally = empty_tally(batch);
+  TimeSums sums;
+  sums.direct.assign(realizations, std::vector<double>(patches, 0));
+  sums.by_mirror = sums.direct;
+  sums.sky.assign(static_cast<std::size_t>(grid_.cell_count()), 0);
+  sums.sent_on.resize(realizations);
+
+  // Consecutive intervals with light, up to one block at a time.
+  const auto lit = [&](std::size_t k) { return optics_.any_emission || !batch[k].is_dark(); };
+  for (std::size_t begin = 0; begin < batch.size();) {
+    if (watch.stop_requested()) throw Interrupted("stopped between sun positions");
+    std::size_t end = begin;
+    while (end < batch.size() && end - begin < block_width && lit(end)) ++end;
+    if (end > begin) solve_block(batch.subspan(begin, end - begin), begin, sums, tally);
+    begin = std::max(end, begin + 1);
+    watch.advance(Stage::light, static_cast<double>(begin) / static_cast<double>(batch.size()));
+  }
+
+  const Stopwatch time(work_.realizations_s);
+  for (std::size_t r = 0; r < realizations; ++r) solve_realization(r, sums, tally);
+  return tally;
+}
+
+void LightSolver::solve_block(std::span<const SunLight> block, std::size_t first_row,
+                              TimeSums& sums, BatchTally& tally) {
+  const std::size_t patches = hierarchy_.patch_count();
+  const auto realizations = static_cast<std::size_t>(rules_.realizations);
+  const BlockSources sources(block, static_cast<std::size_t>(grid_.cell_count()));
+  const bool per_instant = rules_.errors == Errors::instants;
+  std::vector<Columns> direct_of, by_mirror_of;
+  if (per_instant) direct_of.assign(realizations, columns(patches));
+  by_mirror_of = direct_of;
+
+  DirectSun direct;
+  {
+    const Stopwatch time(work_.direct_s);
+    direct = direct_sun(hierarchy_, caster_, sampler_, block, sums.direct,
+                        per_instant ? &direct_of : nullptr);
+    work_.direct_rays += direct.rays;
+  }
+  Columns by_mirror = columns(patches);
+  std::vector<MirroredSun> sent_on;
+  if (mirror_sun_.any()) {
+    const Stopwatch time(work_.mirror_s);
+    work_.mirror_rays += mirror_sun_.add_light(block, by_mirror, sums.by_mirror,
+                                               per_instant ? &by_mirror_of : nullptr);
+    sent_on = mirror_sun_.follow_light(block, realizations);
+  }
+  {
+    const Stopwatch time(work_.solve_s);
+    const BlockLight light = block_light(lines_.pooled, optics_, sources,
+                                         std::move(direct.irradiance), std::move(by_mirror),
+                                         bounces_);
+    const auto ledger = block_ledger(lines_.pooled, optics_, hierarchy_.area(), sources, light);
+    std::copy(ledger.begin(), ledger.end(),
+              tally.ledger.begin() + static_cast<std::ptrdiff_t>(first_row));
+    store(light, block, first_row, direct.sunlit, tally);
+  }
+  for (std::size_t r = 0; r < sent_on.size(); ++r)
+    for (std::size_t k = 0; k < block.size(); ++k) {
+      const Ledger fate = sun_sent_on(sent_on[r], k);
+      tally.ledger[first_row + k] += scaled(fate, 1.0 / static_cast<double>(realizations));
+      sums.sent_on[r] += scaled(fate, block[k].length_s);
+    }
+  for (const auto& sun : block) {
+    for (std::size_t c = 0; c < sun.sky.size(); ++c) sums.sky[c] += pi * sun.sky[c] * sun.length_s;
+    sums.ground += sun.ground_exitance * sun.length_s;
+    sums.length_s += sun.length_s;
+  }
+  if (per_instant) {
+    errors_per_instant(sources, first_row, direct_of, by_mirror_of, tally);
+    for (std::size_t r = 0; r < sent_on.size(); ++r)
+      for (std::size_t k = 0; k < block.size(); ++k)
+        tally.ledger_instants[r][first_row + k] += sun_sent_on(sent_on[r], k);
+  }
+}
+
+void LightSolver::store(const BlockLight& light, std::span<const SunLight> block,
+                        std::size_t first_row, const Columns& sunlit, BatchTally& tally) const {
+  const std::size_t patches = hierarchy_.patch_count();
+  const auto put = [&](Part part, std::size_t i, std::size_t k, float value) {
+    const auto p = static_cast<std::size_t>(part);
+    if (tally.irradiance[p].empty()) return;
+    tally.irradiance[p][(first_row + k) * patches + i] = value;
+    tally.exposure[p][i] += static_cast<double>(value) * block[k].length_s;
+  };
+  parallel_for(patches, [&](std::size_t i) {
+    for (std::size_t k = 0; k < block.size(); ++k) {
+      const std::size_t at = i * block_width + k;
+      const float total = light.total(i, k);
+      put(Part::total, i, k, total);
+      put(Part::direct, i, k, light.direct[at]);
+      put(Part::sky, i, k, light.sky[at]);
+      put(Part::mirror, i, k, light.mirror[at]);
+      put(Part::lamps, i, k, light.lamps[i]);
+      put(Part::reflected, i, k, light.reflected[at]);
+      tally.outgoing[i] += static_cast<double>(optics_.diffuse[i] * total + optics_.emission[i]) *
+                           block[k].length_s;
+      tally.sunlit_s[i] += static_cast<double>(sunlit[at]) * block[k].sunlit_s;
+      tally.irradiance_max[i] = std::max(tally.irradiance_max[i], total);
+    }
+  }, patches_per_task);
+}
+
+void LightSolver::errors_per_instant(const BlockSources& sources, std::size_t first_row,
+                                     std::vector<Columns>& direct, std::vector<Columns>& by_mirror,
+                                     BatchTally& tally) const {
+  const std::size_t patches = hierarchy_.patch_count(), R = direct.size();
+  const std::size_t suns = sources.suns.size();
+  std::vector<double> sum(patches * block_width, 0), squares = sum;
+  for (std::size_t r = 0; r < R; ++r) {
+    const LineSet& lines = lines_.realizations[r];
+    const BlockLight light = block_light(lines, optics_, sources, std::move(direct[r]),
+                                         std::move(by_mirror[r]), bounces_);
+    const auto ledger = block_ledger(lines, optics_, hierarchy_.area(), sources, light);
+    std::copy(ledger.begin(), ledger.end(),
+              tally.ledger_instants[r].begin() + static_cast<std::ptrdiff_t>(first_row));
+    parallel_for(patches, [&](std::size_t i) {
+      for (std::size_t k = 0; k < suns; ++k) {
+        const auto E = static_cast<double>(light.total(i, k));
+        sum[i * block_width + k] += E;
+        squares[i * block_width + k] += E * E;
+      }
+    }, patches_per_task);
+  }
+  const auto n = static_cast<double>(R);
+  parallel_for(patches, [&](std::size_t i) {
+    for (std::size_t k = 0; k < suns; ++k) {
+      const std::size_t at = i * block_width + k;
+      const double variance = std::max(0.0, squares[at] - sum[at] * sum[at] / n) / (n - 1);
+      tally.irradiance_se[(first_row + k) * patches + i] =
+          static_cast<float>(std::sqrt(variance / n));
+    }
+  }, patches_per_task);
+}
+
+void LightSolver::solve_realization(std::size_t r, const TimeSums& sums, BatchTally& tally) const {
+  const LineSet& lines = lines_.realizations[r];
+  const std::size_t patches = hierarchy_.patch_count();
+  std::vector<double> sky(patches, 0), base(patches, 0), ground(patches, 0);
+  gather(lines.sky, sums.sky, sky, Into::replace);
+  if (optics_.any_mirror) gather(lines.sky_by_mirror, sums.sky, base, Into::add);
+  if (optics_.any_emission) {
+    std::vector<double> emission(optics_.emission.begin(), optics_.emission.end());
+    for (auto& m : emission) m *= sums.length_s;
+    gather(lines.patches, emission, base, Into::add);
+  }
+  for (std::size_t i = 0; i < patches; ++i) {
+    base[i] += sums.direct[r][i] + sums.by_mirror[r][i] + sky[i];
+    ground[i] = static_cast<double>(lines.ends[i].ground + lines.ends[i].ground_by_mirror) *
+                sums.ground;
+  }
+  const auto reflected = reflect(lines, optics_, base, ground, bounces_);
+
+  Ledger& ledger = tally.ledger_realization[r];
+  for (std::size_t i = 0; i < patches; ++i) {
+    const double total = base[i] + reflected.irradiance[i];
+    tally.exposure_realization[r][i] = total;
+    ledger += booked({hierarchy_.area()[i], static_cast<double>(optics_.diffuse[i]),
+                      static_cast<double>(optics_.mirror[i]),
+                      static_cast<double>(optics_.emission[i]) * sums.length_s, sums.direct[r][i],
+                      sky[i], sums.ground, total, reflected.followed[i]},
+                     lines.ends[i]);
+  }
+  ledger += booked(lines.first_light, [&](std::size_t c) { return sums.sky[c]; }, sums.ground);
+  ledger += sums.sent_on[r];
+}
+
+BatchTally LightSolver::empty_tally(std::span<const SunLight> batch) const {
+  const std::size_t patches = hierarchy_.patch_count(), rows = batch.size();
+  const auto realizations = static_cast<std::size_t>(rules_.realizations);
+  BatchTally tally;
+  tally.intervals = rows;
+  for (std::size_t p = 0; p < part_count; ++p) {
+    if (!has_part(static_cast<Part>(p))) continue;
+    tally.irradiance[p].assign(rows * patches, 0);
+    tally.exposure[p].assign(patches, 0);
+  }
+  tally.exposure_realization.assign(realizations, std::vector<double>(patches, 0));
+  tally.outgoing.assign(patches, 0);
+  tally.sunlit_s.assign(patches, 0);
+  tally.irradiance_max.assign(patches, 0);
+  tally.ledger.resize(rows);
+  tally.ledger_realization.resize(realizations);
+  if (rules_.errors == Errors::instants) {
+    tally.irradiance_se.assign(rows * patches, 0);
+    tally.ledger_instants.assign(realizations, std::vector<Ledger>(rows));
+  }
+  return tally;
+}
+
+}  // namespace sunload

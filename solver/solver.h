@@ -1,0 +1,83 @@
+/// The method on one screen: trace once, light many suns.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solver/block_light.h"
+#include "solver/hierarchy.h"
+#include "solver/jacobi.h"
+#include "solver/lines.h"
+#include "solver/mirror_sun.h"
+#include "solver/tally.h"
+#include "solver/watch.h"
+
+namespace sunload {
+
+enum class Errors { totals, instants };
+
+struct SolverRules {
+  int bounces = 5;            ///< light reflected diffusely 1 … bounces times is followed
+  double unshot = 1e-3;       ///< fewer bounces where less than this share would be left
+  int lines_per_patch = 256;  ///< over all realizations
+  int direct_samples = 16;    ///< per patch and sun, over all realizations
+  int realizations = 8;
+  int mirror_depth = 8;
+  std::uint64_t seed = 1;
+  std::string isa = "auto";
+  Errors errors = Errors::totals;
+};
+
+/// Light on a frozen mesh: prepared once per variant, then any batch of suns.
+///
+/// All results are the same bits for any number of threads, and those of an
+/// interval do not depend on the batch that it is solved in (time sums do, by
+/// the order of additions).
+class LightSolver {
+ public:
+  /// Splits, builds the ray caster and traces all lines. `scene` must outlive it.
+  LightSolver(const Scene& scene, const SplitRules& split, const SolverRules& rules,
+              Watch& watch);
+
+  const Hierarchy& hierarchy() const { return hierarchy_; }
+  const RayCaster& caster() const { return caster_; }
+  const SkyGrid& sky_grid() const { return grid_; }
+  const Lines& lines() const { return lines_; }
+  int bounces() const { return bounces_; }
+  bool has_part(Part part) const;
+  /// Cosine-weighted share of the hemisphere above each patch that is sky.
+  std::vector<double> sky_view_factor() const;
+
+  /// Light of consecutive intervals. Throws Interrupted.
+  BatchTally solve(std::span<const SunLight> batch, Watch& watch);
+
+  const WorkDone& work() const { return work_; }
+
+ private:
+  struct TimeSums;
+  void solve_block(std::span<const SunLight> block, std::size_t first_row, TimeSums& sums,
+                   BatchTally& tally);
+  void store(const BlockLight& light, std::span<const SunLight> block, std::size_t first_row,
+             const Columns& sunlit, BatchTally& tally) const;
+  void errors_per_instant(const BlockSources& sources, std::size_t first_row,
+                          std::vector<Columns>& direct, std::vector<Columns>& by_mirror,
+                          BatchTally& tally) const;
+  void solve_realization(std::size_t r, const TimeSums& sums, BatchTally& tally) const;
+  BatchTally empty_tally(std::span<const SunLight> batch) const;
+
+  const Scene& scene_;
+  SolverRules rules_;
+  Hierarchy hierarchy_;
+  RayCaster caster_;
+  SkyGrid grid_;
+  PatchOptics optics_;
+  Lines lines_;
+  SunSampler sampler_;
+  MirrorSun mirror_sun_;
+  int bounces_;
+  WorkDone work_;
+};
+
+}  // namespace sunload

@@ -1,0 +1,42 @@
+#include "solver/tally.h"
+
+#include <cmath>
+
+namespace sunload {
+
+double Ledger::in() const {
+  const Ledger& l = *this;
+  return l[Term::sun] + l[Term::sky] + l[Term::ground] + l[Term::emitted];
+}
+
+double Ledger::out() const {
+  const Ledger& l = *this;
+  return l[Term::absorbed] + l[Term::transmitted] + l[Term::escaped] + l[Term::unshot];
+}
+
+Ledger& Ledger::operator+=(const Ledger& other) {
+  for (std::size_t t = 0; t < term_count; ++t) terms[t] += other.terms[t];
+  return *this;
+}
+
+WorkDone& WorkDone::operator-=(const WorkDone& earlier) {
+  line_rays -= earlier.line_rays;
+  direct_rays -= earlier.direct_rays;
+  mirror_rays -= earlier.mirror_rays;
+  lines_s -= earlier.lines_s;
+  direct_s -= earlier.direct_s;
+  mirror_s -= earlier.mirror_s;
+  solve_s -= earlier.solve_s;
+  realizations_s -= earlier.realizations_s;
+  return *this;
+}
+
+MeanError mean_error(const std::vector<double>& values) {
+  const auto n = static_cast<double>(values.size());
+  double mean = 0, squares = 0;
+  for (const double v : values) mean += v / n;
+  for (const double v : values) squares += (v - mean) * (v - mean);
+  return {mean, values.size() > 1 ? std::sqrt(squares / (n - 1) / n) : 0};
+}
+
+}  // namespace sunload

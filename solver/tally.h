@@ -1,0 +1,70 @@
+/// What a batch of suns leaves behind: series, time integrals, ledger.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "solver/sun_block.h"
+
+namespace sunload {
+
+/// Parts of the irradiance, DESIGN 5.
+enum class Part : std::uint8_t { total, direct, sky, mirror, lamps, reflected };
+inline constexpr std::size_t part_count = 6;
+inline constexpr std::array<const char*, part_count> part_names{"total",  "direct", "sky",
+                                                                "mirror", "lamps",  "reflected"};
+
+/// Terms of the energy ledger, every one estimated on its own.
+///
+/// in = sun + sky + ground + emitted;  out = absorbed + transmitted + escaped + unshot
+enum class Term : std::uint8_t {
+  sun, sky, ground, emitted, absorbed, transmitted, escaped, unshot
+};
+inline constexpr std::size_t term_count = 8;
+inline constexpr std::array<const char*, term_count> term_names{
+    "sun", "sky", "ground", "emitted", "absorbed", "transmitted", "escaped", "unshot"};
+
+struct Ledger {
+  std::array<double, term_count> terms{};  ///< W, or J when integrated over time
+
+  double& operator[](Term t) { return terms[static_cast<std::size_t>(t)]; }
+  double operator[](Term t) const { return terms[static_cast<std::size_t>(t)]; }
+  double in() const;
+  double out() const;
+  double residual() const { return in() - out(); }
+  Ledger& operator+=(const Ledger& other);
+};
+
+/// Results of consecutive intervals. N patches, K intervals, R realizations.
+/// Energies are J m-2 (patches) and J (ledger); a part that the scene cannot
+/// have is empty.
+struct BatchTally {
+  std::size_t intervals = 0;
+  std::array<std::vector<float>, part_count> irradiance;     ///< [K][N] W m-2
+  std::vector<float> irradiance_se;                          ///< [K][N], if asked for
+  std::array<std::vector<double>, part_count> exposure;      ///< [N] time sum of the series
+  std::vector<std::vector<double>> exposure_realization;     ///< [R][N]
+  std::vector<double> outgoing;                              ///< [N] radiosity, time-integrated
+  std::vector<double> sunlit_s;                              ///< [N]
+  std::vector<float> irradiance_max;                         ///< [N]
+  std::vector<Ledger> ledger;                                ///< [K] W
+  std::vector<Ledger> ledger_realization;                    ///< [R] J
+  std::vector<std::vector<Ledger>> ledger_instants;          ///< [R][K] W, if errors per instant are asked for
+};
+
+/// Work done so far and the time it took, per stage.
+struct WorkDone {
+  std::uint64_t line_rays = 0, direct_rays = 0, mirror_rays = 0;
+  double lines_s = 0, direct_s = 0, mirror_s = 0, solve_s = 0, realizations_s = 0;
+  WorkDone& operator-=(const WorkDone& earlier);
+};
+
+/// Mean and standard error of independent realizations.
+struct MeanError {
+  double mean = 0, standard_error = 0;
+};
+/// s / √R of the values; standard_error is 0 for a single value.
+MeanError mean_error(const std::vector<double>& values);
+
+}  // namespace sunload
