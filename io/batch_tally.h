@@ -1,0 +1,37 @@
+/// A batch's tally as the arrays of a batch file, and back.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/batch_file.h"
+#include "solver/solver.h"
+
+namespace sunload {
+
+/// Names of arrays that merge needs but the result does not show.
+namespace batch_array {
+inline constexpr const char* exposure = "exposure";                          ///< [R, N] J m-2
+inline constexpr const char* ledger = "ledger";                              ///< [R, 9] J: terms, residual
+inline constexpr const char* outgoing = "outgoing";                          ///< [N] J m-2
+inline constexpr const char* sunlit = "sunlit";                              ///< [N] s
+inline constexpr const char* maximum = "irradiance_max";                     ///< [N] W m-2
+inline constexpr const char* sky_view = "sky_view_factor";                   ///< [N]
+inline constexpr const char* bounces = "bounces";                            ///< [1]
+inline constexpr const char* work = "work";                                  ///< see WorkDone
+}  // namespace batch_array
+
+/// Name of the series of a part: `irradiance`, `irradiance_direct`, ….
+std::string series_name(Part part);
+/// Name of its time sum within a batch file: `sum_total`, `sum_direct`, …
+std::string sum_name(Part part);
+
+/// Rays and seconds as one row of a batch file, and back.
+std::vector<double> work_values(const WorkDone& work);
+WorkDone work_from(const std::vector<double>& values);
+
+/// Everything of a tally into a batch file's arrays; `work` is what this batch cost.
+void add_tally(BatchWriter& writer, const BatchTally& tally, const LightSolver& solver,
+               const Mesh& mesh, const WorkDone& work);
+
+}  // namespace sunload

@@ -1,0 +1,146 @@
+/// `sunload check` and `sunload sun`: everything that is known before computing.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "io/machine.h"
+#include "io/run.h"
+#include "io/time_words.h"
+#include "io/variant_plan.h"
+#include "solver/parallel.h"
+
+namespace sunload {
+
+namespace {
+
+constexpr double mib = 1024.0 * 1024;
+
+std::string counts_text(const PrepareReport& r) {
+  std::string text = fmt::format(
+      "  read      {} polygons ({} with holes), {} vertices\n"
+      "  repaired  {} vertices welded, {} triangles turned\n"
+      "  dropped   {} degenerate, {} duplicate, {} polygons not triangulable\n"
+      "  bodies    {} closed ({:.6g} m3), {} open sheets; {} open edges, {} non-manifold edges\n"
+      "  floors    {} triangles touch the ground: they cast shadows, are no patches\n",
+      r.polygons_read, r.polygons_with_holes, r.vertices_read, r.vertices_welded,
+      r.triangles_flipped, r.degenerates_dropped, r.duplicates_dropped, r.polygons_untriangulated,
+      r.closed_bodies, r.volume_m3, r.open_sheets, r.open_edges, r.nonmanifold_edges, r.floors);
+  text += "  area     ";
+  for (std::size_t s = 0; s < surface_names.size(); ++s)
+    if (r.area_m2[s] > 0) text += fmt::format(" {} {:.6g} m2", surface_names[s], r.area_m2[s]);
+  return text + "\n";
+}
+
+/// What float can resolve at the scene's largest coordinate (a float has 24 bits).
+std::string extent_text(const Mesh& mesh, const Box& bounds) {
+  double largest = 0;
+  for (const double c : {bounds.low.x, bounds.low.y, bounds.low.z, bounds.high.x, bounds.high.y,
+                         bounds.high.z})
+    largest = std::max(largest, std::abs(c));
+  const Vec3 size = bounds.high - bounds.low;
+  return fmt::format(
+      "  extent    {:.6g} x {:.6g} x {:.6g} m, local origin at ({:.10g}, {:.10g}, {:.10g}); "
+      "rays resolve {:.2g} mm\n",
+      size.x, size.y, size.z, mesh.origin.x, mesh.origin.y, mesh.origin.z,
+      1000 * largest * 0x1p-24);
+}
+
+std::string materials_text(const Scene& scene) {
+  std::vector<double> area(scene.materials.size(), 0);
+  for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t)
+    area[scene.material[t].index()] += norm(scene.mesh.area_vector2(t)) / 2;
+  std::string text;
+  for (std::size_t m = 0; m < area.size(); ++m) {
+    const Material& material = scene.materials[m];
+    text += fmt::format("  {:<24} diffuse {:.3f}  mirror {:.3f}", material.name, material.diffuse,
+                        material.mirror);
+    if (material.emission_w_m2 > 0) text += fmt::format("  emits {:.4g} W/m2", material.emission_w_m2);
+    text += fmt::format("  {:.6g} m2\n", area[m]);
+  }
+  return text;
+}
+
+std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
+  return fmt::format(
+      "  {} patches, {} intervals ({} with sun) in {} batches\n"
+      "  {:.3g} lines, about {:.3g} shadow rays; estimated {:.0f} MiB memory, {:.0f} MiB disk, "
+      "{:.0f} s on {} threads\n",
+      work.patches, plan.intervals(), plan.light.lit_count(), plan.batches(),
+      static_cast<double>(work.line_rays), static_cast<double>(work.direct_rays),
+      work.memory_bytes / mib, work.disk_bytes / mib, work.seconds, thread_count());
+}
+
+void print_text(const VariantPlan& plan, const WorkEstimate& work) {
+  std::string text = fmt::format("study {}, variant {} (content {})\n", plan.study.name,
+                                 plan.study.variant, plan.content_hash.substr(0, 12));
+  text += "scene\n" + counts_text(plan.built.report) +
+          extent_text(plan.built.scene.mesh, plan.built.report.bounds);
+  for (const auto& note : plan.built.notes) text += "  note      " + note + "\n";
+  text += "materials\n" + materials_text(plan.built.scene);
+  text += "sun\n" + time_words(plan.light, plan.built.site, plan.study, plan.built.site_source);
+  text += "work\n" + work_text(plan, work);
+  for (const auto& list : {plan.built.warnings, plan.light.notes})
+    for (const auto& line : list) text += "warning: " + line + "\n";
+  std::cout << text;
+}
+
+nlohmann::ordered_json as_json(const VariantPlan& plan, const WorkEstimate& work) {
+  return {{"name", plan.study.variant},
+          {"hash", plan.content_hash},
+          {"patches", work.patches},
+          {"intervals", plan.intervals()},
+          {"lit", plan.light.lit_count()},
+          {"batches", plan.batches()},
+          {"lines", work.line_rays},
+          {"memory_bytes", static_cast<std::uint64_t>(work.memory_bytes)},
+          {"disk_bytes", static_cast<std::uint64_t>(work.disk_bytes)},
+          {"seconds", work.seconds}};
+}
+
+}  // namespace
+
+int check_study(const std::string& path, const RunOptions& options, CheckFormat format) {
+  set_thread_count(options.threads > 0 ? options.threads : permitted_processors());
+  const StudyFile file = read_study(path);
+  for (const auto& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  nlohmann::ordered_json json;
+  json["variants"] = nlohmann::ordered_json::array();
+  std::size_t units = 0;
+  Problems problems;
+  for (const auto& study : chosen_variants(file, options)) {
+    try {
+      const VariantPlan plan = make_plan(study);
+      const Hierarchy mesh(plan.built.scene, split_rules(study));
+      const WorkEstimate work = estimate_work(plan, mesh.patch_count());
+      units += plan.batches();
+      json["variants"].push_back(as_json(plan, work));
+      json["batch_suns"] = plan.batch_suns();
+      if (format == CheckFormat::text) print_text(plan, work);
+    } catch (const InputError& error) {
+      problems.add(error);
+    }
+  }
+  problems.throw_if_any();
+  json["units"] = units;
+  if (format == CheckFormat::json) std::cout << json.dump(2) << "\n";
+  return exit_code::done;
+}
+
+int print_sun(const std::string& path) {
+  const StudyFile file = read_study(path);
+  const Study& study = file.variants.front();
+  // The site may come from the scene's CRS, which only its reader knows.
+  const Site site = build_scene(study).site;
+  const LightSeries light = light_series(study, site);
+  fmt::print("time,azimuth_deg,elevation_deg,dni_w_m2,dhi_w_m2,ghi_w_m2\n");
+  for (const auto& i : light.intervals)
+    fmt::print("{},{:.6f},{:.6f},{:.4f},{:.4f},{:.4f}\n", iso_utc(i.when.sun_time),
+               i.when.sun.azimuth_deg, i.when.sun.elevation_deg, i.mean.dni, i.mean.dhi,
+               i.mean.ghi);
+  return exit_code::done;
+}
+
+}  // namespace sunload

@@ -1,0 +1,114 @@
+/// HDF5 behind values and exceptions: the only file that knows the library.
+///
+/// One flat group of datasets with attributes and dimension scales, as netCDF-4
+/// tools read it. Objects bear no times, so that equal runs give equal files.
+/// Text is variable-length UTF-8 throughout. Not to be used by several threads
+/// at once.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sunload::h5 {
+
+/// What HDF5 says went wrong; the caller adds the file's name.
+class Error : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// An identifier of the library, released with its last owner.
+using Handle = std::shared_ptr<const std::int64_t>;
+
+enum class Type : std::uint8_t { int8, int32, int64, float32, float64, text };
+
+/// Attributes of a dataset or of the root group.
+class Object {
+ public:
+  void set(const std::string& attribute, const std::string& text);
+  void set(const std::string& attribute, const std::vector<double>& values, Type type);
+  void set(const std::string& attribute, double value, Type type);
+  void set(const std::string& attribute, std::int64_t value);
+  std::optional<std::string> text(const std::string& attribute) const;
+  /// Values of a numeric attribute; none if it is absent or not numeric.
+  std::optional<std::vector<double>> numbers(const std::string& attribute) const;
+
+ protected:
+  explicit Object(Handle handle) : handle_(std::move(handle)) {}
+  std::int64_t id() const { return *handle_; }
+  Handle handle_;
+};
+
+/// Whether a chunk comes shuffled and deflated or as the plain values.
+enum class ChunkCoding : std::uint8_t { deflated, plain };
+
+class Dataset : public Object {
+ public:
+  std::vector<std::size_t> shape() const;
+  bool is_text() const;
+
+  /// The whole dataset, converted to its type.
+  void write(const std::vector<double>& values);
+  void write(const std::vector<std::int32_t>& values);
+  void write(const std::vector<std::string>& values);
+  /// `count` rows from row `first` on.
+  void write_rows(std::size_t first, std::size_t count, const double* values);
+  /// A finished chunk whose first element is at `offset`.
+  void write_chunk(const std::vector<std::size_t>& offset, std::span<const unsigned char> bytes,
+                   ChunkCoding coding);
+
+  std::vector<double> doubles() const;
+  std::vector<std::int32_t> integers() const;
+  std::vector<std::string> strings() const;
+  std::vector<double> row(std::size_t index) const;
+
+  /// Makes this one-dimensional dataset a dimension scale.
+  void make_scale(const std::string& name);
+  void attach_scale(std::size_t axis, const Dataset& scale);
+
+ private:
+  friend class File;
+  using Object::Object;
+};
+
+struct DatasetSpec {
+  Type type = Type::float64;
+  std::vector<std::size_t> shape;  ///< empty: a scalar
+  std::vector<std::size_t> chunk;  ///< empty: not chunked; else chunks are shuffled and deflated
+  int deflate_level = 0;           ///< as declared in the file
+  enum class Unwritten {
+    zero,
+    nan
+  } unwritten = Unwritten::zero;  ///< value where nothing is written
+};
+
+class File : public Object {
+ public:
+  /// A new file; `path` must not exist yet.
+  static File create(const std::string& path);
+  /// An existing file, for reading.
+  static File open(const std::string& path);
+
+  Dataset create_dataset(const std::string& name, const DatasetSpec& spec);
+  bool has(const std::string& dataset) const;
+  Dataset dataset(const std::string& name) const;
+  std::vector<std::string> names() const;
+  /// End of the data of HDF5; what lies behind it is none of the library's business.
+  std::uint64_t end() const;
+  /// Writes out everything and closes; datasets must not be used any more. Throws Error.
+  void close();
+  /// For a file that failed (disk full): closes without caring what is lost, so
+  /// that the library does not try again at the end of the process.
+  void abandon();
+
+ private:
+  File(Handle file, Handle root) : Object(std::move(root)), file_(std::move(file)) {}
+  Handle file_;
+};
+
+}  // namespace sunload::h5

@@ -1,0 +1,197 @@
+#include "io/info.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "geo/units.h"
+#include "io/patch_groups.h"
+#include "io/result_time.h"
+#include "io/statistics.h"
+
+namespace sunload {
+namespace {
+
+// Patches below this share of the largest load say nothing of the accuracy:
+// their relative error is large and their light does not matter (DESIGN 4).
+constexpr double share_that_counts = 0.01;
+constexpr double median = 0.5;
+constexpr double upper_quantile = 0.95;
+constexpr std::size_t facades_shown = 3;
+
+std::string line(const char* name, const std::string& text) {
+  return text.empty() ? text : fmt::format("{:<13}{}\n", name, text);
+}
+
+std::string heading(const ResultReader& result) {
+  const auto study = result.text_attribute("study");
+  return fmt::format("{}, variant {}\n", study.empty() ? result.text_attribute("title") : study,
+                     result.text_attribute("variant"));
+}
+
+std::string period(const ResultReader& result) {
+  const auto lengths = interval_lengths(result);
+  if (lengths.empty()) return line("period", "no intervals");
+  const double hours = std::accumulate(lengths.begin(), lengths.end(), 0.0) / seconds_per_hour;
+  auto text = line("period", fmt::format("{} interval{}, {:.5g} h in all", lengths.size(),
+                                         lengths.size() == 1 ? "" : "s", hours));
+  if (result.number_attribute("time_is_synthetic") > 0)
+    return text + line("", "sun positions without a date");
+  text += line("  first sun", interval_in_words(result, 0));
+  if (lengths.size() > 1) text += line("  last sun", interval_in_words(result, lengths.size() - 1));
+  return text;
+}
+
+std::string size(const ResultReader& result, const PatchGroups& groups) {
+  return line("scene",
+              fmt::format("{} patches, {:.1f} m², {} objects, {} facades", groups.patch_count(),
+                          groups.groups().front().area_m2, result.strings("object_name").size(),
+                          result.strings("facade_name").size()));
+}
+
+std::string accuracy(const ResultReader& result, const PatchGroups& groups,
+                     const std::vector<double>& load) {
+  const auto realizations =
+      result.has("light_load_realization") ? result.shape("light_load_realization").front() : 0;
+  if (!result.has("light_load_se") || realizations < 2)
+    return line("accuracy", "not known: the result has no standard errors");
+  const auto se = result.doubles("light_load_se");
+  const double largest = *std::max_element(load.begin(), load.end());
+  std::vector<double> relative, area;
+  for (std::size_t i = 0; i < load.size(); ++i) {
+    if (load[i] <= 0 || load[i] < share_that_counts * largest) continue;
+    relative.push_back(se[i] / load[i] * 100);
+    area.push_back(groups.patch_area()[i]);
+  }
+  return line(
+      "accuracy",
+      fmt::format("standard error of a patch's light load: {:.2g} % (median by area), below "
+                  "{:.2g} % on 95 %; {} realizations",
+                  weighted_quantile(relative, area, median),
+                  weighted_quantile(relative, area, upper_quantile), realizations));
+}
+
+/// Least, mean and largest value of a quantity over the patches.
+std::string analysis(const char* name, const std::vector<double>& values,
+                     const PatchGroups& groups) {
+  if (values.empty()) return {};
+  const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+  const double mean = groups.means(values.data()).front();
+  const auto ratio = [](double a, double b) {
+    return b == 0 ? std::string("-") : fmt::format("{:.3f}", a / b);
+  };
+  return fmt::format("  {:<24}{:>10.4g} {:>10.4g} {:>10.4g} {:>10} {:>10}\n", name, *least, mean,
+                     *largest, ratio(*least, mean), ratio(*least, *largest));
+}
+
+std::string lighting_analysis(const ResultReader& result, const PatchGroups& groups,
+                              const std::vector<double>& load) {
+  std::string text = fmt::format("{:<26}{:>10} {:>10} {:>10} {:>10} {:>10}\n", "lighting analysis",
+                                 "min", "mean", "max", "min/mean", "min/max");
+  text += analysis("light load, kWh/m²", load, groups);
+  if (result.has("irradiance") && result.shape("irradiance").front() > 0) {
+    const auto brightest = brightest_interval(result);
+    text += analysis("irradiance, W/m² (1)", result.row("irradiance", brightest), groups);
+    if (result.has("sun_hours"))
+      text += analysis("sun hours, h", result.doubles("sun_hours"), groups);
+    text += "  (1) brightest interval: sun of " + interval_in_words(result, brightest) + "\n";
+  } else if (result.has("sun_hours")) {
+    text += analysis("sun hours, h", result.doubles("sun_hours"), groups);
+  }
+  return text;
+}
+
+std::string facades(const ResultReader& result, const PatchGroups& groups,
+                    const std::vector<double>& load) {
+  const auto mean = groups.means(load.data());
+  const auto realizations = group_realizations(result, groups);
+  std::vector<std::size_t> order;
+  for (std::size_t g = 0; g < groups.groups().size(); ++g)
+    if (groups.groups()[g].kind == "facade") order.push_back(g);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return mean[a] > mean[b]; });
+  const auto words = [&](std::size_t g) {
+    const double se = sample_mean(realizations[g]).se;
+    return fmt::format("{} {:.4g}{}", groups.groups()[g].name, mean[g],
+                       std::isnan(se) ? std::string() : fmt::format(" ± {:.2g}", se));
+  };
+  std::string best, worst;
+  const std::size_t shown = std::min(facades_shown, order.size());
+  for (std::size_t k = 0; k < shown; ++k) {
+    best += (k ? ", " : "") + words(order[k]);
+    worst += (k ? ", " : "") + words(order[order.size() - 1 - k]);
+  }
+  if (shown == 0) return {};
+  return line("facades", "mean light load ± standard error, kWh/m²") + line("  most", best) +
+         line("  least", worst);
+}
+
+/// Time sum of one term of the ledger [kWh]; 0 where the result lacks it.
+double ledger_kwh(const ResultReader& result, const std::string& term) {
+  if (!result.has("power_" + term)) return 0;
+  const auto power = result.doubles("power_" + term);
+  const auto lengths = interval_lengths(result);
+  double energy = 0;
+  for (std::size_t i = 0; i < std::min(power.size(), lengths.size()); ++i)
+    energy += power[i] * lengths[i];
+  return energy / joules_per_kwh;
+}
+
+std::string ledger(const ResultReader& result) {
+  if (!result.has("power_sun")) return {};
+  double in = 0, out = 0;
+  std::string in_words, out_words;
+  for (const char* term : {"sun", "sky", "ground", "emitted"}) {
+    const double energy = ledger_kwh(result, term);
+    in += energy;
+    if (energy != 0)
+      in_words += fmt::format("{}{} {:.5g}", in_words.empty() ? "" : " + ", term, energy);
+  }
+  for (const char* term : {"absorbed", "transmitted", "escaped", "unshot"}) {
+    const double energy = ledger_kwh(result, term);
+    out += energy;
+    if (energy != 0)
+      out_words += fmt::format("{}{} {:.5g}", out_words.empty() ? "" : " + ", term, energy);
+  }
+  const double residual = ledger_kwh(result, "residual");
+  const std::string error =
+      result.has("power_residual_se")
+          ? fmt::format(" ± {:.2g}", result.doubles("power_residual_se").at(0))
+          : std::string();
+  return line("energy, kWh", fmt::format("in {:.6g} = {}", in, in_words)) +
+         line("", fmt::format("out {:.6g} = {}", out, out_words)) +
+         line("", fmt::format("residual {:.3g}{} ({:.2g} % of in)", residual, error,
+                              in == 0 ? 0 : residual / in * 100));
+}
+
+std::string runtime(const ResultReader& result) {
+  std::string words;
+  for (const char* stage :
+       {"scene", "prepare", "hierarchy", "lines", "direct", "sky", "reflect", "write", "total"}) {
+    const double seconds = result.number_attribute(fmt::format("runtime_{}_s", stage));
+    if (!std::isnan(seconds))
+      words += fmt::format("{}{} {:.3g} s", words.empty() ? "" : ", ", stage, seconds);
+  }
+  return line("run time", words);
+}
+
+}  // namespace
+
+std::string info_text(const ResultReader& result) {
+  const PatchGroups groups(result);
+  const auto load = result.doubles("light_load");
+  std::string text = heading(result);
+  text += period(result);
+  text += size(result, groups);
+  text += accuracy(result, groups, load);
+  text += lighting_analysis(result, groups, load);
+  text += facades(result, groups, load);
+  text += ledger(result);
+  text += runtime(result);
+  text += line("made by", result.text_attribute("source"));
+  return text;
+}
+
+}  // namespace sunload

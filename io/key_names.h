@@ -1,0 +1,21 @@
+/// Hints for misspelt words: nearest name, and units at the end of a key.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sunload {
+
+/// Fewest insertions, deletions, replacements and swaps of neighbours that turn one
+/// word into the other (Damerau 1964; each place is edited at most once).
+int edit_distance(std::string_view a, std::string_view b);
+
+/// `did you mean 'diffuse'?`, or the list of the known words if none is near. A key that
+/// lacks its unit or carries another one is told the right key and its unit.
+std::string key_hint(const std::string& unknown, const std::vector<std::string>& known);
+
+/// "degrees" for `latitude_deg`; empty where the key ends in no unit.
+std::string unit_of_key(std::string_view key);
+
+}  // namespace sunload

@@ -1,0 +1,23 @@
+/// What this machine and the job's limits allow.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace sunload {
+
+/// Memory this process may still take [bytes]: the smaller of what the system
+/// has available and what the control group leaves.
+double available_memory_bytes();
+/// Free space of the file system that `path` (or its nearest existing parent) lies on.
+double free_disk_bytes(const std::string& path);
+/// Processors this process may run on: affinity and the control group's quota.
+int permitted_processors();
+/// Largest resident memory of this process so far [bytes].
+double peak_memory_bytes();
+
+/// Creates the folder with its parents. Throws MachineError where that fails
+/// or nothing can be written there.
+void make_writable_folder(const std::string& path);
+
+}  // namespace sunload

@@ -1,0 +1,267 @@
+#include "io/merge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "geo/units.h"
+#include "io/batch_file.h"
+#include "io/batch_tally.h"
+#include "io/version.h"
+
+namespace sunload {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Sums and maxima of all batches, in batch order.
+class Totals {
+ public:
+  void add(const BatchReader& batch) {
+    for (const auto& spec : batch.arrays()) {
+      if (spec.rule == MergeRule::append) continue;
+      auto values = batch.doubles(spec.name);
+      auto [place, is_first] = arrays_.try_emplace(spec.name);
+      if (is_first) {
+        place->second = std::move(values);
+        continue;
+      }
+      auto& total = place->second;
+      for (std::size_t i = 0; i < total.size(); ++i)
+        total[i] = spec.rule == MergeRule::sum ? total[i] + values[i]
+                                               : std::max(total[i], values[i]);
+    }
+  }
+  bool has(const std::string& name) const { return arrays_.contains(name); }
+  const std::vector<double>& operator[](const std::string& name) const { return arrays_.at(name); }
+
+ private:
+  std::map<std::string, std::vector<double>> arrays_;
+};
+
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (auto& v : values) v *= factor;
+  return values;
+}
+
+/// Standard error over the rows of a [realization, n] array.
+std::vector<double> errors_of(const std::vector<double>& rows, std::size_t n) {
+  const std::size_t realizations = n > 0 ? rows.size() / n : 0;
+  std::vector<double> errors(n), values(realizations);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t r = 0; r < realizations; ++r) values[r] = rows[r * n + i];
+    errors[i] = mean_error(values).standard_error;
+  }
+  return errors;
+}
+
+/// Area-weighted mean over the patches of every facade, for each row of [rows, N].
+std::vector<double> facade_means(const std::vector<double>& rows, const ResultGeometry& geometry) {
+  const std::size_t N = geometry.patch_area.size(), F = geometry.facade_name.size();
+  const std::size_t count = N > 0 ? rows.size() / N : 0;
+  std::vector<double> area(F, 0), means(count * F, 0);
+  for (std::size_t i = 0; i < N; ++i)
+    if (geometry.patch_facade[i] >= 0)
+      area[static_cast<std::size_t>(geometry.patch_facade[i])] += geometry.patch_area[i];
+  for (std::size_t row = 0; row < count; ++row)
+    for (std::size_t i = 0; i < N; ++i)
+      if (const auto f = geometry.patch_facade[i]; f >= 0)
+        means[row * F + static_cast<std::size_t>(f)] += geometry.patch_area[i] * rows[row * N + i] /
+                                                        area[static_cast<std::size_t>(f)];
+  return means;
+}
+
+constexpr double kwh_per_joule = 1 / joules_per_kwh;
+
+void write_loads(ResultWriter& writer, const Totals& totals, const ResultGeometry& geometry) {
+  const std::size_t N = geometry.patch_area.size(), F = geometry.facade_name.size();
+  for (std::size_t p = 0; p < part_count; ++p) {
+    const auto part = static_cast<Part>(p);
+    if (!totals.has(sum_name(part))) continue;
+    const std::string name = part == Part::total ? "light_load" : std::string("light_load_") + part_names[p];
+    writer.write({name, scaled(totals[sum_name(part)], kwh_per_joule)});
+  }
+  const auto realizations = scaled(totals[batch_array::exposure], kwh_per_joule);
+  writer.write({"light_load_realization", realizations});
+  writer.write({"light_load_se", errors_of(realizations, N)});
+  writer.write({"power_load", scaled(totals[batch_array::outgoing], kwh_per_joule)});
+  writer.write({"sun_hours", scaled(totals[batch_array::sunlit], 1 / seconds_per_hour)});
+  writer.write({"irradiance_max", totals[batch_array::maximum]});
+  writer.write({"sky_view_factor", totals[batch_array::sky_view]});
+  if (F == 0) return;
+  const auto of_facades = facade_means(realizations, geometry);
+  writer.write({"facade_light_load_realization", of_facades});
+  writer.write({"facade_light_load_se", errors_of(of_facades, F)});
+  writer.write({"facade_light_load",
+                facade_means(scaled(totals[sum_name(Part::total)], kwh_per_joule), geometry)});
+}
+
+void write_ledger_errors(ResultWriter& writer, const Totals& totals) {
+  const auto errors =
+      errors_of(scaled(totals[batch_array::ledger], kwh_per_joule), term_count + 1);
+  for (std::size_t t = 0; t <= term_count; ++t) {
+    const std::string term = t < term_count ? term_names[t] : "residual";
+    writer.write({"power_" + term + "_se", {errors[t]}});
+  }
+}
+
+/// Largest relative difference that the lines' reuse makes, as a share of the
+/// scene's energy: (mean over realizations - pooled) / (R - 1), DESIGN 2.
+double reuse_bias(const Totals& totals, const ResultGeometry& geometry, std::size_t realizations) {
+  const auto& pooled = totals[sum_name(Part::total)];
+  const auto& rows = totals[batch_array::exposure];
+  const std::size_t N = pooled.size();
+  double of_pooled = 0, of_rows = 0;
+  for (std::size_t i = 0; i < N; ++i) {
+    of_pooled += geometry.patch_area[i] * pooled[i];
+    for (std::size_t r = 0; r < realizations; ++r)
+      of_rows += geometry.patch_area[i] * rows[r * N + i] / static_cast<double>(realizations);
+  }
+  if (of_pooled <= 0 || realizations < 2) return 0;
+  return (of_rows - of_pooled) / of_pooled / static_cast<double>(realizations - 1);
+}
+
+ResultTimes result_times(const LightSeries& light) {
+  ResultTimes times;
+  for (const auto& i : light.intervals) {
+    times.time.push_back(i.when.sun_time);
+    times.bounds.push_back({i.when.begin, i.when.end});
+    times.sun_azimuth_deg.push_back(i.when.sun.azimuth_deg);
+    times.sun_elevation_deg.push_back(i.when.sun.elevation_deg);
+    times.sun_direction.push_back(i.when.direction);
+    times.dni.push_back(i.mean.dni);
+    times.dhi.push_back(i.mean.dhi);
+    times.ghi.push_back(i.mean.ghi);
+  }
+  return times;
+}
+
+ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& file,
+                                   const Totals& totals, const ResultGeometry& geometry) {
+  const Study& study = plan.study;
+  const WorkDone work = work_from(totals[batch_array::work]);
+  const auto R = static_cast<std::size_t>(study.solver.realizations);
+  ResultAttributes a;
+  a.text = {{"title", "Light load: " + study.name + ", variant " + study.variant},
+            {"source", std::string("sunload ") + version + " (" + commit + ")"},
+            {"history", iso_utc(now()) + " sunload run " + fs::path(file.path).filename().string()},
+            {"study", study.name},
+            {"variant", study.variant},
+            {"study_sha256", plan.content_hash},
+            {"pairing_id", plan.pairing_id},
+            {"isa", plan.isa},
+            {"timezone", study.site.timezone},
+            {"site_source", plan.built.site_source},
+            {"sun_sampling", std::holds_alternative<InstantsPeriod>(study.period.kind)
+                                 ? "sun at the given instant"
+                                 : "sun at the middle of the sunlit part of the interval"}};
+  a.numbers = {{"latitude_deg", plan.built.site.latitude_deg},
+               {"longitude_deg", plan.built.site.longitude_deg},
+               {"elevation_m", plan.built.site.elevation_m},
+               {"north_deg", plan.built.site.north_deg},
+               {"reuse_bias_share", reuse_bias(totals, geometry, R)},
+               {"runtime_lines_s", work.lines_s},
+               {"runtime_direct_s", work.direct_s},
+               {"runtime_mirror_s", work.mirror_s},
+               {"runtime_solve_s", work.solve_s},
+               {"runtime_realizations_s", work.realizations_s}};
+  a.integers = {{"seed", static_cast<std::int64_t>(study.solver.seed)},
+                {"realizations", study.solver.realizations},
+                {"lines_per_patch", study.solver.lines_per_patch},
+                {"direct_samples", study.solver.direct_samples},
+                {"bounces", static_cast<std::int64_t>(totals[batch_array::bounces][0])},
+                {"numerics_version", numerics_version},
+                {"line_rays", static_cast<std::int64_t>(work.line_rays)},
+                {"direct_rays", static_cast<std::int64_t>(work.direct_rays)},
+                {"mirror_rays", static_cast<std::int64_t>(work.mirror_rays)}};
+  std::string warnings;
+  for (const auto& list : {file.warnings, plan.built.warnings, plan.light.notes})
+    for (const auto& line : list) warnings += line + "\n";
+  if (!warnings.empty()) a.text.emplace_back("warnings", warnings);
+  return a;
+}
+
+/// Series of the batch files that the study does not want in its result.
+std::vector<std::string> unwanted_series(const OutputStudy& output) {
+  std::vector<std::string> unwanted;
+  for (std::size_t p = 0; p < part_count; ++p)
+    if (std::find(output.series.begin(), output.series.end(), part_names[p]) == output.series.end())
+      unwanted.push_back(series_name(static_cast<Part>(p)));
+  return unwanted;
+}
+
+}  // namespace
+
+ResultGeometry result_geometry(const VariantPlan& plan, const Hierarchy& hierarchy) {
+  const Scene& scene = plan.built.scene;
+  const Mesh& mesh = scene.mesh;
+  ResultGeometry g;
+  g.vertices = hierarchy.vertices();
+  for (std::size_t i = 0; i < hierarchy.patch_count(); ++i) {
+    const Patch& patch = hierarchy.patches()[i];
+    const auto t = static_cast<std::size_t>(patch.triangle);
+    g.patch_vertices.push_back(patch.vertices);
+    g.patch_area.push_back(hierarchy.area()[i]);
+    g.patch_centroid.push_back(hierarchy.centroid(i));
+    g.patch_normal.push_back(hierarchy.normal(i));
+    g.patch_object.push_back(mesh.triangle_object[t].value);
+    g.patch_facade.push_back(patch.side == 0 ? mesh.triangle_facade[t].value : -1);
+    g.patch_material.push_back(scene.material[t].value);
+    g.patch_input_triangle.push_back(patch.triangle);
+    g.patch_surface.push_back(static_cast<std::uint8_t>(mesh.triangle_surface[t]));
+    g.patch_side.push_back(patch.side);
+  }
+  g.input_triangle_vertices = mesh.triangles;
+  g.object_name = mesh.object_names;
+  for (const auto& m : scene.materials) g.material_name.push_back(m.name);
+  for (const auto& f : mesh.facades) {
+    g.facade_name.push_back(f.name);
+    g.facade_area.push_back(f.area_m2);
+    g.facade_azimuth_deg.push_back(wrapped_deg(f.azimuth_deg + plan.built.site.north_deg));
+  }
+  g.origin = mesh.origin;
+  return g;
+}
+
+MissingBatches missing_batches(const std::string& folder, const VariantPlan& plan) {
+  MissingBatches missing;
+  for (std::size_t b = 0; b < plan.batches(); ++b) {
+    const auto check = check_batch(batch_path(folder, plan, b), plan.content_hash, b);
+    if (check.valid) continue;
+    missing.numbers.push_back(b);
+    if (check.exists) missing.reasons.push_back(check.reason);
+  }
+  return missing;
+}
+
+void merge_variant(const std::string& folder, const VariantPlan& plan, const StudyFile& file,
+                   const Hierarchy& hierarchy) {
+  const ResultGeometry geometry = result_geometry(plan, hierarchy);
+  ResultWriter::Options options;
+  options.chunk_intervals = plan.batch_suns();
+  options.compression = plan.study.output.compression;
+  options.realizations = static_cast<std::size_t>(plan.study.solver.realizations);
+  options.times_are_synthetic = plan.light.times_are_synthetic;
+  options.left_out = unwanted_series(plan.study.output);
+  ResultWriter writer(result_path(folder, plan.study), geometry, result_times(plan.light), options);
+  Totals totals;
+  for (std::size_t b = 0; b < plan.batches(); ++b) {
+    const BatchReader batch(batch_path(folder, plan, b));
+    writer.append(batch);
+    totals.add(batch);
+  }
+  write_loads(writer, totals, geometry);
+  write_ledger_errors(writer, totals);
+  writer.finish(result_attributes(plan, file, totals, geometry), file.yaml);
+}
+
+void remove_batches(const std::string& folder, const VariantPlan& plan) {
+  std::error_code ignored;
+  for (std::size_t b = 0; b < plan.batches(); ++b) fs::remove(batch_path(folder, plan, b), ignored);
+  fs::remove(work_folder(folder, plan), ignored);
+  fs::remove(fs::path(work_folder(folder, plan)).parent_path(), ignored);
+}
+
+}  // namespace sunload

@@ -1,0 +1,32 @@
+/// Finished batches → result file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/result_file.h"
+#include "io/variant_plan.h"
+
+namespace sunload {
+
+/// Geometry of the result: the frozen mesh with its tables.
+ResultGeometry result_geometry(const VariantPlan& plan, const Hierarchy& hierarchy);
+
+/// Numbers of the batches that are missing or not valid, and why a file that is
+/// there cannot be used.
+struct MissingBatches {
+  std::vector<std::size_t> numbers;
+  std::vector<std::string> reasons;
+};
+MissingBatches missing_batches(const std::string& folder, const VariantPlan& plan);
+
+/// Puts all batches together in batch order: first the sums of every
+/// realization, then means and errors. Memory does not grow with the period.
+/// Throws InputError where a batch is missing or not valid (check first).
+void merge_variant(const std::string& folder, const VariantPlan& plan, const StudyFile& file,
+                   const Hierarchy& hierarchy);
+
+/// Removes a variant's batches, and the work folder if nothing else is in it.
+void remove_batches(const std::string& folder, const VariantPlan& plan);
+
+}  // namespace sunload

@@ -1,0 +1,24 @@
+/// The intervals that a study's period stands for.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geo/sun.h"
+#include "io/study.h"
+
+namespace sunload {
+
+struct PeriodSteps {
+  std::vector<PeriodStep> steps;
+  std::vector<std::string> notes;  ///< hours that the clocks skip or repeat
+};
+
+/// Days and ranges in steps of elapsed time from their civil beginning; a civil
+/// day of 23 or 25 hours has that many. A last step is cut at the end.
+PeriodSteps period_steps(const PeriodStudy& period, const TimeZone& zone);
+
+/// Positions of the sun as intervals one after another from 2000-01-01T12:00Z.
+SunPath positions_path(const PositionsPeriod& period, const Rotation& scene_from_enu);
+
+}  // namespace sunload

@@ -1,0 +1,190 @@
+#include "io/render.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geo/check.h"
+#include "geo/units.h"
+#include "io/h5.h"
+#include "io/render_frame.h"
+#include "io/render_scene.h"
+#include "io/result_schema.h"
+#include "io/result_time.h"
+#include "io/statistics.h"
+#include "io/text.h"
+
+namespace sunload {
+namespace {
+
+constexpr int least_pixels = 320, most_pixels = 16384;
+// A field of view as of a 50 mm lens on 35 mm film shows shapes undistorted;
+// a street seen from within needs a wider one.
+constexpr double overview_field_deg = 27, walker_field_deg = 60;
+// Elevation of the overview: roofs and walls are both well seen.
+constexpr double overview_elevation_deg = 35;
+// The afternoon side of the sun's side: 45° west of it.
+constexpr double overview_west_deg = 45;
+// The scale ends above this share of the area, so that a few glints do not
+// darken everything else; what lies above is clamped and marked.
+constexpr double scale_share = 0.995;
+
+InputError unknown_quantity(const ResultReader& result, const std::string& quantity) {
+  std::string known;
+  for (const auto& variable : result_schema())
+    if ((variable.dims == "patch" || variable.dims == "time,patch") && !variable.units.empty() &&
+        result.has(std::string(variable.name)))
+      known += (known.empty() ? "" : ", ") + std::string(variable.name);
+  return {{result.path()}, "no quantity " + quantity + " per patch", "", "choose one of " + known};
+}
+
+/// What is drawn: values and how to name them.
+struct Shown {
+  std::vector<double> values;
+  std::string name, units, when;
+  std::optional<std::size_t> interval;
+};
+
+std::string whole_period(const ResultReader& result) {
+  const auto bounds = result.doubles("time_bounds");
+  const auto zone = result_zone(result);
+  return fmt::format("{} … {}", iso_local(bounds.front(), zone), iso_local(bounds.back(), zone));
+}
+
+Shown shown(const ResultReader& result, const RenderRules& rules) {
+  if (!result.has(rules.quantity)) throw unknown_quantity(result, rules.quantity);
+  const auto* variable = find_result_variable(rules.quantity);
+  const auto shape = result.shape(rules.quantity);
+  const auto patches = result.shape("patch_area").front();
+  const bool is_series = variable && variable->dims == "time,patch";
+  if (shape.empty() || shape.back() != patches || !variable ||
+      (!is_series && variable->dims != "patch") || variable->units.empty())
+    throw unknown_quantity(result, rules.quantity);
+  Shown s{{}, rules.quantity, display_units(result.units(rules.quantity)), {}, {}};
+  std::replace(s.name.begin(), s.name.end(), '_', ' ');
+  const auto interval =
+      rules.time.empty() ? brightest_interval(result) : interval_at(result, rules.time);
+  s.interval = interval;
+  s.values = is_series ? result.row(rules.quantity, interval) : result.doubles(rules.quantity);
+  s.when = is_series ? "sun of " + interval_in_words(result, interval) : whole_period(result);
+  return s;
+}
+
+/// Azimuth, clockwise from true north, of the scene's +y axis: the turn between
+/// the sun's azimuth and its direction in the scene, at the lowest sun.
+double scene_north_deg(const ResultReader& result) {
+  const auto direction = result.doubles("sun_direction"), azimuth = result.doubles("sun_azimuth");
+  std::size_t lowest = 0;
+  for (std::size_t i = 0; i < azimuth.size(); ++i)
+    if (std::abs(direction[3 * i + 2]) < std::abs(direction[3 * lowest + 2])) lowest = i;
+  const Vec3 sun{direction.at(3 * lowest), direction.at(3 * lowest + 1), 0};
+  return norm(sun) == 0 ? 0 : azimuth[lowest] - horizontal(sun).azimuth_deg;
+}
+
+/// Unit vector of the scene towards a compass direction.
+Vec3 scene_direction(Horizontal compass, double north_deg) {
+  return enu_direction({compass.azimuth_deg - north_deg, compass.elevation_deg});
+}
+
+Vec3 overview_direction(const ResultReader& result, double north_deg) {
+  const auto azimuth = result.doubles("sun_azimuth"), ghi = result.doubles("ghi");
+  double northward = 0;
+  for (std::size_t i = 0; i < azimuth.size(); ++i)
+    northward += ghi[i] * std::cos(radians(azimuth[i]));
+  constexpr double north_deg_of_compass = 0, south_deg_of_compass = 180;
+  const double azimuth_deg = northward > 0 ? north_deg_of_compass - overview_west_deg
+                                           : south_deg_of_compass + overview_west_deg;
+  return scene_direction({azimuth_deg, overview_elevation_deg}, north_deg);
+}
+
+Vec3 origin_of(const ResultReader& result) {
+  const auto origin = h5::File::open(result.path()).numbers("origin");
+  return origin && origin->size() == 3 ? Vec3{(*origin)[0], (*origin)[1], (*origin)[2]} : Vec3{};
+}
+
+Camera free_camera(const ResultReader& result, const RenderRules& rules, PictureArea area) {
+  if (!rules.eye || !rules.look)
+    throw InputError({}, "a free camera needs both --eye and --look", "one is missing");
+  const Vec3 origin = origin_of(result);
+  const Vec3 eye = *rules.eye - origin, look = *rules.look - origin;
+  if (!(norm(eye - look) > 0))
+    throw InputError({}, "--eye and --look are the same point", "there is no direction to look in");
+  return Camera::perspective(eye, look, walker_field_deg, area.width, area.height);
+}
+
+Camera sun_camera(const ResultReader& result, const PatchScene& scene, std::size_t interval,
+                  PictureArea area) {
+  const auto sun = result.row("sun_direction", interval);
+  if (sun.at(2) <= 0)
+    throw InputError({}, "the sun is below the horizon", interval_in_words(result, interval),
+                     "choose another --time");
+  return Camera::parallel(scene.focus_points(), {sun[0], sun[1], sun[2]}, {0, 0, 1}, area.width,
+                          area.height);
+}
+
+Camera chosen_camera(const ResultReader& result, const RenderRules& rules, const PatchScene& scene,
+                     const Shown& what, double north_deg, PictureArea area) {
+  if (rules.eye || rules.look) return free_camera(result, rules, area);
+  switch (rules.view) {
+    case View::sun:
+      return sun_camera(result, scene, *what.interval, area);
+    case View::top:
+      return Camera::parallel(scene.focus_points(), {0, 0, 1}, scene_direction({0, 0}, north_deg),
+                              area.width, area.height);
+    case View::overview:
+      break;
+  }
+  return Camera::fitted(scene.focus_points(), overview_direction(result, north_deg),
+                        overview_field_deg, area.width, area.height);
+}
+
+double scale_end(const RenderRules& rules, const Shown& what, const PatchScene& scene) {
+  if (rules.largest) {
+    if (!(*rules.largest > 0) || !std::isfinite(*rules.largest))
+      throw InputError({}, fmt::format("--max {}", *rules.largest), "must be above 0");
+    return *rules.largest;
+  }
+  const double largest = weighted_quantile(what.values, scene.area(), scale_share);
+  return largest > 0 ? rounded_up(largest) : 1;
+}
+
+void expect_possible_size(const RenderRules& rules) {
+  for (const int pixels : {rules.width, rules.height})
+    if (pixels < least_pixels || pixels > most_pixels)
+      throw InputError(
+          {}, fmt::format("--size {}x{}", rules.width, rules.height),
+          fmt::format("width and height must lie in [{}, {}]", least_pixels, most_pixels));
+}
+
+std::string title(const ResultReader& result) {
+  const auto study = result.text_attribute("study");
+  return fmt::format("{} — {}", study.empty() ? result.text_attribute("title") : study,
+                     result.text_attribute("variant"));
+}
+
+}  // namespace
+
+void render_png(const ResultReader& result, const RenderRules& rules, const std::string& path) {
+  expect_possible_size(rules);
+  const Shown what = shown(result, rules);
+  const PatchScene scene(result);
+  const double north_deg = scene_north_deg(result);
+  Picture picture(rules.width, rules.height);
+  const PictureArea area = scene_area(picture);
+  const Camera camera = chosen_camera(result, rules, scene, what, north_deg, area);
+  const PatchColours colours{what.values, scale_end(rules, what, scene), rules.palette, rules.mesh};
+
+  const RayCaster caster(scene.mesh());
+  picture.paint(area.x, area.y, area.width,
+                drawn_pixels(scene, caster, camera, area.width, area.height, colours));
+  draw_title(picture, title(result), what.name + ", " + what.when);
+  const bool is_exceeded = std::any_of(what.values.begin(), what.values.end(),
+                                       [&](double value) { return value > colours.largest; });
+  draw_legend(picture, {what.units, colours.largest, rules.palette,
+                        is_exceeded ? Legend::Above::marked : Legend::Above::nothing});
+  draw_north(picture, camera.image_direction(scene_direction({0, 0}, north_deg)));
+  picture.save(path);
+}
+
+}  // namespace sunload

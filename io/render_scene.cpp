@@ -1,0 +1,256 @@
+#include "io/render_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geo/check.h"
+#include "geo/units.h"
+#include "solver/parallel.h"
+
+namespace sunload {
+namespace {
+
+constexpr int samples = 2;  ///< per pixel and axis
+// Two faces of a wall that turn by more are a fold that gets a line; the facets
+// of a round tower of 18 sides and more get none.
+constexpr double fold_deg = 20;
+// Parallel faces further apart than this, as in a window's reveal, get a line [m].
+constexpr double step_m = 0.05;
+// How much of the contrast a line takes; patch lines are fainter than borders.
+constexpr double border_strength = 0.75, mesh_strength = 0.35;
+// Half width of a patch line in pixels, and the height of a triangle in pixels
+// below which its lines fade so that they do not cover the colour.
+constexpr double mesh_half_width = 0.5, mesh_fade_pixels = 6;
+// Lines are dark on colours above this luminance and light below it: 18 % is
+// the grey halfway between black and white for the eye (L* = 50).
+constexpr double middle_luminance = 0.184;
+constexpr double dark_line = 0.01, light_line = 0.55;
+constexpr std::size_t palette_steps = 1024;
+
+std::vector<Vec3> vectors(const std::vector<double>& flat) {
+  std::vector<Vec3> points(flat.size() / 3);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] = {flat[3 * i], flat[3 * i + 1], flat[3 * i + 2]};
+  return points;
+}
+
+/// One ray: the triangle it met, from which side, and how much of a patch line.
+struct Sample {
+  std::int32_t triangle = -1;
+  bool front = true;
+  float mesh_line = 0;
+};
+
+Colour linear(Colour c) {
+  return {linear_from_srgb(c.red), linear_from_srgb(c.green), linear_from_srgb(c.blue)};
+}
+
+Colour blended(Colour a, Colour b, double share) {
+  const auto mix = [&](double x, double y) { return x + share * (y - x); };
+  return {mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue)};
+}
+
+/// A line over a colour (linear light), dark or light, whichever shows.
+Colour lined(Colour c, double strength) {
+  // Luminance of linear sRGB (IEC 61966-2-1).
+  const double luminance = 0.2126 * c.red + 0.7152 * c.green + 0.0722 * c.blue;
+  const double line = luminance > middle_luminance ? dark_line : light_line;
+  return blended(c, {line, line, line}, strength);
+}
+
+/// Casts the rays of the picture and colours them.
+class Drawing {
+ public:
+  Drawing(const PatchScene& scene, const RayCaster& caster, const Camera& camera, int width,
+          int height, const PatchColours& colours)
+      : scene_(scene),
+        caster_(caster),
+        camera_(camera),
+        colours_(colours),
+        width_(width),
+        height_(height),
+        columns_(static_cast<std::size_t>(width) * samples),
+        rows_(static_cast<std::size_t>(height) * samples),
+        samples_(columns_ * rows_) {
+    for (std::size_t k = 0; k < palette_steps; ++k)
+      palette_.push_back(linear(map_colour(
+          colours.palette, static_cast<double>(k) / static_cast<double>(palette_steps - 1))));
+    parallel_for(rows_, [&](std::size_t row) { trace_row(row); });
+  }
+
+  std::vector<Colour> pixels() const {
+    std::vector<Colour> result(static_cast<std::size_t>(width_) *
+                               static_cast<std::size_t>(height_));
+    parallel_for(static_cast<std::size_t>(height_), [&](std::size_t y) {
+      for (std::size_t x = 0; x < static_cast<std::size_t>(width_); ++x)
+        result[y * static_cast<std::size_t>(width_) + x] = pixel(x, y);
+    });
+    return result;
+  }
+
+ private:
+  void trace_row(std::size_t row) {
+    for (std::size_t first = 0; first < columns_; first += packet_size) {
+      const std::size_t count = std::min(packet_size, columns_ - first);
+      Packet origins{};
+      PacketDirections directions{};
+      std::array<CameraRay, packet_size> rays;
+      for (std::size_t k = 0; k < count; ++k) {
+        rays[k] = camera_.ray((static_cast<double>(first + k) + 0.5) / samples,
+                              (static_cast<double>(row) + 0.5) / samples);
+        origins.x[k] = static_cast<float>(rays[k].origin.x);
+        origins.y[k] = static_cast<float>(rays[k].origin.y);
+        origins.z[k] = static_cast<float>(rays[k].origin.z);
+        directions.x[k] = static_cast<float>(rays[k].direction.x);
+        directions.y[k] = static_cast<float>(rays[k].direction.y);
+        directions.z[k] = static_cast<float>(rays[k].direction.z);
+      }
+      const auto hits = caster_.first_hits(origins, directions, (1u << count) - 1u);
+      for (std::size_t k = 0; k < count; ++k) {
+        auto& sample = samples_[row * columns_ + first + k];
+        sample.triangle = hits.triangle[k];
+        sample.front = hits.front[k];
+        if (sample.triangle >= 0 && colours_.mesh == MeshLines::patches)
+          sample.mesh_line = static_cast<float>(mesh_line(static_cast<std::size_t>(sample.triangle),
+                                                          static_cast<double>(hits.u[k]),
+                                                          static_cast<double>(hits.v[k]), rays[k]));
+      }
+    }
+  }
+
+  /// Strength of the nearest edge's line at barycentric weights (u, v).
+  double mesh_line(std::size_t triangle, double u, double v, const CameraRay& ray) const {
+    const auto& mesh = scene_.mesh();
+    const Vec3 a = mesh.corner(triangle, 0), b = mesh.corner(triangle, 1),
+               c = mesh.corner(triangle, 2);
+    const Vec3 point = a * (1 - u - v) + b * u + c * v;
+    const double pixel = camera_.pixel_size(dot(point - ray.origin, ray.direction));
+    const double twice_area = norm(mesh.area_vector2(triangle));
+    // Foreshortened surfaces show their heights shortened by about the cosine.
+    const double cosine = std::abs(dot(mesh.area_vector2(triangle), ray.direction)) / twice_area;
+    double nearest = 1e300, least_height = 1e300;
+    for (const auto& [weight, from, to] :
+         {std::tuple{1 - u - v, b, c}, std::tuple{u, c, a}, std::tuple{v, a, b}}) {
+      const double height = twice_area / norm(to - from) * cosine / pixel;
+      nearest = std::min(nearest, weight * height);
+      least_height = std::min(least_height, height);
+    }
+    if (nearest > mesh_half_width) return 0;
+    return mesh_strength * std::min(1.0, least_height / mesh_fade_pixels);
+  }
+
+  Colour surface_colour(const Sample& sample) const {
+    if (sample.triangle < 0) return sky_;
+    const auto patch = scene_.patch_met(sample.triangle, sample.front);
+    const double value =
+        patch < 0 ? std::nan("") : colours_.values[static_cast<std::size_t>(patch)];
+    if (std::isnan(value)) return back_;
+    const double share = std::clamp(value / colours_.largest, 0.0, 1.0);
+    return palette_[static_cast<std::size_t>(
+        std::lround(share * static_cast<double>(palette_steps - 1)))];
+  }
+
+  bool is_border(std::size_t column, std::size_t row) const {
+    const auto triangle = samples_[row * columns_ + column].triangle;
+    if (triangle < 0) return false;  // lines belong to surfaces, not to the sky
+    const auto differs = [&](std::size_t other_column, std::size_t other_row) {
+      const auto other = samples_[other_row * columns_ + other_column].triangle;
+      return other != triangle && (other < 0 || scene_.is_border(triangle, other));
+    };
+    return (column > 0 && differs(column - 1, row)) ||
+           (column + 1 < columns_ && differs(column + 1, row)) ||
+           (row > 0 && differs(column, row - 1)) || (row + 1 < rows_ && differs(column, row + 1));
+  }
+
+  /// Mean of the samples in linear light, as the eye would blur them.
+  Colour pixel(std::size_t x, std::size_t y) const {
+    Colour sum;
+    for (std::size_t row = y * samples; row < (y + 1) * samples; ++row) {
+      for (std::size_t column = x * samples; column < (x + 1) * samples; ++column) {
+        const auto& sample = samples_[row * columns_ + column];
+        auto c = surface_colour(sample);
+        if (is_border(column, row))
+          c = lined(c, border_strength);
+        else if (sample.mesh_line > 0)
+          c = lined(c, static_cast<double>(sample.mesh_line));
+        sum = {sum.red + c.red, sum.green + c.green, sum.blue + c.blue};
+      }
+    }
+    constexpr double share = 1.0 / (samples * samples);
+    return {srgb_from_linear(sum.red * share), srgb_from_linear(sum.green * share),
+            srgb_from_linear(sum.blue * share)};
+  }
+
+  const PatchScene& scene_;
+  const RayCaster& caster_;
+  const Camera& camera_;
+  const PatchColours& colours_;
+  int width_, height_;
+  std::size_t columns_, rows_;
+  std::vector<Sample> samples_;
+  std::vector<Colour> palette_;  ///< linear light
+  Colour sky_ = linear(sky_colour), back_ = linear(back_colour);
+};
+
+}  // namespace
+
+PatchScene::PatchScene(const ResultReader& result)
+    : material_(result.integers("patch_material")),
+      surface_(result.integers("patch_surface")),
+      area_(result.doubles("patch_area")),
+      normal_(vectors(result.doubles("patch_normal"))),
+      centroid_(vectors(result.doubles("patch_centroid"))) {
+  mesh_.vertices = vectors(result.doubles("vertex_position"));
+  const auto corners = result.integers("patch_vertices");
+  const auto side = result.integers("patch_side"), object = result.integers("patch_object");
+  for (std::size_t i = 0; i < area_.size(); ++i) {
+    const auto patch = static_cast<std::int32_t>(i);
+    // The back of a two-sided patch follows its front and lies in its plane.
+    if (side[i] == 1 && !back_.empty() && front_.back() == patch - 1) {
+      back_.back() = patch;
+      continue;
+    }
+    mesh_.triangles.push_back({corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]});
+    mesh_.triangle_object.push_back({object[i]});
+    front_.push_back(patch);
+    back_.push_back(-1);
+  }
+}
+
+std::int32_t PatchScene::patch_met(std::int32_t triangle, bool front) const {
+  return (front ? front_ : back_)[static_cast<std::size_t>(triangle)];
+}
+
+std::vector<Vec3> PatchScene::focus_points() const {
+  const auto ground = static_cast<std::int32_t>(Surface::ground);
+  std::vector<char> is_used(mesh_.vertices.size(), 0);
+  for (std::size_t t = 0; t < mesh_.triangle_count(); ++t)
+    if (surface_[static_cast<std::size_t>(front_[t])] != ground)
+      for (const auto vertex : mesh_.triangles[t]) is_used[static_cast<std::size_t>(vertex)] = 1;
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < is_used.size(); ++i)
+    if (is_used[i]) points.push_back(mesh_.vertices[i]);
+  return points.empty() ? mesh_.vertices : points;
+}
+
+bool PatchScene::is_border(std::int32_t triangle, std::int32_t other) const {
+  const auto t = static_cast<std::size_t>(triangle), o = static_cast<std::size_t>(other);
+  if (mesh_.triangle_object[t] != mesh_.triangle_object[o]) return true;
+  const auto p = static_cast<std::size_t>(front_[t]), q = static_cast<std::size_t>(front_[o]);
+  if (material_[p] != material_[q] || surface_[p] != surface_[q]) return true;
+  static const double fold_cosine = std::cos(radians(fold_deg));
+  if (dot(normal_[p], normal_[q]) < fold_cosine) return true;
+  // Coplanar faces may lie far apart across a bend: only parallel ones can be a step.
+  constexpr double parallel_cosine = 1 - 1e-6;
+  return dot(normal_[p], normal_[q]) > parallel_cosine &&
+         std::abs(dot(centroid_[p] - centroid_[q], normal_[p])) > step_m;
+}
+
+std::vector<Colour> drawn_pixels(const PatchScene& scene, const RayCaster& caster,
+                                 const Camera& camera, int width, int height,
+                                 const PatchColours& colours) {
+  SUNLOAD_EXPECT(colours.values.size() == scene.patch_count(), "one value per patch");
+  return Drawing(scene, caster, camera, width, height, colours).pixels();
+}
+
+}  // namespace sunload

@@ -1,0 +1,116 @@
+#include <filesystem>
+#include <limits>
+#include <new>
+
+#include "geo/check.h"
+#include "io/h5.h"
+#include "io/result_file.h"
+#include "io/result_schema.h"
+#include "io/result_seal.h"
+
+namespace sunload {
+
+struct ResultReader::File {
+  std::string path;
+  h5::File file;
+
+  [[noreturn]] void refuse(const std::string& what, const std::string& why) const {
+    throw InputError({path}, what, why);
+  }
+
+  /// Does something with a dataset; every error names file and dataset.
+  template <class Action>
+  auto with(const std::string& dataset, const Action& action) const {
+    try {
+      if (!file.has(dataset)) refuse("there is no dataset " + dataset, "");
+      return action(file.dataset(dataset));
+    } catch (const h5::Error& error) {
+      refuse("dataset " + dataset + " cannot be read", error.what());
+    } catch (const std::bad_alloc&) {
+      refuse("dataset " + dataset + " cannot be read", "it does not fit into memory");
+    }
+  }
+};
+
+namespace {
+
+h5::File opened(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) throw InputError({path}, "there is no such file");
+  try {
+    h5::File file = h5::File::open(path);
+    const std::string problem = seal_problem(path, file);
+    if (!problem.empty()) throw InputError({path}, "is damaged", problem, "run the study again");
+    const auto format = file.text("sunload_format");
+    if (!format) throw InputError({path}, "is not a result of sunload", "no sunload_format");
+    if (*format != result_format) {
+      throw InputError({path}, "has the format " + *format,
+                       "this program reads " + std::string(result_format));
+    }
+    return file;
+  } catch (const h5::Error& problem) {
+    throw InputError({path}, "is not a readable HDF5 file", problem.what());
+  }
+}
+
+}  // namespace
+
+ResultReader::ResultReader(const std::string& path)
+    : file_(std::make_unique<File>(File{path, opened(path)})) {}
+
+ResultReader::~ResultReader() = default;
+
+const std::string& ResultReader::path() const { return file_->path; }
+
+bool ResultReader::has(const std::string& dataset) const {
+  try {
+    return file_->file.has(dataset);
+  } catch (const h5::Error& error) {
+    file_->refuse("cannot be read", error.what());
+  }
+}
+
+std::vector<std::size_t> ResultReader::shape(const std::string& dataset) const {
+  return file_->with(dataset, [](const h5::Dataset& data) { return data.shape(); });
+}
+
+std::vector<double> ResultReader::doubles(const std::string& dataset) const {
+  return file_->with(dataset, [](const h5::Dataset& data) { return data.doubles(); });
+}
+
+std::vector<std::int32_t> ResultReader::integers(const std::string& dataset) const {
+  return file_->with(dataset, [](const h5::Dataset& data) { return data.integers(); });
+}
+
+std::vector<std::string> ResultReader::strings(const std::string& dataset) const {
+  return file_->with(dataset, [](const h5::Dataset& data) { return data.strings(); });
+}
+
+std::vector<double> ResultReader::row(const std::string& dataset, std::size_t time) const {
+  return file_->with(dataset, [&](const h5::Dataset& data) { return data.row(time); });
+}
+
+std::string ResultReader::units(const std::string& dataset) const {
+  return file_->with(dataset,
+                     [](const h5::Dataset& data) { return data.text("units").value_or(""); });
+}
+
+std::string ResultReader::text_attribute(const std::string& name) const {
+  try {
+    return file_->file.text(name).value_or("");
+  } catch (const h5::Error& error) {
+    file_->refuse("attribute " + name + " cannot be read", error.what());
+  }
+}
+
+double ResultReader::number_attribute(const std::string& name) const {
+  try {
+    const auto values = file_->file.numbers(name);
+    return values && values->size() == 1 ? values->front()
+                                         : std::numeric_limits<double>::quiet_NaN();
+  } catch (const h5::Error& error) {
+    file_->refuse("attribute " + name + " cannot be read", error.what());
+  }
+}
+
+}  // namespace sunload

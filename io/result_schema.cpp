@@ -1,0 +1,129 @@
+#include "io/result_schema.h"
+
+#include <algorithm>
+#include <array>
+
+namespace sunload {
+namespace {
+
+using h5::Type;
+using enum ResultPart;
+
+constexpr std::string_view w_m2 = "W m-2", kwh_m2 = "kWh m-2", interval_mean = "time: mean";
+constexpr std::string_view facade_mean = "time: mean area: mean";
+
+constexpr auto float32 = Type::float32;
+constexpr auto float64 = Type::float64;
+constexpr auto int32 = Type::int32;
+constexpr auto flags = Type::int8;
+constexpr auto text = Type::text;
+
+// clang-format off
+constexpr std::array table{
+    // Times and sun: one row per interval.
+    ResultVariable{"time", "time", float64, time_units, coordinate, "instant of the sun that stands for the interval", "time"},
+    ResultVariable{"time_bounds", "time,bounds", float64, time_units, coordinate, "begin and end of the interval"},
+    ResultVariable{"sun_azimuth", "time", float64, "degree", sun, "azimuth of the sun, clockwise from true north", "solar_azimuth_angle", "time: point"},
+    ResultVariable{"sun_elevation", "time", float64, "degree", sun, "apparent elevation of the sun above the horizon", "solar_elevation_angle", "time: point"},
+    ResultVariable{"sun_direction", "time,xyz", float64, "1", sun, "unit vector to the sun in the scene frame", "", "time: point"},
+    ResultVariable{"dni", "time", float64, w_m2, sun, "direct normal irradiance", "surface_direct_along_beam_shortwave_flux_in_air", interval_mean},
+    ResultVariable{"dhi", "time", float64, w_m2, sun, "diffuse horizontal irradiance", "surface_diffuse_downwelling_shortwave_flux_in_air", interval_mean},
+    ResultVariable{"ghi", "time", float64, w_m2, sun, "global horizontal irradiance", "surface_downwelling_shortwave_flux_in_air", interval_mean},
+
+    // Mesh: patches are the leaves of the frozen hierarchy.
+    ResultVariable{"vertex_position", "vertex,xyz", float64, "m", coordinate, "position in the scene frame, relative to the attribute origin"},
+    ResultVariable{"vertex_x", "vertex", float64, "m", coordinate, "x of vertex_position, as UGRID wants node coordinates"},
+    ResultVariable{"vertex_y", "vertex", float64, "m", coordinate, "y of vertex_position"},
+    ResultVariable{"vertex_z", "vertex", float64, "m", coordinate, "z of vertex_position"},
+    ResultVariable{"mesh", "", int32, "", geometry, "topology of the patches"},
+    ResultVariable{"patch_vertices", "patch,corner", int32, "", geometry, "vertices of the patch, counter-clockwise seen from its front"},
+    ResultVariable{"patch_area", "patch", float64, "m2", geometry, "area"},
+    ResultVariable{"patch_centroid", "patch,xyz", float64, "m", geometry, "centroid in the scene frame"},
+    ResultVariable{"patch_normal", "patch,xyz", float64, "1", geometry, "unit normal of the side that the values belong to"},
+    ResultVariable{"patch_object", "patch", int32, "", geometry, "index into object_name"},
+    ResultVariable{"patch_facade", "patch", int32, "", geometry, "index into facade_name, -1: none"},
+    ResultVariable{"patch_material", "patch", int32, "", geometry, "index into material_name, -1: none"},
+    ResultVariable{"patch_surface", "patch", flags, "", geometry, "kind of surface"},
+    ResultVariable{"patch_side", "patch", flags, "", geometry, "side of a two-sided surface"},
+    ResultVariable{"patch_input_triangle", "patch", int32, "", geometry, "index of the input triangle that the patch is part of"},
+    ResultVariable{"input_triangle_vertices", "input_triangle,corner", int32, "", geometry, "vertices of the triangle before refinement"},
+    ResultVariable{"object_name", "object", text, "", geometry, "name of the object"},
+    ResultVariable{"facade_name", "facade", text, "", geometry, "name of the facade"},
+    ResultVariable{"material_name", "material", text, "", geometry, "name of the material"},
+    ResultVariable{"facade_area", "facade", float64, "m2", geometry, "area"},
+    ResultVariable{"facade_azimuth", "facade", float64, "degree", geometry, "azimuth of the outward normal, clockwise from true north"},
+
+    // Series: what falls on a patch, mean over the interval.
+    ResultVariable{"irradiance", "time,patch", float32, w_m2, series, "incident irradiance, all light", "", interval_mean},
+    ResultVariable{"irradiance_direct", "time,patch", float32, w_m2, series, "irradiance straight from the sun", "", interval_mean},
+    ResultVariable{"irradiance_sky", "time,patch", float32, w_m2, series, "irradiance straight from the sky", "", interval_mean},
+    ResultVariable{"irradiance_mirror", "time,patch", float32, w_m2, series, "irradiance from sun and sky by way of mirrors only", "", interval_mean},
+    ResultVariable{"irradiance_lamps", "time,patch", float32, w_m2, series, "irradiance from emitters and parallel sources, straight or by mirrors", "", interval_mean},
+    ResultVariable{"irradiance_reflected", "time,patch", float32, w_m2, series, "irradiance after a diffuse reflection, and from the far ground", "", interval_mean},
+    ResultVariable{"irradiance_se", "time,patch", float32, w_m2, series, "standard error of irradiance", "", interval_mean},
+    ResultVariable{"facade_irradiance", "time,facade", float32, w_m2, series, "incident irradiance, mean over the facade", "", facade_mean},
+
+    // Totals of the whole period.
+    ResultVariable{"light_load", "patch", float64, kwh_m2, total, "incident energy per area over the period"},
+    ResultVariable{"light_load_direct", "patch", float64, kwh_m2, total, "light load straight from the sun"},
+    ResultVariable{"light_load_sky", "patch", float64, kwh_m2, total, "light load straight from the sky"},
+    ResultVariable{"light_load_mirror", "patch", float64, kwh_m2, total, "light load from sun and sky by way of mirrors only"},
+    ResultVariable{"light_load_lamps", "patch", float64, kwh_m2, total, "light load from emitters and parallel sources"},
+    ResultVariable{"light_load_reflected", "patch", float64, kwh_m2, total, "light load after a diffuse reflection, and from the far ground"},
+    ResultVariable{"light_load_se", "patch", float64, kwh_m2, total, "standard error of light_load"},
+    ResultVariable{"light_load_realization", "realization,patch", float64, kwh_m2, total, "light load of each realization"},
+    ResultVariable{"sun_hours", "patch", float64, "h", total, "time in the sun, regardless of weather"},
+    ResultVariable{"irradiance_max", "patch", float64, w_m2, total, "largest irradiance of the series", "", "time: maximum"},
+    ResultVariable{"sky_view_factor", "patch", float64, "1", total, "cosine-weighted share of the hemisphere that is sky"},
+    ResultVariable{"power_load", "patch", float64, kwh_m2, total, "outgoing diffuse energy per area: reflected and emitted"},
+    ResultVariable{"facade_light_load", "facade", float64, kwh_m2, total, "light load, mean over the facade", "", "area: mean"},
+    ResultVariable{"facade_light_load_se", "facade", float64, kwh_m2, total, "standard error of facade_light_load"},
+    ResultVariable{"facade_light_load_realization", "realization,facade", float64, kwh_m2, total, "light load of the facade in each realization", "", "area: mean"},
+
+    // Energy ledger.
+    ResultVariable{"power_sun", "time", float64, "W", ledger, "sun's power that meets fronts for the first time", "", interval_mean},
+    ResultVariable{"power_sky", "time", float64, "W", ledger, "sky's power that meets fronts for the first time", "", interval_mean},
+    ResultVariable{"power_ground", "time", float64, "W", ledger, "far ground's power that meets fronts for the first time", "", interval_mean},
+    ResultVariable{"power_emitted", "time", float64, "W", ledger, "power of emitters and lamps", "", interval_mean},
+    ResultVariable{"power_absorbed", "time", float64, "W", ledger, "power absorbed", "", interval_mean},
+    ResultVariable{"power_transmitted", "time", float64, "W", ledger, "power that leaves through panes", "", interval_mean},
+    ResultVariable{"power_escaped", "time", float64, "W", ledger, "power that leaves the scene", "", interval_mean},
+    ResultVariable{"power_unshot", "time", float64, "W", ledger, "power not followed further", "", interval_mean},
+    ResultVariable{"power_residual", "time", float64, "W", ledger, "power in minus power out", "", interval_mean},
+    ResultVariable{"power_sun_se", "", float64, "kWh", ledger, "standard error of the time sum of power_sun"},
+    ResultVariable{"power_sky_se", "", float64, "kWh", ledger, "standard error of the time sum of power_sky"},
+    ResultVariable{"power_ground_se", "", float64, "kWh", ledger, "standard error of the time sum of power_ground"},
+    ResultVariable{"power_emitted_se", "", float64, "kWh", ledger, "standard error of the time sum of power_emitted"},
+    ResultVariable{"power_absorbed_se", "", float64, "kWh", ledger, "standard error of the time sum of power_absorbed"},
+    ResultVariable{"power_transmitted_se", "", float64, "kWh", ledger, "standard error of the time sum of power_transmitted"},
+    ResultVariable{"power_escaped_se", "", float64, "kWh", ledger, "standard error of the time sum of power_escaped"},
+    ResultVariable{"power_unshot_se", "", float64, "kWh", ledger, "standard error of the time sum of power_unshot"},
+    ResultVariable{"power_residual_se", "", float64, "kWh", ledger, "standard error of the time sum of power_residual"},
+
+    ResultVariable{"study_yaml", "", text, "", study, "the study, verbatim"},
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const ResultVariable> result_schema() { return table; }
+
+const ResultVariable* find_result_variable(std::string_view name) {
+  for (const auto& variable : table) {
+    if (variable.name == name) return &variable;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> dimension_names(const ResultVariable& variable) {
+  std::vector<std::string> names;
+  std::string_view rest = variable.dims;
+  while (!rest.empty()) {
+    const auto end = std::min(rest.find(','), rest.size());
+    names.emplace_back(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return names;
+}
+
+}  // namespace sunload

@@ -1,0 +1,46 @@
+/// The table of all datasets of a result file, top-down (docs/result-file.md).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/h5.h"
+
+namespace sunload {
+
+/// Who fills a dataset, and with that what it may lack.
+enum class ResultPart : std::uint8_t {
+  coordinate,  ///< of times and vertices: complete, no _FillValue
+  geometry,    ///< patches, facades and their names
+  sun,         ///< one row per interval, complete
+  series,      ///< rows come with the batches; float32, chunked
+  ledger,      ///< power terms: rows come with the batches
+  total,       ///< after the last batch
+  study
+};
+
+struct ResultVariable {
+  std::string_view name;
+  std::string_view dims;  ///< names with commas; empty: a scalar
+  h5::Type type = h5::Type::float64;
+  std::string_view units;  ///< UDUNITS; empty: text, indices and flags
+  ResultPart part = ResultPart::geometry;
+  std::string_view long_name;
+  std::string_view standard_name = {};  ///< only where CF has the very quantity
+  std::string_view cell_methods = {};   ///< how it stands for its interval (CF 7.3)
+};
+
+std::span<const ResultVariable> result_schema();
+/// Null where the schema has no such dataset.
+const ResultVariable* find_result_variable(std::string_view name);
+/// "time,patch" → {"time", "patch"}.
+std::vector<std::string> dimension_names(const ResultVariable& variable);
+
+inline constexpr std::string_view result_format = "sunload-result-1";
+inline constexpr std::string_view result_conventions = "CF-1.10 UGRID-1.0";
+inline constexpr std::string_view time_units = "seconds since 1970-01-01T00:00:00Z";
+
+}  // namespace sunload

@@ -1,0 +1,80 @@
+#include "io/result_seal.h"
+
+#include <libdeflate.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "io/file_aside.h"
+
+namespace sunload {
+namespace {
+
+constexpr std::array<char, 8> magic{'S', 'L', 'S', 'E', 'A', 'L', '1', '\n'};
+constexpr std::size_t read_bytes = 1 << 20;  // per read
+
+struct Seal {
+  std::array<char, 8> magic_bytes = magic;
+  Extent series;
+  std::uint64_t file_bytes = 0;
+  std::uint32_t crc = 0, zero = 0;
+};
+static_assert(sizeof(Seal) == 40 && offsetof(Seal, crc) == 32, "file layout");
+
+/// CRC-32 goes on over [begin, end).
+std::uint32_t crc_of(std::ifstream& data, Extent extent, std::uint32_t crc) {
+  std::vector<char> part(read_bytes);
+  data.seekg(static_cast<std::streamoff>(extent.begin));
+  while (extent.begin < extent.end) {
+    const auto count =
+        static_cast<std::size_t>(std::min<std::uint64_t>(extent.end - extent.begin, part.size()));
+    if (!data.read(part.data(), static_cast<std::streamsize>(count))) {
+      throw h5::Error("reading failed");
+    }
+    crc = libdeflate_crc32(crc, part.data(), count);
+    extent.begin += count;
+  }
+  return crc;
+}
+
+std::uint32_t crc_of(const std::string& path, const Seal& seal) {
+  std::ifstream data(path, std::ios::binary);
+  const std::uint32_t crc = libdeflate_crc32(0, &seal, offsetof(Seal, crc));
+  const std::uint32_t before = crc_of(data, {0, seal.series.begin}, crc);
+  return crc_of(data, {seal.series.end, seal.file_bytes}, before);
+}
+
+}  // namespace
+
+void seal_result(const std::string& path, Extent series) {
+  Seal seal;
+  seal.series = series;
+  seal.file_bytes = h5::File::open(path).end();
+  seal.crc = crc_of(path, seal);
+  errno = 0;
+  std::ofstream data(path, std::ios::binary | std::ios::app);
+  data.write(reinterpret_cast<const char*>(&seal), sizeof seal);
+  data.close();
+  if (!data) throw_cannot_write(path, errno);
+}
+
+std::string seal_problem(const std::string& path, const h5::File& file) {
+  const std::uint64_t size = std::filesystem::file_size(path), end = file.end();
+  if (size == end) return {};
+  Seal seal;
+  std::ifstream data(path, std::ios::binary);
+  data.seekg(static_cast<std::streamoff>(end));
+  const bool is_there = size == end + sizeof seal &&
+                        data.read(reinterpret_cast<char*>(&seal), sizeof seal).good() &&
+                        seal.magic_bytes == magic && seal.file_bytes == end &&
+                        seal.series.begin <= seal.series.end && seal.series.end <= end;
+  if (!is_there) return "its end is damaged";
+  return seal.crc == crc_of(path, seal) ? "" : "its checksum is wrong";
+}
+
+}  // namespace sunload

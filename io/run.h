@@ -1,0 +1,46 @@
+/// The driver: `sunload run`, `merge`, `check` on a study.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/progress.h"
+#include "io/study.h"
+
+namespace sunload {
+
+enum class Existing { refuse, resume, overwrite };
+enum class Batches { remove, keep };
+
+struct RunOptions {
+  std::vector<std::string> variants;  ///< names; empty: all
+  std::string output;                 ///< replaces output.folder
+  Existing existing = Existing::refuse;
+  Batches batches = Batches::remove;
+  int threads = 0;                    ///< 0: all permitted processors
+  ProgressStyle progress = ProgressStyle::automatic;
+  double time_limit_min = 0;          ///< 0: none
+};
+
+/// Exit codes of DESIGN 1.
+namespace exit_code {
+inline constexpr int done = 0, wrong_input = 2, machine_limit = 3, bug = 70, unfinished = 75;
+}
+
+/// Computes what is missing, merges, prints one block per variant on stderr.
+int run_study(const std::string& study, const RunOptions& options);
+
+/// Puts finished batches together; exit code 75 and their list where some are missing.
+int merge_study(const std::string& study, const RunOptions& options);
+
+enum class CheckFormat { text, json };
+/// Reads everything, reports scene, sun path, work, memory, disk on stdout.
+int check_study(const std::string& study, const RunOptions& options, CheckFormat format);
+
+/// The sun path as CSV on stdout (DESIGN 1).
+int print_sun(const std::string& study);
+
+/// The variants that were asked for, with their folder. Throws InputError for unknown names.
+std::vector<Study> chosen_variants(const StudyFile& file, const RunOptions& options);
+
+}  // namespace sunload

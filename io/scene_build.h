@@ -1,0 +1,34 @@
+/// Study → scene: files read and put together, prepared, materials assigned.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geo/mesh_prepare.h"
+#include "geo/site.h"
+#include "io/study.h"
+#include "solver/material.h"
+
+namespace sunload {
+
+struct BuiltScene {
+  Scene scene;
+  PrepareReport report;
+  Site site;                          ///< position and north, from study or CRS
+  std::string site_source;            ///< in words: where position and north come from
+  std::vector<std::string> notes;     ///< what readers counted
+  std::vector<std::string> warnings;  ///< each states its consequence
+};
+
+/// Throws InputError with every problem found.
+BuiltScene build_scene(const Study& study);
+
+/// Reflectance of a surface that neither file nor study says anything about:
+/// a mean of European facades and streets (Oke 1987, Boundary Layer Climates,
+/// table 8.2: urban areas 0.10 … 0.27, mean of the range's upper half).
+inline constexpr double default_reflectance = 0.2;
+
+/// Whether `text` matches a pattern with `*` and `?`.
+bool matches(const std::string& pattern, const std::string& text);
+
+}  // namespace sunload

@@ -1,0 +1,182 @@
+/// A study as the YAML file states it, with defaults filled in (DESIGN 4).
+///
+/// Reading rejects unknown keys (with the nearest name), wrong types, units and
+/// ranges, each with file:line:column, all at once. Keys of later versions are
+/// refused by name. Every variant is a complete study: the base with the
+/// variant's overrides merged in (maps merge, `scene.assign` is appended to,
+/// other lists are replaced).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "geo/check.h"
+#include "geo/irradiance.h"
+#include "geo/mesh.h"
+#include "geo/mesh_prepare.h"
+#include "geo/sky.h"
+#include "geo/sun.h"
+#include "geo/time.h"
+
+namespace sunload {
+
+/// Position as written; what is absent comes from the scene's CRS.
+struct SiteStudy {
+  std::optional<double> latitude_deg, longitude_deg;
+  std::string crs;  ///< of the scene's coordinates, overrides the file's own
+  std::optional<double> elevation_m;
+  std::string timezone = "UTC";  ///< must be written unless the period has only `positions` or UTC times
+  std::optional<double> north_deg;
+  Where where;
+};
+
+struct DaysPeriod {  ///< days × [from, to) in steps, civil time
+  std::vector<CivilTime> days;
+  double from_s = 0, to_s = 86400;  ///< seconds since midnight
+  double step_min = 60;
+};
+struct RangePeriod {  ///< [start, end) in steps
+  ParsedTime start, end;
+  double step_min = 60;
+};
+struct InstantsPeriod {
+  std::vector<ParsedTime> instants;
+  double interval_min = 60;
+};
+struct SunAt {
+  double azimuth_deg = 0, elevation_deg = 0, interval_min = 60;
+};
+struct PositionsPeriod {
+  std::vector<SunAt> positions;
+};
+struct PeriodStudy {
+  std::variant<DaysPeriod, RangePeriod, InstantsPeriod, PositionsPeriod> kind;
+  Where where;
+};
+
+struct SunStudy {
+  Refraction refraction = Refraction::spa;
+  Ut1 ut1_utc = Ut1::table;
+};
+
+enum class LightSource { clear_sky, fixed };
+struct LightStudy {
+  LightSource source = LightSource::clear_sky;
+  ClearSkyModel model = ClearSkyModel::ineichen;
+  Turbidity linke_turbidity;
+  double dni_w_m2 = 0, dhi_w_m2 = 0;  ///< of `fixed`
+  SkyModel sky = SkyModel::perez;
+  int sky_type = 12;           ///< of cie_general
+  double turbidity = 3;        ///< of preetham
+  double far_ground_albedo = 0.2;
+};
+
+/// Optical properties as written; absent ones fall back as DESIGN 4 says.
+struct MaterialStudy {
+  std::string name;
+  std::optional<double> diffuse, mirror;
+  double emission_w_m2 = 0;  ///< diffuse exitance of an emitter
+  std::optional<Sides> sides;
+  Where where;
+};
+
+/// One rule of `scene.assign`; empty pattern = any. `*` and `?` are wildcards.
+struct AssignRule {
+  std::string object, surface, material_was, kind;
+  std::string material;  ///< name to be assigned
+  Where where;
+};
+
+struct GroundStudy {
+  bool wanted = true;
+  double margin_m = 50;
+  std::string material;
+};
+
+struct BuiltinStudy {
+  std::string name;
+  std::map<std::string, std::string> parameters;
+  Where where;
+};
+
+struct SceneStudy {
+  std::vector<std::string> files;  ///< absolute or relative to the working directory, already resolved
+  std::vector<Where> files_where;
+  std::optional<BuiltinStudy> builtin;
+  char up = 0;  ///< 'x', 'y', 'z' or 0: default of the format
+  double unit_m = 1;
+  std::string lod = "highest";
+  Repair repair = Repair::safe;
+  std::vector<MaterialStudy> materials;
+  std::vector<AssignRule> assign;
+  std::optional<GroundStudy> ground;  ///< absent: the default of the format
+  Where where;
+};
+
+struct MeshStudy {
+  double max_edge_m = 1e9;  ///< absent: input triangles are the leaves
+  double min_area_m2 = 0.01;
+};
+
+enum class Transport { gather };
+struct SolverStudy {
+  Transport transport = Transport::gather;
+  int bounces = 5;
+  double unshot = 1e-3;
+  int lines_per_patch = 256;
+  int direct_samples = 16;
+  int realizations = 8;
+  int mirror_depth = 8;
+  int batch_suns = 64;
+  std::string isa = "auto";  ///< auto | sse4.2 | avx2 | avx512
+  std::uint64_t seed = 1;
+};
+
+enum class StandardErrors { none, totals, instants };
+struct OutputStudy {
+  std::string folder = "results";
+  std::vector<std::string> series{"total", "direct", "sky", "mirror", "lamps", "reflected"};
+  StandardErrors standard_error = StandardErrors::totals;
+  int compression = 4;
+};
+
+struct Study {
+  std::string name;
+  std::string variant = "baseline";
+  SiteStudy site;
+  PeriodStudy period;
+  SunStudy sun;
+  LightStudy light;
+  SceneStudy scene;
+  MeshStudy mesh;
+  SolverStudy solver;
+  OutputStudy output;
+};
+
+struct StudyFile {
+  std::string path;
+  std::string yaml;  ///< verbatim
+  std::string name;
+  std::vector<Study> variants;  ///< at least one, in the order of the file
+  std::vector<std::string> warnings;
+};
+
+/// Throws InputError with every problem of the file.
+StudyFile read_study(const std::string& path);
+
+/// Canonical text (JSON, sorted keys, numbers with all digits) of every value
+/// that can change a number of the result: not names, `output`, or paths (the
+/// bytes of the files are hashed apart, and so is the instruction set in force,
+/// which `solver.isa` only pins). Equal texts, equal results.
+std::string canonical_text(const Study& study);
+
+/// Every key that the reader knows, sorted: `scene.materials.*.diffuse`,
+/// `period.positions[].azimuth_deg`; `*` is a name of the user's choice.
+std::vector<std::string> study_keys();
+
+}  // namespace sunload

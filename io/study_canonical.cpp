@@ -1,0 +1,169 @@
+// The canonical text of a study. Structured bindings name every member of every
+// struct: a new member does not compile until it is put in or left out on purpose.
+#include <nlohmann/json.hpp>
+
+#include "io/study.h"
+
+namespace sunload {
+
+namespace {
+
+using nlohmann::json;
+
+template <class T>
+json maybe(const std::optional<T>& value) {
+  return value ? json(*value) : json();
+}
+
+json canonical(const CivilTime& time) {
+  const auto& [year, month, day, hour, minute, second] = time;
+  return {year, month, day, hour, minute, second};
+}
+
+json canonical(const ParsedTime& time) {
+  // Whether a time of day was written makes no difference: midnight is 00:00.
+  const auto& [civil, has_time, has_offset, offset_s] = time;
+  return {{"civil", canonical(civil)}, {"offset_s", has_offset ? json(offset_s) : json()}};
+}
+
+json canonical(const SiteStudy& site) {
+  const auto& [latitude_deg, longitude_deg, crs, elevation_m, timezone, north_deg, where] = site;
+  return {{"latitude_deg", maybe(latitude_deg)},
+          {"longitude_deg", maybe(longitude_deg)},
+          {"crs", crs},
+          {"elevation_m", maybe(elevation_m)},
+          {"timezone", timezone},
+          {"north_deg", maybe(north_deg)}};
+}
+
+json canonical(const SunAt& sun);
+json canonical(const MaterialStudy& material);
+json canonical(const AssignRule& rule);
+
+template <class T>
+json list_of(const std::vector<T>& values) {
+  json list = json::array();
+  for (const T& value : values) list.push_back(canonical(value));
+  return list;
+}
+
+json canonical(const DaysPeriod& period) {
+  const auto& [days, from_s, to_s, step_min] = period;
+  return {{"days", list_of(days)}, {"from_s", from_s}, {"to_s", to_s}, {"step_min", step_min}};
+}
+
+json canonical(const RangePeriod& period) {
+  const auto& [start, end, step_min] = period;
+  return {{"start", canonical(start)}, {"end", canonical(end)}, {"step_min", step_min}};
+}
+
+json canonical(const InstantsPeriod& period) {
+  const auto& [instants, interval_min] = period;
+  return {{"instants", list_of(instants)}, {"interval_min", interval_min}};
+}
+
+json canonical(const SunAt& sun) {
+  const auto& [azimuth_deg, elevation_deg, interval_min] = sun;
+  return {azimuth_deg, elevation_deg, interval_min};
+}
+
+json canonical(const PositionsPeriod& period) {
+  const auto& [positions] = period;
+  return {{"positions", list_of(positions)}};
+}
+
+json canonical(const PeriodStudy& period) {
+  const auto& [kind, where] = period;
+  return std::visit([](const auto& value) { return canonical(value); }, kind);
+}
+
+json canonical(const SunStudy& sun) {
+  const auto& [refraction, ut1_utc] = sun;
+  return {{"refraction", refraction}, {"ut1_utc", ut1_utc}};
+}
+
+json canonical(const LightStudy& light) {
+  const auto& [source, model, linke_turbidity, dni_w_m2, dhi_w_m2, sky, sky_type, turbidity,
+               far_ground_albedo] = light;
+  return {{"source", source},      {"model", model},
+          {"dni_w_m2", dni_w_m2},  {"linke_turbidity", linke_turbidity.monthly},
+          {"dhi_w_m2", dhi_w_m2},  {"sky", sky},
+          {"sky_type", sky_type},  {"far_ground_albedo", far_ground_albedo},
+          {"turbidity", turbidity}};
+}
+
+json canonical(const MaterialStudy& material) {
+  const auto& [name, diffuse, mirror, emission_w_m2, sides, where] = material;
+  return {{"name", name},
+          {"diffuse", maybe(diffuse)},
+          {"mirror", maybe(mirror)},
+          {"emission_w_m2", emission_w_m2},
+          {"sides", maybe(sides)}};
+}
+
+json canonical(const AssignRule& rule) {
+  const auto& [object, surface, material_was, kind, material, where] = rule;
+  return {{"object", object},
+          {"surface", surface},
+          {"was", material_was},
+          {"type", kind},
+          {"material", material}};
+}
+
+json canonical(const GroundStudy& ground) {
+  const auto& [wanted, margin_m, material] = ground;
+  return {{"wanted", wanted}, {"margin_m", margin_m}, {"material", material}};
+}
+
+json canonical(const BuiltinStudy& builtin) {
+  const auto& [name, parameters, where] = builtin;
+  return {{"name", name}, {"parameters", parameters}};
+}
+
+json canonical(const SceneStudy& scene) {
+  // Files are hashed by their bytes.
+  const auto& [files, files_where, builtin, up, unit_m, lod, repair, materials, assign, ground,
+               where] = scene;
+  return {{"builtin", builtin ? canonical(*builtin) : json()},
+          {"up", up == 0 ? std::string() : std::string(1, up)},
+          {"unit_m", unit_m},
+          {"lod", lod},
+          {"repair", repair},
+          {"materials", list_of(materials)},
+          {"assign", list_of(assign)},
+          {"ground", ground ? canonical(*ground) : json()}};
+}
+
+json canonical(const MeshStudy& mesh) {
+  const auto& [max_edge_m, min_area_m2] = mesh;
+  return {{"max_edge_m", max_edge_m}, {"min_area_m2", min_area_m2}};
+}
+
+json canonical(const SolverStudy& solver) {
+  // `isa` is left out: the instruction set in force is hashed apart, so that
+  // pinning it finds the batches that `auto` computed on such a machine.
+  const auto& [transport, bounces, unshot, lines_per_patch, direct_samples, realizations,
+               mirror_depth, batch_suns, isa, seed] = solver;
+  return {{"transport", transport},
+          {"bounces", bounces},
+          {"unshot", unshot},
+          {"lines_per_patch", lines_per_patch},
+          {"direct_samples", direct_samples},
+          {"realizations", realizations},
+          {"mirror_depth", mirror_depth},
+          {"batch_suns", batch_suns},
+          {"seed", seed}};
+}
+
+}  // namespace
+
+std::string canonical_text(const Study& study) {
+  const auto& [name, variant, site, period, sun, light, scene, mesh, solver, output] = study;
+  const json all{{"site", canonical(site)},    {"period", canonical(period)},
+                 {"sun", canonical(sun)},      {"light", canonical(light)},
+                 {"scene", canonical(scene)},  {"mesh", canonical(mesh)},
+                 {"solver", canonical(solver)}};
+  return all.dump();
+}
+
+}  // namespace sunload

@@ -1,0 +1,168 @@
+// Sections `scene` and `mesh` of a study.
+#include <fmt/format.h>
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+#include <system_error>
+
+#include "io/key_names.h"
+#include "io/scene_builtin.h"
+#include "io/study_sections.h"
+
+namespace sunload::study_sections {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Range units_m{1e-6, 1e6};  // a model in micrometres, one in thousands of kilometres
+constexpr Range shares{0, 1};
+constexpr Range emissions_w_m2{0, 1e7};  // the surface of the sun has 6.3e7
+constexpr Range margins_m{0, 1e5};
+constexpr Range edges_m{1e-3, 1e9};
+constexpr Range areas_m2{0, 1e6};
+constexpr double share_rounding = 1e-12;  // of the sum of two decimal numbers
+
+void read_files(YamlMap& map, const std::string& folder, SceneStudy& scene) {
+  for (const auto& file : map.texts("files")) {
+    const fs::path path = (fs::path(folder) / file.text).lexically_normal();
+    std::error_code error;
+    const auto refuse = [&](const std::string& what, const std::string& hint) {
+      map.reading().problem(file.where, "scene.files: '" + file.text + "' " + what,
+                            "it is sought at " + path.string(), hint);
+    };
+    if (!fs::exists(path, error)) {
+      refuse("is not there", "paths are relative to the study file");
+    } else if (!fs::is_regular_file(path, error)) {
+      refuse("is no file", "");
+    } else if (std::find(scene.files.begin(), scene.files.end(), path.string()) !=
+               scene.files.end()) {
+      refuse("is written twice", "remove one of the two");
+    }
+    scene.files.push_back(path.string());
+    scene.files_where.push_back(file.where);
+  }
+}
+
+BuiltinStudy read_builtin(YamlMap& map) {
+  BuiltinStudy builtin;
+  builtin.where = map.where();
+  map.require("name");
+  builtin.name = map.text("name", builtin.name);
+  const auto parameters = map.other_texts();
+  for (const auto& [key, value] : parameters) builtin.parameters[key] = value.text;
+  const auto names = builtin_scene_names();
+  if (builtin.name.empty()) return builtin;
+  if (std::find(names.begin(), names.end(), builtin.name) == names.end()) {
+    map.problem("name", "'" + builtin.name + "' is no built-in scene", "",
+                key_hint(builtin.name, names));
+    return builtin;
+  }
+  const auto known = builtin_parameters(builtin.name);
+  for (const auto& [key, value] : parameters) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    map.problem(key, builtin.name + " has no such parameter", "", key_hint(key, known));
+  }
+  return builtin;
+}
+
+MaterialStudy read_material(const std::string& name, YamlMap& map) {
+  MaterialStudy material;
+  material.name = name;
+  material.where = map.where();
+  material.diffuse = map.number("diffuse", shares);
+  material.mirror = map.number("mirror", shares);
+  material.emission_w_m2 = map.number("emission_w_m2", emissions_w_m2, material.emission_w_m2);
+  if (map.has("sides")) {
+    material.sides = map.choice("sides", {{"one", Sides::one}, {"two", Sides::two}}, Sides::one);
+  }
+  map.tree("sides");
+  const double sum = material.diffuse.value_or(0) + material.mirror.value_or(0);
+  if (sum > 1 + share_rounding) {
+    map.problem(map.has("mirror") ? "mirror" : "diffuse",
+                fmt::format("diffuse + mirror = {} is above 1", sum),
+                "no surface reflects more than it receives");
+  }
+  return material;
+}
+
+AssignRule read_rule(YamlMap& map) {
+  AssignRule rule;
+  rule.where = map.where();
+  rule.object = map.text("object", rule.object);
+  rule.surface = map.word("surface", {surface_names.begin(), surface_names.end()}, rule.surface);
+  rule.material_was = map.text("was", rule.material_was);
+  rule.kind = map.text("type", rule.kind);
+  map.require("material", "a rule assigns one");
+  rule.material = map.text("material", rule.material);
+  return rule;
+}
+
+std::optional<GroundStudy> read_ground(YamlMap& map) {
+  GroundStudy ground;
+  if (map.kind("ground") == YamlNode::Kind::text) {
+    map.word("ground", {"none"}, "none");
+    ground.wanted = false;
+    return ground;
+  }
+  map.section("ground", [&](YamlMap& section) {
+    ground.margin_m = section.number("margin_m", margins_m, ground.margin_m);
+    ground.material = section.text("material", ground.material);
+  });
+  return map.has("ground") ? std::optional(ground) : std::nullopt;
+}
+
+void check_lod(YamlMap& map, const std::string& lod) {
+  static const std::regex level(R"(\d(\.\d)?)");
+  if (lod == "highest" || std::regex_match(lod, level)) return;
+  map.problem("lod", "'" + lod + "' is no level of detail", "highest, or a level such as 2 or 2.2");
+}
+
+void check_source(YamlMap& map) {
+  const bool files = map.has("files"), builtin = map.has("builtin");
+  if (files == builtin && map.is_usable()) {
+    map.reading().problem(
+        map.where(), files ? "scene has files and builtin" : "scene has neither files nor builtin",
+        "it needs one of the two",
+        files ? "a variant removes a key of the base with `files: ~` or `builtin: ~`" : "");
+  }
+  for (const char* key : {"up", "unit_m", "lod"}) {
+    if (builtin && map.has(key)) map.warn(key, "is not used", "it belongs to files");
+  }
+}
+
+}  // namespace
+
+SceneStudy read_scene(YamlMap& map, const std::string& folder) {
+  SceneStudy scene;
+  scene.where = map.where();
+  read_files(map, folder, scene);
+  const bool describe = map.reading().purpose == YamlReading::Purpose::describe;
+  map.tree("builtin");
+  if (map.has("builtin") || describe) {
+    map.section("builtin", [&](YamlMap& section) { scene.builtin = read_builtin(section); });
+  }
+  check_source(map);
+  scene.up = map.choice<char>("up", {{"x", 'x'}, {"y", 'y'}, {"z", 'z'}}, scene.up);
+  scene.unit_m = map.number("unit_m", units_m, scene.unit_m);
+  scene.lod = map.text("lod", scene.lod);
+  check_lod(map, scene.lod);
+  scene.repair =
+      map.choice("repair", {{"none", Repair::none}, {"safe", Repair::safe}, {"all", Repair::all}},
+                 scene.repair);
+  map.named("materials", [&](const std::string& name, YamlMap& material) {
+    scene.materials.push_back(read_material(name, material));
+  });
+  map.each("assign", [&](YamlMap& rule) { scene.assign.push_back(read_rule(rule)); });
+  scene.ground = read_ground(map);
+  return scene;
+}
+
+MeshStudy read_mesh(YamlMap& map) {
+  MeshStudy mesh;
+  mesh.max_edge_m = map.number("max_edge_m", edges_m, mesh.max_edge_m);
+  mesh.min_area_m2 = map.number("min_area_m2", areas_m2, mesh.min_area_m2);
+  return mesh;
+}
+
+}  // namespace sunload::study_sections

@@ -1,0 +1,37 @@
+/// Readers of the sections of a study, for io/study.cpp alone.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/study.h"
+#include "io/yaml_map.h"
+
+namespace sunload::study_sections {
+
+/// What the site says beyond its values.
+enum class ZoneWritten { no, yes };
+enum class PlaceWritten { no, yes };
+struct SiteRead {
+  SiteStudy site;
+  ZoneWritten zone_written = ZoneWritten::no;
+  PlaceWritten place_written = PlaceWritten::no;  ///< right or wrong
+};
+
+SiteRead read_site(YamlMap& map);
+PeriodStudy read_period(YamlMap& map, const SiteRead& site);
+SunStudy read_sun(YamlMap& map);
+LightStudy read_light(YamlMap& map);
+/// Paths of files are relative to `folder`.
+SceneStudy read_scene(YamlMap& map, const std::string& folder);
+MeshStudy read_mesh(YamlMap& map);
+SolverStudy read_solver(YamlMap& map);
+OutputStudy read_output(YamlMap& map);
+
+/// Adds what a reader of the values found wrong without knowing the place.
+void add_at(YamlMap& map, const std::string& key, const Where& where, const InputError& error);
+
+/// Keys and values that DESIGN 4 has and this version does not read yet.
+std::vector<LaterKey> later_keys();
+
+}  // namespace sunload::study_sections

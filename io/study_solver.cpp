@@ -1,0 +1,114 @@
+// Sections `solver` and `output` of a study, and what later versions will read.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "io/study_sections.h"
+
+namespace sunload::study_sections {
+
+namespace {
+
+constexpr int most_bounces = 1000, most_lines = 1'000'000, most_realizations = 1024;
+constexpr int most_batch_suns = 65536;
+constexpr int fewest_realizations = 2;  // one has no spread
+constexpr int strongest_compression = 9;
+constexpr Range shares{0, 1};
+
+/// Each realization gets its equal share.
+void check_shares(YamlMap& map, const std::string& key, int count, int realizations) {
+  if (count % realizations == 0) return;
+  const int below = count / realizations * realizations, above = below + realizations;
+  const std::string near =
+      below > 0 ? fmt::format("{} or {}", below, above) : std::to_string(above);
+  map.problem(key, fmt::format("{} cannot be shared by {} realizations", count, realizations),
+              "each gets the same number", "write " + near);
+}
+
+std::vector<std::string> read_series(YamlMap& map, std::vector<std::string> absent) {
+  const std::vector<std::string> known = absent;
+  if (!map.has("series")) {
+    map.tree("series");
+    return absent;
+  }
+  std::vector<std::string> series;
+  for (const auto& [text, where] : map.texts("series")) {
+    if (std::find(known.begin(), known.end(), text) == known.end()) {
+      map.reading().problem(where, "output.series: '" + text + "' is not known",
+                            fmt::format("{}", fmt::join(known, ", ")));
+    } else if (std::find(series.begin(), series.end(), text) != series.end()) {
+      map.reading().problem(where, "output.series: '" + text + "' is written twice");
+    } else {
+      series.push_back(text);
+    }
+  }
+  return series;
+}
+
+}  // namespace
+
+SolverStudy read_solver(YamlMap& map) {
+  SolverStudy solver;
+  solver.transport = map.choice("transport", {{"gather", Transport::gather}}, solver.transport);
+  solver.bounces = map.integer("bounces", 0, most_bounces, solver.bounces);
+  solver.unshot = map.number("unshot", shares, solver.unshot);
+  solver.lines_per_patch = map.integer("lines_per_patch", 1, most_lines, solver.lines_per_patch);
+  solver.direct_samples = map.integer("direct_samples", 1, most_lines, solver.direct_samples);
+  const int unread = map.has("realizations") ? 0 : solver.realizations;
+  const int realizations =
+      map.integer("realizations", fewest_realizations, most_realizations, unread);
+  solver.mirror_depth = map.integer("mirror_depth", 0, most_bounces, solver.mirror_depth);
+  solver.batch_suns = map.integer("batch_suns", 1, most_batch_suns, solver.batch_suns);
+  solver.isa = map.word("isa", {"auto", "sse4.2", "avx2", "avx512"}, solver.isa);
+  const auto seed = map.integer("seed", std::int64_t{0}, std::numeric_limits<std::int64_t>::max(),
+                                static_cast<std::int64_t>(solver.seed));
+  solver.seed = static_cast<std::uint64_t>(seed);
+  map.word("power_per_sample_w", {"auto"}, "auto");
+  if (realizations > 0) {
+    solver.realizations = realizations;
+    check_shares(map, "lines_per_patch", solver.lines_per_patch, realizations);
+    check_shares(map, "direct_samples", solver.direct_samples, realizations);
+  }
+  return solver;
+}
+
+OutputStudy read_output(YamlMap& map) {
+  OutputStudy output;
+  output.folder = map.text("folder", output.folder);
+  output.series = read_series(map, output.series);
+  output.standard_error = map.choice("standard_error",
+                                     {{"none", StandardErrors::none},
+                                      {"totals", StandardErrors::totals},
+                                      {"instants", StandardErrors::instants}},
+                                     output.standard_error);
+  output.compression = map.integer("compression", 0, strongest_compression, output.compression);
+  return output;
+}
+
+std::vector<LaterKey> later_keys() {
+  return {
+      {"period.year_of", ""},
+      {"sun.disk", "finite"},
+      {"light.source", "weather"},
+      {"light.weather", ""},
+      {"light.as_year", ""},
+      {"light.quantity", "illuminance"},
+      {"scene.parallel_sources", ""},
+      {"scene.materials.*.refractive_index", ""},
+      {"scene.materials.*.transmittance", ""},
+      {"mesh.oracle", ""},
+      {"mesh.light_tolerance", ""},
+      {"mesh.light_threshold_m2", ""},
+      {"mesh.link_threshold", ""},
+      {"mesh.t_vertices", ""},
+      {"solver.transport", "shoot"},
+      {"solver.power_per_sample_w", ""},
+      {"solver.accuracy", ""},
+      {"solver.max_lines_per_patch", ""},
+      {"solver.bands", ""},
+      {"sensors", ""},
+  };
+}
+
+}  // namespace sunload::study_sections

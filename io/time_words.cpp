@@ -1,0 +1,66 @@
+#include "io/time_words.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace sunload {
+
+namespace {
+
+std::string interval_words(const LitInterval& interval, const TimeZone& zone) {
+  const SunInterval& w = interval.when;
+  return fmt::format("mean over {} to {}, sun at {} ({}): azimuth {:.2f} deg, elevation {:.2f} deg",
+                     iso_local(w.begin, zone), iso_local(w.end, zone), iso_local(w.sun_time, zone),
+                     iso_utc(w.sun_time), w.sun.azimuth_deg, w.sun.elevation_deg);
+}
+
+std::string north_words(const Site& site) {
+  if (site.north_deg == 0) return "the scene's +y axis points to true north";
+  return fmt::format("the scene's +y axis points {:.3f} deg {} of true north",
+                     std::abs(site.north_deg), site.north_deg > 0 ? "clockwise" : "counter-clockwise");
+}
+
+/// A check that anybody can make outdoors on the first day of the period.
+std::string pole_words(const LightSeries& light, const Site& site, const Study& study,
+                       const TimeZone& zone) {
+  const UnixTime first = light.intervals.front().when.sun_time;
+  CivilTime day = zone.civil_from_utc(first);
+  day.hour = 0;
+  day.minute = 0;
+  day.second = 0;
+  const UnixTime begin = zone.utc_from_civil(day).utc;
+  const SunEphemeris sun(begin, begin + seconds_per_day, site, study.sun.refraction,
+                         study.sun.ut1_utc, Air{});
+  const UnixTime noon = sun_events(sun, begin).transit;
+  const SunPosition at_noon = sun(noon);
+  if (at_noon.elevation_deg <= 0)
+    return "  pole test  the sun stays below the horizon on the first day\n";
+  return fmt::format(
+      "  pole test  a 1 m pole on level ground casts {:.3f} m of shadow towards {:.1f} deg "
+      "(clockwise from true north) at {}\n",
+      1 / std::tan(radians(at_noon.elevation_deg)), wrapped_deg(at_noon.azimuth_deg + 180),
+      iso_local(noon, zone));
+}
+
+}  // namespace
+
+std::string time_words(const LightSeries& light, const Site& site, const Study& study,
+                       const std::string& site_source) {
+  const TimeZone zone(study.site.timezone);
+  std::string text;
+  if (light.times_are_synthetic) {
+    text = fmt::format("  {} sun positions without a date; time counts from 2000-01-01T12:00Z\n",
+                       light.intervals.size());
+  } else {
+    text = fmt::format("  site       {:.5f} deg north, {:.5f} deg east, {:.1f} m ({})\n",
+                       site.latitude_deg, site.longitude_deg, site.elevation_m, site_source);
+    text += "  first      " + interval_words(light.intervals.front(), zone) + "\n";
+    text += "  last       " + interval_words(light.intervals.back(), zone) + "\n";
+  }
+  text += "  north      " + north_words(site) + "\n";
+  if (!light.times_are_synthetic) text += pole_words(light, site, study, zone);
+  return text;
+}
+
+}  // namespace sunload

@@ -1,0 +1,49 @@
+/// What one variant of a study will compute, and the hash that names it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/light_series.h"
+#include "io/scene_build.h"
+#include "io/study.h"
+#include "solver/solver.h"
+
+namespace sunload {
+
+/// Raised when results change, not at every commit: part of the content hash.
+inline constexpr int numerics_version = 1;
+
+struct VariantPlan {
+  Study study;
+  BuiltScene built;
+  LightSeries light;
+  std::string isa;           ///< that rays will be traced with
+  std::string content_hash;  ///< SHA-256 of everything that can change a number
+  std::string pairing_id;    ///< equal where realizations share their random numbers
+
+  std::size_t intervals() const { return light.intervals.size(); }
+  std::size_t batch_suns() const { return static_cast<std::size_t>(study.solver.batch_suns); }
+  std::size_t batches() const { return (intervals() + batch_suns() - 1) / batch_suns(); }
+};
+
+/// Reads the scene, makes sun path and light, and hashes. Throws InputError.
+VariantPlan make_plan(const Study& study);
+
+SplitRules split_rules(const Study& study);
+SolverRules solver_rules(const VariantPlan& plan);
+
+/// Paths of DESIGN 2.
+std::string result_path(const std::string& folder, const Study& study);
+std::string work_folder(const std::string& folder, const VariantPlan& plan);
+std::string batch_path(const std::string& folder, const VariantPlan& plan, std::size_t batch);
+
+/// Work, memory, disk and time of a variant, estimated before it starts.
+struct WorkEstimate {
+  std::size_t patches = 0;
+  std::uint64_t line_rays = 0, direct_rays = 0;
+  double memory_bytes = 0, disk_bytes = 0, seconds = 0;
+};
+WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches);
+
+}  // namespace sunload
