@@ -69,6 +69,7 @@ class LightSolver {
 
   const Scene& scene_;
   SolverRules rules_;
+  WorkDone work_;  // before what is built with a stopwatch running
   Hierarchy hierarchy_;
   RayCaster caster_;
   SkyGrid grid_;
@@ -77,7 +78,6 @@ class LightSolver {
   SunSampler sampler_;
   MirrorSun mirror_sun_;
   int bounces_;
-  WorkDone work_;
 };
 
 }  // namespace sunload
