@@ -1,7 +1,6 @@
 #include "io/batch_container.h"
 
 #include <fcntl.h>
-#include <libdeflate.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -12,6 +11,7 @@
 #include <cstring>
 
 #include "geo/check.h"
+#include "io/chunk.h"
 #include "io/file_aside.h"
 
 static_assert(std::endian::native == std::endian::little,
@@ -35,10 +35,6 @@ struct Prologue {
   std::uint32_t prologue_crc = 0, zero = 0;
 };
 static_assert(sizeof(Prologue) == 40 && offsetof(Prologue, prologue_crc) == 32, "file layout");
-
-std::uint32_t crc_of(const void* bytes, std::size_t count, std::uint32_t before = 0) {
-  return libdeflate_crc32(before, bytes, count);
-}
 
 std::size_t aligned(std::size_t offset) {
   return (offset + block_alignment - 1) / block_alignment * block_alignment;
@@ -95,17 +91,17 @@ void write_container(const std::string& path, json header,
   for (const auto& block : blocks) {
     table.push_back({{"offset", aligned(end)},
                      {"bytes", block.size()},
-                     {"crc32", crc_of(block.data(), block.size())}});
+                     {"crc32", crc32(block.data(), block.size())}});
     end = aligned(end) + block.size();
   }
   header["blocks"] = table;
   const std::string text = header.dump();
   const std::size_t data = aligned(sizeof(Prologue) + text.size());
   Prologue prologue;
-  prologue.header_crc = crc_of(text.data(), text.size());
+  prologue.header_crc = crc32(text.data(), text.size());
   prologue.header_bytes = text.size();
   prologue.file_bytes = data + end;
-  prologue.prologue_crc = crc_of(&prologue, offsetof(Prologue, prologue_crc));
+  prologue.prologue_crc = crc32(&prologue, offsetof(Prologue, prologue_crc));
 
   FileAside target(path);
   Output output(target.aside(), path);
@@ -149,7 +145,7 @@ void Container::read_header() {
     refuse("its version is " + std::to_string(prologue.version) + ", not " +
            std::to_string(container_version));
   }
-  if (prologue.prologue_crc != crc_of(&prologue, offsetof(Prologue, prologue_crc))) {
+  if (prologue.prologue_crc != crc32(&prologue, offsetof(Prologue, prologue_crc))) {
     refuse("its beginning is damaged");
   }
   if (prologue.file_bytes != size) {
@@ -159,7 +155,7 @@ void Container::read_header() {
   if (prologue.header_bytes > size - sizeof prologue) refuse("its header is damaged");
   Bytes text(prologue.header_bytes);
   read(sizeof prologue, text.data(), text.size());
-  if (prologue.header_crc != crc_of(text.data(), text.size())) refuse("its header is damaged");
+  if (prologue.header_crc != crc32(text.data(), text.size())) refuse("its header is damaged");
   header_ = json::parse(text.begin(), text.end());
   const std::size_t data = aligned(sizeof prologue + text.size());
   for (const json& row : header_.at("blocks")) {
@@ -178,7 +174,7 @@ void Container::verify(const Block& block) const {
   for (std::size_t done = 0; done < block.bytes; done += part.size()) {
     part.resize(std::min(block.bytes - done, read_bytes));
     read(block.offset + done, part.data(), part.size());
-    crc = crc_of(part.data(), part.size(), crc);
+    crc = crc32(part.data(), part.size(), crc);
   }
   if (crc != block.crc) refuse("its data are damaged");
 }
@@ -186,7 +182,7 @@ void Container::verify(const Block& block) const {
 Bytes Container::block(std::size_t i) const {
   Bytes bytes(blocks_[i].bytes);
   read(blocks_[i].offset, bytes.data(), bytes.size());
-  if (crc_of(bytes.data(), bytes.size()) != blocks_[i].crc) refuse("its data are damaged");
+  if (crc32(bytes.data(), bytes.size()) != blocks_[i].crc) refuse("its data are damaged");
   return bytes;
 }
 

@@ -140,6 +140,11 @@ std::vector<Bytes> encoded_chunks(const float* values, std::size_t rows, std::si
   return chunks;
 }
 
+std::uint32_t crc32(const void* bytes, std::size_t count, std::uint32_t before) {
+  // libdeflate starts anew where it is given no buffer, as an empty vector has none.
+  return count == 0 ? before : libdeflate_crc32(before, bytes, count);
+}
+
 std::vector<float> decoded_chunk(std::span<const unsigned char> chunk, ChunkShape shape) {
   std::vector<float> values(shape.rows * shape.columns);
   if (chunk.size() == shape.bytes()) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,6 +30,9 @@ using Bytes = std::vector<unsigned char>;
 /// parallel; level 0 (stored) … 9 (smallest). The same bytes for any number of threads.
 std::vector<Bytes> encoded_chunks(const float* values, std::size_t rows, std::size_t columns,
                                   ChunkShape shape, int level);
+
+/// CRC-32 (zlib's) of bytes, continuing `before`.
+std::uint32_t crc32(const void* bytes, std::size_t count, std::uint32_t before = 0);
 
 /// Inverse for one chunk: shape.rows × shape.columns values. Throws
 /// std::runtime_error where the bytes are not such a chunk.

@@ -5,9 +5,11 @@
 
 namespace sunload {
 
-/// Reserves a name beside `path` (`<path>.part-<process>-<random>`, same
+/// Reserves a name beside `path` (`<path>.part-<place>-<process>-<random>`, same
 /// folder, so that renaming is atomic; random because the processes of several
-/// machines may share a folder). Unless published, the file aside is removed.
+/// machines may share a folder; `place` tells where the process number counts:
+/// on this machine since it was started, in this container). Unless published,
+/// the file aside is removed.
 class FileAside {
  public:
   explicit FileAside(std::string path);
@@ -25,6 +27,14 @@ class FileAside {
   std::string path_, aside_;
   enum class State { writing, published } state_ = State::writing;
 };
+
+/// Removes what killed processes left aside in a folder (not in those below it).
+///
+/// Other processes, also of other machines, may be writing there. A file aside
+/// is left over where its place is this one and its process is gone, or where
+/// nobody has written to it for a day (its place cannot be looked into: another
+/// machine, or this one before it was started anew). All others stay.
+void remove_left_aside(const std::string& folder);
 
 /// MachineError "cannot write `path`: <text of the error number>".
 [[noreturn]] void throw_cannot_write(const std::string& path, int error_number);

@@ -139,7 +139,20 @@ double ledger_kwh(const ResultReader& result, const std::string& term) {
   return energy / joules_per_kwh;
 }
 
-std::string ledger(const ResultReader& result) {
+std::string runtime(const ResultReader& result) {
+  std::string words;
+  for (const char* stage :
+       {"scene", "prepare", "hierarchy", "lines", "direct", "sky", "reflect", "write", "total"}) {
+    const double seconds = result.number_attribute(fmt::format("runtime_{}_s", stage));
+    if (!std::isnan(seconds))
+      words += fmt::format("{}{} {:.3g} s", words.empty() ? "" : ", ", stage, seconds);
+  }
+  return line("run time", words);
+}
+
+}  // namespace
+
+std::string energy_text(const ResultReader& result) {
   if (!result.has("power_sun")) return {};
   double in = 0, out = 0;
   std::string in_words, out_words;
@@ -166,19 +179,6 @@ std::string ledger(const ResultReader& result) {
                               in == 0 ? 0 : residual / in * 100));
 }
 
-std::string runtime(const ResultReader& result) {
-  std::string words;
-  for (const char* stage :
-       {"scene", "prepare", "hierarchy", "lines", "direct", "sky", "reflect", "write", "total"}) {
-    const double seconds = result.number_attribute(fmt::format("runtime_{}_s", stage));
-    if (!std::isnan(seconds))
-      words += fmt::format("{}{} {:.3g} s", words.empty() ? "" : ", ", stage, seconds);
-  }
-  return line("run time", words);
-}
-
-}  // namespace
-
 std::string info_text(const ResultReader& result) {
   const PatchGroups groups(result);
   const auto load = result.doubles("light_load");
@@ -188,7 +188,7 @@ std::string info_text(const ResultReader& result) {
   text += accuracy(result, groups, load);
   text += lighting_analysis(result, groups, load);
   text += facades(result, groups, load);
-  text += ledger(result);
+  text += energy_text(result);
   text += runtime(result);
   text += line("made by", result.text_attribute("source"));
   return text;

@@ -12,6 +12,9 @@ namespace sunload {
 /// Irradiance is that of the brightest interval of the period (largest GHI).
 std::string info_text(const ResultReader& result);
 
+/// The energy ledger of the whole period [kWh]: in, out, residual with its standard error.
+std::string energy_text(const ResultReader& result);
+
 /// One line per patch, header first: index, object, facade, surface, material,
 /// side, area, centroid and normal in the scene frame (add the attribute
 /// `origin` for absolute coordinates), light load with its standard error and

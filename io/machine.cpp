@@ -59,6 +59,15 @@ double system_available_bytes() {
   return unlimited;
 }
 
+/// What the limit of the address space (`ulimit -v`) leaves.
+double address_space_left_bytes() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
+  const double pages = first_number("/proc/self/statm");
+  const double used = pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+  return std::max(0.0, static_cast<double>(limit.rlim_cur) - used);
+}
+
 }  // namespace
 
 double available_memory_bytes() {
@@ -66,7 +75,7 @@ double available_memory_bytes() {
     const double limit = first_number(g / "memory.max");
     return std::isinf(limit) ? unlimited : limit - first_number(g / "memory.current");
   });
-  return std::min(system_available_bytes(), of_group);
+  return std::min({system_available_bytes(), of_group, address_space_left_bytes()});
 }
 
 double free_disk_bytes(const std::string& path) {

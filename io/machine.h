@@ -6,8 +6,8 @@
 
 namespace sunload {
 
-/// Memory this process may still take [bytes]: the smaller of what the system
-/// has available and what the control group leaves.
+/// Memory this process may still take [bytes]: the smallest of what the system
+/// has available, what the control group leaves, and what `ulimit -v` leaves.
 double available_memory_bytes();
 /// Free space of the file system that `path` (or its nearest existing parent) lies on.
 double free_disk_bytes(const std::string& path);

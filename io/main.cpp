@@ -3,15 +3,20 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <fstream>
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <new>
 #include <sstream>
 
 #include "geo/check.h"
 #include "io/compare.h"
+#include "io/file_aside.h"
 #include "io/info.h"
+#include "io/key_names.h"
 #include "io/progress.h"
 #include "io/render.h"
 #include "io/result_file.h"
@@ -34,11 +39,49 @@ Vec3 point(const std::string& text, const char* option) {
   return p;
 }
 
+/// An option that takes one of some words.
+template <class Value>
+void add_word(CLI::App* sub, const std::string& option, Value& target,
+              const std::map<std::string, Value>& words, const std::string& what) {
+  std::string list;
+  for (const auto& [word, value] : words) list += (list.empty() ? "" : ", ") + word;
+  sub->add_option_function<std::string>(
+      option,
+      [&target, words, option, list](const std::string& word) {
+        const auto found = words.find(word);
+        if (found == words.end())
+          throw InputError({}, option + " " + word, "no such word", "write one of: " + list);
+        target = found->second;
+      },
+      what + ": " + list);
+}
+
+const CLI::Validator positive(
+    [](const std::string& text) {
+      double value = 0;
+      return CLI::detail::lexical_cast(text, value) && value > 0
+                 ? std::string()
+                 : "'" + text + "' is not a number above 0";
+    },
+    "NUMBER > 0");
+
 const std::map<std::string, ProgressStyle> progress_styles{{"auto", ProgressStyle::automatic},
                                                            {"bar", ProgressStyle::bar},
                                                            {"lines", ProgressStyle::lines},
                                                            {"json", ProgressStyle::json},
                                                            {"none", ProgressStyle::none}};
+
+/// What to try instead of a word that is not known.
+std::string nearest_word(const std::string& word, const std::vector<std::string>& known,
+                         const std::string& help) {
+  const auto nearest = std::min_element(known.begin(), known.end(), [&](auto& a, auto& b) {
+    return edit_distance(word, a) < edit_distance(word, b);
+  });
+  // A third of the letters wrong is as far as a slip of the hand goes.
+  const bool is_near = nearest != known.end() &&
+                       edit_distance(word, *nearest) <= static_cast<int>(word.size() / 3);
+  return is_near ? "did you mean '" + *nearest + "'?" : "see " + help;
+}
 
 /// The commands and what they were given.
 class CommandLine {
@@ -59,14 +102,38 @@ class CommandLine {
   int run(int argc, char** argv) {
     try {
       app_.parse(argc, argv);
+    } catch (const CLI::Success& asked) {  // --help, --version
+      app_.exit(asked);
+      return exit_code::done;
     } catch (const CLI::ParseError& error) {
-      const int code = app_.exit(error);
-      return code == 0 ? exit_code::done : exit_code::wrong_input;
+      refuse(error, argc > 1 ? argv[1] : "");
     }
     return action_();
   }
 
  private:
+  /// Tells what is wrong with the command line, in one line, and the nearest right word.
+  [[noreturn]] void refuse(const CLI::ParseError& error, const std::string& first) const {
+    std::vector<std::string> commands, options;
+    const CLI::App* chosen = nullptr;
+    for (const CLI::App* sub : app_.get_subcommands({})) {
+      commands.push_back(sub->get_name());
+      if (sub->parsed()) chosen = sub;
+    }
+    const std::string help = chosen ? "sunload " + chosen->get_name() + " --help" : "sunload --help";
+    if (!chosen && !first.empty() && first.front() != '-')
+      throw InputError({}, "unknown command '" + first + "'", {},
+                       nearest_word(first, commands, help));
+    if (const auto rest = chosen ? chosen->remaining() : app_.remaining(); !rest.empty()) {
+      for (const CLI::Option* option : (chosen ? chosen : &app_)->get_options())
+        options.push_back(option->get_name());
+      const std::string word = rest.front().substr(0, rest.front().find('='));
+      throw InputError({}, "unknown argument '" + word + "'", {},
+                       nearest_word(word, options, help));
+    }
+    throw InputError({}, error.what(), {}, "see " + help);
+  }
+
   /// A sub-command that runs `action` once the line is parsed.
   CLI::App* command(const char* name, const char* what, std::function<int()> action) {
     CLI::App* sub = app_.add_subcommand(name, what);
@@ -93,6 +160,7 @@ class CommandLine {
       if (overwrite_) options_.existing = Existing::overwrite;
       if (resume_) options_.existing = Existing::resume;
       if (keep_batches_) options_.batches = Batches::keep;
+      if (!shard_.empty()) options_.shard = parse_shard(shard_);
       install_stop_signals();
       return run_study(study_, options_);
     });
@@ -101,10 +169,12 @@ class CommandLine {
     auto* resume = sub->add_flag("--resume", resume_, "accept finished results, go on with the rest");
     sub->add_flag("--overwrite", overwrite_, "replace results that are there")->excludes(resume);
     sub->add_flag("--keep-batches", keep_batches_, "do not remove batch files after the merge");
+    sub->add_option("--shard", shard_,
+                    "compute only a share of the batches: I/N (I from 0), auto (Slurm, OpenMPI), "
+                    "auto/N (PBS)");
     sub->add_option("--time-limit", options_.time_limit_min, "stop cleanly after so many minutes")
-        ->check(CLI::PositiveNumber);
-    sub->add_option("--progress", options_.progress, "auto, bar, lines, json or none")
-        ->transform(CLI::CheckedTransformer(progress_styles));
+        ->check(positive);
+    add_word(sub, "--progress", options_.progress, progress_styles, "how to tell of the work");
   }
 
   void add_merge() {
@@ -204,16 +274,14 @@ class CommandLine {
     sub->add_option("-o,--output", picture_, "picture to write (.png)")->required();
     sub->add_option("--quantity", render_.quantity, "dataset to draw")->capture_default_str();
     sub->add_option("--time", render_.time, "instant of a series, e.g. 2026-06-21T12:00");
-    sub->add_option("--camera", render_.view, "overview, sun or top")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, View>{
-            {"overview", View::overview}, {"sun", View::sun}, {"top", View::top}}));
+    add_word(sub, "--camera", render_.view,
+             {{"overview", View::overview}, {"sun", View::sun}, {"top", View::top}}, "view");
     sub->add_option("--eye", eye_, "eye point x,y,z [m]");
     sub->add_option("--look", look_, "point looked at x,y,z [m]");
     sub->add_option("--size", size_, "WIDTHxHEIGHT in pixels")->capture_default_str();
-    sub->add_option("--max", largest_, "value of the last colour")->check(CLI::PositiveNumber);
-    sub->add_option("--colour", render_.palette, "false or grey")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, Palette>{
-            {"false", Palette::false_colour}, {"grey", Palette::grey}}));
+    sub->add_option("--max", largest_, "value of the last colour")->check(positive);
+    add_word(sub, "--colour", render_.palette,
+             {{"false", Palette::false_colour}, {"grey", Palette::grey}}, "colours");
     sub->add_flag("--mesh", mesh_lines_, "draw the patches' edges");
   }
 
@@ -239,7 +307,7 @@ class CommandLine {
 
   CLI::App app_{"sunload: how much sun and sky light falls on every patch of a city"};
   std::function<int()> action_;
-  std::string study_, base_, eye_, look_, picture_, scene_, size_ = "1600x1000";
+  std::string study_, base_, eye_, look_, picture_, scene_, shard_, size_ = "1600x1000";
   std::vector<std::string> results_, parameters_;
   RunOptions options_;
   RenderRules render_;
@@ -248,9 +316,17 @@ class CommandLine {
        patches_ = false, mesh_lines_ = false;
 };
 
+/// Listings count as written only once they have left the program.
+int finished_output(int code) {
+  errno = 0;
+  std::cout.flush();
+  if (std::fflush(stdout) != 0 || !std::cout) throw_cannot_write("to standard output", errno);
+  return code;
+}
+
 int guarded(int argc, char** argv) {
   try {
-    return CommandLine().run(argc, argv);
+    return finished_output(CommandLine().run(argc, argv));
   } catch (const InputError& error) {
     for (const auto& problem : error.problems()) fmt::print(stderr, "{}\n", problem);
     return exit_code::wrong_input;
@@ -274,4 +350,8 @@ int guarded(int argc, char** argv) {
 }  // namespace
 }  // namespace sunload
 
-int main(int argc, char** argv) { return sunload::guarded(argc, argv); }
+int main(int argc, char** argv) {
+  // A file that grows beyond `ulimit -f` is an error of writing, not the end of the process.
+  std::signal(SIGXFSZ, SIG_IGN);
+  return sunload::guarded(argc, argv);
+}

@@ -236,6 +236,13 @@ MissingBatches missing_batches(const std::string& folder, const VariantPlan& pla
   return missing;
 }
 
+std::vector<std::size_t> batches_not_there(const std::string& folder, const VariantPlan& plan) {
+  std::vector<std::size_t> missing;
+  for (std::size_t b = 0; b < plan.batches(); ++b)
+    if (!fs::exists(batch_path(folder, plan, b))) missing.push_back(b);
+  return missing;
+}
+
 void merge_variant(const std::string& folder, const VariantPlan& plan, const StudyFile& file,
                    const Hierarchy& hierarchy) {
   const ResultGeometry geometry = result_geometry(plan, hierarchy);
@@ -260,6 +267,7 @@ void merge_variant(const std::string& folder, const VariantPlan& plan, const Stu
 void remove_batches(const std::string& folder, const VariantPlan& plan) {
   std::error_code ignored;
   for (std::size_t b = 0; b < plan.batches(); ++b) fs::remove(batch_path(folder, plan, b), ignored);
+  fs::remove(prepared_path(folder, plan), ignored);
   fs::remove(work_folder(folder, plan), ignored);
   fs::remove(fs::path(work_folder(folder, plan)).parent_path(), ignored);
 }

@@ -20,6 +20,10 @@ struct MissingBatches {
 };
 MissingBatches missing_batches(const std::string& folder, const VariantPlan& plan);
 
+/// Numbers of the batches whose file is not there at all: a look at the folder,
+/// without reading them.
+std::vector<std::size_t> batches_not_there(const std::string& folder, const VariantPlan& plan);
+
 /// Puts all batches together in batch order: first the sums of every
 /// realization, then means and errors. Memory does not grow with the period.
 /// Throws InputError where a batch is missing or not valid (check first).

@@ -6,13 +6,29 @@
 #include <csignal>
 #include <cstdio>
 
+#include "geo/units.h"
+#include "io/exit_code.h"
+#include "solver/parallel.h"
+
 namespace sunload {
 
 namespace {
 
 volatile std::sig_atomic_t caught_signal = 0;
 
-void remember(int signal) { caught_signal = signal; }
+/// After this time without a clean end the process ends where it stands.
+constexpr unsigned grace_s = 4;
+
+void remember(int signal) {
+  if (caught_signal == 0) alarm(grace_s);
+  caught_signal = signal;
+}
+
+void end_at_once(int) {
+  constexpr char text[] = "stopped at once; finished batches are kept, go on with --resume\n";
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, text, sizeof(text) - 1);
+  _exit(exit_code::unfinished);
+}
 
 /// Without a terminal one line at most this often.
 constexpr std::chrono::seconds line_pause{10};
@@ -43,9 +59,14 @@ std::string clock_text(double seconds) {
 }  // namespace
 
 Progress::Progress(ProgressStyle style, double time_limit_min)
-    : style_(resolved(style)), time_limit_s_(time_limit_min * 60) {}
+    : style_(resolved(style)), time_limit_s_(time_limit_min * seconds_per_minute) {
+  set_cancellation([this] { return stop_requested(); });
+}
 
-Progress::~Progress() { end_bar(); }
+Progress::~Progress() {
+  set_cancellation({});
+  end_bar();
+}
 
 void Progress::begin_variant(const std::string& name) {
   const std::lock_guard lock(guard_);
@@ -123,7 +144,7 @@ void Progress::say(const std::string& text) {
   std::fflush(stderr);
 }
 
-bool Progress::stop_requested() {
+bool Progress::stop_requested() const {
   if (caught_signal != 0) return true;
   return time_limit_s_ > 0 &&
          std::chrono::duration<double>(Clock::now() - start_).count() > time_limit_s_;
@@ -133,6 +154,8 @@ void install_stop_signals() {
   struct sigaction action {};
   action.sa_handler = remember;
   for (const int signal : {SIGTERM, SIGINT, SIGUSR1}) sigaction(signal, &action, nullptr);
+  action.sa_handler = end_at_once;
+  sigaction(SIGALRM, &action, nullptr);
 }
 
 std::string stop_signal() {

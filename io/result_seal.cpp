@@ -1,6 +1,5 @@
 #include "io/result_seal.h"
 
-#include <libdeflate.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include <fstream>
 #include <vector>
 
+#include "io/chunk.h"
 #include "io/file_aside.h"
 
 namespace sunload {
@@ -36,7 +36,7 @@ std::uint32_t crc_of(std::ifstream& data, Extent extent, std::uint32_t crc) {
     if (!data.read(part.data(), static_cast<std::streamsize>(count))) {
       throw h5::Error("reading failed");
     }
-    crc = libdeflate_crc32(crc, part.data(), count);
+    crc = crc32(part.data(), count, crc);
     extent.begin += count;
   }
   return crc;
@@ -44,7 +44,7 @@ std::uint32_t crc_of(std::ifstream& data, Extent extent, std::uint32_t crc) {
 
 std::uint32_t crc_of(const std::string& path, const Seal& seal) {
   std::ifstream data(path, std::ios::binary);
-  const std::uint32_t crc = libdeflate_crc32(0, &seal, offsetof(Seal, crc));
+  const std::uint32_t crc = crc32(&seal, offsetof(Seal, crc));
   const std::uint32_t before = crc_of(data, {0, seal.series.begin}, crc);
   return crc_of(data, {seal.series.end, seal.file_bytes}, before);
 }

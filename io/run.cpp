@@ -6,12 +6,16 @@
 #include <filesystem>
 #include <memory>
 
-#include "io/batch_file.h"
-#include "io/batch_tally.h"
+#include "io/file_aside.h"
+#include "io/info.h"
 #include "io/machine.h"
 #include "io/merge.h"
+#include "io/merge_lock.h"
+#include "io/mpi_world.h"
 #include "io/result_file.h"
+#include "io/units.h"
 #include "io/variant_plan.h"
+#include "io/variant_run.h"
 #include "solver/parallel.h"
 
 namespace sunload {
@@ -54,92 +58,37 @@ void check_limits(const std::string& folder, const WorkEstimate& work) {
         folder, work.disk_bytes / gib, left / gib));
 }
 
-std::string rays_text(const char* what, std::uint64_t rays, double seconds) {
-  if (rays == 0 || seconds <= 0) return {};
-  return fmt::format("  {:<14} {:8.2f} s  {:9.3g} rays  {:7.1f} million rays/s\n", what, seconds,
-                     static_cast<double>(rays), static_cast<double>(rays) / seconds / 1e6);
-}
-
-void report_work(Progress& progress, const std::string& variant, const LightSolver& solver) {
-  const WorkDone& w = solver.work();
-  std::string text = fmt::format("{}: {} patches\n", variant, solver.hierarchy().patch_count());
-  text += rays_text("lines", w.line_rays, w.lines_s);
-  text += rays_text("direct sun", w.direct_rays, w.direct_s);
-  text += rays_text("mirrored sun", w.mirror_rays, w.mirror_s);
-  text += fmt::format("  {:<14} {:8.2f} s\n  {:<14} {:8.2f} s  peak memory {:.0f} MiB",
-                      "sky and Jacobi", w.solve_s, "realizations", w.realizations_s,
-                      peak_memory_bytes() / 1048576);
-  progress.say(text);
-}
-
-/// Computes the batches of one variant that are missing.
-class VariantRun {
- public:
-  VariantRun(const std::string& folder, const VariantPlan& plan, Progress& progress)
-      : folder_(folder), plan_(plan), progress_(progress) {}
-
-  /// Computes and writes; returns the frozen mesh for the merge.
-  const Hierarchy& compute() {
-    const auto missing = missing_batches(folder_, plan_);
-    for (const auto& reason : missing.reasons)
-      progress_.say("warning: " + reason + "; it is computed again");
-    if (missing.numbers.empty()) return geometry();
-    if (missing.numbers.size() < plan_.batches())
-      progress_.say(fmt::format("{}: {} of {} batches are there already", plan_.study.variant,
-                                plan_.batches() - missing.numbers.size(), plan_.batches()));
-    make_writable_folder(work_folder(folder_, plan_));
-    solver_ = std::make_unique<LightSolver>(plan_.built.scene, split_rules(plan_.study),
-                                            solver_rules(plan_), progress_);
-    for (std::size_t n = 0; n < missing.numbers.size(); ++n) {
-      progress_.set_batches(n, missing.numbers.size());
-      compute_batch(missing.numbers[n]);
-    }
-    report_work(progress_, plan_.study.variant, *solver_);
-    return solver_->hierarchy();
-  }
-
- private:
-  const Hierarchy& geometry() {
-    if (!hierarchy_)
-      hierarchy_ = std::make_unique<Hierarchy>(plan_.built.scene, split_rules(plan_.study));
-    return *hierarchy_;
-  }
-
-  void compute_batch(std::size_t batch) {
-    const std::size_t first = batch * plan_.batch_suns();
-    const std::size_t count = std::min(plan_.batch_suns(), plan_.intervals() - first);
-    std::vector<SunLight> light(count);
-    parallel_for(count, [&](std::size_t k) {
-      light[k] = sun_light(plan_.light.intervals[first + k], static_cast<std::uint32_t>(first + k),
-                           plan_.study.light, solver_->sky_grid());
-    });
-    const BatchTally tally = solver_->solve(light, progress_);
-    WorkDone work = solver_->work();
-    work -= reported_;
-    reported_ = solver_->work();
-    BatchWriter writer({.content_hash = plan_.content_hash,
-                        .variant = plan_.study.variant,
-                        .isa = plan_.isa,
-                        .batch = batch,
-                        .first_interval = first,
-                        .interval_count = count,
-                        .chunk_intervals = plan_.batch_suns(),
-                        .compression = plan_.study.output.compression});
-    add_tally(writer, tally, *solver_, plan_.built.scene.mesh, work);
-    writer.write(batch_path(folder_, plan_, batch));
-  }
-
-  const std::string& folder_;
-  const VariantPlan& plan_;
-  Progress& progress_;
-  std::unique_ptr<LightSolver> solver_;
-  std::unique_ptr<Hierarchy> hierarchy_;
-  WorkDone reported_;
-};
-
 void print_warnings(Progress& progress, const VariantPlan& plan) {
   for (const auto& list : {plan.built.warnings, plan.light.notes})
     for (const auto& line : list) progress.say(plan.study.variant + ": warning: " + line);
+}
+
+bool result_has_hash(const std::string& path, const std::string& hash) {
+  return fs::exists(path) && ResultReader(path).text_attribute("study_sha256") == hash;
+}
+
+std::string list_text(const std::vector<std::size_t>& numbers) {
+  std::string text;
+  for (const auto n : numbers) text += " " + std::to_string(n);
+  return text;
+}
+
+/// Shards on machines of different instruction sets would not fit together.
+void refuse_other_isa(const std::string& folder, const VariantPlan& plan,
+                      const RunOptions& options) {
+  if (options.shard.is_whole()) return;
+  for (const char* isa : {"sse4.2", "avx2", "avx512"}) {
+    if (isa == plan.isa) continue;
+    VariantPlan other;
+    other.study = plan.study;
+    other.content_hash = hash_with_isa(plan, isa);
+    if (fs::exists(work_folder(folder, other)))
+      throw InputError({work_folder(folder, other)},
+                       "holds batches of this study computed with " + std::string(isa),
+                       "this processor would use " + plan.isa + ", and bits would differ",
+                       "write solver.isa: " + std::string(isa < plan.isa ? isa : plan.isa.c_str()) +
+                           " into the study, or run on equal processors");
+  }
 }
 
 void use_threads(const RunOptions& options) {
@@ -167,41 +116,118 @@ std::vector<Study> chosen_variants(const StudyFile& file, const RunOptions& opti
   return chosen;
 }
 
+namespace {
+
+/// All units of a study on behalf of one process: a whole run, a shard or a rank.
+class StudyRun {
+ public:
+  StudyRun(const StudyFile& file, const RunOptions& options)
+      : file_(file),
+        options_(options),
+        folder_(folder_of(file, options)),
+        progress_(options.progress, options.time_limit_min) {}
+
+  int run() {
+    for (const auto& warning : file_.warnings) progress_.say("warning: " + warning);
+    make_plans();
+    world_ = MpiWorld::join(file_.variants.size());
+    if (world_ && !options_.shard.is_whole())
+      throw InputError({}, "--shard under MPI", "ranks share the work by themselves",
+                       "leave --shard away, or start without mpirun");
+    make_writable_folder(folder_ + "/" + file_.name);
+    remove_leftovers();
+    for (auto& place : plans_) compute(place);
+    if (world_) world_->wait_for_all();
+    if (!world_ || world_->is_first())
+      for (auto& place : plans_) merge_if_complete(place);
+    return exit_code::done;
+  }
+
+ private:
+  /// A variant that has work, and its place in the study.
+  struct Place {
+    std::size_t variant;
+    VariantPlan plan;
+    std::unique_ptr<Hierarchy> mesh;
+  };
+
+  /// Every variant is checked before the first one is computed.
+  void make_plans() {
+    Problems problems;
+    for (const auto& study : chosen_variants(file_, options_)) {
+      try {
+        VariantPlan plan = make_plan(study);
+        refuse_other_isa(folder_, plan, options_);
+        if (check_existing(folder_, plan, options_) == Todo::nothing)
+          progress_.say(study.variant + ": finished already, nothing to do");
+        else
+          plans_.push_back({place_of(study), std::move(plan), nullptr});
+      } catch (const InputError& error) {
+        problems.add(error);
+      }
+    }
+    problems.throw_if_any();
+  }
+
+  std::size_t place_of(const Study& study) const {
+    const auto found = std::find_if(file_.variants.begin(), file_.variants.end(),
+                                    [&](const Study& s) { return s.variant == study.variant; });
+    return static_cast<std::size_t>(found - file_.variants.begin());
+  }
+
+  void remove_leftovers() {
+    for (const auto& place : plans_) remove_left_aside(work_folder(folder_, place.plan));
+    remove_left_aside(folder_ + "/" + file_.name);
+  }
+
+  void compute(Place& place) {
+    const VariantPlan& plan = place.plan;
+    progress_.begin_variant(plan.study.variant);
+    print_warnings(progress_, plan);
+    place.mesh = std::make_unique<Hierarchy>(plan.built.scene, split_rules(plan.study));
+    check_limits(folder_, estimate_work(plan, place.mesh->patch_count()));
+    UnitQueue units(place.variant, plan.batches(), options_.shard, world_.get());
+    VariantRun run(folder_, plan, progress_);
+    run.compute(units, world_.get());
+  }
+
+  void merge_if_complete(Place& place) {
+    const VariantPlan& plan = place.plan;
+    const std::string result = result_path(folder_, plan.study);
+    const auto missing = batches_not_there(folder_, plan);
+    if (!missing.empty()) {
+      if (result_has_hash(result, plan.content_hash)) return;  // another process merged it
+      progress_.say(fmt::format("{}: {} of {} batches are still owed by other shards:{}",
+                                plan.study.variant, missing.size(), plan.batches(),
+                                list_text(missing)));
+      return;
+    }
+    const MergeLock lock(folder_ + "/" + file_.name + "/.work/" + plan.study.variant + ".lock");
+    if (!lock.is_held()) {
+      progress_.say(plan.study.variant + ": another process is merging");
+      return;
+    }
+    if (!batches_not_there(folder_, plan).empty()) return;  // merged and removed meanwhile
+    merge_variant(folder_, plan, file_, *place.mesh);
+    if (options_.batches == Batches::remove) remove_batches(folder_, plan);
+    progress_.say(plan.study.variant + ": wrote " + result + "\n" +
+                  energy_text(ResultReader(result)));
+  }
+
+  const StudyFile& file_;
+  const RunOptions& options_;
+  std::string folder_;
+  Progress progress_;
+  std::unique_ptr<MpiWorld> world_;
+  std::vector<Place> plans_;
+};
+
+}  // namespace
+
 int run_study(const std::string& path, const RunOptions& options) {
   use_threads(options);
   const StudyFile file = read_study(path);
-  const std::string folder = folder_of(file, options);
-  Progress progress(options.progress, options.time_limit_min);
-  for (const auto& warning : file.warnings) progress.say("warning: " + warning);
-  // Every variant is checked before the first one is computed.
-  std::vector<VariantPlan> plans;
-  Problems problems;
-  for (const auto& study : chosen_variants(file, options)) {
-    try {
-      VariantPlan plan = make_plan(study);
-      if (check_existing(folder, plan, options) == Todo::nothing) {
-        progress.say(study.variant + ": finished already, nothing to do");
-        continue;
-      }
-      plans.push_back(std::move(plan));
-    } catch (const InputError& error) {
-      problems.add(error);
-    }
-  }
-  problems.throw_if_any();
-  make_writable_folder(folder + "/" + file.name);
-  for (auto& plan : plans) {
-    progress.begin_variant(plan.study.variant);
-    print_warnings(progress, plan);
-    const Hierarchy mesh(plan.built.scene, split_rules(plan.study));
-    check_limits(folder, estimate_work(plan, mesh.patch_count()));
-    VariantRun run(folder, plan, progress);
-    const Hierarchy& hierarchy = run.compute();
-    merge_variant(folder, plan, file, hierarchy);
-    if (options.batches == Batches::remove) remove_batches(folder, plan);
-    progress.say(plan.study.variant + ": wrote " + result_path(folder, plan.study));
-  }
-  return exit_code::done;
+  return StudyRun(file, options).run();
 }
 
 int merge_study(const std::string& path, const RunOptions& options) {
@@ -212,24 +238,26 @@ int merge_study(const std::string& path, const RunOptions& options) {
   for (const auto& study : chosen_variants(file, options)) {
     const VariantPlan plan = make_plan(study);
     const std::string result = result_path(folder, plan.study);
-    if (fs::exists(result) &&
-        ResultReader(result).text_attribute("study_sha256") == plan.content_hash) {
+    if (result_has_hash(result, plan.content_hash)) {
       fmt::print(stderr, "{}: merged already, nothing to do\n", study.variant);
       continue;
     }
     const auto missing = missing_batches(folder, plan);
     for (const auto& reason : missing.reasons) fmt::print(stderr, "{}\n", reason);
     if (!missing.numbers.empty()) {
-      fmt::print(stderr, "{}: {} of {} batches are missing:", study.variant,
-                 missing.numbers.size(), plan.batches());
-      for (const auto b : missing.numbers) fmt::print(stderr, " {}", b);
-      fmt::print(stderr, "; run the study again with --resume\n");
+      fmt::print(stderr, "{}: {} of {} batches are missing:{}; run the study again with --resume\n",
+                 study.variant, missing.numbers.size(), plan.batches(), list_text(missing.numbers));
       code = exit_code::unfinished;
       continue;
     }
     if (fs::exists(result) && options.existing != Existing::overwrite)
       throw InputError({result}, "is the result of another state of the study",
                        "its content hash differs", "use --overwrite to replace it");
+    const MergeLock lock(folder + "/" + file.name + "/.work/" + study.variant + ".lock");
+    if (!lock.is_held()) {
+      fmt::print(stderr, "{}: another process is merging\n", study.variant);
+      continue;
+    }
     const Hierarchy hierarchy(plan.built.scene, split_rules(plan.study));
     merge_variant(folder, plan, file, hierarchy);
     if (options.batches == Batches::remove) remove_batches(folder, plan);

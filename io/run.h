@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "io/exit_code.h"
 #include "io/progress.h"
+#include "io/shard.h"
 #include "io/study.h"
 
 namespace sunload {
@@ -20,12 +22,8 @@ struct RunOptions {
   int threads = 0;                    ///< 0: all permitted processors
   ProgressStyle progress = ProgressStyle::automatic;
   double time_limit_min = 0;          ///< 0: none
+  Shard shard;                        ///< which units are this process' own
 };
-
-/// Exit codes of DESIGN 1.
-namespace exit_code {
-inline constexpr int done = 0, wrong_input = 2, machine_limit = 3, bug = 70, unfinished = 75;
-}
 
 /// Computes what is missing, merges, prints one block per variant on stderr.
 int run_study(const std::string& study, const RunOptions& options);

@@ -61,12 +61,12 @@ std::string times_text(const LightSeries& light) {
   return digest.hex();
 }
 
-std::string content_hash(const VariantPlan& plan) {
+std::string content_hash(const VariantPlan& plan, const std::string& isa) {
   Digest digest;
   digest.add(numerics_version);
   digest.add(canonical_text(plan.study));
   digest.add(plan.study.output.standard_error == StandardErrors::instants);
-  digest.add(plan.isa);
+  digest.add(isa);
   digest.add(times_text(plan.light));
   digest.add(plan.built.site.latitude_deg);
   digest.add(plan.built.site.longitude_deg);
@@ -107,9 +107,13 @@ VariantPlan make_plan(const Study& study) {
   plan.isa = usable_isa(study.solver.isa);
   plan.built = build_scene(study);
   plan.light = light_series(study, plan.built.site);
-  plan.content_hash = content_hash(plan);
+  plan.content_hash = content_hash(plan, plan.isa);
   plan.pairing_id = pairing_id(plan);
   return plan;
+}
+
+std::string hash_with_isa(const VariantPlan& plan, const std::string& isa) {
+  return content_hash(plan, isa);
 }
 
 SplitRules split_rules(const Study& study) {
@@ -137,6 +141,10 @@ std::string result_path(const std::string& folder, const Study& study) {
 
 std::string work_folder(const std::string& folder, const VariantPlan& plan) {
   return folder + "/" + plan.study.name + "/.work/" + plan.study.variant + "-" + plan.content_hash;
+}
+
+std::string prepared_path(const std::string& folder, const VariantPlan& plan) {
+  return work_folder(folder, plan) + "/prepared";
 }
 
 std::string batch_path(const std::string& folder, const VariantPlan& plan, std::size_t batch) {

@@ -30,12 +30,16 @@ struct VariantPlan {
 /// Reads the scene, makes sun path and light, and hashes. Throws InputError.
 VariantPlan make_plan(const Study& study);
 
+/// Content hash that the plan would have with another instruction set.
+std::string hash_with_isa(const VariantPlan& plan, const std::string& isa);
+
 SplitRules split_rules(const Study& study);
 SolverRules solver_rules(const VariantPlan& plan);
 
 /// Paths of DESIGN 2.
 std::string result_path(const std::string& folder, const Study& study);
 std::string work_folder(const std::string& folder, const VariantPlan& plan);
+std::string prepared_path(const std::string& folder, const VariantPlan& plan);
 std::string batch_path(const std::string& folder, const VariantPlan& plan, std::size_t batch);
 
 /// Work, memory, disk and time of a variant, estimated before it starts.

@@ -225,7 +225,6 @@ Lines trace_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaste
   std::vector<BlockTracer::Output> outputs(lines.pooled.patches.blocks.size());
   std::atomic<std::size_t> done = 0;
   parallel_chunks(patches, LinkTable::rows_per_block, [&](std::size_t begin, std::size_t end) {
-    if (watch.stop_requested()) throw Interrupted("stopped while tracing lines");
     const std::size_t block = begin / LinkTable::rows_per_block;
     outputs[block] = tracer.trace(begin, end, lines);
     for (auto& set : lines.realizations) trim(set, block);

@@ -14,6 +14,10 @@ int thread_count();
 /// At least 1. Results never depend on it.
 void set_thread_count(int threads);
 
+/// From now on every parallel loop asks this before each chunk, from any thread,
+/// and ends with Interrupted where the answer is true. Empty: never.
+void set_cancellation(std::function<bool()> is_cancelled);
+
 /// Calls body(begin, end) for the chunks [0, chunk), [chunk, 2·chunk), … of
 /// [0, count), any order, any thread. Of several exceptions that of the first
 /// chunk is rethrown after the loop.

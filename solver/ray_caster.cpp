@@ -93,7 +93,9 @@ RayCaster::RayCaster(const Mesh& mesh, const std::string& isa)
       isa_(usable_isa(isa)),
       offset_m_(offset_ulps * float_ulp * largest_coordinate(mesh)) {
   embree_->device = rtcNewDevice(embree_config(isa_, thread_count()).c_str());
-  if (!embree_->device) throw std::logic_error("ray caster: no device");
+  // The instruction set was checked: what is left to fail is memory for threads and tables.
+  if (!embree_->device)
+    throw MachineError("the ray caster cannot start: too little memory, or too many threads");
   rtcSetDeviceErrorFunction(embree_->device, keep_error, &embree_->error);
   embree_->scene = rtcNewScene(embree_->device);
   rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);

@@ -63,13 +63,14 @@ struct LightSolver::TimeSums {
 };
 
 LightSolver::LightSolver(const Scene& scene, const SplitRules& split, const SolverRules& rules,
-                         Watch& watch)
+                         Watch& watch, std::optional<Lines> ready)
     : scene_(scene),
       rules_(rules),
       hierarchy_(scene, split),
       caster_(scene.mesh, rules.isa),
       optics_(patch_optics(scene, hierarchy_)),
-      lines_(timed_lines(scene, hierarchy_, caster_, grid_, rules, watch, work_)),
+      lines_(ready ? std::move(*ready)
+                   : timed_lines(scene, hierarchy_, caster_, grid_, rules, watch, work_)),
       sampler_(hierarchy_, caster_, {rules.direct_samples, rules.realizations, rules.seed}),
       mirror_sun_(scene, hierarchy_, caster_, sampler_, optics_, rules.mirror_depth),
       bounces_(bounces_needed(lines_.pooled, optics_, hierarchy_.area(), rules.bounces,
@@ -100,7 +101,6 @@ BatchTally LightSolver::solve(std::span<const SunLight> batch, Watch& watch) {
   // Consecutive intervals with light, up to one block at a time.
   const auto lit = [&](std::size_t k) { return optics_.any_emission || !batch[k].is_dark(); };
   for (std::size_t begin = 0; begin < batch.size();) {
-    if (watch.stop_requested()) throw Interrupted("stopped between sun positions");
     std::size_t end = begin;
     while (end < batch.size() && end - begin < block_width && lit(end)) ++end;
     if (end > begin) solve_block(batch.subspan(begin, end - begin), begin, sums, tally);

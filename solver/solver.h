@@ -1,7 +1,7 @@
 /// The method on one screen: trace once, light many suns.
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,9 +37,10 @@ struct SolverRules {
 /// the order of additions).
 class LightSolver {
  public:
-  /// Splits, builds the ray caster and traces all lines. `scene` must outlive it.
+  /// Splits, builds the ray caster and traces all lines, unless those of an
+  /// equal solver are handed over. `scene` must outlive it.
   LightSolver(const Scene& scene, const SplitRules& split, const SolverRules& rules,
-              Watch& watch);
+              Watch& watch, std::optional<Lines> ready = {});
 
   const Hierarchy& hierarchy() const { return hierarchy_; }
   const RayCaster& caster() const { return caster_; }

@@ -1,4 +1,5 @@
-/// How long work tells of itself and is stopped; the solver neither prints nor exits.
+/// How long work tells of itself; the solver neither prints nor exits. It is
+/// stopped by set_cancellation of solver/parallel.
 #pragma once
 
 namespace sunload {
@@ -10,8 +11,6 @@ class Watch {
   virtual ~Watch() = default;
   /// Share of a stage that is done, [0, 1]; called from any thread.
   virtual void advance(Stage /*stage*/, double /*share*/) {}
-  /// True where the work should end soon: it then throws Interrupted.
-  virtual bool stop_requested() { return false; }
 };
 
 }  // namespace sunload

@@ -1,0 +1,33 @@
+/// Ranks of an MPI program: the only file that knows MPI, which is optional.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+namespace sunload {
+
+/// The ranks that were started together; they share a counter per variant.
+class MpiWorld {
+ public:
+  /// Null where the process was not started by mpirun or srun with several
+  /// ranks. Throws InputError where it was, but this build has no MPI.
+  static std::unique_ptr<MpiWorld> join(std::size_t variants);
+  ~MpiWorld();
+
+  std::size_t rank() const;
+  std::size_t size() const;
+  bool is_first() const { return rank() == 0; }
+  /// Takes the next number, 0, 1, …, of a variant's counter.
+  std::size_t next_of(std::size_t variant);
+  /// Returns when every rank is here.
+  void wait_for_all();
+  /// True on every rank where it is true on any of them.
+  bool any(bool here);
+
+ private:
+  MpiWorld();
+  struct Ranks;
+  std::unique_ptr<Ranks> ranks_;
+};
+
+}  // namespace sunload

@@ -1,0 +1,29 @@
+#include "io/units.h"
+
+#include "io/mpi_world.h"
+
+namespace sunload {
+
+UnitQueue::UnitQueue(std::size_t variant, std::size_t batches, Shard shard, MpiWorld* world)
+    : variant_(variant), batches_(batches), shard_(shard), world_(world) {}
+
+std::optional<std::size_t> UnitQueue::next() {
+  if (world_) {
+    const std::size_t batch = world_->next_of(variant_);
+    return batch < batches_ ? std::optional(batch) : std::nullopt;
+  }
+  while (position_ < batches_) {
+    const std::size_t batch = position_++;
+    if (shard_.owns(variant_ * batches_ + batch)) return batch;
+  }
+  return {};
+}
+
+std::size_t UnitQueue::share() const {
+  if (world_) return batches_;
+  std::size_t count = 0;
+  for (std::size_t b = 0; b < batches_; ++b) count += shard_.owns(variant_ * batches_ + b) ? 1u : 0u;
+  return count;
+}
+
+}  // namespace sunload

@@ -1,0 +1,36 @@
+/// Computes batches of one variant and writes them.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "io/progress.h"
+#include "io/units.h"
+#include "io/variant_plan.h"
+#include "solver/solver.h"
+
+namespace sunload {
+
+class VariantRun {
+ public:
+  VariantRun(const std::string& folder, const VariantPlan& plan, Progress& progress);
+
+  /// Goes through the process' own batches and computes those that have no
+  /// valid file yet. Where others work on the variant too, the traced lines are
+  /// shared by the prepared file. Throws Interrupted, MachineError.
+  void compute(UnitQueue& units, MpiWorld* world);
+
+ private:
+  bool is_finished(std::size_t batch);
+  void make_solver(bool others_work_too, MpiWorld* world);
+  void compute_batch(std::size_t batch);
+  void report_work() const;
+
+  const std::string& folder_;
+  const VariantPlan& plan_;
+  Progress& progress_;
+  std::unique_ptr<LightSolver> solver_;
+  WorkDone written_;  ///< work that finished batches carry already
+};
+
+}  // namespace sunload
