@@ -69,9 +69,9 @@ std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first, LineCo
     const Material& material = material_of(hit.triangle);
     if (material.diffuse > 0 || material.emission_w_m2 > 0)
       into.patches.push_back({static_cast<std::uint32_t>(patch), share});
+    if (material.mirror <= 0) return rays;
     const Vec3 n = met_normal(scene_.mesh, hit);
     weight *= mirror_reflectance(material, -dot(w, n));
-    if (weight <= 0) return rays;
     if (reflections == mirror_depth_) {
       into.ends.cut += static_cast<float>(weight);
       return rays;
@@ -84,32 +84,39 @@ std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first, LineCo
 }
 
 LineFollower::Fate LineFollower::mirrored_on(Vec3 origin, Vec3 w, std::size_t mirror_patch) const {
-  Fate fate;
-  Vec3 n = hierarchy_.normal(mirror_patch);
-  double weight = mirror_reflectance(
+  const Vec3 n = hierarchy_.normal(mirror_patch);
+  const double weight = mirror_reflectance(
       material_of(hierarchy_.patches()[mirror_patch].triangle), dot(w, n));
-  w = mirrored(w, n);
-  for (int reflections = 1; weight > 0; ++reflections) {
-    if (reflections > mirror_depth_) {
-      fate.cut += weight;
-      break;
-    }
-    const Hit hit = caster_.first_hit(origin, w);
-    ++fate.rays;
+  if (mirror_depth_ < 1) return {.cut = weight};
+  const Vec3 away = mirrored(w, n);
+  Fate fate = sent_on(away, weight, caster_.first_hit(origin, away));
+  ++fate.rays;
+  return fate;
+}
+
+LineFollower::Fate LineFollower::sent_on(Vec3 w, double weight, const Hit& first) const {
+  Fate fate;
+  Hit hit = first;
+  for (int reflections = 1;; ++reflections) {
     if (hit.left_scene()) {
-      fate.escaped += weight;
-      break;
+      fate.escaped = weight;
+      return fate;
     }
     if (hierarchy_.patch_at(hit.triangle, hit.u, hit.v, hit.front) < 0) {
-      fate.backs += weight;
-      break;
+      fate.backs = weight;
+      return fate;
     }
-    n = met_normal(scene_.mesh, hit);
+    const Vec3 n = met_normal(scene_.mesh, hit);
     weight *= mirror_reflectance(material_of(hit.triangle), -dot(w, n));
-    origin = offset_point(hit.triangle, hit, n);
+    if (weight <= 0) return fate;
+    if (reflections == mirror_depth_) {
+      fate.cut = weight;
+      return fate;
+    }
     w = mirrored(-w, n);
+    hit = caster_.first_hit(offset_point(hit.triangle, hit, n), w);
+    ++fate.rays;
   }
-  return fate;
 }
 
 }  // namespace sunload

@@ -32,6 +32,8 @@ class LineFollower {
     std::uint64_t rays = 0;
   };
   Fate mirrored_on(Vec3 origin, Vec3 w, std::size_t mirror_patch) const;
+  /// The same from the first hit of the mirrored ray on: `weight` goes along `w`.
+  Fate sent_on(Vec3 w, double weight, const Hit& first) const;
 
   /// Cell of a direction that left the scene upward.
   std::uint32_t sky_cell(Vec3 w) const { return static_cast<std::uint32_t>(grid_.cell(w)); }

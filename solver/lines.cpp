@@ -121,8 +121,7 @@ class BlockTracer {
     const auto hits = caster_.first_hits(origins, directions, (1u << count) - 1u);
     rays += count;
     for (std::size_t l = 0; l < count; ++l) {
-      const Hit hit{hits.triangle[l], static_cast<double>(hits.u[l]),
-                    static_cast<double>(hits.v[l]), 0, hits.front[l]};
+      const Hit hit = hits[l];
       rays += follower_.follow(origin[l], w[l], hit, into);
       if (hit.left_scene() && follower_.mirror_of(patch) > 0)
         rays += book_mirrored(origin[l], w[l], patch, first_light);

@@ -81,9 +81,10 @@ class MirrorSun::PatchWork {
     const double cos_theta = dot(geometry.normal, beam.image);
     if (cos_theta <= 0) return;
     std::fill(per_realization_.begin(), per_realization_.end(), 0);
-    for_each_sample(geometry, patch, beam.sun.number, [&](std::size_t s, Vec3 origin) {
-      per_realization_[m_.sampler_.realization(s)] += reflectance_on_the_way(beam, origin);
-    });
+    for_each_packet(geometry, patch, beam.sun.number,
+                    [&](std::size_t first, const Packet& origins, std::uint32_t active) {
+                      add_reflectances(beam, first, origins, active);
+                    });
     const auto R = static_cast<double>(per_realization_.size());
     const double samples_each = static_cast<double>(m_.sampler_.samples()) / R;
     const std::size_t at = patch * block_width + beam.k;
@@ -107,49 +108,69 @@ class MirrorSun::PatchWork {
         static_cast<double>(m_.sampler_.samples()) / static_cast<double>(fates.size());
     const double power_per_sample =
         m_.hierarchy_.area()[patch] * sun.dni * cos_theta / samples_each;
-    for_each_sample(geometry, patch, sun.number, [&](std::size_t s, Vec3 origin) {
-      ++rays;
-      if (!m_.caster_.first_hit(origin, sun.direction).left_scene()) return;
-      const auto fate = follower.mirrored_on(origin, sun.direction, patch);
-      rays += fate.rays;
-      auto& book = fates[m_.sampler_.realization(s)];
-      book.escaped[k] += power_per_sample * fate.escaped;
-      book.backs[k] += power_per_sample * fate.backs;
-      book.cut[k] += power_per_sample * fate.cut;
-    });
+    const Vec3 away = mirrored(sun.direction, geometry.normal);
+    const double weight = mirror_reflectance(
+        m_.material_of(m_.hierarchy_.patches()[patch].triangle), cos_theta);
+    for_each_packet(geometry, patch, sun.number,
+                    [&](std::size_t first, const Packet& origins, std::uint32_t active) {
+                      const auto lit = m_.caster_.unoccluded(origins, sun.direction, active);
+                      rays += count(active) + count(lit);
+                      const auto hits = m_.caster_.first_hits(origins, away, lit);
+                      for (auto bits = lit; bits != 0; bits &= bits - 1) {
+                        const auto l = static_cast<std::size_t>(std::countr_zero(bits));
+                        const auto fate = follower.sent_on(away, weight, hits[l]);
+                        rays += fate.rays;
+                        auto& book = fates[m_.sampler_.realization(first + l)];
+                        book.escaped[k] += power_per_sample * fate.escaped;
+                        book.backs[k] += power_per_sample * fate.backs;
+                        book.cut[k] += power_per_sample * fate.cut;
+                      }
+                    });
   }
 
   std::uint64_t rays = 0;
 
  private:
-  template <class Visit>
-  void for_each_sample(const SunSampler::Geometry& geometry, std::size_t patch, std::uint32_t sun,
-                       Visit&& visit) {
-    m_.sampler_.seed(patch, sun, seeds_);
-    for (std::size_t p = 0; p < m_.sampler_.packets(); ++p) {
-      const Packet origins = m_.sampler_.origins(geometry, seeds_, p);
-      for (auto bits = m_.sampler_.active(p); bits != 0; bits &= bits - 1) {
-        const auto l = static_cast<std::size_t>(std::countr_zero(bits));
-        visit(p * packet_size + l, Vec3{static_cast<double>(origins.x[l]),
-                                        static_cast<double>(origins.y[l]),
-                                        static_cast<double>(origins.z[l])});
-      }
-    }
+  static std::uint64_t count(std::uint32_t bits) {
+    return static_cast<std::uint64_t>(std::popcount(bits));
   }
 
-  /// rho_s of the mirror by which this point sees the sun, or 0.
-  double reflectance_on_the_way(const Beam& beam, Vec3 origin) {
-    ++rays;
-    const Hit hit = m_.caster_.first_hit(origin, beam.image);
-    if (hit.left_scene()) return 0;
-    const auto t = static_cast<std::size_t>(hit.triangle);
-    if (m_.group_of_side_[2 * t + (hit.front ? 0 : 1)] != beam.group) return 0;
+  /// visit(number of the first sample, origins, active) for every packet of samples.
+  template <class Visit>
+  void for_each_packet(const SunSampler::Geometry& geometry, std::size_t patch, std::uint32_t sun,
+                       Visit&& visit) {
+    m_.sampler_.seed(patch, sun, seeds_);
+    for (std::size_t p = 0; p < m_.sampler_.packets(); ++p)
+      visit(p * packet_size, m_.sampler_.origins(geometry, seeds_, p), m_.sampler_.active(p));
+  }
+
+  /// Adds rho_s of the mirror by which each sample sees the sun.
+  void add_reflectances(const Beam& beam, std::size_t first, const Packet& origins,
+                        std::uint32_t active) {
+    const auto hits = m_.caster_.first_hits(origins, beam.image, active);
     const Vec3 n = m_.groups_[static_cast<std::size_t>(beam.group)].normal;
-    const Vec3 at_mirror = origin + beam.image * hit.distance_m + n * m_.caster_.offset_m();
-    ++rays;
-    if (!m_.caster_.first_hit(at_mirror, beam.sun.direction).left_scene()) return 0;
-    return mirror_reflectance(m_.scene_.materials[m_.scene_.material[t].index()],
-                              dot(n, beam.sun.direction));
+    const Vec3 lift = n * m_.caster_.offset_m();
+    Packet at_mirror{};
+    std::uint32_t on_mirror = 0;
+    for (auto bits = active; bits != 0; bits &= bits - 1) {
+      const auto l = static_cast<std::size_t>(std::countr_zero(bits));
+      if (hits.triangle[l] < 0) continue;
+      const auto side = 2 * static_cast<std::size_t>(hits.triangle[l]) + (hits.front[l] ? 0u : 1u);
+      if (m_.group_of_side_[side] != beam.group) continue;
+      on_mirror |= 1u << l;
+      const Vec3 along = beam.image * static_cast<double>(hits.distance[l]) + lift;
+      at_mirror.x[l] = static_cast<float>(static_cast<double>(origins.x[l]) + along.x);
+      at_mirror.y[l] = static_cast<float>(static_cast<double>(origins.y[l]) + along.y);
+      at_mirror.z[l] = static_cast<float>(static_cast<double>(origins.z[l]) + along.z);
+    }
+    rays += count(active) + count(on_mirror);
+    if (on_mirror == 0) return;
+    auto lit = m_.caster_.unoccluded(at_mirror, beam.sun.direction, on_mirror);
+    for (; lit != 0; lit &= lit - 1) {
+      const auto l = static_cast<std::size_t>(std::countr_zero(lit));
+      per_realization_[m_.sampler_.realization(first + l)] +=
+          mirror_reflectance(m_.material_of(hits.triangle[l]), dot(n, beam.sun.direction));
+    }
   }
 
   const MirrorSun& m_;
@@ -163,7 +184,7 @@ std::uint64_t MirrorSun::add_light(std::span<const SunLight> block, Columns& irr
   std::uint64_t rays = 0;
   for (std::size_t k = 0; k < block.size(); ++k) {
     const SunLight& sun = block[k];
-    if (!sun.has_sun() || sun.dni <= 0) continue;
+    if (!sun.has_sun() || sun.dni <= 0 || mirror_depth_ < 1) continue;
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       const double towards = dot(sun.direction, groups_[g].normal);
       if (towards <= 0) continue;

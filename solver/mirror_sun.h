@@ -51,6 +51,9 @@ class MirrorSun {
  private:
   struct Beam;
   class PatchWork;
+  const Material& material_of(std::int32_t triangle) const {
+    return scene_.materials[scene_.material[static_cast<std::size_t>(triangle)].index()];
+  }
 
   const Scene& scene_;
   const Hierarchy& hierarchy_;

@@ -148,8 +148,25 @@ Hit RayCaster::first_hit(Vec3 origin, Vec3 direction) const {
 
 PacketHits RayCaster::first_hits(const Packet& origins, const PacketDirections& directions,
                                  std::uint32_t active) const {
+  return trace(origins, directions, active, Coherence::none);
+}
+
+PacketHits RayCaster::first_hits(const Packet& origins, Vec3 direction,
+                                 std::uint32_t active) const {
+  PacketDirections directions;
+  for (std::size_t r = 0; r < packet_size; ++r) {
+    directions.x[r] = static_cast<float>(direction.x);
+    directions.y[r] = static_cast<float>(direction.y);
+    directions.z[r] = static_cast<float>(direction.z);
+  }
+  return trace(origins, directions, active, Coherence::parallel);
+}
+
+PacketHits RayCaster::trace(const Packet& origins, const PacketDirections& directions,
+                            std::uint32_t active, Coherence coherence) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
+  if (coherence == Coherence::parallel) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   RTCRayHit16 query;
   alignas(64) int valid[packet_size];
   for (std::size_t r = 0; r < packet_size; ++r) {
@@ -173,6 +190,7 @@ PacketHits RayCaster::first_hits(const Packet& origins, const PacketDirections& 
     hits.triangle[r] = hit ? static_cast<std::int32_t>(query.hit.primID[r]) : -1;
     hits.u[r] = query.hit.u[r];
     hits.v[r] = query.hit.v[r];
+    hits.distance[r] = query.ray.tfar[r];
     hits.front[r] = query.hit.Ng_x[r] * directions.x[r] + query.hit.Ng_y[r] * directions.y[r] +
                         query.hit.Ng_z[r] * directions.z[r] < 0;
   }

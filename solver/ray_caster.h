@@ -39,7 +39,13 @@ using PacketDirections = Packet;
 struct PacketHits {
   std::int32_t triangle[packet_size];  ///< -1: left the scene
   float u[packet_size], v[packet_size];
+  float distance[packet_size];         ///< in lengths of the direction
   bool front[packet_size];
+
+  Hit operator[](std::size_t r) const {
+    return {triangle[r], static_cast<double>(u[r]), static_cast<double>(v[r]),
+            static_cast<double>(distance[r]), front[r]};
+  }
 };
 
 /// The instruction set that `wanted` (auto | sse4.2 | avx2 | avx512) means on
@@ -66,10 +72,16 @@ class RayCaster {
   /// First hits of the rays in `active` (bit r: ray r).
   PacketHits first_hits(const Packet& origins, const PacketDirections& directions,
                         std::uint32_t active) const;
+  /// The same for parallel rays, which go faster together.
+  PacketHits first_hits(const Packet& origins, Vec3 direction, std::uint32_t active) const;
   /// Which of the `active` origins see parallel light from `direction`?
   std::uint32_t unoccluded(const Packet& origins, Vec3 direction, std::uint32_t active) const;
 
  private:
+  enum class Coherence { none, parallel };
+  PacketHits trace(const Packet& origins, const PacketDirections& directions,
+                   std::uint32_t active, Coherence coherence) const;
+
   struct Embree;
   std::unique_ptr<Embree> embree_;
   std::string isa_;
