@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "geo/horizon.h"
 #include "geo/units.h"
 #include "geo/vec.h"
 
@@ -15,6 +16,7 @@ struct Site {
   double elevation_m = 0;        ///< above the ellipsoid, feeds pressure and parallax
   double north_deg = 0;          ///< azimuth, clockwise from true north, of the scene's +y axis
   std::string timezone = "UTC";  ///< IANA name, UTC, or a fixed offset such as +01:00
+  Horizon horizon{};             ///< far hills, in true azimuths
 };
 
 /// Scene axes from local east-north-up: turns a sun direction, not the mesh.
@@ -37,6 +39,20 @@ Vec3 ecef_position(const Site& site);
 /// Throws InputError for an unknown system, one in degrees, left-handed axes,
 /// and a point that has no place on Earth.
 Site site_from_crs(const std::string& crs, Vec3 position);
+
+/// Latitude and longitude of a position as people write it; the rest of the site is default.
+///
+/// - degrees: `49.7475 13.3776` (latitude first), `49d44'51"N 13d22'39"E`, `N49:44:51 E13:22:39`,
+///   each angle without blanks in it;
+/// - UTM and UPS [m]: `33north 451234 5512345`, `33n …`, `33U …` (latitude band), `north …`;
+/// - MGRS: `33UVR5123412345`, the middle of the square, of 1 km at most.
+///
+/// WGS84. Grid north of UTM and MGRS is not used: that is what a crs is for. Reference:
+/// GeographicLib, class GeoCoords. Throws InputError (without place) for anything else.
+Site site_from_text(const std::string& text);
+
+/// `49d44'51.0"N 013d22'39.4"E`; site_from_text reads it.
+std::string position_text(const Site& site);
 
 /// What to warn about where the point lies outside of the projection's area of
 /// use (usually the wrong projection); empty otherwise. Throws as above.

@@ -99,6 +99,13 @@ SunEphemeris::SunEphemeris(UnixTime begin, UnixTime end, const Site& site, Refra
   }
 }
 
+double disk_half_angle(SunDisk disk, double distance_au) {
+  constexpr double at_one_au_deg = 0.2666;
+  SUNLOAD_EXPECT(distance_au > 0, "distance of the sun");
+  if (disk == SunDisk::point) return 0;
+  return std::asin(std::sin(radians(at_one_au_deg)) / distance_au);
+}
+
 Vec3 SunEphemeris::intermediate_sun_m(JulianDate tt) const {
   const double first = node_before(tt) - nodes_before;
   const double days = (tt.day - node_date(first).day) + tt.fraction;

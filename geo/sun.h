@@ -16,6 +16,13 @@ namespace sunload {
 
 enum class Refraction { none, spa, bennett };
 
+/// The sun as a point, or as a disk that makes penumbrae.
+enum class SunDisk { point, finite };
+
+/// Half of the angle that the sun's disk spans; 0 for a point. 0.2666° at 1 au: 959.63″ (Auwers
+/// 1891), the value of the almanacs.
+double disk_half_angle(SunDisk disk, double distance_au);
+
 /// Air at the site, for refraction.
 struct Air {
   double pressure_pa = 101325;
@@ -114,12 +121,19 @@ SunEvents sun_events(const SunEphemeris& sun, UnixTime day_begin,
 /// The representative sun stands at the middle of the sunlit part (apparent
 /// elevation of the centre above 0), of the longest one if the sun sets and rises
 /// within; a dark interval has `sunlit_s` = 0 and the sun of its middle. DESIGN 4.
+///
+/// Where the site has hills, sunlit is what the sun's centre spends above their line
+/// (passages found on steps of a minute); the representative sun of an interval that
+/// they hide all the time stands at the middle of the part with the sun above 0.
+/// An instant (`given`) with the sun behind them has `sunlit_s` = 0.
 struct SunInterval {
   UnixTime begin = 0, end = 0;
   UnixTime sun_time = 0;
   double sunlit_s = 0;  ///< length of the sunlit part(s) of [begin, end]
   UnixTime sunlit_begin = 0,
            sunlit_end = 0;  ///< bounds (hull of several parts); both sun_time in the dark
+  double up_s = 0;          ///< as sunlit_s, of an open horizon: at least sunlit_s
+  UnixTime up_begin = 0, up_end = 0;  ///< as sunlit_begin and sunlit_end
   SunPosition sun;
   Vec3 direction;  ///< to the sun, scene frame, unit
 

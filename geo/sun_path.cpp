@@ -111,8 +111,7 @@ struct Part {
 };
 
 // What of a step has the sun's centre above a true elevation, in order.
-std::vector<Part> sunlit_parts(const SunEphemeris& sun, const PeriodStep& step,
-                               double sunlit_above) {
+std::vector<Part> parts_up(const SunEphemeris& sun, const PeriodStep& step, double sunlit_above) {
   std::vector<Part> parts;
   if (sun(step.begin).true_elevation_deg > sunlit_above) parts.push_back({step.begin, step.end});
   for (const auto& crossing : elevation_crossings(sun, step.begin, step.end, sunlit_above)) {
@@ -125,12 +124,81 @@ std::vector<Part> sunlit_parts(const SunEphemeris& sun, const PeriodStep& step,
   return parts;
 }
 
-UnixTime representative(const PeriodStep& step, const std::vector<Part>& parts) {
-  if (step.rule == SunInstant::given) return step.instant;
-  if (parts.empty()) return step.begin + (step.end - step.begin) / 2;
+// What of these parts has the sun's centre above the line of the hills.
+std::vector<Part> parts_above(const Horizon& hills, const SunEphemeris& sun,
+                              const std::vector<Part>& up) {
+  // The sun moves by a quarter of a degree meanwhile: finer than horizon files are.
+  constexpr double step_s = 60;
+  const auto above = [&](UnixTime t) {
+    const SunPosition now = sun(t);
+    return hills.is_above({now.azimuth_deg, now.elevation_deg});
+  };
+  std::vector<Part> parts;
+  for (const Part& part : up) {
+    const auto steps = static_cast<int>(std::ceil(part.length_s() / step_s));
+    UnixTime a = part.begin;
+    bool above_a = above(a);
+    if (above_a) parts.push_back(part);
+    for (int i = 1; i <= steps; ++i) {
+      const UnixTime b = i < steps ? part.begin + part.length_s() * i / steps : part.end;
+      const bool above_b = above(b);
+      if (above_b != above_a) {
+        const UnixTime change = change_of(above, a, b);
+        if (above_b) parts.push_back({change, part.end});
+        if (!above_b) parts.back().end = change;
+      }
+      a = b;
+      above_a = above_b;
+    }
+  }
+  return parts;
+}
+
+struct Hull {
+  UnixTime begin = 0, end = 0;
+  double lit_s = 0;
+};
+
+Hull hull(const std::vector<Part>& parts, UnixTime of_none) {
+  if (parts.empty()) return {of_none, of_none, 0};
+  Hull hull{parts.front().begin, parts.back().end, 0};
+  for (const auto& part : parts) hull.lit_s += part.length_s();
+  return hull;
+}
+
+UnixTime middle_of_longest(const std::vector<Part>& parts) {
   const Part& longest = *std::max_element(
       parts.begin(), parts.end(), [](Part a, Part b) { return a.length_s() < b.length_s(); });
   return longest.begin + longest.length_s() / 2;
+}
+
+UnixTime representative(const PeriodStep& step, const std::vector<Part>& sunlit,
+                        const std::vector<Part>& up) {
+  if (step.rule == SunInstant::given) return step.instant;
+  if (!sunlit.empty()) return middle_of_longest(sunlit);
+  if (!up.empty()) return middle_of_longest(up);
+  return step.begin + (step.end - step.begin) / 2;
+}
+
+SunInterval interval_of(const PeriodStep& step, const SunEphemeris& sun, double sunlit_above,
+                        const Horizon& hills) {
+  const auto up = parts_up(sun, step, sunlit_above);
+  auto sunlit = hills.is_open() ? up : parts_above(hills, sun, up);
+  SunInterval interval;
+  interval.begin = step.begin;
+  interval.end = step.end;
+  interval.sun_time = representative(step, sunlit, up);
+  interval.sun = sun(interval.sun_time);
+  const Horizontal place{interval.sun.azimuth_deg, interval.sun.elevation_deg};
+  if (step.rule == SunInstant::given && !hills.is_open() && !hills.is_above(place)) sunlit.clear();
+  const Hull lit = hull(sunlit, interval.sun_time), open = hull(up, interval.sun_time);
+  interval.sunlit_s = lit.lit_s;
+  interval.sunlit_begin = lit.begin;
+  interval.sunlit_end = lit.end;
+  interval.up_s = open.lit_s;
+  interval.up_begin = open.begin;
+  interval.up_end = open.end;
+  return interval;
 }
 
 void expect_in_order(const std::vector<PeriodStep>& steps) {
@@ -182,15 +250,7 @@ SunPath sun_path(const std::vector<PeriodStep>& steps, const Site& site, Refract
   SunPath path;
   path.reserve(steps.size());
   for (const auto& step : steps) {
-    const auto parts = sunlit_parts(sun, step, sunlit_above);
-    SunInterval interval;
-    interval.begin = step.begin;
-    interval.end = step.end;
-    interval.sun_time = representative(step, parts);
-    interval.sunlit_begin = parts.empty() ? interval.sun_time : parts.front().begin;
-    interval.sunlit_end = parts.empty() ? interval.sun_time : parts.back().end;
-    for (const auto& part : parts) interval.sunlit_s += part.length_s();
-    interval.sun = sun(interval.sun_time);
+    SunInterval interval = interval_of(step, sun, sunlit_above, site.horizon);
     interval.direction =
         scene_axes(enu_direction({interval.sun.azimuth_deg, interval.sun.elevation_deg}));
     path.push_back(interval);

@@ -8,6 +8,7 @@
 
 #include "io/machine.h"
 #include "io/run.h"
+#include "io/sun_diagram.h"
 #include "io/time_words.h"
 #include "io/variant_plan.h"
 #include "solver/parallel.h"
@@ -129,17 +130,31 @@ int check_study(const std::string& path, const RunOptions& options, CheckFormat 
   return exit_code::done;
 }
 
-int print_sun(const std::string& path) {
+int print_sun(const std::string& path, const std::string& picture) {
   const StudyFile file = read_study(path);
   const Study& study = file.variants.front();
   // The site may come from the scene's CRS, which only its reader knows.
   const Site site = build_scene(study).site;
   const LightSeries light = light_series(study, site);
+  if (!picture.empty()) {
+    draw_sun_diagram(study, site, light, picture);
+    return exit_code::done;
+  }
   fmt::print("time,azimuth_deg,elevation_deg,dni_w_m2,dhi_w_m2,ghi_w_m2\n");
   for (const auto& i : light.intervals)
     fmt::print("{},{:.6f},{:.6f},{:.4f},{:.4f},{:.4f}\n", iso_utc(i.when.sun_time),
                i.when.sun.azimuth_deg, i.when.sun.elevation_deg, i.mean.dni, i.mean.dhi,
                i.mean.ghi);
+  return exit_code::done;
+}
+
+int print_sky(const std::string& path, const SkyOptions& options) {
+  const SkyDome dome = sky_dome(read_study(path).variants.front(), options.time);
+  if (options.picture.empty()) {
+    std::cout << sky_csv(sky_rows(dome, options.subdivision));
+  } else {
+    draw_sky(dome, options.rules, options.picture);
+  }
   return exit_code::done;
 }
 

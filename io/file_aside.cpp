@@ -51,15 +51,13 @@ std::optional<Writer> writer_of(const std::string& name) {
   if (dash != place_digits) return {};
   Writer writer{words.substr(0, dash), 0};
   const char* digits = words.data() + dash + 1;
-  const auto [end, error] =
-      std::from_chars(digits, words.data() + words.size(), writer.process);
+  const auto [end, error] = std::from_chars(digits, words.data() + words.size(), writer.process);
   if (error != std::errc() || writer.process <= 0 || *end != '-') return {};
   return writer;
 }
 
 bool is_left_over(const fs::path& file, const Writer& writer) {
-  if (writer.place == this_place())
-    return ::kill(writer.process, 0) != 0 && errno == ESRCH;
+  if (writer.place == this_place()) return ::kill(writer.process, 0) != 0 && errno == ESRCH;
   std::error_code gone;
   const auto written = fs::last_write_time(file, gone);
   return !gone && fs::file_time_type::clock::now() - written > unwritten_for;

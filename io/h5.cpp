@@ -1,10 +1,7 @@
 #include "io/h5.h"
 
-#include <fcntl.h>
 #include <hdf5.h>
 #include <hdf5_hl.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <limits>
@@ -61,8 +58,12 @@ Handle handle(hid_t id, Close close, const std::string& action) {
           }};
 }
 
-/// Errors become exceptions: the library prints nothing.
-void be_silent() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+/// Before the first use. Errors become exceptions: the library prints nothing.
+/// Files are closed by their owners: it has nothing to do at the end of the process.
+void set_up_library() {
+  [[maybe_unused]] static const herr_t no_clean_up = H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 Handle text_type() {
   auto type = handle(H5Tcopy(H5T_C_S1), &H5Tclose, "text type");
@@ -314,7 +315,7 @@ void Dataset::attach_scale(std::size_t axis, const Dataset& scale) {
 }
 
 File File::create(const std::string& path) {
-  be_silent();
+  set_up_library();
   const auto creation = handle(H5Pcreate(H5P_FILE_CREATE), &H5Pclose, "creation");
   // netCDF-4 lists variables in the order of their creation.
   checked(H5Pset_link_creation_order(*creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED),
@@ -327,7 +328,7 @@ File File::create(const std::string& path) {
 }
 
 File File::open(const std::string& path) {
-  be_silent();
+  set_up_library();
   auto file =
       handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, *access_properties()), &H5Fclose, "opening");
   auto root = handle(H5Gopen2(*file, "/", H5P_DEFAULT), &H5Gclose, "opening");
@@ -388,17 +389,11 @@ void File::close() {
 }
 
 void File::abandon() {
-  void* descriptor = nullptr;
-  // What is still buffered goes to a place in memory where writing cannot fail.
-  if (H5Fget_vfd_handle(*file_, H5P_DEFAULT, &descriptor) >= 0 && descriptor != nullptr) {
-    const int sink = ::memfd_create("abandoned", MFD_CLOEXEC);
-    if (sink >= 0) {
-      ::dup2(sink, *static_cast<int*>(descriptor));
-      ::close(sink);
-    }
-  }
-  handle_.reset();
-  file_.reset();
+  // Closing would try to write once more what could not be written, which ends in
+  // the library's memory (1.10.8): the file stays open as long as the process.
+  static auto* const abandoned = new std::vector<Handle>;
+  abandoned->push_back(std::move(handle_));
+  abandoned->push_back(std::move(file_));
   H5Eclear2(H5E_DEFAULT);
 }
 

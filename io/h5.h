@@ -102,8 +102,8 @@ class File : public Object {
   std::uint64_t end() const;
   /// Writes out everything and closes; datasets must not be used any more. Throws Error.
   void close();
-  /// For a file that failed (disk full): closes without caring what is lost, so
-  /// that the library does not try again at the end of the process.
+  /// For a file that failed (disk full): lets go of it without another attempt to
+  /// write; its descriptor stays open until the process ends.
   void abandon();
 
  private:

@@ -142,7 +142,7 @@ double ledger_kwh(const ResultReader& result, const std::string& term) {
 std::string runtime(const ResultReader& result) {
   std::string words;
   for (const char* stage :
-       {"scene", "prepare", "hierarchy", "lines", "direct", "sky", "reflect", "write", "total"}) {
+       {"lines", "direct", "mirror", "solve", "realizations"}) {
     const double seconds = result.number_attribute(fmt::format("runtime_{}_s", stage));
     if (!std::isnan(seconds))
       words += fmt::format("{}{} {:.3g} s", words.empty() ? "" : ", ", stage, seconds);
@@ -169,10 +169,12 @@ std::string energy_text(const ResultReader& result) {
       out_words += fmt::format("{}{} {:.5g}", out_words.empty() ? "" : " + ", term, energy);
   }
   const double residual = ledger_kwh(result, "residual");
+  // An attribute of the term: the dataset of errors may hold those of the instants.
+  const double error_kwh = result.has("power_residual")
+                               ? result.number_attribute("power_residual", "time_sum_se_kwh")
+                               : std::nan("");
   const std::string error =
-      result.has("power_residual_se")
-          ? fmt::format(" ± {:.2g}", result.doubles("power_residual_se").at(0))
-          : std::string();
+      std::isnan(error_kwh) ? std::string() : fmt::format(" ± {:.2g}", error_kwh);
   return line("energy, kWh", fmt::format("in {:.6g} = {}", in, in_words)) +
          line("", fmt::format("out {:.6g} = {}", out, out_words)) +
          line("", fmt::format("residual {:.3g}{} ({:.2g} % of in)", residual, error,

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "io/hash.h"
 #include "io/period.h"
+#include "io/weather_light.h"
 #include "solver/parallel.h"
 
 namespace sunload {
@@ -19,9 +21,8 @@ constexpr double panel_s = seconds_per_hour;
 struct GaussPoint {
   double at, weight;
 };
-const std::array<GaussPoint, 3> gauss{{{0.5 - std::sqrt(0.15), 5.0 / 18},
-                                       {0.5, 8.0 / 18},
-                                       {0.5 + std::sqrt(0.15), 5.0 / 18}}};
+const std::array<GaussPoint, 3> gauss{
+    {{0.5 - std::sqrt(0.15), 5.0 / 18}, {0.5, 8.0 / 18}, {0.5 + std::sqrt(0.15), 5.0 / 18}}};
 
 Irradiance scaled(const Irradiance& i, double factor) {
   return {i.dni * factor, i.dhi * factor, i.ghi * factor};
@@ -41,18 +42,29 @@ class ClearSky {
                       .extraterrestrial_normal = extraterrestrial(sun.distance_au)});
   }
 
-  /// Mean over the sunlit part of an interval.
+  /// Mean while the sun is up, hills or not.
+  Irradiance mean_while_up(const SunInterval& when) const {
+    return mean(when, when.up_begin, when.up_end, Horizon());
+  }
+
+  /// Mean while no hill hides the sun.
   Irradiance mean_while_sunlit(const SunInterval& when) const {
+    return mean(when, when.sunlit_begin, when.sunlit_end, site_.horizon);
+  }
+
+ private:
+  Irradiance mean(const SunInterval& when, UnixTime begin, UnixTime end,
+                  const Horizon& hills) const {
     if (when.length_s() <= one_sun_is_enough_s) return at(when.sun_time, when.sun);
-    const double hull = when.sunlit_end - when.sunlit_begin;
+    const double hull = end - begin;
     const auto panels = static_cast<int>(std::ceil(hull / panel_s));
     Irradiance sum;
     double lit = 0;
     for (int p = 0; p < panels; ++p)
       for (const auto& g : gauss) {
-        const UnixTime t = when.sunlit_begin + hull * (p + g.at) / panels;
+        const UnixTime t = begin + hull * (p + g.at) / panels;
         const SunPosition sun = sun_(t);
-        if (sun.elevation_deg <= 0) continue;
+        if (!hills.is_above({sun.azimuth_deg, sun.elevation_deg})) continue;
         const Irradiance now = at(t, sun);
         sum = {sum.dni + g.weight * now.dni, sum.dhi + g.weight * now.dhi,
                sum.ghi + g.weight * now.ghi};
@@ -61,29 +73,68 @@ class ClearSky {
     return lit > 0 ? scaled(sum, 1 / lit) : Irradiance{};
   }
 
- private:
   const LightStudy& light_;
   const Site& site_;
   const SunEphemeris& sun_;
 };
 
-LitInterval fixed_light(const SunInterval& when, const LightStudy& light) {
+/// Means over the interval of light that is `lit` while the sun is up; what of it is direct
+/// arrives only as long as no hill hides the sun, with the values of `direct`.
+Irradiance over_interval(const SunInterval& when, const Irradiance& lit, const Irradiance& direct) {
+  const Irradiance open = scaled(lit, when.up_s / when.length_s());
+  if (when.sunlit_s == when.up_s) return open;
   const double share = when.sunlit_s / when.length_s();
+  return {direct.dni * share, open.dhi, open.dhi + (direct.ghi - direct.dhi) * share};
+}
+
+LitInterval fixed_light(const SunInterval& when, const LightStudy& light) {
   const double sin_elevation = std::max(0.0, std::sin(radians(when.sun.elevation_deg)));
   const Irradiance lit{light.dni_w_m2, light.dhi_w_m2,
                        light.dni_w_m2 * sin_elevation + light.dhi_w_m2};
-  return {when, scaled(lit, share), lit};
+  return {when, over_interval(when, lit, lit), lit};
+}
+
+SunPath path_of(const std::vector<PeriodStep>& steps, const Study& study, const Site& site,
+                LightSeries& series) {
+  if (steps.empty()) throw InputError(study.period.where, "period has no intervals");
+  if (study.sun.ut1_utc == Ut1::table &&
+      !(ut1_table_covers(steps.front().begin) && ut1_table_covers(steps.back().end)))
+    series.notes.push_back(
+        "part of the period lies outside of the table of UT1-UTC; UT1 = UTC is taken there "
+        "(moves the sun's azimuth by at most 0.004 degrees)");
+  return sun_path(steps, site, study.sun.refraction, study.sun.ut1_utc);
 }
 
 SunPath dated_path(const Study& study, const Site& site, LightSeries& series) {
   const auto steps = period_steps(study.period, TimeZone(study.site.timezone));
-  series.notes = steps.notes;
-  if (study.sun.ut1_utc == Ut1::table && !steps.steps.empty() &&
-      !(ut1_table_covers(steps.steps.front().begin) && ut1_table_covers(steps.steps.back().end)))
-    series.notes.push_back(
-        "part of the period lies outside of the table of UT1-UTC; UT1 = UTC is taken there "
-        "(moves the sun's azimuth by at most 0.004 degrees)");
-  return sun_path(steps.steps, site, study.sun.refraction, study.sun.ut1_utc);
+  series.notes.insert(series.notes.end(), steps.notes.begin(), steps.notes.end());
+  return path_of(steps.steps, study, site, series);
+}
+
+/// Light as the weather says it under an open horizon; hills take their share of the beam. The
+/// sky's shape follows from DNI while the sun is up, which cannot exceed the sun's own.
+LitInterval measured_light(const SunInterval& when, const Irradiance& open) {
+  LitInterval interval{when, open, {0, open.dhi, open.ghi}};
+  if (when.up_s <= 0) return interval;
+  interval.of_the_sky.dni =
+      std::min(open.dni * when.length_s() / when.up_s, extraterrestrial(when.sun.distance_au));
+  if (when.sunlit_s == when.up_s) return interval;
+  const double free = when.sunlit_s / when.up_s;
+  interval.mean = {open.dni * free, open.dhi, open.dhi + (open.ghi - open.dhi) * free};
+  return interval;
+}
+
+void add_weather(const Study& study, const Site& site, LightSeries& series) {
+  StudyWeather weather(study, site);
+  const SunPath path = std::holds_alternative<WeatherPeriod>(study.period.kind)
+                           ? path_of(weather.own_steps(), study, site, series)
+                           : dated_path(study, site, series);
+  const auto means = weather.means(path);
+  for (std::size_t i = 0; i < path.size(); ++i)
+    series.intervals.push_back(measured_light(path[i], means[i]));
+  series.weather = weather.words();
+  series.notes.insert(series.notes.end(), weather.warnings().begin(), weather.warnings().end());
+  series.weather_sha256 = sha256_of_file(study.light.weather);
 }
 
 }  // namespace
@@ -96,10 +147,14 @@ std::size_t LightSeries::lit_count() const {
 
 LightSeries light_series(const Study& study, const Site& site) {
   LightSeries series;
+  if (study.light.source == LightSource::weather) {
+    add_weather(study, site, series);
+    return series;
+  }
   const auto* positions = std::get_if<PositionsPeriod>(&study.period.kind);
   series.times_are_synthetic = positions != nullptr;
-  const SunPath path = positions ? positions_path(*positions, scene_from_enu(site))
-                                 : dated_path(study, site, series);
+  const SunPath path =
+      positions ? positions_path(*positions, site) : dated_path(study, site, series);
   if (path.empty()) throw InputError(study.period.where, "period has no intervals");
   if (study.light.source == LightSource::fixed || positions) {
     for (const auto& when : path) series.intervals.push_back(fixed_light(when, study.light));
@@ -110,17 +165,34 @@ LightSeries light_series(const Study& study, const Site& site) {
   const ClearSky sky(study.light, site, sun);
   for (const auto& when : path) {
     LitInterval interval{when, {}, {}};
-    if (when.sunlit_s > 0) {
-      interval.of_the_sky = sky.mean_while_sunlit(when);
-      interval.mean = scaled(interval.of_the_sky, when.sunlit_s / when.length_s());
+    if (when.up_s > 0) {
+      interval.of_the_sky = sky.mean_while_up(when);
+      interval.mean = over_interval(when, interval.of_the_sky,
+                                    when.sunlit_s == when.up_s ? interval.of_the_sky
+                                    : when.sunlit_s > 0        ? sky.mean_while_sunlit(when)
+                                                               : Irradiance{});
     }
     series.intervals.push_back(interval);
   }
   return series;
 }
 
+Sky sky_of(const LitInterval& interval, const LightStudy& light) {
+  const SunInterval& when = interval.when;
+  // Without sun above the horizon: the sky of a sun that stands on it.
+  const double zenith_deg = std::clamp(90 - when.sun.elevation_deg, 0.0, 90.0);
+  return Sky({.model = light.sky,
+              .dhi = interval.of_the_sky.dhi,
+              .dni = interval.of_the_sky.dni,
+              .extraterrestrial_normal = extraterrestrial(when.sun.distance_au),
+              .sun_zenith_deg = zenith_deg,
+              .sun_direction = when.direction,
+              .cie_type = light.sky_type,
+              .turbidity = light.turbidity});
+}
+
 SunLight sun_light(const LitInterval& interval, std::uint32_t number, const LightStudy& light,
-                   const SkyGrid& grid) {
+                   const SkyGrid& grid, const std::vector<double>& open_share) {
   const SunInterval& when = interval.when;
   SunLight sun;
   sun.number = number;
@@ -130,17 +202,14 @@ SunLight sun_light(const LitInterval& interval, std::uint32_t number, const Ligh
   sun.ground_exitance = light.far_ground_albedo * interval.mean.ghi;
   sun.length_s = when.length_s();
   sun.sunlit_s = when.sunlit_s;
-  if (interval.mean.dhi <= 0) return sun;
-  const double zenith_deg = std::clamp(90 - when.sun.elevation_deg, 0.0, 90.0);
-  const Sky sky({.model = light.sky,
-                 .dhi = interval.of_the_sky.dhi,
-                 .dni = interval.of_the_sky.dni,
-                 .extraterrestrial_normal = extraterrestrial(when.sun.distance_au),
-                 .sun_zenith_deg = zenith_deg,
-                 .sun_direction = when.direction,
-                 .cie_type = light.sky_type,
-                 .turbidity = light.turbidity});
-  sun.sky = grid.mean_radiance(sky, interval.mean.dhi);
+  if (interval.mean.dhi > 0)
+    sun.sky = grid.mean_radiance(sky_of(interval, light), interval.mean.dhi);
+  if (!open_share.empty() && sun.ground_exitance + interval.mean.dhi > 0) {
+    sun.sky.resize(open_share.size(), 0);
+    for (std::size_t cell = 0; cell < open_share.size(); ++cell)
+      sun.sky[cell] =
+          open_share[cell] * sun.sky[cell] + (1 - open_share[cell]) * sun.ground_exitance / pi;
+  }
   return sun;
 }
 

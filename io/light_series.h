@@ -15,12 +15,14 @@ namespace sunload {
 struct LitInterval {
   SunInterval when;
   Irradiance mean;        ///< over the whole interval
-  Irradiance of_the_sky;  ///< while the sun is up: what the sky's shape follows from
+  Irradiance of_the_sky;  ///< what the sky's shape follows from: DNI while the sun is up
 };
 
 struct LightSeries {
   std::vector<LitInterval> intervals;
   bool times_are_synthetic = false;   ///< `positions`: time counts from 2000-01-01T12:00Z
+  std::vector<std::string> weather;   ///< the weather file in words; empty without one
+  std::string weather_sha256;         ///< of its bytes
   std::vector<std::string> notes;     ///< what happened at clock changes, table ends, …
   std::size_t lit_count() const;
 };
@@ -29,8 +31,16 @@ struct LightSeries {
 /// Throws InputError for times that do not exist or do not increase.
 LightSeries light_series(const Study& study, const Site& site);
 
+/// The open sky of an interval, in scene axes; its DHI is that while the sun is up.
+Sky sky_of(const LitInterval& interval, const LightStudy& light);
+
 /// Light for the solver, with the sky's radiance on `grid`, of interval `number`.
+///
+/// `open_share` (`open_shares` of geo/horizon.h) says what of each cell hills leave free. DHI is
+/// that of the open sky: its part behind the hills is lost, and they shine as the far ground
+/// does, unshaded by themselves; results count that as sky light. With the sun behind the hills
+/// the far ground has the sky's light only.
 SunLight sun_light(const LitInterval& interval, std::uint32_t number, const LightStudy& light,
-                   const SkyGrid& grid);
+                   const SkyGrid& grid, const std::vector<double>& open_share = {});
 
 }  // namespace sunload

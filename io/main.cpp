@@ -93,6 +93,7 @@ class CommandLine {
     add_merge();
     add_check();
     add_sun();
+    add_sky();
     add_info();
     add_compare();
     add_render();
@@ -181,10 +182,12 @@ class CommandLine {
     CLI::App* sub = command("merge", "put finished batches together", [this] {
       if (overwrite_) options_.existing = Existing::overwrite;
       if (keep_batches_) options_.batches = Batches::keep;
-      return merge_study(study_, options_);
+      return merge_study(study_, options_, partial_ ? Merge::partial : Merge::complete);
     });
     add_study(sub);
     add_place(sub);
+    sub->add_flag("--partial", partial_,
+                  "write what is there to .work/.../partial.h5 where batches are missing");
     sub->add_flag("--overwrite", overwrite_, "replace results that are there");
     sub->add_flag("--keep-batches", keep_batches_, "do not remove batch files after the merge");
   }
@@ -200,7 +203,43 @@ class CommandLine {
   }
 
   void add_sun() {
-    add_study(command("sun", "print the sun path as CSV", [this] { return print_sun(study_); }));
+    CLI::App* sub = command("sun", "the sun path as CSV or as a stereographic diagram",
+                            [this] { return print_sun(study_, picture_); });
+    add_study(sub);
+    add_picture(sub);
+  }
+
+  void add_picture(CLI::App* sub) {
+    sub->add_option("--image", picture_, "picture to write instead of CSV (.png)");
+  }
+
+  void add_sky() {
+    CLI::App* sub = command("sky", "the sky dome at one instant as CSV or as a fisheye picture",
+                            [this] { return sky(); });
+    add_study(sub);
+    add_picture(sub);
+    sub->add_option("--time", sky_.time,
+                    "instant, e.g. 2026-06-21T12:00 (civil time of the site), …Z, …+02:00")
+        ->required();
+    sub->add_option("--colour", sky_.rules.kind, "of the picture: false (luminance) or rgb")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, SkyPicture>{
+            {"false", SkyPicture::luminance}, {"rgb", SkyPicture::colour}}));
+    sub->add_option("--colour-model", sky_.rules.model, "of rgb: second (default) or first")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, SkyColourModel>{
+            {"first", SkyColourModel::first}, {"second", SkyColourModel::second}}));
+    sub->add_option("--subdivision", subdivision_,
+                    "patches of the CSV: cells (64 x 64, default), tregenza, mf2 or mf4")
+        ->check(CLI::IsMember({"cells", "tregenza", "mf2", "mf4"}));
+  }
+
+  int sky() {
+    const std::map<std::string, Subdivision> subdivisions{{"tregenza", Subdivision::tregenza},
+                                                          {"mf2", Subdivision::reinhart_mf2},
+                                                          {"mf4", Subdivision::reinhart_mf4}};
+    const auto found = subdivisions.find(subdivision_);
+    if (found != subdivisions.end()) sky_.subdivision = found->second;
+    sky_.picture = picture_;
+    return print_sky(study_, sky_);
   }
 
   void add_info() {
@@ -307,13 +346,14 @@ class CommandLine {
 
   CLI::App app_{"sunload: how much sun and sky light falls on every patch of a city"};
   std::function<int()> action_;
-  std::string study_, base_, eye_, look_, picture_, scene_, shard_, size_ = "1600x1000";
+  std::string study_, base_, eye_, look_, picture_, scene_, shard_, size_ = "1600x1000", subdivision_ = "cells";
   std::vector<std::string> results_, parameters_;
   RunOptions options_;
   RenderRules render_;
+  SkyOptions sky_;
   double largest_ = 0;
   bool resume_ = false, overwrite_ = false, keep_batches_ = false, json_ = false, csv_ = false,
-       patches_ = false, mesh_lines_ = false;
+       patches_ = false, mesh_lines_ = false, partial_ = false;
 };
 
 /// Listings count as written only once they have left the program.

@@ -1,5 +1,7 @@
 #include "io/merge.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -176,9 +178,14 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
                 {"line_rays", static_cast<std::int64_t>(work.line_rays)},
                 {"direct_rays", static_cast<std::int64_t>(work.direct_rays)},
                 {"mirror_rays", static_cast<std::int64_t>(work.mirror_rays)}};
+  std::string weather;
+  for (const auto& line : plan.light.weather) weather += line + "\n";
+  if (!weather.empty()) a.text.emplace_back("weather", weather);
   std::string warnings;
   for (const auto& list : {file.warnings, plan.built.warnings, plan.light.notes})
     for (const auto& line : list) warnings += line + "\n";
+  const std::string backs = back_warning(totals[batch_array::back_share][0]);
+  if (!backs.empty()) warnings += backs + "\n";
   if (!warnings.empty()) a.text.emplace_back("warnings", warnings);
   return a;
 }
@@ -225,6 +232,16 @@ ResultGeometry result_geometry(const VariantPlan& plan, const Hierarchy& hierarc
   return g;
 }
 
+std::string back_warning(double share) {
+  // DESIGN 4: worth a warning above this share.
+  constexpr double tolerable = 1e-3;
+  if (share <= tolerable) return {};
+  return fmt::format(
+      "{:.2g} % of the lines meet the back of a one-sided surface, whose light is lost; turn or "
+      "close these surfaces, or make them two-sided (sides: two)",
+      100 * share);
+}
+
 MissingBatches missing_batches(const std::string& folder, const VariantPlan& plan) {
   MissingBatches missing;
   for (std::size_t b = 0; b < plan.batches(); ++b) {
@@ -244,7 +261,8 @@ std::vector<std::size_t> batches_not_there(const std::string& folder, const Vari
 }
 
 void merge_variant(const std::string& folder, const VariantPlan& plan, const StudyFile& file,
-                   const Hierarchy& hierarchy) {
+                   const Hierarchy& hierarchy, const std::string& path,
+                   const std::vector<std::size_t>& left_out) {
   const ResultGeometry geometry = result_geometry(plan, hierarchy);
   ResultWriter::Options options;
   options.chunk_intervals = plan.batch_suns();
@@ -252,9 +270,10 @@ void merge_variant(const std::string& folder, const VariantPlan& plan, const Stu
   options.realizations = static_cast<std::size_t>(plan.study.solver.realizations);
   options.times_are_synthetic = plan.light.times_are_synthetic;
   options.left_out = unwanted_series(plan.study.output);
-  ResultWriter writer(result_path(folder, plan.study), geometry, result_times(plan.light), options);
+  ResultWriter writer(path, geometry, result_times(plan.light), options);
   Totals totals;
   for (std::size_t b = 0; b < plan.batches(); ++b) {
+    if (std::find(left_out.begin(), left_out.end(), b) != left_out.end()) continue;
     const BatchReader batch(batch_path(folder, plan, b));
     writer.append(batch);
     totals.add(batch);
@@ -264,10 +283,19 @@ void merge_variant(const std::string& folder, const VariantPlan& plan, const Stu
   writer.finish(result_attributes(plan, file, totals, geometry), file.yaml);
 }
 
+void remove_empty_folders(const std::string& folder, const VariantPlan& plan) {
+  std::error_code not_empty;
+  fs::path path = work_folder(folder, plan);
+  constexpr int of_variant_work_and_study = 3;
+  for (int level = 0; level < of_variant_work_and_study; ++level, path = path.parent_path())
+    fs::remove(path, not_empty);
+}
+
 void remove_batches(const std::string& folder, const VariantPlan& plan) {
   std::error_code ignored;
   for (std::size_t b = 0; b < plan.batches(); ++b) fs::remove(batch_path(folder, plan, b), ignored);
   fs::remove(prepared_path(folder, plan), ignored);
+  fs::remove(work_folder(folder, plan) + "/partial.h5", ignored);
   fs::remove(work_folder(folder, plan), ignored);
   fs::remove(fs::path(work_folder(folder, plan)).parent_path(), ignored);
 }

@@ -26,9 +26,18 @@ std::vector<std::size_t> batches_not_there(const std::string& folder, const Vari
 
 /// Puts all batches together in batch order: first the sums of every
 /// realization, then means and errors. Memory does not grow with the period.
-/// Throws InputError where a batch is missing or not valid (check first).
+/// Throws InputError where a batch is missing or not valid (check first), but
+/// for those that are to be left out: their rows are missing values, and sums are
+/// those of the other batches.
 void merge_variant(const std::string& folder, const VariantPlan& plan, const StudyFile& file,
-                   const Hierarchy& hierarchy);
+                   const Hierarchy& hierarchy, const std::string& path,
+                   const std::vector<std::size_t>& left_out = {});
+
+/// A warning where a worrying share of the lines meets backs, else empty.
+std::string back_warning(double share);
+
+/// Removes the folders of a variant's work where nothing is in them.
+void remove_empty_folders(const std::string& folder, const VariantPlan& plan);
 
 /// Removes a variant's batches, and the work folder if nothing else is in it.
 void remove_batches(const std::string& folder, const VariantPlan& plan);

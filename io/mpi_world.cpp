@@ -16,8 +16,12 @@ namespace {
 
 /// Ranks that the launcher says it started, 1 if there is no launcher.
 std::size_t launched_ranks() {
+  const auto number = [](const char* value) { return std::strtoul(value, nullptr, 10); };
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
-    if (const char* value = std::getenv(name)) return std::strtoul(value, nullptr, 10);
+    if (const char* value = std::getenv(name)) return number(value);
+  // srun --mpi=pmix leaves the count to Slurm; without PMIx its tasks know nothing of each other.
+  if (const char* value = std::getenv("SLURM_STEP_NUM_TASKS"); value && std::getenv("PMIX_RANK"))
+    return number(value);
   return 1;
 }
 

@@ -68,6 +68,7 @@ struct StepsOf {
     }
   }
   void operator()(const PositionsPeriod&) const {}
+  void operator()(const WeatherPeriod&) const {}  // its steps are those of the file
 };
 
 }  // namespace
@@ -83,7 +84,8 @@ PeriodSteps period_steps(const PeriodStudy& period, const TimeZone& zone) {
   return out;
 }
 
-SunPath positions_path(const PositionsPeriod& period, const Rotation& scene_from_enu) {
+SunPath positions_path(const PositionsPeriod& period, const Site& site) {
+  const Rotation scene_axes = scene_from_enu(site);
   SunPath path;
   UnixTime begin = synthetic_epoch;
   for (const auto& at : period.positions) {
@@ -92,11 +94,15 @@ SunPath positions_path(const PositionsPeriod& period, const Rotation& scene_from
     interval.end = begin + at.interval_min * seconds_per_minute;
     interval.sun_time = (interval.begin + interval.end) / 2;
     interval.sun = {at.azimuth_deg, at.elevation_deg, at.elevation_deg, 1};
-    interval.direction = scene_from_enu(enu_direction({at.azimuth_deg, at.elevation_deg}));
+    interval.direction = scene_axes(enu_direction({at.azimuth_deg, at.elevation_deg}));
     const bool is_up = at.elevation_deg > 0;
-    interval.sunlit_s = is_up ? interval.length_s() : 0;
-    interval.sunlit_begin = is_up ? interval.begin : interval.sun_time;
-    interval.sunlit_end = is_up ? interval.end : interval.sun_time;
+    interval.up_s = is_up ? interval.length_s() : 0;
+    interval.up_begin = is_up ? interval.begin : interval.sun_time;
+    interval.up_end = is_up ? interval.end : interval.sun_time;
+    const bool is_sunlit = is_up && site.horizon.is_above({at.azimuth_deg, at.elevation_deg});
+    interval.sunlit_s = is_sunlit ? interval.up_s : 0;
+    interval.sunlit_begin = is_sunlit ? interval.up_begin : interval.sun_time;
+    interval.sunlit_end = is_sunlit ? interval.up_end : interval.sun_time;
     path.push_back(interval);
     begin = interval.end;
   }

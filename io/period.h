@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "geo/site.h"
 #include "geo/sun.h"
 #include "io/study.h"
 
@@ -19,6 +20,6 @@ struct PeriodSteps {
 PeriodSteps period_steps(const PeriodStudy& period, const TimeZone& zone);
 
 /// Positions of the sun as intervals one after another from 2000-01-01T12:00Z.
-SunPath positions_path(const PositionsPeriod& period, const Rotation& scene_from_enu);
+SunPath positions_path(const PositionsPeriod& period, const Site& site);
 
 }  // namespace sunload

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 
 #include "io/chunk.h"
@@ -86,6 +87,8 @@ class Input {
 };
 
 std::string whole_file(const std::string& path) {
+  std::error_code unreadable;
+  if (!std::filesystem::is_regular_file(path, unreadable)) return {};
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file) return {};
   std::string bytes(static_cast<std::size_t>(file.tellg()), '\0');

@@ -94,6 +94,8 @@ class ResultReader {
   std::string units(const std::string& dataset) const;
   std::string text_attribute(const std::string& name) const;  ///< of the root; empty if absent
   double number_attribute(const std::string& name) const;     ///< of the root; NaN if absent
+  /// Of a dataset; NaN if absent.
+  double number_attribute(const std::string& dataset, const std::string& name) const;
 
  private:
   struct File;

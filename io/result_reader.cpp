@@ -34,13 +34,19 @@ struct ResultReader::File {
 
 namespace {
 
+double one_number(const h5::Object& object, const std::string& attribute) {
+  const auto values = object.numbers(attribute);
+  return values && values->size() == 1 ? values->front() : std::numeric_limits<double>::quiet_NaN();
+}
+
 h5::File opened(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError({path}, "there is no such file");
   try {
     h5::File file = h5::File::open(path);
     const std::string problem = seal_problem(path, file);
-    if (!problem.empty()) throw InputError({path}, "is damaged", problem, "run the study again");
+    if (!problem.empty())
+      throw InputError({path}, "is damaged", problem, "run the study again with --overwrite");
     const auto format = file.text("sunload_format");
     if (!format) throw InputError({path}, "is not a result of sunload", "no sunload_format");
     if (*format != result_format) {
@@ -103,11 +109,13 @@ std::string ResultReader::text_attribute(const std::string& name) const {
   }
 }
 
+double ResultReader::number_attribute(const std::string& dataset, const std::string& name) const {
+  return file_->with(dataset, [&](const h5::Dataset& data) { return one_number(data, name); });
+}
+
 double ResultReader::number_attribute(const std::string& name) const {
   try {
-    const auto values = file_->file.numbers(name);
-    return values && values->size() == 1 ? values->front()
-                                         : std::numeric_limits<double>::quiet_NaN();
+    return one_number(file_->file, name);
   } catch (const h5::Error& error) {
     file_->refuse("attribute " + name + " cannot be read", error.what());
   }

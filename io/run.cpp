@@ -77,17 +77,22 @@ std::string list_text(const std::vector<std::size_t>& numbers) {
 void refuse_other_isa(const std::string& folder, const VariantPlan& plan,
                       const RunOptions& options) {
   if (options.shard.is_whole()) return;
-  for (const char* isa : {"sse4.2", "avx2", "avx512"}) {
-    if (isa == plan.isa) continue;
+  // From small to large: both processors have what comes first.
+  bool is_smaller = true;
+  for (const std::string isa : {"sse4.2", "avx2", "avx512"}) {
+    if (isa == plan.isa) {
+      is_smaller = false;
+      continue;
+    }
     VariantPlan other;
     other.study = plan.study;
     other.content_hash = hash_with_isa(plan, isa);
     if (fs::exists(work_folder(folder, other)))
       throw InputError({work_folder(folder, other)},
-                       "holds batches of this study computed with " + std::string(isa),
+                       "holds batches of this study computed with " + isa,
                        "this processor would use " + plan.isa + ", and bits would differ",
-                       "write solver.isa: " + std::string(isa < plan.isa ? isa : plan.isa.c_str()) +
-                           " into the study, or run on equal processors");
+                       "write solver: {isa: " + (is_smaller ? isa : plan.isa) +
+                           "} into the study, or run on equal processors");
   }
 }
 
@@ -134,9 +139,10 @@ class StudyRun {
     if (world_ && !options_.shard.is_whole())
       throw InputError({}, "--shard under MPI", "ranks share the work by themselves",
                        "leave --shard away, or start without mpirun");
-    make_writable_folder(folder_ + "/" + file_.name);
     remove_leftovers();
-    for (auto& place : plans_) compute(place);
+    for (auto& place : plans_) split(place);
+    if (!plans_.empty()) make_writable_folder(folder_ + "/" + file_.name);
+    compute();
     if (world_) world_->wait_for_all();
     if (!world_ || world_->is_first())
       for (auto& place : plans_) merge_if_complete(place);
@@ -180,12 +186,28 @@ class StudyRun {
     remove_left_aside(folder_ + "/" + file_.name);
   }
 
+  /// Makes the mesh; work that cannot fit is refused before anything is written.
+  void split(Place& place) const {
+    const VariantPlan& plan = place.plan;
+    const SplitRules rules = split_rules(plan.study);
+    check_limits(folder_, estimate_work(plan, least_patch_count(plan.built.scene, rules)));
+    place.mesh = std::make_unique<Hierarchy>(plan.built.scene, rules);
+    check_limits(folder_, estimate_work(plan, place.mesh->patch_count()));
+  }
+
+  void compute() {
+    try {
+      for (auto& place : plans_) compute(place);
+    } catch (...) {
+      for (const auto& place : plans_) remove_empty_folders(folder_, place.plan);
+      throw;
+    }
+  }
+
   void compute(Place& place) {
     const VariantPlan& plan = place.plan;
     progress_.begin_variant(plan.study.variant);
     print_warnings(progress_, plan);
-    place.mesh = std::make_unique<Hierarchy>(plan.built.scene, split_rules(plan.study));
-    check_limits(folder_, estimate_work(plan, place.mesh->patch_count()));
     UnitQueue units(place.variant, plan.batches(), options_.shard, world_.get());
     VariantRun run(folder_, plan, progress_);
     run.compute(units, world_.get());
@@ -208,7 +230,7 @@ class StudyRun {
       return;
     }
     if (!batches_not_there(folder_, plan).empty()) return;  // merged and removed meanwhile
-    merge_variant(folder_, plan, file_, *place.mesh);
+    merge_variant(folder_, plan, file_, *place.mesh, result);
     if (options_.batches == Batches::remove) remove_batches(folder_, plan);
     progress_.say(plan.study.variant + ": wrote " + result + "\n" +
                   energy_text(ResultReader(result)));
@@ -230,7 +252,7 @@ int run_study(const std::string& path, const RunOptions& options) {
   return StudyRun(file, options).run();
 }
 
-int merge_study(const std::string& path, const RunOptions& options) {
+int merge_study(const std::string& path, const RunOptions& options, Merge merge) {
   use_threads(options);
   const StudyFile file = read_study(path);
   const std::string folder = folder_of(file, options);
@@ -244,6 +266,15 @@ int merge_study(const std::string& path, const RunOptions& options) {
     }
     const auto missing = missing_batches(folder, plan);
     for (const auto& reason : missing.reasons) fmt::print(stderr, "{}\n", reason);
+    const bool something_is_there = missing.numbers.size() < plan.batches();
+    if (merge == Merge::partial && something_is_there && !missing.numbers.empty()) {
+      const std::string partial = work_folder(folder, plan) + "/partial.h5";
+      merge_variant(folder, plan, file, Hierarchy(plan.built.scene, split_rules(plan.study)),
+                    partial, missing.numbers);
+      fmt::print(stderr, "{}: wrote {} of {} batches to {}\n", study.variant,
+                 plan.batches() - missing.numbers.size(), plan.batches(), partial);
+      continue;
+    }
     if (!missing.numbers.empty()) {
       fmt::print(stderr, "{}: {} of {} batches are missing:{}; run the study again with --resume\n",
                  study.variant, missing.numbers.size(), plan.batches(), list_text(missing.numbers));
@@ -259,7 +290,7 @@ int merge_study(const std::string& path, const RunOptions& options) {
       continue;
     }
     const Hierarchy hierarchy(plan.built.scene, split_rules(plan.study));
-    merge_variant(folder, plan, file, hierarchy);
+    merge_variant(folder, plan, file, hierarchy, result);
     if (options.batches == Batches::remove) remove_batches(folder, plan);
     fmt::print(stderr, "{}: wrote {}\n", study.variant, result);
   }

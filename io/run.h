@@ -1,11 +1,13 @@
 /// The driver: `sunload run`, `merge`, `check` on a study.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/exit_code.h"
 #include "io/progress.h"
+#include "io/sky_dome.h"
 #include "io/shard.h"
 #include "io/study.h"
 
@@ -13,6 +15,7 @@ namespace sunload {
 
 enum class Existing { refuse, resume, overwrite };
 enum class Batches { remove, keep };
+enum class Merge { complete, partial };
 
 struct RunOptions {
   std::vector<std::string> variants;  ///< names; empty: all
@@ -28,15 +31,25 @@ struct RunOptions {
 /// Computes what is missing, merges, prints one block per variant on stderr.
 int run_study(const std::string& study, const RunOptions& options);
 
-/// Puts finished batches together; exit code 75 and their list where some are missing.
-int merge_study(const std::string& study, const RunOptions& options);
+/// Puts finished batches together; exit code 75 and their list where some are
+/// missing. `partial` writes what is there to `.work/…/partial.h5`.
+int merge_study(const std::string& study, const RunOptions& options, Merge merge);
 
 enum class CheckFormat { text, json };
 /// Reads everything, reports scene, sun path, work, memory, disk on stdout.
 int check_study(const std::string& study, const RunOptions& options, CheckFormat format);
 
-/// The sun path as CSV on stdout (DESIGN 1).
-int print_sun(const std::string& study);
+/// The sun path as CSV on stdout (DESIGN 1), or as a sun-path diagram where `picture` names one.
+int print_sun(const std::string& study, const std::string& picture = {});
+
+struct SkyOptions {
+  std::string time;
+  std::string picture;                     ///< fisheye instead of CSV
+  std::optional<Subdivision> subdivision;  ///< of the CSV
+  SkyPictureRules rules;
+};
+/// The sky dome of the first variant at one instant, as CSV on stdout or as a picture.
+int print_sky(const std::string& study, const SkyOptions& options);
 
 /// The variants that were asked for, with their folder. Throws InputError for unknown names.
 std::vector<Study> chosen_variants(const StudyFile& file, const RunOptions& options);

@@ -8,6 +8,7 @@
 
 #include "io/scene_builtin.h"
 #include "io/scene_file.h"
+#include "io/weather_light.h"
 
 namespace sunload {
 
@@ -101,6 +102,11 @@ Site resolve_site(const Study& study, const PolygonModel& model, std::string& so
       if (!given.latitude_deg) throw;
       source = crs + " could not be used";
     }
+  } else if (const auto station = given.latitude_deg ? std::nullopt : weather_place(study)) {
+    site.latitude_deg = station->latitude_deg;
+    site.longitude_deg = station->longitude_deg;
+    site.elevation_m = station->elevation_m;
+    source = "position and elevation of the weather station " + station->name;
   } else if (!given.latitude_deg && !std::holds_alternative<PositionsPeriod>(study.period.kind)) {
     throw InputError(given.where, "site has no position",
                      "neither latitude_deg and longitude_deg nor a CRS is known",
@@ -117,6 +123,7 @@ Site resolve_site(const Study& study, const PolygonModel& model, std::string& so
     source += "; north_deg from the study";
   }
   site.timezone = given.timezone;
+  site.horizon = given.horizon;
   return site;
 }
 

@@ -77,8 +77,13 @@ Shard from_environment(const std::string& text, const Environment& environment) 
 
 Shard from_index(const std::string& text, std::size_t count, const Environment& environment) {
   std::optional<std::size_t> index;
-  for (const char* name : {"PBS_ARRAY_INDEX", "PBS_ARRAYID", "SLURM_ARRAY_TASK_ID"})
-    if (!index) index = number_of(environment, name, text);
+  for (const char* name : {"PBS_ARRAY_INDEX", "PBS_ARRAYID", "SLURM_ARRAY_TASK_ID"}) {
+    const auto said = number_of(environment, name, text);
+    if (said && index && *said != *index)
+      refuse(text, "the environment names two indices, " + std::to_string(*index) + " and " +
+                       std::to_string(*said));
+    if (said) index = said;
+  }
   if (!index) refuse(text, "no scheduler says which index this is");
   return {*index, count};
 }

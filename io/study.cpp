@@ -45,7 +45,9 @@ struct Variant {
 std::string read_text_of(const std::string& path) {
   std::error_code error;
   if (!fs::exists(path, error)) throw InputError({path}, "the study is not there");
-  if (fs::file_size(path, error) > largest_study_bytes) {
+  if (fs::is_directory(path, error)) throw InputError({path}, "is a folder, not a study");
+  // Pipes have no size.
+  if (fs::is_regular_file(path, error) && fs::file_size(path, error) > largest_study_bytes) {
     throw InputError({path}, "is too large for a study",
                      "more than " + std::to_string(largest_study_bytes) + " bytes");
   }
@@ -136,14 +138,35 @@ void check_together(YamlMap& root, const Study& study, PlaceWritten placed) {
                            "they have no date to compute the sun's power from",
                            "write light: {source: fixed, dni_w_m2: 800, dhi_w_m2: 100}");
   }
+  const bool weather = study.light.source == LightSource::weather;
+  if (std::holds_alternative<WeatherPeriod>(study.period.kind) && !weather) {
+    root.reading().problem(study.period.where, "year_of: weather needs light.source: weather", "",
+                           "write light: {source: weather, weather: x.epw}");
+  }
   const auto& files = study.scene.files;
   const bool no_crs =
       study.scene.builtin || std::all_of(files.begin(), files.end(), is_without_crs);
-  if (!positions && placed == PlaceWritten::no && no_crs &&
+  // The header of a weather file may say the place.
+  if (!positions && !weather && placed == PlaceWritten::no && no_crs &&
       (study.scene.builtin || !files.empty())) {
     root.reading().problem(root.where("site"), "site has no position",
                            "the scene brings none, and the sun depends on it",
                            "write latitude_deg and longitude_deg");
+  }
+}
+
+/// With `year_of: weather` the file makes the times, which all variants share.
+void expect_same_weather_years(const std::vector<Study>& variants, YamlReading& reading) {
+  const Study& first = variants.front();
+  if (!std::holds_alternative<WeatherPeriod>(first.period.kind)) return;
+  for (const auto& variant : variants) {
+    if (variant.light.weather == first.light.weather && variant.light.stamp == first.light.stamp)
+      continue;
+    reading.problem(variant.period.where,
+                    "variant " + variant.variant + " has another weather file than " +
+                        first.variant,
+                    "with year_of: weather the file makes the times, which all variants share",
+                    "make another study of it, or write days or start and end");
   }
 }
 
@@ -154,14 +177,14 @@ Study read_values(YamlMap& root, const std::string& folder) {
   study.name = read_name(root);
   for (const char* section : {"period", "scene"}) root.require(section);
   SiteRead site;
-  root.section("site", [&](YamlMap& map) { site = read_site(map); });
+  root.section("site", [&](YamlMap& map) { site = read_site(map, folder); });
   study.site = site.site;
   const bool describe = root.reading().purpose == YamlReading::Purpose::describe;
   if (root.has("period") || describe) {
     root.section("period", [&](YamlMap& map) { study.period = read_period(map, site); });
   }
   root.section("sun", [&](YamlMap& map) { study.sun = read_sun(map); });
-  root.section("light", [&](YamlMap& map) { study.light = read_light(map); });
+  root.section("light", [&](YamlMap& map) { study.light = read_light(map, folder); });
   if (root.has("scene") || describe) {
     root.section("scene", [&](YamlMap& map) { study.scene = read_scene(map, folder); });
   }
@@ -194,6 +217,7 @@ StudyFile read_study(const std::string& path) {
       file.variants.back().variant = variant.name;
     });
   }
+  expect_same_weather_years(file.variants, reading);
   reading.throw_if_any();
   file.name = file.variants.front().name;
   file.warnings = reading.warnings;

@@ -16,12 +16,14 @@
 #include <vector>
 
 #include "geo/check.h"
+#include "geo/horizon.h"
 #include "geo/irradiance.h"
 #include "geo/mesh.h"
 #include "geo/mesh_prepare.h"
 #include "geo/sky.h"
 #include "geo/sun.h"
 #include "geo/time.h"
+#include "geo/weather.h"
 
 namespace sunload {
 
@@ -32,6 +34,7 @@ struct SiteStudy {
   std::optional<double> elevation_m;
   std::string timezone = "UTC";  ///< must be written unless the period has only `positions` or UTC times
   std::optional<double> north_deg;
+  Horizon horizon;
   Where where;
 };
 
@@ -54,17 +57,21 @@ struct SunAt {
 struct PositionsPeriod {
   std::vector<SunAt> positions;
 };
+struct WeatherPeriod {  ///< `year_of: weather`: one interval per record of the file
+  std::optional<int> as_year;  ///< absent: actual years as they are, typical ones as 2001
+};
 struct PeriodStudy {
-  std::variant<DaysPeriod, RangePeriod, InstantsPeriod, PositionsPeriod> kind;
+  std::variant<DaysPeriod, RangePeriod, InstantsPeriod, PositionsPeriod, WeatherPeriod> kind;
   Where where;
 };
 
 struct SunStudy {
   Refraction refraction = Refraction::spa;
   Ut1 ut1_utc = Ut1::table;
+  SunDisk disk = SunDisk::point;
 };
 
-enum class LightSource { clear_sky, fixed };
+enum class LightSource { clear_sky, weather, fixed };
 struct LightStudy {
   LightSource source = LightSource::clear_sky;
   ClearSkyModel model = ClearSkyModel::ineichen;
@@ -74,6 +81,10 @@ struct LightStudy {
   int sky_type = 12;           ///< of cie_general
   double turbidity = 3;        ///< of preetham
   double far_ground_albedo = 0.2;
+  std::string weather;         ///< file, already resolved; the rest is of `weather` too
+  std::optional<Stamp> stamp;  ///< absent: the format's own
+  Missing missing = Missing::refuse;
+  Decomposition decomposition = Decomposition::erbs;
 };
 
 /// Optical properties as written; absent ones fall back as DESIGN 4 says.

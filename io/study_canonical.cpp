@@ -27,13 +27,19 @@ json canonical(const ParsedTime& time) {
 }
 
 json canonical(const SiteStudy& site) {
-  const auto& [latitude_deg, longitude_deg, crs, elevation_m, timezone, north_deg, where] = site;
-  return {{"latitude_deg", maybe(latitude_deg)},
+  const auto& [latitude_deg, longitude_deg, crs, elevation_m, timezone, north_deg, horizon, where] = site;
+  json all{{"latitude_deg", maybe(latitude_deg)},
           {"longitude_deg", maybe(longitude_deg)},
           {"crs", crs},
           {"elevation_m", maybe(elevation_m)},
           {"timezone", timezone},
           {"north_deg", maybe(north_deg)}};
+  if (horizon.is_open()) return all;
+  json line = json::array();
+  for (const auto& [azimuth_deg, elevation_deg] : horizon.points())
+    line.push_back({azimuth_deg, elevation_deg});
+  all["horizon"] = line;
+  return all;
 }
 
 json canonical(const SunAt& sun);
@@ -72,20 +78,29 @@ json canonical(const PositionsPeriod& period) {
   return {{"positions", list_of(positions)}};
 }
 
+json canonical(const WeatherPeriod& period) {
+  const auto& [as_year] = period;
+  return {{"as_year", maybe(as_year)}};
+}
+
 json canonical(const PeriodStudy& period) {
   const auto& [kind, where] = period;
   return std::visit([](const auto& value) { return canonical(value); }, kind);
 }
 
 json canonical(const SunStudy& sun) {
-  const auto& [refraction, ut1_utc] = sun;
-  return {{"refraction", refraction}, {"ut1_utc", ut1_utc}};
+  const auto& [refraction, ut1_utc, disk] = sun;
+  return {{"refraction", refraction}, {"ut1_utc", ut1_utc}, {"disk", disk}};
 }
 
 json canonical(const LightStudy& light) {
   const auto& [source, model, linke_turbidity, dni_w_m2, dhi_w_m2, sky, sky_type, turbidity,
-               far_ground_albedo] = light;
-  return {{"source", source},      {"model", model},
+               far_ground_albedo, weather, stamp, missing, decomposition] = light;
+  // The weather file is hashed by its bytes.
+  return {{"stamp", maybe(stamp)},
+          {"missing", missing},
+          {"decomposition", decomposition},
+          {"source", source},      {"model", model},
           {"dni_w_m2", dni_w_m2},  {"linke_turbidity", linke_turbidity.monthly},
           {"dhi_w_m2", dhi_w_m2},  {"sky", sky},
           {"sky_type", sky_type},  {"far_ground_albedo", far_ground_albedo},

@@ -1,5 +1,7 @@
 // Sections `sun` and `light` of a study.
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 #include "io/study_sections.h"
 
@@ -44,8 +46,43 @@ void warn_unused(YamlMap& map, const LightStudy& light) {
     unused("model", "source: clear_sky");
     unused("linke_turbidity", "source: clear_sky");
   }
+  if (light.source != LightSource::weather) {
+    for (const char* key : {"weather", "stamp", "missing", "decomposition"}) {
+      unused(key, "source: weather");
+    }
+  }
   if (light.sky != SkyModel::cie_general) unused("sky_type", "sky: cie_general");
   if (light.sky != SkyModel::preetham) unused("turbidity", "sky: preetham");
+}
+
+/// The weather file and how it is read.
+void read_weather(YamlMap& map, const std::string& folder, LightStudy& light) {
+  const auto file = map.text("weather");
+  if (map.has("stamp")) {
+    light.stamp = map.choice(
+        "stamp", {{"start", Stamp::start}, {"middle", Stamp::middle}, {"end", Stamp::end}},
+        Stamp::end);
+  }
+  map.tree("stamp");
+  light.missing = map.choice(
+      "missing",
+      {{"refuse", Missing::refuse}, {"interpolate", Missing::interpolate}, {"zero", Missing::zero}},
+      light.missing);
+  light.decomposition =
+      map.choice("decomposition", {{"erbs", Decomposition::erbs}, {"disc", Decomposition::disc}},
+                 light.decomposition);
+  if (light.source != LightSource::weather) return;
+  if (!file) {
+    map.problem("source", "weather needs a file", "", "write light.weather: x.epw beside `source`");
+    return;
+  }
+  const auto path = (std::filesystem::path(folder) / *file).lexically_normal();
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    map.problem("weather", "'" + *file + "' is not there", "it is sought at " + path.string(),
+                "paths are relative to the study file");
+  }
+  light.weather = path.string();
 }
 
 }  // namespace
@@ -57,15 +94,17 @@ SunStudy read_sun(YamlMap& map) {
       {{"none", Refraction::none}, {"spa", Refraction::spa}, {"bennett", Refraction::bennett}},
       sun.refraction);
   sun.ut1_utc = map.choice("ut1_utc", {{"table", Ut1::table}, {"zero", Ut1::zero}}, sun.ut1_utc);
-  map.word("disk", {"point"}, "point");
+  sun.disk = map.choice("disk", {{"point", SunDisk::point}, {"finite", SunDisk::finite}}, sun.disk);
   return sun;
 }
 
-LightStudy read_light(YamlMap& map) {
+LightStudy read_light(YamlMap& map, const std::string& folder) {
   LightStudy light;
-  light.source =
-      map.choice("source", {{"clear_sky", LightSource::clear_sky}, {"fixed", LightSource::fixed}},
-                 light.source);
+  light.source = map.choice("source",
+                            {{"clear_sky", LightSource::clear_sky},
+                             {"weather", LightSource::weather},
+                             {"fixed", LightSource::fixed}},
+                            light.source);
   light.model = map.choice("model",
                            {{"ineichen", ClearSkyModel::ineichen},
                             {"bird", ClearSkyModel::bird},
@@ -85,6 +124,7 @@ LightStudy read_light(YamlMap& map) {
   light.sky_type = map.integer("sky_type", 1, cie_sky_types, light.sky_type);
   light.turbidity = map.number("turbidity", preetham_turbidities, light.turbidity);
   light.far_ground_albedo = map.number("far_ground_albedo", albedos, light.far_ground_albedo);
+  read_weather(map, folder, light);
   map.word("quantity", {"irradiance"}, "irradiance");
   for (const char* key : {"dni_w_m2", "dhi_w_m2"}) {
     if (light.source == LightSource::fixed && !map.has(key)) {

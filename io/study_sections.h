@@ -18,11 +18,12 @@ struct SiteRead {
   PlaceWritten place_written = PlaceWritten::no;  ///< right or wrong
 };
 
-SiteRead read_site(YamlMap& map);
+/// The horizon file is relative to `folder`.
+SiteRead read_site(YamlMap& map, const std::string& folder);
 PeriodStudy read_period(YamlMap& map, const SiteRead& site);
 SunStudy read_sun(YamlMap& map);
-LightStudy read_light(YamlMap& map);
 /// Paths of files are relative to `folder`.
+LightStudy read_light(YamlMap& map, const std::string& folder);
 SceneStudy read_scene(YamlMap& map, const std::string& folder);
 MeshStudy read_mesh(YamlMap& map);
 SolverStudy read_solver(YamlMap& map);

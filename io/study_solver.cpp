@@ -88,11 +88,6 @@ OutputStudy read_output(YamlMap& map) {
 
 std::vector<LaterKey> later_keys() {
   return {
-      {"period.year_of", ""},
-      {"sun.disk", "finite"},
-      {"light.source", "weather"},
-      {"light.weather", ""},
-      {"light.as_year", ""},
       {"light.quantity", "illuminance"},
       {"scene.parallel_sources", ""},
       {"scene.materials.*.refractive_index", ""},

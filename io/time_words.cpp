@@ -58,6 +58,8 @@ std::string time_words(const LightSeries& light, const Site& site, const Study& 
     text += "  first      " + interval_words(light.intervals.front(), zone) + "\n";
     text += "  last       " + interval_words(light.intervals.back(), zone) + "\n";
   }
+  for (std::size_t i = 0; i < light.weather.size(); ++i)
+    text += (i == 0 ? "  weather    " : "             ") + light.weather[i] + "\n";
   text += "  north      " + north_words(site) + "\n";
   if (!light.times_are_synthetic) text += pole_words(light, site, study, zone);
   return text;

@@ -68,6 +68,7 @@ std::string content_hash(const VariantPlan& plan, const std::string& isa) {
   digest.add(plan.study.output.standard_error == StandardErrors::instants);
   digest.add(isa);
   digest.add(times_text(plan.light));
+  digest.add(plan.light.weather_sha256);
   digest.add(plan.built.site.latitude_deg);
   digest.add(plan.built.site.longitude_deg);
   digest.add(plan.built.site.elevation_m);

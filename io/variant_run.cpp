@@ -55,6 +55,8 @@ void VariantRun::make_solver(bool others_work_too, MpiWorld* world) {
   const auto build = [&](std::optional<Lines> ready) {
     solver_ = std::make_unique<LightSolver>(plan_.built.scene, split_rules(plan_.study),
                                             solver_rules(plan_), progress_, std::move(ready));
+    open_share_ = open_shares(solver_->sky_grid(), plan_.built.site.horizon,
+                              scene_from_enu(plan_.built.site));
   };
   if (!others_work_too) return build({});
   const std::string path = prepared_path(folder_, plan_);
@@ -74,7 +76,9 @@ void VariantRun::compute_batch(std::size_t batch) {
   std::vector<SunLight> light(count);
   parallel_for(count, [&](std::size_t k) {
     light[k] = sun_light(plan_.light.intervals[first + k], static_cast<std::uint32_t>(first + k),
-                         plan_.study.light, solver_->sky_grid());
+                         plan_.study.light, solver_->sky_grid(), open_share_);
+    light[k].disk_half_angle = disk_half_angle(
+        plan_.study.sun.disk, plan_.light.intervals[first + k].when.sun.distance_au);
   });
   const BatchTally tally = solver_->solve(light, progress_);
   WorkDone work = solver_->work();
@@ -88,6 +92,8 @@ void VariantRun::compute_batch(std::size_t batch) {
                       .chunk_intervals = plan_.batch_suns(),
                       .compression = plan_.study.output.compression});
   add_tally(writer, tally, *solver_, plan_.built.scene.mesh, work);
+  // Another process that failed may have removed the folder, which was empty until now.
+  make_writable_folder(work_folder(folder_, plan_));
   writer.write(batch_path(folder_, plan_, batch));
   written_ = solver_->work();
 }
@@ -104,6 +110,8 @@ void VariantRun::report_work() const {
                       "sky and Jacobi", w.solve_s, "realizations", w.realizations_s,
                       peak_memory_bytes() / mib);
   progress_.say(text);
+  if (const auto warning = back_warning(solver_->back_share()); !warning.empty())
+    progress_.say(plan_.study.variant + ": warning: " + warning);
 }
 
 }  // namespace sunload

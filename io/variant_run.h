@@ -30,6 +30,7 @@ class VariantRun {
   const VariantPlan& plan_;
   Progress& progress_;
   std::unique_ptr<LightSolver> solver_;
+  std::vector<double> open_share_;  ///< of the solver's sky cells: what hills leave free
   WorkDone written_;  ///< work that finished batches carry already
 };
 

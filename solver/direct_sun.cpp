@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "geo/check.h"
 #include "solver/parallel.h"
@@ -51,6 +52,8 @@ SunSampler::SunSampler(const Hierarchy& hierarchy, const RayCaster& caster,
     realization_.push_back(static_cast<std::uint32_t>(s / each));
     point_u_.push_back(sobol(static_cast<std::uint32_t>(s % each), 0));
     point_v_.push_back(sobol(static_cast<std::uint32_t>(s % each), 1));
+    disk_u_.push_back(sobol(static_cast<std::uint32_t>(s % each), 2));
+    disk_v_.push_back(sobol(static_cast<std::uint32_t>(s % each), 3));
   }
 }
 
@@ -70,6 +73,8 @@ void SunSampler::seed(std::size_t patch, std::uint32_t sun, Seeds& seeds) const 
   const std::size_t groups = (count + lanes - 1) / lanes;
   seeds.u.resize(groups * lanes);
   seeds.v.resize(groups * lanes);
+  seeds.disk_u.resize(groups * lanes);
+  seeds.disk_v.resize(groups * lanes);
   for (std::size_t g = 0; g < groups; ++g) {
     const auto words = random_lanes({.seed = rules_.seed,
                                      .purpose = Purpose::direct_sun,
@@ -78,6 +83,8 @@ void SunSampler::seed(std::size_t patch, std::uint32_t sun, Seeds& seeds) const 
                                      .sun = sun});
     std::copy_n(words.word[0], lanes, seeds.u.begin() + static_cast<std::ptrdiff_t>(g * lanes));
     std::copy_n(words.word[1], lanes, seeds.v.begin() + static_cast<std::ptrdiff_t>(g * lanes));
+    std::copy_n(words.word[2], lanes, seeds.disk_u.begin() + static_cast<std::ptrdiff_t>(g * lanes));
+    std::copy_n(words.word[3], lanes, seeds.disk_v.begin() + static_cast<std::ptrdiff_t>(g * lanes));
   }
 }
 
@@ -94,6 +101,26 @@ Packet SunSampler::origins(const Geometry& g, const Seeds& seeds, std::size_t pa
   Packet origins;
   place(g, u, v, seed_u, seed_v, origins);
   return origins;
+}
+
+PacketDirections SunSampler::directions(const SunLight& sun, const Seeds& seeds,
+                                        std::size_t packet) const {
+  const Tangents axes = tangents(sun.direction);
+  const double disk_radius = std::tan(sun.disk_half_angle);  // at distance 1
+  PacketDirections directions;
+  for (std::size_t l = 0; l < packet_size; ++l) {
+    const std::size_t s = std::min(packet * packet_size + l, samples() - 1);
+    const std::size_t r = realization_[s];
+    const double u = uniform(owen_scrambled(disk_u_[s], seeds.disk_u[r]));
+    const double v = uniform(owen_scrambled(disk_v_[s], seeds.disk_v[r]));
+    const double radius = disk_radius * std::sqrt(u), angle = 2 * pi * v;
+    const Vec3 w = sun.direction + axes.tangent * (radius * std::cos(angle)) +
+                   axes.bitangent * (radius * std::sin(angle));
+    directions.x[l] = static_cast<float>(w.x);
+    directions.y[l] = static_cast<float>(w.y);
+    directions.z[l] = static_cast<float>(w.z);
+  }
+  return directions;
 }
 
 std::uint32_t SunSampler::active(std::size_t packet) const {
@@ -142,7 +169,10 @@ class PatchSuns {
     for (std::size_t p = 0; p < sampler_.packets(); ++p) {
       const auto active = sampler_.active(p);
       rays += static_cast<std::uint64_t>(std::popcount(active));
-      auto bits = caster_.unoccluded(sampler_.origins(geometry, seeds_, p), sun.direction, active);
+      const Packet origins = sampler_.origins(geometry, seeds_, p);
+      auto bits = sun.disk_half_angle > 0
+                      ? caster_.unoccluded_each(origins, sampler_.directions(sun, seeds_, p), active)
+                      : caster_.unoccluded(origins, sun.direction, active);
       visible += std::popcount(bits);
       for (; bits != 0; bits &= bits - 1)
         ++seen_[sampler_.realization(p * packet_size +

@@ -3,6 +3,11 @@
 ///     E_0[i][k] = dni[k] * cosθ * (visible samples / samples)
 ///
 /// Every realization has its own randomised points, addressed by patch and sun.
+///
+/// A sun with a disk (`SunLight::disk_half_angle`) is seen by each sample at a point of its own,
+/// uniform on the disk (no limb darkening): shadows have penumbrae. cosθ stays that of the
+/// centre, which also decides whether the sun is up and in front of a patch; light that mirrors
+/// send (solver/mirror_sun.h) stays that of a point.
 #pragma once
 
 #include <cstdint>
@@ -40,10 +45,13 @@ class SunSampler {
   /// Scrambling seeds of one (patch, sun) for all realizations.
   struct Seeds {
     std::vector<std::uint32_t> u, v;
+    std::vector<std::uint32_t> disk_u, disk_v;  ///< of points on the sun's disk
   };
   void seed(std::size_t patch, std::uint32_t sun, Seeds& seeds) const;
   /// Origins of samples [16·packet, …) of that patch.
   Packet origins(const Geometry& geometry, const Seeds& seeds, std::size_t packet) const;
+  /// Directions of the same samples to points on the sun's disk.
+  PacketDirections directions(const SunLight& sun, const Seeds& seeds, std::size_t packet) const;
   /// Bits of the samples that packet really holds.
   std::uint32_t active(std::size_t packet) const;
 
@@ -51,7 +59,7 @@ class SunSampler {
   const Hierarchy& hierarchy_;
   double offset_m_;
   DirectRules rules_;
-  std::vector<std::uint32_t> realization_, point_u_, point_v_;
+  std::vector<std::uint32_t> realization_, point_u_, point_v_, disk_u_, disk_v_;
 };
 
 /// Result of one block of suns. Sizes: patches N, realizations R.

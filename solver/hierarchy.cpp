@@ -1,6 +1,7 @@
 #include "solver/hierarchy.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <unordered_map>
 
@@ -46,7 +47,27 @@ struct Weights {
   double w[3];
 };
 
+[[noreturn]] void refuse_size(const SplitRules& rules) {
+  throw InputError({}, "more than " + std::to_string(rules.max_patches) + " patches",
+                   "mesh.max_edge_m is too small for this scene", "use a larger one");
+}
+
 }  // namespace
+
+std::size_t least_patch_count(const Scene& scene, const SplitRules& rules) {
+  const double largest_leaf_m2 = std::max(std::sqrt(3.0) / 4 * rules.max_edge_m * rules.max_edge_m,
+                                          2 * rules.min_area_m2);
+  const Mesh& mesh = scene.mesh;
+  double count = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.triangle_surface[t] == Surface::floor) continue;
+    const double area_m2 = norm(mesh.area_vector2(t)) / 2;
+    const double leaves = std::max(1.0, std::ceil(area_m2 / largest_leaf_m2));
+    count += mesh.triangle_sides[t] == Sides::two ? 2 * leaves : leaves;
+  }
+  constexpr double beyond_any_machine = 1e15;
+  return static_cast<std::size_t>(std::min(count, beyond_any_machine));
+}
 
 class Hierarchy::Builder {
  public:
@@ -92,9 +113,7 @@ class Hierarchy::Builder {
   }
 
   void add_leaf(std::int32_t node, std::int32_t triangle, const Corners& c, std::uint64_t key) {
-    if (h_.patches_.size() >= rules_.max_patches)
-      throw InputError({}, "more than " + std::to_string(rules_.max_patches) + " patches",
-                       "mesh.max_edge_m is too small for this scene", "use a larger one");
+    if (h_.patches_.size() >= rules_.max_patches) refuse_size(rules_);
     h_.nodes_[static_cast<std::size_t>(node)].first_patch =
         static_cast<std::int32_t>(h_.patches_.size());
     const double area = norm(cross(at(c[1]) - at(c[0]), at(c[2]) - at(c[0]))) / 2;
@@ -114,6 +133,7 @@ class Hierarchy::Builder {
 Hierarchy::Hierarchy(const Scene& scene, const SplitRules& rules)
     : root_(scene.mesh.triangle_count(), -1), two_sided_(scene.mesh.triangle_count()) {
   expect_valid(scene);
+  if (least_patch_count(scene, rules) > rules.max_patches) refuse_size(rules);
   const Mesh& mesh = scene.mesh;
   vertices_ = mesh.vertices;
   Builder builder(*this, rules);

@@ -27,6 +27,11 @@ struct Patch {
   std::uint8_t side = 0;
 };
 
+/// Patches that result at the least, without splitting: a triangle with edges of
+/// at most h has at most the area √3/4 h², an element that is not split for its
+/// smallness at most 2·min_area. Never more than 10^15.
+std::size_t least_patch_count(const Scene& scene, const SplitRules& rules);
+
 class Hierarchy {
  public:
   /// Splits every triangle of the scene; frozen afterwards.

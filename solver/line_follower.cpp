@@ -87,7 +87,6 @@ LineFollower::Fate LineFollower::mirrored_on(Vec3 origin, Vec3 w, std::size_t mi
   const Vec3 n = hierarchy_.normal(mirror_patch);
   const double weight = mirror_reflectance(
       material_of(hierarchy_.patches()[mirror_patch].triangle), dot(w, n));
-  if (mirror_depth_ < 1) return {.cut = weight};
   const Vec3 away = mirrored(w, n);
   Fate fate = sent_on(away, weight, caster_.first_hit(origin, away));
   ++fate.rays;
@@ -96,6 +95,10 @@ LineFollower::Fate LineFollower::mirrored_on(Vec3 origin, Vec3 w, std::size_t mi
 
 LineFollower::Fate LineFollower::sent_on(Vec3 w, double weight, const Hit& first) const {
   Fate fate;
+  if (mirror_depth_ < 1) {  // not even the first reflection is followed
+    fate.cut = weight;
+    return fate;
+  }
   Hit hit = first;
   for (int reflections = 1;; ++reflections) {
     if (hit.left_scene()) {

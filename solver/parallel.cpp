@@ -26,7 +26,8 @@ void parallel_chunks(std::size_t count, std::size_t chunk,
   std::exception_ptr first;
   long long first_chunk = chunks;
   std::mutex guard;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(thread_count())
+// One chunk needs no team: waking and joining it costs more than most small loops.
+#pragma omp parallel for schedule(dynamic, 1) num_threads(thread_count()) if (chunks > 1)
   for (long long c = 0; c < chunks; ++c) {
     try {
       if (cancellation && cancellation()) throw Interrupted("stopped on request");

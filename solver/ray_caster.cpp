@@ -77,6 +77,18 @@ std::string usable_isa(const std::string& wanted) {
   throw InputError({}, "this processor is too old", "SSE4.2 is needed", "run on another machine");
 }
 
+namespace {
+
+/// Rays that met nothing: Embree marks an occluded ray by a negative end.
+std::uint32_t unoccluded_rays(const RTCRay16& ray, std::uint32_t active) {
+  std::uint32_t seen = 0;
+  for (std::size_t r = 0; r < packet_size; ++r)
+    if (ray.tfar[r] > 0) seen |= 1u << r;
+  return seen & active;
+}
+
+}  // namespace
+
 struct RayCaster::Embree {
   DeviceError error;
   RTCDevice device = nullptr;
@@ -221,11 +233,32 @@ std::uint32_t RayCaster::unoccluded(const Packet& origins, Vec3 direction,
     ray.flags[r] = 0;
   }
   rtcOccluded16(valid, embree_->scene, &context, &ray);
-  std::uint32_t seen = 0;
-  // Embree marks an occluded ray by a negative end.
-  for (std::size_t r = 0; r < packet_size; ++r)
-    if (ray.tfar[r] > 0) seen |= 1u << r;
-  return seen & active;
+  return unoccluded_rays(ray, active);
+}
+
+std::uint32_t RayCaster::unoccluded_each(const Packet& origins, const PacketDirections& directions,
+                                         std::uint32_t active) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;  // nearly: the sun's disk is small
+  RTCRay16 ray;
+  alignas(64) int valid[packet_size];
+  for (std::size_t r = 0; r < packet_size; ++r) {
+    valid[r] = (active >> r & 1u) ? -1 : 0;
+    ray.org_x[r] = origins.x[r];
+    ray.org_y[r] = origins.y[r];
+    ray.org_z[r] = origins.z[r];
+    ray.dir_x[r] = directions.x[r];
+    ray.dir_y[r] = directions.y[r];
+    ray.dir_z[r] = directions.z[r];
+    ray.tnear[r] = 0;
+    ray.tfar[r] = no_end;
+    ray.time[r] = 0;
+    ray.mask[r] = ~0u;
+    ray.flags[r] = 0;
+  }
+  rtcOccluded16(valid, embree_->scene, &context, &ray);
+  return unoccluded_rays(ray, active);
 }
 
 }  // namespace sunload

@@ -76,6 +76,9 @@ class RayCaster {
   PacketHits first_hits(const Packet& origins, Vec3 direction, std::uint32_t active) const;
   /// Which of the `active` origins see parallel light from `direction`?
   std::uint32_t unoccluded(const Packet& origins, Vec3 direction, std::uint32_t active) const;
+  /// The same with a direction for each of them.
+  std::uint32_t unoccluded_each(const Packet& origins, const PacketDirections& directions,
+                                std::uint32_t active) const;
 
  private:
   enum class Coherence { none, parallel };

@@ -88,6 +88,15 @@ std::vector<double> LightSolver::sky_view_factor() const {
   return share;
 }
 
+double LightSolver::back_share() const {
+  double backs = 0, all = 0;
+  for (std::size_t i = 0; i < hierarchy_.patch_count(); ++i) {
+    backs += hierarchy_.area()[i] * static_cast<double>(lines_.pooled.ends[i].backs);
+    all += hierarchy_.area()[i];
+  }
+  return all > 0 ? backs / all : 0;
+}
+
 BatchTally LightSolver::solve(std::span<const SunLight> batch, Watch& watch) {
   const std::size_t patches = hierarchy_.patch_count();
   const auto realizations = static_cast<std::size_t>(rules_.realizations);

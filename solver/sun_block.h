@@ -25,6 +25,7 @@ struct SunLight {
   std::vector<double> sky;       ///< mean radiance per cell of the sky grid [W m-2 sr-1]; empty: dark
   double length_s = 0;
   double sunlit_s = 0;           ///< above 0: the sun's centre is above the horizon
+  double disk_half_angle = 0;    ///< of the sun's disk; 0: a point
 
   bool has_sun() const { return sunlit_s > 0 && direction.z > 0; }
   bool is_dark() const { return !has_sun() && dhi <= 0; }
