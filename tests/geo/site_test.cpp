@@ -56,6 +56,77 @@ TEST(Site, RefusesNonsense) {
   EXPECT_THROW(scene_from_enu({.north_deg = NAN}), std::logic_error);
 }
 
+void expect_place(const std::string& text, double latitude_deg, double longitude_deg,
+                  double tolerance_deg = 1e-9) {
+  const Site site = site_from_text(text);
+  EXPECT_NEAR(site.latitude_deg, latitude_deg, tolerance_deg) << text;
+  EXPECT_NEAR(site.longitude_deg, longitude_deg, tolerance_deg) << text;
+}
+
+TEST(SiteFromText, ReadsDegrees) {
+  const double latitude_deg = 49 + 44.0 / 60 + 51.0 / 3600;
+  const double longitude_deg = 13 + 22.0 / 60 + 39.0 / 3600;
+  for (const char* text : {"49d44'51\"N 13d22'39\"E", "N49:44:51 E13:22:39", "49:44:51 13:22:39",
+                           "13d22'39\"E 49d44'51\"N", "49°44′51″N 13°22′39″E",
+                           "49d44.85N, 13d22.65E"}) {
+    expect_place(text, latitude_deg, longitude_deg);
+  }
+  expect_place("33d55'31\"S 18d25'26\"W", -33.925277777778, -18.423888888889);
+  expect_place("49.7475 13.3776", 49.7475, 13.3776);
+}
+
+// Coordinates and MGRS square of one point, from the manual of GeographicLib's GeoConvert.
+TEST(SiteFromText, ReadsUtmUpsAndMgrs) {
+  constexpr double half_metre_deg = 1e-5;
+  for (const char* text : {"38n 444140.54 3684706.36", "38north 444140.54 3684706.36",
+                           "38SMB4414084706"}) {
+    expect_place(text, 33.3, 44.4, half_metre_deg);
+  }
+  // With its band. The inverse is the library's own, checked there.
+  double northing_m = 0, easting_m = 0;
+  int zone = 0;
+  bool is_north = false;
+  GeographicLib::UTMUPS::Forward(49.7475, 13.3776, zone, is_north, easting_m, northing_m);
+  const std::string rest =
+      " " + std::to_string(easting_m) + " " + std::to_string(northing_m);
+  expect_place("33U" + rest, 49.7475, 13.3776, half_metre_deg);
+  expect_place("33u" + rest, 49.7475, 13.3776, half_metre_deg);
+  expect_place("33 n" + rest, 49.7475, 13.3776, half_metre_deg);
+  GeographicLib::UTMUPS::Forward(-33.9, 18.4, zone, is_north, easting_m, northing_m);
+  expect_place("34H " + std::to_string(easting_m) + " " + std::to_string(northing_m), -33.9, 18.4,
+               half_metre_deg);
+  EXPECT_EQ(site_from_text("north 2000000 2000000").latitude_deg, 90);
+}
+
+TEST(SiteFromText, RefusesTheRest) {
+  const auto expect_refused = [](const std::string& text, const std::string& part) {
+    try {
+      site_from_text(text);
+      ADD_FAILURE() << text << " was read";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  };
+  expect_refused("", "no position on Earth");
+  expect_refused("Prague", "no position on Earth");
+  expect_refused("49d44'51\"N", "no position on Earth");
+  expect_refused("91N 10E", "no position on Earth");
+  expect_refused("49d61'N 13E", "no position on Earth");
+  expect_refused("38S 444140 3684706", "write the zone as 38south or 38north");
+  expect_refused("33O 383000 5512000", "UTM has no band O");
+  expect_refused("33C 383000 5512000", "not in the band C");
+  expect_refused("33U", "at least two digits");
+  expect_refused("33UUR", "at least two digits");
+  expect_refused("33UUR81", "at least two digits");
+  expect_refused("nan nan", "no position on Earth");
+}
+
+TEST(SiteFromText, PositionsReadBack) {
+  const Site site{.latitude_deg = -33.925, .longitude_deg = 18.42};
+  EXPECT_EQ(position_text(site), "33d55'30.0\"S 018d25'12.0\"E");
+  expect_place(position_text(site), site.latitude_deg, site.longitude_deg);
+}
+
 TEST(Site, DutchGrid) {
   // Amersfoort: Schreutelkamp & Strang van Hees (2001), Benaderingsformules, WGS84 of the origin;
   // the seven-parameter shift (no grid file) is within a metre of it.

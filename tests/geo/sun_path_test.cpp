@@ -300,5 +300,84 @@ TEST(SunPath, IsFast) {
   EXPECT_LT(taken, 1);  // some 50 ms; ten times and more for a busy machine
 }
 
+/// A day with hills all around.
+SunPath path_behind(const Horizon& hills, UnixTime begin, UnixTime end, double step_s) {
+  Site site = site_at(50, 14);
+  site.horizon = hills;
+  return path_of(site, begin, end, step_s);
+}
+
+TEST(SunPathWithHills, LevelHillsAreALaterSunrise) {
+  // Against the crossing of the elevation itself, without refraction: one and the same line.
+  const UnixTime begin = instant("2026-03-21T00:00"), end = begin + day_s;
+  Site site = site_at(50, 14);
+  site.horizon = Horizon({{0, 10}});
+  const SunEphemeris sun(begin, end, site, Refraction::none, Ut1::zero, standard_air(0));
+  const auto crossings = elevation_crossings(sun, begin, end, 10);
+  ASSERT_EQ(crossings.size(), 2u);
+  const auto path = path_of(site, begin, end, day_s, Refraction::none);
+  ASSERT_EQ(path.size(), 1u);
+  EXPECT_NEAR(path[0].sunlit_begin, crossings[0].time, instant_resolution_s);
+  EXPECT_NEAR(path[0].sunlit_end, crossings[1].time, instant_resolution_s);
+  EXPECT_NEAR(path[0].sunlit_s, crossings[1].time - crossings[0].time, 2 * instant_resolution_s);
+  EXPECT_LT(path[0].up_begin, path[0].sunlit_begin);
+  EXPECT_GT(path[0].up_end, path[0].sunlit_end);
+}
+
+TEST(SunPathWithHills, OpenHorizonChangesNothing) {
+  const UnixTime begin = instant("2026-03-21T00:00"), end = begin + day_s;
+  const auto open = path_behind({}, begin, end, 3600);
+  const auto flat = path_behind(Horizon({{0, 0}, {180, 0}}), begin, end, 3600);
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    EXPECT_EQ(open[i].sunlit_s, open[i].up_s);
+    EXPECT_EQ(open[i].sunlit_begin, open[i].up_begin);
+    // The crossing of the apparent and that of the true elevation differ by rounding.
+    EXPECT_NEAR(open[i].sunlit_s, flat[i].sunlit_s, 10 * instant_resolution_s);
+    EXPECT_NEAR(open[i].sun_time, flat[i].sun_time, 10 * instant_resolution_s);
+  }
+}
+
+TEST(SunPathWithHills, HiddenAndPartlyHiddenIntervals) {
+  const UnixTime begin = instant("2026-03-21T00:00"), end = begin + day_s;
+  // A mountain in the south alone, above the noon sun (40 degrees), from azimuth 160 to 200.
+  const Horizon mountain({{159, 0}, {160, 60}, {200, 60}, {201, 0}});
+  double sunlit_s = 0, up_s = 0;
+  int parts = 0;
+  for (const auto& interval : path_behind(mountain, begin, end, 600)) {
+    sunlit_s += interval.sunlit_s;
+    up_s += interval.up_s;
+    const bool above =
+        mountain.is_above({interval.sun.azimuth_deg, interval.sun.elevation_deg});
+    EXPECT_EQ(interval.sunlit_s > 0, above && interval.sun.elevation_deg > 0);
+    if (interval.sunlit_s > 0 && interval.sunlit_s < interval.up_s) ++parts;
+    EXPECT_GE(interval.sunlit_begin, interval.up_begin);
+    EXPECT_LE(interval.sunlit_end, interval.up_end);
+  }
+  EXPECT_EQ(parts, 2);
+  // The whole day as one interval: two sunlit parts, the sun of the longer.
+  const auto day = path_behind(mountain, begin, end, day_s);
+  EXPECT_NEAR(day[0].sunlit_s, sunlit_s, 1e-4);
+  EXPECT_NEAR(day[0].up_s, up_s, 1e-4);
+  EXPECT_TRUE(mountain.is_above({day[0].sun.azimuth_deg, day[0].sun.elevation_deg}));
+  // Hills around everything: no sun, but the day is still the day.
+  const auto valley = path_behind(Horizon({{0, 80}}), begin, end, day_s);
+  EXPECT_EQ(valley[0].sunlit_s, 0);
+  EXPECT_NEAR(valley[0].up_s, up_s, 1e-4);
+  EXPECT_GT(valley[0].sun.elevation_deg, 30);
+}
+
+TEST(SunPathWithHills, AnInstantBehindThemHasNoSun) {
+  Site site = site_at(50, 14);
+  site.horizon = Horizon({{0, 20}});
+  const UnixTime noon = instant("2026-03-21T11:00"), early = instant("2026-03-21T06:00");
+  const auto given = [](UnixTime t) {
+    return PeriodStep{t - 1800, t + 1800, t, SunInstant::given};
+  };
+  const auto path = sun_path({given(early), given(noon)}, site, Refraction::spa, Ut1::zero);
+  EXPECT_EQ(path[0].sunlit_s, 0);
+  EXPECT_GT(path[0].up_s, 0);
+  EXPECT_EQ(path[1].sunlit_s, 3600);
+}
+
 }  // namespace
 }  // namespace sunload

@@ -1,6 +1,7 @@
 // Studies: every rule of their keys, the schema, variants, and the canonical text.
 #include "io/study.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -206,6 +207,52 @@ TEST(Study, ChecksTheSite) {
                 {"period", "{instants: [2026-03-21T12:00Z, 2026-03-21T15:00+01:00]}"}});
 }
 
+TEST(Study, ReadsPositionsAsPeopleWriteThem) {
+  const auto site = [](const std::string& position) {
+    return read_text(with({{"site", "{position: " + position + ", timezone: UTC}"}}))
+        .variants[0]
+        .site;
+  };
+  const auto dms = site("\"49d44'51\\\"N 13d22'39\\\"E\"");
+  EXPECT_NEAR(*dms.latitude_deg, 49.7475, 1e-12);
+  EXPECT_NEAR(*dms.longitude_deg, 13.3775, 1e-12);
+}
+
+TEST(Study, ChecksPositions) {
+  expect_problem({{"site", "{position: 33x, timezone: UTC}"}},
+                 "study.yaml:5:18: site.position: '33x' is no position on Earth");
+  expect_problem({{"site", "{position: 50 14, latitude_deg: 50, longitude_deg: 14, timezone: UTC}"}},
+                 "site.position: stands beside latitude_deg and longitude_deg");
+}
+
+TEST(Study, KnowsDaysByName) {
+  const auto days = [](const std::string& site, const std::string& list) {
+    const auto file =
+        read_text(with({{"site", site}, {"period", "{days: [" + list + "]}"}}));
+    std::string text;
+    for (const auto& day : std::get<DaysPeriod>(file.variants[0].period.kind).days)
+      text += fmt::format("{}-{}-{} ", day.year, day.month, day.day);
+    return text;
+  };
+  const std::string prague = "{latitude_deg: 50, longitude_deg: 14, timezone: Europe/Prague}";
+  const std::string cape = "{latitude_deg: -34, longitude_deg: 18, timezone: Africa/Johannesburg}";
+  EXPECT_EQ(days(prague, "march_equinox 2026, 2026-05-01, summer_solstice 2026, "
+                         "september_equinox 2026, winter_solstice 2026"),
+            "2026-3-20 2026-5-1 2026-6-21 2026-9-23 2026-12-21 ");
+  EXPECT_EQ(days(cape, "winter_solstice 2026, summer_solstice 2026"), "2026-6-21 2026-12-21 ");
+}
+
+TEST(Study, ChecksDaysByName) {
+  expect_problem({{"period", "{days: [june_solstice]}"}},
+                 "study.yaml:3:17: period.days: 'june_solstice' has no year");
+  expect_problem({{"period", "{days: [midsummer 2026]}"}}, "names: march_equinox, june_solstice");
+  expect_problem({{"period", "{days: [june_solstice 2026, march_equinox 2026]}"}},
+                 "march_equinox 2026 is not after the day before it");
+  expect_problem({{"site", "{crs: EPSG:28992, timezone: UTC}"},
+                  {"period", "{days: [summer_solstice 2026]}"}},
+                 "depends on the hemisphere");
+}
+
 TEST(Study, ChecksTheTimes) {
   const auto wrong = [](const std::string& period, const std::string& part) {
     expect_problem({{"period", period}}, part);
@@ -231,7 +278,9 @@ TEST(Study, ChecksTheTimes) {
   wrong("{instants: [2026-06-21T12:00+02:00, 2026-06-21T10:00Z]}", "is not after the one before");
   wrong("{positions: [{azimuth_deg: 90, elevation_deg: 30}]}",
         "positions need light.source: fixed");
-  wrong("{year_of: weather}", "period.year_of is not supported yet in this version");
+  wrong("{year_of: weather}", "year_of: weather needs light.source: weather");
+  wrong("{year_of: weather, step_min: 10}", "period.step_min: does not go with `year_of`");
+  wrong("{days: [2026-06-21], as_year: 2004}", "period.as_year: does not go with `days`");
   expect_right({{"period", "{days: [2026-06-20, 2026-06-21], from: 05:00, to: '24:00'}"}});
   expect_right({{"period", "{start: 2026-03-28, end: 2026-03-30, step_min: 60}"}});
   expect_right({{"site", ""},
@@ -242,7 +291,9 @@ TEST(Study, ChecksTheTimes) {
 TEST(Study, ChecksLightSceneAndSolver) {
   expect_problem({{"light", "{source: fixed, dni_w_m2: 800}"}}, "fixed needs dhi_w_m2");
   expect_problem({{"light", "{source: weather, weather: x.epw}"}},
-                 "light.source: 'weather' is not supported yet");
+                 "light.weather: 'x.epw' is not there");
+  expect_problem({{"light", "{source: weather}"}}, "light.source: weather needs a file");
+  expect_problem({{"light", "{source: weather, weather: x.epw, stamp: begin}"}}, "light.stamp");
   expect_problem({{"light", "{linke_turbidity: [3, 3]}"}}, "has 2 values");
   expect_problem({{"light", "{sky: prez}"}}, "did you mean 'perez'?");
   expect_problem({{"scene", "{up: z}"}}, "scene has neither files nor builtin");
@@ -371,6 +422,8 @@ json study_around(const std::string& path) {
   const json sun = {{"azimuth_deg", 90}, {"elevation_deg", 30}};
   if (path == "period.interval_min") {
     study["period"] = {{"instants", {"2026-03-21T12:00"}}};
+  } else if (path == "period.as_year" || path == "period.year_of") {
+    study["period"] = {{"year_of", "weather"}};
   } else if (path.starts_with("period.positions") || path == "site.timezone") {
     study["period"] = {{"positions", json::array({sun})}};
     study["light"] = fixed;
@@ -525,6 +578,8 @@ TEST(CanonicalText, SeesEveryValueThatCanChangeANumber) {
                {"north", [](Study& s) { s.site.north_deg = 0; }},
                {"refraction", [](Study& s) { s.sun.refraction = Refraction::none; }},
                {"ut1", [](Study& s) { s.sun.ut1_utc = Ut1::zero; }},
+               {"disk", [](Study& s) { s.sun.disk = SunDisk::finite; }},
+               {"horizon", [](Study& s) { s.site.horizon = Horizon({{0, 5}}); }},
                {"source", [](Study& s) { s.light.source = LightSource::fixed; }},
                {"model", [](Study& s) { s.light.model = ClearSkyModel::bird; }},
                {"linke", [](Study& s) { s.light.linke_turbidity.monthly[7] += 1; }},

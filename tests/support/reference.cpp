@@ -65,6 +65,15 @@ nlohmann::json read_json(const std::string& name) {
   return nlohmann::json::parse(file);
 }
 
+std::vector<nlohmann::json> reference_cases(const std::string& name, const std::string& prefix) {
+  const auto file = read_json(name);
+  std::vector<nlohmann::json> chosen;
+  for (const auto& c : file.at("cases"))
+    if (c.at("id").get<std::string>().starts_with(prefix)) chosen.push_back(c);
+  EXPECT_FALSE(chosen.empty()) << "no case " << prefix << " in reference/" << name;
+  return chosen;
+}
+
 double number(const nlohmann::json& value) {
   return value.is_string() ? std::stod(value.get<std::string>()) : value.get<double>();
 }

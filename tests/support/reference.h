@@ -17,6 +17,10 @@ std::vector<Row> read_csv(const std::string& name);
 /// A whole `reference/<name>` JSON file.
 nlohmann::json read_json(const std::string& name);
 
+/// Its `cases` whose `id` begins with `prefix`; a failure where there are none.
+std::vector<nlohmann::json> reference_cases(const std::string& name,
+                                            const std::string& prefix = {});
+
 /// A number that the JSON files give as number or as text with all its digits.
 double number(const nlohmann::json& value);
 double number(const Row& row, const std::string& column);

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <stdexcept>
@@ -10,11 +13,18 @@
 
 namespace sunload::test {
 
+namespace {
+
+/// α of one of `tests` that together have `alpha` (Šidák).
+double shared(double alpha, double tests) { return 1 - std::pow(1 - alpha, 1 / tests); }
+
+}  // namespace
+
+double false_alarm_share() { return shared(suite_false_alarms, declared_statistical_tests); }
+
 double accepted_t(std::size_t realizations) {
-  const double alpha =
-      1 - std::pow(1 - suite_false_alarms, 1.0 / declared_statistical_tests);
   const boost::math::students_t student(static_cast<double>(realizations) - 1);
-  return quantile(complement(student, alpha / 2));
+  return quantile(complement(student, false_alarm_share() / 2));
 }
 
 Verdict expect_mean(const std::vector<double>& realizations, double truth, double bias_bound) {
@@ -28,10 +38,47 @@ Verdict expect_mean(const std::vector<double>& realizations, double truth, doubl
   verdict.limit = accepted_t(realizations.size()) * estimate.standard_error + bias_bound +
                   float_rounding * std::abs(truth);
   verdict.accepted = std::abs(estimate.mean - truth) <= verdict.limit;
-  verdict.text = fmt::format("n {}, mean {:.8g}, truth {:.8g}, off by {:.3g}, SE {:.3g}, limit {:.3g}",
-                             realizations.size(), estimate.mean, truth, estimate.mean - truth,
-                             estimate.standard_error, verdict.limit);
+  verdict.text =
+      fmt::format("n {}, mean {:.8g}, truth {:.8g}, off by {:.3g}, SE {:.3g}, limit {:.3g}",
+                  realizations.size(), estimate.mean, truth, estimate.mean - truth,
+                  estimate.standard_error, verdict.limit);
   return verdict;
+}
+
+Verdict expect_counts(const std::vector<double>& counted, const std::vector<double>& expected) {
+  constexpr double least_expected = 5;  // the rule of thumb of Cochran (1954)
+  double statistic = 0, pooled = 0, pooled_expected = 0;
+  int cells = 0;
+  bool impossible_hit = false;
+  const auto add = [&](double count, double mean) {
+    statistic += (count - mean) * (count - mean) / mean;
+    ++cells;
+  };
+  for (std::size_t c = 0; c < counted.size(); ++c) {
+    if (expected[c] <= 0) {
+      impossible_hit = impossible_hit || counted[c] > 0;
+    } else if (expected[c] >= least_expected) {
+      add(counted[c], expected[c]);
+    } else {
+      pooled += counted[c];
+      pooled_expected += expected[c];
+    }
+  }
+  if (pooled_expected > 0) add(pooled, pooled_expected);
+  Verdict verdict;
+  verdict.mean = statistic;
+  verdict.limit =
+      quantile(complement(boost::math::chi_squared(std::max(1, cells - 1)), false_alarm_share()));
+  verdict.accepted = !impossible_hit && statistic <= verdict.limit;
+  verdict.text = fmt::format("chi-squared {:.4g} of {} cells, limit {:.4g}{}", statistic, cells,
+                             verdict.limit, impossible_hit ? ", impossible cell hit" : "");
+  return verdict;
+}
+
+CountInterval accepted_counts(double n, double p, double tests) {
+  const double alpha = shared(false_alarm_share(), tests);
+  const boost::math::binomial binomial(n, p);
+  return {quantile(binomial, alpha / 2), quantile(complement(binomial, alpha / 2))};
 }
 
 }  // namespace sunload::test

@@ -11,7 +11,10 @@ namespace sunload::test {
 inline constexpr double suite_false_alarms = 1e-3;
 inline constexpr int declared_statistical_tests = 1000;
 
-/// Quantile 1 - α'/2 of Student's t, α' this test's share of the budget.
+/// This test's share α' of the budget.
+double false_alarm_share();
+
+/// Quantile 1 - α'/2 of Student's t.
 double accepted_t(std::size_t realizations);
 
 struct Verdict {
@@ -24,6 +27,18 @@ struct Verdict {
 /// |mean - truth| <= t·SE + bias_bound + rounding, at least 16 realizations.
 /// `bias_bound` is the model's own bias, from a formula or from halving a mesh.
 Verdict expect_mean(const std::vector<double>& realizations, double truth, double bias_bound = 0);
+
+/// Pearson's chi-squared of counts against expected counts; cells of less than 5
+/// are pooled, and cells that cannot be hit must be empty.
+Verdict expect_counts(const std::vector<double>& counted, const std::vector<double>& expected);
+
+/// The interval that holds a Binomial(n, p) count but for a share α' of cases, divided
+/// by Šidák among `tests` such counts.
+struct CountInterval {
+  double low = 0, high = 0;
+  bool contains(double count) const { return low <= count && count <= high; }
+};
+CountInterval accepted_counts(double n, double p, double tests = 1);
 
 /// Float series carry about this relative rounding (DESIGN 8).
 inline constexpr double float_rounding = 1e-5;

@@ -1,0 +1,266 @@
+/// Listings with fixed headers, exit codes, and what running again does (DESIGN 1).
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "io/result_file.h"
+#include "tests/support/program.h"
+#include "tests/support/result_check.h"
+#include "tests/support/small_study.h"
+
+namespace sunload::test {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+Lines lines_of(const std::string& text) {
+  Lines lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+struct Square {
+  WorkFolder folder;
+  explicit Square(const std::string& more = "") {
+    folder.write("square.obj", square_obj);
+    folder.write("square.yaml", square_study() + more);
+  }
+  Ran run(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin() + 1, "square.yaml");
+    return program(folder, arguments);
+  }
+  std::string result(const std::string& variant = "baseline") const {
+    return folder / ("results/square/" + variant + ".h5");
+  }
+  /// Path of a batch, from its number.
+  std::string batch(int number) const {
+    for (const auto& name : folder.content())
+      if (name.ends_with(fmt::format("{:06}.batch", number))) return folder / name;
+    ADD_FAILURE() << "batch " << number << " is not there";
+    return {};
+  }
+  void change(const std::string& from, const std::string& to) const {
+    std::string text = folder.read("square.yaml");
+    const auto at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    folder.write("square.yaml", text.replace(at, from.size(), to));
+  }
+};
+
+const std::string two_variants =
+    "variants:\n"
+    "  - {name: mirror}\n"
+    "  - {name: dull, scene: {materials: {glass: {diffuse: 0.3, mirror: 0}}}}\n";
+
+TEST(Commands, CheckAsJson) {
+  const Square square(two_variants);
+  const Ran ran = square.run({"check", "--json"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto json = nlohmann::ordered_json::parse(ran.out);
+  Lines keys, keys_of_variant;
+  for (const auto& [key, value] : json.items()) keys.push_back(key);
+  EXPECT_EQ(keys, (Lines{"variants", "batch_suns", "units"}));
+  ASSERT_EQ(json["variants"].size(), 2u);
+  for (const auto& variant : json["variants"]) {
+    keys_of_variant.clear();
+    for (const auto& [key, value] : variant.items()) keys_of_variant.push_back(key);
+    EXPECT_EQ(keys_of_variant, (Lines{"name", "hash", "patches", "intervals", "lit", "batches",
+                                      "lines", "memory_bytes", "disk_bytes", "seconds"}));
+    EXPECT_EQ(variant["intervals"], 12);
+    EXPECT_EQ(variant["batches"], 6);
+    EXPECT_EQ(variant["hash"].get<std::string>().size(), 64u);
+    EXPECT_EQ(variant["lines"], 64 * variant["patches"].get<int>());
+  }
+  EXPECT_EQ(json["batch_suns"], 2);
+  EXPECT_EQ(json["units"], 12);
+  EXPECT_NE(json["variants"][0]["hash"], json["variants"][1]["hash"]);
+  EXPECT_EQ(square.folder.content(), (Lines{"square.obj", "square.yaml"}));
+}
+
+TEST(Commands, SunAsCsv) {
+  const Square square;
+  square.change("from: \"06:00\", to: \"18:00\", ", "");
+  const Ran ran = square.run({"sun"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const Lines lines = lines_of(ran.out);
+  ASSERT_EQ(lines.size(), 25u);  // a day in hours, the night included
+  EXPECT_EQ(lines[0], "time,azimuth_deg,elevation_deg,dni_w_m2,dhi_w_m2,ghi_w_m2");
+  double before = -1e9, highest = -90;
+  int below = 0;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    EXPECT_EQ(std::count(lines[i].begin(), lines[i].end(), ','), 5) << lines[i];
+    EXPECT_EQ(lines[i].substr(10, 1), "T");
+    EXPECT_EQ(lines[i].substr(lines[i].find(',') - 1, 1), "Z");
+    std::istringstream rest(lines[i].substr(lines[i].find(',') + 1));
+    double azimuth = 0, elevation = 0;
+    char comma = 0;
+    rest >> azimuth >> comma >> elevation;
+    below += elevation < 0 ? 1 : 0;
+    highest = std::max(highest, elevation);
+    before = azimuth;
+  }
+  EXPECT_GT(before, 180);
+  EXPECT_GE(below, 10);
+  EXPECT_NEAR(highest, 90 - 49.7475, 1);  // noon of an equinox
+}
+
+TEST(Commands, CompareAsCsvInfoAndPictures) {
+  const Square square(two_variants);
+  ASSERT_EQ(square.run({"run"}).code, 0);
+  for (const char* variant : {"mirror", "dull"}) {
+    EXPECT_EQ(ledger_problem(square.result(variant)), "");
+    EXPECT_EQ(sums_problem(square.result(variant)), "");
+  }
+  const Ran by_files =
+      program(square.folder, {"compare", square.result("mirror"), square.result("dull"), "--csv"});
+  ASSERT_EQ(by_files.code, 0) << by_files.err;
+  EXPECT_EQ(lines_of(by_files.out).at(0),
+            "group,name,area_m2,base_kwh_m2,variant_kwh_m2,difference_kwh_m2,difference_percent,"
+            "se_kwh_m2,paired,p_value,p_corrected,significant,unmatched_area_m2");
+  const Ran by_names = program(square.folder, {"compare", "square.yaml", "dull", "--csv"});
+  EXPECT_EQ(by_names.out, by_files.out) << by_names.err;
+  EXPECT_EQ(program(square.folder, {"compare", "square.yaml", "mirror", "dull"}).code, 0);
+  EXPECT_NE(program(square.folder, {"info", square.result("dull")}).out.find("kWh"),
+            std::string::npos);
+  const Ran picture = program(square.folder, {"render", square.result("dull"), "-o", "a.png"});
+  EXPECT_EQ(picture.code, 0) << picture.err;
+  EXPECT_EQ(square.folder.read("a.png").substr(1, 3), "PNG");
+}
+
+TEST(Commands, InfoGivesTheErrorOfTheEnergyAlsoWithErrorsOfInstants) {
+  const Square square;
+  square.change("standard_error: totals", "standard_error: instants");
+  ASSERT_EQ(square.run({"run"}).code, 0);
+  const Energy energy = energy_of(square.result());
+  const Ran info = program(square.folder, {"info", square.result()});
+  EXPECT_NE(
+      info.out.find(fmt::format("residual {:.3g} ± {:.2g} (", energy.residual, energy.residual_se)),
+      std::string::npos)
+      << info.out;
+}
+
+TEST(Commands, OnlyTheVariantsAskedFor) {
+  const Square square(two_variants);
+  ASSERT_EQ(square.run({"run", "--variant", "dull"}).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(square.result("mirror")));
+  EXPECT_EQ(square.run({"run", "--resume"}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(square.result("mirror")));
+}
+
+TEST(Commands, RunAgain) {
+  const Square square;
+  ASSERT_EQ(square.run({"run"}).code, 0);
+  const std::string first = square.folder.read("results/square/baseline.h5");
+  const auto is_untouched = [&] {
+    return square.folder.read("results/square/baseline.h5") == first;
+  };
+  // Finished, same hash.
+  EXPECT_EQ(square.run({"run"}).code, 2);
+  EXPECT_EQ(square.run({"run", "--resume"}).code, 0);
+  EXPECT_TRUE(is_untouched());
+  EXPECT_EQ(square.run({"run", "--overwrite"}).code, 0);
+}
+
+TEST(Commands, WhatChangesTheHash) {
+  const Square square;
+  ASSERT_EQ(square.run({"run"}).code, 0);
+  const std::string first = square.folder.read("results/square/baseline.h5");
+  square.change("name: square\n", "name: square  # a comment\n");
+  square.change("folder: results, ", "folder: results, compression: 1, series: [total], ");
+  EXPECT_EQ(square.run({"run", "--resume"}).code, 0);
+  EXPECT_EQ(square.folder.read("results/square/baseline.h5"), first);
+  // Another hash: exit code 2 unless --overwrite.
+  square.change("diffuse: 0.6", "diffuse: 0.61");
+  for (const auto& arguments : {Lines{"run"}, Lines{"run", "--resume"}})
+    EXPECT_EQ(square.run(arguments).code, 2);
+  EXPECT_EQ(square.folder.read("results/square/baseline.h5"), first);
+  const Ran over = square.run({"run", "--overwrite"});
+  EXPECT_EQ(over.code, 0) << over.err;
+  const ResultReader result(square.result());
+  EXPECT_TRUE(result.has("irradiance"));
+  EXPECT_FALSE(result.has("irradiance_direct"));  // series: [total]
+  EXPECT_NE(square.folder.read("results/square/baseline.h5"), first);
+  EXPECT_EQ(ledger_problem(square.result()), "");
+}
+
+TEST(Commands, DamagedResultIsNamedAndReplaced) {
+  const Square square;
+  ASSERT_EQ(square.run({"run"}).code, 0);
+  std::filesystem::resize_file(square.result(), 5000);
+  for (const auto& arguments : {Lines{"run"}, Lines{"run", "--resume"}, Lines{"merge"}}) {
+    const Ran ran = square.run(arguments);
+    EXPECT_EQ(ran.code, 2) << ran.err;
+    EXPECT_NE(ran.err.find("baseline.h5: "), std::string::npos) << ran.err;
+  }
+  EXPECT_EQ(square.run({"run", "--overwrite"}).code, 0);
+  EXPECT_EQ(ledger_problem(square.result()), "");
+}
+
+TEST(Commands, MergeTwiceIsNoWork) {
+  const Square square;
+  ASSERT_EQ(square.run({"run", "--keep-batches"}).code, 0);
+  const std::string first = square.folder.read("results/square/baseline.h5");
+  const auto content = square.folder.content();
+  for (int time = 0; time < 2; ++time) {
+    EXPECT_EQ(square.run({"merge"}).code, 0);
+    EXPECT_EQ(square.folder.read("results/square/baseline.h5"), first);
+    EXPECT_EQ(square.folder.content(), content);
+  }
+  // From the batches alone the same comes out, twice.
+  std::filesystem::rename(square.result(), square.folder / "first.h5");
+  EXPECT_EQ(square.run({"merge"}).code, 0);
+  EXPECT_EQ(different_data(square.result(), square.folder / "first.h5"), Lines{});
+  EXPECT_EQ(square.run({"merge"}).code, 0);
+}
+
+TEST(Commands, MergeListsWhatIsMissing) {
+  const Square square;
+  ASSERT_EQ(square.run({"run", "--keep-batches"}).code, 0);
+  std::filesystem::rename(square.result(), square.folder / "first.h5");
+  std::filesystem::remove(square.batch(1));
+  std::filesystem::remove(square.batch(4));
+  const Ran merge = square.run({"merge"});
+  EXPECT_EQ(merge.code, 75) << merge.err;
+  EXPECT_NE(merge.err.find("2 of 6 batches are missing: 1 4"), std::string::npos) << merge.err;
+  EXPECT_FALSE(std::filesystem::exists(square.result()));
+  EXPECT_EQ(square.run({"run"}).code, 0);
+  EXPECT_EQ(different_data(square.result(), square.folder / "first.h5"), Lines{});
+}
+
+TEST(Commands, MergeBeforeAnythingIsThere) {
+  const Square square;
+  const Ran merge = square.run({"merge"});
+  EXPECT_EQ(merge.code, 75) << merge.err;
+  EXPECT_NE(merge.err.find("6 of 6 batches are missing"), std::string::npos) << merge.err;
+  EXPECT_EQ(square.folder.content(), (Lines{"square.obj", "square.yaml"}));
+}
+
+TEST(Commands, DamagedBatchIsNamedAndComputedAgain) {
+  const Square square;
+  ASSERT_EQ(square.run({"run", "--keep-batches"}).code, 0);
+  std::filesystem::rename(square.result(), square.folder / "first.h5");
+  const std::string damaged = square.batch(2), cut = square.batch(3);
+  {
+    std::fstream file(damaged, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(20000);
+    file.put('\x5a').put('\xa5');
+  }
+  std::filesystem::resize_file(cut, std::filesystem::file_size(cut) / 2);
+  const Ran merge = square.run({"merge"});
+  EXPECT_EQ(merge.code, 75) << merge.err;
+  for (const char* name : {"000002.batch", "000003.batch"})
+    EXPECT_NE(merge.err.find(name), std::string::npos) << merge.err;
+  const Ran ran = square.run({"run", "--resume"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  for (const char* name : {"000002.batch", "000003.batch"})
+    EXPECT_NE(ran.err.find(name), std::string::npos) << ran.err;
+  EXPECT_EQ(different_data(square.result(), square.folder / "first.h5"), Lines{});
+}
+
+}  // namespace
+}  // namespace sunload::test

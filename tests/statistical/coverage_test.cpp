@@ -1,0 +1,130 @@
+/// Are the error bars right? Over many independent runs the share of 95 % intervals that
+/// hold the truth must itself lie in its binomial interval.
+
+#include <gtest/gtest.h>
+
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <functional>
+#include <iostream>
+
+#include "tests/support/scenes.h"
+#include "tests/support/statistics.h"
+
+namespace sunload::test {
+namespace {
+
+constexpr int runs = 600;
+constexpr double level = 0.95;
+
+SolverRules run_rules(std::uint64_t seed) {
+  SolverRules rules = test_rules();
+  rules.realizations = 8;
+  rules.lines_per_patch = 8 * 32;
+  rules.direct_samples = 8 * 16;
+  rules.bounces = 3;
+  rules.seed = seed;
+  return rules;
+}
+
+/// Values per realization of one run.
+using Run = std::function<std::vector<double>(const Solved&)>;
+/// Half width of the interval from the values.
+using Width = std::function<double(const std::vector<double>&)>;
+
+double student_width(const std::vector<double>& values) {
+  const boost::math::students_t student(static_cast<double>(values.size()) - 1);
+  return quantile(complement(student, (1 - level) / 2)) * mean_error(values).standard_error;
+}
+
+double covered(const std::vector<std::vector<double>>& all, double truth, const Width& width) {
+  double count = 0;
+  for (const auto& values : all)
+    count += std::abs(mean_error(values).mean - truth) <= width(values);
+  return count;
+}
+
+/// Accepted with Student's intervals; refused where the variance stands for the standard
+/// error, and where the spread of one realization does.
+void check(const std::string& name, const std::vector<std::vector<double>>& all, double truth) {
+  const CountInterval interval = accepted_counts(runs, level);
+  const double count = covered(all, truth, student_width);
+  std::cout << name << ": " << count << " of " << runs << " intervals hold the truth, accepted "
+            << interval.low << " to " << interval.high << "\n";
+  EXPECT_TRUE(interval.contains(count)) << count;
+  EXPECT_FALSE(interval.contains(covered(all, truth, [](const auto& values) {
+    const double width = student_width(values), error = mean_error(values).standard_error;
+    return width * error;
+  })));
+  EXPECT_FALSE(interval.contains(covered(all, truth, [](const auto& values) {
+    return student_width(values) * std::sqrt(static_cast<double>(values.size()));
+  })));
+}
+
+std::vector<std::vector<double>> repeated(const Scene& scene, const SunLight& light,
+                                          const SplitRules& split, const Run& of) {
+  std::vector<std::vector<double>> all;
+  for (int run = 0; run < runs; ++run)
+    all.push_back(
+        of(solve(scene, {light}, run_rules(1000 + static_cast<std::uint64_t>(run)), split)));
+  return all;
+}
+
+// Lines: unit squares face to face, F = 0.19982489569839 (Howell C-11), no reflection back.
+TEST(Coverage, OfAFormFactor) {
+  SceneBuilder builder;
+  const int black = builder.material({"black", 0, 0, 0}),
+            lamp = builder.material({"lamp", 0, 0, 1});
+  builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, black);
+  builder.quad({0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}, lamp);
+  constexpr double F = 0.19982489569839;
+  check("form factor",
+        repeated(builder.scene(), one_second({0, 0, -1}, 0), {},
+                 [](const Solved& s) {
+                   return s.means([&](std::size_t i) { return s.patches[i].triangle < 2; });
+                 }),
+        F);
+}
+
+// Direct sun: a shadow line halves a square askew, so that it cuts its patches at all angles.
+// (Where it runs along the strata of the samples, few values are possible and intervals of 8
+// realizations of 16 samples hold the truth in some 85 % only.)
+TEST(Coverage, OfAShadow) {
+  constexpr double turn = 0.3, half = 2, middle = 3;
+  const Vec3 x{half * std::cos(turn), half * std::sin(turn), 0}, y{-x.y, x.x, 0}, c{0, middle, 0};
+  SceneBuilder builder;
+  const int black = builder.material({"black", 0, 0, 0});
+  builder.quad(c - x - y, c + x - y, c + x + y, c - x + y, black);
+  const Vec3 sun = normalized({0.3, -1, 0.8});
+  const double height = middle * sun.z / -sun.y;  // its shadow ends at the middle
+  builder.sides(Sides::two)
+      .object("wall")
+      .quad({-6, 0, 0}, {6, 0, 0}, {6, 0, height}, {-6, 0, height}, black);
+  check("shadow",
+        repeated(builder.scene(), one_second(sun, 1), {.max_edge_m = 3},
+                 [](const Solved& s) {
+                   return s.means([&](std::size_t i) { return s.patches[i].triangle < 2; });
+                 }),
+        sun.z / 2);
+}
+
+// Sun, sky, reflection and a mirror together: the ledger's residual is zero.
+TEST(Coverage, OfTheLedgersResidual) {
+  SceneBuilder builder;
+  const int wall = builder.material({"wall", 0.5, 0, 0}),
+            glass = builder.material({"glass", 0.1, 0.6, 0});
+  builder.object("ground").quad({-3, -3, 0}, {3, -3, 0}, {3, 3, 0}, {-3, 3, 0}, wall);
+  builder.object("house").box({-2, 1, 0.01}, {2, 2, 2}, wall, SceneBuilder::Facing::outward);
+  builder.object("glass").quad({-1.5, 0.99, 0.5}, {1.5, 0.99, 0.5}, {1.5, 0.99, 1.5},
+                               {-1.5, 0.99, 1.5}, glass);
+  auto light = with_uniform_sky(one_second({0.3, -0.8, 0.5}, 600), 100);
+  light.ground_exitance = 60;
+  check("residual",
+        repeated(
+            builder.scene(), light, {},
+            [](const Solved& s) { return s.ledger([](const Ledger& l) { return l.residual(); }); }),
+        0);
+}
+
+}  // namespace
+}  // namespace sunload::test
