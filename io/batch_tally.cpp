@@ -1,5 +1,7 @@
 #include "io/batch_tally.h"
 
+#include <array>
+
 namespace sunload {
 
 namespace {
@@ -129,8 +131,9 @@ void add_tally(BatchWriter& writer, const BatchTally& tally, const LightSolver& 
              solver.sky_view_factor().data());
   const double bounces = solver.bounces();
   writer.add({batch_array::bounces, MergeRule::maximum, ArrayType::float64, {1}}, &bounces);
-  const double backs = solver.back_share();
-  writer.add({batch_array::back_share, MergeRule::maximum, ArrayType::float64, {1}}, &backs);
+  const std::array energy{tally.energy.in(), tally.energy.residual(), tally.energy.lost_at_backs};
+  writer.add({batch_array::energy, MergeRule::sum, ArrayType::float64, {energy.size()}},
+             energy.data());
   const auto cost = work_values(work);
   writer.add({batch_array::work, MergeRule::sum, ArrayType::float64, {cost.size()}}, cost.data());
 }

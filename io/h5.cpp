@@ -28,7 +28,7 @@ herr_t collect(unsigned level, const H5E_error2_t* error, void* messages) {
 
 /// The library's own words, from what was wanted to what went wrong; of a system
 /// error its text alone (the library adds addresses and times).
-[[noreturn]] void fail(const std::string& action) {
+std::string error_text(const std::string& action) {
   Messages messages;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, &collect, &messages);
   H5Eclear2(H5E_DEFAULT);
@@ -40,7 +40,16 @@ herr_t collect(unsigned level, const H5E_error2_t* error, void* messages) {
   }
   std::string text = action + ": " + messages.outermost;
   if (messages.innermost != messages.outermost) text += ": " + messages.innermost;
-  throw Error(text);
+  return text;
+}
+
+[[noreturn]] void fail(const std::string& action) { throw Error(error_text(action)); }
+
+/// Why something could not be closed: with a dataset its unwritten chunks are
+/// lost. Owners cannot throw then; the closing of the file tells.
+std::string& failed_closing() {
+  static std::string text;
+  return text;
 }
 
 /// Passes on what is not negative.
@@ -53,7 +62,7 @@ Result checked(Result result, const std::string& action) {
 template <class Close>
 Handle handle(hid_t id, Close close, const std::string& action) {
   return {new std::int64_t(checked(id, action)), [close](const std::int64_t* owned) {
-            close(*owned);
+            if (close(*owned) < 0) failed_closing() = error_text("writing");
             delete owned;
           }};
 }
@@ -379,6 +388,7 @@ std::uint64_t File::end() const {
 }
 
 void File::close() {
+  if (!failed_closing().empty()) throw Error(std::exchange(failed_closing(), {}));
   checked(H5Fflush(*file_, H5F_SCOPE_GLOBAL), "writing");
   handle_.reset();
   // One more reference, so that the closing itself is done, and judged, here.

@@ -175,10 +175,13 @@ std::string energy_text(const ResultReader& result) {
                                : std::nan("");
   const std::string error =
       std::isnan(error_kwh) ? std::string() : fmt::format(" ± {:.2g}", error_kwh);
+  const double bias = result.number_attribute("residual_reuse_bias_kwh");
+  const std::string reuse =
+      std::isnan(bias) ? std::string() : fmt::format(", of which {:.2g} by reuse of lines", bias);
   return line("energy, kWh", fmt::format("in {:.6g} = {}", in, in_words)) +
          line("", fmt::format("out {:.6g} = {}", out, out_words)) +
-         line("", fmt::format("residual {:.3g}{} ({:.2g} % of in)", residual, error,
-                              in == 0 ? 0 : residual / in * 100));
+         line("", fmt::format("residual {:.3g}{} ({:.2g} % of in){}", residual, error,
+                              in == 0 ? 0 : residual / in * 100, reuse));
 }
 
 std::string info_text(const ResultReader& result) {

@@ -125,6 +125,31 @@ double reuse_bias(const Totals& totals, const ResultGeometry& geometry, std::siz
   return (of_rows - of_pooled) / of_pooled / static_cast<double>(realizations - 1);
 }
 
+/// The part of the pooled ledger's residual that the lines' reuse makes [kWh]:
+/// a patch that sees more sky sends more, and by the same lines more of it is
+/// seen to escape. It falls as 1/lines, so that realizations show R times of it.
+double residual_reuse_bias_kwh(const Totals& totals, std::size_t realizations) {
+  const auto& rows = totals[batch_array::ledger];
+  double of_rows = 0;
+  for (std::size_t r = 0; r < realizations; ++r)
+    of_rows += rows[r * (term_count + 1) + term_count] / static_cast<double>(realizations);
+  const double of_pooled = totals[batch_array::energy][1];
+  return (of_rows - of_pooled) / static_cast<double>(realizations - 1) * kwh_per_joule;
+}
+
+/// Faults of the model that only the light brings out.
+std::vector<std::string> result_warnings(const Totals& totals) {
+  // DESIGN 4: light lost at backs is worth a warning above this share.
+  constexpr double tolerable = 1e-3;
+  const auto& energy = totals[batch_array::energy];
+  const double share = energy[0] > 0 ? energy[2] / energy[0] : 0;
+  if (share <= tolerable) return {};
+  return {fmt::format(
+      "{:.2g} % of the energy is lost at backs of one-sided surfaces; turn or close these "
+      "surfaces, or make them two-sided (sides: two)",
+      100 * share)};
+}
+
 ResultTimes result_times(const LightSeries& light) {
   ResultTimes times;
   for (const auto& i : light.intervals) {
@@ -164,6 +189,7 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
                {"elevation_m", plan.built.site.elevation_m},
                {"north_deg", plan.built.site.north_deg},
                {"reuse_bias_share", reuse_bias(totals, geometry, R)},
+               {"residual_reuse_bias_kwh", residual_reuse_bias_kwh(totals, R)},
                {"runtime_lines_s", work.lines_s},
                {"runtime_direct_s", work.direct_s},
                {"runtime_mirror_s", work.mirror_s},
@@ -184,8 +210,7 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
   std::string warnings;
   for (const auto& list : {file.warnings, plan.built.warnings, plan.light.notes})
     for (const auto& line : list) warnings += line + "\n";
-  const std::string backs = back_warning(totals[batch_array::back_share][0]);
-  if (!backs.empty()) warnings += backs + "\n";
+  for (const auto& line : result_warnings(totals)) warnings += line + "\n";
   if (!warnings.empty()) a.text.emplace_back("warnings", warnings);
   return a;
 }
@@ -232,16 +257,6 @@ ResultGeometry result_geometry(const VariantPlan& plan, const Hierarchy& hierarc
   return g;
 }
 
-std::string back_warning(double share) {
-  // DESIGN 4: worth a warning above this share.
-  constexpr double tolerable = 1e-3;
-  if (share <= tolerable) return {};
-  return fmt::format(
-      "{:.2g} % of the lines meet the back of a one-sided surface, whose light is lost; turn or "
-      "close these surfaces, or make them two-sided (sides: two)",
-      100 * share);
-}
-
 MissingBatches missing_batches(const std::string& folder, const VariantPlan& plan) {
   MissingBatches missing;
   for (std::size_t b = 0; b < plan.batches(); ++b) {
@@ -260,9 +275,20 @@ std::vector<std::size_t> batches_not_there(const std::string& folder, const Vari
   return missing;
 }
 
-void merge_variant(const std::string& folder, const VariantPlan& plan, const StudyFile& file,
-                   const Hierarchy& hierarchy, const std::string& path,
-                   const std::vector<std::size_t>& left_out) {
+double batch_bytes(const std::string& folder, const VariantPlan& plan) {
+  double bytes = 0;
+  for (std::size_t b = 0; b < plan.batches(); ++b) {
+    std::error_code missing;
+    const auto size = fs::file_size(batch_path(folder, plan, b), missing);
+    if (!missing) bytes += static_cast<double>(size);
+  }
+  return bytes;
+}
+
+std::vector<std::string> merge_variant(const std::string& folder, const VariantPlan& plan,
+                                       const StudyFile& file, const Hierarchy& hierarchy,
+                                       const std::string& path,
+                                       const std::vector<std::size_t>& left_out) {
   const ResultGeometry geometry = result_geometry(plan, hierarchy);
   ResultWriter::Options options;
   options.chunk_intervals = plan.batch_suns();
@@ -281,6 +307,7 @@ void merge_variant(const std::string& folder, const VariantPlan& plan, const Stu
   write_loads(writer, totals, geometry);
   write_ledger_errors(writer, totals);
   writer.finish(result_attributes(plan, file, totals, geometry), file.yaml);
+  return result_warnings(totals);
 }
 
 void remove_empty_folders(const std::string& folder, const VariantPlan& plan) {

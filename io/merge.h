@@ -28,13 +28,11 @@ std::vector<std::size_t> batches_not_there(const std::string& folder, const Vari
 /// realization, then means and errors. Memory does not grow with the period.
 /// Throws InputError where a batch is missing or not valid (check first), but
 /// for those that are to be left out: their rows are missing values, and sums are
-/// those of the other batches.
-void merge_variant(const std::string& folder, const VariantPlan& plan, const StudyFile& file,
+/// those of the other batches. Returns warnings that only the results bring to light.
+std::vector<std::string> merge_variant(const std::string& folder, const VariantPlan& plan, const StudyFile& file,
                    const Hierarchy& hierarchy, const std::string& path,
                    const std::vector<std::size_t>& left_out = {});
 
-/// A warning where a worrying share of the lines meets backs, else empty.
-std::string back_warning(double share);
 
 /// Removes the folders of a variant's work where nothing is in them.
 void remove_empty_folders(const std::string& folder, const VariantPlan& plan);

@@ -7,7 +7,8 @@ namespace sunload {
 
 class MergeLock {
  public:
-  /// Tries to take the lock file `path` (made if missing); does not wait.
+  /// Tries to take the lock file `path` (made if missing, its folder too; removed by its
+  /// holder at the end); does not wait. Throws MachineError.
   explicit MergeLock(const std::string& path);
   ~MergeLock();
   MergeLock(const MergeLock&) = delete;
@@ -15,6 +16,7 @@ class MergeLock {
   bool is_held() const { return held_; }
 
  private:
+  std::string path_;
   int file_ = -1;
   bool held_ = false;
 };

@@ -43,19 +43,30 @@ Todo check_existing(const std::string& folder, const VariantPlan& plan, const Ru
                    "use --resume to accept it, or --overwrite to compute it again");
 }
 
-/// Refuses work that cannot fit before it starts.
-void check_limits(const std::string& folder, const WorkEstimate& work) {
+/// Size of the batch files that are there.
+double batch_bytes(const std::string& folder, const VariantPlan& plan) {
+  double bytes = 0;
+  for (std::size_t b = 0; b < plan.batches(); ++b) {
+    std::error_code not_there;
+    const auto size = fs::file_size(batch_path(folder, plan, b), not_there);
+    if (!not_there) bytes += static_cast<double>(size);
+  }
+  return bytes;
+}
+
+/// Refuses work that cannot fit before it starts; `there`: bytes of finished batches.
+void check_limits(const std::string& folder, const WorkEstimate& work, double there) {
   constexpr double gib = 1024.0 * 1024 * 1024;
   if (const double left = available_memory_bytes(); work.memory_bytes > left)
     throw MachineError(fmt::format(
         "too little memory: about {:.1f} GiB are needed for {} patches, {:.1f} GiB are available; "
         "use a larger mesh.max_edge_m, fewer lines_per_patch or a smaller batch_suns",
         work.memory_bytes / gib, work.patches, left / gib));
-  if (const double left = free_disk_bytes(folder); work.disk_bytes > left)
+  if (const double left = free_disk_bytes(folder); work.disk_bytes - there > left)
     throw MachineError(fmt::format(
         "too little disk space for {}: about {:.1f} GiB are needed, {:.1f} GiB are free; "
         "choose another folder with --output, or fewer output.series",
-        folder, work.disk_bytes / gib, left / gib));
+        folder, (work.disk_bytes - there) / gib, left / gib));
 }
 
 void print_warnings(Progress& progress, const VariantPlan& plan) {
@@ -94,6 +105,24 @@ void refuse_other_isa(const std::string& folder, const VariantPlan& plan,
                        "write solver: {isa: " + (is_smaller ? isa : plan.isa) +
                            "} into the study, or run on equal processors");
   }
+}
+
+enum class Merging { done, was_done, by_another };
+
+/// Merges a variant of which every batch is there, unless another process does
+/// or did meanwhile.
+Merging merge_once(const std::string& folder, const StudyFile& file, const VariantPlan& plan,
+                   const Hierarchy& mesh, const std::string& result, const RunOptions& options) {
+  {
+    const MergeLock lock(folder + "/" + file.name + "/.work/" + plan.study.variant + ".lock");
+    if (!lock.is_held()) return Merging::by_another;
+    if (!batches_not_there(folder, plan).empty()) return Merging::was_done;
+    for (const auto& warning : merge_variant(folder, plan, file, mesh, result))
+      fmt::print(stderr, "{}: warning: {}\n", plan.study.variant, warning);
+    if (options.batches == Batches::remove) remove_batches(folder, plan);
+  }
+  remove_empty_folders(folder, plan);
+  return Merging::done;
 }
 
 void use_threads(const RunOptions& options) {
@@ -190,9 +219,10 @@ class StudyRun {
   void split(Place& place) const {
     const VariantPlan& plan = place.plan;
     const SplitRules rules = split_rules(plan.study);
-    check_limits(folder_, estimate_work(plan, least_patch_count(plan.built.scene, rules)));
+    const double there = batch_bytes(folder_, plan);
+    check_limits(folder_, estimate_work(plan, least_patch_count(plan.built.scene, rules)), there);
     place.mesh = std::make_unique<Hierarchy>(plan.built.scene, rules);
-    check_limits(folder_, estimate_work(plan, place.mesh->patch_count()));
+    check_limits(folder_, estimate_work(plan, place.mesh->patch_count()), there);
   }
 
   void compute() {
@@ -224,16 +254,28 @@ class StudyRun {
                                 list_text(missing)));
       return;
     }
-    const MergeLock lock(folder_ + "/" + file_.name + "/.work/" + plan.study.variant + ".lock");
-    if (!lock.is_held()) {
-      progress_.say(plan.study.variant + ": another process is merging");
-      return;
-    }
-    if (!batches_not_there(folder_, plan).empty()) return;  // merged and removed meanwhile
-    merge_variant(folder_, plan, file_, *place.mesh, result);
-    if (options_.batches == Batches::remove) remove_batches(folder_, plan);
+    if (!merged(place, result)) return;
     progress_.say(plan.study.variant + ": wrote " + result + "\n" +
                   energy_text(ResultReader(result)));
+  }
+
+  /// True where this process has merged, false where another one does, or where
+  /// a batch of another shard turned out to be damaged.
+  bool merged(const Place& place, const std::string& result) {
+    const VariantPlan& plan = place.plan;
+    try {
+      const Merging outcome = merge_once(folder_, file_, plan, *place.mesh, result, options_);
+      if (outcome == Merging::by_another)
+        progress_.say(plan.study.variant + ": another process is merging");
+      return outcome == Merging::done;
+    } catch (const InputError&) {
+      const auto damaged = missing_batches(folder_, plan);
+      if (damaged.numbers.empty()) throw;
+      for (const auto& reason : damaged.reasons) progress_.say("warning: " + reason);
+      progress_.say(fmt::format("{}: batches{} must be computed again: run the study with --resume",
+                                plan.study.variant, list_text(damaged.numbers)));
+      return false;
+    }
   }
 
   const StudyFile& file_;
@@ -284,14 +326,11 @@ int merge_study(const std::string& path, const RunOptions& options, Merge merge)
     if (fs::exists(result) && options.existing != Existing::overwrite)
       throw InputError({result}, "is the result of another state of the study",
                        "its content hash differs", "use --overwrite to replace it");
-    const MergeLock lock(folder + "/" + file.name + "/.work/" + study.variant + ".lock");
-    if (!lock.is_held()) {
+    const Hierarchy mesh(plan.built.scene, split_rules(plan.study));
+    if (merge_once(folder, file, plan, mesh, result, options) == Merging::by_another) {
       fmt::print(stderr, "{}: another process is merging\n", study.variant);
       continue;
     }
-    const Hierarchy hierarchy(plan.built.scene, split_rules(plan.study));
-    merge_variant(folder, plan, file, hierarchy, result);
-    if (options.batches == Batches::remove) remove_batches(folder, plan);
     fmt::print(stderr, "{}: wrote {}\n", study.variant, result);
   }
   return code;

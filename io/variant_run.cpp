@@ -110,8 +110,6 @@ void VariantRun::report_work() const {
                       "sky and Jacobi", w.solve_s, "realizations", w.realizations_s,
                       peak_memory_bytes() / mib);
   progress_.say(text);
-  if (const auto warning = back_warning(solver_->back_share()); !warning.empty())
-    progress_.say(plan_.study.variant + ": warning: " + warning);
 }
 
 }  // namespace sunload

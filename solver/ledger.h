@@ -28,6 +28,7 @@ inline Ledger booked(const PatchLight& p, const LineEnds& ends) {
   ledger[Term::emitted] = p.area * p.emission;
   ledger[Term::absorbed] = p.area * (1 - p.diffuse - p.mirror) * p.total +
                            sent * static_cast<double>(ends.backs);
+  ledger.lost_at_backs = sent * static_cast<double>(ends.backs);
   ledger[Term::escaped] = sent * static_cast<double>(ends.escaped);
   ledger[Term::unshot] = p.area * (p.diffuse * p.total - p.followed) +
                          sent * static_cast<double>(ends.cut);
@@ -43,6 +44,7 @@ Ledger booked(const MirroredFirstLight& first, SkyOfCell&& sky, double ground_ex
     const double source = c + 1 < first.escaped.size() ? sky(c) : ground_exitance;
     ledger[Term::escaped] += source * first.escaped[c];
     ledger[Term::absorbed] += source * first.backs[c];
+    ledger.lost_at_backs += source * first.backs[c];
     ledger[Term::unshot] += source * first.cut[c];
   }
   return ledger;

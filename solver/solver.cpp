@@ -39,13 +39,14 @@ Lines timed_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaste
 
 Ledger scaled(Ledger ledger, double factor) {
   for (auto& term : ledger.terms) term *= factor;
+  ledger.lost_at_backs *= factor;
   return ledger;
 }
 
 Ledger sun_sent_on(const MirroredSun& fate, std::size_t k) {
   Ledger ledger;
   ledger[Term::escaped] = fate.escaped[k];
-  ledger[Term::absorbed] = fate.backs[k];
+  ledger[Term::absorbed] = ledger.lost_at_backs = fate.backs[k];
   ledger[Term::unshot] = fate.cut[k];
   return ledger;
 }
@@ -88,15 +89,6 @@ std::vector<double> LightSolver::sky_view_factor() const {
   return share;
 }
 
-double LightSolver::back_share() const {
-  double backs = 0, all = 0;
-  for (std::size_t i = 0; i < hierarchy_.patch_count(); ++i) {
-    backs += hierarchy_.area()[i] * static_cast<double>(lines_.pooled.ends[i].backs);
-    all += hierarchy_.area()[i];
-  }
-  return all > 0 ? backs / all : 0;
-}
-
 BatchTally LightSolver::solve(std::span<const SunLight> batch, Watch& watch) {
   const std::size_t patches = hierarchy_.patch_count();
   const auto realizations = static_cast<std::size_t>(rules_.realizations);
@@ -116,6 +108,9 @@ BatchTally LightSolver::solve(std::span<const SunLight> batch, Watch& watch) {
     begin = std::max(end, begin + 1);
     watch.advance(Stage::light, static_cast<double>(begin) / static_cast<double>(batch.size()));
   }
+
+  for (std::size_t k = 0; k < batch.size(); ++k)
+    tally.energy += scaled(tally.ledger[k], batch[k].length_s);
 
   const Stopwatch time(work_.realizations_s);
   for (std::size_t r = 0; r < realizations; ++r) solve_realization(r, sums, tally);

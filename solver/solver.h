@@ -51,10 +51,6 @@ class LightSolver {
   /// Cosine-weighted share of the hemisphere above each patch that is sky.
   std::vector<double> sky_view_factor() const;
 
-  /// Area-weighted share of the lines that meet the back of a one-sided surface
-  /// (or a floor): light that is lost there by a fault of the model.
-  double back_share() const;
-
   /// Light of consecutive intervals. Throws Interrupted.
   BatchTally solve(std::span<const SunLight> batch, Watch& watch);
 

@@ -16,6 +16,7 @@ double Ledger::out() const {
 
 Ledger& Ledger::operator+=(const Ledger& other) {
   for (std::size_t t = 0; t < term_count; ++t) terms[t] += other.terms[t];
+  lost_at_backs += other.lost_at_backs;
   return *this;
 }
 

@@ -27,6 +27,7 @@ inline constexpr std::array<const char*, term_count> term_names{
 
 struct Ledger {
   std::array<double, term_count> terms{};  ///< W, or J when integrated over time
+  double lost_at_backs = 0;                ///< part of `absorbed`: met backs of one-sided surfaces
 
   double& operator[](Term t) { return terms[static_cast<std::size_t>(t)]; }
   double operator[](Term t) const { return terms[static_cast<std::size_t>(t)]; }
@@ -50,6 +51,7 @@ struct BatchTally {
   std::vector<float> irradiance_max;                         ///< [N]
   std::vector<Ledger> ledger;                                ///< [K] W
   std::vector<Ledger> ledger_realization;                    ///< [R] J
+  Ledger energy;                                             ///< J: time sum of `ledger`
   std::vector<std::vector<Ledger>> ledger_instants;          ///< [R][K] W, if errors per instant are asked for
 };
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A real Slurm array of 4 tasks, one of them killed and requeued, against a run in one process.
+"""A real Slurm array of 4 tasks, one killed and one out of time, against a run in one process.
 
 slurm_test.py SUNLOAD SOURCE_FOLDER
 """
@@ -57,6 +57,18 @@ def kill_and_requeue(slurm, task, work):
                                           stderr=subprocess.DEVNULL).returncode == 0, "requeueing")
 
 
+def warn_of_time_limit(slurm, task):
+    """What Slurm does 60 s before the limit of array.sbatch; the task requeues itself."""
+    assert slurm.state(task) == "RUNNING", "the study is too small to warn a task of it"
+    run(["scancel", "--batch", "--signal=USR1", task], env=slurm.environment)
+    slurm.wait_for(lambda: restarts(slurm, task) == 1, "the restart of task " + task)
+    print(f"warned task {task} of its time limit: it requeued itself")
+
+
+def restarts(slurm, task):
+    return int(slurm.ask("scontrol", "show", "job", task).split("Restarts=")[1].split()[0])
+
+
 def test(sunload, source, folder):
     work = os.path.join(folder, "work")
     os.makedirs(work)
@@ -69,16 +81,17 @@ def test(sunload, source, folder):
         print(said, end="")
         array, merge = said.splitlines()[-1].replace("array ", "").replace("merge ", "").split(", ")
         kill_and_requeue(slurm, array + "_1", work)
+        warn_of_time_limit(slurm, array + "_2")
         ended = ("COMPLETED", "FAILED", "CANCELLED", "TIMEOUT")
         try:
             slurm.wait_for(lambda: slurm.state(merge) in ended, "the merge", 400)
             states = [slurm.state(f"{array}_{task}") for task in range(TASKS)] + [slurm.state(merge)]
-            restarts = slurm.ask("scontrol", "show", "job", array + "_1").split("Restarts=")[1].split()[0]
+            started_again = [restarts(slurm, f"{array}_{task}") for task in range(TASKS)]
         except Exception:
             print(read_logs(work), slurm.ask("squeue"))
             raise
     assert states == ["COMPLETED"] * (TASKS + 1), f"{states}\n{read_logs(work)}"
-    assert restarts == "1", restarts
+    assert started_again == [0, 1, 1, 0], started_again
     table = read_logs(work)
     assert "house_3" in table, "merge.sbatch did not compare the variants\n" + table
     run([sunload, "run", "street.yaml", "--output", "alone"], cwd=work)
@@ -87,7 +100,7 @@ def test(sunload, source, folder):
         assert different_data(one, other) == [], different_data(one, other)
     assert different_data(one, one.replace(VARIANTS[1], VARIANTS[0])), "the comparison sees nothing"
     assert not os.path.exists(os.path.join(work, "results/street/.work")) or not batches(work)
-    print(f"{TASKS} tasks, one killed and requeued: the same bits as one process")
+    print(f"{TASKS} tasks, one killed, one out of time: the same bits as one process")
 
 
 def main():

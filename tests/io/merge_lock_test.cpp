@@ -71,9 +71,27 @@ TEST(MergeLock, IsLetGoAtTheEndOfItsScope) {
   EXPECT_TRUE(Holder(folder / "lock").is_held());
 }
 
+TEST(MergeLock, LeavesNoFile) {
+  const WorkFolder folder;
+  {
+    const MergeLock lock(folder / "made/lock");
+    EXPECT_EQ(folder.content(), (std::vector<std::string>{"made/", "made/lock"}));
+  }
+  EXPECT_EQ(folder.content(), std::vector<std::string>{"made/"});
+}
+
+TEST(MergeLock, OfAFileThatWasRemovedMeanwhileIsWorthNothing) {
+  const WorkFolder folder;
+  const Holder first(folder / "lock");
+  std::filesystem::remove(folder / "lock");
+  // The next one is of a new file, and is the one that counts.
+  EXPECT_TRUE(MergeLock(folder / "lock").is_held());
+}
+
 TEST(MergeLock, NoFolderIsAnErrorOfTheMachine) {
   const WorkFolder folder;
-  EXPECT_THROW(MergeLock(folder / "none/lock"), MachineError);
+  folder.write("file", "");
+  EXPECT_THROW(MergeLock(folder / "file/lock"), MachineError);
 }
 
 }  // namespace

@@ -58,27 +58,44 @@ Variances variances(const Scene& scene, const SplitRules& split) {
   return sum;
 }
 
+/// Walls along the axes would let the strata of the lines meet the horizon exactly (0.04
+/// instead of 0.09 to 0.12): no scene here is aligned.
+Scene turned(Scene scene, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  for (auto& p : scene.mesh.vertices) p = {p.x * c - p.y * s, p.x * s + p.y * c, p.z};
+  return scene;
+}
+
 TEST(LineVariance, InAStreetIsWellBelowThatOfRandomLines) {
   SceneBuilder builder;
   const int m = builder.material({"m", 0.3, 0, 0});
   builder.object("ground").quad({-6, -6, 0}, {6, -6, 0}, {6, 6, 0}, {-6, 6, 0}, m);
   builder.object("north").box({-5, 3, 0}, {5, 6, 5}, m, Facing::outward);
   builder.object("south").box({-5, -6, 0}, {5, -3, 7}, m, Facing::outward);
-  const Variances v = variances(builder.scene(), {.max_edge_m = 3});
+  const Variances v = variances(turned(builder.scene(), 0.7), {.max_edge_m = 3});
   std::cout << "street: variance of Sobol lines / random lines = " << v.lines / v.random << "\n";
-  // The figure wanted of the lines; 64 realizations of over 100 patches know it to 2 %.
+  // The figure wanted of the lines.
   EXPECT_LE(v.lines / v.random, 0.65);
-  EXPECT_GT(v.random / v.random, 0.65) << "planted fault: random lines";
 }
 
-TEST(LineVariance, OfAnUnobstructedTiltedPatchIsSmall) {
-  SceneBuilder builder;
-  const Vec3 up{0, std::cos(0.7), std::sin(0.7)};
-  builder.triangle({0, 0, 0}, {1, 0, 0}, up, builder.material({"m", 0.3, 0, 0}));
-  const Variances v = variances(builder.scene(), {});
-  std::cout << "tilted patch: variance of Sobol lines / random lines = " << v.lines / v.random
+// One patch of 64 realizations knows its ratio to a quarter only (0.09 to 0.22 were seen):
+// many patches, of all azimuths and tilts, are put together.
+TEST(LineVariance, OfUnobstructedTiltedPatchesIsSmall) {
+  constexpr int patches = 96;
+  Variances sum;
+  for (int k = 0; k < patches; ++k) {
+    const double tilt = 0.3 + 1.2 * (k % 8) / 8, azimuth = 2 * pi * (k + 0.4) / patches;
+    SceneBuilder builder;
+    builder.object("patch_" + std::to_string(k))
+        .triangle({0, 0, 0}, {1, 0, 0}, {0, std::cos(tilt), std::sin(tilt)},
+                  builder.material({"m", 0.3, 0, 0}));
+    const Variances v = variances(turned(builder.scene(), azimuth), {});
+    sum.lines += v.lines;
+    sum.random += v.random;
+  }
+  std::cout << "tilted patches: variance of Sobol lines / random lines = " << sum.lines / sum.random
             << "\n";
-  EXPECT_LE(v.lines / v.random, 0.2);
+  EXPECT_LE(sum.lines / sum.random, 0.2);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ std::vector<std::string> different_data(const std::string& a, const std::string&
 struct Energy {
   double in = 0, out = 0;
   double residual = 0, residual_se = 0;
+  double reuse_bias = 0;  ///< part of the residual that the lines' reuse makes
   std::size_t realizations = 0;
 };
 Energy energy_of(const std::string& result);

@@ -1,0 +1,253 @@
+/// One process, shards, ranks of MPI: the same bits; and who finishes what.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <regex>
+#include <thread>
+
+#include "tests/support/program.h"
+#include "tests/support/result_check.h"
+#include "tests/support/small_study.h"
+
+namespace sunload::test {
+namespace {
+
+using namespace std::chrono_literals;
+constexpr const char* result = "results/street/baseline.h5";
+
+/// The result of one process that nobody disturbed.
+const std::string& undisturbed() {
+  static const WorkFolder folder;
+  static const std::string path = [] {
+    folder.write("street.yaml", street_study());
+    const Ran ran = program(folder, {"run", "street.yaml"});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(sums_problem(folder / result), "");
+    return folder / result;
+  }();
+  return path;
+}
+
+void expect_same_result(const WorkFolder& folder) {
+  EXPECT_EQ(different_data(folder / result, undisturbed()), std::vector<std::string>{});
+}
+
+std::vector<std::string> files(const WorkFolder& folder, const std::string& end) {
+  std::vector<std::string> found;
+  for (const auto& name : folder.content("results"))
+    if (name.ends_with(end)) found.push_back(name);
+  return found;
+}
+
+Ran shard(const WorkFolder& folder, int index, int count) {
+  return program(folder, {"run", "street.yaml", "--resume", "--shard",
+                          std::to_string(index) + "/" + std::to_string(count)});
+}
+
+TEST(Shards, OneAfterAnotherGiveTheSameBits) {
+  const WorkFolder folder;
+  folder.write("street.yaml", street_study());
+  const Ran first = shard(folder, 0, 3);
+  EXPECT_EQ(first.code, 0) << first.err;
+  // Batch u belongs to shard u mod 3: 1, 2, 4 and 5 are the others'.
+  EXPECT_NE(first.err.find("4 of 6 batches are still owed by other shards: 1 2 4 5"),
+            std::string::npos)
+      << first.err;
+  EXPECT_EQ(files(folder, ".h5"), std::vector<std::string>{});
+  EXPECT_EQ(files(folder, "/prepared").size(), 1u);
+
+  const Ran early = program(folder, {"merge", "street.yaml"});
+  EXPECT_EQ(early.code, 75) << early.err;
+  EXPECT_NE(early.err.find("1 2 4 5"), std::string::npos) << early.err;
+
+  const Ran last = shard(folder, 2, 3);
+  EXPECT_EQ(last.code, 0) << last.err;
+  // The lines are read, not traced again.
+  EXPECT_EQ(last.err.find(" lines "), std::string::npos) << last.err;
+  const Ran middle = shard(folder, 1, 3);
+  EXPECT_EQ(middle.code, 0) << middle.err;
+  EXPECT_NE(middle.err.find("wrote"), std::string::npos) << middle.err;
+  expect_same_result(folder);
+  EXPECT_EQ(folder.content("results"), (std::vector<std::string>{"street/", "street/baseline.h5"}));
+
+  // All is there: nothing more to do, for shards and for merge.
+  EXPECT_EQ(shard(folder, 0, 3).code, 0);
+  EXPECT_EQ(program(folder, {"merge", "street.yaml"}).code, 0);
+}
+
+TEST(Shards, AtTheSameTimeGiveTheSameBits) {
+  const WorkFolder folder;
+  folder.write("street.yaml", street_study());
+  std::vector<std::unique_ptr<Process>> processes;
+  for (int index = 0; index < 3; ++index)
+    processes.push_back(std::make_unique<Process>(
+        program_words({"run", "street.yaml", "--threads", "1", "--shard",
+                       std::to_string(index) + "/3"}),
+        folder.path()));
+  for (auto& process : processes) {
+    const Ran ran = process->wait();
+    EXPECT_EQ(ran.code, 0) << ran.err;
+  }
+  // Two that end in the same moment may each leave the merge to the other's lock.
+  const Ran merged = program(folder, {"merge", "street.yaml"});
+  EXPECT_EQ(merged.code, 0) << merged.err;
+  expect_same_result(folder);
+}
+
+TEST(Shards, TheWholeRunTwiceAtTheSameTime) {
+  const WorkFolder folder;
+  folder.write("street.yaml", street_study());
+  Process one(program_words({"run", "street.yaml"}), folder.path());
+  Process two(program_words({"run", "street.yaml"}), folder.path());
+  for (Process* process : {&one, &two}) {
+    const Ran ran = process->wait();
+    EXPECT_EQ(ran.code, 0) << ran.err;
+  }
+  EXPECT_EQ(program(folder, {"run", "street.yaml", "--resume"}).code, 0);
+  expect_same_result(folder);
+}
+
+TEST(Shards, AShardThatIsKilledGoesOn) {
+  const WorkFolder folder;
+  folder.write("street.yaml", street_study());
+  Process killed(program_words({"run", "street.yaml", "--shard", "0/3"}), folder.path());
+  while (killed.is_running() && files(folder, ".batch").empty()) std::this_thread::sleep_for(1ms);
+  killed.send(SIGKILL);
+  killed.wait();
+  for (const int index : {1, 2, 0}) EXPECT_EQ(shard(folder, index, 3).code, 0);
+  expect_same_result(folder);
+}
+
+TEST(Shards, ADamagedPreparedFileIsMadeAgain) {
+  const WorkFolder folder;
+  folder.write("street.yaml", street_study());
+  EXPECT_EQ(shard(folder, 0, 3).code, 0);
+  const std::string prepared = folder / ("results/" + files(folder, "/prepared").front());
+  std::filesystem::resize_file(prepared, std::filesystem::file_size(prepared) / 2);
+  const Ran second = shard(folder, 1, 3);
+  EXPECT_EQ(second.code, 0) << second.err;
+  EXPECT_NE(second.err.find(" lines "), std::string::npos) << second.err;
+  std::filesystem::remove(prepared);
+  EXPECT_EQ(shard(folder, 2, 3).code, 0);
+  expect_same_result(folder);
+}
+
+/// mpirun, or empty where it is not installed.
+std::string mpirun() {
+  for (const char* path : {"/usr/bin/mpirun", "/usr/local/bin/mpirun"})
+    if (::access(path, X_OK) == 0) return path;
+  return {};
+}
+
+std::vector<std::string> rank_words(int ranks, std::vector<std::string> arguments) {
+  std::vector<std::string> words{mpirun(), "--oversubscribe", "-n", std::to_string(ranks)};
+  if (::geteuid() == 0) words.insert(words.begin() + 1, "--allow-run-as-root");
+  const auto program = program_words(std::move(arguments));
+  words.insert(words.end(), program.begin(), program.end());
+  return words;
+}
+
+TEST(Shards, RanksOfMpiGiveTheSameBits) {
+  if (mpirun().empty()) {
+    std::printf("NOT RUN: ranks of MPI: no mpirun (package openmpi-bin)\n");
+    return;
+  }
+  for (const int ranks : {2, 3}) {
+    const WorkFolder folder;
+    folder.write("street.yaml", street_study());
+    Process process(rank_words(ranks, {"run", "street.yaml", "--threads", "1"}), folder.path());
+    const Ran ran = process.wait();
+    if (ran.err.find("this build has no MPI") != std::string::npos) {
+      std::printf("NOT RUN: ranks of MPI: this build has none (package libopenmpi-dev)\n");
+      return;
+    }
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    expect_same_result(folder);
+    EXPECT_EQ(folder.content("results"),
+              (std::vector<std::string>{"street/", "street/baseline.h5"}));
+  }
+}
+
+TEST(Shards, RanksThatAreStoppedGoOn) {
+  if (mpirun().empty()) {
+    std::printf("NOT RUN: ranks of MPI that are stopped: no mpirun (package openmpi-bin)\n");
+    return;
+  }
+  const WorkFolder folder;
+  // Four times the patches, so that mpirun has the time to pass the signal on.
+  folder.write("street.yaml", std::regex_replace(street_study(), std::regex("max_edge_m: 4"),
+                                                 "max_edge_m: 2"));
+  Process process(rank_words(2, {"run", "street.yaml", "--threads", "1"}), folder.path());
+  while (process.is_running() && files(folder, ".batch").empty()) std::this_thread::sleep_for(1ms);
+  process.send(SIGTERM);
+  const Ran ran = process.wait();
+  if (ran.err.find("this build has no MPI") != std::string::npos) return;
+  EXPECT_NE(ran.code, 0) << ran.err;
+  EXPECT_GE(files(folder, ".batch").size(), 1u);
+  EXPECT_EQ(program(folder, {"run", "street.yaml", "--resume"}).code, 0);
+  EXPECT_EQ(program(folder, {"run", "street.yaml", "--output", "alone"}).code, 0);
+  EXPECT_EQ(different_data(folder / result, folder / "alone/street/baseline.h5"),
+            std::vector<std::string>{});
+}
+
+TEST(Shards, ADamagedBatchOfAnotherShardIsNamedAndComputedAgain) {
+  const WorkFolder folder;
+  folder.write("street.yaml", street_study());
+  EXPECT_EQ(shard(folder, 0, 3).code, 0);
+  EXPECT_EQ(shard(folder, 1, 3).code, 0);
+  const std::string batch = "results/" + files(folder, "000004.batch").front();
+  std::string bytes = folder.read(batch);
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  folder.write(batch, bytes);
+  const Ran last = shard(folder, 2, 3);
+  EXPECT_EQ(last.code, 0) << last.err;
+  EXPECT_NE(last.err.find("000004.batch"), std::string::npos) << last.err;
+  EXPECT_NE(last.err.find("batches 4 must be computed again"), std::string::npos) << last.err;
+  EXPECT_EQ(files(folder, ".h5"), std::vector<std::string>{});
+  EXPECT_EQ(shard(folder, 1, 3).code, 0);
+  expect_same_result(folder);
+}
+
+TEST(Shards, SignalsEndWith75Within5Seconds) {
+  for (const int signal : {SIGUSR1, SIGTERM}) {
+    const WorkFolder folder;
+    folder.write("street.yaml", street_study());
+    Process process(program_words({"run", "street.yaml", "--shard", "1/3"}), folder.path());
+    while (process.is_running() && files(folder, ".batch").empty()) std::this_thread::sleep_for(1ms);
+    const auto sent = std::chrono::steady_clock::now();
+    process.send(signal);
+    const Ran ran = process.wait();
+    EXPECT_EQ(ran.code, 75) << ran.err;
+    EXPECT_LT(std::chrono::steady_clock::now() - sent, 5s);
+    for (const int index : {0, 1, 2}) EXPECT_EQ(shard(folder, index, 3).code, 0);
+    expect_same_result(folder);
+  }
+}
+
+TEST(Shards, TimeLimitsEndWith75) {
+  const WorkFolder folder;
+  folder.write("street.yaml", street_study());
+  const Ran ran = program(folder, {"run", "street.yaml", "--shard", "0/3", "--time-limit", "0.002"});
+  EXPECT_EQ(ran.code, 75) << ran.err;
+  EXPECT_LT(ran.seconds, 5);
+  for (const int index : {0, 1, 2}) EXPECT_EQ(shard(folder, index, 3).code, 0);
+  expect_same_result(folder);
+}
+
+TEST(Shards, WrongOnesAreTheUsers) {
+  const WorkFolder folder;
+  folder.write("street.yaml", street_study());
+  for (const char* text : {"3/3", "1", "auto"}) {
+    const Ran ran = program(folder, {"run", "street.yaml", "--shard", text});
+    EXPECT_EQ(ran.code, 2) << ran.err;
+    EXPECT_NE(ran.err.find("--shard"), std::string::npos) << ran.err;
+  }
+  EXPECT_EQ(folder.content(), std::vector<std::string>{"street.yaml"});
+}
+
+}  // namespace
+}  // namespace sunload::test
