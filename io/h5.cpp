@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "geo/check.h"
 
@@ -325,6 +326,7 @@ void Dataset::attach_scale(std::size_t axis, const Dataset& scale) {
 
 File File::create(const std::string& path) {
   set_up_library();
+  failed_closing().clear();
   const auto creation = handle(H5Pcreate(H5P_FILE_CREATE), &H5Pclose, "creation");
   // netCDF-4 lists variables in the order of their creation.
   checked(H5Pset_link_creation_order(*creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED),

@@ -10,6 +10,7 @@
 #include "io/patch_groups.h"
 #include "io/result_time.h"
 #include "io/statistics.h"
+#include "io/time_words.h"
 
 namespace sunload {
 namespace {
@@ -42,6 +43,21 @@ std::string period(const ResultReader& result) {
   text += line("  first sun", interval_in_words(result, 0));
   if (lengths.size() > 1) text += line("  last sun", interval_in_words(result, lengths.size() - 1));
   return text;
+}
+
+/// Where north is, and a shadow that anybody can check with a stick.
+std::string orientation(const ResultReader& result) {
+  const double north = result.number_attribute("north_deg");
+  const double latitude = result.number_attribute("latitude_deg");
+  if (std::isnan(north)) return {};
+  std::string text = line("north", north_words(north));
+  if (std::isnan(latitude) || result.number_attribute("time_is_synthetic") > 0) return text;
+  Site site;
+  site.latitude_deg = latitude;
+  site.longitude_deg = result.number_attribute("longitude_deg");
+  site.elevation_m = result.number_attribute("elevation_m");
+  return text + line("pole test", pole_words(site, result.doubles("time").front(),
+                                             result_zone(result)));
 }
 
 std::string size(const ResultReader& result, const PatchGroups& groups) {
@@ -189,6 +205,7 @@ std::string info_text(const ResultReader& result) {
   const auto load = result.doubles("light_load");
   std::string text = heading(result);
   text += period(result);
+  text += orientation(result);
   text += size(result, groups);
   text += accuracy(result, groups, load);
   text += lighting_analysis(result, groups, load);

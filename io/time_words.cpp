@@ -15,35 +15,32 @@ std::string interval_words(const LitInterval& interval, const TimeZone& zone) {
                      iso_utc(w.sun_time), w.sun.azimuth_deg, w.sun.elevation_deg);
 }
 
-std::string north_words(const Site& site) {
-  if (site.north_deg == 0) return "the scene's +y axis points to true north";
-  return fmt::format("the scene's +y axis points {:.3f} deg {} of true north",
-                     std::abs(site.north_deg), site.north_deg > 0 ? "clockwise" : "counter-clockwise");
+}  // namespace
+
+std::string north_words(double north_deg) {
+  if (north_deg == 0) return "the scene's +y axis points to true north";
+  return fmt::format("the scene's +y axis points {:.3f} deg {} of true north", std::abs(north_deg),
+                     north_deg > 0 ? "clockwise" : "counter-clockwise");
 }
 
-/// A check that anybody can make outdoors on the first day of the period.
-std::string pole_words(const LightSeries& light, const Site& site, const Study& study,
-                       const TimeZone& zone) {
-  const UnixTime first = light.intervals.front().when.sun_time;
+std::string pole_words(const Site& site, UnixTime first, const TimeZone& zone,
+                       const SunStudy& sun_study) {
   CivilTime day = zone.civil_from_utc(first);
   day.hour = 0;
   day.minute = 0;
   day.second = 0;
   const UnixTime begin = zone.utc_from_civil(day).utc;
-  const SunEphemeris sun(begin, begin + seconds_per_day, site, study.sun.refraction,
-                         study.sun.ut1_utc, Air{});
+  const SunEphemeris sun(begin, begin + seconds_per_day, site, sun_study.refraction,
+                         sun_study.ut1_utc, Air{});
   const UnixTime noon = sun_events(sun, begin).transit;
   const SunPosition at_noon = sun(noon);
-  if (at_noon.elevation_deg <= 0)
-    return "  pole test  the sun stays below the horizon on the first day\n";
+  if (at_noon.elevation_deg <= 0) return "the sun stays below the horizon on the first day";
   return fmt::format(
-      "  pole test  a 1 m pole on level ground casts {:.3f} m of shadow towards {:.1f} deg "
-      "(clockwise from true north) at {}\n",
+      "a 1 m pole on level ground casts {:.3f} m of shadow towards {:.1f} deg (clockwise from true "
+      "north) at {}",
       1 / std::tan(radians(at_noon.elevation_deg)), wrapped_deg(at_noon.azimuth_deg + 180),
       iso_local(noon, zone));
 }
-
-}  // namespace
 
 std::string time_words(const LightSeries& light, const Site& site, const Study& study,
                        const std::string& site_source) {
@@ -60,8 +57,10 @@ std::string time_words(const LightSeries& light, const Site& site, const Study& 
   }
   for (std::size_t i = 0; i < light.weather.size(); ++i)
     text += (i == 0 ? "  weather    " : "             ") + light.weather[i] + "\n";
-  text += "  north      " + north_words(site) + "\n";
-  if (!light.times_are_synthetic) text += pole_words(light, site, study, zone);
+  text += "  north      " + north_words(site.north_deg) + "\n";
+  if (!light.times_are_synthetic)
+    text += "  pole test  " +
+            pole_words(site, light.intervals.front().when.sun_time, zone, study.sun) + "\n";
   return text;
 }
 

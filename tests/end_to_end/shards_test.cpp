@@ -187,7 +187,8 @@ TEST(Shards, RanksThatAreStoppedGoOn) {
   const Ran ran = process.wait();
   if (ran.err.find("this build has no MPI") != std::string::npos) return;
   EXPECT_NE(ran.code, 0) << ran.err;
-  EXPECT_GE(files(folder, ".batch").size(), 1u);
+  // What was finished is kept: batches, or all of them merged where the ranks were faster.
+  EXPECT_GE(files(folder, ".batch").size() + files(folder, ".h5").size(), 1u) << ran.err;
   EXPECT_EQ(program(folder, {"run", "street.yaml", "--resume"}).code, 0);
   EXPECT_EQ(program(folder, {"run", "street.yaml", "--output", "alone"}).code, 0);
   EXPECT_EQ(different_data(folder / result, folder / "alone/street/baseline.h5"),
