@@ -12,9 +12,10 @@ namespace sunload {
 
 namespace {
 
-// Layout, in the byte order of the machine: magic, content hash, then the
-// arrays of `visit`, each as count and bytes, then CRC-32 of all before.
-constexpr char magic[16] = "sunload-lines-1";
+// Layout, in the byte order of the machine: magic, content hash and counts, CRC-32
+// of these, the arrays of `visit_set`, CRC-32 of all before. An array is its
+// length and its bytes.
+constexpr char magic[16] = "sunload-lines-2";
 
 /// Calls `array` for every array of the lines, in the order of the file.
 template <class Set, class Array>
@@ -44,9 +45,11 @@ class Output {
     bytes(&count, sizeof(count));
     bytes(values.data(), count * sizeof(T));
   }
+  void checksum() {
+    const std::uint32_t of_all_before = crc_;
+    bytes(&of_all_before, sizeof(of_all_before));
+  }
   void finish() {
-    const std::uint32_t crc = crc_;
-    file_.write(reinterpret_cast<const char*>(&crc), sizeof(crc));
     file_.close();
     if (!file_) throw_cannot_write(path_, errno);
   }
@@ -57,45 +60,46 @@ class Output {
   std::uint32_t crc_ = 0;
 };
 
-/// Reads arrays from bytes that may be damaged: never past their end.
+/// Reads arrays from a file that may be damaged: never more than it holds.
 class Input {
  public:
-  explicit Input(const std::string& bytes) : at_(bytes.data()), left_(bytes.size()) {}
+  explicit Input(const std::string& path) {
+    std::error_code unreadable;
+    if (!std::filesystem::is_regular_file(path, unreadable)) return;
+    file_.open(path, std::ios::binary | std::ios::ate);
+    if (!file_) return;
+    left_ = static_cast<std::size_t>(file_.tellg());
+    file_.seekg(0);
+  }
   bool take(void* to, std::size_t count) {
-    if (count > left_) return false;
-    std::memcpy(to, at_, count);
-    at_ += count;
+    if (count > left_ || !file_.read(static_cast<char*>(to), static_cast<std::streamsize>(count)))
+      return false;
+    crc_ = crc32(to, count, crc_);
     left_ -= count;
     return true;
   }
   template <class T>
   void operator()(std::vector<T>& values) {
     std::uint64_t count = 0;
-    if (!take(&count, sizeof(count)) || count > left_ / sizeof(T)) {
-      good_ = false;
-      return;
-    }
+    good_ = good_ && take(&count, sizeof(count)) && count <= left_ / sizeof(T);
+    if (!good_) return;
     values.resize(count);
-    good_ = good_ && take(values.data(), count * sizeof(T));
+    good_ = take(values.data(), count * sizeof(T));
   }
-  bool is_good_end() const { return good_ && left_ == 0; }
+  /// What was read so far is what was written.
+  bool is_right() {
+    const std::uint32_t of_all_before = crc_;
+    std::uint32_t said = 0;
+    return good_ && take(&said, sizeof(said)) && said == of_all_before;
+  }
+  bool is_at_end() const { return left_ == 0; }
 
  private:
-  const char* at_;
-  std::size_t left_;
+  std::ifstream file_;
+  std::size_t left_ = 0;
+  std::uint32_t crc_ = 0;
   bool good_ = true;
 };
-
-std::string whole_file(const std::string& path) {
-  std::error_code unreadable;
-  if (!std::filesystem::is_regular_file(path, unreadable)) return {};
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file) return {};
-  std::string bytes(static_cast<std::size_t>(file.tellg()), '\0');
-  file.seekg(0);
-  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  return file ? bytes : std::string();
-}
 
 }  // namespace
 
@@ -105,30 +109,24 @@ void write_prepared(const std::string& path, const std::string& content_hash, co
   out.bytes(magic, sizeof(magic));
   out(std::vector<char>(content_hash.begin(), content_hash.end()));
   out(std::vector<std::uint64_t>{lines.realizations.size(), lines.pooled.ends.size(), lines.rays});
+  out.checksum();
   for (const auto& set : lines.realizations) visit_set(set, out);
   visit_set(lines.pooled, out);
+  out.checksum();
   out.finish();
   target.publish();
 }
 
 std::optional<Lines> read_prepared(const std::string& path, const std::string& content_hash) {
-  std::string bytes = whole_file(path);
-  constexpr std::size_t crc_bytes = sizeof(std::uint32_t);
-  if (bytes.size() < sizeof(magic) + crc_bytes) return {};
-  std::uint32_t crc = 0;
-  std::memcpy(&crc, bytes.data() + bytes.size() - crc_bytes, crc_bytes);
-  bytes.resize(bytes.size() - crc_bytes);
-  if (std::memcmp(bytes.data(), magic, sizeof(magic)) != 0) return {};
-  if (crc32(bytes.data(), bytes.size()) != crc) return {};
-
-  Input in(bytes);
-  char skipped[sizeof(magic)];
-  in.take(skipped, sizeof(magic));
+  Input in(path);
+  char word[sizeof(magic)];
+  if (!in.take(word, sizeof(word)) || std::memcmp(word, magic, sizeof(magic)) != 0) return {};
   std::vector<char> hash;
   std::vector<std::uint64_t> counts;
   in(hash);
   in(counts);
-  if (std::string(hash.begin(), hash.end()) != content_hash || counts.size() != 3) return {};
+  // Before damaged counts ask for memory.
+  if (!in.is_right() || std::string(hash.begin(), hash.end()) != content_hash) return {};
   Lines lines;
   const auto rows = static_cast<std::size_t>(counts[1]);
   const LineSet empty{LinkTable(rows), LinkTable(rows), LinkTable(rows), {}, {}};
@@ -137,7 +135,7 @@ std::optional<Lines> read_prepared(const std::string& path, const std::string& c
   lines.rays = counts[2];
   for (auto& set : lines.realizations) visit_set(set, in);
   visit_set(lines.pooled, in);
-  if (!in.is_good_end()) return {};
+  if (!in.is_right() || !in.is_at_end()) return {};
   return lines;
 }
 

@@ -1,5 +1,6 @@
 #include "io/variant_plan.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "io/hash.h"
@@ -86,19 +87,24 @@ std::string pairing_id(const VariantPlan& plan) {
   return digest.hex().substr(0, 16);
 }
 
-// Speeds of one core, measured on a street of 60 000 patches (AVX-512): good
-// within a factor of two on other machines.
-constexpr double lines_per_second = 3.5e6;
-constexpr double direct_rays_per_second = 4e7;
-constexpr double links_per_second = 4e8;      ///< one link of one sun
-constexpr double prepare_patches_per_second = 1e6;
-constexpr double stored_values_per_second = 5e7;
-/// Of 256 lines about this share lead to distinct targets after pooling.
-constexpr double pooled_share = 0.6;
-constexpr double facing_share = 0.5;  ///< patches that face a sun
-constexpr double link_bytes = 8;
-/// Smooth series deflate to about half.
-constexpr double stored_share = 0.5;
+// Costs of one core [s], and sizes [bytes], fitted by scripts/scaling.py to a
+// street of 20 000 … 260 000 patches (AVX-512): docs/scaling.md.
+constexpr double s_per_line = 3.6e-7;
+constexpr double s_per_direct_ray = 3.5e-8;
+constexpr double s_per_mirror_ray = 1.3e-7;
+constexpr double s_per_link_sun = 2.0e-10;    ///< one link of one sun and one bounce
+constexpr double s_per_link_batch = 6.6e-10;  ///< one link of one batch's realizations
+constexpr double s_per_patch_sun = 2.5e-7;
+constexpr double s_per_value = 1.2e-8;        ///< one patch of one interval, stored
+constexpr double s_per_patch = 2e-7;
+constexpr double s_to_start = 0.1;
+constexpr double facing_share = 0.62;         ///< of a sun's rays that need be cast
+constexpr double mirrored_share = 0.11;       ///< of them again, where there are mirrors
+constexpr double program_bytes = 3.6e7, bytes_per_line = 12.2, bytes_per_patch = 1400;
+constexpr double double_bytes = 8, float_bytes = 4;
+constexpr double arrays_of_realizations = 3;  ///< doubles of a patch and realization
+constexpr double stored_bytes_per_value = 2.5;
+constexpr double batch_bytes_per_patch = 80, result_bytes_per_patch = 175;
 
 }  // namespace
 
@@ -156,29 +162,38 @@ std::string batch_path(const std::string& folder, const VariantPlan& plan, std::
 
 WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
   const SolverStudy& s = plan.study.solver;
+  const auto& materials = plan.built.scene.materials;
+  const auto has = [&](auto property) { return std::any_of(materials.begin(), materials.end(), property); };
+  const bool mirrors = has([](const Material& m) { return m.mirror > 0; });
+  const bool lamps = has([](const Material& m) { return m.emission_w_m2 > 0; });
+  // Total, direct, sky, reflected, and what the scene has besides.
+  const double parts = 4.0 + (mirrors ? 1 : 0) + (lamps ? 1 : 0);
   const auto n = static_cast<double>(patches);
-  const auto lit = static_cast<double>(plan.light.lit_count());
+  const auto lit = static_cast<double>(lamps ? plan.intervals() : plan.light.lit_count());
   const auto batch = static_cast<double>(std::min(plan.batch_suns(), plan.intervals()));
-  const double lines = n * s.lines_per_patch;
-  const double parts = static_cast<double>(part_count);
-  const double cores = thread_count();
+  const auto batches = static_cast<double>(plan.batches());
+  const double lines = n * s.lines_per_patch, links = lines * s.bounces;
+  const double of_realizations = double_bytes * s.realizations;
+
   WorkEstimate work;
   work.patches = patches;
   work.line_rays = static_cast<std::uint64_t>(lines);
   const double rays = n * facing_share * lit * s.direct_samples;
   work.direct_rays = static_cast<std::uint64_t>(rays);
-  work.memory_bytes = 1e8 + lines * link_bytes * (1 + pooled_share) +
-                      n * (batch * parts * 4 + 8.0 * block_width * 4 +
-                           8.0 * (3 * s.realizations + 12) + 200);
-  work.disk_bytes = n * static_cast<double>(plan.intervals()) * 4 * stored_share *
-                    (parts + static_cast<double>(plan.study.output.series.size()));
-  const double series_links = lines * pooled_share * lit * s.bounces;
-  const double total_links = lines * s.bounces * static_cast<double>(plan.batches()) * block_width / 4;
-  work.seconds = (lines / lines_per_second + rays / direct_rays_per_second +
-                  (series_links + total_links) / links_per_second +
-                  n / prepare_patches_per_second +
-                  n * static_cast<double>(plan.intervals()) * parts / stored_values_per_second) /
-                 cores;
+  work.memory_bytes = program_bytes + lines * bytes_per_line +
+                      n * (batch * parts * float_bytes + arrays_of_realizations * of_realizations +
+                           bytes_per_patch);
+  work.disk_bytes =
+      n * lit * stored_bytes_per_value *
+          (parts + static_cast<double>(plan.study.output.series.size())) +
+      n * batches * (of_realizations + batch_bytes_per_patch) +
+      n * (of_realizations + result_bytes_per_patch);
+  work.seconds = (s_to_start + n * s_per_patch + lines * s_per_line + rays * s_per_direct_ray +
+                  (mirrors ? n * mirrored_share * lit * s.direct_samples * s_per_mirror_ray : 0) +
+                  links * lit * s_per_link_sun + links * batches * s_per_link_batch +
+                  n * lit * s_per_patch_sun +
+                  n * static_cast<double>(plan.intervals()) * s_per_value) /
+                 thread_count();
   return work;
 }
 

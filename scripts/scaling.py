@@ -81,12 +81,13 @@ def work_of(run):
             "mirror_ray": run["mirror_rays"],
             "link_sun": links * run["lit"], "link_depth": links * run["lit"] * depth,
             "link_batch": links * run["batches"],
+            "patch_sun": run["patches"] * run["lit"],
             "value": run["patches"] * run["intervals"]}
 
 
 # Which constants a stage is made of, and the stage's time in the result file.
 STAGES = {"lines": ("line", "line_depth"), "direct": ("direct_ray", "direct_depth"),
-          "mirror": ("mirror_ray",), "solve": ("link_sun", "link_depth"), "realizations": ("link_batch",),
+          "mirror": ("mirror_ray",), "solve": ("link_sun", "link_depth", "patch_sun"), "realizations": ("link_batch",),
           "rest": ("start", "patch", "value")}
 
 
