@@ -31,7 +31,7 @@ FIT = [(4.0, 20, 60, 256, "brick"), (2.4, 8, 60, 256, "brick"), (1.4, 1, 60, 256
        (0.5, 1, 240, 64, "brick"), (2.0, 4, 60, 256, "glazed"), (1.2, 1, 60, 256, "glazed")]
 HELD_BACK = [(3.0, 12, 60, 128, "brick"), (1.7, 3, 60, 256, "brick"), (0.9, 1, 120, 256, "brick")]
 
-BLOCK = 16          # suns that are solved together (solver/block_light.h)
+FACING = 0.62  # of a sun's rays that need be cast: the street's share
 BOUNCES, SAMPLES, BATCH = 5, 16, 64
 
 
@@ -135,16 +135,18 @@ def table(runs, constants, title):
 
 
 def district(constants, nodes=100, cores=64):
-    """10 million patches, hourly for a year, no mirrors."""
+    """10 million patches, hourly for a year, no mirrors: one rank per node."""
     patches, intervals, lit = 10_000_000, 8760, 4440
-    # Half of the patches face a sun; the street's measured share.
     run = {"patches": patches, "intervals": intervals, "lit": lit, "batches": math.ceil(intervals / BATCH),
-           "lines": patches * 256, "direct_rays": patches * lit * SAMPLES // 2, "mirror_rays": 0}
+           "lines": patches * 256, "direct_rays": int(patches * lit * SAMPLES * FACING), "mirror_rays": 0}
     work = work_of(run)
     once = predicted(constants, {name: work[name] for name in ("start", "patch", "line", "line_depth")})
     total = predicted(constants, work)
+    batch = (total - once) / run["batches"]
+    rounds = math.ceil(run["batches"] / nodes)
     return {"core_hours": total / 3600, "lines_core_hours": once / 3600,
-            "hours_on_nodes": ((total - once) / (nodes * cores) + once / cores) / 3600}
+            "lines_s_on_a_node": once / cores, "batch_s_on_a_node": batch / cores,
+            "all_batches_s": once / cores + rounds * batch / cores}
 
 
 def fit(runs):
