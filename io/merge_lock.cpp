@@ -16,7 +16,8 @@ namespace {
 
 /// True where `path` is still the file that was opened, not a later one of that name.
 bool is_file_of(int file, const std::string& path) {
-  struct stat opened {}, named {};
+  struct stat opened {
+  }, named{};
   return fstat(file, &opened) == 0 && stat(path.c_str(), &named) == 0 &&
          opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }

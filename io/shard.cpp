@@ -43,7 +43,8 @@ std::optional<Finding> slurm_array(const Environment& env, const std::string& te
   const auto count = number_of(env, "SLURM_ARRAY_TASK_COUNT", text);
   if (!id || !count) return {};
   const std::size_t first = number_of(env, "SLURM_ARRAY_TASK_MIN", text).value_or(0);
-  const std::size_t last = number_of(env, "SLURM_ARRAY_TASK_MAX", text).value_or(first + *count - 1);
+  const std::size_t last =
+      number_of(env, "SLURM_ARRAY_TASK_MAX", text).value_or(first + *count - 1);
   const std::size_t step = number_of(env, "SLURM_ARRAY_TASK_STEP", text).value_or(1);
   const bool is_regular = step > 0 && *count > 0 && first + (*count - 1) * step == last;
   if (!is_regular || *id < first || *id > last || (*id - first) % step != 0)
@@ -71,7 +72,8 @@ Shard from_environment(const std::string& text, const Environment& environment) 
     if (const auto found = look(environment, text)) findings.push_back(*found);
   if (findings.empty()) refuse(text, "neither Slurm nor OpenMPI says which shard this is");
   if (findings.size() > 1)
-    refuse(text, "both " + findings[0].source + " and " + findings[1].source + " say which shard this is");
+    refuse(text, "both " + findings[0].source + " and " + findings[1].source +
+                     " say which shard this is");
   return findings.front().shard;
 }
 

@@ -95,11 +95,11 @@ constexpr double s_per_mirror_ray = 1.3e-7;
 constexpr double s_per_link_sun = 2.0e-10;    ///< one link of one sun and one bounce
 constexpr double s_per_link_batch = 6.6e-10;  ///< one link of one batch's realizations
 constexpr double s_per_patch_sun = 2.5e-7;
-constexpr double s_per_value = 1.2e-8;        ///< one patch of one interval, stored
+constexpr double s_per_value = 1.2e-8;  ///< one patch of one interval, stored
 constexpr double s_per_patch = 2e-7;
 constexpr double s_to_start = 0.1;
-constexpr double facing_share = 0.62;         ///< of a sun's rays that need be cast
-constexpr double mirrored_share = 0.11;       ///< of them again, where there are mirrors
+constexpr double facing_share = 0.62;    ///< of a sun's rays that need be cast
+constexpr double mirrored_share = 0.11;  ///< of them again, where there are mirrors
 constexpr double program_bytes = 3.6e7, bytes_per_line = 12.2, bytes_per_patch = 1400;
 constexpr double double_bytes = 8, float_bytes = 4;
 constexpr double arrays_of_realizations = 3;  ///< doubles of a patch and realization
@@ -137,9 +137,8 @@ SolverRules solver_rules(const VariantPlan& plan) {
           .mirror_depth = s.mirror_depth,
           .seed = s.seed,
           .isa = plan.isa,
-          .errors = plan.study.output.standard_error == StandardErrors::instants
-                        ? Errors::instants
-                        : Errors::totals};
+          .errors = plan.study.output.standard_error == StandardErrors::instants ? Errors::instants
+                                                                                 : Errors::totals};
 }
 
 std::string result_path(const std::string& folder, const Study& study) {
@@ -163,7 +162,9 @@ std::string batch_path(const std::string& folder, const VariantPlan& plan, std::
 WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
   const SolverStudy& s = plan.study.solver;
   const auto& materials = plan.built.scene.materials;
-  const auto has = [&](auto property) { return std::any_of(materials.begin(), materials.end(), property); };
+  const auto has = [&](auto property) {
+    return std::any_of(materials.begin(), materials.end(), property);
+  };
   const bool mirrors = has([](const Material& m) { return m.mirror > 0; });
   const bool lamps = has([](const Material& m) { return m.emission_w_m2 > 0; });
   // Total, direct, sky, reflected, and what the scene has besides.
@@ -183,17 +184,16 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
   work.memory_bytes = program_bytes + lines * bytes_per_line +
                       n * (batch * parts * float_bytes + arrays_of_realizations * of_realizations +
                            bytes_per_patch);
-  work.disk_bytes =
-      n * lit * stored_bytes_per_value *
-          (parts + static_cast<double>(plan.study.output.series.size())) +
-      n * batches * (of_realizations + batch_bytes_per_patch) +
-      n * (of_realizations + result_bytes_per_patch);
-  work.seconds = (s_to_start + n * s_per_patch + lines * s_per_line + rays * s_per_direct_ray +
-                  (mirrors ? n * mirrored_share * lit * s.direct_samples * s_per_mirror_ray : 0) +
-                  links * lit * s_per_link_sun + links * batches * s_per_link_batch +
-                  n * lit * s_per_patch_sun +
-                  n * static_cast<double>(plan.intervals()) * s_per_value) /
-                 thread_count();
+  work.disk_bytes = n * lit * stored_bytes_per_value *
+                        (parts + static_cast<double>(plan.study.output.series.size())) +
+                    n * batches * (of_realizations + batch_bytes_per_patch) +
+                    n * (of_realizations + result_bytes_per_patch);
+  work.seconds =
+      (s_to_start + n * s_per_patch + lines * s_per_line + rays * s_per_direct_ray +
+       (mirrors ? n * mirrored_share * lit * s.direct_samples * s_per_mirror_ray : 0) +
+       links * lit * s_per_link_sun + links * batches * s_per_link_batch +
+       n * lit * s_per_patch_sun + n * static_cast<double>(plan.intervals()) * s_per_value) /
+      thread_count();
   return work;
 }
 

@@ -84,10 +84,10 @@ TEST(Shards, AtTheSameTimeGiveTheSameBits) {
   folder.write("street.yaml", street_study());
   std::vector<std::unique_ptr<Process>> processes;
   for (int index = 0; index < 3; ++index)
-    processes.push_back(std::make_unique<Process>(
-        program_words({"run", "street.yaml", "--threads", "1", "--shard",
-                       std::to_string(index) + "/3"}),
-        folder.path()));
+    processes.push_back(
+        std::make_unique<Process>(program_words({"run", "street.yaml", "--threads", "1", "--shard",
+                                                 std::to_string(index) + "/3"}),
+                                  folder.path()));
   for (auto& process : processes) {
     const Ran ran = process->wait();
     EXPECT_EQ(ran.code, 0) << ran.err;
@@ -179,8 +179,8 @@ TEST(Shards, RanksThatAreStoppedGoOn) {
   }
   const WorkFolder folder;
   // Four times the patches, so that mpirun has the time to pass the signal on.
-  folder.write("street.yaml", std::regex_replace(street_study(), std::regex("max_edge_m: 4"),
-                                                 "max_edge_m: 2"));
+  folder.write("street.yaml",
+               std::regex_replace(street_study(), std::regex("max_edge_m: 4"), "max_edge_m: 2"));
   Process process(rank_words(2, {"run", "street.yaml", "--threads", "1"}), folder.path());
   while (process.is_running() && files(folder, ".batch").empty()) std::this_thread::sleep_for(1ms);
   process.send(SIGTERM);
@@ -218,7 +218,8 @@ TEST(Shards, SignalsEndWith75Within5Seconds) {
     const WorkFolder folder;
     folder.write("street.yaml", street_study());
     Process process(program_words({"run", "street.yaml", "--shard", "1/3"}), folder.path());
-    while (process.is_running() && files(folder, ".batch").empty()) std::this_thread::sleep_for(1ms);
+    while (process.is_running() && files(folder, ".batch").empty())
+      std::this_thread::sleep_for(1ms);
     const auto sent = std::chrono::steady_clock::now();
     process.send(signal);
     const Ran ran = process.wait();
@@ -232,7 +233,8 @@ TEST(Shards, SignalsEndWith75Within5Seconds) {
 TEST(Shards, TimeLimitsEndWith75) {
   const WorkFolder folder;
   folder.write("street.yaml", street_study());
-  const Ran ran = program(folder, {"run", "street.yaml", "--shard", "0/3", "--time-limit", "0.002"});
+  const Ran ran =
+      program(folder, {"run", "street.yaml", "--shard", "0/3", "--time-limit", "0.002"});
   EXPECT_EQ(ran.code, 75) << ran.err;
   EXPECT_LT(ran.seconds, 5);
   for (const int index : {0, 1, 2}) EXPECT_EQ(shard(folder, index, 3).code, 0);

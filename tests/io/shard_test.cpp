@@ -76,9 +76,17 @@ TEST(Shard, EveryUnitBelongsToExactlyOne) {
 }
 
 TEST(Shard, NoShards) {
-  for (const char* text : {"", "3/3", "4/3", "-1/3", "0/0", "1", "1/", "/3", "1/3/5", "a/3", "1/b",
-                           "1.0/3", "0x1/3", " 1/3", "1/ 3", "+1/3", "automatic", "auto/", "auto/0",
-                           "auto/x", "AUTO", "99999999999999999999/3"})
+  for (const char* text : {"",          "3/3",
+                           "4/3",       "-1/3",
+                           "0/0",       "1",
+                           "1/",        "/3",
+                           "1/3/5",     "a/3",
+                           "1/b",       "1.0/3",
+                           "0x1/3",     " 1/3",
+                           "1/ 3",      "+1/3",
+                           "automatic", "auto/",
+                           "auto/0",    "auto/x",
+                           "AUTO",      "99999999999999999999/3"})
     EXPECT_NE(refusal(text, array_task(0, 0, 3)), "") << "'" << text << "'";
 }
 
