@@ -135,6 +135,20 @@ RayCaster::RayCaster(const Mesh& mesh, const std::string& isa)
 
 RayCaster::~RayCaster() = default;
 
+namespace {
+
+PacketDirections same_for_all(Vec3 direction) {
+  PacketDirections directions;
+  for (std::size_t r = 0; r < packet_size; ++r) {
+    directions.x[r] = static_cast<float>(direction.x);
+    directions.y[r] = static_cast<float>(direction.y);
+    directions.z[r] = static_cast<float>(direction.z);
+  }
+  return directions;
+}
+
+}  // namespace
+
 Hit RayCaster::first_hit(Vec3 origin, Vec3 direction) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
@@ -165,13 +179,7 @@ PacketHits RayCaster::first_hits(const Packet& origins, const PacketDirections& 
 
 PacketHits RayCaster::first_hits(const Packet& origins, Vec3 direction,
                                  std::uint32_t active) const {
-  PacketDirections directions;
-  for (std::size_t r = 0; r < packet_size; ++r) {
-    directions.x[r] = static_cast<float>(direction.x);
-    directions.y[r] = static_cast<float>(direction.y);
-    directions.z[r] = static_cast<float>(direction.z);
-  }
-  return trace(origins, directions, active, Coherence::parallel);
+  return trace(origins, same_for_all(direction), active, Coherence::parallel);
 }
 
 PacketHits RayCaster::trace(const Packet& origins, const PacketDirections& directions,
@@ -211,29 +219,7 @@ PacketHits RayCaster::trace(const Packet& origins, const PacketDirections& direc
 
 std::uint32_t RayCaster::unoccluded(const Packet& origins, Vec3 direction,
                                     std::uint32_t active) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  RTCRay16 ray;
-  alignas(64) int valid[packet_size];
-  const auto dx = static_cast<float>(direction.x), dy = static_cast<float>(direction.y),
-             dz = static_cast<float>(direction.z);
-  for (std::size_t r = 0; r < packet_size; ++r) {
-    valid[r] = (active >> r & 1u) ? -1 : 0;
-    ray.org_x[r] = origins.x[r];
-    ray.org_y[r] = origins.y[r];
-    ray.org_z[r] = origins.z[r];
-    ray.dir_x[r] = dx;
-    ray.dir_y[r] = dy;
-    ray.dir_z[r] = dz;
-    ray.tnear[r] = 0;
-    ray.tfar[r] = no_end;
-    ray.time[r] = 0;
-    ray.mask[r] = ~0u;
-    ray.flags[r] = 0;
-  }
-  rtcOccluded16(valid, embree_->scene, &context, &ray);
-  return unoccluded_rays(ray, active);
+  return unoccluded_each(origins, same_for_all(direction), active);
 }
 
 std::uint32_t RayCaster::unoccluded_each(const Packet& origins, const PacketDirections& directions,
