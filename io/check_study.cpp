@@ -10,6 +10,7 @@
 #include "io/run.h"
 #include "io/sun_diagram.h"
 #include "io/time_words.h"
+#include "io/variant_mesh.h"
 #include "io/variant_plan.h"
 #include "solver/parallel.h"
 
@@ -74,7 +75,7 @@ std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
       work.memory_bytes / mib, work.disk_bytes / mib, work.seconds, thread_count());
 }
 
-void print_text(const VariantPlan& plan, const WorkEstimate& work) {
+void print_text(const VariantPlan& plan, const RefineReport& mesh, const WorkEstimate& work) {
   std::string text = fmt::format("study {}, variant {} (content {})\n", plan.study.name,
                                  plan.study.variant, plan.content_hash.substr(0, 12));
   text += "scene\n" + counts_text(plan.built.report) +
@@ -82,6 +83,8 @@ void print_text(const VariantPlan& plan, const WorkEstimate& work) {
   for (const auto& note : plan.built.notes) text += "  note      " + note + "\n";
   text += "materials\n" + materials_text(plan.built.scene);
   text += "sun\n" + time_words(plan.light, plan.built.site, plan.study, plan.built.site_source);
+  if (const auto refined = refine_text(mesh, plan.study); !refined.empty())
+    text += "mesh\n  " + refined + "\n";
   text += "work\n" + work_text(plan, work);
   for (const auto& list : {plan.built.warnings, plan.light.notes})
     for (const auto& line : list) text += "warning: " + line + "\n";
@@ -114,12 +117,13 @@ int check_study(const std::string& path, const RunOptions& options, CheckFormat 
   for (const auto& study : chosen_variants(file, options)) {
     try {
       const VariantPlan plan = make_plan(study);
-      const Hierarchy mesh(plan.built.scene, split_rules(study));
-      const WorkEstimate work = estimate_work(plan, mesh.patch_count());
+      Watch nobody;
+      const VariantMesh made = make_mesh(plan, nobody);
+      const WorkEstimate work = estimate_work(plan, made.mesh->patch_count());
       units += plan.batches();
       json["variants"].push_back(as_json(plan, work));
       json["batch_suns"] = plan.batch_suns();
-      if (format == CheckFormat::text) print_text(plan, work);
+      if (format == CheckFormat::text) print_text(plan, made.report, work);
     } catch (const InputError& error) {
       problems.add(error);
     }

@@ -39,6 +39,7 @@ constexpr double short_stage_s = 1;
 const char* stage_name(Stage stage) {
   switch (stage) {
     case Stage::prepare: return "prepare";
+    case Stage::refine: return "refine mesh";
     case Stage::lines: return "trace lines";
     case Stage::light: return "sun positions";
   }

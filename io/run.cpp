@@ -14,6 +14,7 @@
 #include "io/mpi_world.h"
 #include "io/result_file.h"
 #include "io/units.h"
+#include "io/variant_mesh.h"
 #include "io/variant_plan.h"
 #include "io/variant_run.h"
 #include "solver/parallel.h"
@@ -183,7 +184,7 @@ class StudyRun {
   struct Place {
     std::size_t variant;
     VariantPlan plan;
-    std::unique_ptr<Hierarchy> mesh;
+    std::shared_ptr<const Hierarchy> mesh;
   };
 
   /// Every variant is checked before the first one is computed.
@@ -216,12 +217,16 @@ class StudyRun {
   }
 
   /// Makes the mesh; work that cannot fit is refused before anything is written.
-  void split(Place& place) const {
+  void split(Place& place) {
     const VariantPlan& plan = place.plan;
-    const SplitRules rules = split_rules(plan.study);
     const double there = batch_bytes(folder_, plan);
-    check_limits(folder_, estimate_work(plan, least_patch_count(plan.built.scene, rules)), there);
-    place.mesh = std::make_unique<Hierarchy>(plan.built.scene, rules);
+    const std::size_t least = least_patch_count(plan.built.scene, split_rules(plan.study));
+    check_limits(folder_, estimate_work(plan, least), there);
+    progress_.begin_variant(plan.study.variant);
+    const VariantMesh made = make_mesh(plan, progress_);
+    place.mesh = made.mesh;
+    if (const auto text = refine_text(made.report, plan.study); !text.empty())
+      progress_.say(plan.study.variant + ": " + text);
     check_limits(folder_, estimate_work(plan, place.mesh->patch_count()), there);
   }
 
@@ -239,7 +244,7 @@ class StudyRun {
     progress_.begin_variant(plan.study.variant);
     print_warnings(progress_, plan);
     UnitQueue units(place.variant, plan.batches(), options_.shard, world_.get());
-    VariantRun run(folder_, plan, progress_);
+    VariantRun run(folder_, plan, place.mesh, progress_);
     run.compute(units, world_.get());
   }
 
@@ -311,8 +316,8 @@ int merge_study(const std::string& path, const RunOptions& options, Merge merge)
     const bool something_is_there = missing.numbers.size() < plan.batches();
     if (merge == Merge::partial && something_is_there && !missing.numbers.empty()) {
       const std::string partial = work_folder(folder, plan) + "/partial.h5";
-      merge_variant(folder, plan, file, Hierarchy(plan.built.scene, split_rules(plan.study)),
-                    partial, missing.numbers);
+      Watch nobody;
+      merge_variant(folder, plan, file, *make_mesh(plan, nobody).mesh, partial, missing.numbers);
       fmt::print(stderr, "{}: wrote {} of {} batches to {}\n", study.variant,
                  plan.batches() - missing.numbers.size(), plan.batches(), partial);
       continue;
@@ -326,8 +331,9 @@ int merge_study(const std::string& path, const RunOptions& options, Merge merge)
     if (fs::exists(result) && options.existing != Existing::overwrite)
       throw InputError({result}, "is the result of another state of the study",
                        "its content hash differs", "use --overwrite to replace it");
-    const Hierarchy mesh(plan.built.scene, split_rules(plan.study));
-    if (merge_once(folder, file, plan, mesh, result, options) == Merging::by_another) {
+    Watch nobody;
+    const auto mesh = make_mesh(plan, nobody).mesh;
+    if (merge_once(folder, file, plan, *mesh, result, options) == Merging::by_another) {
       fmt::print(stderr, "{}: another process is merging\n", study.variant);
       continue;
     }

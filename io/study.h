@@ -24,6 +24,7 @@
 #include "geo/sun.h"
 #include "geo/time.h"
 #include "geo/weather.h"
+#include "solver/oracle.h"
 
 namespace sunload {
 
@@ -129,9 +130,14 @@ struct SceneStudy {
   Where where;
 };
 
+/// What decides how fine the mesh is beyond `max_edge_m`.
 struct MeshStudy {
-  double max_edge_m = 1e9;  ///< absent: input triangles are the leaves
+  double max_edge_m = 1e9;  ///< absent: input triangles are the roots and may stay leaves
   double min_area_m2 = 0.01;
+  Oracle oracle = Oracle::light_load;
+  double light_tolerance = 0.05;      ///< of the default oracle
+  double light_threshold_m2 = 0.005;  ///< of the historic one
+  TVertices t_vertices = TVertices::remove;
 };
 
 enum class Transport { gather };

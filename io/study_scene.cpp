@@ -21,6 +21,7 @@ constexpr Range emissions_w_m2{0, 1e7};  // the surface of the sun has 6.3e7
 constexpr Range margins_m{0, 1e5};
 constexpr Range edges_m{1e-3, 1e9};
 constexpr Range areas_m2{0, 1e6};
+constexpr Range tolerances{1e-4, 1e3};
 constexpr double share_rounding = 1e-12;  // of the sum of two decimal numbers
 
 void read_files(YamlMap& map, const std::string& folder, SceneStudy& scene) {
@@ -158,10 +159,33 @@ SceneStudy read_scene(YamlMap& map, const std::string& folder) {
   return scene;
 }
 
+namespace {
+
+/// A threshold of the other oracle would be without effect.
+void check_oracle_keys(YamlMap& map, Oracle oracle) {
+  if (oracle != Oracle::light_load && map.has("light_tolerance"))
+    map.warn("light_tolerance", "is not used", "it belongs to oracle: default");
+  if (oracle != Oracle::historic && map.has("light_threshold_m2"))
+    map.warn("light_threshold_m2", "is not used", "it belongs to oracle: historic");
+}
+
+}  // namespace
+
 MeshStudy read_mesh(YamlMap& map) {
   MeshStudy mesh;
   mesh.max_edge_m = map.number("max_edge_m", edges_m, mesh.max_edge_m);
   mesh.min_area_m2 = map.number("min_area_m2", areas_m2, mesh.min_area_m2);
+  mesh.oracle = map.choice("oracle",
+                           {{"default", Oracle::light_load},
+                            {"historic", Oracle::historic},
+                            {"none", Oracle::none}},
+                           mesh.oracle);
+  mesh.light_tolerance = map.number("light_tolerance", tolerances, mesh.light_tolerance);
+  mesh.light_threshold_m2 = map.number("light_threshold_m2", areas_m2, mesh.light_threshold_m2);
+  mesh.t_vertices = map.choice("t_vertices",
+                               {{"remove", TVertices::remove}, {"keep", TVertices::keep}},
+                               mesh.t_vertices);
+  check_oracle_keys(map, mesh.oracle);
   return mesh;
 }
 

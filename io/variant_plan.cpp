@@ -127,6 +127,14 @@ SplitRules split_rules(const Study& study) {
   return {.max_edge_m = study.mesh.max_edge_m, .min_area_m2 = study.mesh.min_area_m2};
 }
 
+RefineRules refine_rules(const Study& study) {
+  return {.oracle = study.mesh.oracle,
+          .light_tolerance = study.mesh.light_tolerance,
+          .light_threshold_m2 = study.mesh.light_threshold_m2,
+          .t_vertices = study.mesh.t_vertices,
+          .seed = study.solver.seed};
+}
+
 SolverRules solver_rules(const VariantPlan& plan) {
   const SolverStudy& s = plan.study.solver;
   return {.bounces = s.bounces,

@@ -12,7 +12,7 @@
 namespace sunload {
 
 /// Raised when results change, not at every commit: part of the content hash.
-inline constexpr int numerics_version = 1;
+inline constexpr int numerics_version = 2;
 
 struct VariantPlan {
   Study study;
@@ -34,6 +34,7 @@ VariantPlan make_plan(const Study& study);
 std::string hash_with_isa(const VariantPlan& plan, const std::string& isa);
 
 SplitRules split_rules(const Study& study);
+RefineRules refine_rules(const Study& study);
 SolverRules solver_rules(const VariantPlan& plan);
 
 /// Paths of DESIGN 2.

@@ -25,8 +25,9 @@ std::string rays_text(const char* what, std::uint64_t rays, double seconds) {
 
 }  // namespace
 
-VariantRun::VariantRun(const std::string& folder, const VariantPlan& plan, Progress& progress)
-    : folder_(folder), plan_(plan), progress_(progress) {}
+VariantRun::VariantRun(const std::string& folder, const VariantPlan& plan,
+                       std::shared_ptr<const Hierarchy> mesh, Progress& progress)
+    : folder_(folder), plan_(plan), mesh_(std::move(mesh)), progress_(progress) {}
 
 void VariantRun::compute(UnitQueue& units, MpiWorld* world) {
   make_writable_folder(work_folder(folder_, plan_));
@@ -53,8 +54,8 @@ bool VariantRun::is_finished(std::size_t batch) {
 
 void VariantRun::make_solver(bool others_work_too, MpiWorld* world) {
   const auto build = [&](std::optional<Lines> ready) {
-    solver_ = std::make_unique<LightSolver>(plan_.built.scene, split_rules(plan_.study),
-                                            solver_rules(plan_), progress_, std::move(ready));
+    solver_ = std::make_unique<LightSolver>(plan_.built.scene, mesh_, solver_rules(plan_),
+                                            progress_, std::move(ready));
     open_share_ = open_shares(solver_->sky_grid(), plan_.built.site.horizon,
                               scene_from_enu(plan_.built.site));
   };

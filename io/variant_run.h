@@ -13,7 +13,8 @@ namespace sunload {
 
 class VariantRun {
  public:
-  VariantRun(const std::string& folder, const VariantPlan& plan, Progress& progress);
+  VariantRun(const std::string& folder, const VariantPlan& plan,
+             std::shared_ptr<const Hierarchy> mesh, Progress& progress);
 
   /// Goes through the process' own batches and computes those that have no
   /// valid file yet. Where others work on the variant too, the traced lines are
@@ -28,6 +29,7 @@ class VariantRun {
 
   const std::string& folder_;
   const VariantPlan& plan_;
+  std::shared_ptr<const Hierarchy> mesh_;
   Progress& progress_;
   std::unique_ptr<LightSolver> solver_;
   std::vector<double> open_share_;  ///< of the solver's sky cells: what hills leave free

@@ -11,15 +11,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/element_forest.h"
 #include "solver/material.h"
 
 namespace sunload {
-
-struct SplitRules {
-  double max_edge_m = 1e9;   ///< split while the longest edge is longer
-  double min_area_m2 = 0;    ///< never split an element below twice this area
-  std::size_t max_patches = 100'000'000;
-};
 
 struct Patch {
   std::array<std::int32_t, 3> vertices;  ///< counter-clockwise from its own side
@@ -31,12 +26,16 @@ struct Patch {
 /// at most h has at most the area √3/4 h², an element that is not split for its
 /// smallness at most 2·min_area. Never more than 10^15.
 std::size_t least_patch_count(const Scene& scene, const SplitRules& rules);
+/// Throws InputError where even these are more than `max_patches`.
+void expect_splittable(const Scene& scene, const SplitRules& rules);
 
 class Hierarchy {
  public:
-  /// Splits every triangle of the scene; frozen afterwards.
+  /// Splits every triangle of the scene by `max_edge_m` alone.
   /// Throws InputError where more than `max_patches` would result.
   Hierarchy(const Scene& scene, const SplitRules& rules);
+  /// Freezes trees that have grown.
+  explicit Hierarchy(const ElementForest& forest);
 
   std::size_t patch_count() const { return patches_.size(); }
   const std::vector<Patch>& patches() const { return patches_; }
@@ -61,7 +60,7 @@ class Hierarchy {
     std::int32_t first_patch = -1;
     std::uint8_t apex = 0;          ///< corner opposite of the split edge
   };
-  class Builder;
+  void add_leaves(const ElementForest& forest, std::size_t element);
 
   std::vector<Node> nodes_;
   std::vector<std::int32_t> root_;  ///< per input triangle, -1: no patches

@@ -65,9 +65,15 @@ struct LightSolver::TimeSums {
 
 LightSolver::LightSolver(const Scene& scene, const SplitRules& split, const SolverRules& rules,
                          Watch& watch, std::optional<Lines> ready)
+    : LightSolver(scene, std::make_shared<const Hierarchy>(scene, split), rules, watch,
+                  std::move(ready)) {}
+
+LightSolver::LightSolver(const Scene& scene, std::shared_ptr<const Hierarchy> mesh,
+                         const SolverRules& rules, Watch& watch, std::optional<Lines> ready)
     : scene_(scene),
       rules_(rules),
-      hierarchy_(scene, split),
+      mesh_(std::move(mesh)),
+      hierarchy_(*mesh_),
       caster_(scene.mesh, rules.isa),
       optics_(patch_optics(scene, hierarchy_)),
       lines_(ready ? std::move(*ready)

@@ -1,6 +1,7 @@
 /// The method on one screen: trace once, light many suns.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,8 +38,11 @@ struct SolverRules {
 /// the order of additions).
 class LightSolver {
  public:
-  /// Splits, builds the ray caster and traces all lines, unless those of an
-  /// equal solver are handed over. `scene` must outlive it.
+  /// Builds the ray caster and traces all lines, unless those of an equal solver
+  /// are handed over. `scene` must outlive it.
+  LightSolver(const Scene& scene, std::shared_ptr<const Hierarchy> mesh, const SolverRules& rules,
+              Watch& watch, std::optional<Lines> ready = {});
+  /// On a mesh that is split by edge length alone.
   LightSolver(const Scene& scene, const SplitRules& split, const SolverRules& rules,
               Watch& watch, std::optional<Lines> ready = {});
 
@@ -71,7 +75,8 @@ class LightSolver {
   const Scene& scene_;
   SolverRules rules_;
   WorkDone work_;  // before what is built with a stopwatch running
-  Hierarchy hierarchy_;
+  std::shared_ptr<const Hierarchy> mesh_;
+  const Hierarchy& hierarchy_;
   RayCaster caster_;
   SkyGrid grid_;
   PatchOptics optics_;

@@ -4,7 +4,7 @@
 
 namespace sunload {
 
-enum class Stage { prepare, lines, light };
+enum class Stage { prepare, refine, lines, light };
 
 class Watch {
  public:

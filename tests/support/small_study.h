@@ -37,7 +37,7 @@ inline std::string square_study(const std::string& standard_error = "totals",
          "    glass: {diffuse: 0.05, mirror: 0.85}\n"
          "    canvas: {diffuse: 0.5, sides: two}\n"
          "    lamp: {diffuse: 0.1, emission_w_m2: 200}\n"
-         "mesh: {max_edge_m: " +
+         "mesh: {oracle: none, max_edge_m: " +
          max_edge_m +
          "}\n"
          "solver: {lines_per_patch: 64, direct_samples: 16, realizations: 16, batch_suns: 2" +
@@ -56,7 +56,7 @@ inline std::string street_study(const std::string& standard_error = "totals",
          "period: {days: [2026-03-21], from: \"06:00\", to: \"18:00\", step_min: 60}\n"
          "light: {source: clear_sky}\n"
          "scene: {builtin: {name: street}}\n"
-         "mesh: {max_edge_m: 4}\n"
+         "mesh: {oracle: none, max_edge_m: 4}\n"
          "solver: {lines_per_patch: 64, direct_samples: 16, realizations: 16, batch_suns: 2" +
          solver +
          "}\n"
