@@ -85,13 +85,17 @@ std::vector<double> work_values(const WorkDone& w) {
           w.direct_s,
           w.mirror_s,
           w.solve_s,
-          w.realizations_s};
+          w.realizations_s,
+          static_cast<double>(w.mirror_beams),
+          static_cast<double>(w.mirror_shots)};
 }
 
 WorkDone work_from(const std::vector<double>& v) {
   return {.line_rays = static_cast<std::uint64_t>(v.at(0)),
           .direct_rays = static_cast<std::uint64_t>(v.at(1)),
           .mirror_rays = static_cast<std::uint64_t>(v.at(2)),
+          .mirror_beams = static_cast<std::uint64_t>(v.at(8)),
+          .mirror_shots = static_cast<std::uint64_t>(v.at(9)),
           .lines_s = v.at(3),
           .direct_s = v.at(4),
           .mirror_s = v.at(5),

@@ -203,7 +203,9 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
                 {"numerics_version", numerics_version},
                 {"line_rays", static_cast<std::int64_t>(work.line_rays)},
                 {"direct_rays", static_cast<std::int64_t>(work.direct_rays)},
-                {"mirror_rays", static_cast<std::int64_t>(work.mirror_rays)}};
+                {"mirror_rays", static_cast<std::int64_t>(work.mirror_rays)},
+                {"mirror_beams", static_cast<std::int64_t>(work.mirror_beams)},
+                {"mirror_shots", static_cast<std::int64_t>(work.mirror_shots)}};
   std::string weather;
   for (const auto& line : plan.light.weather) weather += line + "\n";
   if (!weather.empty()) a.text.emplace_back("weather", weather);

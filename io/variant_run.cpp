@@ -107,6 +107,9 @@ void VariantRun::report_work() const {
   text += rays_text("lines", w.line_rays, w.lines_s);
   text += rays_text("direct sun", w.direct_rays, w.direct_s);
   text += rays_text("mirrored sun", w.mirror_rays, w.mirror_s);
+  if (w.mirror_beams + w.mirror_shots > 0)
+    text += fmt::format("  {:<14} {} beams by image directions, {} arrivals by shooting\n", "",
+                        w.mirror_beams, w.mirror_shots);
   text += fmt::format("  {:<14} {:8.2f} s\n  {:<14} {:8.2f} s  peak memory {:.0f} MiB",
                       "sky and Jacobi", w.solve_s, "realizations", w.realizations_s,
                       peak_memory_bytes() / mib);

@@ -1,21 +1,26 @@
-/// Which receivers can lie in the beam that a set of triangles sends along a
-/// direction: a conservative raster of the triangles seen along it.
+/// Which receivers can lie in the beam that parts of mirrors send along a
+/// direction: a conservative raster of these parts seen along it.
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include "geo/mesh.h"
+#include "geo/vec.h"
 
 namespace sunload {
 
+/// A convex polygon in a plane.
+using ConvexPolygon = std::vector<Vec3>;
+
 class BeamRaster {
  public:
-  /// Raster of `triangles` seen from far away along the unit direction `w`
-  /// (from receivers to the triangles).
-  BeamRaster(const Mesh& mesh, const std::vector<std::int32_t>& triangles, Vec3 w);
-  /// False only if no point of the triangle (a, b, c) has one of the triangles
-  /// ahead of it along w.
-  bool may_meet(Vec3 a, Vec3 b, Vec3 c) const;
+  /// Raster of `section` seen from far away along the unit direction `w` (from
+  /// receivers to the mirrors). `spread`: tangent of the angle by which light may
+  /// leave w, for a sun with a disk.
+  BeamRaster(std::span<const ConvexPolygon> section, Vec3 w, double spread);
+  /// False only if no point of the hull of these points has one of the polygons
+  /// ahead of it.
+  bool may_meet(std::span<const Vec3> points) const;
 
  private:
   static constexpr int size = 256;
@@ -23,11 +28,13 @@ class BeamRaster {
     int x0, x1, y0, y1;
     double nearest, farthest;  ///< along w
   };
-  Range range(Vec3 a, Vec3 b, Vec3 c) const;
+  Range range(std::span<const Vec3> points, double spread) const;
 
   Vec3 x_axis_, y_axis_, w_;
+  double spread_;
   double x0_ = 0, y0_ = 0, cells_per_x_ = 0, cells_per_y_ = 0;
-  std::vector<double> farthest_;  ///< per cell: largest w·p of its triangles, -inf if none
+  double farthest_of_all_;
+  std::vector<float> farthest_;  ///< per cell: largest w·p of its polygons, -inf if none
 };
 
 }  // namespace sunload

@@ -1,238 +1,198 @@
 #include "solver/mirror_sun.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <limits>
 
-#include "geo/check.h"
-#include "solver/beam_raster.h"
 #include "solver/parallel.h"
 
 namespace sunload {
 
 namespace {
 
-constexpr std::size_t patches_per_task = 1024;
+/// Consecutive patches, which lie close together, in their common box.
+struct Cluster {
+  std::size_t begin, end;
+  std::array<Vec3, 8> corners;
+};
 
-// Mirrors whose normals differ by less than this share their image directions:
-// a fifth of the sun's radius, well above what rounding of large coordinates
-// does to the normals of coplanar panes.
-constexpr double same_orientation = 0.05 * radians_per_degree;
+std::vector<Cluster> clusters_of(const Hierarchy& hierarchy) {
+  constexpr std::size_t patches_per_cluster = 64;
+  const std::size_t patches = hierarchy.patch_count();
+  std::vector<Cluster> clusters((patches + patches_per_cluster - 1) / patches_per_cluster);
+  parallel_for(clusters.size(), [&](std::size_t c) {
+    clusters[c].begin = c * patches_per_cluster;
+    clusters[c].end = std::min(patches, clusters[c].begin + patches_per_cluster);
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    Vec3 low{infinite, infinite, infinite}, high{-infinite, -infinite, -infinite};
+    for (std::size_t i = clusters[c].begin; i < clusters[c].end; ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 p = hierarchy.corner(i, k);
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+      }
+    for (std::size_t k = 0; k < 8; ++k)
+      clusters[c].corners[k] = {k & 1 ? high.x : low.x, k & 2 ? high.y : low.y,
+                                k & 4 ? high.z : low.z};
+  }, 64);
+  return clusters;
+}
 
-Vec3 unit_normal(const Mesh& mesh, std::size_t triangle) {
-  return normalized(mesh.area_vector2(triangle));
+std::vector<BeamRaster> rasters_of(const SunBeams& beams) {
+  std::vector<BeamRaster> rasters;
+  for (std::size_t b = 0; b < beams.size(); ++b)
+    rasters.emplace_back(beams[b].section, beams[b].image, beams.spread());
+  return rasters;
+}
+
+/// Where receivers see the points of the sun that lie in these directions.
+PacketDirections seen(const SunBeam& beam, const PacketDirections& sun) {
+  float m[3][3];
+  for (std::size_t row = 0; row < 3; ++row) {
+    const Vec3 v = beam.image_of.rows[row];
+    m[row][0] = static_cast<float>(v.x);
+    m[row][1] = static_cast<float>(v.y);
+    m[row][2] = static_cast<float>(v.z);
+  }
+  PacketDirections w;
+  for (std::size_t l = 0; l < packet_size; ++l) {
+    w.x[l] = m[0][0] * sun.x[l] + m[0][1] * sun.y[l] + m[0][2] * sun.z[l];
+    w.y[l] = m[1][0] * sun.x[l] + m[1][1] * sun.y[l] + m[1][2] * sun.z[l];
+    w.z[l] = m[2][0] * sun.x[l] + m[2][1] * sun.y[l] + m[2][2] * sun.z[l];
+  }
+  return w;
 }
 
 }  // namespace
 
-MirroredSun& MirroredSun::operator+=(const MirroredSun& other) {
-  for (std::size_t k = 0; k < block_width; ++k) {
-    escaped[k] += other.escaped[k];
-    backs[k] += other.backs[k];
-    cut[k] += other.cut[k];
-  }
-  return *this;
+PacketDirections towards(const SunLight& sun, const SunSampler& sampler,
+                         const SunSampler::Seeds& seeds, std::size_t packet) {
+  return sun.disk_half_angle > 0 ? sampler.directions(sun, seeds, packet)
+                                 : same_for_all(sun.direction);
 }
 
-/// One sun by way of the mirrors of one orientation.
-struct MirrorSun::Beam {
-  std::size_t k;  ///< of the block
-  const SunLight& sun;
-  std::int32_t group;
-  Vec3 image;     ///< direction in which receivers see the sun
-  BeamRaster raster;
-};
+MirrorSun::MirrorSun(const Hierarchy& hierarchy, const RayCaster& caster,
+                     const SunSampler& sampler, const MirrorGroups& groups)
+    : hierarchy_(hierarchy), caster_(caster), sampler_(sampler), groups_(groups) {}
 
-MirrorSun::MirrorSun(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-                     const SunSampler& sampler, const PatchOptics& optics, int mirror_depth)
-    : scene_(scene),
-      hierarchy_(hierarchy),
-      caster_(caster),
-      sampler_(sampler),
-      optics_(optics),
-      mirror_depth_(mirror_depth),
-      group_of_side_(2 * scene.mesh.triangle_count(), -1) {
-  const double least_cosine = std::cos(same_orientation);
-  for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
-    if (scene.materials[scene.material[t].index()].mirror <= 0) continue;
-    const Vec3 front = unit_normal(scene.mesh, t);
-    for (std::size_t side = 0; side < (scene.mesh.triangle_sides[t] == Sides::two ? 2 : 1); ++side) {
-      const Vec3 n = side == 0 ? front : -front;
-      auto group = std::find_if(groups_.begin(), groups_.end(), [&](const MirrorGroup& g) {
-        return dot(g.normal, n) >= least_cosine;
-      });
-      if (group == groups_.end()) group = groups_.insert(groups_.end(), MirrorGroup{n, {}});
-      group_of_side_[2 * t + side] = static_cast<std::int32_t>(group - groups_.begin());
-      group->triangles.push_back(static_cast<std::int32_t>(t));
-    }
-  }
-}
-
-/// The work of patches in one task: mirrored sun that arrives, or is sent on.
+/// The mirrored sun that the patches of one task receive from the beams of one sun.
 class MirrorSun::PatchWork {
  public:
-  PatchWork(const MirrorSun& mirror, std::size_t realizations)
-      : m_(mirror), per_realization_(realizations) {}
+  PatchWork(const MirrorSun& mirror, const SunLight& sun, std::size_t k, const SunBeams& beams,
+            MirroredIrradiance into)
+      : m_(mirror), sun_(sun), k_(k), beams_(beams), into_(into),
+        of_realization_(into.realizations()) {}
 
-  /// Irradiance of a patch by the mirrors of a beam.
-  void receive(const Beam& beam, std::size_t patch, Columns& irradiance,
-               std::vector<std::vector<double>>& exposure,
-               std::vector<Columns>* of_realizations) {
+  void receive(std::size_t patch, std::span<const std::size_t> by_beams) {
     const auto geometry = m_.sampler_.geometry(patch);
-    const double cos_theta = dot(geometry.normal, beam.image);
-    if (cos_theta <= 0) return;
-    std::fill(per_realization_.begin(), per_realization_.end(), 0);
-    for_each_packet(geometry, patch, beam.sun.number,
-                    [&](std::size_t first, const Packet& origins, std::uint32_t active) {
-                      add_reflectances(beam, first, origins, active);
-                    });
-    const auto R = static_cast<double>(per_realization_.size());
-    const double samples_each = static_cast<double>(m_.sampler_.samples()) / R;
-    const std::size_t at = patch * block_width + beam.k;
-    double pooled = 0;
-    for (std::size_t r = 0; r < per_realization_.size(); ++r) {
-      const double E = beam.sun.dni * cos_theta * per_realization_[r] / samples_each;
-      pooled += E / R;
-      exposure[r][patch] += E * beam.sun.length_s;
-      if (of_realizations) (*of_realizations)[r][at] += static_cast<float>(E);
+    m_.sampler_.seed(patch, sun_.number, seeds_);
+    std::fill(of_realization_.begin(), of_realization_.end(), 0);
+    for (std::size_t p = 0; p < m_.sampler_.packets(); ++p) {
+      const Packet origins = m_.sampler_.origins(geometry, seeds_, p);
+      const PacketDirections sun = towards(sun_, m_.sampler_, seeds_, p);
+      for (const auto b : by_beams)
+        add_reflectances(beams_[b], dot(geometry.normal, beams_[b].image), p, origins, sun);
     }
-    irradiance[at] += static_cast<float>(pooled);
-  }
-
-  /// Direct sun that a mirror patch receives, followed to its end.
-  void send_on(const LineFollower& follower, const SunLight& sun, std::size_t k, std::size_t patch,
-               std::vector<MirroredSun>& fates) {
-    const auto geometry = m_.sampler_.geometry(patch);
-    const double cos_theta = dot(geometry.normal, sun.direction);
-    if (cos_theta <= 0) return;
-    const double samples_each =
-        static_cast<double>(m_.sampler_.samples()) / static_cast<double>(fates.size());
-    const double power_per_sample =
-        m_.hierarchy_.area()[patch] * sun.dni * cos_theta / samples_each;
-    const Vec3 away = mirrored(sun.direction, geometry.normal);
-    const double weight = mirror_reflectance(
-        m_.material_of(m_.hierarchy_.patches()[patch].triangle), cos_theta);
-    for_each_packet(geometry, patch, sun.number,
-                    [&](std::size_t first, const Packet& origins, std::uint32_t active) {
-                      const auto lit = m_.caster_.unoccluded(origins, sun.direction, active);
-                      rays += count(active) + count(lit);
-                      const auto hits = m_.caster_.first_hits(origins, away, lit);
-                      for (auto bits = lit; bits != 0; bits &= bits - 1) {
-                        const auto l = static_cast<std::size_t>(std::countr_zero(bits));
-                        const auto fate = follower.sent_on(away, weight, hits[l]);
-                        rays += fate.rays;
-                        auto& book = fates[m_.sampler_.realization(first + l)];
-                        book.escaped[k] += power_per_sample * fate.escaped;
-                        book.backs[k] += power_per_sample * fate.backs;
-                        book.cut[k] += power_per_sample * fate.cut;
-                      }
-                    });
+    const auto R = static_cast<double>(of_realization_.size());
+    const double samples_each = static_cast<double>(m_.sampler_.samples()) / R;
+    double pooled = 0;
+    for (std::size_t r = 0; r < of_realization_.size(); ++r) {
+      const double E = sun_.dni * of_realization_[r] / samples_each;
+      pooled += E / R;
+      into_.add(r, patch, k_, E, sun_.length_s);
+    }
+    into_.irradiance[patch * block_width + k_] += static_cast<float>(pooled);
   }
 
   std::uint64_t rays = 0;
 
  private:
-  static std::uint64_t count(std::uint32_t bits) {
-    return static_cast<std::uint64_t>(std::popcount(bits));
-  }
-
-  /// visit(number of the first sample, origins, active) for every packet of samples.
-  template <class Visit>
-  void for_each_packet(const SunSampler::Geometry& geometry, std::size_t patch, std::uint32_t sun,
-                       Visit&& visit) {
-    m_.sampler_.seed(patch, sun, seeds_);
-    for (std::size_t p = 0; p < m_.sampler_.packets(); ++p)
-      visit(p * packet_size, m_.sampler_.origins(geometry, seeds_, p), m_.sampler_.active(p));
-  }
-
-  /// Adds rho_s of the mirror by which each sample sees the sun.
-  void add_reflectances(const Beam& beam, std::size_t first, const Packet& origins,
-                        std::uint32_t active) {
-    const auto hits = m_.caster_.first_hits(origins, beam.image, active);
-    const Vec3 n = m_.groups_[static_cast<std::size_t>(beam.group)].normal;
-    const Vec3 lift = n * m_.caster_.offset_m();
-    Packet at_mirror{};
-    std::uint32_t on_mirror = 0;
-    for (auto bits = active; bits != 0; bits &= bits - 1) {
-      const auto l = static_cast<std::size_t>(std::countr_zero(bits));
-      if (hits.triangle[l] < 0) continue;
-      const auto side = 2 * static_cast<std::size_t>(hits.triangle[l]) + (hits.front[l] ? 0u : 1u);
-      if (m_.group_of_side_[side] != beam.group) continue;
-      on_mirror |= 1u << l;
-      const Vec3 along = beam.image * static_cast<double>(hits.distance[l]) + lift;
-      at_mirror.x[l] = static_cast<float>(static_cast<double>(origins.x[l]) + along.x);
-      at_mirror.y[l] = static_cast<float>(static_cast<double>(origins.y[l]) + along.y);
-      at_mirror.z[l] = static_cast<float>(static_cast<double>(origins.z[l]) + along.z);
+  /// Adds Π rho_s · cosθ of the mirrors by which each sample sees the sun: back from
+  /// the mirror that it looks at to the one that the sun shines on.
+  void add_reflectances(const SunBeam& last, double cos_theta, std::size_t packet,
+                        const Packet& origins, const PacketDirections& sun) {
+    Packet points = origins;
+    double weight[packet_size];
+    std::fill_n(weight, packet_size, cos_theta);
+    auto active = m_.sampler_.active(packet);
+    for (const SunBeam* beam = &last; active != 0;
+         beam = &beams_[static_cast<std::size_t>(beam->before)]) {
+      active = step_back(*beam, seen(*beam, sun), active, points, weight);
+      if (beam->before < 0) break;
     }
-    rays += count(active) + count(on_mirror);
-    if (on_mirror == 0) return;
-    auto lit = m_.caster_.unoccluded(at_mirror, beam.sun.direction, on_mirror);
-    for (; lit != 0; lit &= lit - 1) {
+    if (active == 0) return;
+    rays += static_cast<std::uint64_t>(std::popcount(active));
+    for (auto lit = m_.caster_.unoccluded_each(points, sun, active); lit != 0; lit &= lit - 1) {
       const auto l = static_cast<std::size_t>(std::countr_zero(lit));
-      per_realization_[m_.sampler_.realization(first + l)] +=
-          mirror_reflectance(m_.material_of(hits.triangle[l]), dot(n, beam.sun.direction));
+      of_realization_[m_.sampler_.realization(packet * packet_size + l)] += weight[l];
     }
+  }
+
+  /// Moves points to the mirrors that they see along w; returns which see one of the beam.
+  std::uint32_t step_back(const SunBeam& beam, const PacketDirections& w, std::uint32_t active,
+                          Packet& points, double (&weight)[packet_size]) {
+    rays += static_cast<std::uint64_t>(std::popcount(active));
+    const auto hits = m_.caster_.first_hits(points, w, active, RayCaster::Coherence::parallel);
+    const Vec3 n = m_.groups_[beam.group].normal;
+    std::uint32_t on_mirror = 0;
+    for (; active != 0; active &= active - 1) {
+      const auto l = static_cast<std::size_t>(std::countr_zero(active));
+      const auto hit = hits[l];
+      if (hit.left_scene() ||
+          m_.groups_.of_side(hit.triangle, hit.front) != static_cast<std::int32_t>(beam.group))
+        continue;
+      on_mirror |= 1u << l;
+      const double cos_theta = -dot(n, {w.x[l], w.y[l], w.z[l]});
+      weight[l] *= m_.groups_.reflectance(hit.triangle, cos_theta);
+      put(points, l, m_.groups_.above(hit.triangle, hit.u, hit.v, n, m_.caster_.offset_m()));
+    }
+    return on_mirror;
   }
 
   const MirrorSun& m_;
-  std::vector<double> per_realization_;
+  const SunLight& sun_;
+  std::size_t k_;
+  const SunBeams& beams_;
+  MirroredIrradiance into_;
+  std::vector<double> of_realization_;
   SunSampler::Seeds seeds_;
 };
 
-std::uint64_t MirrorSun::add_light(std::span<const SunLight> block, Columns& irradiance,
-                                   std::vector<std::vector<double>>& exposure,
-                                   std::vector<Columns>* of_realizations) const {
+std::uint64_t MirrorSun::add_light(std::span<const SunLight> block,
+                                   std::span<const SunBeams> beams,
+                                   MirroredIrradiance into) const {
+  constexpr std::size_t clusters_per_task = 8;
+  const auto clusters = clusters_of(hierarchy_);
   std::uint64_t rays = 0;
   for (std::size_t k = 0; k < block.size(); ++k) {
-    const SunLight& sun = block[k];
-    if (!sun.has_sun() || sun.dni <= 0 || mirror_depth_ < 1) continue;
-    for (std::size_t g = 0; g < groups_.size(); ++g) {
-      const double towards = dot(sun.direction, groups_[g].normal);
-      if (towards <= 0) continue;
-      const Vec3 image = sun.direction - 2 * towards * groups_[g].normal;
-      const Beam beam{k, sun, static_cast<std::int32_t>(g), image,
-                      BeamRaster(scene_.mesh, groups_[g].triangles, image)};
-      rays += ordered_sum(
-          hierarchy_.patch_count(), patches_per_task, std::uint64_t{0},
-          [&](std::size_t begin, std::size_t end) {
-            PatchWork work(*this, exposure.size());
-            for (std::size_t i = begin; i < end; ++i)
-              if (beam.raster.may_meet(hierarchy_.corner(i, 0), hierarchy_.corner(i, 1),
-                                       hierarchy_.corner(i, 2)))
-                work.receive(beam, i, irradiance, exposure, of_realizations);
-            return work.rays;
-          });
-    }
+    if (beams[k].size() == 0) continue;
+    const auto rasters = rasters_of(beams[k]);
+    rays += ordered_sum(
+        clusters.size(), clusters_per_task, std::uint64_t{0},
+        [&](std::size_t begin, std::size_t end) {
+          PatchWork work(*this, block[k], k, beams[k], into);
+          std::vector<std::size_t> near, by_beams;
+          for (std::size_t c = begin; c < end; ++c) {
+            near.clear();
+            for (std::size_t b = 0; b < rasters.size(); ++b)
+              if (rasters[b].may_meet(clusters[c].corners)) near.push_back(b);
+            if (near.empty()) continue;
+            for (std::size_t i = clusters[c].begin; i < clusters[c].end; ++i) {
+              const Vec3 n = hierarchy_.normal(i);
+              const std::array<Vec3, 3> corners{hierarchy_.corner(i, 0), hierarchy_.corner(i, 1),
+                                                hierarchy_.corner(i, 2)};
+              by_beams.clear();
+              for (const auto b : near)
+                if (dot(n, beams[k][b].image) > 0 && rasters[b].may_meet(corners))
+                  by_beams.push_back(b);
+              if (!by_beams.empty()) work.receive(i, by_beams);
+            }
+          }
+          return work.rays;
+        });
   }
   return rays;
-}
-
-std::vector<MirroredSun> MirrorSun::follow_light(std::span<const SunLight> block,
-                                                 std::size_t realizations) const {
-  // The sun's light is received after one reflection at most; what would be
-  // mirrored a second time is cut.
-  constexpr int reflections_of_the_sun = 1;
-  const SkyGrid smallest_grid(2);  // where the light leaves is not asked
-  const LineFollower follower(scene_, hierarchy_, caster_, smallest_grid,
-                              std::min(mirror_depth_, reflections_of_the_sun));
-  std::vector<std::size_t> mirrors;
-  for (std::size_t i = 0; i < hierarchy_.patch_count(); ++i)
-    if (optics_.mirror[i] > 0) mirrors.push_back(i);
-
-  constexpr std::size_t mirrors_per_task = 64;
-  std::vector<std::vector<MirroredSun>> parts(
-      (mirrors.size() + mirrors_per_task - 1) / mirrors_per_task,
-      std::vector<MirroredSun>(realizations));
-  parallel_chunks(mirrors.size(), mirrors_per_task, [&](std::size_t begin, std::size_t end) {
-    PatchWork work(*this, realizations);
-    for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t k = 0; k < block.size(); ++k)
-        if (block[k].has_sun() && block[k].dni > 0)
-          work.send_on(follower, block[k], k, mirrors[i], parts[begin / mirrors_per_task]);
-  });
-  std::vector<MirroredSun> fates(realizations);
-  for (const auto& part : parts)
-    for (std::size_t r = 0; r < realizations; ++r) fates[r] += part[r];
-  return fates;
 }
 
 }  // namespace sunload

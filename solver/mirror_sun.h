@@ -1,10 +1,11 @@
-/// Direct sun by way of planar mirrors: image directions, noise-free in power.
+/// Direct sun by way of planar mirrors, once or several times reflected.
 ///
-/// A mirror with unit normal m sends the sun from direction s on so that a
-/// receiver sees it in the image direction w = s - 2 (s·m) m. A ray along w
-/// whose first hit is such a mirror, and from there an unhindered ray along s,
-/// bring dni · rho_s · cosθ. One reflection; light that meets a second mirror is
-/// received there and booked as cut.
+/// Receivers look along the image directions of the sun's beams
+/// (solver/sun_beams.h) from their sample points, back from mirror to mirror and
+/// to the sun: noise-free in power, every sample brings dni · Π rho_s · cosθ.
+/// Light of mirrors that no beam stands for arrives from where it is sent on
+/// (solver/mirror_chains.h). Samples of a sun with a disk look at the images of
+/// their own points on it; cosθ stays that of its centre.
 #pragma once
 
 #include <cstdint>
@@ -12,57 +13,45 @@
 #include <vector>
 
 #include "solver/direct_sun.h"
-#include "solver/jacobi.h"
-#include "solver/line_follower.h"
+#include "solver/sun_beams.h"
 
 namespace sunload {
 
-/// Mirrors of one orientation.
-struct MirrorGroup {
-  Vec3 normal;
-  std::vector<std::int32_t> triangles;
-};
+/// Mirrored sun of N patches for one block of suns, R realizations.
+struct MirroredIrradiance {
+  Columns& irradiance;                         ///< [N][block] W m-2, pooled
+  std::vector<std::vector<double>>& exposure;  ///< [R][N] J m-2
+  std::vector<Columns>* of_realizations;       ///< [R] irradiance, or null
 
-/// Fate of sun power that mirrors send on [W], per sun of a block.
-struct MirroredSun {
-  std::vector<double> escaped = std::vector<double>(block_width, 0);
-  std::vector<double> backs = escaped, cut = escaped;
-  MirroredSun& operator+=(const MirroredSun& other);
+  std::size_t realizations() const { return exposure.size(); }
+  /// Adds irradiance E [W m-2] by sun k of the block, as one realization has it; the
+  /// pooled one is for the caller to add.
+  void add(std::size_t realization, std::size_t patch, std::size_t k, double E, double length_s) {
+    exposure[realization][patch] += E * length_s;
+    if (of_realizations)
+      (*of_realizations)[realization][patch * block_width + k] += static_cast<float>(E);
+  }
 };
 
 class MirrorSun {
  public:
-  MirrorSun(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-            const SunSampler& sampler, const PatchOptics& optics, int mirror_depth);
-  bool any() const { return !groups_.empty(); }
+  MirrorSun(const Hierarchy& hierarchy, const RayCaster& caster, const SunSampler& sampler,
+            const MirrorGroups& groups);
 
-  /// Adds the mirrored sun of the block to irradiance ([N][block], W m-2), to
-  /// `exposure` ([R][N], J m-2) and, if not null, to the columns of each
-  /// realization. Returns the rays cast.
-  std::uint64_t add_light(std::span<const SunLight> block, Columns& irradiance,
-                          std::vector<std::vector<double>>& exposure,
-                          std::vector<Columns>* of_realizations) const;
-
-  /// Follows the direct sun that mirror patches receive to where it ends, each
-  /// realization with its own samples.
-  std::vector<MirroredSun> follow_light(std::span<const SunLight> block,
-                                        std::size_t realizations) const;
+  /// Adds what the beams of each sun of the block bring. Returns the rays cast.
+  std::uint64_t add_light(std::span<const SunLight> block, std::span<const SunBeams> beams,
+                          MirroredIrradiance into) const;
 
  private:
-  struct Beam;
   class PatchWork;
-  const Material& material_of(std::int32_t triangle) const {
-    return scene_.materials[scene_.material[static_cast<std::size_t>(triangle)].index()];
-  }
-
-  const Scene& scene_;
   const Hierarchy& hierarchy_;
   const RayCaster& caster_;
   const SunSampler& sampler_;
-  const PatchOptics& optics_;
-  int mirror_depth_;
-  std::vector<MirrorGroup> groups_;
-  std::vector<std::int32_t> group_of_side_;  ///< [2·triangle + side], -1: no mirror
+  const MirrorGroups& groups_;
 };
+
+/// Sample directions to the sun, for a point or a disk.
+PacketDirections towards(const SunLight& sun, const SunSampler& sampler,
+                         const SunSampler::Seeds& seeds, std::size_t packet);
 
 }  // namespace sunload

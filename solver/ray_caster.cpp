@@ -135,8 +135,6 @@ RayCaster::RayCaster(const Mesh& mesh, const std::string& isa)
 
 RayCaster::~RayCaster() = default;
 
-namespace {
-
 PacketDirections same_for_all(Vec3 direction) {
   PacketDirections directions;
   for (std::size_t r = 0; r < packet_size; ++r) {
@@ -146,8 +144,6 @@ PacketDirections same_for_all(Vec3 direction) {
   }
   return directions;
 }
-
-}  // namespace
 
 Hit RayCaster::first_hit(Vec3 origin, Vec3 direction) const {
   RTCIntersectContext context;
@@ -173,17 +169,7 @@ Hit RayCaster::first_hit(Vec3 origin, Vec3 direction) const {
 }
 
 PacketHits RayCaster::first_hits(const Packet& origins, const PacketDirections& directions,
-                                 std::uint32_t active) const {
-  return trace(origins, directions, active, Coherence::none);
-}
-
-PacketHits RayCaster::first_hits(const Packet& origins, Vec3 direction,
-                                 std::uint32_t active) const {
-  return trace(origins, same_for_all(direction), active, Coherence::parallel);
-}
-
-PacketHits RayCaster::trace(const Packet& origins, const PacketDirections& directions,
-                            std::uint32_t active, Coherence coherence) const {
+                                 std::uint32_t active, Coherence coherence) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   if (coherence == Coherence::parallel) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;

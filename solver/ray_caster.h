@@ -33,8 +33,15 @@ struct Packet {
   alignas(64) float y[packet_size];
   alignas(64) float z[packet_size];
 };
+inline void put(Packet& packet, std::size_t ray, Vec3 v) {
+  packet.x[ray] = static_cast<float>(v.x);
+  packet.y[ray] = static_cast<float>(v.y);
+  packet.z[ray] = static_cast<float>(v.z);
+}
 /// Up to 16 ray directions (need not be of unit length).
 using PacketDirections = Packet;
+/// Parallel rays.
+PacketDirections same_for_all(Vec3 direction);
 
 struct PacketHits {
   std::int32_t triangle[packet_size];  ///< -1: left the scene
@@ -69,11 +76,11 @@ class RayCaster {
 
   /// First hit of one ray.
   Hit first_hit(Vec3 origin, Vec3 direction) const;
-  /// First hits of the rays in `active` (bit r: ray r).
+  /// First hits of the rays in `active` (bit r: ray r); those that are parallel, or
+  /// nearly so, go faster together.
+  enum class Coherence { none, parallel };
   PacketHits first_hits(const Packet& origins, const PacketDirections& directions,
-                        std::uint32_t active) const;
-  /// The same for parallel rays, which go faster together.
-  PacketHits first_hits(const Packet& origins, Vec3 direction, std::uint32_t active) const;
+                        std::uint32_t active, Coherence coherence = Coherence::none) const;
   /// Which of the `active` origins see parallel light from `direction`?
   std::uint32_t unoccluded(const Packet& origins, Vec3 direction, std::uint32_t active) const;
   /// The same with a direction for each of them.
@@ -81,10 +88,6 @@ class RayCaster {
                                 std::uint32_t active) const;
 
  private:
-  enum class Coherence { none, parallel };
-  PacketHits trace(const Packet& origins, const PacketDirections& directions,
-                   std::uint32_t active, Coherence coherence) const;
-
   struct Embree;
   std::unique_ptr<Embree> embree_;
   std::string isa_;

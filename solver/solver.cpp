@@ -79,7 +79,9 @@ LightSolver::LightSolver(const Scene& scene, std::shared_ptr<const Hierarchy> me
       lines_(ready ? std::move(*ready)
                    : timed_lines(scene, hierarchy_, caster_, grid_, rules, watch, work_)),
       sampler_(hierarchy_, caster_, {rules.direct_samples, rules.realizations, rules.seed}),
-      mirror_sun_(scene, hierarchy_, caster_, sampler_, optics_, rules.mirror_depth),
+      mirrors_(scene),
+      mirror_sun_(hierarchy_, caster_, sampler_, mirrors_),
+      mirror_chains_(hierarchy_, caster_, sampler_, mirrors_, {rules.mirror_depth, rules.unshot}),
       bounces_(bounces_needed(lines_.pooled, optics_, hierarchy_.area(), rules.bounces,
                               rules.unshot)) {}
 
@@ -142,11 +144,16 @@ void LightSolver::solve_block(std::span<const SunLight> block, std::size_t first
   }
   Columns by_mirror = columns(patches);
   std::vector<MirroredSun> sent_on;
-  if (mirror_sun_.any()) {
+  if (mirrors_.size() > 0) {
     const Stopwatch time(work_.mirror_s);
-    work_.mirror_rays += mirror_sun_.add_light(block, by_mirror, sums.by_mirror,
-                                               per_instant ? &by_mirror_of : nullptr);
-    sent_on = mirror_sun_.follow_light(block, realizations);
+    const MirroredIrradiance into{by_mirror, sums.by_mirror, per_instant ? &by_mirror_of : nullptr};
+    const auto beams = beams_of(block);
+    work_.mirror_rays += mirror_sun_.add_light(block, beams, into);
+    auto followed = mirror_chains_.follow(block, beams, into);
+    work_.mirror_rays += followed.rays;
+    work_.mirror_shots += followed.shots;
+    for (const auto& of_sun : beams) work_.mirror_beams += of_sun.size();
+    sent_on = std::move(followed.fates);
   }
   {
     const Stopwatch time(work_.solve_s);
@@ -175,6 +182,14 @@ void LightSolver::solve_block(std::span<const SunLight> block, std::size_t first
       for (std::size_t k = 0; k < block.size(); ++k)
         tally.ledger_instants[r][first_row + k] += sun_sent_on(sent_on[r], k);
   }
+}
+
+std::vector<SunBeams> LightSolver::beams_of(std::span<const SunLight> block) const {
+  const BeamRules rules{rules_.mirror_depth, rules_.faint_glint, rules_.most_sun_beams,
+                        caster_.offset_m()};
+  std::vector<SunBeams> beams(block.size(), SunBeams(mirrors_));
+  parallel_for(block.size(), [&](std::size_t k) { beams[k] = SunBeams(mirrors_, block[k], rules); });
+  return beams;
 }
 
 void LightSolver::store(const BlockLight& light, std::span<const SunLight> block,

@@ -11,6 +11,7 @@
 #include "solver/hierarchy.h"
 #include "solver/jacobi.h"
 #include "solver/lines.h"
+#include "solver/mirror_chains.h"
 #include "solver/mirror_sun.h"
 #include "solver/tally.h"
 #include "solver/watch.h"
@@ -21,11 +22,13 @@ enum class Errors { totals, instants };
 
 struct SolverRules {
   int bounces = 5;            ///< light reflected diffusely 1 … bounces times is followed
-  double unshot = 1e-3;       ///< fewer bounces where less than this share would be left
+  double unshot = 1e-3;       ///< fewer bounces (and mirrors of the sun) where less than this is left
   int lines_per_patch = 256;  ///< over all realizations
   int direct_samples = 16;    ///< per patch and sun, over all realizations
   int realizations = 8;
   int mirror_depth = 8;
+  double faint_glint = 0.02;  ///< share of the sun below which light reflected again is no beam
+  int most_sun_beams = 128;   ///< sequences of mirror orientations per sun that are beams
   std::uint64_t seed = 1;
   std::string isa = "auto";
   Errors errors = Errors::totals;
@@ -64,6 +67,7 @@ class LightSolver {
   struct TimeSums;
   void solve_block(std::span<const SunLight> block, std::size_t first_row, TimeSums& sums,
                    BatchTally& tally);
+  std::vector<SunBeams> beams_of(std::span<const SunLight> block) const;
   void store(const BlockLight& light, std::span<const SunLight> block, std::size_t first_row,
              const Columns& sunlit, BatchTally& tally) const;
   void errors_per_instant(const BlockSources& sources, std::size_t first_row,
@@ -82,7 +86,9 @@ class LightSolver {
   PatchOptics optics_;
   Lines lines_;
   SunSampler sampler_;
+  MirrorGroups mirrors_;
   MirrorSun mirror_sun_;
+  MirrorChains mirror_chains_;
   int bounces_;
 };
 

@@ -58,6 +58,8 @@ struct BatchTally {
 /// Work done so far and the time it took, per stage.
 struct WorkDone {
   std::uint64_t line_rays = 0, direct_rays = 0, mirror_rays = 0;
+  std::uint64_t mirror_beams = 0;  ///< of all suns, by image directions
+  std::uint64_t mirror_shots = 0;  ///< arrivals of mirrored sun that no beam stands for
   double lines_s = 0, direct_s = 0, mirror_s = 0, solve_s = 0, realizations_s = 0;
   WorkDone& operator-=(const WorkDone& earlier);
 };
