@@ -6,8 +6,7 @@
 ///
 /// A sun with a disk (`SunLight::disk_half_angle`) is seen by each sample at a point of its own,
 /// uniform on the disk (no limb darkening): shadows have penumbrae. cosθ stays that of the
-/// centre, which also decides whether the sun is up and in front of a patch; light that mirrors
-/// send (solver/mirror_sun.h) stays that of a point.
+/// centre, which also decides whether the sun is up and in front of a patch.
 #pragma once
 
 #include <cstdint>

@@ -221,8 +221,10 @@ TEST(LightPipe, TransmitsWhatItsReflectionsLeave) {
       builder.quad({0, -half, 0}, {gap, -half, 0}, {gap, half, 0}, {0, half, 0}, black);
       builder.quad({0, -half, 0}, {0, half, 0}, {0, half, length}, {0, -half, length}, mirror);
       builder.quad({gap, half, 0}, {gap, -half, 0}, {gap, -half, length}, {gap, half, length}, mirror);
+      auto rules = glint_rules(by);
+      rules.direct_samples = 32 * 8;
       const auto solved =
-          solve_sun(builder.scene(), {std::sin(t), 0, std::cos(t)}, glint_rules(by), 0.25);
+          solve_sun(builder.scene(), {std::sin(t), 0, std::cos(t)}, rules, 0.5);
       const double E = dni * std::cos(t), transmitted = number(c["transmitted"]);
       const std::string name =
           c["id"].get<std::string>() + (by == By::images ? " by images" : " by shooting");
