@@ -78,11 +78,6 @@ Scene sphere_at(Vec3 centre, double radius) {
   return scene;
 }
 
-void put(Packet& packet, std::size_t r, Vec3 v) {
-  packet.x[r] = static_cast<float>(v.x);
-  packet.y[r] = static_cast<float>(v.y);
-  packet.z[r] = static_cast<float>(v.z);
-}
 
 enum class Aim { anywhere_and_edges, vertices };
 
