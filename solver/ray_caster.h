@@ -81,6 +81,9 @@ class RayCaster {
   enum class Coherence { none, parallel };
   PacketHits first_hits(const Packet& origins, const PacketDirections& directions,
                         std::uint32_t active, Coherence coherence = Coherence::none) const;
+  PacketHits first_hits(const Packet& origins, Vec3 direction, std::uint32_t active) const {
+    return first_hits(origins, same_for_all(direction), active, Coherence::parallel);
+  }
   /// Which of the `active` origins see parallel light from `direction`?
   std::uint32_t unoccluded(const Packet& origins, Vec3 direction, std::uint32_t active) const;
   /// The same with a direction for each of them.
