@@ -1,18 +1,13 @@
 /// The sun by way of several planar mirrors: where its light falls by the law of
-/// reflection, how much of it, and that image directions and shooting agree.
+/// reflection, and how much of it.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <iostream>
 
-#include "geo/mesh_prepare.h"
 #include "geo/units.h"
-#include "io/scene_builtin.h"
-#include "solver/parallel.h"
+#include "tests/support/glints.h"
 #include "tests/support/reference.h"
-#include "tests/support/scenes.h"
-#include "tests/support/statistics.h"
 
 namespace sunload::test {
 namespace {
@@ -20,47 +15,6 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* mirrors = "05_radiosity/mirrors.json";
-constexpr double dni = 1000;
-enum class By { images, shooting };
-
-/// No light but the sun, nothing reflected diffusely, no chain cut but by its depth.
-SolverRules glint_rules(By by, int mirror_depth = 1000) {
-  SolverRules rules = test_rules();
-  rules.realizations = 32;
-  rules.lines_per_patch = 32;
-  rules.direct_samples = 32 * 16;
-  rules.bounces = 0;
-  rules.mirror_depth = mirror_depth;
-  rules.faint_glint = 0;
-  if (by == By::shooting) rules.most_sun_beams = 0;
-  return rules;
-}
-
-Solved solve_sun(const Scene& scene, Vec3 sun, const SolverRules& rules, double max_edge_m = 1e9) {
-  return solve(scene, {one_second(sun, dni)}, rules, {.max_edge_m = max_edge_m});
-}
-
-float by_mirrors(const Solved& solved, std::size_t patch) {
-  return solved.tally.irradiance[static_cast<std::size_t>(Part::mirror)][patch];
-}
-
-void check(const std::string& what, const std::vector<double>& values, double truth, double fault,
-           double bias = 0) {
-  const double rounding = float_rounding * std::abs(truth) + bias;
-  const Verdict verdict = expect_mean(values, truth, rounding);
-  std::cout << what << ": " << verdict.text << "\n";
-  EXPECT_TRUE(verdict) << what << ": " << verdict.text;
-  EXPECT_FALSE(expect_mean(values, fault, rounding)) << what << ": planted fault unnoticed";
-}
-
-void check_ledger(const std::string& what, const Solved& solved) {
-  const auto residual = solved.ledger([](const Ledger& l) { return l.residual(); });
-  const double in = mean_error(solved.ledger([](const Ledger& l) { return l.in(); })).mean;
-  const Verdict closed = expect_mean(residual, 0, float_rounding * in);
-  std::cout << what << ": in " << in << " W, residual " << closed.text << "\n";
-  EXPECT_TRUE(closed) << what << ": " << closed.text;
-  EXPECT_LE(closed.standard_error, 0.01 * in) << what;
-}
 
 // Two perpendicular mirrors on a floor: near the corner every point sees the sun in
 // each of them and once in both (METHOD: the double image is one, not two).
@@ -89,7 +43,7 @@ TEST(Corner, EveryDepthAddsItsImages) {
     EXPECT_EQ(seen.work.mirror_shots, 0u);
     const auto shot = solve_sun(builder.scene(), sun, glint_rules(By::shooting, depth), 0.5);
     // Planted fault: the double image counted in both orders.
-    check(name + " by shooting", shot.means(on_floor(shot)), once * (1 + images),
+    check_glint(name + " by shooting", shot.means(on_floor(shot)), once * (1 + images),
           once * (1 + 2 * rho + 2 * rho * rho));
     check_ledger(name + " by shooting", shot);
     EXPECT_EQ(shot.work.mirror_beams, 0u);
@@ -120,7 +74,7 @@ TEST(Periscope, BringsItsBeamToTheScreen) {
         power[r] += solved.area[i] * solved.tally.exposure_realization[r][i];
     }
     const double direct = dni * 2 * 3;  // x = 2 … 3 and 5 … 6
-    check("periscope", power, direct + H, direct + 0.9 * 1000, float_rounding * direct);
+    check_glint("periscope", power, direct + H, direct + 0.9 * 1000, float_rounding * direct);
     check_ledger("periscope", solved);
   }
   // By images every patch within the beam has it exactly.
@@ -199,7 +153,7 @@ TEST(CornerCube, SendsBackAntiparallel) {
     power.push_back(of_realization);
   }
   const double truth = dni * 4 * half_hole * half_hole * factor;
-  check("corner cube", power, truth, truth / rho);
+  check_glint("corner cube", power, truth, truth / rho);
   double all = 0;
   for (const double P : power) all += P;
   // Patches of the outline, a quarter of an edge long, lie on both sides of the centre.
@@ -228,7 +182,7 @@ TEST(LightPipe, TransmitsWhatItsReflectionsLeave) {
       const double E = dni * std::cos(t), transmitted = number(c["transmitted"]);
       const std::string name =
           c["id"].get<std::string>() + (by == By::images ? " by images" : " by shooting");
-      check(name, solved.means([&](std::size_t i) { return solved.patches[i].triangle < 2; }),
+      check_glint(name, solved.means([&](std::size_t i) { return solved.patches[i].triangle < 2; }),
             E * transmitted, E * std::pow(rho, number(c["n"])));
       check_ledger(name, solved);
       if (by == By::images) {
@@ -236,31 +190,6 @@ TEST(LightPipe, TransmitsWhatItsReflectionsLeave) {
       }
     }
 }
-
-/// A window in the plane x = 0, a mirror wall at x = width, black ground between.
-struct TwoMirrorStreet {
-  static constexpr double width = 10, y0 = 2, y1 = 4, z0 = 9, z1 = 10.5;
-  Vec3 sun = normalized({0.55, -0.25, 0.4});
-
-  Scene scene(double rho_window, double rho_wall) const {
-    SceneBuilder b;
-    const int black = b.material({"black", 0, 0, 0});
-    const int window = b.material({"window", 0, rho_window, 0});
-    const int wall = b.material({"wall", 0, rho_wall, 0});
-    b.quad({0, 0, 0}, {width, 0, 0}, {width, 20, 0}, {0, 20, 0}, black);
-    b.quad({0, y0, z0}, {0, y1, z0}, {0, y1, z1}, {0, y0, z1}, window);
-    // Low enough that the sun passes over it to the window.
-    b.quad({width, 0, 0}, {width, 0, 4}, {width, 20, 4}, {width, 20, 0}, wall);
-    return b.scene();
-  }
-  /// Where light from the window's point falls on the ground: by the wall.
-  Vec3 on_ground(double y, double z) const {
-    const Vec3 away = -image(sun, {1, 0, 0});         // from the window
-    const Vec3 back = -image(image(sun, {1, 0, 0}), {-1, 0, 0});  // from the wall
-    const Vec3 at_window{0, y, z}, at_wall = at_window + away * (width / away.x);
-    return at_wall + back * (at_wall.z / -back.z);
-  }
-};
 
 TEST(Street, SecondGlintLandsWhereTheLawOfReflectionSays) {
   constexpr double rho_window = 0.85, rho_wall = 0.7, edge = 0.2;
@@ -309,138 +238,6 @@ TEST(Street, SecondGlintLandsWhereTheLawOfReflectionSays) {
   EXPECT_NEAR(norm(centre / power - middle), 0, 0.1 * edge);
 }
 
-// Images and shooting are two estimates of the same.
-TEST(Street, ImagesAndShootingAgree) {
-  const TwoMirrorStreet street;
-  const Scene scene = street.scene(0.85, 0.7);
-  const auto power = [&](By by, int depth) {
-    const auto solved = solve_sun(scene, street.sun, glint_rules(by, depth), 0.5);
-    check_ledger(by == By::images ? "images" : "shooting", solved);
-    return solved.means([&](std::size_t i) {
-      return solved.patches[i].triangle < 2;
-    });
-  };
-  for (const int depth : {1, 2, 3}) {
-    const auto seen = power(By::images, depth), shot = power(By::shooting, depth);
-    const double rounding = float_rounding * dni;
-    std::vector<double> difference, faulty;
-    for (std::size_t r = 0; r < seen.size(); ++r) {
-      difference.push_back(seen[r] - shot[r]);
-      // Planted fault: the shot light without 2 % of the glint.
-      faulty.push_back(difference[r] + 0.02 * dni * 0.85 * 0.7 * street.sun.z * 3 / 200);
-    }
-    const Verdict same = expect_mean(difference, 0, rounding * 0.01);
-    std::cout << "depth " << depth << ": " << same.text << "\n";
-    EXPECT_TRUE(same) << depth << ": " << same.text;
-    EXPECT_FALSE(expect_mean(faulty, 0, rounding * 0.01)) << depth;
-  }
-}
-
-/// The built-in street with its glass house, and all windows of the other houses of glass as well.
-Scene glazed_street() {
-  Scene scene;
-  scene.mesh = prepare(builtin_scene({"street", {{"house_3", "glazed"}}}), {}).mesh;
-  for (const auto& m : scene.mesh.file_materials) {
-    const bool glass = m.name == "glass" || m.name == "window";
-    scene.materials.push_back({m.name, m.diffuse.value_or(0.2), glass ? 0.85 : 0, 0});
-  }
-  scene.material = scene.mesh.triangle_material;
-  return scene;
-}
-
-TEST(Street, OfGlassOnBothSidesKeepsItsEnergy) {
-  const Scene scene = glazed_street();
-  const Vec3 sun = normalized({0.25, -0.8, 0.35});
-  auto rules = glint_rules(By::images, 8);
-  rules.direct_samples = 32 * 2;
-  rules.faint_glint = SolverRules{}.faint_glint;
-  const auto seen = solve_sun(scene, sun, rules, 4);
-  check_ledger("street", seen);
-  std::cout << seen.work.mirror_beams << " beams, " << seen.work.mirror_shots << " arrivals\n";
-  EXPECT_EQ(seen.work.mirror_shots, 0u);
-  rules.most_sun_beams = 0;
-  const auto shot = solve_sun(scene, sun, rules, 4);
-  check_ledger("street by shooting", shot);
-  rules.mirror_depth = 1;
-  const auto once = solve_sun(scene, sun, rules, 4);
-  const auto anywhere = [](std::size_t) { return true; };
-  const auto a = seen.means(anywhere), b = shot.means(anywhere), c = once.means(anywhere);
-  std::vector<double> difference, faulty;
-  for (std::size_t r = 0; r < a.size(); ++r) {
-    difference.push_back(a[r] - b[r]);
-    faulty.push_back(a[r] - c[r]);  // planted fault: one reflection only
-  }
-  const double rounding = float_rounding * mean_error(a).mean;
-  const Verdict same = expect_mean(difference, 0, rounding);
-  std::cout << same.text << "; more than one reflection " << expect_mean(faulty, 0).text << "\n";
-  EXPECT_TRUE(same) << same.text;
-  EXPECT_FALSE(expect_mean(faulty, 0, rounding));
-}
-
-/// Part of a mirror cylinder of many facets beside a floor, facing the sun.
-Scene curved_glass(int facets, double rho) {
-  SceneBuilder b;
-  const int black = b.material({"black", 0, 0, 0}), glass = b.material({"glass", 0.1, rho, 0});
-  b.quad({-6, 0.5, 0}, {6, 0.5, 0}, {6, 12, 0}, {-6, 12, 0}, black);
-  // Concave: a half circle of radius 3 about (0, 3, z), opening to +y.
-  const auto at = [&](int f, double z) {
-    const double a = pi + pi * f / facets;
-    return Vec3{3 * std::cos(a), 4 + 3 * std::sin(a), z};
-  };
-  for (int f = 0; f < facets; ++f) b.quad(at(f + 1, 1), at(f, 1), at(f, 3), at(f + 1, 3), glass);
-  return b.scene();
-}
-
-TEST(CurvedGlass, IsShotAndAgreesWithItsImages) {
-  const Scene scene = curved_glass(160, 0.8);
-  const Vec3 sun = normalized({0.1, 0.7, 0.5});
-  auto rules = glint_rules(By::images, 2);
-  rules.most_sun_beams = 128;
-  const auto shot = solve_sun(scene, sun, rules, 1);
-  EXPECT_EQ(shot.work.mirror_beams, 0u);  // more orientations face the sun
-  EXPECT_GT(shot.work.mirror_shots, 0u);
-  rules.most_sun_beams = 100'000;
-  const auto seen = solve_sun(scene, sun, rules, 1);
-  EXPECT_EQ(seen.work.mirror_shots, 0u);
-  std::cout << seen.work.mirror_beams << " beams, " << shot.work.mirror_shots << " arrivals\n";
-  check_ledger("images", seen);
-  check_ledger("shooting", shot);
-  const auto on_ground = [&](std::size_t i) { return seen.patches[i].triangle < 2; };
-  const auto a = seen.means(on_ground), b = shot.means(on_ground);
-  std::vector<double> difference, faulty;
-  for (std::size_t r = 0; r < a.size(); ++r) {
-    difference.push_back(a[r] - b[r]);
-    faulty.push_back(a[r] - b[r] + 0.02 * (b[r] - dni * sun.z));  // planted: 2 % of the light lost
-  }
-  const Verdict same = expect_mean(difference, 0, float_rounding * a[0]);
-  std::cout << same.text << "\n";
-  EXPECT_TRUE(same) << same.text;
-  EXPECT_FALSE(expect_mean(faulty, 0, float_rounding * a[0]));
-}
-
-TEST(CurvedGlass, SameBitsForAnyNumberOfThreads) {
-  const Scene scene = curved_glass(40, 0.8);
-  const Vec3 sun = normalized({0.1, 0.7, 0.5});
-  const int before = thread_count();
-  for (const int beams : {0, 20, 128}) {
-    std::vector<BatchTally> tallies;
-    for (const int threads : {1, 2, 3}) {
-      set_thread_count(threads);
-      auto rules = glint_rules(By::images, 3);
-      rules.most_sun_beams = beams;
-      rules.direct_samples = 32 * 4;
-      tallies.push_back(solve_sun(scene, sun, rules, 1).tally);
-    }
-    for (const auto& other : tallies) {
-      EXPECT_EQ(other.irradiance, tallies[0].irradiance);
-      EXPECT_EQ(other.exposure_realization, tallies[0].exposure_realization);
-      for (std::size_t r = 0; r < other.ledger_realization.size(); ++r)
-        EXPECT_EQ(other.ledger_realization[r].terms, tallies[0].ledger_realization[r].terms);
-    }
-  }
-  set_thread_count(before);
-}
-
 // The image of the sun's disk: a glint's edge is blurred like a shadow's edge.
 TEST(SunDiskInAMirror, BlursTheEdgeOfTheGlint) {
   // A high mirror wall whose lower edge, in this height, bounds its glint on the ground.
@@ -466,7 +263,7 @@ TEST(SunDiskInAMirror, BlursTheEdgeOfTheGlint) {
     const double direct = dni * sun.z, full = 0.8 * dni * sun.z;
     // Curvature of the share over a strip of a fiftieth of a radius (sun_disk_test).
     const double bias = full * 0.02 * 0.02 / 24;
-    check("disk at " + std::to_string(x), E, direct + full * share, direct + (x < 0 ? 0 : full), bias);
+    check_glint("disk at " + std::to_string(x), E, direct + full * share, direct + (x < 0 ? 0 : full), bias);
   }
 }
 
