@@ -138,6 +138,7 @@ struct MeshStudy {
   double light_tolerance = 0.05;      ///< of the default oracle
   double light_threshold_m2 = 0.005;  ///< of the historic one
   TVertices t_vertices = TVertices::remove;
+  double link_threshold = 0.5;        ///< of the exchange between elements
 };
 
 enum class Transport { gather };

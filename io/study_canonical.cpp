@@ -150,9 +150,10 @@ json canonical(const SceneStudy& scene) {
 }
 
 json canonical(const MeshStudy& mesh) {
-  const auto& [max_edge_m, min_area_m2, oracle, light_tolerance, light_threshold_m2, t_vertices] =
-      mesh;
-  json values{{"max_edge_m", max_edge_m}, {"min_area_m2", min_area_m2}, {"oracle", oracle}};
+  const auto& [max_edge_m, min_area_m2, oracle, light_tolerance, light_threshold_m2, t_vertices,
+               link_threshold] = mesh;
+  json values{{"max_edge_m", max_edge_m}, {"min_area_m2", min_area_m2}, {"oracle", oracle},
+              {"link_threshold", link_threshold}};
   // Thresholds of an oracle that is not asked change nothing.
   if (oracle == Oracle::light_load) values["light_tolerance"] = light_tolerance;
   if (oracle == Oracle::historic) values["light_threshold_m2"] = light_threshold_m2;

@@ -22,6 +22,7 @@ constexpr Range margins_m{0, 1e5};
 constexpr Range edges_m{1e-3, 1e9};
 constexpr Range areas_m2{0, 1e6};
 constexpr Range tolerances{1e-4, 1e3};
+constexpr Range link_thresholds{0, 1e3};
 constexpr double share_rounding = 1e-12;  // of the sum of two decimal numbers
 
 void read_files(YamlMap& map, const std::string& folder, SceneStudy& scene) {
@@ -185,6 +186,7 @@ MeshStudy read_mesh(YamlMap& map) {
   mesh.t_vertices = map.choice("t_vertices",
                                {{"remove", TVertices::remove}, {"keep", TVertices::keep}},
                                mesh.t_vertices);
+  mesh.link_threshold = map.number("link_threshold", link_thresholds, mesh.link_threshold);
   check_oracle_keys(map, mesh.oracle);
   return mesh;
 }

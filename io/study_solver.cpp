@@ -92,7 +92,6 @@ std::vector<LaterKey> later_keys() {
       {"scene.parallel_sources", ""},
       {"scene.materials.*.refractive_index", ""},
       {"scene.materials.*.transmittance", ""},
-      {"mesh.link_threshold", ""},
       {"solver.transport", "shoot"},
       {"solver.power_per_sample_w", ""},
       {"solver.accuracy", ""},

@@ -131,9 +131,21 @@ RefineRules refine_rules(const Study& study) {
   return {.oracle = study.mesh.oracle,
           .light_tolerance = study.mesh.light_tolerance,
           .light_threshold_m2 = study.mesh.light_threshold_m2,
+          .form_factor_threshold = study.mesh.link_threshold,
           .t_vertices = study.mesh.t_vertices,
           .seed = study.solver.seed};
 }
+
+namespace {
+
+/// The historic threshold F_eps is a form factor, the default one a number of lines.
+double link_threshold(const Study& study) {
+  const double threshold = study.mesh.link_threshold;
+  return study.mesh.oracle == Oracle::historic ? threshold * study.solver.lines_per_patch
+                                               : threshold;
+}
+
+}  // namespace
 
 SolverRules solver_rules(const VariantPlan& plan) {
   const SolverStudy& s = plan.study.solver;
@@ -143,6 +155,7 @@ SolverRules solver_rules(const VariantPlan& plan) {
           .direct_samples = s.direct_samples,
           .realizations = s.realizations,
           .mirror_depth = s.mirror_depth,
+          .link_threshold = link_threshold(plan.study),
           .seed = s.seed,
           .isa = plan.isa,
           .errors = plan.study.output.standard_error == StandardErrors::instants ? Errors::instants

@@ -4,6 +4,7 @@
 
 #include "geo/units.h"
 #include "solver/parallel.h"
+#include "solver/push_pull.h"
 
 namespace sunload {
 
@@ -12,11 +13,13 @@ namespace {
 constexpr std::size_t patches_per_task = 1024;
 
 /// Irradiance by emitters, straight or by mirrors.
-std::vector<float> lamps(const LineSet& lines, const PatchOptics& optics) {
+std::vector<float> lamps(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics) {
   std::vector<float> out(optics.emission.size(), 0.0f);
   if (!optics.any_emission) return out;
-  const std::vector<double> emission(optics.emission.begin(), optics.emission.end());
-  std::vector<double> irradiance(emission.size());
+  std::vector<double> emission(optics.emission.begin(), optics.emission.end());
+  emission.resize(mesh.element_count());
+  pull_up(mesh, emission);
+  std::vector<double> irradiance(out.size());
   gather(lines.patches, emission, irradiance, Into::replace);
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>(irradiance[i]);
   return out;
@@ -33,8 +36,9 @@ BlockSources::BlockSources(std::span<const SunLight> block, std::size_t sky_cell
   }
 }
 
-BlockLight block_light(const LineSet& lines, const PatchOptics& optics, const BlockSources& sources,
-                       Columns direct, Columns sun_by_mirror, int bounces) {
+BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                       const BlockSources& sources, Columns direct, Columns sun_by_mirror,
+                       int bounces) {
   const std::size_t patches = optics.diffuse.size();
   BlockLight light;
   light.direct = std::move(direct);
@@ -42,7 +46,7 @@ BlockLight block_light(const LineSet& lines, const PatchOptics& optics, const Bl
   gather(lines.sky, sources.sky, light.sky, Into::replace);
   light.mirror = std::move(sun_by_mirror);
   if (optics.any_mirror) gather(lines.sky_by_mirror, sources.sky, light.mirror, Into::add);
-  light.lamps = lamps(lines, optics);
+  light.lamps = lamps(mesh, lines, optics);
 
   Columns base = columns(patches), ground = columns(patches);
   parallel_for(patches, [&](std::size_t i) {
@@ -54,7 +58,7 @@ BlockLight block_light(const LineSet& lines, const PatchOptics& optics, const Bl
     }
   }, patches_per_task);
 
-  Reflected reflected = reflect(lines, optics, base, ground, bounces);
+  Reflected reflected = reflect(mesh, lines, optics, base, ground, bounces);
   light.reflected = std::move(reflected.irradiance);
   light.followed = std::move(reflected.followed);
   return light;

@@ -32,8 +32,9 @@ struct BlockLight {
 };
 
 /// direct, sun_by_mirror: irradiance of the sun, straight and by mirrors.
-BlockLight block_light(const LineSet& lines, const PatchOptics& optics, const BlockSources& sources,
-                       Columns direct, Columns sun_by_mirror, int bounces);
+BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                       const BlockSources& sources, Columns direct, Columns sun_by_mirror,
+                       int bounces);
 
 /// Ledger of every sun of the block [W], but for the sun's light sent on by mirrors.
 std::vector<Ledger> block_ledger(const LineSet& lines, const PatchOptics& optics,

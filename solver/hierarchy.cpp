@@ -52,26 +52,57 @@ Hierarchy::Hierarchy(const ElementForest& forest) : vertices_(forest.vertices())
   patches_.reserve(forest.patch_count());
   area_.reserve(forest.patch_count());
   key_.reserve(forest.patch_count());
+  parent_.assign(forest.patch_count(), -1);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     root_.push_back(forest.root(t));
     two_sided_.push_back(mesh.triangle_sides[t] == Sides::two);
-    if (root_[t] >= 0) add_leaves(forest, static_cast<std::size_t>(root_[t]));
+    if (root_[t] < 0) continue;
+    add_tree(forest, static_cast<std::size_t>(root_[t]));
+    first_inner_.push_back(halves_.size());
   }
 }
 
-void Hierarchy::add_leaves(const ElementForest& forest, std::size_t element) {
+Hierarchy::Sides2 Hierarchy::add_tree(const ElementForest& forest, std::size_t element) {
   const auto& e = forest.elements()[element];
-  if (!e.is_leaf()) {
-    add_leaves(forest, static_cast<std::size_t>(e.first_child));
-    return add_leaves(forest, static_cast<std::size_t>(e.first_child) + 1);
-  }
+  if (e.is_leaf()) return add_leaf(forest, element);
+  const auto child = static_cast<std::size_t>(e.first_child);
+  const Sides2 half = add_tree(forest, child), other = add_tree(forest, child + 1);
+  Sides2 sides{-1, -1};
+  for (std::size_t side = 0; side < 2; ++side)
+    if (half[side] >= 0) sides[side] = add_inner(forest, element, half[side], other[side]);
+  return sides;
+}
+
+Hierarchy::Sides2 Hierarchy::add_leaf(const ElementForest& forest, std::size_t element) {
+  const auto& e = forest.elements()[element];
   nodes_[element].first_patch = static_cast<std::int32_t>(patches_.size());
   const auto& c = e.vertices;
+  Sides2 sides{-1, -1};
   for (std::uint8_t side = 0; side < (forest.is_two_sided(element) ? 2 : 1); ++side) {
+    sides[side] = static_cast<std::int32_t>(patches_.size());
     patches_.push_back({side == 0 ? c : Corners{c[0], c[2], c[1]}, e.triangle, side});
     area_.push_back(forest.area(element));
     key_.push_back(mixed(forest.key(element), side));
   }
+  return sides;
+}
+
+std::int32_t Hierarchy::add_inner(const ElementForest& forest, std::size_t element,
+                                  std::int32_t half, std::int32_t other_half) {
+  const auto number = static_cast<std::int32_t>(parent_.size());
+  parent_.push_back(-1);
+  parent_[static_cast<std::size_t>(half)] = parent_[static_cast<std::size_t>(other_half)] = number;
+  halves_.push_back({static_cast<std::uint32_t>(half), static_cast<std::uint32_t>(other_half)});
+  // No point of a triangle is farther from the middle of its longest edge than half of that edge
+  // or the median to it.
+  const auto& e = forest.elements()[element];
+  const auto [p, q] = edge_opposite(e.vertices, e.apex);
+  const Vec3 a = vertices_[static_cast<std::size_t>(p)], b = vertices_[static_cast<std::size_t>(q)];
+  const Vec3 middle = (a + b) / 2;
+  const double radius = std::max(norm(b - a) / 2, norm(forest.corner(element, e.apex) - middle));
+  sphere_.push_back({static_cast<float>(middle.x), static_cast<float>(middle.y),
+                     static_cast<float>(middle.z), static_cast<float>(radius)});
+  return number;
 }
 
 Vec3 Hierarchy::normal(std::size_t patch) const {

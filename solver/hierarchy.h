@@ -54,13 +54,34 @@ class Hierarchy {
   /// triangle, or -1 where that side has none.
   std::int32_t patch_at(std::int32_t triangle, double u, double v, bool front) const;
 
+  /// Elements are numbered patches first, then inner ones, children before parents and tree by
+  /// tree. Each side of a two-sided element is one of its own.
+  std::size_t element_count() const { return patches_.size() + halves_.size(); }
+  /// Element whose half this one is; -1 for roots.
+  std::int32_t parent(std::size_t element) const { return parent_[element]; }
+  /// Elements whose union is inner element number patch_count() + i.
+  const std::array<std::uint32_t, 2>& halves_of(std::size_t i) const { return halves_[i]; }
+  std::size_t tree_count() const { return first_inner_.size() - 1; }
+  /// Inner elements of a tree are first_inner(tree) … first_inner(tree + 1) - 1.
+  std::size_t first_inner(std::size_t tree) const { return first_inner_[tree]; }
+  /// A sphere about inner element patch_count() + i.
+  struct Sphere {
+    float x, y, z, radius;
+  };
+  const Sphere& sphere(std::size_t i) const { return sphere_[i]; }
+
  private:
   struct Node {
     std::int32_t first_child = -1;  ///< its sibling follows; -1 for a leaf
     std::int32_t first_patch = -1;
     std::uint8_t apex = 0;          ///< corner opposite of the split edge
   };
-  void add_leaves(const ElementForest& forest, std::size_t element);
+  /// Numbers of an element's two sides; -1 where it has but one.
+  using Sides2 = std::array<std::int32_t, 2>;
+  Sides2 add_tree(const ElementForest& forest, std::size_t element);
+  Sides2 add_leaf(const ElementForest& forest, std::size_t element);
+  std::int32_t add_inner(const ElementForest& forest, std::size_t element, std::int32_t half,
+                         std::int32_t other_half);
 
   std::vector<Node> nodes_;
   std::vector<std::int32_t> root_;  ///< per input triangle, -1: no patches
@@ -69,6 +90,10 @@ class Hierarchy {
   std::vector<Vec3> vertices_;
   std::vector<double> area_;
   std::vector<std::uint64_t> key_;
+  std::vector<std::int32_t> parent_;                  ///< per element
+  std::vector<std::array<std::uint32_t, 2>> halves_;  ///< per inner element
+  std::vector<Sphere> sphere_;                        ///< per inner element
+  std::vector<std::size_t> first_inner_{0};           ///< per tree
 };
 
 }  // namespace sunload

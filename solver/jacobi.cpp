@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "solver/parallel.h"
+#include "solver/push_pull.h"
 
 namespace sunload {
 
@@ -62,37 +63,40 @@ void gather(const LinkTable& links, const std::vector<double>& source, std::vect
   });
 }
 
-Reflected reflect(const LineSet& lines, const PatchOptics& optics, const Columns& base,
-                  const Columns& ground, int bounces) {
-  Reflected out{ground, Columns(ground.size(), 0.0f)};
+Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                  const Columns& base, const Columns& ground, int bounces) {
+  Reflected out{ground, columns(mesh.element_count())};
   for (int b = 1; b <= bounces; ++b) {
     parallel_for(optics.diffuse.size(), [&](std::size_t i) {
       for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k)
         out.followed[k] = optics.diffuse[i] * (base[k] + out.irradiance[k]);
     }, LinkTable::rows_per_block);
+    pull_up(mesh, out.followed);
     out.irradiance = ground;
     gather(lines.patches, out.followed, out.irradiance, Into::add);
   }
   return out;
 }
 
-ReflectedExposure reflect(const LineSet& lines, const PatchOptics& optics,
+ReflectedExposure reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                           const std::vector<double>& base, const std::vector<double>& ground,
                           int bounces) {
-  ReflectedExposure out{ground, std::vector<double>(ground.size(), 0)};
+  ReflectedExposure out{ground, std::vector<double>(mesh.element_count(), 0)};
   for (int b = 1; b <= bounces; ++b) {
     for (std::size_t i = 0; i < base.size(); ++i)
       out.followed[i] = static_cast<double>(optics.diffuse[i]) * (base[i] + out.irradiance[i]);
+    pull_up(mesh, out.followed);
     out.irradiance = ground;
     gather(lines.patches, out.followed, out.irradiance, Into::add);
   }
   return out;
 }
 
-int bounces_needed(const LineSet& lines, const PatchOptics& optics,
-                   const std::vector<double>& area, int bounces, double unshot) {
+int bounces_needed(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                   int bounces, double unshot) {
+  const std::vector<double>& area = mesh.area();
   const std::size_t patches = area.size();
-  std::vector<double> received(patches), radiosity(patches);
+  std::vector<double> received(patches), radiosity(mesh.element_count());
   double in = 0;
   for (std::size_t i = 0; i < patches; ++i) {
     received[i] = static_cast<double>(lines.ends[i].escaped);
@@ -105,6 +109,7 @@ int bounces_needed(const LineSet& lines, const PatchOptics& optics,
       left += area[i] * radiosity[i];
     }
     if (left <= unshot * in && !optics.any_emission) return b;
+    pull_up(mesh, radiosity);
     gather(lines.patches, radiosity, received, Into::replace);
   }
   return bounces;

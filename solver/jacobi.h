@@ -33,24 +33,24 @@ void gather(const LinkTable& links, const std::vector<double>& source, std::vect
 /// Diffusely reflected irradiance of a block of suns.
 struct Reflected {
   Columns irradiance;  ///< [N][block]: everything after a diffuse reflection, and the far ground
-  Columns followed;    ///< [N][block]: radiosity rho E^(n-1) that was gathered last
+  Columns followed;    ///< [elements][block]: radiosity rho E^(n-1) that was gathered last
 };
 /// base: irradiance that arrives without diffuse reflection (direct, sky, mirror,
 /// lamps); ground: that of the far ground.
-Reflected reflect(const LineSet& lines, const PatchOptics& optics, const Columns& base,
-                  const Columns& ground, int bounces);
+Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                  const Columns& base, const Columns& ground, int bounces);
 
 struct ReflectedExposure {
   std::vector<double> irradiance, followed;
 };
 /// The same for time-integrated irradiance of one realization [J m-2].
-ReflectedExposure reflect(const LineSet& lines, const PatchOptics& optics,
+ReflectedExposure reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                           const std::vector<double>& base, const std::vector<double>& ground,
                           int bounces);
 
 /// Bounces after which less than `unshot` of the light of a uniform sky would
 /// remain unfollowed, at most `bounces`: decided once per variant.
-int bounces_needed(const LineSet& lines, const PatchOptics& optics,
-                   const std::vector<double>& area, int bounces, double unshot);
+int bounces_needed(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                   int bounces, double unshot);
 
 }  // namespace sunload

@@ -1,6 +1,7 @@
 #include "solver/line_follower.h"
 
 #include "geo/check.h"
+#include "solver/oracle.h"
 
 namespace sunload {
 
@@ -22,12 +23,14 @@ void LineCollector::clear() {
 }
 
 LineFollower::LineFollower(const Scene& scene, const Hierarchy& hierarchy,
-                           const RayCaster& caster, const SkyGrid& grid, int mirror_depth)
+                           const RayCaster& caster, const SkyGrid& grid, int mirror_depth,
+                           double largest_link)
     : scene_(scene),
       hierarchy_(hierarchy),
       caster_(caster),
       grid_(grid),
-      mirror_depth_(mirror_depth) {}
+      mirror_depth_(mirror_depth),
+      largest_link_(largest_link) {}
 
 const Material& LineFollower::material_of(std::int32_t triangle) const {
   return scene_.materials[scene_.material[static_cast<std::size_t>(triangle)].index()];
@@ -45,9 +48,24 @@ Vec3 LineFollower::offset_point(std::int32_t triangle, const Hit& hit, Vec3 side
   return point + side_normal * caster_.offset_m();
 }
 
+/// The largest element about a patch that is still small as seen from the line's beginning.
+/// Its centre lies as far away as the line has come, give or take its distance from `point`.
+std::uint32_t LineFollower::linked_element(std::size_t patch, Vec3 point, double path_m) const {
+  std::size_t element = patch;
+  for (auto up = hierarchy_.parent(element); up >= 0; up = hierarchy_.parent(element)) {
+    const auto& sphere = hierarchy_.sphere(static_cast<std::size_t>(up) - hierarchy_.patch_count());
+    const Vec3 centre{static_cast<double>(sphere.x), static_cast<double>(sphere.y),
+                      static_cast<double>(sphere.z)};
+    const double distance_m = path_m - norm(centre - point);
+    if (largest_form_factor(static_cast<double>(sphere.radius), distance_m) > largest_link_) break;
+    element = static_cast<std::size_t>(up);
+  }
+  return static_cast<std::uint32_t>(element);
+}
+
 std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first, LineCollector& into) const {
   std::uint64_t rays = 0;
-  double weight = 1;
+  double weight = 1, path_m = 0;
   Hit hit = first;
   for (int reflections = 0;; ++reflections) {
     const auto share = static_cast<float>(weight);
@@ -66,9 +84,12 @@ std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first, LineCo
       into.ends.backs += share;
       return rays;
     }
+    path_m += hit.distance_m;
     const Material& material = material_of(hit.triangle);
     if (material.diffuse > 0 || material.emission_w_m2 > 0)
-      into.patches.push_back({static_cast<std::uint32_t>(patch), share});
+      into.patches.push_back({linked_element(static_cast<std::size_t>(patch),
+                                             origin + w * hit.distance_m, path_m),
+                              share});
     if (material.mirror <= 0) return rays;
     const Vec3 n = met_normal(scene_.mesh, hit);
     weight *= mirror_reflectance(material, -dot(w, n));

@@ -20,7 +20,7 @@ struct LineCollector {
 class LineFollower {
  public:
   LineFollower(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-               const SkyGrid& grid, int mirror_depth);
+               const SkyGrid& grid, int mirror_depth, double largest_link = 0);
 
   /// A line that left its patch from `origin` along the unit vector `w` and met
   /// `hit`; adds its links and its end. Returns the rays cast.
@@ -42,6 +42,7 @@ class LineFollower {
  private:
   struct Meeting;
   const Material& material_of(std::int32_t triangle) const;
+  std::uint32_t linked_element(std::size_t patch, Vec3 point, double path_m) const;
   Vec3 offset_point(std::int32_t triangle, const Hit& hit, Vec3 side_normal) const;
 
   const Scene& scene_;
@@ -49,6 +50,7 @@ class LineFollower {
   const RayCaster& caster_;
   const SkyGrid& grid_;
   int mirror_depth_;
+  double largest_link_;
 };
 
 }  // namespace sunload

@@ -50,7 +50,7 @@ class BlockTracer {
       : hierarchy_(hierarchy),
         caster_(caster),
         rules_(rules),
-        follower_(scene, hierarchy, caster, grid, rules.mirror_depth),
+        follower_(scene, hierarchy, caster, grid, rules.mirror_depth, rules.largest_link),
         ground_source_(static_cast<std::size_t>(grid.cell_count())) {}
 
   struct Output {

@@ -21,7 +21,7 @@
 
 namespace sunload {
 
-/// Weighted links of patches to targets, compressed rows in blocks.
+/// Weighted links of patches to targets (elements of the mesh, cells of the sky), compressed rows in blocks.
 class LinkTable {
  public:
   static constexpr std::size_t rows_per_block = 1024;
@@ -70,6 +70,8 @@ struct LineRules {
   int realizations = 8;
   int mirror_depth = 8;
   std::uint64_t seed = 1;
+  /// Links lead to the largest element of the tree whose form factor cannot exceed this.
+  double largest_link = 0;
 };
 
 struct Lines {

@@ -17,6 +17,7 @@ struct RefineRules {
   Oracle oracle = Oracle::none;
   double light_tolerance = 0.05;      ///< of the default oracle, share of the mean light load
   double light_threshold_m2 = 0.005;  ///< F1_eps of the historic one
+  double form_factor_threshold = 0.5;  ///< F_eps of the historic one, for light of emitters
   TVertices t_vertices = TVertices::remove;
   std::uint64_t seed = 1;
 };
@@ -27,14 +28,13 @@ constexpr double historic_light_estimate_m2(double cos_theta, double area_m2) {
   return cos_theta * area_m2 / pi;
 }
 
-/// Disc estimate of the form factor to an element, cosθ·ω/π with ω the solid angle of a disc of
-/// its area that is seen at the angle θ' from the distance r; visibility ignored.
-/// `cos_theta_there` is that of θ'. Never above 1.
-constexpr double disc_form_factor(double cos_theta, double cos_theta_there, double area_m2,
-                                  double distance_m) {
-  const double solid_angle = area_m2 * cos_theta_there / (distance_m * distance_m);
-  const double estimate = cos_theta * solid_angle / pi;
-  return estimate < 1 ? estimate : 1;
+/// Largest form factor that an element inside of a sphere can have as seen from a point at the
+/// distance of its centre: that of the sphere's disc at its nearest, (r / (d - r))², whatever the
+/// angles; 1 where that is no bound. The historic oracle's disc estimate without its cosine, which
+/// at the centre loses elements that lie partly in front (METHOD 4). Visibility is ignored.
+constexpr double largest_form_factor(double radius_m, double distance_m) {
+  const double nearest = distance_m - radius_m;
+  return nearest > radius_m ? (radius_m / nearest) * (radius_m / nearest) : 1;
 }
 
 /// What an element adds to the squared error of the light load on a mesh of constant leaves,

@@ -114,7 +114,7 @@ PilotLoad Pilot::load(std::size_t element, std::uint8_t side, double min_area_m2
       double* sum = &at_point[h][p * packet_size];
       std::copy_n(common, packet_size, sum);
       add_suns(points, light_.samples[h], points.normal, p, sum, load);
-      if (!emitters_.empty()) add_emitters(points, p, h, sum);
+      if (!emitters_.empty()) add_emitters(points, p, h, forest_.area(element), sum, load);
       add_surroundings(points, p, h, sum);
     }
   }
@@ -162,7 +162,7 @@ void Pilot::add_surroundings(const Points& points, std::size_t packet, std::uint
 
 /// Points y on emitters by power: E(x) = mean of Φ cosθ cosθ' V / (π r²), the same y for all x.
 void Pilot::add_emitters(const Points& points, std::size_t packet, std::uint32_t half,
-                         double* sum) const {
+                         double area_m2, double* sum, PilotLoad& load) const {
   const Mesh& mesh = forest_.scene().mesh;
   const Packet& origins = points.packets[packet];
   const RandomWords& seeds = points.emitter_seeds[half];
@@ -195,8 +195,11 @@ void Pilot::add_emitters(const Points& points, std::size_t packet, std::uint32_t
     if (facing == 0) continue;
     const PacketHits hits = caster_.first_hits(origins, directions, facing);
     const double weight = emitted_power_ * light_.lamp_time_s / emitter_points_per_half;
-    for (std::size_t r = 0; r < packet_size; ++r)
-      if ((facing >> r & 1u) && hits.triangle[r] == emitter->triangle) sum[r] += weight * kernel[r];
+    for (std::size_t r = 0; r < packet_size; ++r) {
+      if (!(facing >> r & 1u) || hits.triangle[r] != emitter->triangle) continue;
+      sum[r] += weight * kernel[r];
+      load.lamp_form_factor = std::max(load.lamp_form_factor, kernel[r] * area_m2);
+    }
   }
 }
 

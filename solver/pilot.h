@@ -41,6 +41,7 @@ struct PilotLoad {
                         ///< the sampling, hence below zero at times [J2 m-4]
   bool sees_sun = false;         ///< some point sees some sun
   double largest_cosine = 0;     ///< of the suns that it sees
+  double lamp_form_factor = 0;   ///< largest disc estimate from a point of an emitter that it sees
 };
 
 class Pilot {
@@ -66,8 +67,8 @@ class Pilot {
   };
   void add_suns(const Points& points, const std::vector<PilotSun>& suns, Vec3 normal,
                 std::size_t packet, double* sum, PilotLoad& load) const;
-  void add_emitters(const Points& points, std::size_t packet, std::uint32_t half,
-                    double* sum) const;
+  void add_emitters(const Points& points, std::size_t packet, std::uint32_t half, double area_m2,
+                    double* sum, PilotLoad& load) const;
   void add_surroundings(const Points& points, std::size_t packet, std::uint32_t half,
                         double* sum) const;
   double radiosity(const PacketHits& hits, std::size_t ray) const;

@@ -29,7 +29,8 @@ struct Estimate {
   double squared_error = 0;   ///< ∫ (H - mean H)² dA [J2 m-2]
   double power = 0;           ///< ∫ H dA [J]
   double area_m2 = 0;         ///< of the sides that have patches
-  double historic_m2 = 0;     ///< largest estimate of the historic oracle
+  double historic_m2 = 0;     ///< largest estimate of the historic oracle, by suns
+  double form_factor = 0;     ///< the same by emitters
 };
 
 class Refinement {
@@ -72,6 +73,7 @@ class Refinement {
       e.squared_error += squared_error(load.variance, area);
       e.power += load.mean * area;
       e.area_m2 += area;
+      e.form_factor = std::max(e.form_factor, load.lamp_form_factor);
       if (load.sees_sun)
         e.historic_m2 = std::max(e.historic_m2,
                                  historic_light_estimate_m2(load.largest_cosine, area));
@@ -157,13 +159,17 @@ class Refinement {
     return candidates;
   }
 
+  bool exceeds_historic_threshold(const Estimate& e) const {
+    return e.historic_m2 > rules_.light_threshold_m2 || e.form_factor > rules_.form_factor_threshold;
+  }
+
   void refine_historically() {
     Leaves leaves = all_leaves();
     while (!leaves.empty()) {
       look_at(leaves);
       Leaves lit;
       for (const auto leaf : leaves)
-        if (estimates_[leaf].historic_m2 > rules_.light_threshold_m2 && is_large_enough(leaf))
+        if (is_large_enough(leaf) && exceeds_historic_threshold(estimates_[leaf]))
           lit.push_back(leaf);
       leaves = split(lit);
     }

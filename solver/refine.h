@@ -7,7 +7,8 @@
 /// and splits the leaves that add most to it (Dörfler 1996: in every pass those that together make
 /// up half of it) until it is `light_tolerance` of the mean light load, or nothing that could still
 /// be split is left. It sees power and shadow edges, and takes the noise of its own look out of the
-/// estimate. The historic one splits every element that sees a sun while cosθ·A/π is too large.
+/// estimate. The historic one splits every element that sees a sun while cosθ·A/π is too large, or
+/// an emitter while the disc estimate of the form factor from there is.
 #pragma once
 
 #include <cstddef>

@@ -7,6 +7,7 @@
 #include "geo/check.h"
 #include "geo/units.h"
 #include "solver/parallel.h"
+#include "solver/push_pull.h"
 
 namespace sunload {
 
@@ -31,7 +32,7 @@ Lines timed_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaste
   const Stopwatch time(work.lines_s);
   Lines lines = trace_lines(scene, hierarchy, caster, grid,
                             {rules.lines_per_patch, rules.realizations, rules.mirror_depth,
-                             rules.seed},
+                             rules.seed, rules.link_threshold / rules.lines_per_patch},
                             watch);
   work.line_rays = lines.rays;
   return lines;
@@ -79,10 +80,15 @@ LightSolver::LightSolver(const Scene& scene, std::shared_ptr<const Hierarchy> me
       lines_(ready ? std::move(*ready)
                    : timed_lines(scene, hierarchy_, caster_, grid_, rules, watch, work_)),
       sampler_(hierarchy_, caster_, {rules.direct_samples, rules.realizations, rules.seed}),
+<<<<<<< HEAD
       mirrors_(scene),
       mirror_sun_(hierarchy_, caster_, sampler_, mirrors_),
       mirror_chains_(hierarchy_, caster_, sampler_, mirrors_, {rules.mirror_depth, rules.unshot}),
       bounces_(bounces_needed(lines_.pooled, optics_, hierarchy_.area(), rules.bounces,
+=======
+      mirror_sun_(scene, hierarchy_, caster_, sampler_, optics_, rules.mirror_depth),
+      bounces_(bounces_needed(hierarchy_, lines_.pooled, optics_, rules.bounces,
+>>>>>>> f587ec3 (Exchange light with elements above the leaves)
                               rules.unshot)) {}
 
 bool LightSolver::has_part(Part part) const {
@@ -157,7 +163,7 @@ void LightSolver::solve_block(std::span<const SunLight> block, std::size_t first
   }
   {
     const Stopwatch time(work_.solve_s);
-    const BlockLight light = block_light(lines_.pooled, optics_, sources,
+    const BlockLight light = block_light(hierarchy_, lines_.pooled, optics_, sources,
                                          std::move(direct.irradiance), std::move(by_mirror),
                                          bounces_);
     const auto ledger = block_ledger(lines_.pooled, optics_, hierarchy_.area(), sources, light);
@@ -227,7 +233,7 @@ void LightSolver::errors_per_instant(const BlockSources& sources, std::size_t fi
   std::vector<double> sum(patches * block_width, 0), squares = sum;
   for (std::size_t r = 0; r < R; ++r) {
     const LineSet& lines = lines_.realizations[r];
-    const BlockLight light = block_light(lines, optics_, sources, std::move(direct[r]),
+    const BlockLight light = block_light(hierarchy_, lines, optics_, sources, std::move(direct[r]),
                                          std::move(by_mirror[r]), bounces_);
     const auto ledger = block_ledger(lines, optics_, hierarchy_.area(), sources, light);
     std::copy(ledger.begin(), ledger.end(),
@@ -260,6 +266,8 @@ void LightSolver::solve_realization(std::size_t r, const TimeSums& sums, BatchTa
   if (optics_.any_emission) {
     std::vector<double> emission(optics_.emission.begin(), optics_.emission.end());
     for (auto& m : emission) m *= sums.length_s;
+    emission.resize(hierarchy_.element_count());
+    pull_up(hierarchy_, emission);
     gather(lines.patches, emission, base, Into::add);
   }
   for (std::size_t i = 0; i < patches; ++i) {
@@ -267,7 +275,7 @@ void LightSolver::solve_realization(std::size_t r, const TimeSums& sums, BatchTa
     ground[i] = static_cast<double>(lines.ends[i].ground + lines.ends[i].ground_by_mirror) *
                 sums.ground;
   }
-  const auto reflected = reflect(lines, optics_, base, ground, bounces_);
+  const auto reflected = reflect(hierarchy_, lines, optics_, base, ground, bounces_);
 
   Ledger& ledger = tally.ledger_realization[r];
   for (std::size_t i = 0; i < patches; ++i) {
