@@ -80,15 +80,10 @@ LightSolver::LightSolver(const Scene& scene, std::shared_ptr<const Hierarchy> me
       lines_(ready ? std::move(*ready)
                    : timed_lines(scene, hierarchy_, caster_, grid_, rules, watch, work_)),
       sampler_(hierarchy_, caster_, {rules.direct_samples, rules.realizations, rules.seed}),
-<<<<<<< HEAD
       mirrors_(scene),
       mirror_sun_(hierarchy_, caster_, sampler_, mirrors_),
       mirror_chains_(hierarchy_, caster_, sampler_, mirrors_, {rules.mirror_depth, rules.unshot}),
-      bounces_(bounces_needed(lines_.pooled, optics_, hierarchy_.area(), rules.bounces,
-=======
-      mirror_sun_(scene, hierarchy_, caster_, sampler_, optics_, rules.mirror_depth),
       bounces_(bounces_needed(hierarchy_, lines_.pooled, optics_, rules.bounces,
->>>>>>> f587ec3 (Exchange light with elements above the leaves)
                               rules.unshot)) {}
 
 bool LightSolver::has_part(Part part) const {

@@ -27,14 +27,11 @@ struct SolverRules {
   int direct_samples = 16;    ///< per patch and sun, over all realizations
   int realizations = 8;
   int mirror_depth = 8;
-<<<<<<< HEAD
   double faint_glint = 0.02;  ///< share of the sun below which light reflected again is no beam
   int most_sun_beams = 128;   ///< sequences of mirror orientations per sun that are beams
-=======
   /// A link leads to an element above the leaves where no more than so many of a
   /// patch's lines can be expected to meet it; 0: to leaves only.
   double link_threshold = 0;
->>>>>>> f587ec3 (Exchange light with elements above the leaves)
   std::uint64_t seed = 1;
   std::string isa = "auto";
   Errors errors = Errors::totals;
