@@ -7,6 +7,7 @@
 #include "io/scene_cityjson.h"
 #include "io/scene_obj.h"
 #include "io/scene_support.h"
+#include "io/scene_vrml.h"
 
 namespace sunload {
 
@@ -33,7 +34,7 @@ const std::vector<Format>& formats() {
       {"VRML",
        {"#VRML", "#Inventor", "\x1F\x8B"},
        {".wrl", ".wrl.gz", ".vrml", ".wrz", ".iv"},
-       nullptr},
+       read_scene_vrml},
       {"PLY", {"ply\n", "ply\r"}, {".ply"}, nullptr},
       {"OFF", {"OFF", "COFF", "NOFF", "STOFF"}, {".off"}, nullptr},
       {"STL", {"solid "}, {".stl"}, nullptr},

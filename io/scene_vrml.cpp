@@ -1,0 +1,671 @@
+#include "io/scene_vrml.h"
+
+#include <Inventor/SbViewportRegion.h>
+#include <Inventor/SoDB.h>
+#include <Inventor/SoInput.h>
+#include <Inventor/SoPrimitiveVertex.h>
+#include <Inventor/VRMLnodes/SoVRMLNodes.h>
+#include <Inventor/actions/SoCallbackAction.h>
+#include <Inventor/actions/SoGetMatrixAction.h>
+#include <Inventor/actions/SoSearchAction.h>
+#include <Inventor/errors/SoDebugError.h>
+#include <Inventor/errors/SoReadError.h>
+#include <Inventor/misc/SoChildList.h>
+#include <Inventor/misc/SoProto.h>
+#include <Inventor/misc/SoProtoInstance.h>
+#include <Inventor/nodes/SoNodes.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <regex>
+
+#include "io/vrml_model.h"
+#include "io/vrml_text.h"
+
+namespace sunload {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_visits = 20'000'000;  ///< of nodes, where USE is nested: seconds
+constexpr std::size_t deepest_inline = 64;       ///< files within files
+constexpr int most_repairs = 1000;               ///< kinds of unknown fields; each reads anew
+
+/// A message of Coin with the line that it names.
+struct CoinError {
+  std::string text;
+  int line = 0;
+};
+
+Vec3 vec(const SbVec3f& v) { return {v[0], v[1], v[2]}; }
+std::array<double, 3> colour(const SbColor& c) { return {c[0], c[1], c[2]}; }
+std::string text_of(const SbName& name) { return name.getString(); }
+
+/// Coin's matrices act on row vectors.
+Affine affine(const SbMatrix& m) {
+  const auto row = [&](int i) { return Vec3{m[i][0], m[i][1], m[i][2]}; };
+  return {{row(0), row(1), row(2)}, row(3)};
+}
+Affine affine(const SbRotation& rotation) {
+  SbMatrix m;
+  rotation.getValue(m);
+  return affine(m);
+}
+Affine moved(Vec3 by) { return {.origin = by}; }
+Affine scaled(Vec3 by) { return {{Vec3{by.x, 0, 0}, Vec3{0, by.y, 0}, Vec3{0, 0, by.z}}, {}}; }
+
+/// T·C·R·SR·S·SR⁻¹·C⁻¹ (ISO/IEC 14772-1, 6.52).
+Affine affine(const SoVRMLTransform& node) {
+  const Vec3 center = vec(node.center.getValue());
+  const SbRotation orientation = node.scaleOrientation.getValue();
+  return moved(vec(node.translation.getValue()) + center) * affine(node.rotation.getValue()) *
+         affine(orientation) * scaled(vec(node.scale.getValue())) *
+         affine(orientation.inverse()) * moved(-center);
+}
+
+/// PROTOs stand for the root of what they make.
+SoNode* plain(SoNode* node) {
+  while (node != nullptr && node->isOfType(SoProtoInstance::getClassTypeId()))
+    node = static_cast<SoProtoInstance*>(node)->getRootNode();
+  return node;
+}
+
+template <class Node>
+Node* as(SoNode* node) {
+  node = plain(node);
+  return node != nullptr && node->isOfType(Node::getClassTypeId()) ? static_cast<Node*>(node)
+                                                                   : nullptr;
+}
+
+/// Keeps Coin's nodes alive as long as it lives.
+class KeptNodes {
+ public:
+  KeptNodes() = default;
+  KeptNodes(const KeptNodes&) = delete;
+  KeptNodes& operator=(const KeptNodes&) = delete;
+  ~KeptNodes() {
+    for (auto* node : nodes_) node->unref();
+  }
+  template <class Node>
+  Node* keep(Node* node) {
+    node->ref();
+    nodes_.push_back(node);
+    return node;
+  }
+
+ private:
+  std::vector<SoNode*> nodes_;
+};
+
+/// Files → Coin's nodes: repairs what Coin does not know, follows EXTERNPROTO.
+class VrmlFiles {
+ public:
+  explicit VrmlFiles(NoteCounter& notes) : notes_(notes) {
+    SoDB::init();
+    SoVRMLInline::setReadAsSoFile(FALSE);
+    SoVRMLInline::setFetchURLCallBack([](const SbString&, void*, SoVRMLInline*) {}, nullptr);
+    SoWWWInline::setReadAsSoFile(FALSE);
+    SoWWWInline::setFetchURLCallBack([](const SbString&, void*, SoWWWInline*) {}, nullptr);
+    SoReadError::setHandlerCallback(&note_error, this);
+    SoDebugError::setHandlerCallback(&note_error, this);
+    SoProto::setFetchExternProtoCallback(&fetch_proto, this);
+  }
+  ~VrmlFiles() {
+    SoReadError::setHandlerCallback(SoError::getHandlerCallback(), nullptr);
+    SoDebugError::setHandlerCallback(SoError::getHandlerCallback(), nullptr);
+    SoProto::setFetchExternProtoCallback(nullptr, nullptr);
+  }
+  VrmlFiles(const VrmlFiles&) = delete;
+  VrmlFiles& operator=(const VrmlFiles&) = delete;
+
+  struct File {
+    VrmlText text;
+    SoSeparator* root = nullptr;
+  };
+
+  /// A file's nodes; the same path again is not read again.
+  const File& read(const std::string& path) {
+    std::error_code no_matter;
+    const auto key = fs::weakly_canonical(path, no_matter).string();
+    if (const auto known = files_.find(key); known != files_.end()) return known->second;
+    if (std::find(being_read_.begin(), being_read_.end(), key) != being_read_.end() ||
+        being_read_.size() >= deepest_inline) {
+      throw InputError({path}, "contains itself", "its EXTERNPROTOs lead back to it");
+    }
+    being_read_.push_back(key);
+    File file{read_vrml_text(path)};
+    check_vrml(file.text);
+    prepare(file.text);
+    file.root = parse(file.text);
+    being_read_.pop_back();
+    return files_.emplace(key, std::move(file)).first->second;
+  }
+
+  static std::string beside(const std::string& file, const std::string& url) {
+    return (fs::path(file).parent_path() / url).lexically_normal().string();
+  }
+
+ private:
+  static void note_error(const SoError* error, void* files) {
+    const std::string text = error->getDebugString().getString();
+    auto& list = static_cast<VrmlFiles*>(files)->errors_;
+    static const std::regex line(R"(at line\s+(\d+))");
+    std::smatch found;
+    const bool has_line = std::regex_search(text, found, line);
+    std::string what = text.substr(0, text.find('\n'));
+    for (const std::string prefix : {"Coin read error: ", "Coin warning in ", "Coin error in "}) {
+      if (what.starts_with(prefix)) what.erase(0, prefix.size());
+    }
+    list.push_back({what, has_line ? std::stoi(found[1]) : 0});
+  }
+
+  static SoProto* fetch_proto(SoInput*, const SbString* urls, const int count, void* files) {
+    auto& self = *static_cast<VrmlFiles*>(files);
+    try {
+      return self.proto_of(urls, count);
+    } catch (...) {  // must not pass through Coin: thrown again behind it
+      self.failure_ = std::current_exception();
+      return nullptr;
+    }
+  }
+
+  /// The PROTO that the first url with a file names, or the only one of that file.
+  SoProto* proto_of(const SbString* urls, int count) {
+    for (int i = 0; i < count; ++i) {
+      const std::string url = urls[i].getString();
+      const auto hash = url.find('#');
+      const auto path = beside(texts_.back()->path, url.substr(0, hash));
+      std::error_code no_matter;
+      if (!fs::is_regular_file(path, no_matter)) continue;
+      const auto outer_errors = std::exchange(errors_, {});
+      SoSearchAction search;
+      search.setType(SoProto::getClassTypeId());
+      search.setSearchingAll(TRUE);
+      search.setInterest(SoSearchAction::ALL);
+      search.apply(read(path).root);
+      errors_ = outer_errors;
+      const auto& paths = search.getPaths();
+      for (int p = 0; p < paths.getLength(); ++p) {
+        auto* proto = static_cast<SoProto*>(paths[p]->getTail());
+        if (hash == url.npos ? paths.getLength() == 1
+                             : url.substr(hash + 1) == text_of(proto->getProtoName()))
+          return proto;
+      }
+      throw InputError({path}, "has no PROTO '" + url + "'", "an EXTERNPROTO asks for it");
+    }
+    throw InputError({texts_.back()->path}, "EXTERNPROTO without a file that is there",
+                     count > 0 ? std::string("url ") + urls[0].getString() : "it names none");
+  }
+
+  void note(const VrmlDropped& dropped, const std::string& what) {
+    if (dropped.count == 0) return;
+    notes_.count(fmt::format("{} (first at {}:{})", what,
+                             fs::path(dropped.first.file).filename().string(), dropped.first.line),
+                 dropped.count);
+  }
+
+  /// Nodes that Coin lacks or would follow to other files by itself.
+  void prepare(VrmlText& text) {
+    // An Inline with one more switch (ISO/IEC 14772-1 amendment 1).
+    rename_vrml_nodes(text, "InlineLoadControl", "Inline");
+    drop_vrml_fields(text, "Inline", "load");
+    if (!text.is_vrml97) note(drop_vrml_nodes(text, "File"), "Inventor File nodes left out");
+  }
+
+  SoSeparator* parse(VrmlText& text) {
+    for (int attempt = 0; attempt < most_repairs; ++attempt) {
+      errors_.clear();
+      texts_.push_back(&text);
+      SoInput input;
+      input.setBuffer(text.text.data(), text.text.size());
+      SoSeparator* root = SoDB::readAll(&input);
+      texts_.pop_back();
+      if (root != nullptr) nodes_.keep(root);
+      if (failure_) std::rethrow_exception(std::exchange(failure_, {}));
+      if (root != nullptr && errors_.empty()) return root;
+      if (!errors_.empty() && repair(text, errors_.front())) continue;
+      if (root == nullptr) refuse(text);
+      for (const auto& error : errors_) {
+        notes_.say(fmt::format("{}:{}: {}", fs::path(text.path).filename().string(), error.line,
+                               error.text));
+      }
+      return root;
+    }
+    throw InputError({text.path}, "has too many kinds of unknown fields",
+                     fmt::format("{} were left out", most_repairs));
+  }
+
+  [[noreturn]] void refuse(const VrmlText& text) const {
+    if (errors_.empty()) throw InputError({text.path}, "cannot be parsed", "Coin gives no reason");
+    throw InputError({text.path, errors_.front().line}, "cannot be parsed",
+                     errors_.front().text, "is the file cut off?");
+  }
+
+  /// Takes away what Coin does not know. False where that is not the trouble.
+  bool repair(VrmlText& text, const CoinError& error) {
+    static const std::regex field(R"re(Unknown field "([^"]*)" in "(?:VRML)?([^"]*)")re");
+    static const std::regex node(R"re([Uu]nknown (?:node|type|class)[^"']*["']([^"']*)["'])re");
+    std::smatch found;
+    VrmlDropped dropped;
+    if (std::regex_search(error.text, found, field)) {
+      dropped = drop_vrml_fields(text, found[2].str(), found[1].str());
+      note(dropped, fmt::format("fields '{}' of {} are unknown and left out", found[1].str(),
+                                found[2].str()));
+    } else if (std::regex_search(error.text, found, node)) {
+      dropped = drop_vrml_nodes(text, found[1].str());
+      note(dropped, fmt::format("nodes '{}' are unknown and left out", found[1].str()));
+    }
+    return dropped.count > 0;
+  }
+
+  NoteCounter& notes_;
+  KeptNodes nodes_;
+  std::map<std::string, File> files_;
+  std::vector<std::string> being_read_;
+  std::vector<const VrmlText*> texts_;
+  std::vector<CoinError> errors_;
+  std::exception_ptr failure_;
+};
+
+/// What Inventor's property nodes set for the shapes that follow them.
+struct State {
+  Affine file_from_here;
+  SoMaterial* material = nullptr;
+  SoMaterialBinding::Binding binding = SoMaterialBinding::OVERALL;
+  SoCoordinate3* coordinates = nullptr;
+  bool is_solid = false, is_clockwise = false;
+};
+
+/// Walks through Coin's nodes and adds their faces.
+class VrmlWalk {
+ public:
+  VrmlWalk(const std::string& path, const SceneFileRules& rules)
+      : path_(path), model_(path, rules), files_(model_.notes()) {}
+
+  PolygonModel run() {
+    State state;
+    inline_file(path_, state, -1);
+    return model_.finish();
+  }
+
+ private:
+  [[noreturn]] void refuse(const SoNode* node, const std::string& what,
+                           const std::string& why) const {
+    const auto& text = files_stack_.back()->text;
+    const std::string name = node_name_.empty() ? text_of(node->getName()) : node_name_;
+    auto where = name.empty() ? std::nullopt : place_of_def(text, name);
+    throw InputError(where ? *where : Where{text.path}, what, why);
+  }
+
+  void inline_file(const std::string& path, State& state, int place) {
+    const auto& file = files_.read(path);
+    if (std::find(files_stack_.begin(), files_stack_.end(), &file) != files_stack_.end() ||
+        files_stack_.size() >= deepest_inline) {
+      throw InputError({files_stack_.back()->text.path}, "inlines itself",
+                       "Inline of " + path + " leads back to it");
+    }
+    files_stack_.push_back(&file);
+    State inner;
+    inner.file_from_here = state.file_from_here;
+    visit(file.root, inner, place, 0);
+    files_stack_.pop_back();
+  }
+
+  /// The first url that is a file; further urls are copies of it elsewhere.
+  void inline_url(const std::vector<std::string>& urls, State& state, int place) {
+    for (const auto& url : urls) {
+      const auto path = VrmlFiles::beside(files_stack_.back()->text.path, url);
+      std::error_code no_matter;
+      if (fs::is_regular_file(path, no_matter)) return inline_file(path, state, place);
+    }
+    if (!urls.empty()) model_.notes().say("inlined file '" + urls.front() + "' is not there");
+  }
+
+  void visit(SoNode* node, State& state, int place, std::size_t depth) {
+    node = plain(node);
+    if (node == nullptr) return;
+    if (++visits_ > most_visits || depth > 4 * deepest_vrml) {
+      throw InputError({path_}, "has too many nodes", "with every USE in its place");
+    }
+    const auto name = text_of(node->getName());
+    const std::string outer_name = node_name_;
+    if (!name.empty()) node_name_ = name;
+    const bool is_geometry = node->isOfType(SoVRMLGeometry::getClassTypeId());
+    const bool names_object = !name.empty() && !is_geometry &&
+                              (node->getChildren() != nullptr || is_shape(node));
+    const int here = names_object ? model_.enter(place, name) : place;
+    visit_kind(node, state, here, depth);
+    node_name_ = outer_name;
+  }
+
+  static bool is_shape(const SoNode* node) {
+    return node->isOfType(SoShape::getClassTypeId()) ||
+           node->isOfType(SoVRMLInline::getClassTypeId());
+  }
+
+  void visit_kind(SoNode* node, State& state, int place, std::size_t depth) {
+    if (node->isOfType(SoProto::getClassTypeId())) return;
+    if (auto* shape = as<SoVRMLShape>(node)) return add_vrml97(*shape, state, place);
+    if (auto* link = as<SoVRMLInline>(node)) return inline_url(urls_of(link->url), state, place);
+    if (auto* link = as<SoWWWInline>(node))
+      return inline_url({link->name.getValue().getString()}, state, place);
+    if (auto* lod = as<SoVRMLLOD>(node)) {
+      if (lod->level.getNum() > 0) visit(lod->level[0], state, place, depth + 1);
+      return;
+    }
+    if (auto* choice = as<SoVRMLSwitch>(node)) {
+      const int which = choice->whichChoice.getValue();
+      if (which >= 0 && which < choice->choice.getNum())
+        visit(choice->choice[which], state, place, depth + 1);
+      return;
+    }
+    if (auto* transform = as<SoVRMLTransform>(node)) {
+      State inner = state;
+      inner.file_from_here = state.file_from_here * affine(*transform);
+      return visit_children(node, inner, place, depth);
+    }
+    if (node->isOfType(SoVRMLGeometry::getClassTypeId()) ||
+        node->isOfType(SoVRMLAppearance::getClassTypeId())) {
+      return model_.notes().count("geometries and appearances outside of a Shape left out");
+    }
+    visit_inventor(node, state, place, depth);
+  }
+
+  static std::vector<std::string> urls_of(const SoMFString& field) {
+    std::vector<std::string> urls;
+    for (int i = 0; i < field.getNum(); ++i) urls.emplace_back(field[i].getString());
+    return urls;
+  }
+
+  void visit_children(SoNode* node, State& state, int place, std::size_t depth) {
+    const auto* children = node->getChildren();
+    for (int i = 0; children != nullptr && i < children->getLength(); ++i)
+      visit((*children)[i], state, place, depth + 1);
+  }
+
+  void visit_inventor(SoNode* node, State& state, int place, std::size_t depth) {
+    if (auto* choice = as<SoSwitch>(node)) {
+      const int which = choice->whichChild.getValue();
+      if (which == SO_SWITCH_ALL) return visit_children(node, state, place, depth);
+      if (which >= 0 && which < choice->getNumChildren())
+        visit(choice->getChild(which), state, place, depth + 1);
+    } else if (node->isOfType(SoLOD::getClassTypeId()) ||
+               node->isOfType(SoLevelOfDetail::getClassTypeId())) {
+      auto* group = static_cast<SoGroup*>(node);
+      State inner = state;
+      if (group->getNumChildren() > 0) visit(group->getChild(0), inner, place, depth + 1);
+    } else if (node->isOfType(SoTransformSeparator::getClassTypeId())) {
+      State inner = state;
+      visit_children(node, inner, place, depth);
+      inner.file_from_here = state.file_from_here;
+      state = inner;
+    } else if (node->isOfType(SoSeparator::getClassTypeId())) {
+      State inner = state;
+      visit_children(node, inner, place, depth);
+    } else if (node->getChildren() != nullptr) {
+      visit_children(node, state, place, depth);
+    } else if (node->isOfType(SoShape::getClassTypeId())) {
+      add_inventor(node, state, place);
+    } else {
+      set_property(node, state);
+    }
+  }
+
+  static void set_property(SoNode* node, State& state) {
+    if (node->isOfType(SoTransformation::getClassTypeId())) {
+      SoGetMatrixAction matrix{SbViewportRegion()};
+      matrix.apply(node);
+      state.file_from_here = state.file_from_here * affine(matrix.getMatrix());
+    } else if (auto* material = as<SoMaterial>(node)) {
+      state.material = material;
+    } else if (auto* binding = as<SoMaterialBinding>(node)) {
+      state.binding = static_cast<SoMaterialBinding::Binding>(binding->value.getValue());
+    } else if (auto* coordinates = as<SoCoordinate3>(node)) {
+      state.coordinates = coordinates;
+    } else if (auto* hints = as<SoShapeHints>(node)) {
+      state.is_solid = hints->shapeType.getValue() == SoShapeHints::SOLID;
+      state.is_clockwise = hints->vertexOrdering.getValue() == SoShapeHints::CLOCKWISE;
+    }
+  }
+
+  void add_vrml97(SoVRMLShape& node, const State& state, int place) {
+    auto* geometry = plain(node.geometry.getValue());
+    if (geometry == nullptr) return;
+    if (place < 0 && !text_of(geometry->getName()).empty())
+      place = model_.enter(place, text_of(geometry->getName()));
+    auto* appearance = as<SoVRMLAppearance>(node.appearance.getValue());
+    auto* material =
+        appearance == nullptr ? nullptr : as<SoVRMLMaterial>(appearance->material.getValue());
+    if (appearance != nullptr && appearance->texture.getValue() != nullptr)
+      model_.notes().count("textures of shapes ignored");
+    if (const auto shape = vrml97_faces(geometry))
+      model_.add(*shape, state.file_from_here, place, {vrml97_material(material)});
+  }
+
+  MaterialId vrml97_material(SoVRMLMaterial* node) {
+    if (node == nullptr) return MaterialId::none();
+    return model_.material(node, 0,
+                           {text_of(node->getName()), colour(node->diffuseColor.getValue()),
+                            colour(node->specularColor.getValue()),
+                            colour(node->emissiveColor.getValue()),
+                            node->transparency.getValue()});
+  }
+
+  std::optional<ShapeFaces> vrml97_faces(SoNode* node) {
+    if (auto* box = as<SoVRMLBox>(node)) return vrml_box(vec(box->size.getValue()));
+    if (auto* sphere = as<SoVRMLSphere>(node)) return vrml_sphere(sphere->radius.getValue());
+    if (auto* cone = as<SoVRMLCone>(node)) {
+      return vrml_cone(cone->bottomRadius.getValue(), cone->height.getValue(),
+                       {cone->side.getValue() != 0, cone->bottom.getValue() != 0});
+    }
+    if (auto* c = as<SoVRMLCylinder>(node)) {
+      return vrml_cylinder(c->radius.getValue(), c->height.getValue(),
+                           {c->side.getValue() != 0, c->bottom.getValue() != 0,
+                            c->top.getValue() != 0});
+    }
+    if (auto* set = as<SoVRMLIndexedFaceSet>(node)) return face_set(*set);
+    if (auto* grid = as<SoVRMLElevationGrid>(node)) return elevation_grid(*grid);
+    if (auto* extrusion = as<SoVRMLExtrusion>(node)) {
+      auto shape = triangles_of(extrusion);
+      shape.is_two_sided = extrusion->solid.getValue() == 0;
+      return shape;
+    }
+    model_.notes().count(std::string(node->getTypeId().getName().getString()) +
+                         " shapes left out: they have no surface");
+    return std::nullopt;
+  }
+
+  static void turn_faces(ShapeFaces& shape) {
+    for (auto& face : shape.faces) std::reverse(face.begin(), face.end());
+  }
+
+  ShapeFaces face_set(SoVRMLIndexedFaceSet& node) {
+    auto* coordinates = as<SoVRMLCoordinate>(node.coord.getValue());
+    ShapeFaces shape;
+    if (coordinates != nullptr) shape.points = points_of(coordinates->point);
+    add_faces(node, node.coordIndex, shape);
+    if (node.color.getValue() != nullptr) model_.notes().count("colours per face or vertex ignored");
+    if (node.ccw.getValue() == 0) turn_faces(shape);
+    shape.is_two_sided = node.solid.getValue() == 0;
+    return shape;
+  }
+
+  static std::vector<Vec3> points_of(const SoMFVec3f& field) {
+    std::vector<Vec3> points;
+    for (int i = 0; i < field.getNum(); ++i) points.push_back(vec(field[i]));
+    return points;
+  }
+
+  void add_faces(const SoNode& node, const SoMFInt32& indices, ShapeFaces& shape) {
+    std::vector<std::int32_t> face;
+    std::int32_t number = 0;
+    const auto finish = [&] {
+      if (face.size() >= 3) {
+        shape.faces.push_back(face);
+        shape.face_material.push_back(number);
+      } else if (!face.empty()) {
+        model_.notes().count("faces of fewer than 3 corners left out");
+      }
+      ++number;
+      face.clear();
+    };
+    const auto count = static_cast<std::int32_t>(shape.points.size());
+    for (int i = 0; i < indices.getNum(); ++i) {
+      const std::int32_t index = indices[i];
+      if (index == -1) {
+        finish();
+      } else if (index < 0 || index >= count) {
+        refuse(&node, fmt::format("coordIndex {} is out of range", index),
+               fmt::format("{} points are there, counted from 0", count));
+      } else {
+        face.push_back(index);
+      }
+    }
+    finish();
+  }
+
+  ShapeFaces elevation_grid(SoVRMLElevationGrid& node) {
+    const std::int32_t nx = node.xDimension.getValue(), nz = node.zDimension.getValue();
+    if (nx < 0 || nz < 0 || static_cast<std::int64_t>(nx) * nz != node.height.getNum()) {
+      refuse(&node, "ElevationGrid has another number of heights",
+             fmt::format("{} × {} points, {} heights", nx, nz, node.height.getNum()));
+    }
+    std::vector<double> heights;
+    for (int i = 0; i < node.height.getNum(); ++i) heights.push_back(node.height[i]);
+    auto shape = vrml_elevation_grid(
+        heights, {nx, nz, node.xSpacing.getValue(), node.zSpacing.getValue()});
+    if (node.ccw.getValue() == 0) turn_faces(shape);
+    shape.is_two_sided = node.solid.getValue() == 0;
+    return shape;
+  }
+
+  /// Triangles as Coin makes them, in the frame of the shape.
+  static ShapeFaces triangles_of(SoNode* node) {
+    ShapeFaces shape;
+    SoCallbackAction action;
+    action.addTriangleCallback(
+        SoShape::getClassTypeId(),
+        [](void* data, SoCallbackAction* from, const SoPrimitiveVertex* a,
+           const SoPrimitiveVertex* b, const SoPrimitiveVertex* c) {
+          auto& faces = *static_cast<ShapeFaces*>(data);
+          const auto first = static_cast<std::int32_t>(faces.points.size());
+          const Affine here = affine(from->getModelMatrix());
+          for (const auto* v : {a, b, c}) faces.points.push_back(here(vec(v->getPoint())));
+          faces.faces.push_back({first, first + 1, first + 2});
+        },
+        &shape);
+    action.apply(node);
+    return shape;
+  }
+
+  void add_inventor(SoNode* node, const State& state, int place) {
+    auto shape = inventor_faces(node, state);
+    if (!shape || shape->faces.empty()) return;
+    model_.add(*shape, state.file_from_here, place, inventor_materials(*shape, state));
+  }
+
+  std::optional<ShapeFaces> inventor_faces(SoNode* node, const State& state) {
+    if (auto* cube = as<SoCube>(node))
+      return vrml_box({cube->width.getValue(), cube->height.getValue(), cube->depth.getValue()});
+    if (auto* sphere = as<SoSphere>(node)) return vrml_sphere(sphere->radius.getValue());
+    if (auto* cone = as<SoCone>(node)) {
+      return vrml_cone(cone->bottomRadius.getValue(), cone->height.getValue(),
+                       {cone->hasPart(SoCone::SIDES) != 0, cone->hasPart(SoCone::BOTTOM) != 0});
+    }
+    if (auto* c = as<SoCylinder>(node)) {
+      return vrml_cylinder(c->radius.getValue(), c->height.getValue(),
+                           {c->hasPart(SoCylinder::SIDES) != 0,
+                            c->hasPart(SoCylinder::BOTTOM) != 0,
+                            c->hasPart(SoCylinder::TOP) != 0});
+    }
+    ShapeFaces shape;
+    auto* set = as<SoIndexedFaceSet>(node);
+    auto* coordinates = set == nullptr ? nullptr : coordinates_of(*set, state);
+    if (set != nullptr && coordinates != nullptr) {
+      shape.points = points_of(*coordinates);
+      add_faces(*node, set->coordIndex, shape);
+    } else {
+      shape = triangles_in(node, state);
+      if (shape.faces.empty()) {
+        model_.notes().count(std::string(node->getTypeId().getName().getString()) +
+                             " shapes left out: they have no surface");
+      }
+    }
+    if (state.is_clockwise) turn_faces(shape);
+    shape.is_two_sided = !state.is_solid;
+    return shape;
+  }
+
+  static const SoMFVec3f* coordinates_of(SoIndexedFaceSet& set, const State& state) {
+    auto* own = as<SoVertexProperty>(set.vertexProperty.getValue());
+    if (own != nullptr && own->vertex.getNum() > 0) return &own->vertex;
+    return state.coordinates == nullptr ? nullptr : &state.coordinates->point;
+  }
+
+  /// Strips, meshes and curved surfaces of Inventor, with the coordinates in force.
+  static ShapeFaces triangles_in(SoNode* node, const State& state) {
+    if (node->isOfType(SoText3::getClassTypeId()) || node->isOfType(SoText2::getClassTypeId()) ||
+        node->isOfType(SoAsciiText::getClassTypeId()))
+      return {};
+    KeptNodes kept;
+    auto* root = kept.keep(new SoSeparator);
+    if (state.coordinates != nullptr) root->addChild(state.coordinates);
+    root->addChild(node);
+    return triangles_of(root);
+  }
+
+  std::vector<MaterialId> inventor_materials(ShapeFaces& shape, const State& state) {
+    auto* node = state.material;
+    if (node == nullptr) return {MaterialId::none()};
+    const bool per_face = state.binding == SoMaterialBinding::PER_FACE &&
+                          shape.face_material.size() == shape.faces.size();
+    if (!per_face) {
+      if (state.binding != SoMaterialBinding::OVERALL && node->diffuseColor.getNum() > 1)
+        model_.notes().count("shapes have several materials, of which the first is taken");
+      shape.face_material.clear();
+    }
+    std::vector<MaterialId> materials;
+    const int count = per_face ? std::max(1, node->diffuseColor.getNum()) : 1;
+    for (int i = 0; i < count; ++i) materials.push_back(inventor_material(*node, i));
+    return materials;
+  }
+
+  MaterialId inventor_material(SoMaterial& node, int index) {
+    const auto entry = [&](const SoMFColor& field) -> std::array<double, 3> {
+      if (field.getNum() == 0) return {};
+      return colour(field[std::min(index, field.getNum() - 1)]);
+    };
+    const double transparency = node.transparency.getNum() > 0 ? node.transparency[0] : 0;
+    return model_.material(&node, index,
+                           {text_of(node.getName()), entry(node.diffuseColor),
+                            entry(node.specularColor), entry(node.emissiveColor), transparency});
+  }
+
+  std::string path_;
+  VrmlModel model_;
+  VrmlFiles files_;
+  std::vector<const VrmlFiles::File*> files_stack_;
+  std::string node_name_;
+  std::size_t visits_ = 0;
+};
+
+/// Coin's tables are one for all.
+std::mutex& coin_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+}  // namespace
+
+PolygonModel read_scene_vrml(const std::string& path, const SceneFileRules& rules) {
+  const std::lock_guard lock(coin_mutex());
+  return VrmlWalk(path, rules).run();
+}
+
+}  // namespace sunload
