@@ -215,7 +215,14 @@ class VrmlFiles {
     // An Inline with one more switch (ISO/IEC 14772-1 amendment 1).
     rename_vrml_nodes(text, "InlineLoadControl", "Inline");
     drop_vrml_fields(text, "Inline", "load");
-    if (!text.is_vrml97) note(drop_vrml_nodes(text, "File"), "Inventor File nodes left out");
+    drop_vrml_events(text);
+    // Neither pictures nor sounds are asked for; Coin would open them.
+    for (const char* node : {"ImageTexture", "MovieTexture", "AudioClip", "Script"})
+      drop_vrml_fields(text, node, "url");
+    if (text.is_vrml97) return;
+    for (const char* node : {"Texture2", "Texture3"}) drop_vrml_fields(text, node, "filename");
+    drop_vrml_nodes(text, "Info");  // remarks, in strings that Coin misreads
+    note(drop_vrml_nodes(text, "File"), "Inventor File nodes left out");
   }
 
   SoSeparator* parse(VrmlText& text) {
@@ -254,9 +261,13 @@ class VrmlFiles {
     std::smatch found;
     VrmlDropped dropped;
     if (std::regex_search(error.text, found, field)) {
-      dropped = drop_vrml_fields(text, found[2].str(), found[1].str());
-      note(dropped, fmt::format("fields '{}' of {} are unknown and left out", found[1].str(),
-                                found[2].str()));
+      const std::string name = found[1].str();
+      // Coin calls all instances of PROTOs by one name.
+      const auto type = found[2].str() == "ProtoInstance"
+                            ? node_with_field(text, name, error.line).value_or("")
+                            : found[2].str();
+      dropped = drop_vrml_fields(text, type, name);
+      note(dropped, fmt::format("fields '{}' of {} are unknown and left out", name, type));
     } else if (std::regex_search(error.text, found, node)) {
       dropped = drop_vrml_nodes(text, found[1].str());
       note(dropped, fmt::format("nodes '{}' are unknown and left out", found[1].str()));
@@ -440,6 +451,10 @@ class VrmlWalk {
     if (place < 0 && !text_of(geometry->getName()).empty())
       place = model_.enter(place, text_of(geometry->getName()));
     auto* appearance = as<SoVRMLAppearance>(node.appearance.getValue());
+    if (appearance == nullptr ? node.appearance.getValue() != nullptr
+                              : appearance->material.getValue() != nullptr &&
+                                    as<SoVRMLMaterial>(appearance->material.getValue()) == nullptr)
+      model_.notes().count("nodes left out where an Appearance or a Material belongs");
     auto* material =
         appearance == nullptr ? nullptr : as<SoVRMLMaterial>(appearance->material.getValue());
     if (appearance != nullptr && appearance->texture.getValue() != nullptr)

@@ -27,6 +27,7 @@ VrmlModel::VrmlModel(const std::string& path, const SceneFileRules& rules)
     : rules_(rules),
       scene_from_file_(rules, 'y', path),
       stem_(std::filesystem::path(path).stem().string()) {
+  if (lower_case(stem_).ends_with(".wrl")) stem_.resize(stem_.size() - 4);  // of .wrl.gz
   model_.source = path;
 }
 

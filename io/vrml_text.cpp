@@ -1,7 +1,9 @@
 #include "io/vrml_text.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <set>
 #include <utility>
 
 #include "io/gzip.h"
@@ -243,9 +245,9 @@ VrmlDropped replace_all(VrmlText& file, const std::vector<Span>& spans, std::str
   return dropped;
 }
 
-/// Calls `act(tokens, token)` for every word that stands directly in a node of `type`.
+/// Calls `act(tokens, type, token)` for every word that stands directly in a node.
 template <class Act>
-void in_nodes_of(std::string_view text, std::string_view type, Act act) {
+void in_nodes(std::string_view text, Act act) {
   Tokens tokens(text);
   std::vector<std::string_view> types;
   std::string_view before;
@@ -256,9 +258,8 @@ void in_nodes_of(std::string_view text, std::string_view type, Act act) {
       types.push_back("[");
     } else if (token == "}" || token == "]") {
       if (!types.empty()) types.pop_back();
-    } else if (!types.empty() && types.back() == type && before != "DEF" && before != "USE" &&
-               before != "IS") {
-      act(tokens, token);
+    } else if (!types.empty() && before != "DEF" && before != "USE" && before != "IS") {
+      act(tokens, types.back(), token);
     }
     before = token;
   }
@@ -297,8 +298,8 @@ std::map<std::string, double> check_vrml(const VrmlText& file) { return Checker(
 
 VrmlDropped drop_vrml_fields(VrmlText& file, std::string_view node, std::string_view field) {
   std::vector<Span> spans;
-  in_nodes_of(file.text, node, [&](Tokens& tokens, std::string_view token) {
-    if (token != field) return;
+  in_nodes(file.text, [&](Tokens& tokens, std::string_view type, std::string_view token) {
+    if (type != node || token != field) return;
     skip_value(tokens);
     spans.push_back({tokens.byte_of(token), tokens.byte()});
   });
@@ -324,6 +325,34 @@ VrmlDropped rename_vrml_nodes(VrmlText& file, std::string_view from, std::string
     spans.push_back({tokens.byte_of(token), tokens.byte_of(token) + from.size()});
   }
   return replace_all(file, spans, to);
+}
+
+VrmlDropped drop_vrml_events(VrmlText& file) {
+  std::vector<Span> spans;
+  std::set<std::string_view> events;
+  Tokens tokens(file.text);
+  std::array<std::string_view, 4> last;  // the latest one first
+  for (auto token = tokens.next(); !token.empty(); token = tokens.next()) {
+    const bool declares = last[1] == "eventIn" || last[1] == "eventOut";
+    if (last[2] == "PROTO" && token == "[") events.clear();
+    if (declares && tokens.peek() != "IS") events.insert(token);
+    if (last[0] == "IS" && events.contains(token) && last[3] != "eventIn" &&
+        last[3] != "eventOut" && last[3] != "field") {
+      spans.push_back({tokens.byte_of(last[1]), tokens.byte()});
+    }
+    last = {token, last[0], last[1], last[2]};
+  }
+  return replace_all(file, spans, {});
+}
+
+std::optional<std::string> node_with_field(const VrmlText& file, std::string_view field,
+                                           int line) {
+  std::optional<std::string> node;
+  in_nodes(file.text, [&](Tokens& tokens, std::string_view type, std::string_view token) {
+    if (token != field || node) return;
+    if (place_in_text(file.path, file.text, tokens.byte_of(token)).line == line) node = type;
+  });
+  return node;
 }
 
 std::optional<Where> place_of_def(const VrmlText& file, std::string_view name) {

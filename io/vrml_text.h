@@ -50,6 +50,13 @@ VrmlDropped drop_vrml_nodes(VrmlText& file, std::string_view node);
 /// Writes the node type `to` over `from`, which is not the shorter one.
 VrmlDropped rename_vrml_nodes(VrmlText& file, std::string_view from, std::string_view to);
 
+/// Takes away `field IS event` where the PROTO declares an eventIn or eventOut: events have
+/// no value before they happen, and a field without a value keeps its default.
+VrmlDropped drop_vrml_events(VrmlText& file);
+
+/// Type of the node that has `field` directly in it on a line.
+std::optional<std::string> node_with_field(const VrmlText& file, std::string_view field, int line);
+
 /// Where the first `DEF name` stands.
 std::optional<Where> place_of_def(const VrmlText& file, std::string_view name);
 
