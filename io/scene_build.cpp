@@ -63,7 +63,8 @@ PolygonModel read_models(const SceneStudy& scene) {
   Problems problems;
   for (const auto& file : scene.files) {
     try {
-      const auto part = read_scene_file(file, {scene.up, scene.unit_m, scene.lod});
+      const auto part = read_scene_file(file, {scene.up, scene.unit_m, scene.lod, scene.vrml_colour,
+                                                scene.emission_scale_w});
       if (!model.crs.empty() && !part.crs.empty() && model.crs != part.crs)
         problems.add({file}, "coordinates in " + part.crs,
                      "an earlier file of the scene has " + model.crs,
@@ -148,6 +149,7 @@ class MaterialAssigner {
     std::vector<bool> rule_used(study_.scene.assign.size(), false);
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
       scene_.material.push_back(id_of(material_of(t, rule_used), t));
+    problems_.throw_if_any();
     for (std::size_t r = 0; r < rule_used.size(); ++r)
       if (!rule_used[r])
         built_.warnings.push_back(
@@ -245,7 +247,6 @@ class MaterialAssigner {
                                 m.diffuse, m.mirror),
                     "more light would leave than arrives (triangle " + std::to_string(t) + ")",
                     "override it in scene.materials");
-    problems_.throw_if_any();
     const auto same = std::find(scene_.materials.begin(), scene_.materials.end(), m);
     const auto id = make_id<MaterialId>(static_cast<std::size_t>(same - scene_.materials.begin()));
     if (same == scene_.materials.end()) scene_.materials.push_back(m);

@@ -6,6 +6,8 @@
 
 #include "io/scene_cityjson.h"
 #include "io/scene_obj.h"
+#include "io/scene_off.h"
+#include "io/scene_ply.h"
 #include "io/scene_support.h"
 #include "io/scene_vrml.h"
 
@@ -35,8 +37,8 @@ const std::vector<Format>& formats() {
        {"#VRML", "#Inventor", "\x1F\x8B"},
        {".wrl", ".wrl.gz", ".vrml", ".wrz", ".iv"},
        read_scene_vrml},
-      {"PLY", {"ply\n", "ply\r"}, {".ply"}, nullptr},
-      {"OFF", {"OFF", "COFF", "NOFF", "STOFF"}, {".off"}, nullptr},
+      {"PLY", {"ply\n", "ply\r"}, {".ply"}, read_scene_ply},
+      {"OFF", {"OFF", "COFF", "NOFF", "STOFF"}, {".off"}, read_scene_off},
       {"STL", {"solid "}, {".stl"}, nullptr},
       {"glTF", {"glTF"}, {".gltf", ".glb"}, nullptr},
       {"GeoTIFF raster", {{"II*\0", 4}, {"MM\0*", 4}, {"II+\0", 4}}, {".tif", ".tiff"}, nullptr},

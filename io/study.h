@@ -24,6 +24,7 @@
 #include "geo/sun.h"
 #include "geo/time.h"
 #include "geo/weather.h"
+#include "io/scene_file.h"
 #include "solver/oracle.h"
 
 namespace sunload {
@@ -123,6 +124,8 @@ struct SceneStudy {
   char up = 0;  ///< 'x', 'y', 'z' or 0: default of the format
   double unit_m = 1;
   std::string lod = "highest";
+  VrmlColour vrml_colour = VrmlColour::mean;
+  double emission_scale_w = 1;  ///< power of a VRML emissiveColor of strength 1
   Repair repair = Repair::safe;
   std::vector<MaterialStudy> materials;
   std::vector<AssignRule> assign;

@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 constexpr Range units_m{1e-6, 1e6};  // a model in micrometres, one in thousands of kilometres
 constexpr Range shares{0, 1};
 constexpr Range emissions_w_m2{0, 1e7};  // the surface of the sun has 6.3e7
+constexpr Range powers_w{0, 1e15};  // of a light in a file: to the sun's on a thousand km2
 constexpr Range margins_m{0, 1e5};
 constexpr Range edges_m{1e-3, 1e9};
 constexpr Range areas_m2{0, 1e6};
@@ -128,7 +129,7 @@ void check_source(YamlMap& map) {
         "it needs one of the two",
         files ? "a variant removes a key of the base with `files: ~` or `builtin: ~`" : "");
   }
-  for (const char* key : {"up", "unit_m", "lod"}) {
+  for (const char* key : {"up", "unit_m", "lod", "vrml_colour", "emission_scale_w"}) {
     if (builtin && map.has(key)) map.warn(key, "is not used", "it belongs to files");
   }
 }
@@ -149,6 +150,9 @@ SceneStudy read_scene(YamlMap& map, const std::string& folder) {
   scene.unit_m = map.number("unit_m", units_m, scene.unit_m);
   scene.lod = map.text("lod", scene.lod);
   check_lod(map, scene.lod);
+  scene.vrml_colour = map.choice(
+      "vrml_colour", {{"mean", VrmlColour::mean}, {"norm", VrmlColour::norm}}, scene.vrml_colour);
+  scene.emission_scale_w = map.number("emission_scale_w", powers_w, scene.emission_scale_w);
   scene.repair =
       map.choice("repair", {{"none", Repair::none}, {"safe", Repair::safe}, {"all", Repair::all}},
                  scene.repair);

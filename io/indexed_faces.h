@@ -1,0 +1,42 @@
+/// Faces by index into a table of vertices: what PLY, OFF and the like hold.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/scene_support.h"
+
+namespace sunload {
+
+/// Collects one object's vertices and faces; `finish` makes the model of them.
+class IndexedFaces {
+ public:
+  /// `default_up` is that of the format. The object has the name of the file's stem.
+  IndexedFaces(const std::string& path, const SceneFileRules& rules, char default_up);
+
+  /// Room for so many, where a header promises them.
+  void expect(std::size_t vertices, std::size_t faces);
+
+  /// False where the position is beyond all coordinates on Earth.
+  bool add_vertex(Vec3 in_file);
+  std::size_t vertex_count() const { return vertices_.size(); }
+
+  /// Corners of the next face one by one; faces of fewer than 3 are left out and counted.
+  void add_corner(std::int32_t vertex) { model_.ring_vertex.push_back(vertex); }
+  void end_face();
+
+  NoteCounter& notes() { return notes_; }
+
+  /// Vertices that no face uses are left out: they would only blow up the bounding box.
+  /// All corners must be within [0, vertex_count()).
+  PolygonModel finish();
+
+ private:
+  SceneFromFile scene_from_file_;
+  PolygonModel model_;
+  NoteCounter notes_;
+  std::vector<Vec3> vertices_;
+};
+
+}  // namespace sunload
