@@ -1,14 +1,29 @@
 #include "io/indexed_faces.h"
 
 #include <filesystem>
+#include <utility>
 
 namespace sunload {
 
 IndexedFaces::IndexedFaces(const std::string& path, const SceneFileRules& rules, char default_up)
     : scene_from_file_(rules, default_up, path) {
   model_.source = path;
-  model_.object_names.push_back(std::filesystem::path(path).stem().string());
-  model_.object_kinds.emplace_back();
+  use_object(std::filesystem::path(path).stem().string());
+}
+
+void IndexedFaces::use_object(const std::string& name) {
+  object_name_ = name;
+  facts_.object = ObjectId::none();
+}
+
+void IndexedFaces::use_material(MaterialId material, Sides sides) {
+  facts_.material = material;
+  facts_.sides = sides;
+}
+
+MaterialId IndexedFaces::add_material(FileMaterial material) {
+  model_.materials.push_back(std::move(material));
+  return make_id<MaterialId>(model_.materials.size() - 1);
 }
 
 void IndexedFaces::expect(std::size_t vertices, std::size_t faces) {
@@ -35,7 +50,16 @@ void IndexedFaces::end_face() {
   }
   model_.ring_begin.push_back(static_cast<std::int64_t>(model_.ring_vertex.size()));
   model_.polygon_ring.push_back(static_cast<std::int64_t>(model_.ring_begin.size()) - 1);
-  model_.facts.push_back({.object = make_id<ObjectId>(0)});
+  if (!facts_.object.exists()) {  // objects enter the table with their first face
+    const auto [entry, is_new] =
+        objects_.try_emplace(object_name_, make_id<ObjectId>(model_.object_names.size()));
+    if (is_new) {
+      model_.object_names.push_back(object_name_);
+      model_.object_kinds.emplace_back();
+    }
+    facts_.object = entry->second;
+  }
+  model_.facts.push_back(facts_);
 }
 
 PolygonModel IndexedFaces::finish() {
@@ -54,10 +78,6 @@ PolygonModel IndexedFaces::finish() {
     notes_.count("vertices used by no face left out", unused);
   }
   model_.vertices = std::move(vertices_);
-  if (model_.facts.empty()) {
-    model_.object_names.clear();
-    model_.object_kinds.clear();
-  }
   for (auto& line : notes_.lines()) model_.notes.push_back(std::move(line));
   return std::move(model_);
 }

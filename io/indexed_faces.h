@@ -3,16 +3,17 @@
 
 #include <cstdint>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "io/scene_support.h"
 
 namespace sunload {
 
-/// Collects one object's vertices and faces; `finish` makes the model of them.
+/// Collects vertices and faces; `finish` makes the model of them.
 class IndexedFaces {
  public:
-  /// `default_up` is that of the format. The object has the name of the file's stem.
+  /// `default_up` is that of the format. Until `use_object` the object is the file's stem.
   IndexedFaces(const std::string& path, const SceneFileRules& rules, char default_up);
 
   /// Room for so many, where a header promises them.
@@ -21,6 +22,11 @@ class IndexedFaces {
   /// False where the position is beyond all coordinates on Earth.
   bool add_vertex(Vec3 in_file);
   std::size_t vertex_count() const { return vertices_.size(); }
+
+  /// What the faces that follow belong to; the same name again is the same object.
+  void use_object(const std::string& name);
+  void use_material(MaterialId material, Sides sides = Sides::one);
+  MaterialId add_material(FileMaterial material);
 
   /// Corners of the next face one by one; faces of fewer than 3 are left out and counted.
   void add_corner(std::int32_t vertex) { model_.ring_vertex.push_back(vertex); }
@@ -37,6 +43,9 @@ class IndexedFaces {
   PolygonModel model_;
   NoteCounter notes_;
   std::vector<Vec3> vertices_;
+  std::unordered_map<std::string, ObjectId> objects_;
+  std::string object_name_;
+  PolygonModel::Facts facts_;
 };
 
 }  // namespace sunload

@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "io/scene_cityjson.h"
+#include "io/scene_gltf.h"
 #include "io/scene_obj.h"
 #include "io/scene_off.h"
 #include "io/scene_ply.h"
+#include "io/scene_stl.h"
 #include "io/scene_support.h"
 #include "io/scene_vrml.h"
 
@@ -39,8 +41,8 @@ const std::vector<Format>& formats() {
        read_scene_vrml},
       {"PLY", {"ply\n", "ply\r"}, {".ply"}, read_scene_ply},
       {"OFF", {"OFF", "COFF", "NOFF", "STOFF"}, {".off"}, read_scene_off},
-      {"STL", {"solid "}, {".stl"}, nullptr},
-      {"glTF", {"glTF"}, {".gltf", ".glb"}, nullptr},
+      {"STL", {"solid "}, {".stl"}, read_scene_stl},
+      {"glTF", {"glTF"}, {".gltf", ".glb"}, read_scene_gltf},
       {"GeoTIFF raster", {{"II*\0", 4}, {"MM\0*", 4}, {"II+\0", 4}}, {".tif", ".tiff"}, nullptr},
       {"ESRI ASCII raster", {"ncols", "NCOLS"}, {".asc"}, nullptr},
   };

@@ -97,6 +97,13 @@ std::string lower_extension(const std::string& path) {
   return lower_case(std::filesystem::path(path).extension().string());
 }
 
+std::string UniqueNames::operator()(const std::string& name) {
+  std::string candidate = name;
+  for (int& n = last_.try_emplace(name, 1).first->second; !taken_.insert(candidate).second;)
+    candidate = name + "_" + std::to_string(++n);
+  return candidate;
+}
+
 std::vector<std::string> NoteCounter::lines() const {
   std::vector<std::string> notes;
   for (const auto& [what, times] : counts_) {

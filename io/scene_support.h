@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,6 +44,16 @@ std::string lower_case(std::string text);
 
 /// Extension in lower case with its dot, or nothing.
 std::string lower_extension(const std::string& path);
+
+/// Hands out `name`, or `name_2`, `name_3` … where it is taken.
+class UniqueNames {
+ public:
+  std::string operator()(const std::string& name);
+
+ private:
+  std::set<std::string> taken_;
+  std::map<std::string, int> last_;
+};
 
 /// Counts what happened; each kind becomes one note, `12 faces …`.
 class NoteCounter {

@@ -16,13 +16,6 @@ constexpr std::size_t most_corners = 50'000'000;
 
 }  // namespace
 
-std::string UniqueNames::operator()(const std::string& name) {
-  std::string candidate = name;
-  for (int& n = last_.try_emplace(name, 1).first->second; !taken_.insert(candidate).second;)
-    candidate = name + "_" + std::to_string(++n);
-  return candidate;
-}
-
 VrmlModel::VrmlModel(const std::string& path, const SceneFileRules& rules)
     : rules_(rules),
       scene_from_file_(rules, 'y', path),

@@ -3,27 +3,14 @@
 
 #include <array>
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
+#include "io/affine.h"
 #include "io/scene_support.h"
 #include "io/vrml_shapes.h"
 
 namespace sunload {
-
-/// x ↦ axes·x + origin, composed like functions: (a * b)(x) = a(b(x)).
-struct Affine {
-  std::array<Vec3, 3> axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  ///< images of the axes
-  Vec3 origin;
-
-  Vec3 operator()(Vec3 p) const { return direction(p) + origin; }
-  Vec3 direction(Vec3 v) const { return axes[0] * v.x + axes[1] * v.y + axes[2] * v.z; }
-  double determinant() const { return dot(axes[0], cross(axes[1], axes[2])); }
-  friend Affine operator*(const Affine& a, const Affine& b) {
-    return {{a.direction(b.axes[0]), a.direction(b.axes[1]), a.direction(b.axes[2])}, a(b.origin)};
-  }
-};
 
 /// Colours of one Material node, as the file gives them.
 struct VrmlMaterial {
@@ -36,16 +23,6 @@ struct VrmlMaterial {
 struct VrmlPlace {
   std::string name;                     ///< DEFs from the root, joined by '/'
   ObjectId object = ObjectId::none();  ///< once it has faces
-};
-
-/// Hands out `name`, or `name_2`, `name_3` … where it is taken.
-class UniqueNames {
- public:
-  std::string operator()(const std::string& name);
-
- private:
-  std::set<std::string> taken_;
-  std::map<std::string, int> last_;
 };
 
 class VrmlModel {
