@@ -9,6 +9,7 @@
 #include "io/scene_obj.h"
 #include "io/scene_off.h"
 #include "io/scene_ply.h"
+#include "io/scene_raster.h"
 #include "io/scene_stl.h"
 #include "io/scene_support.h"
 #include "io/scene_vrml.h"
@@ -27,7 +28,7 @@ struct Format {
   const char* name;
   std::vector<std::string_view> marks;       ///< what the file may begin with
   std::vector<std::string_view> extensions;  ///< in lower case, with the dot
-  Reader read;                               ///< null: known, but not supported yet
+  Reader read;
 };
 
 // A format is added by its row. The mark 1F 8B is gzip's: only VRML is packed by custom.
@@ -43,8 +44,8 @@ const std::vector<Format>& formats() {
       {"OFF", {"OFF", "COFF", "NOFF", "STOFF"}, {".off"}, read_scene_off},
       {"STL", {"solid "}, {".stl"}, read_scene_stl},
       {"glTF", {"glTF"}, {".gltf", ".glb"}, read_scene_gltf},
-      {"GeoTIFF raster", {{"II*\0", 4}, {"MM\0*", 4}, {"II+\0", 4}}, {".tif", ".tiff"}, nullptr},
-      {"ESRI ASCII raster", {"ncols", "NCOLS"}, {".asc"}, nullptr},
+      {"GeoTIFF raster", {{"II*\0", 4}, {"MM\0*", 4}, {"II+\0", 4}}, {".tif", ".tiff"}, read_scene_raster},
+      {"ESRI ASCII raster", {"ncols", "NCOLS"}, {".asc"}, read_scene_raster},
   };
   return table;
 }
@@ -82,10 +83,10 @@ const Format* format_of(const std::string& path, std::string_view head) {
   return by_mark != nullptr && !may_be_gltf ? by_mark : format_by_extension(path);
 }
 
-std::string names_of_supported_formats() {
+std::string names_of_formats() {
   std::string names;
   for (const auto& format : formats()) {
-    if (format.read != nullptr) names += (names.empty() ? "" : ", ") + std::string(format.name);
+    names += (names.empty() ? "" : ", ") + std::string(format.name);
   }
   return names;
 }
@@ -99,11 +100,7 @@ PolygonModel read_scene_file(const std::string& path, const SceneFileRules& rule
   if (format == nullptr) {
     throw InputError({path}, "is of no known scene format",
                      "neither its content nor its name tells",
-                     "formats that can be read: " + names_of_supported_formats());
-  }
-  if (format->read == nullptr) {
-    throw InputError({path}, std::string(format->name) + " is not yet supported", {},
-                     "formats that can be read: " + names_of_supported_formats());
+                     "formats that can be read: " + names_of_formats());
   }
   return format->read(path, rules);
 }

@@ -24,7 +24,7 @@ struct SceneFileRules {
 /// Coordinates come out in metres with z up ('y' turns (x, y, z) → (x, −z, y),
 /// 'x' turns (x, y, z) → (y, z, x)), absolute, in double. What was counted,
 /// tolerated or left out is in `PolygonModel::notes`.
-/// Throws InputError where the file is missing, of an unknown or unsupported format, or wrong.
+/// Throws InputError where the file is missing, of an unknown format, or wrong.
 PolygonModel read_scene_file(const std::string& path, const SceneFileRules& rules);
 
 }  // namespace sunload

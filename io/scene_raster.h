@@ -1,0 +1,27 @@
+/// Height rasters (digital surface and elevation models), through GDAL.
+#pragma once
+
+#include <string>
+
+#include "geo/mesh.h"
+#include "io/scene_file.h"
+
+namespace sunload {
+
+/// Reads the first band of a GeoTIFF or ESRI ASCII raster as a terrain of triangles.
+///
+/// - Vertices are the middles of cells at their heights (band scale and offset applied); every
+///   four neighbours make two triangles, divided along the diagonal that climbs less; fronts
+///   look up. Steps, as at the walls of a surface model, become slopes one cell wide.
+/// - Cells without data (NODATA or NaN) are left out and counted; three neighbours with data
+///   make one triangle.
+/// - `PolygonModel::crs` is the file's CRS, as `EPSG:…` or as WKT. CRSs in degrees are refused.
+/// - The object has the name of the file's stem.
+///
+/// Throws InputError for damaged files, rasters of more than `most_raster_cells`, and heights
+/// that no land has (a NODATA value that the file does not declare).
+PolygonModel read_scene_raster(const std::string& path, const SceneFileRules& rules);
+
+inline constexpr double most_raster_cells = 25e6;  ///< 50 million triangles, 4 GB
+
+}  // namespace sunload
