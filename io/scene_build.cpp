@@ -63,13 +63,14 @@ PolygonModel read_models(const SceneStudy& scene) {
   Problems problems;
   for (const auto& file : scene.files) {
     try {
-      const auto part = read_scene_file(file, {scene.up, scene.unit_m, scene.lod, scene.vrml_colour,
+      auto part = read_scene_file(file, {scene.up, scene.unit_m, scene.lod, scene.vrml_colour,
                                                 scene.emission_scale_w});
       if (!model.crs.empty() && !part.crs.empty() && model.crs != part.crs)
         problems.add({file}, "coordinates in " + part.crs,
                      "an earlier file of the scene has " + model.crs,
                      "bring all files of a scene into one CRS");
-      append(model, part);
+      if (model.source.empty()) model = std::move(part);  // tens of millions of faces are not copied
+      else append(model, part);
     } catch (const InputError& error) {
       problems.add(error);
     }

@@ -487,6 +487,9 @@ class VrmlWalk {
     if (auto* set = as<SoVRMLIndexedFaceSet>(node)) return face_set(*set);
     if (auto* grid = as<SoVRMLElevationGrid>(node)) return elevation_grid(*grid);
     if (auto* extrusion = as<SoVRMLExtrusion>(node)) {
+      if (static_cast<double>(extrusion->crossSection.getNum()) * extrusion->spine.getNum() >
+          most_visits)
+        refuse(node, "Extrusion has too many points", "more than 20 million");
       auto shape = triangles_of(extrusion);
       shape.is_two_sided = extrusion->solid.getValue() == 0;
       return shape;

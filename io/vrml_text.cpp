@@ -97,6 +97,7 @@ class Checker {
     std::size_t begin;
     std::string_view def, proto;  ///< name, where it has one
     double nodes = 0;             ///< of a PROTO's body so far
+    std::size_t height = 0;       ///< levels below it, with USEs and PROTOs in their places
   };
 
   [[noreturn]] void refuse(std::size_t byte, const std::string& what,
@@ -144,13 +145,30 @@ class Checker {
     }
     const Frame frame = frames_.back();
     frames_.pop_back();
-    if (!frame.proto.empty()) proto_nodes_[std::string(frame.proto)] = frame.nodes;
+    if (!frame.proto.empty()) {
+      proto_nodes_[std::string(frame.proto)] = frame.nodes;
+      height_of_[frame.proto] = frame.height;
+      return;
+    }
+    if (!frame.def.empty()) height_of_[frame.def] = frame.height;
+    put_below(frame.height + 1);
+  }
+
+  /// What stands here is `height` levels high: nodes are released level by level, too.
+  void put_below(std::size_t height) {
+    if (height > deepest_vrml) {
+      refuse(tokens_.byte(), "nodes are nested too deep",
+             "with every USE in its place at most " + std::to_string(deepest_vrml) +
+                 " levels can be read");
+    }
+    if (!frames_.empty()) frames_.back().height = std::max(frames_.back().height, height);
   }
 
   void count_node(std::string_view type) {
     double nodes = 1;
     if (const auto known = proto_nodes_.find(std::string(type)); known != proto_nodes_.end()) {
       nodes += known->second;
+      put_below(height_of_[type] + 1);
     }
     double* sum = &nodes_;
     for (auto& frame : frames_) {
@@ -168,7 +186,10 @@ class Checker {
     }
   }
 
-  void use(std::string_view name) const {
+  void use(std::string_view name) {
+    if (const auto known = height_of_.find(name); known != height_of_.end()) {
+      put_below(known->second + 1);
+    }
     const auto latest = latest_def_.find(name);
     if (latest == latest_def_.end()) return;
     for (const auto& frame : frames_) {
@@ -186,7 +207,7 @@ class Checker {
   std::size_t proto_depth_ = 0;
   double nodes_ = 0;
   std::map<std::string, double> proto_nodes_;
-  std::map<std::string_view, std::size_t> latest_def_;
+  std::map<std::string_view, std::size_t> latest_def_, height_of_;
 };
 
 void skip_block(Tokens& tokens) {

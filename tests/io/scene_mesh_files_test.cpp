@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
 
 #include "tests/support/scene_text.h"
 
@@ -155,7 +156,7 @@ std::string square() {
   std::string bytes;
   for (const float value : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f})
     bytes += bytes_of(value, std::endian::little);
-  for (const std::uint16_t value : {0, 1, 2, 0, 2, 3}) bytes += bytes_of(value, std::endian::little);
+  for (const char index : {0, 1, 2, 0, 2, 3}) bytes += {index, '\0'};
   return bytes;
 }
 

@@ -249,6 +249,10 @@ TEST(SceneVrml, HostileFilesAreRefused) {
   }
   EXPECT_NE(refusal("h.wrl", protos + "P39 { }").find("too many nodes"), std::string::npos);
   EXPECT_NE(refusal("h.wrl", groups).find("too many"), std::string::npos);
+  std::string chain = vrml97 + "DEF G0 Group { }\n";
+  for (int i = 1; i < 100000; ++i)
+    chain += "DEF G" + std::to_string(i) + " Group { children USE G" + std::to_string(i - 1) + " }\n";
+  EXPECT_NE(refusal("h.wrl", chain).find("nested too deep"), std::string::npos);
   EXPECT_NE(refusal("h.wrl", vrml97 + "Shape { geometry Box { }").find("never closed"),
             std::string::npos);
   EXPECT_NE(refusal("h.wrl", vrml97 + "Shape { geometry Box { ] }").find("closes nothing"),
