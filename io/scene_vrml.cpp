@@ -33,7 +33,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_visits = 20'000'000;  ///< of nodes, where USE is nested: seconds
+constexpr std::size_t most_visits = 10'000'000;  ///< of nodes, where files are inlined many times: seconds
 constexpr std::size_t deepest_inline = 64;       ///< files within files
 constexpr int most_repairs = 1000;               ///< kinds of unknown fields; each reads anew
 
@@ -257,7 +257,7 @@ class VrmlFiles {
   /// Takes away what Coin does not know. False where that is not the trouble.
   bool repair(VrmlText& text, const CoinError& error) {
     static const std::regex field(R"re(Unknown field "([^"]*)" in "(?:VRML)?([^"]*)")re");
-    static const std::regex node(R"re([Uu]nknown (?:node|type|class)[^"']*["']([^"']*)["'])re");
+    static const std::regex node(R"re(Node type ``([^']*)'' not recognized)re");
     std::smatch found;
     VrmlDropped dropped;
     if (std::regex_search(error.text, found, field)) {
@@ -489,7 +489,7 @@ class VrmlWalk {
     if (auto* extrusion = as<SoVRMLExtrusion>(node)) {
       if (static_cast<double>(extrusion->crossSection.getNum()) * extrusion->spine.getNum() >
           most_visits)
-        refuse(node, "Extrusion has too many points", "more than 20 million");
+        refuse(node, "Extrusion has too many points", "more than 10 million");
       auto shape = triangles_of(extrusion);
       shape.is_two_sided = extrusion->solid.getValue() == 0;
       return shape;

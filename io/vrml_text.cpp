@@ -96,7 +96,7 @@ class Checker {
     char open;  ///< '{' or '['
     std::size_t begin;
     std::string_view def, proto;  ///< name, where it has one
-    double nodes = 0;             ///< of a PROTO's body so far
+    double nodes = 0;             ///< in it, with USEs and PROTOs in their places
     std::size_t height = 0;       ///< levels below it, with USEs and PROTOs in their places
   };
 
@@ -150,6 +150,8 @@ class Checker {
       height_of_[frame.proto] = frame.height;
       return;
     }
+    if (!frame.def.empty()) nodes_of_[frame.def] = frame.nodes;
+    put_nodes(frame.nodes);
     if (!frame.def.empty()) height_of_[frame.def] = frame.height;
     put_below(frame.height + 1);
   }
@@ -164,31 +166,34 @@ class Checker {
     if (!frames_.empty()) frames_.back().height = std::max(frames_.back().height, height);
   }
 
+  /// A node of that type begins in the innermost frame.
   void count_node(std::string_view type) {
-    double nodes = 1;
-    if (const auto known = proto_nodes_.find(std::string(type)); known != proto_nodes_.end()) {
-      nodes += known->second;
-      put_below(height_of_[type] + 1);
-    }
-    double* sum = &nodes_;
-    for (auto& frame : frames_) {
-      if (frame.proto.empty()) continue;
-      if (frame.proto == type) {
+    for (const auto& frame : frames_) {
+      if (!frame.proto.empty() && frame.proto == type) {
         refuse(tokens_.byte_of(type), "PROTO '" + shortened(type) + "' contains itself",
                "it would never end");
       }
-      sum = &frame.nodes;
     }
-    *sum += nodes;
-    if (*sum > most_vrml_nodes) {
-      refuse(tokens_.byte_of(type), "has too many nodes",
-             "with its PROTOs put in their places they are more than 5 million");
+    put_nodes(1);
+    if (const auto known = proto_nodes_.find(std::string(type)); known != proto_nodes_.end()) {
+      put_nodes(known->second);
+      put_below(height_of_[type] + 1);
+    }
+  }
+
+  void put_nodes(double count) {
+    double& sum = frames_.empty() ? nodes_ : frames_.back().nodes;
+    sum += count;
+    if (sum > most_vrml_nodes) {
+      refuse(tokens_.byte(), "has too many nodes",
+             "with its PROTOs and USEs put in their places they are more than 5 million");
     }
   }
 
   void use(std::string_view name) {
     if (const auto known = height_of_.find(name); known != height_of_.end()) {
       put_below(known->second + 1);
+      put_nodes(nodes_of_[name]);
     }
     const auto latest = latest_def_.find(name);
     if (latest == latest_def_.end()) return;
@@ -208,6 +213,7 @@ class Checker {
   double nodes_ = 0;
   std::map<std::string, double> proto_nodes_;
   std::map<std::string_view, std::size_t> latest_def_, height_of_;
+  std::map<std::string_view, double> nodes_of_;
 };
 
 void skip_block(Tokens& tokens) {

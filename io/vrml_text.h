@@ -15,7 +15,7 @@ namespace sunload {
 
 /// Nesting of `{` and `[`: parsers recurse; 1000 levels need well below a stack of 8 MB.
 inline constexpr std::size_t deepest_vrml = 500;
-/// Nodes after PROTOs are put in their places: beyond any real file, seconds to read.
+/// Nodes after PROTOs and USEs are put in their places: beyond any real file, seconds to read.
 inline constexpr double most_vrml_nodes = 5e6;
 
 /// One VRML file, unpacked.

@@ -156,7 +156,8 @@ std::string square() {
   std::string bytes;
   for (const float value : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f})
     bytes += bytes_of(value, std::endian::little);
-  for (const char index : {0, 1, 2, 0, 2, 3}) bytes += {index, '\0'};
+  for (const auto index : {u'\0', u'\1', u'\2', u'\0', u'\2', u'\3'})
+    bytes += bytes_of(index, std::endian::little);
   return bytes;
 }
 

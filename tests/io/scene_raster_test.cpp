@@ -34,12 +34,12 @@ TEST(SceneRaster, VerticesAreMiddlesOfCells) {
 
 TEST(SceneRaster, DividesAlongTheDiagonalThatClimbsLess) {
   // A ridge from the north-west to the south-east, then one the other way.
-  for (const auto* rows : {"9 0 0\n0 9 0\n0 0 9\n", "0 0 9\n0 9 0\n9 0 0\n"}) {
+  for (const auto* rows : {"9 0 0\n3 9 0\n0 3 9\n", "0 0 9\n0 9 3\n9 3 0\n"}) {
     const auto model = read_text("r.asc", grid(rows));
     std::size_t on_ridge = 0;
     for (std::size_t p = 0; p < model.polygon_count(); ++p) {
       double high = 0;
-      for (int k = 0; k < 3; ++k) high += corner(model, p, 0, k).z > 0;
+      for (int k = 0; k < 3; ++k) high += corner(model, p, 0, k).z == 9;
       on_ridge += high == 2;
     }
     EXPECT_EQ(on_ridge, 4u) << rows;  // two cells on it, two triangles each

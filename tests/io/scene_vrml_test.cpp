@@ -192,7 +192,7 @@ TEST(SceneVrml, GzipByContentInlineAndExternProto) {
 
 TEST(SceneVrml, CirclesOfFilesAreRefused) {
   write_text("b.wrl", vrml97 + "Inline { url \"a.wrl\" }");
-  EXPECT_NE(refusal("a.wrl", vrml97 + "Inline { url \"b.wrl\" }").find("inlines itself"),
+  EXPECT_NE(refusal("a.wrl", vrml97 + "Inline { url \"b.wrl\" }").find("leads back to it"),
             std::string::npos);
   EXPECT_NE(refusal("c.wrl", vrml97 + "EXTERNPROTO A [ ] \"c.wrl#A\"\nA { }").find("contains itself"),
             std::string::npos);
@@ -264,8 +264,8 @@ TEST(SceneVrml, HostileFilesAreRefused) {
   EXPECT_NE(refusal("h.wrl", vrml97 + "Shape { geometry Box { size 1e38 1e38 1e38 } }")
                 .find("beyond all coordinates"),
             std::string::npos);
-  EXPECT_EQ(refusal("h.wrl", vrml97 + "DEF w Shape {\n" + triangle.substr(0, triangle.size() - 12) +
-                                 "coordIndex [0 1 7] } }")
+  EXPECT_EQ(refusal("h.wrl", vrml97 + "DEF w Shape { geometry IndexedFaceSet { coord Coordinate { "
+                                      "point [0 0 0] } coordIndex [0 1 2] } }")
                 .substr(0, 8),
             "h.wrl:2:");
   EXPECT_EQ(refusal("h.wrl", vrml97 + "\nShape { geometry Box { size oops } }").substr(0, 8),
@@ -280,7 +280,7 @@ TEST(SceneVrml, DamagedBytesNeverCrash) {
       triangle + "} } USE s ] }\n";
   std::size_t read = 0;
   for (std::size_t at = vrml97.size(); at < good.size(); ++at) {
-    for (const char byte : {'{', '}', '[', ' ', '"', '9', '\\', '#'}) {
+    for (const char byte : {'}', '[', '"', '9'}) {
       std::string bad = good;
       bad[at] = byte;
       read += refusal("d.wrl", bad).empty();
