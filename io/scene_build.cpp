@@ -167,8 +167,11 @@ class MaterialAssigner {
   static std::vector<double> emission_per_area(const Mesh& mesh) {
     std::vector<double> area(mesh.file_materials.size(), 0), emission(area);
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-      if (mesh.triangle_material[t].exists() && mesh.triangle_surface[t] != Surface::floor)
-        area[mesh.triangle_material[t].index()] += norm(mesh.area_vector2(t)) / 2;
+      if (mesh.triangle_material[t].exists() && mesh.triangle_surface[t] != Surface::floor) {
+        // The two patches of a two-sided triangle emit both.
+        const double sides = mesh.triangle_sides[t] == Sides::two ? 2 : 1;
+        area[mesh.triangle_material[t].index()] += sides * norm(mesh.area_vector2(t)) / 2;
+      }
     for (std::size_t m = 0; m < area.size(); ++m)
       if (area[m] > 0) emission[m] = mesh.file_materials[m].emitted_power_w / area[m];
     return emission;
