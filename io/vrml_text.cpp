@@ -106,6 +106,10 @@ class Checker {
   }
 
   void read(std::string_view token) {
+    if (token.size() > longest_vrml_word && token[0] != '"') {
+      refuse(tokens_.byte_of(token), "a word of " + std::to_string(token.size()) + " characters",
+             "at most " + std::to_string(longest_vrml_word) + " can be read");
+    }
     if (token == "{" || token == "[") {
       open(token);
     } else if (token == "}" || token == "]") {

@@ -15,6 +15,8 @@ namespace sunload {
 
 /// Nesting of `{` and `[`: parsers recurse; 1000 levels need well below a stack of 8 MB.
 inline constexpr std::size_t deepest_vrml = 500;
+/// Coin copies names on its stack: 1 MB of one overflows it.
+inline constexpr std::size_t longest_vrml_word = 4096;
 /// Nodes after PROTOs and USEs are put in their places: beyond any real file, seconds to read.
 inline constexpr double most_vrml_nodes = 5e6;
 
