@@ -134,7 +134,7 @@ Site resolve_site(const Study& study, const PolygonModel& model, std::string& so
 class MaterialAssigner {
  public:
   MaterialAssigner(const Study& study, Scene& scene, BuiltScene& built)
-      : study_(study), scene_(scene), built_(built), emission_(emission_per_area(scene.mesh)) {
+      : study_(study), scene_(scene), built_(built), emission_(emission_per_area(study.scene, scene.mesh)) {
     for (const auto& m : study.scene.materials) by_name_[m.name] = m;
     for (const auto& m : scene.mesh.file_materials)
       if (!m.name.empty() && !by_name_.contains(m.name))
@@ -164,13 +164,17 @@ class MaterialAssigner {
   }
 
  private:
-  static std::vector<double> emission_per_area(const Mesh& mesh) {
+  static std::vector<double> emission_per_area(const SceneStudy& study, const Mesh& mesh) {
     std::vector<double> area(mesh.file_materials.size(), 0), emission(area);
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-      if (mesh.triangle_material[t].exists() && mesh.triangle_surface[t] != Surface::floor) {
+      if (mesh.triangle_material[t].exists() && mesh.triangle_surface[t] != Surface::floor &&
+          mesh.file_materials[mesh.triangle_material[t].index()].emitted_power_w > 0) {
         // The two patches of a two-sided triangle emit both.
-        const double sides = mesh.triangle_sides[t] == Sides::two ? 2 : 1;
-        area[mesh.triangle_material[t].index()] += sides * norm(mesh.area_vector2(t)) / 2;
+        const auto m = mesh.triangle_material[t].index();
+        Sides sides = mesh.triangle_sides[t];
+        for (const auto& named : study.materials)
+          if (named.name == mesh.file_materials[m].name) sides = named.sides.value_or(sides);
+        area[m] += (sides == Sides::two ? 2 : 1) * norm(mesh.area_vector2(t)) / 2;
       }
     for (std::size_t m = 0; m < area.size(); ++m)
       if (area[m] > 0) emission[m] = mesh.file_materials[m].emitted_power_w / area[m];
@@ -224,6 +228,8 @@ class MaterialAssigner {
     m.diffuse = study.diffuse.value_or(file ? file->diffuse.value_or(0) : 0);
     m.mirror = study.mirror.value_or(file ? file->mirror.value_or(0) : 0);
     m.emission_w_m2 = study.emission_w_m2;
+    // A reflectance of the study's does not put out the file's lamps.
+    if (m.emission_w_m2 == 0 && file) m.emission_w_m2 = emission_[file_id.index()];
     return m;
   }
 
