@@ -1,0 +1,130 @@
+// Reads what io/view_data.cpp has put into the page.
+
+/** Value of every half-precision float (IEEE 754 binary16) by its bits. */
+function halfValues() {
+  const table = new Float32Array(65536);
+  for (let bits = 0; bits < 65536; ++bits) {
+    const sign = bits & 0x8000 ? -1 : 1, exponent = (bits >> 10) & 31, mantissa = bits & 1023;
+    if (exponent === 31) table[bits] = mantissa ? NaN : sign * Infinity;
+    else if (exponent === 0) table[bits] = sign * mantissa * 2 ** -24;
+    else table[bits] = sign * (1 + mantissa / 1024) * 2 ** (exponent - 15);
+  }
+  return table;
+}
+
+async function block(number) {
+  const element = document.getElementById(`block-${number}`);
+  const text = atob(element.textContent);
+  element.remove();
+  const packed = new Uint8Array(text.length);
+  for (let k = 0; k < text.length; ++k) packed[k] = text.charCodeAt(k);
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Response(stream).arrayBuffer();
+}
+
+const integers = ["patch_vertices", "patch_object", "patch_facade", "patch_material", "patch_surface", "patch_side",
+  "patch_input_triangle", "input_triangle_vertices"];
+const surfaces = ["other", "wall", "roof", "ground", "window", "floor"];
+
+/** One result: names as in its file, arrays unpacked. */
+class Result {
+  static async read(about, halves) {
+    const result = Object.assign(new Result(), about, { halves });
+    const g = about.geometry;
+    result.vertices = new Float32Array(await block(g.vertices));
+    for (const name of integers) result[name] = new Int32Array(await block(g[name]));
+    for (const name of ["patch_area", "patch_normal"]) result[name] = new Float32Array(await block(g[name]));
+    result.patches = result.patch_area.length;
+    for (const total of about.totals) total.values = new Float32Array(await block(total.values));
+    if (about.series) about.series.planes = new Uint8Array(await block(about.series.values));
+    const twins = new Set();
+    result.patch_side.forEach((side, p) => side && twins.add(result.patch_input_triangle[p]));
+    result.isTwoSided = Uint8Array.from(result.patch_input_triangle, (triangle) => +twins.has(triangle));
+    return result;
+  }
+
+  get label() { return this.variant || this.study; }
+
+  /** Value of the series at interval k of the page. */
+  seriesValue(k, patch) {
+    const at = 2 * k * this.patches + patch;
+    return this.halves[this.series.planes[at] | (this.series.planes[at + this.patches] << 8)] / this.series.scale;
+  }
+
+  /** One value per patch: of a total, or of the series at interval k (NaN: not covered). */
+  values(name, k) {
+    const total = this.totals.find((one) => one.name === name);
+    if (total) return total.values;
+    const values = new Float32Array(this.patches).fill(NaN);
+    if (this.series?.name === name && k >= 0) for (let p = 0; p < this.patches; ++p) values[p] = this.seriesValue(k, p);
+    return values;
+  }
+
+  units(name) {
+    return this.series?.name === name ? this.series.units : this.totals.find((one) => one.name === name)?.units ?? "";
+  }
+
+  /** Interval that holds an instant of another result, -1: none. */
+  intervalAt(time) {
+    const middle = (time.begin + time.end) / 2;
+    return this.times.findIndex((own) => own.begin <= middle && middle < own.end);
+  }
+
+  hasSameMesh(other) {
+    return this.patches === other.patches && this.vertices.length === other.vertices.length &&
+      this.patch_vertices.every((v, k) => v === other.patch_vertices[k]) &&
+      this.vertices.every((x, k) => Math.abs(x - other.vertices[k]) < 1e-3) &&
+      this.geometry.centre.every((x, k) => Math.abs(x - other.geometry.centre[k]) < 1e-3);
+  }
+
+  patchNames(patch) {
+    const g = this.geometry;
+    return {
+      object: g.object_name[this.patch_object[patch]] ?? "",
+      facade: g.facade_name[this.patch_facade[patch]] ?? "",
+      material: g.material_name[this.patch_material[patch]] ?? "",
+      surface: surfaces[this.patch_surface[patch]] ?? "",
+    };
+  }
+
+  corner(patch, k) {
+    const v = 3 * this.patch_vertices[3 * patch + k];
+    return [this.vertices[v], this.vertices[v + 1], this.vertices[v + 2]];
+  }
+
+  centroid(patch) {
+    const corners = [0, 1, 2].map((k) => this.corner(patch, k));
+    return [0, 1, 2].map((axis) => (corners[0][axis] + corners[1][axis] + corners[2][axis]) / 3);
+  }
+}
+
+export async function readPage() {
+  const about = JSON.parse(document.getElementById("about").textContent);
+  const halves = halfValues();
+  const results = [];
+  for (const one of about.results) results.push(await Result.read(one, halves));
+  return { results, palettes: { false: about.false, grey: about.grey, difference: differencePalette() } };
+}
+
+/** Blue, near white, orange: lightness falls equally to both sides (CIELAB), told apart by all colour vision. */
+function differencePalette() {
+  const colours = [];
+  for (let k = 0; k < 256; ++k) {
+    const t = k / 127.5 - 1, away = Math.abs(t), hue = t < 0 ? 275 : 55;
+    colours.push(...srgb(95 - 60 * away, 62 * Math.min(1, 1.3 * away) * Math.cos(hue * Math.PI / 180),
+      62 * Math.min(1, 1.3 * away) * Math.sin(hue * Math.PI / 180)));
+  }
+  return colours;
+}
+
+/** CIE 15:2004 with white D65, then sRGB (IEC 61966-2-1), 0 … 255. */
+function srgb(lightness, a, b) {
+  const f = (lightness + 16) / 116;
+  const scale = (t) => (t > 6 / 29 ? t ** 3 : 3 * (6 / 29) ** 2 * (t - 4 / 29));
+  const [x, y, z] = [0.95047 * scale(f + a / 500), scale(f), 1.08883 * scale(f - b / 200)];
+  return [3.2404542 * x - 1.5371385 * y - 0.4985314 * z, -0.969266 * x + 1.8760108 * y + 0.041556 * z,
+    0.0556434 * x - 0.2040259 * y + 1.0572252 * z].map((c) => {
+    const coded = c <= 0.0031308 ? 12.92 * c : 1.055 * c ** (1 / 2.4) - 0.055;
+    return Math.round(255 * Math.min(1, Math.max(0, coded)));
+  });
+}
