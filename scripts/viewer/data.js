@@ -70,11 +70,73 @@ class Result {
     return this.times.findIndex((own) => own.begin <= middle && middle < own.end);
   }
 
-  hasSameMesh(other) {
-    return this.patches === other.patches && this.vertices.length === other.vertices.length &&
-      this.patch_vertices.every((v, k) => v === other.patch_vertices[k]) &&
-      this.vertices.every((x, k) => Math.abs(x - other.vertices[k]) < 1e-3) &&
-      this.geometry.centre.every((x, k) => Math.abs(x - other.geometry.centre[k]) < 1e-3);
+  /** Patches by input triangle and side; a triangle is known by its corners to the millimetre. */
+  patchesByTriangle() {
+    const keys = new Map(), groups = new Map(), { centre } = this.geometry;
+    for (let p = 0; p < this.patches; ++p) {
+      const triangle = this.patch_input_triangle[p];
+      if (!keys.has(triangle)) {
+        keys.set(triangle, [0, 1, 2].map((k) => {
+          const v = 3 * this.input_triangle_vertices[3 * triangle + k];
+          return [0, 1, 2].map((axis) => Math.round(1000 * (this.vertices[v + axis] + centre[axis]))).join(" ");
+        }).sort().join(" "));
+      }
+      const key = `${this.patch_side[p]} ${keys.get(triangle)}`;
+      groups.has(key) ? groups.get(key).push(p) : groups.set(key, [p]);
+    }
+    return groups;
+  }
+
+  /**
+   * Patches of another result that lie on each patch of this one: those whose middle is in it, or the one that
+   * its own middle is in. Patches of one input triangle are nested, so that the area-weighted mean over them is exact.
+   */
+  matched(other) {
+    const found = Array.from({ length: this.patches }, () => []), around = new Int32Array(this.patches).fill(-1);
+    const others = other.patchesByTriangle();
+    for (const [key, patches] of this.patchesByTriangle()) {
+      if (!others.has(key)) continue;
+      this.eachHeld(patches, other, others.get(key), (p, q) => found[p].push(q));
+      other.eachHeld(others.get(key), this, patches, (q, p) => { around[p] = q; });
+    }
+    const first = new Int32Array(this.patches + 1), list = [];
+    for (let p = 0; p < this.patches; ++p) {
+      if (found[p].length) list.push(...found[p]);
+      else if (around[p] >= 0) list.push(around[p]);
+      first[p + 1] = list.length;
+    }
+    return { first, list: Int32Array.from(list), area: other.patch_area };
+  }
+
+  /** Calls found(p, q) where the middle of a patch q of another result is in a patch p; both lie in one plane. */
+  eachHeld(patches, other, others, found) {
+    const [i, j] = this.axesOf(patches[0]), shift = [0, 1, 2].map((axis) => other.geometry.centre[axis] - this.geometry.centre[axis]);
+    const points = others.map((q) => other.centroid(q).map((x, axis) => x + shift[axis]));
+    // Points by the cells of a grid, so that each patch looks at those near it only.
+    const low = [i, j].map((axis) => points.reduce((least, point) => Math.min(least, point[axis]), Infinity));
+    const high = [i, j].map((axis) => points.reduce((most, point) => Math.max(most, point[axis]), -Infinity));
+    const count = Math.ceil(Math.sqrt(points.length)), cells = new Map();
+    const cell = (x, n) => Math.max(0, Math.min(count - 1, Math.floor(((x - low[n]) / (high[n] - low[n] || 1)) * count)));
+    points.forEach((point, k) => {
+      const at = cell(point[i], 0) * count + cell(point[j], 1);
+      cells.has(at) ? cells.get(at).push(k) : cells.set(at, [k]);
+    });
+    for (const p of patches) {
+      const corners = [0, 1, 2].map((k) => this.corner(p, k));
+      const [fromX, toX, fromY, toY] = [[i, 0], [j, 1]].flatMap(([axis, n]) => {
+        const along = corners.map((corner) => corner[axis]);
+        return [cell(Math.min(...along), n), cell(Math.max(...along), n)];
+      });
+      for (let x = fromX; x <= toX; ++x)
+        for (let y = fromY; y <= toY; ++y)
+          for (const k of cells.get(x * count + y) ?? []) if (holds(corners, points[k], i, j)) found(p, others[k]);
+    }
+  }
+
+  /** The two axes along which a patch is seen largest. */
+  axesOf(patch) {
+    const n = [0, 1, 2].map((axis) => Math.abs(this.patch_normal[3 * patch + axis])), off = n.indexOf(Math.max(...n));
+    return [0, 1, 2].filter((axis) => axis !== off);
   }
 
   patchNames(patch) {
@@ -92,10 +154,51 @@ class Result {
     return [this.vertices[v], this.vertices[v + 1], this.vertices[v + 2]];
   }
 
+  /** Height of the highest patch below a height over a point of the plan; -Infinity: none. */
+  heightAt(x, y, below) {
+    const { vertices: v, patch_vertices: corners } = this;
+    let highest = -Infinity;
+    for (let c = 0; c < corners.length; c += 3) {
+      const a = 3 * corners[c], b = 3 * corners[c + 1], d = 3 * corners[c + 2];
+      // Twice the signed areas that the point spans with the sides, seen in plan.
+      const u = (v[b] - x) * (v[d + 1] - y) - (v[d] - x) * (v[b + 1] - y);
+      const w = (v[d] - x) * (v[a + 1] - y) - (v[a] - x) * (v[d + 1] - y);
+      if (u < 0 !== w < 0) continue;
+      const t = (v[a] - x) * (v[b + 1] - y) - (v[b] - x) * (v[a + 1] - y);
+      if (u < 0 !== t < 0 || u + w + t === 0) continue;
+      const z = (u * v[a + 2] + w * v[b + 2] + t * v[d + 2]) / (u + w + t);
+      if (z <= below && z > highest) highest = z;
+    }
+    return highest;
+  }
+
   centroid(patch) {
     const corners = [0, 1, 2].map((k) => this.corner(patch, k));
     return [0, 1, 2].map((axis) => (corners[0][axis] + corners[1][axis] + corners[2][axis]) / 3);
   }
+}
+
+/** Whether a point is in a triangle, both seen along one axis. */
+function holds(corners, point, i, j) {
+  let left = false, right = false;
+  for (let k = 0; k < 3; ++k) {
+    const a = corners[k], b = corners[(k + 1) % 3];
+    const turn = (b[i] - a[i]) * (point[j] - a[j]) - (b[j] - a[j]) * (point[i] - a[i]);
+    left ||= turn > 0;
+    right ||= turn < 0;
+  }
+  return !(left && right);
+}
+
+/** Area-weighted mean of another result's values over what is matched to a patch; NaN: nothing. */
+export function matchedMean(match, patch, valueOf) {
+  let sum = 0, area = 0;
+  for (let k = match.first[patch]; k < match.first[patch + 1]; ++k) {
+    const q = match.list[k];
+    sum += match.area[q] * valueOf(q);
+    area += match.area[q];
+  }
+  return area > 0 ? sum / area : NaN;
 }
 
 export async function readPage() {

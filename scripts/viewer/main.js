@@ -1,7 +1,7 @@
 // The page of `sunload view`: state, what it draws, and what the user does to it.
 import * as THREE from "three";
 import { CameraMan } from "./camera.js";
-import { readPage } from "./data.js";
+import { matchedMean, readPage } from "./data.js";
 import { PatchMesh, paletteTexture } from "./mesh.js";
 import { drawSeries } from "./plot.js";
 import { scaleEnd, shown, ticks } from "./scale.js";
@@ -35,7 +35,7 @@ class Viewer {
 
   buildScene() {
     const [result] = this.results;
-    this.renderer = new THREE.WebGLRenderer({ canvas: $("scene"), antialias: true, preserveDrawingBuffer: true });
+    this.renderer = new THREE.WebGLRenderer({ canvas: $("scene"), antialias: !isDrawnBySoftware(), preserveDrawingBuffer: true });
     this.renderer.setClearColor(0xe8f0f7);
     this.renderer.autoClear = false;
     this.scene = new THREE.Scene();
@@ -57,9 +57,8 @@ class Viewer {
 
   /** Height of the highest surface below a height, over a point of the plan. */
   groundAt(x, y, below) {
-    const top = Number.isFinite(below) ? below : this.lowest + highestStreetM;
-    this.rays.set(new THREE.Vector3(x, y, top), new THREE.Vector3(0, 0, -1));
-    return this.rays.intersectObject(this.meshes[0].object, false)[0]?.point.z ?? this.lowest;
+    const height = this.results[0].heightAt(x, y, Number.isFinite(below) ? below : this.lowest + highestStreetM);
+    return Number.isFinite(height) ? height : this.lowest;
   }
 
   /** Views side by side: which mesh in which share of the width. */
@@ -77,6 +76,11 @@ class Viewer {
     return result.values(quantity, n === 0 ? k : result.intervalAt(this.results[0].times[k]));
   }
 
+  /** The second result minus the first, on the patches of the first. */
+  difference(values, others) {
+    return values.map((value, p) => matchedMean(this.match, p, (q) => others[q]) - value);
+  }
+
   refresh() {
     const { quantity, shading, crease, lines, colours, k } = this.state;
     const end = this.limit(), isSmooth = shading === "smooth";
@@ -85,8 +89,7 @@ class Viewer {
       if (quantity !== preview) {
         let values = this.valuesOf(n);
         if (this.isDifference() && n === 0) {
-          const other = this.valuesOf(1);
-          values = values.map((value, p) => other[p] - value);
+          values = this.difference(values, this.valuesOf(1));
         }
         mesh.show(values, isSmooth, crease);
       }
@@ -118,8 +121,8 @@ class Viewer {
     const intervals = isSeries ? [...new Set([0.25, 0.5, 0.75, 1].map((share) => this.atElevation(share)).concat(k))] : [k];
     const ends = intervals.flatMap((at) => {
       if (!this.isDifference()) return this.results.map((result, n) => scaleEnd(this.valuesOf(n, quantity, at), result.patch_area));
-      const other = this.valuesOf(1, quantity, at);
-      return [scaleEnd(this.valuesOf(0, quantity, at).map((value, p) => Math.abs(other[p] - value)), this.results[0].patch_area)];
+      const apart = this.difference(this.valuesOf(0, quantity, at), this.valuesOf(1, quantity, at));
+      return [scaleEnd(apart.map(Math.abs), this.results[0].patch_area)];
     });
     return Math.max(...ends);
   }
@@ -205,15 +208,19 @@ class Viewer {
     $("patch").hidden = !picked;
     if (!picked) return;
     const { n, patch } = picked, result = this.results[n];
-    // The same patch of the other result, where the meshes are the same.
-    const which = this.isSameMesh ? [0, 1] : [n];
+    // For a patch of the first result also what the second has in its place.
+    const hasBoth = n === 0 && this.match && this.match.first[patch] < this.match.first[patch + 1], which = hasBoth ? [0, 1] : [n];
+    const valueOf = (m, value) => (m === n ? value(patch) : matchedMean(this.match, patch, value));
     const rows = [["patch", patch], ...Object.entries(result.patchNames(patch)),
       ["area", `${shown(result.patch_area[patch])} m²`]].filter(([, value]) => value !== "").map(([name, value]) => [name, [value]]);
     if (this.results.length > 1) rows.push(["", which.map((m) => this.results[m].label)]);
     const names = [...result.totals.map((total) => total.name), ...(result.series ? [result.series.name] : [])];
     for (const name of names)
       rows.push([`${name.replaceAll("_", " ")} ${result.units(name) && `[${result.units(name)}]`}`,
-        which.map((m) => shown(this.valuesOf(m, name)[patch], this.digits(name))), name]);
+        which.map((m) => {
+          const values = this.valuesOf(m, name);
+          return shown(valueOf(m, (p) => values[p]), this.digits(name));
+        }), name]);
     $("values").replaceChildren(...rows.map(([what, values, name]) => {
       const row = document.createElement("tr");
       if (name) row.dataset.quantity = name;
@@ -228,7 +235,7 @@ class Viewer {
     const times = this.results[0].times;
     const curves = which.map((m) => ({ label: this.results[m].label, values: times.map((time, i) => {
       const own = m === 0 ? i : this.results[m].intervalAt(time);
-      return own >= 0 ? this.results[m].seriesValue(own, patch) : NaN;
+      return own >= 0 ? valueOf(m, (p) => this.results[m].seriesValue(own, p)) : NaN;
     }) }));
     drawSeries($("series"), times, k, curves, `${result.series.name} [${result.series.units}], ${result.timezone}`);
   }
@@ -242,12 +249,16 @@ class Viewer {
     const { results, state } = this;
     document.title = `sunload: ${results[0].study}`;
     $("title").textContent = `${results[0].study}: ${results.map((result) => result.label).join(", ")}`;
-    this.isSameMesh = results.length > 1 && results[0].hasSameMesh(results[1]);
+    this.match = results.length > 1 ? results[0].matched(results[1]) : null;
+    const lonely = this.match ? results[0].patch_area.reduce((sum, area, p) => sum + (this.match.first[p] < this.match.first[p + 1] ? 0 : area), 0) : 0;
+    this.unmatchedShare = this.match ? lonely / results[0].patch_area.reduce((sum, area) => sum + area, 0) : 0;
     const views = results.map((result, n) => [String(n), result.label]);
     if (results.length > 1) views.push(["side", "side by side"]);
-    if (this.isSameMesh) views.push(["difference", `difference: ${results[1].label} − ${results[0].label}`]);
-    $("no-difference").hidden = results.length < 2 || this.isSameMesh;
-    $("no-difference").textContent = "The patches of the two results differ: no difference patch by patch.";
+    if (this.unmatchedShare < 1 && this.match) views.push(["difference", `difference: ${results[1].label} − ${results[0].label}`]);
+    $("no-difference").hidden = !(this.unmatchedShare > 0);
+    $("no-difference").textContent = this.unmatchedShare < 1 ?
+      `${shown(100 * this.unmatchedShare, 2)} % of ${results[0].label} has other shapes in ${results[1].label}: grey in the difference.` :
+      "The two results share no surface: there is no difference.";
     fill($("view"), views, state.view);
     $("view").parentElement.hidden = results.length < 2;
     // What a result has, the other may lack: only quantities of both can be shown.
@@ -361,6 +372,15 @@ class Viewer {
 
 // Walking starts on what is lower than this above the lowest point: streets, not roofs.
 const highestStreetM = 2;
+
+/** Whether the browser draws without a graphics card: smooth edges cost it two thirds of its frames. */
+function isDrawnBySoftware() {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const info = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = info ? gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
 
 function fill(select, choices, chosen) {
   select.replaceChildren(...choices.map(([value, text]) => Object.assign(document.createElement("option"), { value, textContent: text })));

@@ -1,9 +1,10 @@
 // Opens a page of `sunload view` in a real browser, uses it, and tells what it saw as JSON:
-//   node view_probe.mjs FOLDER_OF_PLAYWRIGHT CHROMIUM PAGE FOLDER_OF_PICTURES
+//   node view_probe.mjs FOLDER_OF_PLAYWRIGHT CHROMIUM PAGE FOLDER_OF_PICTURES [match]
+// match: only what the second result brings onto the patches of the first.
 import { createRequire } from "node:module";
 import { join } from "node:path";
 
-const [modules, chromium, page, pictures] = process.argv.slice(2);
+const [modules, chromium, page, pictures, mode] = process.argv.slice(2);
 const playwright = createRequire(join(modules, "package.json"))("playwright-core");
 const seen = { errors: [], requests: [], patches: [], clicks: [], times: {} };
 
@@ -18,7 +19,7 @@ try {
   await tab.goto(`file://${page}`);
   await tab.waitForFunction(() => window.sunload, null, { timeout: 240000 });
   seen.loadSeconds = (Date.now() - started) / 1000;
-  await use(tab);
+  await (mode === "match" ? match(tab) : use(tab));
 } finally {
   await browser.close();
 }
@@ -56,10 +57,18 @@ function visiblePatches(tab, most) {
   }, most);
 }
 
+async function match(tab) {
+  seen.unmatchedShare = await tab.evaluate(() => window.sunload.unmatchedShare);
+  seen.matchedKwh = await tab.evaluate(() => {
+    const viewer = window.sunload, own = viewer.valuesOf(0, "light_load");
+    return viewer.difference(own, viewer.valuesOf(1, "light_load")).reduce((sum, apart, p) => sum + viewer.results[0].patch_area[p] * (own[p] + apart), 0);
+  });
+}
+
 async function use(tab) {
   const count = await tab.evaluate(() => window.sunload.results.length);
   seen.title = await tab.textContent("#title");
-  seen.isSameMesh = await tab.evaluate(() => window.sunload.isSameMesh);
+  seen.unmatchedShare = await tab.evaluate(() => (window.sunload.match ? window.sunload.unmatchedShare : 1));
   if (count > 1) {
     await picture(tab, "side");
     await set(tab, "view", "0");
@@ -110,7 +119,7 @@ async function use(tab) {
   await set(tab, "quantity", "preview");
   await picture(tab, "preview");
   await set(tab, "quantity", "light_load");
-  if (seen.isSameMesh) {
+  if (seen.unmatchedShare < 1) {
     await set(tab, "view", "difference");
     seen.differenceLimit = await tab.evaluate(() => window.sunload.limit());
     await picture(tab, "difference");

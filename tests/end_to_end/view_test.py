@@ -23,11 +23,12 @@ light: {source: clear_sky}
 scene:
   files: [square.obj]
   materials: {paving: {diffuse: 0.3}, plaster: {diffuse: 0.6}, glass: {diffuse: 0.05, mirror: 0.85}}
-mesh: {max_edge_m: 3}
+mesh: {max_edge_m: 3, oracle: none}
 solver: {lines_per_patch: 64, batch_suns: 8}
 variants:
   - {name: baseline}
   - {name: bright, scene: {materials: {plaster: {diffuse: 0.9}}}}
+  - {name: fine, mesh: {max_edge_m: 1.8}}
 """
 # Of 255: the palette's texture and the legend's rounding are one each.
 COLOUR_STEPS = 2
@@ -124,7 +125,7 @@ def test_clicks(seen, result, bright, k):
 
 def test_difference(seen, pictures, patches, difference):
     """Blue where less, orange where more, near white where the same."""
-    assert seen["isSameMesh"] and seen["differenceLimit"] > 0
+    assert seen["unmatchedShare"] == 0 and seen["differenceLimit"] > 0
     colour = pictures.at("difference", patches)
     share = difference / seen["differenceLimit"]
     warm = colour[:, 0] - colour[:, 2]
@@ -151,6 +152,19 @@ def test_drawings(seen, pictures):
     assert seen["played"][0] != seen["played"][1]
 
 
+def test_match(probe, folder, sunload):
+    """Patches of other sizes: what a result brings onto the patches of the other keeps its energy."""
+    coarse, fine = (os.path.join(folder, f"results/square/{name}.h5") for name in ("baseline", "fine"))
+    for one, other in ((coarse, fine), (fine, coarse)):
+        page = os.path.join(folder, "match.html")
+        run([sunload, "view", one, other, "-o", page])
+        seen = json.loads(run([*probe, page, folder, "match"]))
+        with h5py.File(one) as first, h5py.File(other) as second:
+            assert len(first["patch_area"]) != len(second["patch_area"])
+            whole = (second["light_load"][...] * second["patch_area"][...]).sum()
+        assert seen["unmatchedShare"] == 0 and abs(seen["matchedKwh"] - whole) < 1e-5 * whole, (seen, whole)
+
+
 def test_refusals(sunload, folder, path):
     page = os.path.join(folder, "no.html")
     for words, code, says in ((["missing.h5", "-o", page], 2, "missing.h5"), ([path, path, path, "-o", page], 2, "two"),
@@ -174,9 +188,10 @@ def test(sunload, source, packages, folder):
     page = os.path.join(folder, "page.html")
     run([sunload, "view", path, other, "-o", page])
     chromium = shutil.which("chromium") or shutil.which("chromium-browser")
-    probe = os.path.join(os.path.dirname(os.path.abspath(__file__)), "view_probe.mjs")
-    seen = json.loads(run(["node", probe, packages, chromium, page, folder]))
+    probe = ["node", os.path.join(os.path.dirname(os.path.abspath(__file__)), "view_probe.mjs"), packages, chromium]
+    seen = json.loads(run([*probe, page, folder]))
     test_page(seen, Pictures(folder), path, other)
+    test_match(probe, folder, sunload)
     test_refusals(sunload, folder, path)
     print(f"{len(seen['patches'])} patches have the colours of their values, {len(seen['clicks'])} clicks told them; "
           f"{seen['framesPerSecond']:.0f} frames/s")
