@@ -213,9 +213,8 @@ export async function readPage() {
 function differencePalette() {
   const colours = [];
   for (let k = 0; k < 256; ++k) {
-    const t = k / 127.5 - 1, away = Math.abs(t), hue = t < 0 ? 275 : 55;
-    colours.push(...srgb(95 - 60 * away, 62 * Math.min(1, 1.3 * away) * Math.cos(hue * Math.PI / 180),
-      62 * Math.min(1, 1.3 * away) * Math.sin(hue * Math.PI / 180)));
+    const t = k / 127.5 - 1, away = Math.abs(t), hue = t < 0 ? 285 : 55, chroma = 45 * Math.min(1, 1.3 * away);
+    colours.push(...srgb(95 - 60 * away, chroma * Math.cos((hue * Math.PI) / 180), chroma * Math.sin((hue * Math.PI) / 180)));
   }
   return colours;
 }

@@ -237,7 +237,7 @@ class Viewer {
       const own = m === 0 ? i : this.results[m].intervalAt(time);
       return own >= 0 ? valueOf(m, (p) => this.results[m].seriesValue(own, p)) : NaN;
     }) }));
-    drawSeries($("series"), times, k, curves, `${result.series.name} [${result.series.units}], ${result.timezone}`);
+    drawSeries($("series"), times, k, curves, `${result.series.name} [${result.series.units}]`);
   }
 
   /** Series travel with 11 bits. */

@@ -37,6 +37,8 @@ void main() {
   gl_FragColor = vec4(colour, 1.0);
 }`;
 const notKnown = -1e30;
+// Cosine of the turn from which on an edge gets a line (20°), as in `sunload render`.
+const leastFold = 0.94;
 
 export function paletteTexture(colours) {
   const bytes = new Uint8Array(256 * 4).fill(255);
@@ -71,6 +73,7 @@ export class PatchMesh {
         light: { value: new THREE.Vector3(0.4, -0.6, 0.7) } },
     });
     this.object = new THREE.Mesh(geometry, this.material);
+    this.object.add(new THREE.LineSegments(this.folds(), new THREE.LineBasicMaterial({ color: 0x30343c })));
     this.lines = {};
     this.creaseDeg = null;
   }
@@ -130,6 +133,23 @@ export class PatchMesh {
     if (which === "none") return;
     this.lines[which] ??= this.edges(which === "after" ? this.result.patch_vertices : this.result.input_triangle_vertices);
     this.lines[which].visible = true;
+  }
+
+  /** Edges of the input triangles where the surface turns or ends. */
+  folds() {
+    const { vertices: v, input_triangle_vertices: triangles } = this.result, edges = new Map();
+    const at = (k) => new THREE.Vector3(v[3 * k], v[3 * k + 1], v[3 * k + 2]);
+    for (let c = 0; c < triangles.length; c += 3) {
+      const corners = [0, 1, 2].map((k) => at(triangles[c + k]));
+      const normal = new THREE.Triangle(...corners).getNormal(new THREE.Vector3());
+      for (let k = 0; k < 3; ++k) {
+        const ends = [corners[k], corners[(k + 1) % 3]];
+        const key = ends.map((p) => p.toArray().map((x) => Math.round(1000 * x)).join(" ")).sort().join(" ");
+        edges.has(key) ? edges.get(key).normals.push(normal) : edges.set(key, { ends, normals: [normal] });
+      }
+    }
+    const isFold = ({ normals: [first, ...rest] }) => !rest.length || rest.some((n) => Math.abs(n.dot(first)) < leastFold);
+    return new THREE.BufferGeometry().setFromPoints([...edges.values()].filter(isFold).flatMap(({ ends }) => ends));
   }
 
   edges(triangles) {
