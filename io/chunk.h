@@ -31,6 +31,9 @@ using Bytes = std::vector<unsigned char>;
 std::vector<Bytes> encoded_chunks(const float* values, std::size_t rows, std::size_t columns,
                                   ChunkShape shape, int level);
 
+/// A zlib stream of any bytes, at libdeflate's level 1 … 12.
+Bytes zlib_deflated(std::span<const unsigned char> bytes, int level);
+
 /// CRC-32 (zlib's) of bytes, continuing `before`.
 std::uint32_t crc32(const void* bytes, std::size_t count, std::uint32_t before = 0);
 

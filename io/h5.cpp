@@ -304,11 +304,14 @@ std::vector<std::string> Dataset::strings() const {
   return values;
 }
 
-std::vector<double> Dataset::row(std::size_t index) const {
+std::vector<double> Dataset::row(std::size_t index) const { return rows(index, 1); }
+
+std::vector<double> Dataset::rows(std::size_t first, std::size_t count) const {
   auto size = shape();
-  if (size.empty() || index >= size[0]) throw Error("has no row " + std::to_string(index));
-  const auto [file_space, memory_space] = rows_selected(id(), size, index, 1);
-  size[0] = 1;
+  if (size.empty() || count > size[0] || first > size[0] - count || count == 0)
+    throw Error("has no row " + std::to_string(first + count - std::min<std::size_t>(count, 1)));
+  const auto [file_space, memory_space] = rows_selected(id(), size, first, count);
+  size[0] = count;
   std::vector<double> values(element_count(size));
   if (values.empty()) return values;
   checked(H5Dread(id(), H5T_NATIVE_DOUBLE, *memory_space, *file_space, H5P_DEFAULT, values.data()),

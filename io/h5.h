@@ -66,6 +66,7 @@ class Dataset : public Object {
   std::vector<std::int32_t> integers() const;
   std::vector<std::string> strings() const;
   std::vector<double> row(std::size_t index) const;
+  std::vector<double> rows(std::size_t first, std::size_t count) const;
 
   /// Makes this one-dimensional dataset a dimension scale.
   void make_scale(const std::string& name);

@@ -24,6 +24,7 @@
 #include "io/scene_builtin.h"
 #include "io/scene_obj_write.h"
 #include "io/version.h"
+#include "io/view.h"
 
 namespace sunload {
 namespace {
@@ -97,6 +98,7 @@ class CommandLine {
     add_info();
     add_compare();
     add_render();
+    add_view();
     add_scene();
   }
 
@@ -324,6 +326,19 @@ class CommandLine {
     sub->add_flag("--mesh", mesh_lines_, "draw the patches' edges");
   }
 
+  void add_view() {
+    CLI::App* sub = command("view", "one self-contained page: walk through the scene, any time, two results",
+                            [this] {
+                              if (view_step_ > 0) view_.step = view_step_;
+                              view_html(results_, view_, picture_);
+                              return exit_code::done;
+                            });
+    sub->add_option("RESULT", results_, "one result file (.h5), or two to compare")->required();
+    sub->add_option("-o,--output", picture_, "page to write (.html)")->required();
+    sub->add_option("--step", view_step_, "hold every N-th interval only (default: as many as 60 MB hold)")
+        ->check(CLI::Range(1, 1'000'000));
+  }
+
   void add_scene() {
     CLI::App* sub = command("scene", "write a built-in scene as OBJ", [this] {
       BuiltinRules rules{scene_, {}};
@@ -351,6 +366,8 @@ class CommandLine {
   RunOptions options_;
   RenderRules render_;
   SkyOptions sky_;
+  ViewRules view_;
+  std::size_t view_step_ = 0;
   double largest_ = 0;
   bool resume_ = false, overwrite_ = false, keep_batches_ = false, json_ = false, csv_ = false,
        patches_ = false, mesh_lines_ = false, partial_ = false;

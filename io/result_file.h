@@ -91,6 +91,8 @@ class ResultReader {
   std::vector<std::string> strings(const std::string& dataset) const;
   /// One row of a [time, n] dataset.
   std::vector<double> row(const std::string& dataset, std::size_t time) const;
+  /// `count` ≥ 1 rows from row `first` on, one after the other.
+  std::vector<double> rows(const std::string& dataset, std::size_t first, std::size_t count) const;
   std::string units(const std::string& dataset) const;
   std::string text_attribute(const std::string& name) const;  ///< of the root; empty if absent
   double number_attribute(const std::string& name) const;     ///< of the root; NaN if absent

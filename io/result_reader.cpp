@@ -96,6 +96,11 @@ std::vector<double> ResultReader::row(const std::string& dataset, std::size_t ti
   return file_->with(dataset, [&](const h5::Dataset& data) { return data.row(time); });
 }
 
+std::vector<double> ResultReader::rows(const std::string& dataset, std::size_t first,
+                                       std::size_t count) const {
+  return file_->with(dataset, [&](const h5::Dataset& data) { return data.rows(first, count); });
+}
+
 std::string ResultReader::units(const std::string& dataset) const {
   return file_->with(dataset,
                      [](const h5::Dataset& data) { return data.text("units").value_or(""); });

@@ -1,0 +1,23 @@
+/// `sunload view`: results as one page of HTML that needs neither network nor server.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sunload {
+
+struct ViewRules {
+  /// Every how manyth interval the page holds; none: the least that keeps the
+  /// page below about 60 MB.
+  std::optional<std::size_t> step;
+};
+
+/// Writes the page for one result, or for two that are shown side by side or as
+/// a difference. Tells on stderr where intervals are left out. Throws InputError
+/// for a result without patches, MachineError where the page was not built into
+/// this program or cannot be written.
+void view_html(const std::vector<std::string>& results, const ViewRules& rules,
+               const std::string& path);
+
+}  // namespace sunload

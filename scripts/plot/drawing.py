@@ -1,0 +1,177 @@
+"""What the pictures share: colours, command line, saving, the listing of what is drawn."""
+
+import argparse
+import csv
+import os
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+from matplotlib.colors import ListedColormap  # noqa: E402
+
+from reading import InputError, Result  # noqa: E402
+
+# Okabe and Ito (2008), Color universal design: told apart by all kinds of colour vision.
+LINE_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000", "#999999")
+LINE_STYLES = ("-", "--", "-.", ":")
+COMPONENT_COLOURS = {"direct": "#E69F00", "sky": "#56B4E9", "mirror": "#CC79A7", "lamps": "#F0E442",
+                     "reflected": "#0072B2"}
+TIME_SUMS = {"W/m²": "kWh/m²", "lx": "klx h"}   # of a thousand times the unit, by the hour
+NO_DATA = "#c9c9c9"
+# Scales end where this share of the area lies below, as those of `sunload render` do.
+SCALE_SHARE = 0.995
+
+plt.rcParams.update({
+    "font.size": 9, "axes.titlesize": 10, "axes.titlelocation": "left", "figure.titlesize": 12,
+    "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True, "legend.frameon": False,
+    "axes.grid": False, "grid.color": "#dddddd", "grid.linewidth": 0.6, "savefig.facecolor": "white",
+    "svg.hashsalt": "sunload", "figure.constrained_layout.use": True})
+
+
+def srgb_from_lab(lightness, a, b):
+    """CIE 15:2004 with the white D65, then sRGB (IEC 61966-2-1); clipped to what a screen shows."""
+    f = (lightness + 16) / 116
+    f = np.stack([f + a / 500, f, f - b / 200])
+    knee = 6 / 29
+    xyz = np.where(f > knee, f**3, 3 * knee**2 * (f - 4 / 29)) * np.array([[0.95047], [1.0], [1.08883]])
+    linear = np.array([[3.2404542, -1.5371385, -0.4985314], [-0.9692660, 1.8760108, 0.0415560],
+                       [0.0556434, -0.2040259, 1.0572252]]) @ xyz
+    toe = 12.92 * linear
+    return np.clip(np.where(linear <= 0.0031308, toe, 1.055 * np.maximum(linear, 1e-9)**(1 / 2.4) - 0.055), 0, 1).T
+
+
+def palette(kind):
+    """The false colours and greys of `sunload render` (io/colour_map.h): equal steps of value
+    are equal steps of lightness and of colour difference."""
+    share = np.linspace(0, 1, 256)
+    lightness, chroma, hue = 12 + 80 * share, 58 if kind == "false" else 0, np.radians(305 + 153 * share)
+    colours = ListedColormap(srgb_from_lab(lightness, chroma * np.cos(hue), chroma * np.sin(hue)), name=kind)
+    colours.set_bad(NO_DATA)
+    return colours
+
+
+def rounded_up(value):
+    """Smallest 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 × 10^n that is not below a value above 0."""
+    power = 10.0 ** np.floor(np.log10(value))
+    steps = np.array([1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10]) * power
+    return float(steps[steps >= value * (1 - 1e-9)][0])
+
+
+def scale_end(values, area, largest=None):
+    """Value of the last colour: the user's, or one that 99.5 % of the area do not exceed."""
+    if largest is not None:
+        return largest
+    known = np.isfinite(values)
+    if not known.any():
+        raise InputError("nothing to draw: all values are missing (a partial merge?)")
+    order = np.argsort(values[known])
+    share = np.cumsum(area[known][order]) / area[known].sum()
+    limit = values[known][order][min(np.searchsorted(share, SCALE_SHARE), len(share) - 1)]
+    return rounded_up(limit) if limit > 0 else 1.0
+
+
+def colour_bar(figure, mappable, axes, caption, values, end):
+    above = bool(np.nanmax(values) > end * (1 + 1e-12))
+    figure.colorbar(mappable, ax=axes, label=caption + (f"\n(larger values, up to {np.nanmax(values):.3g}, "
+                                                        "have the last colour)" if above else ""),
+                    extend="max" if above else "neither", shrink=0.8, aspect=30, pad=0.01)
+
+
+def heading(figure, result, text):
+    figure.suptitle(f"{result.title}\n{text}", x=0.01, ha="left", fontsize=10.5, linespacing=1.4)
+
+
+def shortened(name, letters):
+    """A long name without its middle."""
+    if len(name) <= letters:
+        return name
+    tail = max(letters * 2 // 3, 1)
+    return name[:letters - tail - 1] + "…" + name[-tail:]
+
+
+# Command line.
+
+def positive(text):
+    value = float(text)
+    if not (np.isfinite(value) and value > 0):
+        raise argparse.ArgumentTypeError(f"{text} is not a number above 0")
+    return value
+
+
+def parser(description, results="RESULT", many=False):
+    p = argparse.ArgumentParser(description=description,
+                                formatter_class=argparse.RawDescriptionHelpFormatter)
+    p.add_argument("results", metavar=results, nargs="+" if many else 1, help="result file (.h5)")
+    p.add_argument("-o", "--output", metavar="PICTURE",
+                   help="picture to write: .png, .pdf or .svg (default: beside the result)")
+    p.add_argument("--csv", metavar="FILE", help="also list what is drawn; - for standard output")
+    p.add_argument("--dpi", type=positive, default=150, help="pixels per inch (default: %(default)s)")
+    return p
+
+
+def add_colours(p):
+    p.add_argument("--colour", choices=("false", "grey"), default="false",
+                   help="colours of values (default: %(default)s)")
+    p.add_argument("--max", type=positive, metavar="VALUE", help="value of the last colour")
+
+
+def add_targets(p, sensors=True):
+    p.add_argument("--facade", action="append", default=[], metavar="NAME",
+                   help="facade by name or pattern, e.g. 'house_3/*' (repeatable)")
+    p.add_argument("--patch", action="append", type=int, default=[], metavar="N",
+                   help="patch by its index in the file (repeatable)")
+    if sensors:
+        p.add_argument("--sensor", action="append", type=int, default=[], metavar="N",
+                       help="sensor by its index in the file (repeatable)")
+
+
+def save(figure, path, dpi):
+    try:
+        metadata = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}.get(os.path.splitext(path)[1].lower())
+        figure.savefig(path, dpi=dpi, metadata=metadata)
+    except ValueError as error:
+        raise InputError(f"{path}: {error}; end the name in .png, .pdf or .svg") from error
+    finally:
+        plt.close(figure)
+
+
+def write_csv(path, rows):
+    """Rows: the header first."""
+    def write(file):
+        csv.writer(file, lineterminator="\n").writerows(
+            [f"{cell:.9g}" if isinstance(cell, float) else cell for cell in row] for row in rows)
+    if path == "-":
+        write(sys.stdout)
+        return
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        write(file)
+
+
+def default_output(result, name):
+    return os.path.splitext(result.path)[0] + f"-{name}.png"
+
+
+def run(main):
+    """Exit codes of DESIGN 1: 2 where the input is wrong, 3 where a file cannot be written."""
+    try:
+        main(sys.argv[1:])
+    except InputError as error:
+        print(error, file=sys.stderr)
+        sys.exit(2)
+    except OSError as error:
+        print(f"{error.filename or ''}: {error.strerror or error}", file=sys.stderr)
+        sys.exit(3)
+
+
+def draw_one(arguments, name, draw):
+    """For a picture of one result: `draw` gives figure and rows."""
+    result = Result(arguments.results[0])
+    figure, rows = draw(result, arguments)
+    if arguments.csv:
+        write_csv(arguments.csv, rows)
+    output = arguments.output or default_output(result, name)
+    save(figure, output, arguments.dpi)
+    print(f"wrote {output}", file=sys.stderr)

@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""Monthly light load of facades, patches or sensors as bars, divided into its parts.
+
+Months are those of civil time. Bars are sums of the series over the intervals
+that the study has: months that it covers only in part are marked."""
+
+import calendar
+import datetime
+
+import numpy as np
+
+import drawing
+from drawing import plt
+from reading import InputError
+
+
+def month_shares(result):
+    """Months (year, month) and hours [month, interval] that each interval has in them."""
+    pairs = [(k, result.civil(begin), result.civil(end)) for k, (begin, end) in enumerate(result.bounds())]
+    months = sorted({(t.year, t.month) for k, begin, end in pairs
+                     for t in (begin, end - datetime.timedelta(seconds=1))})
+    place = {month: m for m, month in enumerate(months)}
+    hours = np.zeros((len(months), len(pairs)))
+    for k, begin, end in pairs:
+        if (begin.year, begin.month) == ((end - datetime.timedelta(seconds=1)).year,
+                                         (end - datetime.timedelta(seconds=1)).month):
+            hours[place[begin.year, begin.month], k] = (result.bounds()[k, 1] - result.bounds()[k, 0]) / 3600
+            continue
+        for month in months:
+            first, last = month_span(result, month)
+            shared = min(last, result.bounds()[k, 1]) - max(first, result.bounds()[k, 0])
+            hours[place[month], k] = max(0.0, shared) / 3600
+    return months, hours
+
+
+def month_span(result, month):
+    """Begin and end of a civil month [s since 1970]."""
+    year, number = month
+    first = datetime.datetime(year, number, 1, tzinfo=result.zone)
+    last = datetime.datetime(year + number // 12, number % 12 + 1, 1, tzinfo=result.zone)
+    return first.timestamp(), last.timestamp()
+
+
+def draw(result, arguments):
+    if result.is_synthetic:
+        raise InputError(f"{result.path}: its suns have no dates (period.positions), so that there are no months")
+    quantity = arguments.quantity or result.main_series()
+    targets = result.targets(arguments.facade, arguments.patch, arguments.sensor, most=4)
+    parts = result.components(quantity) if all(t.kind != "sensor" for t in targets) else []
+    parts = parts or [quantity]
+    months, hours = month_shares(result)
+    # [part, month, target]: W/m² times h, in thousands.
+    sums = np.array([hours @ result.series(part, targets) / 1000 for part in parts])
+    units = drawing.TIME_SUMS.get(result.units(quantity))
+    if units is None:
+        raise InputError(f"{result.path}: sums over time of {quantity} [{result.units(quantity)}] have no meaning "
+                         "here; choose an irradiance or illuminance")
+
+    across = 2 if len(targets) > 1 else 1
+    down = -(-len(targets) // across)
+    figure, grid = plt.subplots(down, across, squeeze=False, sharex=True, sharey=True,
+                                figsize=(10, 1.8 + 2.8 * down))
+    is_whole = [hours[m].sum() * 3600 >= month_span(result, month)[1] - month_span(result, month)[0] - 1
+                for m, month in enumerate(months)]
+    for k, axes in enumerate(grid.ravel()):
+        if k >= len(targets):
+            axes.axis("off")
+            continue
+        draw_bars(axes, months, is_whole, sums[:, :, k], parts, quantity)
+        axes.set_title(f"{targets[k].label}: {sums[:, :, k].sum():.4g} {units}")
+    for axes in grid[:, 0]:
+        axes.set_ylabel(f"light load of the month [{units}]")
+    if len(parts) > 1:
+        handles, labels = grid[0, 0].get_legend_handles_labels()
+        grid[0, -1].legend(handles[::-1], labels[::-1], loc="upper left", bbox_to_anchor=(1, 1))
+    note = "" if all(is_whole) else "; * only part of the month is in the study"
+    drawing.heading(figure, result, f"light load by civil month, {result.zone_name}{note}")
+    return figure, rows(months, hours, targets, parts, sums)
+
+
+def draw_bars(axes, months, is_whole, sums, parts, quantity):
+    bottom = np.zeros(len(months))
+    for part, values in zip(parts, sums):
+        name = part.removeprefix(quantity + "_")
+        axes.bar(range(len(months)), values, bottom=bottom, label=name, width=0.75,
+                 color=drawing.COMPONENT_COLOURS.get(name, drawing.LINE_COLOURS[0]))
+        bottom += values
+    years = {year for year, month in months}
+    axes.set_xticks(range(len(months)), [
+        calendar.month_abbr[month] + ("" if whole else "*") + (f"\n{year}" if m == 0 or len(years) > 1 and month == 1
+                                                              else "")
+        for m, ((year, month), whole) in enumerate(zip(months, is_whole))])
+    axes.tick_params(labelbottom=True)
+    axes.set_ylim(bottom=0)
+    axes.set_xlim(-0.6, max(len(months), 3) - 0.4)
+    axes.grid(True, axis="y")
+
+
+def rows(months, hours, targets, parts, sums):
+    yield ["month", "hours_covered", "target"] + parts + ["sum"]
+    for m, (year, month) in enumerate(months):
+        for k, target in enumerate(targets):
+            yield [f"{year}-{month:02}", float(hours[m].sum()), target.name] + \
+                [float(value) for value in sums[:, m, k]] + [float(sums[:, m, k].sum())]
+
+
+def main(argv):
+    p = drawing.parser(__doc__)
+    p.add_argument("--quantity", help="series that is summed (default: irradiance or illuminance)")
+    drawing.add_targets(p)
+    drawing.draw_one(p.parse_args(argv), "months", draw)
+
+
+if __name__ == "__main__":
+    drawing.run(main)

@@ -1,0 +1,195 @@
+#!/usr/bin/env python3
+"""Sun-path diagram with the hours at which a patch or facade is lit.
+
+Plan of the sky: north is up, east is right, the horizon is the circle, the
+zenith its middle (stereographic). Without --facade or --patch it is drawn for
+the facade that receives most of the sun. Every interval of the study is a dot at its
+sun, coloured by what arrives straight from the sun, hollow where nothing does;
+the sun is behind the surface in the grey part. For a facade the colour is the
+share of its area in the sun."""
+
+import numpy as np
+
+import drawing
+from drawing import plt
+from reading import InputError
+
+MOST_DAYS_JOINED = 12
+# Between suns further apart the path is not known well enough for marks of hours.
+LONGEST_STEP_S = 3700
+
+
+def place(azimuth_deg, elevation_deg):
+    """Point of the diagram: x to the east, y to the north; the horizon at 1."""
+    radius = np.tan(np.radians(90 - np.asarray(elevation_deg)) / 2)
+    azimuth = np.radians(azimuth_deg)
+    return radius * np.sin(azimuth), radius * np.cos(azimuth)
+
+
+def lit_share(result, target):
+    """Share of the target's area that the sun reaches straight, for each interval."""
+    dataset = result.need("irradiance_direct", "the diagram shows what the sun lights straight; add direct to "
+                          "the study's output.series")
+    first, last = int(target.patches.min()), int(target.patches.max()) + 1
+    weight = np.zeros(last - first)
+    weight[target.patches - first] = target.area / target.area.sum()
+    rows = dataset.chunks[0] if dataset.chunks else 64
+    shares = [np.where(np.isnan(block).any(axis=1, where=weight > 0), np.nan, (block > 0) @ weight)
+              for block in (dataset[k:k + rows, first:last] for k in range(0, dataset.shape[0], rows))]
+    return np.concatenate(shares)
+
+
+def scene_north_deg(result):
+    """Azimuth of the scene's +y axis, from a sun that is not in the zenith."""
+    direction, azimuth = result.numbers("sun_direction"), result.numbers("sun_azimuth")
+    k = int(np.argmin(np.abs(direction[:, 2])))
+    return azimuth[k] - np.degrees(np.arctan2(direction[k, 0], direction[k, 1]))
+
+
+def normal_of(result, target):
+    """Unit normal, area-weighted, in the scene frame."""
+    normal = np.average(result.numbers("patch_normal")[target.patches], axis=0, weights=target.area)
+    length = np.linalg.norm(normal)
+    return normal / length if length > 1e-3 else None
+
+
+def draw_frame(axes):
+    angle = np.radians(np.arange(361))
+    for elevation in (0, 15, 30, 45, 60, 75):
+        radius = place(0, elevation)[1]
+        axes.plot(radius * np.sin(angle), radius * np.cos(angle), color="black" if elevation == 0 else "#cccccc",
+                  linewidth=1.2 if elevation == 0 else 0.6, zorder=1)
+        if elevation:
+            axes.text(0.01, radius, f"{elevation}°", fontsize=7, color="#777777", va="bottom")
+    for azimuth in range(0, 360, 30):
+        x, y = place(azimuth, 0)
+        axes.plot([0, x], [0, y], color="#dddddd", linewidth=0.6, zorder=1)
+        word = {0: "N", 90: "E", 180: "S", 270: "W"}.get(azimuth)
+        axes.text(1.07 * x, 1.07 * y, word or f"{azimuth}°", ha="center", va="center",
+                  fontsize=11 if word else 7, fontweight="bold" if word else "normal")
+    axes.set(xlim=(-1.15, 1.15), ylim=(-1.15, 1.15), aspect="equal")
+    axes.axis("off")
+
+
+def shade_behind(axes, result, normal):
+    """The part of the sky from which the sun cannot see the front."""
+    x, y = np.meshgrid(np.linspace(-1, 1, 501), np.linspace(-1, 1, 501))
+    radius = np.hypot(x, y)
+    elevation, azimuth = np.pi / 2 - 2 * np.arctan(radius), np.arctan2(x, y) - np.radians(scene_north_deg(result))
+    cosine = (normal[0] * np.cos(elevation) * np.sin(azimuth) + normal[1] * np.cos(elevation) * np.cos(azimuth) +
+              normal[2] * np.sin(elevation))
+    behind = np.where((cosine < 0) & (radius <= 1), 1.0, np.nan)
+    axes.imshow(behind, extent=(-1, 1, -1, 1), origin="lower", cmap="Greys", vmin=0, vmax=8, zorder=0,
+                interpolation="nearest")
+
+
+def draw_paths(axes, result, days, elevation, xy):
+    """Joins the suns of a day (few days), or those of the same hour of UTC (many days)."""
+    keys = days
+    if len(set(days)) > MOST_DAYS_JOINED:
+        keys = [int(s % 86400) // 60 for s in result.bounds()[:, 0]]
+    for key in sorted(set(keys)):
+        mine = np.array([k for k, other in enumerate(keys) if other == key and elevation[k] > 0])
+        for part in np.split(mine, np.flatnonzero(np.diff(mine) > max(1, len(keys) // 3)) + 1 if len(mine) else []):
+            axes.plot(xy[0][part], xy[1][part], color="#999999", linewidth=0.7, zorder=2)
+
+
+def label_hours(axes, result, days):
+    """Full hours of civil time on the longest and the shortest path of the sun, between its dots."""
+    time, azimuth, elevation = (result.numbers(n) for n in ("time", "sun_azimuth", "sun_elevation"))
+    up = {}
+    for k in np.flatnonzero(elevation > 0):
+        up.setdefault(days[k], []).append(k)
+    highest = {day: elevation[members].max() for day, members in up.items()}
+    for day in {max(sorted(highest), key=highest.get), min(sorted(highest), key=highest.get)}:
+        members = np.array(up[day])
+        turned = np.degrees(np.unwrap(np.radians(azimuth[members])))
+        for hour in np.arange(np.ceil(time[members[0]] / 3600) * 3600, time[members[-1]] + 1, 3600):
+            near = np.searchsorted(time[members], hour)
+            if time[members[min(near, len(members) - 1)]] - time[members[max(near - 1, 0)]] > LONGEST_STEP_S:
+                continue
+            x, y = place(np.interp(hour, time[members], turned), np.interp(hour, time[members], elevation[members]))
+            axes.plot(x, y, marker="+", color="black", markersize=8, markeredgewidth=0.8, zorder=5)
+            axes.text(0.93 * x, 0.93 * y, f"{result.civil(hour):%H}".lstrip("0") or "0", fontsize=8, zorder=6,
+                      ha="center", va="center")
+        x, y = place(azimuth[members[0]], elevation[members[0]])
+        axes.annotate(f"{day:%d %b}", (x, y), xytext=(6, 4), textcoords="offset points", fontsize=8,
+                      fontweight="bold")
+
+
+def sunniest_facade(result):
+    """The facade that receives most energy straight from the sun (any light, where that is not known)."""
+    load = "light_load_direct" if result.has("light_load_direct") else "light_load"
+    facade, energy = result.numbers("patch_facade"), result.numbers(load) * result.numbers("patch_area")
+    sums = np.bincount(np.maximum(facade, 0), np.where(facade >= 0, energy, 0), len(result.names("facade_name")))
+    return int(np.argmax(sums))
+
+
+def chosen_target(result, arguments):
+    if len(arguments.facade) + len(arguments.patch) > 1:
+        raise InputError("one facade or one patch at a time: call the script once for each")
+    if not arguments.facade + arguments.patch and result.names("facade_name"):
+        return result.facade(sunniest_facade(result))
+    found = result.targets(arguments.facade, arguments.patch, most=1)
+    if len(found) > 1:
+        raise InputError(f"{result.path}: {arguments.facade[0]} matches {len(found)} facades; name one")
+    return found[0]
+
+
+def draw(result, arguments):
+    target = chosen_target(result, arguments)
+    azimuth, elevation = result.numbers("sun_azimuth"), result.numbers("sun_elevation")
+    is_up = elevation > 0
+    if not is_up.any():
+        raise InputError(f"{result.path}: the sun is below the horizon in all intervals")
+    is_patch = target.kind == "patch"
+    share = lit_share(result, target)
+    shown = result.series("irradiance_direct", [target])[:, 0] if is_patch else 100 * share
+    xy = place(azimuth, elevation)
+
+    figure, axes = plt.subplots(figsize=(8.2, 7.6))
+    draw_frame(axes)
+    normal = normal_of(result, target)
+    if normal is not None:
+        shade_behind(axes, result, normal)
+    lit, size = is_up & (share > 0), 42 if is_up.sum() < 300 else 16
+    axes.scatter(xy[0][is_up & (share == 0)], xy[1][is_up & (share == 0)], s=size * 0.6, facecolors="white",
+                 edgecolors="#555555", linewidths=0.7, zorder=3, label="no direct sun")
+    largest = drawing.rounded_up(np.nanmax(shown[lit])) if lit.any() and is_patch else 100.0
+    dots = axes.scatter(xy[0][lit], xy[1][lit], c=shown[lit], s=size, cmap=drawing.palette("false"), vmin=0,
+                        vmax=largest, edgecolors="black", linewidths=0.3, zorder=4, label="in the sun")
+    if not result.is_synthetic:
+        days = [result.civil(s).date() for s in result.numbers("time")]
+        draw_paths(axes, result, days, elevation, xy)
+        label_hours(axes, result, days)
+    figure.colorbar(dots, ax=axes, shrink=0.7, aspect=30,
+                    label="irradiance direct [W/m²]" if is_patch else "area in the sun [%]")
+    axes.legend(loc="lower left", fontsize=8)
+    drawing.heading(figure, result, heading_words(result, target, share, is_up))
+    return figure, rows(result, target, shown, share)
+
+
+def heading_words(result, target, share, is_up):
+    hours = result.hours()
+    lit = np.nansum(share * hours)
+    clock = "" if result.is_synthetic else f"; hours: {result.offsets()}"
+    return (f"{target.label}\n{result.period()}: {lit:.3g} h in the sun of {hours[is_up].sum():.4g} h with the sun up\n"
+            f"plan of the sky, stereographic; grey: behind the surface{clock}")
+
+
+def rows(result, target, shown, share):
+    yield ["time", "azimuth_deg", "elevation_deg", "lit_share",
+           "irradiance_direct" if target.kind == "patch" else "lit_percent"]
+    for k, seconds in enumerate(result.numbers("time")):
+        yield [result.civil(seconds).isoformat(), float(result.numbers("sun_azimuth")[k]),
+               float(result.numbers("sun_elevation")[k]), float(share[k]), float(shown[k])]
+
+
+def main(argv):
+    p = drawing.parser(__doc__)
+    drawing.add_targets(p, sensors=False)
+    drawing.draw_one(p.parse_args(argv), "sun_path", draw)
+
+
+if __name__ == "__main__":
+    drawing.run(main)

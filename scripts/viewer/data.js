@@ -1,0 +1,232 @@
+// Reads what io/view_data.cpp has put into the page.
+
+/** Value of every half-precision float (IEEE 754 binary16) by its bits. */
+function halfValues() {
+  const table = new Float32Array(65536);
+  for (let bits = 0; bits < 65536; ++bits) {
+    const sign = bits & 0x8000 ? -1 : 1, exponent = (bits >> 10) & 31, mantissa = bits & 1023;
+    if (exponent === 31) table[bits] = mantissa ? NaN : sign * Infinity;
+    else if (exponent === 0) table[bits] = sign * mantissa * 2 ** -24;
+    else table[bits] = sign * (1 + mantissa / 1024) * 2 ** (exponent - 15);
+  }
+  return table;
+}
+
+async function block(number) {
+  const element = document.getElementById(`block-${number}`);
+  const text = atob(element.textContent);
+  element.remove();
+  const packed = new Uint8Array(text.length);
+  for (let k = 0; k < text.length; ++k) packed[k] = text.charCodeAt(k);
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Response(stream).arrayBuffer();
+}
+
+const integers = ["patch_vertices", "patch_object", "patch_facade", "patch_material", "patch_surface", "patch_side",
+  "patch_input_triangle", "input_triangle_vertices"];
+const surfaces = ["other", "wall", "roof", "ground", "window", "floor"];
+
+/** One result: names as in its file, arrays unpacked. */
+class Result {
+  static async read(about, halves) {
+    const result = Object.assign(new Result(), about, { halves });
+    const g = about.geometry;
+    result.vertices = new Float32Array(await block(g.vertices));
+    for (const name of integers) result[name] = new Int32Array(await block(g[name]));
+    for (const name of ["patch_area", "patch_normal"]) result[name] = new Float32Array(await block(g[name]));
+    result.patches = result.patch_area.length;
+    for (const total of about.totals) total.values = new Float32Array(await block(total.values));
+    if (about.series) about.series.planes = new Uint8Array(await block(about.series.values));
+    const twins = new Set();
+    result.patch_side.forEach((side, p) => side && twins.add(result.patch_input_triangle[p]));
+    result.isTwoSided = Uint8Array.from(result.patch_input_triangle, (triangle) => +twins.has(triangle));
+    return result;
+  }
+
+  get label() { return this.variant || this.study; }
+
+  /** Value of the series at interval k of the page. */
+  seriesValue(k, patch) {
+    const at = 2 * k * this.patches + patch;
+    return this.halves[this.series.planes[at] | (this.series.planes[at + this.patches] << 8)] / this.series.scale;
+  }
+
+  /** One value per patch: of a total, or of the series at interval k (NaN: not covered). */
+  values(name, k) {
+    const total = this.totals.find((one) => one.name === name);
+    if (total) return total.values;
+    const values = new Float32Array(this.patches).fill(NaN);
+    if (this.series?.name === name && k >= 0) for (let p = 0; p < this.patches; ++p) values[p] = this.seriesValue(k, p);
+    return values;
+  }
+
+  units(name) {
+    return this.series?.name === name ? this.series.units : this.totals.find((one) => one.name === name)?.units ?? "";
+  }
+
+  /** Interval that holds an instant of another result, -1: none. */
+  intervalAt(time) {
+    const middle = (time.begin + time.end) / 2;
+    return this.times.findIndex((own) => own.begin <= middle && middle < own.end);
+  }
+
+  /** Patches by input triangle and side; a triangle is known by its corners to the millimetre. */
+  patchesByTriangle() {
+    const keys = new Map(), groups = new Map(), { centre } = this.geometry;
+    for (let p = 0; p < this.patches; ++p) {
+      const triangle = this.patch_input_triangle[p];
+      if (!keys.has(triangle)) {
+        keys.set(triangle, [0, 1, 2].map((k) => {
+          const v = 3 * this.input_triangle_vertices[3 * triangle + k];
+          return [0, 1, 2].map((axis) => Math.round(1000 * (this.vertices[v + axis] + centre[axis]))).join(" ");
+        }).sort().join(" "));
+      }
+      const key = `${this.patch_side[p]} ${keys.get(triangle)}`;
+      groups.has(key) ? groups.get(key).push(p) : groups.set(key, [p]);
+    }
+    return groups;
+  }
+
+  /**
+   * Patches of another result that lie on each patch of this one: those whose middle is in it, or the one that
+   * its own middle is in. Patches of one input triangle are nested, so that the area-weighted mean over them is exact.
+   */
+  matched(other) {
+    const found = Array.from({ length: this.patches }, () => []), around = new Int32Array(this.patches).fill(-1);
+    const others = other.patchesByTriangle();
+    for (const [key, patches] of this.patchesByTriangle()) {
+      if (!others.has(key)) continue;
+      this.eachHeld(patches, other, others.get(key), (p, q) => found[p].push(q));
+      other.eachHeld(others.get(key), this, patches, (q, p) => { around[p] = q; });
+    }
+    const first = new Int32Array(this.patches + 1), list = [];
+    for (let p = 0; p < this.patches; ++p) {
+      if (found[p].length) list.push(...found[p]);
+      else if (around[p] >= 0) list.push(around[p]);
+      first[p + 1] = list.length;
+    }
+    return { first, list: Int32Array.from(list), area: other.patch_area };
+  }
+
+  /** Calls found(p, q) where the middle of a patch q of another result is in a patch p; both lie in one plane. */
+  eachHeld(patches, other, others, found) {
+    const [i, j] = this.axesOf(patches[0]), shift = [0, 1, 2].map((axis) => other.geometry.centre[axis] - this.geometry.centre[axis]);
+    const points = others.map((q) => other.centroid(q).map((x, axis) => x + shift[axis]));
+    // Points by the cells of a grid, so that each patch looks at those near it only.
+    const low = [i, j].map((axis) => points.reduce((least, point) => Math.min(least, point[axis]), Infinity));
+    const high = [i, j].map((axis) => points.reduce((most, point) => Math.max(most, point[axis]), -Infinity));
+    const count = Math.ceil(Math.sqrt(points.length)), cells = new Map();
+    const cell = (x, n) => Math.max(0, Math.min(count - 1, Math.floor(((x - low[n]) / (high[n] - low[n] || 1)) * count)));
+    points.forEach((point, k) => {
+      const at = cell(point[i], 0) * count + cell(point[j], 1);
+      cells.has(at) ? cells.get(at).push(k) : cells.set(at, [k]);
+    });
+    for (const p of patches) {
+      const corners = [0, 1, 2].map((k) => this.corner(p, k));
+      const [fromX, toX, fromY, toY] = [[i, 0], [j, 1]].flatMap(([axis, n]) => {
+        const along = corners.map((corner) => corner[axis]);
+        return [cell(Math.min(...along), n), cell(Math.max(...along), n)];
+      });
+      for (let x = fromX; x <= toX; ++x)
+        for (let y = fromY; y <= toY; ++y)
+          for (const k of cells.get(x * count + y) ?? []) if (holds(corners, points[k], i, j)) found(p, others[k]);
+    }
+  }
+
+  /** The two axes along which a patch is seen largest. */
+  axesOf(patch) {
+    const n = [0, 1, 2].map((axis) => Math.abs(this.patch_normal[3 * patch + axis])), off = n.indexOf(Math.max(...n));
+    return [0, 1, 2].filter((axis) => axis !== off);
+  }
+
+  patchNames(patch) {
+    const g = this.geometry;
+    return {
+      object: g.object_name[this.patch_object[patch]] ?? "",
+      facade: g.facade_name[this.patch_facade[patch]] ?? "",
+      material: g.material_name[this.patch_material[patch]] ?? "",
+      surface: surfaces[this.patch_surface[patch]] ?? "",
+    };
+  }
+
+  corner(patch, k) {
+    const v = 3 * this.patch_vertices[3 * patch + k];
+    return [this.vertices[v], this.vertices[v + 1], this.vertices[v + 2]];
+  }
+
+  /** Height of the highest patch below a height over a point of the plan; -Infinity: none. */
+  heightAt(x, y, below) {
+    const { vertices: v, patch_vertices: corners } = this;
+    let highest = -Infinity;
+    for (let c = 0; c < corners.length; c += 3) {
+      const a = 3 * corners[c], b = 3 * corners[c + 1], d = 3 * corners[c + 2];
+      // Twice the signed areas that the point spans with the sides, seen in plan.
+      const u = (v[b] - x) * (v[d + 1] - y) - (v[d] - x) * (v[b + 1] - y);
+      const w = (v[d] - x) * (v[a + 1] - y) - (v[a] - x) * (v[d + 1] - y);
+      if (u < 0 !== w < 0) continue;
+      const t = (v[a] - x) * (v[b + 1] - y) - (v[b] - x) * (v[a + 1] - y);
+      if (u < 0 !== t < 0 || u + w + t === 0) continue;
+      const z = (u * v[a + 2] + w * v[b + 2] + t * v[d + 2]) / (u + w + t);
+      if (z <= below && z > highest) highest = z;
+    }
+    return highest;
+  }
+
+  centroid(patch) {
+    const corners = [0, 1, 2].map((k) => this.corner(patch, k));
+    return [0, 1, 2].map((axis) => (corners[0][axis] + corners[1][axis] + corners[2][axis]) / 3);
+  }
+}
+
+/** Whether a point is in a triangle, both seen along one axis. */
+function holds(corners, point, i, j) {
+  let left = false, right = false;
+  for (let k = 0; k < 3; ++k) {
+    const a = corners[k], b = corners[(k + 1) % 3];
+    const turn = (b[i] - a[i]) * (point[j] - a[j]) - (b[j] - a[j]) * (point[i] - a[i]);
+    left ||= turn > 0;
+    right ||= turn < 0;
+  }
+  return !(left && right);
+}
+
+/** Area-weighted mean of another result's values over what is matched to a patch; NaN: nothing. */
+export function matchedMean(match, patch, valueOf) {
+  let sum = 0, area = 0;
+  for (let k = match.first[patch]; k < match.first[patch + 1]; ++k) {
+    const q = match.list[k];
+    sum += match.area[q] * valueOf(q);
+    area += match.area[q];
+  }
+  return area > 0 ? sum / area : NaN;
+}
+
+export async function readPage() {
+  const about = JSON.parse(document.getElementById("about").textContent);
+  const halves = halfValues();
+  const results = [];
+  for (const one of about.results) results.push(await Result.read(one, halves));
+  return { results, palettes: { false: about.false, grey: about.grey, difference: differencePalette() } };
+}
+
+/** Blue, near white, orange: lightness falls equally to both sides (CIELAB), told apart by all colour vision. */
+function differencePalette() {
+  const colours = [];
+  for (let k = 0; k < 256; ++k) {
+    const t = k / 127.5 - 1, away = Math.abs(t), hue = t < 0 ? 285 : 55, chroma = 45 * Math.min(1, 1.3 * away);
+    colours.push(...srgb(95 - 60 * away, chroma * Math.cos((hue * Math.PI) / 180), chroma * Math.sin((hue * Math.PI) / 180)));
+  }
+  return colours;
+}
+
+/** CIE 15:2004 with white D65, then sRGB (IEC 61966-2-1), 0 … 255. */
+function srgb(lightness, a, b) {
+  const f = (lightness + 16) / 116;
+  const scale = (t) => (t > 6 / 29 ? t ** 3 : 3 * (6 / 29) ** 2 * (t - 4 / 29));
+  const [x, y, z] = [0.95047 * scale(f + a / 500), scale(f), 1.08883 * scale(f - b / 200)];
+  return [3.2404542 * x - 1.5371385 * y - 0.4985314 * z, -0.969266 * x + 1.8760108 * y + 0.041556 * z,
+    0.0556434 * x - 0.2040259 * y + 1.0572252 * z].map((c) => {
+    const coded = c <= 0.0031308 ? 12.92 * c : 1.055 * c ** (1 / 2.4) - 0.055;
+    return Math.round(255 * Math.min(1, Math.max(0, coded)));
+  });
+}

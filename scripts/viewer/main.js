@@ -1,0 +1,396 @@
+// The page of `sunload view`: state, what it draws, and what the user does to it.
+import * as THREE from "three";
+import { CameraMan } from "./camera.js";
+import { matchedMean, readPage } from "./data.js";
+import { PatchMesh, paletteTexture } from "./mesh.js";
+import { drawSeries } from "./plot.js";
+import { scaleEnd, shown, ticks } from "./scale.js";
+import { Sky, sceneNorth } from "./sky.js";
+
+const $ = (id) => document.getElementById(id);
+// The preview has no values; it is a choice among the quantities all the same.
+const preview = "preview";
+const playIntervalMs = 250, clickPixels = 4;
+
+class Viewer {
+  constructor({ results, palettes }) {
+    this.results = results;
+    this.palettes = palettes;
+    this.state = { view: results.length > 1 ? "side" : "0", quantity: "light_load", k: this.brightest(results[0]), colours: "false",
+      shading: "constant", crease: 20, lines: "none", picked: null, limits: {} };
+    this.textures = Object.fromEntries(Object.entries(palettes).map(([name, colours]) => [name, paletteTexture(colours)]));
+    this.buildScene();
+    this.fillChoices();
+    this.listen();
+    this.refresh();
+    this.loop();
+  }
+
+  brightest(result) {
+    const elevation = result.times.map((time) => time.elevation);
+    return elevation.indexOf(Math.max(...elevation));
+  }
+
+  // What is drawn.
+
+  buildScene() {
+    const [result] = this.results;
+    this.renderer = new THREE.WebGLRenderer({ canvas: $("scene"), antialias: !isDrawnBySoftware(), preserveDrawingBuffer: true });
+    this.renderer.setClearColor(0xe8f0f7);
+    this.renderer.autoClear = false;
+    this.scene = new THREE.Scene();
+    this.meshes = this.results.map((one) => new PatchMesh(one));
+    // All results in the frame of the first.
+    this.meshes.forEach((mesh, n) => {
+      mesh.object.position.set(...this.results[n].geometry.centre.map((x, axis) => x - result.geometry.centre[axis]));
+      this.scene.add(mesh.object);
+    });
+    const box = new THREE.Box3().setFromBufferAttribute(this.meshes[0].object.geometry.attributes.position);
+    const radius = 0.5 * box.getSize(new THREE.Vector3()).length();
+    this.sky = new Sky(result.times, radius, box.min.z);
+    this.scene.add(this.sky.object);
+    this.lowest = box.min.z;
+    this.rays = new THREE.Raycaster();
+    this.man = new CameraMan($("scene"), radius, sceneNorth(result.times), (x, y, below) => this.groundAt(x, y, below), () => { this.isStale = true; });
+    this.resize();
+  }
+
+  /** Height of the highest surface below a height, over a point of the plan. */
+  groundAt(x, y, below) {
+    const height = this.results[0].heightAt(x, y, Number.isFinite(below) ? below : this.lowest + highestStreetM);
+    return Number.isFinite(height) ? height : this.lowest;
+  }
+
+  /** Views side by side: which mesh in which share of the width. */
+  parts() {
+    const { view } = this.state;
+    if (view === "side") return [{ mesh: 0, from: 0, to: 0.5 }, { mesh: 1, from: 0.5, to: 1 }];
+    return [{ mesh: view === "1" ? 1 : 0, from: 0, to: 1 }];
+  }
+
+  isDifference() { return this.state.view === "difference" && this.state.quantity !== preview; }
+
+  /** Value per patch of a result for the quantity that is shown, at the time of the slider. */
+  valuesOf(n, quantity = this.state.quantity, k = this.state.k) {
+    const result = this.results[n];
+    return result.values(quantity, n === 0 ? k : result.intervalAt(this.results[0].times[k]));
+  }
+
+  /** The second result minus the first, on the patches of the first. */
+  difference(values, others) {
+    return values.map((value, p) => matchedMean(this.match, p, (q) => others[q]) - value);
+  }
+
+  refresh() {
+    const { quantity, shading, crease, lines, colours, k } = this.state;
+    const end = this.limit(), isSmooth = shading === "smooth";
+    this.meshes.forEach((mesh, n) => {
+      const uniforms = mesh.material.uniforms;
+      if (quantity !== preview) {
+        let values = this.valuesOf(n);
+        if (this.isDifference() && n === 0) {
+          values = this.difference(values, this.valuesOf(1));
+        }
+        mesh.show(values, isSmooth, crease);
+      }
+      uniforms.preview.value = quantity === preview;
+      uniforms.palette.value = this.textures[this.isDifference() ? "difference" : colours];
+      uniforms.low.value = this.isDifference() ? -end : 0;
+      uniforms.high.value = end;
+      mesh.showLines(lines);
+    });
+    this.sky.show(k);
+    this.drawLegend(end);
+    this.tellTime();
+    this.tellPatch();
+    this.isStale = true;
+  }
+
+  /** What the colours end at: the user's limit, or one for all results and times. */
+  limit() {
+    const { quantity, limits } = this.state;
+    if (quantity === preview) return 1;
+    const key = this.limitKey();
+    return limits[key] ?? (this.ends ??= {})[key] ?? (this.ends[key] = this.automaticLimit());
+  }
+
+  limitKey() { return `${this.state.quantity}${this.isDifference() ? " difference" : ""}`; }
+
+  automaticLimit() {
+    const { quantity, k } = this.state, isSeries = this.results[0].series?.name === quantity;
+    const intervals = isSeries ? [...new Set([0.25, 0.5, 0.75, 1].map((share) => this.atElevation(share)).concat(k))] : [k];
+    const ends = intervals.flatMap((at) => {
+      if (!this.isDifference()) return this.results.map((result, n) => scaleEnd(this.valuesOf(n, quantity, at), result.patch_area));
+      const apart = this.difference(this.valuesOf(0, quantity, at), this.valuesOf(1, quantity, at));
+      return [scaleEnd(apart.map(Math.abs), this.results[0].patch_area)];
+    });
+    return Math.max(...ends);
+  }
+
+  /** Interval whose sun stands at a share of the highest elevation. */
+  atElevation(share) {
+    const elevation = this.results[0].times.map((time) => time.elevation), goal = share * Math.max(...elevation);
+    return elevation.reduce((best, value, k) => (Math.abs(value - goal) < Math.abs(elevation[best] - goal) ? k : best), 0);
+  }
+
+  render() {
+    const { clientWidth: width, clientHeight: height } = $("scene");
+    this.renderer.setScissorTest(true);
+    for (const part of this.parts()) {
+      const x = Math.round(part.from * width), wide = Math.round(part.to * width) - x;
+      this.renderer.setViewport(x, 0, wide, height);
+      this.renderer.setScissor(x, 0, wide, height);
+      this.man.fitTo(wide / height);
+      this.meshes.forEach((mesh, n) => { mesh.object.visible = n === part.mesh; });
+      this.renderer.clear();
+      this.renderer.render(this.scene, this.man.camera);
+    }
+    this.isStale = false;
+  }
+
+  loop() {
+    let before = performance.now();
+    const frame = (now) => {
+      if (this.man.step((now - before) / 1000)) this.isStale = true;
+      before = now;
+      if (this.isStale) this.render();
+      requestAnimationFrame(frame);
+    };
+    requestAnimationFrame(frame);
+  }
+
+  resize() {
+    this.renderer.setPixelRatio(window.devicePixelRatio);
+    this.renderer.setSize(window.innerWidth, window.innerHeight, false);
+    this.isStale = true;
+  }
+
+  // What is said.
+
+  drawLegend(end) {
+    const { quantity, colours } = this.state, isPreview = quantity === preview;
+    $("legend").hidden = isPreview;
+    if (isPreview) return;
+    const bar = $("bar").getContext("2d"), palette = this.palettes[this.isDifference() ? "difference" : colours];
+    for (let y = 0; y < 256; ++y) {
+      bar.fillStyle = `rgb(${palette.slice(3 * (255 - y), 3 * (255 - y) + 3)})`;
+      bar.fillRect(0, y, 22, 1);
+    }
+    const low = this.isDifference() ? -end : 0;
+    $("ticks").replaceChildren(...ticks(low, end).map((value) => {
+      const tick = document.createElement("span");
+      tick.textContent = shown(value);
+      tick.style.top = `${256 * (1 - (value - low) / (end - low))}px`;
+      return tick;
+    }));
+    $("units").textContent = this.results[0].units(quantity) || "share";
+    if (document.activeElement !== $("limit")) $("limit").value = end;
+    let largest = 0;
+    this.parts().forEach((part) => this.meshes[part.mesh].value.array.forEach((value) => { if (value > largest) largest = value; }));
+    $("above").textContent = largest > end * (1 + 1e-6) ? `larger values, up to ${shown(largest)}, have the last colour` : "";
+  }
+
+  tellTime() {
+    const result = this.results[0], time = result.times[this.state.k];
+    const sun = `sun ${time.azimuth.toFixed(0)}° from north, ${time.elevation.toFixed(1)}° high`;
+    const dark = time.elevation > 0 ? sun : "sun below the horizon";
+    const clock = result.is_synthetic ? `position ${this.state.k * result.step + 1}` :
+      `${time.local_begin.slice(0, 16).replace("T", " ")} – ${time.local_end.slice(11, 16)} ${result.timezone}`;
+    $("clock").textContent = `${clock}, ${dark}`;
+    $("slider").value = this.state.k;
+    const isSide = this.state.view === "side";
+    $("names").children[0].textContent = isSide ? this.results[0].label : "";
+    $("names").children[1].textContent = isSide ? this.results[1].label : "";
+  }
+
+  tellPatch() {
+    const { picked, k } = this.state;
+    $("patch").hidden = !picked;
+    if (!picked) return;
+    const { n, patch } = picked, result = this.results[n];
+    // For a patch of the first result also what the second has in its place.
+    const hasBoth = n === 0 && this.match && this.match.first[patch] < this.match.first[patch + 1], which = hasBoth ? [0, 1] : [n];
+    const valueOf = (m, value) => (m === n ? value(patch) : matchedMean(this.match, patch, value));
+    const rows = [["patch", patch], ...Object.entries(result.patchNames(patch)),
+      ["area", `${shown(result.patch_area[patch])} m²`]].filter(([, value]) => value !== "").map(([name, value]) => [name, [value]]);
+    if (this.results.length > 1) rows.push(["", which.map((m) => this.results[m].label)]);
+    const names = [...result.totals.map((total) => total.name), ...(result.series ? [result.series.name] : [])];
+    for (const name of names)
+      rows.push([`${name.replaceAll("_", " ")} ${result.units(name) && `[${result.units(name)}]`}`,
+        which.map((m) => {
+          const values = this.valuesOf(m, name);
+          return shown(valueOf(m, (p) => values[p]), this.digits(name));
+        }), name]);
+    $("values").replaceChildren(...rows.map(([what, values, name]) => {
+      const row = document.createElement("tr");
+      if (name) row.dataset.quantity = name;
+      for (const text of [what, ...values]) {
+        const cell = document.createElement("td");
+        cell.textContent = text;
+        row.append(cell);
+      }
+      return row;
+    }));
+    if (!result.series) return;
+    const times = this.results[0].times;
+    const curves = which.map((m) => ({ label: this.results[m].label, values: times.map((time, i) => {
+      const own = m === 0 ? i : this.results[m].intervalAt(time);
+      return own >= 0 ? valueOf(m, (p) => this.results[m].seriesValue(own, p)) : NaN;
+    }) }));
+    drawSeries($("series"), times, k, curves, `${result.series.name} [${result.series.units}]`);
+  }
+
+  /** Series travel with 11 bits. */
+  digits(name) { return name === this.results[0].series?.name ? 3 : 4; }
+
+  // What the user does.
+
+  fillChoices() {
+    const { results, state } = this;
+    document.title = `sunload: ${results[0].study}`;
+    $("title").textContent = `${results[0].study}: ${results.map((result) => result.label).join(", ")}`;
+    this.match = results.length > 1 ? results[0].matched(results[1]) : null;
+    const lonely = this.match ? results[0].patch_area.reduce((sum, area, p) => sum + (this.match.first[p] < this.match.first[p + 1] ? 0 : area), 0) : 0;
+    this.unmatchedShare = this.match ? lonely / results[0].patch_area.reduce((sum, area) => sum + area, 0) : 0;
+    const views = results.map((result, n) => [String(n), result.label]);
+    if (results.length > 1) views.push(["side", "side by side"]);
+    if (this.unmatchedShare < 1 && this.match) views.push(["difference", `difference: ${results[1].label} − ${results[0].label}`]);
+    $("no-difference").hidden = !(this.unmatchedShare > 0);
+    $("no-difference").textContent = this.unmatchedShare < 1 ?
+      `${shown(100 * this.unmatchedShare, 2)} % of ${results[0].label} has other shapes in ${results[1].label}: grey in the difference.` :
+      "The two results share no surface: there is no difference.";
+    fill($("view"), views, state.view);
+    $("view").parentElement.hidden = results.length < 2;
+    // What a result has, the other may lack: only quantities of both can be shown.
+    const names = results[0].totals.map((total) => total.name).filter((name) => results.every((r) => r.totals.some((t) => t.name === name)));
+    const series = results[0].series?.name;
+    if (series && results.every((r) => r.series?.name === series)) names.push(series);
+    if (!names.includes(state.quantity)) state.quantity = names[0];
+    fill($("quantity"), [[preview, "preview (shape only)"], ...names.map((name) => [name,
+      name.replaceAll("_", " ") + (name === series ? " at the time" : name.endsWith("_se") ? " (error)" : "")])], state.quantity);
+    $("slider").max = results[0].times.length - 1;
+  }
+
+  listen() {
+    const choose = (id, key, read = (element) => element.value) => $(id).addEventListener("change", () => {
+      this.state[key] = read($(id));
+      this.refresh();
+    });
+    for (const id of ["view", "quantity", "colours", "shading", "lines"]) choose(id, id);
+    choose("crease", "crease", (element) => Math.min(180, Math.max(0, Number(element.value) || 0)));
+    $("camera").addEventListener("change", () => {
+      this.man.setMode($("camera").value);
+      $("hint").textContent = $("camera").value === "walk" ? "W A S D or arrows walk, dragging looks around" : "";
+      $("scene").focus();
+    });
+    $("slider").addEventListener("input", () => this.setTime(Number($("slider").value)));
+    $("play").addEventListener("click", () => this.play());
+    $("limit").addEventListener("change", () => this.setLimit(Number($("limit").value)));
+    $("automatic").addEventListener("click", () => this.setLimit(null));
+    $("close").addEventListener("click", () => { this.state.picked = null; this.refresh(); });
+    let down = null;
+    $("scene").addEventListener("pointerdown", (event) => { down = event; });
+    $("scene").addEventListener("pointerup", (event) => {
+      if (down && Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) < clickPixels) this.pick(event.clientX, event.clientY);
+      down = null;
+    });
+    window.addEventListener("resize", () => this.resize());
+  }
+
+  setTime(k) {
+    this.state.k = k;
+    this.refresh();
+  }
+
+  setLimit(value) {
+    if (value !== null && !(value > 0)) return;
+    if (value === null) delete this.state.limits[this.limitKey()];
+    else this.state.limits[this.limitKey()] = value;
+    $("limit").blur();
+    this.refresh();
+  }
+
+  play() {
+    if (this.timer) {
+      clearInterval(this.timer);
+      this.timer = null;
+    } else {
+      // A total does not change with time: light at the time is what plays.
+      const series = this.results[0].series?.name;
+      if (series && this.state.quantity !== series && [...$("quantity").options].some((one) => one.value === series)) {
+        this.state.quantity = $("quantity").value = series;
+      }
+      this.timer = setInterval(() => this.setTime((this.state.k + 1) % this.results[0].times.length), playIntervalMs);
+    }
+    $("play").textContent = this.timer ? "stop" : "play";
+  }
+
+  /** The patch under a point of the window. */
+  patchAt(x, y) {
+    const { clientWidth: width, clientHeight: height } = $("scene");
+    const part = this.parts().find((one) => x / width < one.to) ?? this.parts()[0];
+    const across = (x / width - part.from) / (part.to - part.from);
+    this.man.fitTo(((part.to - part.from) * width) / height);
+    this.rays.setFromCamera(new THREE.Vector2(2 * across - 1, 1 - (2 * y) / height), this.man.camera);
+    // Backs of two-sided patches are not drawn: the twin in the same place is.
+    const hits = this.rays.intersectObject(this.meshes[part.mesh].object, false);
+    const { patch_normal: normal, isTwoSided } = this.results[part.mesh], way = this.rays.ray.direction;
+    const hit = hits.find(({ faceIndex: p }) => !isTwoSided[p] ||
+      normal[3 * p] * way.x + normal[3 * p + 1] * way.y + normal[3 * p + 2] * way.z < 0);
+    return hit ? { n: part.mesh, patch: hit.faceIndex } : null;
+  }
+
+  pick(x, y) {
+    this.state.picked = this.patchAt(x, y);
+    this.refresh();
+  }
+
+  // For tests: where a patch is in the window, and how fast frames are.
+
+  placeOf(patch, n = 0) {
+    const part = this.parts().find((one) => one.mesh === n);
+    const { clientWidth: width, clientHeight: height } = $("scene");
+    this.man.fitTo(((part.to - part.from) * width) / height);
+    const point = new THREE.Vector3(...this.results[n].centroid(patch)).add(this.meshes[n].object.position).project(this.man.camera);
+    return { x: width * (part.from + ((point.x + 1) / 2) * (part.to - part.from)), y: (height * (1 - point.y)) / 2 };
+  }
+
+  /** Frames per second of a turn around the scene, each finished before the next begins. */
+  measuredFrames(count) {
+    const gl = this.renderer.getContext(), pixel = new Uint8Array(4), start = performance.now(), place = this.man.camera.position.clone();
+    for (let frame = 0; frame < count; ++frame) {
+      this.man.camera.position.applyAxisAngle(new THREE.Vector3(0, 0, 1), (2 * Math.PI) / count);
+      this.man.orbit.update();
+      this.render();
+      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    }
+    this.man.camera.position.copy(place);
+    this.man.orbit.update();
+    return (1000 * count) / (performance.now() - start);
+  }
+}
+
+// Walking starts on what is lower than this above the lowest point: streets, not roofs.
+const highestStreetM = 2;
+
+/** Whether the browser draws without a graphics card: smooth edges cost it two thirds of its frames. */
+function isDrawnBySoftware() {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const info = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = info ? gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
+function fill(select, choices, chosen) {
+  select.replaceChildren(...choices.map(([value, text]) => Object.assign(document.createElement("option"), { value, textContent: text })));
+  select.value = chosen;
+}
+
+readPage().then((page) => {
+  window.sunload = new Viewer(page);
+  $("message").remove();
+}).catch((error) => {
+  $("message").textContent = `The page cannot be shown: ${error.message}`;
+  throw error;
+});

@@ -1,0 +1,170 @@
+// The patches of a result as triangles that know a value at every corner.
+import * as THREE from "three";
+
+const vertexShader = `
+attribute float value;
+attribute float twoSided;
+varying float vValue;
+varying float vTwoSided;
+varying vec3 vNormal;
+void main() {
+  vValue = value;
+  vTwoSided = twoSided;
+  vNormal = normal;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+}`;
+
+// Colours are those of the legend, not shaded; backs of one-sided patches are grey.
+const fragmentShader = `
+uniform sampler2D palette;
+uniform float low;
+uniform float high;
+uniform bool preview;
+uniform vec3 light;
+varying float vValue;
+varying float vTwoSided;
+varying vec3 vNormal;
+void main() {
+  vec3 colour = vec3(0.72);
+  if (!gl_FrontFacing) {
+    if (vTwoSided > 0.5) discard;
+  } else if (preview) {
+    colour = vec3(0.93, 0.92, 0.89) * (0.5 + 0.2 * vNormal.z + 0.3 * max(0.0, dot(vNormal, light)));
+  } else if (vValue > -1e29) {
+    float share = clamp((vValue - low) / (high - low), 0.0, 1.0);
+    colour = texture2D(palette, vec2((share * 255.0 + 0.5) / 256.0, 0.5)).rgb;
+  }
+  gl_FragColor = vec4(colour, 1.0);
+}`;
+const notKnown = -1e30;
+// Cosine of the turn from which on an edge gets a line (20°), as in `sunload render`.
+const leastFold = 0.94;
+
+export function paletteTexture(colours) {
+  const bytes = new Uint8Array(256 * 4).fill(255);
+  for (let k = 0; k < 256; ++k) for (let c = 0; c < 3; ++c) bytes[4 * k + c] = colours[3 * k + c];
+  const texture = new THREE.DataTexture(bytes, 256, 1);
+  texture.needsUpdate = true;
+  return texture;
+}
+
+export class PatchMesh {
+  constructor(result) {
+    this.result = result;
+    const corners = 3 * result.patches;
+    const position = new Float32Array(3 * corners), normal = new Float32Array(3 * corners), twoSided = new Float32Array(corners);
+    for (let c = 0; c < corners; ++c) {
+      const v = 3 * result.patch_vertices[c], p = Math.floor(c / 3);
+      for (let axis = 0; axis < 3; ++axis) {
+        position[3 * c + axis] = result.vertices[v + axis];
+        normal[3 * c + axis] = result.patch_normal[3 * p + axis];
+      }
+      twoSided[c] = result.isTwoSided[p];
+    }
+    this.value = new THREE.BufferAttribute(new Float32Array(corners), 1).setUsage(THREE.DynamicDrawUsage);
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
+    geometry.setAttribute("normal", new THREE.BufferAttribute(normal, 3));
+    geometry.setAttribute("twoSided", new THREE.BufferAttribute(twoSided, 1));
+    geometry.setAttribute("value", this.value);
+    this.material = new THREE.ShaderMaterial({
+      vertexShader, fragmentShader, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+      uniforms: { palette: { value: null }, low: { value: 0 }, high: { value: 1 }, preview: { value: false },
+        light: { value: new THREE.Vector3(0.4, -0.6, 0.7) } },
+    });
+    this.object = new THREE.Mesh(geometry, this.material);
+    this.object.add(new THREE.LineSegments(this.folds(), new THREE.LineBasicMaterial({ color: 0x30343c })));
+    this.lines = {};
+    this.creaseDeg = null;
+  }
+
+  /** One value per patch, constant on it or interpolated between its corners. */
+  show(values, interpolate, creaseDeg) {
+    const shown = this.value.array;
+    if (!interpolate) {
+      for (let p = 0; p < values.length; ++p) {
+        const value = Number.isFinite(values[p]) ? values[p] : notKnown;
+        shown[3 * p] = shown[3 * p + 1] = shown[3 * p + 2] = value;
+      }
+    } else {
+      this.findNeighbours(creaseDeg);
+      const area = this.result.patch_area;
+      for (let c = 0; c < shown.length; ++c) {
+        let sum = 0, weight = 0;
+        for (let k = this.first[c]; k < this.first[c + 1]; ++k) {
+          const q = this.neighbours[k];
+          if (!Number.isFinite(values[q])) continue;
+          sum += area[q] * values[q];
+          weight += area[q];
+        }
+        shown[c] = weight > 0 ? sum / weight : notKnown;
+      }
+    }
+    this.value.needsUpdate = true;
+  }
+
+  /** For every corner the patches around its vertex that turn by less than the crease angle. */
+  findNeighbours(creaseDeg) {
+    if (this.creaseDeg === creaseDeg) return;
+    this.creaseDeg = creaseDeg;
+    const { patch_vertices: vertices, patch_normal: n, patch_side: side } = this.result;
+    const start = new Int32Array(this.result.vertices.length / 3 + 1);
+    for (const v of vertices) ++start[v + 1];
+    for (let v = 0; v + 1 < start.length; ++v) start[v + 1] += start[v];
+    const next = start.slice(), around = new Int32Array(vertices.length);
+    vertices.forEach((v, c) => { around[next[v]++] = Math.floor(c / 3); });
+    const least = Math.cos((creaseDeg * Math.PI) / 180), list = [];
+    this.first = new Int32Array(vertices.length + 1);
+    for (let c = 0; c < vertices.length; ++c) {
+      const p = Math.floor(c / 3);
+      for (let k = start[vertices[c]]; k < start[vertices[c] + 1]; ++k) {
+        const q = around[k];
+        const cosine = n[3 * p] * n[3 * q] + n[3 * p + 1] * n[3 * q + 1] + n[3 * p + 2] * n[3 * q + 2];
+        if (q === p || (side[p] === side[q] && cosine >= least)) list.push(q);
+      }
+      this.first[c + 1] = list.length;
+    }
+    this.neighbours = Int32Array.from(list);
+  }
+
+  /** Edges of the patches ("after" refinement) or of the input triangles ("before"); none for "none". */
+  showLines(which) {
+    for (const lines of Object.values(this.lines)) lines.visible = false;
+    if (which === "none") return;
+    this.lines[which] ??= this.edges(which === "after" ? this.result.patch_vertices : this.result.input_triangle_vertices);
+    this.lines[which].visible = true;
+  }
+
+  /** Edges of the input triangles where the surface turns or ends. */
+  folds() {
+    const { vertices: v, input_triangle_vertices: triangles } = this.result, edges = new Map();
+    const at = (k) => new THREE.Vector3(v[3 * k], v[3 * k + 1], v[3 * k + 2]);
+    for (let c = 0; c < triangles.length; c += 3) {
+      const corners = [0, 1, 2].map((k) => at(triangles[c + k]));
+      const normal = new THREE.Triangle(...corners).getNormal(new THREE.Vector3());
+      for (let k = 0; k < 3; ++k) {
+        const ends = [corners[k], corners[(k + 1) % 3]];
+        const key = ends.map((p) => p.toArray().map((x) => Math.round(1000 * x)).join(" ")).sort().join(" ");
+        edges.has(key) ? edges.get(key).normals.push(normal) : edges.set(key, { ends, normals: [normal] });
+      }
+    }
+    const isFold = ({ normals: [first, ...rest] }) => !rest.length || rest.some((n) => Math.abs(n.dot(first)) < leastFold);
+    return new THREE.BufferGeometry().setFromPoints([...edges.values()].filter(isFold).flatMap(({ ends }) => ends));
+  }
+
+  edges(triangles) {
+    const vertices = this.result.vertices, seen = new Set(), points = [], count = vertices.length / 3;
+    for (let c = 0; c < triangles.length; ++c) {
+      const a = triangles[c], b = triangles[c % 3 === 2 ? c - 2 : c + 1];
+      const key = Math.min(a, b) * count + Math.max(a, b);
+      if (seen.has(key)) continue;
+      seen.add(key);
+      for (const v of [a, b]) points.push(vertices[3 * v], vertices[3 * v + 1], vertices[3 * v + 2]);
+    }
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(points), 3));
+    const lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: 0x9a9a9a }));
+    this.object.add(lines);
+    return lines;
+  }
+}

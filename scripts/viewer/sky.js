@@ -1,0 +1,70 @@
+// The sun's arc and the compass around the scene.
+import * as THREE from "three";
+
+/** Azimuth of the scene's +y axis [rad, clockwise from north], from the lowest sun. */
+export function sceneNorth(times) {
+  const lowest = times.reduce((a, b) => (Math.abs(b.sun[2]) < Math.abs(a.sun[2]) ? b : a));
+  return (lowest.azimuth * Math.PI) / 180 - Math.atan2(lowest.sun[0], lowest.sun[1]);
+}
+
+/** Unit vector of the scene towards a compass bearing [rad]. */
+export function bearing(azimuth, north) {
+  return new THREE.Vector3(Math.sin(azimuth - north), Math.cos(azimuth - north), 0);
+}
+
+function letter(text) {
+  const canvas = Object.assign(document.createElement("canvas"), { width: 64, height: 64 });
+  const c = canvas.getContext("2d");
+  c.font = "bold 48px sans-serif";
+  c.textAlign = "center";
+  c.textBaseline = "middle";
+  c.fillStyle = "#333";
+  c.fillText(text, 32, 34);
+  const texture = new THREE.CanvasTexture(canvas);
+  texture.colorSpace = THREE.SRGBColorSpace;
+  return new THREE.Sprite(new THREE.SpriteMaterial({ map: texture }));
+}
+
+function line(points, colour) {
+  return new THREE.Line(new THREE.BufferGeometry().setFromPoints(points), new THREE.LineBasicMaterial({ color: colour }));
+}
+
+export class Sky {
+  constructor(times, radius, ground) {
+    this.times = times;
+    this.radius = radius;
+    this.object = new THREE.Group();
+    const north = sceneNorth(times);
+    const circle = [...Array(97).keys()].map((k) => bearing((k * Math.PI) / 48, north).multiplyScalar(radius).setZ(ground));
+    this.object.add(line(circle, 0x888888));
+    ["N", "E", "S", "W"].forEach((text, k) => {
+      const sprite = letter(text);
+      sprite.position.copy(bearing((k * Math.PI) / 2, north).multiplyScalar(1.06 * radius)).setZ(ground);
+      sprite.scale.setScalar(0.09 * radius);
+      this.object.add(sprite);
+    });
+    this.sun = new THREE.Mesh(new THREE.SphereGeometry(0.035 * radius, 24, 16), new THREE.MeshBasicMaterial({ color: 0xf2a900 }));
+    this.ray = line([new THREE.Vector3(), new THREE.Vector3()], 0xf2a900);
+    this.arc = new THREE.Group();
+    this.object.add(this.sun, this.ray, this.arc);
+  }
+
+  /** The sun of interval k and the arc of its day. */
+  show(k) {
+    const now = this.times[k], direction = new THREE.Vector3(...now.sun);
+    this.sun.visible = this.ray.visible = now.elevation > 0;
+    this.sun.position.copy(direction).multiplyScalar(this.radius);
+    this.ray.geometry.setFromPoints([this.sun.position, direction.clone().multiplyScalar(0.5 * this.radius)]);
+    const day = now.local_begin.slice(0, 10);
+    if (this.day === day && this.arc.children.length) return;
+    this.day = day;
+    for (const child of this.arc.children) child.geometry.dispose();
+    this.arc.clear();
+    const points = this.times.filter((time) => time.local_begin.slice(0, 10) === day && time.elevation > 0)
+      .map((time) => new THREE.Vector3(...time.sun).multiplyScalar(this.radius));
+    if (!points.length) return;
+    this.arc.add(line(points, 0xc98a00));
+    this.arc.add(new THREE.Points(new THREE.BufferGeometry().setFromPoints(points),
+      new THREE.PointsMaterial({ color: 0xc98a00, size: 5, sizeAttenuation: false })));
+  }
+}

@@ -1,0 +1,273 @@
+#!/usr/bin/env python3
+"""The plot scripts on a small study: pictures that are not blank, data that are those of the file.
+
+plots_test.py SUNLOAD SOURCE_FOLDER
+"""
+
+import base64
+import csv
+import io
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+from small_study import SQUARE
+
+STUDY = """format: sunload-study-1
+name: square
+site: {latitude_deg: 49.7475, longitude_deg: 13.3776, timezone: Europe/Prague, north_deg: 20}
+period: {days: [2026-03-21, 2026-06-21], step_min: 60}
+light: {source: clear_sky}
+scene:
+  files: [square.obj]
+  materials: {paving: {diffuse: 0.3}, plaster: {diffuse: 0.6}, glass: {diffuse: 0.05, mirror: 0.85}}
+mesh: {max_edge_m: 3}
+solver: {lines_per_patch: 64, batch_suns: 16}
+variants:
+  - {name: baseline}
+  - {name: bright, scene: {materials: {paving: {diffuse: 0.8}}}}
+"""
+SCRIPTS = ("facade_map", "series", "carpet", "months", "sun_path", "compare_bars", "report")
+
+
+class Plots:
+    """The scripts, called as users do."""
+
+    def __init__(self, source, folder):
+        self.scripts, self.folder = os.path.join(source, "scripts/plot"), folder
+
+    def run(self, script, *words):
+        return subprocess.run(["/usr/bin/python3", "-B", os.path.join(self.scripts, script + ".py"), *words],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=self.folder)
+
+    def rows(self, script, *words):
+        """What a script says that it drew, after a look at the picture."""
+        picture = os.path.join(self.folder, script + ".png")
+        ran = self.run(script, *words, "-o", picture, "--csv", "-", "--dpi", "80")
+        assert ran.returncode == 0, f"{script}: {ran.returncode}\n{ran.stderr}"
+        assert_not_blank(picture)
+        return list(csv.DictReader(io.StringIO(ran.stdout)))
+
+
+def assert_not_blank(picture):
+    import matplotlib.image
+    pixels = matplotlib.image.imread(picture)[..., :3]
+    colours = np.unique((pixels.reshape(-1, 3) * 255).round().astype(int), axis=0)
+    painted = (np.abs(pixels - pixels[0, 0]).max(axis=2) > 0.02).mean()
+    assert len(colours) > 20 and painted > 0.03, f"{picture}: {len(colours)} colours, {painted:.1%} painted"
+
+
+def close(one, other, share=1e-6):
+    assert np.allclose(np.asarray(one, float), np.asarray(other, float), rtol=share, atol=1e-9), (one, other)
+
+
+def column(rows, name):
+    return np.array([float(row[name]) for row in rows])
+
+
+def facade_means(result, name, facade):
+    mine = np.flatnonzero(result["patch_facade"][...] == facade)
+    area = result["patch_area"][...][mine]
+    return result[name][...][..., mine].astype(float) @ area / area.sum()
+
+
+def test_facade_map(plots, path, result):
+    rows = plots.rows("facade_map", path)
+    patches = column(rows, "patch").astype(int)
+    assert sorted(patches) == list(np.flatnonzero(result["patch_facade"][...] >= 0))
+    close(column(rows, "light_load"), result["light_load"][...][patches])
+    centroid = result["patch_centroid"][...][patches]
+    # The glass front looks to -y: who faces it has +x to the right and z up.
+    front = result["patch_normal"][...][patches][:, 1] < -0.99
+    close(column(rows, "right_m")[front], centroid[front, 0] + 4, 1e-4)
+    close(column(rows, "up_m"), centroid[:, 2] - 0.01, 1e-4)
+    azimuth = column(rows, "azimuth_deg")
+    close(azimuth[front], np.full(front.sum(), 200.0))
+    # Who walks on to the right comes to the wall that looks 90° further east.
+    order = [azimuth[k] for k in range(len(azimuth)) if k == 0 or azimuth[k] != azimuth[k - 1]]
+    close(order, [290, 200, 110, 20])
+    at_noon = plots.rows("facade_map", path, "--quantity", "irradiance", "--time", "2026-06-21T13:00")
+    stored = result["irradiance"][24 + 13]
+    close(column(at_noon, "irradiance"), stored[patches])
+
+
+def test_facade_map_drawing(path):
+    """The artists, not the listing: every triangle has the value of its patch."""
+    from types import SimpleNamespace
+
+    import facade_map
+    import reading
+    chosen = SimpleNamespace(quantity="light_load", time=None, facade=["house/south_1"], colour="false", max=None)
+    opened = reading.Result(path)
+    figure, rows = facade_map.draw(opened, chosen)
+    collection = figure.axes[0].collections[0]
+    drawn = {(round(x, 4), round(y, 4)): value for (x, y), value in
+             zip([p.vertices[:3].mean(axis=0) for p in collection.get_paths()], collection.get_array())}
+    lines = list(rows)[1:]
+    left = min(x for x, _ in drawn) - min(line[3] for line in lines)
+    low = min(y for _, y in drawn) - min(line[4] for line in lines)
+    assert len(drawn) == len(lines)
+    for line in lines:
+        nearest = min(drawn, key=lambda place: abs(place[0] - left - line[3]) + abs(place[1] - low - line[4]))
+        close(drawn[nearest], line[6])
+
+
+def test_series(plots, path, result):
+    facade = [name.decode() for name in result["facade_name"][...]].index("house/south_1")
+    rows = plots.rows("series", path, "--facade", "house/south_1", "--patch", "3")
+    close(column(rows, "irradiance of house/south_1"), result["facade_irradiance"][:, facade], 1e-5)
+    owner = [name for name in rows[0] if "patch 3" in name]
+    close(column(rows, owner[0]), result["irradiance"][:, 3])
+    assert rows[0]["begin"] == "2026-03-21T00:00:00+01:00", rows[0]["begin"]
+    assert rows[24]["begin"] == "2026-06-21T00:00:00+02:00", rows[24]["begin"]
+    days = plots.rows("series", path, "--facade", "house/south_1", "--step", "day")
+    assert len(days) == 2
+    close(column(days, "irradiance of house/south_1").sum(), result["facade_light_load"][facade], 1e-5)
+
+
+def test_carpet(plots, path, result):
+    facade = [name.decode() for name in result["facade_name"][...]].index("house/east_1")
+    rows = plots.rows("carpet", path, "--facade", "house/east_1")
+    name = "irradiance of house/east_1"
+    close(column(rows, name), facade_means(result, "irradiance", facade))
+    # A wall that looks to 110° has its sun before noon, an hour later by the clock in summer.
+    brightest = [max((row for row in rows if row["day"] == day), key=lambda row: float(row[name]))
+                 for day in ("2026-03-21", "2026-06-21")]
+    assert all(7 <= float(row["begin_hour"]) <= 11 for row in brightest), brightest
+
+
+def test_months(plots, path, result):
+    rows = plots.rows("months", path, "--facade", "house/*")
+    names = [name.decode() for name in result["facade_name"][...]]
+    assert [row["month"] for row in rows[::len(names)]] == ["2026-03", "2026-06"]
+    for k, name in enumerate(names):
+        mine = [row for row in rows if row["target"] == name]
+        close(column(mine, "sum").sum(), result["facade_light_load"][k], 1e-5)
+        close(column(mine, "irradiance_sky").sum(), facade_means(result, "light_load_sky", k), 1e-5)
+
+
+def test_sun_path(plots, path, result):
+    import sun_path
+    close(sun_path.place(90, 0), (1, 0))    # east is right
+    close(sun_path.place(0, 90), (0, 0))
+    close(sun_path.place(180, 30), (0, -np.tan(np.radians(30))))
+    patch = int(np.argmax(result["sun_hours"][...]))
+    rows = plots.rows("sun_path", path, "--patch", str(patch))
+    close(column(rows, "irradiance_direct"), result["irradiance_direct"][:, patch])
+    close(column(rows, "lit_share"), result["irradiance_direct"][:, patch] > 0)
+    close(column(rows, "azimuth_deg"), result["sun_azimuth"][...])
+    rows = plots.rows("sun_path", path, "--facade", "house/east_1")
+    lit, elevation = column(rows, "lit_share") > 0.5, column(rows, "elevation_deg")
+    bearing = np.cos(np.radians(column(rows, "azimuth_deg") - 110))
+    assert lit.sum() > 5 and (bearing[lit] > 0).all() and not lit[elevation < 0].any()
+
+
+def test_compare(plots, sunload, path, other):
+    import compare_bars
+    # Quantiles of Student's t for 95 %: Abramowitz and Stegun (1964), table 26.10.
+    close([compare_bars.student_t(1), compare_bars.student_t(7), compare_bars.student_t(30)],
+          [12.706, 2.365, 2.042], 5e-4)
+    listed = subprocess.run([sunload, "compare", path, other, "--csv"], stdout=subprocess.PIPE, text=True,
+                            check=True).stdout
+    for by in ("facade", "object", "surface"):
+        rows = plots.rows("compare_bars", path, other, "--by", by)
+        expected = {row["name"]: row for row in csv.DictReader(io.StringIO(listed)) if row["group"] == by}
+        assert {row["name"] for row in rows} == set(expected)
+        for row in rows:
+            for name in ("base_kwh_m2", "variant_kwh_m2", "difference_kwh_m2", "se_kwh_m2", "area_m2"):
+                close(float(row[name]), float(expected[row["name"]][name]), 1e-4)
+            assert row["paired"] == expected[row["name"]]["paired"] == "true"
+            close(float(row["whisker_kwh_m2"]), compare_bars.student_t(7) * float(row["se_kwh_m2"]), 1e-4)
+
+
+def test_report(plots, folder):
+    page = os.path.join(folder, "report.html")
+    ran = plots.run("report", os.path.join(folder, "results/square"), "-o", page)
+    assert ran.returncode == 0, ran.stderr
+    text = open(page, encoding="utf-8").read()
+    pictures = re.findall(r'<h2>(.*?)</h2><img alt=".*?" src="data:image/png;base64,([^"]+)"', text)
+    assert [name for name, _ in pictures] == ["Variants"] + [
+        f"{variant}: {what}" for variant in ("baseline", "bright")
+        for what in ("facades", "time series", "months", "hours in the sun")], [name for name, _ in pictures]
+    for name, data in pictures:
+        picture = os.path.join(folder, "embedded.png")
+        with open(picture, "wb") as file:
+            file.write(base64.b64decode(data))
+        assert_not_blank(picture)
+    assert "http" not in text, "the page wants the network"
+    page = os.path.join(folder, "report.pdf")
+    assert plots.run("report", os.path.join(folder, "results/square"), "-o", page).returncode == 0
+    data = open(page, "rb").read()
+    assert data.startswith(b"%PDF") and len(re.findall(rb"/Type /Page\b", data)) == 1 + len(pictures)
+
+
+def test_wrong_input(plots, path, folder):
+    empty = os.path.join(folder, "empty")
+    os.makedirs(empty)
+    for script, words, says in (
+            ("series", ["missing.h5"], "missing.h5"),
+            ("series", ["square.yaml"], "HDF5"),
+            ("facade_map", [path, "--quantity", "light_lode"], "choose one of irradiance_max, light_load"),
+            ("facade_map", [path, "--quantity", "irradiance", "--time", "2027-01-01T12:00"], "no interval"),
+            ("facade_map", [path, "--quantity", "irradiance", "--time", "noon"], "ISO 8601"),
+            ("facade_map", [path, "--facade", "tower*"], "house/"),
+            ("facade_map", [path, "-o", "picture.xyz"], ".png"),
+            ("carpet", [path, "--patch", "100000"], "no patch 100000"),
+            ("carpet", [path, "--sensor", "0"], "sensors"),
+            ("months", [path, "--quantity", "facade_area"], "choose one of"),
+            ("sun_path", [path, "--facade", "*"], "name one"),
+            ("compare_bars", [path], "nothing to compare"),
+            ("report", [empty], "no result"),
+            ("report", [path, "-o", "report.doc"], ".html or .pdf"),
+            ("carpet", [path, "--max", "-1"], "above 0")):
+        ran = plots.run(script, *words)
+        assert ran.returncode == 2 and says in ran.stderr and "Traceback" not in ran.stderr, \
+            f"{script} {words}: {ran.returncode}\n{ran.stderr}"
+    ran = plots.run("series", path, "-o", os.path.join(folder, "no/such/folder.png"))
+    assert ran.returncode == 3 and "folder.png" in ran.stderr, ran.stderr
+    for script in SCRIPTS:
+        ran = plots.run(script, "--help")
+        assert ran.returncode == 0 and "usage:" in ran.stdout, script
+
+
+def test(sunload, source, folder):
+    sys.dont_write_bytecode = True
+    sys.path.insert(0, os.path.join(source, "scripts/plot"))
+    for name, text in (("square.obj", SQUARE), ("square.yaml", STUDY)):
+        with open(os.path.join(folder, name), "w") as file:
+            file.write(text)
+    ran = subprocess.run([sunload, "run", "square.yaml"], cwd=folder, stderr=subprocess.PIPE, text=True)
+    assert ran.returncode == 0, ran.stderr
+    path, other = (os.path.join(folder, f"results/square/{name}.h5") for name in ("baseline", "bright"))
+    plots = Plots(source, folder)
+    with h5py.File(path, "r") as result:
+        for check in (test_facade_map, test_series, test_carpet, test_months, test_sun_path):
+            check(plots, path, result)
+            print(f"{check.__name__}: as in the file")
+    test_facade_map_drawing(path)
+    test_compare(plots, sunload, path, other)
+    test_report(plots, folder)
+    test_wrong_input(plots, path, folder)
+    print("comparison, report and wrong input: as they should be")
+
+
+def main():
+    if missing:
+        print(f"NOT RUN: end_to_end/plots: {missing}")
+        return
+    with tempfile.TemporaryDirectory(prefix="sunload-plots-") as folder:
+        test(os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), folder)
+
+
+try:
+    import h5py
+    import matplotlib  # noqa: F401
+    import numpy as np
+    missing = ""
+except ImportError as error:
+    missing = f"{error.name} is not installed (python3-h5py, python3-matplotlib)"
+
+if __name__ == "__main__":
+    main()

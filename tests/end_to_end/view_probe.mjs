@@ -1,0 +1,145 @@
+// Opens a page of `sunload view` in a real browser, uses it, and tells what it saw as JSON:
+//   node view_probe.mjs FOLDER_OF_PLAYWRIGHT CHROMIUM PAGE FOLDER_OF_PICTURES [match]
+// match: only what the second result brings onto the patches of the first.
+import { createRequire } from "node:module";
+import { join } from "node:path";
+
+const [modules, chromium, page, pictures, mode] = process.argv.slice(2);
+const playwright = createRequire(join(modules, "package.json"))("playwright-core");
+const seen = { errors: [], requests: [], patches: [], clicks: [], times: {} };
+
+const browser = await playwright.chromium.launch({ executablePath: chromium,
+  args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--force-color-profile=srgb"] });
+try {
+  const tab = await browser.newPage({ viewport: { width: 1280, height: 720 } });
+  tab.on("console", (message) => ["error", "warning"].includes(message.type()) && seen.errors.push(message.text()));
+  tab.on("pageerror", (error) => seen.errors.push(String(error)));
+  tab.on("request", (request) => !/^(file|data|blob):/.test(request.url()) && seen.requests.push(request.url()));
+  const started = Date.now();
+  await tab.goto(`file://${page}`);
+  await tab.waitForFunction(() => window.sunload, null, { timeout: 240000 });
+  seen.loadSeconds = (Date.now() - started) / 1000;
+  await (mode === "match" ? match(tab) : use(tab));
+} finally {
+  await browser.close();
+}
+console.log(JSON.stringify(seen));
+
+/** Draws at once: a test does not wait for the next frame. */
+async function picture(tab, name) {
+  await tab.evaluate(() => window.sunload.render());
+  await tab.screenshot({ path: join(pictures, `${name}.png`) });
+}
+
+async function set(tab, id, value) {
+  await tab.selectOption(`#${id}`, value);
+}
+
+async function setTime(tab, k) {
+  await tab.locator("#slider").evaluate((slider, value) => {
+    slider.value = value;
+    slider.dispatchEvent(new Event("input"));
+  }, k);
+}
+
+/** Patches of the first result that a pixel and those around it show, spread over the scene, not under a box. */
+function visiblePatches(tab, most) {
+  return tab.evaluate((count) => {
+    const viewer = window.sunload, patches = viewer.results[0].patches, found = [];
+    for (let k = 0; k < 40 * count && found.length < count; ++k) {
+      const patch = (k * 7919) % patches, place = viewer.placeOf(patch);
+      const x = Math.floor(place.x) + 0.5, y = Math.floor(place.y) + 0.5;
+      if (document.elementFromPoint(x, y)?.id !== "scene") continue;
+      const around = [[0, 0], [3, 0], [-3, 0], [0, 3], [0, -3]];
+      if (around.every(([dx, dy]) => viewer.patchAt(x + dx, y + dy)?.patch === patch)) found.push({ patch, x, y });
+    }
+    return found;
+  }, most);
+}
+
+async function match(tab) {
+  seen.unmatchedShare = await tab.evaluate(() => window.sunload.unmatchedShare);
+  seen.matchedKwh = await tab.evaluate(() => {
+    const viewer = window.sunload, own = viewer.valuesOf(0, "light_load");
+    return viewer.difference(own, viewer.valuesOf(1, "light_load")).reduce((sum, apart, p) => sum + viewer.results[0].patch_area[p] * (own[p] + apart), 0);
+  });
+}
+
+async function use(tab) {
+  const count = await tab.evaluate(() => window.sunload.results.length);
+  seen.title = await tab.textContent("#title");
+  seen.unmatchedShare = await tab.evaluate(() => (window.sunload.match ? window.sunload.unmatchedShare : 1));
+  if (count > 1) {
+    await picture(tab, "side");
+    await set(tab, "view", "0");
+  }
+  // Nothing in front of the patches but the patches.
+  await tab.evaluate(() => { window.sunload.sky.object.visible = false; });
+  seen.dayTime = await tab.evaluate(() => window.sunload.state.k);
+  seen.limit = await tab.evaluate(() => window.sunload.limit());
+  seen.patches = await visiblePatches(tab, 40);
+  await picture(tab, "light_load");
+  await set(tab, "colours", "grey");
+  await picture(tab, "grey");
+  await set(tab, "colours", "false");
+
+  // Two patches of the first object and one of another.
+  const objects = await tab.evaluate((ids) => ids.map((id) => window.sunload.results[0].patch_object[id]), seen.patches.map((one) => one.patch));
+  const chosen = [0, 1, objects.findIndex((object) => object !== objects[0])].filter((k) => k >= 0 && k < objects.length);
+  for (const { patch, x, y } of chosen.map((k) => seen.patches[k])) {
+    await tab.mouse.click(x, y);
+    const rows = await tab.$$eval("#values tr", (list) => list.map((row) => [row.dataset.quantity ?? "", ...[...row.cells].map((cell) => cell.textContent)]));
+    seen.clicks.push({ patch, rows });
+    await picture(tab, "clicked");
+    await tab.click("#close");
+  }
+
+  const series = await tab.evaluate(() => window.sunload.results[0].series.name);
+  await set(tab, "quantity", series);
+  const times = await tab.evaluate(() => window.sunload.results[0].times.length);
+  for (const k of [Math.floor(times / 3), Math.floor((2 * times) / 3)]) {
+    await setTime(tab, k);
+    seen.times[k] = { clock: await tab.textContent("#clock"), limit: await tab.evaluate(() => window.sunload.limit()) };
+    await picture(tab, `time-${k}`);
+  }
+  await tab.fill("#limit", "123");
+  await tab.press("#limit", "Enter");
+  seen.userLimit = await tab.evaluate(() => window.sunload.limit());
+  await picture(tab, "limit");
+  await tab.click("#automatic");
+
+  await set(tab, "shading", "smooth");
+  await picture(tab, "smooth");
+  await set(tab, "shading", "constant");
+  for (const which of ["after", "before"]) {
+    await set(tab, "lines", which);
+    await picture(tab, `mesh-${which}`);
+  }
+  await set(tab, "lines", "none");
+  await set(tab, "quantity", "preview");
+  await picture(tab, "preview");
+  await set(tab, "quantity", "light_load");
+  if (seen.unmatchedShare < 1) {
+    await set(tab, "view", "difference");
+    seen.differenceLimit = await tab.evaluate(() => window.sunload.limit());
+    await picture(tab, "difference");
+    await set(tab, "view", "0");
+  }
+  await tab.evaluate(() => { window.sunload.sky.object.visible = true; });
+  seen.framesPerSecond = await tab.evaluate(() => window.sunload.measuredFrames(20));
+  await picture(tab, "orbit");
+
+  await set(tab, "camera", "walk");
+  const before = await tab.evaluate(() => window.sunload.man.camera.position.toArray());
+  await tab.keyboard.down("w");
+  await tab.waitForFunction((start) => Math.hypot(...window.sunload.man.camera.position.toArray().map((x, k) => x - start[k])) > 0.3, before);
+  await tab.keyboard.up("w");
+  seen.walked = [before, await tab.evaluate(() => window.sunload.man.camera.position.toArray())];
+  await picture(tab, "walk");
+
+  await tab.click("#play");
+  const shown = await tab.textContent("#clock");
+  await tab.waitForFunction((text) => document.getElementById("clock").textContent !== text, shown);
+  await tab.click("#play");
+  seen.played = [shown, await tab.textContent("#clock")];
+}

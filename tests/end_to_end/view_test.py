@@ -1,0 +1,219 @@
+#!/usr/bin/env python3
+"""`sunload view` in headless Chromium: colours, clicks and times are those of the result file.
+
+view_test.py SUNLOAD SOURCE_FOLDER PACKAGES_OF_THE_VIEWER
+"""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+from small_study import SQUARE
+
+# A name that would be a program, were it not escaped.
+EVIL = "house</script><img/src=x/onerror=console.error(1)>"
+STUDY = """format: sunload-study-1
+name: square
+site: {latitude_deg: 49.7475, longitude_deg: 13.3776, timezone: Europe/Prague}
+period: {days: [2026-03-21, 2026-06-21], from: "06:00", to: "18:00", step_min: 60}
+light: {source: clear_sky}
+scene:
+  files: [square.obj]
+  materials: {paving: {diffuse: 0.3}, plaster: {diffuse: 0.6}, glass: {diffuse: 0.05, mirror: 0.85}}
+mesh: {max_edge_m: 3, oracle: none}
+solver: {lines_per_patch: 64, batch_suns: 8}
+variants:
+  - {name: baseline}
+  - {name: bright, scene: {materials: {plaster: {diffuse: 0.9}}}}
+  - {name: fine, mesh: {max_edge_m: 1.8}}
+"""
+# Of 255: the palette's texture and the legend's rounding are one each.
+COLOUR_STEPS = 2
+# Half a unit of the third digit, at worst of 1.00...
+THREE_DIGITS = 5.5e-3
+
+
+def missing(packages):
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser")
+    if not chromium:
+        return "chromium is not installed"
+    if not shutil.which("node"):
+        return "node is not installed"
+    if not os.path.isdir(os.path.join(packages, "node_modules/playwright-core")):
+        return "npm has not installed the viewer's packages (see the build's output)"
+    return ""
+
+
+def run(words, **options):
+    ran = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+    assert ran.returncode == 0, f"{words}: {ran.returncode}\n{ran.stdout}{ran.stderr}"
+    return ran.stdout
+
+
+class Pictures:
+    def __init__(self, folder):
+        self.folder = folder
+
+    def __getitem__(self, name):
+        import matplotlib.image
+        return np.round(matplotlib.image.imread(os.path.join(self.folder, name + ".png"))[..., :3] * 255)
+
+    def at(self, name, patches):
+        picture = self[name]
+        return np.array([picture[int(p["y"]), int(p["x"])] for p in patches])
+
+
+def wanted_colours(kind, values, limit):
+    import drawing
+    colours = np.round(255 * drawing.palette(kind)(np.arange(256))[:, :3])
+    return colours[np.floor(np.clip(np.asarray(values) / limit, 0, 1) * 255 + 0.5).astype(int)]
+
+
+def assert_colours(pictures, name, patches, kind, values, limit):
+    apart = np.abs(pictures.at(name, patches) - wanted_colours(kind, values, limit)).max(axis=1)
+    # A value halfway between two steps of the palette may have either; the steps are 1 or 2 apart.
+    assert (apart <= 2 * COLOUR_STEPS).all(), f"{name}: {apart.max()} of 255 beside the value's colour"
+
+
+def number(text):
+    return float(text.split()[0])
+
+
+def test_page(seen, pictures, path, other):
+    assert seen["errors"] == [], seen["errors"]
+    assert seen["requests"] == [], f"the page wants {seen['requests']}"
+    patches = seen["patches"]
+    assert len(patches) >= 15, f"only {len(patches)} patches can be seen"
+    ids = [p["patch"] for p in patches]
+    with h5py.File(path) as result, h5py.File(other) as bright:
+        load = result["light_load"][...]
+        assert_colours(pictures, "light_load", patches, "false", load[ids], seen["limit"])
+        assert_colours(pictures, "grey", patches, "grey", load[ids], seen["limit"])
+        # The planted fault: values of the neighbours in the file.
+        try:
+            assert_colours(pictures, "light_load", patches, "false", np.roll(load, 7)[ids], seen["limit"])
+        except AssertionError:
+            pass
+        else:
+            raise AssertionError("the comparison of colours sees nothing")
+        for k, said in seen["times"].items():
+            assert_colours(pictures, f"time-{k}", patches, "false", result["irradiance"][int(k)][ids], said["limit"])
+        last = max(seen["times"], key=int)
+        assert seen["userLimit"] == 123
+        assert_colours(pictures, "limit", patches, "false", result["irradiance"][int(last)][ids], 123)
+        test_clicks(seen, result, bright, int(seen["dayTime"]))
+        test_difference(seen, pictures, patches, bright["light_load"][...][ids] - load[ids])
+    test_drawings(seen, pictures)
+
+
+def test_clicks(seen, result, bright, k):
+    for click in seen["clicks"]:
+        rows = {row[0] or row[1]: row[1:] for row in click["rows"]}
+        assert int(rows["patch"][1]) == click["patch"], rows
+        names = [row[0] for row in click["rows"] if row[0]]
+        assert {"light_load", "light_load_se", "sun_hours", "power_load", "irradiance"} <= set(names), names
+        for name in names:
+            for file, text in zip((result, bright), rows[name][1:]):
+                stored = file[name][k][click["patch"]] if name == "irradiance" else file[name][click["patch"]]
+                assert abs(number(text) - stored) <= THREE_DIGITS * abs(stored) + 1e-12, (name, text, stored)
+        assert rows["object"][1] in (EVIL, "square"), rows["object"]
+    assert any(EVIL in str(click["rows"]) for click in seen["clicks"]), seen["clicks"]
+
+
+def test_difference(seen, pictures, patches, difference):
+    """Blue where less, orange where more, near white where the same."""
+    assert seen["unmatchedShare"] == 0 and seen["differenceLimit"] > 0
+    colour = pictures.at("difference", patches)
+    share = difference / seen["differenceLimit"]
+    warm = colour[:, 0] - colour[:, 2]
+    assert (warm[share > 0.1] > 0).all() and (warm[share < -0.1] < 0).all(), (share, warm)
+    assert (share > 0.1).any(), "nothing differs"
+    assert (np.abs(warm[np.abs(share) < 0.003]) < 12).all(), (share, warm)
+
+
+def test_drawings(seen, pictures):
+    first, last = sorted(seen["times"], key=int)
+    assert seen["times"][first]["clock"] != seen["times"][last]["clock"]
+
+    def apart(one, other):
+        return (np.abs(pictures[one] - pictures[other]).max(axis=2) > 4).mean()
+
+    for one, other, least in ((f"time-{first}", f"time-{last}", 0.05), ("smooth", "limit", 0.02),
+                              ("mesh-after", f"time-{last}", 0.01), ("preview", "light_load", 0.05),
+                              ("orbit", "light_load", 0.001), ("walk", "orbit", 0.2), ("side", "light_load", 0.05)):
+        assert apart(one, other) > least, f"{one} and {other} are the same picture"
+    lines = [apart(f"mesh-{which}", f"time-{last}") for which in ("before", "after")]
+    assert 0 < lines[0] < lines[1], f"lines before and after refinement: {lines}"
+    start, end = (np.array(place) for place in seen["walked"])
+    assert np.hypot(*(end - start)[:2]) > 0.3 and abs(end[2] - start[2]) < 8, seen["walked"]
+    assert seen["played"][0] != seen["played"][1]
+
+
+def test_match(probe, folder, sunload):
+    """Patches of other sizes: what a result brings onto the patches of the other keeps its energy."""
+    coarse, fine = (os.path.join(folder, f"results/square/{name}.h5") for name in ("baseline", "fine"))
+    for one, other in ((coarse, fine), (fine, coarse)):
+        page = os.path.join(folder, "match.html")
+        run([sunload, "view", one, other, "-o", page])
+        seen = json.loads(run([*probe, page, folder, "match"]))
+        with h5py.File(one) as first, h5py.File(other) as second:
+            assert len(first["patch_area"]) != len(second["patch_area"])
+            whole = (second["light_load"][...] * second["patch_area"][...]).sum()
+        assert seen["unmatchedShare"] == 0 and abs(seen["matchedKwh"] - whole) < 1e-5 * whole, (seen, whole)
+
+
+def test_refusals(sunload, folder, path):
+    page = os.path.join(folder, "no.html")
+    for words, code, says in ((["missing.h5", "-o", page], 2, "missing.h5"), ([path, path, path, "-o", page], 2, "two"),
+                              ([path, "-o", os.path.join(folder, "no/such/page.html")], 3, "page.html"),
+                              ([path], 2, "--output")):
+        ran = subprocess.run([sunload, "view", *words], stderr=subprocess.PIPE, text=True, cwd=folder)
+        assert ran.returncode == code and says in ran.stderr, f"{words}: {ran.returncode} {ran.stderr}"
+    assert not os.path.exists(page)
+    ran = subprocess.run([sunload, "view", path, "-o", page, "--step", "5"], stderr=subprocess.PIPE, text=True)
+    assert ran.returncode == 0 and "5" in ran.stderr, "intervals are left out silently"
+
+
+def test(sunload, source, packages, folder):
+    sys.path.insert(0, os.path.join(source, "scripts/plot"))
+    sys.dont_write_bytecode = True
+    for name, text in (("square.obj", SQUARE.replace("o house", "o " + EVIL)), ("square.yaml", STUDY)):
+        with open(os.path.join(folder, name), "w") as file:
+            file.write(text)
+    run([sunload, "run", "square.yaml"], cwd=folder)
+    path, other = (os.path.join(folder, f"results/square/{name}.h5") for name in ("baseline", "bright"))
+    page = os.path.join(folder, "page.html")
+    run([sunload, "view", path, other, "-o", page])
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser")
+    probe = ["node", os.path.join(os.path.dirname(os.path.abspath(__file__)), "view_probe.mjs"), packages, chromium]
+    seen = json.loads(run([*probe, page, folder]))
+    test_page(seen, Pictures(folder), path, other)
+    test_match(probe, folder, sunload)
+    test_refusals(sunload, folder, path)
+    print(f"{len(seen['patches'])} patches have the colours of their values, {len(seen['clicks'])} clicks told them; "
+          f"{seen['framesPerSecond']:.0f} frames/s")
+
+
+def main():
+    sunload, source, packages = (os.path.abspath(word) for word in sys.argv[1:4])
+    why = lacking or missing(packages)
+    if why:
+        print(f"NOT RUN: end_to_end/view: {why}")
+        return
+    with tempfile.TemporaryDirectory(prefix="sunload-view-") as folder:
+        test(sunload, source, packages, folder)
+
+
+try:
+    import h5py
+    import matplotlib  # noqa: F401
+    import numpy as np
+    lacking = ""
+except ImportError as error:
+    lacking = f"{error.name} is not installed (python3-h5py, python3-matplotlib)"
+
+if __name__ == "__main__":
+    main()
