@@ -277,16 +277,6 @@ std::vector<std::size_t> batches_not_there(const std::string& folder, const Vari
   return missing;
 }
 
-double batch_bytes(const std::string& folder, const VariantPlan& plan) {
-  double bytes = 0;
-  for (std::size_t b = 0; b < plan.batches(); ++b) {
-    std::error_code missing;
-    const auto size = fs::file_size(batch_path(folder, plan, b), missing);
-    if (!missing) bytes += static_cast<double>(size);
-  }
-  return bytes;
-}
-
 std::vector<std::string> merge_variant(const std::string& folder, const VariantPlan& plan,
                                        const StudyFile& file, const Hierarchy& hierarchy,
                                        const std::string& path,
@@ -310,23 +300,6 @@ std::vector<std::string> merge_variant(const std::string& folder, const VariantP
   write_ledger_errors(writer, totals);
   writer.finish(result_attributes(plan, file, totals, geometry), file.yaml);
   return result_warnings(totals);
-}
-
-void remove_empty_folders(const std::string& folder, const VariantPlan& plan) {
-  std::error_code not_empty;
-  fs::path path = work_folder(folder, plan);
-  constexpr int of_variant_work_and_study = 3;
-  for (int level = 0; level < of_variant_work_and_study; ++level, path = path.parent_path())
-    fs::remove(path, not_empty);
-}
-
-void remove_batches(const std::string& folder, const VariantPlan& plan) {
-  std::error_code ignored;
-  for (std::size_t b = 0; b < plan.batches(); ++b) fs::remove(batch_path(folder, plan, b), ignored);
-  fs::remove(prepared_path(folder, plan), ignored);
-  fs::remove(work_folder(folder, plan) + "/partial.h5", ignored);
-  fs::remove(work_folder(folder, plan), ignored);
-  fs::remove(fs::path(work_folder(folder, plan)).parent_path(), ignored);
 }
 
 }  // namespace sunload

@@ -104,6 +104,7 @@ constexpr double program_bytes = 3.6e7, bytes_per_line = 12.2, bytes_per_patch =
 constexpr double double_bytes = 8, float_bytes = 4;
 constexpr double arrays_of_realizations = 3;  ///< doubles of a patch and realization
 constexpr double stored_bytes_per_value = 2.5;
+constexpr double kept_bytes_per_line = 12.5;  ///< in the prepared file
 constexpr double batch_bytes_per_patch = 80, result_bytes_per_patch = 175;
 
 }  // namespace
@@ -180,6 +181,24 @@ std::string batch_path(const std::string& folder, const VariantPlan& plan, std::
   return work_folder(folder, plan) + "/" + number + ".batch";
 }
 
+bool has_lamps(const VariantPlan& plan) {
+  const auto& materials = plan.built.scene.materials;
+  return std::any_of(materials.begin(), materials.end(),
+                     [](const Material& m) { return m.emission_w_m2 > 0; });
+}
+
+std::size_t sun_count(const VariantPlan& plan, std::size_t batch) {
+  const std::size_t begin = batch * plan.batch_suns();
+  const std::size_t end = std::min(begin + plan.batch_suns(), plan.intervals());
+  if (has_lamps(plan)) return end - begin;
+  const auto at = [&](std::size_t k) {
+    return plan.light.intervals.begin() + static_cast<std::ptrdiff_t>(k);
+  };
+  return static_cast<std::size_t>(std::count_if(at(begin), at(end), [](const LitInterval& i) {
+    return i.mean.dni > 0 || i.mean.dhi > 0;
+  }));
+}
+
 WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
   const SolverStudy& s = plan.study.solver;
   const auto& materials = plan.built.scene.materials;
@@ -187,7 +206,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
     return std::any_of(materials.begin(), materials.end(), property);
   };
   const bool mirrors = has([](const Material& m) { return m.mirror > 0; });
-  const bool lamps = has([](const Material& m) { return m.emission_w_m2 > 0; });
+  const bool lamps = has_lamps(plan);
   // Total, direct, sky, reflected, and what the scene has besides.
   const double parts = 4.0 + (mirrors ? 1 : 0) + (lamps ? 1 : 0);
   const auto n = static_cast<double>(patches);
@@ -208,7 +227,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
   work.disk_bytes = n * lit * stored_bytes_per_value *
                         (parts + static_cast<double>(plan.study.output.series.size())) +
                     n * batches * (of_realizations + batch_bytes_per_patch) +
-                    n * (of_realizations + result_bytes_per_patch);
+                    n * (of_realizations + result_bytes_per_patch) +
+                    (plan.batches() > 1 ? lines * kept_bytes_per_line : 0);
   work.seconds =
       (s_to_start + n * s_per_patch + lines * s_per_line + rays * s_per_direct_ray +
        (mirrors ? n * mirrored_share * lit * s.direct_samples * s_per_mirror_ray : 0) +
