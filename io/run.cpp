@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 #include "io/info.h"
@@ -116,16 +117,17 @@ void refuse_other_isa(const std::string& folder, const VariantPlan& plan,
 enum class Merging { done, was_done, by_another };
 
 /// Merges a variant of which every batch is there, unless another process does
-/// or did meanwhile.
+/// or did meanwhile; `say` gets the warnings.
 Merging merge_once(const std::string& folder, const StudyFile& file, const VariantPlan& plan,
-                   const Hierarchy& mesh, const std::string& result, const RunOptions& options) {
+                   const Hierarchy& mesh, const std::string& result, const RunOptions& options,
+                   const std::function<void(const std::string&)>& say) {
   {
     const MergeLock lock(merge_lock_path(folder, plan.study));
     if (!lock.is_held()) return Merging::by_another;
     if (!batches_not_there(folder, plan).empty()) return Merging::was_done;
     if (options.batches == Batches::keep) keep_work(folder, plan);
     for (const auto& warning : merge_variant(folder, plan, file, mesh, result))
-      fmt::print(stderr, "{}: warning: {}\n", plan.study.variant, warning);
+      say(plan.study.variant + ": warning: " + warning);
     if (options.batches == Batches::remove) remove_work(folder, plan);
   }
   remove_empty_folders(folder, plan);
@@ -288,7 +290,8 @@ class StudyRun {
   bool merged(const Place& place, const std::string& result) {
     const VariantPlan& plan = place.plan;
     try {
-      const Merging outcome = merge_once(folder_, file_, plan, *place.mesh, result, options_);
+      const Merging outcome = merge_once(folder_, file_, plan, *place.mesh, result, options_,
+                                         [&](const std::string& text) { progress_.say(text); });
       if (outcome == Merging::by_another)
         progress_.say(plan.study.variant + ": another process is merging");
       return outcome == Merging::done;
@@ -354,7 +357,8 @@ int merge_study(const std::string& path, const RunOptions& options, Merge merge)
                        "its content hash differs", "use --overwrite to replace it");
     Watch nobody;
     const auto mesh = make_mesh(plan, nobody).mesh;
-    if (merge_once(folder, file, plan, *mesh, result, options) == Merging::by_another) {
+    const auto say = [](const std::string& text) { fmt::print(stderr, "{}\n", text); };
+    if (merge_once(folder, file, plan, *mesh, result, options, say) == Merging::by_another) {
       fmt::print(stderr, "{}: another process is merging\n", study.variant);
       continue;
     }
