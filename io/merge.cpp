@@ -150,7 +150,7 @@ std::vector<std::string> result_warnings(const Totals& totals) {
       100 * share)};
 }
 
-ResultTimes result_times(const LightSeries& light) {
+ResultTimes result_times(const LightSeries& light, Quantity quantity) {
   ResultTimes times;
   for (const auto& i : light.intervals) {
     times.time.push_back(i.when.sun_time);
@@ -161,6 +161,11 @@ ResultTimes result_times(const LightSeries& light) {
     times.dni.push_back(i.mean.dni);
     times.dhi.push_back(i.mean.dhi);
     times.ghi.push_back(i.mean.ghi);
+    if (quantity == Quantity::irradiance) continue;
+    const Irradiance lux = source_means(i, quantity);
+    times.direct_illuminance.push_back(lux.dni);
+    times.diffuse_illuminance.push_back(lux.dhi);
+    times.global_illuminance.push_back(lux.ghi);
   }
   return times;
 }
@@ -189,7 +194,7 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
                {"elevation_m", plan.built.site.elevation_m},
                {"north_deg", plan.built.site.north_deg},
                {"reuse_bias_share", reuse_bias(totals, geometry, R)},
-               {"residual_reuse_bias_kwh", residual_reuse_bias_kwh(totals, R)},
+               {unit_names("residual_reuse_bias_kwh", study.light.quantity), residual_reuse_bias_kwh(totals, R)},
                {"runtime_lines_s", work.lines_s},
                {"runtime_direct_s", work.direct_s},
                {"runtime_mirror_s", work.mirror_s},
@@ -288,7 +293,8 @@ std::vector<std::string> merge_variant(const std::string& folder, const VariantP
   options.realizations = static_cast<std::size_t>(plan.study.solver.realizations);
   options.times_are_synthetic = plan.light.times_are_synthetic;
   options.left_out = unwanted_series(plan.study.output);
-  ResultWriter writer(path, geometry, result_times(plan.light), options);
+  options.quantity = plan.study.light.quantity;
+  ResultWriter writer(path, geometry, result_times(plan.light, options.quantity), options);
   Totals totals;
   for (std::size_t b = 0; b < plan.batches(); ++b) {
     if (std::find(left_out.begin(), left_out.end(), b) != left_out.end()) continue;

@@ -107,6 +107,14 @@ constexpr double stored_bytes_per_value = 2.5;
 constexpr double kept_bytes_per_line = 12.5;  ///< in the prepared file
 constexpr double batch_bytes_per_patch = 80, result_bytes_per_patch = 175;
 
+/// Lamps are given by their power, and watts of a lamp say nothing of its lumens.
+void refuse_lamps_in_lux(const VariantPlan& plan) {
+  if (plan.study.light.quantity == Quantity::irradiance || !has_lamps(plan)) return;
+  throw InputError(plan.study.scene.where, "the scene has surfaces that emit light",
+                   "their emission is in W/m2, and how much of it the eye sees is not known",
+                   "set their emission_w_m2 to 0, or light.quantity to irradiance");
+}
+
 }  // namespace
 
 VariantPlan make_plan(const Study& study) {
@@ -115,6 +123,7 @@ VariantPlan make_plan(const Study& study) {
   plan.isa = usable_isa(study.solver.isa);
   plan.built = build_scene(study);
   plan.light = light_series(study, plan.built.site);
+  refuse_lamps_in_lux(plan);
   plan.content_hash = content_hash(plan, plan.isa);
   plan.pairing_id = pairing_id(plan);
   return plan;
