@@ -1,6 +1,7 @@
 #include "io/variant_plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "io/hash.h"
@@ -89,7 +90,9 @@ std::string pairing_id(const VariantPlan& plan) {
 
 // Costs of one core [s], and sizes [bytes], fitted by scripts/scaling.py to a
 // street of 20 000 … 260 000 patches (AVX-512): docs/scaling.md.
-constexpr double s_per_line = 3.6e-7;
+// A line through 2^n triangles takes s_per_line + n · s_per_level: from a box on a plane to a city.
+constexpr double s_per_line = 1.64e-7, s_per_level = 1.23e-8;
+constexpr double share_that_meets = 0.6;  ///< of the lines; the others leave the scene
 constexpr double s_per_direct_ray = 3.5e-8;
 constexpr double s_per_mirror_ray = 1.3e-7;
 constexpr double s_per_link_sun = 2.0e-10;    ///< one link of one sun and one bounce
@@ -208,6 +211,30 @@ std::size_t sun_count(const VariantPlan& plan, std::size_t batch) {
   }));
 }
 
+namespace {
+
+/// Rays that a line is made of where mirrors send it on: of what it meets, as much as there is
+/// mirror among the surfaces.
+double rays_per_line(const Scene& scene, int mirror_depth) {
+  double area = 0, mirrors = 0;
+  for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
+    const double of_triangle = norm(scene.mesh.area_vector2(t));
+    area += of_triangle;
+    if (scene.materials[scene.material[t].index()].mirror > 0) mirrors += of_triangle;
+  }
+  const double again = area > 0 ? share_that_meets * mirrors / area : 0;
+  double rays = 1, of_depth = 1;
+  for (int depth = 0; depth < mirror_depth; ++depth) rays += of_depth *= again;
+  return rays;
+}
+
+double line_seconds(const Scene& scene, int mirror_depth) {
+  const auto triangles = static_cast<double>(std::max<std::size_t>(scene.mesh.triangle_count(), 1));
+  return rays_per_line(scene, mirror_depth) * (s_per_line + s_per_level * std::log2(triangles));
+}
+
+}  // namespace
+
 WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
   const SolverStudy& s = plan.study.solver;
   const auto& materials = plan.built.scene.materials;
@@ -239,7 +266,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
                     n * (of_realizations + result_bytes_per_patch) +
                     (plan.batches() > 1 ? lines * kept_bytes_per_line : 0);
   work.seconds =
-      (s_to_start + n * s_per_patch + lines * s_per_line + rays * s_per_direct_ray +
+      (s_to_start + n * s_per_patch + lines * line_seconds(plan.built.scene, s.mirror_depth) + rays * s_per_direct_ray +
        (mirrors ? n * mirrored_share * lit * s.direct_samples * s_per_mirror_ray : 0) +
        links * lit * s_per_link_sun + links * batches * s_per_link_batch +
        n * lit * s_per_patch_sun + n * static_cast<double>(plan.intervals()) * s_per_value) /
