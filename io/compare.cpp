@@ -144,9 +144,11 @@ Comparison compare_results(const ResultReader& base, const ResultReader& variant
   const Side b = side(base), v = side(variant);
   Comparison comparison;
   comparison.units = base.units("light_load");
+  comparison.quantity = base.quantity();
   if (comparison.units != variant.units("light_load"))
     throw InputError({variant.path()}, "light_load is in " + variant.units("light_load"),
-                     "the base has it in " + comparison.units);
+                     "the base has it in " + comparison.units,
+                     "compare results of one light.quantity");
   comparison.base = base.text_attribute("variant");
   comparison.variant = variant.text_attribute("variant");
   comparison.base_realizations = b.realizations.front().size();

@@ -18,7 +18,7 @@
 
 namespace sunload {
 
-/// One group; loads are area-weighted means [kWh m-2], NaN where not known.
+/// One group; loads are area-weighted means [kWh m-2, or klx h], NaN where not known.
 struct ComparisonRow {
   std::string kind;  ///< whole | surface | object | facade
   std::string name;
@@ -38,6 +38,7 @@ struct ComparisonRow {
 struct Comparison {
   std::string base, variant;  ///< names of the variants
   std::string units;          ///< of the light load, as the files state it
+  Quantity quantity = Quantity::irradiance;
   std::size_t base_realizations = 0, variant_realizations = 0;
   enum class Errors { paired, independent, unknown } errors = Errors::unknown;
   std::vector<std::string> notes;  ///< what a reader must know, e.g. that the periods differ
@@ -49,7 +50,8 @@ Comparison compare_results(const ResultReader& base, const ResultReader& variant
 
 /// Table for people: significant differences first within each kind.
 std::string comparison_table(const Comparison& comparison);
-/// Header and rows for machines (DESIGN 1); fields without a value are empty.
+/// Header and rows for machines (DESIGN 1; of illuminance `klx_h` instead of `kwh_m2`); fields
+/// without a value are empty.
 std::string comparison_csv(const Comparison& comparison);
 /// The same as JSON: one object per row, null where a value is not known.
 std::string comparison_json(const Comparison& comparison);

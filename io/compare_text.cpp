@@ -114,9 +114,10 @@ std::string comparison_table(const Comparison& comparison) {
 }
 
 std::string comparison_csv(const Comparison& comparison) {
-  std::string text =
+  std::string text = unit_names(
       "group,name,area_m2,base_kwh_m2,variant_kwh_m2,difference_kwh_m2,difference_percent,"
-      "se_kwh_m2,paired,p_value,p_corrected,significant,unmatched_area_m2\n";
+      "se_kwh_m2,paired,p_value,p_corrected,significant,unmatched_area_m2\n",
+      comparison.quantity);
   for (const auto& row : comparison.rows)
     text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.kind, csv_text(row.name),
                         csv_number(row.area_m2), csv_number(or_nan(row.base_kwh_m2)),
@@ -130,15 +131,16 @@ std::string comparison_csv(const Comparison& comparison) {
 
 std::string comparison_json(const Comparison& comparison) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  const auto key = [&](const char* name) { return unit_names(name, comparison.quantity); };
   for (const auto& row : comparison.rows)
     rows.push_back({{"group", row.kind},
                     {"name", row.name},
                     {"area_m2", json_number(row.area_m2)},
-                    {"base_kwh_m2", json_number(or_nan(row.base_kwh_m2))},
-                    {"variant_kwh_m2", json_number(or_nan(row.variant_kwh_m2))},
-                    {"difference_kwh_m2", json_number(row.difference_kwh_m2)},
+                    {key("base_kwh_m2"), json_number(or_nan(row.base_kwh_m2))},
+                    {key("variant_kwh_m2"), json_number(or_nan(row.variant_kwh_m2))},
+                    {key("difference_kwh_m2"), json_number(row.difference_kwh_m2)},
                     {"difference_percent", json_number(row.difference_percent)},
-                    {"se_kwh_m2", json_number(row.se_kwh_m2)},
+                    {key("se_kwh_m2"), json_number(row.se_kwh_m2)},
                     {"paired", is_paired(comparison, row)},
                     {"p_value", json_number(row.p_value)},
                     {"p_corrected", json_number(row.p_corrected)},

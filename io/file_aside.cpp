@@ -89,12 +89,16 @@ FileAside::~FileAside() {
 
 void FileAside::publish() {
   if (const int error = flushed_to_disk(aside_, O_RDONLY)) throw_cannot_write(path_, error);
-  if (std::rename(aside_.c_str(), path_.c_str()) != 0) throw_cannot_write(path_, errno);
-  state_ = State::published;
+  publish_unflushed();
   const auto folder = fs::path(path_).parent_path();
   const int error = flushed_to_disk(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
   // Some network file systems cannot flush folders and say so: nothing more can be done there.
   if (error != 0 && error != EINVAL && error != ENOTSUP) throw_cannot_write(path_, error);
+}
+
+void FileAside::publish_unflushed() {
+  if (std::rename(aside_.c_str(), path_.c_str()) != 0) throw_cannot_write(path_, errno);
+  state_ = State::published;
 }
 
 void remove_left_aside(const std::string& folder) {

@@ -22,6 +22,8 @@ class FileAside {
   /// Flushes the finished file to the disk, renames it to `path`, and flushes
   /// the folder. Throws MachineError.
   void publish();
+  /// The same without flushing, for what is checked when read and may be lost with the power.
+  void publish_unflushed();
 
  private:
   std::string path_, aside_;

@@ -10,6 +10,7 @@
 #include "io/patch_groups.h"
 #include "io/result_time.h"
 #include "io/statistics.h"
+#include "io/text.h"
 #include "io/time_words.h"
 
 namespace sunload {
@@ -90,7 +91,7 @@ std::string accuracy(const ResultReader& result, const PatchGroups& groups,
 }
 
 /// Least, mean and largest value of a quantity over the patches.
-std::string analysis(const char* name, const std::vector<double>& values,
+std::string analysis(const std::string& name, const std::vector<double>& values,
                      const PatchGroups& groups) {
   if (values.empty()) return {};
   const auto [least, largest] = std::minmax_element(values.begin(), values.end());
@@ -106,10 +107,14 @@ std::string lighting_analysis(const ResultReader& result, const PatchGroups& gro
                               const std::vector<double>& load) {
   std::string text = fmt::format("{:<26}{:>10} {:>10} {:>10} {:>10} {:>10}\n", "lighting analysis",
                                  "min", "mean", "max", "min/mean", "min/max");
-  text += analysis("light load, kWh/m²", load, groups);
-  if (result.has("irradiance") && result.shape("irradiance").front() > 0) {
+  const std::string series = dataset_name("irradiance", result.quantity());
+  const auto with_units = [&](const std::string& name, const std::string& dataset) {
+    return name + ", " + display_units(result.units(dataset));
+  };
+  text += analysis(with_units("light load", "light_load"), load, groups);
+  if (result.has(series) && result.shape(series).front() > 0) {
     const auto brightest = brightest_interval(result);
-    text += analysis("irradiance, W/m² (1)", result.row("irradiance", brightest), groups);
+    text += analysis(with_units(series, series) + " (1)", result.row(series, brightest), groups);
     if (result.has("sun_hours"))
       text += analysis("sun hours, h", result.doubles("sun_hours"), groups);
     text += "  (1) brightest interval: sun of " + interval_in_words(result, brightest) + "\n";
@@ -140,11 +145,13 @@ std::string facades(const ResultReader& result, const PatchGroups& groups,
     worst += (k ? ", " : "") + words(order[order.size() - 1 - k]);
   }
   if (shown == 0) return {};
-  return line("facades", "mean light load ± standard error, kWh/m²") + line("  most", best) +
+  return line("facades", "mean light load ± standard error, " +
+                             display_units(result.units("light_load"))) +
+         line("  most", best) +
          line("  least", worst);
 }
 
-/// Time sum of one term of the ledger [kWh]; 0 where the result lacks it.
+/// Time sum of one term of the ledger [kWh, klm h]; 0 where the result lacks it.
 double ledger_kwh(const ResultReader& result, const std::string& term) {
   if (!result.has("power_" + term)) return 0;
   const auto power = result.doubles("power_" + term);
@@ -170,6 +177,7 @@ std::string runtime(const ResultReader& result) {
 
 std::string energy_text(const ResultReader& result) {
   if (!result.has("power_sun")) return {};
+  const Quantity quantity = result.quantity();
   double in = 0, out = 0;
   std::string in_words, out_words;
   for (const char* term : {"sun", "sky", "ground", "emitted"}) {
@@ -187,14 +195,15 @@ std::string energy_text(const ResultReader& result) {
   const double residual = ledger_kwh(result, "residual");
   // An attribute of the term: the dataset of errors may hold those of the instants.
   const double error_kwh = result.has("power_residual")
-                               ? result.number_attribute("power_residual", "time_sum_se_kwh")
+                               ? result.number_attribute("power_residual",
+                                                         unit_names("time_sum_se_kwh", quantity))
                                : std::nan("");
   const std::string error =
       std::isnan(error_kwh) ? std::string() : fmt::format(" ± {:.2g}", error_kwh);
-  const double bias = result.number_attribute("residual_reuse_bias_kwh");
+  const double bias = result.number_attribute(unit_names("residual_reuse_bias_kwh", quantity));
   const std::string reuse =
       std::isnan(bias) ? std::string() : fmt::format(", of which {:.2g} by reuse of lines", bias);
-  return line("energy, kWh", fmt::format("in {:.6g} = {}", in, in_words)) +
+  return line(quantity == Quantity::illuminance ? "light, klm h" : "energy, kWh", fmt::format("in {:.6g} = {}", in, in_words)) +
          line("", fmt::format("out {:.6g} = {}", out, out_words)) +
          line("", fmt::format("residual {:.3g}{} ({:.2g} % of in){}", residual, error,
                               in == 0 ? 0 : residual / in * 100, reuse));

@@ -94,6 +94,11 @@ LitInterval fixed_light(const SunInterval& when, const LightStudy& light) {
   return {when, over_interval(when, lit, lit), lit};
 }
 
+/// Without sun above the horizon: the sky of a sun that stands on it.
+double sky_zenith_deg(const SunInterval& when) {
+  return std::clamp(90 - when.sun.elevation_deg, 0.0, 90.0);
+}
+
 SunPath path_of(const std::vector<PeriodStep>& steps, const Study& study, const Site& site,
                 LightSeries& series) {
   if (steps.empty()) throw InputError(study.period.where, "period has no intervals");
@@ -177,10 +182,31 @@ LightSeries light_series(const Study& study, const Site& site) {
   return series;
 }
 
+LuminousEfficacy efficacy_of(const LitInterval& interval) {
+  // Water vapour changes the efficacy by some per cent; 2 cm is a usual value in temperate
+  // summers, and what Radiance's gendaylit assumes.
+  constexpr double water_cm = 2;
+  const Irradiance& sky = interval.of_the_sky;
+  const double zenith_deg = sky_zenith_deg(interval.when);
+  return luminous_efficacy(sky_condition(sky.dni, sky.dhi, zenith_deg,
+                                         extraterrestrial(interval.when.sun.distance_au)),
+                           zenith_deg, water_cm);
+}
+
+Irradiance source_means(const LitInterval& interval, Quantity quantity) {
+  const Irradiance& mean = interval.mean;
+  const bool is_dark = mean.dni <= 0 && mean.dhi <= 0;
+  if (quantity == Quantity::irradiance || is_dark) return mean;
+  const LuminousEfficacy lm_per_w = efficacy_of(interval);
+  const double diffuse = mean.dhi * lm_per_w.diffuse;
+  // Weather whose GHI is below its DHI has no beam.
+  return {mean.dni * lm_per_w.beam, diffuse,
+          std::max(0.0, mean.ghi - mean.dhi) * lm_per_w.beam + diffuse};
+}
+
 Sky sky_of(const LitInterval& interval, const LightStudy& light) {
   const SunInterval& when = interval.when;
-  // Without sun above the horizon: the sky of a sun that stands on it.
-  const double zenith_deg = std::clamp(90 - when.sun.elevation_deg, 0.0, 90.0);
+  const double zenith_deg = sky_zenith_deg(when);
   return Sky({.model = light.sky,
               .dhi = interval.of_the_sky.dhi,
               .dni = interval.of_the_sky.dni,
@@ -197,14 +223,14 @@ SunLight sun_light(const LitInterval& interval, std::uint32_t number, const Ligh
   SunLight sun;
   sun.number = number;
   sun.direction = when.direction;
-  sun.dni = interval.mean.dni;
-  sun.dhi = interval.mean.dhi;
-  sun.ground_exitance = light.far_ground_albedo * interval.mean.ghi;
+  const Irradiance source = source_means(interval, light.quantity);
+  sun.dni = source.dni;
+  sun.dhi = source.dhi;
+  sun.ground_exitance = light.far_ground_albedo * source.ghi;
   sun.length_s = when.length_s();
   sun.sunlit_s = when.sunlit_s;
-  if (interval.mean.dhi > 0)
-    sun.sky = grid.mean_radiance(sky_of(interval, light), interval.mean.dhi);
-  if (!open_share.empty() && sun.ground_exitance + interval.mean.dhi > 0) {
+  if (source.dhi > 0) sun.sky = grid.mean_radiance(sky_of(interval, light), source.dhi);
+  if (!open_share.empty() && sun.ground_exitance + source.dhi > 0) {
     sun.sky.resize(open_share.size(), 0);
     for (std::size_t cell = 0; cell < open_share.size(); ++cell)
       sun.sky[cell] =

@@ -31,6 +31,14 @@ struct LightSeries {
 /// Throws InputError for times that do not exist or do not increase.
 LightSeries light_series(const Study& study, const Site& site);
 
+/// Lumens per watt of an interval's light (Perez et al. 1990) under the sky that it has while the
+/// sun is up; with 2 cm of precipitable water, which most sources of light do not tell.
+LuminousEfficacy efficacy_of(const LitInterval& interval);
+
+/// Means over the interval in the study's quantity: W m-2 as they are, or lx: DNI and DHI by their
+/// own efficacy, the global value by that of its parts.
+Irradiance source_means(const LitInterval& interval, Quantity quantity);
+
 /// The open sky of an interval, in scene axes; its DHI is that while the sun is up.
 Sky sky_of(const LitInterval& interval, const LightStudy& light);
 

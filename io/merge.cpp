@@ -150,7 +150,7 @@ std::vector<std::string> result_warnings(const Totals& totals) {
       100 * share)};
 }
 
-ResultTimes result_times(const LightSeries& light) {
+ResultTimes result_times(const LightSeries& light, Quantity quantity) {
   ResultTimes times;
   for (const auto& i : light.intervals) {
     times.time.push_back(i.when.sun_time);
@@ -161,6 +161,11 @@ ResultTimes result_times(const LightSeries& light) {
     times.dni.push_back(i.mean.dni);
     times.dhi.push_back(i.mean.dhi);
     times.ghi.push_back(i.mean.ghi);
+    if (quantity == Quantity::irradiance) continue;
+    const Irradiance lux = source_means(i, quantity);
+    times.direct_illuminance.push_back(lux.dni);
+    times.diffuse_illuminance.push_back(lux.dhi);
+    times.global_illuminance.push_back(lux.ghi);
   }
   return times;
 }
@@ -189,7 +194,7 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
                {"elevation_m", plan.built.site.elevation_m},
                {"north_deg", plan.built.site.north_deg},
                {"reuse_bias_share", reuse_bias(totals, geometry, R)},
-               {"residual_reuse_bias_kwh", residual_reuse_bias_kwh(totals, R)},
+               {unit_names("residual_reuse_bias_kwh", study.light.quantity), residual_reuse_bias_kwh(totals, R)},
                {"runtime_lines_s", work.lines_s},
                {"runtime_direct_s", work.direct_s},
                {"runtime_mirror_s", work.mirror_s},
@@ -277,16 +282,6 @@ std::vector<std::size_t> batches_not_there(const std::string& folder, const Vari
   return missing;
 }
 
-double batch_bytes(const std::string& folder, const VariantPlan& plan) {
-  double bytes = 0;
-  for (std::size_t b = 0; b < plan.batches(); ++b) {
-    std::error_code missing;
-    const auto size = fs::file_size(batch_path(folder, plan, b), missing);
-    if (!missing) bytes += static_cast<double>(size);
-  }
-  return bytes;
-}
-
 std::vector<std::string> merge_variant(const std::string& folder, const VariantPlan& plan,
                                        const StudyFile& file, const Hierarchy& hierarchy,
                                        const std::string& path,
@@ -298,7 +293,8 @@ std::vector<std::string> merge_variant(const std::string& folder, const VariantP
   options.realizations = static_cast<std::size_t>(plan.study.solver.realizations);
   options.times_are_synthetic = plan.light.times_are_synthetic;
   options.left_out = unwanted_series(plan.study.output);
-  ResultWriter writer(path, geometry, result_times(plan.light), options);
+  options.quantity = plan.study.light.quantity;
+  ResultWriter writer(path, geometry, result_times(plan.light, options.quantity), options);
   Totals totals;
   for (std::size_t b = 0; b < plan.batches(); ++b) {
     if (std::find(left_out.begin(), left_out.end(), b) != left_out.end()) continue;
@@ -310,23 +306,6 @@ std::vector<std::string> merge_variant(const std::string& folder, const VariantP
   write_ledger_errors(writer, totals);
   writer.finish(result_attributes(plan, file, totals, geometry), file.yaml);
   return result_warnings(totals);
-}
-
-void remove_empty_folders(const std::string& folder, const VariantPlan& plan) {
-  std::error_code not_empty;
-  fs::path path = work_folder(folder, plan);
-  constexpr int of_variant_work_and_study = 3;
-  for (int level = 0; level < of_variant_work_and_study; ++level, path = path.parent_path())
-    fs::remove(path, not_empty);
-}
-
-void remove_batches(const std::string& folder, const VariantPlan& plan) {
-  std::error_code ignored;
-  for (std::size_t b = 0; b < plan.batches(); ++b) fs::remove(batch_path(folder, plan, b), ignored);
-  fs::remove(prepared_path(folder, plan), ignored);
-  fs::remove(work_folder(folder, plan) + "/partial.h5", ignored);
-  fs::remove(work_folder(folder, plan), ignored);
-  fs::remove(fs::path(work_folder(folder, plan)).parent_path(), ignored);
 }
 
 }  // namespace sunload

@@ -33,11 +33,4 @@ std::vector<std::string> merge_variant(const std::string& folder, const VariantP
                    const Hierarchy& hierarchy, const std::string& path,
                    const std::vector<std::size_t>& left_out = {});
 
-
-/// Removes the folders of a variant's work where nothing is in them.
-void remove_empty_folders(const std::string& folder, const VariantPlan& plan);
-
-/// Removes a variant's batches, and the work folder if nothing else is in it.
-void remove_batches(const std::string& folder, const VariantPlan& plan);
-
 }  // namespace sunload

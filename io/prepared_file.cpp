@@ -34,10 +34,13 @@ void visit_set(Set& set, Array&& array) {
 
 class Output {
  public:
-  explicit Output(const std::string& path) : path_(path), file_(path, std::ios::binary) {}
+  explicit Output(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+    if (!file_) error_ = errno;
+  }
   void bytes(const void* data, std::size_t count) {
     crc_ = crc32(data, count, crc_);
     file_.write(static_cast<const char*>(data), static_cast<std::streamsize>(count));
+    if (!file_ && error_ == 0) error_ = errno;
   }
   template <class T>
   void operator()(const std::vector<T>& values) {
@@ -51,12 +54,13 @@ class Output {
   }
   void finish() {
     file_.close();
-    if (!file_) throw_cannot_write(path_, errno);
+    if (!file_) throw_cannot_write(path_, error_ != 0 ? error_ : errno);
   }
 
  private:
   std::string path_;
   std::ofstream file_;
+  int error_ = 0;  ///< number of the first error
   std::uint32_t crc_ = 0;
 };
 
@@ -114,7 +118,8 @@ void write_prepared(const std::string& path, const std::string& content_hash, co
   visit_set(lines.pooled, out);
   out.checksum();
   out.finish();
-  target.publish();
+  // Its checksum tells what a lost power supply has spoilt.
+  target.publish_unflushed();
 }
 
 std::optional<Lines> read_prepared(const std::string& path, const std::string& content_hash) {

@@ -32,7 +32,7 @@ constexpr double scale_share = 0.995;
 
 InputError unknown_quantity(const ResultReader& result, const std::string& quantity) {
   std::string known;
-  for (const auto& variable : result_schema())
+  for (const auto& variable : result_schema(result.quantity()))
     if ((variable.dims == "patch" || variable.dims == "time,patch") && !variable.units.empty() &&
         result.has(std::string(variable.name)))
       known += (known.empty() ? "" : ", ") + std::string(variable.name);
@@ -54,7 +54,7 @@ std::string whole_period(const ResultReader& result) {
 
 Shown shown(const ResultReader& result, const RenderRules& rules) {
   if (!result.has(rules.quantity)) throw unknown_quantity(result, rules.quantity);
-  const auto* variable = find_result_variable(rules.quantity);
+  const auto* variable = find_result_variable(rules.quantity, result.quantity());
   const auto shape = result.shape(rules.quantity);
   const auto patches = result.shape("patch_area").front();
   const bool is_series = variable && variable->dims == "time,patch";

@@ -92,8 +92,11 @@ struct ResultWriter::File {
     }
   }
 
+  /// Name in this result of what is called so where it is irradiance.
+  std::string stored(const std::string& name) const { return dataset_name(name, options.quantity); }
+
   const ResultVariable& variable(const std::string& name) const {
-    const ResultVariable* found = find_result_variable(name);
+    const ResultVariable* found = find_result_variable(stored(name), options.quantity);
     SUNLOAD_EXPECT(found != nullptr, "the schema has no dataset " + name);
     return *found;
   }
@@ -202,6 +205,10 @@ void ResultWriter::File::put_times(const ResultTimes& times) {
   put("dni", times.dni);
   put("dhi", times.dhi);
   put("ghi", times.ghi);
+  if (options.quantity != Quantity::illuminance) return;
+  put("direct_normal_illuminance", times.direct_illuminance);
+  put("diffuse_horizontal_illuminance", times.diffuse_illuminance);
+  put("global_horizontal_illuminance", times.global_illuminance);
 }
 
 void ResultWriter::File::put_vertices(const ResultGeometry& geometry) {
@@ -258,14 +265,16 @@ void ResultWriter::File::put_groups(const ResultGeometry& geometry) {
 
 /// The dataset that an array of the batches goes to, made when first met.
 h5::Dataset ResultWriter::File::series_dataset(const ArraySpec& spec) {
-  if (file->has(spec.name)) return file->dataset(spec.name);
+  if (file->has(stored(spec.name))) return file->dataset(stored(spec.name));
   ResultVariable of = variable(spec.name);
   SUNLOAD_EXPECT(of.part == ResultPart::series || of.part == ResultPart::ledger,
                  "batches do not bring " + spec.name);
   if (of.part == ResultPart::series) return create(spec.name);
   if (!is_standard_error(spec.name)) return create(spec.name);
   const std::string long_name = "standard error of " + spec.name.substr(0, spec.name.rfind("_se"));
-  of.units = "W";  // per instant; the scalar of the schema is of the time sum
+  // Per instant; the scalar of the schema is of the time sum.
+  const std::string units = light_units("W", options.quantity);
+  of.units = units;
   of.long_name = long_name;
   return create(of, {"time"});
 }
@@ -319,9 +328,11 @@ void ResultWriter::File::put_time_sums() {
     for (std::size_t t = 0; t < power.size(); ++t) {
       if (!std::isnan(power[t])) energy += power[t] * (bounds[t][1] - bounds[t][0]);
     }
-    dataset.set("time_sum_kwh", energy / joules_per_kwh, h5::Type::float64);
+    // lm s in klm h is what J is in kWh.
+    dataset.set(unit_names("time_sum_kwh", options.quantity), energy / joules_per_kwh,
+                h5::Type::float64);
     if (se != time_sum_se_kwh.end()) {
-      dataset.set("time_sum_se_kwh", se->second, h5::Type::float64);
+      dataset.set(unit_names("time_sum_se_kwh", options.quantity), se->second, h5::Type::float64);
     }
   }
 }
@@ -332,6 +343,7 @@ void ResultWriter::File::put_attributes(const ResultAttributes& attributes) {
   for (const auto& [name, value] : attributes.integers) file->set(name, value);
   file->set("Conventions", std::string(result_conventions));
   file->set("sunload_format", std::string(result_format));
+  if (options.quantity == Quantity::illuminance) file->set("quantity", "illuminance");
   if (options.times_are_synthetic) file->set("time_is_synthetic", std::int64_t{1});
   const auto id = std::find_if(attributes.text.begin(), attributes.text.end(),
                                [](const auto& text) { return text.first == "pairing_id"; });

@@ -11,6 +11,7 @@
 #include "geo/mesh.h"
 #include "geo/vec.h"
 #include "io/batch_file.h"
+#include "io/light_quantity.h"
 
 namespace sunload {
 
@@ -36,6 +37,8 @@ struct ResultTimes {
   std::vector<double> sun_azimuth_deg, sun_elevation_deg;
   std::vector<Vec3> sun_direction;
   std::vector<double> dni, dhi, ghi;
+  /// [lx]; empty unless the result is of illuminance.
+  std::vector<double> direct_illuminance, diffuse_illuminance, global_illuminance;
 };
 
 /// Root attributes: text and numbers by name.
@@ -47,7 +50,7 @@ struct ResultAttributes {
 
 /// A finished array per patch, facade, realization × patch, or scalar.
 struct ResultArray {
-  std::string name;            ///< must be in the table of result_schema.cpp
+  std::string name;            ///< must be in the table of result_schema.cpp for irradiance
   std::vector<double> values;  ///< row-major, stored in the type of the schema
 };
 
@@ -61,12 +64,15 @@ class ResultWriter {
     std::size_t realizations = 8;
     bool times_are_synthetic = false;
     std::vector<std::string> left_out;  ///< arrays of the batches that the result does not get
+    /// Batches and totals come with the names of irradiance, and are stored as this.
+    Quantity quantity = Quantity::irradiance;
   };
   ResultWriter(const std::string& path, const ResultGeometry& geometry, const ResultTimes& times,
                const Options& options);
   ~ResultWriter();
   /// Series of one batch at its rows; compressed chunks are copied as they are.
-  /// An array "irradiance_direct" of the batch becomes the dataset of that name.
+  /// An array "irradiance_direct" of the batch becomes the dataset of that name, or
+  /// "illuminance_direct".
   void append(const BatchReader& batch);
   /// Time integrals and other arrays without time: name must be in the schema.
   void write(const ResultArray& array);
@@ -96,6 +102,7 @@ class ResultReader {
   std::string units(const std::string& dataset) const;
   std::string text_attribute(const std::string& name) const;  ///< of the root; empty if absent
   double number_attribute(const std::string& name) const;     ///< of the root; NaN if absent
+  Quantity quantity() const;
   /// Of a dataset; NaN if absent.
   double number_attribute(const std::string& dataset, const std::string& name) const;
 

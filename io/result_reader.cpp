@@ -118,6 +118,10 @@ double ResultReader::number_attribute(const std::string& dataset, const std::str
   return file_->with(dataset, [&](const h5::Dataset& data) { return one_number(data, name); });
 }
 
+Quantity ResultReader::quantity() const {
+  return text_attribute("quantity") == "illuminance" ? Quantity::illuminance : Quantity::irradiance;
+}
+
 double ResultReader::number_attribute(const std::string& name) const {
   try {
     return one_number(file_->file, name);

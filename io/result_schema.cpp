@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 
 namespace sunload {
 namespace {
@@ -29,6 +30,9 @@ constexpr std::array table{
     ResultVariable{"dni", "time", float64, w_m2, sun, "direct normal irradiance", "surface_direct_along_beam_shortwave_flux_in_air", interval_mean},
     ResultVariable{"dhi", "time", float64, w_m2, sun, "diffuse horizontal irradiance", "surface_diffuse_downwelling_shortwave_flux_in_air", interval_mean},
     ResultVariable{"ghi", "time", float64, w_m2, sun, "global horizontal irradiance", "surface_downwelling_shortwave_flux_in_air", interval_mean},
+    ResultVariable{"direct_normal_illuminance", "time", float64, "lx", sun, "direct normal illuminance (light.quantity: illuminance)", "", interval_mean},
+    ResultVariable{"diffuse_horizontal_illuminance", "time", float64, "lx", sun, "diffuse horizontal illuminance (light.quantity: illuminance)", "", interval_mean},
+    ResultVariable{"global_horizontal_illuminance", "time", float64, "lx", sun, "global horizontal illuminance (light.quantity: illuminance)", "", interval_mean},
 
     // Mesh: patches are the leaves of the frozen hierarchy.
     ResultVariable{"vertex_position", "vertex,xyz", float64, "m", coordinate, "position in the scene frame, relative to the attribute origin"},
@@ -104,12 +108,36 @@ constexpr std::array table{
 };
 // clang-format on
 
+/// The table for illuminance, which owns its texts.
+class IlluminanceTable {
+ public:
+  IlluminanceTable() {
+    for (ResultVariable row : table) {
+      if (row.part != sun) {
+        row.name = kept(dataset_name(std::string(row.name), Quantity::illuminance));
+        row.units = kept(light_units(row.units, Quantity::illuminance));
+        row.long_name = kept(light_words(std::string(row.long_name), Quantity::illuminance));
+      }
+      rows_.push_back(row);
+    }
+  }
+  std::span<const ResultVariable> rows() const { return rows_; }
+
+ private:
+  std::string_view kept(std::string words) { return texts_.emplace_back(std::move(words)); }
+  std::deque<std::string> texts_;
+  std::vector<ResultVariable> rows_;
+};
+
 }  // namespace
 
-std::span<const ResultVariable> result_schema() { return table; }
+std::span<const ResultVariable> result_schema(Quantity quantity) {
+  static const IlluminanceTable illuminance;
+  return quantity == Quantity::illuminance ? illuminance.rows() : table;
+}
 
-const ResultVariable* find_result_variable(std::string_view name) {
-  for (const auto& variable : table) {
+const ResultVariable* find_result_variable(std::string_view name, Quantity quantity) {
+  for (const auto& variable : result_schema(quantity)) {
     if (variable.name == name) return &variable;
   }
   return nullptr;

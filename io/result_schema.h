@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/h5.h"
+#include "io/light_quantity.h"
 
 namespace sunload {
 
@@ -33,9 +34,12 @@ struct ResultVariable {
   std::string_view cell_methods = {};   ///< how it stands for its interval (CF 7.3)
 };
 
-std::span<const ResultVariable> result_schema();
+/// The datasets of a result of that quantity. Illuminance has the rows of irradiance in its own
+/// names and units, but for `dni`, `dhi` and `ghi`, which stay what the study says.
+std::span<const ResultVariable> result_schema(Quantity quantity = Quantity::irradiance);
 /// Null where the schema has no such dataset.
-const ResultVariable* find_result_variable(std::string_view name);
+const ResultVariable* find_result_variable(std::string_view name,
+                                           Quantity quantity = Quantity::irradiance);
 /// "time,patch" → {"time", "patch"}.
 std::vector<std::string> dimension_names(const ResultVariable& variable);
 

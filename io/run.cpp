@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <memory>
 
-#include "io/file_aside.h"
 #include "io/info.h"
+#include "io/leftovers.h"
 #include "io/machine.h"
 #include "io/merge.h"
 #include "io/merge_lock.h"
@@ -39,23 +40,28 @@ Todo check_existing(const std::string& folder, const VariantPlan& plan, const Ru
   if (hash != plan.content_hash)
     throw InputError({path}, "is the result of another state of the study",
                      "its content hash differs", "use --overwrite to replace it, or --output");
-  if (options.existing == Existing::resume) return Todo::nothing;
+  if (options.existing == Existing::resume) {
+    remove_finished_work(folder, plan.study, hash);
+    return Todo::nothing;
+  }
   throw InputError({path}, "is there already, of this very study", "nothing is left to compute",
                    "use --resume to accept it, or --overwrite to compute it again");
 }
 
-/// Size of the batch files that are there.
-double batch_bytes(const std::string& folder, const VariantPlan& plan) {
+/// Size of the batches and lines that are there.
+double bytes_there(const std::string& folder, const VariantPlan& plan) {
   double bytes = 0;
-  for (std::size_t b = 0; b < plan.batches(); ++b) {
+  const auto add = [&](const std::string& path) {
     std::error_code not_there;
-    const auto size = fs::file_size(batch_path(folder, plan, b), not_there);
+    const auto size = fs::file_size(path, not_there);
     if (!not_there) bytes += static_cast<double>(size);
-  }
+  };
+  for (std::size_t b = 0; b < plan.batches(); ++b) add(batch_path(folder, plan, b));
+  add(prepared_path(folder, plan));
   return bytes;
 }
 
-/// Refuses work that cannot fit before it starts; `there`: bytes of finished batches.
+/// Refuses work that cannot fit before it starts; `there`: bytes of finished work.
 void check_limits(const std::string& folder, const WorkEstimate& work, double there) {
   constexpr double gib = 1024.0 * 1024 * 1024;
   if (const double left = available_memory_bytes(); work.memory_bytes > left)
@@ -111,16 +117,18 @@ void refuse_other_isa(const std::string& folder, const VariantPlan& plan,
 enum class Merging { done, was_done, by_another };
 
 /// Merges a variant of which every batch is there, unless another process does
-/// or did meanwhile.
+/// or did meanwhile; `say` gets the warnings.
 Merging merge_once(const std::string& folder, const StudyFile& file, const VariantPlan& plan,
-                   const Hierarchy& mesh, const std::string& result, const RunOptions& options) {
+                   const Hierarchy& mesh, const std::string& result, const RunOptions& options,
+                   const std::function<void(const std::string&)>& say) {
   {
-    const MergeLock lock(folder + "/" + file.name + "/.work/" + plan.study.variant + ".lock");
+    const MergeLock lock(merge_lock_path(folder, plan.study));
     if (!lock.is_held()) return Merging::by_another;
     if (!batches_not_there(folder, plan).empty()) return Merging::was_done;
+    if (options.batches == Batches::keep) keep_work(folder, plan);
     for (const auto& warning : merge_variant(folder, plan, file, mesh, result))
-      fmt::print(stderr, "{}: warning: {}\n", plan.study.variant, warning);
-    if (options.batches == Batches::remove) remove_batches(folder, plan);
+      say(plan.study.variant + ": warning: " + warning);
+    if (options.batches == Batches::remove) remove_work(folder, plan);
   }
   remove_empty_folders(folder, plan);
   return Merging::done;
@@ -169,7 +177,7 @@ class StudyRun {
     if (world_ && !options_.shard.is_whole())
       throw InputError({}, "--shard under MPI", "ranks share the work by themselves",
                        "leave --shard away, or start without mpirun");
-    remove_leftovers();
+    remove_left_over(folder_, file_.name);
     for (auto& place : plans_) split(place);
     if (!plans_.empty()) make_writable_folder(folder_ + "/" + file_.name);
     compute();
@@ -211,18 +219,26 @@ class StudyRun {
     return static_cast<std::size_t>(found - file_.variants.begin());
   }
 
-  void remove_leftovers() {
-    for (const auto& place : plans_) remove_left_aside(work_folder(folder_, place.plan));
-    remove_left_aside(folder_ + "/" + file_.name);
+  UnitQueue units_of(const Place& place) const {
+    return {place.variant, place.plan.batches(), options_.shard, world_.get()};
+  }
+
+  /// Sun positions that may fall to this process.
+  std::size_t own_suns(const Place& place) const {
+    const UnitQueue units = units_of(place);
+    std::size_t suns = 0;
+    for (std::size_t b = 0; b < place.plan.batches(); ++b)
+      if (units.may_give(b)) suns += sun_count(place.plan, b);
+    return suns;
   }
 
   /// Makes the mesh; work that cannot fit is refused before anything is written.
   void split(Place& place) {
     const VariantPlan& plan = place.plan;
-    const double there = batch_bytes(folder_, plan);
+    const double there = bytes_there(folder_, plan);
     const std::size_t least = least_patch_count(plan.built.scene, split_rules(plan.study));
     check_limits(folder_, estimate_work(plan, least), there);
-    progress_.begin_variant(plan.study.variant);
+    progress_.begin_variant(plan.study.variant, own_suns(place));
     const VariantMesh made = make_mesh(plan, progress_);
     place.mesh = made.mesh;
     if (const auto text = refine_text(made.report, plan.study); !text.empty())
@@ -241,9 +257,9 @@ class StudyRun {
 
   void compute(Place& place) {
     const VariantPlan& plan = place.plan;
-    progress_.begin_variant(plan.study.variant);
+    UnitQueue units = units_of(place);
+    progress_.begin_variant(plan.study.variant, own_suns(place));
     print_warnings(progress_, plan);
-    UnitQueue units(place.variant, plan.batches(), options_.shard, world_.get());
     VariantRun run(folder_, plan, place.mesh, progress_);
     run.compute(units, world_.get());
   }
@@ -253,7 +269,12 @@ class StudyRun {
     const std::string result = result_path(folder_, plan.study);
     const auto missing = batches_not_there(folder_, plan);
     if (!missing.empty()) {
-      if (result_has_hash(result, plan.content_hash)) return;  // another process merged it
+      if (result_has_hash(result, plan.content_hash)) {
+        // Another process merged it; what this one computed besides is not wanted.
+        if (options_.existing != Existing::overwrite)
+          remove_finished_work(folder_, plan.study, plan.content_hash);
+        return;
+      }
       progress_.say(fmt::format("{}: {} of {} batches are still owed by other shards:{}",
                                 plan.study.variant, missing.size(), plan.batches(),
                                 list_text(missing)));
@@ -269,7 +290,8 @@ class StudyRun {
   bool merged(const Place& place, const std::string& result) {
     const VariantPlan& plan = place.plan;
     try {
-      const Merging outcome = merge_once(folder_, file_, plan, *place.mesh, result, options_);
+      const Merging outcome = merge_once(folder_, file_, plan, *place.mesh, result, options_,
+                                         [&](const std::string& text) { progress_.say(text); });
       if (outcome == Merging::by_another)
         progress_.say(plan.study.variant + ": another process is merging");
       return outcome == Merging::done;
@@ -309,6 +331,8 @@ int merge_study(const std::string& path, const RunOptions& options, Merge merge)
     const std::string result = result_path(folder, plan.study);
     if (result_has_hash(result, plan.content_hash)) {
       fmt::print(stderr, "{}: merged already, nothing to do\n", study.variant);
+      if (options.existing != Existing::overwrite)
+        remove_finished_work(folder, plan.study, plan.content_hash);
       continue;
     }
     const auto missing = missing_batches(folder, plan);
@@ -333,7 +357,8 @@ int merge_study(const std::string& path, const RunOptions& options, Merge merge)
                        "its content hash differs", "use --overwrite to replace it");
     Watch nobody;
     const auto mesh = make_mesh(plan, nobody).mesh;
-    if (merge_once(folder, file, plan, *mesh, result, options) == Merging::by_another) {
+    const auto say = [](const std::string& text) { fmt::print(stderr, "{}\n", text); };
+    if (merge_once(folder, file, plan, *mesh, result, options, say) == Merging::by_another) {
       fmt::print(stderr, "{}: another process is merging\n", study.variant);
       continue;
     }

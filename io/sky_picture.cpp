@@ -18,18 +18,9 @@ constexpr double legend_width = 150;
 constexpr Colour ink{0.13, 0.13, 0.15}, hills_in_colour{0.20, 0.22, 0.18};
 constexpr double candelas_per_kilocandela = 1000;
 
-/// Lumens per watt of the sky's light. Water vapour changes it by some per cent; 2 cm is a usual
-/// value in temperate summers, and what Radiance's gendaylit assumes.
+/// Lumens per watt of the sky's light.
 double efficacy(const SkyDome& dome) {
-  constexpr double water_cm = 2;
-  const SunInterval& when = dome.light.when;
-  const Irradiance& of_the_sky = dome.light.of_the_sky;
-  if (of_the_sky.dhi <= 0) return 0;
-  const double zenith_deg = std::clamp(90 - when.sun.elevation_deg, 0.0, 90.0);
-  return luminous_efficacy(sky_condition(of_the_sky.dni, of_the_sky.dhi, zenith_deg,
-                                         extraterrestrial(when.sun.distance_au)),
-                           zenith_deg, water_cm)
-      .diffuse;
+  return dome.light.of_the_sky.dhi > 0 ? efficacy_of(dome.light).diffuse : 0;
 }
 
 void paint_dome(Picture& picture, const DomeChart& chart,

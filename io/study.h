@@ -26,6 +26,7 @@
 #include "geo/weather.h"
 #include "io/scene_file.h"
 #include "solver/oracle.h"
+#include "io/light_quantity.h"
 
 namespace sunload {
 
@@ -83,6 +84,7 @@ struct LightStudy {
   int sky_type = 12;           ///< of cie_general
   double turbidity = 3;        ///< of preetham
   double far_ground_albedo = 0.2;
+  Quantity quantity = Quantity::irradiance;
   std::string weather;         ///< file, already resolved; the rest is of `weather` too
   std::optional<Stamp> stamp;  ///< absent: the format's own
   Missing missing = Missing::refuse;

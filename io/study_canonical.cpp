@@ -95,9 +95,10 @@ json canonical(const SunStudy& sun) {
 
 json canonical(const LightStudy& light) {
   const auto& [source, model, linke_turbidity, dni_w_m2, dhi_w_m2, sky, sky_type, turbidity,
-               far_ground_albedo, weather, stamp, missing, decomposition] = light;
+               far_ground_albedo, quantity, weather, stamp, missing, decomposition] = light;
   // The weather file is hashed by its bytes.
   return {{"stamp", maybe(stamp)},
+          {"quantity", quantity},
           {"missing", missing},
           {"decomposition", decomposition},
           {"source", source},      {"model", model},

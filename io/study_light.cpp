@@ -125,7 +125,10 @@ LightStudy read_light(YamlMap& map, const std::string& folder) {
   light.turbidity = map.number("turbidity", preetham_turbidities, light.turbidity);
   light.far_ground_albedo = map.number("far_ground_albedo", albedos, light.far_ground_albedo);
   read_weather(map, folder, light);
-  map.word("quantity", {"irradiance"}, "irradiance");
+  light.quantity = map.choice(
+      "quantity",
+      {{"irradiance", Quantity::irradiance}, {"illuminance", Quantity::illuminance}},
+      light.quantity);
   for (const char* key : {"dni_w_m2", "dhi_w_m2"}) {
     if (light.source == LightSource::fixed && !map.has(key)) {
       map.problem("source", std::string("fixed needs ") + key, "", "write it beside `source`");

@@ -14,16 +14,13 @@ std::optional<std::size_t> UnitQueue::next() {
   }
   while (position_ < batches_) {
     const std::size_t batch = position_++;
-    if (shard_.owns(variant_ * batches_ + batch)) return batch;
+    if (may_give(batch)) return batch;
   }
   return {};
 }
 
-std::size_t UnitQueue::share() const {
-  if (world_) return batches_;
-  std::size_t count = 0;
-  for (std::size_t b = 0; b < batches_; ++b) count += shard_.owns(variant_ * batches_ + b) ? 1u : 0u;
-  return count;
+bool UnitQueue::may_give(std::size_t batch) const {
+  return world_ != nullptr || shard_.owns(variant_ * batches_ + batch);
 }
 
 }  // namespace sunload

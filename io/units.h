@@ -19,8 +19,8 @@ class UnitQueue {
   UnitQueue(std::size_t variant, std::size_t batches, Shard shard, MpiWorld* world);
   /// The next batch to look at; none when the variant is handed out.
   std::optional<std::size_t> next();
-  /// Batches that this process may be given at most.
-  std::size_t share() const;
+  /// Whether this process may be given a batch.
+  bool may_give(std::size_t batch) const;
 
  private:
   std::size_t variant_, batches_;

@@ -1,6 +1,7 @@
 #include "io/variant_plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "io/hash.h"
@@ -89,7 +90,9 @@ std::string pairing_id(const VariantPlan& plan) {
 
 // Costs of one core [s], and sizes [bytes], fitted by scripts/scaling.py to a
 // street of 20 000 … 260 000 patches (AVX-512): docs/scaling.md.
-constexpr double s_per_line = 3.6e-7;
+// A line through 2^n triangles takes s_per_line + n · s_per_level: from a box on a plane to a city.
+constexpr double s_per_line = 1.64e-7, s_per_level = 1.23e-8;
+constexpr double share_that_meets = 0.6;  ///< of the lines; the others leave the scene
 constexpr double s_per_direct_ray = 3.5e-8;
 constexpr double s_per_mirror_ray = 1.3e-7;
 constexpr double s_per_link_sun = 2.0e-10;    ///< one link of one sun and one bounce
@@ -104,7 +107,16 @@ constexpr double program_bytes = 3.6e7, bytes_per_line = 12.2, bytes_per_patch =
 constexpr double double_bytes = 8, float_bytes = 4;
 constexpr double arrays_of_realizations = 3;  ///< doubles of a patch and realization
 constexpr double stored_bytes_per_value = 2.5;
+constexpr double kept_bytes_per_line = 12.5;  ///< in the prepared file
 constexpr double batch_bytes_per_patch = 80, result_bytes_per_patch = 175;
+
+/// Lamps are given by their power, and watts of a lamp say nothing of its lumens.
+void refuse_lamps_in_lux(const VariantPlan& plan) {
+  if (plan.study.light.quantity == Quantity::irradiance || !has_lamps(plan)) return;
+  throw InputError(plan.study.scene.where, "the scene has surfaces that emit light",
+                   "their emission is in W/m2, and how much of it the eye sees is not known",
+                   "set their emission_w_m2 to 0, or light.quantity to irradiance");
+}
 
 }  // namespace
 
@@ -114,6 +126,7 @@ VariantPlan make_plan(const Study& study) {
   plan.isa = usable_isa(study.solver.isa);
   plan.built = build_scene(study);
   plan.light = light_series(study, plan.built.site);
+  refuse_lamps_in_lux(plan);
   plan.content_hash = content_hash(plan, plan.isa);
   plan.pairing_id = pairing_id(plan);
   return plan;
@@ -180,6 +193,48 @@ std::string batch_path(const std::string& folder, const VariantPlan& plan, std::
   return work_folder(folder, plan) + "/" + number + ".batch";
 }
 
+bool has_lamps(const VariantPlan& plan) {
+  const auto& materials = plan.built.scene.materials;
+  return std::any_of(materials.begin(), materials.end(),
+                     [](const Material& m) { return m.emission_w_m2 > 0; });
+}
+
+std::size_t sun_count(const VariantPlan& plan, std::size_t batch) {
+  const std::size_t begin = batch * plan.batch_suns();
+  const std::size_t end = std::min(begin + plan.batch_suns(), plan.intervals());
+  if (has_lamps(plan)) return end - begin;
+  const auto at = [&](std::size_t k) {
+    return plan.light.intervals.begin() + static_cast<std::ptrdiff_t>(k);
+  };
+  return static_cast<std::size_t>(std::count_if(at(begin), at(end), [](const LitInterval& i) {
+    return i.mean.dni > 0 || i.mean.dhi > 0;
+  }));
+}
+
+namespace {
+
+/// Rays that a line is made of where mirrors send it on: of what it meets, as much as there is
+/// mirror among the surfaces.
+double rays_per_line(const Scene& scene, int mirror_depth) {
+  double area = 0, mirrors = 0;
+  for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
+    const double of_triangle = norm(scene.mesh.area_vector2(t));
+    area += of_triangle;
+    if (scene.materials[scene.material[t].index()].mirror > 0) mirrors += of_triangle;
+  }
+  const double again = area > 0 ? share_that_meets * mirrors / area : 0;
+  double rays = 1, of_depth = 1;
+  for (int depth = 0; depth < mirror_depth; ++depth) rays += of_depth *= again;
+  return rays;
+}
+
+double line_seconds(const Scene& scene, int mirror_depth) {
+  const auto triangles = static_cast<double>(std::max<std::size_t>(scene.mesh.triangle_count(), 1));
+  return rays_per_line(scene, mirror_depth) * (s_per_line + s_per_level * std::log2(triangles));
+}
+
+}  // namespace
+
 WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
   const SolverStudy& s = plan.study.solver;
   const auto& materials = plan.built.scene.materials;
@@ -187,7 +242,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
     return std::any_of(materials.begin(), materials.end(), property);
   };
   const bool mirrors = has([](const Material& m) { return m.mirror > 0; });
-  const bool lamps = has([](const Material& m) { return m.emission_w_m2 > 0; });
+  const bool lamps = has_lamps(plan);
   // Total, direct, sky, reflected, and what the scene has besides.
   const double parts = 4.0 + (mirrors ? 1 : 0) + (lamps ? 1 : 0);
   const auto n = static_cast<double>(patches);
@@ -208,9 +263,10 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
   work.disk_bytes = n * lit * stored_bytes_per_value *
                         (parts + static_cast<double>(plan.study.output.series.size())) +
                     n * batches * (of_realizations + batch_bytes_per_patch) +
-                    n * (of_realizations + result_bytes_per_patch);
+                    n * (of_realizations + result_bytes_per_patch) +
+                    (plan.batches() > 1 ? lines * kept_bytes_per_line : 0);
   work.seconds =
-      (s_to_start + n * s_per_patch + lines * s_per_line + rays * s_per_direct_ray +
+      (s_to_start + n * s_per_patch + lines * line_seconds(plan.built.scene, s.mirror_depth) + rays * s_per_direct_ray +
        (mirrors ? n * mirrored_share * lit * s.direct_samples * s_per_mirror_ray : 0) +
        links * lit * s_per_link_sun + links * batches * s_per_link_batch +
        n * lit * s_per_patch_sun + n * static_cast<double>(plan.intervals()) * s_per_value) /

@@ -43,6 +43,11 @@ std::string work_folder(const std::string& folder, const VariantPlan& plan);
 std::string prepared_path(const std::string& folder, const VariantPlan& plan);
 std::string batch_path(const std::string& folder, const VariantPlan& plan, std::size_t batch);
 
+/// Whether something in the scene shines by itself: then dark intervals are computed too.
+bool has_lamps(const VariantPlan& plan);
+/// Sun positions of a batch that cost work: intervals with light.
+std::size_t sun_count(const VariantPlan& plan, std::size_t batch);
+
 /// Work, memory, disk and time of a variant, estimated before it starts.
 struct WorkEstimate {
   std::size_t patches = 0;

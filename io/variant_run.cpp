@@ -11,6 +11,7 @@
 #include "io/merge.h"
 #include "io/mpi_world.h"
 #include "io/prepared_file.h"
+#include "io/waiting_lock.h"
 #include "solver/parallel.h"
 
 namespace sunload {
@@ -23,24 +24,34 @@ std::string rays_text(const char* what, std::uint64_t rays, double seconds) {
                      static_cast<double>(rays), static_cast<double>(rays) / seconds / 1e6);
 }
 
+std::size_t suns_before(const VariantPlan& plan, std::size_t batch) {
+  std::size_t suns = 0;
+  for (std::size_t b = 0; b < batch; ++b) suns += sun_count(plan, b);
+  return suns;
+}
+
 }  // namespace
 
 VariantRun::VariantRun(const std::string& folder, const VariantPlan& plan,
                        std::shared_ptr<const Hierarchy> mesh, Progress& progress)
     : folder_(folder), plan_(plan), mesh_(std::move(mesh)), progress_(progress) {}
 
+VariantRun::~VariantRun() { progress_.count_rays({}); }
+
 void VariantRun::compute(UnitQueue& units, MpiWorld* world) {
   make_writable_folder(work_folder(folder_, plan_));
-  const bool others_work_too = units.share() < plan_.batches() || world != nullptr;
-  std::size_t seen = 0;
-  const std::size_t share = units.share();
   // Ranks meet where the first of them traces the lines, before any takes a batch.
-  if (world && world->any(!batches_not_there(folder_, plan_).empty())) make_solver(true, world);
-  for (auto batch = units.next(); batch; batch = units.next(), ++seen) {
-    if (is_finished(*batch)) continue;
-    if (!solver_) make_solver(others_work_too, world);
-    progress_.set_batches(world ? *batch : seen, share);
-    compute_batch(*batch);
+  if (world && world->any(!batches_not_there(folder_, plan_).empty())) make_solver(world);
+  std::size_t suns_behind = 0;
+  for (auto batch = units.next(); batch; batch = units.next()) {
+    const std::size_t suns = sun_count(plan_, *batch);
+    if (!is_finished(*batch)) {
+      if (!solver_) make_solver(world);
+      if (world) suns_behind = suns_before(plan_, *batch);
+      progress_.begin_batch(suns_behind, suns);
+      compute_batch(*batch);
+    }
+    suns_behind += suns;
   }
   if (solver_) report_work();
 }
@@ -52,23 +63,53 @@ bool VariantRun::is_finished(std::size_t batch) {
   return check.valid;
 }
 
-void VariantRun::make_solver(bool others_work_too, MpiWorld* world) {
-  const auto build = [&](std::optional<Lines> ready) {
-    solver_ = std::make_unique<LightSolver>(plan_.built.scene, mesh_, solver_rules(plan_),
-                                            progress_, std::move(ready));
-    open_share_ = open_shares(solver_->sky_grid(), plan_.built.site.horizon,
-                              scene_from_enu(plan_.built.site));
-  };
-  if (!others_work_too) return build({});
-  const std::string path = prepared_path(folder_, plan_);
-  const auto trace_and_share = [&] {
-    build(read_prepared(path, plan_.content_hash));
-    if (solver_->work().line_rays > 0) write_prepared(path, plan_.content_hash, solver_->lines());
-  };
-  if (!world) return trace_and_share();
-  if (world->is_first()) trace_and_share();
+void VariantRun::make_solver(MpiWorld* world) {
+  if (!world) return read_or_trace();
+  if (world->is_first()) read_or_trace();
   world->wait_for_all();
-  if (!world->is_first()) build(read_prepared(path, plan_.content_hash));
+  if (!world->is_first()) build(read_prepared(prepared_path(folder_, plan_), plan_.content_hash));
+}
+
+void VariantRun::read_or_trace() {
+  const std::string path = prepared_path(folder_, plan_);
+  if (auto ready = read_prepared(path, plan_.content_hash)) return build(std::move(ready));
+  if (batches_not_there(folder_, plan_).size() < 2) return build({});
+  const WaitingLock lock(
+      path + ".lock",
+      {.is_cancelled = [this] { return progress_.stop_requested(); },
+       .waiting = [this] {
+         progress_.say(plan_.study.variant + ": another process traces the lines; waiting for it");
+       }});
+  if (!lock.is_held())
+    progress_.say("warning: cannot lock " + path + ".lock (" + lock.problem() +
+                  "); processes that start together each trace the lines");
+  build(read_prepared(path, plan_.content_hash));
+  if (solver_->work().line_rays > 0) keep_lines(path);
+}
+
+void VariantRun::build(std::optional<Lines> ready) {
+  progress_.count_rays([rays = static_cast<double>(estimate_work(plan_, mesh_->patch_count()).line_rays)](
+                           Stage, double share) { return rays * share; });
+  if (!ready) progress_.advance(Stage::lines, 0);
+  solver_ = std::make_unique<LightSolver>(plan_.built.scene, mesh_, solver_rules(plan_), progress_,
+                                          std::move(ready));
+  progress_.count_rays([this](Stage, double) {
+    const WorkDone& work = solver_->work();
+    return static_cast<double>(work.direct_rays + work.mirror_rays);
+  });
+  open_share_ = open_shares(solver_->sky_grid(), plan_.built.site.horizon,
+                            scene_from_enu(plan_.built.site));
+}
+
+/// Only a help for later: where it cannot be written, the work goes on.
+void VariantRun::keep_lines(const std::string& path) {
+  try {
+    make_writable_folder(work_folder(folder_, plan_));
+    write_prepared(path, plan_.content_hash, solver_->lines());
+  } catch (const MachineError& error) {
+    progress_.say(plan_.study.variant + ": warning: the traced lines are not kept (" + error.what() +
+                  "); who goes on with this work traces them again");
+  }
 }
 
 void VariantRun::compute_batch(std::size_t batch) {

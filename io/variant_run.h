@@ -2,6 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 #include <string>
 
 #include "io/progress.h"
@@ -15,15 +18,21 @@ class VariantRun {
  public:
   VariantRun(const std::string& folder, const VariantPlan& plan,
              std::shared_ptr<const Hierarchy> mesh, Progress& progress);
+  ~VariantRun();
+  VariantRun(const VariantRun&) = delete;
+  VariantRun& operator=(const VariantRun&) = delete;
 
-  /// Goes through the process' own batches and computes those that have no
-  /// valid file yet. Where others work on the variant too, the traced lines are
-  /// shared by the prepared file. Throws Interrupted, MachineError.
+  /// Goes through the process' own batches and computes those that have no valid file yet. Where
+  /// more than one is missing, whoever may compute it, the traced lines are kept in the prepared
+  /// file: for other processes, and for this one if it is killed. Throws Interrupted, MachineError.
   void compute(UnitQueue& units, MpiWorld* world);
 
  private:
   bool is_finished(std::size_t batch);
-  void make_solver(bool others_work_too, MpiWorld* world);
+  void make_solver(MpiWorld* world);
+  void read_or_trace();
+  void build(std::optional<Lines> ready);
+  void keep_lines(const std::string& path);
   void compute_batch(std::size_t batch);
   void report_work() const;
 

@@ -3,6 +3,7 @@
 
 scaling.py measure SUNLOAD -o RUNS.json    runs the studies, one thread each (some minutes)
 scaling.py fit RUNS.json                   constants, errors of the runs held back, a prediction
+scaling.py blind SUNLOAD                   `check` on sizes that nothing was fitted to, in units of one known run
 
 Costs are processor time [s]: what other work on the machine costs is not counted.
 """
@@ -30,6 +31,10 @@ FIT = [(4.0, 20, 60, 256, "brick"), (2.4, 8, 60, 256, "brick"), (1.4, 1, 60, 256
        (1.4, 6, 60, 256, "brick"), (1.4, 3, 60, 64, "brick"), (0.8, 1, 60, 128, "brick"),
        (0.5, 1, 240, 64, "brick"), (2.0, 4, 60, 256, "glazed"), (1.2, 1, 60, 256, "glazed")]
 HELD_BACK = [(3.0, 12, 60, 128, "brick"), (1.7, 3, 60, 256, "brick"), (0.9, 1, 120, 256, "brick")]
+
+# A blind check: one size that was fitted tells the speed of this machine, the others were chosen before they were run.
+REFERENCE = (2.4, 2, 60, 256, "brick")
+BLIND = [(1.9, 2, 60, 192, "brick"), (3.4, 9, 60, 256, "brick"), (1.0, 1, 120, 128, "glazed")]
 
 FACING = 0.62  # of a sun's rays that need be cast: the street's share
 BOUNCES, SAMPLES, BATCH = 5, 16, 64
@@ -164,6 +169,25 @@ def fit(runs):
     print("district:", {name: round(value, 1) for name, value in district(constants).items()})
 
 
+def blind(sunload):
+    """Errors of `check` where the machine's speed is known from one run."""
+    with tempfile.TemporaryDirectory() as folder:
+        reference = measure_one(sunload, REFERENCE, folder)
+        speed = reference["seconds"] / reference["estimated"]["seconds"]
+        print(f"this machine: {speed:.2f} times the time that check says\n")
+        print("| patches | lit intervals | lines per patch | measured s | check s, this machine | error % |")
+        print("|---|---|---|---|---|---|")
+        worst = 0
+        for case in BLIND:
+            run = measure_one(sunload, case, folder)
+            said = run["estimated"]["seconds"] * speed
+            error = 100 * (said / run["seconds"] - 1)
+            worst = max(worst, abs(error))
+            print(f"| {run['patches']} | {run['lit']} | {run['lines'] / run['patches']:.0f} | {run['seconds']:.1f} "
+                  f"| {said:.1f} | {error:+.0f} |", flush=True)
+        print(f"\nLargest error: {worst:.0f} %")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True)
@@ -172,8 +196,12 @@ def main():
     measuring.add_argument("-o", "--output", required=True)
     fitting = commands.add_parser("fit")
     fitting.add_argument("runs")
+    checking = commands.add_parser("blind")
+    checking.add_argument("sunload")
     options = parser.parse_args()
-    if options.command == "measure":
+    if options.command == "blind":
+        blind(os.path.abspath(options.sunload))
+    elif options.command == "measure":
         runs = {}
         with tempfile.TemporaryDirectory() as folder:
             for name, cases in (("fit", FIT), ("held_back", HELD_BACK)):

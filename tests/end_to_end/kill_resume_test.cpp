@@ -131,6 +131,24 @@ TEST(KillResume, TenRunsKilledAtAnyMoment) {
   EXPECT_GE(killed, static_cast<int>(rounds));
 }
 
+TEST(KillResume, LinesAreNotTracedAgain) {
+  int seen = 0;
+  constexpr int attempts = 10;
+  for (int attempt = 0; attempt < attempts && seen == 0; ++attempt) {
+    const WorkFolder folder;
+    write_study(folder);
+    // Where it was faster than the signal there is nothing to see.
+    if (run_until(folder, 1, Pause(0), SIGKILL).signal != SIGKILL || finished_batches(folder) == 0)
+      continue;
+    ++seen;
+    const Ran resumed = program(folder, {"run", "square.yaml", "--resume"});
+    EXPECT_EQ(resumed.code, 0) << resumed.err;
+    EXPECT_EQ(resumed.err.find(" lines "), std::string::npos) << resumed.err;
+    expect_result_alone(folder);
+  }
+  EXPECT_EQ(seen, 1);
+}
+
 TEST(KillResume, KilledWhileAFileIsBeingWritten) {
   int seen = 0;
   constexpr int wanted = 2, attempts = 10;

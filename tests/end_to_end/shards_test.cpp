@@ -1,5 +1,6 @@
 /// One process, shards, ranks of MPI: the same bits; and who finishes what.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <regex>
 #include <thread>
 
+#include "io/waiting_lock.h"
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"
@@ -88,14 +90,85 @@ TEST(Shards, AtTheSameTimeGiveTheSameBits) {
         std::make_unique<Process>(program_words({"run", "street.yaml", "--threads", "1", "--shard",
                                                  std::to_string(index) + "/3"}),
                                   folder.path()));
+  int traced = 0;
   for (auto& process : processes) {
     const Ran ran = process->wait();
     EXPECT_EQ(ran.code, 0) << ran.err;
+    traced += ran.err.find(" lines ") != std::string::npos ? 1 : 0;
   }
+  EXPECT_EQ(traced, 1) << "one traces, the others wait for its file";
   // Two that end in the same moment may each leave the merge to the other's lock.
   const Ran merged = program(folder, {"merge", "street.yaml"});
   EXPECT_EQ(merged.code, 0) << merged.err;
   expect_same_result(folder);
+}
+
+/// Lives with the lock of a prepared file until it is killed.
+class Tracer {
+ public:
+  explicit Tracer(const std::string& lock_path) {
+    int told[2];
+    if (::pipe(told) != 0) throw std::runtime_error("pipe failed");
+    process_ = ::fork();
+    if (process_ == 0) {
+      const WaitingLock lock(lock_path, {});
+      const char held = lock.is_held() ? 'y' : 'n';
+      if (::write(told[1], &held, 1) == 1)
+        for (;;) ::pause();
+      ::_exit(1);
+    }
+    char held = 0;
+    if (::read(told[0], &held, 1) != 1 || held != 'y') throw std::runtime_error("no lock");
+  }
+  ~Tracer() { kill(); }
+  void kill() {
+    if (process_ < 0) return;
+    ::kill(process_, SIGKILL);
+    ::waitpid(process_, nullptr, 0);
+    process_ = -1;
+  }
+
+ private:
+  pid_t process_ = -1;
+};
+
+void until_it_waits(Process& process) {
+  while (process.is_running() && process.err_so_far().find("waiting for it") == std::string::npos)
+    std::this_thread::sleep_for(1ms);
+}
+
+TEST(Shards, WaitingForLinesEndsWithTimeSignalsAndTheTracer) {
+  const WorkFolder folder;
+  folder.write("street.yaml", street_study());
+  EXPECT_EQ(shard(folder, 0, 3).code, 0);
+  const std::string prepared = folder / ("results/" + files(folder, "/prepared").front());
+  std::filesystem::remove(prepared);
+  Tracer tracer(prepared + ".lock");
+  const Ran limited =
+      program(folder, {"run", "street.yaml", "--shard", "1/3", "--time-limit", "0.01"});
+  EXPECT_EQ(limited.code, 75) << limited.err;
+  EXPECT_NE(limited.err.find("waiting"), std::string::npos) << limited.err;
+  for (const int signal : {SIGUSR1, SIGTERM}) {
+    Process process(program_words({"run", "street.yaml", "--shard", "1/3"}), folder.path());
+    until_it_waits(process);
+    const auto sent = std::chrono::steady_clock::now();
+    process.send(signal);
+    const Ran ran = process.wait();
+    EXPECT_EQ(ran.code, 75) << ran.err;
+    EXPECT_LT(std::chrono::steady_clock::now() - sent, 5s);
+  }
+  // The tracer dies without lines: one of those who wait traces them.
+  Process one(program_words({"run", "street.yaml", "--shard", "1/3"}), folder.path());
+  Process two(program_words({"run", "street.yaml", "--shard", "2/3"}), folder.path());
+  for (Process* process : {&one, &two}) until_it_waits(*process);
+  tracer.kill();
+  for (Process* process : {&one, &two}) {
+    const Ran ran = process->wait();
+    EXPECT_EQ(ran.code, 0) << ran.err;
+  }
+  EXPECT_EQ(program(folder, {"merge", "street.yaml"}).code, 0);
+  expect_same_result(folder);
+  EXPECT_EQ(folder.content("results"), (std::vector<std::string>{"street/", "street/baseline.h5"}));
 }
 
 TEST(Shards, TheWholeRunTwiceAtTheSameTime) {

@@ -1,17 +1,19 @@
-/* Makes the k-th call that changes a file fail, as a full or broken disk would.
+/* Makes the k-th call that changes a file fail, as a full or broken disk would, or the last one.
  *
  *   LD_PRELOAD=fail_writes.so FAIL_AT=k FAIL_WITH=errno FAIL_BELOW=path FAIL_COUNT=file FAIL_ON=1 program
  *
  * Counted are write, writev, pwrite, fsync, fdatasync, ftruncate, rename, mkdir and
  * open for writing, of files below FAIL_BELOW only. Without FAIL_AT nothing fails.
- * FAIL_ON=1: all later calls fail too, as on a disk that stays full. At the
- * end the number of calls is written to FAIL_COUNT.
+ * FAIL_ON=1: all later calls fail too, as on a disk that stays full. FAIL_KILL=1: the
+ * process is killed (SIGKILL) before the call instead, and remove, unlink and rmdir are counted
+ * too. At the end the number of calls is written to FAIL_COUNT.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -55,6 +57,7 @@ static int fails(void) {
   const long call = atomic_fetch_add(&calls, 1) + 1;
   const long at = number("FAIL_AT", 0);
   if (at == 0 || call < at || (call > at && !number("FAIL_ON", 0))) return 0;
+  if (number("FAIL_KILL", 0)) kill(getpid(), SIGKILL);
   errno = (int)number("FAIL_WITH", ENOSPC);
   return 1;
 }
@@ -119,6 +122,29 @@ int rename(const char *from, const char *to) {
 int mkdir(const char *path, mode_t mode) {
   REAL(int, "mkdir", const char *, mode_t);
   return is_below(path) && fails() ? -1 : real(path, mode);
+}
+
+/* Removing makes room: a full disk does not hinder it, but a kill may come before it. */
+static void count_removal(const char *path) {
+  if (number("FAIL_KILL", 0) && is_below(path)) (void)fails();
+}
+
+int remove(const char *path) {
+  REAL(int, "remove", const char *);
+  count_removal(path);
+  return real(path);
+}
+
+int unlink(const char *path) {
+  REAL(int, "unlink", const char *);
+  count_removal(path);
+  return real(path);
+}
+
+int rmdir(const char *path) {
+  REAL(int, "rmdir", const char *);
+  count_removal(path);
+  return real(path);
 }
 
 static int changes(int flags) { return (flags & O_ACCMODE) != O_RDONLY; }

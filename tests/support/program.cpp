@@ -131,6 +131,8 @@ bool Process::collect(int options) {
 
 bool Process::is_running() { return !status_ && !collect(WNOHANG); }
 
+std::string Process::err_so_far() const { return text_of(err_); }
+
 Ran Process::wait() {
   if (!status_) collect(0);
   Ran ran;

@@ -58,6 +58,8 @@ class Process {
 
   void send(int signal) const;
   bool is_running();
+  /// What it has written to its standard error until now.
+  std::string err_so_far() const;
   /// Waits for the end.
   Ran wait();
 
