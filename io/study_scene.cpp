@@ -46,6 +46,18 @@ void read_files(YamlMap& map, const std::string& folder, SceneStudy& scene) {
   }
 }
 
+void read_parallel_sources(YamlMap& map, const std::string& folder, SceneStudy& scene) {
+  const auto file = map.text("parallel_sources");
+  if (!file) return;
+  const fs::path path = (fs::path(folder) / *file).lexically_normal();
+  std::error_code error;
+  if (!fs::is_regular_file(path, error))
+    map.problem("parallel_sources", "'" + *file + "' is not there",
+                "it is sought at " + path.string(), "paths are relative to the study file");
+  scene.parallel_sources = path.string();
+  scene.parallel_sources_where = map.where("parallel_sources");
+}
+
 BuiltinStudy read_builtin(YamlMap& map) {
   BuiltinStudy builtin;
   builtin.where = map.where();
@@ -129,7 +141,7 @@ void check_source(YamlMap& map) {
         files ? "a variant removes a key of the base with `files: ~` or `builtin: ~`" : "");
   }
   for (const char* key : {"up", "unit_m", "lod"}) {
-    if (builtin && map.has(key)) map.warn(key, "is not used", "it belongs to files");
+    if (builtin && map.has(key) && !map.has("parallel_sources")) map.warn(key, "is not used", "it belongs to files");
   }
 }
 
@@ -139,6 +151,7 @@ SceneStudy read_scene(YamlMap& map, const std::string& folder) {
   SceneStudy scene;
   scene.where = map.where();
   read_files(map, folder, scene);
+  read_parallel_sources(map, folder, scene);
   const bool describe = map.reading().purpose == YamlReading::Purpose::describe;
   map.tree("builtin");
   if (map.has("builtin") || describe) {

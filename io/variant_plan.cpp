@@ -50,6 +50,10 @@ void add_scene(Digest& digest, const Scene& scene) {
     digest.add(m.mirror);
     digest.add(m.emission_w_m2);
   }
+  const ParallelSources& sources = scene.parallel_sources;
+  for (const auto& v : sources.mesh.vertices) digest.add(v);
+  for (const auto& t : sources.mesh.triangles) digest.add(t);
+  for (const double exitance : sources.exitance) digest.add(exitance);
 }
 
 std::string times_text(const LightSeries& light) {
@@ -102,7 +106,7 @@ constexpr double facing_share = 0.62;    ///< of a sun's rays that need be cast
 constexpr double mirrored_share = 0.11;  ///< of them again, where there are mirrors
 constexpr double program_bytes = 3.6e7, bytes_per_line = 12.2, bytes_per_patch = 1400;
 constexpr double double_bytes = 8, float_bytes = 4;
-constexpr double arrays_of_realizations = 3;  ///< doubles of a patch and realization
+constexpr double arrays_of_realizations = 4;  ///< doubles of a patch and realization
 constexpr double stored_bytes_per_value = 2.5;
 constexpr double batch_bytes_per_patch = 80, result_bytes_per_patch = 175;
 
@@ -187,7 +191,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
     return std::any_of(materials.begin(), materials.end(), property);
   };
   const bool mirrors = has([](const Material& m) { return m.mirror > 0; });
-  const bool lamps = has([](const Material& m) { return m.emission_w_m2 > 0; });
+  const bool lamps = has([](const Material& m) { return m.emission_w_m2 > 0; }) ||
+                     !plan.built.scene.parallel_sources.exitance.empty();
   // Total, direct, sky, reflected, and what the scene has besides.
   const double parts = 4.0 + (mirrors ? 1 : 0) + (lamps ? 1 : 0);
   const auto n = static_cast<double>(patches);
