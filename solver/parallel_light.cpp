@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 
-#include "solver/beam_raster.h"
 #include "solver/line_follower.h"
 #include "solver/parallel.h"
 
@@ -31,7 +30,7 @@ double twice_area(Flat a, Flat b, Flat c) {
 class Beam {
  public:
   Beam(const ParallelSources& sources, Vec3 along, const std::vector<std::int32_t>& triangles)
-      : to_source_(-along), axes_(tangents(along)), raster_(sources.mesh, triangles, -along) {
+      : to_source_(-along), axes_(tangents(along)) {
     for (const auto t : triangles) {
       const auto i = static_cast<std::size_t>(t);
       Source source{{}, dot(sources.mesh.corner(i, 0), to_source_), sources.exitance[i]};
@@ -46,7 +45,6 @@ class Beam {
   /// Sources that a triangle of the scene may have before it: `chosen` receives their numbers.
   void choose(Vec3 a, Vec3 b, Vec3 c, std::vector<std::size_t>& chosen) const {
     chosen.clear();
-    if (!raster_.may_meet(a, b, c)) return;
     const Flat p[3] = {flat(a), flat(b), flat(c)};
     const double nearest = std::min({dot(a, to_source_), dot(b, to_source_), dot(c, to_source_)});
     for (std::size_t s = 0; s < sources_.size(); ++s)
@@ -85,7 +83,6 @@ class Beam {
 
   Vec3 to_source_;
   Tangents axes_;
-  BeamRaster raster_;
   std::vector<Source> sources_;
 };
 
