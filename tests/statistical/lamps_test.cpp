@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "solver/push_pull.h"
 #include "tests/support/reference.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
