@@ -97,6 +97,8 @@ class SkyGrid {
   /// `size` is even.
   explicit SkyGrid(int size = 64);
   int cell_count() const { return size_ * size_; }
+  /// Cells per side: cell c lies in row c / side and column c % side of the square [-1, 1]².
+  int side() const { return size_; }
   double solid_angle() const { return 2 * pi / cell_count(); }
   /// Cell of a unit direction with w.z ≥ 0 (slightly less counts as 0).
   int cell(Vec3 w) const;

@@ -65,6 +65,18 @@ std::string materials_text(const Scene& scene) {
   return text;
 }
 
+std::string parallel_sources_text(const ParallelSources& sources) {
+  if (sources.exitance.empty()) return {};
+  double area = 0, power = 0;
+  for (std::size_t t = 0; t < sources.exitance.size(); ++t) {
+    const double own = norm(sources.mesh.area_vector2(t)) / 2;
+    area += own;
+    power += own * sources.exitance[t];
+  }
+  return fmt::format("  parallel  {} triangles of {:.6g} m2 send {:.6g} W along their normals\n",
+                     sources.exitance.size(), area, power);
+}
+
 std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
   return fmt::format(
       "  {} patches, {} intervals ({} with sun) in {} batches\n"
@@ -81,7 +93,8 @@ void print_text(const VariantPlan& plan, const RefineReport& mesh, const WorkEst
   text += "scene\n" + counts_text(plan.built.report) +
           extent_text(plan.built.scene.mesh, plan.built.report.bounds);
   for (const auto& note : plan.built.notes) text += "  note      " + note + "\n";
-  text += "materials\n" + materials_text(plan.built.scene);
+  text += "materials\n" + materials_text(plan.built.scene) +
+          parallel_sources_text(plan.built.scene.parallel_sources);
   text += "sun\n" + time_words(plan.light, plan.built.site, plan.study, plan.built.site_source);
   if (const auto refined = refine_text(mesh, plan.study); !refined.empty())
     text += "mesh\n  " + refined + "\n";

@@ -15,7 +15,7 @@ namespace {
 // Layout, in the byte order of the machine: magic, content hash and counts, CRC-32
 // of these, the arrays of `visit_set`, CRC-32 of all before. An array is its
 // length and its bytes.
-constexpr char magic[16] = "sunload-lines-2";
+constexpr char magic[16] = "sunload-lines-3";
 
 /// Calls `array` for every array of the lines, in the order of the file.
 template <class Set, class Array>
@@ -27,6 +27,7 @@ void visit_set(Set& set, Array&& array) {
       array(block.weight);
     }
   array(set.ends);
+  array(set.lamps);
   array(set.first_light.escaped);
   array(set.first_light.backs);
   array(set.first_light.cut);
@@ -134,7 +135,7 @@ std::optional<Lines> read_prepared(const std::string& path, const std::string& c
   if (!in.is_right() || std::string(hash.begin(), hash.end()) != content_hash) return {};
   Lines lines;
   const auto rows = static_cast<std::size_t>(counts[1]);
-  const LineSet empty{LinkTable(rows), LinkTable(rows), LinkTable(rows), {}, {}};
+  const LineSet empty{LinkTable(rows), LinkTable(rows), LinkTable(rows), {}, {}, {}};
   lines.realizations.assign(static_cast<std::size_t>(counts[0]), empty);
   lines.pooled = empty;
   lines.rays = counts[2];

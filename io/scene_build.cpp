@@ -276,6 +276,44 @@ class MaterialAssigner {
   double defaulted_m2_ = 0;
 };
 
+/// Parallel emitters: of the file's materials only what they emit is read.
+ParallelSources read_parallel_sources(const Study& study, Vec3 origin, BuiltScene& built) {
+  const SceneStudy& scene = study.scene;
+  if (scene.parallel_sources.empty()) return {};
+  const PolygonModel model =
+      read_scene_file(scene.parallel_sources, {scene.up, scene.unit_m, scene.lod});
+  const Mesh mesh = prepare(model, {.repair = scene.repair, .ground = {}, .north_deg = 0}).mesh;
+  std::vector<double> area(mesh.file_materials.size(), 0);
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.triangle_material[t].exists())
+      area[mesh.triangle_material[t].index()] += norm(mesh.area_vector2(t)) / 2;
+  const auto exitance = [&](MaterialId id) {
+    if (!id.exists()) return 0.0;
+    const FileMaterial& file = mesh.file_materials[id.index()];
+    const auto named = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                    [&](const MaterialStudy& m) { return m.name == file.name; });
+    return named != scene.materials.end() ? named->emission_w_m2
+                                          : file.emitted_power_w / area[id.index()];
+  };
+  ParallelSources sources;
+  for (const Vec3 p : mesh.vertices) sources.mesh.vertices.push_back(p + mesh.origin - origin);
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const double M = exitance(mesh.triangle_material[t]);
+    if (M <= 0) continue;
+    sources.mesh.triangles.push_back(mesh.triangles[t]);
+    sources.exitance.push_back(M);
+  }
+  if (sources.exitance.empty())
+    throw InputError(scene.parallel_sources_where,
+                     "scene.parallel_sources: nothing in " + scene.parallel_sources + " emits",
+                     "no material of it has an emission",
+                     "write scene.materials: {NAME: {emission_w_m2: …}} for a material of that file");
+  if (const std::size_t dark = mesh.triangle_count() - sources.exitance.size(); dark > 0)
+    built.notes.push_back(fmt::format("{}: {} triangles that emit nothing are left out",
+                                      scene.parallel_sources, dark));
+  return sources;
+}
+
 }  // namespace
 
 bool matches(const std::string& pattern, const std::string& text) {
@@ -310,6 +348,7 @@ BuiltScene build_scene(const Study& study) {
   built.warnings = built.report.warnings;
   built.scene.mesh = std::move(prepared.mesh);
   MaterialAssigner(study, built.scene, built).run();
+  built.scene.parallel_sources = read_parallel_sources(study, built.scene.mesh.origin, built);
   return built;
 }
 

@@ -123,6 +123,8 @@ struct SceneStudy {
   std::vector<std::string> files;  ///< absolute or relative to the working directory, already resolved
   std::vector<Where> files_where;
   std::optional<BuiltinStudy> builtin;
+  std::string parallel_sources;  ///< file of parallel emitters, already resolved; empty: none
+  Where parallel_sources_where;
   char up = 0;  ///< 'x', 'y', 'z' or 0: default of the format
   double unit_m = 1;
   std::string lod = "highest";

@@ -138,8 +138,8 @@ json canonical(const BuiltinStudy& builtin) {
 
 json canonical(const SceneStudy& scene) {
   // Files are hashed by their bytes.
-  const auto& [files, files_where, builtin, up, unit_m, lod, vrml_colour, emission_scale_w, repair,
-               materials, assign, ground, where] = scene;
+  const auto& [files, files_where, builtin, parallel_sources, parallel_sources_where, up, unit_m,
+               lod, vrml_colour, emission_scale_w, repair, materials, assign, ground, where] = scene;
   return {{"builtin", builtin ? canonical(*builtin) : json()},
           {"up", up == 0 ? std::string() : std::string(1, up)},
           {"unit_m", unit_m},

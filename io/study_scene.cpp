@@ -47,6 +47,18 @@ void read_files(YamlMap& map, const std::string& folder, SceneStudy& scene) {
   }
 }
 
+void read_parallel_sources(YamlMap& map, const std::string& folder, SceneStudy& scene) {
+  const auto file = map.text("parallel_sources");
+  if (!file) return;
+  const fs::path path = (fs::path(folder) / *file).lexically_normal();
+  std::error_code error;
+  if (!fs::is_regular_file(path, error))
+    map.problem("parallel_sources", "'" + *file + "' is not there",
+                "it is sought at " + path.string(), "paths are relative to the study file");
+  scene.parallel_sources = path.string();
+  scene.parallel_sources_where = map.where("parallel_sources");
+}
+
 BuiltinStudy read_builtin(YamlMap& map) {
   BuiltinStudy builtin;
   builtin.where = map.where();
@@ -130,7 +142,8 @@ void check_source(YamlMap& map) {
         files ? "a variant removes a key of the base with `files: ~` or `builtin: ~`" : "");
   }
   for (const char* key : {"up", "unit_m", "lod", "vrml_colour", "emission_scale_w"}) {
-    if (builtin && map.has(key)) map.warn(key, "is not used", "it belongs to files");
+    if (builtin && map.has(key) && !map.has("parallel_sources"))
+      map.warn(key, "is not used", "it belongs to files");
   }
 }
 
@@ -140,6 +153,7 @@ SceneStudy read_scene(YamlMap& map, const std::string& folder) {
   SceneStudy scene;
   scene.where = map.where();
   read_files(map, folder, scene);
+  read_parallel_sources(map, folder, scene);
   const bool describe = map.reading().purpose == YamlReading::Purpose::describe;
   map.tree("builtin");
   if (map.has("builtin") || describe) {

@@ -88,7 +88,6 @@ OutputStudy read_output(YamlMap& map) {
 
 std::vector<LaterKey> later_keys() {
   return {
-      {"scene.parallel_sources", ""},
       {"scene.materials.*.refractive_index", ""},
       {"scene.materials.*.transmittance", ""},
       {"solver.transport", "shoot"},

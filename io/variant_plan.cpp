@@ -51,6 +51,10 @@ void add_scene(Digest& digest, const Scene& scene) {
     digest.add(m.mirror);
     digest.add(m.emission_w_m2);
   }
+  const ParallelSources& sources = scene.parallel_sources;
+  for (const auto& v : sources.mesh.vertices) digest.add(v);
+  for (const auto& t : sources.mesh.triangles) digest.add(t);
+  for (const double exitance : sources.exitance) digest.add(exitance);
 }
 
 std::string times_text(const LightSeries& light) {
@@ -105,7 +109,7 @@ constexpr double facing_share = 0.62;    ///< of a sun's rays that need be cast
 constexpr double mirrored_share = 0.11;  ///< of them again, where there are mirrors
 constexpr double program_bytes = 3.6e7, bytes_per_line = 12.2, bytes_per_patch = 1400;
 constexpr double double_bytes = 8, float_bytes = 4;
-constexpr double arrays_of_realizations = 3;  ///< doubles of a patch and realization
+constexpr double arrays_of_realizations = 4;  ///< doubles of a patch and realization
 constexpr double stored_bytes_per_value = 2.5;
 constexpr double kept_bytes_per_line = 12.5;  ///< in the prepared file
 constexpr double batch_bytes_per_patch = 80, result_bytes_per_patch = 175;
@@ -195,7 +199,8 @@ std::string batch_path(const std::string& folder, const VariantPlan& plan, std::
 
 bool has_lamps(const VariantPlan& plan) {
   const auto& materials = plan.built.scene.materials;
-  return std::any_of(materials.begin(), materials.end(),
+  return !plan.built.scene.parallel_sources.exitance.empty() ||
+         std::any_of(materials.begin(), materials.end(),
                      [](const Material& m) { return m.emission_w_m2 > 0; });
 }
 

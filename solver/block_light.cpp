@@ -12,19 +12,6 @@ namespace {
 
 constexpr std::size_t patches_per_task = 1024;
 
-/// Irradiance by emitters, straight or by mirrors.
-std::vector<float> lamps(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics) {
-  std::vector<float> out(optics.emission.size(), 0.0f);
-  if (!optics.any_emission) return out;
-  std::vector<double> emission(optics.emission.begin(), optics.emission.end());
-  emission.resize(mesh.element_count());
-  pull_up(mesh, emission);
-  std::vector<double> irradiance(out.size());
-  gather(lines.patches, emission, irradiance, Into::replace);
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>(irradiance[i]);
-  return out;
-}
-
 }  // namespace
 
 BlockSources::BlockSources(std::span<const SunLight> block, std::size_t sky_cells)
@@ -34,19 +21,34 @@ BlockSources::BlockSources(std::span<const SunLight> block, std::size_t sky_cell
     for (std::size_t c = 0; c < suns[k].sky.size(); ++c)
       sky[c * block_width + k] = static_cast<float>(pi * suns[k].sky[c]);
   }
+  sky_of_lines = sky;
+}
+
+void BlockSources::split_sky(const SkyGrid& grid) {
+  for (std::size_t k = 0; k < suns.size(); ++k) {
+    circumsolar.emplace_back(grid, suns[k].sky, suns[k].direction);
+    if (!circumsolar[k].any()) continue;
+    for (std::size_t c = 0; c < suns[k].sky.size(); ++c)
+      sky_of_lines[c * block_width + k] =
+          static_cast<float>(pi * (suns[k].sky[c] - circumsolar[k].radiance(c)));
+  }
 }
 
 BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
-                       const BlockSources& sources, Columns direct, Columns sun_by_mirror,
-                       int bounces) {
+                       const BlockSources& sources, FirstLight first, int bounces) {
   const std::size_t patches = optics.diffuse.size();
   BlockLight light;
-  light.direct = std::move(direct);
+  light.direct = std::move(first.direct);
   light.sky = columns(patches);
-  gather(lines.sky, sources.sky, light.sky, Into::replace);
-  light.mirror = std::move(sun_by_mirror);
+  gather(lines.sky, sources.sky_of_lines, light.sky, Into::replace);
+  for (std::size_t at = 0; at < first.circumsolar.size(); ++at)
+    light.sky[at] += first.circumsolar[at];
+  light.mirror = std::move(first.sun_by_mirror);
   if (optics.any_mirror) gather(lines.sky_by_mirror, sources.sky, light.mirror, Into::add);
-  light.lamps = lamps(mesh, lines, optics);
+  light.lamps.assign(lines.lamps.begin(), lines.lamps.end());
+  light.lamps.resize(patches, 0);
+  for (std::size_t i = 0; i < first.parallel.size(); ++i)
+    light.lamps[i] += static_cast<float>(first.parallel[i]);
 
   Columns base = columns(patches), ground = columns(patches);
   parallel_for(patches, [&](std::size_t i) {

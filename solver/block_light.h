@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/circumsolar.h"
 #include "solver/jacobi.h"
 #include "solver/ledger.h"
 #include "solver/lines.h"
@@ -14,8 +15,12 @@ namespace sunload {
 /// Sources of a block that do not depend on the patch.
 struct BlockSources {
   explicit BlockSources(std::span<const SunLight> suns, std::size_t sky_cells);
+  /// From now on the lines carry the sky without its circumsolar part.
+  void split_sky(const SkyGrid& grid);
   std::span<const SunLight> suns;
-  Columns sky;                                   ///< [cells][block] π·radiance
+  Columns sky;                                   ///< [cells][block] π·radiance, by way of mirrors
+  Columns sky_of_lines;                          ///< the same, straight
+  std::vector<CircumsolarSky> circumsolar;       ///< per sun, after split_sky
   float ground_exitance[block_width] = {};
 };
 
@@ -31,10 +36,15 @@ struct BlockLight {
   }
 };
 
-/// direct, sun_by_mirror: irradiance of the sun, straight and by mirrors.
+/// Irradiance that does not come by lines.
+struct FirstLight {
+  Columns direct, sun_by_mirror;
+  const Columns& circumsolar;           ///< of the split sky, or empty
+  const std::vector<double>& parallel;  ///< [N] of parallel sources, or empty
+};
+
 BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
-                       const BlockSources& sources, Columns direct, Columns sun_by_mirror,
-                       int bounces);
+                       const BlockSources& sources, FirstLight first, int bounces);
 
 /// Ledger of every sun of the block [W], but for the sun's light sent on by mirrors.
 std::vector<Ledger> block_ledger(const LineSet& lines, const PatchOptics& optics,

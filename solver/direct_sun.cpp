@@ -6,7 +6,6 @@
 
 #include "geo/check.h"
 #include "solver/parallel.h"
-#include "solver/rng.h"
 #include "solver/sampling.h"
 
 namespace sunload {
@@ -30,6 +29,14 @@ __attribute__((target_clones("default", "avx2", "avx512f"))) void place(
     out.x[s] = g.a[0] + w1 * g.ab[0] + w2 * g.ac[0];
     out.y[s] = g.a[1] + w1 * g.ab[1] + w2 * g.ac[1];
     out.z[s] = g.a[2] + w1 * g.ab[2] + w2 * g.ac[2];
+  }
+}
+
+__attribute__((target_clones("default", "avx2", "avx512f"))) void scramble(
+    const ScrambledPoints& seeds, ScrambledPoints& points) {
+  for (std::size_t s = 0; s < packet_size; ++s) {
+    points.u[s] = owen_scrambled(points.u[s], seeds.u[s]);
+    points.v[s] = owen_scrambled(points.v[s], seeds.v[s]);
   }
 }
 
@@ -68,7 +75,7 @@ SunSampler::Geometry SunSampler::geometry(std::size_t patch) const {
   return g;
 }
 
-void SunSampler::seed(std::size_t patch, std::uint32_t sun, Seeds& seeds) const {
+void SunSampler::seed(std::size_t patch, std::uint32_t sun, Seeds& seeds, Purpose purpose) const {
   const auto count = static_cast<std::size_t>(rules_.realizations);
   const std::size_t groups = (count + lanes - 1) / lanes;
   seeds.u.resize(groups * lanes);
@@ -77,7 +84,7 @@ void SunSampler::seed(std::size_t patch, std::uint32_t sun, Seeds& seeds) const 
   seeds.disk_v.resize(groups * lanes);
   for (std::size_t g = 0; g < groups; ++g) {
     const auto words = random_lanes({.seed = rules_.seed,
-                                     .purpose = Purpose::direct_sun,
+                                     .purpose = purpose,
                                      .realization = static_cast<std::uint32_t>(g * lanes),
                                      .element = hierarchy_.key()[patch],
                                      .sun = sun});
@@ -103,16 +110,28 @@ Packet SunSampler::origins(const Geometry& g, const Seeds& seeds, std::size_t pa
   return origins;
 }
 
+ScrambledPoints SunSampler::points(const Seeds& seeds, std::size_t packet) const {
+  ScrambledPoints scrambled, seed;
+  for (std::size_t l = 0; l < packet_size; ++l) {
+    const std::size_t s = std::min(packet * packet_size + l, samples() - 1);
+    scrambled.u[l] = disk_u_[s];
+    scrambled.v[l] = disk_v_[s];
+    seed.u[l] = seeds.disk_u[realization_[s]];
+    seed.v[l] = seeds.disk_v[realization_[s]];
+  }
+  scramble(seed, scrambled);
+  return scrambled;
+}
+
 PacketDirections SunSampler::directions(const SunLight& sun, const Seeds& seeds,
                                         std::size_t packet) const {
   const Tangents axes = tangents(sun.direction);
   const double disk_radius = std::tan(sun.disk_half_angle);  // at distance 1
+  const ScrambledPoints on_disk = points(seeds, packet);
   PacketDirections directions;
   for (std::size_t l = 0; l < packet_size; ++l) {
-    const std::size_t s = std::min(packet * packet_size + l, samples() - 1);
-    const std::size_t r = realization_[s];
-    const double u = uniform(owen_scrambled(disk_u_[s], seeds.disk_u[r]));
-    const double v = uniform(owen_scrambled(disk_v_[s], seeds.disk_v[r]));
+    const double u = uniform(on_disk.u[l]);
+    const double v = uniform(on_disk.v[l]);
     const double radius = disk_radius * std::sqrt(u), angle = 2 * pi * v;
     const Vec3 w = sun.direction + axes.tangent * (radius * std::cos(angle)) +
                    axes.bitangent * (radius * std::sin(angle));

@@ -15,6 +15,7 @@
 
 #include "solver/hierarchy.h"
 #include "solver/ray_caster.h"
+#include "solver/rng.h"
 #include "solver/sun_block.h"
 
 namespace sunload {
@@ -23,6 +24,12 @@ struct DirectRules {
   int samples = 16;  ///< per patch and sun, over all realizations together
   int realizations = 8;
   std::uint64_t seed = 1;
+};
+
+/// Two coordinates of the samples of a packet as binary fractions x / 2^32.
+struct ScrambledPoints {
+  alignas(64) std::uint32_t u[packet_size];
+  alignas(64) std::uint32_t v[packet_size];
 };
 
 /// Sample points of the patches for the sun, addressable one by one.
@@ -44,11 +51,14 @@ class SunSampler {
   /// Scrambling seeds of one (patch, sun) for all realizations.
   struct Seeds {
     std::vector<std::uint32_t> u, v;
-    std::vector<std::uint32_t> disk_u, disk_v;  ///< of points on the sun's disk
+    std::vector<std::uint32_t> disk_u, disk_v;  ///< of points on the sun's disk, or in the sky
   };
-  void seed(std::size_t patch, std::uint32_t sun, Seeds& seeds) const;
+  void seed(std::size_t patch, std::uint32_t sun, Seeds& seeds,
+            Purpose purpose = Purpose::direct_sun) const;
   /// Origins of samples [16·packet, …) of that patch.
   Packet origins(const Geometry& geometry, const Seeds& seeds, std::size_t packet) const;
+  /// Points of the same samples, to choose their directions by.
+  ScrambledPoints points(const Seeds& seeds, std::size_t packet) const;
   /// Directions of the same samples to points on the sun's disk.
   PacketDirections directions(const SunLight& sun, const Seeds& seeds, std::size_t packet) const;
   /// Bits of the samples that packet really holds.

@@ -31,6 +31,7 @@ __attribute__((target_clones("default", "avx2", "avx512f"))) void gather_rows(
 
 PatchOptics patch_optics(const Scene& scene, const Hierarchy& hierarchy) {
   PatchOptics optics;
+  optics.any_emission = !scene.parallel_sources.exitance.empty();
   for (const auto& patch : hierarchy.patches()) {
     const auto& m =
         scene.materials[scene.material[static_cast<std::size_t>(patch.triangle)].index()];

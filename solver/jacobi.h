@@ -19,7 +19,8 @@ namespace sunload {
 /// Diffuse reflectance and exitance of every patch.
 struct PatchOptics {
   std::vector<float> diffuse, mirror, emission;
-  bool any_emission = false, any_mirror = false;
+  bool any_emission = false;  ///< of a patch, or of a parallel source
+  bool any_mirror = false;
 };
 PatchOptics patch_optics(const Scene& scene, const Hierarchy& hierarchy);
 

@@ -20,6 +20,7 @@ void LineCollector::clear() {
   sky.clear();
   sky_by_mirror.clear();
   ends = {};
+  lamps = 0;
 }
 
 LineFollower::LineFollower(const Scene& scene, const Hierarchy& hierarchy,
@@ -90,6 +91,7 @@ std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first, LineCo
       into.patches.push_back({linked_element(static_cast<std::size_t>(patch),
                                              origin + w * hit.distance_m, path_m),
                               share});
+    if (reflections > 0) into.lamps += weight * material.emission_w_m2;
     if (material.mirror <= 0) return rays;
     const Vec3 n = met_normal(scene_.mesh, hit);
     weight *= mirror_reflectance(material, -dot(w, n));
@@ -104,17 +106,19 @@ std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first, LineCo
   }
 }
 
-LineFollower::Fate LineFollower::mirrored_on(Vec3 origin, Vec3 w, std::size_t mirror_patch) const {
+LineFollower::Fate LineFollower::mirrored_on(Vec3 origin, Vec3 w, std::size_t mirror_patch,
+                                             std::vector<LinkTable::Link>* met) const {
   const Vec3 n = hierarchy_.normal(mirror_patch);
   const double weight = mirror_reflectance(
       material_of(hierarchy_.patches()[mirror_patch].triangle), dot(w, n));
   const Vec3 away = mirrored(w, n);
-  Fate fate = sent_on(away, weight, caster_.first_hit(origin, away));
+  Fate fate = sent_on(away, weight, caster_.first_hit(origin, away), met);
   ++fate.rays;
   return fate;
 }
 
-LineFollower::Fate LineFollower::sent_on(Vec3 w, double weight, const Hit& first) const {
+LineFollower::Fate LineFollower::sent_on(Vec3 w, double weight, const Hit& first,
+                                         std::vector<LinkTable::Link>* met) const {
   Fate fate;
   if (mirror_depth_ < 1) {  // not even the first reflection is followed
     fate.cut = weight;
@@ -126,10 +130,12 @@ LineFollower::Fate LineFollower::sent_on(Vec3 w, double weight, const Hit& first
       fate.escaped = weight;
       return fate;
     }
-    if (hierarchy_.patch_at(hit.triangle, hit.u, hit.v, hit.front) < 0) {
+    const auto patch = hierarchy_.patch_at(hit.triangle, hit.u, hit.v, hit.front);
+    if (patch < 0) {
       fate.backs = weight;
       return fate;
     }
+    if (met) met->push_back({static_cast<std::uint32_t>(patch), static_cast<float>(weight)});
     const Vec3 n = met_normal(scene_.mesh, hit);
     weight *= mirror_reflectance(material_of(hit.triangle), -dot(w, n));
     if (weight <= 0) return fate;

@@ -12,6 +12,7 @@ namespace sunload {
 struct LineCollector {
   std::vector<LinkTable::Link> patches, sky, sky_by_mirror;
   LineEnds ends;
+  double lamps = 0;  ///< exitance of emitters that was seen, summed over lines [W m-2]
   void clear();
 };
 
@@ -23,7 +24,8 @@ class LineFollower {
                const SkyGrid& grid, int mirror_depth, double largest_link = 0);
 
   /// A line that left its patch from `origin` along the unit vector `w` and met
-  /// `hit`; adds its links and its end. Returns the rays cast.
+  /// `hit`; adds its links, its end, and the emitters that mirrors show it (those that it meets
+  /// straight are weighed by solver/lamps.h). Returns the rays cast.
   std::uint64_t follow(Vec3 origin, Vec3 w, const Hit& hit, LineCollector& into) const;
 
   /// Where light ends that arrives along -`w` at a mirror patch and is sent on.
@@ -31,9 +33,12 @@ class LineFollower {
     double escaped = 0, backs = 0, cut = 0;
     std::uint64_t rays = 0;
   };
-  Fate mirrored_on(Vec3 origin, Vec3 w, std::size_t mirror_patch) const;
+  /// `met`, if not null, receives the patches that it arrives at on its way, and its weight there.
+  Fate mirrored_on(Vec3 origin, Vec3 w, std::size_t mirror_patch,
+                   std::vector<LinkTable::Link>* met = nullptr) const;
   /// The same from the first hit of the mirrored ray on: `weight` goes along `w`.
-  Fate sent_on(Vec3 w, double weight, const Hit& first) const;
+  Fate sent_on(Vec3 w, double weight, const Hit& first,
+               std::vector<LinkTable::Link>* met = nullptr) const;
 
   /// Cell of a direction that left the scene upward.
   std::uint32_t sky_cell(Vec3 w) const { return static_cast<std::uint32_t>(grid_.cell(w)); }

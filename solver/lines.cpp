@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "geo/check.h"
+#include "solver/lamps.h"
 #include "solver/line_follower.h"
 #include "solver/parallel.h"
 #include "solver/rng.h"
@@ -51,6 +52,7 @@ class BlockTracer {
         caster_(caster),
         rules_(rules),
         follower_(scene, hierarchy, caster, grid, rules.mirror_depth, rules.largest_link),
+        lamps_(scene, hierarchy),
         ground_source_(static_cast<std::size_t>(grid.cell_count())) {}
 
   struct Output {
@@ -58,15 +60,19 @@ class BlockTracer {
     std::uint64_t rays = 0;
   };
 
+  bool any_lamps() const { return lamps_.any(); }
+
   Output trace(std::size_t begin, std::size_t end, Lines& lines) const {
     Output output;
     output.first_light.resize(lines.realizations.size());
     LineCollector own, pooled;
+    LampView view(lamps_);
     for (std::size_t patch = begin; patch < end; ++patch) {
       pooled.clear();
+      view.look_from(hierarchy_, patch);
       for (std::size_t r = 0; r < lines.realizations.size(); ++r) {
         own.clear();
-        trace_patch(patch, r, own, output);
+        trace_patch(patch, r, view, own, output);
         pool(own, pooled);
         store(lines.realizations[r], patch, own, lines_per_realization());
       }
@@ -78,17 +84,26 @@ class BlockTracer {
  private:
   int lines_per_realization() const { return rules_.lines_per_patch / rules_.realizations; }
 
-  void trace_patch(std::size_t patch, std::size_t realization, LineCollector& into,
-                   Output& output) const {
+  RandomWords seeds(Purpose purpose, std::size_t realization, std::size_t patch) const {
+    return random_words({.seed = rules_.seed,
+                         .purpose = purpose,
+                         .realization = static_cast<std::uint32_t>(realization),
+                         .element = hierarchy_.key()[patch]});
+  }
+
+  void trace_patch(std::size_t patch, std::size_t realization, const LampView& view,
+                   LineCollector& into, Output& output) const {
     const Start start(hierarchy_, patch, caster_.offset_m());
-    const auto seeds = random_words({.seed = rules_.seed,
-                                     .purpose = Purpose::lines,
-                                     .realization = static_cast<std::uint32_t>(realization),
-                                     .element = hierarchy_.key()[patch]});
+    const auto of_lines = seeds(Purpose::lines, realization, patch);
     const auto count = static_cast<std::size_t>(lines_per_realization());
     for (std::size_t first = 0; first < count; first += packet_size)
-      trace_packet(start, patch, seeds, first, std::min(packet_size, count - first), into,
+      trace_packet(start, patch, view, of_lines, first, std::min(packet_size, count - first), into,
                    output.first_light[realization], output.rays);
+    if (!lamps_.any()) return;
+    const auto seen =
+        view.seen_by_points(caster_, seeds(Purpose::lamps, realization, patch), count);
+    into.lamps += seen.sum;
+    output.rays += seen.rays;
   }
 
   /// Geometry of the patch that its lines start on.
@@ -101,8 +116,8 @@ class BlockTracer {
     Vec3 lift;
   };
 
-  void trace_packet(const Start& start, std::size_t patch, const RandomWords& seeds,
-                    std::size_t first, std::size_t count, LineCollector& into,
+  void trace_packet(const Start& start, std::size_t patch, const LampView& view,
+                    const RandomWords& seeds, std::size_t first, std::size_t count, LineCollector& into,
                     MirroredFirstLight& first_light, std::uint64_t& rays) const {
     Vec3 origin[packet_size], w[packet_size];
     Packet origins{}, directions{};
@@ -122,6 +137,7 @@ class BlockTracer {
     rays += count;
     for (std::size_t l = 0; l < count; ++l) {
       const Hit hit = hits[l];
+      if (lamps_.any()) into.lamps += view.seen_by_line(hit, w[l], dot(w[l], start.n));
       rays += follower_.follow(origin[l], w[l], hit, into);
       if (hit.left_scene() && follower_.mirror_of(patch) > 0)
         rays += book_mirrored(origin[l], w[l], patch, first_light);
@@ -164,6 +180,7 @@ class BlockTracer {
     pooled.ends.escaped += own.ends.escaped;
     pooled.ends.backs += own.ends.backs;
     pooled.ends.cut += own.ends.cut;
+    pooled.lamps += own.lamps;
   }
 
   static void store(LineSet& set, std::size_t patch, LineCollector& lines, int count) {
@@ -175,18 +192,20 @@ class BlockTracer {
     const LineEnds& e = lines.ends;
     set.ends[patch] = {e.sky * scale,     e.ground * scale, e.ground_by_mirror * scale,
                        e.escaped * scale, e.backs * scale,  e.cut * scale};
+    if (!set.lamps.empty()) set.lamps[patch] = lines.lamps / count;
   }
 
   const Hierarchy& hierarchy_;
   const RayCaster& caster_;
   const LineRules& rules_;
   LineFollower follower_;
+  Lamps lamps_;
   std::size_t ground_source_;
 };
 
-LineSet empty_set(std::size_t patches) {
+LineSet empty_set(std::size_t patches, bool any_lamps) {
   return {LinkTable(patches), LinkTable(patches), LinkTable(patches),
-          std::vector<LineEnds>(patches), {}};
+          std::vector<LineEnds>(patches), std::vector<double>(any_lamps ? patches : 0), {}};
 }
 
 void add(std::vector<double>& to, const std::vector<double>& from, double factor) {
@@ -216,11 +235,11 @@ Lines trace_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaste
   SUNLOAD_EXPECT(rules.realizations >= 1 && rules.lines_per_patch % rules.realizations == 0,
                  "lines are shared equally by the realizations");
   const std::size_t patches = hierarchy.patch_count();
-  Lines lines;
-  lines.realizations.assign(static_cast<std::size_t>(rules.realizations), empty_set(patches));
-  lines.pooled = empty_set(patches);
-
   const BlockTracer tracer(scene, hierarchy, caster, grid, rules);
+  Lines lines;
+  lines.pooled = empty_set(patches, tracer.any_lamps());
+  lines.realizations.assign(static_cast<std::size_t>(rules.realizations), lines.pooled);
+
   std::vector<BlockTracer::Output> outputs(lines.pooled.patches.blocks.size());
   std::atomic<std::size_t> done = 0;
   parallel_chunks(patches, LinkTable::rows_per_block, [&](std::size_t begin, std::size_t end) {

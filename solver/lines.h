@@ -9,6 +9,9 @@
 /// or the far ground. Irradiance is then linear in what lies at the links' ends:
 ///
 ///     E_i = Σ_links w B_target + Σ_sky links w π L_cell + w_ground B_ground
+///
+/// with B the light that was reflected; that of emitters, which small lamps make rare along
+/// lines, is sampled with them once and for all (solver/lamps.h).
 #pragma once
 
 #include <cstdint>
@@ -62,6 +65,7 @@ struct MirroredFirstLight {
 struct LineSet {
   LinkTable patches, sky, sky_by_mirror;
   std::vector<LineEnds> ends;
+  std::vector<double> lamps;  ///< irradiance by emitters, straight or by mirrors [W m-2]; empty: none
   MirroredFirstLight first_light;
 };
 
@@ -80,7 +84,8 @@ struct Lines {
   std::uint64_t rays = 0;  ///< cast, chains included
 };
 
-/// Traces all lines. Cost: patches × lines_per_patch rays. Throws Interrupted.
+/// Traces all lines. Cost: patches × lines_per_patch rays, and as many shadow rays where the
+/// scene has emitters. Throws Interrupted.
 Lines trace_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
                   const SkyGrid& grid, const LineRules& rules, Watch& watch);
 

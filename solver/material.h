@@ -23,11 +23,18 @@ inline double mirror_reflectance(const Material& material, double /*cos_theta*/)
   return material.mirror;
 }
 
+/// Finite parallel emitters: each triangle sends light along its normal.
+struct ParallelSources {
+  Mesh mesh;                     ///< vertices and triangles alone, relative to the scene's origin
+  std::vector<double> exitance;  ///< per triangle, above 0 [W m-2]
+};
+
 /// A prepared mesh with one material per triangle.
 struct Scene {
   Mesh mesh;
   std::vector<Material> materials;
   std::vector<MaterialId> material;  ///< per triangle, into `materials`
+  ParallelSources parallel_sources = {};
 };
 
 /// Shares of a refused or degenerate material are errors of the caller: throws

@@ -210,9 +210,21 @@ std::uint32_t RayCaster::unoccluded(const Packet& origins, Vec3 direction,
 
 std::uint32_t RayCaster::unoccluded_each(const Packet& origins, const PacketDirections& directions,
                                          std::uint32_t active) const {
+  // Nearly parallel: the sun's disk is small.
+  return unoccluded(origins, directions, no_end, active, Coherence::parallel);
+}
+
+std::uint32_t RayCaster::unoccluded_up_to(const Packet& origins, const PacketDirections& ways,
+                                          std::uint32_t active) const {
+  constexpr float all_of_it = 1;
+  return unoccluded(origins, ways, all_of_it, active, Coherence::none);
+}
+
+std::uint32_t RayCaster::unoccluded(const Packet& origins, const PacketDirections& directions,
+                                    float end, std::uint32_t active, Coherence coherence) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;  // nearly: the sun's disk is small
+  if (coherence == Coherence::parallel) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   RTCRay16 ray;
   alignas(64) int valid[packet_size];
   for (std::size_t r = 0; r < packet_size; ++r) {
@@ -224,7 +236,7 @@ std::uint32_t RayCaster::unoccluded_each(const Packet& origins, const PacketDire
     ray.dir_y[r] = directions.y[r];
     ray.dir_z[r] = directions.z[r];
     ray.tnear[r] = 0;
-    ray.tfar[r] = no_end;
+    ray.tfar[r] = end;
     ray.time[r] = 0;
     ray.mask[r] = ~0u;
     ray.flags[r] = 0;

@@ -89,8 +89,14 @@ class RayCaster {
   /// The same with a direction for each of them.
   std::uint32_t unoccluded_each(const Packet& origins, const PacketDirections& directions,
                                 std::uint32_t active) const;
+  /// Which of them have nothing on the way from origin to origin + direction?
+  std::uint32_t unoccluded_up_to(const Packet& origins, const PacketDirections& ways,
+                                 std::uint32_t active) const;
 
  private:
+  std::uint32_t unoccluded(const Packet& origins, const PacketDirections& directions, float end,
+                           std::uint32_t active, Coherence coherence) const;
+
   struct Embree;
   std::unique_ptr<Embree> embree_;
   std::string isa_;

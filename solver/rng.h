@@ -9,7 +9,15 @@
 namespace sunload {
 
 /// What a number is for: uses never share numbers.
-enum class Purpose : std::uint32_t { lines = 1, direct_sun = 2, mirror_sun = 3, pilot = 4 };
+enum class Purpose : std::uint32_t {
+  lines = 1,
+  direct_sun = 2,
+  mirror_sun = 3,
+  pilot = 4,
+  lamps = 8,
+  circumsolar = 9,
+  parallel_light = 10
+};
 
 /// Address of a block of random words.
 struct RandomKey {

@@ -58,7 +58,9 @@ Ledger sun_sent_on(const MirroredSun& fate, std::size_t k) {
 /// estimates of their own [J m-2], [J].
 struct LightSolver::TimeSums {
   std::vector<std::vector<double>> direct, by_mirror;  ///< [R][N]
+  std::vector<std::vector<double>> circumsolar;        ///< [R][N]
   std::vector<double> sky;                             ///< [cells] π·radiance·time
+  std::vector<double> sky_of_lines;                    ///< the same without circumsolar light
   double ground = 0;
   double length_s = 0;                                 ///< for lamps
   std::vector<Ledger> sent_on;                         ///< [R] the sun's light that mirrors sent on
@@ -83,8 +85,12 @@ LightSolver::LightSolver(const Scene& scene, std::shared_ptr<const Hierarchy> me
       mirrors_(scene),
       mirror_sun_(hierarchy_, caster_, sampler_, mirrors_),
       mirror_chains_(hierarchy_, caster_, sampler_, mirrors_, {rules.mirror_depth, rules.unshot}),
+      parallel_(parallel_light(scene, hierarchy_, caster_, sampler_, optics_,
+                               static_cast<std::size_t>(rules.realizations), rules.mirror_depth)),
       bounces_(bounces_needed(hierarchy_, lines_.pooled, optics_, rules.bounces,
-                              rules.unshot)) {}
+                              rules.unshot)) {
+  work_.direct_rays += parallel_.rays;
+}
 
 bool LightSolver::has_part(Part part) const {
   if (part == Part::mirror) return optics_.any_mirror;
@@ -104,8 +110,9 @@ BatchTally LightSolver::solve(std::span<const SunLight> batch, Watch& watch) {
   BatchTally tally = empty_tally(batch);
   TimeSums sums;
   sums.direct.assign(realizations, std::vector<double>(patches, 0));
-  sums.by_mirror = sums.direct;
+  sums.by_mirror = sums.circumsolar = sums.direct;
   sums.sky.assign(static_cast<std::size_t>(grid_.cell_count()), 0);
+  sums.sky_of_lines = sums.sky;
   sums.sent_on.resize(realizations);
 
   // Consecutive intervals with light, up to one block at a time.
@@ -130,18 +137,23 @@ void LightSolver::solve_block(std::span<const SunLight> block, std::size_t first
                               TimeSums& sums, BatchTally& tally) {
   const std::size_t patches = hierarchy_.patch_count();
   const auto realizations = static_cast<std::size_t>(rules_.realizations);
-  const BlockSources sources(block, static_cast<std::size_t>(grid_.cell_count()));
+  BlockSources sources(block, static_cast<std::size_t>(grid_.cell_count()));
+  sources.split_sky(grid_);
   const bool per_instant = rules_.errors == Errors::instants;
-  std::vector<Columns> direct_of, by_mirror_of;
+  std::vector<Columns> direct_of, by_mirror_of, circumsolar_of;
   if (per_instant) direct_of.assign(realizations, columns(patches));
-  by_mirror_of = direct_of;
+  by_mirror_of = circumsolar_of = direct_of;
 
   DirectSun direct;
+  CircumsolarLight circumsolar;
   {
     const Stopwatch time(work_.direct_s);
     direct = direct_sun(hierarchy_, caster_, sampler_, block, sums.direct,
                         per_instant ? &direct_of : nullptr);
-    work_.direct_rays += direct.rays;
+    circumsolar = circumsolar_light(hierarchy_, caster_, sampler_, block, sources.circumsolar,
+                                    direct.sunlit, sums.circumsolar,
+                                    per_instant ? &circumsolar_of : nullptr);
+    work_.direct_rays += direct.rays + circumsolar.rays;
   }
   Columns by_mirror = columns(patches);
   std::vector<MirroredSun> sent_on;
@@ -159,7 +171,8 @@ void LightSolver::solve_block(std::span<const SunLight> block, std::size_t first
   {
     const Stopwatch time(work_.solve_s);
     const BlockLight light = block_light(hierarchy_, lines_.pooled, optics_, sources,
-                                         std::move(direct.irradiance), std::move(by_mirror),
+                                         {std::move(direct.irradiance), std::move(by_mirror),
+                                          circumsolar.irradiance, parallel_.pooled},
                                          bounces_);
     const auto ledger = block_ledger(lines_.pooled, optics_, hierarchy_.area(), sources, light);
     std::copy(ledger.begin(), ledger.end(),
@@ -172,16 +185,28 @@ void LightSolver::solve_block(std::span<const SunLight> block, std::size_t first
       tally.ledger[first_row + k] += scaled(fate, 1.0 / static_cast<double>(realizations));
       sums.sent_on[r] += scaled(fate, block[k].length_s);
     }
-  for (const auto& sun : block) {
-    for (std::size_t c = 0; c < sun.sky.size(); ++c) sums.sky[c] += pi * sun.sky[c] * sun.length_s;
+  for (std::size_t r = 0; r < parallel_.ledger.size(); ++r)
+    for (std::size_t k = 0; k < block.size(); ++k)
+      tally.ledger[first_row + k] +=
+          scaled(parallel_.ledger[r], 1.0 / static_cast<double>(realizations));
+  for (std::size_t k = 0; k < block.size(); ++k) {
+    const SunLight& sun = block[k];
+    for (std::size_t c = 0; c < sun.sky.size(); ++c) {
+      sums.sky[c] += pi * sun.sky[c] * sun.length_s;
+      sums.sky_of_lines[c] +=
+          pi * (sun.sky[c] - sources.circumsolar[k].radiance(c)) * sun.length_s;
+    }
     sums.ground += sun.ground_exitance * sun.length_s;
     sums.length_s += sun.length_s;
   }
   if (per_instant) {
-    errors_per_instant(sources, first_row, direct_of, by_mirror_of, tally);
+    errors_per_instant(sources, first_row, direct_of, by_mirror_of, circumsolar_of, tally);
     for (std::size_t r = 0; r < sent_on.size(); ++r)
       for (std::size_t k = 0; k < block.size(); ++k)
         tally.ledger_instants[r][first_row + k] += sun_sent_on(sent_on[r], k);
+    for (std::size_t r = 0; r < parallel_.ledger.size(); ++r)
+      for (std::size_t k = 0; k < block.size(); ++k)
+        tally.ledger_instants[r][first_row + k] += parallel_.ledger[r];
   }
 }
 
@@ -222,14 +247,17 @@ void LightSolver::store(const BlockLight& light, std::span<const SunLight> block
 
 void LightSolver::errors_per_instant(const BlockSources& sources, std::size_t first_row,
                                      std::vector<Columns>& direct, std::vector<Columns>& by_mirror,
+                                     const std::vector<Columns>& circumsolar,
                                      BatchTally& tally) const {
   const std::size_t patches = hierarchy_.patch_count(), R = direct.size();
   const std::size_t suns = sources.suns.size();
   std::vector<double> sum(patches * block_width, 0), squares = sum;
   for (std::size_t r = 0; r < R; ++r) {
     const LineSet& lines = lines_.realizations[r];
-    const BlockLight light = block_light(hierarchy_, lines, optics_, sources, std::move(direct[r]),
-                                         std::move(by_mirror[r]), bounces_);
+    const BlockLight light = block_light(hierarchy_, lines, optics_, sources,
+                                         {std::move(direct[r]), std::move(by_mirror[r]),
+                                          circumsolar[r], parallel_.of(r)},
+                                         bounces_);
     const auto ledger = block_ledger(lines, optics_, hierarchy_.area(), sources, light);
     std::copy(ledger.begin(), ledger.end(),
               tally.ledger_instants[r].begin() + static_cast<std::ptrdiff_t>(first_row));
@@ -256,16 +284,12 @@ void LightSolver::solve_realization(std::size_t r, const TimeSums& sums, BatchTa
   const LineSet& lines = lines_.realizations[r];
   const std::size_t patches = hierarchy_.patch_count();
   std::vector<double> sky(patches, 0), base(patches, 0), ground(patches, 0);
-  gather(lines.sky, sums.sky, sky, Into::replace);
+  gather(lines.sky, sums.sky_of_lines, sky, Into::replace);
   if (optics_.any_mirror) gather(lines.sky_by_mirror, sums.sky, base, Into::add);
-  if (optics_.any_emission) {
-    std::vector<double> emission(optics_.emission.begin(), optics_.emission.end());
-    for (auto& m : emission) m *= sums.length_s;
-    emission.resize(hierarchy_.element_count());
-    pull_up(hierarchy_, emission);
-    gather(lines.patches, emission, base, Into::add);
-  }
+  for (const auto* lamps : {&lines.lamps, &parallel_.of(r)})
+    for (std::size_t i = 0; i < lamps->size(); ++i) base[i] += (*lamps)[i] * sums.length_s;
   for (std::size_t i = 0; i < patches; ++i) {
+    sky[i] += sums.circumsolar[r][i];
     base[i] += sums.direct[r][i] + sums.by_mirror[r][i] + sky[i];
     ground[i] = static_cast<double>(lines.ends[i].ground + lines.ends[i].ground_by_mirror) *
                 sums.ground;
@@ -284,6 +308,7 @@ void LightSolver::solve_realization(std::size_t r, const TimeSums& sums, BatchTa
   }
   ledger += booked(lines.first_light, [&](std::size_t c) { return sums.sky[c]; }, sums.ground);
   ledger += sums.sent_on[r];
+  if (!parallel_.ledger.empty()) ledger += scaled(parallel_.ledger[r], sums.length_s);
 }
 
 BatchTally LightSolver::empty_tally(std::span<const SunLight> batch) const {

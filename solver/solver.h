@@ -13,6 +13,7 @@
 #include "solver/lines.h"
 #include "solver/mirror_chains.h"
 #include "solver/mirror_sun.h"
+#include "solver/parallel_light.h"
 #include "solver/tally.h"
 #include "solver/watch.h"
 
@@ -75,7 +76,7 @@ class LightSolver {
              const Columns& sunlit, BatchTally& tally) const;
   void errors_per_instant(const BlockSources& sources, std::size_t first_row,
                           std::vector<Columns>& direct, std::vector<Columns>& by_mirror,
-                          BatchTally& tally) const;
+                          const std::vector<Columns>& circumsolar, BatchTally& tally) const;
   void solve_realization(std::size_t r, const TimeSums& sums, BatchTally& tally) const;
   BatchTally empty_tally(std::span<const SunLight> batch) const;
 
@@ -92,6 +93,7 @@ class LightSolver {
   MirrorGroups mirrors_;
   MirrorSun mirror_sun_;
   MirrorChains mirror_chains_;
+  ParallelLight parallel_;
   int bounces_;
 };
 

@@ -662,6 +662,7 @@ TEST(CanonicalText, DoesNotSeeNamesPlacesAndOutput) {
       {"variant", [](Study& s) { s.variant = "x"; }},
       {"isa", [](Study& s) { s.solver.isa = "avx2"; }},  // the one in force is hashed apart
       {"files", [](Study& s) { s.scene.files = {"/elsewhere/x"}; }},
+      {"parallel sources", [](Study& s) { s.scene.parallel_sources = "/elsewhere/x"; }},
       {"output",
        [](Study& s) {
          s.output = {"x", {"total"}, StandardErrors::instants, 0};
