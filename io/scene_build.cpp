@@ -281,7 +281,8 @@ ParallelSources read_parallel_sources(const Study& study, Vec3 origin, BuiltScen
   const SceneStudy& scene = study.scene;
   if (scene.parallel_sources.empty()) return {};
   const PolygonModel model =
-      read_scene_file(scene.parallel_sources, {scene.up, scene.unit_m, scene.lod});
+      read_scene_file(scene.parallel_sources, {scene.up, scene.unit_m, scene.lod,
+                                               scene.vrml_colour, scene.emission_scale_w});
   const Mesh mesh = prepare(model, {.repair = scene.repair, .ground = {}, .north_deg = 0}).mesh;
   std::vector<double> area(mesh.file_materials.size(), 0);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
