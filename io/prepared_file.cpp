@@ -15,7 +15,7 @@ namespace {
 // Layout, in the byte order of the machine: magic, content hash and counts, CRC-32
 // of these, the arrays of `visit_set`, CRC-32 of all before. An array is its
 // length and its bytes.
-constexpr char magic[16] = "sunload-lines-2";
+constexpr char magic[16] = "sunload-lines-3";
 
 /// Calls `array` for every array of the lines, in the order of the file.
 template <class Set, class Array>
@@ -27,9 +27,8 @@ void visit_set(Set& set, Array&& array) {
       array(block.weight);
     }
   array(set.ends);
-  array(set.first_light.escaped);
-  array(set.first_light.backs);
-  array(set.first_light.cut);
+  MirroredFirstLight::for_each(set.first_light, set.first_light,
+                               [&](auto& power, auto&) { array(power); });
 }
 
 class Output {
@@ -112,6 +111,7 @@ void write_prepared(const std::string& path, const std::string& content_hash, co
   out.checksum();
   for (const auto& set : lines.realizations) visit_set(set, out);
   visit_set(lines.pooled, out);
+  out(lines.glimpses);
   out.checksum();
   out.finish();
   target.publish();
@@ -135,6 +135,7 @@ std::optional<Lines> read_prepared(const std::string& path, const std::string& c
   lines.rays = counts[2];
   for (auto& set : lines.realizations) visit_set(set, in);
   visit_set(lines.pooled, in);
+  in(lines.glimpses);
   if (!in.is_right() || !in.is_at_end()) return {};
   return lines;
 }

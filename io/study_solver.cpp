@@ -90,8 +90,6 @@ std::vector<LaterKey> later_keys() {
   return {
       {"light.quantity", "illuminance"},
       {"scene.parallel_sources", ""},
-      {"scene.materials.*.refractive_index", ""},
-      {"scene.materials.*.transmittance", ""},
       {"solver.transport", "shoot"},
       {"solver.power_per_sample_w", ""},
       {"solver.accuracy", ""},
