@@ -49,7 +49,7 @@ TEST(Lobe, InvertsItsSamples) {
 
 // Counts in rings and sectors against the pdf's integral; the twin has the wrong exponent.
 TEST(Lobe, SamplesFollowTheirDensity) {
-  constexpr int rings = 12, sectors = 8, samples = 40000;
+  constexpr int rings = 12, sectors = 8, samples = 400000;
   constexpr double n = 20;
   std::vector<double> counted(rings * sectors, 0), expected = counted, faulty = counted;
   for (int i = 0; i < samples; ++i) {

@@ -24,7 +24,7 @@ inline double hemispherical(const std::function<double(double)>& share_of_cosine
 /// Share of light at cos_theta that the lobe of solver/lobe.h reflects, per ρ_g.
 inline double lobe_albedo(double cos_theta, double n) {
   const double sin_theta = std::sqrt(1 - cos_theta * cos_theta);
-  constexpr int steps = 400;
+  constexpr int steps = 200;
   return integral(0, 1, steps, [&](double u) {  // u = cos^(n+1) α: equal parts of the pdf
     const double cos_a = std::pow(u, 1 / (n + 1)), sin_a = std::sqrt(1 - cos_a * cos_a);
     return integral(0, 2 * pi, steps, [&](double phi) {
