@@ -83,7 +83,8 @@ void check_kind(YamlMap& map, const MaterialStudy& material) {
   };
   const std::vector<std::string> of_panes{"thickness_m", "absorption_per_m", "panes"};
   if (!map.has("refractive_index")) {
-    excluded(of_panes, "is not used", "it belongs to panes, which have a refractive_index");
+    for (const auto& key : of_panes)
+      if (map.has(key)) map.warn(key, "is not used", "it belongs to panes: refractive_index");
     excluded({"extinction_coefficient"}, "stands without refractive_index",
              "a metal has both parts of its complex index");
   } else {
@@ -101,7 +102,7 @@ void check_kind(YamlMap& map, const MaterialStudy& material) {
     map.problem("glossy", "stands without glossy_exponent", "that is the width of its lobe",
                 "10 is a broad lobe, 1000 a narrow one");
   if (map.has("glossy_exponent") && !map.has("glossy"))
-    map.problem("glossy_exponent", "stands without glossy");
+    map.warn("glossy_exponent", "is not used", "it belongs to glossy");
 }
 
 /// No surface sends on more than it receives.
