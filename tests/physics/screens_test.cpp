@@ -137,6 +137,7 @@ TEST(Screens, SingleRaysAndPacketsDecideAlike) {
   int hits_of_crowns = 0;
   for (int row = 0; row < 400; ++row) {
     Packet origins{};
+    PacketDirections directions{};
     Vec3 origin[packet_size];
     for (std::size_t l = 0; l < packet_size; ++l) {
       // Coordinates that floats hold exactly.
@@ -144,8 +145,11 @@ TEST(Screens, SingleRaysAndPacketsDecideAlike) {
       origins.x[l] = static_cast<float>(origin[l].x);
       origins.y[l] = static_cast<float>(origin[l].y);
       origins.z[l] = static_cast<float>(origin[l].z);
+      directions.x[l] = static_cast<float>(direction.x);
+      directions.y[l] = static_cast<float>(direction.y);
+      directions.z[l] = static_cast<float>(direction.z);
     }
-    const auto packet = caster.first_hits(origins, direction, 0xffff);
+    const auto packet = caster.first_hits(origins, directions, 0xffff);
     const auto seen = caster.unoccluded(origins, direction, 0xffff);
     for (std::size_t l = 0; l < packet_size; ++l) {
       const Hit alone = caster.first_hit(origin[l], direction);
