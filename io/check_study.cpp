@@ -50,6 +50,23 @@ std::string extent_text(const Mesh& mesh, const Box& bounds) {
       1000 * largest * 0x1p-24);
 }
 
+/// Shares of light from the normal, and what decides at other angles.
+std::string shares_text(const Material& m) {
+  const SmoothShares smooth =
+      is_fresnel(m) ? fresnel_shares(m, 1) : SmoothShares{m.mirror, 0};
+  std::string text = fmt::format("diffuse {:.3f}  mirror {:.3f}", m.diffuse, smooth.mirror);
+  if (m.glossy > 0) text += fmt::format("  glossy {:.3f} (exponent {:g})", m.glossy, m.glossy_exponent);
+  if (m.transmittance > 0) text += fmt::format("  passes {:.3f}", m.transmittance);
+  if (m.extinction_coefficient > 0) {
+    text += fmt::format("  metal n {:g} k {:g}", m.refractive_index, m.extinction_coefficient);
+  } else if (is_fresnel(m)) {
+    text += fmt::format("  transmits {:.3f}  {} x {:g} mm of n {:g}", smooth.transmitted, m.panes,
+                        1000 * m.thickness_m, m.refractive_index);
+    if (m.absorption_per_m > 0) text += fmt::format(", K {:g} /m", m.absorption_per_m);
+  }
+  return text;
+}
+
 std::string materials_text(const Scene& scene) {
   std::vector<double> area(scene.materials.size(), 0);
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t)
@@ -57,8 +74,7 @@ std::string materials_text(const Scene& scene) {
   std::string text;
   for (std::size_t m = 0; m < area.size(); ++m) {
     const Material& material = scene.materials[m];
-    text += fmt::format("  {:<24} diffuse {:.3f}  mirror {:.3f}", material.name, material.diffuse,
-                        material.mirror);
+    text += fmt::format("  {:<24} {}", material.name, shares_text(material));
     if (material.emission_w_m2 > 0) text += fmt::format("  emits {:.4g} W/m2", material.emission_w_m2);
     text += fmt::format("  {:.6g} m2\n", area[m]);
   }

@@ -28,9 +28,8 @@ void visit_set(Set& set, Array&& array) {
     }
   array(set.ends);
   array(set.lamps);
-  array(set.first_light.escaped);
-  array(set.first_light.backs);
-  array(set.first_light.cut);
+  MirroredFirstLight::for_each(set.first_light, set.first_light,
+                               [&](auto& power, auto&) { array(power); });
 }
 
 class Output {
@@ -117,6 +116,7 @@ void write_prepared(const std::string& path, const std::string& content_hash, co
   out.checksum();
   for (const auto& set : lines.realizations) visit_set(set, out);
   visit_set(lines.pooled, out);
+  out(lines.glimpses);
   out.checksum();
   out.finish();
   // Its checksum tells what a lost power supply has spoilt.
@@ -141,6 +141,7 @@ std::optional<Lines> read_prepared(const std::string& path, const std::string& c
   lines.rays = counts[2];
   for (auto& set : lines.realizations) visit_set(set, in);
   visit_set(lines.pooled, in);
+  in(lines.glimpses);
   if (!in.is_right() || !in.is_at_end()) return {};
   return lines;
 }

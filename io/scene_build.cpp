@@ -138,7 +138,7 @@ class MaterialAssigner {
     for (const auto& m : study.scene.materials) by_name_[m.name] = m;
     for (const auto& m : scene.mesh.file_materials)
       if (!m.name.empty() && !by_name_.contains(m.name))
-        of_files_.insert({m.name, MaterialStudy{m.name, m.diffuse, m.mirror, 0, {}, {}}});
+        of_files_.insert({m.name, of_file(m)});
     for (const auto& rule : study.scene.assign) expect_known(rule.material, rule.where);
     if (study.scene.ground && !study.scene.ground->material.empty())
       expect_known(study.scene.ground->material, study.scene.where);
@@ -164,6 +164,14 @@ class MaterialAssigner {
   }
 
  private:
+  static MaterialStudy of_file(const FileMaterial& file) {
+    MaterialStudy study;
+    study.name = file.name;
+    study.diffuse = file.diffuse;
+    study.mirror = file.mirror;
+    return study;
+  }
+
   static std::vector<double> emission_per_area(const SceneStudy& study, const Mesh& mesh) {
     std::vector<double> area(mesh.file_materials.size(), 0), emission(area);
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
@@ -226,10 +234,21 @@ class MaterialAssigner {
     Material m;
     m.name = study.name;
     m.diffuse = study.diffuse.value_or(file ? file->diffuse.value_or(0) : 0);
-    m.mirror = study.mirror.value_or(file ? file->mirror.value_or(0) : 0);
     m.emission_w_m2 = study.emission_w_m2;
     // A reflectance of the study's does not put out the file's lamps.
     if (m.emission_w_m2 == 0 && file) m.emission_w_m2 = emission_[file_id.index()];
+    if (study.refractive_index) {  // decides about the mirror, too
+      m.refractive_index = *study.refractive_index;
+      m.extinction_coefficient = study.extinction_coefficient.value_or(0);
+      m.thickness_m = study.thickness_m;
+      m.absorption_per_m = study.absorption_per_m;
+      m.panes = study.panes;
+      return m;
+    }
+    m.mirror = study.mirror.value_or(file ? file->mirror.value_or(0) : 0);
+    m.glossy = study.glossy;
+    m.glossy_exponent = study.glossy_exponent;
+    m.transmittance = study.transmittance;
     return m;
   }
 
@@ -248,13 +267,21 @@ class MaterialAssigner {
     return m;
   }
 
+  static std::string other_shares(const Material& m) {
+    std::string text;
+    if (m.glossy > 0) text += fmt::format(" + glossy {}", m.glossy);
+    if (m.transmittance > 0) text += fmt::format(" + transmittance {}", m.transmittance);
+    return text;
+  }
+
   MaterialId id_of(const Material& m, std::size_t t) {
     const auto known = ids_.find(m.name);
     if (known != ids_.end() && scene_.materials[known->second.index()] == m) return known->second;
-    if (m.diffuse + m.mirror > 1 + 1e-9 && refused_.insert(m.name).second)
+    const double sum = m.diffuse + m.mirror + m.glossy + m.transmittance;
+    if (sum > 1 + 1e-9 && refused_.insert(m.name).second)
       problems_.add({},
-                    fmt::format("material '{}': diffuse {} + mirror {} exceeds 1", m.name,
-                                m.diffuse, m.mirror),
+                    fmt::format("material '{}': diffuse {} + mirror {}{} exceeds 1", m.name,
+                                m.diffuse, m.mirror, other_shares(m)),
                     "more light would leave than arrives (triangle " + std::to_string(t) + ")",
                     "override it in scene.materials");
     const auto same = std::find(scene_.materials.begin(), scene_.materials.end(), m);

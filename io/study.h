@@ -98,6 +98,11 @@ struct MaterialStudy {
   double emission_w_m2 = 0;  ///< diffuse exitance of an emitter
   std::optional<Sides> sides;
   Where where;
+  std::optional<double> refractive_index, extinction_coefficient;  ///< of panes or a metal
+  double thickness_m = 0.004, absorption_per_m = 0;                ///< of one pane
+  int panes = 1;
+  double glossy = 0, glossy_exponent = 0;
+  double transmittance = 0;  ///< straight through
 };
 
 /// One rule of `scene.assign`; empty pattern = any. `*` and `?` are wildcards.

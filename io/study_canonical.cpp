@@ -109,12 +109,22 @@ json canonical(const LightStudy& light) {
 }
 
 json canonical(const MaterialStudy& material) {
-  const auto& [name, diffuse, mirror, emission_w_m2, sides, where] = material;
+  const auto& [name, diffuse, mirror, emission_w_m2, sides, where, refractive_index,
+               extinction_coefficient, thickness_m, absorption_per_m, panes, glossy,
+               glossy_exponent, transmittance] = material;
   return {{"name", name},
           {"diffuse", maybe(diffuse)},
           {"mirror", maybe(mirror)},
           {"emission_w_m2", emission_w_m2},
-          {"sides", maybe(sides)}};
+          {"sides", maybe(sides)},
+          {"refractive_index", maybe(refractive_index)},
+          {"extinction_coefficient", maybe(extinction_coefficient)},
+          {"thickness_m", thickness_m},
+          {"absorption_per_m", absorption_per_m},
+          {"panes", panes},
+          {"glossy", glossy},
+          {"glossy_exponent", glossy_exponent},
+          {"transmittance", transmittance}};
 }
 
 json canonical(const AssignRule& rule) {

@@ -19,6 +19,12 @@ constexpr Range units_m{1e-6, 1e6};  // a model in micrometres, one in thousands
 constexpr Range shares{0, 1};
 constexpr Range emissions_w_m2{0, 1e7};  // the surface of the sun has 6.3e7
 constexpr Range powers_w{0, 1e15};  // of a light in a file: to the sun's on a thousand km2
+constexpr Range refractive_indices{0.01, 10};  // silver has 0.05 in green, germanium 5
+constexpr Range extinctions{0, 100, Range::Low::excluded, "glass has no such key: it has absorption_per_m"};
+constexpr Range thicknesses_m{0, 1, Range::Low::excluded};
+constexpr Range absorptions_per_m{0, 1e5};
+constexpr int most_panes = 10;
+constexpr Range exponents{0, 1e5};  // a lobe of some 0.4 degrees
 constexpr Range margins_m{0, 1e5};
 constexpr Range edges_m{1e-3, 1e9};
 constexpr Range areas_m2{0, 1e6};
@@ -81,6 +87,56 @@ BuiltinStudy read_builtin(YamlMap& map) {
   return builtin;
 }
 
+/// Which keys may stand together: panes, metals and constant shares exclude each other.
+void check_kind(YamlMap& map, const MaterialStudy& material) {
+  const auto excluded = [&](const std::vector<std::string>& keys, const std::string& what,
+                            const std::string& why) {
+    for (const auto& key : keys)
+      if (map.has(key)) map.problem(key, what, why);
+  };
+  const std::vector<std::string> of_panes{"thickness_m", "absorption_per_m", "panes"};
+  if (!map.has("refractive_index")) {
+    for (const auto& key : of_panes)
+      if (map.has(key)) map.warn(key, "is not used", "it belongs to panes: refractive_index");
+    excluded({"extinction_coefficient"}, "stands without refractive_index",
+             "a metal has both parts of its complex index");
+  } else {
+    excluded({"mirror", "glossy", "transmittance"}, "cannot stand with refractive_index",
+             "it follows from the index, at every angle");
+    if (map.has("extinction_coefficient")) {
+      excluded(of_panes, "cannot stand with extinction_coefficient", "no light passes a metal");
+    } else if (material.refractive_index && *material.refractive_index <= 1) {
+      map.problem("refractive_index",
+                  fmt::format("{} is not above 1", *material.refractive_index),
+                  "panes are denser than air", "metals have an extinction_coefficient, too");
+    }
+  }
+  if (material.glossy > 0 && !map.has("glossy_exponent"))
+    map.problem("glossy", "stands without glossy_exponent", "that is the width of its lobe",
+                "10 is a broad lobe, 1000 a narrow one");
+  if (map.has("glossy_exponent") && !map.has("glossy"))
+    map.warn("glossy_exponent", "is not used", "it belongs to glossy");
+}
+
+/// No surface sends on more than it receives.
+void check_sum(YamlMap& map, const MaterialStudy& material) {
+  const std::pair<const char*, double> parts[] = {{"diffuse", material.diffuse.value_or(0)},
+                                                  {"mirror", material.mirror.value_or(0)},
+                                                  {"glossy", material.glossy},
+                                                  {"transmittance", material.transmittance}};
+  double sum = 0;
+  std::string terms, last;
+  for (const auto& [key, share] : parts) {
+    if (!map.has(key)) continue;
+    sum += share;
+    terms += (terms.empty() ? "" : " + ") + std::string(key);
+    last = key;
+  }
+  if (sum > 1 + share_rounding)
+    map.problem(last, fmt::format("{} = {} is above 1", terms, sum),
+                "no surface reflects more than it receives");
+}
+
 MaterialStudy read_material(const std::string& name, YamlMap& map) {
   MaterialStudy material;
   material.name = name;
@@ -88,16 +144,21 @@ MaterialStudy read_material(const std::string& name, YamlMap& map) {
   material.diffuse = map.number("diffuse", shares);
   material.mirror = map.number("mirror", shares);
   material.emission_w_m2 = map.number("emission_w_m2", emissions_w_m2, material.emission_w_m2);
+  material.refractive_index = map.number("refractive_index", refractive_indices);
+  material.extinction_coefficient = map.number("extinction_coefficient", extinctions);
+  material.thickness_m = map.number("thickness_m", thicknesses_m, material.thickness_m);
+  material.absorption_per_m =
+      map.number("absorption_per_m", absorptions_per_m, material.absorption_per_m);
+  material.panes = map.integer("panes", 1, most_panes, material.panes);
+  material.glossy = map.number("glossy", shares, material.glossy);
+  material.glossy_exponent = map.number("glossy_exponent", exponents, material.glossy_exponent);
+  material.transmittance = map.number("transmittance", shares, material.transmittance);
   if (map.has("sides")) {
     material.sides = map.choice("sides", {{"one", Sides::one}, {"two", Sides::two}}, Sides::one);
   }
   map.tree("sides");
-  const double sum = material.diffuse.value_or(0) + material.mirror.value_or(0);
-  if (sum > 1 + share_rounding) {
-    map.problem(map.has("mirror") ? "mirror" : "diffuse",
-                fmt::format("diffuse + mirror = {} is above 1", sum),
-                "no surface reflects more than it receives");
-  }
+  check_kind(map, material);
+  check_sum(map, material);
   return material;
 }
 

@@ -88,8 +88,6 @@ OutputStudy read_output(YamlMap& map) {
 
 std::vector<LaterKey> later_keys() {
   return {
-      {"scene.materials.*.refractive_index", ""},
-      {"scene.materials.*.transmittance", ""},
       {"solver.transport", "shoot"},
       {"solver.power_per_sample_w", ""},
       {"solver.accuracy", ""},

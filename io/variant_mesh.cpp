@@ -89,7 +89,7 @@ VariantMesh make_mesh(const VariantPlan& plan, Watch& watch) {
     return made;
   }
   expect_splittable(scene, split);
-  const RayCaster caster(scene.mesh, plan.isa);
+  const RayCaster caster(scene.mesh, plan.isa, screens(scene));
   made.mesh = std::make_shared<const Hierarchy>(refined_mesh(
       scene, caster, split, refine_rules(plan.study), pilot_light(plan), watch, &made.report));
   return made;

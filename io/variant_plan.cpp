@@ -50,6 +50,10 @@ void add_scene(Digest& digest, const Scene& scene) {
     digest.add(m.diffuse);
     digest.add(m.mirror);
     digest.add(m.emission_w_m2);
+    for (const double property : {m.refractive_index, m.extinction_coefficient, m.thickness_m,
+                                  m.absorption_per_m, m.glossy, m.glossy_exponent, m.transmittance})
+      digest.add(property);
+    digest.add(m.panes);
   }
   const ParallelSources& sources = scene.parallel_sources;
   for (const auto& v : sources.mesh.vertices) digest.add(v);
@@ -246,7 +250,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
   const auto has = [&](auto property) {
     return std::any_of(materials.begin(), materials.end(), property);
   };
-  const bool mirrors = has([](const Material& m) { return m.mirror > 0; });
+  const bool mirrors = has([](const Material& m) { return sends_on(m); });
   const bool lamps = has_lamps(plan);
   // Total, direct, sky, reflected, and what the scene has besides.
   const double parts = 4.0 + (mirrors ? 1 : 0) + (lamps ? 1 : 0);

@@ -78,8 +78,8 @@ std::vector<Ledger> block_ledger(const LineSet& lines, const PatchOptics& optics
     for (std::size_t i = begin; i < end; ++i)
       for (std::size_t k = 0; k < suns; ++k) {
         const std::size_t at = i * block_width + k;
-        part[k] += booked({area[i], static_cast<double>(optics.diffuse[i]),
-                           static_cast<double>(optics.mirror[i]),
+        part[k] += booked({area[i], static_cast<double>(optics.diffuse[i]), optics.absorbed(i),
+                           static_cast<double>(optics.passed[i]),
                            static_cast<double>(optics.emission[i]),
                            static_cast<double>(light.direct[at]),
                            static_cast<double>(light.sky[at]),

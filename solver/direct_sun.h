@@ -38,6 +38,7 @@ class SunSampler {
   SunSampler(const Hierarchy& hierarchy, const RayCaster& caster, const DirectRules& rules);
 
   std::size_t samples() const { return realization_.size(); }
+  std::uint64_t study_seed() const { return rules_.seed; }
   std::size_t packets() const { return (samples() + packet_size - 1) / packet_size; }
   std::size_t realization(std::size_t sample) const { return realization_[sample]; }
 

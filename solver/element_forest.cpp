@@ -1,7 +1,6 @@
 #include "solver/element_forest.h"
 
 #include <string>
-#include <string_view>
 
 #include "geo/check.h"
 #include "solver/rng.h"
@@ -9,13 +8,6 @@
 namespace sunload {
 
 namespace {
-
-/// FNV-1a, stable over runs and machines.
-std::uint64_t text_key(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return hash;
-}
 
 std::uint64_t packed(const Edge& edge) {
   return static_cast<std::uint64_t>(edge.first) << 32 | static_cast<std::uint32_t>(edge.second);

@@ -36,10 +36,14 @@ PatchOptics patch_optics(const Scene& scene, const Hierarchy& hierarchy) {
     const auto& m =
         scene.materials[scene.material[static_cast<std::size_t>(patch.triangle)].index()];
     optics.diffuse.push_back(static_cast<float>(m.diffuse));
-    optics.mirror.push_back(static_cast<float>(m.mirror));
+    optics.mirror.push_back(static_cast<float>(mirror_reflectance(m, 1)));
+    optics.glossy.push_back(static_cast<float>(m.glossy));
+    optics.passed.push_back(static_cast<float>(m.transmittance));
+    optics.by_angle.push_back(depends_on_angle(m));
     optics.emission.push_back(static_cast<float>(m.emission_w_m2));
     optics.any_emission = optics.any_emission || m.emission_w_m2 > 0;
-    optics.any_mirror = optics.any_mirror || m.mirror > 0;
+    optics.any_mirror = optics.any_mirror || sends_on(m);
+    optics.any_glossy = optics.any_glossy || m.glossy > 0;
   }
   return optics;
 }

@@ -34,7 +34,8 @@ Lamps::Lamps(const Scene& scene, const Hierarchy& hierarchy)
     : source_of_side_(2 * scene.mesh.triangle_count(), -1) {
   std::vector<Vec3> middles;
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
-    const double exitance = scene.materials[scene.material[t].index()].emission_w_m2;
+    const Material& material = scene.materials[scene.material[t].index()];
+    const double exitance = material.emission_w_m2;
     if (exitance <= 0) continue;
     const Vec3 a = scene.mesh.corner(t, 0), twice_area = scene.mesh.area_vector2(t);
     for (const bool front : {true, false}) {
@@ -43,7 +44,7 @@ Lamps::Lamps(const Scene& scene, const Hierarchy& hierarchy)
       const double area = norm(twice_area) / 2;
       const Vec3 n = twice_area / (2 * area);
       sources_.push_back({a, scene.mesh.corner(t, 1) - a, scene.mesh.corner(t, 2) - a,
-                          front ? n : -n, exitance, area,
+                          front ? n : -n, exitance, area, 1 - material.transmittance,
                           static_cast<std::int32_t>(2 * t + (front ? 0 : 1))});
       middles.push_back(a + (sources_.back().ab + sources_.back().ac) / 3);
     }
@@ -151,7 +152,8 @@ double LampView::seen_by_line(const Hit& hit, Vec3 w, double cos_theta) const {
   // g / (g + q) without dividing by the distance, which may be all but 0.
   const double g = cos_theta * cos_source;
   const double q = pi * hit.distance_m * hit.distance_m * density(source);
-  return g + q > 0 ? source.exitance * g / (g + q) : source.exitance;
+  // Lines that a screen stops stand for those that it lets pass.
+  return source.exitance / source.stopped * (g + q > 0 ? g / (g + q) : 1);
 }
 
 LampView::Seen LampView::seen_by_points(const RayCaster& caster, const RandomWords& seeds,

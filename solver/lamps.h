@@ -35,6 +35,7 @@ class Lamps {
   struct Source {
     Vec3 a, ab, ac, normal;
     double exitance, area;
+    double stopped;            ///< share of rays that a screen stops, 1 for others
     std::int32_t side;         ///< 2·triangle + side
     std::size_t cluster = 0;
     double up_to = 0;          ///< share of the cluster's power, this source included

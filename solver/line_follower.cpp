@@ -1,7 +1,9 @@
 #include "solver/line_follower.h"
 
 #include "geo/check.h"
+#include "solver/lobe.h"
 #include "solver/oracle.h"
+#include "solver/sampling.h"
 
 namespace sunload {
 
@@ -19,6 +21,7 @@ void LineCollector::clear() {
   patches.clear();
   sky.clear();
   sky_by_mirror.clear();
+  glimpses.clear();
   ends = {};
   lamps = 0;
 }
@@ -37,8 +40,32 @@ const Material& LineFollower::material_of(std::int32_t triangle) const {
   return scene_.materials[scene_.material[static_cast<std::size_t>(triangle)].index()];
 }
 
-double LineFollower::mirror_of(std::size_t patch) const {
-  return material_of(hierarchy_.patches()[patch].triangle).mirror;
+LineFollower::Onward LineFollower::onward(const Material& m, Vec3 n, Vec3 w,
+                                          const RandomKey& key) {
+  const double cos_theta = dot(w, n);
+  Onward on{mirrored(w, n)};
+  if (is_fresnel(m)) {
+    const SmoothShares shares = fresnel_shares(m, cos_theta);
+    on.weight = shares.mirror;
+    on.transmitted = shares.transmitted;
+    on.absorbed = 1 - m.diffuse - shares.mirror - shares.transmitted;
+  } else if (m.glossy <= 0) {
+    on.weight = m.mirror;
+  } else {
+    on.weight = m.mirror + m.glossy;
+    const RandomWords random = random_words(key);
+    if (uniform(random[2]) * on.weight >= m.mirror) {  // the lobe, in proportion to its share
+      const Tangents axes = tangents(on.direction);
+      const Vec3 local = sample_power_cosine(static_cast<double>(uniform(random[0])),
+                                             static_cast<double>(uniform(random[1])),
+                                             m.glossy_exponent);
+      on.direction = axes.tangent * local.x + axes.bitangent * local.y + on.direction * local.z;
+      on.weight *= lobe_sample_weight(dot(on.direction, n), m.glossy_exponent);
+    }
+    // What the lobe returns at this angle is known by this sample alone.
+    on.absorbed = 1 - m.diffuse - m.transmittance - on.weight;
+  }
+  return on;
 }
 
 Vec3 LineFollower::offset_point(std::int32_t triangle, const Hit& hit, Vec3 side_normal) const {
@@ -64,10 +91,26 @@ std::uint32_t LineFollower::linked_element(std::size_t patch, Vec3 point, double
   return static_cast<std::uint32_t>(element);
 }
 
-std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first, LineCollector& into) const {
+Glimpse LineFollower::glimpse(const Hit& hit, Vec3 n, Vec3 w, double weight) const {
+  const Vec3 at = offset_point(hit.triangle, hit, n), axis = mirrored(w, n);
+  Glimpse glimpse;
+  glimpse.triangle = hit.triangle;
+  glimpse.front = hit.front ? 1 : 0;
+  for (const auto& [to, from] : {std::pair{glimpse.at, at}, {glimpse.axis, axis}}) {
+    to[0] = static_cast<float>(from.x);
+    to[1] = static_cast<float>(from.y);
+    to[2] = static_cast<float>(from.z);
+  }
+  glimpse.weight = static_cast<float>(weight);
+  return glimpse;
+}
+
+std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first,
+                                   const RandomKey& line, LineCollector& into) const {
   std::uint64_t rays = 0;
   double weight = 1, path_m = 0;
   Hit hit = first;
+  RandomKey key = line;
   for (int reflections = 0;; ++reflections) {
     const auto share = static_cast<float>(weight);
     if (hit.left_scene()) {
@@ -87,37 +130,54 @@ std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first, LineCo
     }
     path_m += hit.distance_m;
     const Material& material = material_of(hit.triangle);
+    weight /= 1 - material.transmittance;  // rays are stopped by that share
     if (material.diffuse > 0 || material.emission_w_m2 > 0)
       into.patches.push_back({linked_element(static_cast<std::size_t>(patch),
                                              origin + w * hit.distance_m, path_m),
-                              share});
+                              static_cast<float>(weight)});
     if (reflections > 0) into.lamps += weight * material.emission_w_m2;
-    if (material.mirror <= 0) return rays;
+    if (!sends_on(material)) return rays;
     const Vec3 n = met_normal(scene_.mesh, hit);
-    weight *= mirror_reflectance(material, -dot(w, n));
+    if (material.glossy > 0 && reflections < mirror_depth_)
+      into.glimpses.push_back(glimpse(hit, n, -w, weight * material.glossy));
+    key.block = static_cast<std::uint32_t>(reflections);
+    const Onward on = onward(material, n, -w, key);
+    into.ends.transmitted += static_cast<float>(weight * on.transmitted);
+    into.ends.absorbed += static_cast<float>(weight * on.absorbed);
+    weight *= on.weight;
+    if (weight <= 0) return rays;
     if (reflections == mirror_depth_) {
       into.ends.cut += static_cast<float>(weight);
       return rays;
     }
+    if (material.glossy > 0) path_m = 0;  // what a lobe sees is not seen from the line's beginning
     origin = offset_point(hit.triangle, hit, n);
-    w = mirrored(-w, n);
+    w = on.direction;
     hit = caster_.first_hit(origin, w);
     ++rays;
   }
 }
 
-LineFollower::Fate LineFollower::mirrored_on(Vec3 origin, Vec3 w, std::size_t mirror_patch,
+LineFollower::Fate LineFollower::mirrored_on(Vec3 origin, Vec3 w, std::size_t patch,
+                                             const RandomKey& line,
                                              std::vector<LinkTable::Link>* met) const {
-  const Vec3 n = hierarchy_.normal(mirror_patch);
-  const double weight = mirror_reflectance(
-      material_of(hierarchy_.patches()[mirror_patch].triangle), dot(w, n));
-  const Vec3 away = mirrored(w, n);
-  Fate fate = sent_on(away, weight, caster_.first_hit(origin, away), met);
-  ++fate.rays;
+  // The line itself has used the blocks from 0 on.
+  constexpr std::uint32_t blocks_of_first_light = 1u << 16;
+  RandomKey key = line;
+  key.block = blocks_of_first_light;
+  const Onward on = onward(material_of_patch(patch), hierarchy_.normal(patch), w, key);
+  Fate fate;
+  if (on.weight > 0) {
+    fate = sent_on(on.direction, on.weight, caster_.first_hit(origin, on.direction), &key, met);
+    ++fate.rays;
+  }
+  fate.transmitted += on.transmitted;
+  fate.absorbed += on.absorbed;
   return fate;
 }
 
 LineFollower::Fate LineFollower::sent_on(Vec3 w, double weight, const Hit& first,
+                                         const RandomKey* line,
                                          std::vector<LinkTable::Link>* met) const {
   Fate fate;
   if (mirror_depth_ < 1) {  // not even the first reflection is followed
@@ -125,6 +185,7 @@ LineFollower::Fate LineFollower::sent_on(Vec3 w, double weight, const Hit& first
     return fate;
   }
   Hit hit = first;
+  RandomKey key = line ? *line : RandomKey{};
   for (int reflections = 1;; ++reflections) {
     if (hit.left_scene()) {
       fate.escaped = weight;
@@ -135,15 +196,30 @@ LineFollower::Fate LineFollower::sent_on(Vec3 w, double weight, const Hit& first
       fate.backs = weight;
       return fate;
     }
+    const Material& material = material_of(hit.triangle);
+    // Patches count what arrives, which is more than what stops rays.
+    weight /= 1 - material.transmittance;
     if (met) met->push_back({static_cast<std::uint32_t>(patch), static_cast<float>(weight)});
+    if (!sends_on(material)) return fate;
     const Vec3 n = met_normal(scene_.mesh, hit);
-    weight *= mirror_reflectance(material_of(hit.triangle), -dot(w, n));
+    Onward on;
+    if (!line && material.glossy > 0) {
+      on = {mirrored(-w, n), material.mirror, 0,
+            1 - material.diffuse - material.mirror - material.glossy - material.transmittance};
+      fate.cut += weight * material.glossy;
+    } else {
+      ++key.block;
+      on = onward(material, n, -w, key);
+    }
+    fate.transmitted += weight * on.transmitted;
+    fate.absorbed += weight * on.absorbed;
+    weight *= on.weight;
     if (weight <= 0) return fate;
     if (reflections == mirror_depth_) {
-      fate.cut = weight;
+      fate.cut += weight;
       return fate;
     }
-    w = mirrored(-w, n);
+    w = on.direction;
     hit = caster_.first_hit(offset_point(hit.triangle, hit, n), w);
     ++fate.rays;
   }

@@ -1,16 +1,22 @@
-/// One line along its chain of mirrors.
+/// One line along its chain of mirrors, panes, metals and glossy surfaces.
+///
+/// What depends on the angle is known where a line meets it: the shares that panes transmit
+/// and that panes, metals and glossy surfaces absorb are booked here, at each meeting, for the
+/// ledger. What surfaces of constant shares absorb follows from their irradiance.
 #pragma once
 
 #include <vector>
 
 #include "geo/sky.h"
 #include "solver/lines.h"
+#include "solver/rng.h"
 
 namespace sunload {
 
 /// Links and ends of the lines of one patch in one realization.
 struct LineCollector {
   std::vector<LinkTable::Link> patches, sky, sky_by_mirror;
+  std::vector<Glimpse> glimpses;  ///< patch and realization are the collector's owner's
   LineEnds ends;
   double lamps = 0;  ///< exitance of emitters that was seen, summed over lines [W m-2]
   void clear();
@@ -23,31 +29,47 @@ class LineFollower {
   LineFollower(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
                const SkyGrid& grid, int mirror_depth, double largest_link = 0);
 
-  /// A line that left its patch from `origin` along the unit vector `w` and met
-  /// `hit`; adds its links, its end, and the emitters that mirrors show it (those that it meets
-  /// straight are weighed by solver/lamps.h). Returns the rays cast.
-  std::uint64_t follow(Vec3 origin, Vec3 w, const Hit& hit, LineCollector& into) const;
+  /// A line that left its patch from `origin` along the unit vector `w` and met `hit`; adds
+  /// its links, its end, and the emitters that mirrors show it (those that it meets straight are
+  /// weighed by solver/lamps.h). `line` addresses the random numbers of glossy surfaces (its
+  /// `block` is set here). Returns the rays cast.
+  std::uint64_t follow(Vec3 origin, Vec3 w, const Hit& hit, const RandomKey& line,
+                       LineCollector& into) const;
 
-  /// Where light ends that arrives along -`w` at a mirror patch and is sent on.
+  /// Where light ends that a surface sends on, and what becomes of it at the surfaces that
+  /// `depends_on_angle`: shares of what arrived.
   struct Fate {
-    double escaped = 0, backs = 0, cut = 0;
+    double escaped = 0, backs = 0, cut = 0, transmitted = 0, absorbed = 0;
     std::uint64_t rays = 0;
   };
-  /// `met`, if not null, receives the patches that it arrives at on its way, and its weight there.
-  Fate mirrored_on(Vec3 origin, Vec3 w, std::size_t mirror_patch,
+  /// Of light that arrives along -`w` at a patch that sends on, from that patch on. `met`, if not
+  /// null, receives the patches that it arrives at on its way, and its weight there.
+  Fate mirrored_on(Vec3 origin, Vec3 w, std::size_t patch, const RandomKey& line,
                    std::vector<LinkTable::Link>* met = nullptr) const;
-  /// The same from the first hit of the mirrored ray on: `weight` goes along `w`.
-  Fate sent_on(Vec3 w, double weight, const Hit& first,
+  /// From the first hit of the ray on that carries `weight` along `w`. Without a key the
+  /// chain is cut at glossy surfaces.
+  Fate sent_on(Vec3 w, double weight, const Hit& first, const RandomKey* line = nullptr,
                std::vector<LinkTable::Link>* met = nullptr) const;
+
+  /// Light that arrives at a surface along -`w` (unit, w·n > 0), and where it goes.
+  struct Onward {
+    Vec3 direction;
+    double weight = 0;                    ///< carried along `direction`
+    double transmitted = 0, absorbed = 0; ///< of materials that depend on the angle
+  };
+  static Onward onward(const Material& material, Vec3 n, Vec3 w, const RandomKey& key);
 
   /// Cell of a direction that left the scene upward.
   std::uint32_t sky_cell(Vec3 w) const { return static_cast<std::uint32_t>(grid_.cell(w)); }
-  double mirror_of(std::size_t patch) const;
+  const Material& material_of_patch(std::size_t patch) const {
+    return material_of(hierarchy_.patches()[patch].triangle);
+  }
 
  private:
-  struct Meeting;
   const Material& material_of(std::int32_t triangle) const;
   std::uint32_t linked_element(std::size_t patch, Vec3 point, double path_m) const;
+  /// Of a line that arrived along -`w`.
+  Glimpse glimpse(const Hit& hit, Vec3 n, Vec3 w, double weight) const;
   Vec3 offset_point(std::int32_t triangle, const Hit& hit, Vec3 side_normal) const;
 
   const Scene& scene_;

@@ -57,6 +57,7 @@ class BlockTracer {
 
   struct Output {
     std::vector<MirroredFirstLight> first_light;  ///< per realization, empty without mirrors
+    std::vector<Glimpse> glimpses;
     std::uint64_t rays = 0;
   };
 
@@ -73,6 +74,11 @@ class BlockTracer {
       for (std::size_t r = 0; r < lines.realizations.size(); ++r) {
         own.clear();
         trace_patch(patch, r, view, own, output);
+        for (Glimpse& glimpse : own.glimpses) {
+          glimpse.patch = static_cast<std::uint32_t>(patch);
+          glimpse.realization = static_cast<std::uint32_t>(r);
+        }
+        output.glimpses.insert(output.glimpses.end(), own.glimpses.begin(), own.glimpses.end());
         pool(own, pooled);
         store(lines.realizations[r], patch, own, lines_per_realization());
       }
@@ -95,9 +101,13 @@ class BlockTracer {
                    LineCollector& into, Output& output) const {
     const Start start(hierarchy_, patch, caster_.offset_m());
     const auto of_lines = seeds(Purpose::lines, realization, patch);
+    const RandomKey line{.seed = rules_.seed,
+                         .purpose = Purpose::glossy,
+                         .realization = static_cast<std::uint32_t>(realization),
+                         .element = hierarchy_.key()[patch]};
     const auto count = static_cast<std::size_t>(lines_per_realization());
     for (std::size_t first = 0; first < count; first += packet_size)
-      trace_packet(start, patch, view, of_lines, first, std::min(packet_size, count - first), into,
+      trace_packet(start, patch, view, of_lines, line, first, std::min(packet_size, count - first), into,
                    output.first_light[realization], output.rays);
     if (!lamps_.any()) return;
     const auto seen =
@@ -117,7 +127,8 @@ class BlockTracer {
   };
 
   void trace_packet(const Start& start, std::size_t patch, const LampView& view,
-                    const RandomWords& seeds, std::size_t first, std::size_t count, LineCollector& into,
+                    const RandomWords& seeds, RandomKey line, std::size_t first,
+                    std::size_t count, LineCollector& into,
                     MirroredFirstLight& first_light, std::uint64_t& rays) const {
     Vec3 origin[packet_size], w[packet_size];
     Packet origins{}, directions{};
@@ -137,10 +148,11 @@ class BlockTracer {
     rays += count;
     for (std::size_t l = 0; l < count; ++l) {
       const Hit hit = hits[l];
+      line.sun = static_cast<std::uint32_t>(first + l);
       if (lamps_.any()) into.lamps += view.seen_by_line(hit, w[l], dot(w[l], start.n));
-      rays += follower_.follow(origin[l], w[l], hit, into);
-      if (hit.left_scene() && follower_.mirror_of(patch) > 0)
-        rays += book_mirrored(origin[l], w[l], patch, first_light);
+      rays += follower_.follow(origin[l], w[l], hit, line, into);
+      if (hit.left_scene() && sends_on(follower_.material_of_patch(patch)))
+        rays += book_mirrored(origin[l], w[l], patch, line, first_light);
     }
   }
 
@@ -152,18 +164,15 @@ class BlockTracer {
 
   /// The line brings first light to a mirror: its way on is booked here, since
   /// no patch's own lines see it leave.
-  std::uint64_t book_mirrored(Vec3 origin, Vec3 w, std::size_t patch,
+  std::uint64_t book_mirrored(Vec3 origin, Vec3 w, std::size_t patch, const RandomKey& line,
                               MirroredFirstLight& book) const {
-    const auto fate = follower_.mirrored_on(origin, w, patch);
+    const auto fate = follower_.mirrored_on(origin, w, patch, line);
     const double share = hierarchy_.area()[patch] / lines_per_realization();
     const std::size_t source = w.z > 0 ? follower_.sky_cell(w) : ground_source_;
-    if (book.escaped.empty()) {
-      for (auto* entry : {&book.escaped, &book.backs, &book.cut})
-        entry->assign(ground_source_ + 1, 0);
-    }
-    book.escaped[source] += share * fate.escaped;
-    book.backs[source] += share * fate.backs;
-    book.cut[source] += share * fate.cut;
+    MirroredFirstLight::for_each(book, fate, [&](std::vector<double>& power, double part) {
+      if (power.empty()) power.assign(ground_source_ + 1, 0);
+      power[source] += share * part;
+    });
     return fate.rays;
   }
 
@@ -181,6 +190,8 @@ class BlockTracer {
     pooled.ends.backs += own.ends.backs;
     pooled.ends.cut += own.ends.cut;
     pooled.lamps += own.lamps;
+    pooled.ends.transmitted += own.ends.transmitted;
+    pooled.ends.absorbed += own.ends.absorbed;
   }
 
   static void store(LineSet& set, std::size_t patch, LineCollector& lines, int count) {
@@ -190,8 +201,9 @@ class BlockTracer {
     LinkTable::append_row(set.sky.blocks[block], lines.sky, scale);
     LinkTable::append_row(set.sky_by_mirror.blocks[block], lines.sky_by_mirror, scale);
     const LineEnds& e = lines.ends;
-    set.ends[patch] = {e.sky * scale,     e.ground * scale, e.ground_by_mirror * scale,
-                       e.escaped * scale, e.backs * scale,  e.cut * scale};
+    set.ends[patch] = {e.sky * scale,   e.ground * scale, e.ground_by_mirror * scale,
+                       e.escaped * scale, e.backs * scale,  e.cut * scale,
+                       e.transmitted * scale, e.absorbed * scale};
     if (!set.lamps.empty()) set.lamps[patch] = lines.lamps / count;
   }
 
@@ -215,9 +227,7 @@ void add(std::vector<double>& to, const std::vector<double>& from, double factor
 }
 
 void add(MirroredFirstLight& to, const MirroredFirstLight& from, double factor) {
-  add(to.escaped, from.escaped, factor);
-  add(to.backs, from.backs, factor);
-  add(to.cut, from.cut, factor);
+  MirroredFirstLight::for_each(to, from, [&](auto& sum, const auto& part) { add(sum, part, factor); });
 }
 
 void trim(LineSet& set, std::size_t block) {
@@ -252,6 +262,7 @@ Lines trace_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaste
 
   for (const auto& output : outputs) {
     lines.rays += output.rays;
+    lines.glimpses.insert(lines.glimpses.end(), output.glimpses.begin(), output.glimpses.end());
     for (std::size_t r = 0; r < output.first_light.size(); ++r) {
       add(lines.realizations[r].first_light, output.first_light[r], 1);
       add(lines.pooled.first_light, output.first_light[r], 1.0 / rules.realizations);

@@ -53,12 +53,25 @@ struct LineEnds {
   float escaped = 0;           ///< left the scene, straight or by mirrors
   float backs = 0;             ///< met the back of a one-sided surface
   float cut = 0;               ///< chain cut at the mirror depth
+  float transmitted = 0;       ///< left through panes
+  float absorbed = 0;          ///< by surfaces whose reflectance depends on the angle
 };
 
 /// Fate of first light (sky, ground) after it was mirrored by the patch that it
 /// met first: power per π·radiance of its source [m2].
 struct MirroredFirstLight {
-  std::vector<double> escaped, backs, cut;  ///< per sky cell, then the far ground
+  std::vector<double> escaped, backs, cut, transmitted,
+      absorbed;  ///< per sky cell, then the far ground; empty without mirrors
+
+  /// Calls visit(fate, of_other) for each kind of fate and the same of another one.
+  template <class Self, class Other, class Visit>
+  static void for_each(Self& self, Other& other, Visit&& visit) {
+    visit(self.escaped, other.escaped);
+    visit(self.backs, other.backs);
+    visit(self.cut, other.cut);
+    visit(self.transmitted, other.transmitted);
+    visit(self.absorbed, other.absorbed);
+  }
 };
 
 /// The lines of one realization, or of all of them pooled.
@@ -67,6 +80,17 @@ struct LineSet {
   std::vector<LineEnds> ends;
   std::vector<double> lamps;  ///< irradiance by emitters, straight or by mirrors [W m-2]; empty: none
   MirroredFirstLight first_light;
+};
+
+/// Where a line met a glossy surface: any sun may be asked from there (solver/glossy_sun.h).
+struct Glimpse {
+  std::uint32_t patch = 0;        ///< that the line left
+  std::uint32_t realization = 0;
+  std::int32_t triangle = -1;     ///< of the glossy surface
+  std::int32_t front = 1;         ///< 1: its front was met
+  float at[3] = {};               ///< off the surface [m]
+  float axis[3] = {};             ///< of the lobe: the line, mirrored
+  float weight = 0;               ///< of the line so far, times rho_g
 };
 
 struct LineRules {
@@ -81,6 +105,7 @@ struct LineRules {
 struct Lines {
   std::vector<LineSet> realizations;
   LineSet pooled;
+  std::vector<Glimpse> glimpses;  ///< by patch
   std::uint64_t rays = 0;  ///< cast, chains included
 };
 

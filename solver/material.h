@@ -1,6 +1,7 @@
 /// Optical properties of surfaces, and the scene that light is computed in.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -8,19 +9,56 @@
 
 namespace sunload {
 
-/// Diffuse, mirror, both together, or an emitter; diffuse + mirror ≤ 1.
+/// What a surface does with light. Three kinds exclude each other:
+///
+/// - constant shares: diffuse + mirror + glossy + transmittance ≤ 1, the rest is absorbed;
+/// - panes (refractive_index > 1 alone): what they transmit leaves the outdoor scene;
+/// - smooth metal (refractive_index with extinction_coefficient).
+///
+/// A share `diffuse` of a pane or metal is a coat (frit, dust, print): that share of the
+/// light never meets the glass, whatever its angle; of the rest Fresnel's formulas decide.
+/// So diffuse + mirror + transmitted ≤ 1 holds at every angle.
 struct Material {
   std::string name;
-  double diffuse = 0;           ///< reflectance rho
-  double mirror = 0;            ///< reflectance rho_s
-  double emission_w_m2 = 0;     ///< diffuse exitance M of an emitter
+  double diffuse = 0;                 ///< reflectance rho
+  double mirror = 0;                  ///< reflectance rho_s, the same at every angle
+  double emission_w_m2 = 0;           ///< diffuse exitance M of an emitter
+  double refractive_index = 0;        ///< n of panes or metal; 0: neither
+  double extinction_coefficient = 0;  ///< k of a metal; 0: panes
+  double thickness_m = 0.004;         ///< of one pane
+  double absorption_per_m = 0;        ///< K of the glass
+  int panes = 1;
+  double glossy = 0;                  ///< reflectance rho_g of light from the normal (solver/lobe.h)
+  double glossy_exponent = 0;         ///< n of its lobe
+  double transmittance = 0;           ///< T: light that passes straight through (crowns, screens)
   bool operator==(const Material&) const = default;
 };
 
+/// Where light goes that arrives at some angle, as shares of its power.
+struct SmoothShares {
+  double mirror = 0;
+  double transmitted = 0;  ///< out of the outdoor scene
+};
+SmoothShares fresnel_shares(const Material& material, double cos_theta);
+
+/// Decided by Fresnel's formulas: panes and metals.
+inline bool is_fresnel(const Material& m) { return m.refractive_index > 0; }
+/// What it absorbs depends on the angle.
+inline bool depends_on_angle(const Material& m) { return is_fresnel(m) || m.glossy > 0; }
+/// Reflects by the law of reflection.
+inline bool is_mirror(const Material& m) { return m.mirror > 0 || is_fresnel(m); }
+/// A line that meets it goes on.
+inline bool sends_on(const Material& m) { return is_mirror(m) || m.glossy > 0; }
+
 /// Share of power that an ideal mirror of this material returns at the angle
 /// whose cosine is `cos_theta` (of incidence). Constant for plain mirrors.
-inline double mirror_reflectance(const Material& material, double /*cos_theta*/) {
-  return material.mirror;
+inline double mirror_reflectance(const Material& material, double cos_theta) {
+  return is_fresnel(material) ? fresnel_shares(material, cos_theta).mirror : material.mirror;
+}
+
+/// The same of a ray that was stopped: rays are stopped by 1 - T of what they meet.
+inline double mirror_weight_of_hit(const Material& material, double cos_theta) {
+  return mirror_reflectance(material, cos_theta) / (1 - material.transmittance);
 }
 
 /// Finite parallel emitters: each triangle sends light along its normal.
@@ -40,5 +78,12 @@ struct Scene {
 /// Shares of a refused or degenerate material are errors of the caller: throws
 /// std::logic_error unless sizes agree and every share lies in its range.
 void expect_valid(const Scene& scene);
+
+/// Triangles that let light pass, for the ray caster.
+struct Screens {
+  std::vector<float> transmittance;  ///< per triangle; empty where all are opaque
+  std::vector<std::uint64_t> key;    ///< stable address: object and number within it
+};
+Screens screens(const Scene& scene);
 
 }  // namespace sunload

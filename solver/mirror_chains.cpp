@@ -12,6 +12,8 @@ MirroredSun& MirroredSun::operator+=(const MirroredSun& other) {
     escaped[k] += other.escaped[k];
     backs[k] += other.backs[k];
     cut[k] += other.cut[k];
+    transmitted[k] += other.transmitted[k];
+    absorbed[k] += other.absorbed[k];
   }
   return *this;
 }
@@ -43,6 +45,7 @@ class MirrorChains::Task {
     const double cos_theta = dot(geometry.normal, sun.direction);
     if (cos_theta <= 0) return;
     const Patch& mirror = c_.hierarchy_.patches()[patch];
+    const Material& material = c_.groups_.material(mirror.triangle);
     const auto group =
         static_cast<std::size_t>(c_.groups_.of_side(mirror.triangle, mirror.side == 0));
     const double samples_each =
@@ -62,6 +65,9 @@ class MirrorChains::Task {
         chains_[l] = {{to_sun.x[l], to_sun.y[l], to_sun.z[l]}, group, beams.next(-1, group), sent,
                       power_per_sample,
                       static_cast<std::uint16_t>(c_.sampler_.realization(p * packet_size + l))};
+        // The glossy part of the sun's light is GlossySun's.
+        if (is_fresnel(material))
+          keep(material, power_per_sample, cos_theta, k, fates[chains_[l].realization]);
       }
       follow(k, beams, points, lit);
     }
@@ -115,6 +121,18 @@ class MirrorChains::Task {
     }
   }
 
+  /// Books what a surface that depends on the angle does with light that arrives at it,
+  /// but for what it reflects as a mirror. Its lobe is not followed.
+  static void keep(const Material& m, double power, double cos_theta, std::size_t k,
+                   MirroredSun& fate) {
+    if (!depends_on_angle(m)) return;
+    const SmoothShares shares = is_fresnel(m) ? fresnel_shares(m, cos_theta) : SmoothShares{m.mirror, 0};
+    fate.transmitted[k] += power * shares.transmitted;
+    fate.cut[k] += power * m.glossy;
+    fate.absorbed[k] += power * (1 - m.diffuse - shares.mirror - shares.transmitted - m.glossy -
+                                 m.transmittance);
+  }
+
   /// Books what a chain meets; false where it ends there.
   bool arrive(std::size_t k, const SunBeams& beams, const Hit& hit, Chain& chain) {
     MirroredSun& fate = fates[chain.realization];
@@ -127,14 +145,20 @@ class MirrorChains::Task {
       fate.backs[k] += chain.power;
       return false;
     }
+    const Material& material = c_.groups_.material(hit.triangle);
+    chain.power /= 1 - material.transmittance;  // rays are stopped by that share
     if (chain.beam < 0)
       arrivals.push_back({static_cast<std::uint32_t>(patch), chain.realization,
                           static_cast<std::uint16_t>(k), chain.power});
     const auto group = c_.groups_.of_side(hit.triangle, hit.front);
-    if (group < 0) return false;
+    if (group < 0) {
+      keep(material, chain.power, 1, k, fate);
+      return false;
+    }
     chain.group = static_cast<std::size_t>(group);
-    chain.power *=
-        c_.groups_.reflectance(hit.triangle, dot(chain.from, c_.groups_[chain.group].normal));
+    const double cos_theta = dot(chain.from, c_.groups_[chain.group].normal);
+    keep(material, chain.power, cos_theta, k, fate);
+    chain.power *= c_.groups_.reflectance(hit.triangle, cos_theta);
     if (chain.power <= 0) return false;
     chain.beam = chain.beam < 0 ? -1 : beams.next(chain.beam, chain.group);
     if (chain.beam < 0 && chain.power < c_.rules_.negligible * chain.first_power) {

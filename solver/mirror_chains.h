@@ -19,6 +19,7 @@ namespace sunload {
 struct MirroredSun {
   std::vector<double> escaped = std::vector<double>(block_width, 0);
   std::vector<double> backs = escaped, cut = escaped;
+  std::vector<double> transmitted = escaped, absorbed = escaped;  ///< where that depends on the angle
   MirroredSun& operator+=(const MirroredSun& other);
 };
 

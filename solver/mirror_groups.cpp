@@ -21,7 +21,7 @@ MirrorGroups::MirrorGroups(const Scene& scene)
   const double least_cosine = std::cos(same_orientation);
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
     const MaterialId material = scene.material[t];
-    if (scene.materials[material.index()].mirror <= 0) continue;
+    if (!is_mirror(scene.materials[material.index()])) continue;
     const Vec3 front = normalized(scene.mesh.area_vector2(t));
     for (std::size_t side = 0; side < (scene.mesh.triangle_sides[t] == Sides::two ? 2 : 1); ++side) {
       const Vec3 n = side == 0 ? front : -front;
@@ -38,9 +38,16 @@ MirrorGroups::MirrorGroups(const Scene& scene)
   }
 }
 
+const Material& MirrorGroups::material(std::int32_t triangle) const {
+  return scene_.materials[scene_.material[static_cast<std::size_t>(triangle)].index()];
+}
+
 double MirrorGroups::reflectance(std::int32_t triangle, double cos_theta) const {
-  const MaterialId id = scene_.material[static_cast<std::size_t>(triangle)];
-  return mirror_reflectance(scene_.materials[id.index()], cos_theta);
+  return mirror_reflectance(material(triangle), cos_theta);
+}
+
+double MirrorGroups::weight_of_hit(std::int32_t triangle, double cos_theta) const {
+  return mirror_weight_of_hit(material(triangle), cos_theta);
 }
 
 double MirrorGroups::strongest(std::size_t group, double cos_theta) const {

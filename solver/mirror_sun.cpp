@@ -144,7 +144,7 @@ class MirrorSun::PatchWork {
         continue;
       on_mirror |= 1u << l;
       const double cos_theta = -dot(n, {w.x[l], w.y[l], w.z[l]});
-      weight[l] *= m_.groups_.reflectance(hit.triangle, cos_theta);
+      weight[l] *= m_.groups_.weight_of_hit(hit.triangle, cos_theta);
       put(points, l, m_.groups_.above(hit.triangle, hit.u, hit.v, n, m_.caster_.offset_m()));
     }
     return on_mirror;

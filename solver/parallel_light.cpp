@@ -168,20 +168,31 @@ class PatchBeams {
       const auto l = static_cast<std::size_t>(std::countr_zero(lit));
       const std::size_t r = sampler_.realization(packet * packet_size + l);
       irradiance_[r][patch] += E;
-      found_.ledger[r][Term::emitted] += E * hierarchy_.area()[patch];
-      if (optics_.mirror[patch] > 0)
-        send_on(patch, r, beam.to_source(), point(origins, l), E * hierarchy_.area()[patch]);
+      // What passes a screen is met further on.
+      const double power =
+          E * hierarchy_.area()[patch] * (1 - static_cast<double>(optics_.passed[patch]));
+      found_.ledger[r][Term::emitted] += power;
+      if (sends_on(follower_.material_of_patch(patch)))
+        send_on(patch, r, packet * packet_size + l, beam.to_source(), point(origins, l),
+                E * hierarchy_.area()[patch]);
     }
   }
 
-  /// What a mirror patch got from the direction w.
-  void send_on(std::size_t patch, std::size_t r, Vec3 w, Vec3 origin, double power) {
+  /// What a mirror patch got from the direction w by one sample.
+  void send_on(std::size_t patch, std::size_t r, std::size_t sample, Vec3 w, Vec3 origin,
+               double power) {
     met_.clear();
-    const auto fate = follower_.mirrored_on(origin, w, patch, &met_);
+    const RandomKey key{.seed = sampler_.study_seed(),
+                        .purpose = Purpose::parallel_light,
+                        .realization = static_cast<std::uint32_t>(r),
+                        .element = hierarchy_.key()[patch],
+                        .sun = static_cast<std::uint32_t>(sample)};
+    const auto fate = follower_.mirrored_on(origin, w, patch, key, &met_);
     found_.rays += fate.rays;
     Ledger& ledger = found_.ledger[r];
     ledger[Term::escaped] += power * fate.escaped;
-    ledger[Term::absorbed] += power * fate.backs;
+    ledger[Term::absorbed] += power * (fate.backs + fate.absorbed);
+    ledger[Term::transmitted] += power * fate.transmitted;
     ledger.lost_at_backs += power * fate.backs;
     ledger[Term::unshot] += power * fate.cut;
     for (const auto& met : met_)

@@ -212,7 +212,8 @@ double Pilot::radiosity(const PacketHits& hits, std::size_t ray) const {
   if (!hits.front[ray] && !forest_.is_two_sided(element)) return 0;
   const Scene& scene = forest_.scene();
   const auto& material = scene.materials[scene.material[static_cast<std::size_t>(triangle)].index()];
-  return material.diffuse * static_cast<double>(load_[2 * element + (hits.front[ray] ? 0 : 1)]);
+  const double stopped = 1 - material.transmittance;  // share of the rays that would meet it
+  return material.diffuse / stopped * static_cast<double>(load_[2 * element + (hits.front[ray] ? 0 : 1)]);
 }
 
 }  // namespace sunload

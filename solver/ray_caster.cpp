@@ -3,12 +3,14 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <new>
 
 #include "geo/check.h"
 #include "solver/parallel.h"
+#include "solver/rng.h"
 
 namespace sunload {
 
@@ -90,6 +92,7 @@ std::uint32_t unoccluded_rays(const RTCRay16& ray, std::uint32_t active) {
 }  // namespace
 
 struct RayCaster::Embree {
+  Screens screens;
   DeviceError error;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
@@ -100,7 +103,34 @@ struct RayCaster::Embree {
   }
 };
 
-RayCaster::RayCaster(const Mesh& mesh, const std::string& isa)
+namespace {
+
+/// Uniform in [0, 1), from the coordinates of ray r of N and the key of a triangle.
+float passing_number(RTCRayN* ray, unsigned N, unsigned r, std::uint64_t key) {
+  const auto pair = [](float a, float b) {
+    return std::uint64_t{std::bit_cast<std::uint32_t>(a)} << 32 | std::bit_cast<std::uint32_t>(b);
+  };
+  std::uint64_t hash = mixed(key, pair(RTCRayN_org_x(ray, N, r), RTCRayN_org_y(ray, N, r)));
+  hash = mixed(hash, pair(RTCRayN_org_z(ray, N, r), RTCRayN_dir_x(ray, N, r)));
+  hash = mixed(hash, pair(RTCRayN_dir_y(ray, N, r), RTCRayN_dir_z(ray, N, r)));
+  return uniform(static_cast<std::uint32_t>(hash >> 32));
+}
+
+/// Embree asks it for every hit; the hits that it refuses are as if the triangle were not there.
+void let_pass(const RTCFilterFunctionNArguments* hits) {
+  const auto& screens = *static_cast<const Screens*>(hits->geometryUserPtr);
+  for (unsigned r = 0; r < hits->N; ++r) {
+    if (hits->valid[r] == 0) continue;
+    const unsigned triangle = RTCHitN_primID(hits->hit, hits->N, r);
+    const float T = screens.transmittance[triangle];
+    if (T > 0 && passing_number(hits->ray, hits->N, r, screens.key[triangle]) < T)
+      hits->valid[r] = 0;
+  }
+}
+
+}  // namespace
+
+RayCaster::RayCaster(const Mesh& mesh, const std::string& isa, Screens screens)
     : embree_(std::make_unique<Embree>()),
       isa_(usable_isa(isa)),
       offset_m_(offset_ulps * float_ulp * largest_coordinate(mesh)) {
@@ -125,6 +155,15 @@ RayCaster::RayCaster(const Mesh& mesh, const std::string& isa)
       for (const double coordinate : {p.x, p.y, p.z}) *points++ = static_cast<float>(coordinate);
     for (const auto& triangle : mesh.triangles)
       for (const auto vertex : triangle) *corners++ = static_cast<unsigned>(vertex);
+    if (!screens.transmittance.empty()) {
+      SUNLOAD_EXPECT(screens.transmittance.size() == mesh.triangle_count() &&
+                         screens.key.size() == mesh.triangle_count(),
+                     "one transmittance per triangle");
+      embree_->screens = std::move(screens);
+      rtcSetGeometryUserData(geometry, &embree_->screens);
+      rtcSetGeometryIntersectFilterFunction(geometry, let_pass);
+      rtcSetGeometryOccludedFilterFunction(geometry, let_pass);
+    }
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(embree_->scene, geometry, 0);
   }

@@ -4,6 +4,11 @@
 /// Coordinates are converted to float here. A float carries 24 bits: at a
 /// distance of D metres from the local origin a point is known to D·2^-24, and
 /// a ray must start `offset_m()` above its surface to be sure not to meet it.
+///
+/// A surface of transmittance T stops a ray with probability 1 - T. What decides is a hash of
+/// the ray's own coordinates and the triangle's key: the same ray meets the same
+/// triangles in packets, alone, and on any thread; different rays and triangles decide
+/// independently, so that T^k of the rays pass k layers.
 /// Reference: Wald et al. (2014), Embree: a kernel framework for efficient CPU
 /// ray tracing.
 #pragma once
@@ -13,6 +18,7 @@
 #include <string>
 
 #include "geo/mesh.h"
+#include "solver/material.h"
 
 namespace sunload {
 
@@ -63,7 +69,8 @@ class RayCaster {
  public:
   /// isa: auto | sse4.2 | avx2 | avx512. Throws InputError where the processor
   /// lacks it, MachineError where memory is short. Builds once, then const.
-  explicit RayCaster(const Mesh& mesh, const std::string& isa = "auto");
+  /// Without `screens` every triangle stops every ray.
+  explicit RayCaster(const Mesh& mesh, const std::string& isa = "auto", Screens screens = {});
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;

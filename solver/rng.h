@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 
 namespace sunload {
 
@@ -14,6 +15,8 @@ enum class Purpose : std::uint32_t {
   direct_sun = 2,
   mirror_sun = 3,
   pilot = 4,
+  glossy = 5,
+  glossy_sun = 6,
   lamps = 8,
   circumsolar = 9,
   parallel_light = 10
@@ -45,6 +48,13 @@ constexpr std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
   return z ^ (z >> 31);
+}
+
+/// FNV-1a of a name, stable over runs and machines.
+constexpr std::uint64_t text_key(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return hash;
 }
 
 /// Uniform number in [0, 1) of 24 bits, exact in float.

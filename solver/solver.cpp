@@ -27,13 +27,15 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
+LineRules line_rules(const SolverRules& rules) {
+  return {rules.lines_per_patch, rules.realizations, rules.mirror_depth, rules.seed,
+          rules.link_threshold / rules.lines_per_patch};
+}
+
 Lines timed_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
                   const SkyGrid& grid, const SolverRules& rules, Watch& watch, WorkDone& work) {
   const Stopwatch time(work.lines_s);
-  Lines lines = trace_lines(scene, hierarchy, caster, grid,
-                            {rules.lines_per_patch, rules.realizations, rules.mirror_depth,
-                             rules.seed, rules.link_threshold / rules.lines_per_patch},
-                            watch);
+  Lines lines = trace_lines(scene, hierarchy, caster, grid, line_rules(rules), watch);
   work.line_rays = lines.rays;
   return lines;
 }
@@ -47,7 +49,9 @@ Ledger scaled(Ledger ledger, double factor) {
 Ledger sun_sent_on(const MirroredSun& fate, std::size_t k) {
   Ledger ledger;
   ledger[Term::escaped] = fate.escaped[k];
-  ledger[Term::absorbed] = ledger.lost_at_backs = fate.backs[k];
+  ledger[Term::absorbed] = fate.backs[k] + fate.absorbed[k];
+  ledger[Term::transmitted] = fate.transmitted[k];
+  ledger.lost_at_backs = fate.backs[k];
   ledger[Term::unshot] = fate.cut[k];
   return ledger;
 }
@@ -77,7 +81,7 @@ LightSolver::LightSolver(const Scene& scene, std::shared_ptr<const Hierarchy> me
       rules_(rules),
       mesh_(std::move(mesh)),
       hierarchy_(*mesh_),
-      caster_(scene.mesh, rules.isa),
+      caster_(scene.mesh, rules.isa, screens(scene)),
       optics_(patch_optics(scene, hierarchy_)),
       lines_(ready ? std::move(*ready)
                    : timed_lines(scene, hierarchy_, caster_, grid_, rules, watch, work_)),
@@ -87,6 +91,7 @@ LightSolver::LightSolver(const Scene& scene, std::shared_ptr<const Hierarchy> me
       mirror_chains_(hierarchy_, caster_, sampler_, mirrors_, {rules.mirror_depth, rules.unshot}),
       parallel_(parallel_light(scene, hierarchy_, caster_, sampler_, optics_,
                                static_cast<std::size_t>(rules.realizations), rules.mirror_depth)),
+      glossy_sun_(scene, hierarchy_, caster_, sampler_, optics_, lines_, line_rules(rules)),
       bounces_(bounces_needed(hierarchy_, lines_.pooled, optics_, rules.bounces,
                               rules.unshot)) {
   work_.direct_rays += parallel_.rays;
@@ -167,6 +172,13 @@ void LightSolver::solve_block(std::span<const SunLight> block, std::size_t first
     work_.mirror_shots += followed.shots;
     for (const auto& of_sun : beams) work_.mirror_beams += of_sun.size();
     sent_on = std::move(followed.fates);
+  }
+  if (optics_.any_glossy) {
+    const Stopwatch time(work_.mirror_s);
+    work_.mirror_rays += glossy_sun_.add_light(
+        block, {by_mirror, sums.by_mirror, per_instant ? &by_mirror_of : nullptr});
+    sent_on.resize(realizations);
+    glossy_sun_.follow_light(block, sent_on);
   }
   {
     const Stopwatch time(work_.solve_s);
@@ -301,7 +313,7 @@ void LightSolver::solve_realization(std::size_t r, const TimeSums& sums, BatchTa
     const double total = base[i] + reflected.irradiance[i];
     tally.exposure_realization[r][i] = total;
     ledger += booked({hierarchy_.area()[i], static_cast<double>(optics_.diffuse[i]),
-                      static_cast<double>(optics_.mirror[i]),
+                      optics_.absorbed(i), static_cast<double>(optics_.passed[i]),
                       static_cast<double>(optics_.emission[i]) * sums.length_s, sums.direct[r][i],
                       sky[i], sums.ground, total, reflected.followed[i]},
                      lines.ends[i]);

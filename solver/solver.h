@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/block_light.h"
+#include "solver/glossy_sun.h"
 #include "solver/hierarchy.h"
 #include "solver/jacobi.h"
 #include "solver/lines.h"
@@ -94,6 +95,7 @@ class LightSolver {
   MirrorSun mirror_sun_;
   MirrorChains mirror_chains_;
   ParallelLight parallel_;
+  GlossySun glossy_sun_;
   int bounces_;
 };
 

@@ -32,10 +32,11 @@ LinkTable table(std::size_t rows, std::uint32_t seed) {
 LineSet line_set(std::size_t rows, std::uint32_t seed) {
   LineSet set{table(rows, seed), table(rows, seed + 1), table(rows, seed + 2), {}, {}, {}};
   for (std::size_t i = 0; i < rows; ++i)
-    set.ends.push_back({0.1f * static_cast<float>(i), 0.2f, 0.3f, 0.4f, 0.5f, 0.6f});
+    set.ends.push_back({0.1f * static_cast<float>(i), 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.8f});
   set.lamps.assign(rows, 0.7 + seed);
   set.first_light.escaped = {1.0 / 3, 2, static_cast<double>(seed)};
   set.first_light.backs = {4, 5};
+  set.first_light.transmitted = {6, static_cast<double>(seed)};
   return set;
 }
 
@@ -45,6 +46,8 @@ Lines example() {
   for (std::uint32_t r = 0; r < 3; ++r) lines.realizations.push_back(line_set(rows, r));
   lines.pooled = line_set(rows, 9);
   lines.rays = 12345678901;
+  for (std::uint32_t patch = 0; patch < rows; patch += 7)
+    lines.glimpses.push_back({patch, 2, 5, 1, {1.1f, 2.2f, 3.3f}, {0.6f, 0.8f, 0}, 0.3f});
   return lines;
 }
 
@@ -69,7 +72,9 @@ bool same(const LineSet& a, const LineSet& b) {
          same(a.sky_by_mirror, b.sky_by_mirror) && same_bits(a.ends, b.ends) && same_bits(a.lamps, b.lamps) &&
          same_bits(a.first_light.escaped, b.first_light.escaped) &&
          same_bits(a.first_light.backs, b.first_light.backs) &&
-         same_bits(a.first_light.cut, b.first_light.cut);
+         same_bits(a.first_light.cut, b.first_light.cut) &&
+         same_bits(a.first_light.transmitted, b.first_light.transmitted) &&
+         same_bits(a.first_light.absorbed, b.first_light.absorbed);
 }
 
 void write_bytes(const std::string& path, const std::string& bytes) {
@@ -87,6 +92,7 @@ TEST(PreparedFile, GivesTheSameBitsBack) {
   for (std::size_t r = 0; r < lines.realizations.size(); ++r)
     EXPECT_TRUE(same(read->realizations[r], lines.realizations[r])) << r;
   EXPECT_TRUE(same(read->pooled, lines.pooled));
+  EXPECT_TRUE(same_bits(read->glimpses, lines.glimpses));
   EXPECT_FALSE(same(read->pooled, lines.realizations[0]));
   EXPECT_EQ(folder.content(), std::vector<std::string>{"prepared"});
 }

@@ -114,6 +114,34 @@ TEST(Study, FillsInDefaults) {
   EXPECT_EQ(file.yaml, with({}));
 }
 
+/// Section `scene` with one material.
+std::string scene_of(const std::string& material) {
+  return "{builtin: {name: street}, materials: {a: {" + material + "}}}";
+}
+
+TEST(StudyMaterials, KindsExcludeEachOther) {
+  for (const char* right :
+       {"refractive_index: 1.52", "diffuse: 0.1, refractive_index: 1.52, panes: 3, thickness_m: 0.006",
+        "refractive_index: 1.52, absorption_per_m: 30", "refractive_index: 0.05, extinction_coefficient: 4",
+        "diffuse: 0.2, mirror: 0.1, glossy: 0.4, glossy_exponent: 30, transmittance: 0.3",
+        "diffuse: 0.2, transmittance: 0.8, sides: two"})
+    expect_right({{"scene", scene_of(right)}});
+  const std::pair<const char*, const char*> wrong[] = {
+      {"refractive_index: 0.9", "0.9 is not above 1"},
+      {"refractive_index: 1.5, mirror: 0.1", "a.mirror: cannot stand with refractive_index"},
+      {"refractive_index: 1.5, transmittance: 0.1", "a.transmittance: cannot stand with"},
+      {"refractive_index: 1.5, glossy: 0.1, glossy_exponent: 2", "a.glossy: cannot stand with"},
+      {"extinction_coefficient: 3", "stands without refractive_index"},
+      {"refractive_index: 1.5, extinction_coefficient: 3, panes: 2", "a.panes: cannot stand with"},
+      {"glossy: 0.3", "stands without glossy_exponent"},
+      {"diffuse: 0.5, transmittance: 0.6", "diffuse + transmittance = 1.1 is above 1"},
+      {"diffuse: 0.4, mirror: 0.3, glossy: 0.2, glossy_exponent: 3, transmittance: 0.2",
+       "diffuse + mirror + glossy + transmittance = 1."}};
+  for (const auto& [material, part] : wrong) expect_problem({{"scene", scene_of(material)}}, part);
+  for (const char* unused : {"panes: 2", "glossy_exponent: 30", "absorption_per_m: 3"})
+    EXPECT_EQ(read_text(with({{"scene", scene_of(unused)}})).warnings.size(), 1u) << unused;
+}
+
 TEST(Study, ReadsEverySection) {
   const Study study = read_text(R"(
 format: sunload-study-1
@@ -308,8 +336,6 @@ TEST(Study, ChecksLightSceneAndSolver) {
       "diffuse + mirror = 1.1 is above 1");
   expect_right(
       {{"scene", "{builtin: {name: street}, materials: {a: {diffuse: 0.7, mirror: 0.3}}}"}});
-  expect_problem({{"scene", "{builtin: {name: street}, materials: {a: {refractive_index: 1.5}}}"}},
-                 "scene.materials.a.refractive_index is not supported yet");
   expect_problem({{"solver", "{lines_per_patch: 100}"}}, "write 96 or 104");
   expect_problem({{"solver", "{direct_samples: 4}"}}, "write 8");
   expect_problem({{"solver", "{realizations: 1}"}}, "out of range");
@@ -599,6 +625,14 @@ TEST(CanonicalText, SeesEveryValueThatCanChangeANumber) {
                {"material name", [](Study& s) { s.scene.materials[0].name = "c"; }},
                {"diffuse", [](Study& s) { s.scene.materials[0].diffuse = 0; }},
                {"mirror", [](Study& s) { s.scene.materials[0].mirror = 0; }},
+               {"index", [](Study& s) { s.scene.materials[0].refractive_index = 1.5; }},
+               {"extinction", [](Study& s) { s.scene.materials[0].extinction_coefficient = 3; }},
+               {"thickness", [](Study& s) { s.scene.materials[0].thickness_m = 0.01; }},
+               {"absorption", [](Study& s) { s.scene.materials[0].absorption_per_m = 10; }},
+               {"panes", [](Study& s) { s.scene.materials[0].panes = 2; }},
+               {"glossy", [](Study& s) { s.scene.materials[0].glossy = 0.1; }},
+               {"exponent", [](Study& s) { s.scene.materials[0].glossy_exponent = 10; }},
+               {"transmittance", [](Study& s) { s.scene.materials[0].transmittance = 0.1; }},
                {"emission", [](Study& s) { s.scene.materials[1].emission_w_m2 = 1; }},
                {"sides", [](Study& s) { s.scene.materials[1].sides = Sides::one; }},
                {"fewer materials", [](Study& s) { s.scene.materials.pop_back(); }},
