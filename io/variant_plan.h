@@ -47,6 +47,7 @@ std::string batch_path(const std::string& folder, const VariantPlan& plan, std::
 struct WorkEstimate {
   std::size_t patches = 0;
   std::uint64_t line_rays = 0, direct_rays = 0;
+  std::uint64_t samples = 0;  ///< that are shot
   double memory_bytes = 0, disk_bytes = 0, seconds = 0;
 };
 WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches);

@@ -9,7 +9,13 @@
 namespace sunload {
 
 /// What a number is for: uses never share numbers.
-enum class Purpose : std::uint32_t { lines = 1, direct_sun = 2, mirror_sun = 3, pilot = 4 };
+enum class Purpose : std::uint32_t {
+  lines = 1,
+  direct_sun = 2,
+  mirror_sun = 3,
+  pilot = 4,
+  shooting = 16,
+};
 
 /// Address of a block of random words.
 struct RandomKey {
