@@ -87,7 +87,10 @@ std::vector<double> work_values(const WorkDone& w) {
           w.solve_s,
           w.realizations_s,
           static_cast<double>(w.mirror_beams),
-          static_cast<double>(w.mirror_shots)};
+          static_cast<double>(w.mirror_shots),
+          static_cast<double>(w.samples),
+          static_cast<double>(w.shot_rays),
+          w.shoot_s};
 }
 
 WorkDone work_from(const std::vector<double>& v) {
@@ -100,7 +103,10 @@ WorkDone work_from(const std::vector<double>& v) {
           .direct_s = v.at(4),
           .mirror_s = v.at(5),
           .solve_s = v.at(6),
-          .realizations_s = v.at(7)};
+          .realizations_s = v.at(7),
+          .samples = static_cast<std::uint64_t>(v.at(10)),
+          .shot_rays = static_cast<std::uint64_t>(v.at(11)),
+          .shoot_s = v.at(12)};
 }
 
 void add_tally(BatchWriter& writer, const BatchTally& tally, const LightSolver& solver,

@@ -94,13 +94,15 @@ std::string parallel_sources_text(const ParallelSources& sources) {
 }
 
 std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
+  const std::string shot =
+      work.samples > 0 ? fmt::format(", {:.3g} samples shot", static_cast<double>(work.samples)) : "";
   return fmt::format(
       "  {} patches, {} intervals ({} with sun) in {} batches\n"
-      "  {:.3g} lines, about {:.3g} shadow rays; estimated {:.0f} MiB memory, {:.0f} MiB disk, "
+      "  {:.3g} lines, about {:.3g} shadow rays{}; estimated {:.0f} MiB memory, {:.0f} MiB disk, "
       "{:.0f} s on {} threads\n",
       work.patches, plan.intervals(), plan.light.lit_count(), plan.batches(),
       static_cast<double>(work.line_rays), static_cast<double>(work.direct_rays),
-      work.memory_bytes / mib, work.disk_bytes / mib, work.seconds, thread_count());
+      shot, work.memory_bytes / mib, work.disk_bytes / mib, work.seconds, thread_count());
 }
 
 void print_text(const VariantPlan& plan, const RefineReport& mesh, const WorkEstimate& work) {

@@ -165,7 +165,7 @@ double ledger_kwh(const ResultReader& result, const std::string& term) {
 std::string runtime(const ResultReader& result) {
   std::string words;
   for (const char* stage :
-       {"lines", "direct", "mirror", "solve", "realizations"}) {
+       {"lines", "direct", "mirror", "solve", "realizations", "shoot"}) {
     const double seconds = result.number_attribute(fmt::format("runtime_{}_s", stage));
     if (!std::isnan(seconds))
       words += fmt::format("{}{} {:.3g} s", words.empty() ? "" : ", ", stage, seconds);

@@ -184,6 +184,7 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
             {"study_sha256", plan.content_hash},
             {"pairing_id", plan.pairing_id},
             {"isa", plan.isa},
+            {"transport", study.solver.transport == Transport::shoot ? "shoot" : "gather"},
             {"timezone", study.site.timezone},
             {"site_source", plan.built.site_source},
             {"sun_sampling", std::holds_alternative<InstantsPeriod>(study.period.kind)
@@ -211,6 +212,11 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
                 {"mirror_rays", static_cast<std::int64_t>(work.mirror_rays)},
                 {"mirror_beams", static_cast<std::int64_t>(work.mirror_beams)},
                 {"mirror_shots", static_cast<std::int64_t>(work.mirror_shots)}};
+  if (study.solver.transport == Transport::shoot) {
+    a.numbers.emplace_back("runtime_shoot_s", work.shoot_s);
+    a.integers.emplace_back("samples_shot", static_cast<std::int64_t>(work.samples));
+    a.integers.emplace_back("shot_rays", static_cast<std::int64_t>(work.shot_rays));
+  }
   std::string weather;
   for (const auto& line : plan.light.weather) weather += line + "\n";
   if (!weather.empty()) a.text.emplace_back("weather", weather);

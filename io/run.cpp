@@ -67,8 +67,9 @@ void check_limits(const std::string& folder, const WorkEstimate& work, double th
   if (const double left = available_memory_bytes(); work.memory_bytes > left)
     throw MachineError(fmt::format(
         "too little memory: about {:.1f} GiB are needed for {} patches, {:.1f} GiB are available; "
-        "use a larger mesh.max_edge_m, fewer lines_per_patch or a smaller batch_suns",
-        work.memory_bytes / gib, work.patches, left / gib));
+        "use a larger mesh.max_edge_m, fewer lines_per_patch or a smaller batch_suns{}",
+        work.memory_bytes / gib, work.patches, left / gib,
+        work.samples > 0 ? ", and a larger power_per_sample_w or auto" : ""));
   if (const double left = free_disk_bytes(folder); work.disk_bytes - there > left)
     throw MachineError(fmt::format(
         "too little disk space for {}: about {:.1f} GiB are needed, {:.1f} GiB are free; "

@@ -27,6 +27,7 @@
 #include "io/scene_file.h"
 #include "solver/oracle.h"
 #include "io/light_quantity.h"
+#include "solver/transport.h"
 
 namespace sunload {
 
@@ -153,9 +154,10 @@ struct MeshStudy {
   double link_threshold = 0.5;        ///< of the exchange between elements
 };
 
-enum class Transport { gather };
 struct SolverStudy {
   Transport transport = Transport::gather;
+  Jacobi jacobi = Jacobi::incremental;
+  std::optional<double> power_per_sample_w;  ///< absent: auto
   int bounces = 5;
   double unshot = 1e-3;
   int lines_per_patch = 256;

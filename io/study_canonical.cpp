@@ -177,9 +177,11 @@ json canonical(const MeshStudy& mesh) {
 json canonical(const SolverStudy& solver) {
   // `isa` is left out: the instruction set in force is hashed apart, so that
   // pinning it finds the batches that `auto` computed on such a machine.
-  const auto& [transport, bounces, unshot, lines_per_patch, direct_samples, realizations,
+  const auto& [transport, jacobi, power_per_sample_w, bounces, unshot, lines_per_patch, direct_samples, realizations,
                mirror_depth, batch_suns, isa, seed] = solver;
   return {{"transport", transport},
+          {"jacobi", jacobi},
+          {"power_per_sample_w", maybe(power_per_sample_w)},
           {"bounces", bounces},
           {"unshot", unshot},
           {"lines_per_patch", lines_per_patch},

@@ -15,6 +15,7 @@ constexpr int most_batch_suns = 65536;
 constexpr int fewest_realizations = 2;  // one has no spread
 constexpr int strongest_compression = 9;
 constexpr Range shares{0, 1};
+constexpr Range watts{0, 1e12, Range::Low::excluded};
 
 /// Each realization gets its equal share.
 void check_shares(YamlMap& map, const std::string& key, int count, int realizations) {
@@ -46,11 +47,26 @@ std::vector<std::string> read_series(YamlMap& map, std::vector<std::string> abse
   return series;
 }
 
+/// Gathering has no samples of power.
+void read_shooting(YamlMap& map, SolverStudy& solver) {
+  solver.jacobi = map.choice(
+      "jacobi", {{"incremental", Jacobi::incremental}, {"regular", Jacobi::regular}}, solver.jacobi);
+  const std::string key = "power_per_sample_w";
+  if (map.kind(key) != YamlNode::Kind::text || map.text(key, "") != "auto")
+    solver.power_per_sample_w = map.number(key, watts);
+  if (solver.transport == Transport::shoot) return;
+  for (const std::string& unused : {std::string("jacobi"), key})
+    if (map.has(unused)) map.warn(unused, "is not used", "it belongs to transport: shoot");
+}
+
 }  // namespace
 
 SolverStudy read_solver(YamlMap& map) {
   SolverStudy solver;
-  solver.transport = map.choice("transport", {{"gather", Transport::gather}}, solver.transport);
+  solver.transport =
+      map.choice("transport", {{"gather", Transport::gather}, {"shoot", Transport::shoot}},
+                 solver.transport);
+  read_shooting(map, solver);
   solver.bounces = map.integer("bounces", 0, most_bounces, solver.bounces);
   solver.unshot = map.number("unshot", shares, solver.unshot);
   solver.lines_per_patch = map.integer("lines_per_patch", 1, most_lines, solver.lines_per_patch);
@@ -64,7 +80,6 @@ SolverStudy read_solver(YamlMap& map) {
   const auto seed = map.integer("seed", std::int64_t{0}, std::numeric_limits<std::int64_t>::max(),
                                 static_cast<std::int64_t>(solver.seed));
   solver.seed = static_cast<std::uint64_t>(seed);
-  map.word("power_per_sample_w", {"auto"}, "auto");
   if (realizations > 0) {
     solver.realizations = realizations;
     check_shares(map, "lines_per_patch", solver.lines_per_patch, realizations);
@@ -88,8 +103,6 @@ OutputStudy read_output(YamlMap& map) {
 
 std::vector<LaterKey> later_keys() {
   return {
-      {"solver.transport", "shoot"},
-      {"solver.power_per_sample_w", ""},
       {"solver.accuracy", ""},
       {"solver.max_lines_per_patch", ""},
       {"solver.bands", ""},

@@ -93,6 +93,7 @@ std::string pairing_id(const VariantPlan& plan) {
   digest.add(times_text(plan.light));
   digest.add(s.seed);
   for (const int n : {s.realizations, s.lines_per_patch, s.direct_samples}) digest.add(n);
+  digest.add(s.transport);
   return digest.hex().substr(0, 16);
 }
 
@@ -113,6 +114,10 @@ constexpr double facing_share = 0.62;    ///< of a sun's rays that need be cast
 constexpr double mirrored_share = 0.11;  ///< of them again, where there are mirrors
 constexpr double program_bytes = 3.6e7, bytes_per_line = 12.2, bytes_per_patch = 1400;
 constexpr double double_bytes = 8, float_bytes = 4;
+constexpr double s_per_sample = 6e-7;                  ///< shot, with its deposit
+constexpr double bytes_per_sample = 40;                ///< of one realization and iteration
+constexpr double shooting_bytes_per_patch = 2300;      ///< columns in double
+constexpr double columns_of_a_realization = 8;         ///< direct sun, in doubles
 constexpr double arrays_of_realizations = 4;  ///< doubles of a patch and realization
 constexpr double stored_bytes_per_value = 2.5;
 constexpr double kept_bytes_per_line = 12.5;  ///< in the prepared file
@@ -126,6 +131,43 @@ void refuse_lamps_in_lux(const VariantPlan& plan) {
                    "set their emission_w_m2 to 0, or light.quantity to irradiance");
 }
 
+/// Shooting sends the light of the scene's own emitters only.
+void refuse_parallel_sources_when_shooting(const VariantPlan& plan) {
+  if (plan.study.solver.transport != Transport::shoot ||
+      plan.study.scene.parallel_sources.empty())
+    return;
+  throw InputError(plan.study.scene.parallel_sources_where,
+                   "scene.parallel_sources cannot go with solver.transport: shoot",
+                   "shooting sends the light of sun, sky and the scene's own emitters",
+                   "write transport: gather, or leave parallel_sources away");
+}
+
+/// Samples of all shots: those of the first reflection, then (incremental) less by what is
+/// absorbed, one at least of every patch. The light on a patch is taken as that on a sphere.
+double estimated_samples(const VariantPlan& plan, double patches, double blocks) {
+  const SolverStudy& s = plan.study.solver;
+  const Scene& scene = plan.built.scene;
+  double area = 0, reflecting = 0, emitted_w = 0, brightest_w_m2 = 0;
+  for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
+    const Material& m = scene.materials[scene.material[t].index()];
+    const double a = norm(scene.mesh.area_vector2(t)) / 2;
+    area += a;
+    reflecting += a * m.diffuse;
+    emitted_w += a * m.emission_w_m2;
+  }
+  for (const auto& i : plan.light.intervals)
+    brightest_w_m2 = std::max(brightest_w_m2, i.mean.dni / 4 + i.mean.dhi / 2);
+  const double by_auto = patches * s.lines_per_patch, least = patches * s.realizations;
+  const auto samples_of = [&](double power_w) {
+    return s.power_per_sample_w ? power_w / *s.power_per_sample_w : by_auto;
+  };
+  const double first = samples_of(reflecting * brightest_w_m2 + emitted_w);
+  const double left = s.jacobi == Jacobi::regular ? 1 : reflecting / area;  // after a reflection
+  double samples = 0, share = 1;
+  for (int b = 0; b < s.bounces; ++b, share *= left) samples += std::max(least, first * share);
+  return blocks * samples + (emitted_w > 0 ? samples_of(emitted_w) : 0);
+}
+
 }  // namespace
 
 VariantPlan make_plan(const Study& study) {
@@ -135,6 +177,7 @@ VariantPlan make_plan(const Study& study) {
   plan.built = build_scene(study);
   plan.light = light_series(study, plan.built.site);
   refuse_lamps_in_lux(plan);
+  refuse_parallel_sources_when_shooting(plan);
   plan.content_hash = content_hash(plan, plan.isa);
   plan.pairing_id = pairing_id(plan);
   return plan;
@@ -180,7 +223,10 @@ SolverRules solver_rules(const VariantPlan& plan) {
           .seed = s.seed,
           .isa = plan.isa,
           .errors = plan.study.output.standard_error == StandardErrors::instants ? Errors::instants
-                                                                                 : Errors::totals};
+                                                                                 : Errors::totals,
+          .transport = s.transport,
+          .jacobi = s.jacobi,
+          .power_per_sample_w = s.power_per_sample_w};
 }
 
 std::string result_path(const std::string& folder, const Study& study) {
@@ -269,6 +315,13 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
   work.memory_bytes = program_bytes + lines * bytes_per_line +
                       n * (batch * parts * float_bytes + arrays_of_realizations * of_realizations +
                            bytes_per_patch);
+  if (s.transport == Transport::shoot) {
+    const double blocks = batches * std::ceil(batch / static_cast<double>(block_width));
+    work.samples = static_cast<std::uint64_t>(estimated_samples(plan, n, blocks));
+    const double per_shot = static_cast<double>(work.samples) / (blocks * std::max(1, s.bounces));
+    work.memory_bytes += n * (shooting_bytes_per_patch + of_realizations * columns_of_a_realization) +
+                         per_shot / s.realizations * bytes_per_sample;
+  }
   work.disk_bytes = n * lit * stored_bytes_per_value *
                         (parts + static_cast<double>(plan.study.output.series.size())) +
                     n * batches * (of_realizations + batch_bytes_per_patch) +
@@ -277,7 +330,9 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
   work.seconds =
       (s_to_start + n * s_per_patch + lines * line_seconds(plan.built.scene, s.mirror_depth) + rays * s_per_direct_ray +
        (mirrors ? n * mirrored_share * lit * s.direct_samples * s_per_mirror_ray : 0) +
-       links * lit * s_per_link_sun + links * batches * s_per_link_batch +
+       (s.transport == Transport::gather
+            ? links * lit * s_per_link_sun + links * batches * s_per_link_batch
+            : static_cast<double>(work.samples) * s_per_sample) +
        n * lit * s_per_patch_sun + n * static_cast<double>(plan.intervals()) * s_per_value) /
       thread_count();
   return work;

@@ -52,6 +52,7 @@ std::size_t sun_count(const VariantPlan& plan, std::size_t batch);
 struct WorkEstimate {
   std::size_t patches = 0;
   std::uint64_t line_rays = 0, direct_rays = 0;
+  std::uint64_t samples = 0;  ///< that are shot
   double memory_bytes = 0, disk_bytes = 0, seconds = 0;
 };
 WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches);

@@ -19,7 +19,8 @@ enum class Purpose : std::uint32_t {
   glossy_sun = 6,
   lamps = 8,
   circumsolar = 9,
-  parallel_light = 10
+  parallel_light = 10,
+  shooting = 16,
 };
 
 /// Address of a block of random words.

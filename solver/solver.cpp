@@ -1,31 +1,20 @@
 #include "solver/solver.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 
 #include "geo/check.h"
 #include "geo/units.h"
+#include "solver/instant_spread.h"
 #include "solver/parallel.h"
 #include "solver/push_pull.h"
+#include "solver/shooting.h"
+#include "solver/stopwatch.h"
 
 namespace sunload {
 
 namespace {
 
 constexpr std::size_t patches_per_task = 1024;
-
-/// Adds the time until its end to a counter [s].
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double& seconds_;
-  Clock::time_point start_ = Clock::now();
-};
 
 LineRules line_rules(const SolverRules& rules) {
   return {rules.lines_per_patch, rules.realizations, rules.mirror_depth, rules.seed,
@@ -38,12 +27,6 @@ Lines timed_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaste
   Lines lines = trace_lines(scene, hierarchy, caster, grid, line_rules(rules), watch);
   work.line_rays = lines.rays;
   return lines;
-}
-
-Ledger scaled(Ledger ledger, double factor) {
-  for (auto& term : ledger.terms) term *= factor;
-  ledger.lost_at_backs *= factor;
-  return ledger;
 }
 
 Ledger sun_sent_on(const MirroredSun& fate, std::size_t k) {
@@ -95,7 +78,16 @@ LightSolver::LightSolver(const Scene& scene, std::shared_ptr<const Hierarchy> me
       bounces_(bounces_needed(hierarchy_, lines_.pooled, optics_, rules.bounces,
                               rules.unshot)) {
   work_.direct_rays += parallel_.rays;
+  if (rules.transport != Transport::shoot) return;
+  const Stopwatch time(work_.shoot_s);
+  shooter_ = std::make_unique<Shooter>(
+      scene, hierarchy_, caster_, sampler_, grid_, lines_, line_rules(rules),
+      ShootingRules{bounces_, rules.jacobi, rules.power_per_sample_w});
+  work_.shot_rays = shooter_->rays();
+  work_.samples = shooter_->samples();
 }
+
+LightSolver::~LightSolver() = default;
 
 bool LightSolver::has_part(Part part) const {
   if (part == Part::mirror) return optics_.any_mirror;
@@ -125,7 +117,9 @@ BatchTally LightSolver::solve(std::span<const SunLight> batch, Watch& watch) {
   for (std::size_t begin = 0; begin < batch.size();) {
     std::size_t end = begin;
     while (end < batch.size() && end - begin < block_width && lit(end)) ++end;
-    if (end > begin) solve_block(batch.subspan(begin, end - begin), begin, sums, tally);
+    const auto block = batch.subspan(begin, end - begin);
+    if (!block.empty() && shooter_) shoot_block(block, begin, tally);
+    if (!block.empty() && !shooter_) solve_block(block, begin, sums, tally);
     begin = std::max(end, begin + 1);
     watch.advance(Stage::light, static_cast<double>(begin) / static_cast<double>(batch.size()));
   }
@@ -133,6 +127,7 @@ BatchTally LightSolver::solve(std::span<const SunLight> batch, Watch& watch) {
   for (std::size_t k = 0; k < batch.size(); ++k)
     tally.energy += scaled(tally.ledger[k], batch[k].length_s);
 
+  if (shooter_) return tally;  // its realizations have their totals from their series
   const Stopwatch time(work_.realizations_s);
   for (std::size_t r = 0; r < realizations; ++r) solve_realization(r, sums, tally);
   return tally;
@@ -261,10 +256,8 @@ void LightSolver::errors_per_instant(const BlockSources& sources, std::size_t fi
                                      std::vector<Columns>& direct, std::vector<Columns>& by_mirror,
                                      const std::vector<Columns>& circumsolar,
                                      BatchTally& tally) const {
-  const std::size_t patches = hierarchy_.patch_count(), R = direct.size();
-  const std::size_t suns = sources.suns.size();
-  std::vector<double> sum(patches * block_width, 0), squares = sum;
-  for (std::size_t r = 0; r < R; ++r) {
+  InstantSpread spread(hierarchy_.patch_count(), sources.suns.size());
+  for (std::size_t r = 0; r < direct.size(); ++r) {
     const LineSet& lines = lines_.realizations[r];
     const BlockLight light = block_light(hierarchy_, lines, optics_, sources,
                                          {std::move(direct[r]), std::move(by_mirror[r]),
@@ -273,23 +266,9 @@ void LightSolver::errors_per_instant(const BlockSources& sources, std::size_t fi
     const auto ledger = block_ledger(lines, optics_, hierarchy_.area(), sources, light);
     std::copy(ledger.begin(), ledger.end(),
               tally.ledger_instants[r].begin() + static_cast<std::ptrdiff_t>(first_row));
-    parallel_for(patches, [&](std::size_t i) {
-      for (std::size_t k = 0; k < suns; ++k) {
-        const auto E = static_cast<double>(light.total(i, k));
-        sum[i * block_width + k] += E;
-        squares[i * block_width + k] += E * E;
-      }
-    }, patches_per_task);
+    spread.add(light);
   }
-  const auto n = static_cast<double>(R);
-  parallel_for(patches, [&](std::size_t i) {
-    for (std::size_t k = 0; k < suns; ++k) {
-      const std::size_t at = i * block_width + k;
-      const double variance = std::max(0.0, squares[at] - sum[at] * sum[at] / n) / (n - 1);
-      tally.irradiance_se[(first_row + k) * patches + i] =
-          static_cast<float>(std::sqrt(variance / n));
-    }
-  }, patches_per_task);
+  spread.store(first_row, tally);
 }
 
 void LightSolver::solve_realization(std::size_t r, const TimeSums& sums, BatchTally& tally) const {

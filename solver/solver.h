@@ -16,9 +16,13 @@
 #include "solver/mirror_sun.h"
 #include "solver/parallel_light.h"
 #include "solver/tally.h"
+#include "solver/transport.h"
 #include "solver/watch.h"
 
 namespace sunload {
+
+class Shooter;
+struct ShotLight;
 
 enum class Errors { totals, instants };
 
@@ -37,13 +41,16 @@ struct SolverRules {
   std::uint64_t seed = 1;
   std::string isa = "auto";
   Errors errors = Errors::totals;
+  Transport transport = Transport::gather;
+  Jacobi jacobi = Jacobi::incremental;        ///< when shooting
+  std::optional<double> power_per_sample_w;   ///< when shooting, ShootingRules
 };
 
 /// Light on a frozen mesh: prepared once per variant, then any batch of suns.
 ///
-/// All results are the same bits for any number of threads, and those of an
-/// interval do not depend on the batch that it is solved in (time sums do, by
-/// the order of additions).
+/// All results are the same bits for any number of threads. When gathering, those
+/// of an interval do not depend on the batch that it is solved in (time sums do,
+/// by the order of additions); when shooting, suns of a block share their samples.
 class LightSolver {
  public:
   /// Builds the ray caster and traces all lines, unless those of an equal solver
@@ -53,6 +60,7 @@ class LightSolver {
   /// On a mesh that is split by edge length alone.
   LightSolver(const Scene& scene, const SplitRules& split, const SolverRules& rules,
               Watch& watch, std::optional<Lines> ready = {});
+  ~LightSolver();
 
   const Hierarchy& hierarchy() const { return hierarchy_; }
   const RayCaster& caster() const { return caster_; }
@@ -73,6 +81,9 @@ class LightSolver {
   void solve_block(std::span<const SunLight> block, std::size_t first_row, TimeSums& sums,
                    BatchTally& tally);
   std::vector<SunBeams> beams_of(std::span<const SunLight> block) const;
+  void shoot_block(std::span<const SunLight> block, std::size_t first_row, BatchTally& tally);
+  void add_realization(std::size_t r, const ShotLight& light, std::span<const SunLight> block,
+                       std::size_t first_row, BatchTally& tally) const;
   void store(const BlockLight& light, std::span<const SunLight> block, std::size_t first_row,
              const Columns& sunlit, BatchTally& tally) const;
   void errors_per_instant(const BlockSources& sources, std::size_t first_row,
@@ -97,6 +108,7 @@ class LightSolver {
   ParallelLight parallel_;
   GlossySun glossy_sun_;
   int bounces_;
+  std::unique_ptr<Shooter> shooter_;  ///< null when gathering
 };
 
 }  // namespace sunload

@@ -51,4 +51,11 @@ using Columns = std::vector<float, Aligned<float>>;
 
 inline Columns columns(std::size_t rows) { return Columns(rows * block_width, 0.0f); }
 
+/// The same where sums must keep all digits.
+using DoubleColumns = std::vector<double, Aligned<double>>;
+
+inline DoubleColumns double_columns(std::size_t rows) {
+  return DoubleColumns(rows * block_width, 0.0);
+}
+
 }  // namespace sunload

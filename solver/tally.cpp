@@ -20,6 +20,12 @@ Ledger& Ledger::operator+=(const Ledger& other) {
   return *this;
 }
 
+Ledger scaled(Ledger ledger, double factor) {
+  for (auto& term : ledger.terms) term *= factor;
+  ledger.lost_at_backs *= factor;
+  return ledger;
+}
+
 WorkDone& WorkDone::operator-=(const WorkDone& earlier) {
   line_rays -= earlier.line_rays;
   direct_rays -= earlier.direct_rays;
@@ -31,6 +37,9 @@ WorkDone& WorkDone::operator-=(const WorkDone& earlier) {
   mirror_s -= earlier.mirror_s;
   solve_s -= earlier.solve_s;
   realizations_s -= earlier.realizations_s;
+  samples -= earlier.samples;
+  shot_rays -= earlier.shot_rays;
+  shoot_s -= earlier.shoot_s;
   return *this;
 }
 

@@ -36,6 +36,7 @@ struct Ledger {
   double residual() const { return in() - out(); }
   Ledger& operator+=(const Ledger& other);
 };
+Ledger scaled(Ledger ledger, double factor);
 
 /// Results of consecutive intervals. N patches, K intervals, R realizations.
 /// Energies are J m-2 (patches) and J (ledger); a part that the scene cannot
@@ -61,6 +62,8 @@ struct WorkDone {
   std::uint64_t mirror_beams = 0;  ///< of all suns, by image directions
   std::uint64_t mirror_shots = 0;  ///< arrivals of mirrored sun that no beam stands for
   double lines_s = 0, direct_s = 0, mirror_s = 0, solve_s = 0, realizations_s = 0;
+  std::uint64_t samples = 0, shot_rays = 0;  ///< shot; cast for them, chains included
+  double shoot_s = 0;
   WorkDone& operator-=(const WorkDone& earlier);
 };
 

@@ -189,6 +189,26 @@ output: {folder: out, series: [total, sky], standard_error: instants, compressio
   EXPECT_EQ(study.output.standard_error, StandardErrors::instants);
 }
 
+TEST(Study, ReadsTheShootingTransport) {
+  const auto solver = [](const std::string& keys) {
+    return read_text(with({{"solver", "{" + keys + "}"}}));
+  };
+  const Study study =
+      solver("transport: shoot, jacobi: regular, power_per_sample_w: 0.25").variants[0];
+  EXPECT_EQ(study.solver.transport, Transport::shoot);
+  EXPECT_EQ(study.solver.jacobi, Jacobi::regular);
+  EXPECT_EQ(study.solver.power_per_sample_w, 0.25);
+  const auto by_default = solver("power_per_sample_w: auto, transport: shoot");
+  EXPECT_EQ(by_default.variants[0].solver.jacobi, Jacobi::incremental);
+  EXPECT_FALSE(by_default.variants[0].solver.power_per_sample_w);
+  EXPECT_TRUE(by_default.warnings.empty());
+  // Gathering has no samples of power.
+  EXPECT_EQ(solver("jacobi: regular, power_per_sample_w: 2").warnings.size(), 2u);
+  for (const char* wrong : {"power_per_sample_w: 0", "power_per_sample_w: -1",
+                            "power_per_sample_w: some", "jacobi: gauss", "transport: throw"})
+    EXPECT_FALSE(problems_of(with({{"solver", std::string("{") + wrong + "}"}})).empty()) << wrong;
+}
+
 TEST(Study, ResolvesPathsFromTheStudysFolder) {
   const Folder folder;
   folder.write("models/a.obj", "v 0 0 0\n");
@@ -648,6 +668,9 @@ TEST(CanonicalText, SeesEveryValueThatCanChangeANumber) {
                {"ground by default", [](Study& s) { s.scene.ground.reset(); }},
                {"max edge", [](Study& s) { s.mesh.max_edge_m = 1; }},
                {"min area", [](Study& s) { s.mesh.min_area_m2 = 1; }},
+               {"transport", [](Study& s) { s.solver.transport = Transport::shoot; }},
+               {"jacobi", [](Study& s) { s.solver.jacobi = Jacobi::regular; }},
+               {"power per sample", [](Study& s) { s.solver.power_per_sample_w = 0.5; }},
                {"bounces", [](Study& s) { s.solver.bounces = 1; }},
                {"unshot", [](Study& s) { s.solver.unshot = 0; }},
                {"lines", [](Study& s) { s.solver.lines_per_patch = 8; }},

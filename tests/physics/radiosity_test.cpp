@@ -1,5 +1,5 @@
-/// Diffuse light against exact systems: rooms of twelve triangles, plates, furnaces,
-/// truncated bounces, street canyons.
+/// Diffuse light of both transports against exact systems: rooms of twelve triangles,
+/// plates, furnaces, truncated bounces, street canyons.
 
 #include <gtest/gtest.h>
 
@@ -22,15 +22,24 @@ constexpr const char* exact_systems = "05_radiosity/exact_systems.json";
 const auto everywhere = [](std::size_t) { return true; };
 const SunLight night = one_second({0, 0, -1}, 0);
 
-SolverRules rules_of(int lines_per_realization, int bounces) {
-  SolverRules rules = test_rules();
-  rules.realizations = 32;
-  rules.lines_per_patch = rules.realizations * lines_per_realization;
-  rules.direct_samples = 32 * 16;
-  rules.bounces = bounces;
-  rules.mirror_depth = 1000;
-  return rules;
-}
+/// Both transports must have the same truth.
+class Radiosity : public testing::TestWithParam<Transport> {
+ protected:
+  static SolverRules rules_of(int lines_per_realization, int bounces) {
+    SolverRules rules = test_rules();
+    rules.realizations = 32;
+    rules.lines_per_patch = rules.realizations * lines_per_realization;
+    rules.direct_samples = 32 * 16;
+    rules.bounces = bounces;
+    rules.mirror_depth = 1000;
+    rules.transport = GetParam();
+    return rules;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(By, Radiosity, testing::Values(Transport::gather, Transport::shoot),
+                         [](const auto& by) {
+                           return by.param == Transport::gather ? "gathering" : "shooting";
+                         });
 
 void check(const std::string& id, const std::vector<double>& values, double truth, double bias,
            double fault = 1.02) {
@@ -41,7 +50,7 @@ void check(const std::string& id, const std::vector<double>& values, double trut
 }
 
 // One unknown per triangle with exact form factors: B = E + rho H.
-TEST(RoomOfTwelveTriangles, HasTheExactRadiosity) {
+TEST_P(Radiosity, RoomOfTwelveTrianglesHasTheExactRadiosity) {
   if (shared_missing("reference")) return;
   for (const auto& c : reference_cases("05_radiosity/box_12_triangles.json", "box12_")) {
     SceneBuilder builder;
@@ -83,7 +92,7 @@ Scene cavity(double rho, double M) {
   return builder.scene();
 }
 
-TEST(ClosedCavity, UniformWallsAndTruncatedBounces) {
+TEST_P(Radiosity, ClosedCavityUniformWallsAndTruncatedBounces) {
   if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(exact_systems, "uniform_closed_")) {
     const double rho = number(c["rho"]), M = number(c["E"]);
@@ -121,7 +130,7 @@ Scene plates(const json& rho, const json& M) {
 }
 
 // B1 = M1 + rho1 B2, B2 = M2 + rho2 B1. Mirrors are taken as perfect and as many.
-TEST(InfinitePlates, BetweenMirrors) {
+TEST_P(Radiosity, InfinitePlatesBetweenMirrors) {
   if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(exact_systems, "infinite_parallel_plates_")) {
     const Scene scene = plates(c["rho"], c["E"]);
@@ -139,7 +148,7 @@ TEST(InfinitePlates, BetweenMirrors) {
 // Two facing rectangles in a black void, one unknown each: the radiosity of each is taken
 // as uniform in the reference, hence by the solver only where one patch is one rectangle.
 // Two triangles per rectangle differ from that by what halving the mesh changes.
-TEST(OpenRectangles, SeeEachOther) {
+TEST_P(Radiosity, OpenRectanglesSeeEachOther) {
   if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(exact_systems, "two_open_rectangles_")) {
     const double x = number(c["size"][0]), y = number(c["size"][1]), d = number(c["distance"]);
@@ -167,7 +176,7 @@ TEST(OpenRectangles, SeeEachOther) {
 }
 
 // Radiance L from everywhere, every surface sending (1 - rho) pi L of its own: B = pi L.
-TEST(Furnace, OfAnOpenScene) {
+TEST_P(Radiosity, FurnaceOfAnOpenScene) {
   if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(exact_systems, "furnace_open_")) {
     const double rho = number(c["rho"]), glow = pi * number(c["L"]);
@@ -209,7 +218,7 @@ struct Canyon {
   SunLight light;
 };
 
-TEST(StreetCanyon, WithSunAndSky) {
+TEST_P(Radiosity, StreetCanyonWithSunAndSky) {
   if (shared_missing("reference")) return;
   for (const auto& c : reference_cases("05_radiosity/street_canyon_2d.json", "canyon_")) {
     const Canyon canyon(c);

@@ -1,0 +1,101 @@
+#include "solver/light_chain.h"
+
+namespace sunload {
+
+Fate& Fate::operator+=(const Fate& other) {
+  absorbed += other.absorbed;
+  backs += other.backs;
+  escaped += other.escaped;
+  cut += other.cut;
+  rays += other.rays;
+  return *this;
+}
+
+void Fates::add(const Fate& fate, const double* power) {
+  for (std::size_t k = 0; k < block_width; ++k) {
+    absorbed[k] += power[k] * fate.absorbed;
+    backs[k] += power[k] * fate.backs;
+    escaped[k] += power[k] * fate.escaped;
+    cut[k] += power[k] * fate.cut;
+  }
+}
+
+Fates& Fates::operator+=(const Fates& other) {
+  for (std::size_t k = 0; k < block_width; ++k) {
+    absorbed[k] += other.absorbed[k];
+    backs[k] += other.backs[k];
+    escaped[k] += other.escaped[k];
+    cut[k] += other.cut[k];
+  }
+  return *this;
+}
+
+LightChain::LightChain(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
+                       int mirror_depth)
+    : scene_(scene), hierarchy_(hierarchy), caster_(caster), mirror_depth_(mirror_depth) {}
+
+const Material& LightChain::material_of(std::int32_t triangle) const {
+  return scene_.materials[scene_.material[static_cast<std::size_t>(triangle)].index()];
+}
+
+Vec3 LightChain::lifted_point(const Hit& hit, Vec3 normal) const {
+  const auto t = static_cast<std::size_t>(hit.triangle);
+  const Mesh& mesh = scene_.mesh;
+  return mesh.corner(t, 0) * (1 - hit.u - hit.v) + mesh.corner(t, 1) * hit.u +
+         mesh.corner(t, 2) * hit.v + normal * caster_.offset_m();
+}
+
+Fate LightChain::follow(Vec3 w, const Hit& hit, std::uint32_t source, double weight,
+                        std::vector<Deposit>& deposits) const {
+  return go_on(w, hit, source, weight, 0, deposits);
+}
+
+Fate LightChain::mirror_on(Vec3 point, Vec3 towards, std::size_t mirror_patch,
+                           std::uint32_t source, double weight,
+                           std::vector<Deposit>& deposits) const {
+  const Material& material = material_of(hierarchy_.patches()[mirror_patch].triangle);
+  const Vec3 n = hierarchy_.normal(mirror_patch);
+  const double mirror = mirror_reflectance(material, dot(towards, n));
+  Fate fate;
+  fate.absorbed = weight * (1 - material.diffuse - mirror);
+  if (mirror_depth_ < 1) {  // not even the first reflection is followed
+    fate.cut = weight * mirror;
+    return fate;
+  }
+  const Vec3 away = mirrored(towards, n);
+  fate += go_on(away, caster_.first_hit(point, away), source, weight * mirror, 1, deposits);
+  ++fate.rays;
+  return fate;
+}
+
+Fate LightChain::go_on(Vec3 w, Hit hit, std::uint32_t source, double weight, int reflections,
+                       std::vector<Deposit>& deposits) const {
+  Fate fate;
+  for (;; ++reflections) {
+    if (hit.left_scene()) {
+      fate.escaped = weight;
+      return fate;
+    }
+    const auto patch = hierarchy_.patch_at(hit.triangle, hit.u, hit.v, hit.front);
+    if (patch < 0) {
+      fate.backs = weight;
+      return fate;
+    }
+    deposits.push_back({static_cast<std::uint32_t>(patch), source, weight});
+    const Material& material = material_of(hit.triangle);
+    const Vec3 n = hierarchy_.normal(static_cast<std::size_t>(patch));
+    const double mirror = material.mirror > 0 ? mirror_reflectance(material, -dot(w, n)) : 0;
+    fate.absorbed += weight * (1 - material.diffuse - mirror);
+    if (mirror <= 0) return fate;
+    weight *= mirror;
+    if (reflections == mirror_depth_) {
+      fate.cut = weight;
+      return fate;
+    }
+    w = mirrored(-w, n);
+    hit = caster_.first_hit(lifted_point(hit, n), w);
+    ++fate.rays;
+  }
+}
+
+}  // namespace sunload

@@ -1,0 +1,450 @@
+/// The two transports check each other; the ledger of shooting closes to rounding.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <set>
+
+#include "geo/units.h"
+#include "solver/parallel.h"
+#include "tests/support/reference.h"
+#include "tests/support/scenes.h"
+#include "tests/support/statistics.h"
+
+namespace sunload::test {
+namespace {
+
+using Facing = SceneBuilder::Facing;
+
+const SunLight night = one_second({0, 0, -1}, 0);
+
+/// The ledger of shooting closes to this share of what comes in (DESIGN 5).
+constexpr double closes = 1e-6;
+
+constexpr int realizations = 16;
+
+SolverRules rules_of(Transport transport, int bounces = 5, Jacobi jacobi = Jacobi::incremental) {
+  SolverRules rules = test_rules();
+  rules.realizations = realizations;
+  rules.lines_per_patch = realizations * 16;
+  rules.direct_samples = realizations * 4;
+  rules.bounces = bounces;
+  rules.transport = transport;
+  rules.jacobi = jacobi;
+  rules.seed = transport == Transport::shoot ? 2 : 1;  // no line in common
+  return rules;
+}
+
+std::vector<SunLight> three_suns() {
+  std::vector<SunLight> light;
+  for (const Vec3 w : {Vec3{0.5, -0.7, 0.4}, Vec3{0, -0.6, 0.8}, Vec3{-0.8, -0.3, 0.3}}) {
+    auto sun = with_uniform_sky(one_second(w, 700), 90);
+    sun.ground_exitance = 0.2 * (700 * sun.direction.z + 90);
+    sun.number = static_cast<std::uint32_t>(light.size());
+    light.push_back(sun);
+  }
+  return light;
+}
+
+/// What a test may do to reflectances on purpose.
+using Change = double (*)(double);
+double as_it_is(double rho) { return rho; }
+double squared(double rho) { return rho * rho; }
+
+struct Case {
+  const char* name;
+  std::vector<SunLight> light;
+  SplitRules split;
+  int bounces;
+  Scene (*scene)(Change);
+};
+
+/// A court with a mirror wall, a lamp, and a two-sided screen.
+Scene court(Change change) {
+  SceneBuilder builder;
+  const int ground = builder.material({"ground", change(0.25), 0, 0});
+  const int wall = builder.material({"wall", change(0.45), 0, 0});
+  const int glass = builder.material({"glass", change(0.1), 0.7, 0});
+  const int lamp = builder.material({"lamp", change(0.3), 0, 25});
+  builder.object("ground").quad({-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}, ground);
+  builder.object("house").box({-6, 3, 0.01}, {6, 6, 5}, wall, Facing::outward);
+  builder.object("glass").quad({-5, 2.99, 0.5}, {5, 2.99, 0.5}, {5, 2.99, 4.5}, {-5, 2.99, 4.5},
+                               glass);
+  builder.object("tower").box({-6, -5, 0.01}, {-3, -2, 8}, wall, Facing::outward);
+  builder.object("lamp").quad({3, -4, 3}, {3, -3, 3}, {4, -3, 3}, {4, -4, 3}, lamp);
+  builder.sides(Sides::two)
+      .object("screen")
+      .quad({5, -8, 0.2}, {8, -8, 0.2}, {8, -8, 3}, {5, -8, 3}, wall);
+  return builder.scene();
+}
+
+/// Two rows of houses along a street.
+Scene street(Change change) {
+  SceneBuilder builder;
+  const int road = builder.material({"road", change(0.3), 0, 0});
+  const int wall = builder.material({"wall", change(0.7), 0, 0});
+  builder.object("road").quad({-12, -4, 0}, {12, -4, 0}, {12, 4, 0}, {-12, 4, 0}, road);
+  builder.object("north").box({-12, 4, 0.01}, {12, 8, 9}, wall, Facing::outward);
+  builder.object("south").box({-12, -8, 0.01}, {12, -4, 6}, wall, Facing::outward);
+  return builder.scene();
+}
+
+/// A closed room whose walls all glow, of unlike sizes.
+Scene room(Change change) {
+  SceneBuilder builder;
+  builder.object("small").box({0, 0, 0}, {3, 2, 1}, builder.material({"wall", change(0.8), 0, 1}),
+                              Facing::inward);
+  builder.object("cube").box({1, 0.5, 0.2}, {1.4, 0.9, 0.6},
+                             builder.material({"cube", change(0.5), 0, 20}), Facing::outward);
+  return builder.scene();
+}
+
+/// A room lit by a lamp under its ceiling, half of it behind a screen.
+Scene lamp_room(Change change) {
+  SceneBuilder builder;
+  const int wall = builder.material({"wall", change(0.6), 0, 0});
+  builder.object("room").box({0, 0, 0}, {4, 3, 2.5}, wall, Facing::inward);
+  builder.object("lamp").quad({1, 1, 2.4}, {1, 2, 2.4}, {2, 2, 2.4}, {2, 1, 2.4},
+                              builder.material({"lamp", change(0.4), 0, 50}));
+  builder.sides(Sides::two).object("screen").quad({3, 0, 0}, {3, 3, 0}, {3, 3, 2}, {3, 0, 2}, wall);
+  return builder.scene();
+}
+
+/// Two facing mirrors with a lamp between them, open above and at the sides.
+Scene facing_mirrors(Change change) {
+  SceneBuilder builder;
+  const int ground = builder.material({"ground", change(0.6), 0, 0});
+  const int lamp = builder.material({"lamp", change(0.5), 0, 40});
+  const int left = builder.material({"left", 0, 0.9, 0});
+  const int right = builder.material({"right", change(0.15), 0.8, 0});
+  builder.object("ground").quad({0, 0, 0}, {3, 0, 0}, {3, 6, 0}, {0, 6, 0}, ground);
+  builder.object("left").quad({0, 0, 0}, {0, 6, 0}, {0, 6, 4}, {0, 0, 4}, left);
+  builder.object("right").quad({3, 0, 0}, {3, 0, 4}, {3, 6, 4}, {3, 6, 0}, right);
+  builder.object("lamp").quad({1, 2, 2}, {1, 3, 2}, {2, 3, 2}, {2, 2, 2}, lamp);
+  return builder.scene();
+}
+
+/// Sky and far ground only: each transport cuts the sun's chains in its own place.
+std::vector<SunLight> overcast() {
+  auto light = with_uniform_sky(night, 100);
+  light.ground_exitance = 50;
+  return {light};
+}
+
+std::vector<Case> cases() {
+  return {{"court", three_suns(), {.max_edge_m = 3}, 3, court},
+          {"street", three_suns(), {.max_edge_m = 3}, 4, street},
+          {"room", {night}, {.max_edge_m = 1}, 20, room},
+          {"lamp room", {night}, {.max_edge_m = 1}, 8, lamp_room},
+          {"facing mirrors", overcast(), {.max_edge_m = 1}, 6, facing_mirrors}};
+}
+
+/// Irradiance of an object, from both.
+struct Compared {
+  double difference = 0, limit = 0, value = 0;
+  bool agree() const { return std::abs(difference) <= limit; }
+};
+
+Compared compared(const Solved& gathered, const Solved& shot, const Scene& scene,
+                  const std::string& object) {
+  const auto chosen = [&](std::size_t i) {
+    const auto t = static_cast<std::size_t>(gathered.patches[i].triangle);
+    return scene.mesh.object_names[scene.mesh.triangle_object[t].index()] == object;
+  };
+  const MeanError g = mean_error(gathered.means(chosen)), s = mean_error(shot.means(chosen));
+  double area = 0, pooled = 0;
+  for (std::size_t i = 0; i < gathered.area.size(); ++i)
+    if (chosen(i)) {
+      area += gathered.area[i];
+      pooled += gathered.area[i] * gathered.tally.exposure[0][i];
+    }
+  // Bias of gathering by reuse of lines, of which realizations have R times the pooled part.
+  const auto R = static_cast<double>(gathered.tally.exposure_realization.size());
+  const double reuse = std::abs(g.mean - pooled / area) * R / (R - 1);
+  return {s.mean - g.mean,
+          accepted_t(gathered.tally.exposure_realization.size()) *
+                  std::hypot(g.standard_error, s.standard_error) +
+              reuse + float_rounding * g.mean,
+          g.mean};
+}
+
+TEST(Shooting, AgreesWithGathering) {
+  for (const Case& c : cases()) {
+    const Scene scene = c.scene(as_it_is);
+    const Solved gathered = solve(scene, c.light, rules_of(Transport::gather, c.bounces), c.split);
+    for (const Jacobi jacobi : {Jacobi::incremental, Jacobi::regular}) {
+      const Solved shot =
+          solve(scene, c.light, rules_of(Transport::shoot, c.bounces, jacobi), c.split);
+      const Solved faulty =
+          solve(c.scene(squared), c.light, rules_of(Transport::shoot, c.bounces, jacobi), c.split);
+      int noticed = 0;
+      for (const auto& object : scene.mesh.object_names) {
+        if (object == "object") continue;  // empty
+        const Compared both = compared(gathered, shot, scene, object);
+        std::cout << c.name << ", " << object << (jacobi == Jacobi::regular ? " (regular)" : "")
+                  << ": " << both.value << " W/m2, off by " << both.difference << ", limit "
+                  << both.limit << "\n";
+        EXPECT_TRUE(both.agree()) << c.name << ", " << object;
+        noticed += !compared(gathered, faulty, scene, object).agree();
+      }
+      EXPECT_GT(noticed, 0) << c.name << ": planted fault: reflectance applied twice";
+    }
+  }
+}
+
+// A deposit on j must be divided by the area of j.
+TEST(Shooting, AgreesPatchByPatch) {
+  const Scene scene = room(as_it_is);
+  const Solved gathered = solve(scene, {night}, rules_of(Transport::gather, 30));
+  const Solved shot = solve(scene, {night}, rules_of(Transport::shoot, 30));
+  double mean_area = 0;
+  for (const double area : shot.area) mean_area += area / static_cast<double>(shot.area.size());
+  int noticed = 0;
+  for (std::size_t i = 0; i < shot.area.size(); ++i) {
+    const MeanError g = mean_error(gathered.of_patch(i)), s = mean_error(shot.of_patch(i));
+    const double limit =
+        accepted_t(realizations) * std::hypot(g.standard_error, s.standard_error) +
+        2 * std::abs(g.mean - gathered.tally.exposure[0][i]) + float_rounding * g.mean;
+    EXPECT_LE(std::abs(s.mean - g.mean), limit) << i;
+    noticed += std::abs(s.mean * shot.area[i] / mean_area - g.mean) > limit;
+  }
+  EXPECT_GT(noticed, static_cast<int>(shot.area.size()) / 2) << "planted fault: wrong area";
+}
+
+double largest_residual(const Solved& solved) {
+  double largest = 0;
+  for (const auto* ledgers : {&solved.tally.ledger, &solved.tally.ledger_realization})
+    for (const Ledger& l : *ledgers) largest = std::max(largest, std::abs(l.residual()) / l.in());
+  return largest;
+}
+
+TEST(Shooting, LedgerClosesForEverySunAndRealization) {
+  for (const Case& c : cases())
+    for (const Jacobi jacobi : {Jacobi::incremental, Jacobi::regular}) {
+      const Solved solved =
+          solve(c.scene(as_it_is), c.light, rules_of(Transport::shoot, 3, jacobi), c.split);
+      const double residual = largest_residual(solved);
+      std::cout << c.name << ": residual " << residual << " of in\n";
+      EXPECT_LE(residual, closes) << c.name;
+      for (const Ledger& l : solved.tally.ledger) {
+        EXPECT_GT(l[Term::unshot], 0);
+        // Planted fault: what was not followed is forgotten.
+        EXPECT_GT(std::abs(l.residual() + l[Term::unshot]) / l.in(), closes);
+      }
+    }
+}
+
+// Sun, sky, ground and lamp by chains of mirrors of any depth, also of the sun.
+TEST(Shooting, LedgerClosesAtEveryMirrorDepth) {
+  auto light = with_uniform_sky(one_second({0.6, 0.1, 0.7}, 600), 100);
+  light.ground_exitance = 50;
+  auto disk = light;
+  disk.disk_half_angle = 0.0047;
+  disk.number = 1;
+  double unshot_before = 1e300;
+  for (const int depth : {0, 1, 2, 5, 40}) {
+    SolverRules rules = rules_of(Transport::shoot, 30);
+    rules.mirror_depth = depth;
+    const Solved solved = solve(facing_mirrors(as_it_is), {light, disk}, rules, {.max_edge_m = 1});
+    const double residual = largest_residual(solved), unshot = solved.tally.energy[Term::unshot];
+    std::cout << "depth " << depth << ": in " << solved.tally.energy.in() << " J, unshot "
+              << unshot << " J, residual " << residual << " of in\n";
+    EXPECT_LE(residual, closes) << depth;
+    EXPECT_LT(unshot, unshot_before);
+    unshot_before = unshot;
+  }
+}
+
+TEST(Shooting, SeriesAreTheMeanOfRealizations) {
+  auto rules = rules_of(Transport::shoot);
+  rules.errors = Errors::instants;
+  const Solved solved = solve(court(as_it_is), three_suns(), rules, {.max_edge_m = 3});
+  const std::size_t patches = solved.area.size();
+  for (std::size_t i = 0; i < patches; ++i) {
+    std::vector<double> of;
+    for (const auto& exposure : solved.tally.exposure_realization) of.push_back(exposure[i]);
+    const MeanError mean = mean_error(of);
+    EXPECT_NEAR(solved.tally.exposure[0][i], mean.mean, float_rounding * mean.mean);
+    double parts = 0;
+    for (std::size_t p = 1; p < part_count; ++p) parts += solved.tally.exposure[p][i];
+    EXPECT_NEAR(parts, mean.mean, float_rounding * mean.mean);
+    // Suns share samples and lamps: the error of a sum is between those of dependent and of
+    // opposite terms.
+    double se = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      se += static_cast<double>(solved.tally.irradiance_se[k * patches + i]);
+    EXPECT_LE(mean.standard_error, se * (1 + float_rounding));
+  }
+}
+
+TEST(Shooting, SameBitsForAnyNumberOfThreads) {
+  const int before = thread_count();
+  std::vector<BatchTally> tallies;
+  for (const int threads : {1, 2, 3}) {
+    set_thread_count(threads);
+    auto rules = rules_of(Transport::shoot);
+    rules.errors = Errors::instants;
+    tallies.push_back(solve(court(as_it_is), three_suns(), rules, {.max_edge_m = 1}).tally);
+  }
+  set_thread_count(before);
+  for (const auto& tally : {tallies[1], tallies[2]}) {
+    for (std::size_t p = 0; p < part_count; ++p)
+      EXPECT_EQ(tally.irradiance[p], tallies[0].irradiance[p]) << part_names[p];
+    EXPECT_EQ(tally.exposure_realization, tallies[0].exposure_realization);
+    EXPECT_EQ(tally.irradiance_se, tallies[0].irradiance_se);
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(tally.ledger[k].terms, tallies[0].ledger[k].terms);
+  }
+}
+
+TEST(Shooting, NumberOfSamplesIsPowerByPowerPerSample) {
+  const Scene scene = lamp_room(as_it_is);
+  SolverRules rules = rules_of(Transport::shoot, 0);
+  constexpr double lamp_w = 50, per_sample = 0.003;
+  rules.power_per_sample_w = per_sample;
+  // The two patches of the lamp shoot, in every realization.
+  const Solved lamp_only = solve(scene, {night}, rules);
+  EXPECT_NEAR(static_cast<double>(lamp_only.work.samples), lamp_w / per_sample,
+              realizations);
+  // A reflection more: what its patches have received, times their reflectance.
+  rules.bounces = 1;
+  const Solved one = solve(scene, {night}, rules);
+  const double reflected_w = lamp_only.tally.ledger[0][Term::unshot];
+  EXPECT_NEAR(static_cast<double>(one.work.samples), (lamp_w + reflected_w) / per_sample,
+              realizations * (2.0 + static_cast<double>(one.area.size())));
+  EXPECT_GT(one.work.samples, lamp_only.work.samples);
+  // One sample of each patch with power is the least.
+  rules.bounces = 0;
+  rules.power_per_sample_w = 1e9;
+  EXPECT_EQ(solve(scene, {night}, rules).work.samples, 2u * realizations);
+  // auto: as many as there are lines.
+  rules.power_per_sample_w = {};
+  const Solved by_auto = solve(scene, {night}, rules);
+  EXPECT_NEAR(static_cast<double>(by_auto.work.samples),
+              static_cast<double>(by_auto.area.size()) * rules.lines_per_patch, realizations);
+}
+
+// One sample of every patch is enough for an unbiased result: only its error is large.
+TEST(Shooting, IsUnbiasedForTheFewestSamples) {
+  if (shared_missing("reference")) return;
+  const auto c = reference_cases("05_radiosity/box_12_triangles.json", "box12_").front();
+  SceneBuilder builder;
+  double rho_most = 0;
+  for (std::size_t t = 0; t < 12; ++t) {
+    const double rho = number(c["reflectance"][t]);
+    rho_most = std::max(rho_most, rho);
+    const auto& v = c["triangles"][t];
+    const auto at = [&](std::size_t k) {
+      return Vec3{number(v[k][0]), number(v[k][1]), number(v[k][2])};
+    };
+    builder.triangle(at(0), at(1), at(2),
+                     builder.material({"m" + std::to_string(t), rho, 0, number(c["emission"][t])}));
+  }
+  constexpr int bounces = 30;
+  SolverRules rules = rules_of(Transport::shoot, bounces);
+  rules.realizations = rules.lines_per_patch = rules.direct_samples = 2048;
+  rules.power_per_sample_w = 1e9;
+  const Solved solved = solve(builder.scene(), {night}, rules);
+  const double left = std::pow(rho_most, bounces + 1) / (1 - rho_most);
+  int noticed = 0, reflecting = 0;
+  for (std::size_t t = 0; t < 12; ++t) {
+    const double rho = number(c["reflectance"][t]), M = number(c["emission"][t]);
+    const double B = number(c["radiosity"][t]);
+    auto values = solved.of_patch(t);
+    for (auto& H : values) H = M + rho * H;
+    const Verdict verdict = expect_mean(values, B, left * B);
+    std::cout << t << ": " << verdict.text << "\n";
+    EXPECT_TRUE(verdict) << t << ": " << verdict.text;
+    if (rho <= 0) continue;
+    ++reflecting;
+    noticed += !expect_mean(values, M + (B - M) * 1.3, left * B);
+  }
+  EXPECT_GT(noticed, reflecting / 2);
+}
+
+TEST(Shooting, VarianceFallsWithTheNumberOfSamples) {
+  const Scene scene = lamp_room(as_it_is);
+  constexpr int many_realizations = 64;
+  const auto variance = [&](double per_sample, std::uint64_t seed) {
+    SolverRules rules = rules_of(Transport::shoot, 4);
+    rules.realizations = rules.direct_samples = rules.lines_per_patch = many_realizations;
+    rules.power_per_sample_w = per_sample;
+    rules.seed = seed;
+    const Solved solved = solve(scene, {night}, rules, {.max_edge_m = 1});
+    double sum = 0;
+    for (std::size_t i = 0; i < solved.area.size(); ++i)
+      sum += std::pow(solved.area[i] * mean_error(solved.of_patch(i)).standard_error, 2);
+    return sum;
+  };
+  constexpr double more = 16;
+  const double few = variance(1e-3, 1), many = variance(1e-3 / more, 1);
+  const double slope = std::log(few / many) / std::log(more);
+  // A sum of variances of n realizations is known to √(2/(n - 1)) at worst (patches that
+  // vary together), so is the logarithm of their quotient to twice the square of that.
+  const double error = 2 * std::sqrt(1.0 / (many_realizations - 1)) / std::log(more);
+  std::cout << "variance falls with power " << slope << " +- " << error << " of samples\n";
+  EXPECT_GE(slope + accepted_t(1000) * error, 1);
+  // Planted fault: samples that do not differ are as good as one.
+  const double same = std::log(few / variance(1e-3, 2)) / std::log(more);
+  EXPECT_LT(same + accepted_t(1000) * error, slope);
+  EXPECT_LT(same, 1 - error);
+}
+
+// Chains of mirrors: a floor sees the ceiling in the walls, by light sent forward.
+TEST(Shooting, FloorSeesTheCeilingInMirrorWalls) {
+  if (shared_missing("reference")) return;
+  for (const auto& c : reference_cases("05_radiosity/mirrors.json", "mirror_box")) {
+    const double reflectance = number(c["wall_mirror_reflectance"]);
+    const double x = number(c["size"][0]), y = number(c["size"][1]), h = number(c["size"][2]);
+    SceneBuilder builder;
+    const int black = builder.material({"black", 0, 0, 0});
+    const int bright = builder.material({"bright", 0, 0, 1});
+    const int mirror = builder.material({"mirror", 0, reflectance, 0});
+    builder.quad({0, 0, 0}, {x, 0, 0}, {x, y, 0}, {0, y, 0}, black);
+    builder.quad({0, 0, h}, {0, y, h}, {x, y, h}, {x, 0, h}, bright);
+    const Vec3 up{0, 0, h}, corner[] = {{0, 0, 0}, {x, 0, 0}, {x, y, 0}, {0, y, 0}};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vec3 a = corner[k], b = corner[(k + 1) % 4];
+      builder.quad(b, a, a + up, b + up, mirror);
+    }
+    SolverRules rules = rules_of(Transport::shoot, 0);
+    rules.mirror_depth = 1000;
+    rules.lines_per_patch = realizations * 2048;
+    const Solved solved = solve(builder.scene(), {night}, rules);
+    const auto values =
+        solved.means([&](std::size_t i) { return solved.patches[i].triangle < 2; });
+    const double F = number(c["F_floor_to_ceiling_mean"]);
+    const Verdict verdict = expect_mean(values, F);
+    std::cout << c["id"] << ": " << verdict.text << "\n";
+    EXPECT_TRUE(verdict) << verdict.text;
+    EXPECT_FALSE(expect_mean(values, reflectance == 1 ? 0.99 : 1.02 * F));
+    EXPECT_LE(largest_residual(solved), closes);
+  }
+}
+
+// All of the beam reaches the ground.
+TEST(Shooting, SunIsSentOnByMoreThanOneMirror) {
+  SceneBuilder builder;
+  const int first = builder.material({"first", 0, 0.9, 0}),
+            second = builder.material({"second", 0, 0.8, 0}),
+            wall = builder.material({"wall", 0, 0, 0});
+  // A periscope: the beam of 1 m² comes down on the first, leaves along +x, meets the
+  // second, whose back is turned to the sun, and goes down to a plate.
+  builder.quad({0, 0, 0}, {1, 0, -1}, {1, 1, -1}, {0, 1, 0}, first);
+  builder.quad({3, -1, 1}, {3, 2, 1}, {5, 2, -1}, {5, -1, -1}, second);
+  builder.object("plate").quad({2, -2, -9}, {6, -2, -9}, {6, 3, -9}, {2, 3, -9}, wall);
+  const Solved solved = solve(builder.scene(), {one_second({0, 0, 1}, 1000)},
+                              rules_of(Transport::shoot), {.max_edge_m = 0.5});
+  const auto mirrored = static_cast<std::size_t>(Part::mirror);
+  double power = 0;
+  for (std::size_t i = 0; i < solved.area.size(); ++i)
+    if (solved.patches[i].triangle >= 4) power += solved.area[i] * solved.tally.exposure[mirrored][i];
+  EXPECT_LE(largest_residual(solved), closes);
+  std::cout << "the plate receives " << power << " W\n";
+  EXPECT_NEAR(power, 1000 * 0.9 * 0.8, 720 * float_rounding);
+}
+
+}  // namespace
+}  // namespace sunload::test
