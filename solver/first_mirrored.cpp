@@ -12,6 +12,9 @@ namespace {
 
 constexpr std::size_t mirrors_per_task = 256;
 
+// Random words of glossy surfaces, apart from those of shots (solver/shooting).
+constexpr std::uint32_t blocks_of_sky = 1u << 22, blocks_of_sun = 1u << 23;
+
 std::size_t tasks(std::size_t mirrors) {
   return (mirrors + mirrors_per_task - 1) / mirrors_per_task;
 }
@@ -64,10 +67,20 @@ class FirstMirrored::LineTask {
       const bool up = line[l].w.z > 0;
       const auto source = up ? static_cast<std::uint32_t>(m_.grid_.cell(line[l].w)) : 0u;
       const Fate fate =
-          m_.chain_.mirror_on(line[l].origin, line[l].w, patch, source, share, up ? sky : ground);
+          m_.chain_.mirror_on(line[l].origin, line[l].w, patch, source, share,
+                             key(patch, first + l), up ? sky : ground);
       (up ? sky_fates[source] : ground_fate) += fate;
       rays += fate.rays;
     }
+  }
+
+  RandomKey key(std::size_t patch, std::size_t line) const {
+    return {.seed = m_.rules_.seed,
+            .purpose = Purpose::shooting,
+            .realization = static_cast<std::uint32_t>(realization_),
+            .element = m_.hierarchy_.key()[patch],
+            .sun = static_cast<std::uint32_t>(line),
+            .block = blocks_of_sky};
   }
 
   const FirstMirrored& m_;
@@ -85,7 +98,7 @@ FirstMirrored::FirstMirrored(const Scene& scene, const Hierarchy& hierarchy,
       rules_(rules) {
   for (std::size_t i = 0; i < hierarchy.patch_count(); ++i) {
     const auto triangle = static_cast<std::size_t>(hierarchy.patches()[i].triangle);
-    if (scene.materials[scene.material[triangle].index()].mirror > 0) mirrors_.push_back(i);
+    if (sends_on(scene.materials[scene.material[triangle].index()])) mirrors_.push_back(i);
   }
   if (!any()) return;
   const auto cells = static_cast<std::size_t>(grid.cell_count());
@@ -171,11 +184,17 @@ class FirstMirrored::SunTask {
     rays += static_cast<std::uint64_t>(std::popcount(active));
     for (; lit != 0; lit &= lit - 1) {
       const auto l = static_cast<std::size_t>(std::countr_zero(lit));
-      const std::size_t r = m_.sampler_.realization(packet * packet_size + l);
+      const std::size_t sample = packet * packet_size + l, r = m_.sampler_.realization(sample);
       Vec3 towards = disk ? normalized(at(directions, l)) : sun.direction;
       if (dot(towards, n) <= 0) towards = sun.direction;  // a disk that is half set behind the mirror
+      const RandomKey key{.seed = m_.rules_.seed,
+                          .purpose = Purpose::shooting,
+                          .realization = static_cast<std::uint32_t>(r),
+                          .element = mixed(m_.hierarchy_.key()[patch], sample),
+                          .sun = sun.number,
+                          .block = blocks_of_sun};
       const Fate fate = m_.chain_.mirror_on(at(origins, l), towards, patch,
-                                            static_cast<std::uint32_t>(k), power, deposits[r]);
+                                            static_cast<std::uint32_t>(k), power, key, deposits[r]);
       fates[r][k] += fate;
       rays += fate.rays;
     }

@@ -1,12 +1,24 @@
 #include "solver/light_chain.h"
 
+#include "solver/line_follower.h"
+
 namespace sunload {
+
+namespace {
+
+/// Share of the light on a surface that it absorbs, where `on` says what it sends on.
+double absorbed_share(const Material& m, const LineFollower::Onward& on) {
+  return depends_on_angle(m) ? on.absorbed : 1 - m.diffuse - m.mirror - m.transmittance;
+}
+
+}  // namespace
 
 Fate& Fate::operator+=(const Fate& other) {
   absorbed += other.absorbed;
   backs += other.backs;
   escaped += other.escaped;
   cut += other.cut;
+  transmitted += other.transmitted;
   rays += other.rays;
   return *this;
 }
@@ -17,6 +29,7 @@ void Fates::add(const Fate& fate, const double* power) {
     backs[k] += power[k] * fate.backs;
     escaped[k] += power[k] * fate.escaped;
     cut[k] += power[k] * fate.cut;
+    transmitted[k] += power[k] * fate.transmitted;
   }
 }
 
@@ -26,6 +39,7 @@ Fates& Fates::operator+=(const Fates& other) {
     backs[k] += other.backs[k];
     escaped[k] += other.escaped[k];
     cut[k] += other.cut[k];
+    transmitted[k] += other.transmitted[k];
   }
   return *this;
 }
@@ -46,32 +60,35 @@ Vec3 LightChain::lifted_point(const Hit& hit, Vec3 normal) const {
 }
 
 Fate LightChain::follow(Vec3 w, const Hit& hit, std::uint32_t source, double weight,
-                        std::vector<Deposit>& deposits) const {
-  return go_on(w, hit, source, weight, 0, deposits);
+                        RandomKey key, std::vector<Deposit>& deposits) const {
+  return go_on(w, hit, source, weight, 0, key, deposits);
 }
 
 Fate LightChain::mirror_on(Vec3 point, Vec3 towards, std::size_t mirror_patch,
-                           std::uint32_t source, double weight,
+                           std::uint32_t source, double weight, RandomKey key,
                            std::vector<Deposit>& deposits) const {
   const Material& material = material_of(hierarchy_.patches()[mirror_patch].triangle);
-  const Vec3 n = hierarchy_.normal(mirror_patch);
-  const double mirror = mirror_reflectance(material, dot(towards, n));
+  const auto on = LineFollower::onward(material, hierarchy_.normal(mirror_patch), towards, key);
   Fate fate;
-  fate.absorbed = weight * (1 - material.diffuse - mirror);
+  fate.absorbed = weight * absorbed_share(material, on);
+  fate.transmitted = weight * on.transmitted;
+  weight *= on.weight;
+  if (weight <= 0) return fate;
   if (mirror_depth_ < 1) {  // not even the first reflection is followed
-    fate.cut = weight * mirror;
+    fate.cut = weight;
     return fate;
   }
-  const Vec3 away = mirrored(towards, n);
-  fate += go_on(away, caster_.first_hit(point, away), source, weight * mirror, 1, deposits);
+  ++key.block;
+  fate += go_on(on.direction, caster_.first_hit(point, on.direction), source, weight, 1, key,
+                deposits);
   ++fate.rays;
   return fate;
 }
 
 Fate LightChain::go_on(Vec3 w, Hit hit, std::uint32_t source, double weight, int reflections,
-                       std::vector<Deposit>& deposits) const {
+                       RandomKey key, std::vector<Deposit>& deposits) const {
   Fate fate;
-  for (;; ++reflections) {
+  for (;; ++reflections, ++key.block) {
     if (hit.left_scene()) {
       fate.escaped = weight;
       return fate;
@@ -81,18 +98,21 @@ Fate LightChain::go_on(Vec3 w, Hit hit, std::uint32_t source, double weight, int
       fate.backs = weight;
       return fate;
     }
-    deposits.push_back({static_cast<std::uint32_t>(patch), source, weight});
     const Material& material = material_of(hit.triangle);
+    weight /= 1 - material.transmittance;  // rays are stopped by that share
+    deposits.push_back({static_cast<std::uint32_t>(patch), source, weight});
     const Vec3 n = hierarchy_.normal(static_cast<std::size_t>(patch));
-    const double mirror = material.mirror > 0 ? mirror_reflectance(material, -dot(w, n)) : 0;
-    fate.absorbed += weight * (1 - material.diffuse - mirror);
-    if (mirror <= 0) return fate;
-    weight *= mirror;
+    const auto on = sends_on(material) ? LineFollower::onward(material, n, -w, key)
+                                       : LineFollower::Onward{};
+    fate.absorbed += weight * absorbed_share(material, on);
+    fate.transmitted += weight * on.transmitted;
+    weight *= on.weight;
+    if (weight <= 0) return fate;
     if (reflections == mirror_depth_) {
       fate.cut = weight;
       return fate;
     }
-    w = mirrored(-w, n);
+    w = on.direction;
     hit = caster_.first_hit(lifted_point(hit, n), w);
     ++fate.rays;
   }

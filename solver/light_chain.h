@@ -1,4 +1,5 @@
-/// One sample of light on its way forward, along its chain of mirrors.
+/// One sample of light on its way forward, along its chain of mirrors, panes, metals and
+/// glossy surfaces.
 #pragma once
 
 #include <vector>
@@ -6,6 +7,7 @@
 #include "solver/deposits.h"
 #include "solver/hierarchy.h"
 #include "solver/ray_caster.h"
+#include "solver/rng.h"
 
 namespace sunload {
 
@@ -16,6 +18,7 @@ struct Fate {
   double backs = 0;     ///< met the back of a one-sided surface
   double escaped = 0;   ///< left the scene
   double cut = 0;       ///< would go on beyond the mirror depth
+  double transmitted = 0;  ///< through panes, out of the scene
   std::uint64_t rays = 0;
   Fate& operator+=(const Fate& other);
 };
@@ -23,7 +26,7 @@ struct Fate {
 /// The same for every sun of a block [W].
 struct Fates {
   double absorbed[block_width] = {}, backs[block_width] = {}, escaped[block_width] = {},
-         cut[block_width] = {};
+         cut[block_width] = {}, transmitted[block_width] = {};
   /// Adds the fate of what a source of these powers sent.
   void add(const Fate& fate, const double* power);
   Fates& operator+=(const Fates& other);
@@ -36,16 +39,17 @@ class LightChain {
 
   /// A sample that left row `source` diffusely with `weight` of its power along
   /// the unit vector `w` and met `hit`: deposits on every surface of its chain.
-  Fate follow(Vec3 w, const Hit& hit, std::uint32_t source, double weight,
+  /// `key` addresses the random numbers of glossy surfaces, from its block on.
+  Fate follow(Vec3 w, const Hit& hit, std::uint32_t source, double weight, RandomKey key,
               std::vector<Deposit>& deposits) const;
 
   /// A sample of first light that meets a mirror patch at `point` (lifted off
   /// it) from the direction `towards`: absorbed there in part, then sent on.
   Fate mirror_on(Vec3 point, Vec3 towards, std::size_t mirror_patch, std::uint32_t source,
-                 double weight, std::vector<Deposit>& deposits) const;
+                 double weight, RandomKey key, std::vector<Deposit>& deposits) const;
 
  private:
-  Fate go_on(Vec3 w, Hit hit, std::uint32_t source, double weight, int reflections,
+  Fate go_on(Vec3 w, Hit hit, std::uint32_t source, double weight, int reflections, RandomKey key,
              std::vector<Deposit>& deposits) const;
   const Material& material_of(std::int32_t triangle) const;
   Vec3 lifted_point(const Hit& hit, Vec3 normal) const;

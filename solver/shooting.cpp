@@ -16,6 +16,11 @@ constexpr std::uint32_t shot_of_emitters = 0;  // iterations of reflection follo
 /// Random offset of the stratified rounding; no patch has this key.
 constexpr std::uint64_t rounding_key = 0;
 
+/// Words of glossy surfaces met in an iteration: as many as a chain has reflections, and more.
+constexpr std::uint32_t blocks_of_glossy(std::uint32_t iteration) {
+  return (1u << 11) + (iteration << 10);
+}
+
 void add(DoubleColumns& to, const DoubleColumns& from) {
   parallel_for(to.size() / block_width, [&](std::size_t i) {
     for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k) to[k] += from[k];
@@ -59,7 +64,8 @@ Shooter::Shooter(const Scene& scene, const Hierarchy& hierarchy, const RayCaster
     const auto& m = scene.materials[scene.material[static_cast<std::size_t>(patch.triangle)].index()];
     diffuse_.push_back(m.diffuse);
     emission_.push_back(m.emission_w_m2);
-    is_mirror_.push_back(m.mirror > 0);
+    passed_.push_back(m.transmittance);
+    sends_on_.push_back(sends_on(m));
   }
   shoot_emitters();
 }
@@ -87,12 +93,7 @@ class Shooter::Task {
   /// Casts the samples of a patch, each with an equal share of its power.
   void shoot(std::size_t patch, std::uint32_t count) {
     const PatchLines lines(s_.hierarchy_, patch, s_.caster_.offset_m(),
-                           random_words({.seed = s_.line_rules_.seed,
-                                         .purpose = Purpose::shooting,
-                                         .realization = address_.realization,
-                                         .element = s_.hierarchy_.key()[patch],
-                                         .sun = address_.sun,
-                                         .block = address_.iteration}));
+                           random_words(key(s_.hierarchy_.key()[patch], address_.iteration)));
     for (std::uint32_t l = 0; l < count; ++l) {
       const auto line = lines[l];
       put(origins_, waiting_, line.origin);
@@ -100,6 +101,7 @@ class Shooter::Task {
       w_[waiting_] = line.w;
       patch_[waiting_] = static_cast<std::uint32_t>(patch);
       share_[waiting_] = 1.0 / count;
+      line_[waiting_] = l;
       if (++waiting_ == packet_size) flush();
     }
   }
@@ -108,7 +110,10 @@ class Shooter::Task {
     const auto hits = s_.caster_.first_hits(origins_, directions_, (1u << waiting_) - 1u);
     rays += waiting_;
     for (std::size_t l = 0; l < waiting_; ++l) {
-      const Fate fate = s_.chain_.follow(w_[l], hits[l], patch_[l], share_[l], deposits);
+      const std::uint64_t sample = mixed(s_.hierarchy_.key()[patch_[l]], line_[l]);
+      const Fate fate = s_.chain_.follow(w_[l], hits[l], patch_[l], share_[l],
+                                         key(sample, blocks_of_glossy(address_.iteration)),
+                                         deposits);
       rays += fate.rays;
       fates_[patch_[l] - begin_] += fate;
     }
@@ -124,6 +129,15 @@ class Shooter::Task {
   std::uint64_t rays = 0;
 
  private:
+  RandomKey key(std::uint64_t element, std::uint32_t block) const {
+    return {.seed = s_.line_rules_.seed,
+            .purpose = Purpose::shooting,
+            .realization = address_.realization,
+            .element = element,
+            .sun = address_.sun,
+            .block = block};
+  }
+
   const Shooter& s_;
   Address address_;
   std::size_t begin_;
@@ -132,6 +146,7 @@ class Shooter::Task {
   Vec3 w_[packet_size];
   std::uint32_t patch_[packet_size];
   double share_[packet_size];
+  std::uint32_t line_[packet_size];
   std::size_t waiting_ = 0;
 };
 
@@ -193,7 +208,7 @@ void Shooter::shoot_emitters() {
     const Shot shot = shoot(power, wanted_samples(total, total), {r, 0, shot_of_emitters});
     for (std::size_t i = 0; i < patches; ++i) of.irradiance[i] = shot.irradiance[i * block_width];
     of.fate = {shot.fates.absorbed[0], shot.fates.backs[0], shot.fates.escaped[0],
-               shot.fates.cut[0], 0};
+               shot.fates.cut[0], shot.fates.transmitted[0], 0};
     samples_ += shot.samples;
     rays_ += shot.rays;
   }
@@ -286,13 +301,14 @@ void Shooter::book_first_light(ShotLight& light, std::size_t realization,
                         const double ground =
                             area[i] * static_cast<double>(ends[i].ground) *
                             static_cast<double>(sources.ground_exitance[k]);
-                        ledger[Term::sun] += sun;
-                        ledger[Term::sky] += sky;
-                        ledger[Term::ground] += ground;
+                        const double stopped = 1 - passed_[i];
+                        ledger[Term::sun] += stopped * sun;
+                        ledger[Term::sky] += stopped * sky;
+                        ledger[Term::ground] += stopped * ground;
                         ledger[Term::emitted] += area[i] * emission_[i];
                         // Samples say what mirrors absorb, which depends on the angle.
-                        if (!is_mirror_[i])
-                          ledger[Term::absorbed] += (1 - diffuse_[i]) * (sun + sky + ground);
+                        if (!sends_on_[i])
+                          ledger[Term::absorbed] += (stopped - diffuse_[i]) * (sun + sky + ground);
                       }
                     return sum;
                   })
@@ -329,6 +345,7 @@ ShotLight Shooter::light(std::size_t realization, const BlockSources& sources,
     const Fate& lamps = emitters.fate;
     ledger.lost_at_backs = fates.backs[k] + lamps.backs;
     ledger[Term::absorbed] += fates.absorbed[k] + lamps.absorbed + ledger.lost_at_backs;
+    ledger[Term::transmitted] = fates.transmitted[k] + lamps.transmitted;
     ledger[Term::escaped] = fates.escaped[k] + lamps.escaped;
     ledger[Term::unshot] = reflected.unshot[k] + fates.cut[k] + lamps.cut;
   }

@@ -111,7 +111,8 @@ class Shooter {
   LightChain chain_;
   FirstMirrored first_mirrored_;
   std::vector<double> diffuse_, emission_;  ///< of patches
-  std::vector<bool> is_mirror_;
+  std::vector<double> passed_;              ///< straight through
+  std::vector<bool> sends_on_;
   std::vector<OfEmitters> emitters_;        ///< per realization
   std::uint64_t samples_ = 0, rays_ = 0;
 };
