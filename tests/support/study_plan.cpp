@@ -1,0 +1,50 @@
+#include "tests/support/study_plan.h"
+
+#include "tests/support/program.h"
+
+namespace sunload::test {
+
+VariantPlan plan_of(const std::string& yaml) {
+  const WorkFolder folder;
+  return make_plan(read_study(folder.write("study.yaml", yaml)).variants.front());
+}
+
+std::string night_study(const std::string& builtin, const std::string& sections) {
+  return "format: sunload-study-1\nname: " + builtin +
+         "\nperiod: {positions: [{azimuth_deg: 180, elevation_deg: 45, interval_min: 60}]}\n"
+         "light: {source: fixed, dni_w_m2: 0, dhi_w_m2: 0, far_ground_albedo: 0}\n"
+         "scene: {builtin: {name: " +
+         builtin + "}}\n" + sections;
+}
+
+std::vector<SunLight> suns_of(const VariantPlan& plan, const SkyGrid& grid) {
+  const auto open = open_shares(grid, plan.built.site.horizon, scene_from_enu(plan.built.site));
+  std::vector<SunLight> suns;
+  for (std::size_t k = 0; k < plan.intervals(); ++k)
+    suns.push_back(sun_light(plan.light.intervals[k], static_cast<std::uint32_t>(k),
+                             plan.study.light, grid, open));
+  return suns;
+}
+
+const std::string& SolvedPlan::object(std::size_t patch) const {
+  const Mesh& m = plan.built.scene.mesh;
+  const auto triangle = static_cast<std::size_t>(mesh().patches()[patch].triangle);
+  return m.object_names[m.triangle_object[triangle].index()];
+}
+
+std::vector<double> SolvedPlan::load(std::size_t patch) const {
+  std::vector<double> load;
+  for (const auto& realization : tally.exposure_realization) load.push_back(realization[patch]);
+  return load;
+}
+
+SolvedPlan solve_study(const std::string& yaml) {
+  Watch watch;
+  SolvedPlan solved{plan_of(yaml), {}, {}};
+  solved.made = make_mesh(solved.plan, watch);
+  LightSolver solver(solved.plan.built.scene, solved.made.mesh, solver_rules(solved.plan), watch);
+  solved.tally = solver.solve(suns_of(solved.plan, solver.sky_grid()), watch);
+  return solved;
+}
+
+}  // namespace sunload::test
