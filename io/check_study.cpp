@@ -82,6 +82,8 @@ void print_text(const VariantPlan& plan, const RefineReport& mesh, const WorkEst
           extent_text(plan.built.scene.mesh, plan.built.report.bounds);
   for (const auto& note : plan.built.notes) text += "  note      " + note + "\n";
   text += "materials\n" + materials_text(plan.built.scene);
+  if (const auto sensors = plan.built.scene.sensors.size(); sensors > 0)
+    text += fmt::format("sensors\n  {} points\n", sensors);
   text += "sun\n" + time_words(plan.light, plan.built.site, plan.study, plan.built.site_source);
   if (const auto refined = refine_text(mesh, plan.study); !refined.empty())
     text += "mesh\n  " + refined + "\n";

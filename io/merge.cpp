@@ -77,22 +77,33 @@ std::vector<double> facade_means(const std::vector<double>& rows, const ResultGe
 
 constexpr double kwh_per_joule = 1 / joules_per_kwh;
 
-void write_loads(ResultWriter& writer, const Totals& totals, const ResultGeometry& geometry) {
-  const std::size_t N = geometry.patch_area.size(), F = geometry.facade_name.size();
+/// Totals of N patches or sensors; names begin with `prefix`.
+void write_received(ResultWriter& writer, const Totals& totals, const std::string& prefix,
+                    std::size_t N) {
   for (std::size_t p = 0; p < part_count; ++p) {
     const auto part = static_cast<Part>(p);
-    if (!totals.has(sum_name(part))) continue;
-    const std::string name = part == Part::total ? "light_load" : std::string("light_load_") + part_names[p];
-    writer.write({name, scaled(totals[sum_name(part)], kwh_per_joule)});
+    if (!totals.has(prefix + sum_name(part))) continue;
+    const std::string name =
+        part == Part::total ? "light_load" : std::string("light_load_") + part_names[p];
+    writer.write({prefix + name, scaled(totals[prefix + sum_name(part)], kwh_per_joule)});
   }
-  const auto realizations = scaled(totals[batch_array::exposure], kwh_per_joule);
-  writer.write({"light_load_realization", realizations});
-  writer.write({"light_load_se", errors_of(realizations, N)});
+  const auto realizations = scaled(totals[prefix + batch_array::exposure], kwh_per_joule);
+  writer.write({prefix + "light_load_realization", realizations});
+  writer.write({prefix + "light_load_se", errors_of(realizations, N)});
+  writer.write(
+      {prefix + "sun_hours", scaled(totals[prefix + batch_array::sunlit], 1 / seconds_per_hour)});
+  writer.write({prefix + "irradiance_max", totals[prefix + batch_array::maximum]});
+  writer.write({prefix + "sky_view_factor", totals[prefix + batch_array::sky_view]});
+}
+
+void write_loads(ResultWriter& writer, const Totals& totals, const ResultGeometry& geometry) {
+  const std::size_t N = geometry.patch_area.size(), F = geometry.facade_name.size();
+  write_received(writer, totals, "", N);
   writer.write({"power_load", scaled(totals[batch_array::outgoing], kwh_per_joule)});
-  writer.write({"sun_hours", scaled(totals[batch_array::sunlit], 1 / seconds_per_hour)});
-  writer.write({"irradiance_max", totals[batch_array::maximum]});
-  writer.write({"sky_view_factor", totals[batch_array::sky_view]});
+  if (const std::size_t S = geometry.sensor_position.size(); S > 0)
+    write_received(writer, totals, sensor_prefix, S);
   if (F == 0) return;
+  const auto realizations = scaled(totals[batch_array::exposure], kwh_per_joule);
   const auto of_facades = facade_means(realizations, geometry);
   writer.write({"facade_light_load_realization", of_facades});
   writer.write({"facade_light_load_se", errors_of(of_facades, F)});
@@ -137,17 +148,39 @@ double residual_reuse_bias_kwh(const Totals& totals, std::size_t realizations) {
   return (of_rows - of_pooled) / static_cast<double>(realizations - 1) * kwh_per_joule;
 }
 
+/// Sensors of which more than half the lines meet backs see a body from within.
+std::string buried_sensors(const Totals& totals, const ResultGeometry& geometry) {
+  if (!totals.has(batch_array::sensor_backs)) return {};
+  const auto& backs = totals[batch_array::sensor_backs];
+  std::size_t count = 0, first = 0;
+  for (std::size_t s = backs.size(); s-- > 0;)
+    if (backs[s] > 0.5) {
+      ++count;
+      first = s;
+    }
+  if (count == 0) return {};
+  const Vec3 at = geometry.sensor_position[first] + geometry.origin;
+  return fmt::format(
+      "{} of {} sensors see mostly backs of surfaces, from where no light comes, the first of them "
+      "sensor {} at ({:.10g}, {:.10g}, {:.10g}); they lie within bodies or look into them",
+      count, backs.size(), first, at.x, at.y, at.z);
+}
+
 /// Faults of the model that only the light brings out.
-std::vector<std::string> result_warnings(const Totals& totals) {
+std::vector<std::string> result_warnings(const Totals& totals, const ResultGeometry& geometry) {
   // DESIGN 4: light lost at backs is worth a warning above this share.
   constexpr double tolerable = 1e-3;
+  std::vector<std::string> warnings;
   const auto& energy = totals[batch_array::energy];
   const double share = energy[0] > 0 ? energy[2] / energy[0] : 0;
-  if (share <= tolerable) return {};
-  return {fmt::format(
-      "{:.2g} % of the energy is lost at backs of one-sided surfaces; turn or close these "
-      "surfaces, or make them two-sided (sides: two)",
-      100 * share)};
+  if (share > tolerable)
+    warnings.push_back(fmt::format(
+        "{:.2g} % of the energy is lost at backs of one-sided surfaces; turn or close these "
+        "surfaces, or make them two-sided (sides: two)",
+        100 * share));
+  if (auto buried = buried_sensors(totals, geometry); !buried.empty())
+    warnings.push_back(std::move(buried));
+  return warnings;
 }
 
 ResultTimes result_times(const LightSeries& light) {
@@ -194,7 +227,8 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
                {"runtime_direct_s", work.direct_s},
                {"runtime_mirror_s", work.mirror_s},
                {"runtime_solve_s", work.solve_s},
-               {"runtime_realizations_s", work.realizations_s}};
+               {"runtime_realizations_s", work.realizations_s},
+               {"runtime_sensors_s", work.sensors_s}};
   a.integers = {{"seed", static_cast<std::int64_t>(study.solver.seed)},
                 {"realizations", study.solver.realizations},
                 {"lines_per_patch", study.solver.lines_per_patch},
@@ -205,14 +239,15 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
                 {"direct_rays", static_cast<std::int64_t>(work.direct_rays)},
                 {"mirror_rays", static_cast<std::int64_t>(work.mirror_rays)},
                 {"mirror_beams", static_cast<std::int64_t>(work.mirror_beams)},
-                {"mirror_shots", static_cast<std::int64_t>(work.mirror_shots)}};
+                {"mirror_shots", static_cast<std::int64_t>(work.mirror_shots)},
+                {"sensor_rays", static_cast<std::int64_t>(work.sensor_rays)}};
   std::string weather;
   for (const auto& line : plan.light.weather) weather += line + "\n";
   if (!weather.empty()) a.text.emplace_back("weather", weather);
   std::string warnings;
   for (const auto& list : {file.warnings, plan.built.warnings, plan.light.notes})
     for (const auto& line : list) warnings += line + "\n";
-  for (const auto& line : result_warnings(totals)) warnings += line + "\n";
+  for (const auto& line : result_warnings(totals, geometry)) warnings += line + "\n";
   if (!warnings.empty()) a.text.emplace_back("warnings", warnings);
   return a;
 }
@@ -222,7 +257,8 @@ std::vector<std::string> unwanted_series(const OutputStudy& output) {
   std::vector<std::string> unwanted;
   for (std::size_t p = 0; p < part_count; ++p)
     if (std::find(output.series.begin(), output.series.end(), part_names[p]) == output.series.end())
-      unwanted.push_back(series_name(static_cast<Part>(p)));
+      for (const auto& prefix : {std::string(), sensor_prefix})
+        unwanted.push_back(prefix + series_name(static_cast<Part>(p)));
   return unwanted;
 }
 
@@ -254,6 +290,10 @@ ResultGeometry result_geometry(const VariantPlan& plan, const Hierarchy& hierarc
     g.facade_name.push_back(f.name);
     g.facade_area.push_back(f.area_m2);
     g.facade_azimuth_deg.push_back(wrapped_deg(f.azimuth_deg + plan.built.site.north_deg));
+  }
+  for (const auto& sensor : scene.sensors) {
+    g.sensor_position.push_back(sensor.position);
+    g.sensor_normal.push_back(sensor.normal);
   }
   g.origin = mesh.origin;
   return g;
@@ -309,7 +349,7 @@ std::vector<std::string> merge_variant(const std::string& folder, const VariantP
   write_loads(writer, totals, geometry);
   write_ledger_errors(writer, totals);
   writer.finish(result_attributes(plan, file, totals, geometry), file.yaml);
-  return result_warnings(totals);
+  return result_warnings(totals, geometry);
 }
 
 void remove_empty_folders(const std::string& folder, const VariantPlan& plan) {

@@ -24,6 +24,7 @@
 #include "geo/sun.h"
 #include "geo/time.h"
 #include "geo/weather.h"
+#include "io/sensor_file.h"
 #include "solver/oracle.h"
 
 namespace sunload {
@@ -163,6 +164,12 @@ struct OutputStudy {
   int compression = 4;
 };
 
+/// Points that receive without disturbing the scene, inline or from a file.
+struct SensorsStudy {
+  std::vector<SensorPoint> points;
+  Where where;
+};
+
 struct Study {
   std::string name;
   std::string variant = "baseline";
@@ -173,6 +180,7 @@ struct Study {
   SceneStudy scene;
   MeshStudy mesh;
   SolverStudy solver;
+  SensorsStudy sensors;
   OutputStudy output;
 };
 

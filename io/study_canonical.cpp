@@ -180,7 +180,9 @@ json canonical(const SolverStudy& solver) {
 }  // namespace
 
 std::string canonical_text(const Study& study) {
-  const auto& [name, variant, site, period, sun, light, scene, mesh, solver, output] = study;
+  // Sensors are hashed with the scene.
+  const auto& [name, variant, site, period, sun, light, scene, mesh, solver, sensors, output] =
+      study;
   const json all{{"site", canonical(site)},    {"period", canonical(period)},
                  {"sun", canonical(sun)},      {"light", canonical(light)},
                  {"scene", canonical(scene)},  {"mesh", canonical(mesh)},

@@ -97,7 +97,6 @@ std::vector<LaterKey> later_keys() {
       {"solver.accuracy", ""},
       {"solver.max_lines_per_patch", ""},
       {"solver.bands", ""},
-      {"sensors", ""},
   };
 }
 

@@ -50,6 +50,11 @@ void add_scene(Digest& digest, const Scene& scene) {
     digest.add(m.mirror);
     digest.add(m.emission_w_m2);
   }
+  for (const auto& sensor : scene.sensors) {
+    digest.add(sensor.position);
+    digest.add(sensor.normal);
+    digest.add(sensor.key);
+  }
 }
 
 std::string times_text(const LightSeries& light) {
@@ -190,7 +195,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
   const bool lamps = has([](const Material& m) { return m.emission_w_m2 > 0; });
   // Total, direct, sky, reflected, and what the scene has besides.
   const double parts = 4.0 + (mirrors ? 1 : 0) + (lamps ? 1 : 0);
-  const auto n = static_cast<double>(patches);
+  const auto n = static_cast<double>(patches + plan.built.scene.sensors.size());
   const auto lit = static_cast<double>(lamps ? plan.intervals() : plan.light.lit_count());
   const auto batch = static_cast<double>(std::min(plan.batch_suns(), plan.intervals()));
   const auto batches = static_cast<double>(plan.batches());

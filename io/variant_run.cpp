@@ -110,6 +110,7 @@ void VariantRun::report_work() const {
   if (w.mirror_beams + w.mirror_shots > 0)
     text += fmt::format("  {:<14} {} beams by image directions, {} arrivals by shooting\n", "",
                         w.mirror_beams, w.mirror_shots);
+  text += rays_text("sensors", w.sensor_rays, w.sensors_s);
   text += fmt::format("  {:<14} {:8.2f} s\n  {:<14} {:8.2f} s  peak memory {:.0f} MiB",
                       "sky and Jacobi", w.solve_s, "realizations", w.realizations_s,
                       peak_memory_bytes() / mib);

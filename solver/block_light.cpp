@@ -14,7 +14,7 @@ constexpr std::size_t patches_per_task = 1024;
 
 /// Irradiance by emitters, straight or by mirrors.
 std::vector<float> lamps(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics) {
-  std::vector<float> out(optics.emission.size(), 0.0f);
+  std::vector<float> out(lines.ends.size(), 0.0f);
   if (!optics.any_emission) return out;
   std::vector<double> emission(optics.emission.begin(), optics.emission.end());
   emission.resize(mesh.element_count());
@@ -36,29 +36,38 @@ BlockSources::BlockSources(std::span<const SunLight> block, std::size_t sky_cell
   }
 }
 
-BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
-                       const BlockSources& sources, Columns direct, Columns sun_by_mirror,
-                       int bounces) {
-  const std::size_t patches = optics.diffuse.size();
+BlockLight first_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                       const BlockSources& sources, Columns direct, Columns sun_by_mirror) {
+  const std::size_t rows = lines.ends.size();
   BlockLight light;
   light.direct = std::move(direct);
-  light.sky = columns(patches);
+  light.sky = columns(rows);
   gather(lines.sky, sources.sky, light.sky, Into::replace);
   light.mirror = std::move(sun_by_mirror);
   if (optics.any_mirror) gather(lines.sky_by_mirror, sources.sky, light.mirror, Into::add);
   light.lamps = lamps(mesh, lines, optics);
-
-  Columns base = columns(patches), ground = columns(patches);
-  parallel_for(patches, [&](std::size_t i) {
+  light.reflected = columns(rows);
+  parallel_for(rows, [&](std::size_t i) {
     const float seen = lines.ends[i].ground + lines.ends[i].ground_by_mirror;
+    for (std::size_t k = 0; k < block_width; ++k)
+      light.reflected[i * block_width + k] = seen * sources.ground_exitance[k];
+  }, patches_per_task);
+  return light;
+}
+
+BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                       const BlockSources& sources, Columns direct, Columns sun_by_mirror,
+                       int bounces) {
+  BlockLight light =
+      first_light(mesh, lines, optics, sources, std::move(direct), std::move(sun_by_mirror));
+  Columns base = columns(optics.diffuse.size());
+  parallel_for(optics.diffuse.size(), [&](std::size_t i) {
     for (std::size_t k = 0; k < block_width; ++k) {
       const std::size_t at = i * block_width + k;
       base[at] = light.direct[at] + light.sky[at] + light.mirror[at] + light.lamps[i];
-      ground[at] = seen * sources.ground_exitance[k];
     }
   }, patches_per_task);
-
-  Reflected reflected = reflect(mesh, lines, optics, base, ground, bounces);
+  Reflected reflected = reflect(mesh, lines, optics, base, light.reflected, bounces);
   light.reflected = std::move(reflected.irradiance);
   light.followed = std::move(reflected.followed);
   return light;

@@ -31,6 +31,11 @@ struct BlockLight {
   }
 };
 
+/// What arrives at the rows of `lines` without diffuse reflection by patches; `reflected`
+/// holds the far ground alone, `followed` nothing.
+BlockLight first_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                       const BlockSources& sources, Columns direct, Columns sun_by_mirror);
+
 /// direct, sun_by_mirror: irradiance of the sun, straight and by mirrors.
 BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                        const BlockSources& sources, Columns direct, Columns sun_by_mirror,

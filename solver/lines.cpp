@@ -40,6 +40,10 @@ void LinkTable::append_row(Block& block, std::vector<Link>& links, float scale) 
   block.begin.push_back(static_cast<std::uint32_t>(block.target.size()));
 }
 
+LineSet empty_line_set(std::size_t rows) {
+  return {LinkTable(rows), LinkTable(rows), LinkTable(rows), std::vector<LineEnds>(rows), {}};
+}
+
 namespace {
 
 /// Lines of the patches of one block, all realizations: the unit of parallel work.
@@ -67,10 +71,10 @@ class BlockTracer {
       for (std::size_t r = 0; r < lines.realizations.size(); ++r) {
         own.clear();
         trace_patch(patch, r, own, output);
-        pool(own, pooled);
-        store(lines.realizations[r], patch, own, lines_per_realization());
+        pooled += own;
+        own.store(lines.realizations[r], patch, lines_per_realization());
       }
-      store(lines.pooled, patch, pooled, rules_.lines_per_patch);
+      pooled.store(lines.pooled, patch, rules_.lines_per_patch);
     }
     return output;
   }
@@ -151,43 +155,12 @@ class BlockTracer {
     return fate.rays;
   }
 
-  static void pool(const LineCollector& own, LineCollector& pooled) {
-    const auto append = [](auto& to, const auto& from) {
-      to.insert(to.end(), from.begin(), from.end());
-    };
-    append(pooled.patches, own.patches);
-    append(pooled.sky, own.sky);
-    append(pooled.sky_by_mirror, own.sky_by_mirror);
-    pooled.ends.sky += own.ends.sky;
-    pooled.ends.ground += own.ends.ground;
-    pooled.ends.ground_by_mirror += own.ends.ground_by_mirror;
-    pooled.ends.escaped += own.ends.escaped;
-    pooled.ends.backs += own.ends.backs;
-    pooled.ends.cut += own.ends.cut;
-  }
-
-  static void store(LineSet& set, std::size_t patch, LineCollector& lines, int count) {
-    const float scale = 1.0f / static_cast<float>(count);
-    const std::size_t block = patch / LinkTable::rows_per_block;
-    LinkTable::append_row(set.patches.blocks[block], lines.patches, scale);
-    LinkTable::append_row(set.sky.blocks[block], lines.sky, scale);
-    LinkTable::append_row(set.sky_by_mirror.blocks[block], lines.sky_by_mirror, scale);
-    const LineEnds& e = lines.ends;
-    set.ends[patch] = {e.sky * scale,     e.ground * scale, e.ground_by_mirror * scale,
-                       e.escaped * scale, e.backs * scale,  e.cut * scale};
-  }
-
   const Hierarchy& hierarchy_;
   const RayCaster& caster_;
   const LineRules& rules_;
   LineFollower follower_;
   std::size_t ground_source_;
 };
-
-LineSet empty_set(std::size_t patches) {
-  return {LinkTable(patches), LinkTable(patches), LinkTable(patches),
-          std::vector<LineEnds>(patches), {}};
-}
 
 void add(std::vector<double>& to, const std::vector<double>& from, double factor) {
   if (from.empty()) return;
@@ -217,8 +190,8 @@ Lines trace_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaste
                  "lines are shared equally by the realizations");
   const std::size_t patches = hierarchy.patch_count();
   Lines lines;
-  lines.realizations.assign(static_cast<std::size_t>(rules.realizations), empty_set(patches));
-  lines.pooled = empty_set(patches);
+  lines.realizations.assign(static_cast<std::size_t>(rules.realizations), empty_line_set(patches));
+  lines.pooled = empty_line_set(patches);
 
   const BlockTracer tracer(scene, hierarchy, caster, grid, rules);
   std::vector<BlockTracer::Output> outputs(lines.pooled.patches.blocks.size());

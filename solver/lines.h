@@ -65,6 +65,9 @@ struct LineSet {
   MirroredFirstLight first_light;
 };
 
+/// Room for the lines of so many patches or sensors.
+LineSet empty_line_set(std::size_t rows);
+
 struct LineRules {
   int lines_per_patch = 256;  ///< over all realizations together
   int realizations = 8;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geo/mesh.h"
+#include "solver/sensor.h"
 
 namespace sunload {
 
@@ -28,6 +29,7 @@ struct Scene {
   Mesh mesh;
   std::vector<Material> materials;
   std::vector<MaterialId> material;  ///< per triangle, into `materials`
+  std::vector<Sensor> sensors = {};  ///< receive light without disturbing the rest
 };
 
 /// Shares of a refused or degenerate material are errors of the caller: throws

@@ -8,6 +8,7 @@
 #include "geo/units.h"
 #include "solver/parallel.h"
 #include "solver/push_pull.h"
+#include "solver/sensor_light.h"
 
 namespace sunload {
 
@@ -27,16 +28,83 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
+LineRules line_rules(const SolverRules& rules) {
+  return {rules.lines_per_patch, rules.realizations, rules.mirror_depth, rules.seed,
+          rules.link_threshold / rules.lines_per_patch};
+}
+
 Lines timed_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
                   const SkyGrid& grid, const SolverRules& rules, Watch& watch, WorkDone& work) {
   const Stopwatch time(work.lines_s);
-  Lines lines = trace_lines(scene, hierarchy, caster, grid,
-                            {rules.lines_per_patch, rules.realizations, rules.mirror_depth,
-                             rules.seed, rules.link_threshold / rules.lines_per_patch},
-                            watch);
+  Lines lines = trace_lines(scene, hierarchy, caster, grid, line_rules(rules), watch);
   work.line_rays = lines.rays;
   return lines;
 }
+
+Lines timed_sensor_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
+                         const SkyGrid& grid, const SolverRules& rules, WorkDone& work) {
+  const Stopwatch time(work.sensors_s);
+  Lines lines = trace_sensor_lines(scene, hierarchy, caster, grid, line_rules(rules));
+  work.sensor_rays = lines.rays;
+  return lines;
+}
+
+/// Adds the light of a block to what receivers get.
+void store_received(const BlockLight& light, std::span<const SunLight> block,
+                    std::size_t first_row, const Columns& sunlit, ReceiverTally& tally) {
+  const std::size_t receivers = tally.sunlit_s.size();
+  const auto put = [&](Part part, std::size_t i, std::size_t k, float value) {
+    const auto p = static_cast<std::size_t>(part);
+    if (tally.irradiance[p].empty()) return;
+    tally.irradiance[p][(first_row + k) * receivers + i] = value;
+    tally.exposure[p][i] += static_cast<double>(value) * block[k].length_s;
+  };
+  parallel_for(receivers, [&](std::size_t i) {
+    for (std::size_t k = 0; k < block.size(); ++k) {
+      const std::size_t at = i * block_width + k;
+      const float total = light.total(i, k);
+      put(Part::total, i, k, total);
+      put(Part::direct, i, k, light.direct[at]);
+      put(Part::sky, i, k, light.sky[at]);
+      put(Part::mirror, i, k, light.mirror[at]);
+      put(Part::lamps, i, k, light.lamps[i]);
+      put(Part::reflected, i, k, light.reflected[at]);
+      tally.sunlit_s[i] += static_cast<double>(sunlit[at]) * block[k].sunlit_s;
+      tally.irradiance_max[i] = std::max(tally.irradiance_max[i], total);
+    }
+  }, patches_per_task);
+}
+
+/// Sums over realizations of the irradiance of a block, for its standard error.
+class Spread {
+ public:
+  Spread(std::size_t receivers, std::size_t suns)
+      : receivers_(receivers), suns_(suns), sum_(receivers * block_width, 0), squares_(sum_) {}
+  void add(const BlockLight& light) {
+    parallel_for(receivers_, [&](std::size_t i) {
+      for (std::size_t k = 0; k < suns_; ++k) {
+        const auto E = static_cast<double>(light.total(i, k));
+        sum_[i * block_width + k] += E;
+        squares_[i * block_width + k] += E * E;
+      }
+    }, patches_per_task);
+  }
+  void store(std::size_t realizations, std::size_t first_row, std::vector<float>& se) const {
+    const auto n = static_cast<double>(realizations);
+    parallel_for(receivers_, [&](std::size_t i) {
+      for (std::size_t k = 0; k < suns_; ++k) {
+        const std::size_t at = i * block_width + k;
+        const double variance =
+            std::max(0.0, squares_[at] - sum_[at] * sum_[at] / n) / (n - 1);
+        se[(first_row + k) * receivers_ + i] = static_cast<float>(std::sqrt(variance / n));
+      }
+    }, patches_per_task);
+  }
+
+ private:
+  std::size_t receivers_, suns_;
+  std::vector<double> sum_, squares_;
+};
 
 Ledger scaled(Ledger ledger, double factor) {
   for (auto& term : ledger.terms) term *= factor;
@@ -58,11 +126,55 @@ Ledger sun_sent_on(const MirroredSun& fate, std::size_t k) {
 /// estimates of their own [J m-2], [J].
 struct LightSolver::TimeSums {
   std::vector<std::vector<double>> direct, by_mirror;  ///< [R][N]
+  std::vector<std::vector<double>> sensor_direct, sensor_by_mirror;  ///< [R][sensors]
   std::vector<double> sky;                             ///< [cells] π·radiance·time
   double ground = 0;
   double length_s = 0;                                 ///< for lamps
   std::vector<Ledger> sent_on;                         ///< [R] the sun's light that mirrors sent on
 };
+
+/// The sun's irradiance of each realization, straight and by mirrors; empty where errors per
+/// instant are not asked for.
+struct LightSolver::SunColumns {
+  std::vector<Columns> direct, by_mirror;
+  SunColumns(std::size_t realizations, std::size_t receivers)
+      : direct(realizations, columns(receivers)), by_mirror(direct) {}
+  std::vector<Columns>* direct_or_none() { return direct.empty() ? nullptr : &direct; }
+  std::vector<Columns>* by_mirror_or_none() { return by_mirror.empty() ? nullptr : &by_mirror; }
+};
+
+namespace {
+
+/// Time-integrated irradiance of one realization before any diffuse reflection [J m-2].
+struct FirstExposure {
+  std::vector<double> sky, base, ground;  ///< straight from the sky; all but ground; far ground
+};
+
+template <class Sums>
+FirstExposure first_exposure(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics, const Sums& sums,
+                             const std::vector<double>& direct,
+                             const std::vector<double>& by_mirror) {
+  const std::size_t rows = lines.ends.size();
+  FirstExposure first{std::vector<double>(rows, 0), std::vector<double>(rows, 0),
+                      std::vector<double>(rows, 0)};
+  gather(lines.sky, sums.sky, first.sky, Into::replace);
+  if (optics.any_mirror) gather(lines.sky_by_mirror, sums.sky, first.base, Into::add);
+  if (optics.any_emission) {
+    std::vector<double> emission(optics.emission.begin(), optics.emission.end());
+    for (auto& m : emission) m *= sums.length_s;
+    emission.resize(mesh.element_count());
+    pull_up(mesh, emission);
+    gather(lines.patches, emission, first.base, Into::add);
+  }
+  for (std::size_t i = 0; i < rows; ++i) {
+    first.base[i] += direct[i] + by_mirror[i] + first.sky[i];
+    first.ground[i] = static_cast<double>(lines.ends[i].ground + lines.ends[i].ground_by_mirror) *
+                      sums.ground;
+  }
+  return first;
+}
+
+}  // namespace
 
 LightSolver::LightSolver(const Scene& scene, const SplitRules& split, const SolverRules& rules,
                          Watch& watch, std::optional<Lines> ready)
@@ -79,9 +191,12 @@ LightSolver::LightSolver(const Scene& scene, std::shared_ptr<const Hierarchy> me
       optics_(patch_optics(scene, hierarchy_)),
       lines_(ready ? std::move(*ready)
                    : timed_lines(scene, hierarchy_, caster_, grid_, rules, watch, work_)),
+      sensor_lines_(timed_sensor_lines(scene, hierarchy_, caster_, grid_, rules, work_)),
       sampler_(hierarchy_, caster_, {rules.direct_samples, rules.realizations, rules.seed}),
+      sensor_sampler_(scene.sensors, caster_,
+                      {rules.direct_samples, rules.realizations, rules.seed}),
       mirrors_(scene),
-      mirror_sun_(hierarchy_, caster_, sampler_, mirrors_),
+      mirror_sun_(caster_, mirrors_),
       mirror_chains_(hierarchy_, caster_, sampler_, mirrors_, {rules.mirror_depth, rules.unshot}),
       bounces_(bounces_needed(hierarchy_, lines_.pooled, optics_, rules.bounces,
                               rules.unshot)) {}
@@ -105,6 +220,8 @@ BatchTally LightSolver::solve(std::span<const SunLight> batch, Watch& watch) {
   TimeSums sums;
   sums.direct.assign(realizations, std::vector<double>(patches, 0));
   sums.by_mirror = sums.direct;
+  sums.sensor_direct.assign(realizations, std::vector<double>(scene_.sensors.size(), 0));
+  sums.sensor_by_mirror = sums.sensor_direct;
   sums.sky.assign(static_cast<std::size_t>(grid_.cell_count()), 0);
   sums.sent_on.resize(realizations);
 
@@ -132,40 +249,42 @@ void LightSolver::solve_block(std::span<const SunLight> block, std::size_t first
   const auto realizations = static_cast<std::size_t>(rules_.realizations);
   const BlockSources sources(block, static_cast<std::size_t>(grid_.cell_count()));
   const bool per_instant = rules_.errors == Errors::instants;
-  std::vector<Columns> direct_of, by_mirror_of;
-  if (per_instant) direct_of.assign(realizations, columns(patches));
-  by_mirror_of = direct_of;
+  SunColumns of_patches(per_instant ? realizations : 0, patches);
+  SunColumns of_sensors(per_instant ? realizations : 0, scene_.sensors.size());
 
   DirectSun direct;
   {
     const Stopwatch time(work_.direct_s);
-    direct = direct_sun(hierarchy_, caster_, sampler_, block, sums.direct,
-                        per_instant ? &direct_of : nullptr);
+    direct = direct_sun(caster_, sampler_, block, sums.direct, of_patches.direct_or_none());
     work_.direct_rays += direct.rays;
   }
   Columns by_mirror = columns(patches);
+  std::vector<SunBeams> beams;
   std::vector<MirroredSun> sent_on;
   if (mirrors_.size() > 0) {
     const Stopwatch time(work_.mirror_s);
-    const MirroredIrradiance into{by_mirror, sums.by_mirror, per_instant ? &by_mirror_of : nullptr};
-    const auto beams = beams_of(block);
-    work_.mirror_rays += mirror_sun_.add_light(block, beams, into);
+    const MirroredIrradiance into{by_mirror, sums.by_mirror, of_patches.by_mirror_or_none()};
+    beams = beams_of(block);
+    work_.mirror_rays += mirror_sun_.add_light(sampler_, block, beams, into);
     auto followed = mirror_chains_.follow(block, beams, into);
     work_.mirror_rays += followed.rays;
     work_.mirror_shots += followed.shots;
     for (const auto& of_sun : beams) work_.mirror_beams += of_sun.size();
     sent_on = std::move(followed.fates);
   }
+  Columns followed;
   {
     const Stopwatch time(work_.solve_s);
-    const BlockLight light = block_light(hierarchy_, lines_.pooled, optics_, sources,
-                                         std::move(direct.irradiance), std::move(by_mirror),
-                                         bounces_);
+    BlockLight light = block_light(hierarchy_, lines_.pooled, optics_, sources,
+                                   std::move(direct.irradiance), std::move(by_mirror), bounces_);
     const auto ledger = block_ledger(lines_.pooled, optics_, hierarchy_.area(), sources, light);
     std::copy(ledger.begin(), ledger.end(),
               tally.ledger.begin() + static_cast<std::ptrdiff_t>(first_row));
     store(light, block, first_row, direct.sunlit, tally);
+    followed = std::move(light.followed);
   }
+  if (!scene_.sensors.empty())
+    solve_sensors(sources, beams, followed, first_row, sums, of_sensors, tally.sensors);
   for (std::size_t r = 0; r < sent_on.size(); ++r)
     for (std::size_t k = 0; k < block.size(); ++k) {
       const Ledger fate = sun_sent_on(sent_on[r], k);
@@ -178,7 +297,7 @@ void LightSolver::solve_block(std::span<const SunLight> block, std::size_t first
     sums.length_s += sun.length_s;
   }
   if (per_instant) {
-    errors_per_instant(sources, first_row, direct_of, by_mirror_of, tally);
+    errors_per_instant(sources, first_row, of_patches, of_sensors, tally);
     for (std::size_t r = 0; r < sent_on.size(); ++r)
       for (std::size_t k = 0; k < block.size(); ++k)
         tally.ledger_instants[r][first_row + k] += sun_sent_on(sent_on[r], k);
@@ -195,85 +314,63 @@ std::vector<SunBeams> LightSolver::beams_of(std::span<const SunLight> block) con
 
 void LightSolver::store(const BlockLight& light, std::span<const SunLight> block,
                         std::size_t first_row, const Columns& sunlit, BatchTally& tally) const {
-  const std::size_t patches = hierarchy_.patch_count();
-  const auto put = [&](Part part, std::size_t i, std::size_t k, float value) {
-    const auto p = static_cast<std::size_t>(part);
-    if (tally.irradiance[p].empty()) return;
-    tally.irradiance[p][(first_row + k) * patches + i] = value;
-    tally.exposure[p][i] += static_cast<double>(value) * block[k].length_s;
-  };
-  parallel_for(patches, [&](std::size_t i) {
-    for (std::size_t k = 0; k < block.size(); ++k) {
-      const std::size_t at = i * block_width + k;
-      const float total = light.total(i, k);
-      put(Part::total, i, k, total);
-      put(Part::direct, i, k, light.direct[at]);
-      put(Part::sky, i, k, light.sky[at]);
-      put(Part::mirror, i, k, light.mirror[at]);
-      put(Part::lamps, i, k, light.lamps[i]);
-      put(Part::reflected, i, k, light.reflected[at]);
-      tally.outgoing[i] += static_cast<double>(optics_.diffuse[i] * total + optics_.emission[i]) *
-                           block[k].length_s;
-      tally.sunlit_s[i] += static_cast<double>(sunlit[at]) * block[k].sunlit_s;
-      tally.irradiance_max[i] = std::max(tally.irradiance_max[i], total);
-    }
+  store_received(light, block, first_row, sunlit, tally);
+  parallel_for(hierarchy_.patch_count(), [&](std::size_t i) {
+    for (std::size_t k = 0; k < block.size(); ++k)
+      tally.outgoing[i] +=
+          static_cast<double>(optics_.diffuse[i] * light.total(i, k) + optics_.emission[i]) *
+          block[k].length_s;
   }, patches_per_task);
 }
 
+void LightSolver::solve_sensors(const BlockSources& sources, std::span<const SunBeams> beams,
+                                const Columns& followed, std::size_t first_row, TimeSums& sums,
+                                SunColumns& of_realizations, ReceiverTally& tally) {
+  const Stopwatch time(work_.sensors_s);
+  DirectSun direct = direct_sun(caster_, sensor_sampler_, sources.suns, sums.sensor_direct,
+                                of_realizations.direct_or_none());
+  work_.sensor_rays += direct.rays;
+  Columns by_mirror = columns(scene_.sensors.size());
+  if (mirrors_.size() > 0)
+    work_.sensor_rays += mirror_sun_.add_light(
+        sensor_sampler_, sources.suns, beams,
+        {by_mirror, sums.sensor_by_mirror, of_realizations.by_mirror_or_none()});
+  const BlockLight light =
+      sensor_light(hierarchy_, sensor_lines_.pooled, optics_, sources, std::move(direct.irradiance),
+                   std::move(by_mirror), followed);
+  store_received(light, sources.suns, first_row, direct.sunlit, tally);
+}
+
 void LightSolver::errors_per_instant(const BlockSources& sources, std::size_t first_row,
-                                     std::vector<Columns>& direct, std::vector<Columns>& by_mirror,
+                                     SunColumns& of_patches, SunColumns& of_sensors,
                                      BatchTally& tally) const {
-  const std::size_t patches = hierarchy_.patch_count(), R = direct.size();
-  const std::size_t suns = sources.suns.size();
-  std::vector<double> sum(patches * block_width, 0), squares = sum;
+  const std::size_t R = of_patches.direct.size(), suns = sources.suns.size();
+  Spread patches(hierarchy_.patch_count(), suns), sensors(scene_.sensors.size(), suns);
   for (std::size_t r = 0; r < R; ++r) {
     const LineSet& lines = lines_.realizations[r];
-    const BlockLight light = block_light(hierarchy_, lines, optics_, sources, std::move(direct[r]),
-                                         std::move(by_mirror[r]), bounces_);
+    const BlockLight light =
+        block_light(hierarchy_, lines, optics_, sources, std::move(of_patches.direct[r]),
+                    std::move(of_patches.by_mirror[r]), bounces_);
     const auto ledger = block_ledger(lines, optics_, hierarchy_.area(), sources, light);
     std::copy(ledger.begin(), ledger.end(),
               tally.ledger_instants[r].begin() + static_cast<std::ptrdiff_t>(first_row));
-    parallel_for(patches, [&](std::size_t i) {
-      for (std::size_t k = 0; k < suns; ++k) {
-        const auto E = static_cast<double>(light.total(i, k));
-        sum[i * block_width + k] += E;
-        squares[i * block_width + k] += E * E;
-      }
-    }, patches_per_task);
+    patches.add(light);
+    sensors.add(sensor_light(hierarchy_, sensor_lines_.realizations[r], optics_, sources,
+                             std::move(of_sensors.direct[r]), std::move(of_sensors.by_mirror[r]),
+                             light.followed));
   }
-  const auto n = static_cast<double>(R);
-  parallel_for(patches, [&](std::size_t i) {
-    for (std::size_t k = 0; k < suns; ++k) {
-      const std::size_t at = i * block_width + k;
-      const double variance = std::max(0.0, squares[at] - sum[at] * sum[at] / n) / (n - 1);
-      tally.irradiance_se[(first_row + k) * patches + i] =
-          static_cast<float>(std::sqrt(variance / n));
-    }
-  }, patches_per_task);
+  patches.store(R, first_row, tally.irradiance_se);
+  sensors.store(R, first_row, tally.sensors.irradiance_se);
 }
 
 void LightSolver::solve_realization(std::size_t r, const TimeSums& sums, BatchTally& tally) const {
   const LineSet& lines = lines_.realizations[r];
-  const std::size_t patches = hierarchy_.patch_count();
-  std::vector<double> sky(patches, 0), base(patches, 0), ground(patches, 0);
-  gather(lines.sky, sums.sky, sky, Into::replace);
-  if (optics_.any_mirror) gather(lines.sky_by_mirror, sums.sky, base, Into::add);
-  if (optics_.any_emission) {
-    std::vector<double> emission(optics_.emission.begin(), optics_.emission.end());
-    for (auto& m : emission) m *= sums.length_s;
-    emission.resize(hierarchy_.element_count());
-    pull_up(hierarchy_, emission);
-    gather(lines.patches, emission, base, Into::add);
-  }
-  for (std::size_t i = 0; i < patches; ++i) {
-    base[i] += sums.direct[r][i] + sums.by_mirror[r][i] + sky[i];
-    ground[i] = static_cast<double>(lines.ends[i].ground + lines.ends[i].ground_by_mirror) *
-                sums.ground;
-  }
+  const auto [sky, base, ground] =
+      first_exposure(hierarchy_, lines, optics_, sums, sums.direct[r], sums.by_mirror[r]);
   const auto reflected = reflect(hierarchy_, lines, optics_, base, ground, bounces_);
 
   Ledger& ledger = tally.ledger_realization[r];
-  for (std::size_t i = 0; i < patches; ++i) {
+  for (std::size_t i = 0; i < hierarchy_.patch_count(); ++i) {
     const double total = base[i] + reflected.irradiance[i];
     tally.exposure_realization[r][i] = total;
     ledger += booked({hierarchy_.area()[i], static_cast<double>(optics_.diffuse[i]),
@@ -284,6 +381,27 @@ void LightSolver::solve_realization(std::size_t r, const TimeSums& sums, BatchTa
   }
   ledger += booked(lines.first_light, [&](std::size_t c) { return sums.sky[c]; }, sums.ground);
   ledger += sums.sent_on[r];
+
+  const LineSet& from_sensors = sensor_lines_.realizations[r];
+  const auto at_sensors = first_exposure(hierarchy_, from_sensors, optics_, sums, sums.sensor_direct[r],
+                                         sums.sensor_by_mirror[r]);
+  auto& received = tally.sensors.exposure_realization[r];
+  gather(from_sensors.patches, reflected.followed, received, Into::replace);
+  for (std::size_t s = 0; s < received.size(); ++s)
+    received[s] += at_sensors.base[s] + at_sensors.ground[s];
+}
+
+void LightSolver::make_room(ReceiverTally& tally, std::size_t receivers, std::size_t rows) const {
+  for (std::size_t p = 0; p < part_count; ++p) {
+    if (!has_part(static_cast<Part>(p))) continue;
+    tally.irradiance[p].assign(rows * receivers, 0);
+    tally.exposure[p].assign(receivers, 0);
+  }
+  tally.exposure_realization.assign(static_cast<std::size_t>(rules_.realizations),
+                                    std::vector<double>(receivers, 0));
+  tally.sunlit_s.assign(receivers, 0);
+  tally.irradiance_max.assign(receivers, 0);
+  if (rules_.errors == Errors::instants) tally.irradiance_se.assign(rows * receivers, 0);
 }
 
 BatchTally LightSolver::empty_tally(std::span<const SunLight> batch) const {
@@ -291,21 +409,13 @@ BatchTally LightSolver::empty_tally(std::span<const SunLight> batch) const {
   const auto realizations = static_cast<std::size_t>(rules_.realizations);
   BatchTally tally;
   tally.intervals = rows;
-  for (std::size_t p = 0; p < part_count; ++p) {
-    if (!has_part(static_cast<Part>(p))) continue;
-    tally.irradiance[p].assign(rows * patches, 0);
-    tally.exposure[p].assign(patches, 0);
-  }
-  tally.exposure_realization.assign(realizations, std::vector<double>(patches, 0));
+  make_room(tally, patches, rows);
+  make_room(tally.sensors, scene_.sensors.size(), rows);
   tally.outgoing.assign(patches, 0);
-  tally.sunlit_s.assign(patches, 0);
-  tally.irradiance_max.assign(patches, 0);
   tally.ledger.resize(rows);
   tally.ledger_realization.resize(realizations);
-  if (rules_.errors == Errors::instants) {
-    tally.irradiance_se.assign(rows * patches, 0);
+  if (rules_.errors == Errors::instants)
     tally.ledger_instants.assign(realizations, std::vector<Ledger>(rows));
-  }
   return tally;
 }
 
