@@ -162,6 +162,10 @@ void add_tally(BatchWriter& writer, const BatchTally& tally, const LightSolver& 
              solver.sky_view_factor().data());
   const double bounces = solver.bounces();
   writer.add({batch_array::bounces, MergeRule::maximum, ArrayType::float64, {1}}, &bounces);
+  const std::array<double, 2> counts{static_cast<double>(solver.rules().lines_per_patch),
+                                     static_cast<double>(solver.rules().direct_samples)};
+  writer.add({batch_array::counts, MergeRule::maximum, ArrayType::float64, {counts.size()}},
+             counts.data());
   const std::array energy{tally.energy.in(), tally.energy.residual(), tally.energy.lost_at_backs};
   writer.add({batch_array::energy, MergeRule::sum, ArrayType::float64, {energy.size()}},
              energy.data());

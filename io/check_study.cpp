@@ -66,7 +66,14 @@ std::string materials_text(const Scene& scene) {
 }
 
 std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
-  return fmt::format(
+  std::string text;
+  if (const auto& accuracy = plan.study.solver.accuracy)
+    text = fmt::format(
+        "  a standard error of {:.3g} % is asked for: counts are decided at the start of the run, from "
+        "{} lines and {} direct samples up to {}; what follows is with the least\n",
+        100 * accuracy->light_load_relative, plan.study.solver.lines_per_patch,
+        plan.study.solver.direct_samples, plan.study.solver.max_lines_per_patch);
+  return text + fmt::format(
       "  {} patches, {} intervals ({} with sun) in {} batches\n"
       "  {:.3g} lines, about {:.3g} shadow rays; estimated {:.0f} MiB memory, {:.0f} MiB disk, "
       "{:.0f} s on {} threads\n",

@@ -81,12 +81,19 @@ std::string accuracy(const ResultReader& result, const PatchGroups& groups,
     relative.push_back(se[i] / load[i] * 100);
     area.push_back(groups.patch_area()[i]);
   }
+  const double goal = result.number_attribute("accuracy_light_load_relative");
+  const std::string asked =
+      std::isnan(goal)
+          ? std::string()
+          : line("", fmt::format("asked for: below {:.3g} % on 95 % of the area; reached on {:.3g} %",
+                                 100 * goal, 100 * result.number_attribute("accuracy_area_share")));
   return line(
       "accuracy",
       fmt::format("standard error of a patch's light load: {:.2g} % (median by area), below "
                   "{:.2g} % on 95 %; {} realizations",
                   weighted_quantile(relative, area, median),
-                  weighted_quantile(relative, area, upper_quantile), realizations));
+                  weighted_quantile(relative, area, upper_quantile), realizations)) +
+         asked;
 }
 
 /// Least, mean and largest value of a quantity over the patches.

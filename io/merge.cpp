@@ -183,6 +183,20 @@ std::vector<std::string> result_warnings(const Totals& totals, const ResultGeome
   return warnings;
 }
 
+/// Share of the leaf area that counts whose error is as small as the study asks for.
+double accuracy_share(const Totals& totals, const ResultGeometry& geometry, double relative) {
+  const auto& load = totals[sum_name(Part::total)];
+  const auto se = errors_of(totals[batch_array::exposure], load.size());
+  const double largest = load.empty() ? 0 : *std::max_element(load.begin(), load.end());
+  double counts = 0, met = 0;
+  for (std::size_t i = 0; i < load.size(); ++i) {
+    if (load[i] <= 0 || load[i] < share_that_counts * largest) continue;
+    counts += geometry.patch_area[i];
+    if (se[i] <= relative * load[i]) met += geometry.patch_area[i];
+  }
+  return counts > 0 ? met / counts : 1;
+}
+
 ResultTimes result_times(const LightSeries& light) {
   ResultTimes times;
   for (const auto& i : light.intervals) {
@@ -203,6 +217,13 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
   const Study& study = plan.study;
   const WorkDone work = work_from(totals[batch_array::work]);
   const auto R = static_cast<std::size_t>(study.solver.realizations);
+  const auto& counts = totals[batch_array::counts];
+  const auto lines = static_cast<std::int64_t>(counts[0]);
+  const auto samples = static_cast<std::int64_t>(counts[1]);
+  // Other counts, other random points.
+  const std::string pairing_id =
+      study.solver.accuracy ? fmt::format("{}-{}-{}", plan.pairing_id, lines, samples)
+                            : plan.pairing_id;
   ResultAttributes a;
   a.text = {{"title", "Light load: " + study.name + ", variant " + study.variant},
             {"source", std::string("sunload ") + version + " (" + commit + ")"},
@@ -210,7 +231,7 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
             {"study", study.name},
             {"variant", study.variant},
             {"study_sha256", plan.content_hash},
-            {"pairing_id", plan.pairing_id},
+            {"pairing_id", pairing_id},
             {"isa", plan.isa},
             {"timezone", study.site.timezone},
             {"site_source", plan.built.site_source},
@@ -231,8 +252,8 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
                {"runtime_sensors_s", work.sensors_s}};
   a.integers = {{"seed", static_cast<std::int64_t>(study.solver.seed)},
                 {"realizations", study.solver.realizations},
-                {"lines_per_patch", study.solver.lines_per_patch},
-                {"direct_samples", study.solver.direct_samples},
+                {"lines_per_patch", lines},
+                {"direct_samples", samples},
                 {"bounces", static_cast<std::int64_t>(totals[batch_array::bounces][0])},
                 {"numerics_version", numerics_version},
                 {"line_rays", static_cast<std::int64_t>(work.line_rays)},
@@ -241,6 +262,11 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
                 {"mirror_beams", static_cast<std::int64_t>(work.mirror_beams)},
                 {"mirror_shots", static_cast<std::int64_t>(work.mirror_shots)},
                 {"sensor_rays", static_cast<std::int64_t>(work.sensor_rays)}};
+  if (study.solver.accuracy) {
+    const double relative = study.solver.accuracy->light_load_relative;
+    a.numbers.emplace_back("accuracy_light_load_relative", relative);
+    a.numbers.emplace_back("accuracy_area_share", accuracy_share(totals, geometry, relative));
+  }
   std::string weather;
   for (const auto& line : plan.light.weather) weather += line + "\n";
   if (!weather.empty()) a.text.emplace_back("weather", weather);

@@ -143,6 +143,10 @@ struct MeshStudy {
 };
 
 enum class Transport { gather };
+/// Counts per patch are raised until errors are as small as asked for.
+struct AccuracyStudy {
+  double light_load_relative = 0.01;  ///< standard error / light load
+};
 struct SolverStudy {
   Transport transport = Transport::gather;
   int bounces = 5;
@@ -154,6 +158,8 @@ struct SolverStudy {
   int batch_suns = 64;
   std::string isa = "auto";  ///< auto | sse4.2 | avx2 | avx512
   std::uint64_t seed = 1;
+  std::optional<AccuracyStudy> accuracy;
+  int max_lines_per_patch = 4096;  ///< of accuracy: the most lines, and the most direct samples
 };
 
 enum class StandardErrors { none, totals, instants };

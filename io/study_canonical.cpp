@@ -165,8 +165,8 @@ json canonical(const SolverStudy& solver) {
   // `isa` is left out: the instruction set in force is hashed apart, so that
   // pinning it finds the batches that `auto` computed on such a machine.
   const auto& [transport, bounces, unshot, lines_per_patch, direct_samples, realizations,
-               mirror_depth, batch_suns, isa, seed] = solver;
-  return {{"transport", transport},
+               mirror_depth, batch_suns, isa, seed, accuracy, max_lines_per_patch] = solver;
+  json all{{"transport", transport},
           {"bounces", bounces},
           {"unshot", unshot},
           {"lines_per_patch", lines_per_patch},
@@ -175,6 +175,12 @@ json canonical(const SolverStudy& solver) {
           {"mirror_depth", mirror_depth},
           {"batch_suns", batch_suns},
           {"seed", seed}};
+  if (accuracy) {
+    const auto& [light_load_relative] = *accuracy;
+    all["accuracy"] = {{"light_load_relative", light_load_relative},
+                       {"max_lines_per_patch", max_lines_per_patch}};
+  }
+  return all;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ constexpr int most_batch_suns = 65536;
 constexpr int fewest_realizations = 2;  // one has no spread
 constexpr int strongest_compression = 9;
 constexpr Range shares{0, 1};
+constexpr Range relative_errors{1e-4, 1};  // below, no number of lines would do
 
 /// Each realization gets its equal share.
 void check_shares(YamlMap& map, const std::string& key, int count, int realizations) {
@@ -48,6 +49,34 @@ std::vector<std::string> read_series(YamlMap& map, std::vector<std::string> abse
 
 }  // namespace
 
+namespace {
+
+/// `accuracy` and the most that it may raise the counts to.
+void read_accuracy(YamlMap& map, SolverStudy& solver) {
+  const bool describe = map.reading().purpose == YamlReading::Purpose::describe;
+  map.tree("accuracy");
+  if (map.has("accuracy") || describe) {
+    map.section("accuracy", [&](YamlMap& section) {
+      AccuracyStudy accuracy;
+      section.require("light_load_relative");
+      accuracy.light_load_relative =
+          section.number("light_load_relative", relative_errors, accuracy.light_load_relative);
+      solver.accuracy = accuracy;
+    });
+  }
+  solver.max_lines_per_patch =
+      map.integer("max_lines_per_patch", 1, most_lines, solver.max_lines_per_patch);
+  if (map.has("max_lines_per_patch") && !solver.accuracy)
+    map.warn("max_lines_per_patch", "is not used", "it belongs to accuracy");
+  const int least = std::max(solver.lines_per_patch, solver.direct_samples);
+  if (solver.accuracy && solver.max_lines_per_patch < least)
+    map.problem("max_lines_per_patch",
+                fmt::format("{} is below the least counts", solver.max_lines_per_patch),
+                fmt::format("lines_per_patch and direct_samples ask for up to {}", least));
+}
+
+}  // namespace
+
 SolverStudy read_solver(YamlMap& map) {
   SolverStudy solver;
   solver.transport = map.choice("transport", {{"gather", Transport::gather}}, solver.transport);
@@ -65,6 +94,7 @@ SolverStudy read_solver(YamlMap& map) {
                                 static_cast<std::int64_t>(solver.seed));
   solver.seed = static_cast<std::uint64_t>(seed);
   map.word("power_per_sample_w", {"auto"}, "auto");
+  read_accuracy(map, solver);
   if (realizations > 0) {
     solver.realizations = realizations;
     check_shares(map, "lines_per_patch", solver.lines_per_patch, realizations);
@@ -94,8 +124,6 @@ std::vector<LaterKey> later_keys() {
       {"scene.materials.*.transmittance", ""},
       {"solver.transport", "shoot"},
       {"solver.power_per_sample_w", ""},
-      {"solver.accuracy", ""},
-      {"solver.max_lines_per_patch", ""},
       {"solver.bands", ""},
   };
 }

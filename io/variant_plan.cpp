@@ -167,6 +167,10 @@ SolverRules solver_rules(const VariantPlan& plan) {
                                                                                  : Errors::totals};
 }
 
+AccuracyGoal accuracy_goal(const Study& study) {
+  return {study.solver.accuracy->light_load_relative, study.solver.max_lines_per_patch};
+}
+
 std::string result_path(const std::string& folder, const Study& study) {
   return folder + "/" + study.name + "/" + study.variant + ".h5";
 }
@@ -187,6 +191,12 @@ std::string batch_path(const std::string& folder, const VariantPlan& plan, std::
 
 WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
   const SolverStudy& s = plan.study.solver;
+  return estimate_work(plan, patches, {s.lines_per_patch, s.direct_samples, 0});
+}
+
+WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
+                           const SampleCounts& counts) {
+  const SolverStudy& s = plan.study.solver;
   const auto& materials = plan.built.scene.materials;
   const auto has = [&](auto property) {
     return std::any_of(materials.begin(), materials.end(), property);
@@ -199,13 +209,13 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
   const auto lit = static_cast<double>(lamps ? plan.intervals() : plan.light.lit_count());
   const auto batch = static_cast<double>(std::min(plan.batch_suns(), plan.intervals()));
   const auto batches = static_cast<double>(plan.batches());
-  const double lines = n * s.lines_per_patch, links = lines * s.bounces;
+  const double lines = n * counts.lines_per_patch, links = lines * s.bounces;
   const double of_realizations = double_bytes * s.realizations;
 
   WorkEstimate work;
   work.patches = patches;
   work.line_rays = static_cast<std::uint64_t>(lines);
-  const double rays = n * facing_share * lit * s.direct_samples;
+  const double rays = n * facing_share * lit * counts.direct_samples;
   work.direct_rays = static_cast<std::uint64_t>(rays);
   work.memory_bytes = program_bytes + lines * bytes_per_line +
                       n * (batch * parts * float_bytes + arrays_of_realizations * of_realizations +
@@ -216,7 +226,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
                     n * (of_realizations + result_bytes_per_patch);
   work.seconds =
       (s_to_start + n * s_per_patch + lines * s_per_line + rays * s_per_direct_ray +
-       (mirrors ? n * mirrored_share * lit * s.direct_samples * s_per_mirror_ray : 0) +
+       (mirrors ? n * mirrored_share * lit * counts.direct_samples * s_per_mirror_ray : 0) +
        links * lit * s_per_link_sun + links * batches * s_per_link_batch +
        n * lit * s_per_patch_sun + n * static_cast<double>(plan.intervals()) * s_per_value) /
       thread_count();

@@ -24,6 +24,9 @@ class VariantRun {
  private:
   bool is_finished(std::size_t batch);
   void make_solver(bool others_work_too, MpiWorld* world);
+  SolverRules decided_rules();
+  SunLight light_of(std::size_t interval, const SkyGrid& grid,
+                    const std::vector<double>& open_share) const;
   void compute_batch(std::size_t batch);
   void report_work() const;
 

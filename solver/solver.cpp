@@ -239,7 +239,11 @@ BatchTally LightSolver::solve(std::span<const SunLight> batch, Watch& watch) {
     tally.energy += scaled(tally.ledger[k], batch[k].length_s);
 
   const Stopwatch time(work_.realizations_s);
-  for (std::size_t r = 0; r < realizations; ++r) solve_realization(r, sums, tally);
+  for (std::size_t r = 0; r < realizations; ++r) {
+    solve_realization(r, sums, tally);
+    for (std::size_t i = 0; i < patches; ++i) sums.direct[r][i] += sums.by_mirror[r][i];
+  }
+  tally.sun_realization = std::move(sums.direct);
   return tally;
 }
 

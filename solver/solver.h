@@ -57,6 +57,7 @@ class LightSolver {
   const SkyGrid& sky_grid() const { return grid_; }
   const Lines& lines() const { return lines_; }
   int bounces() const { return bounces_; }
+  const SolverRules& rules() const { return rules_; }
   bool has_part(Part part) const;
   /// Cosine-weighted share of the hemisphere above each patch that is sky.
   std::vector<double> sky_view_factor() const;

@@ -52,6 +52,7 @@ struct ReceiverTally {
 struct BatchTally : ReceiverTally {
   std::size_t intervals = 0;
   std::vector<double> outgoing;                              ///< [N] radiosity, time-integrated
+  std::vector<std::vector<double>> sun_realization;          ///< [R][N] the sun's part of the exposure, mirrored included
   ReceiverTally sensors;
   std::vector<Ledger> ledger;                                ///< [K] W
   std::vector<Ledger> ledger_realization;                    ///< [R] J

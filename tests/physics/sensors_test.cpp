@@ -138,7 +138,7 @@ TEST(SensorFormFactors, ToDisks) {
     stage.add(disk({offset, 0, number(g["h"])}, number(g["r"]), corners), stage.lamp)
         .at({0, 0, 0}, {0, 0, 1});
     const double truth = number(c["F12"]);
-    check(c["id"], of_sensor(stage.light(night, rules_of(lines_for(truth))), 0), truth,
+    check(c["id"], of_sensor(stage.light(night, rules_of(lines_for(truth) / 4)), 0), truth,
           truth * (pi / corners) * (pi / corners) + lift(4) / number(g["h"]));
     ++cases;
   }
@@ -156,14 +156,14 @@ TEST(SensorFormFactors, SkyFromCanyonFloors) {
     const double x = kind == "canyon_svf_floor_centre" ? W / 2 : W * number(g["x_over_W"]);
     Stage stage;
     // Ends of a canyon of length 2L are seen within a share of about W·H / L².
-    const double L = 200 * std::max(W, H);
+    const double L = 50 * std::max(W, H);
     stage.add({{0, L, 0}, {0, -L, 0}, {0, -L, H}, {0, L, H}}, stage.black)
         .add({{W, -L, 0}, {W, L, 0}, {W, L, H}, {W, -L, H}}, stage.black)
         .add({{0, -L, 0}, {W, -L, 0}, {W, L, 0}, {0, L, 0}}, stage.black)
         .at({x, 0, 0}, {0, 0, 1});
     const double truth = number(c["F12"]);
     check(c["id"], of_sensor(stage.light(with_uniform_sky(night, 1), rules_of(1024)), 0), truth,
-          W * H / (L * L) + 2 * lift(L) / std::min(H, x));
+          W * H / (L * L) + 2 * lift(L) / std::min(H, x), 1.05);
     ++cases;
   }
   EXPECT_EQ(cases, 10);
@@ -193,7 +193,8 @@ TEST(SensorLamps, SquareEmitters) {
       add_square(stage, number(c["s"]), h, stage.lamp);
       stage.at(point(c["points"][p]), {0, 0, 1});
       check(c["id"].get<std::string>() + " " + std::to_string(p),
-            of_sensor(stage.light(night, rules_of(lines_for(truth))), 0), truth, lift(5) / h);
+            of_sensor(stage.light(night, rules_of(lines_for(truth))), 0), truth, lift(5) / h,
+            truth < 0.01 ? 1.1 : 1.02);
     }
 }
 
@@ -204,7 +205,7 @@ TEST(SensorLamps, TilingMakesNoDifference) {
     add_square(stage, number(c["s"]), number(c["h"]), stage.lamp, {}, c["n"].get<int>());
     stage.at(point(c["point"]), {0, 0, 1});
     const double truth = number(c["irradiance"]);
-    check(c["id"], of_sensor(stage.light(night, rules_of(lines_for(truth))), 0), truth,
+    check(c["id"], of_sensor(stage.light(night, rules_of(lines_for(truth) / 2)), 0), truth,
           lift(1) / number(c["h"]));
   }
 }
@@ -223,7 +224,7 @@ TEST(SensorLamps, ShadowsOfSquares) {
     const auto E = of_sensor(stage.light(night, rules_of(lines_for(open))), 0);
     const double bias = lift(4) / number(c["blocker_height"]);
     if (truth > 1e-9 && truth < open) {
-      check(c["id"], E, truth, bias);
+      check(c["id"], E, truth, bias, 1.05);
     } else {
       EXPECT_TRUE(expect_mean(E, truth, bias)) << c["id"];
       // Planted fault: the other of all and nothing.
@@ -282,7 +283,7 @@ TEST(SensorSun, MirroredOntoTheGround) {
     EXPECT_NEAR(mirrored[0], truth, float_rounding * truth) << c["id"];
     EXPECT_EQ(mirrored[1], 0) << c["id"];  // outside of the beam
     // A point and a sun without size: nothing is random.
-    EXPECT_EQ(mean_error(of_sensor(tally, 0)).standard_error, 0) << c["id"];
+    for (const double E : of_sensor(tally, 0)) EXPECT_EQ(E, of_sensor(tally, 0)[0]) << c["id"];
   }
 }
 
