@@ -10,8 +10,8 @@ namespace sunload {
 
 namespace {
 
-// Fewer realizations say little of a variance.
-constexpr int fewest_realizations = 8;
+// Fewer realizations say little of a variance; more than most take memory.
+constexpr int fewest_realizations = 8, most_realizations = 256;
 // None of so many lines meets what sends a patch 1 % of the largest load: 0.6 % of patches.
 constexpr int fewest_lines = 512;
 
@@ -49,9 +49,11 @@ class PilotWatch : public Watch {
 SolverRules pilot_rules(SolverRules rules) {
   const int lines = rules.lines_per_patch / rules.realizations;
   const int samples = rules.direct_samples / rules.realizations;
-  rules.realizations = std::max(rules.realizations, fewest_realizations);
-  rules.lines_per_patch = std::max(lines, (fewest_lines + rules.realizations - 1) / rules.realizations) *
-                          rules.realizations;
+  // The realizations are like the study's own (the errors of few scrambled points are not those
+  // of many), only more.
+  const int wanted = std::min(most_realizations, (fewest_lines + lines - 1) / lines);
+  rules.realizations = std::max({rules.realizations, fewest_realizations, wanted});
+  rules.lines_per_patch = lines * rules.realizations;
   rules.direct_samples = samples * rules.realizations;
   rules.seed = mixed(rules.seed, static_cast<std::uint64_t>(Purpose::pilot));
   rules.errors = Errors::totals;
@@ -90,7 +92,10 @@ SampleCounts needed_counts(const PatchSpread& spread, const SolverRules& least,
                            const AccuracyGoal& goal, std::size_t suns) {
   const auto lines = doubled(least.lines_per_patch, goal.most_per_patch, least.realizations);
   const auto samples = doubled(least.direct_samples, goal.most_per_patch, least.realizations);
-  const double relative = goal.light_load_relative;
+  // The errors that the result states are known to one part in √(2(R − 1)); they shall keep the
+  // goal too.
+  const double noise = 1 / std::sqrt(2.0 * (least.realizations - 1));
+  const double relative = goal.light_load_relative / (1 + noise);
   const double best = share_met(spread, relative, lines.back(), samples.back());
   const double wanted = std::min(best, share_to_be_met);
   SampleCounts chosen{lines.back(), samples.back(), best};

@@ -8,7 +8,8 @@
 ///
 /// (scrambled Sobol points do no worse than independent ones). Counts are doubled until
 /// SE / H meets the goal on 95 % of the leaf area that counts, the cheapest way, and frozen
-/// before the first tally: counts chosen from the very realizations that are tallied would
+/// before the first tally, with room for the errors of the errors that so few realizations state:
+/// counts chosen from the very realizations that are tallied would
 /// bias them. Patches whose load is below 1 % of the largest do not count, those that can
 /// receive no light among them; the pilot has lines enough that a patch of which none finds
 /// light lies below that share.

@@ -26,7 +26,7 @@ struct Square {
 };
 
 TEST(AccuracyStudy, DecidesCountsOnceForThreadsAndShards) {
-  const Square square(", accuracy: {light_load_relative: 0.02}, max_lines_per_patch: 2048");
+  const Square square(", accuracy: {light_load_relative: 0.02}, max_lines_per_patch: 8192");
   const Ran check = program(square.folder, {"check", "square.yaml"});
   EXPECT_NE(check.out.find("counts are decided at the start of the run"), std::string::npos)
       << check.out;
@@ -36,7 +36,7 @@ TEST(AccuracyStudy, DecidesCountsOnceForThreadsAndShards) {
   const ResultReader result(square.result("one"));
   const double lines = result.number_attribute("lines_per_patch");
   EXPECT_GT(lines, 64);
-  EXPECT_LE(lines, 2048);
+  EXPECT_LE(lines, 8192);
   EXPECT_GE(result.number_attribute("direct_samples"), 16);
   EXPECT_EQ(result.number_attribute("accuracy_light_load_relative"), 0.02);
   EXPECT_GE(result.number_attribute("accuracy_area_share"), 0.9);
