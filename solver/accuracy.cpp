@@ -24,6 +24,17 @@ double cost(double lines, double samples, int bounces, double suns) {
          samples * facing_share * suns * s_per_direct_ray;
 }
 
+/// The smallest goal that is met on `share_to_be_met` of the area that counts, to 1 %.
+double reachable(const PatchSpread& spread, int lines, int samples) {
+  constexpr double step = 1.01, finest = 1e-6, coarsest = 1e6;
+  double low = finest, high = coarsest;
+  while (high > step * low) {
+    const double middle = std::sqrt(low * high);
+    (share_met(spread, middle, lines, samples) >= share_to_be_met ? high : low) = middle;
+  }
+  return high;
+}
+
 /// least, 2·least, … and at last the most that all realizations can share.
 std::vector<int> doubled(int least, int most, int realizations) {
   most = std::max(least, most / realizations * realizations);
@@ -95,20 +106,22 @@ SampleCounts needed_counts(const PatchSpread& spread, const SolverRules& least,
   // The errors that the result states are known to one part in √(2(R − 1)); they shall keep the
   // goal too.
   const double noise = 1 / std::sqrt(2.0 * (least.realizations - 1));
-  const double relative = goal.light_load_relative / (1 + noise);
-  const double best = share_met(spread, relative, lines.back(), samples.back());
-  const double wanted = std::min(best, share_to_be_met);
-  SampleCounts chosen{lines.back(), samples.back(), best};
+  const double stated = goal.light_load_relative / (1 + noise);
+  // Where it is out of reach, errors are to be nearly as small as the most can make them.
+  constexpr double nearly = 1.1;
+  const bool is_met = share_met(spread, stated, lines.back(), samples.back()) >= share_to_be_met;
+  const double relative = is_met ? stated : nearly * reachable(spread, lines.back(), samples.back());
+  SampleCounts chosen{lines.back(), samples.back(), 0};
   double least_cost = cost(lines.back(), samples.back(), least.bounces, static_cast<double>(suns));
   for (const int L : lines)
     for (const int D : samples) {
       const double costs = cost(L, D, least.bounces, static_cast<double>(suns));
       if (costs >= least_cost) continue;
-      const double share = share_met(spread, relative, L, D);
-      if (share < wanted) continue;
-      chosen = {L, D, share};
+      if (share_met(spread, relative, L, D) < share_to_be_met) continue;
+      chosen = {L, D, 0};
       least_cost = costs;
     }
+  chosen.share = share_met(spread, stated, chosen.lines_per_patch, chosen.direct_samples);
   return chosen;
 }
 
