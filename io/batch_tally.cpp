@@ -65,6 +65,44 @@ void add_ledger(BatchWriter& writer, const BatchTally& tally) {
              energies.data());
 }
 
+/// What receivers get: series, their time sums, and those of the realizations.
+void add_received(BatchWriter& writer, const ReceiverTally& tally, std::size_t K,
+                  const std::string& prefix) {
+  const std::size_t N = tally.sunlit_s.size(), R = tally.exposure_realization.size();
+  for (std::size_t p = 0; p < part_count; ++p) {
+    if (tally.irradiance[p].empty()) continue;
+    const auto part = static_cast<Part>(p);
+    writer.add({prefix + series_name(part), MergeRule::append, ArrayType::float32, {K, N}},
+               tally.irradiance[p].data());
+    writer.add({prefix + sum_name(part), MergeRule::sum, ArrayType::float64, {N}},
+               tally.exposure[p].data());
+  }
+  if (!tally.irradiance_se.empty())
+    writer.add({prefix + "irradiance_se", MergeRule::append, ArrayType::float32, {K, N}},
+               tally.irradiance_se.data());
+  writer.add({prefix + batch_array::exposure, MergeRule::sum, ArrayType::float64, {R, N}},
+             flattened(tally.exposure_realization).data());
+  writer.add({prefix + batch_array::sunlit, MergeRule::sum, ArrayType::float64, {N}},
+             tally.sunlit_s.data());
+  const std::vector<double> largest(tally.irradiance_max.begin(), tally.irradiance_max.end());
+  writer.add({prefix + batch_array::maximum, MergeRule::maximum, ArrayType::float64, {N}},
+             largest.data());
+}
+
+void add_sensors(BatchWriter& writer, const BatchTally& tally, const LightSolver& solver) {
+  add_received(writer, tally.sensors, tally.intervals, sensor_prefix);
+  std::vector<double> sky, backs;
+  for (const auto& ends : solver.sensor_lines().pooled.ends) {
+    sky.push_back(static_cast<double>(ends.sky));
+    backs.push_back(static_cast<double>(ends.backs));
+  }
+  writer.add({sensor_prefix + batch_array::sky_view, MergeRule::maximum, ArrayType::float64,
+              {sky.size()}},
+             sky.data());
+  writer.add({batch_array::sensor_backs, MergeRule::maximum, ArrayType::float64, {backs.size()}},
+             backs.data());
+}
+
 }  // namespace
 
 std::string series_name(Part part) {
@@ -90,13 +128,16 @@ std::vector<double> work_values(const WorkDone& w) {
           static_cast<double>(w.mirror_shots),
           static_cast<double>(w.samples),
           static_cast<double>(w.shot_rays),
-          w.shoot_s};
+          w.shoot_s,
+          static_cast<double>(w.sensor_rays),
+          w.sensors_s};
 }
 
 WorkDone work_from(const std::vector<double>& v) {
   return {.line_rays = static_cast<std::uint64_t>(v.at(0)),
           .direct_rays = static_cast<std::uint64_t>(v.at(1)),
           .mirror_rays = static_cast<std::uint64_t>(v.at(2)),
+          .sensor_rays = static_cast<std::uint64_t>(v.at(13)),
           .mirror_beams = static_cast<std::uint64_t>(v.at(8)),
           .mirror_shots = static_cast<std::uint64_t>(v.at(9)),
           .lines_s = v.at(3),
@@ -104,6 +145,7 @@ WorkDone work_from(const std::vector<double>& v) {
           .mirror_s = v.at(5),
           .solve_s = v.at(6),
           .realizations_s = v.at(7),
+          .sensors_s = v.at(14),
           .samples = static_cast<std::uint64_t>(v.at(10)),
           .shot_rays = static_cast<std::uint64_t>(v.at(11)),
           .shoot_s = v.at(12)};
@@ -113,34 +155,23 @@ void add_tally(BatchWriter& writer, const BatchTally& tally, const LightSolver& 
                const Mesh& mesh, const WorkDone& work) {
   const Hierarchy& hierarchy = solver.hierarchy();
   const std::size_t N = hierarchy.patch_count(), K = tally.intervals;
-  const std::size_t R = tally.exposure_realization.size();
-  for (std::size_t p = 0; p < part_count; ++p) {
-    if (tally.irradiance[p].empty()) continue;
-    const auto part = static_cast<Part>(p);
-    writer.add({series_name(part), MergeRule::append, ArrayType::float32, {K, N}},
-               tally.irradiance[p].data());
-    writer.add({sum_name(part), MergeRule::sum, ArrayType::float64, {N}},
-               tally.exposure[p].data());
-  }
-  if (!tally.irradiance_se.empty())
-    writer.add({"irradiance_se", MergeRule::append, ArrayType::float32, {K, N}},
-               tally.irradiance_se.data());
+  add_received(writer, tally, K, "");
+  if (!tally.sensors.sunlit_s.empty()) add_sensors(writer, tally, solver);
   if (!mesh.facades.empty())
     writer.add({"facade_irradiance", MergeRule::append, ArrayType::float32,
                 {K, mesh.facades.size()}},
                facade_series(tally, hierarchy, mesh).data());
   add_ledger(writer, tally);
-  writer.add({batch_array::exposure, MergeRule::sum, ArrayType::float64, {R, N}},
-             flattened(tally.exposure_realization).data());
   writer.add({batch_array::outgoing, MergeRule::sum, ArrayType::float64, {N}},
              tally.outgoing.data());
-  writer.add({batch_array::sunlit, MergeRule::sum, ArrayType::float64, {N}}, tally.sunlit_s.data());
-  const std::vector<double> largest(tally.irradiance_max.begin(), tally.irradiance_max.end());
-  writer.add({batch_array::maximum, MergeRule::maximum, ArrayType::float64, {N}}, largest.data());
   writer.add({batch_array::sky_view, MergeRule::maximum, ArrayType::float64, {N}},
              solver.sky_view_factor().data());
   const double bounces = solver.bounces();
   writer.add({batch_array::bounces, MergeRule::maximum, ArrayType::float64, {1}}, &bounces);
+  const std::array<double, 2> counts{static_cast<double>(solver.rules().lines_per_patch),
+                                     static_cast<double>(solver.rules().direct_samples)};
+  writer.add({batch_array::counts, MergeRule::maximum, ArrayType::float64, {counts.size()}},
+             counts.data());
   const std::array energy{tally.energy.in(), tally.energy.residual(), tally.energy.lost_at_backs};
   writer.add({batch_array::energy, MergeRule::sum, ArrayType::float64, {energy.size()}},
              energy.data());

@@ -18,9 +18,14 @@ inline constexpr const char* sunlit = "sunlit";                              ///
 inline constexpr const char* maximum = "irradiance_max";                     ///< [N] W m-2
 inline constexpr const char* sky_view = "sky_view_factor";                   ///< [N]
 inline constexpr const char* bounces = "bounces";                            ///< [1]
+inline constexpr const char* counts = "counts";                              ///< [2] lines and direct samples per patch
 inline constexpr const char* energy = "energy";                              ///< [3] J: in, residual, lost at backs
+inline constexpr const char* sensor_backs = "sensor_backs";                  ///< [S] share of lines that met backs
 inline constexpr const char* work = "work";                                  ///< see WorkDone
 }  // namespace batch_array
+
+/// Before the names of arrays and datasets of sensors: `sensor_irradiance`, ….
+inline const std::string sensor_prefix = "sensor_";
 
 /// Name of the series of a part: `irradiance`, `irradiance_direct`, ….
 std::string series_name(Part part);

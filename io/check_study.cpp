@@ -94,9 +94,16 @@ std::string parallel_sources_text(const ParallelSources& sources) {
 }
 
 std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
+  std::string text;
+  if (const auto& accuracy = plan.study.solver.accuracy)
+    text = fmt::format(
+        "  a standard error of {:.3g} % is asked for: counts are decided at the start of the run, from "
+        "{} lines and {} direct samples up to {}; what follows is with the least\n",
+        100 * accuracy->light_load_relative, plan.study.solver.lines_per_patch,
+        plan.study.solver.direct_samples, plan.study.solver.max_lines_per_patch);
   const std::string shot =
       work.samples > 0 ? fmt::format(", {:.3g} samples shot", static_cast<double>(work.samples)) : "";
-  return fmt::format(
+  return text + fmt::format(
       "  {} patches, {} intervals ({} with sun) in {} batches\n"
       "  {:.3g} lines, about {:.3g} shadow rays{}; estimated {:.0f} MiB memory, {:.0f} MiB disk, "
       "{:.0f} s on {} threads\n",
@@ -113,6 +120,8 @@ void print_text(const VariantPlan& plan, const RefineReport& mesh, const WorkEst
   for (const auto& note : plan.built.notes) text += "  note      " + note + "\n";
   text += "materials\n" + materials_text(plan.built.scene) +
           parallel_sources_text(plan.built.scene.parallel_sources);
+  if (const auto sensors = plan.built.scene.sensors.size(); sensors > 0)
+    text += fmt::format("sensors\n  {} points\n", sensors);
   text += "sun\n" + time_words(plan.light, plan.built.site, plan.study, plan.built.site_source);
   if (const auto refined = refine_text(mesh, plan.study); !refined.empty())
     text += "mesh\n  " + refined + "\n";

@@ -82,12 +82,19 @@ std::string accuracy(const ResultReader& result, const PatchGroups& groups,
     relative.push_back(se[i] / load[i] * 100);
     area.push_back(groups.patch_area()[i]);
   }
+  const double goal = result.number_attribute("accuracy_light_load_relative");
+  const std::string asked =
+      std::isnan(goal)
+          ? std::string()
+          : line("", fmt::format("asked for: below {:.3g} % on 95 % of the area; reached on {:.3g} %",
+                                 100 * goal, 100 * result.number_attribute("accuracy_area_share")));
   return line(
       "accuracy",
       fmt::format("standard error of a patch's light load: {:.2g} % (median by area), below "
                   "{:.2g} % on 95 %; {} realizations",
                   weighted_quantile(relative, area, median),
-                  weighted_quantile(relative, area, upper_quantile), realizations));
+                  weighted_quantile(relative, area, upper_quantile), realizations)) +
+         asked;
 }
 
 /// Least, mean and largest value of a quantity over the patches.
@@ -122,6 +129,29 @@ std::string lighting_analysis(const ResultReader& result, const PatchGroups& gro
     text += analysis("sun hours, h", result.doubles("sun_hours"), groups);
   }
   return text;
+}
+
+/// How many sensors, what falls on them, and how well it is known.
+std::string sensors(const ResultReader& result) {
+  if (!result.has("sensor_light_load")) return {};
+  const auto load = result.doubles("sensor_light_load");
+  const auto [least, largest] = std::minmax_element(load.begin(), load.end());
+  const double mean =
+      std::accumulate(load.begin(), load.end(), 0.0) / static_cast<double>(load.size());
+  auto text = line("sensors", fmt::format("{}: light load {:.4g} … {:.4g} kWh/m², mean {:.4g}",
+                                          load.size(), *least, *largest, mean));
+  if (!result.has("sensor_light_load_se")) return text;
+  const auto se = result.doubles("sensor_light_load_se");
+  std::vector<double> relative, weight;
+  for (std::size_t s = 0; s < load.size(); ++s) {
+    if (load[s] <= 0 || load[s] < share_that_counts * *largest) continue;
+    relative.push_back(se[s] / load[s] * 100);
+    weight.push_back(1);
+  }
+  if (relative.empty()) return text;
+  return text + line("", fmt::format("standard error {:.2g} % (median), below {:.2g} % for 95 %",
+                                     weighted_quantile(relative, weight, median),
+                                     weighted_quantile(relative, weight, upper_quantile)));
 }
 
 std::string facades(const ResultReader& result, const PatchGroups& groups,
@@ -165,7 +195,7 @@ double ledger_kwh(const ResultReader& result, const std::string& term) {
 std::string runtime(const ResultReader& result) {
   std::string words;
   for (const char* stage :
-       {"lines", "direct", "mirror", "solve", "realizations", "shoot"}) {
+       {"lines", "direct", "mirror", "solve", "realizations", "shoot", "sensors"}) {
     const double seconds = result.number_attribute(fmt::format("runtime_{}_s", stage));
     if (!std::isnan(seconds))
       words += fmt::format("{}{} {:.3g} s", words.empty() ? "" : ", ", stage, seconds);
@@ -219,6 +249,7 @@ std::string info_text(const ResultReader& result) {
   text += accuracy(result, groups, load);
   text += lighting_analysis(result, groups, load);
   text += facades(result, groups, load);
+  text += sensors(result);
   text += energy_text(result);
   text += runtime(result);
   text += line("made by", result.text_attribute("source"));

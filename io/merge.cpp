@@ -77,22 +77,33 @@ std::vector<double> facade_means(const std::vector<double>& rows, const ResultGe
 
 constexpr double kwh_per_joule = 1 / joules_per_kwh;
 
-void write_loads(ResultWriter& writer, const Totals& totals, const ResultGeometry& geometry) {
-  const std::size_t N = geometry.patch_area.size(), F = geometry.facade_name.size();
+/// Totals of N patches or sensors; names begin with `prefix`.
+void write_received(ResultWriter& writer, const Totals& totals, const std::string& prefix,
+                    std::size_t N) {
   for (std::size_t p = 0; p < part_count; ++p) {
     const auto part = static_cast<Part>(p);
-    if (!totals.has(sum_name(part))) continue;
-    const std::string name = part == Part::total ? "light_load" : std::string("light_load_") + part_names[p];
-    writer.write({name, scaled(totals[sum_name(part)], kwh_per_joule)});
+    if (!totals.has(prefix + sum_name(part))) continue;
+    const std::string name =
+        part == Part::total ? "light_load" : std::string("light_load_") + part_names[p];
+    writer.write({prefix + name, scaled(totals[prefix + sum_name(part)], kwh_per_joule)});
   }
-  const auto realizations = scaled(totals[batch_array::exposure], kwh_per_joule);
-  writer.write({"light_load_realization", realizations});
-  writer.write({"light_load_se", errors_of(realizations, N)});
+  const auto realizations = scaled(totals[prefix + batch_array::exposure], kwh_per_joule);
+  writer.write({prefix + "light_load_realization", realizations});
+  writer.write({prefix + "light_load_se", errors_of(realizations, N)});
+  writer.write(
+      {prefix + "sun_hours", scaled(totals[prefix + batch_array::sunlit], 1 / seconds_per_hour)});
+  writer.write({prefix + "irradiance_max", totals[prefix + batch_array::maximum]});
+  writer.write({prefix + "sky_view_factor", totals[prefix + batch_array::sky_view]});
+}
+
+void write_loads(ResultWriter& writer, const Totals& totals, const ResultGeometry& geometry) {
+  const std::size_t N = geometry.patch_area.size(), F = geometry.facade_name.size();
+  write_received(writer, totals, "", N);
   writer.write({"power_load", scaled(totals[batch_array::outgoing], kwh_per_joule)});
-  writer.write({"sun_hours", scaled(totals[batch_array::sunlit], 1 / seconds_per_hour)});
-  writer.write({"irradiance_max", totals[batch_array::maximum]});
-  writer.write({"sky_view_factor", totals[batch_array::sky_view]});
+  if (const std::size_t S = geometry.sensor_position.size(); S > 0)
+    write_received(writer, totals, sensor_prefix, S);
   if (F == 0) return;
+  const auto realizations = scaled(totals[batch_array::exposure], kwh_per_joule);
   const auto of_facades = facade_means(realizations, geometry);
   writer.write({"facade_light_load_realization", of_facades});
   writer.write({"facade_light_load_se", errors_of(of_facades, F)});
@@ -137,17 +148,53 @@ double residual_reuse_bias_kwh(const Totals& totals, std::size_t realizations) {
   return (of_rows - of_pooled) / static_cast<double>(realizations - 1) * kwh_per_joule;
 }
 
+/// Sensors of which more than half the lines meet backs see a body from within.
+std::string buried_sensors(const Totals& totals, const ResultGeometry& geometry) {
+  if (!totals.has(batch_array::sensor_backs)) return {};
+  const auto& backs = totals[batch_array::sensor_backs];
+  std::size_t count = 0, first = 0;
+  for (std::size_t s = backs.size(); s-- > 0;)
+    if (backs[s] > 0.5) {
+      ++count;
+      first = s;
+    }
+  if (count == 0) return {};
+  const Vec3 at = geometry.sensor_position[first] + geometry.origin;
+  return fmt::format(
+      "{} of {} sensors see mostly backs of surfaces, from where no light comes, the first of them "
+      "sensor {} at ({:.10g}, {:.10g}, {:.10g}); they lie within bodies or look into them",
+      count, backs.size(), first, at.x, at.y, at.z);
+}
+
 /// Faults of the model that only the light brings out.
-std::vector<std::string> result_warnings(const Totals& totals) {
+std::vector<std::string> result_warnings(const Totals& totals, const ResultGeometry& geometry) {
   // DESIGN 4: light lost at backs is worth a warning above this share.
   constexpr double tolerable = 1e-3;
+  std::vector<std::string> warnings;
   const auto& energy = totals[batch_array::energy];
   const double share = energy[0] > 0 ? energy[2] / energy[0] : 0;
-  if (share <= tolerable) return {};
-  return {fmt::format(
-      "{:.2g} % of the energy is lost at backs of one-sided surfaces; turn or close these "
-      "surfaces, or make them two-sided (sides: two)",
-      100 * share)};
+  if (share > tolerable)
+    warnings.push_back(fmt::format(
+        "{:.2g} % of the energy is lost at backs of one-sided surfaces; turn or close these "
+        "surfaces, or make them two-sided (sides: two)",
+        100 * share));
+  if (auto buried = buried_sensors(totals, geometry); !buried.empty())
+    warnings.push_back(std::move(buried));
+  return warnings;
+}
+
+/// Share of the leaf area that counts whose error is as small as the study asks for.
+double accuracy_share(const Totals& totals, const ResultGeometry& geometry, double relative) {
+  const auto& load = totals[sum_name(Part::total)];
+  const auto se = errors_of(totals[batch_array::exposure], load.size());
+  const double largest = load.empty() ? 0 : *std::max_element(load.begin(), load.end());
+  double counts = 0, met = 0;
+  for (std::size_t i = 0; i < load.size(); ++i) {
+    if (load[i] <= 0 || load[i] < share_that_counts * largest) continue;
+    counts += geometry.patch_area[i];
+    if (se[i] <= relative * load[i]) met += geometry.patch_area[i];
+  }
+  return counts > 0 ? met / counts : 1;
 }
 
 ResultTimes result_times(const LightSeries& light, Quantity quantity) {
@@ -175,6 +222,13 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
   const Study& study = plan.study;
   const WorkDone work = work_from(totals[batch_array::work]);
   const auto R = static_cast<std::size_t>(study.solver.realizations);
+  const auto& counts = totals[batch_array::counts];
+  const auto lines = static_cast<std::int64_t>(counts[0]);
+  const auto samples = static_cast<std::int64_t>(counts[1]);
+  // Other counts, other random points.
+  const std::string pairing_id =
+      study.solver.accuracy ? fmt::format("{}-{}-{}", plan.pairing_id, lines, samples)
+                            : plan.pairing_id;
   ResultAttributes a;
   a.text = {{"title", "Light load: " + study.name + ", variant " + study.variant},
             {"source", std::string("sunload ") + version + " (" + commit + ")"},
@@ -182,7 +236,7 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
             {"study", study.name},
             {"variant", study.variant},
             {"study_sha256", plan.content_hash},
-            {"pairing_id", plan.pairing_id},
+            {"pairing_id", pairing_id},
             {"isa", plan.isa},
             {"transport", study.solver.transport == Transport::shoot ? "shoot" : "gather"},
             {"timezone", study.site.timezone},
@@ -200,22 +254,29 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
                {"runtime_direct_s", work.direct_s},
                {"runtime_mirror_s", work.mirror_s},
                {"runtime_solve_s", work.solve_s},
-               {"runtime_realizations_s", work.realizations_s}};
+               {"runtime_realizations_s", work.realizations_s},
+               {"runtime_sensors_s", work.sensors_s}};
   a.integers = {{"seed", static_cast<std::int64_t>(study.solver.seed)},
                 {"realizations", study.solver.realizations},
-                {"lines_per_patch", study.solver.lines_per_patch},
-                {"direct_samples", study.solver.direct_samples},
+                {"lines_per_patch", lines},
+                {"direct_samples", samples},
                 {"bounces", static_cast<std::int64_t>(totals[batch_array::bounces][0])},
                 {"numerics_version", numerics_version},
                 {"line_rays", static_cast<std::int64_t>(work.line_rays)},
                 {"direct_rays", static_cast<std::int64_t>(work.direct_rays)},
                 {"mirror_rays", static_cast<std::int64_t>(work.mirror_rays)},
                 {"mirror_beams", static_cast<std::int64_t>(work.mirror_beams)},
-                {"mirror_shots", static_cast<std::int64_t>(work.mirror_shots)}};
+                {"mirror_shots", static_cast<std::int64_t>(work.mirror_shots)},
+                {"sensor_rays", static_cast<std::int64_t>(work.sensor_rays)}};
   if (study.solver.transport == Transport::shoot) {
     a.numbers.emplace_back("runtime_shoot_s", work.shoot_s);
     a.integers.emplace_back("samples_shot", static_cast<std::int64_t>(work.samples));
     a.integers.emplace_back("shot_rays", static_cast<std::int64_t>(work.shot_rays));
+  }
+  if (study.solver.accuracy) {
+    const double relative = study.solver.accuracy->light_load_relative;
+    a.numbers.emplace_back("accuracy_light_load_relative", relative);
+    a.numbers.emplace_back("accuracy_area_share", accuracy_share(totals, geometry, relative));
   }
   std::string weather;
   for (const auto& line : plan.light.weather) weather += line + "\n";
@@ -223,7 +284,7 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
   std::string warnings;
   for (const auto& list : {file.warnings, plan.built.warnings, plan.light.notes})
     for (const auto& line : list) warnings += line + "\n";
-  for (const auto& line : result_warnings(totals)) warnings += line + "\n";
+  for (const auto& line : result_warnings(totals, geometry)) warnings += line + "\n";
   if (!warnings.empty()) a.text.emplace_back("warnings", warnings);
   return a;
 }
@@ -233,7 +294,8 @@ std::vector<std::string> unwanted_series(const OutputStudy& output) {
   std::vector<std::string> unwanted;
   for (std::size_t p = 0; p < part_count; ++p)
     if (std::find(output.series.begin(), output.series.end(), part_names[p]) == output.series.end())
-      unwanted.push_back(series_name(static_cast<Part>(p)));
+      for (const auto& prefix : {std::string(), sensor_prefix})
+        unwanted.push_back(prefix + series_name(static_cast<Part>(p)));
   return unwanted;
 }
 
@@ -265,6 +327,10 @@ ResultGeometry result_geometry(const VariantPlan& plan, const Hierarchy& hierarc
     g.facade_name.push_back(f.name);
     g.facade_area.push_back(f.area_m2);
     g.facade_azimuth_deg.push_back(wrapped_deg(f.azimuth_deg + plan.built.site.north_deg));
+  }
+  for (const auto& sensor : scene.sensors) {
+    g.sensor_position.push_back(sensor.position);
+    g.sensor_normal.push_back(sensor.normal);
   }
   g.origin = mesh.origin;
   return g;
@@ -311,7 +377,7 @@ std::vector<std::string> merge_variant(const std::string& folder, const VariantP
   write_loads(writer, totals, geometry);
   write_ledger_errors(writer, totals);
   writer.finish(result_attributes(plan, file, totals, geometry), file.yaml);
-  return result_warnings(totals);
+  return result_warnings(totals, geometry);
 }
 
 }  // namespace sunload

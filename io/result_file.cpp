@@ -165,6 +165,7 @@ struct ResultWriter::File {
   void put_mesh_topology();
   void put_patches(const ResultGeometry& geometry);
   void put_groups(const ResultGeometry& geometry);
+  void put_sensors(const ResultGeometry& geometry);
   h5::Dataset series_dataset(const ArraySpec& spec);
   void append_series(const BatchReader& batch, const ArraySpec& spec);
   void append_ledger(const BatchReader& batch, const ArraySpec& spec);
@@ -184,6 +185,8 @@ void ResultWriter::File::put_dimensions(const ResultGeometry& geometry) {
   create_dimension("facade", geometry.facade_name.size());
   create_dimension("material", geometry.material_name.size());
   create_dimension("realization", options.realizations);
+  if (!geometry.sensor_position.empty())
+    create_dimension("sensor", geometry.sensor_position.size());
 }
 
 void ResultWriter::File::put_times(const ResultTimes& times) {
@@ -261,6 +264,14 @@ void ResultWriter::File::put_groups(const ResultGeometry& geometry) {
   put("material_name", geometry.material_name);
   put("facade_area", geometry.facade_area);
   put("facade_azimuth", geometry.facade_azimuth_deg);
+}
+
+void ResultWriter::File::put_sensors(const ResultGeometry& geometry) {
+  if (geometry.sensor_position.empty()) return;
+  const Vec3 origin = geometry.origin;
+  put("sensor_position", flat(geometry.sensor_position))
+      .set("origin", {origin.x, origin.y, origin.z}, h5::Type::float64);
+  put("sensor_normal", flat(geometry.sensor_normal));
 }
 
 /// The dataset that an array of the batches goes to, made when first met.
@@ -348,7 +359,8 @@ void ResultWriter::File::put_attributes(const ResultAttributes& attributes) {
   const auto id = std::find_if(attributes.text.begin(), attributes.text.end(),
                                [](const auto& text) { return text.first == "pairing_id"; });
   if (id == attributes.text.end()) return;
-  for (const char* name : {"light_load_realization", "facade_light_load_realization"}) {
+  for (const char* name : {"light_load_realization", "facade_light_load_realization",
+                           "sensor_light_load_realization"}) {
     if (file->has(name)) file->dataset(name).set("pairing_id", id->second);
   }
 }
@@ -366,6 +378,7 @@ ResultWriter::ResultWriter(const std::string& path, const ResultGeometry& geomet
     file_->put_vertices(geometry);
     file_->put_patches(geometry);
     file_->put_groups(geometry);
+    file_->put_sensors(geometry);
   });
 }
 

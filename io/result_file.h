@@ -27,6 +27,7 @@ struct ResultGeometry {
   std::vector<std::array<std::int32_t, 3>> input_triangle_vertices;
   std::vector<std::string> object_name, facade_name, material_name;
   std::vector<double> facade_area, facade_azimuth_deg;  ///< azimuth from true north
+  std::vector<Vec3> sensor_position, sensor_normal;     ///< empty: a study without sensors
   Vec3 origin;
 };
 

@@ -84,6 +84,28 @@ constexpr std::array table{
     ResultVariable{"facade_light_load_se", "facade", float64, kwh_m2, total, "standard error of facade_light_load"},
     ResultVariable{"facade_light_load_realization", "realization,facade", float64, kwh_m2, total, "light load of the facade in each realization", "", "area: mean"},
 
+    // Sensors: points that receive, where the study has any.
+    ResultVariable{"sensor_position", "sensor,xyz", float64, "m", geometry, "position of the sensor in the scene frame, relative to the attribute origin"},
+    ResultVariable{"sensor_normal", "sensor,xyz", float64, "1", geometry, "unit normal of the sensor: it receives from the hemisphere about it"},
+    ResultVariable{"sensor_irradiance", "time,sensor", float32, w_m2, series, "incident irradiance of the sensor, all light", "", interval_mean},
+    ResultVariable{"sensor_irradiance_direct", "time,sensor", float32, w_m2, series, "irradiance of the sensor straight from the sun", "", interval_mean},
+    ResultVariable{"sensor_irradiance_sky", "time,sensor", float32, w_m2, series, "irradiance of the sensor straight from the sky", "", interval_mean},
+    ResultVariable{"sensor_irradiance_mirror", "time,sensor", float32, w_m2, series, "irradiance of the sensor from sun and sky by way of mirrors only", "", interval_mean},
+    ResultVariable{"sensor_irradiance_lamps", "time,sensor", float32, w_m2, series, "irradiance of the sensor from emitters and parallel sources, straight or by mirrors", "", interval_mean},
+    ResultVariable{"sensor_irradiance_reflected", "time,sensor", float32, w_m2, series, "irradiance of the sensor after a diffuse reflection, and from the far ground", "", interval_mean},
+    ResultVariable{"sensor_irradiance_se", "time,sensor", float32, w_m2, series, "standard error of sensor_irradiance", "", interval_mean},
+    ResultVariable{"sensor_light_load", "sensor", float64, kwh_m2, total, "incident energy per area of the sensor over the period"},
+    ResultVariable{"sensor_light_load_direct", "sensor", float64, kwh_m2, total, "light load of the sensor straight from the sun"},
+    ResultVariable{"sensor_light_load_sky", "sensor", float64, kwh_m2, total, "light load of the sensor straight from the sky"},
+    ResultVariable{"sensor_light_load_mirror", "sensor", float64, kwh_m2, total, "light load of the sensor from sun and sky by way of mirrors only"},
+    ResultVariable{"sensor_light_load_lamps", "sensor", float64, kwh_m2, total, "light load of the sensor from emitters and parallel sources"},
+    ResultVariable{"sensor_light_load_reflected", "sensor", float64, kwh_m2, total, "light load of the sensor after a diffuse reflection, and from the far ground"},
+    ResultVariable{"sensor_light_load_se", "sensor", float64, kwh_m2, total, "standard error of sensor_light_load"},
+    ResultVariable{"sensor_light_load_realization", "realization,sensor", float64, kwh_m2, total, "light load of the sensor in each realization"},
+    ResultVariable{"sensor_sun_hours", "sensor", float64, "h", total, "time of the sensor in the sun, regardless of weather"},
+    ResultVariable{"sensor_irradiance_max", "sensor", float64, w_m2, total, "largest irradiance of the sensor's series", "", "time: maximum"},
+    ResultVariable{"sensor_sky_view_factor", "sensor", float64, "1", total, "cosine-weighted share of the sensor's hemisphere that is sky"},
+
     // Energy ledger.
     ResultVariable{"power_sun", "time", float64, "W", ledger, "sun's power that meets fronts for the first time", "", interval_mean},
     ResultVariable{"power_sky", "time", float64, "W", ledger, "sky's power that meets fronts for the first time", "", interval_mean},

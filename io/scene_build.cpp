@@ -79,6 +79,33 @@ PolygonModel read_models(const SceneStudy& scene) {
   return model;
 }
 
+/// Sensors in the mesh's frame; a warning where they stand far from the scene.
+std::vector<Sensor> place_sensors(const SensorsStudy& study, const Mesh& mesh, const Box& bounds,
+                                  std::vector<std::string>& warnings) {
+  std::vector<Sensor> sensors;
+  sensors.reserve(study.points.size());
+  const double diagonal = norm(bounds.high - bounds.low);
+  std::size_t far = 0, first_far = 0;
+  for (const auto& point : study.points) {
+    const Vec3 at = point.position - mesh.origin;
+    sensors.push_back({at, normalized(point.normal), sensor_key(point.position, point.normal)});
+    const double beyond = std::max({bounds.low.x - at.x, at.x - bounds.high.x, bounds.low.y - at.y,
+                                    at.y - bounds.high.y, bounds.low.z - at.z, at.z - bounds.high.z});
+    if (beyond > diagonal && far++ == 0) first_far = sensors.size() - 1;
+  }
+  if (far > 0) {
+    const Vec3 p = study.points[first_far].position;
+    warnings.push_back(message(
+        study.where,
+        fmt::format("{} of {} sensors stand farther from the scene than it is wide, the first of "
+                    "them sensor {} at ({:.10g}, {:.10g}, {:.10g})",
+                    far, sensors.size(), first_far, p.x, p.y, p.z),
+        "they see little of it",
+        "positions are metres in the scene's frame, z up, not relative to its local origin"));
+  }
+  return sensors;
+}
+
 PrepareRules prepare_rules(const Study& study, const PolygonModel& model, const Site& site) {
   PrepareRules rules;
   rules.north_deg = site.north_deg;
@@ -377,6 +404,8 @@ BuiltScene build_scene(const Study& study) {
   built.scene.mesh = std::move(prepared.mesh);
   MaterialAssigner(study, built.scene, built).run();
   built.scene.parallel_sources = read_parallel_sources(study, built.scene.mesh.origin, built);
+  built.scene.sensors = place_sensors(study.sensors, built.scene.mesh, built.report.bounds,
+                                      built.warnings);
   return built;
 }
 

@@ -30,6 +30,7 @@ const std::map<std::string, std::string> common_sections{
     {"site", "all variants stand in the same place"},
     {"period", "all variants have the same times, or they could not be compared"},
     {"sun", "all variants have the same sun path, or they could not be compared"},
+    {"sensors", "all variants are measured at the same points"},
     {"output", "all results of a study go to one place"},
     {"variants", "a variant has no variants"}};
 const std::map<std::string, std::string> common_solver_keys{
@@ -190,6 +191,9 @@ Study read_values(YamlMap& root, const std::string& folder) {
   }
   root.section("mesh", [&](YamlMap& map) { study.mesh = read_mesh(map); });
   root.section("solver", [&](YamlMap& map) { study.solver = read_solver(map); });
+  if (root.has("sensors") || describe) {
+    root.section("sensors", [&](YamlMap& map) { study.sensors = read_sensors(map, folder); });
+  }
   root.section("output", [&](YamlMap& map) { study.output = read_output(map); });
   check_together(root, study, site.place_written);
   return study;

@@ -25,6 +25,7 @@
 #include "geo/time.h"
 #include "geo/weather.h"
 #include "io/scene_file.h"
+#include "io/sensor_file.h"
 #include "solver/oracle.h"
 #include "io/light_quantity.h"
 #include "solver/transport.h"
@@ -154,6 +155,10 @@ struct MeshStudy {
   double link_threshold = 0.5;        ///< of the exchange between elements
 };
 
+/// Counts per patch are raised until errors are as small as asked for.
+struct AccuracyStudy {
+  double light_load_relative = 0.01;  ///< standard error / light load
+};
 struct SolverStudy {
   Transport transport = Transport::gather;
   Jacobi jacobi = Jacobi::incremental;
@@ -167,6 +172,8 @@ struct SolverStudy {
   int batch_suns = 64;
   std::string isa = "auto";  ///< auto | sse4.2 | avx2 | avx512
   std::uint64_t seed = 1;
+  std::optional<AccuracyStudy> accuracy;
+  int max_lines_per_patch = 4096;  ///< of accuracy: the most lines, and the most direct samples
 };
 
 enum class StandardErrors { none, totals, instants };
@@ -175,6 +182,12 @@ struct OutputStudy {
   std::vector<std::string> series{"total", "direct", "sky", "mirror", "lamps", "reflected"};
   StandardErrors standard_error = StandardErrors::totals;
   int compression = 4;
+};
+
+/// Points that receive without disturbing the scene, inline or from a file.
+struct SensorsStudy {
+  std::vector<SensorPoint> points;
+  Where where;
 };
 
 struct Study {
@@ -187,6 +200,7 @@ struct Study {
   SceneStudy scene;
   MeshStudy mesh;
   SolverStudy solver;
+  SensorsStudy sensors;
   OutputStudy output;
 };
 

@@ -177,11 +177,12 @@ json canonical(const MeshStudy& mesh) {
 json canonical(const SolverStudy& solver) {
   // `isa` is left out: the instruction set in force is hashed apart, so that
   // pinning it finds the batches that `auto` computed on such a machine.
-  const auto& [transport, jacobi, power_per_sample_w, bounces, unshot, lines_per_patch, direct_samples, realizations,
-               mirror_depth, batch_suns, isa, seed] = solver;
-  return {{"transport", transport},
-          {"jacobi", jacobi},
-          {"power_per_sample_w", maybe(power_per_sample_w)},
+  const auto& [transport, jacobi, power_per_sample_w, bounces, unshot, lines_per_patch, direct_samples,
+               realizations, mirror_depth, batch_suns, isa, seed, accuracy, max_lines_per_patch] =
+      solver;
+  json all{{"transport", transport},
+           {"jacobi", jacobi},
+           {"power_per_sample_w", maybe(power_per_sample_w)},
           {"bounces", bounces},
           {"unshot", unshot},
           {"lines_per_patch", lines_per_patch},
@@ -190,12 +191,20 @@ json canonical(const SolverStudy& solver) {
           {"mirror_depth", mirror_depth},
           {"batch_suns", batch_suns},
           {"seed", seed}};
+  if (accuracy) {
+    const auto& [light_load_relative] = *accuracy;
+    all["accuracy"] = {{"light_load_relative", light_load_relative},
+                       {"max_lines_per_patch", max_lines_per_patch}};
+  }
+  return all;
 }
 
 }  // namespace
 
 std::string canonical_text(const Study& study) {
-  const auto& [name, variant, site, period, sun, light, scene, mesh, solver, output] = study;
+  // Sensors are hashed with the scene.
+  const auto& [name, variant, site, period, sun, light, scene, mesh, solver, sensors, output] =
+      study;
   const json all{{"site", canonical(site)},    {"period", canonical(period)},
                  {"sun", canonical(sun)},      {"light", canonical(light)},
                  {"scene", canonical(scene)},  {"mesh", canonical(mesh)},

@@ -27,6 +27,8 @@ LightStudy read_light(YamlMap& map, const std::string& folder);
 SceneStudy read_scene(YamlMap& map, const std::string& folder);
 MeshStudy read_mesh(YamlMap& map);
 SolverStudy read_solver(YamlMap& map);
+/// The file is relative to `folder`.
+SensorsStudy read_sensors(YamlMap& map, const std::string& folder);
 OutputStudy read_output(YamlMap& map);
 
 /// Adds what a reader of the values found wrong without knowing the place.

@@ -16,6 +16,7 @@ constexpr int fewest_realizations = 2;  // one has no spread
 constexpr int strongest_compression = 9;
 constexpr Range shares{0, 1};
 constexpr Range watts{0, 1e12, Range::Low::excluded};
+constexpr Range relative_errors{1e-4, 1};  // below, no number of lines would do
 
 /// Each realization gets its equal share.
 void check_shares(YamlMap& map, const std::string& key, int count, int realizations) {
@@ -61,6 +62,34 @@ void read_shooting(YamlMap& map, SolverStudy& solver) {
 
 }  // namespace
 
+namespace {
+
+/// `accuracy` and the most that it may raise the counts to.
+void read_accuracy(YamlMap& map, SolverStudy& solver) {
+  const bool describe = map.reading().purpose == YamlReading::Purpose::describe;
+  map.tree("accuracy");
+  if (map.has("accuracy") || describe) {
+    map.section("accuracy", [&](YamlMap& section) {
+      AccuracyStudy accuracy;
+      section.require("light_load_relative");
+      accuracy.light_load_relative =
+          section.number("light_load_relative", relative_errors, accuracy.light_load_relative);
+      solver.accuracy = accuracy;
+    });
+  }
+  solver.max_lines_per_patch =
+      map.integer("max_lines_per_patch", 1, most_lines, solver.max_lines_per_patch);
+  if (map.has("max_lines_per_patch") && !solver.accuracy)
+    map.warn("max_lines_per_patch", "is not used", "it belongs to accuracy");
+  const int least = std::max(solver.lines_per_patch, solver.direct_samples);
+  if (solver.accuracy && solver.max_lines_per_patch < least)
+    map.problem("max_lines_per_patch",
+                fmt::format("{} is below the least counts", solver.max_lines_per_patch),
+                fmt::format("lines_per_patch and direct_samples ask for up to {}", least));
+}
+
+}  // namespace
+
 SolverStudy read_solver(YamlMap& map) {
   SolverStudy solver;
   solver.transport =
@@ -80,6 +109,7 @@ SolverStudy read_solver(YamlMap& map) {
   const auto seed = map.integer("seed", std::int64_t{0}, std::numeric_limits<std::int64_t>::max(),
                                 static_cast<std::int64_t>(solver.seed));
   solver.seed = static_cast<std::uint64_t>(seed);
+  read_accuracy(map, solver);
   if (realizations > 0) {
     solver.realizations = realizations;
     check_shares(map, "lines_per_patch", solver.lines_per_patch, realizations);
@@ -103,10 +133,7 @@ OutputStudy read_output(YamlMap& map) {
 
 std::vector<LaterKey> later_keys() {
   return {
-      {"solver.accuracy", ""},
-      {"solver.max_lines_per_patch", ""},
       {"solver.bands", ""},
-      {"sensors", ""},
   };
 }
 

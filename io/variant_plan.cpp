@@ -59,6 +59,11 @@ void add_scene(Digest& digest, const Scene& scene) {
   for (const auto& v : sources.mesh.vertices) digest.add(v);
   for (const auto& t : sources.mesh.triangles) digest.add(t);
   for (const double exitance : sources.exitance) digest.add(exitance);
+  for (const auto& sensor : scene.sensors) {
+    digest.add(sensor.position);
+    digest.add(sensor.normal);
+    digest.add(sensor.key);
+  }
 }
 
 std::string times_text(const LightSeries& light) {
@@ -131,15 +136,23 @@ void refuse_lamps_in_lux(const VariantPlan& plan) {
                    "set their emission_w_m2 to 0, or light.quantity to irradiance");
 }
 
-/// Shooting sends the light of the scene's own emitters only.
-void refuse_parallel_sources_when_shooting(const VariantPlan& plan) {
-  if (plan.study.solver.transport != Transport::shoot ||
-      plan.study.scene.parallel_sources.empty())
-    return;
-  throw InputError(plan.study.scene.parallel_sources_where,
-                   "scene.parallel_sources cannot go with solver.transport: shoot",
-                   "shooting sends the light of sun, sky and the scene's own emitters",
-                   "write transport: gather, or leave parallel_sources away");
+/// What asks for the lines of gathering.
+void refuse_what_shooting_has_not(const VariantPlan& plan) {
+  const Study& study = plan.study;
+  if (study.solver.transport != Transport::shoot) return;
+  Problems problems;
+  const auto refuse = [&](const Where& where, const std::string& key, const std::string& why) {
+    problems.add(where, key + " cannot go with solver.transport: shoot", why,
+                 "write transport: gather, or leave " + key + " away");
+  };
+  if (!study.scene.parallel_sources.empty())
+    refuse(study.scene.parallel_sources_where, "scene.parallel_sources",
+           "shooting sends the light of sun, sky and the scene's own emitters");
+  if (!plan.built.scene.sensors.empty())
+    refuse({}, "sensors", "they gather by lines of their own, and what is shot meets surfaces only");
+  if (study.solver.accuracy)
+    refuse({}, "solver.accuracy", "its pilot counts the lines of gathering");
+  problems.throw_if_any();
 }
 
 /// Samples of all shots: those of the first reflection, then (incremental) less by what is
@@ -177,7 +190,7 @@ VariantPlan make_plan(const Study& study) {
   plan.built = build_scene(study);
   plan.light = light_series(study, plan.built.site);
   refuse_lamps_in_lux(plan);
-  refuse_parallel_sources_when_shooting(plan);
+  refuse_what_shooting_has_not(plan);
   plan.content_hash = content_hash(plan, plan.isa);
   plan.pairing_id = pairing_id(plan);
   return plan;
@@ -227,6 +240,10 @@ SolverRules solver_rules(const VariantPlan& plan) {
           .transport = s.transport,
           .jacobi = s.jacobi,
           .power_per_sample_w = s.power_per_sample_w};
+}
+
+AccuracyGoal accuracy_goal(const Study& study) {
+  return {study.solver.accuracy->light_load_relative, study.solver.max_lines_per_patch};
 }
 
 std::string result_path(const std::string& folder, const Study& study) {
@@ -292,6 +309,12 @@ double line_seconds(const Scene& scene, int mirror_depth) {
 
 WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
   const SolverStudy& s = plan.study.solver;
+  return estimate_work(plan, patches, {s.lines_per_patch, s.direct_samples, 0});
+}
+
+WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
+                           const SampleCounts& counts) {
+  const SolverStudy& s = plan.study.solver;
   const auto& materials = plan.built.scene.materials;
   const auto has = [&](auto property) {
     return std::any_of(materials.begin(), materials.end(), property);
@@ -300,17 +323,17 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
   const bool lamps = has_lamps(plan);
   // Total, direct, sky, reflected, and what the scene has besides.
   const double parts = 4.0 + (mirrors ? 1 : 0) + (lamps ? 1 : 0);
-  const auto n = static_cast<double>(patches);
+  const auto n = static_cast<double>(patches + plan.built.scene.sensors.size());
   const auto lit = static_cast<double>(lamps ? plan.intervals() : plan.light.lit_count());
   const auto batch = static_cast<double>(std::min(plan.batch_suns(), plan.intervals()));
   const auto batches = static_cast<double>(plan.batches());
-  const double lines = n * s.lines_per_patch, links = lines * s.bounces;
+  const double lines = n * counts.lines_per_patch, links = lines * s.bounces;
   const double of_realizations = double_bytes * s.realizations;
 
   WorkEstimate work;
   work.patches = patches;
   work.line_rays = static_cast<std::uint64_t>(lines);
-  const double rays = n * facing_share * lit * s.direct_samples;
+  const double rays = n * facing_share * lit * counts.direct_samples;
   work.direct_rays = static_cast<std::uint64_t>(rays);
   work.memory_bytes = program_bytes + lines * bytes_per_line +
                       n * (batch * parts * float_bytes + arrays_of_realizations * of_realizations +
@@ -329,7 +352,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
                     (plan.batches() > 1 ? lines * kept_bytes_per_line : 0);
   work.seconds =
       (s_to_start + n * s_per_patch + lines * line_seconds(plan.built.scene, s.mirror_depth) + rays * s_per_direct_ray +
-       (mirrors ? n * mirrored_share * lit * s.direct_samples * s_per_mirror_ray : 0) +
+       (mirrors ? n * mirrored_share * lit * counts.direct_samples * s_per_mirror_ray : 0) +
        (s.transport == Transport::gather
             ? links * lit * s_per_link_sun + links * batches * s_per_link_batch
             : static_cast<double>(work.samples) * s_per_sample) +

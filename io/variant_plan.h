@@ -7,6 +7,7 @@
 #include "io/light_series.h"
 #include "io/scene_build.h"
 #include "io/study.h"
+#include "solver/accuracy.h"
 #include "solver/solver.h"
 
 namespace sunload {
@@ -35,7 +36,10 @@ std::string hash_with_isa(const VariantPlan& plan, const std::string& isa);
 
 SplitRules split_rules(const Study& study);
 RefineRules refine_rules(const Study& study);
+/// With the study's own counts, which `accuracy` makes the least ones.
 SolverRules solver_rules(const VariantPlan& plan);
+/// The study's goal; only of a study that has one.
+AccuracyGoal accuracy_goal(const Study& study);
 
 /// Paths of DESIGN 2.
 std::string result_path(const std::string& folder, const Study& study);
@@ -56,5 +60,8 @@ struct WorkEstimate {
   double memory_bytes = 0, disk_bytes = 0, seconds = 0;
 };
 WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches);
+/// The same with other counts than the study's own.
+WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
+                           const SampleCounts& counts);
 
 }  // namespace sunload

@@ -30,6 +30,29 @@ std::size_t suns_before(const VariantPlan& plan, std::size_t batch) {
   return suns;
 }
 
+/// What the pilot decided.
+std::string counts_text(const VariantPlan& plan, const SampleCounts& counts) {
+  std::string text = fmt::format(
+      "{}: accuracy of {:.3g} %: {} lines and {} direct samples per patch, by which a pilot "
+      "expects it on {:.3g} % of the area",
+      plan.study.variant, 100 * plan.study.solver.accuracy->light_load_relative,
+      counts.lines_per_patch, counts.direct_samples, 100 * counts.share);
+  if (counts.share < share_to_be_met)
+    text += fmt::format("; {} lines and samples at most cannot give more (max_lines_per_patch)",
+                        plan.study.solver.max_lines_per_patch);
+  return text;
+}
+
+/// Counts that the pilot chose may need more than the least counts that were checked before.
+void refuse_too_much(const WorkEstimate& work) {
+  constexpr double gib = 1024.0 * 1024 * 1024;
+  if (const double left = available_memory_bytes(); work.memory_bytes > left)
+    throw MachineError(fmt::format(
+        "too little memory for the accuracy asked for: about {:.1f} GiB are needed, {:.1f} GiB are "
+        "available; use a smaller max_lines_per_patch or a larger accuracy.light_load_relative",
+        work.memory_bytes / gib, left / gib));
+}
+
 }  // namespace
 
 VariantRun::VariantRun(const std::string& folder, const VariantPlan& plan,
@@ -64,6 +87,7 @@ bool VariantRun::is_finished(std::size_t batch) {
 }
 
 void VariantRun::make_solver(MpiWorld* world) {
+  rules_ = decided_rules();
   if (!world) return read_or_trace();
   if (world->is_first()) read_or_trace();
   world->wait_for_all();
@@ -91,7 +115,7 @@ void VariantRun::build(std::optional<Lines> ready) {
   progress_.count_rays([rays = static_cast<double>(estimate_work(plan_, mesh_->patch_count()).line_rays)](
                            Stage, double share) { return rays * share; });
   if (!ready) progress_.advance(Stage::lines, 0);
-  solver_ = std::make_unique<LightSolver>(plan_.built.scene, mesh_, solver_rules(plan_), progress_,
+  solver_ = std::make_unique<LightSolver>(plan_.built.scene, mesh_, rules_, progress_,
                                           std::move(ready));
   progress_.count_rays([this](Stage, double) {
     const WorkDone& work = solver_->work();
@@ -112,15 +136,53 @@ void VariantRun::keep_lines(const std::string& path) {
   }
 }
 
+SunLight VariantRun::light_of(std::size_t interval, const SkyGrid& grid,
+                              const std::vector<double>& open_share) const {
+  const LitInterval& lit = plan_.light.intervals[interval];
+  SunLight light =
+      sun_light(lit, static_cast<std::uint32_t>(interval), plan_.study.light, grid, open_share);
+  light.disk_half_angle = disk_half_angle(plan_.study.sun.disk, lit.when.sun.distance_au);
+  return light;
+}
+
+/// The study's rules, with counts raised by a pilot where it asks for an accuracy. Every
+/// process of a study comes to the same counts.
+SolverRules VariantRun::decided_rules() {
+  SolverRules rules = solver_rules(plan_);
+  if (!plan_.study.solver.accuracy) return rules;
+  const Scene& scene = plan_.built.scene;
+  const bool lamps = has_lamps(plan_);
+  std::vector<std::size_t> lit;
+  for (std::size_t k = 0; k < plan_.intervals(); ++k)
+    if (const LitInterval& i = plan_.light.intervals[k];
+        lamps || i.when.sunlit_s > 0 || i.mean.dhi > 0)
+      lit.push_back(k);
+  const std::size_t count = std::min(pilot_suns, lit.size());
+  const SkyGrid grid;
+  const auto open_share =
+      open_shares(grid, plan_.built.site.horizon, scene_from_enu(plan_.built.site));
+  std::vector<SunLight> suns(count);
+  parallel_for(count, [&](std::size_t p) {
+    suns[p] = light_of(lit[(2 * p + 1) * lit.size() / (2 * count)], grid, open_share);
+  });
+  const double weight = count > 0 ? static_cast<double>(lit.size()) / static_cast<double>(count) : 1;
+  const PatchSpread spread =
+      pilot_spread(scene, mesh_, rules, suns, weight, progress_);
+  const SampleCounts counts =
+      needed_counts(spread, rules, accuracy_goal(plan_.study), lit.size());
+  refuse_too_much(estimate_work(plan_, spread.area.size(), counts));
+  progress_.say(counts_text(plan_, counts));
+  rules.lines_per_patch = counts.lines_per_patch;
+  rules.direct_samples = counts.direct_samples;
+  return rules;
+}
+
 void VariantRun::compute_batch(std::size_t batch) {
   const std::size_t first = batch * plan_.batch_suns();
   const std::size_t count = std::min(plan_.batch_suns(), plan_.intervals() - first);
   std::vector<SunLight> light(count);
   parallel_for(count, [&](std::size_t k) {
-    light[k] = sun_light(plan_.light.intervals[first + k], static_cast<std::uint32_t>(first + k),
-                         plan_.study.light, solver_->sky_grid(), open_share_);
-    light[k].disk_half_angle = disk_half_angle(
-        plan_.study.sun.disk, plan_.light.intervals[first + k].when.sun.distance_au);
+    light[k] = light_of(first + k, solver_->sky_grid(), open_share_);
   });
   const BatchTally tally = solver_->solve(light, progress_);
   WorkDone work = solver_->work();
@@ -152,6 +214,7 @@ void VariantRun::report_work() const {
     text += fmt::format("  {:<14} {} beams by image directions, {} arrivals by shooting\n", "",
                         w.mirror_beams, w.mirror_shots);
   text += rays_text("shooting", w.shot_rays, w.shoot_s);
+  text += rays_text("sensors", w.sensor_rays, w.sensors_s);
   text += fmt::format("  {:<14} {:8.2f} s\n  {:<14} {:8.2f} s  peak memory {:.0f} MiB",
                       "sky and Jacobi", w.solve_s, "realizations", w.realizations_s,
                       peak_memory_bytes() / mib);

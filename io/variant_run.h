@@ -33,6 +33,9 @@ class VariantRun {
   void read_or_trace();
   void build(std::optional<Lines> ready);
   void keep_lines(const std::string& path);
+  SolverRules decided_rules();
+  SunLight light_of(std::size_t interval, const SkyGrid& grid,
+                    const std::vector<double>& open_share) const;
   void compute_batch(std::size_t batch);
   void report_work() const;
 
@@ -40,6 +43,7 @@ class VariantRun {
   const VariantPlan& plan_;
   std::shared_ptr<const Hierarchy> mesh_;
   Progress& progress_;
+  SolverRules rules_;  ///< of the solver, counts decided
   std::unique_ptr<LightSolver> solver_;
   std::vector<double> open_share_;  ///< of the solver's sky cells: what hills leave free
   WorkDone written_;  ///< work that finished batches carry already

@@ -34,33 +34,42 @@ void BlockSources::split_sky(const SkyGrid& grid) {
   }
 }
 
-BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
-                       const BlockSources& sources, FirstLight first, int bounces) {
-  const std::size_t patches = optics.diffuse.size();
+BlockLight first_light(const LineSet& lines, const PatchOptics& optics,
+                       const BlockSources& sources, FirstLight first) {
+  const std::size_t rows = lines.ends.size();
   BlockLight light;
   light.direct = std::move(first.direct);
-  light.sky = columns(patches);
-  gather(lines.sky, sources.sky_of_lines, light.sky, Into::replace);
+  light.sky = columns(rows);
+  const bool split = !first.circumsolar.empty();
+  gather(lines.sky, split ? sources.sky_of_lines : sources.sky, light.sky, Into::replace);
   for (std::size_t at = 0; at < first.circumsolar.size(); ++at)
     light.sky[at] += first.circumsolar[at];
   light.mirror = std::move(first.sun_by_mirror);
   if (optics.any_mirror) gather(lines.sky_by_mirror, sources.sky, light.mirror, Into::add);
   light.lamps.assign(lines.lamps.begin(), lines.lamps.end());
-  light.lamps.resize(patches, 0);
+  light.lamps.resize(rows, 0);
   for (std::size_t i = 0; i < first.parallel.size(); ++i)
     light.lamps[i] += static_cast<float>(first.parallel[i]);
-
-  Columns base = columns(patches), ground = columns(patches);
-  parallel_for(patches, [&](std::size_t i) {
+  light.reflected = columns(rows);
+  parallel_for(rows, [&](std::size_t i) {
     const float seen = lines.ends[i].ground + lines.ends[i].ground_by_mirror;
+    for (std::size_t k = 0; k < block_width; ++k)
+      light.reflected[i * block_width + k] = seen * sources.ground_exitance[k];
+  }, patches_per_task);
+  return light;
+}
+
+BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                       const BlockSources& sources, FirstLight first, int bounces) {
+  BlockLight light = first_light(lines, optics, sources, std::move(first));
+  Columns base = columns(optics.diffuse.size());
+  parallel_for(optics.diffuse.size(), [&](std::size_t i) {
     for (std::size_t k = 0; k < block_width; ++k) {
       const std::size_t at = i * block_width + k;
       base[at] = light.direct[at] + light.sky[at] + light.mirror[at] + light.lamps[i];
-      ground[at] = seen * sources.ground_exitance[k];
     }
   }, patches_per_task);
-
-  Reflected reflected = reflect(mesh, lines, optics, base, ground, bounces);
+  Reflected reflected = reflect(mesh, lines, optics, base, light.reflected, bounces);
   light.reflected = std::move(reflected.irradiance);
   light.followed = std::move(reflected.followed);
   return light;

@@ -39,9 +39,14 @@ struct BlockLight {
 /// Irradiance that does not come by lines.
 struct FirstLight {
   Columns direct, sun_by_mirror;
-  const Columns& circumsolar;           ///< of the split sky, or empty
+  const Columns& circumsolar;           ///< of the split sky; empty: lines take the whole sky
   const std::vector<double>& parallel;  ///< [N] of parallel sources, or empty
 };
+
+/// What arrives at the rows of `lines` without diffuse reflection by patches; `reflected`
+/// holds the far ground alone, `followed` nothing.
+BlockLight first_light(const LineSet& lines, const PatchOptics& optics,
+                       const BlockSources& sources, FirstLight first);
 
 BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                        const BlockSources& sources, FirstLight first, int bounces);

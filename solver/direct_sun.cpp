@@ -50,7 +50,15 @@ void to_float(Vec3 v, float (&out)[3]) {
 
 SunSampler::SunSampler(const Hierarchy& hierarchy, const RayCaster& caster,
                        const DirectRules& rules)
-    : hierarchy_(hierarchy), offset_m_(caster.offset_m()), rules_(rules) {
+    : SunSampler(&hierarchy, nullptr, caster, rules) {}
+
+SunSampler::SunSampler(const std::vector<Sensor>& sensors, const RayCaster& caster,
+                       const DirectRules& rules)
+    : SunSampler(nullptr, &sensors, caster, rules) {}
+
+SunSampler::SunSampler(const Hierarchy* hierarchy, const std::vector<Sensor>* sensors,
+                       const RayCaster& caster, const DirectRules& rules)
+    : hierarchy_(hierarchy), sensors_(sensors), offset_m_(caster.offset_m()), rules_(rules) {
   SUNLOAD_EXPECT(rules.realizations >= 1 && rules.samples >= rules.realizations &&
                      rules.samples % rules.realizations == 0,
                  "direct samples are shared equally by the realizations");
@@ -64,18 +72,38 @@ SunSampler::SunSampler(const Hierarchy& hierarchy, const RayCaster& caster,
   }
 }
 
-SunSampler::Geometry SunSampler::geometry(std::size_t patch) const {
+std::size_t SunSampler::receivers() const {
+  return sensors_ ? sensors_->size() : hierarchy_->patch_count();
+}
+
+std::array<Vec3, 3> SunSampler::corners(std::size_t receiver) const {
+  if (sensors_) {
+    const Vec3 point = (*sensors_)[receiver].position;
+    return {point, point, point};
+  }
+  return {hierarchy_->corner(receiver, 0), hierarchy_->corner(receiver, 1),
+          hierarchy_->corner(receiver, 2)};
+}
+
+Vec3 SunSampler::normal(std::size_t receiver) const {
+  return sensors_ ? (*sensors_)[receiver].normal : hierarchy_->normal(receiver);
+}
+
+SunSampler::Geometry SunSampler::geometry(std::size_t receiver) const {
   Geometry g;
-  const Vec3 a = hierarchy_.corner(patch, 0);
-  const Vec3 ab = hierarchy_.corner(patch, 1) - a, ac = hierarchy_.corner(patch, 2) - a;
-  g.normal = normalized(cross(ab, ac));
+  const auto [a, b, c] = corners(receiver);
+  const Vec3 ab = b - a, ac = c - a;
+  g.normal = sensors_ ? (*sensors_)[receiver].normal : normalized(cross(ab, ac));
   to_float(a + g.normal * offset_m_, g.a);
   to_float(ab, g.ab);
   to_float(ac, g.ac);
   return g;
 }
 
-void SunSampler::seed(std::size_t patch, std::uint32_t sun, Seeds& seeds, Purpose purpose) const {
+void SunSampler::seed(std::size_t receiver, std::uint32_t sun, Seeds& seeds,
+                      Purpose purpose) const {
+  const std::uint64_t element =
+      sensors_ ? (*sensors_)[receiver].key : hierarchy_->key()[receiver];
   const auto count = static_cast<std::size_t>(rules_.realizations);
   const std::size_t groups = (count + lanes - 1) / lanes;
   seeds.u.resize(groups * lanes);
@@ -86,7 +114,7 @@ void SunSampler::seed(std::size_t patch, std::uint32_t sun, Seeds& seeds, Purpos
     const auto words = random_lanes({.seed = rules_.seed,
                                      .purpose = purpose,
                                      .realization = static_cast<std::uint32_t>(g * lanes),
-                                     .element = hierarchy_.key()[patch],
+                                     .element = element,
                                      .sun = sun});
     std::copy_n(words.word[0], lanes, seeds.u.begin() + static_cast<std::ptrdiff_t>(g * lanes));
     std::copy_n(words.word[1], lanes, seeds.v.begin() + static_cast<std::ptrdiff_t>(g * lanes));
@@ -209,12 +237,12 @@ class PatchSuns {
 
 }  // namespace
 
-DirectSun direct_sun(const Hierarchy& hierarchy, const RayCaster& caster, const SunSampler& sampler,
+DirectSun direct_sun(const RayCaster& caster, const SunSampler& sampler,
                      std::span<const SunLight> block, std::vector<std::vector<double>>& exposure,
                      std::vector<Columns>* of_realizations) {
-  const std::size_t patches = hierarchy.patch_count();
-  DirectSun out{columns(patches), columns(patches), 0};
-  out.rays = ordered_sum(patches, patches_per_task, std::uint64_t{0},
+  const std::size_t receivers = sampler.receivers();
+  DirectSun out{columns(receivers), columns(receivers), 0};
+  out.rays = ordered_sum(receivers, patches_per_task, std::uint64_t{0},
                          [&](std::size_t begin, std::size_t end) {
                            PatchSuns suns(caster, sampler, block, exposure.size());
                            for (std::size_t i = begin; i < end; ++i)

@@ -1,4 +1,4 @@
-/// Standard error of every patch and sun of a block, from the realizations.
+/// Standard error of every patch or sensor and sun of a block, from the realizations.
 #pragma once
 
 #include <cmath>
@@ -11,37 +11,37 @@ namespace sunload {
 
 class InstantSpread {
  public:
-  InstantSpread(std::size_t patches, std::size_t suns)
-      : patches_(patches), suns_(suns), sum_(patches * block_width, 0), squares_(sum_) {}
+  InstantSpread(std::size_t receivers, std::size_t suns)
+      : receivers_(receivers), suns_(suns), sum_(receivers * block_width, 0), squares_(sum_) {}
 
   /// `light.total(i, k)`: irradiance of the next realization.
   template <class Light>
   void add(const Light& light) {
     ++realizations_;
-    parallel_for(patches_, [&](std::size_t i) {
+    parallel_for(receivers_, [&](std::size_t i) {
       for (std::size_t k = 0; k < suns_; ++k) {
         const auto E = static_cast<double>(light.total(i, k));
         sum_[i * block_width + k] += E;
         squares_[i * block_width + k] += E * E;
       }
-    }, patches_per_task);
+    }, receivers_per_task);
   }
   /// Writes s / √R to the rows from `first_row` on.
-  void store(std::size_t first_row, BatchTally& tally) const {
+  void store(std::size_t first_row, ReceiverTally& tally) const {
     const auto n = static_cast<double>(realizations_);
-    parallel_for(patches_, [&](std::size_t i) {
+    parallel_for(receivers_, [&](std::size_t i) {
       for (std::size_t k = 0; k < suns_; ++k) {
         const std::size_t at = i * block_width + k;
         const double variance = std::max(0.0, squares_[at] - sum_[at] * sum_[at] / n) / (n - 1);
-        tally.irradiance_se[(first_row + k) * patches_ + i] =
+        tally.irradiance_se[(first_row + k) * receivers_ + i] =
             static_cast<float>(std::sqrt(variance / n));
       }
-    }, patches_per_task);
+    }, receivers_per_task);
   }
 
  private:
-  static constexpr std::size_t patches_per_task = 1024;
-  std::size_t patches_, suns_;
+  static constexpr std::size_t receivers_per_task = 1024;
+  std::size_t receivers_, suns_;
   int realizations_ = 0;
   std::vector<double> sum_, squares_;
 };

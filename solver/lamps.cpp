@@ -104,6 +104,18 @@ void LampView::look_from(const Hierarchy& hierarchy, std::size_t patch) {
   radius_ = 0;
   for (std::size_t k = 0; k < 3; ++k)
     radius_ = std::max(radius_, norm(hierarchy.corner(patch, k) - centroid_));
+  choose_clusters();
+}
+
+void LampView::look_from(Vec3 position, Vec3 normal) {
+  a_ = centroid_ = position;
+  ab_ = ac_ = {0, 0, 0};
+  normal_ = normal;
+  radius_ = 0;
+  choose_clusters();
+}
+
+void LampView::choose_clusters() {
   double sum = 0;
   for (std::size_t c = 0; c < chance_.size(); ++c) {
     chance_[c] = chance(lamps_.clusters_[c]);

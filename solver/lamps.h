@@ -58,6 +58,8 @@ class LampView {
   explicit LampView(const Lamps& lamps);
 
   void look_from(const Hierarchy& hierarchy, std::size_t patch);
+  /// A point with a unit normal, as sensors are.
+  void look_from(Vec3 position, Vec3 normal);
 
   /// M g / (g + q) of a line that met a front at a distance, along the unit vector w; 0 where
   /// nothing emits. `cos_theta` is that at the line's start.
@@ -72,6 +74,7 @@ class LampView {
   Seen seen_by_points(const RayCaster& caster, const RandomWords& seeds, std::size_t count) const;
 
  private:
+  void choose_clusters();
   struct Point {
     Vec3 position, normal;
     double exitance, density;

@@ -26,6 +26,37 @@ void LineCollector::clear() {
   lamps = 0;
 }
 
+LineCollector& LineCollector::operator+=(const LineCollector& other) {
+  const auto append = [](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  append(patches, other.patches);
+  append(sky, other.sky);
+  append(sky_by_mirror, other.sky_by_mirror);
+  ends.sky += other.ends.sky;
+  ends.ground += other.ends.ground;
+  ends.ground_by_mirror += other.ends.ground_by_mirror;
+  ends.escaped += other.ends.escaped;
+  ends.backs += other.ends.backs;
+  ends.cut += other.ends.cut;
+  ends.transmitted += other.ends.transmitted;
+  ends.absorbed += other.ends.absorbed;
+  lamps += other.lamps;
+  return *this;
+}
+
+void LineCollector::store(LineSet& set, std::size_t row, int count) {
+  const float scale = 1.0f / static_cast<float>(count);
+  const std::size_t block = row / LinkTable::rows_per_block;
+  LinkTable::append_row(set.patches.blocks[block], patches, scale);
+  LinkTable::append_row(set.sky.blocks[block], sky, scale);
+  LinkTable::append_row(set.sky_by_mirror.blocks[block], sky_by_mirror, scale);
+  set.ends[row] = {ends.sky * scale,     ends.ground * scale, ends.ground_by_mirror * scale,
+                   ends.escaped * scale, ends.backs * scale,  ends.cut * scale,
+                   ends.transmitted * scale, ends.absorbed * scale};
+  if (!set.lamps.empty()) set.lamps[row] = lamps / count;
+}
+
 LineFollower::LineFollower(const Scene& scene, const Hierarchy& hierarchy,
                            const RayCaster& caster, const SkyGrid& grid, int mirror_depth,
                            double largest_link)

@@ -13,13 +13,17 @@
 
 namespace sunload {
 
-/// Links and ends of the lines of one patch in one realization.
+/// Links and ends of the lines of one patch or sensor.
 struct LineCollector {
   std::vector<LinkTable::Link> patches, sky, sky_by_mirror;
   std::vector<Glimpse> glimpses;  ///< patch and realization are the collector's owner's
   LineEnds ends;
   double lamps = 0;  ///< exitance of emitters that was seen, summed over lines [W m-2]
   void clear();
+  /// Puts the lines of another realization to these.
+  LineCollector& operator+=(const LineCollector& other);
+  /// Writes the next row of its block in `set`: what `count` lines brought.
+  void store(LineSet& set, std::size_t row, int count);
 };
 
 /// Follows lines from their first hit on, by the law of reflection, until they

@@ -41,6 +41,11 @@ void LinkTable::append_row(Block& block, std::vector<Link>& links, float scale) 
   block.begin.push_back(static_cast<std::uint32_t>(block.target.size()));
 }
 
+LineSet empty_line_set(std::size_t rows, bool any_lamps) {
+  return {LinkTable(rows), LinkTable(rows), LinkTable(rows), std::vector<LineEnds>(rows),
+          std::vector<double>(any_lamps ? rows : 0), {}};
+}
+
 namespace {
 
 /// Lines of the patches of one block, all realizations: the unit of parallel work.
@@ -79,10 +84,10 @@ class BlockTracer {
           glimpse.realization = static_cast<std::uint32_t>(r);
         }
         output.glimpses.insert(output.glimpses.end(), own.glimpses.begin(), own.glimpses.end());
-        pool(own, pooled);
-        store(lines.realizations[r], patch, own, lines_per_realization());
+        pooled += own;
+        own.store(lines.realizations[r], patch, lines_per_realization());
       }
-      store(lines.pooled, patch, pooled, rules_.lines_per_patch);
+      pooled.store(lines.pooled, patch, rules_.lines_per_patch);
     }
     return output;
   }
@@ -176,37 +181,6 @@ class BlockTracer {
     return fate.rays;
   }
 
-  static void pool(const LineCollector& own, LineCollector& pooled) {
-    const auto append = [](auto& to, const auto& from) {
-      to.insert(to.end(), from.begin(), from.end());
-    };
-    append(pooled.patches, own.patches);
-    append(pooled.sky, own.sky);
-    append(pooled.sky_by_mirror, own.sky_by_mirror);
-    pooled.ends.sky += own.ends.sky;
-    pooled.ends.ground += own.ends.ground;
-    pooled.ends.ground_by_mirror += own.ends.ground_by_mirror;
-    pooled.ends.escaped += own.ends.escaped;
-    pooled.ends.backs += own.ends.backs;
-    pooled.ends.cut += own.ends.cut;
-    pooled.lamps += own.lamps;
-    pooled.ends.transmitted += own.ends.transmitted;
-    pooled.ends.absorbed += own.ends.absorbed;
-  }
-
-  static void store(LineSet& set, std::size_t patch, LineCollector& lines, int count) {
-    const float scale = 1.0f / static_cast<float>(count);
-    const std::size_t block = patch / LinkTable::rows_per_block;
-    LinkTable::append_row(set.patches.blocks[block], lines.patches, scale);
-    LinkTable::append_row(set.sky.blocks[block], lines.sky, scale);
-    LinkTable::append_row(set.sky_by_mirror.blocks[block], lines.sky_by_mirror, scale);
-    const LineEnds& e = lines.ends;
-    set.ends[patch] = {e.sky * scale,   e.ground * scale, e.ground_by_mirror * scale,
-                       e.escaped * scale, e.backs * scale,  e.cut * scale,
-                       e.transmitted * scale, e.absorbed * scale};
-    if (!set.lamps.empty()) set.lamps[patch] = lines.lamps / count;
-  }
-
   const Hierarchy& hierarchy_;
   const RayCaster& caster_;
   const LineRules& rules_;
@@ -214,11 +188,6 @@ class BlockTracer {
   Lamps lamps_;
   std::size_t ground_source_;
 };
-
-LineSet empty_set(std::size_t patches, bool any_lamps) {
-  return {LinkTable(patches), LinkTable(patches), LinkTable(patches),
-          std::vector<LineEnds>(patches), std::vector<double>(any_lamps ? patches : 0), {}};
-}
 
 void add(std::vector<double>& to, const std::vector<double>& from, double factor) {
   if (from.empty()) return;
@@ -247,7 +216,7 @@ Lines trace_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaste
   const std::size_t patches = hierarchy.patch_count();
   const BlockTracer tracer(scene, hierarchy, caster, grid, rules);
   Lines lines;
-  lines.pooled = empty_set(patches, tracer.any_lamps());
+  lines.pooled = empty_line_set(patches, tracer.any_lamps());
   lines.realizations.assign(static_cast<std::size_t>(rules.realizations), lines.pooled);
 
   std::vector<BlockTracer::Output> outputs(lines.pooled.patches.blocks.size());

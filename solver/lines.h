@@ -93,6 +93,9 @@ struct Glimpse {
   float weight = 0;               ///< of the line so far, times rho_g
 };
 
+/// Room for the lines of so many patches or sensors, and for what emitters send them.
+LineSet empty_line_set(std::size_t rows, bool any_lamps);
+
 struct LineRules {
   int lines_per_patch = 256;  ///< over all realizations together
   int realizations = 8;

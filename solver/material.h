@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geo/mesh.h"
+#include "solver/sensor.h"
 
 namespace sunload {
 
@@ -73,6 +74,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<MaterialId> material;  ///< per triangle, into `materials`
   ParallelSources parallel_sources = {};
+  std::vector<Sensor> sensors = {};  ///< receive light without disturbing the rest
 };
 
 /// Shares of a refused or degenerate material are errors of the caller: throws

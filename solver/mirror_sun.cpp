@@ -11,15 +11,15 @@ namespace sunload {
 
 namespace {
 
-/// Consecutive patches, which lie close together, in their common box.
+/// Consecutive receivers, which lie close together, in their common box.
 struct Cluster {
   std::size_t begin, end;
   std::array<Vec3, 8> corners;
 };
 
-std::vector<Cluster> clusters_of(const Hierarchy& hierarchy) {
+std::vector<Cluster> clusters_of(const SunSampler& receivers) {
   constexpr std::size_t patches_per_cluster = 64;
-  const std::size_t patches = hierarchy.patch_count();
+  const std::size_t patches = receivers.receivers();
   std::vector<Cluster> clusters((patches + patches_per_cluster - 1) / patches_per_cluster);
   parallel_for(clusters.size(), [&](std::size_t c) {
     clusters[c].begin = c * patches_per_cluster;
@@ -27,8 +27,7 @@ std::vector<Cluster> clusters_of(const Hierarchy& hierarchy) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     Vec3 low{infinite, infinite, infinite}, high{-infinite, -infinite, -infinite};
     for (std::size_t i = clusters[c].begin; i < clusters[c].end; ++i)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3 p = hierarchy.corner(i, k);
+      for (const Vec3 p : receivers.corners(i)) {
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
       }
@@ -72,30 +71,29 @@ PacketDirections towards(const SunLight& sun, const SunSampler& sampler,
                                  : same_for_all(sun.direction);
 }
 
-MirrorSun::MirrorSun(const Hierarchy& hierarchy, const RayCaster& caster,
-                     const SunSampler& sampler, const MirrorGroups& groups)
-    : hierarchy_(hierarchy), caster_(caster), sampler_(sampler), groups_(groups) {}
+MirrorSun::MirrorSun(const RayCaster& caster, const MirrorGroups& groups)
+    : caster_(caster), groups_(groups) {}
 
 /// The mirrored sun that the patches of one task receive from the beams of one sun.
 class MirrorSun::PatchWork {
  public:
-  PatchWork(const MirrorSun& mirror, const SunLight& sun, std::size_t k, const SunBeams& beams,
-            MirroredIrradiance into)
-      : m_(mirror), sun_(sun), k_(k), beams_(beams), into_(into),
+  PatchWork(const MirrorSun& mirror, const SunSampler& sampler, const SunLight& sun, std::size_t k,
+            const SunBeams& beams, MirroredIrradiance into)
+      : m_(mirror), sampler_(sampler), sun_(sun), k_(k), beams_(beams), into_(into),
         of_realization_(into.realizations()) {}
 
   void receive(std::size_t patch, std::span<const std::size_t> by_beams) {
-    const auto geometry = m_.sampler_.geometry(patch);
-    m_.sampler_.seed(patch, sun_.number, seeds_);
+    const auto geometry = sampler_.geometry(patch);
+    sampler_.seed(patch, sun_.number, seeds_);
     std::fill(of_realization_.begin(), of_realization_.end(), 0);
-    for (std::size_t p = 0; p < m_.sampler_.packets(); ++p) {
-      const Packet origins = m_.sampler_.origins(geometry, seeds_, p);
-      const PacketDirections sun = towards(sun_, m_.sampler_, seeds_, p);
+    for (std::size_t p = 0; p < sampler_.packets(); ++p) {
+      const Packet origins = sampler_.origins(geometry, seeds_, p);
+      const PacketDirections sun = towards(sun_, sampler_, seeds_, p);
       for (const auto b : by_beams)
         add_reflectances(beams_[b], dot(geometry.normal, beams_[b].image), p, origins, sun);
     }
     const auto R = static_cast<double>(of_realization_.size());
-    const double samples_each = static_cast<double>(m_.sampler_.samples()) / R;
+    const double samples_each = static_cast<double>(sampler_.samples()) / R;
     double pooled = 0;
     for (std::size_t r = 0; r < of_realization_.size(); ++r) {
       const double E = sun_.dni * of_realization_[r] / samples_each;
@@ -115,7 +113,7 @@ class MirrorSun::PatchWork {
     Packet points = origins;
     double weight[packet_size];
     std::fill_n(weight, packet_size, cos_theta);
-    auto active = m_.sampler_.active(packet);
+    auto active = sampler_.active(packet);
     for (const SunBeam* beam = &last; active != 0;
          beam = &beams_[static_cast<std::size_t>(beam->before)]) {
       active = step_back(*beam, seen(*beam, sun), active, points, weight);
@@ -125,7 +123,7 @@ class MirrorSun::PatchWork {
     rays += static_cast<std::uint64_t>(std::popcount(active));
     for (auto lit = m_.caster_.unoccluded_each(points, sun, active); lit != 0; lit &= lit - 1) {
       const auto l = static_cast<std::size_t>(std::countr_zero(lit));
-      of_realization_[m_.sampler_.realization(packet * packet_size + l)] += weight[l];
+      of_realization_[sampler_.realization(packet * packet_size + l)] += weight[l];
     }
   }
 
@@ -151,6 +149,7 @@ class MirrorSun::PatchWork {
   }
 
   const MirrorSun& m_;
+  const SunSampler& sampler_;
   const SunLight& sun_;
   std::size_t k_;
   const SunBeams& beams_;
@@ -159,11 +158,11 @@ class MirrorSun::PatchWork {
   SunSampler::Seeds seeds_;
 };
 
-std::uint64_t MirrorSun::add_light(std::span<const SunLight> block,
+std::uint64_t MirrorSun::add_light(const SunSampler& receivers, std::span<const SunLight> block,
                                    std::span<const SunBeams> beams,
                                    MirroredIrradiance into) const {
   constexpr std::size_t clusters_per_task = 8;
-  const auto clusters = clusters_of(hierarchy_);
+  const auto clusters = clusters_of(receivers);
   std::uint64_t rays = 0;
   for (std::size_t k = 0; k < block.size(); ++k) {
     if (beams[k].size() == 0) continue;
@@ -171,7 +170,7 @@ std::uint64_t MirrorSun::add_light(std::span<const SunLight> block,
     rays += ordered_sum(
         clusters.size(), clusters_per_task, std::uint64_t{0},
         [&](std::size_t begin, std::size_t end) {
-          PatchWork work(*this, block[k], k, beams[k], into);
+          PatchWork work(*this, receivers, block[k], k, beams[k], into);
           std::vector<std::size_t> near, by_beams;
           for (std::size_t c = begin; c < end; ++c) {
             near.clear();
@@ -179,9 +178,8 @@ std::uint64_t MirrorSun::add_light(std::span<const SunLight> block,
               if (rasters[b].may_meet(clusters[c].corners)) near.push_back(b);
             if (near.empty()) continue;
             for (std::size_t i = clusters[c].begin; i < clusters[c].end; ++i) {
-              const Vec3 n = hierarchy_.normal(i);
-              const std::array<Vec3, 3> corners{hierarchy_.corner(i, 0), hierarchy_.corner(i, 1),
-                                                hierarchy_.corner(i, 2)};
+              const Vec3 n = receivers.normal(i);
+              const auto corners = receivers.corners(i);
               by_beams.clear();
               for (const auto b : near)
                 if (dot(n, beams[k][b].image) > 0 && rasters[b].may_meet(corners))

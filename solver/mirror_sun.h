@@ -17,7 +17,7 @@
 
 namespace sunload {
 
-/// Mirrored sun of N patches for one block of suns, R realizations.
+/// Mirrored sun of N receivers for one block of suns, R realizations.
 struct MirroredIrradiance {
   Columns& irradiance;                         ///< [N][block] W m-2, pooled
   std::vector<std::vector<double>>& exposure;  ///< [R][N] J m-2
@@ -35,18 +35,15 @@ struct MirroredIrradiance {
 
 class MirrorSun {
  public:
-  MirrorSun(const Hierarchy& hierarchy, const RayCaster& caster, const SunSampler& sampler,
-            const MirrorGroups& groups);
+  MirrorSun(const RayCaster& caster, const MirrorGroups& groups);
 
-  /// Adds what the beams of each sun of the block bring. Returns the rays cast.
-  std::uint64_t add_light(std::span<const SunLight> block, std::span<const SunBeams> beams,
-                          MirroredIrradiance into) const;
+  /// Adds what the beams of each sun of the block bring to the receivers. Returns the rays cast.
+  std::uint64_t add_light(const SunSampler& receivers, std::span<const SunLight> block,
+                          std::span<const SunBeams> beams, MirroredIrradiance into) const;
 
  private:
   class PatchWork;
-  const Hierarchy& hierarchy_;
   const RayCaster& caster_;
-  const SunSampler& sampler_;
   const MirrorGroups& groups_;
 };
 

@@ -121,11 +121,15 @@ struct Found {
 
 class PatchBeams {
  public:
-  PatchBeams(const Hierarchy& hierarchy, const RayCaster& caster, const SunSampler& sampler,
-             const PatchOptics& optics, const LineFollower& follower,
+  /// Surfaces of the scene; null for sensors, which send nothing on and are in no ledger.
+  struct Surfaces {
+    const Hierarchy& hierarchy;
+    const PatchOptics& optics;
+    const LineFollower& follower;
+  };
+  PatchBeams(const RayCaster& caster, const SunSampler& sampler, const Surfaces* surfaces,
              std::vector<std::vector<double>>& irradiance)
-      : hierarchy_(hierarchy), caster_(caster), sampler_(sampler), optics_(optics),
-        follower_(follower), irradiance_(irradiance) {
+      : caster_(caster), sampler_(sampler), surfaces_(surfaces), irradiance_(irradiance) {
     found_.ledger.resize(irradiance.size());
   }
 
@@ -134,8 +138,8 @@ class PatchBeams {
     for (std::size_t g = 0; g < beams.size(); ++g) {
       const double cos_theta = dot(geometry.normal, beams[g].to_source());
       if (cos_theta <= 0) continue;
-      beams[g].choose(hierarchy_.corner(patch, 0), hierarchy_.corner(patch, 1),
-                      hierarchy_.corner(patch, 2), chosen_);
+      const auto [a, b, c] = sampler_.corners(patch);
+      beams[g].choose(a, b, c, chosen_);
       if (chosen_.empty()) continue;
       sampler_.seed(patch, static_cast<std::uint32_t>(g), seeds_, Purpose::parallel_light);
       for (std::size_t p = 0; p < sampler_.packets(); ++p)
@@ -168,13 +172,15 @@ class PatchBeams {
       const auto l = static_cast<std::size_t>(std::countr_zero(lit));
       const std::size_t r = sampler_.realization(packet * packet_size + l);
       irradiance_[r][patch] += E;
+      if (!surfaces_) continue;
+      const auto& [hierarchy, optics, follower] = *surfaces_;
       // What passes a screen is met further on.
       const double power =
-          E * hierarchy_.area()[patch] * (1 - static_cast<double>(optics_.passed[patch]));
+          E * hierarchy.area()[patch] * (1 - static_cast<double>(optics.passed[patch]));
       found_.ledger[r][Term::emitted] += power;
-      if (sends_on(follower_.material_of_patch(patch)))
+      if (sends_on(follower.material_of_patch(patch)))
         send_on(patch, r, packet * packet_size + l, beam.to_source(), point(origins, l),
-                E * hierarchy_.area()[patch]);
+                E * hierarchy.area()[patch]);
     }
   }
 
@@ -185,9 +191,9 @@ class PatchBeams {
     const RandomKey key{.seed = sampler_.study_seed(),
                         .purpose = Purpose::parallel_light,
                         .realization = static_cast<std::uint32_t>(r),
-                        .element = hierarchy_.key()[patch],
+                        .element = surfaces_->hierarchy.key()[patch],
                         .sun = static_cast<std::uint32_t>(sample)};
-    const auto fate = follower_.mirrored_on(origin, w, patch, key, &met_);
+    const auto fate = surfaces_->follower.mirrored_on(origin, w, patch, key, &met_);
     found_.rays += fate.rays;
     Ledger& ledger = found_.ledger[r];
     ledger[Term::escaped] += power * fate.escaped;
@@ -204,17 +210,23 @@ class PatchBeams {
             static_cast<double>(packet.z[l])};
   }
 
-  const Hierarchy& hierarchy_;
   const RayCaster& caster_;
   const SunSampler& sampler_;
-  const PatchOptics& optics_;
-  const LineFollower& follower_;
+  const Surfaces* surfaces_;
   std::vector<std::vector<double>>& irradiance_;
   SunSampler::Seeds seeds_;
   std::vector<std::size_t> chosen_;
   std::vector<LinkTable::Link> met_;
   Found found_;
 };
+
+/// Means of the realizations.
+void pool(ParallelLight& light, std::size_t receivers) {
+  light.pooled.assign(receivers, 0);
+  for (const auto& E : light.irradiance)
+    for (std::size_t i = 0; i < receivers; ++i)
+      light.pooled[i] += E[i] / static_cast<double>(light.irradiance.size());
+}
 
 }  // namespace
 
@@ -230,10 +242,11 @@ ParallelLight parallel_light(const Scene& scene, const Hierarchy& hierarchy,
   const auto beams = beams_of(scene.parallel_sources);
   const SkyGrid smallest_grid(2);  // where the light leaves is not asked
   const LineFollower follower(scene, hierarchy, caster, smallest_grid, mirror_depth);
+  const PatchBeams::Surfaces surfaces{hierarchy, optics, follower};
 
   std::vector<Found> parts((patches + patches_per_task - 1) / patches_per_task);
   parallel_chunks(patches, patches_per_task, [&](std::size_t begin, std::size_t end) {
-    PatchBeams work(hierarchy, caster, sampler, optics, follower, light.irradiance);
+    PatchBeams work(caster, sampler, &surfaces, light.irradiance);
     for (std::size_t i = begin; i < end; ++i) work.receive(beams, i);
     parts[begin / patches_per_task] = std::move(work.found());
   });
@@ -244,10 +257,20 @@ ParallelLight parallel_light(const Scene& scene, const Hierarchy& hierarchy,
     for (const auto& [r, patch, power] : part.left)
       light.irradiance[r][patch] += power / hierarchy.area()[patch];
   }
-  light.pooled.assign(patches, 0);
-  for (const auto& E : light.irradiance)
-    for (std::size_t i = 0; i < patches; ++i)
-      light.pooled[i] += E[i] / static_cast<double>(realizations);
+  pool(light, patches);
+  return light;
+}
+
+ParallelLight parallel_light_on_sensors(const Scene& scene, const RayCaster& caster,
+                                        const SunSampler& sensors, std::size_t realizations) {
+  ParallelLight light;
+  if (scene.parallel_sources.exitance.empty()) return light;
+  light.irradiance.assign(realizations, std::vector<double>(sensors.receivers(), 0));
+  const auto beams = beams_of(scene.parallel_sources);
+  PatchBeams work(caster, sensors, nullptr, light.irradiance);
+  for (std::size_t s = 0; s < sensors.receivers(); ++s) work.receive(beams, s);
+  light.rays = work.found().rays;
+  pool(light, sensors.receivers());
   return light;
 }
 

@@ -55,7 +55,7 @@ void LightSolver::shoot_block(std::span<const SunLight> block, std::size_t first
   DirectSun direct;
   {
     const Stopwatch time(work_.direct_s);
-    direct = direct_sun(hierarchy_, caster_, sampler_, block, unused, &direct_of);
+    direct = direct_sun(caster_, sampler_, block, unused, &direct_of);
     work_.direct_rays += direct.rays;
   }
   FirstMirrored::SentSuns sent;

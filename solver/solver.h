@@ -67,9 +67,12 @@ class LightSolver {
   const SkyGrid& sky_grid() const { return grid_; }
   const Lines& lines() const { return lines_; }
   int bounces() const { return bounces_; }
+  const SolverRules& rules() const { return rules_; }
   bool has_part(Part part) const;
   /// Cosine-weighted share of the hemisphere above each patch that is sky.
   std::vector<double> sky_view_factor() const;
+  /// Lines of the scene's sensors; no rows where it has none.
+  const Lines& sensor_lines() const { return sensor_lines_; }
 
   /// Light of consecutive intervals. Throws Interrupted.
   BatchTally solve(std::span<const SunLight> batch, Watch& watch);
@@ -86,11 +89,15 @@ class LightSolver {
                        std::size_t first_row, BatchTally& tally) const;
   void store(const BlockLight& light, std::span<const SunLight> block, std::size_t first_row,
              const Columns& sunlit, BatchTally& tally) const;
-  void errors_per_instant(const BlockSources& sources, std::size_t first_row,
-                          std::vector<Columns>& direct, std::vector<Columns>& by_mirror,
-                          const std::vector<Columns>& circumsolar, BatchTally& tally) const;
+  struct SunColumns;
+  void solve_sensors(const BlockSources& sources, std::span<const SunBeams> beams,
+                     const Columns& followed, std::size_t first_row, TimeSums& sums,
+                     SunColumns& of_realizations, ReceiverTally& tally);
+  void errors_per_instant(const BlockSources& sources, std::size_t first_row, SunColumns& patches,
+                          SunColumns& sensors, BatchTally& tally) const;
   void solve_realization(std::size_t r, const TimeSums& sums, BatchTally& tally) const;
   BatchTally empty_tally(std::span<const SunLight> batch) const;
+  void make_room(ReceiverTally& tally, std::size_t receivers, std::size_t rows) const;
 
   const Scene& scene_;
   SolverRules rules_;
@@ -100,12 +107,12 @@ class LightSolver {
   RayCaster caster_;
   SkyGrid grid_;
   PatchOptics optics_;
-  Lines lines_;
-  SunSampler sampler_;
+  Lines lines_, sensor_lines_;
+  SunSampler sampler_, sensor_sampler_;
   MirrorGroups mirrors_;
   MirrorSun mirror_sun_;
   MirrorChains mirror_chains_;
-  ParallelLight parallel_;
+  ParallelLight parallel_, sensor_parallel_;
   GlossySun glossy_sun_;
   int bounces_;
   std::unique_ptr<Shooter> shooter_;  ///< null when gathering

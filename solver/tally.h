@@ -38,18 +38,23 @@ struct Ledger {
 };
 Ledger scaled(Ledger ledger, double factor);
 
-/// Results of consecutive intervals. N patches, K intervals, R realizations.
-/// Energies are J m-2 (patches) and J (ledger); a part that the scene cannot
-/// have is empty.
-struct BatchTally {
-  std::size_t intervals = 0;
+/// What N receivers (patches or sensors) get in K consecutive intervals, R
+/// realizations. Energies are J m-2; a part that the scene cannot have is empty.
+struct ReceiverTally {
   std::array<std::vector<float>, part_count> irradiance;     ///< [K][N] W m-2
   std::vector<float> irradiance_se;                          ///< [K][N], if asked for
   std::array<std::vector<double>, part_count> exposure;      ///< [N] time sum of the series
   std::vector<std::vector<double>> exposure_realization;     ///< [R][N]
-  std::vector<double> outgoing;                              ///< [N] radiosity, time-integrated
   std::vector<double> sunlit_s;                              ///< [N]
   std::vector<float> irradiance_max;                         ///< [N]
+};
+
+/// Results of consecutive intervals: of the patches, of sensors, of the scene [J].
+struct BatchTally : ReceiverTally {
+  std::size_t intervals = 0;
+  std::vector<double> outgoing;                              ///< [N] radiosity, time-integrated
+  std::vector<std::vector<double>> sun_realization;          ///< [R][N] the sun's part of the exposure, mirrored included
+  ReceiverTally sensors;
   std::vector<Ledger> ledger;                                ///< [K] W
   std::vector<Ledger> ledger_realization;                    ///< [R] J
   Ledger energy;                                             ///< J: time sum of `ledger`
@@ -58,10 +63,10 @@ struct BatchTally {
 
 /// Work done so far and the time it took, per stage.
 struct WorkDone {
-  std::uint64_t line_rays = 0, direct_rays = 0, mirror_rays = 0;
+  std::uint64_t line_rays = 0, direct_rays = 0, mirror_rays = 0, sensor_rays = 0;
   std::uint64_t mirror_beams = 0;  ///< of all suns, by image directions
   std::uint64_t mirror_shots = 0;  ///< arrivals of mirrored sun that no beam stands for
-  double lines_s = 0, direct_s = 0, mirror_s = 0, solve_s = 0, realizations_s = 0;
+  double lines_s = 0, direct_s = 0, mirror_s = 0, solve_s = 0, realizations_s = 0, sensors_s = 0;
   std::uint64_t samples = 0, shot_rays = 0;  ///< shot; cast for them, chains included
   double shoot_s = 0;
   WorkDone& operator-=(const WorkDone& earlier);

@@ -359,10 +359,14 @@ TEST(Study, ChecksLightSceneAndSolver) {
   expect_problem({{"solver", "{lines_per_patch: 100}"}}, "write 96 or 104");
   expect_problem({{"solver", "{direct_samples: 4}"}}, "write 8");
   expect_problem({{"solver", "{realizations: 1}"}}, "out of range");
+  expect_problem({{"solver", "{accuracy: {light_load_relative: 0}}"}}, "out of range");
+  expect_problem({{"solver", "{accuracy: {}}"}}, "light_load_relative is missing");
+  expect_problem({{"solver", "{accuracy: {light_load_relative: 0.01}, max_lines_per_patch: 128}"}},
+                 "is below the least counts");
   expect_problem({{"solver", "{bands: rgb}"}}, "solver.bands is not supported yet");
   expect_problem({{"output", "{series: [total, totl]}"}}, "'totl' is not known");
   expect_problem({{"output", "{series: [sky, sky]}"}}, "is written twice");
-  expect_problem({{"sensors", "{points: []}"}}, "sensors is not supported yet");
+  expect_problem({{"sensors", "{points: []}"}}, "the list is empty");
   expect_problem({{"format", "sunload-study-9"}}, "must be one of sunload-study-1");
   expect_problem({{"period", ""}}, "period is missing");
   expect_problem({{"name", ".hidden"}}, "cannot be a name");
@@ -678,6 +682,14 @@ TEST(CanonicalText, SeesEveryValueThatCanChangeANumber) {
                {"realizations", [](Study& s) { s.solver.realizations = 4; }},
                {"mirror depth", [](Study& s) { s.solver.mirror_depth = 1; }},
                {"batch suns", [](Study& s) { s.solver.batch_suns = 1; }},
+               {"accuracy", [](Study& s) { s.solver.accuracy = AccuracyStudy{0.02}; }},
+               {"another accuracy",
+                [](Study& s) { s.solver.accuracy = AccuracyStudy{0.03}; }},
+               {"most lines",
+                [](Study& s) {
+                  s.solver.accuracy = AccuracyStudy{0.02};
+                  s.solver.max_lines_per_patch = 512;
+                }},
                {"seed", [](Study& s) { s.solver.seed = 9007199254740993; }},
                with_period<DaysPeriod>("day", [](DaysPeriod& p) { p.days[0].day = 2; }),
                with_period<DaysPeriod>("from", [](DaysPeriod& p) { p.from_s = 1; }),

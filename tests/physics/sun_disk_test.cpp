@@ -49,7 +49,7 @@ std::vector<std::vector<double>> sunlit(const Edge& edge, const std::vector<doub
   SunLight light = one_second(edge.sun(), 1);
   light.disk_half_angle = sun_half_angle;
   std::vector<std::vector<double>> exposure(realizations, std::vector<double>(patches, 0));
-  direct_sun(hierarchy, caster, sampler, std::vector<SunLight>{light}, exposure, nullptr);
+  direct_sun(caster, sampler, std::vector<SunLight>{light}, exposure, nullptr);
   std::vector<std::vector<double>> share(middles_y.size(), std::vector<double>(realizations));
   for (std::size_t strip = 0; strip < middles_y.size(); ++strip)
     for (std::size_t r = 0; r < realizations; ++r)

@@ -304,7 +304,7 @@ Scene room() {
 TEST(FormFactors, AreReciprocal) {
   const Scene scene = room();
   Watch watch;
-  const LightSolver solver(scene, {}, rules_of(4096), watch);
+  const LightSolver solver(scene, SplitRules{}, rules_of(4096), watch);
   const auto& area = solver.hierarchy().area();
   int pairs = 0, wrong_found = 0;
   for (std::size_t i = 0; i < area.size(); ++i)

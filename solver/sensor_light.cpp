@@ -1,0 +1,116 @@
+#include "solver/sensor_light.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "geo/check.h"
+#include "solver/lamps.h"
+#include "solver/line_follower.h"
+#include "solver/parallel.h"
+#include "solver/rng.h"
+#include "solver/sampling.h"
+
+namespace sunload {
+
+namespace {
+
+/// Lines of one sensor in one realization. Returns the rays cast.
+std::uint64_t trace(const Sensor& sensor, const RayCaster& caster, const LineFollower& follower,
+                    const LampView* lamps, const RandomKey& key, std::size_t lines,
+                    LineCollector& into) {
+  const Vec3 origin = sensor.position + sensor.normal * caster.offset_m();
+  const Tangents axes = tangents(sensor.normal);
+  const auto seeds = random_words(key);
+  std::uint64_t rays = 0;
+  for (std::size_t first = 0; first < lines; first += packet_size) {
+    const std::size_t count = std::min(packet_size, lines - first);
+    Vec3 w[packet_size];
+    Packet origins{}, directions{};
+    for (std::size_t l = 0; l < count; ++l) {
+      const auto index = static_cast<std::uint32_t>(first + l);
+      const double u = owen_scrambled(sobol(index, 0), seeds[0]) * 0x1p-32;
+      const double v = owen_scrambled(sobol(index, 1), seeds[1]) * 0x1p-32;
+      const Vec3 local = sample_cosine(u, v);
+      w[l] = axes.tangent * local.x + axes.bitangent * local.y + sensor.normal * local.z;
+      put(origins, l, origin);
+      put(directions, l, w[l]);
+    }
+    const auto hits = caster.first_hits(origins, directions, (1u << count) - 1u);
+    rays += count;
+    for (std::size_t l = 0; l < count; ++l) {
+      if (lamps)
+        into.lamps += lamps->seen_by_line(hits[l], w[l], dot(w[l], sensor.normal));
+      RandomKey of_line = key;
+      of_line.purpose = Purpose::glossy;
+      of_line.sun = static_cast<std::uint32_t>(first + l);
+      rays += follower.follow(origin, w[l], hits[l], of_line, into);
+    }
+  }
+  if (lamps) {
+    RandomKey of_points = key;
+    of_points.purpose = Purpose::lamps;
+    const auto seen = lamps->seen_by_points(caster, random_words(of_points), lines);
+    into.lamps += seen.sum;
+    rays += seen.rays;
+  }
+  return rays;
+}
+
+}  // namespace
+
+std::uint64_t sensor_key(Vec3 absolute_position, Vec3 normal) {
+  std::uint64_t key = 0x73656e736f72;  // "sensor": apart from the keys of patches
+  for (const Vec3& v : {absolute_position, normal})
+    for (const double x : {v.x, v.y, v.z}) key = mixed(key, std::bit_cast<std::uint64_t>(x + 0.0));
+  return key;
+}
+
+Lines trace_sensor_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
+                         const SkyGrid& grid, const LineRules& rules) {
+  SUNLOAD_EXPECT(rules.realizations >= 1 && rules.lines_per_patch % rules.realizations == 0,
+                 "lines are shared equally by the realizations");
+  const auto& sensors = scene.sensors;
+  const int each = rules.lines_per_patch / rules.realizations;
+  const LineFollower follower(scene, hierarchy, caster, grid, rules.mirror_depth);
+  const Lamps lamps(scene, hierarchy);
+  Lines lines;
+  lines.pooled = empty_line_set(sensors.size(), lamps.any());
+  lines.realizations.assign(static_cast<std::size_t>(rules.realizations), lines.pooled);
+  lines.rays = ordered_sum(
+      sensors.size(), LinkTable::rows_per_block, std::uint64_t{0},
+      [&](std::size_t begin, std::size_t end) {
+        std::uint64_t rays = 0;
+        LineCollector own, pooled;
+        LampView view(lamps);
+        for (std::size_t s = begin; s < end; ++s) {
+          pooled.clear();
+          view.look_from(sensors[s].position, sensors[s].normal);
+          for (std::size_t r = 0; r < lines.realizations.size(); ++r) {
+            own.clear();
+            rays += trace(sensors[s], caster, follower, lamps.any() ? &view : nullptr,
+                          {.seed = rules.seed,
+                           .purpose = Purpose::lines,
+                           .realization = static_cast<std::uint32_t>(r),
+                           .element = sensors[s].key},
+                          static_cast<std::size_t>(each), own);
+            pooled += own;
+            own.store(lines.realizations[r], s, each);
+          }
+          pooled.store(lines.pooled, s, rules.lines_per_patch);
+        }
+        return rays;
+      });
+  return lines;
+}
+
+BlockLight sensor_light(const LineSet& lines, const PatchOptics& optics,
+                        const BlockSources& sources, Columns direct, Columns sun_by_mirror,
+                        const std::vector<double>& parallel, const Columns& followed) {
+  const Columns whole_sky;  // sensors see all of it by their lines
+  BlockLight light = first_light(
+      lines, optics, sources, {std::move(direct), std::move(sun_by_mirror), whole_sky, parallel});
+  gather(lines.patches, followed, light.reflected, Into::add);
+  return light;
+}
+
+}  // namespace sunload

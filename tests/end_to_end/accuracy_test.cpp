@@ -1,0 +1,67 @@
+/// Studies that ask for an accuracy: counts are decided once, told, stored, and the same for
+/// every shard.
+#include <gtest/gtest.h>
+
+#include "io/result_file.h"
+#include "tests/support/program.h"
+#include "tests/support/result_check.h"
+#include "tests/support/small_study.h"
+
+namespace sunload::test {
+namespace {
+
+struct Square {
+  WorkFolder folder;
+  explicit Square(const std::string& solver) {
+    folder.write("square.obj", square_obj);
+    folder.write("square.yaml", square_study("totals", solver));
+  }
+  Ran run(const std::string& output, std::vector<std::string> more = {}) const {
+    more.insert(more.begin(), {"run", "square.yaml", "--output", output});
+    return program(folder, more);
+  }
+  std::string result(const std::string& output) const {
+    return folder / (output + "/square/baseline.h5");
+  }
+};
+
+TEST(AccuracyStudy, DecidesCountsOnceForThreadsAndShards) {
+  const Square square(", accuracy: {light_load_relative: 0.02}, max_lines_per_patch: 8192");
+  const Ran check = program(square.folder, {"check", "square.yaml"});
+  EXPECT_NE(check.out.find("counts are decided at the start of the run"), std::string::npos)
+      << check.out;
+  const Ran ran = square.run("one", {"--threads", "1"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_NE(ran.err.find("accuracy of 2 %"), std::string::npos) << ran.err;
+  const ResultReader result(square.result("one"));
+  const double lines = result.number_attribute("lines_per_patch");
+  EXPECT_GT(lines, 64);
+  EXPECT_LE(lines, 8192);
+  EXPECT_GE(result.number_attribute("direct_samples"), 16);
+  EXPECT_EQ(result.number_attribute("accuracy_light_load_relative"), 0.02);
+  EXPECT_GE(result.number_attribute("accuracy_area_share"), 0.9);
+  const Ran info = program(square.folder, {"info", square.result("one")});
+  EXPECT_NE(info.out.find("asked for: below 2 % on 95 % of the area"), std::string::npos)
+      << info.out;
+  for (const char* shard : {"1/2", "0/2"})
+    ASSERT_EQ(square.run("shards", {"--shard", shard, "--threads", "3"}).code, 0);
+  EXPECT_EQ(different_data(square.result("one"), square.result("shards")),
+            std::vector<std::string>{});
+  EXPECT_EQ(ResultReader(square.result("shards")).number_attribute("lines_per_patch"), lines);
+  EXPECT_EQ(ledger_problem(square.result("one")), "");
+}
+
+TEST(AccuracyStudy, SaysWhereTheMostIsTooLittle) {
+  const Square square(", accuracy: {light_load_relative: 0.001}, max_lines_per_patch: 128");
+  const Ran ran = square.run("a");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_NE(ran.err.find("128 lines and samples at most cannot give more (max_lines_per_patch)"),
+            std::string::npos)
+      << ran.err;
+  const ResultReader result(square.result("a"));
+  EXPECT_EQ(result.number_attribute("lines_per_patch"), 128);
+  EXPECT_LT(result.number_attribute("accuracy_area_share"), 0.95);
+}
+
+}  // namespace
+}  // namespace sunload::test

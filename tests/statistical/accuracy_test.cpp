@@ -1,0 +1,207 @@
+/// Counts that a goal of accuracy asks for: chosen as they should be, and met by the real
+/// spread of independent runs.
+#include "solver/accuracy.h"
+
+#include <gtest/gtest.h>
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <iostream>
+
+#include "tests/support/scenes.h"
+#include "tests/support/statistics.h"
+
+namespace sunload::test {
+namespace {
+
+SolverRules rules_of(int lines, int samples) {
+  SolverRules rules;
+  rules.lines_per_patch = lines;
+  rules.direct_samples = samples;
+  rules.realizations = 8;
+  rules.unshot = 0;
+  return rules;
+}
+
+/// Loads of 100 with errors of 10 % by one line and of 20 % by one sample, as shares of area.
+PatchSpread spread_of(std::vector<double> of_line, std::vector<double> of_sample) {
+  PatchSpread spread;
+  spread.of_line = std::move(of_line);
+  spread.of_sample = std::move(of_sample);
+  spread.area.assign(spread.of_line.size(), 1);
+  spread.load.assign(spread.of_line.size(), 100);
+  return spread;
+}
+
+TEST(NeededCounts, AreTheLeastWhereTheGoalIsMetAlready) {
+  const auto counts = needed_counts(spread_of({16 * 100}, {0}), rules_of(64, 8), {0.1, 4096}, 10);
+  EXPECT_EQ(counts.lines_per_patch, 64);
+  EXPECT_EQ(counts.direct_samples, 8);
+  EXPECT_EQ(counts.share, 1);
+}
+
+TEST(NeededCounts, AreRaisedWhereTheErrorComesFrom) {
+  // One line: 300 %; for 10 % / 1.27 (errors of 8 realizations are known to 27 %) it takes 1440 of
+  // them, the next doubling of 64 is 2048.
+  auto counts = needed_counts(spread_of({300 * 300}, {0}), rules_of(64, 8), {0.1, 4096}, 10);
+  EXPECT_EQ(counts.lines_per_patch, 2048);
+  EXPECT_EQ(counts.direct_samples, 8);
+  counts = needed_counts(spread_of({0}, {300 * 300}), rules_of(64, 8), {0.1, 4096}, 10);
+  EXPECT_EQ(counts.lines_per_patch, 64);
+  EXPECT_EQ(counts.direct_samples, 2048);
+  // Both: each must leave room for the other.
+  counts = needed_counts(spread_of({300 * 300}, {300 * 300}), rules_of(64, 8), {0.1, 65536}, 10);
+  EXPECT_LE(9e4 / counts.lines_per_patch + 9e4 / counts.direct_samples, 100.0);
+  // With many suns samples are dear.
+  const auto dear = needed_counts(spread_of({300 * 300}, {300 * 300}), rules_of(64, 8),
+                                  {0.1, 65536}, 100000);
+  EXPECT_GE(dear.lines_per_patch, counts.lines_per_patch);
+  EXPECT_LE(dear.direct_samples, counts.direct_samples);
+}
+
+TEST(NeededCounts, StopAtTheMostAndSayWhatShareIsMet) {
+  const auto counts =
+      needed_counts(spread_of({100, 1e8}, {0, 0}), rules_of(64, 8), {0.1, 1003}, 10);
+  EXPECT_EQ(counts.lines_per_patch, 1000);  // the best that can be had
+  EXPECT_EQ(counts.direct_samples, 8);      // which samples do nothing for
+  EXPECT_EQ(counts.share, 0.5);
+  const auto all = needed_counts(spread_of({500 * 100, 600 * 100}, {0, 0}), rules_of(64, 8),
+                                 {0.1, 1003}, 10);
+  EXPECT_EQ(all.lines_per_patch, 1000);  // the most that 8 can share
+  EXPECT_EQ(all.share, 1);
+  // The least counts stand, even above the most.
+  EXPECT_EQ(needed_counts(spread_of({1e8}, {0}), rules_of(64, 8), {0.1, 32}, 10).lines_per_patch, 64);
+}
+
+TEST(NeededCounts, LeaveOutWhatReceivesNextToNothing) {
+  auto spread = spread_of({0, 1e9, 1e9}, {0, 0, 0});
+  spread.load[1] = 0;
+  spread.load[2] = 0.99;
+  auto counts = needed_counts(spread, rules_of(64, 8), {0.1, 4096}, 10);
+  EXPECT_EQ(counts.lines_per_patch, 64);
+  EXPECT_EQ(counts.share, 1);
+  spread.load[2] = 1.01;  // planted fault: it counts after all
+  counts = needed_counts(spread, rules_of(64, 8), {0.1, 4096}, 10);
+  EXPECT_LT(counts.share, 0.95);
+  // 5 % of the area may miss the goal.
+  spread = spread_of(std::vector<double>(40, 0), std::vector<double>(40, 0));
+  spread.of_line[0] = spread.of_line[1] = 1e9;
+  EXPECT_EQ(needed_counts(spread, rules_of(64, 8), {0.1, 4096}, 10).lines_per_patch, 64);
+  EXPECT_EQ(needed_counts(spread_of({}, {}), rules_of(64, 8), {0.1, 4096}, 10).share, 1);
+}
+
+/// A courtyard with a mast before a wall, a mirror and a face that no light reaches.
+Scene courtyard() {
+  SceneBuilder builder;
+  const int grey = builder.material({"grey", 0.4, 0, 0});
+  const int pane = builder.material({"pane", 0.1, 0.6, 0});
+  builder.quad({-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}, grey);
+  builder.object("mast").box({-0.2, -1, 0.01}, {0.2, -0.6, 5}, grey, SceneBuilder::Facing::outward);
+  builder.object("house").box({-3, 2, 0.01}, {3, 3.5, 4}, grey, SceneBuilder::Facing::outward);
+  builder.object("glass").quad({3.9, 2, 0.1}, {3.9, -2, 0.1}, {3.9, -2, 3}, {3.9, 2, 3}, pane);
+  return builder.scene();
+}
+
+std::vector<SunLight> day() {
+  std::vector<SunLight> suns;
+  for (int k = 0; k < 8; ++k) {
+    const double a = 0.35 * (k - 3.5);
+    suns.push_back(with_uniform_sky(one_second({std::sin(a), -0.6, std::cos(a)}, 700), 120));
+    suns.back().number = static_cast<std::uint32_t>(k);
+    suns.back().ground_exitance = 50;
+  }
+  return suns;
+}
+
+/// Share of the area that counts whose light load spreads, over independent runs, no more than
+/// the goal but for the chance that a spread of so few runs has.
+double share_that_keeps(const SplitRules& split, SolverRules rules, double goal, int runs) {
+  const Scene scene = courtyard();
+  std::vector<std::vector<double>> loads;
+  std::vector<double> area;
+  for (int run = 0; run < runs; ++run) {
+    rules.seed = 1000 + static_cast<std::uint64_t>(run);
+    const auto solved = solve(scene, day(), rules, split);
+    area = solved.area;
+    loads.push_back(solved.tally.exposure[static_cast<std::size_t>(Part::total)]);
+  }
+  constexpr double one_in = 0.05;
+  const boost::math::chi_squared spread_of_runs(runs - 1);
+  const double chance = std::sqrt(quantile(complement(spread_of_runs, one_in)) / (runs - 1));
+  std::vector<double> mean(area.size()), se(area.size());
+  for (std::size_t i = 0; i < area.size(); ++i) {
+    std::vector<double> values;
+    for (const auto& load : loads) values.push_back(load[i]);
+    mean[i] = mean_error(values).mean;
+    se[i] = mean_error(values).standard_error * std::sqrt(static_cast<double>(runs));
+  }
+  const double largest = *std::max_element(mean.begin(), mean.end());
+  double counts = 0, kept = 0;
+  for (std::size_t i = 0; i < area.size(); ++i) {
+    if (mean[i] < share_that_counts * largest) continue;
+    counts += area[i];
+    if (se[i] <= goal * chance * mean[i]) kept += area[i];
+  }
+  return kept / counts;
+}
+
+TEST(Accuracy, IsMetByTheRealSpreadOfIndependentRuns) {
+  const SplitRules split{.max_edge_m = 1.2};
+  const SolverRules least = rules_of(64, 8);
+  constexpr double goal = 0.02;
+  const auto suns = day();
+  Watch watch;
+  const Scene scene = courtyard();
+  const auto mesh = std::make_shared<const Hierarchy>(scene, split);
+  const auto spread = pilot_spread(scene, mesh, least, suns, 1, watch);
+  const auto counts = needed_counts(spread, least, {goal, 1 << 14}, suns.size());
+  SolverRules raised = least;
+  raised.lines_per_patch = counts.lines_per_patch;
+  raised.direct_samples = counts.direct_samples;
+  constexpr int runs = 24;
+  const double share = share_that_keeps(split, raised, goal, runs);
+  std::cout << "lines " << counts.lines_per_patch << ", samples " << counts.direct_samples
+            << ": predicted " << counts.share << ", kept " << share << "\n";
+  EXPECT_GT(counts.lines_per_patch, least.lines_per_patch);
+  EXPECT_LT(counts.lines_per_patch, 1 << 14);
+  EXPECT_GE(counts.share, share_to_be_met);
+  EXPECT_GE(share, share_to_be_met);
+  // Planted fault: the least counts as they are.
+  EXPECT_LT(share_that_keeps(split, least, goal, runs), share_to_be_met);
+  // Not many times more than it takes: doublings, the errors' own errors, and what is
+  // let pass above make 2 · 1.27² · 1.2², so that an eighth of both is too little.
+  raised.lines_per_patch /= 8;
+  raised.direct_samples = std::max(8, raised.direct_samples / 8);
+  EXPECT_LT(share_that_keeps(split, raised, goal, runs), share_to_be_met);
+}
+
+// Half of the suns, each for two, tell of the same errors.
+TEST(Accuracy, PilotOfSomeSunsStandsForAll) {
+  const SplitRules split{.max_edge_m = 2};
+  const auto suns = day();
+  std::vector<SunLight> some;
+  for (std::size_t k = 0; k < suns.size(); k += 2) some.push_back(suns[k]);
+  Watch watch;
+  const SolverRules rules = rules_of(2048, 512);
+  const Scene scene = courtyard();
+  const auto mesh = std::make_shared<const Hierarchy>(scene, split);
+  const auto all = pilot_spread(scene, mesh, rules, suns, 1, watch);
+  const auto half = pilot_spread(scene, mesh, rules, some, 2, watch);
+  double lines_all = 0, lines_half = 0, samples_all = 0, samples_half = 0, load_all = 0, load_half = 0;
+  for (std::size_t i = 0; i < all.area.size(); ++i) {
+    load_all += all.area[i] * all.load[i];
+    load_half += all.area[i] * half.load[i];
+    lines_all += all.of_line[i];
+    lines_half += half.of_line[i];
+    samples_all += all.of_sample[i];
+    samples_half += half.of_sample[i];
+  }
+  EXPECT_NEAR(load_half / load_all, 1, 0.1);
+  // Sums over some hundred patches of variances of 8 realizations; a weight that is squared, or
+  // is not, would be off by 2.
+  EXPECT_NEAR(lines_half / lines_all, 1, 0.4);
+  EXPECT_NEAR(samples_half / samples_all, 1, 0.4);
+}
+
+}  // namespace
+}  // namespace sunload::test
