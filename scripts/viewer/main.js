@@ -175,9 +175,11 @@ class Viewer {
     if (results.length > 1) views.push(["side", "side by side"]);
     if (this.unmatchedShare < 1 && this.match) views.push(["difference", `difference: ${results[1].label} − ${results[0].label}`]);
     $("no-difference").hidden = !(this.unmatchedShare > 0);
-    $("no-difference").textContent = this.unmatchedShare < 1 ?
-      `${shown(100 * this.unmatchedShare, 2)} % of ${results[0].label} has other shapes in ${results[1].label}: grey in the difference.` :
-      "The two results share no surface: there is no difference.";
+    if (this.match) {
+      $("no-difference").textContent = this.unmatchedShare < 1 ?
+        `${shown(100 * this.unmatchedShare, 2)} % of ${results[0].label} has other shapes in ${results[1].label}: grey in the difference.` :
+        "The two results share no surface: there is no difference.";
+    }
     fill($("view"), views, state.view);
     $("view").parentElement.hidden = results.length < 2;
     // What a result has, the other may lack: only quantities of both can be shown.
