@@ -46,8 +46,7 @@ def draw(result, arguments):
         raise InputError(f"{result.path}: its suns have no dates (period.positions), so that there are no months")
     quantity = arguments.quantity or result.main_series()
     targets = result.targets(arguments.facade, arguments.patch, arguments.sensor, most=4)
-    parts = result.components(quantity) if all(t.kind != "sensor" for t in targets) else []
-    parts = parts or [quantity]
+    parts = result.components(quantity, targets) or [quantity]
     months, hours = month_shares(result)
     # [part, month, target]: W/m² times h, in thousands.
     sums = np.array([hours @ result.series(part, targets) / 1000 for part in parts])

@@ -280,6 +280,8 @@ class Result:
                 values[begin:begin + rows, k] = block[:, inside].astype(float) @ weight[inside]
         return values
 
-    def components(self, quantity="irradiance"):
-        """The series that add up to a quantity, those that the file has."""
-        return [f"{quantity}_{part}" for part in COMPONENTS if self.has(f"{quantity}_{part}")]
+    def components(self, quantity, targets):
+        """The series that add up to a quantity, those that the file has for all of the targets."""
+        prefixes = {"sensor_" if target.kind == "sensor" else "" for target in targets}
+        return [f"{quantity}_{part}" for part in COMPONENTS
+                if all(self.has(f"{prefix}{quantity}_{part}") for prefix in prefixes)]

@@ -17,6 +17,8 @@ from reading import InputError
 MOST_DAYS_JOINED = 12
 # Between suns further apart the path is not known well enough for marks of hours.
 LONGEST_STEP_S = 3700
+# Of the direct normal irradiance: less is a sun in the very plane of the surface (rounding).
+LEAST_COSINE = 1e-4
 
 
 def place(azimuth_deg, elevation_deg):
@@ -33,9 +35,11 @@ def lit_share(result, target):
     first, last = int(target.patches.min()), int(target.patches.max()) + 1
     weight = np.zeros(last - first)
     weight[target.patches - first] = target.area / target.area.sum()
-    rows = dataset.chunks[0] if dataset.chunks else 64
-    shares = [np.where(np.isnan(block).any(axis=1, where=weight > 0), np.nan, (block > 0) @ weight)
-              for block in (dataset[k:k + rows, first:last] for k in range(0, dataset.shape[0], rows))]
+    rows, least, shares = dataset.chunks[0] if dataset.chunks else 64, LEAST_COSINE * result.numbers("dni"), []
+    for k in range(0, dataset.shape[0], rows):
+        block = dataset[k:k + rows, first:last]
+        is_missing = np.isnan(block).any(axis=1, where=weight > 0)
+        shares.append(np.where(is_missing, np.nan, (block > least[k:k + rows, None]) @ weight))
     return np.concatenate(shares)
 
 

@@ -57,7 +57,7 @@ try {
 } catch (error) {
   why = `${error.stderr ?? ""}`.trim() || error.message;
 }
-if (why) console.error(`viewer: built without its page, because npm could not install its packages:\n${why}`);
+if (why) console.error(`viewer: built without its page, because npm could not install its packages (to try again, remove ${target} and build):\n${why}`);
 else parts = page();
 mkdirSync(dirname(target), { recursive: true });
 writeFileSync(target, `#include "io/viewer_page.h"\n\nnamespace sunload {\n\n${pieces("viewer_page_head", parts[0])}

@@ -3,13 +3,10 @@ import * as THREE from "three";
 import { CameraMan } from "./camera.js";
 import { matchedMean, readPage } from "./data.js";
 import { PatchMesh, paletteTexture } from "./mesh.js";
-import { drawSeries } from "./plot.js";
-import { scaleEnd, shown, ticks } from "./scale.js";
+import { $, drawLegend, preview, tellPatch, tellTime } from "./panels.js";
+import { scaleEnd, shown } from "./scale.js";
 import { Sky, sceneNorth } from "./sky.js";
 
-const $ = (id) => document.getElementById(id);
-// The preview has no values; it is a choice among the quantities all the same.
-const preview = "preview";
 const playIntervalMs = 250, clickPixels = 4;
 
 class Viewer {
@@ -100,9 +97,9 @@ class Viewer {
       mesh.showLines(lines);
     });
     this.sky.show(k);
-    this.drawLegend(end);
-    this.tellTime();
-    this.tellPatch();
+    drawLegend(this, end);
+    tellTime(this);
+    tellPatch(this);
     this.isStale = true;
   }
 
@@ -165,84 +162,6 @@ class Viewer {
     this.isStale = true;
   }
 
-  // What is said.
-
-  drawLegend(end) {
-    const { quantity, colours } = this.state, isPreview = quantity === preview;
-    $("legend").hidden = isPreview;
-    if (isPreview) return;
-    const bar = $("bar").getContext("2d"), palette = this.palettes[this.isDifference() ? "difference" : colours];
-    for (let y = 0; y < 256; ++y) {
-      bar.fillStyle = `rgb(${palette.slice(3 * (255 - y), 3 * (255 - y) + 3)})`;
-      bar.fillRect(0, y, 22, 1);
-    }
-    const low = this.isDifference() ? -end : 0;
-    $("ticks").replaceChildren(...ticks(low, end).map((value) => {
-      const tick = document.createElement("span");
-      tick.textContent = shown(value);
-      tick.style.top = `${256 * (1 - (value - low) / (end - low))}px`;
-      return tick;
-    }));
-    $("units").textContent = this.results[0].units(quantity) || "share";
-    if (document.activeElement !== $("limit")) $("limit").value = end;
-    let largest = 0;
-    this.parts().forEach((part) => this.meshes[part.mesh].value.array.forEach((value) => { if (value > largest) largest = value; }));
-    $("above").textContent = largest > end * (1 + 1e-6) ? `larger values, up to ${shown(largest)}, have the last colour` : "";
-  }
-
-  tellTime() {
-    const result = this.results[0], time = result.times[this.state.k];
-    const sun = `sun ${time.azimuth.toFixed(0)}° from north, ${time.elevation.toFixed(1)}° high`;
-    const dark = time.elevation > 0 ? sun : "sun below the horizon";
-    const clock = result.is_synthetic ? `position ${this.state.k * result.step + 1}` :
-      `${time.local_begin.slice(0, 16).replace("T", " ")} – ${time.local_end.slice(11, 16)} ${result.timezone}`;
-    $("clock").textContent = `${clock}, ${dark}`;
-    $("slider").value = this.state.k;
-    const isSide = this.state.view === "side";
-    $("names").children[0].textContent = isSide ? this.results[0].label : "";
-    $("names").children[1].textContent = isSide ? this.results[1].label : "";
-  }
-
-  tellPatch() {
-    const { picked, k } = this.state;
-    $("patch").hidden = !picked;
-    if (!picked) return;
-    const { n, patch } = picked, result = this.results[n];
-    // For a patch of the first result also what the second has in its place.
-    const hasBoth = n === 0 && this.match && this.match.first[patch] < this.match.first[patch + 1], which = hasBoth ? [0, 1] : [n];
-    const valueOf = (m, value) => (m === n ? value(patch) : matchedMean(this.match, patch, value));
-    const rows = [["patch", patch], ...Object.entries(result.patchNames(patch)),
-      ["area", `${shown(result.patch_area[patch])} m²`]].filter(([, value]) => value !== "").map(([name, value]) => [name, [value]]);
-    if (this.results.length > 1) rows.push(["", which.map((m) => this.results[m].label)]);
-    const names = [...result.totals.map((total) => total.name), ...(result.series ? [result.series.name] : [])];
-    for (const name of names)
-      rows.push([`${name.replaceAll("_", " ")} ${result.units(name) && `[${result.units(name)}]`}`,
-        which.map((m) => {
-          const values = this.valuesOf(m, name);
-          return shown(valueOf(m, (p) => values[p]), this.digits(name));
-        }), name]);
-    $("values").replaceChildren(...rows.map(([what, values, name]) => {
-      const row = document.createElement("tr");
-      if (name) row.dataset.quantity = name;
-      for (const text of [what, ...values]) {
-        const cell = document.createElement("td");
-        cell.textContent = text;
-        row.append(cell);
-      }
-      return row;
-    }));
-    if (!result.series) return;
-    const times = this.results[0].times;
-    const curves = which.map((m) => ({ label: this.results[m].label, values: times.map((time, i) => {
-      const own = m === 0 ? i : this.results[m].intervalAt(time);
-      return own >= 0 ? valueOf(m, (p) => this.results[m].seriesValue(own, p)) : NaN;
-    }) }));
-    drawSeries($("series"), times, k, curves, `${result.series.name} [${result.series.units}]`);
-  }
-
-  /** Series travel with 11 bits. */
-  digits(name) { return name === this.results[0].series?.name ? 3 : 4; }
-
   // What the user does.
 
   fillChoices() {
@@ -256,9 +175,11 @@ class Viewer {
     if (results.length > 1) views.push(["side", "side by side"]);
     if (this.unmatchedShare < 1 && this.match) views.push(["difference", `difference: ${results[1].label} − ${results[0].label}`]);
     $("no-difference").hidden = !(this.unmatchedShare > 0);
-    $("no-difference").textContent = this.unmatchedShare < 1 ?
-      `${shown(100 * this.unmatchedShare, 2)} % of ${results[0].label} has other shapes in ${results[1].label}: grey in the difference.` :
-      "The two results share no surface: there is no difference.";
+    if (this.match) {
+      $("no-difference").textContent = this.unmatchedShare < 1 ?
+        `${shown(100 * this.unmatchedShare, 2)} % of ${results[0].label} has other shapes in ${results[1].label}: grey in the difference.` :
+        "The two results share no surface: there is no difference.";
+    }
     fill($("view"), views, state.view);
     $("view").parentElement.hidden = results.length < 2;
     // What a result has, the other may lack: only quantities of both can be shown.

@@ -1,5 +1,6 @@
 // Opens a page of `sunload view` in a real browser, uses it, and tells what it saw as JSON:
-//   node view_probe.mjs FOLDER_OF_PLAYWRIGHT CHROMIUM PAGE FOLDER_OF_PICTURES [match]
+//   node view_probe.mjs FOLDER_OF_PLAYWRIGHT CHROMIUM PAGE FOLDER_OF_PICTURES [match|one]
+// one: a page of one result, only looked at.
 // match: only what the second result brings onto the patches of the first.
 import { createRequire } from "node:module";
 import { join } from "node:path";
@@ -19,7 +20,7 @@ try {
   await tab.goto(`file://${page}`);
   await tab.waitForFunction(() => window.sunload, null, { timeout: 240000 });
   seen.loadSeconds = (Date.now() - started) / 1000;
-  await (mode === "match" ? match(tab) : use(tab));
+  await { match, one, undefined: use }[mode](tab);
 } finally {
   await browser.close();
 }
@@ -55,6 +56,15 @@ function visiblePatches(tab, most) {
     }
     return found;
   }, most);
+}
+
+async function one(tab) {
+  seen.clock = await tab.textContent("#clock");
+  seen.slider = await tab.getAttribute("#slider", "max");
+  seen.patches = await visiblePatches(tab, 5);
+  await tab.evaluate(() => { window.sunload.sky.object.visible = false; });
+  seen.limit = await tab.evaluate(() => window.sunload.limit());
+  await picture(tab, "one");
 }
 
 async function match(tab) {

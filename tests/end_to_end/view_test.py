@@ -165,7 +165,7 @@ def test_match(probe, folder, sunload):
         assert seen["unmatchedShare"] == 0 and abs(seen["matchedKwh"] - whole) < 1e-5 * whole, (seen, whole)
 
 
-def test_refusals(sunload, folder, path):
+def test_refusals(sunload, folder, path, probe):
     page = os.path.join(folder, "no.html")
     for words, code, says in ((["missing.h5", "-o", page], 2, "missing.h5"), ([path, path, path, "-o", page], 2, "two"),
                               ([path, "-o", os.path.join(folder, "no/such/page.html")], 3, "page.html"),
@@ -175,6 +175,11 @@ def test_refusals(sunload, folder, path):
     assert not os.path.exists(page)
     ran = subprocess.run([sunload, "view", path, "-o", page, "--step", "5"], stderr=subprocess.PIPE, text=True)
     assert ran.returncode == 0 and "5" in ran.stderr, "intervals are left out silently"
+    seen = json.loads(run([*probe, page, folder, "one"]))
+    assert seen["errors"] == [] and seen["slider"] == "4", seen  # of 24 intervals the 0th, 5th, … 20th
+    with h5py.File(path) as result:
+        values = result["light_load"][...][[p["patch"] for p in seen["patches"]]]
+    assert_colours(Pictures(folder), "one", seen["patches"], "false", values, seen["limit"])
 
 
 def test(sunload, source, packages, folder):
@@ -192,7 +197,7 @@ def test(sunload, source, packages, folder):
     seen = json.loads(run([*probe, page, folder]))
     test_page(seen, Pictures(folder), path, other)
     test_match(probe, folder, sunload)
-    test_refusals(sunload, folder, path)
+    test_refusals(sunload, folder, path, probe)
     print(f"{len(seen['patches'])} patches have the colours of their values, {len(seen['clicks'])} clicks told them; "
           f"{seen['framesPerSecond']:.0f} frames/s")
 
