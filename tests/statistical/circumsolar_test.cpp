@@ -136,7 +136,7 @@ TEST(Circumsolar, OnOpenPlatesIsExact) {
     rules.lines_per_patch = rules.realizations * 16;
     rules.direct_samples = rules.realizations * 256;
     Watch watch;
-    const LightSolver solver(builder.scene(), {}, rules, watch);
+    const LightSolver solver(builder.scene(), SplitRules{}, rules, watch);
     const SunSampler sampler(solver.hierarchy(), solver.caster(),
                              {rules.direct_samples, rules.realizations, 1});
     std::vector<std::vector<double>> direct(64, std::vector<double>(2, 0)), exposure(direct);
