@@ -142,7 +142,7 @@ TEST(Circumsolar, OnOpenPlatesIsExact) {
     std::vector<std::vector<double>> direct(64, std::vector<double>(2, 0)), exposure(direct);
     const std::vector<SunLight> block{light};
     const DirectSun sun =
-        direct_sun(solver.hierarchy(), solver.caster(), sampler, block, direct, nullptr);
+        direct_sun(solver.caster(), sampler, block, direct, nullptr);
     circumsolar_light(solver.hierarchy(), solver.caster(), sampler, block, {sky}, sun.sunlit,
                       exposure, nullptr);
     std::vector<double> means;
@@ -230,7 +230,7 @@ TEST(Circumsolar, LowersTheErrorOfTheStreet) {
     std::vector<std::vector<double>> exposure(realizations, std::vector<double>(patches, 0));
     std::vector<Columns> circumsolar(realizations, columns(patches));
     const auto start = std::clock();
-    const DirectSun sun = direct_sun(h, solver.caster(), sampler, block, exposure, nullptr);
+    const DirectSun sun = direct_sun(solver.caster(), sampler, block, exposure, nullptr);
     const auto middle = std::clock();
     const auto rays = circumsolar_light(h, solver.caster(), sampler, block, sources.circumsolar,
                                         sun.sunlit, exposure, nullptr)
