@@ -278,8 +278,9 @@ PolygonModel complex_paths() {
   b.begin_object("wall");
   box(b, {wall_x, -half_width, wall_low}, {wall_x + thin, half_width, wall_high}, {reflector});
   b.begin_object("screen");
+  // A roof on all sides: with nothing below it, its underside would be taken for a floor.
   box(b, {screen_low, -half_width, screen_z}, {screen_high, half_width, screen_z + thin},
-      {reflector});
+      {reflector, Surface::roof});
   return b.take();
 }
 
