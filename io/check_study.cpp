@@ -6,6 +6,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "io/expected_error.h"
 #include "io/machine.h"
 #include "io/run.h"
 #include "io/sun_diagram.h"
@@ -112,7 +113,7 @@ std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
       shot, work.memory_bytes / mib, work.disk_bytes / mib, work.seconds, thread_count());
 }
 
-void print_text(const VariantPlan& plan, const RefineReport& mesh, const WorkEstimate& work) {
+void print_text(const VariantPlan& plan, const VariantMesh& made, const WorkEstimate& work) {
   std::string text = fmt::format("study {}, variant {} (content {})\n", plan.study.name,
                                  plan.study.variant, plan.content_hash.substr(0, 12));
   text += "scene\n" + counts_text(plan.built.report) +
@@ -123,10 +124,11 @@ void print_text(const VariantPlan& plan, const RefineReport& mesh, const WorkEst
   if (const auto sensors = plan.built.scene.sensors.size(); sensors > 0)
     text += fmt::format("sensors\n  {} points\n", sensors);
   text += "sun\n" + time_words(plan.light, plan.built.site, plan.study, plan.built.site_source);
-  if (const auto refined = refine_text(mesh, plan.study); !refined.empty())
+  if (const auto refined = refine_text(made.report, plan.study); !refined.empty())
     text += "mesh\n  " + refined + "\n";
   text += "work\n" + work_text(plan, work);
-  for (const auto& list : {plan.built.warnings, plan.light.notes})
+  for (const auto& list : {plan.built.warnings, plan.light.notes,
+                           expected_error_warnings(plan, *made.mesh)})
     for (const auto& line : list) text += "warning: " + line + "\n";
   std::cout << text;
 }
@@ -163,7 +165,7 @@ int check_study(const std::string& path, const RunOptions& options, CheckFormat 
       units += plan.batches();
       json["variants"].push_back(as_json(plan, work));
       json["batch_suns"] = plan.batch_suns();
-      if (format == CheckFormat::text) print_text(plan, made.report, work);
+      if (format == CheckFormat::text) print_text(plan, made, work);
     } catch (const InputError& error) {
       problems.add(error);
     }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 
+#include "io/expected_error.h"
 #include "io/info.h"
 #include "io/leftovers.h"
 #include "io/machine.h"
@@ -245,6 +246,8 @@ class StudyRun {
     if (const auto text = refine_text(made.report, plan.study); !text.empty())
       progress_.say(plan.study.variant + ": " + text);
     check_limits(folder_, estimate_work(plan, place.mesh->patch_count()), there);
+    for (const auto& line : expected_error_warnings(plan, *place.mesh))
+      progress_.say(plan.study.variant + ": warning: " + line);
   }
 
   void compute() {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "geo/units.h"
+#include "io/expected_error.h"
 #include "tests/support/statistics.h"
 #include "tests/support/study_plan.h"
 
@@ -116,6 +117,25 @@ TEST(HistoricScenes, LitRegionsAreMeshedFinerAndNoTVertexIsLeft) {
     }
     EXPECT_GT(coarsest_shaded, 4 * finest_lit) << "lit regions are finer than shaded ones";
   }
+}
+
+TEST(HistoricScenes, BadParametersAreWarnedAboutWithTheErrorToExpect) {
+  const auto warnings = [](const std::string& solver) {
+    const VariantPlan plan = plan_of(day_study(
+        "box_on_plane", "{days: [2026-06-21], from: \"08:00\", to: \"18:00\", step_min: 60}",
+        "mesh: {oracle: none, max_edge_m: 2}\nsolver: {realizations: 2, " + solver + "}\n"));
+    Watch watch;
+    return expected_error_warnings(plan, *make_mesh(plan, watch).mesh);
+  };
+  EXPECT_TRUE(warnings("lines_per_patch: 256, direct_samples: 16").empty());
+  const auto few = warnings("lines_per_patch: 8, direct_samples: 2");
+  ASSERT_EQ(few.size(), 2u);
+  EXPECT_NE(few[0].find("lines_per_patch 8"), std::string::npos) << few[0];
+  EXPECT_NE(few[0].find("21 %"), std::string::npos) << few[0];
+  EXPECT_NE(few[1].find("direct_samples 2"), std::string::npos) << few[1];
+  const auto shot = warnings("transport: shoot, power_per_sample_w: 1000");
+  ASSERT_EQ(shot.size(), 1u);
+  EXPECT_NE(shot[0].find("power_per_sample_w"), std::string::npos) << shot[0];
 }
 
 /// Where mirrored light falls on an object in interval k: power and centre.
