@@ -79,6 +79,7 @@ TEST(House, OneFileKnowsEachForeignLibrary) {
                                            {"cairo", {"io/picture"}},
                                            {"openssl", {"io/hash"}},
                                            {"CLI/", {"io/main"}},
+                                           {"gdal", {"io/scene_raster"}},
                                            {"boost", {"io/statistics"}}};
   for (const auto& [header, files] : owner) EXPECT_EQ(users_of(header), files) << header;
 }
@@ -87,11 +88,14 @@ TEST(House, OneFileKnowsEachForeignLibrary) {
 TEST(House, SharedLibrariesStayWhereTheyBelong) {
   const std::map<std::string, Names> owners{
       {"GeographicLib", {"geo/site", "geo/site_text"}},
-      {"libdeflate", {"io/checksum", "io/chunk", "io/batch_container", "io/result_seal"}},
+      {"libdeflate",
+       {"io/checksum", "io/chunk", "io/batch_container", "io/gzip", "io/result_seal"}},
+      {"Inventor/", {"io/scene_vrml", "io/vrml_nodes"}},
       {"nlohmann",
-       {"io/batch_container", "io/batch_file", "io/check_study", "io/compare_text", "io/json_text",
+       {"io/batch_container", "io/batch_file", "io/check_study", "io/compare_text",
+        "io/gltf_buffers", "io/json_text", "io/progress",
         "io/scene_cityjson_geometry", "io/scene_cityjson_lod", "io/scene_cityjson_select",
-        "io/scene_cityjson_templates", "io/study_canonical"}}};
+        "io/scene_cityjson_templates", "io/study_canonical", "io/view_data"}}};
   for (const auto& [header, allowed] : owners)
     for (const auto& file : users_of(header))
       EXPECT_TRUE(allowed.contains(file)) << file << " includes " << header;

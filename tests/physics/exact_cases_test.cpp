@@ -33,7 +33,7 @@ TEST(ClosedCavity, IrradianceIsTheTruncatedSeries) {
   SceneBuilder builder;
   builder.box({0, 0, 0}, {4, 3, 2}, builder.material({"wall", rho, 0, M}), Facing::inward);
   auto rules = test_rules();
-  rules.bounces = 12;
+  rules.bounces = 6;
   const auto solved = solve(builder.scene(), {one_second({0, 0, -1}, 0)}, rules, {.max_edge_m = 1});
   double truth = 0;
   for (int b = 0; b <= rules.bounces; ++b) truth += M * std::pow(rho, b);
