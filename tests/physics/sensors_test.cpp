@@ -313,12 +313,16 @@ TEST(SensorReflection, CountsTheSameBouncesAsPatches) {
     const int wall = stage.builder.material({"wall", rho, 0, 1});
     stage.builder.box({0, 0, 0}, {2, 1, 3}, wall, SceneBuilder::Facing::inward);
     stage.at({1, 0.5, 1.5}, {1, 2, 3}).at({0.3, 0.2, 0}, {0, 0, 1});
-    SolverRules rules = rules_of(64);
+    SolverRules rules = rules_of(256);
     rules.bounces = bounces;
     const auto tally = stage.light(night, rules);
     const double truth = (1 - std::pow(rho, bounces + 1)) / (1 - rho);
-    for (std::size_t s = 0; s < 2; ++s)
-      for (const double E : of_sensor(tally, s)) EXPECT_NEAR(E, truth, float_rounding * truth);
+    const double one_more = truth + std::pow(rho, bounces + 1);
+    for (std::size_t s = 0; s < 2; ++s) {
+      const Verdict verdict = expect_mean(of_sensor(tally, s), truth);
+      EXPECT_TRUE(verdict) << bounces << " bounces: " << verdict.text;
+      EXPECT_FALSE(expect_mean(of_sensor(tally, s), one_more)) << "planted fault: one bounce more";
+    }
   }
 }
 
