@@ -62,7 +62,7 @@ struct Wrong {
 TEST(BadInput, OneWrongValueInAStudyIsSaidWithItsPlace) {
   for (const auto& [from, to, said] : {
            Wrong{"max_edge_m", "max_egde_m",
-                 "square.yaml:14:8: unknown key 'max_egde_m' in mesh; did you mean 'max_edge_m'?"},
+                 "square.yaml:14:22: unknown key 'max_egde_m' in mesh; did you mean 'max_edge_m'?"},
            Wrong{"max_edge_m", "max_edge_cm", "did you mean 'max_edge_m'? Its unit is metres"},
            Wrong{"latitude_deg: 49.7475", "latitude_deg: 148.2",
                  "square.yaml:3:22: site.latitude_deg: 148.2 is out of range"},
@@ -92,7 +92,7 @@ TEST(BadInput, AllErrorsOfAStudyAtOnce) {
   small.spoil("square.obj", "triangle.obj");
   small.spoil("batch_suns: 2", "batch_suns: 2, boucnes: 3");
   expect_refused(small.folder, {"run", "square.yaml"},
-                 {"square.yaml:3:22: ", "square.yaml:7:11: ", "square.yaml:14:8: ",
+                 {"square.yaml:3:22: ", "square.yaml:7:11: ", "square.yaml:14:22: ",
                   "did you mean 'bounces'?"});
 }
 
