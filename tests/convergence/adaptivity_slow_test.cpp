@@ -15,8 +15,6 @@
 namespace sunload::test {
 namespace {
 
-constexpr double min_area_m2 = 0.16;
-
 /// Light load of a mesh, and the variance that its sampling leaves in it.
 struct Loaded {
   std::shared_ptr<const Hierarchy> mesh;
@@ -71,7 +69,8 @@ struct Comparison {
 };
 
 /// Leaves that an even mesh needs for the error of the adaptive one.
-Comparison compare(const std::string& study, double tolerance, double coarsest_edge) {
+Comparison compare(const std::string& study, double min_area_m2, double tolerance,
+                   double coarsest_edge) {
   const WorkFolder folder;
   VariantPlan plan = make_plan(read_study(folder.write("study.yaml", study)).variants.front());
   plan.study.mesh.min_area_m2 = min_area_m2;
@@ -111,19 +110,19 @@ TEST(Adaptivity, PaysOnTheStreet) {
       "period: {days: [2026-03-08], from: \"06:30\", to: \"12:30\", step_min: 40}\n"
       "light: {source: clear_sky}\nscene: {builtin: {name: street}}\n" +
           std::string(solver_section),
-      0.12, 2.8);
+      0.04, 0.08, 1.0);
   EXPECT_LE(3 * c.adaptive, c.even);
 }
 
 TEST(Adaptivity, PaysOnACityModel) {
   if (shared_missing("data")) return;
   const Comparison c = compare(
-      "format: sunload-study-1\nname: city\nsite: {timezone: Europe/Amsterdam}\n"
+      "format: sunload-study-1\nname: city\nsite: {timezone: Europe/Berlin}\n"
       "period: {days: [2026-06-21], from: \"06:00\", to: \"20:00\", step_min: 60}\n"
       "light: {source: clear_sky}\nscene: {files: [" +
-          std::string(SUNLOAD_SHARED_DIR) + "/data/city/3dbag_sub_v10.city.json]}\n" +
+          std::string(SUNLOAD_SHARED_DIR) + "/data/city/lod2_100_buildings_v11_epsg3068.city.json]}\n" +
           std::string(solver_section),
-      0.08, 8);
+      0.8, 0.1, 8);
   EXPECT_LE(2 * c.adaptive, c.even);
 }
 
