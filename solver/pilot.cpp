@@ -13,6 +13,9 @@ namespace {
 
 /// Directions per half in which the surroundings are seen.
 constexpr std::size_t directions_per_half = 8;
+/// Of all surfaces: variants that differ in their reflectances get the same mesh, so that their
+/// patches pair one to one.
+constexpr double typical_reflectance = 0.3;
 /// Points of emitters per half.
 constexpr std::size_t emitter_points_per_half = 8;
 /// A packet of 16 points for every so many least areas: a point for 16 of them.
@@ -210,10 +213,7 @@ double Pilot::radiosity(const PacketHits& hits, std::size_t ray) const {
   if (leaf < 0) return 0;
   const auto element = static_cast<std::size_t>(leaf);
   if (!hits.front[ray] && !forest_.is_two_sided(element)) return 0;
-  const Scene& scene = forest_.scene();
-  const auto& material = scene.materials[scene.material[static_cast<std::size_t>(triangle)].index()];
-  const double stopped = 1 - material.transmittance;  // share of the rays that would meet it
-  return material.diffuse / stopped * static_cast<double>(load_[2 * element + (hits.front[ray] ? 0 : 1)]);
+  return typical_reflectance * static_cast<double>(load_[2 * element + (hits.front[ray] ? 0 : 1)]);
 }
 
 }  // namespace sunload

@@ -132,6 +132,17 @@ TEST(Refine, NoiseOfTheLookItselfSplitsNothing) {
   EXPECT_EQ(mesh.patch_count(), 2u);
 }
 
+TEST(Refine, GivesTheSameMeshToVariantsOfReflectance) {
+  const Scene dark = tower_on_plate();
+  Scene bright = dark;
+  for (auto& m : bright.materials) m.diffuse = 0.8;
+  PilotLight light = suns(5);
+  for (auto& radiance : light.sky) radiance = 0.2;
+  const RefineRules rules{.oracle = Oracle::light_load, .light_tolerance = 0.04};
+  RefineReport report;
+  EXPECT_EQ(refined(dark, light, rules, report).key(), refined(bright, light, rules, report).key());
+}
+
 TEST(Refine, StopsAtTheLeastAreaAndSaysSo) {
   const Scene scene = tower_on_plate();
   RefineReport report;
