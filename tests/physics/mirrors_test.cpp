@@ -34,6 +34,8 @@ void check(const std::string& id, const std::vector<double>& values, double trut
   const Verdict verdict = expect_mean(values, truth, bias);
   std::cout << id << ": " << verdict.text << "\n";
   EXPECT_TRUE(verdict) << id << ": " << verdict.text;
+  constexpr double demanded_error = 0.005;  // of the truth, as a standard error
+  EXPECT_LE(verdict.standard_error, demanded_error * truth) << id << ": " << verdict.text;
   EXPECT_FALSE(expect_mean(values, fault, bias)) << id << ": planted fault unnoticed";
 }
 

@@ -19,6 +19,7 @@ using nlohmann::json;
 
 constexpr const char* exact_systems = "05_radiosity/exact_systems.json";
 
+constexpr double demanded_error = 0.005;  // of the truth, as a standard error
 const auto everywhere = [](std::size_t) { return true; };
 const SunLight night = one_second({0, 0, -1}, 0);
 
@@ -45,6 +46,7 @@ void check(const std::string& id, const std::vector<double>& values, double trut
            double fault = 1.02) {
   const Verdict verdict = expect_mean(values, truth, bias);
   EXPECT_TRUE(verdict) << id << ": " << verdict.text;
+  EXPECT_LE(verdict.standard_error, demanded_error * truth) << id << ": " << verdict.text;
   EXPECT_FALSE(expect_mean(values, truth * fault, bias))
       << id << ": planted fault unnoticed: " << verdict.text;
 }
@@ -77,6 +79,7 @@ TEST_P(Radiosity, RoomOfTwelveTrianglesHasTheExactRadiosity) {
       const std::string id = c["id"].get<std::string>() + " " + std::to_string(t);
       const Verdict verdict = expect_mean(values, B, (left + reuse) * B);
       EXPECT_TRUE(verdict) << id << ": " << verdict.text;
+      EXPECT_LE(verdict.standard_error, demanded_error * B) << id << ": " << verdict.text;
       // Planted fault: the wrong reflectance on the way back, where anything is reflected.
       if (rho > 0) {
         EXPECT_FALSE(expect_mean(values, M + (B - M) * 1.05, (left + reuse) * B))

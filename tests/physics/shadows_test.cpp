@@ -55,6 +55,8 @@ void check(const std::string& id, const std::vector<double>& values, double trut
            double bias) {
   const Verdict verdict = expect_mean(values, truth, bias);
   EXPECT_TRUE(verdict) << id << ": " << verdict.text;
+  constexpr double demanded_error = 0.005;
+  EXPECT_LE(verdict.standard_error, demanded_error * scale) << id << ": " << verdict.text;
   EXPECT_FALSE(expect_mean(values, truth + 0.02 * scale, bias))
       << id << ": planted fault unnoticed: " << verdict.text;
 }
