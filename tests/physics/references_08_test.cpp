@@ -1,0 +1,174 @@
+/// Reference 08 where other tests do not have it: faint and far points of emitters, the balance
+/// of what is emitted, scale, large extent, slivers, an emitter that is hidden.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "geo/units.h"
+#include "tests/support/reference.h"
+#include "tests/support/scenes.h"
+#include "tests/support/statistics.h"
+
+namespace sunload::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* cases_file = "08_smits_jensen_style/cases.json";
+constexpr double demanded_error = 0.005;  // of the truth, as a standard error
+const SunLight night = one_second({0, 0, -1}, 0);
+
+SolverRules rules_of(int lines_per_realization, int bounces = 0) {
+  SolverRules rules = test_rules();
+  rules.lines_per_patch = rules.realizations * lines_per_realization;
+  rules.direct_samples = rules.realizations;
+  rules.bounces = bounces;
+  rules.mirror_depth = 1000;
+  return rules;
+}
+
+/// Accepted at the demanded standard error, and a truth that is off by `fault` refused.
+void check(const std::string& id, const std::vector<double>& values, double truth, double bias,
+           double fault = 1.03, double largest_error = demanded_error) {
+  const Verdict verdict = expect_mean(values, truth, bias);
+  std::cout << id << ": " << verdict.text << "\n";
+  EXPECT_TRUE(verdict) << id << ": " << verdict.text;
+  EXPECT_LE(verdict.standard_error, largest_error * truth) << id;
+  EXPECT_FALSE(expect_mean(values, truth * fault, bias)) << id << ": planted fault unnoticed";
+}
+
+/// How far lines start above their surface (solver/ray_caster.h: 16 roundings to float).
+double lift(double coordinate) { return 16 * coordinate / (1 << 24); }
+
+Vec3 point(const json& p) { return {number(p[0]), number(p[1]), number(p[2])}; }
+
+struct Stage {
+  SceneBuilder builder;
+  int black = builder.material({"black", 0, 0, 0});
+  int lamp = builder.material({"lamp", 0, 0, 1});
+
+  /// Square of side s at height h over the origin, facing down.
+  void square_lamp(double s, double h) {
+    const double a = s / 2;
+    builder.quad({-a, -a, h}, {-a, a, h}, {a, a, h}, {a, -a, h}, lamp);
+  }
+};
+
+/// Irradiance per realization at a point of horizontal ground: as patches have as many lines as
+/// sensors, many sensors stand there with few lines each.
+std::vector<double> on_ground(Scene scene, Vec3 p, int lines, int bounces = 0, double max_edge = 1e9) {
+  constexpr int lines_of_each = 32;
+  const auto sensors = static_cast<std::size_t>(lines / lines_of_each);
+  for (std::size_t k = 0; k < sensors; ++k) scene.sensors.push_back({p, {0, 0, 1}, k});
+  const Solved solved = solve(scene, {night}, rules_of(lines_of_each, bounces), {.max_edge_m = max_edge});
+  std::vector<double> means;
+  for (const auto& row : solved.tally.sensors.exposure_realization) {
+    double sum = 0;
+    for (const double value : row) sum += value;
+    means.push_back(sum / static_cast<double>(sensors));
+  }
+  return means;
+}
+
+constexpr int lines = 1 << 13;
+
+TEST(Emission, SquareAtEveryPointHoweverFaint) {
+  if (shared_missing("reference")) return;
+  for (const auto& c : reference_cases(cases_file, "emission_square"))
+    for (std::size_t k = 0; k < c["points"].size(); ++k) {
+      const Vec3 p = point(c["points"][k]);
+      const double h = number(c["h"]), E = number(c["irradiance"][k]);
+      Stage stage;
+      stage.square_lamp(number(c["s"]), h);
+      // Lifting the point takes as much from both cosines, hence twice.
+      const double bias = 2 * E * lift(std::hypot(p.x, p.y) + h + 1) / h;
+      check(c["id"].get<std::string>() + " " + std::to_string(k),
+            on_ground(stage.builder.scene(), p, lines), E, bias);
+    }
+}
+
+TEST(Emission, WhatTheReceiverMissesLeavesTheScene) {
+  if (shared_missing("reference")) return;
+  for (const auto& c : reference_cases(cases_file, "emission_total")) {
+    const double s = number(c["s"]), h = number(c["h"]), F = number(c["mean_irradiance"]), a = s / 2;
+    Stage stage;
+    stage.builder.quad({-a, -a, 0}, {a, -a, 0}, {a, a, 0}, {-a, a, 0}, stage.black);
+    stage.square_lamp(s, h);
+    const Solved solved = solve(stage.builder.scene(), {night}, rules_of(1 << 12));
+    const double bias = F * lift(s + h) / h;
+    check(c["id"], solved.means([&](std::size_t i) { return solved.patches[i].triangle < 2; }), F,
+          bias);
+    check(c["id"].get<std::string>() + " escaping",
+          solved.ledger([&](const Ledger& l) { return l[Term::escaped] / (s * s); }), 1 - F, bias);
+  }
+}
+
+// Scenes are moved to a local origin before they are lit: the move is geo's to take away.
+TEST(Scale, MakesNoDifference) {
+  if (shared_missing("reference")) return;
+  for (const auto& c : reference_cases(cases_file, "scale_")) {
+    const double scale = number(c["scale"]), E = number(c["irradiance"]);
+    Stage stage;
+    stage.square_lamp(scale, scale);
+    check(c["id"],
+          on_ground(stage.builder.scene(), {0.5 * scale, 0.5 * scale, 0}, lines), E, 2 * E * lift(2));
+  }
+}
+
+TEST(LargeExtent, TendsToAll) {
+  if (shared_missing("reference")) return;
+  for (const auto& c : reference_cases(cases_file, "large_extent")) {
+    const double side = number(c["side"]), h = number(c["height"]);
+    Stage stage;
+    stage.square_lamp(side, h);
+    check(c["id"], on_ground(stage.builder.scene(), point(c["point"]), lines),
+          number(c["irradiance"]), lift(side) / h);
+  }
+}
+
+TEST(Slivers, AreAsBrightAsTheirWhole) {
+  if (shared_missing("reference")) return;
+  for (const auto& c : reference_cases(cases_file, "sliver_fan")) {
+    const Vec3 fan = point(c["fan_point"]);
+    const Vec3 corner[] = {{-0.5, -0.5, 1}, {-0.5, 0.5, 1}, {0.5, 0.5, 1}, {0.5, -0.5, 1}};
+    Stage stage;
+    for (std::size_t k = 0; k < 4; ++k)
+      stage.builder.triangle(fan, corner[k], corner[(k + 1) % 4], stage.lamp);
+    const double E = number(c["irradiance"]);
+    check(c["id"], on_ground(stage.builder.scene(), point(c["point"]), lines), E, 2 * E * lift(2));
+  }
+}
+
+// Two dimensions between perfect mirrors. The ceiling ends where little is left: at x it has
+// (6b - b²) / 4x² of the lamp's light, of which 9 / 2(x - 8)³ per metre reach the point.
+TEST(HiddenEmitter, ArrivesByOneReflection) {
+  if (shared_missing("reference")) return;
+  for (const auto& c : reference_cases(cases_file, "hidden_emitter_2d")) {
+    const double b = number(c["b"]), rho = number(c["rho"]), E = number(c["irradiance_one_bounce"]);
+    constexpr double far = 24, wide = 16, h = 3;
+    Stage stage;
+    const int ceiling = stage.builder.material({"ceiling", rho, 0, 0});
+    const int mirror = stage.builder.material({"mirror", 0, 1, 0});
+    auto& s = stage.builder;
+    s.object("lamp").quad({0, 0, 0}, {0, wide, 0}, {0, wide, b}, {0, 0, b}, stage.lamp);
+    s.object("ceiling").quad({0, 0, h}, {0, wide, h}, {far, wide, h}, {far, 0, h}, ceiling);
+    s.object("mirrors").quad({0, 0, 0}, {0, 0, h}, {far, 0, h}, {far, 0, 0}, mirror);
+    s.quad({0, wide, 0}, {far, wide, 0}, {far, wide, h}, {0, wide, h}, mirror);
+    s.sides(Sides::two).object("baffle").quad({4, 0, 0}, {4, wide, 0}, {4, wide, 2}, {4, 0, 2},
+                                              stage.black);
+    const auto with = [&](double edge) {
+      return on_ground(s.scene(), {8, wide / 2, 0}, 1 << 13, 1, edge);
+    };
+    const auto coarse = with(2), fine = with(1);
+    const double beyond = rho * (6 * b - b * b) / 4 * 9 / 2 / (2 * far * far * (far - 8) * (far - 8));
+    const double bias = std::abs(mean_error(coarse).mean - mean_error(fine).mean) + beyond +
+                        2 * E * lift(far);
+    constexpr double of_half_a_percent_of_the_light = 0.01;
+    check(c["id"], fine, E, bias, 1.12, of_half_a_percent_of_the_light);
+  }
+}
+
+}  // namespace
+}  // namespace sunload::test
