@@ -165,7 +165,7 @@ TEST(HiddenEmitter, ArrivesByOneReflection) {
     const double beyond = rho * (6 * b - b * b) / 4 * 9 / 2 / (2 * far * far * (far - 8) * (far - 8));
     const double bias = std::abs(mean_error(coarse).mean - mean_error(fine).mean) + beyond +
                         2 * E * lift(far);
-    constexpr double error_of_faint_light = 0.01;  // twice reflected in part, by mirrors
+    constexpr double error_of_faint_light = 0.01;  // lines alone find it in mirrors
     check(c["id"], fine, E, bias, 1.12, error_of_faint_light);
   }
 }
