@@ -300,6 +300,13 @@ double rays_per_line(const Scene& scene, int mirror_depth) {
   return rays;
 }
 
+/// Rays of the pilot that refines the mesh: for every element that it ever looks at, twice the
+/// leaves, 16 points look along its suns and its other directions.
+double refinement_rays(double patches, double lit) {
+  constexpr double elements_per_leaf = 2, points = 16, most_suns = 32, other_directions = 16;
+  return patches * elements_per_leaf * points * (std::min(lit, most_suns) + other_directions);
+}
+
 double line_seconds(const Scene& scene, int mirror_depth) {
   const auto triangles = static_cast<double>(std::max<std::size_t>(scene.mesh.triangle_count(), 1));
   return rays_per_line(scene, mirror_depth) * (s_per_line + s_per_level * std::log2(triangles));
@@ -356,6 +363,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
        (s.transport == Transport::gather
             ? links * lit * s_per_link_sun + links * batches * s_per_link_batch
             : static_cast<double>(work.samples) * s_per_sample) +
+       (plan.study.mesh.oracle == Oracle::none ? 0 : refinement_rays(n, lit) * s_per_direct_ray) +
        n * lit * s_per_patch_sun + n * static_cast<double>(plan.intervals()) * s_per_value) /
       thread_count();
   return work;
