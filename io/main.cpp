@@ -14,6 +14,7 @@
 
 #include "geo/check.h"
 #include "io/compare.h"
+#include "io/export.h"
 #include "io/file_aside.h"
 #include "io/info.h"
 #include "io/key_names.h"
@@ -99,6 +100,7 @@ class CommandLine {
     add_compare();
     add_render();
     add_view();
+    add_export();
     add_scene();
   }
 
@@ -339,6 +341,26 @@ class CommandLine {
         ->check(CLI::Range(1, 1'000'000));
   }
 
+  void add_export() {
+    CLI::App* sub = command("export", "a result in the format of another program", [this] {
+      export_result(ResultReader(results_.front()), export_, picture_);
+      return exit_code::done;
+    });
+    sub->add_option("RESULT", results_, "result file (.h5)")->required()->expected(1);
+    sub->add_option("--to", export_.format, "format: " + export_formats())->required();
+    sub->add_option("-o,--output", picture_, "file to write (csv, vrml: default standard output)");
+    sub->add_option("--quantity", export_.quantity,
+                    "dataset per patch (default: light_load; csv and xdmf: all); csv: series");
+    sub->add_option("--time", export_.time, "instant of a series, e.g. 2026-06-21T12:00 (default: the brightest)");
+    add_word<std::optional<Palette>>(
+        sub, "--colour", export_.palette,
+        {{"false", Palette::false_colour}, {"grey", Palette::grey}}, "colours");
+    sub->add_option("--max", export_.largest, "value of the last colour")->check(positive);
+    sub->add_flag("--interpolate", export_.interpolate, "colours of corners, not of patches (glb, vrml)");
+    sub->add_option("--crease-angle", export_.crease_angle_deg,
+                    "patches that turn by more are not interpolated [degrees, default 20]");
+  }
+
   void add_scene() {
     CLI::App* sub = command("scene", "write a built-in scene as OBJ", [this] {
       BuiltinRules rules{scene_, {}};
@@ -365,6 +387,7 @@ class CommandLine {
   std::vector<std::string> results_, parameters_;
   RunOptions options_;
   RenderRules render_;
+  ExportRules export_;
   SkyOptions sky_;
   ViewRules view_;
   std::size_t view_step_ = 0;

@@ -7,13 +7,10 @@
 
 #include "geo/check.h"
 #include "geo/units.h"
-#include "io/h5.h"
 #include "io/render_frame.h"
 #include "io/render_scene.h"
-#include "io/result_schema.h"
 #include "io/result_time.h"
-#include "io/statistics.h"
-#include "io/text.h"
+#include "io/shown_quantity.h"
 
 namespace sunload {
 namespace {
@@ -26,50 +23,6 @@ constexpr double overview_field_deg = 27, walker_field_deg = 60;
 constexpr double overview_elevation_deg = 35;
 // The afternoon side of the sun's side: 45° west of it.
 constexpr double overview_west_deg = 45;
-// The scale ends above this share of the area, so that a few glints do not
-// darken everything else; what lies above is clamped and marked.
-constexpr double scale_share = 0.995;
-
-InputError unknown_quantity(const ResultReader& result, const std::string& quantity) {
-  std::string known;
-  for (const auto& variable : result_schema(result.quantity()))
-    if ((variable.dims == "patch" || variable.dims == "time,patch") && !variable.units.empty() &&
-        result.has(std::string(variable.name)))
-      known += (known.empty() ? "" : ", ") + std::string(variable.name);
-  return {{result.path()}, "no quantity " + quantity + " per patch", "", "choose one of " + known};
-}
-
-/// What is drawn: values and how to name them.
-struct Shown {
-  std::vector<double> values;
-  std::string name, units, when;
-  std::optional<std::size_t> interval;
-};
-
-std::string whole_period(const ResultReader& result) {
-  const auto bounds = result.doubles("time_bounds");
-  const auto zone = result_zone(result);
-  return fmt::format("{} … {}", iso_local(bounds.front(), zone), iso_local(bounds.back(), zone));
-}
-
-Shown shown(const ResultReader& result, const RenderRules& rules) {
-  if (!result.has(rules.quantity)) throw unknown_quantity(result, rules.quantity);
-  const auto* variable = find_result_variable(rules.quantity, result.quantity());
-  const auto shape = result.shape(rules.quantity);
-  const auto patches = result.shape("patch_area").front();
-  const bool is_series = variable && variable->dims == "time,patch";
-  if (shape.empty() || shape.back() != patches || !variable ||
-      (!is_series && variable->dims != "patch") || variable->units.empty())
-    throw unknown_quantity(result, rules.quantity);
-  Shown s{{}, rules.quantity, display_units(result.units(rules.quantity)), {}, {}};
-  std::replace(s.name.begin(), s.name.end(), '_', ' ');
-  const auto interval =
-      rules.time.empty() ? brightest_interval(result) : interval_at(result, rules.time);
-  s.interval = interval;
-  s.values = is_series ? result.row(rules.quantity, interval) : result.doubles(rules.quantity);
-  s.when = is_series ? "sun of " + interval_in_words(result, interval) : whole_period(result);
-  return s;
-}
 
 /// Azimuth, clockwise from true north, of the scene's +y axis: the turn between
 /// the sun's azimuth and its direction in the scene, at the lowest sun.
@@ -98,15 +51,10 @@ Vec3 overview_direction(const ResultReader& result, double north_deg) {
   return scene_direction({azimuth_deg, overview_elevation_deg}, north_deg);
 }
 
-Vec3 origin_of(const ResultReader& result) {
-  const auto origin = h5::File::open(result.path()).numbers("origin");
-  return origin && origin->size() == 3 ? Vec3{(*origin)[0], (*origin)[1], (*origin)[2]} : Vec3{};
-}
-
 Camera free_camera(const ResultReader& result, const RenderRules& rules, PictureArea area) {
   if (!rules.eye || !rules.look)
     throw InputError({}, "a free camera needs both --eye and --look", "one is missing");
-  const Vec3 origin = origin_of(result);
+  const Vec3 origin = scene_origin(result);
   const Vec3 eye = *rules.eye - origin, look = *rules.look - origin;
   if (!(norm(eye - look) > 0))
     throw InputError({}, "--eye and --look are the same point", "there is no direction to look in");
@@ -124,11 +72,11 @@ Camera sun_camera(const ResultReader& result, const PatchScene& scene, std::size
 }
 
 Camera chosen_camera(const ResultReader& result, const RenderRules& rules, const PatchScene& scene,
-                     const Shown& what, double north_deg, PictureArea area) {
+                     const ShownQuantity& what, double north_deg, PictureArea area) {
   if (rules.eye || rules.look) return free_camera(result, rules, area);
   switch (rules.view) {
     case View::sun:
-      return sun_camera(result, scene, *what.interval, area);
+      return sun_camera(result, scene, what.interval, area);
     case View::top:
       return Camera::parallel(scene.focus_points(), {0, 0, 1}, scene_direction({0, 0}, north_deg),
                               area.width, area.height);
@@ -137,16 +85,6 @@ Camera chosen_camera(const ResultReader& result, const RenderRules& rules, const
   }
   return Camera::fitted(scene.focus_points(), overview_direction(result, north_deg),
                         overview_field_deg, area.width, area.height);
-}
-
-double scale_end(const RenderRules& rules, const Shown& what, const PatchScene& scene) {
-  if (rules.largest) {
-    if (!(*rules.largest > 0) || !std::isfinite(*rules.largest))
-      throw InputError({}, fmt::format("--max {}", *rules.largest), "must be above 0");
-    return *rules.largest;
-  }
-  const double largest = weighted_quantile(what.values, scene.area(), scale_share);
-  return largest > 0 ? rounded_up(largest) : 1;
 }
 
 void expect_possible_size(const RenderRules& rules) {
@@ -167,13 +105,13 @@ std::string title(const ResultReader& result) {
 
 void render_png(const ResultReader& result, const RenderRules& rules, const std::string& path) {
   expect_possible_size(rules);
-  const Shown what = shown(result, rules);
+  const ShownQuantity what = shown_quantity(result, rules.quantity, rules.time);
   const PatchScene scene(result);
   const double north_deg = scene_north_deg(result);
   Picture picture(rules.width, rules.height);
   const PictureArea area = scene_area(picture);
   const Camera camera = chosen_camera(result, rules, scene, what, north_deg, area);
-  const PatchColours colours{what.values, scale_end(rules, what, scene), rules.palette, rules.mesh};
+  const PatchColours colours{what.values, scale_end(rules.largest, what.values, scene.area()), rules.palette, rules.mesh};
 
   const RayCaster caster(scene.mesh());
   picture.paint(area.x, area.y, area.width,

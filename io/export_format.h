@@ -1,0 +1,78 @@
+/// What all formats of `sunload export` draw from, and one function for each.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "io/export.h"
+#include "io/shown_quantity.h"
+
+namespace sunload {
+
+/// Patches as triangles: both sides of a two-sided surface are patches of their own,
+/// with opposite windings.
+struct ExportPatches {
+  explicit ExportPatches(const ResultReader& result);
+
+  std::vector<Vec3> vertices;  ///< relative to `origin`, z up
+  std::vector<std::array<std::int32_t, 3>> corners;
+  std::vector<Vec3> normal;
+  std::vector<double> area;
+  std::vector<std::int32_t> object;
+  std::vector<std::string> object_names;
+  Vec3 origin;
+};
+
+/// Where it is written to; the path is for references to other files.
+struct ExportTarget {
+  std::ostream& stream;
+  std::string path;  ///< empty: standard output
+};
+
+/// A quantity as colours.
+struct ExportColours {
+  ShownQuantity shown;
+  double largest = 1;
+  Palette palette = Palette::false_colour;
+  /// A step of the palette for every patch, or for its corners; -1: not known.
+  std::vector<std::int32_t> patch_step;
+  std::vector<std::array<std::int32_t, 3>> corner_step;  ///< empty: constant patches
+};
+
+inline constexpr int export_palette_steps = 1024;
+/// sRGB of a step; grey for -1.
+Colour export_colour(Palette palette, std::int32_t step);
+
+/// The quantity asked for, or light_load. Throws InputError for a time of what is no series.
+ShownQuantity export_quantity(const ResultReader& result, const ExportRules& rules);
+
+ExportColours export_colours(const ResultReader& result, const ExportRules& rules,
+                             const ExportPatches& patches);
+
+/// Values of the corners: means as ExportRules::interpolate says. Vertices in the same place are one.
+/// Values that are not known are left out of the means; a corner without known ones is NaN.
+std::vector<std::array<double, 3>> corner_values(const ExportPatches& patches,
+                                                 const std::vector<double>& values,
+                                                 double crease_angle_deg);
+
+/// "result.h5: light load kWh/m², when": a line for a head or comment.
+std::string export_caption(const ResultReader& result, const ShownQuantity& shown);
+
+using ExportWriter = void (*)(const ResultReader&, const ExportRules&, const ExportTarget&);
+/// One row per patch; --quantity series: one row per interval, RFC 4180.
+void export_csv(const ResultReader&, const ExportRules&, const ExportTarget&);
+/// Legacy VTK PolyData, binary. Kitware, VTK File Formats.
+void export_vtk(const ResultReader&, const ExportRules&, const ExportTarget&);
+/// XDMF 2 whose numbers are those of the result file itself.
+void export_xdmf(const ResultReader&, const ExportRules&, const ExportTarget&);
+/// Binary glTF. Khronos Group (2021), glTF 2.0 Specification.
+void export_glb(const ResultReader&, const ExportRules&, const ExportTarget&);
+/// VRML97. ISO/IEC 14772-1:1997.
+void export_vrml(const ResultReader&, const ExportRules&, const ExportTarget&);
+/// Binary PLY with colours and values of faces. Turk (1994), The PLY Polygon File Format.
+void export_ply(const ResultReader&, const ExportRules&, const ExportTarget&);
+
+}  // namespace sunload
