@@ -31,6 +31,7 @@ constexpr std::array formats{
     ExportFormat{"glb", export_glb, Content::bytes, Colours::of_corners},
     ExportFormat{"vrml", export_vrml, Content::text, Colours::of_corners},
     ExportFormat{"ply", export_ply, Content::bytes, Colours::of_patches},
+    ExportFormat{"energyplus", export_energyplus, Content::text, Colours::none},
 };
 
 const ExportFormat& chosen_format(const std::string& word) {

@@ -75,4 +75,8 @@ void export_vrml(const ResultReader&, const ExportRules&, const ExportTarget&);
 /// Binary PLY with colours and values of faces. Turk (1994), The PLY Polygon File Format.
 void export_ply(const ResultReader&, const ExportRules&, const ExportTarget&);
 
+/// Sunlit fraction of every facade at every step of a year, CSV: direct light by what an unshaded
+/// facade would get. The layout is that of EnergyPlus's own table of shading.
+void export_energyplus(const ResultReader&, const ExportRules&, const ExportTarget&);
+
 }  // namespace sunload
