@@ -228,65 +228,9 @@ def test_ply(exports, result):
     expect_scale(linear(table["colour"] / 255), result["light_load"][()], largest, 120 * 0.5 / 255)
 
 
-HOUSE_AND_WALL = """o house
-usemtl plaster
-v -4 0 0
-v 4 0 0
-v 4 0 6
-v -4 0 6
-v 4 8 0
-v -4 8 0
-v 4 8 6
-v -4 8 6
-f 1 2 3 4
-f 2 5 7 3
-f 5 6 8 7
-f 6 1 4 8
-f 4 3 7 8
-o wall
-v -60 -10 0
-v 60 -10 0
-v 60 -10 5
-v -60 -10 5
-f 9 10 11 12
-"""
-YEAR = """format: sunload-study-1
-name: year
-site: {latitude_deg: 49.7475, longitude_deg: 13.3776, timezone: Europe/Prague}
-period: {start: 2026-01-01T00:00, end: 2027-01-01T00:00, step_min: 60}
-light: {source: clear_sky}
-scene: {files: [year.obj], materials: {plaster: {diffuse: 0.3}}}
-mesh: {oracle: none, max_edge_m: 4}
-solver: {lines_per_patch: 8, batch_suns: 1024, direct_samples: 16}
-"""
-
-
 def test_energyplus(exports):
-    """A facade behind a long wall: the shadow's height follows from the sun's profile angle."""
-    import h5py
-    for name, text in (("year.obj", HOUSE_AND_WALL), ("year.yaml", YEAR)):
-        with open(os.path.join(exports.folder, name), "w") as file:
-            file.write(text)
-    ran = exports.run("run", "year.yaml", "--progress", "none")
-    assert ran.returncode == 0, ran.stderr
-    result = "results/year/baseline.h5"
-    rows = list(csv.reader(exports.run("export", result, "--to", "energyplus").stdout.splitlines()))
-    assert rows[0][:1] == ["Surface Name"] and len(rows) == 8761
-    assert (rows[1][0], rows[24][0], rows[8760][0]) == ("01/01 01:00", "01/01 24:00", "12/31 24:00")
-    south = np.array([float(row[rows[0].index("house/south_1")]) for row in rows[1:]])
-    with h5py.File(os.path.join(exports.folder, result), "r") as file:
-        x, y, z = file["sun_direction"][()].T
-        facades = [name.decode() for name in file["facade_name"][()]]
-        patches = (file["patch_facade"][()] == facades.index("house/south_1")).sum()
-    front = (z > 0) & (y < 0)
-    shadow = np.clip(5 + 10 * z[front] / y[front], 0, 6)
-    expected = 1 - shadow / 6
-    assert (south[~front] == 0).all() and 0.1 < np.mean((expected > 0) & (expected < 1)), "the wall shades nothing"
-    # The facade is sampled at points: five standard errors of as many without strata.
-    off = np.abs(south[front] - expected).max()
-    assert off < 5 * np.sqrt(0.25 / (16 * patches)), off
     ran = exports.run("export", RESULT, "--to", "energyplus")
-    assert ran.returncode == WRONG_INPUT and "365" in ran.stderr, ran.stderr
+    assert ran.returncode == WRONG_INPUT and "365" in ran.stderr and not ran.stdout, ran.stderr
 
 
 def refuses(check, *arguments):
