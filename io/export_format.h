@@ -76,7 +76,7 @@ void export_vrml(const ResultReader&, const ExportRules&, const ExportTarget&);
 void export_ply(const ResultReader&, const ExportRules&, const ExportTarget&);
 
 /// Sunlit fraction of every facade at every step of a year, CSV: direct light by what an unshaded
-/// facade would get. The layout is that of EnergyPlus's own table of shading.
+/// facade would get. The layout is meant for EnergyPlus' Schedule:File:Shading, and was not tried with it.
 void export_energyplus(const ResultReader&, const ExportRules&, const ExportTarget&);
 
 }  // namespace sunload
