@@ -4,7 +4,6 @@
 
 #include "geo/units.h"
 #include "solver/parallel.h"
-#include "solver/push_pull.h"
 
 namespace sunload {
 

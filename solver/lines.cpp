@@ -7,8 +7,8 @@
 #include "solver/lamps.h"
 #include "solver/line_follower.h"
 #include "solver/parallel.h"
+#include "solver/patch_lines.h"
 #include "solver/rng.h"
-#include "solver/sampling.h"
 
 namespace sunload {
 
@@ -95,76 +95,47 @@ class BlockTracer {
  private:
   int lines_per_realization() const { return rules_.lines_per_patch / rules_.realizations; }
 
-  RandomWords seeds(Purpose purpose, std::size_t realization, std::size_t patch) const {
-    return random_words({.seed = rules_.seed,
-                         .purpose = purpose,
-                         .realization = static_cast<std::uint32_t>(realization),
-                         .element = hierarchy_.key()[patch]});
-  }
-
   void trace_patch(std::size_t patch, std::size_t realization, const LampView& view,
                    LineCollector& into, Output& output) const {
-    const Start start(hierarchy_, patch, caster_.offset_m());
-    const auto of_lines = seeds(Purpose::lines, realization, patch);
-    const RandomKey line{.seed = rules_.seed,
-                         .purpose = Purpose::glossy,
-                         .realization = static_cast<std::uint32_t>(realization),
-                         .element = hierarchy_.key()[patch]};
+    const PatchLines lines(hierarchy_, patch, caster_.offset_m(),
+                           line_seeds(hierarchy_, patch, realization, rules_.seed));
+    RandomKey key{.seed = rules_.seed,
+                  .purpose = Purpose::glossy,
+                  .realization = static_cast<std::uint32_t>(realization),
+                  .element = hierarchy_.key()[patch]};
     const auto count = static_cast<std::size_t>(lines_per_realization());
     for (std::size_t first = 0; first < count; first += packet_size)
-      trace_packet(start, patch, view, of_lines, line, first, std::min(packet_size, count - first), into,
+      trace_packet(lines, patch, view, key, first, std::min(packet_size, count - first), into,
                    output.first_light[realization], output.rays);
     if (!lamps_.any()) return;
-    const auto seen =
-        view.seen_by_points(caster_, seeds(Purpose::lamps, realization, patch), count);
+    key.purpose = Purpose::lamps;
+    const auto seen = view.seen_by_points(caster_, random_words(key), count);
     into.lamps += seen.sum;
     output.rays += seen.rays;
   }
 
-  /// Geometry of the patch that its lines start on.
-  struct Start {
-    Start(const Hierarchy& h, std::size_t patch, double offset_m)
-        : a(h.corner(patch, 0)), b(h.corner(patch, 1)), c(h.corner(patch, 2)),
-          n(h.normal(patch)), axes(tangents(n)), lift(n * offset_m) {}
-    Vec3 a, b, c, n;
-    Tangents axes;
-    Vec3 lift;
-  };
-
-  void trace_packet(const Start& start, std::size_t patch, const LampView& view,
-                    const RandomWords& seeds, RandomKey line, std::size_t first,
-                    std::size_t count, LineCollector& into,
+  void trace_packet(const PatchLines& lines, std::size_t patch, const LampView& view,
+                    RandomKey key, std::size_t first, std::size_t count, LineCollector& into,
                     MirroredFirstLight& first_light, std::uint64_t& rays) const {
-    Vec3 origin[packet_size], w[packet_size];
+    PatchLines::Line line[packet_size];
     Packet origins{}, directions{};
     for (std::size_t l = 0; l < count; ++l) {
-      double x[sobol_dimensions];
-      for (int d = 0; d < sobol_dimensions; ++d)
-        x[d] = owen_scrambled(sobol(static_cast<std::uint32_t>(first + l), d),
-                              seeds[static_cast<std::size_t>(d)]) * 0x1p-32;
-      const Vec3 local = sample_cosine(x[0], x[1]);
-      const Barycentric at = sample_triangle(x[2], x[3]);
-      w[l] = start.axes.tangent * local.x + start.axes.bitangent * local.y + start.n * local.z;
-      origin[l] = start.a * at.w0 + start.b * at.w1 + start.c * at.w2 + start.lift;
-      put(origins, l, origin[l]);
-      put(directions, l, w[l]);
+      line[l] = lines[static_cast<std::uint32_t>(first + l)];
+      put(origins, l, line[l].origin);
+      put(directions, l, line[l].w);
     }
     const auto hits = caster_.first_hits(origins, directions, (1u << count) - 1u);
+    const Vec3 normal = hierarchy_.normal(patch);
     rays += count;
     for (std::size_t l = 0; l < count; ++l) {
       const Hit hit = hits[l];
-      line.sun = static_cast<std::uint32_t>(first + l);
-      if (lamps_.any()) into.lamps += view.seen_by_line(hit, w[l], dot(w[l], start.n));
-      rays += follower_.follow(origin[l], w[l], hit, line, into);
+      const auto& [origin, w] = line[l];
+      key.sun = static_cast<std::uint32_t>(first + l);
+      if (lamps_.any()) into.lamps += view.seen_by_line(hit, w, dot(w, normal));
+      rays += follower_.follow(origin, w, hit, key, into);
       if (hit.left_scene() && sends_on(follower_.material_of_patch(patch)))
-        rays += book_mirrored(origin[l], w[l], patch, line, first_light);
+        rays += book_mirrored(origin, w, patch, key, first_light);
     }
-  }
-
-  static void put(Packet& packet, std::size_t l, Vec3 v) {
-    packet.x[l] = static_cast<float>(v.x);
-    packet.y[l] = static_cast<float>(v.y);
-    packet.z[l] = static_cast<float>(v.z);
   }
 
   /// The line brings first light to a mirror: its way on is booked here, since

@@ -6,7 +6,6 @@
 #include "geo/units.h"
 #include "solver/instant_spread.h"
 #include "solver/parallel.h"
-#include "solver/push_pull.h"
 #include "solver/sensor_light.h"
 #include "solver/shooting.h"
 #include "solver/stopwatch.h"
