@@ -104,6 +104,9 @@ std::string pairing_id(const VariantPlan& plan) {
 
 // Costs of one core [s], and sizes [bytes], fitted by scripts/scaling.py to a
 // street of 20 000 … 260 000 patches (AVX-512): docs/scaling.md.
+// Where surfaces emit, a line has a point on a bright surface beside it, three eighths of both go
+// before, and three times an eighth is spent on what sees what (solver/guide.cpp).
+constexpr double rays_by_guide = 1 + 3 * 2 * 0.125 + 3 * 0.125;
 // A line through 2^n triangles takes s_per_line + n · s_per_level: from a box on a plane to a city.
 constexpr double s_per_line = 1.64e-7, s_per_level = 1.23e-8;
 constexpr double share_that_meets = 0.6;  ///< of the lines; the others leave the scene
@@ -328,6 +331,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   };
   const bool mirrors = has([](const Material& m) { return sends_on(m); });
   const bool lamps = has_lamps(plan);
+  const bool guided = s.transport == Transport::gather &&
+                      has([](const Material& m) { return m.emission_w_m2 > 0; });
   // Total, direct, sky, reflected, and what the scene has besides.
   const double parts = 4.0 + (mirrors ? 1 : 0) + (lamps ? 1 : 0);
   const auto n = static_cast<double>(patches + plan.built.scene.sensors.size());
@@ -358,7 +363,9 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
                     n * (of_realizations + result_bytes_per_patch) +
                     (plan.batches() > 1 ? lines * kept_bytes_per_line : 0);
   work.seconds =
-      (s_to_start + n * s_per_patch + lines * line_seconds(plan.built.scene, s.mirror_depth) + rays * s_per_direct_ray +
+      (s_to_start + n * s_per_patch +
+       lines * (guided ? 1 + rays_by_guide : 1) * line_seconds(plan.built.scene, s.mirror_depth) +
+       rays * s_per_direct_ray +
        (mirrors ? n * mirrored_share * lit * counts.direct_samples * s_per_mirror_ray : 0) +
        (s.transport == Transport::gather
             ? links * lit * s_per_link_sun + links * batches * s_per_link_batch

@@ -137,7 +137,8 @@ Glimpse LineFollower::glimpse(const Hit& hit, Vec3 n, Vec3 w, double weight) con
 }
 
 std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first,
-                                   const RandomKey& line, LineCollector& into) const {
+                                   const RandomKey& line, LineCollector& into,
+                                   double share_of_first) const {
   std::uint64_t rays = 0;
   double weight = 1, path_m = 0;
   Hit hit = first;
@@ -162,11 +163,12 @@ std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first,
     path_m += hit.distance_m;
     const Material& material = material_of(hit.triangle);
     weight /= 1 - material.transmittance;  // rays are stopped by that share
+    const double counted = reflections == 0 ? weight * share_of_first : weight;
     if (material.diffuse > 0 || material.emission_w_m2 > 0)
       into.patches.push_back({linked_element(static_cast<std::size_t>(patch),
                                              origin + w * hit.distance_m, path_m),
-                              static_cast<float>(weight)});
-    if (reflections > 0) into.lamps += weight * material.emission_w_m2;
+                              static_cast<float>(counted)});
+    into.lamps += counted * material.emission_w_m2;
     if (!sends_on(material)) return rays;
     const Vec3 n = met_normal(scene_.mesh, hit);
     if (material.glossy > 0 && reflections < mirror_depth_)
@@ -187,6 +189,12 @@ std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first,
     hit = caster_.first_hit(origin, w);
     ++rays;
   }
+}
+
+void LineFollower::link(const BrightView::SeenPoint& point, LineCollector& into) const {
+  into.patches.push_back({linked_element(point.patch, point.position, point.distance_m),
+                          static_cast<float>(point.share)});
+  into.lamps += point.share * point.exitance;
 }
 
 LineFollower::Fate LineFollower::mirrored_on(Vec3 origin, Vec3 w, std::size_t patch,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geo/sky.h"
+#include "solver/bright_view.h"
 #include "solver/lines.h"
 #include "solver/rng.h"
 
@@ -34,11 +35,13 @@ class LineFollower {
                const SkyGrid& grid, int mirror_depth, double largest_link = 0);
 
   /// A line that left its patch from `origin` along the unit vector `w` and met `hit`; adds
-  /// its links, its end, and the emitters that mirrors show it (those that it meets straight are
-  /// weighed by solver/lamps.h). `line` addresses the random numbers of glossy surfaces (its
-  /// `block` is set here). Returns the rays cast.
+  /// its links, its end, and the emitters that it sees. Of what it meets straight it counts
+  /// `share_of_first`; the rest is seen by points (solver/bright_view.h). `line` addresses the
+  /// random numbers of glossy surfaces (its `block` is set here). Returns the rays cast.
   std::uint64_t follow(Vec3 origin, Vec3 w, const Hit& hit, const RandomKey& line,
-                       LineCollector& into) const;
+                       LineCollector& into, double share_of_first = 1) const;
+  /// Adds the link to a point of a bright surface, and the emitter that it is.
+  void link(const BrightView::SeenPoint& point, LineCollector& into) const;
 
   /// Where light ends that a surface sends on, and what becomes of it at the surfaces that
   /// `depends_on_angle`: shares of what arrived.

@@ -4,7 +4,6 @@
 #include <atomic>
 
 #include "geo/check.h"
-#include "solver/lamps.h"
 #include "solver/line_follower.h"
 #include "solver/parallel.h"
 #include "solver/patch_lines.h"
@@ -52,12 +51,12 @@ namespace {
 class BlockTracer {
  public:
   BlockTracer(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-              const SkyGrid& grid, const LineRules& rules)
+              const SkyGrid& grid, const Guide& guide, const LineRules& rules)
       : hierarchy_(hierarchy),
         caster_(caster),
         rules_(rules),
         follower_(scene, hierarchy, caster, grid, rules.mirror_depth, rules.largest_link),
-        lamps_(scene, hierarchy),
+        guide_(guide),
         ground_source_(static_cast<std::size_t>(grid.cell_count())) {}
 
   struct Output {
@@ -66,13 +65,11 @@ class BlockTracer {
     std::uint64_t rays = 0;
   };
 
-  bool any_lamps() const { return lamps_.any(); }
-
   Output trace(std::size_t begin, std::size_t end, Lines& lines) const {
     Output output;
     output.first_light.resize(lines.realizations.size());
     LineCollector own, pooled;
-    LampView view(lamps_);
+    BrightView view(guide_);
     for (std::size_t patch = begin; patch < end; ++patch) {
       pooled.clear();
       view.look_from(hierarchy_, patch);
@@ -95,7 +92,7 @@ class BlockTracer {
  private:
   int lines_per_realization() const { return rules_.lines_per_patch / rules_.realizations; }
 
-  void trace_patch(std::size_t patch, std::size_t realization, const LampView& view,
+  void trace_patch(std::size_t patch, std::size_t realization, const BrightView& view,
                    LineCollector& into, Output& output) const {
     const PatchLines lines(hierarchy_, patch, caster_.offset_m(),
                            line_seeds(hierarchy_, patch, realization, rules_.seed));
@@ -107,14 +104,13 @@ class BlockTracer {
     for (std::size_t first = 0; first < count; first += packet_size)
       trace_packet(lines, patch, view, key, first, std::min(packet_size, count - first), into,
                    output.first_light[realization], output.rays);
-    if (!lamps_.any()) return;
+    if (!view.any()) return;
     key.purpose = Purpose::lamps;
-    const auto seen = view.seen_by_points(caster_, random_words(key), count);
-    into.lamps += seen.sum;
-    output.rays += seen.rays;
+    output.rays += view.see_points(caster_, random_words(key), count,
+                                   [&](const auto& point) { follower_.link(point, into); });
   }
 
-  void trace_packet(const PatchLines& lines, std::size_t patch, const LampView& view,
+  void trace_packet(const PatchLines& lines, std::size_t patch, const BrightView& view,
                     RandomKey key, std::size_t first, std::size_t count, LineCollector& into,
                     MirroredFirstLight& first_light, std::uint64_t& rays) const {
     PatchLines::Line line[packet_size];
@@ -131,8 +127,8 @@ class BlockTracer {
       const Hit hit = hits[l];
       const auto& [origin, w] = line[l];
       key.sun = static_cast<std::uint32_t>(first + l);
-      if (lamps_.any()) into.lamps += view.seen_by_line(hit, w, dot(w, normal));
-      rays += follower_.follow(origin, w, hit, key, into);
+      rays += follower_.follow(origin, w, hit, key, into,
+                               view.share_of_line(hierarchy_, hit, w, dot(w, normal)));
       if (hit.left_scene() && sends_on(follower_.material_of_patch(patch)))
         rays += book_mirrored(origin, w, patch, key, first_light);
     }
@@ -156,7 +152,7 @@ class BlockTracer {
   const RayCaster& caster_;
   const LineRules& rules_;
   LineFollower follower_;
-  Lamps lamps_;
+  const Guide& guide_;
   std::size_t ground_source_;
 };
 
@@ -181,13 +177,14 @@ void trim(LineSet& set, std::size_t block) {
 }  // namespace
 
 Lines trace_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-                  const SkyGrid& grid, const LineRules& rules, Watch& watch) {
+                  const SkyGrid& grid, const Guide& guide, const LineRules& rules,
+                  Watch& watch) {
   SUNLOAD_EXPECT(rules.realizations >= 1 && rules.lines_per_patch % rules.realizations == 0,
                  "lines are shared equally by the realizations");
   const std::size_t patches = hierarchy.patch_count();
-  const BlockTracer tracer(scene, hierarchy, caster, grid, rules);
+  const BlockTracer tracer(scene, hierarchy, caster, grid, guide, rules);
   Lines lines;
-  lines.pooled = empty_line_set(patches, tracer.any_lamps());
+  lines.pooled = empty_line_set(patches, guide.any());
   lines.realizations.assign(static_cast<std::size_t>(rules.realizations), lines.pooled);
 
   std::vector<BlockTracer::Output> outputs(lines.pooled.patches.blocks.size());

@@ -10,14 +10,16 @@
 ///
 ///     E_i = Σ_links w B_target + Σ_sky links w π L_cell + w_ground B_ground
 ///
-/// with B the light that was reflected; that of emitters, which small lamps make rare along
-/// lines, is sampled with them once and for all (solver/lamps.h).
+/// with B the light that was reflected; that of emitters is constant in time and summed up once and
+/// for all. Bright surfaces, which may be rare along lines, get links from points drawn on them
+/// too (solver/bright_view.h).
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "geo/sky.h"
+#include "solver/bright_view.h"
 #include "solver/hierarchy.h"
 #include "solver/ray_caster.h"
 #include "solver/watch.h"
@@ -112,9 +114,10 @@ struct Lines {
   std::uint64_t rays = 0;  ///< cast, chains included
 };
 
-/// Traces all lines. Cost: patches × lines_per_patch rays, and as many shadow rays where the
-/// scene has emitters. Throws Interrupted.
+/// Traces all lines. Cost: patches × lines_per_patch rays, and as many shadow rays where there
+/// are bright surfaces. Throws Interrupted.
 Lines trace_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-                  const SkyGrid& grid, const LineRules& rules, Watch& watch);
+                  const SkyGrid& grid, const Guide& guide, const LineRules& rules,
+                  Watch& watch);
 
 }  // namespace sunload

@@ -21,7 +21,7 @@ class PatchLines {
   Line operator[](std::uint32_t index) const {
     double x[sobol_dimensions];
     for (int d = 0; d < sobol_dimensions; ++d)
-      x[d] = owen_scrambled(sobol(index, d), seeds_[static_cast<std::size_t>(d)]) * 0x1p-32;
+      x[d] = scrambled_sobol(index, d, seeds_);
     const Vec3 local = sample_cosine(x[0], x[1]);
     const Barycentric at = sample_triangle(x[2], x[3]);
     return {a_ * at.w0 + b_ * at.w1 + c_ * at.w2 + lift_,

@@ -61,8 +61,8 @@ struct Pilot::Points {
       Packet packet;
       for (std::size_t r = 0; r < packet_size; ++r) {
         const auto index = static_cast<std::uint32_t>(p * packet_size + r);
-        const double u = owen_scrambled(sobol(index, 0), seeds[0]) * 0x1p-32;
-        const double v = owen_scrambled(sobol(index, 1), seeds[1]) * 0x1p-32;
+        const double u = scrambled_sobol(index, 0, seeds);
+        const double v = scrambled_sobol(index, 1, seeds);
         const Barycentric at = sample_triangle(u, v);
         const Vec3 point = a + ab * at.w1 + ac * at.w2 + normal * offset_m;
         packet.x[r] = static_cast<float>(point.x);
@@ -151,8 +151,7 @@ void Pilot::add_surroundings(const Points& points, std::size_t packet, std::uint
   const RandomWords& seeds = points.direction_seeds[half];
   constexpr double share = 1.0 / directions_per_half;
   for (std::uint32_t d = 0; d < directions_per_half; ++d) {
-    const Vec3 local = sample_cosine(owen_scrambled(sobol(d, 0), seeds[0]) * 0x1p-32,
-                                     owen_scrambled(sobol(d, 1), seeds[1]) * 0x1p-32);
+    const Vec3 local = sample_cosine(scrambled_sobol(d, 0, seeds), scrambled_sobol(d, 1, seeds));
     const Vec3 w = points.axes.tangent * local.x + points.axes.bitangent * local.y +
                    points.normal * local.z;
     const double beyond = w.z > 0 ? light_.sky[static_cast<std::size_t>(grid_.cell(w))]
@@ -170,7 +169,7 @@ void Pilot::add_emitters(const Points& points, std::size_t packet, std::uint32_t
   const Packet& origins = points.packets[packet];
   const RandomWords& seeds = points.emitter_seeds[half];
   for (std::uint32_t s = 0; s < emitter_points_per_half; ++s) {
-    const auto number = [&](int d) { return owen_scrambled(sobol(s, d), seeds[static_cast<std::size_t>(d)]) * 0x1p-32; };
+    const auto number = [&](int d) { return scrambled_sobol(s, d, seeds); };
     const auto emitter = std::lower_bound(
         emitters_.begin(), emitters_.end() - 1, number(0),
         [](const Emitter& e, double share) { return e.power_share <= share; });

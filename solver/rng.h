@@ -20,6 +20,7 @@ enum class Purpose : std::uint32_t {
   lamps = 8,
   circumsolar = 9,
   parallel_light = 10,
+  bright_surfaces = 11,
   shooting = 16,
 };
 

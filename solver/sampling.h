@@ -46,6 +46,12 @@ inline std::uint32_t sobol(std::uint32_t index, int dimension) {
   return x;
 }
 
+/// The same in [0, 1), scrambled by the dimension's own seed.
+inline double scrambled_sobol(std::uint32_t index, int dimension, const RandomWords& seeds) {
+  return owen_scrambled(sobol(index, dimension), seeds[static_cast<std::size_t>(dimension)]) *
+         0x1p-32;
+}
+
 /// Barycentric weights (of corners 0, 1, 2), uniform on a triangle.
 /// Heitz (2019), A Low-Distortion Map Between Triangle and Square.
 struct Barycentric {

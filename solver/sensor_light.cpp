@@ -4,7 +4,6 @@
 #include <bit>
 
 #include "geo/check.h"
-#include "solver/lamps.h"
 #include "solver/line_follower.h"
 #include "solver/parallel.h"
 #include "solver/rng.h"
@@ -15,9 +14,9 @@ namespace sunload {
 namespace {
 
 /// Lines of one sensor in one realization. Returns the rays cast.
-std::uint64_t trace(const Sensor& sensor, const RayCaster& caster, const LineFollower& follower,
-                    const LampView* lamps, const RandomKey& key, std::size_t lines,
-                    LineCollector& into) {
+std::uint64_t trace(const Sensor& sensor, const Hierarchy& hierarchy, const RayCaster& caster,
+                    const LineFollower& follower, const BrightView& view, const RandomKey& key,
+                    std::size_t lines, LineCollector& into) {
   const Vec3 origin = sensor.position + sensor.normal * caster.offset_m();
   const Tangents axes = tangents(sensor.normal);
   const auto seeds = random_words(key);
@@ -28,8 +27,8 @@ std::uint64_t trace(const Sensor& sensor, const RayCaster& caster, const LineFol
     Packet origins{}, directions{};
     for (std::size_t l = 0; l < count; ++l) {
       const auto index = static_cast<std::uint32_t>(first + l);
-      const double u = owen_scrambled(sobol(index, 0), seeds[0]) * 0x1p-32;
-      const double v = owen_scrambled(sobol(index, 1), seeds[1]) * 0x1p-32;
+      const double u = scrambled_sobol(index, 0, seeds);
+      const double v = scrambled_sobol(index, 1, seeds);
       const Vec3 local = sample_cosine(u, v);
       w[l] = axes.tangent * local.x + axes.bitangent * local.y + sensor.normal * local.z;
       put(origins, l, origin);
@@ -38,22 +37,18 @@ std::uint64_t trace(const Sensor& sensor, const RayCaster& caster, const LineFol
     const auto hits = caster.first_hits(origins, directions, (1u << count) - 1u);
     rays += count;
     for (std::size_t l = 0; l < count; ++l) {
-      if (lamps)
-        into.lamps += lamps->seen_by_line(hits[l], w[l], dot(w[l], sensor.normal));
       RandomKey of_line = key;
       of_line.purpose = Purpose::glossy;
       of_line.sun = static_cast<std::uint32_t>(first + l);
-      rays += follower.follow(origin, w[l], hits[l], of_line, into);
+      rays += follower.follow(origin, w[l], hits[l], of_line, into,
+                              view.share_of_line(hierarchy, hits[l], w[l], dot(w[l], sensor.normal)));
     }
   }
-  if (lamps) {
-    RandomKey of_points = key;
-    of_points.purpose = Purpose::lamps;
-    const auto seen = lamps->seen_by_points(caster, random_words(of_points), lines);
-    into.lamps += seen.sum;
-    rays += seen.rays;
-  }
-  return rays;
+  if (!view.any()) return rays;
+  RandomKey of_points = key;
+  of_points.purpose = Purpose::lamps;
+  return rays + view.see_points(caster, random_words(of_points), lines,
+                                [&](const auto& point) { follower.link(point, into); });
 }
 
 }  // namespace
@@ -66,28 +61,27 @@ std::uint64_t sensor_key(Vec3 absolute_position, Vec3 normal) {
 }
 
 Lines trace_sensor_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-                         const SkyGrid& grid, const LineRules& rules) {
+                         const SkyGrid& grid, const Guide& guide, const LineRules& rules) {
   SUNLOAD_EXPECT(rules.realizations >= 1 && rules.lines_per_patch % rules.realizations == 0,
                  "lines are shared equally by the realizations");
   const auto& sensors = scene.sensors;
   const int each = rules.lines_per_patch / rules.realizations;
   const LineFollower follower(scene, hierarchy, caster, grid, rules.mirror_depth);
-  const Lamps lamps(scene, hierarchy);
   Lines lines;
-  lines.pooled = empty_line_set(sensors.size(), lamps.any());
+  lines.pooled = empty_line_set(sensors.size(), guide.any());
   lines.realizations.assign(static_cast<std::size_t>(rules.realizations), lines.pooled);
   lines.rays = ordered_sum(
       sensors.size(), LinkTable::rows_per_block, std::uint64_t{0},
       [&](std::size_t begin, std::size_t end) {
         std::uint64_t rays = 0;
         LineCollector own, pooled;
-        LampView view(lamps);
+        BrightView view(guide);
         for (std::size_t s = begin; s < end; ++s) {
           pooled.clear();
           view.look_from(sensors[s].position, sensors[s].normal);
           for (std::size_t r = 0; r < lines.realizations.size(); ++r) {
             own.clear();
-            rays += trace(sensors[s], caster, follower, lamps.any() ? &view : nullptr,
+            rays += trace(sensors[s], hierarchy, caster, follower, view,
                           {.seed = rules.seed,
                            .purpose = Purpose::lines,
                            .realization = static_cast<std::uint32_t>(r),

@@ -4,6 +4,7 @@
 
 #include "geo/check.h"
 #include "geo/units.h"
+#include "solver/guide.h"
 #include "solver/instant_spread.h"
 #include "solver/parallel.h"
 #include "solver/sensor_light.h"
@@ -22,17 +23,23 @@ LineRules line_rules(const SolverRules& rules) {
 }
 
 Lines timed_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-                  const SkyGrid& grid, const SolverRules& rules, Watch& watch, WorkDone& work) {
+                  const SkyGrid& grid, const PatchOptics& optics, const SolverRules& rules,
+                  Watch& watch, WorkDone& work) {
   const Stopwatch time(work.lines_s);
-  Lines lines = trace_lines(scene, hierarchy, caster, grid, line_rules(rules), watch);
+  Guide guide;  // shooting samples emitters in its own way
+  if (rules.transport == Transport::gather)
+    guide = lit_surfaces(scene, hierarchy, caster, grid, optics, line_rules(rules), rules.bounces);
+  Lines lines = trace_lines(scene, hierarchy, caster, grid, guide, line_rules(rules), watch);
   work.line_rays = lines.rays;
   return lines;
 }
 
 Lines timed_sensor_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-                         const SkyGrid& grid, const SolverRules& rules, WorkDone& work) {
+                         const SkyGrid& grid, const PatchOptics& optics, const SolverRules& rules,
+                         WorkDone& work) {
   const Stopwatch time(work.sensors_s);
-  Lines lines = trace_sensor_lines(scene, hierarchy, caster, grid, line_rules(rules));
+  Lines lines = trace_sensor_lines(scene, hierarchy, caster, grid,
+                                   emitting_surfaces(scene, hierarchy, optics), line_rules(rules));
   work.sensor_rays = lines.rays;
   return lines;
 }
@@ -148,8 +155,8 @@ LightSolver::LightSolver(const Scene& scene, std::shared_ptr<const Hierarchy> me
       caster_(scene.mesh, rules.isa, screens(scene)),
       optics_(patch_optics(scene, hierarchy_)),
       lines_(ready ? std::move(*ready)
-                   : timed_lines(scene, hierarchy_, caster_, grid_, rules, watch, work_)),
-      sensor_lines_(timed_sensor_lines(scene, hierarchy_, caster_, grid_, rules, work_)),
+                   : timed_lines(scene, hierarchy_, caster_, grid_, optics_, rules, watch, work_)),
+      sensor_lines_(timed_sensor_lines(scene, hierarchy_, caster_, grid_, optics_, rules, work_)),
       sampler_(hierarchy_, caster_, {rules.direct_samples, rules.realizations, rules.seed}),
       sensor_sampler_(scene.sensors, caster_,
                       {rules.direct_samples, rules.realizations, rules.seed}),

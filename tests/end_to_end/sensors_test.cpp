@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 
@@ -165,6 +166,43 @@ std::string walls(const nlohmann::json& c) {
          wall(13, -W, D, -W, -D, H);
 }
 
+/// Seconds from 1970 to the beginning of a date, as YYYY-MM-DD, in UTC.
+double seconds_of(const std::string& date) {
+  using namespace std::chrono;
+  const sys_days day = year{std::stoi(date.substr(0, 4))} /
+                       month{static_cast<unsigned>(std::stoi(date.substr(5, 2)))} /
+                       std::chrono::day{static_cast<unsigned>(std::stoi(date.substr(8, 2)))};
+  return static_cast<double>(duration_cast<seconds>(day.time_since_epoch()).count());
+}
+
+/// Stretches of sun on a sensor [h UTC of the date], from the intervals in which it has light.
+std::vector<std::pair<double, double>> stretches(const ResultReader& result, std::size_t sensor,
+                                                 const std::string& date) {
+  const auto bounds = result.doubles("time_bounds"), light = result.doubles("sensor_irradiance");
+  const std::size_t sensors = result.shape("sensor_irradiance")[1];
+  const auto hour = [&](double seconds) { return (seconds - seconds_of(date)) / 3600; };
+  std::vector<std::pair<double, double>> lit;
+  bool was_lit = false;
+  for (std::size_t k = 0; k < bounds.size() / 2; ++k) {
+    const bool is_lit = light[k * sensors + sensor] > 0;
+    if (is_lit && !was_lit) lit.emplace_back(hour(bounds[2 * k]), 0);
+    if (is_lit) lit.back().second = hour(bounds[2 * k + 1]);
+    was_lit = is_lit;
+  }
+  return lit;
+}
+
+/// Largest difference of their ends [h]; infinite where they are not as many.
+double largest_difference(const std::vector<std::pair<double, double>>& found,
+                          const nlohmann::json& intervals) {
+  if (found.size() != intervals.size()) return INFINITY;
+  double largest = 0;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    largest = std::max({largest, std::abs(found[i].first - number(intervals[i][0])),
+                        std::abs(found[i].second - number(intervals[i][1]))});
+  return largest;
+}
+
 TEST(SensorSunHours, OfCourtyardsStreetsAndWalls) {
   if (shared_missing("reference")) return;
   constexpr double step_min = 1, hour_min = 60;
@@ -196,8 +234,13 @@ TEST(SensorSunHours, OfCourtyardsStreetsAndWalls) {
     const double most = static_cast<double>(c["intervals_utc_h"].size()) * step_min / hour_min;
     std::cout << id << ": " << hours << " h, truth " << truth << " h, limit " << most << "\n";
     EXPECT_NEAR(hours, truth, most + 1e-3) << id;
+    constexpr double most_at_an_end = 2 * step_min / hour_min;
+    const double at_ends = largest_difference(stretches(result, 0, date), c["intervals_utc_h"]);
+    std::cout << "  ends differ by at most " << at_ends * 60 << " min\n";
+    EXPECT_LE(at_ends, most_at_an_end) << id;
     // Planted fault: an observer who stands 4 m aside.
     if (truth > 0) {
+      EXPECT_GT(largest_difference(stretches(result, 1, date), c["intervals_utc_h"]), most_at_an_end);
       EXPECT_GT(std::abs(result.doubles("sensor_sun_hours")[1] - truth), most + 1e-3) << id;
     }
   }

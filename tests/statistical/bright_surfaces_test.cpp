@@ -1,6 +1,6 @@
 /// Emitters sampled directly: exact where the answer is known, quiet where lines are not.
 
-#include "solver/lamps.h"
+#include "solver/bright_view.h"
 
 #include <gtest/gtest.h>
 
@@ -36,10 +36,15 @@ struct ByLamps {
     std::vector<double> emission(optics.emission.begin(), optics.emission.end());
     emission.resize(solver.hierarchy().element_count());
     pull_up(solver.hierarchy(), emission);
-    for (const auto& set : solver.lines().realizations) {
-      both.push_back(set.lamps);
-      lines.emplace_back(set.lamps.size());
-      gather(set.patches, emission, lines.back(), Into::replace);
+    const SolverRules& rules = solver.rules();
+    const auto plain = trace_lines(scene, solver.hierarchy(), solver.caster(), solver.sky_grid(), {},
+                                   {rules.lines_per_patch, rules.realizations, rules.mirror_depth,
+                                    rules.seed, 0},
+                                   watch);
+    for (std::size_t r = 0; r < plain.realizations.size(); ++r) {
+      both.push_back(solver.lines().realizations[r].lamps);
+      lines.emplace_back(both.back().size());
+      gather(plain.realizations[r].patches, emission, lines.back(), Into::replace);
     }
   }
 
@@ -221,6 +226,53 @@ TEST(Lamps, AreSeenInMirrors) {
   const auto truth = mean_error(received(image, straight.scene(), 1));
   check("lamp in a mirror", received(in_mirror, by_mirror.scene(), 1), 0.8 * truth.mean,
         0.8 * accepted_t(in_mirror.both.size()) * truth.standard_error);
+}
+
+/// Irradiance by surfaces of a radiosity that grows with height, from links alone.
+std::vector<double> linked_power(const Lines& lines, const Hierarchy& mesh) {
+  std::vector<double> radiosity(mesh.element_count(), 0), irradiance(mesh.patch_count());
+  for (std::size_t i = 0; i < mesh.patch_count(); ++i) radiosity[i] = exitance * mesh.centroid(i).z;
+  std::vector<double> sums;
+  for (const auto& set : lines.realizations) {
+    gather(set.patches, radiosity, irradiance, Into::replace);
+    double sum = 0;
+    for (std::size_t i = 0; i < irradiance.size(); ++i) sum += mesh.area()[i] * irradiance[i];
+    sums.push_back(sum);
+  }
+  return sums;
+}
+
+// A guide may be wrong: it decides how noisy links are, not what they carry.
+TEST(BrightSurfaces, LinksDoNotDependOnTheGuide) {
+  SceneBuilder builder = room();
+  builder.object("box").box({1, 1, 0.5}, {2, 2, 1.5}, builder.material({"box", 0.3, 0, 0}),
+                            Facing::outward);
+  builder.object("screen").quad({2.5, 0.5, 1}, {2.5, 2.5, 1}, {2.5, 2.5, 2}, {2.5, 0.5, 2},
+                                builder.material({.name = "screen", .diffuse = 0.4, .transmittance = 0.5}));
+  const Scene& scene = builder.scene();
+  const Hierarchy mesh(scene, {.max_edge_m = 1});
+  const RayCaster caster(scene.mesh, "auto", screens(scene));
+  const SkyGrid grid;
+  Watch watch;
+  const LineRules rules{.lines_per_patch = 32 * 64, .realizations = 32};
+  const auto plain = linked_power(trace_lines(scene, mesh, caster, grid, {}, rules, watch), mesh);
+  std::vector<double> guess(mesh.patch_count());
+  for (std::size_t i = 0; i < guess.size(); ++i) guess[i] = static_cast<double>(mesh.key()[i] % 5);
+  Guide guide{{scene, mesh, guess, 16}, {}, {}};
+  guide.sight = ClusterSight(scene, mesh, caster, guide.surfaces, 1e5, 1);
+  for (std::size_t i = 0; i < guess.size(); ++i)
+    guide.lines_alone.push_back(0.25f * static_cast<float>(i % 5));
+  const auto guided = linked_power(trace_lines(scene, mesh, caster, grid, guide, rules, watch), mesh);
+  std::vector<double> difference, both;
+  for (std::size_t r = 0; r < plain.size(); ++r) {
+    difference.push_back(guided[r] - plain[r]);
+    both.push_back(guided[r] - 1.01 * plain[r]);
+  }
+  const double rounding = float_rounding * mean_error(plain).mean;
+  const Verdict verdict = expect_mean(difference, 0, rounding);
+  EXPECT_TRUE(verdict) << verdict.text;
+  EXPECT_FALSE(expect_mean(both, 0, rounding)) << "an error of one hundredth is found";
+  EXPECT_LT(mean_error(guided).standard_error, 2 * mean_error(plain).standard_error);
 }
 
 // Emitted and received balance with diffuse reflection and light that leaves.
