@@ -79,7 +79,7 @@ Intersections find_intersections(const Mesh& mesh) {
   auto boxes = boxes_of(mesh);
   CGAL::box_self_intersection_d(
       boxes.begin(), boxes.end(), [&](const TriangleBox& one, const TriangleBox& other) {
-        const auto [t, u] = std::minmax(one.info(), other.info());
+        const auto [t, u] = std::minmax({one.info(), other.info()});  // info() is a temporary
         if (!Pair(mesh, t, u).meet()) return;
         is_met[t] = is_met[u] = 1;
         found.between_objects += mesh.triangle_object[t] != mesh.triangle_object[u];

@@ -45,8 +45,6 @@ constexpr std::array table{
     TabledMaterial{"concrete", 0.10, 0.35, "wall or pavement", oke_urban},
     TabledMaterial{"concrete_tile", 0.25, 0.25, "unpainted cement roof tile", roofing},
     TabledMaterial{"concrete_weathered", 0.22, 0.22, "old concrete", hunn},
-    TabledMaterial{"conifer", 0.05, 0.15, "crown of a conifer", konarska, 0, skin_in_leaf, 0, 0, 1,
-                   Sides::two},
     TabledMaterial{"corrugated_iron", 0.10, 0.16, "roof, rusty", oke_urban},
     TabledMaterial{"crop", 0.18, 0.25, "field crops", oke_natural},
     TabledMaterial{"crown", 0.15, 0.20, "crown of a deciduous tree in leaf", konarska, 0,
