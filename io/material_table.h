@@ -6,6 +6,7 @@
 /// these values, since half of sunlight is infrared.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,7 +29,8 @@ struct TabledMaterial {
   int panes = 1;
   Sides sides = Sides::one;
 
-  double diffuse() const { return (low + high) / 2; }
+  /// Middle of the range, as the decimal number that a study would have.
+  double diffuse() const { return std::round((low + high) / 2 * 1e4) / 1e4; }
 };
 
 /// In alphabetical order of the names.

@@ -127,6 +127,19 @@ const std::map<std::string, int>& stated_differences() {
   return table;
 }
 
+/// Objects of every type of which the README counts some, but for those without geometry.
+void check_types(const std::string& name, const PolygonModel& model, const Facts& facts) {
+  std::smatch list;
+  if (!std::regex_search(facts.text, list, std::regex(R"(\d+ objects \(([^)]*)\))"))) return;
+  const std::string types = list[1];
+  const std::regex entry(R"((\d+) (\+?\w+))");
+  for (std::sregex_iterator it(types.begin(), types.end(), entry), end; it != end; ++it) {
+    const std::string type = (*it)[2];
+    const auto read = std::count(model.object_kinds.begin(), model.object_kinds.end(), type);
+    EXPECT_EQ(read, std::stol((*it)[1])) << name << " " << type;
+  }
+}
+
 void check_city(const std::string& path, const std::string& name, const PolygonModel& model,
                 const Facts& facts) {
   const auto stated = static_cast<std::ptrdiff_t>(facts.number(R"(; (\d+) polygons \()"));
@@ -211,19 +224,6 @@ void check_connections(const std::string& name, const PolygonModel& model, const
   EXPECT_EQ(found.duplicate, facts.number(R"(dup (\d+))")) << name << " dup";
   EXPECT_EQ(found.welded, facts.number(R"(weldverts (\d+))")) << name << " weldverts";
   EXPECT_EQ(triangle_count(model), facts.number(R"(tris (\d+))")) << name << " tris";
-}
-
-/// Objects of every type of which the README counts some, but for those without geometry.
-void check_types(const std::string& name, const PolygonModel& model, const Facts& facts) {
-  std::smatch list;
-  if (!std::regex_search(facts.text, list, std::regex(R"(\d+ objects \(([^)]*)\))"))) return;
-  const std::string types = list[1];
-  const std::regex entry(R"((\d+) (\+?\w+))");
-  for (std::sregex_iterator it(types.begin(), types.end(), entry), end; it != end; ++it) {
-    const std::string type = (*it)[2];
-    const auto read = std::count(model.object_kinds.begin(), model.object_kinds.end(), type);
-    EXPECT_EQ(read, std::stol((*it)[1])) << name << " " << type;
-  }
 }
 
 /// Vertices that no face uses: READMEs count them, readers leave them out.
