@@ -127,7 +127,21 @@ const std::map<std::string, int>& stated_differences() {
   return table;
 }
 
-/// Objects of every type of which the README counts some, but for those without geometry.
+/// Objects of a type with geometry, where READMEs also count those without: wholes of which only
+/// the parts have some, groups (their members have it), and instances of points.
+const std::map<std::pair<std::string, std::string>, long>& stated_types() {
+  static const std::map<std::pair<std::string, std::string>, long> table{
+      {{"3dbag_tile_5870_v11.city.jsonl", "Building"}, 1},  // the one with a footprint only
+      {{"corpus_cityjson_fake_complete.city.json", "+NoiseBuilding"}, 0},
+      {{"corpus_cityjson_fake_complete.city.json", "CityObjectGroup"}, 0},
+      {{"corpus_geometry_instance.city.json", "GenericCityObject"}, 0},
+      {{"geometry_templates_v20.city.jsonl", "CityObjectGroup"}, 0},
+      {{"several_lods_invalid_v11.city.json", "Building"}, 0},
+      {{"zurich_subset_lod2_v11.city.json", "Building"}, 0}};
+  return table;
+}
+
+/// Objects of every type of which the README counts some.
 void check_types(const std::string& name, const PolygonModel& model, const Facts& facts) {
   std::smatch list;
   if (!std::regex_search(facts.text, list, std::regex(R"(\d+ objects \(([^)]*)\))"))) return;
@@ -136,7 +150,9 @@ void check_types(const std::string& name, const PolygonModel& model, const Facts
   for (std::sregex_iterator it(types.begin(), types.end(), entry), end; it != end; ++it) {
     const std::string type = (*it)[2];
     const auto read = std::count(model.object_kinds.begin(), model.object_kinds.end(), type);
-    EXPECT_EQ(read, std::stol((*it)[1])) << name << " " << type;
+    const auto without = stated_types().find({name, type});
+    EXPECT_EQ(read, without == stated_types().end() ? std::stol((*it)[1]) : without->second)
+        << name << " " << type;
   }
 }
 
@@ -167,7 +183,7 @@ struct Connections {
   std::size_t open = 0;        ///< edges of one face
   std::size_t nonmanifold = 0; ///< edges of more than two
   std::size_t flipped = 0;     ///< edges that both faces walk in the same direction
-  std::size_t degenerate = 0;  ///< faces that come twice to a place
+  std::size_t degenerate = 0;  ///< faces that come twice to a place; they count no further
   std::size_t duplicate = 0;   ///< faces on the same corners as an earlier one
   std::size_t welded = 0;      ///< vertices in the place of an earlier one
 };
@@ -189,6 +205,7 @@ Connections connections(const PolygonModel& model) {
   std::set<std::vector<std::int32_t>> faces;
   for (std::size_t p = 0; p < model.polygon_count(); ++p) {
     std::vector<std::int32_t> corners;
+    std::vector<std::pair<std::int32_t, std::int32_t>> walked;
     for (std::int64_t r = 0; r < ring_count(model, p); ++r) {
       const auto ring = static_cast<std::size_t>(model.polygon_ring[p] + r);
       const auto begin = static_cast<std::size_t>(model.ring_begin[ring]);
@@ -198,24 +215,31 @@ Connections connections(const PolygonModel& model) {
         const auto next = k + 1 < end ? k + 1 : begin;
         const auto b = welded[static_cast<std::size_t>(model.ring_vertex[next])];
         corners.push_back(a);
-        if (a == b) continue;
-        auto& uses = edges[std::minmax(a, b)];
-        ++(a < b ? uses.up : uses.down);
+        walked.emplace_back(a, b);
       }
     }
     std::sort(corners.begin(), corners.end());
-    found.degenerate += std::adjacent_find(corners.begin(), corners.end()) != corners.end();
+    if (std::adjacent_find(corners.begin(), corners.end()) != corners.end()) {
+      ++found.degenerate;
+      continue;
+    }
     found.duplicate += !faces.insert(corners).second;
+    for (const auto& [a, b] : walked) {
+      auto& uses = edges[std::minmax(a, b)];
+      ++(a < b ? uses.up : uses.down);
+    }
   }
   for (const auto& [edge, uses] : edges) {
     found.open += uses.up + uses.down == 1;
     found.nonmanifold += uses.up + uses.down > 2;
-    found.flipped += uses.up == 2 || uses.down == 2 ? uses.up + uses.down == 2 : false;
+    found.flipped += (uses.up == 2 && uses.down == 0) || (uses.up == 0 && uses.down == 2);
   }
   return found;
 }
 
 void check_connections(const std::string& name, const PolygonModel& model, const Facts& facts) {
+  EXPECT_EQ(triangle_count(model), facts.number(R"(tris (\d+))")) << name << " tris";
+  if (facts.has("fmt GLB")) return;  // the README has no more of these
   const auto found = connections(model);
   EXPECT_EQ(found.open, facts.number(R"(open (\d+))")) << name << " open";
   EXPECT_EQ(found.nonmanifold, facts.number(R"(nonman (\d+))")) << name << " nonman";
@@ -223,7 +247,6 @@ void check_connections(const std::string& name, const PolygonModel& model, const
   EXPECT_EQ(found.degenerate, facts.number(R"(degen (\d+))")) << name << " degen";
   EXPECT_EQ(found.duplicate, facts.number(R"(dup (\d+))")) << name << " dup";
   EXPECT_EQ(found.welded, facts.number(R"(weldverts (\d+))")) << name << " weldverts";
-  EXPECT_EQ(triangle_count(model), facts.number(R"(tris (\d+))")) << name << " tris";
 }
 
 /// Vertices that no face uses: READMEs count them, readers leave them out.
