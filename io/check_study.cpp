@@ -47,10 +47,10 @@ std::string counts_text(const PrepareReport& r) {
 std::string intersections_text(const Mesh& mesh) {
   const Intersections found = find_intersections(mesh);
   std::string text = fmt::format(
-      "  meeting   {} pairs of triangles cut, touch or cover each other beyond common corners and "
-      "edges ({} of two objects), {} of {} triangles",
-      found.pairs, found.between_objects, found.triangles, mesh.triangle_count());
-  if (found.pairs > 0) {
+      "  meeting   {} pairs of triangles cut and {} cover each other ({} of both between objects), {} of "
+      "{} triangles",
+      found.cutting, found.covering, found.between_objects, found.triangles, mesh.triangle_count());
+  if (found.pairs() > 0) {
     const Vec3 p = mesh.corner(found.first[0], 0) + mesh.origin;
     const auto name = [&](std::size_t t) {
       return mesh.object_names[mesh.triangle_object[t].index()];

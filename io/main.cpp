@@ -207,7 +207,7 @@ class CommandLine {
     add_study(sub);
     add_place(sub);
     sub->add_flag("--json", json_, "machine-readable");
-    sub->add_flag("--intersections", intersections_, "look for triangles that cut through others");
+    sub->add_flag("--intersections", intersections_, "look for triangles that cut or cover others");
   }
 
   void add_sun() {

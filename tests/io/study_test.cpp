@@ -242,7 +242,7 @@ TEST(Study, FilesHaveUnitsAndPlacesOfTheirOwn) {
   wrong("{file: a.obj, position_m: [1, 2]}", "must be three numbers");
   wrong("{file: a.obj, position_m: [1, 2, 3], position: \"50 14\"}", "remove one");
   wrong("{file: a.obj, position: here}", "scene.files[1].position");
-  wrong("{file: a.obj, canopy: a.obj}", "canopy stands without terrain");
+  wrong("{file: a.obj, canopy: a.obj}", "canopy: stands without terrain");
   wrong("{file: a.obj, terrain: b.tif}", "scene.files[1].terrain: 'b.tif' is not there");
   wrong("{file: a.obj, trun_deg: 3}", "did you mean 'turn_deg'");
   EXPECT_EQ(read("{file: a.obj, height_m: 3, least_height_m: 3, trunk_share: 0}").warnings.size(), 3u);
