@@ -25,6 +25,8 @@ struct FileMaterial {
   std::optional<double> diffuse;   ///< reflectance [0, 1]
   std::optional<double> mirror;    ///< reflectance [0, 1]
   double emitted_power_w = 0;      ///< shared by area among all triangles of the material
+  bool glows = false;              ///< emits, with a power that the file does not tell
+  bool is_reference = false;       ///< just a name, which study or table of materials define
 };
 
 /// Polygons with holes, as read: the common output of all scene readers.

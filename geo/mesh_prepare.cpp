@@ -145,8 +145,9 @@ void settle(Mesh& mesh, const PrepareRules& rules, SceneKind kind, double tolera
     report.duplicates_dropped = duplicates.dropped;
     faced_both_ways = std::move(duplicates.faced_both_ways);
   }
-  const auto bodies =
-      orient(mesh, faced_both_ways, rules.repair == Repair::none ? Winding::keep : Winding::turn);
+  const bool may_turn =
+      rules.repair != Repair::none && rules.orientation == Orientation::outward;
+  const auto bodies = orient(mesh, faced_both_ways, may_turn ? Winding::turn : Winding::keep);
   report.triangles_flipped = bodies.triangles_flipped;
   report.inside_out_bodies = bodies.inside_out;
   report.unorientable = bodies.unorientable;
@@ -154,7 +155,7 @@ void settle(Mesh& mesh, const PrepareRules& rules, SceneKind kind, double tolera
   report.nonmanifold_edges = bodies.nonmanifold_edges;
   for (const auto& body : bodies.bodies) {
     ++(body.is_closed ? report.closed_bodies : report.open_sheets);
-    report.volume_m3 += body.volume;
+    if (!body.is_inside_out) report.volume_m3 += body.volume;
   }
   for (std::size_t t = 0; t < faced_both_ways.size(); ++t) {
     if (!faced_both_ways[t] || bodies.triangle_body[t] >= 0) continue;
@@ -192,7 +193,7 @@ void measure(const Mesh& mesh, PrepareReport& report) {
   report.bounds = bounding_box(mesh.vertices);
 }
 
-void add_warnings(PrepareReport& r) {
+void add_warnings(PrepareReport& r, Orientation orientation) {
   const auto warn = [&](const std::string& what, std::size_t count,
                         const std::string& consequence) {
     if (count > 0) r.warnings.push_back(what + ": " + std::to_string(count) + "; " + consequence);
@@ -209,9 +210,11 @@ void add_warnings(PrepareReport& r) {
   warn("triangles with a back of their own", r.sheets_merged,
        "made two-sided, so front and back are separate patches");
   warn("triangles turned over", r.triangles_flipped,
-       "their body was inside out or its faces disagreed, so their lit side has changed");
-  warn("closed bodies inside out", r.inside_out_bodies,
-       "left so, hence their outside absorbs all light; set scene.repair: safe");
+       "their body was inside out or its faces disagreed, so their lit side has changed; scene.orient: keep "
+       "leaves them, for rooms lit inside");
+  if (orientation == Orientation::outward)
+    warn("closed bodies inside out", r.inside_out_bodies,
+         "left so, hence their outside absorbs all light; set scene.repair: safe");
   warn("bodies without consistent fronts", r.unorientable,
        "left as in the file, hence light that meets a back is absorbed");
   warn("edges with more than two triangles", r.nonmanifold_edges,
@@ -239,7 +242,7 @@ PreparedMesh prepare(const PolygonModel& model, const PrepareRules& rules) {
   find_facades(mesh, rules.north_deg);
   if (rules.ground) add_ground_plate(mesh, rules.ground->margin_m);
   measure(mesh, report);
-  add_warnings(report);
+  add_warnings(report, rules.orientation);
   return result;
 }
 

@@ -16,7 +16,7 @@
 /// 6. **Duplicates** (geo/mesh_clean, not for `none`): triangles of one object
 ///    with the same three corners become one. A front and a back in the same
 ///    place are a two-sided sheet, unless the object closes with one of them.
-/// 7. **Orient** (geo/orient; `none` changes no winding): closed bodies are
+/// 7. **Orient** (geo/orient; `none` and `keep` change no winding): closed bodies are
 ///    turned outward, cavities with the body around them; open sheets keep the
 ///    winding of the larger part of their area.
 /// 8. **Kind of surface** (geo/surface_kind) where the reader left `other`.
@@ -41,6 +41,9 @@ namespace sunload {
 /// tolerance, drop degenerates and duplicates, orient. all: also T-joints.
 enum class Repair { none, safe, all };
 
+/// outward: closed bodies are lit outside. keep: the winding of the file, for rooms lit inside.
+enum class Orientation { outward, keep };
+
 /// A horizontal plate under the scene at its lowest z, `margin_m` wider than
 /// the bounding box on each side; object and material are called `ground`.
 struct GroundPlate {
@@ -50,6 +53,7 @@ struct GroundPlate {
 struct PrepareRules {
   Repair repair = Repair::safe;
   std::optional<GroundPlate> ground;
+  Orientation orientation = Orientation::outward;
   double north_deg = 0;  ///< azimuth of scene +y: only names facades by their true direction
 };
 
@@ -72,7 +76,7 @@ struct PrepareReport {
   std::size_t t_joints_split = 0;
   std::size_t triangles_flipped = 0;
   std::size_t closed_bodies = 0, open_sheets = 0;
-  std::size_t inside_out_bodies = 0;  ///< left so (`none` only)
+  std::size_t inside_out_bodies = 0;  ///< left so (`none` or `keep` only)
   std::size_t unorientable = 0;       ///< bodies with edges that no orientation satisfies
   std::size_t open_edges = 0, nonmanifold_edges = 0;
   std::size_t floors = 0;  ///< triangles that touch the ground: cast shadows, are no patches

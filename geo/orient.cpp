@@ -179,6 +179,7 @@ class Orienter {
     if (outer >= 0 && !turned_[static_cast<std::size_t>(outer)]) return;
     if (winding_ == Winding::keep) {
       ++result.inside_out;
+      bodies_[b].is_inside_out = true;
       return;
     }
     for (const auto t : members_.of(b)) g_.flip[t] ^= 1;

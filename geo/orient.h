@@ -18,6 +18,7 @@ struct Body {
   bool is_closed = false;  ///< every edge is walked as often up as down
   double area = 0;         ///< m²
   double volume = 0;       ///< m³, signed, of closed bodies: negative for cavities
+  bool is_inside_out = false;  ///< closed, in no other body, negative volume: a room (`keep` only)
   Box box;
 };
 

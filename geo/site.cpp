@@ -139,6 +139,16 @@ class MapToEarth {
             .elevation_m = position.z};
   }
 
+  Vec3 back(double latitude_deg, double longitude_deg, double height_m) const {
+    const PJ_COORD earth = proj_coord(longitude_deg, latitude_deg, 0, HUGE_VAL);
+    const PJ_COORD map = proj_trans(earth_from_map_.get(), PJ_INV, earth);
+    if (!std::isfinite(map.xy.x) || !std::isfinite(map.xy.y)) {
+      fail("latitude " + std::to_string(latitude_deg) + ", longitude " +
+           std::to_string(longitude_deg) + " has no place on its map");
+    }
+    return {map.xy.x * metres_per_unit_, map.xy.y * metres_per_unit_, height_m};
+  }
+
   /// Bounds in degrees; nothing where the database has none.
   struct AreaOfUse {
     bool known = false;
@@ -204,6 +214,11 @@ Site site_from_crs(const std::string& crs, Vec3 position) {
     earth_from_map.fail("its axes are left-handed, and the scene would be a mirror image");
   }
   return site;
+}
+
+Vec3 map_position(const std::string& crs, double latitude_deg, double longitude_deg,
+                  double height_m) {
+  return MapToEarth(crs).back(latitude_deg, longitude_deg, height_m);
 }
 
 std::string area_of_use_warning(const std::string& crs, Vec3 position) {

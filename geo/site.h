@@ -40,6 +40,11 @@ Vec3 ecef_position(const Site& site);
 /// and a point that has no place on Earth.
 Site site_from_crs(const std::string& crs, Vec3 position);
 
+/// Where a point of WGS84 lies on the map [m], east and north first; z is `height_m`. The way back
+/// from `site_from_crs`; throws as it does.
+Vec3 map_position(const std::string& crs, double latitude_deg, double longitude_deg,
+                  double height_m);
+
 /// Latitude and longitude of a position as people write it; the rest of the site is default.
 ///
 /// - degrees: `49.7475 13.3776` (latitude first), `49d44'51"N 13d22'39"E`, `N49:44:51 E13:22:39`,

@@ -136,14 +136,13 @@ class Decision {
   Surface surface(std::size_t t, Slope s) {
     const Body* body = body_of(t);
     const bool is_closed = body && body->is_closed;
-    if (kind_ == SceneKind::city) {
-      const auto& word = mesh_.object_kinds[mesh_.triangle_object[t].index()];
-      if (!is_closed && contains(land_kinds, word)) return on_land(s);
-      if (contains(plant_kinds, word)) return Surface::other;
-    } else if (!is_closed) {
+    const auto& word = mesh_.object_kinds[mesh_.triangle_object[t].index()];
+    if (!is_closed && contains(land_kinds, word)) return on_land(s);
+    if (contains(plant_kinds, word)) return Surface::other;
+    if (kind_ == SceneKind::plain && !is_closed)
       return s == Slope::upright ? Surface::wall : Surface::other;
-    }
     if (s == Slope::upright) return Surface::wall;
+    if (body && body->is_inside_out) return Surface::other;
     if (s == Slope::upward) return Surface::roof;
     return at_foot(t, body) ? Surface::floor : Surface::other;
   }
@@ -178,9 +177,10 @@ class Decision {
       grid.support(bodies_.triangle_body[t], mesh_.corner(t, 0), mesh_.corner(t, 1),
                    mesh_.corner(t, 2));
     }
+    const double lowest_z = bounding_box(mesh_.vertices).low.z;
     for (const auto& foot : feet_) {
-      const bool has_support = std::isfinite(foot.support_z);
-      if (has_support && foot.support_z < foot.foot_z - foot.tolerance) {
+      const double ground_z = std::isfinite(foot.support_z) ? foot.support_z : lowest_z;
+      if (ground_z < foot.foot_z - foot.tolerance) {
         mesh_.triangle_surface[foot.triangle] = Surface::other;
       }
     }

@@ -27,9 +27,12 @@ inline constexpr double foot_height_ratio = 0.05;
 ///
 /// The foot is that of the body, in cities that of the object. Floors touch the
 /// ground and are no patches, so a body of a plain file that hovers has none: a
-/// face at its foot stays `other` where the highest upward face below its
-/// centre (up to the body's top, so that sunk bodies are not taken to hover) is
-/// lower than the foot's tolerance. Where nothing is below, it is a floor.
+/// face at its foot stays `other` where the ground is lower than the foot's
+/// tolerance. The ground is the highest upward face below the face's centre (up
+/// to the body's top, so that sunk bodies are not taken to hover); where nothing
+/// is below, the lowest z of the scene, where a ground plate lies. Buildings of
+/// cities stand on the ground even where no terrain comes with them. Rooms,
+/// whose fronts look inward (`Winding::keep`), have walls and `other`.
 void decide_surfaces(Mesh& mesh, const Bodies& bodies, SceneKind kind);
 
 }  // namespace sunload

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "geo/intersections.h"
 #include "io/expected_error.h"
 #include "io/machine.h"
 #include "io/run.h"
@@ -24,16 +25,39 @@ constexpr double mib = 1024.0 * 1024;
 std::string counts_text(const PrepareReport& r) {
   std::string text = fmt::format(
       "  read      {} polygons ({} with holes), {} vertices\n"
-      "  repaired  {} vertices welded, {} triangles turned\n"
+      "  repaired  {} vertices welded, {} triangles turned, {} fronts with a back made two-sided, "
+      "{} T-joints split\n"
       "  dropped   {} degenerate, {} duplicate, {} polygons not triangulable\n"
-      "  bodies    {} closed ({:.6g} m3), {} open sheets; {} open edges, {} non-manifold edges\n"
-      "  floors    {} triangles touch the ground: they cast shadows, are no patches\n",
+      "  doubtful  {} polygons not planar, {} crossing themselves, {} bodies without consistent fronts\n"
+      "  bodies    {} closed ({:.6g} m3), {} with their fronts inward, {} open sheets; {} open edges, "
+      "{} non-manifold edges\n"
+      "  floors    {} triangles touch the ground: they cast shadows, are no patches\n"
+      "  shape     the thinnest triangle is {:.4g} times as long as high\n",
       r.polygons_read, r.polygons_with_holes, r.vertices_read, r.vertices_welded,
-      r.triangles_flipped, r.degenerates_dropped, r.duplicates_dropped, r.polygons_untriangulated,
-      r.closed_bodies, r.volume_m3, r.open_sheets, r.open_edges, r.nonmanifold_edges, r.floors);
+      r.triangles_flipped, r.sheets_merged, r.t_joints_split, r.degenerates_dropped,
+      r.duplicates_dropped, r.polygons_untriangulated, r.polygons_nonplanar, r.polygons_crossing,
+      r.unorientable, r.closed_bodies, r.volume_m3, r.inside_out_bodies, r.open_sheets,
+      r.open_edges, r.nonmanifold_edges, r.floors, r.worst_aspect);
   text += "  area     ";
   for (std::size_t s = 0; s < surface_names.size(); ++s)
     if (r.area_m2[s] > 0) text += fmt::format(" {} {:.6g} m2", surface_names[s], r.area_m2[s]);
+  return text + "\n";
+}
+
+std::string intersections_text(const Mesh& mesh) {
+  const Intersections found = find_intersections(mesh);
+  std::string text = fmt::format(
+      "  meeting   {} pairs of triangles cut and {} cover each other ({} of both between objects), {} of "
+      "{} triangles",
+      found.cutting, found.covering, found.between_objects, found.triangles, mesh.triangle_count());
+  if (found.pairs() > 0) {
+    const Vec3 p = mesh.corner(found.first[0], 0) + mesh.origin;
+    const auto name = [&](std::size_t t) {
+      return mesh.object_names[mesh.triangle_object[t].index()];
+    };
+    text += fmt::format("; first {} and {} near ({:.10g}, {:.10g}, {:.10g})", name(found.first[0]),
+                        name(found.first[1]), p.x, p.y, p.z);
+  }
   return text + "\n";
 }
 
@@ -113,11 +137,13 @@ std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
       shot, work.memory_bytes / mib, work.disk_bytes / mib, work.seconds, thread_count());
 }
 
-void print_text(const VariantPlan& plan, const VariantMesh& made, const WorkEstimate& work) {
+void print_text(const VariantPlan& plan, const VariantMesh& made, const WorkEstimate& work,
+                SearchIntersections search) {
   std::string text = fmt::format("study {}, variant {} (content {})\n", plan.study.name,
                                  plan.study.variant, plan.content_hash.substr(0, 12));
   text += "scene\n" + counts_text(plan.built.report) +
           extent_text(plan.built.scene.mesh, plan.built.report.bounds);
+  if (search == SearchIntersections::yes) text += intersections_text(plan.built.scene.mesh);
   for (const auto& note : plan.built.notes) text += "  note      " + note + "\n";
   text += "materials\n" + materials_text(plan.built.scene) +
           parallel_sources_text(plan.built.scene.parallel_sources);
@@ -148,7 +174,8 @@ nlohmann::ordered_json as_json(const VariantPlan& plan, const WorkEstimate& work
 
 }  // namespace
 
-int check_study(const std::string& path, const RunOptions& options, CheckFormat format) {
+int check_study(const std::string& path, const RunOptions& options, CheckFormat format,
+                SearchIntersections search) {
   set_thread_count(options.threads > 0 ? options.threads : permitted_processors());
   const StudyFile file = read_study(path);
   for (const auto& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
@@ -165,7 +192,7 @@ int check_study(const std::string& path, const RunOptions& options, CheckFormat 
       units += plan.batches();
       json["variants"].push_back(as_json(plan, work));
       json["batch_suns"] = plan.batch_suns();
-      if (format == CheckFormat::text) print_text(plan, made, work);
+      if (format == CheckFormat::text) print_text(plan, made, work, search);
     } catch (const InputError& error) {
       problems.add(error);
     }

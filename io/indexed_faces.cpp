@@ -11,8 +11,9 @@ IndexedFaces::IndexedFaces(const std::string& path, const SceneFileRules& rules,
   use_object(std::filesystem::path(path).stem().string());
 }
 
-void IndexedFaces::use_object(const std::string& name) {
+void IndexedFaces::use_object(const std::string& name, const std::string& kind) {
   object_name_ = name;
+  object_kind_ = kind;
   facts_.object = ObjectId::none();
 }
 
@@ -55,7 +56,7 @@ void IndexedFaces::end_face() {
         objects_.try_emplace(object_name_, make_id<ObjectId>(model_.object_names.size()));
     if (is_new) {
       model_.object_names.push_back(object_name_);
-      model_.object_kinds.emplace_back();
+      model_.object_kinds.push_back(object_kind_);
     }
     facts_.object = entry->second;
   }

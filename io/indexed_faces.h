@@ -24,7 +24,10 @@ class IndexedFaces {
   std::size_t vertex_count() const { return vertices_.size(); }
 
   /// What the faces that follow belong to; the same name again is the same object.
-  void use_object(const std::string& name);
+  /// `kind` is a CityJSON type or empty.
+  void use_object(const std::string& name, const std::string& kind = {});
+  /// `other` until it is called: decided by preparation.
+  void use_surface(Surface surface) { facts_.surface = surface; }
   void use_material(MaterialId material, Sides sides = Sides::one);
   MaterialId add_material(FileMaterial material);
 
@@ -44,7 +47,7 @@ class IndexedFaces {
   NoteCounter notes_;
   std::vector<Vec3> vertices_;
   std::unordered_map<std::string, ObjectId> objects_;
-  std::string object_name_;
+  std::string object_name_, object_kind_;
   PolygonModel::Facts facts_;
 };
 

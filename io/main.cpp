@@ -18,6 +18,7 @@
 #include "io/file_aside.h"
 #include "io/info.h"
 #include "io/key_names.h"
+#include "io/material_table.h"
 #include "io/progress.h"
 #include "io/render.h"
 #include "io/result_file.h"
@@ -102,6 +103,7 @@ class CommandLine {
     add_view();
     add_export();
     add_scene();
+    add_materials();
   }
 
   int run(int argc, char** argv) {
@@ -199,11 +201,13 @@ class CommandLine {
   void add_check() {
     CLI::App* sub =
         command("check", "read everything, report scene, sun path and cost; compute nothing", [this] {
-          return check_study(study_, options_, json_ ? CheckFormat::json : CheckFormat::text);
+          return check_study(study_, options_, json_ ? CheckFormat::json : CheckFormat::text,
+                             intersections_ ? SearchIntersections::yes : SearchIntersections::no);
         });
     add_study(sub);
     add_place(sub);
     sub->add_flag("--json", json_, "machine-readable");
+    sub->add_flag("--intersections", intersections_, "look for triangles that cut or cover others");
   }
 
   void add_sun() {
@@ -381,6 +385,14 @@ class CommandLine {
         ->allow_extra_args(false);
   }
 
+  void add_materials() {
+    CLI::App* sub = command("materials", "list the materials that studies may name without defining them", [this] {
+      std::cout << (markdown_ ? material_page() : material_listing());
+      return exit_code::done;
+    });
+    sub->add_flag("--markdown", markdown_, "as the page docs/materials.md");
+  }
+
   CLI::App app_{"sunload: how much sun and sky light falls on every patch of a city"};
   std::function<int()> action_;
   std::string study_, base_, eye_, look_, picture_, scene_, shard_, size_ = "1600x1000", subdivision_ = "cells";
@@ -393,7 +405,7 @@ class CommandLine {
   std::size_t view_step_ = 0;
   double largest_ = 0;
   bool resume_ = false, overwrite_ = false, keep_batches_ = false, json_ = false, csv_ = false,
-       patches_ = false, mesh_lines_ = false, partial_ = false;
+       patches_ = false, mesh_lines_ = false, partial_ = false, markdown_ = false, intersections_ = false;
 };
 
 /// Listings count as written only once they have left the program.

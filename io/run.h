@@ -36,8 +36,11 @@ int run_study(const std::string& study, const RunOptions& options);
 int merge_study(const std::string& study, const RunOptions& options, Merge merge);
 
 enum class CheckFormat { text, json };
+/// Whether triangles that cut through others are sought: some 10 s for a million.
+enum class SearchIntersections { no, yes };
 /// Reads everything, reports scene, sun path, work, memory, disk on stdout.
-int check_study(const std::string& study, const RunOptions& options, CheckFormat format);
+int check_study(const std::string& study, const RunOptions& options, CheckFormat format,
+                SearchIntersections search = SearchIntersections::no);
 
 /// The sun path as CSV on stdout (DESIGN 1), or as a sun-path diagram where `picture` names one.
 int print_sun(const std::string& study, const std::string& picture = {});

@@ -23,12 +23,4 @@ struct BuiltScene {
 /// Throws InputError with every problem found.
 BuiltScene build_scene(const Study& study);
 
-/// Reflectance of a surface that neither file nor study says anything about:
-/// a mean of European facades and streets (Oke 1987, Boundary Layer Climates,
-/// table 8.2: urban areas 0.10 … 0.27, mean of the range's upper half).
-inline constexpr double default_reflectance = 0.2;
-
-/// Whether `text` matches a pattern with `*` and `?`.
-bool matches(const std::string& pattern, const std::string& text);
-
 }  // namespace sunload

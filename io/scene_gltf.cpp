@@ -243,8 +243,7 @@ class GltfReader {
       else faces_.notes().count("colours outside [0, 1] ignored");
     }
     const auto emissive = numbers_of(material, "emissiveFactor", 3).value_or(std::vector<double>(3));
-    if (*std::max_element(emissive.begin(), emissive.end()) > 0)
-      faces_.notes().count("materials glow: the study must give their emission_w_m2");
+    read.glows = *std::max_element(emissive.begin(), emissive.end()) > 0;
     return read;
   }
 

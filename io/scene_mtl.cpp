@@ -14,7 +14,10 @@ namespace {
 struct Entry {
   std::optional<double> diffuse, specular;
   double illumination_model = 0;
+  bool glows = false;
 };
+
+constexpr double largest_glow = 1e12;  // Ke has no unit, and no upper end
 
 bool asks_for_reflected_rays(double illumination_model) {
   return illumination_model == 3 || (illumination_model >= 5 && illumination_model <= 9);
@@ -38,12 +41,13 @@ class LibraryReader {
     if (current_ == nullptr) return;
     if (keyword == "Kd") current_->diffuse = colour_mean();
     if (keyword == "Ks") current_->specular = colour_mean();
+    if (keyword == "Ke") current_->glows = colour_mean(largest_glow).value_or(0) > 0;
     if (keyword == "map_Kd") notes_.count("textures of materials ignored");
     if (keyword == "illum") current_->illumination_model = number(words_.next());
   }
 
   /// Mean of `r g b`, or of `r` alone for grey; nothing for spectra and CIE colours.
-  std::optional<double> colour_mean() {
+  std::optional<double> colour_mean(double largest = 1) {
     const auto first = words_.next();
     if (first == "spectral" || first == "xyz") {
       notes_.count("colours by spectrum or CIE XYZ ignored");
@@ -55,7 +59,7 @@ class LibraryReader {
     rgb[1] = second.empty() ? rgb[0] : number(second);
     rgb[2] = second.empty() ? rgb[0] : number(words_.next());
     const double mean = (rgb[0] + rgb[1] + rgb[2]) / 3;
-    if (mean >= 0 && mean <= 1) return mean;
+    if (mean >= 0 && mean <= largest) return mean;
     notes_.count("colours outside [0, 1] ignored");
     return std::nullopt;
   }
@@ -74,6 +78,7 @@ class LibraryReader {
     FileMaterial material;
     material.name = name;
     material.diffuse = entry.diffuse;
+    material.glows = entry.glows;
     if (asks_for_reflected_rays(entry.illumination_model)) {
       material.mirror = entry.specular;
     } else if (entry.specular.value_or(0) > 0) {

@@ -1,4 +1,4 @@
-/// Height rasters (digital surface and elevation models), through GDAL.
+/// One height raster as a terrain; io/scene_blocks has buildings and crowns.
 #pragma once
 
 #include <string>
@@ -18,10 +18,7 @@ namespace sunload {
 /// - `PolygonModel::crs` is the file's CRS, as `EPSG:…` or as WKT. CRSs in degrees are refused.
 /// - The object has the name of the file's stem.
 ///
-/// Throws InputError for damaged files, rasters of more than `most_raster_cells`, and heights
-/// that no land has (a NODATA value that the file does not declare).
+/// Throws InputError as `read_raster`.
 PolygonModel read_scene_raster(const std::string& path, const SceneFileRules& rules);
-
-inline constexpr double most_raster_cells = 25e6;  ///< 50 million triangles, 4 GB
 
 }  // namespace sunload

@@ -146,7 +146,9 @@ void check_together(YamlMap& root, const Study& study, PlaceWritten placed) {
   }
   const auto& files = study.scene.files;
   const bool no_crs =
-      study.scene.builtin || std::all_of(files.begin(), files.end(), is_without_crs);
+      study.scene.builtin || std::all_of(files.begin(), files.end(), [](const SceneFileStudy& file) {
+        return is_without_crs(file.path);
+      });
   // The header of a weather file may say the place.
   if (!positions && !weather && placed == PlaceWritten::no && no_crs &&
       (study.scene.builtin || !files.empty())) {

@@ -126,9 +126,33 @@ struct BuiltinStudy {
   Where where;
 };
 
+/// One file of the scene, how it is to be understood and where it stands. Paths are absolute or
+/// relative to the working directory, already resolved.
+///
+/// A place in the scene is position + turn · unit_m · (the file's place with its `up` turned to z).
+struct SceneFileStudy {
+  std::string path;
+  Where where;
+  char up = 0;                   ///< 'x', 'y', 'z'; 0: scene.up
+  std::optional<double> unit_m;  ///< absent: scene.unit_m
+  std::string lod;               ///< empty: scene.lod
+  std::optional<Vec3> position;  ///< of the file's origin in the scene [m]
+  struct EarthPosition {
+    double latitude_deg = 0, longitude_deg = 0, height_m = 0;
+  };
+  std::optional<EarthPosition> earth_position;  ///< the same by way of the scene's CRS
+  double turn_deg = 0;   ///< about the file's origin, clockwise seen from above
+  std::string material;  ///< of all its faces; empty: as the file says
+  std::string terrain;   ///< raster of bare ground: `path` is a raster of surfaces, made into blocks
+  std::string canopy;    ///< raster of heights of crowns above the ground
+  double least_height_m = 2;   ///< of buildings in rasters
+  double trunk_share = 0.25;   ///< of a crown's height, free below it
+
+  bool is_placed() const { return position || earth_position || turn_deg != 0; }
+};
+
 struct SceneStudy {
-  std::vector<std::string> files;  ///< absolute or relative to the working directory, already resolved
-  std::vector<Where> files_where;
+  std::vector<SceneFileStudy> files;
   std::optional<BuiltinStudy> builtin;
   std::string parallel_sources;  ///< file of parallel emitters, already resolved; empty: none
   Where parallel_sources_where;
@@ -138,6 +162,7 @@ struct SceneStudy {
   VrmlColour vrml_colour = VrmlColour::mean;
   double emission_scale_w = 1;  ///< power of a VRML emissiveColor of strength 1
   Repair repair = Repair::safe;
+  Orientation orient = Orientation::outward;
   std::vector<MaterialStudy> materials;
   std::vector<AssignRule> assign;
   std::optional<GroundStudy> ground;  ///< absent: the default of the format

@@ -45,6 +45,7 @@ json canonical(const SiteStudy& site) {
 json canonical(const SunAt& sun);
 json canonical(const MaterialStudy& material);
 json canonical(const AssignRule& rule);
+json canonical(const SceneFileStudy& file);
 
 template <class T>
 json list_of(const std::vector<T>& values) {
@@ -146,17 +147,38 @@ json canonical(const BuiltinStudy& builtin) {
   return {{"name", name}, {"parameters", parameters}};
 }
 
-json canonical(const SceneStudy& scene) {
+json canonical(const SceneFileStudy& file) {
   // Files are hashed by their bytes.
-  const auto& [files, files_where, builtin, parallel_sources, parallel_sources_where, up, unit_m,
-               lod, vrml_colour, emission_scale_w, repair, materials, assign, ground, where] = scene;
+  const auto& [path, where, up, unit_m, lod, position, earth_position, turn_deg, material, terrain,
+               canopy, least_height_m, trunk_share] = file;
+  json all{{"up", up == 0 ? std::string() : std::string(1, up)},
+           {"unit_m", maybe(unit_m)},
+           {"lod", lod},
+           {"turn_deg", turn_deg},
+           {"material", material}};
+  if (position) all["position"] = {position->x, position->y, position->z};
+  if (earth_position)
+    all["earth_position"] = {earth_position->latitude_deg, earth_position->longitude_deg,
+                             earth_position->height_m};
+  if (!terrain.empty())
+    all["blocks"] = {{"least_height_m", least_height_m},
+                     {"trunk_share", trunk_share},
+                     {"has_canopy", !canopy.empty()}};
+  return all;
+}
+
+json canonical(const SceneStudy& scene) {
+  const auto& [files, builtin, parallel_sources, parallel_sources_where, up, unit_m,
+               lod, vrml_colour, emission_scale_w, repair, orient, materials, assign, ground, where] = scene;
   return {{"builtin", builtin ? canonical(*builtin) : json()},
+          {"files", list_of(files)},
           {"up", up == 0 ? std::string() : std::string(1, up)},
           {"unit_m", unit_m},
           {"lod", lod},
           {"vrml_colour", vrml_colour},
           {"emission_scale_w", emission_scale_w},
           {"repair", repair},
+          {"orient", orient},
           {"materials", list_of(materials)},
           {"assign", list_of(assign)},
           {"ground", ground ? canonical(*ground) : json()}};

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <filesystem>
-#include <regex>
 #include <system_error>
 
 #include "io/key_names.h"
@@ -15,7 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Range units_m{1e-6, 1e6};  // a model in micrometres, one in thousands of kilometres
 constexpr Range shares{0, 1};
 constexpr Range emissions_w_m2{0, 1e7};  // the surface of the sun has 6.3e7
 constexpr Range powers_w{0, 1e15};  // of a light in a file: to the sun's on a thousand km2
@@ -31,27 +29,6 @@ constexpr Range areas_m2{0, 1e6};
 constexpr Range tolerances{1e-4, 1e3};
 constexpr Range link_thresholds{0, 1e3};
 constexpr double share_rounding = 1e-12;  // of the sum of two decimal numbers
-
-void read_files(YamlMap& map, const std::string& folder, SceneStudy& scene) {
-  for (const auto& file : map.texts("files")) {
-    const fs::path path = (fs::path(folder) / file.text).lexically_normal();
-    std::error_code error;
-    const auto refuse = [&](const std::string& what, const std::string& hint) {
-      map.reading().problem(file.where, "scene.files: '" + file.text + "' " + what,
-                            "it is sought at " + path.string(), hint);
-    };
-    if (!fs::exists(path, error)) {
-      refuse("is not there", "paths are relative to the study file");
-    } else if (!fs::is_regular_file(path, error)) {
-      refuse("is no file", "");
-    } else if (std::find(scene.files.begin(), scene.files.end(), path.string()) !=
-               scene.files.end()) {
-      refuse("is written twice", "remove one of the two");
-    }
-    scene.files.push_back(path.string());
-    scene.files_where.push_back(file.where);
-  }
-}
 
 void read_parallel_sources(YamlMap& map, const std::string& folder, SceneStudy& scene) {
   const auto file = map.text("parallel_sources");
@@ -188,12 +165,6 @@ std::optional<GroundStudy> read_ground(YamlMap& map) {
   return map.has("ground") ? std::optional(ground) : std::nullopt;
 }
 
-void check_lod(YamlMap& map, const std::string& lod) {
-  static const std::regex level(R"(\d(\.\d)?)");
-  if (lod == "highest" || std::regex_match(lod, level)) return;
-  map.problem("lod", "'" + lod + "' is no level of detail", "highest, or a level such as 2 or 2.2");
-}
-
 void check_source(YamlMap& map) {
   const bool files = map.has("files"), builtin = map.has("builtin");
   if (files == builtin && map.is_usable()) {
@@ -213,7 +184,7 @@ void check_source(YamlMap& map) {
 SceneStudy read_scene(YamlMap& map, const std::string& folder) {
   SceneStudy scene;
   scene.where = map.where();
-  read_files(map, folder, scene);
+  scene.files = read_scene_files(map, folder);
   read_parallel_sources(map, folder, scene);
   const bool describe = map.reading().purpose == YamlReading::Purpose::describe;
   map.tree("builtin");
@@ -231,6 +202,8 @@ SceneStudy read_scene(YamlMap& map, const std::string& folder) {
   scene.repair =
       map.choice("repair", {{"none", Repair::none}, {"safe", Repair::safe}, {"all", Repair::all}},
                  scene.repair);
+  scene.orient = map.choice(
+      "orient", {{"outward", Orientation::outward}, {"keep", Orientation::keep}}, scene.orient);
   map.named("materials", [&](const std::string& name, YamlMap& material) {
     scene.materials.push_back(read_material(name, material));
   });

@@ -141,7 +141,27 @@ void YamlMap::section(const std::string& key, const Reader& read) {
   map.finish();
 }
 
-void YamlMap::each(const std::string& key, const Reader& read) {
+namespace {
+
+/// {text_key: text} in the place of the text.
+YamlTree map_around(const YamlTree& text, const std::string& text_key) {
+  YamlNode map;
+  map.kind = Kind::map;
+  map.where = text->where;
+  map.entries.push_back({text_key, text->where, text});
+  return std::make_shared<const YamlNode>(std::move(map));
+}
+
+}  // namespace
+
+void YamlMap::each(const std::string& key, const Reader& read) { each_item(key, {}, read); }
+
+void YamlMap::each_or_text(const std::string& key, const std::string& text_key,
+                           const Reader& read) {
+  each_item(key, text_key, read);
+}
+
+void YamlMap::each_item(const std::string& key, const std::string& text_key, const Reader& read) {
   const YamlNode* list = ask_list(key);
   const std::string dot = path_.empty() ? "" : ".";
   const auto read_item = [&](const YamlTree& item, std::size_t place) {
@@ -151,7 +171,11 @@ void YamlMap::each(const std::string& key, const Reader& read) {
     map.finish();
   };
   if (list && list->items.empty()) problem(key, "the list is empty");
-  for (std::size_t i = 0; list && i < list->items.size(); ++i) read_item(list->items[i], i);
+  for (std::size_t i = 0; list && i < list->items.size(); ++i) {
+    const YamlTree& item = list->items[i];
+    const bool is_text = !text_key.empty() && item->kind == Kind::text;
+    read_item(is_text ? map_around(item, text_key) : item, i);
+  }
   if (reading_.purpose == YamlReading::Purpose::describe) read_item(nullptr, 0);
 }
 

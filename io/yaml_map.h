@@ -115,6 +115,8 @@ class YamlMap {
   void section(const std::string& key, const Reader& read);
   /// Every map of a list of maps.
   void each(const std::string& key, const Reader& read);
+  /// The same where a text may stand for a map of the one key `text_key`.
+  void each_or_text(const std::string& key, const std::string& text_key, const Reader& read);
   /// Every map of a map of maps, with its name.
   void named(const std::string& key, const std::function<void(const std::string&, YamlMap&)>& read);
   /// All keys that were not asked for are known, and read elsewhere.
@@ -137,6 +139,7 @@ class YamlMap {
   YamlMap child(const YamlTree& node, const Where& where, const std::string& path_end,
                 const std::string& pattern_end);
   std::string pattern(const std::string& key) const;
+  void each_item(const std::string& key, const std::string& text_key, const Reader& read);
   /// The value of a key that the file has; null where absent or without value.
   const YamlNode* ask(const std::string& key);
   std::optional<double> to_number(const YamlNode& node, const std::string& key, const Range& range);

@@ -215,5 +215,28 @@ TEST(Orient, AllSplitsTJointsSoThatTheBodyCloses) {
   EXPECT_NEAR(area(p.mesh), 2 * (8 + 12 + 6), rounding);
 }
 
+/// A closed room from a file, its faces inward: kept so, it is lit inside.
+TEST(Orient, RoomsStayRoomsWhereTheStudyKeepsThem) {
+  ModelBuilder builder;
+  builder.object("room");
+  for (auto face : ModelBuilder::box_faces({0, 0, 0}, {4, 5, 3})) {
+    std::reverse(face.begin(), face.end());
+    builder.ring(face);
+  }
+  builder.object("table").box({1, 1, 0.5}, {2, 2, 1});
+  const PrepareRules keep{.ground = {}, .orientation = Orientation::keep};
+  const auto p = builder.prepared(keep);
+  EXPECT_EQ(p.report.inside_out_bodies, 1u);
+  EXPECT_EQ(p.report.triangles_flipped, 0u);
+  EXPECT_NEAR(p.report.volume_m3, 0.5, 1e-12);  // of the table
+  EXPECT_TRUE(p.report.warnings.empty());
+  EXPECT_NEAR(volume(p.mesh), 0.5 - 60, 1e-9);
+  EXPECT_EQ(p.report.floors, 0u);  // the room's floor is lit, and the table hovers above it
+  EXPECT_NEAR(area_of(p, Surface::wall), 2 * 3 * (4 + 5) + 4 * 0.5, 1e-9);
+  const auto turned = builder.prepared();
+  EXPECT_EQ(turned.report.triangles_flipped, 12u);
+  EXPECT_NEAR(volume(turned.mesh), 60.5, 1e-9);
+}
+
 }  // namespace
 }  // namespace sunload::test

@@ -73,6 +73,17 @@ TEST(SurfaceKind, BodiesThatHoverHaveNoFloor) {
   EXPECT_EQ(downward["hovers"], std::set{Surface::other});
 }
 
+TEST(SurfaceKind, WhereNothingIsBelowTheGroundIsAtTheLowestPoint) {
+  auto builder = ModelBuilder().object("stands").box({0, 0, 0}, {2, 2, 4});
+  builder.object("hovers").box({20, 0, 1}, {22, 2, 4});
+  const auto p = builder.prepared();
+  EXPECT_NEAR(area_of(p, Surface::floor), 4, rounding);
+  EXPECT_NEAR(area_of(p, Surface::other), 4, rounding);
+  const auto with_plate = builder.prepared({.ground = GroundPlate{5}});
+  EXPECT_NEAR(area_of(with_plate, Surface::floor), 4, rounding);
+  EXPECT_NEAR(area_of(with_plate, Surface::other), 4, rounding);
+}
+
 TEST(SurfaceKind, OpenSheetsOfPlainFilesOnlyHaveWalls) {
   auto builder = ModelBuilder().object("terrain");
   builder.ring({{0, 0, 0}, {9, 0, 0}, {9, 9, 1}, {0, 9, 1}});

@@ -127,6 +127,35 @@ const std::map<std::string, int>& stated_differences() {
   return table;
 }
 
+/// Objects of a type with geometry, where READMEs also count those without: wholes of which only
+/// the parts have some, groups (their members have it), and instances of points.
+const std::map<std::pair<std::string, std::string>, long>& stated_types() {
+  static const std::map<std::pair<std::string, std::string>, long> table{
+      {{"3dbag_tile_5870_v11.city.jsonl", "Building"}, 1},  // the one with a footprint only
+      {{"corpus_cityjson_fake_complete.city.json", "+NoiseBuilding"}, 0},
+      {{"corpus_cityjson_fake_complete.city.json", "CityObjectGroup"}, 0},
+      {{"corpus_geometry_instance.city.json", "GenericCityObject"}, 0},
+      {{"geometry_templates_v20.city.jsonl", "CityObjectGroup"}, 0},
+      {{"several_lods_invalid_v11.city.json", "Building"}, 0},
+      {{"zurich_subset_lod2_v11.city.json", "Building"}, 0}};
+  return table;
+}
+
+/// Objects of every type of which the README counts some.
+void check_types(const std::string& name, const PolygonModel& model, const Facts& facts) {
+  std::smatch list;
+  if (!std::regex_search(facts.text, list, std::regex(R"(\d+ objects \(([^)]*)\))"))) return;
+  const std::string types = list[1];
+  const std::regex entry(R"((\d+) (\+?\w+))");
+  for (std::sregex_iterator it(types.begin(), types.end(), entry), end; it != end; ++it) {
+    const std::string type = (*it)[2];
+    const auto read = std::count(model.object_kinds.begin(), model.object_kinds.end(), type);
+    const auto without = stated_types().find({name, type});
+    EXPECT_EQ(read, without == stated_types().end() ? std::stol((*it)[1]) : without->second)
+        << name << " " << type;
+  }
+}
+
 void check_city(const std::string& path, const std::string& name, const PolygonModel& model,
                 const Facts& facts) {
   const auto stated = static_cast<std::ptrdiff_t>(facts.number(R"(; (\d+) polygons \()"));
@@ -143,9 +172,81 @@ void check_city(const std::string& path, const std::string& name, const PolygonM
     EXPECT_EQ(polygons_with_holes(model), facts.number(R"((\d+) with holes)")) << name;
     expect_box(model, facts, name);
   }
+  check_types(name, model, facts);
   std::smatch crs;
   std::regex_search(facts.text, crs, std::regex(R"(CityJSON [0-9.]+; CRS ([^;]+);)"));
   EXPECT_EQ(model.crs, crs[1] == "none" ? "" : crs[1].str()) << name;
+}
+
+/// What the READMEs count of meshes, here by rings of polygons after welding equal positions.
+struct Connections {
+  std::size_t open = 0;        ///< edges of one face
+  std::size_t nonmanifold = 0; ///< edges of more than two
+  std::size_t flipped = 0;     ///< edges that both faces walk in the same direction
+  std::size_t degenerate = 0;  ///< faces that come twice to a place; they count no further
+  std::size_t duplicate = 0;   ///< faces on the same corners as an earlier one
+  std::size_t welded = 0;      ///< vertices in the place of an earlier one
+};
+
+Connections connections(const PolygonModel& model) {
+  Connections found;
+  std::map<std::array<double, 3>, std::int32_t> places;
+  std::vector<std::int32_t> welded;
+  for (const Vec3 v : model.vertices) {
+    const auto [entry, is_new] =
+        places.try_emplace({v.x, v.y, v.z}, static_cast<std::int32_t>(places.size()));
+    welded.push_back(entry->second);
+    found.welded += !is_new;
+  }
+  struct Uses {
+    std::size_t up = 0, down = 0;
+  };
+  std::map<std::pair<std::int32_t, std::int32_t>, Uses> edges;
+  std::set<std::vector<std::int32_t>> faces;
+  for (std::size_t p = 0; p < model.polygon_count(); ++p) {
+    std::vector<std::int32_t> corners;
+    std::vector<std::pair<std::int32_t, std::int32_t>> walked;
+    for (std::int64_t r = 0; r < ring_count(model, p); ++r) {
+      const auto ring = static_cast<std::size_t>(model.polygon_ring[p] + r);
+      const auto begin = static_cast<std::size_t>(model.ring_begin[ring]);
+      const auto end = static_cast<std::size_t>(model.ring_begin[ring + 1]);
+      for (auto k = begin; k < end; ++k) {
+        const auto a = welded[static_cast<std::size_t>(model.ring_vertex[k])];
+        const auto next = k + 1 < end ? k + 1 : begin;
+        const auto b = welded[static_cast<std::size_t>(model.ring_vertex[next])];
+        corners.push_back(a);
+        walked.emplace_back(a, b);
+      }
+    }
+    std::sort(corners.begin(), corners.end());
+    if (std::adjacent_find(corners.begin(), corners.end()) != corners.end()) {
+      ++found.degenerate;
+      continue;
+    }
+    found.duplicate += !faces.insert(corners).second;
+    for (const auto& [a, b] : walked) {
+      auto& uses = edges[std::minmax(a, b)];
+      ++(a < b ? uses.up : uses.down);
+    }
+  }
+  for (const auto& [edge, uses] : edges) {
+    found.open += uses.up + uses.down == 1;
+    found.nonmanifold += uses.up + uses.down > 2;
+    found.flipped += (uses.up == 2 && uses.down == 0) || (uses.up == 0 && uses.down == 2);
+  }
+  return found;
+}
+
+void check_connections(const std::string& name, const PolygonModel& model, const Facts& facts) {
+  EXPECT_EQ(triangle_count(model), facts.number(R"(tris (\d+))")) << name << " tris";
+  if (facts.has("fmt GLB")) return;  // the README has no more of these
+  const auto found = connections(model);
+  EXPECT_EQ(found.open, facts.number(R"(open (\d+))")) << name << " open";
+  EXPECT_EQ(found.nonmanifold, facts.number(R"(nonman (\d+))")) << name << " nonman";
+  EXPECT_EQ(found.flipped, facts.number(R"(flip (\d+))")) << name << " flip";
+  EXPECT_EQ(found.degenerate, facts.number(R"(degen (\d+))")) << name << " degen";
+  EXPECT_EQ(found.duplicate, facts.number(R"(dup (\d+))")) << name << " dup";
+  EXPECT_EQ(found.welded, facts.number(R"(weldverts (\d+))")) << name << " weldverts";
 }
 
 /// Vertices that no face uses: READMEs count them, readers leave them out.
@@ -163,6 +264,7 @@ void check_mesh(const std::string& name, const PolygonModel& model, const Facts&
     EXPECT_EQ(model.vertices.size() + left_out, facts.number(R"(verts (\d+))")) << name;
   }
   expect_box(model, facts, name);
+  check_connections(name, model, facts);
 }
 
 /// Faces where USE repeats what the README counts once, or where it counts indices of lines, too:

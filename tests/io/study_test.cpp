@@ -209,12 +209,52 @@ TEST(Study, ReadsTheShootingTransport) {
     EXPECT_FALSE(problems_of(with({{"solver", std::string("{") + wrong + "}"}})).empty()) << wrong;
 }
 
+TEST(Study, FilesHaveUnitsAndPlacesOfTheirOwn) {
+  const Folder folder;
+  folder.write("a.obj", "v 0 0 0\n");
+  const auto read = [&](const std::string& files) {
+    return read_study(folder.write("s.yaml", with({{"scene", "{files: [" + files + "]}"}})));
+  };
+  const auto files =
+      read("a.obj, {file: a.obj, up: y, unit_m: 0.001, position_m: [1, 2, 3], turn_deg: 30, "
+           "material: brick}, {file: a.obj, position: \"50 14\", height_m: 200}")
+          .variants[0].scene.files;
+  ASSERT_EQ(files.size(), 3u);
+  EXPECT_FALSE(files[0].is_placed());
+  EXPECT_EQ(files[1].up, 'y');
+  EXPECT_EQ(files[1].unit_m, 0.001);
+  EXPECT_EQ(files[1].position, (Vec3{1, 2, 3}));
+  EXPECT_EQ(files[1].turn_deg, 30);
+  EXPECT_EQ(files[1].material, "brick");
+  EXPECT_EQ(files[2].earth_position->latitude_deg, 50);
+  EXPECT_EQ(files[2].earth_position->longitude_deg, 14);
+  EXPECT_EQ(files[2].earth_position->height_m, 200);
+  const auto wrong = [&](const std::string& list, const std::string& part) {
+    try {
+      read(list);
+      ADD_FAILURE() << list;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  };
+  wrong("a.obj, a.obj", "'a.obj' is written twice in the same place");
+  wrong("{up: y}", "scene.files[1].file is missing");
+  wrong("{file: a.obj, position_m: [1, 2]}", "must be three numbers");
+  wrong("{file: a.obj, position_m: [1, 2, 3], position: \"50 14\"}", "remove one");
+  wrong("{file: a.obj, position: here}", "scene.files[1].position");
+  wrong("{file: a.obj, canopy: a.obj}", "canopy: stands without terrain");
+  wrong("{file: a.obj, terrain: b.tif}", "scene.files[1].terrain: 'b.tif' is not there");
+  wrong("{file: a.obj, trun_deg: 3}", "did you mean 'turn_deg'");
+  EXPECT_EQ(read("{file: a.obj, height_m: 3, least_height_m: 3, trunk_share: 0}").warnings.size(), 3u);
+}
+
 TEST(Study, ResolvesPathsFromTheStudysFolder) {
   const Folder folder;
   folder.write("models/a.obj", "v 0 0 0\n");
   const auto text = with({{"scene", "{files: [../models/a.obj], up: y, unit_m: 0.001}"}});
   const Study study = read_study(folder.write("studies/s.yaml", text)).variants[0];
-  EXPECT_EQ(study.scene.files, Strings{folder.path() + "/models/a.obj"});
+  ASSERT_EQ(study.scene.files.size(), 1u);
+  EXPECT_EQ(study.scene.files[0].path, folder.path() + "/models/a.obj");
   EXPECT_EQ(study.scene.up, 'y');
   expect_problem({{"scene", "{files: [../models/b.obj]}"}},
                  "study.yaml:4:17: scene.files: '../models/b.obj' is not there");
@@ -479,6 +519,11 @@ json study_around(const std::string& path) {
     study["light"] = fixed;
   }
   if (path == "site.timezone") study["site"].erase("timezone");
+  if (path.starts_with("scene.files")) {
+    study["scene"].erase("builtin");
+    study["scene"]["files"] =
+        json::array({{{"file", std::string(SUNLOAD_SOURCE_DIR) + "/LICENSE"}}});
+  }
   return study;
 }
 
@@ -573,8 +618,8 @@ TEST(StudyConfigs, AreRead) {
     if (entry.path().extension() != ".yaml") continue;
     std::stringstream text;
     text << std::ifstream(entry.path()).rdbuf();
-    const bool needs_city = text.str().find("shared/data/city") != std::string::npos;
-    if (needs_city && test::shared_missing("data/city/delft_lod1_v20.city.json")) continue;
+    const bool needs_shared = text.str().find("shared/data") != std::string::npos;
+    if (needs_shared && test::shared_missing("data")) continue;
     ++read;
     try {
       const auto file = read_study(entry.path().string());
@@ -600,8 +645,12 @@ Study rich_study() {
                        "{builtin: {name: street}, materials: {a: {}, b: {}}, assign: [{material: "
                        "a}], ground: {}}"}}))
           .variants[0];
-  study.scene.files = {"x"};
-  study.scene.files_where.resize(1);
+  SceneFileStudy file;
+  file.path = "x";
+  file.position = Vec3{1, 2, 3};
+  file.earth_position = {50, 14, 0};
+  file.terrain = "y";
+  study.scene.files = {file};
   return study;
 }
 
@@ -646,6 +695,19 @@ TEST(CanonicalText, SeesEveryValueThatCanChangeANumber) {
                {"unit", [](Study& s) { s.scene.unit_m = 2; }},
                {"lod", [](Study& s) { s.scene.lod = "1"; }},
                {"repair", [](Study& s) { s.scene.repair = Repair::all; }},
+               {"orient", [](Study& s) { s.scene.orient = Orientation::keep; }},
+               {"up of a file", [](Study& s) { s.scene.files[0].up = 'y'; }},
+               {"unit of a file", [](Study& s) { s.scene.files[0].unit_m = 1; }},
+               {"lod of a file", [](Study& s) { s.scene.files[0].lod = "1"; }},
+               {"position", [](Study& s) { s.scene.files[0].position->z = 4; }},
+               {"no position", [](Study& s) { s.scene.files[0].position.reset(); }},
+               {"position on Earth", [](Study& s) { s.scene.files[0].earth_position->height_m = 4; }},
+               {"turn", [](Study& s) { s.scene.files[0].turn_deg = 4; }},
+               {"material of a file", [](Study& s) { s.scene.files[0].material = "x"; }},
+               {"blocks", [](Study& s) { s.scene.files[0].terrain.clear(); }},
+               {"canopy", [](Study& s) { s.scene.files[0].canopy = "x"; }},
+               {"least height", [](Study& s) { s.scene.files[0].least_height_m = 1; }},
+               {"trunk", [](Study& s) { s.scene.files[0].trunk_share = 0; }},
                {"material name", [](Study& s) { s.scene.materials[0].name = "c"; }},
                {"diffuse", [](Study& s) { s.scene.materials[0].diffuse = 0; }},
                {"mirror", [](Study& s) { s.scene.materials[0].mirror = 0; }},
@@ -730,7 +792,7 @@ TEST(CanonicalText, DoesNotSeeNamesPlacesAndOutput) {
       {"name", [](Study& s) { s.name = "x"; }},
       {"variant", [](Study& s) { s.variant = "x"; }},
       {"isa", [](Study& s) { s.solver.isa = "avx2"; }},  // the one in force is hashed apart
-      {"files", [](Study& s) { s.scene.files = {"/elsewhere/x"}; }},
+      {"files", [](Study& s) { s.scene.files[0].path = "/elsewhere/x"; }},
       {"parallel sources", [](Study& s) { s.scene.parallel_sources = "/elsewhere/x"; }},
       {"output",
        [](Study& s) {
@@ -742,7 +804,7 @@ TEST(CanonicalText, DoesNotSeeNamesPlacesAndOutput) {
        }},
       {"places", [&](Study& s) {
          s.site.where = s.period.where = s.scene.where = elsewhere;
-         s.scene.files_where[0] = s.scene.builtin->where = elsewhere;
+         s.scene.files[0].where = s.scene.builtin->where = elsewhere;
          s.scene.materials[0].where = s.scene.assign[0].where = elsewhere;
        }}};
   for (const auto& change : changes) {
