@@ -12,9 +12,11 @@ namespace {
 
 /// One material as it stands in the library, before its statements are weighed.
 struct Entry {
-  std::optional<double> diffuse, specular;
+  std::optional<std::array<double, 3>> diffuse, specular;
   double illumination_model = 0;
 };
+
+double mean(const std::array<double, 3>& rgb) { return (rgb[0] + rgb[1] + rgb[2]) / 3; }
 
 bool asks_for_reflected_rays(double illumination_model) {
   return illumination_model == 3 || (illumination_model >= 5 && illumination_model <= 9);
@@ -36,14 +38,14 @@ class LibraryReader {
   void read_statement(std::string_view keyword) {
     if (keyword == "newmtl") current_ = &entries_[std::string(words_.rest())];
     if (current_ == nullptr) return;
-    if (keyword == "Kd") current_->diffuse = colour_mean();
-    if (keyword == "Ks") current_->specular = colour_mean();
+    if (keyword == "Kd") current_->diffuse = colour();
+    if (keyword == "Ks") current_->specular = colour();
     if (keyword == "map_Kd") notes_.count("textures of materials ignored");
     if (keyword == "illum") current_->illumination_model = number(words_.next());
   }
 
-  /// Mean of `r g b`, or of `r` alone for grey; nothing for spectra and CIE colours.
-  std::optional<double> colour_mean() {
+  /// `r g b`, or `r` alone for grey; nothing for spectra and CIE colours.
+  std::optional<std::array<double, 3>> colour() {
     const auto first = words_.next();
     if (first == "spectral" || first == "xyz") {
       notes_.count("colours by spectrum or CIE XYZ ignored");
@@ -54,8 +56,7 @@ class LibraryReader {
     const auto second = words_.next();
     rgb[1] = second.empty() ? rgb[0] : number(second);
     rgb[2] = second.empty() ? rgb[0] : number(words_.next());
-    const double mean = (rgb[0] + rgb[1] + rgb[2]) / 3;
-    if (mean >= 0 && mean <= 1) return mean;
+    if (FileMaterial().set_diffuse(rgb)) return rgb;
     notes_.count("colours outside [0, 1] ignored");
     return std::nullopt;
   }
@@ -73,10 +74,10 @@ class LibraryReader {
   FileMaterial weighed(const std::string& name, const Entry& entry) {
     FileMaterial material;
     material.name = name;
-    material.diffuse = entry.diffuse;
+    if (entry.diffuse) material.set_diffuse(*entry.diffuse);
     if (asks_for_reflected_rays(entry.illumination_model)) {
-      material.mirror = entry.specular;
-    } else if (entry.specular.value_or(0) > 0) {
+      if (entry.specular) material.mirror = mean(*entry.specular);
+    } else if (entry.specular && mean(*entry.specular) > 0) {
       notes_.count(
           "materials whose Ks is a highlight, not a mirror (illum asks for no "
           "reflected rays)");

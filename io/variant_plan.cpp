@@ -54,6 +54,7 @@ void add_scene(Digest& digest, const Scene& scene) {
                                   m.absorption_per_m, m.glossy, m.glossy_exponent, m.transmittance})
       digest.add(property);
     digest.add(m.panes);
+    if (m.diffuse_in_band) digest.add(*m.diffuse_in_band);
   }
   const ParallelSources& sources = scene.parallel_sources;
   for (const auto& v : sources.mesh.vertices) digest.add(v);
@@ -237,6 +238,7 @@ SolverRules solver_rules(const VariantPlan& plan) {
           .isa = plan.isa,
           .errors = plan.study.output.standard_error == StandardErrors::instants ? Errors::instants
                                                                                  : Errors::totals,
+          .bands = s.bands,
           .transport = s.transport,
           .jacobi = s.jacobi,
           .power_per_sample_w = s.power_per_sample_w};

@@ -140,7 +140,8 @@ SunLight VariantRun::light_of(std::size_t interval, const SkyGrid& grid,
                               const std::vector<double>& open_share) const {
   const LitInterval& lit = plan_.light.intervals[interval];
   SunLight light =
-      sun_light(lit, static_cast<std::uint32_t>(interval), plan_.study.light, grid, open_share);
+      sun_light(lit, static_cast<std::uint32_t>(interval), plan_.study.light, grid, open_share,
+                plan_.study.solver.bands);
   light.disk_half_angle = disk_half_angle(plan_.study.sun.disk, lit.when.sun.distance_au);
   return light;
 }
@@ -184,7 +185,7 @@ void VariantRun::compute_batch(std::size_t batch) {
   parallel_for(count, [&](std::size_t k) {
     light[k] = light_of(first + k, solver_->sky_grid(), open_share_);
   });
-  const BatchTally tally = solver_->solve(light, progress_);
+  const std::vector<BatchTally> tallies = solver_->solve_bands(light, progress_);
   WorkDone work = solver_->work();
   work -= written_;
   BatchWriter writer({.content_hash = plan_.content_hash,
@@ -195,7 +196,7 @@ void VariantRun::compute_batch(std::size_t batch) {
                       .interval_count = count,
                       .chunk_intervals = plan_.batch_suns(),
                       .compression = plan_.study.output.compression});
-  add_tally(writer, tally, *solver_, plan_.built.scene.mesh, work);
+  add_tallies(writer, tallies, *solver_, plan_.built.scene.mesh, work);
   // Another process that failed may have removed the folder, which was empty until now.
   make_writable_folder(work_folder(folder_, plan_));
   writer.write(batch_path(folder_, plan_, batch));
