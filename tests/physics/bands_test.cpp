@@ -143,7 +143,7 @@ TEST(Bands, MeanOfColouredLightOnGreySurfacesIsBroadband) {
     compare(part_names[p], [&](const BatchTally& t) { return t.sensors.exposure[p]; });
   }
   compare("outgoing", [](const BatchTally& t) { return t.outgoing; });
-  for (const std::size_t r : {0, 7})
+  for (const std::size_t r : {std::size_t{0}, std::size_t{7}})
     compare("realization", [&](const BatchTally& t) { return t.exposure_realization[r]; });
   compare("ledger", [](const BatchTally& t) {
     return std::vector<double>(t.energy.terms.begin(), t.energy.terms.end());
@@ -192,6 +192,7 @@ TEST(Bands, SphereOfTwoSurfacesIsExactInEachOfThem) {
     const Scene scene = inward_sphere(subdivisions, {lamp, coloured("wall", rho2)},
                                       [](Vec3 p) { return p.z < -0.3 ? 0 : 1; });
     auto rules = test_rules();
+    rules.lines_per_patch = 16 * 16;
     rules.bounces = 40;
     const auto bands = solve_bands(scene, {in_bands(one_second({0, 0, -1}, 0))}, rules);
     double area[2] = {0, 0};
