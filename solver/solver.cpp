@@ -105,8 +105,8 @@ struct LightSolver::TimeSums {
   std::vector<Ledger> sent_on;                         ///< [R] the sun's light that mirrors sent on
 };
 
-/// The sun's irradiance of each realization, straight and by mirrors; empty where errors per
-/// instant are not asked for.
+/// The sun's irradiance of each realization, straight and by mirrors; empty where neither errors
+/// per instant nor bands are asked for.
 struct LightSolver::SunColumns {
   std::vector<Columns> direct, by_mirror, circumsolar;
   SunColumns(std::size_t realizations, std::size_t receivers)
@@ -289,9 +289,13 @@ LightSolver::TracedLight LightSolver::trace_block(const BlockSources& sources, T
   const auto& block = sources.suns;
   const std::size_t patches = hierarchy_.patch_count();
   const auto realizations = static_cast<std::size_t>(rules_.realizations);
-  const bool columns_wanted = rules_.errors == Errors::instants || is_rgb();
-  TracedLight traced{.of_patches = {columns_wanted ? realizations : 0, patches},
-                     .of_sensors = {columns_wanted ? realizations : 0, scene_.sensors.size()}};
+  const bool of_instants = rules_.errors == Errors::instants;
+  const std::size_t columns_of = of_instants || is_rgb() ? realizations : 0;
+  TracedLight traced{.of_patches = {columns_of, patches},
+                     .of_sensors = {columns_of, scene_.sensors.size()}};
+  // Bands ask for time sums alone, to which nothing comes by mirrors that are not there.
+  if (!of_instants && mirrors_.size() == 0 && !optics_.any_glossy)
+    traced.of_patches.by_mirror.clear();
   {
     const Stopwatch time(work_.direct_s);
     traced.direct =
