@@ -23,35 +23,36 @@ struct ResultReader::File {
     return variable != nullptr && has_bands(*variable);
   }
 
-  /// Values of rows [first, …) of a dataset, without its dimension of bands.
-  std::vector<double> without_bands(const std::string& dataset, const std::vector<double>& values,
-                                    std::size_t last_size) const {
+  /// Where the dimension of bands stands: last in the ledger, else before the last.
+  std::size_t band_axis(const std::string& dataset, const std::vector<std::size_t>& shape) const {
+    const bool is_last = find_result_variable(dataset)->part == ResultPart::ledger;
+    const std::size_t behind = is_last ? 1 : 2;
+    if (shape.size() < behind || shape[shape.size() - behind] != band_count)
+      refuse("dataset " + dataset + " cannot be read", "it has no dimension of bands");
+    return shape.size() - behind;
+  }
+
+  std::vector<std::size_t> without_bands(const std::string& dataset,
+                                         std::vector<std::size_t> shape) const {
+    if (is_banded(dataset))
+      shape.erase(shape.begin() + static_cast<std::ptrdiff_t>(band_axis(dataset, shape)));
+    return shape;
+  }
+
+  /// Values of rows of a dataset of that shape: of the chosen band, or the bands' mean.
+  std::vector<double> without_bands(const std::string& dataset, std::vector<double> values,
+                                    const std::vector<std::size_t>& shape) const {
     if (!is_banded(dataset)) return values;
-    // The band stands before the last dimension, or is the last one (ledger: last_size 1).
-    const std::size_t rows = values.size() / std::max<std::size_t>(band_count * last_size, 1);
-    std::vector<double> chosen(rows * last_size, 0);
+    const std::size_t axis = band_axis(dataset, shape);
+    const std::size_t n = axis + 1 < shape.size() ? shape.back() : 1;
+    const std::size_t rows = n > 0 ? values.size() / (band_count * n) : 0;
+    std::vector<double> chosen(rows * n);
     for (std::size_t row = 0; row < rows; ++row)
-      for (std::size_t i = 0; i < last_size; ++i) {
-        const auto at = [&](std::size_t b) {
-          return values[(row * band_count + b) * last_size + i];
-        };
-        chosen[row * last_size + i] = band ? at(*band) : mean_of({at(0), at(1), at(2)});
+      for (std::size_t i = 0; i < n; ++i) {
+        const auto at = [&](std::size_t b) { return values[(row * band_count + b) * n + i]; };
+        chosen[row * n + i] = band ? at(*band) : mean_of({at(0), at(1), at(2)});
       }
     return chosen;
-  }
-
-  /// Length of what follows the band: 1 where it is the last dimension.
-  static std::size_t last_size(const std::string& dataset, const std::vector<std::size_t>& shape) {
-    const ResultVariable* variable = find_result_variable(dataset);
-    return variable != nullptr && variable->part == ResultPart::ledger ? 1 : shape.back();
-  }
-
-  std::vector<std::size_t> shape_without_bands(const std::string& dataset,
-                                               std::vector<std::size_t> shape) const {
-    if (!is_banded(dataset)) return shape;
-    const bool is_last = find_result_variable(dataset)->part == ResultPart::ledger;
-    shape.erase(is_last ? shape.end() - 1 : shape.end() - 2);
-    return shape;
   }
 
   [[noreturn]] void refuse(const std::string& what, const std::string& why) const {
@@ -123,13 +124,13 @@ bool ResultReader::has(const std::string& dataset) const {
 
 std::vector<std::size_t> ResultReader::shape(const std::string& dataset) const {
   return file_->with(dataset, [&](const h5::Dataset& data) {
-    return file_->shape_without_bands(dataset, data.shape());
+    return file_->without_bands(dataset, data.shape());
   });
 }
 
 std::vector<double> ResultReader::doubles(const std::string& dataset) const {
   return file_->with(dataset, [&](const h5::Dataset& data) {
-    return file_->without_bands(dataset, data.doubles(), File::last_size(dataset, data.shape()));
+    return file_->without_bands(dataset, data.doubles(), data.shape());
   });
 }
 
@@ -148,8 +149,7 @@ std::vector<double> ResultReader::row(const std::string& dataset, std::size_t ti
 std::vector<double> ResultReader::rows(const std::string& dataset, std::size_t first,
                                        std::size_t count) const {
   return file_->with(dataset, [&](const h5::Dataset& data) {
-    return file_->without_bands(dataset, data.rows(first, count),
-                                File::last_size(dataset, data.shape()));
+    return file_->without_bands(dataset, data.rows(first, count), data.shape());
   });
 }
 
