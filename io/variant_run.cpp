@@ -167,8 +167,9 @@ SolverRules VariantRun::decided_rules() {
     suns[p] = light_of(lit[(2 * p + 1) * lit.size() / (2 * count)], grid, open_share);
   });
   const double weight = count > 0 ? static_cast<double>(lit.size()) / static_cast<double>(count) : 1;
-  const PatchSpread spread =
-      pilot_spread(scene, mesh_, rules, suns, weight, progress_);
+  SolverRules of_pilot = rules;
+  of_pilot.bands = Bands::broadband;  // the goal is for the mean of the bands
+  const PatchSpread spread = pilot_spread(scene, mesh_, of_pilot, suns, weight, progress_);
   const SampleCounts counts =
       needed_counts(spread, rules, accuracy_goal(plan_.study), lit.size());
   refuse_too_much(estimate_work(plan_, spread.area.size(), counts));

@@ -61,6 +61,17 @@ TEST(BandStudy, SameBitsForThreadsShardsAndResumedRuns) {
   EXPECT_NE(std::find(different.begin(), different.end(), "irradiance_sky"), different.end());
 }
 
+// The pilot takes broadband light; what is met is the mean of the bands.
+TEST(BandStudy, MayAskForAnAccuracy) {
+  const Square square;
+  square.write(", bands: rgb, accuracy: {light_load_relative: 0.2}, max_lines_per_patch: 128");
+  const Ran ran = square.run("accurate", {"--threads", "1"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const ResultReader result(square.result("accurate"));
+  const double share = result.number_attribute("accuracy_area_share");
+  EXPECT_TRUE(share > 0 && share <= 1) << share;
+}
+
 // White light on grey surfaces: series bit for bit, what realizations bring but for rounding.
 TEST(BandStudy, EveryBandOfWhiteLightOnGreyIsTheBroadbandResult) {
   const Square square;
