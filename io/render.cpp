@@ -7,6 +7,7 @@
 
 #include "geo/check.h"
 #include "geo/units.h"
+#include "io/render_bands.h"
 #include "io/render_frame.h"
 #include "io/render_scene.h"
 #include "io/result_time.h"
@@ -101,31 +102,6 @@ std::string title(const ResultReader& result) {
                      result.text_attribute("variant"));
 }
 
-/// Light of the bands per patch, white at `colours.largest`.
-std::vector<Colour> colours_of_bands(const ResultReader& result, const RenderRules& rules,
-                                     PatchColours& colours, const std::vector<double>& area) {
-  if (result.bands() == Bands::broadband || result.band())
-    throw InputError({result.path()}, "--colour rgb needs all bands of a result in bands",
-                     result.band() ? "--band chooses one" : "this one has none",
-                     "compute the study with solver.bands: rgb");
-  std::vector<double> bands[band_count], brightest(area.size(), 0);
-  for (std::size_t b = 0; b < band_count; ++b) {
-    bands[b] = shown_quantity(ResultReader(result.path(), b), rules.quantity, rules.time).values;
-    for (std::size_t i = 0; i < area.size(); ++i)
-      brightest[i] = std::max(brightest[i], bands[b][i]);
-  }
-  colours.largest = scale_end(rules.largest, brightest, area);
-  const auto share = [&](double value) { return std::clamp(value / colours.largest, 0.0, 1.0); };
-  std::vector<Colour> own(area.size());
-  for (std::size_t i = 0; i < area.size(); ++i)
-    own[i] = {share(bands[0][i]), share(bands[1][i]), share(bands[2][i])};
-  return own;
-}
-
-std::string band_title(const ResultReader& result) {
-  return result.band() ? std::string(", ") + band_names[*result.band()] : "";
-}
-
 }  // namespace
 
 void render_png(const ResultReader& result, const RenderRules& rules, const std::string& path) {
@@ -137,9 +113,13 @@ void render_png(const ResultReader& result, const RenderRules& rules, const std:
   const PictureArea area = scene_area(picture);
   const Camera camera = chosen_camera(result, rules, scene, what, north_deg, area);
   PatchColours colours{what.values, scale_end(rules.largest, what.values, scene.area()),
-                       {}, rules.palette, rules.mesh};
+                       rules.palette, rules.mesh};
   const bool in_rgb = rules.colours == PictureColours::of_bands;
-  if (in_rgb) colours.own = colours_of_bands(result, rules, colours, scene.area());
+  if (in_rgb) {
+    auto bands = colours_of_bands(result, rules.quantity, rules.time, rules.largest, scene.area());
+    colours.own = std::move(bands.of_patches);
+    colours.largest = bands.white;
+  }
 
   const RayCaster caster(scene.mesh());
   picture.paint(area.x, area.y, area.width,
@@ -150,8 +130,9 @@ void render_png(const ResultReader& result, const RenderRules& rules, const std:
                          : ""));
   const bool is_exceeded = std::any_of(what.values.begin(), what.values.end(),
                                        [&](double value) { return value > colours.largest; });
-  if (!in_rgb) draw_legend(picture, {what.units, colours.largest, rules.palette,
-                        is_exceeded ? Legend::Above::marked : Legend::Above::nothing});
+  if (!in_rgb)
+    draw_legend(picture, {what.units, colours.largest, rules.palette,
+                          is_exceeded ? Legend::Above::marked : Legend::Above::nothing});
   draw_north(picture, camera.image_direction(scene_direction({0, 0}, north_deg)));
   picture.save(path);
 }

@@ -44,9 +44,9 @@ inline constexpr Colour back_colour{0.72, 0.72, 0.72};
 struct PatchColours {
   std::vector<double> values;  ///< per patch; NaN is drawn as a back
   double largest = 1;
-  std::vector<Colour> own = {};  ///< per patch, linear light; where given, in place of a palette's
   Palette palette = Palette::false_colour;
   MeshLines mesh = MeshLines::none;
+  std::vector<Colour> own = {};  ///< per patch, linear light; where given, in place of a palette's
 };
 
 /// Rows of pixels, 2 × 2 samples each.
