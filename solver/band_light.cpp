@@ -12,7 +12,9 @@ constexpr std::size_t patches_per_task = 1024;
 
 double ratio(double of_band, double broadband) { return broadband > 0 ? of_band / broadband : 1; }
 
-/// What a band has of the sky where its circumsolar part lies, relative to the broadband sky.
+/// What a band has of the sky where its circumsolar part lies, relative to the broadband sky: of
+/// all bands 1 in the mean, so that the mean of the bands is broadband light line by line. Single
+/// cells of what is left for the lines may be below 0.
 double circumsolar_factor(const CircumsolarSky& part, const SunLight& broadband,
                           const SunLight& of_band) {
   if (!part.any()) return 1;

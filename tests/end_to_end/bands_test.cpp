@@ -8,6 +8,7 @@
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"
+#include "tests/support/statistics.h"
 
 namespace sunload::test {
 namespace {
@@ -17,14 +18,16 @@ const std::string sensors = "sensors: {points: [{position_m: [0, -5, 1.5], norma
 struct Square {
   WorkFolder folder;
   Square() { folder.write("square.obj", square_obj); }
+  enum class Walls { by_light, grey };
+  /// Walls are grey under white light, else as asked for.
   void write(const std::string& solver, const std::string& errors = "totals",
-             const std::string& colour = "sky") const {
+             const std::string& colour = "sky", Walls walls = Walls::by_light) const {
     std::string text = square_study(errors, solver) + sensors;
     const auto put = [&](const std::string& old, const std::string& now) {
       text.replace(text.find(old), old.size(), now);
     };
     put("source: clear_sky", "source: clear_sky, colour: " + colour);
-    if (colour == "sky") put("{diffuse: 0.6}", "{diffuse: [0.8, 0.6, 0.4]}");
+    if (colour == "sky" && walls == Walls::by_light) put("{diffuse: 0.6}", "{diffuse: [0.8, 0.6, 0.4]}");
     folder.write("square.yaml", text);
   }
   Ran run(const std::string& output, std::vector<std::string> more = {}) const {
@@ -94,6 +97,32 @@ TEST(BandStudy, EveryBandOfWhiteLightOnGreyIsTheBroadbandResult) {
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i)
       EXPECT_NEAR(a[i], b[i], 1e-6 * (mean.doubles("light_load")[0] + std::abs(b[i]))) << total;
+  }
+}
+
+// Transport is linear: on grey surfaces the mean of coloured bands is the broadband light, whichever
+// part of a sky of many colours comes by lines or by samples about the sun.
+TEST(BandStudy, MeanOfColouredLightOnGreyIsTheBroadbandResult) {
+  const Square square;
+  square.write("", "totals", "sky", Square::Walls::grey);
+  ASSERT_EQ(square.run("broad", {"--threads", "1"}).code, 0);
+  square.write(", bands: rgb", "totals", "sky", Square::Walls::grey);
+  ASSERT_EQ(square.run("rgb", {"--threads", "1"}).code, 0);
+  const ResultReader broadband(square.result("broad")), mean(square.result("rgb"));
+  for (const char* name : {"irradiance", "irradiance_sky", "irradiance_reflected",
+                           "irradiance_mirror", "sensor_irradiance_sky", "light_load",
+                           "light_load_realization", "power_escaped", "power_absorbed"}) {
+    const auto a = mean.doubles(name), b = broadband.doubles(name);
+    const double largest = *std::max_element(b.begin(), b.end());
+    double difference = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      difference = std::max(difference, std::abs(a[i] - b[i]));
+    EXPECT_LT(difference, float_rounding * largest) << name;
+    // Planted fault: one of the bands in place of their mean.
+    const auto red = ResultReader(square.result("rgb"), 0).doubles(name);
+    double of_red = 0;
+    for (std::size_t i = 0; i < b.size(); ++i) of_red = std::max(of_red, std::abs(red[i] - b[i]));
+    EXPECT_GT(of_red, 100 * float_rounding * largest) << name;
   }
 }
 
