@@ -27,9 +27,10 @@ std::size_t band_by_name(const std::string& name) {
   return static_cast<std::size_t>(found - band_names.begin());
 }
 
-std::vector<double> side_by_side(const std::vector<std::vector<double>>& bands, std::size_t rows) {
-  if (bands.size() == 1) return bands.front();
+std::vector<double> side_by_side(std::vector<std::vector<double>> bands, std::size_t rows) {
+  if (bands.size() == 1) return std::move(bands.front());
   std::vector<double> values;
+  values.reserve(bands.size() * bands.front().size());
   const std::size_t n = rows > 0 ? bands.front().size() / rows : 0;
   for (std::size_t row = 0; row < rows; ++row)
     for (const auto& band : bands) {

@@ -23,6 +23,6 @@ BandArray band_array(const std::string& name);
 std::size_t band_by_name(const std::string& name);
 
 /// Values of the bands ([rows, n] each) as a result has them: [rows, band, n]. A single one stays.
-std::vector<double> side_by_side(const std::vector<std::vector<double>>& bands, std::size_t rows);
+std::vector<double> side_by_side(std::vector<std::vector<double>> bands, std::size_t rows);
 
 }  // namespace sunload

@@ -105,7 +105,7 @@ class BandWriter {
   void write(const std::string& name, std::size_t rows, OfBand&& of_band) {
     std::vector<std::vector<double>> bands;
     for (const auto& prefix : prefixes_) bands.push_back(of_band(prefix));
-    writer_.write({name, side_by_side(bands, rows)});
+    writer_.write({name, side_by_side(std::move(bands), rows)});
   }
   /// What is the same in all bands.
   void write_once(const std::string& name, std::vector<double> values) {

@@ -356,7 +356,7 @@ void ResultWriter::File::append_ledger(const BatchReader& batch, const ArraySpec
     bands.push_back(batch.doubles(prefix + array.name));
   series_dataset(array.name)
       .write_rows(batch.header().first_interval, spec.dims[0],
-                  side_by_side(bands, spec.dims[0]).data());
+                  side_by_side(std::move(bands), spec.dims[0]).data());
 }
 
 /// Sums of the ledger's rows that are there, and their standard errors.

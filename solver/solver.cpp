@@ -235,8 +235,12 @@ LightSolver::TimeSums LightSolver::empty_sums() const {
 std::vector<BatchTally> LightSolver::solve_bands(std::span<const SunLight> batch, Watch& watch) {
   const std::size_t bands = optics_of_band_.size();
   const auto realizations = static_cast<std::size_t>(rules_.realizations);
-  std::vector<BatchTally> tallies(bands, empty_tally(batch));
-  std::vector<TimeSums> sums(bands, empty_sums());
+  std::vector<BatchTally> tallies;
+  std::vector<TimeSums> sums;
+  for (std::size_t b = 0; b < bands; ++b) {
+    tallies.push_back(empty_tally(batch));
+    sums.push_back(empty_sums());
+  }
 
   // Consecutive intervals with light, up to one block at a time.
   const auto lit = [&](std::size_t k) { return optics_.any_emission || !batch[k].is_dark(); };
