@@ -4,6 +4,17 @@
 
 namespace sunload {
 
+bool FileMaterial::set_diffuse(const std::array<double, 3>& rgb) {
+  const double mean = (rgb[0] + rgb[1] + rgb[2]) / 3;
+  if (!(mean >= 0 && mean <= 1)) return false;
+  diffuse = mean;
+  const bool is_grey = rgb[0] == rgb[1] && rgb[1] == rgb[2];
+  const bool are_shares =
+      std::all_of(rgb.begin(), rgb.end(), [](double c) { return c >= 0 && c <= 1; });
+  diffuse_rgb = are_shares && !is_grey ? std::optional(rgb) : std::nullopt;
+  return true;
+}
+
 void PolygonModel::add_polygon(const std::vector<std::vector<std::int32_t>>& rings,
                                Facts polygon_facts) {
   for (const auto& ring : rings) {

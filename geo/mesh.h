@@ -27,6 +27,12 @@ struct FileMaterial {
   double emitted_power_w = 0;      ///< shared by area among all triangles of the material
   bool glows = false;              ///< emits, with a power that the file does not tell
   bool is_reference = false;       ///< just a name, which study or table of materials define
+  /// `diffuse` in red, green and blue, of which it is the mean; absent: grey.
+  std::optional<std::array<double, 3>> diffuse_rgb = {};
+
+  /// Takes a colour as diffuse reflectance. False where its mean is no share, which leaves it open;
+  /// a colour of which a component alone is no share is taken as grey.
+  bool set_diffuse(const std::array<double, 3>& rgb);
 };
 
 /// Polygons with holes, as read: the common output of all scene readers.

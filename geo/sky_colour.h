@@ -5,7 +5,8 @@
 
 namespace sunload {
 
-/// Linear red, green, blue; 1 is white.
+/// Red, green, blue; 1 is white. The model's author chose them by eye as values of a display; as
+/// shares of light (io/light_colour.h) they are taken as they are.
 struct Rgb {
   double red = 0, green = 0, blue = 0;
 };

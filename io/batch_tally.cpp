@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "io/bands.h"
+
 namespace sunload {
 
 namespace {
@@ -40,11 +42,11 @@ std::vector<double> flattened(const std::vector<Row>& rows) {
   return flat;
 }
 
-void add_ledger(BatchWriter& writer, const BatchTally& tally) {
+void add_ledger(BatchWriter& writer, const BatchTally& tally, const std::string& prefix) {
   const std::size_t K = tally.intervals, R = tally.ledger_realization.size();
   for (std::size_t t = 0; t <= term_count; ++t) {
     const auto value = [&](const Ledger& l) { return t < term_count ? l.terms[t] : l.residual(); };
-    const std::string name = std::string("power_") + (t < term_count ? term_names[t] : "residual");
+    const std::string name = prefix + "power_" + (t < term_count ? term_names[t] : "residual");
     std::vector<double> power, errors;
     for (const auto& ledger : tally.ledger) power.push_back(value(ledger));
     writer.add({name, MergeRule::append, ArrayType::float64, {K}}, power.data());
@@ -61,8 +63,12 @@ void add_ledger(BatchWriter& writer, const BatchTally& tally) {
     energies.insert(energies.end(), ledger.terms.begin(), ledger.terms.end());
     energies.push_back(ledger.residual());
   }
-  writer.add({batch_array::ledger, MergeRule::sum, ArrayType::float64, {R, term_count + 1}},
+  writer.add({prefix + batch_array::ledger, MergeRule::sum, ArrayType::float64,
+              {R, term_count + 1}},
              energies.data());
+  const std::array energy{tally.energy.in(), tally.energy.residual(), tally.energy.lost_at_backs};
+  writer.add({prefix + batch_array::energy, MergeRule::sum, ArrayType::float64, {energy.size()}},
+             energy.data());
 }
 
 /// What receivers get: series, their time sums, and those of the realizations.
@@ -82,15 +88,20 @@ void add_received(BatchWriter& writer, const ReceiverTally& tally, std::size_t K
                tally.irradiance_se.data());
   writer.add({prefix + batch_array::exposure, MergeRule::sum, ArrayType::float64, {R, N}},
              flattened(tally.exposure_realization).data());
-  writer.add({prefix + batch_array::sunlit, MergeRule::sum, ArrayType::float64, {N}},
-             tally.sunlit_s.data());
   const std::vector<double> largest(tally.irradiance_max.begin(), tally.irradiance_max.end());
   writer.add({prefix + batch_array::maximum, MergeRule::maximum, ArrayType::float64, {N}},
              largest.data());
 }
 
+void add_sunlit(BatchWriter& writer, const ReceiverTally& tally, const std::string& prefix) {
+  writer.add({prefix + batch_array::sunlit, MergeRule::sum, ArrayType::float64,
+              {tally.sunlit_s.size()}},
+             tally.sunlit_s.data());
+}
+
+/// What sensors have that is the same in all bands.
 void add_sensors(BatchWriter& writer, const BatchTally& tally, const LightSolver& solver) {
-  add_received(writer, tally.sensors, tally.intervals, sensor_prefix);
+  add_sunlit(writer, tally.sensors, sensor_prefix);
   std::vector<double> sky, backs;
   for (const auto& ends : solver.sensor_lines().pooled.ends) {
     sky.push_back(static_cast<double>(ends.sky));
@@ -151,19 +162,28 @@ WorkDone work_from(const std::vector<double>& v) {
           .shoot_s = v.at(12)};
 }
 
-void add_tally(BatchWriter& writer, const BatchTally& tally, const LightSolver& solver,
-               const Mesh& mesh, const WorkDone& work) {
+void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
+                 const LightSolver& solver, const Mesh& mesh, const WorkDone& work) {
   const Hierarchy& hierarchy = solver.hierarchy();
-  const std::size_t N = hierarchy.patch_count(), K = tally.intervals;
-  add_received(writer, tally, K, "");
-  if (!tally.sensors.sunlit_s.empty()) add_sensors(writer, tally, solver);
-  if (!mesh.facades.empty())
-    writer.add({"facade_irradiance", MergeRule::append, ArrayType::float32,
-                {K, mesh.facades.size()}},
-               facade_series(tally, hierarchy, mesh).data());
-  add_ledger(writer, tally);
-  writer.add({batch_array::outgoing, MergeRule::sum, ArrayType::float64, {N}},
-             tally.outgoing.data());
+  const std::size_t N = hierarchy.patch_count();
+  const auto prefixes = band_prefixes(solver.rules().bands);
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    const BatchTally& tally = bands[b];
+    const std::size_t K = tally.intervals;
+    const std::string& prefix = prefixes[b];
+    add_received(writer, tally, K, prefix);
+    if (!tally.sensors.sunlit_s.empty())
+      add_received(writer, tally.sensors, K, prefix + sensor_prefix);
+    if (!mesh.facades.empty())
+      writer.add({prefix + "facade_irradiance", MergeRule::append, ArrayType::float32,
+                  {K, mesh.facades.size()}},
+                 facade_series(tally, hierarchy, mesh).data());
+    add_ledger(writer, tally, prefix);
+    writer.add({prefix + batch_array::outgoing, MergeRule::sum, ArrayType::float64, {N}},
+               tally.outgoing.data());
+  }
+  add_sunlit(writer, bands.front(), "");
+  if (!bands.front().sensors.sunlit_s.empty()) add_sensors(writer, bands.front(), solver);
   writer.add({batch_array::sky_view, MergeRule::maximum, ArrayType::float64, {N}},
              solver.sky_view_factor().data());
   const double bounces = solver.bounces();
@@ -172,9 +192,6 @@ void add_tally(BatchWriter& writer, const BatchTally& tally, const LightSolver& 
                                      static_cast<double>(solver.rules().direct_samples)};
   writer.add({batch_array::counts, MergeRule::maximum, ArrayType::float64, {counts.size()}},
              counts.data());
-  const std::array energy{tally.energy.in(), tally.energy.residual(), tally.energy.lost_at_backs};
-  writer.add({batch_array::energy, MergeRule::sum, ArrayType::float64, {energy.size()}},
-             energy.data());
   const auto cost = work_values(work);
   writer.add({batch_array::work, MergeRule::sum, ArrayType::float64, {cost.size()}}, cost.data());
 }

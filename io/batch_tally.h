@@ -36,8 +36,10 @@ std::string sum_name(Part part);
 std::vector<double> work_values(const WorkDone& work);
 WorkDone work_from(const std::vector<double>& values);
 
-/// Everything of a tally into a batch file's arrays; `work` is what this batch cost.
-void add_tally(BatchWriter& writer, const BatchTally& tally, const LightSolver& solver,
-               const Mesh& mesh, const WorkDone& work);
+/// Everything of the tallies, one per band, into a batch file's arrays; `work` is what this batch
+/// cost. Arrays of three bands have the prefixes of `band_prefixes`, but for those that are the
+/// same in all of them.
+void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
+                 const LightSolver& solver, const Mesh& mesh, const WorkDone& work);
 
 }  // namespace sunload

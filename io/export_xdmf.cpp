@@ -112,6 +112,10 @@ std::vector<std::string> chosen_series(const ResultReader& result, const ExportR
 }  // namespace
 
 void export_xdmf(const ResultReader& result, const ExportRules& rules, const ExportTarget& target) {
+  if (result.bands() != Bands::broadband)
+    throw InputError({result.path()}, "--to xdmf cannot show a result in bands",
+                     "it refers to the series of the file as they lie there, with three bands",
+                     "export to vtk, ply or csv, with --band for one of them");
   const Grid grid(result, reference(result, target.path), chosen_series(result, rules));
   const auto time = result.doubles("time");
   const Vec3 origin = scene_origin(result);

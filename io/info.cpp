@@ -205,8 +205,10 @@ std::string runtime(const ResultReader& result) {
 
 }  // namespace
 
-std::string energy_text(const ResultReader& result) {
-  if (!result.has("power_sun")) return {};
+namespace {
+
+/// The ledger of what the reader shows; `label` names its first line.
+std::string ledger_lines(const ResultReader& result, const std::string& label) {
   const Quantity quantity = result.quantity();
   double in = 0, out = 0;
   std::string in_words, out_words;
@@ -230,13 +232,34 @@ std::string energy_text(const ResultReader& result) {
                                : std::nan("");
   const std::string error =
       std::isnan(error_kwh) ? std::string() : fmt::format(" ± {:.2g}", error_kwh);
-  const double bias = result.number_attribute(unit_names("residual_reuse_bias_kwh", quantity));
+  // Of the mean of bands.
+  const double bias = result.band() ? std::nan("")
+                                    : result.number_attribute(
+                                          unit_names("residual_reuse_bias_kwh", quantity));
   const std::string reuse =
       std::isnan(bias) ? std::string() : fmt::format(", of which {:.2g} by reuse of lines", bias);
-  return line(quantity == Quantity::illuminance ? "light, klm h" : "energy, kWh", fmt::format("in {:.6g} = {}", in, in_words)) +
+  return line(label.c_str(), fmt::format("in {:.6g} = {}", in, in_words)) +
          line("", fmt::format("out {:.6g} = {}", out, out_words)) +
          line("", fmt::format("residual {:.3g}{} ({:.2g} % of in){}", residual, error,
                               in == 0 ? 0 : residual / in * 100, reuse));
+}
+
+std::string band_words(const ResultReader& result) {
+  if (result.bands() == Bands::broadband) return {};
+  return result.band() ? fmt::format("{} of red, green, blue", band_names[*result.band()])
+                       : "red, green, blue; shown is their mean, or one with --band";
+}
+
+}  // namespace
+
+std::string energy_text(const ResultReader& result) {
+  if (!result.has("power_sun")) return {};
+  std::string text = ledger_lines(
+      result, result.quantity() == Quantity::illuminance ? "light, klm h" : "energy, kWh");
+  if (result.bands() == Bands::broadband || result.band()) return text;
+  for (std::size_t b = 0; b < band_count; ++b)
+    text += ledger_lines(ResultReader(result.path(), b), std::string("  ") + band_names[b]);
+  return text;
 }
 
 std::string info_text(const ResultReader& result) {
@@ -246,6 +269,7 @@ std::string info_text(const ResultReader& result) {
   text += period(result);
   text += orientation(result);
   text += size(result, groups);
+  text += line("bands", band_words(result));
   text += accuracy(result, groups, load);
   text += lighting_analysis(result, groups, load);
   text += facades(result, groups, load);

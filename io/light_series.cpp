@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/hash.h"
+#include "io/light_colour.h"
 #include "io/period.h"
 #include "io/weather_light.h"
 #include "solver/parallel.h"
@@ -217,8 +218,20 @@ Sky sky_of(const LitInterval& interval, const LightStudy& light) {
               .turbidity = light.turbidity});
 }
 
+namespace {
+
+/// Cells of the sky behind hills, which shine as the far ground does.
+void put_hills(std::vector<double>& sky, double ground_exitance,
+               const std::vector<double>& open_share) {
+  sky.resize(open_share.size(), 0);
+  for (std::size_t cell = 0; cell < open_share.size(); ++cell)
+    sky[cell] = open_share[cell] * sky[cell] + (1 - open_share[cell]) * ground_exitance / pi;
+}
+
+}  // namespace
+
 SunLight sun_light(const LitInterval& interval, std::uint32_t number, const LightStudy& light,
-                   const SkyGrid& grid, const std::vector<double>& open_share) {
+                   const SkyGrid& grid, const std::vector<double>& open_share, Bands bands) {
   const SunInterval& when = interval.when;
   SunLight sun;
   sun.number = number;
@@ -230,11 +243,10 @@ SunLight sun_light(const LitInterval& interval, std::uint32_t number, const Ligh
   sun.length_s = when.length_s();
   sun.sunlit_s = when.sunlit_s;
   if (source.dhi > 0) sun.sky = grid.mean_radiance(sky_of(interval, light), source.dhi);
+  if (bands == Bands::rgb) sun.bands = light_in_bands(sun, source, interval, light, grid);
   if (!open_share.empty() && sun.ground_exitance + source.dhi > 0) {
-    sun.sky.resize(open_share.size(), 0);
-    for (std::size_t cell = 0; cell < open_share.size(); ++cell)
-      sun.sky[cell] =
-          open_share[cell] * sun.sky[cell] + (1 - open_share[cell]) * sun.ground_exitance / pi;
+    put_hills(sun.sky, sun.ground_exitance, open_share);
+    for (auto& band : sun.bands) put_hills(band.sky, band.ground_exitance, open_share);
   }
   return sun;
 }

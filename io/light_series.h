@@ -48,7 +48,10 @@ Sky sky_of(const LitInterval& interval, const LightStudy& light);
 /// that of the open sky: its part behind the hills is lost, and they shine as the far ground
 /// does, unshaded by themselves; results count that as sky light. With the sun behind the hills
 /// the far ground has the sky's light only.
+///
+/// With rgb, `SunLight::bands` hold the light in bands (io/light_colour.h).
 SunLight sun_light(const LitInterval& interval, std::uint32_t number, const LightStudy& light,
-                   const SkyGrid& grid, const std::vector<double>& open_share = {});
+                   const SkyGrid& grid, const std::vector<double>& open_share = {},
+                   Bands bands = Bands::broadband);
 
 }  // namespace sunload

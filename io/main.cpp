@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "geo/check.h"
+#include "io/bands.h"
 #include "io/compare.h"
 #include "io/export.h"
 #include "io/file_aside.h"
@@ -250,14 +251,25 @@ class CommandLine {
     return print_sky(study_, sky_);
   }
 
+  /// Which band of a result in bands.
+  void add_band(CLI::App* sub) {
+    sub->add_option("--band", band_,
+                    "of a result with solver.bands: rgb: red, green or blue (default: their mean)");
+  }
+
+  std::optional<std::size_t> band() const {
+    return band_.empty() ? std::nullopt : std::optional(band_by_name(band_));
+  }
+
   void add_info() {
     CLI::App* sub = command("info", "what a result holds, on one screen", [this] {
-      const ResultReader result(results_.front());
+      const ResultReader result(results_.front(), band());
       std::cout << (patches_ ? patches_csv(result) : info_text(result));
       return exit_code::done;
     });
     sub->add_option("RESULT", results_, "result file (.h5)")->required()->expected(1);
     sub->add_flag("--patches", patches_, "every patch as CSV");
+    add_band(sub);
   }
 
   void add_compare() {
@@ -269,6 +281,7 @@ class CommandLine {
     sub->add_option("--output", options_.output, "folder of the study's results");
     auto* csv = sub->add_flag("--csv", csv_, "one row per group, for machines");
     sub->add_flag("--json", json_, "the same as JSON")->excludes(csv);
+    add_band(sub);
   }
 
   /// A result file as it is, or the result of a study's variant.
@@ -296,9 +309,9 @@ class CommandLine {
     if ((csv_ || json_) && variants.size() > 1)
       throw InputError({}, "--csv and --json take one variant", "their header has no column for it",
                        "call compare once per variant");
-    const ResultReader base_result(base);
+    const ResultReader base_result(base, band());
     for (const auto& variant : variants) {
-      const Comparison comparison = compare_results(base_result, ResultReader(variant));
+      const Comparison comparison = compare_results(base_result, ResultReader(variant, band()));
       std::cout << (csv_    ? comparison_csv(comparison)
                     : json_ ? comparison_json(comparison)
                             : comparison_table(comparison));
@@ -314,7 +327,11 @@ class CommandLine {
       if (mesh_lines_) render_.mesh = MeshLines::patches;
       if (std::sscanf(size_.c_str(), "%dx%d", &render_.width, &render_.height) != 2)
         throw InputError({}, "--size " + size_, "not a size", "write e.g. 1600x1000");
-      render_png(ResultReader(results_.front()), render_, picture_);
+      render_.colours = render_colours_.first;
+      render_.palette = render_colours_.second;
+      if (render_.colours == PictureColours::of_bands && app_.get_subcommand("render")->count("--quantity") == 0)
+        render_.quantity = "power_load";
+      render_png(ResultReader(results_.front(), band()), render_, picture_);
       return exit_code::done;
     });
     sub->add_option("RESULT", results_, "result file (.h5)")->required()->expected(1);
@@ -327,8 +344,12 @@ class CommandLine {
     sub->add_option("--look", look_, "point looked at x,y,z [m]");
     sub->add_option("--size", size_, "WIDTHxHEIGHT in pixels")->capture_default_str();
     sub->add_option("--max", largest_, "value of the last colour")->check(positive);
-    add_word(sub, "--colour", render_.palette,
-             {{"false", Palette::false_colour}, {"grey", Palette::grey}}, "colours");
+    add_word(sub, "--colour", render_colours_,
+             {{"false", {PictureColours::of_values, Palette::false_colour}},
+              {"grey", {PictureColours::of_values, Palette::grey}},
+              {"rgb", {PictureColours::of_bands, Palette::false_colour}}},
+             "colours (rgb: the bands themselves, default quantity power_load)");
+    add_band(sub);
     sub->add_flag("--mesh", mesh_lines_, "draw the patches' edges");
   }
 
@@ -336,6 +357,7 @@ class CommandLine {
     CLI::App* sub = command("view", "one self-contained page: walk through the scene, any time, two results",
                             [this] {
                               if (view_step_ > 0) view_.step = view_step_;
+                              view_.band = band();
                               view_html(results_, view_, picture_);
                               return exit_code::done;
                             });
@@ -343,11 +365,12 @@ class CommandLine {
     sub->add_option("-o,--output", picture_, "page to write (.html)")->required();
     sub->add_option("--step", view_step_, "hold every N-th interval only (default: as many as 60 MB hold)")
         ->check(CLI::Range(1, 1'000'000));
+    add_band(sub);
   }
 
   void add_export() {
     CLI::App* sub = command("export", "a result in the format of another program", [this] {
-      export_result(ResultReader(results_.front()), export_, picture_);
+      export_result(ResultReader(results_.front(), band()), export_, picture_);
       return exit_code::done;
     });
     sub->add_option("RESULT", results_, "result file (.h5)")->required()->expected(1);
@@ -360,6 +383,7 @@ class CommandLine {
         sub, "--colour", export_.palette,
         {{"false", Palette::false_colour}, {"grey", Palette::grey}}, "colours");
     sub->add_option("--max", export_.largest, "value of the last colour")->check(positive);
+    add_band(sub);
     sub->add_flag("--interpolate", export_.interpolate, "colours of corners, not of patches (glb, vrml)");
     sub->add_option("--crease-angle", export_.crease_angle_deg,
                     "patches that turn by more are not interpolated [degrees, default 20]");
@@ -395,10 +419,13 @@ class CommandLine {
 
   CLI::App app_{"sunload: how much sun and sky light falls on every patch of a city"};
   std::function<int()> action_;
-  std::string study_, base_, eye_, look_, picture_, scene_, shard_, size_ = "1600x1000", subdivision_ = "cells";
+  std::string study_, base_, eye_, look_, picture_, scene_, shard_, size_ = "1600x1000", subdivision_ = "cells",
+      band_;
   std::vector<std::string> results_, parameters_;
   RunOptions options_;
   RenderRules render_;
+  std::pair<PictureColours, Palette> render_colours_{PictureColours::of_values,
+                                                     Palette::false_colour};
   ExportRules export_;
   SkyOptions sky_;
   ViewRules view_;

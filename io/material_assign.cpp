@@ -60,6 +60,7 @@ class MaterialAssigner {
     MaterialStudy study;
     study.name = file.name;
     study.diffuse = file.diffuse;
+    study.diffuse_rgb = file.diffuse_rgb;
     study.mirror = file.mirror;
     return study;
   }
@@ -174,6 +175,7 @@ class MaterialAssigner {
     m.glossy = study.glossy;
     m.glossy_exponent = study.glossy_exponent;
     m.transmittance = study.transmittance;
+    set_colour(m, study.diffuse ? study.diffuse_rgb : file ? file->diffuse_rgb : std::nullopt);
     return m;
   }
 
@@ -183,11 +185,17 @@ class MaterialAssigner {
     if (file && (file->diffuse || file->mirror)) {
       m.diffuse = file->diffuse.value_or(0);
       m.mirror = file->mirror.value_or(0);
+      set_colour(m, file->diffuse_rgb);
     } else {
       m.diffuse = default_of(t);
     }
     if (id.exists()) m.emission_w_m2 = emission_[id.index()];
     return m;
+  }
+
+  /// Gloss, whose shares depend on the angle, stands on grey.
+  void set_colour(Material& m, const std::optional<BandShares>& rgb) const {
+    if (study_.solver.bands == Bands::rgb && m.glossy == 0) m.diffuse_in_band = rgb;
   }
 
   double default_of(std::size_t t) {
@@ -245,11 +253,12 @@ class MaterialAssigner {
   MaterialId id_of(const Material& m, std::size_t t) {
     const auto known = ids_.find(m.name);
     if (known != ids_.end() && scene_.materials[known->second.index()] == m) return known->second;
-    const double sum = m.diffuse + m.mirror + m.glossy + m.transmittance;
+    const double diffuse = m.diffuse_in_band ? std::ranges::max(*m.diffuse_in_band) : m.diffuse;
+    const double sum = diffuse + m.mirror + m.glossy + m.transmittance;
     if (sum > 1 + 1e-9 && refused_.insert(m.name).second)
       problems_.add({},
                     fmt::format("material '{}': diffuse {} + mirror {}{} exceeds 1", m.name,
-                                m.diffuse, m.mirror, other_shares(m)),
+                                diffuse, m.mirror, other_shares(m)),
                     "more light would leave than arrives (triangle " + std::to_string(t) + ")",
                     "override it in scene.materials");
     const auto same = std::find(scene_.materials.begin(), scene_.materials.end(), m);

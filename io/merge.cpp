@@ -9,6 +9,7 @@
 
 #include "geo/units.h"
 #include "io/batch_file.h"
+#include "io/bands.h"
 #include "io/batch_tally.h"
 #include "io/version.h"
 
@@ -35,6 +36,23 @@ class Totals {
         total[i] = spec.rule == MergeRule::sum ? total[i] + values[i]
                                                : std::max(total[i], values[i]);
     }
+  }
+  /// Where arrays are those of bands, adds their means under the names without band.
+  void add_means() {
+    const auto prefixes = band_prefixes(Bands::rgb);
+    std::map<std::string, std::vector<double>> means;
+    for (const auto& [name, values] : arrays_) {
+      const BandArray array = band_array(name);
+      if (array.band != 0) continue;
+      auto mean = values;
+      for (std::size_t i = 0; i < mean.size(); ++i) {
+        for (std::size_t b = 1; b < band_count; ++b)
+          mean[i] += arrays_.at(prefixes[b] + array.name)[i];
+        mean[i] /= static_cast<double>(band_count);
+      }
+      means.emplace(array.name, std::move(mean));
+    }
+    arrays_.merge(means);
   }
   bool has(const std::string& name) const { return arrays_.contains(name); }
   const std::vector<double>& operator[](const std::string& name) const { return arrays_.at(name); }
@@ -77,46 +95,84 @@ std::vector<double> facade_means(const std::vector<double>& rows, const ResultGe
 
 constexpr double kwh_per_joule = 1 / joules_per_kwh;
 
-/// Totals of N patches or sensors; names begin with `prefix`.
-void write_received(ResultWriter& writer, const Totals& totals, const std::string& prefix,
-                    std::size_t N) {
-  for (std::size_t p = 0; p < part_count; ++p) {
-    const auto part = static_cast<Part>(p);
-    if (!totals.has(prefix + sum_name(part))) continue;
-    const std::string name =
-        part == Part::total ? "light_load" : std::string("light_load_") + part_names[p];
-    writer.write({prefix + name, scaled(totals[prefix + sum_name(part)], kwh_per_joule)});
+/// Writes what follows from the totals of every band, side by side.
+class BandWriter {
+ public:
+  BandWriter(ResultWriter& writer, Bands bands) : writer_(writer), prefixes_(band_prefixes(bands)) {}
+
+  /// `of_band(prefix)` gives the values of one band, [rows, n].
+  template <class OfBand>
+  void write(const std::string& name, std::size_t rows, OfBand&& of_band) {
+    std::vector<std::vector<double>> bands;
+    for (const auto& prefix : prefixes_) bands.push_back(of_band(prefix));
+    writer_.write({name, side_by_side(std::move(bands), rows)});
   }
-  const auto realizations = scaled(totals[prefix + batch_array::exposure], kwh_per_joule);
-  writer.write({prefix + "light_load_realization", realizations});
-  writer.write({prefix + "light_load_se", errors_of(realizations, N)});
-  writer.write(
-      {prefix + "sun_hours", scaled(totals[prefix + batch_array::sunlit], 1 / seconds_per_hour)});
-  writer.write({prefix + "irradiance_max", totals[prefix + batch_array::maximum]});
-  writer.write({prefix + "sky_view_factor", totals[prefix + batch_array::sky_view]});
+  /// What is the same in all bands.
+  void write_once(const std::string& name, std::vector<double> values) {
+    writer_.write({name, std::move(values)});
+  }
+  const std::string& first() const { return prefixes_.front(); }
+
+ private:
+  ResultWriter& writer_;
+  std::vector<std::string> prefixes_;
+};
+
+/// Totals of N patches or sensors; names begin with `prefix`.
+void write_received(BandWriter& writer, const Totals& totals, const std::string& prefix,
+                    std::size_t N, std::size_t realizations) {
+  for (std::size_t p = 0; p < part_count; ++p) {
+    const std::string sum = prefix + sum_name(static_cast<Part>(p));
+    if (!totals.has(writer.first() + sum)) continue;
+    const std::string name = static_cast<Part>(p) == Part::total
+                                 ? "light_load"
+                                 : std::string("light_load_") + part_names[p];
+    writer.write(prefix + name, 1, [&](const std::string& band) {
+      return scaled(totals[band + sum], kwh_per_joule);
+    });
+  }
+  const auto of_realizations = [&](const std::string& band) {
+    return scaled(totals[band + prefix + batch_array::exposure], kwh_per_joule);
+  };
+  writer.write(prefix + "light_load_realization", realizations, of_realizations);
+  writer.write(prefix + "light_load_se", 1,
+               [&](const std::string& band) { return errors_of(of_realizations(band), N); });
+  writer.write_once(prefix + "sun_hours",
+                    scaled(totals[prefix + batch_array::sunlit], 1 / seconds_per_hour));
+  writer.write(prefix + "irradiance_max", 1, [&](const std::string& band) {
+    return totals[band + prefix + batch_array::maximum];
+  });
+  writer.write_once(prefix + "sky_view_factor", totals[prefix + batch_array::sky_view]);
 }
 
-void write_loads(ResultWriter& writer, const Totals& totals, const ResultGeometry& geometry) {
+void write_loads(BandWriter& writer, const Totals& totals, const ResultGeometry& geometry,
+                 std::size_t realizations) {
   const std::size_t N = geometry.patch_area.size(), F = geometry.facade_name.size();
-  write_received(writer, totals, "", N);
-  writer.write({"power_load", scaled(totals[batch_array::outgoing], kwh_per_joule)});
+  write_received(writer, totals, "", N, realizations);
+  writer.write("power_load", 1, [&](const std::string& band) {
+    return scaled(totals[band + batch_array::outgoing], kwh_per_joule);
+  });
   if (const std::size_t S = geometry.sensor_position.size(); S > 0)
-    write_received(writer, totals, sensor_prefix, S);
+    write_received(writer, totals, sensor_prefix, S, realizations);
   if (F == 0) return;
-  const auto realizations = scaled(totals[batch_array::exposure], kwh_per_joule);
-  const auto of_facades = facade_means(realizations, geometry);
-  writer.write({"facade_light_load_realization", of_facades});
-  writer.write({"facade_light_load_se", errors_of(of_facades, F)});
-  writer.write({"facade_light_load",
-                facade_means(scaled(totals[sum_name(Part::total)], kwh_per_joule), geometry)});
+  const auto of_facades = [&](const std::string& band) {
+    return facade_means(scaled(totals[band + batch_array::exposure], kwh_per_joule), geometry);
+  };
+  writer.write("facade_light_load_realization", realizations, of_facades);
+  writer.write("facade_light_load_se", 1,
+               [&](const std::string& band) { return errors_of(of_facades(band), F); });
+  writer.write("facade_light_load", 1, [&](const std::string& band) {
+    return facade_means(scaled(totals[band + sum_name(Part::total)], kwh_per_joule), geometry);
+  });
 }
 
-void write_ledger_errors(ResultWriter& writer, const Totals& totals) {
-  const auto errors =
-      errors_of(scaled(totals[batch_array::ledger], kwh_per_joule), term_count + 1);
+void write_ledger_errors(BandWriter& writer, const Totals& totals) {
   for (std::size_t t = 0; t <= term_count; ++t) {
     const std::string term = t < term_count ? term_names[t] : "residual";
-    writer.write({"power_" + term + "_se", {errors[t]}});
+    writer.write("power_" + term + "_se", 1, [&](const std::string& band) {
+      const auto rows = scaled(totals[band + batch_array::ledger], kwh_per_joule);
+      return std::vector{errors_of(rows, term_count + 1)[t]};
+    });
   }
 }
 
@@ -278,6 +334,10 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
     a.numbers.emplace_back("accuracy_light_load_relative", relative);
     a.numbers.emplace_back("accuracy_area_share", accuracy_share(totals, geometry, relative));
   }
+  if (study.solver.bands == Bands::rgb) {
+    a.text.emplace_back("bands", "rgb");
+    a.text.emplace_back("light_colour", study.light.colour == LightColour::white ? "white" : "sky");
+  }
   std::string weather;
   for (const auto& line : plan.light.weather) weather += line + "\n";
   if (!weather.empty()) a.text.emplace_back("weather", weather);
@@ -366,6 +426,7 @@ std::vector<std::string> merge_variant(const std::string& folder, const VariantP
   options.times_are_synthetic = plan.light.times_are_synthetic;
   options.left_out = unwanted_series(plan.study.output);
   options.quantity = plan.study.light.quantity;
+  options.bands = plan.study.solver.bands;
   ResultWriter writer(path, geometry, result_times(plan.light, options.quantity), options);
   Totals totals;
   for (std::size_t b = 0; b < plan.batches(); ++b) {
@@ -374,8 +435,10 @@ std::vector<std::string> merge_variant(const std::string& folder, const VariantP
     writer.append(batch);
     totals.add(batch);
   }
-  write_loads(writer, totals, geometry);
-  write_ledger_errors(writer, totals);
+  totals.add_means();
+  BandWriter band_writer(writer, options.bands);
+  write_loads(band_writer, totals, geometry, options.realizations);
+  write_ledger_errors(band_writer, totals);
   writer.finish(result_attributes(plan, file, totals, geometry), file.yaml);
   return result_warnings(totals, geometry);
 }

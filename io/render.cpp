@@ -7,6 +7,7 @@
 
 #include "geo/check.h"
 #include "geo/units.h"
+#include "io/render_bands.h"
 #include "io/render_frame.h"
 #include "io/render_scene.h"
 #include "io/result_time.h"
@@ -111,16 +112,27 @@ void render_png(const ResultReader& result, const RenderRules& rules, const std:
   Picture picture(rules.width, rules.height);
   const PictureArea area = scene_area(picture);
   const Camera camera = chosen_camera(result, rules, scene, what, north_deg, area);
-  const PatchColours colours{what.values, scale_end(rules.largest, what.values, scene.area()), rules.palette, rules.mesh};
+  PatchColours colours{what.values, scale_end(rules.largest, what.values, scene.area()),
+                       rules.palette, rules.mesh};
+  const bool in_rgb = rules.colours == PictureColours::of_bands;
+  if (in_rgb) {
+    auto bands = colours_of_bands(result, rules.quantity, rules.time, rules.largest, scene.area());
+    colours.own = std::move(bands.of_patches);
+    colours.largest = bands.white;
+  }
 
   const RayCaster caster(scene.mesh());
   picture.paint(area.x, area.y, area.width,
                 drawn_pixels(scene, caster, camera, area.width, area.height, colours));
-  draw_title(picture, title(result), what.name + ", " + what.when);
+  draw_title(picture, title(result) + band_title(result),
+             what.name + ", " + what.when +
+                 (in_rgb ? fmt::format(", in colour, white: {:.4g} {}", colours.largest, what.units)
+                         : ""));
   const bool is_exceeded = std::any_of(what.values.begin(), what.values.end(),
                                        [&](double value) { return value > colours.largest; });
-  draw_legend(picture, {what.units, colours.largest, rules.palette,
-                        is_exceeded ? Legend::Above::marked : Legend::Above::nothing});
+  if (!in_rgb)
+    draw_legend(picture, {what.units, colours.largest, rules.palette,
+                          is_exceeded ? Legend::Above::marked : Legend::Above::nothing});
   draw_north(picture, camera.image_direction(scene_direction({0, 0}, north_deg)));
   picture.save(path);
 }

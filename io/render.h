@@ -18,6 +18,9 @@ enum class View {
 
 enum class MeshLines { none, patches };
 
+/// of_values: by a palette; of_bands: red, green and blue light as what they are.
+enum class PictureColours { of_values, of_bands };
+
 struct RenderRules {
   std::string quantity = "light_load";  ///< a dataset [patch] or [time, patch]
   std::string time;                     ///< as in a study; empty: the brightest interval
@@ -27,11 +30,13 @@ struct RenderRules {
   std::optional<Vec3> eye, look;
   int width = 1600, height = 1000;  ///< of the whole picture [pixels], 320 … 16384
   std::optional<double> largest;    ///< value of the last colour, in units of the quantity
+  PictureColours colours = PictureColours::of_values;
   Palette palette = Palette::false_colour;
   MeshLines mesh = MeshLines::none;
 };
 
-/// Draws and writes a PNG. Rays are cast at 2 × 2 points of a pixel; colours
+/// Draws and writes a PNG. Colours of bands show white where all bands reach `largest`, of
+/// `power_load` as an eye would see the surfaces. Rays are cast at 2 × 2 points of a pixel; colours
 /// are not shaded, so that every colour is one of the legend's; thin lines part
 /// objects, materials and folds. Backs of one-sided surfaces are grey.
 /// Throws InputError for a quantity, time, camera or size that the result does

@@ -145,6 +145,7 @@ class Drawing {
     const double value =
         patch < 0 ? std::nan("") : colours_.values[static_cast<std::size_t>(patch)];
     if (std::isnan(value)) return back_;
+    if (!colours_.own.empty()) return colours_.own[static_cast<std::size_t>(patch)];
     const double share = std::clamp(value / colours_.largest, 0.0, 1.0);
     return palette_[static_cast<std::size_t>(
         std::lround(share * static_cast<double>(palette_steps - 1)))];

@@ -46,6 +46,7 @@ struct PatchColours {
   double largest = 1;
   Palette palette = Palette::false_colour;
   MeshLines mesh = MeshLines::none;
+  std::vector<Colour> own = {};  ///< per patch, linear light; where given, in place of a palette's
 };
 
 /// Rows of pixels, 2 × 2 samples each.

@@ -7,6 +7,7 @@
 
 #include "geo/check.h"
 #include "geo/units.h"
+#include "io/bands.h"
 #include "io/chunk.h"
 #include "io/file_aside.h"
 #include "io/h5.h"
@@ -59,6 +60,13 @@ bool has_patches(const std::vector<std::string>& dims) {
   return std::find(dims.begin(), dims.end(), "patch") != dims.end();
 }
 
+/// One number, or one per band.
+void set_values(h5::Dataset& dataset, const std::string& attribute,
+                const std::vector<double>& values) {
+  if (values.size() == 1) dataset.set(attribute, values.front(), h5::Type::float64);
+  else dataset.set(attribute, values, h5::Type::float64);
+}
+
 /// Ledger terms end without it, their standard errors with it.
 bool is_standard_error(std::string_view name) { return name.ends_with("_se"); }
 
@@ -74,7 +82,7 @@ struct ResultWriter::File {
   std::vector<std::array<double, 2>> bounds;
   std::vector<char> appended;  ///< by batch
   Extent series;               ///< bytes of the file written while batches came in
-  std::map<std::string, double> time_sum_se_kwh;
+  std::map<std::string, std::vector<double>> time_sum_se_kwh;  ///< one value, or one per band
 
   File(const std::string& path, const Options& with) : target(path), options(with) {}
   ~File() {
@@ -101,6 +109,7 @@ struct ResultWriter::File {
     return *found;
   }
 
+  bool is_rgb() const { return options.bands == Bands::rgb; }
   std::size_t chunk_rows() const { return std::min(options.chunk_intervals, bounds.size()); }
   ChunkShape chunk_shape(std::size_t columns) const {
     return {chunk_rows(), std::min(patches_per_chunk, columns)};
@@ -125,14 +134,16 @@ struct ResultWriter::File {
     const bool is_floating = of.type == h5::Type::float32 || of.type == h5::Type::float64;
     const bool is_fillable = is_floating && of.part != ResultPart::coordinate;
     if (is_fillable) spec.unwritten = h5::DatasetSpec::Unwritten::nan;
-    if (of.part == ResultPart::series && spec.shape[0] > 0 && spec.shape[1] > 0) {
-      const ChunkShape shape = chunk_shape(spec.shape[1]);
-      spec.chunk = {shape.rows, shape.columns};
+    if (of.part == ResultPart::series && spec.shape.front() > 0 && spec.shape.back() > 0) {
+      const ChunkShape shape = chunk_shape(spec.shape.back());
+      spec.chunk.assign(spec.shape.size(), 1);
+      spec.chunk.front() = shape.rows;
+      spec.chunk.back() = shape.columns;
     }
     h5::Dataset dataset = file->create_dataset(std::string(of.name), spec);
-    if (of.name == "time") {
-      dataset.make_scale("time");
-      scales.emplace("time", dataset);
+    if (of.name == "time" || of.name == "band") {
+      dataset.make_scale(std::string(of.name));
+      scales.emplace(std::string(of.name), dataset);
     } else {
       for (std::size_t i = 0; i < dims.size(); ++i) dataset.attach_scale(i, scales.at(dims[i]));
     }
@@ -148,8 +159,13 @@ struct ResultWriter::File {
     return dataset;
   }
 
+  std::vector<std::string> dimensions_of(const ResultVariable& of) const {
+    const auto names = dimension_names(of);
+    return is_rgb() && has_bands(of) ? with_band(names) : names;
+  }
+
   h5::Dataset create(const std::string& name) {
-    return create(variable(name), dimension_names(variable(name)));
+    return create(variable(name), dimensions_of(variable(name)));
   }
 
   template <class Value>
@@ -166,7 +182,8 @@ struct ResultWriter::File {
   void put_patches(const ResultGeometry& geometry);
   void put_groups(const ResultGeometry& geometry);
   void put_sensors(const ResultGeometry& geometry);
-  h5::Dataset series_dataset(const ArraySpec& spec);
+  void put_bands();
+  h5::Dataset series_dataset(const std::string& name);
   void append_series(const BatchReader& batch, const ArraySpec& spec);
   void append_ledger(const BatchReader& batch, const ArraySpec& spec);
   void put_time_sums();
@@ -274,34 +291,44 @@ void ResultWriter::File::put_sensors(const ResultGeometry& geometry) {
   put("sensor_normal", flat(geometry.sensor_normal));
 }
 
-/// The dataset that an array of the batches goes to, made when first met.
-h5::Dataset ResultWriter::File::series_dataset(const ArraySpec& spec) {
-  if (file->has(stored(spec.name))) return file->dataset(stored(spec.name));
-  ResultVariable of = variable(spec.name);
+void ResultWriter::File::put_bands() {
+  if (!is_rgb()) return;
+  sizes["band"] = band_count;
+  put("band", std::vector<std::string>(band_names.begin(), band_names.end()));
+}
+
+/// The dataset that arrays of the batches go to, made when first met.
+h5::Dataset ResultWriter::File::series_dataset(const std::string& name) {
+  if (file->has(stored(name))) return file->dataset(stored(name));
+  ResultVariable of = variable(name);
   SUNLOAD_EXPECT(of.part == ResultPart::series || of.part == ResultPart::ledger,
-                 "batches do not bring " + spec.name);
-  if (of.part == ResultPart::series) return create(spec.name);
-  if (!is_standard_error(spec.name)) return create(spec.name);
-  const std::string long_name = "standard error of " + spec.name.substr(0, spec.name.rfind("_se"));
+                 "batches do not bring " + name);
+  if (of.part == ResultPart::series) return create(name);
+  if (!is_standard_error(name)) return create(name);
+  const std::string long_name = "standard error of " + name.substr(0, name.rfind("_se"));
   // Per instant; the scalar of the schema is of the time sum.
   const std::string units = light_units("W", options.quantity);
   of.units = units;
   of.long_name = long_name;
-  return create(of, {"time"});
+  return create(of, is_rgb() ? with_band({"time"}) : std::vector<std::string>{"time"});
 }
 
 /// A [time, n] array: one row of chunks, copied where the batch has them.
 void ResultWriter::File::append_series(const BatchReader& batch, const ArraySpec& spec) {
-  h5::Dataset dataset = series_dataset(spec);
-  SUNLOAD_EXPECT(spec.dims.size() == 2 && spec.dims[1] == dataset.shape()[1],
+  const BandArray array = band_array(spec.name);
+  h5::Dataset dataset = series_dataset(array.name);
+  SUNLOAD_EXPECT(spec.dims.size() == 2 && spec.dims[1] == dataset.shape().back(),
                  "size of series " + spec.name);
   const std::size_t columns = spec.dims[1];
   if (columns == 0) return;
   const ChunkShape shape = chunk_shape(columns);
   const auto put_chunk = [&](std::size_t c, std::span<const unsigned char> bytes) {
     const bool is_plain = bytes.size() == shape.bytes();
-    dataset.write_chunk({batch.header().first_interval, c * shape.columns}, bytes,
-                        is_plain ? h5::ChunkCoding::plain : h5::ChunkCoding::deflated);
+    std::vector<std::size_t> offset{batch.header().first_interval};
+    if (array.band) offset.push_back(*array.band);
+    offset.push_back(c * shape.columns);
+    dataset.write_chunk(offset, bytes, is_plain ? h5::ChunkCoding::plain
+                                                : h5::ChunkCoding::deflated);
   };
   if (batch.chunk_count(spec.name) > 0) {
     SUNLOAD_EXPECT(batch.chunk_count(spec.name) == shape.count(columns), "chunks of " + spec.name);
@@ -318,11 +345,18 @@ void ResultWriter::File::append_series(const BatchReader& batch, const ArraySpec
   }
 }
 
-/// A [time] array: ledger terms, or their standard errors per instant.
+/// A [time] array: ledger terms, or their standard errors per instant. Those of all bands come
+/// with the first of them.
 void ResultWriter::File::append_ledger(const BatchReader& batch, const ArraySpec& spec) {
   SUNLOAD_EXPECT(spec.dims.size() == 1, "ledger term " + spec.name + " has one value per interval");
-  series_dataset(spec).write_rows(batch.header().first_interval, spec.dims[0],
-                                  batch.doubles(spec.name).data());
+  const BandArray array = band_array(spec.name);
+  if (array.band.value_or(0) != 0) return;
+  std::vector<std::vector<double>> bands;
+  for (const auto& prefix : band_prefixes(options.bands))
+    bands.push_back(batch.doubles(prefix + array.name));
+  series_dataset(array.name)
+      .write_rows(batch.header().first_interval, spec.dims[0],
+                  side_by_side(std::move(bands), spec.dims[0]).data());
 }
 
 /// Sums of the ledger's rows that are there, and their standard errors.
@@ -331,19 +365,20 @@ void ResultWriter::File::put_time_sums() {
     const std::string name(term.name), se_name = name + "_se";
     if (term.part != ResultPart::ledger || is_standard_error(name)) continue;
     const auto se = time_sum_se_kwh.find(se_name);
-    if (se != time_sum_se_kwh.end() && !file->has(se_name)) put(se_name, std::vector{se->second});
+    if (se != time_sum_se_kwh.end() && !file->has(se_name)) put(se_name, se->second);
     if (!file->has(name)) continue;
     h5::Dataset dataset = file->dataset(name);
     const std::vector<double> power = dataset.doubles();
-    double energy = 0;  // J
-    for (std::size_t t = 0; t < power.size(); ++t) {
-      if (!std::isnan(power[t])) energy += power[t] * (bounds[t][1] - bounds[t][0]);
+    std::vector<double> energy(is_rgb() ? band_count : 1, 0);  // kWh; of all bands
+    for (std::size_t i = 0; i < power.size(); ++i) {
+      const std::size_t t = i / energy.size();
+      // lm s in klm h is what J is in kWh.
+      if (!std::isnan(power[i])) energy[i % energy.size()] += power[i] * (bounds[t][1] - bounds[t][0]);
     }
-    // lm s in klm h is what J is in kWh.
-    dataset.set(unit_names("time_sum_kwh", options.quantity), energy / joules_per_kwh,
-                h5::Type::float64);
+    for (auto& of_band : energy) of_band /= joules_per_kwh;
+    set_values(dataset, unit_names("time_sum_kwh", options.quantity), energy);
     if (se != time_sum_se_kwh.end()) {
-      dataset.set(unit_names("time_sum_se_kwh", options.quantity), se->second, h5::Type::float64);
+      set_values(dataset, unit_names("time_sum_se_kwh", options.quantity), se->second);
     }
   }
 }
@@ -374,6 +409,7 @@ ResultWriter::ResultWriter(const std::string& path, const ResultGeometry& geomet
     file_->file.emplace(h5::File::create(file_->target.aside()));
     file_->put_dimensions(geometry);
     file_->put_times(times);
+    file_->put_bands();
     file_->put_mesh_topology();
     file_->put_vertices(geometry);
     file_->put_patches(geometry);
@@ -398,16 +434,17 @@ void ResultWriter::append(const BatchReader& batch) {
   std::vector<ArraySpec> specs;
   for (const ArraySpec& spec : batch.arrays()) {
     const auto& left_out = file_->options.left_out;
-    const bool is_wanted = std::find(left_out.begin(), left_out.end(), spec.name) == left_out.end();
+    const bool is_wanted =
+        std::find(left_out.begin(), left_out.end(), band_array(spec.name).name) == left_out.end();
     // Sums and maxima are put together by the caller.
     if (spec.rule == MergeRule::append && is_wanted) specs.push_back(spec);
   }
   file_->writing([&] {
     // All datasets before all data: their text is then outside of the series' bytes.
-    for (const ArraySpec& spec : specs) file_->series_dataset(spec);
+    for (const ArraySpec& spec : specs) file_->series_dataset(band_array(spec.name).name);
     if (file_->series.begin == 0) file_->series.begin = file_->file->end();
     for (const ArraySpec& spec : specs) {
-      if (file_->variable(spec.name).part == ResultPart::series) {
+      if (file_->variable(band_array(spec.name).name).part == ResultPart::series) {
         file_->append_series(batch, spec);
       } else {
         file_->append_ledger(batch, spec);
@@ -420,8 +457,9 @@ void ResultWriter::append(const BatchReader& batch) {
 void ResultWriter::write(const ResultArray& array) {
   const ResultVariable& variable = file_->variable(array.name);
   if (variable.part == ResultPart::ledger && is_standard_error(array.name)) {
-    SUNLOAD_EXPECT(array.values.size() == 1, array.name + " is one value");
-    file_->time_sum_se_kwh[array.name] = array.values[0];
+    SUNLOAD_EXPECT(array.values.size() == (file_->is_rgb() ? band_count : 1),
+                   array.name + " is one value, or one of each band");
+    file_->time_sum_se_kwh[array.name] = array.values;
     return;
   }
   SUNLOAD_EXPECT(variable.part == ResultPart::total, array.name + " is no total");

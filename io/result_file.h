@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "geo/vec.h"
 #include "io/batch_file.h"
 #include "io/light_quantity.h"
+#include "solver/band.h"
 
 namespace sunload {
 
@@ -67,6 +69,8 @@ class ResultWriter {
     std::vector<std::string> left_out;  ///< arrays of the batches that the result does not get
     /// Batches and totals come with the names of irradiance, and are stored as this.
     Quantity quantity = Quantity::irradiance;
+    /// With rgb, batches bring the arrays of each band, and totals those of all bands side by side.
+    Bands bands = Bands::broadband;
   };
   ResultWriter(const std::string& path, const ResultGeometry& geometry, const ResultTimes& times,
                const Options& options);
@@ -86,9 +90,13 @@ class ResultWriter {
 };
 
 /// Reads a result of ours; throws InputError naming file and dataset.
+///
+/// A result of light in bands reads as one without: `band` chooses one of them, without it values
+/// are the means of the bands, which is broadband light. (Of standard errors and of largest values
+/// these means are upper bounds: bands share their lines.) Shapes have no dimension `band` then.
 class ResultReader {
  public:
-  explicit ResultReader(const std::string& path);
+  explicit ResultReader(const std::string& path, std::optional<std::size_t> band = {});
   ~ResultReader();
   const std::string& path() const;
   bool has(const std::string& dataset) const;
@@ -104,6 +112,8 @@ class ResultReader {
   std::string text_attribute(const std::string& name) const;  ///< of the root; empty if absent
   double number_attribute(const std::string& name) const;     ///< of the root; NaN if absent
   Quantity quantity() const;
+  Bands bands() const;
+  std::optional<std::size_t> band() const;  ///< that was chosen
   /// Of a dataset; NaN if absent.
   double number_attribute(const std::string& dataset, const std::string& name) const;
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <new>
@@ -13,6 +14,46 @@ namespace sunload {
 struct ResultReader::File {
   std::string path;
   h5::File file;
+  Bands bands = Bands::broadband;
+  std::optional<std::size_t> band = {};
+
+  bool is_banded(const std::string& dataset) const {
+    if (bands == Bands::broadband) return false;
+    const ResultVariable* variable = find_result_variable(dataset);
+    return variable != nullptr && has_bands(*variable);
+  }
+
+  /// Where the dimension of bands stands: last in the ledger, else before the last.
+  std::size_t band_axis(const std::string& dataset, const std::vector<std::size_t>& shape) const {
+    const bool is_last = find_result_variable(dataset)->part == ResultPart::ledger;
+    const std::size_t behind = is_last ? 1 : 2;
+    if (shape.size() < behind || shape[shape.size() - behind] != band_count)
+      refuse("dataset " + dataset + " cannot be read", "it has no dimension of bands");
+    return shape.size() - behind;
+  }
+
+  std::vector<std::size_t> without_bands(const std::string& dataset,
+                                         std::vector<std::size_t> shape) const {
+    if (is_banded(dataset))
+      shape.erase(shape.begin() + static_cast<std::ptrdiff_t>(band_axis(dataset, shape)));
+    return shape;
+  }
+
+  /// Values of rows of a dataset of that shape: of the chosen band, or the bands' mean.
+  std::vector<double> without_bands(const std::string& dataset, std::vector<double> values,
+                                    const std::vector<std::size_t>& shape) const {
+    if (!is_banded(dataset)) return values;
+    const std::size_t axis = band_axis(dataset, shape);
+    const std::size_t n = axis + 1 < shape.size() ? shape.back() : 1;
+    const std::size_t rows = n > 0 ? values.size() / (band_count * n) : 0;
+    std::vector<double> chosen(rows * n);
+    for (std::size_t row = 0; row < rows; ++row)
+      for (std::size_t i = 0; i < n; ++i) {
+        const auto at = [&](std::size_t b) { return values[(row * band_count + b) * n + i]; };
+        chosen[row * n + i] = band ? at(*band) : mean_of({at(0), at(1), at(2)});
+      }
+    return chosen;
+  }
 
   [[noreturn]] void refuse(const std::string& what, const std::string& why) const {
     throw InputError({path}, what, why);
@@ -61,8 +102,13 @@ h5::File opened(const std::string& path) {
 
 }  // namespace
 
-ResultReader::ResultReader(const std::string& path)
-    : file_(std::make_unique<File>(File{path, opened(path)})) {}
+ResultReader::ResultReader(const std::string& path, std::optional<std::size_t> band)
+    : file_(std::make_unique<File>(File{path, opened(path)})) {
+  file_->bands = has("band") ? Bands::rgb : Bands::broadband;
+  file_->band = band;
+  if (band && file_->bands == Bands::broadband)
+    file_->refuse("has no bands", "its study was computed without solver.bands: rgb");
+}
 
 ResultReader::~ResultReader() = default;
 
@@ -77,11 +123,15 @@ bool ResultReader::has(const std::string& dataset) const {
 }
 
 std::vector<std::size_t> ResultReader::shape(const std::string& dataset) const {
-  return file_->with(dataset, [](const h5::Dataset& data) { return data.shape(); });
+  return file_->with(dataset, [&](const h5::Dataset& data) {
+    return file_->without_bands(dataset, data.shape());
+  });
 }
 
 std::vector<double> ResultReader::doubles(const std::string& dataset) const {
-  return file_->with(dataset, [](const h5::Dataset& data) { return data.doubles(); });
+  return file_->with(dataset, [&](const h5::Dataset& data) {
+    return file_->without_bands(dataset, data.doubles(), data.shape());
+  });
 }
 
 std::vector<std::int32_t> ResultReader::integers(const std::string& dataset) const {
@@ -93,12 +143,14 @@ std::vector<std::string> ResultReader::strings(const std::string& dataset) const
 }
 
 std::vector<double> ResultReader::row(const std::string& dataset, std::size_t time) const {
-  return file_->with(dataset, [&](const h5::Dataset& data) { return data.row(time); });
+  return rows(dataset, time, 1);
 }
 
 std::vector<double> ResultReader::rows(const std::string& dataset, std::size_t first,
                                        std::size_t count) const {
-  return file_->with(dataset, [&](const h5::Dataset& data) { return data.rows(first, count); });
+  return file_->with(dataset, [&](const h5::Dataset& data) {
+    return file_->without_bands(dataset, data.rows(first, count), data.shape());
+  });
 }
 
 std::string ResultReader::units(const std::string& dataset) const {
@@ -115,8 +167,17 @@ std::string ResultReader::text_attribute(const std::string& name) const {
 }
 
 double ResultReader::number_attribute(const std::string& dataset, const std::string& name) const {
-  return file_->with(dataset, [&](const h5::Dataset& data) { return one_number(data, name); });
+  return file_->with(dataset, [&](const h5::Dataset& data) {
+    const auto values = data.numbers(name);
+    if (!file_->is_banded(dataset) || !values || values->size() != band_count)
+      return one_number(data, name);
+    return file_->band ? (*values)[*file_->band]
+                       : mean_of({(*values)[0], (*values)[1], (*values)[2]});
+  });
 }
+
+Bands ResultReader::bands() const { return file_->bands; }
+std::optional<std::size_t> ResultReader::band() const { return file_->band; }
 
 Quantity ResultReader::quantity() const {
   return text_attribute("quantity") == "illuminance" ? Quantity::illuminance : Quantity::irradiance;

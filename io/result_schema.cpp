@@ -34,6 +34,8 @@ constexpr std::array table{
     ResultVariable{"diffuse_horizontal_illuminance", "time", float64, "lx", sun, "diffuse horizontal illuminance (light.quantity: illuminance)", "", interval_mean},
     ResultVariable{"global_horizontal_illuminance", "time", float64, "lx", sun, "global horizontal illuminance (light.quantity: illuminance)", "", interval_mean},
 
+    ResultVariable{"band", "band", text, "", coordinate, "band of the light: red, green, blue (solver.bands: rgb)"},
+
     // Mesh: patches are the leaves of the frozen hierarchy.
     ResultVariable{"vertex_position", "vertex,xyz", float64, "m", coordinate, "position in the scene frame, relative to the attribute origin"},
     ResultVariable{"vertex_x", "vertex", float64, "m", coordinate, "x of vertex_position, as UGRID wants node coordinates"},
@@ -174,6 +176,19 @@ std::vector<std::string> dimension_names(const ResultVariable& variable) {
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   return names;
+}
+
+bool has_bands(const ResultVariable& variable) {
+  const std::string_view name = variable.name;
+  if (name.ends_with("sun_hours") || name.ends_with("sky_view_factor")) return false;
+  return variable.part == ResultPart::series || variable.part == ResultPart::ledger ||
+         variable.part == ResultPart::total;
+}
+
+std::vector<std::string> with_band(std::vector<std::string> dimensions) {
+  const bool in_space = !dimensions.empty() && dimensions.back() != "time";
+  dimensions.insert(in_space ? dimensions.end() - 1 : dimensions.end(), "band");
+  return dimensions;
 }
 
 }  // namespace sunload

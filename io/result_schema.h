@@ -42,6 +42,11 @@ const ResultVariable* find_result_variable(std::string_view name,
                                            Quantity quantity = Quantity::irradiance);
 /// "time,patch" → {"time", "patch"}.
 std::vector<std::string> dimension_names(const ResultVariable& variable);
+/// Whether there is a value per band in a result of light in bands: series, totals and the ledger,
+/// but for what is geometry (sun hours, sky view factors).
+bool has_bands(const ResultVariable& variable);
+/// The same dimensions with `band` put in: before those of patches, facades and sensors, else last.
+std::vector<std::string> with_band(std::vector<std::string> dimensions);
 
 inline constexpr std::string_view result_format = "sunload-result-1";
 inline constexpr std::string_view result_conventions = "CF-1.10 UGRID-1.0";

@@ -128,12 +128,12 @@ class CityReader {
     result.name = name != nullptr && name->is_string() ? name->get<std::string>()
                                                        : "material_" + std::to_string(index);
     if (const auto colour = numbers<3>(find_member(material, "diffuseColor"))) {
-      const double mean = ((*colour)[0] + (*colour)[1] + (*colour)[2]) / 3;
-      if (mean >= 0 && mean <= 1) result.diffuse = mean;
-      if (!result.diffuse) notes_.count("colours outside [0, 1] ignored");
+      if (!result.set_diffuse(*colour)) notes_.count("colours outside [0, 1] ignored");
     }
     // Features repeat the materials that they share.
-    const auto key = result.name + '\n' + std::to_string(result.diffuse.value_or(-1));
+    auto key = result.name + '\n' + std::to_string(result.diffuse.value_or(-1));
+    for (const double share : result.diffuse_rgb.value_or(std::array<double, 3>{}))
+      key += ' ' + std::to_string(share);
     const auto [entry, is_new] =
         material_ids_.try_emplace(key, make_id<MaterialId>(model_.materials.size()));
     if (is_new) model_.materials.push_back(std::move(result));

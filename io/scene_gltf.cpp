@@ -238,9 +238,8 @@ class GltfReader {
       faces_.notes().count("materials are coloured by a texture: their reflectance is the study's");
     } else if (const auto rgba = colours.is_object() ? numbers_of(colours, factor, 4)
                                                      : std::nullopt) {
-      const double mean = ((*rgba)[0] + (*rgba)[1] + (*rgba)[2]) / 3;
-      if (mean >= 0 && mean <= 1) read.diffuse = mean;
-      else faces_.notes().count("colours outside [0, 1] ignored");
+      if (!read.set_diffuse({(*rgba)[0], (*rgba)[1], (*rgba)[2]}))
+        faces_.notes().count("colours outside [0, 1] ignored");
     }
     const auto emissive = numbers_of(material, "emissiveFactor", 3).value_or(std::vector<double>(3));
     read.glows = *std::max_element(emissive.begin(), emissive.end()) > 0;

@@ -12,12 +12,14 @@ namespace {
 
 /// One material as it stands in the library, before its statements are weighed.
 struct Entry {
-  std::optional<double> diffuse, specular;
+  std::optional<std::array<double, 3>> diffuse, specular;
   double illumination_model = 0;
   bool glows = false;
 };
 
 constexpr double largest_glow = 1e12;  // Ke has no unit, and no upper end
+constexpr std::array<double, 3> black{};
+double mean(const std::array<double, 3>& rgb) { return (rgb[0] + rgb[1] + rgb[2]) / 3; }
 
 bool asks_for_reflected_rays(double illumination_model) {
   return illumination_model == 3 || (illumination_model >= 5 && illumination_model <= 9);
@@ -39,15 +41,15 @@ class LibraryReader {
   void read_statement(std::string_view keyword) {
     if (keyword == "newmtl") current_ = &entries_[std::string(words_.rest())];
     if (current_ == nullptr) return;
-    if (keyword == "Kd") current_->diffuse = colour_mean();
-    if (keyword == "Ks") current_->specular = colour_mean();
-    if (keyword == "Ke") current_->glows = colour_mean(largest_glow).value_or(0) > 0;
+    if (keyword == "Kd") current_->diffuse = colour();
+    if (keyword == "Ks") current_->specular = colour();
+    if (keyword == "Ke") current_->glows = mean(colour(largest_glow).value_or(black)) > 0;
     if (keyword == "map_Kd") notes_.count("textures of materials ignored");
     if (keyword == "illum") current_->illumination_model = number(words_.next());
   }
 
-  /// Mean of `r g b`, or of `r` alone for grey; nothing for spectra and CIE colours.
-  std::optional<double> colour_mean(double largest = 1) {
+  /// `r g b`, or `r` alone for grey; nothing for spectra and CIE colours.
+  std::optional<std::array<double, 3>> colour(double largest = 1) {
     const auto first = words_.next();
     if (first == "spectral" || first == "xyz") {
       notes_.count("colours by spectrum or CIE XYZ ignored");
@@ -58,8 +60,8 @@ class LibraryReader {
     const auto second = words_.next();
     rgb[1] = second.empty() ? rgb[0] : number(second);
     rgb[2] = second.empty() ? rgb[0] : number(words_.next());
-    const double mean = (rgb[0] + rgb[1] + rgb[2]) / 3;
-    if (mean >= 0 && mean <= largest) return mean;
+    if (largest > 1 ? mean(rgb) >= 0 && mean(rgb) <= largest : FileMaterial().set_diffuse(rgb))
+      return rgb;
     notes_.count("colours outside [0, 1] ignored");
     return std::nullopt;
   }
@@ -77,11 +79,11 @@ class LibraryReader {
   FileMaterial weighed(const std::string& name, const Entry& entry) {
     FileMaterial material;
     material.name = name;
-    material.diffuse = entry.diffuse;
+    if (entry.diffuse) material.set_diffuse(*entry.diffuse);
     material.glows = entry.glows;
     if (asks_for_reflected_rays(entry.illumination_model)) {
-      material.mirror = entry.specular;
-    } else if (entry.specular.value_or(0) > 0) {
+      if (entry.specular) material.mirror = mean(*entry.specular);
+    } else if (entry.specular && mean(*entry.specular) > 0) {
       notes_.count(
           "materials whose Ks is a highlight, not a mirror (illum asks for no "
           "reflected rays)");

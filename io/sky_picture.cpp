@@ -64,16 +64,17 @@ void paint_colour(Picture& picture, const DomeChart& chart, const SkyDome& dome,
   const Vec3 sun = dome.light.when.direction;
   paint_dome(picture, chart, [&](Horizontal w) {
     if (!dome.hills.is_above(w)) return hills_in_colour;
+    // As their author saw them when he chose the reddenings: values of the display, not light.
     const Rgb c = sky_colour(model, enu_direction(w), sun);
-    return Colour{srgb_from_linear(c.red), srgb_from_linear(c.green), srgb_from_linear(c.blue)};
+    return Colour{c.red, c.green, c.blue};
   });
 }
 
 void mark_sun(Picture& picture, const DomeChart& chart, const SunPosition& sun) {
   if (sun.elevation_deg < 0) return;
-  constexpr double radius_in_texts = 0.7;
+  constexpr double beyond_disc_deg = 6;  // the disc of METHOD 2 ends at 4
   const PicturePoint p = chart.at({sun.azimuth_deg, sun.elevation_deg});
-  const double radius = radius_in_texts * chart.text_size();
+  const double radius = beyond_disc_deg / 90 * chart.radius();
   picture.draw_circle(p, radius, 3, {1, 1, 1});
   picture.draw_circle(p, radius, 1.2, ink);
 }

@@ -144,6 +144,13 @@ void check_together(YamlMap& root, const Study& study, PlaceWritten placed) {
     root.reading().problem(study.period.where, "year_of: weather needs light.source: weather", "",
                            "write light: {source: weather, weather: x.epw}");
   }
+  if (study.solver.bands == Bands::rgb && study.light.quantity == Quantity::illuminance)
+    root.reading().problem(root.where("solver"), "solver.bands: rgb cannot go with illuminance",
+                           "lux are weighted by the eye's own response to the whole spectrum",
+                           "write light.quantity: irradiance, or leave solver.bands away");
+  if (study.solver.bands == Bands::broadband && study.light.colour != LightColour::sky)
+    root.reading().warn(root.where("light"), "light.colour is not used",
+                        "it belongs to solver.bands: rgb");
   const auto& files = study.scene.files;
   const bool no_crs =
       study.scene.builtin || std::all_of(files.begin(), files.end(), [](const SceneFileStudy& file) {

@@ -26,6 +26,7 @@
 #include "geo/weather.h"
 #include "io/scene_file.h"
 #include "io/sensor_file.h"
+#include "solver/band.h"
 #include "solver/oracle.h"
 #include "io/light_quantity.h"
 #include "solver/transport.h"
@@ -76,6 +77,9 @@ struct SunStudy {
   SunDisk disk = SunDisk::point;
 };
 
+/// Of light in bands: sun and sky as METHOD 2 colours them, or white.
+enum class LightColour { sky, white };
+
 enum class LightSource { clear_sky, weather, fixed };
 struct LightStudy {
   LightSource source = LightSource::clear_sky;
@@ -88,6 +92,7 @@ struct LightStudy {
   double far_ground_albedo = 0.2;
   Quantity quantity = Quantity::irradiance;
   std::string weather;         ///< file, already resolved; the rest is of `weather` too
+  LightColour colour = LightColour::sky;
   std::optional<Stamp> stamp;  ///< absent: the format's own
   Missing missing = Missing::refuse;
   Decomposition decomposition = Decomposition::erbs;
@@ -97,6 +102,7 @@ struct LightStudy {
 struct MaterialStudy {
   std::string name;
   std::optional<double> diffuse, mirror;
+  std::optional<BandShares> diffuse_rgb;  ///< where written as colour, with `diffuse` its mean
   double emission_w_m2 = 0;  ///< diffuse exitance of an emitter
   std::optional<Sides> sides;
   Where where;
@@ -188,6 +194,7 @@ struct SolverStudy {
   Transport transport = Transport::gather;
   Jacobi jacobi = Jacobi::incremental;
   std::optional<double> power_per_sample_w;  ///< absent: auto
+  Bands bands = Bands::broadband;
   int bounces = 5;
   double unshot = 1e-3;
   int lines_per_patch = 256;

@@ -96,8 +96,8 @@ json canonical(const SunStudy& sun) {
 
 json canonical(const LightStudy& light) {
   const auto& [source, model, linke_turbidity, dni_w_m2, dhi_w_m2, sky, sky_type, turbidity,
-               far_ground_albedo, quantity, weather, stamp, missing, decomposition] = light;
-  // The weather file is hashed by its bytes.
+               far_ground_albedo, quantity, weather, colour, stamp, missing, decomposition] = light;
+  // The weather file is hashed by its bytes; the colour belongs to the solver's bands.
   return {{"stamp", maybe(stamp)},
           {"quantity", quantity},
           {"missing", missing},
@@ -110,7 +110,8 @@ json canonical(const LightStudy& light) {
 }
 
 json canonical(const MaterialStudy& material) {
-  const auto& [name, diffuse, mirror, emission_w_m2, sides, where, refractive_index,
+  // A colour is hashed with the scene, where bands are asked for.
+  const auto& [name, diffuse, mirror, diffuse_rgb, emission_w_m2, sides, where, refractive_index,
                extinction_coefficient, thickness_m, absorption_per_m, panes, glossy,
                glossy_exponent, transmittance] = material;
   return {{"name", name},
@@ -196,10 +197,10 @@ json canonical(const MeshStudy& mesh) {
   return values;
 }
 
-json canonical(const SolverStudy& solver) {
+json canonical(const SolverStudy& solver, LightColour colour) {
   // `isa` is left out: the instruction set in force is hashed apart, so that
   // pinning it finds the batches that `auto` computed on such a machine.
-  const auto& [transport, jacobi, power_per_sample_w, bounces, unshot, lines_per_patch, direct_samples,
+  const auto& [transport, jacobi, power_per_sample_w, bands, bounces, unshot, lines_per_patch, direct_samples,
                realizations, mirror_depth, batch_suns, isa, seed, accuracy, max_lines_per_patch] =
       solver;
   json all{{"transport", transport},
@@ -213,6 +214,10 @@ json canonical(const SolverStudy& solver) {
           {"mirror_depth", mirror_depth},
           {"batch_suns", batch_suns},
           {"seed", seed}};
+  if (bands == Bands::rgb) {
+    all["bands"] = "rgb";
+    all["colour"] = colour;
+  }
   if (accuracy) {
     const auto& [light_load_relative] = *accuracy;
     all["accuracy"] = {{"light_load_relative", light_load_relative},
@@ -230,7 +235,7 @@ std::string canonical_text(const Study& study) {
   const json all{{"site", canonical(site)},    {"period", canonical(period)},
                  {"sun", canonical(sun)},      {"light", canonical(light)},
                  {"scene", canonical(scene)},  {"mesh", canonical(mesh)},
-                 {"solver", canonical(solver)}};
+                 {"solver", canonical(solver, light.colour)}};
   return all.dump();
 }
 

@@ -129,6 +129,8 @@ LightStudy read_light(YamlMap& map, const std::string& folder) {
       "quantity",
       {{"irradiance", Quantity::irradiance}, {"illuminance", Quantity::illuminance}},
       light.quantity);
+  light.colour = map.choice("colour", {{"sky", LightColour::sky}, {"white", LightColour::white}},
+                            light.colour);
   for (const char* key : {"dni_w_m2", "dhi_w_m2"}) {
     if (light.source == LightSource::fixed && !map.has(key)) {
       map.problem("source", std::string("fixed needs ") + key, "", "write it beside `source`");

@@ -97,7 +97,9 @@ void check_kind(YamlMap& map, const MaterialStudy& material) {
 
 /// No surface sends on more than it receives.
 void check_sum(YamlMap& map, const MaterialStudy& material) {
-  const std::pair<const char*, double> parts[] = {{"diffuse", material.diffuse.value_or(0)},
+  const double diffuse = material.diffuse_rgb ? std::ranges::max(*material.diffuse_rgb)
+                                              : material.diffuse.value_or(0);
+  const std::pair<const char*, double> parts[] = {{"diffuse", diffuse},
                                                   {"mirror", material.mirror.value_or(0)},
                                                   {"glossy", material.glossy},
                                                   {"transmittance", material.transmittance}};
@@ -114,11 +116,33 @@ void check_sum(YamlMap& map, const MaterialStudy& material) {
                 "no surface reflects more than it receives");
 }
 
+/// One share, or its red, green and blue.
+void read_diffuse(YamlMap& map, MaterialStudy& material) {
+  const std::string key = "diffuse";
+  if (map.kind(key) != YamlNode::Kind::list) {
+    material.diffuse = map.number(key, shares);
+    return;
+  }
+  const auto rgb = map.numbers(key, shares);
+  const std::size_t written = map.tree(key)->items.size();
+  if (written != band_count) {
+    map.problem(key, fmt::format("has {} values", written), "one value, or red, green and blue");
+  } else if (rgb.size() == written) {
+    material.diffuse_rgb = {rgb[0], rgb[1], rgb[2]};
+    material.diffuse = mean_of(*material.diffuse_rgb);
+  }
+  for (const char* other : {"refractive_index", "glossy"})
+    if (map.has(other))
+      map.problem(key, fmt::format("has a colour beside {}", other),
+                  "what such a surface does with light does not depend on the band",
+                  "write one value");
+}
+
 MaterialStudy read_material(const std::string& name, YamlMap& map) {
   MaterialStudy material;
   material.name = name;
   material.where = map.where();
-  material.diffuse = map.number("diffuse", shares);
+  read_diffuse(map, material);
   material.mirror = map.number("mirror", shares);
   material.emission_w_m2 = map.number("emission_w_m2", emissions_w_m2, material.emission_w_m2);
   material.refractive_index = map.number("refractive_index", refractive_indices);

@@ -104,6 +104,11 @@ SolverStudy read_solver(YamlMap& map) {
   const int realizations =
       map.integer("realizations", fewest_realizations, most_realizations, unread);
   solver.mirror_depth = map.integer("mirror_depth", 0, most_bounces, solver.mirror_depth);
+  solver.bands = map.choice("bands", {{"broadband", Bands::broadband}, {"rgb", Bands::rgb}},
+                            solver.bands);
+  if (solver.bands == Bands::rgb && solver.transport == Transport::shoot)
+    map.problem("bands", "rgb cannot go with transport: shoot",
+                "bands share the lines of gathering", "write transport: gather");
   solver.batch_suns = map.integer("batch_suns", 1, most_batch_suns, solver.batch_suns);
   solver.isa = map.word("isa", {"auto", "sse4.2", "avx2", "avx512"}, solver.isa);
   const auto seed = map.integer("seed", std::int64_t{0}, std::numeric_limits<std::int64_t>::max(),
@@ -132,9 +137,7 @@ OutputStudy read_output(YamlMap& map) {
 }
 
 std::vector<LaterKey> later_keys() {
-  return {
-      {"solver.bands", ""},
-  };
+  return {};
 }
 
 }  // namespace sunload::study_sections

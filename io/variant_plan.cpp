@@ -54,6 +54,7 @@ void add_scene(Digest& digest, const Scene& scene) {
                                   m.absorption_per_m, m.glossy, m.glossy_exponent, m.transmittance})
       digest.add(property);
     digest.add(m.panes);
+    if (m.diffuse_in_band) digest.add(*m.diffuse_in_band);
   }
   const ParallelSources& sources = scene.parallel_sources;
   for (const auto& v : sources.mesh.vertices) digest.add(v);
@@ -240,6 +241,7 @@ SolverRules solver_rules(const VariantPlan& plan) {
           .isa = plan.isa,
           .errors = plan.study.output.standard_error == StandardErrors::instants ? Errors::instants
                                                                                  : Errors::totals,
+          .bands = s.bands,
           .transport = s.transport,
           .jacobi = s.jacobi,
           .power_per_sample_w = s.power_per_sample_w};
@@ -341,6 +343,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   const auto batches = static_cast<double>(plan.batches());
   const double lines = n * counts.lines_per_patch, links = lines * s.bounces;
   const double of_realizations = double_bytes * s.realizations;
+  const bool is_rgb = s.bands == Bands::rgb;
+  const double bands = is_rgb ? static_cast<double>(band_count) : 1;
 
   WorkEstimate work;
   work.patches = patches;
@@ -348,8 +352,12 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   const double rays = n * facing_share * lit * counts.direct_samples;
   work.direct_rays = static_cast<std::uint64_t>(rays);
   work.memory_bytes = program_bytes + lines * bytes_per_line +
-                      n * (batch * parts * float_bytes + arrays_of_realizations * of_realizations +
+                      n * (bands * (batch * parts * float_bytes +
+                                    arrays_of_realizations * of_realizations) +
                            bytes_per_patch);
+  // The sun's light of each realization, straight and circumsolar, and by mirrors.
+  if (is_rgb)
+    work.memory_bytes += n * s.realizations * block_width * float_bytes * (mirrors ? 3.0 : 2.0);
   if (s.transport == Transport::shoot) {
     const double blocks = batches * std::ceil(batch / static_cast<double>(block_width));
     work.samples = static_cast<std::uint64_t>(estimated_samples(plan, n, blocks));
@@ -357,10 +365,10 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
     work.memory_bytes += n * (shooting_bytes_per_patch + of_realizations * columns_of_a_realization) +
                          per_shot / s.realizations * bytes_per_sample;
   }
-  work.disk_bytes = n * lit * stored_bytes_per_value *
+  work.disk_bytes = bands * n * lit * stored_bytes_per_value *
                         (parts + static_cast<double>(plan.study.output.series.size())) +
-                    n * batches * (of_realizations + batch_bytes_per_patch) +
-                    n * (of_realizations + result_bytes_per_patch) +
+                    bands * n * batches * (of_realizations + batch_bytes_per_patch) +
+                    bands * n * (of_realizations + result_bytes_per_patch) +
                     (plan.batches() > 1 ? lines * kept_bytes_per_line : 0);
   work.seconds =
       (s_to_start + n * s_per_patch +
@@ -368,10 +376,11 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
        rays * s_per_direct_ray +
        (mirrors ? n * mirrored_share * lit * counts.direct_samples * s_per_mirror_ray : 0) +
        (s.transport == Transport::gather
-            ? links * lit * s_per_link_sun + links * batches * s_per_link_batch
+            ? bands * (links * lit * s_per_link_sun + links * batches * s_per_link_batch)
             : static_cast<double>(work.samples) * s_per_sample) +
        (plan.study.mesh.oracle == Oracle::none ? 0 : refinement_rays(n, lit) * s_per_direct_ray) +
-       n * lit * s_per_patch_sun + n * static_cast<double>(plan.intervals()) * s_per_value) /
+       bands * (n * lit * s_per_patch_sun +
+                n * static_cast<double>(plan.intervals()) * s_per_value)) /
       thread_count();
   return work;
 }

@@ -140,7 +140,8 @@ SunLight VariantRun::light_of(std::size_t interval, const SkyGrid& grid,
                               const std::vector<double>& open_share) const {
   const LitInterval& lit = plan_.light.intervals[interval];
   SunLight light =
-      sun_light(lit, static_cast<std::uint32_t>(interval), plan_.study.light, grid, open_share);
+      sun_light(lit, static_cast<std::uint32_t>(interval), plan_.study.light, grid, open_share,
+                plan_.study.solver.bands);
   light.disk_half_angle = disk_half_angle(plan_.study.sun.disk, lit.when.sun.distance_au);
   return light;
 }
@@ -166,8 +167,9 @@ SolverRules VariantRun::decided_rules() {
     suns[p] = light_of(lit[(2 * p + 1) * lit.size() / (2 * count)], grid, open_share);
   });
   const double weight = count > 0 ? static_cast<double>(lit.size()) / static_cast<double>(count) : 1;
-  const PatchSpread spread =
-      pilot_spread(scene, mesh_, rules, suns, weight, progress_);
+  SolverRules of_pilot = rules;
+  of_pilot.bands = Bands::broadband;  // the goal is for the mean of the bands
+  const PatchSpread spread = pilot_spread(scene, mesh_, of_pilot, suns, weight, progress_);
   const SampleCounts counts =
       needed_counts(spread, rules, accuracy_goal(plan_.study), lit.size());
   refuse_too_much(estimate_work(plan_, spread.area.size(), counts));
@@ -184,7 +186,7 @@ void VariantRun::compute_batch(std::size_t batch) {
   parallel_for(count, [&](std::size_t k) {
     light[k] = light_of(first + k, solver_->sky_grid(), open_share_);
   });
-  const BatchTally tally = solver_->solve(light, progress_);
+  const std::vector<BatchTally> tallies = solver_->solve_bands(light, progress_);
   WorkDone work = solver_->work();
   work -= written_;
   BatchWriter writer({.content_hash = plan_.content_hash,
@@ -195,7 +197,7 @@ void VariantRun::compute_batch(std::size_t batch) {
                       .interval_count = count,
                       .chunk_intervals = plan_.batch_suns(),
                       .compression = plan_.study.output.compression});
-  add_tally(writer, tally, *solver_, plan_.built.scene.mesh, work);
+  add_tallies(writer, tallies, *solver_, plan_.built.scene.mesh, work);
   // Another process that failed may have removed the folder, which was empty until now.
   make_writable_folder(work_folder(folder_, plan_));
   writer.write(batch_path(folder_, plan_, batch));

@@ -11,6 +11,7 @@ struct ViewRules {
   /// Every how manyth interval the page holds; none: the least that keeps the
   /// page below about 60 MB.
   std::optional<std::size_t> step;
+  std::optional<std::size_t> band;  ///< of results in bands; none: their mean
 };
 
 /// Writes the page for one result, or for two that are shown side by side or as

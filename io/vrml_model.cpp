@@ -37,6 +37,20 @@ double VrmlModel::strength(const std::array<double, 3>& colour) const {
                                                 : (r + g + b) / 3;
 }
 
+namespace {
+
+/// The colour in bands whose mean is its strength, unless it is grey, or one of them were above 1.
+std::optional<std::array<double, 3>> bands_of(const std::array<double, 3>& colour,
+                                              double strength) {
+  FileMaterial mean, scaled;
+  if (!mean.set_diffuse(colour) || !mean.diffuse_rgb) return std::nullopt;
+  const double factor = strength / *mean.diffuse;
+  scaled.set_diffuse({colour[0] * factor, colour[1] * factor, colour[2] * factor});
+  return scaled.diffuse_rgb;
+}
+
+}  // namespace
+
 MaterialId VrmlModel::material(const void* node, int index, const VrmlMaterial& colours) {
   const auto [entry, is_new] =
       materials_.try_emplace({node, index}, make_id<MaterialId>(model_.materials.size()));
@@ -44,6 +58,7 @@ MaterialId VrmlModel::material(const void* node, int index, const VrmlMaterial& 
   FileMaterial material;
   material.name = material_names_(colours.name.empty() ? "material" : colours.name);
   material.diffuse = strength(colours.diffuse);
+  material.diffuse_rgb = bands_of(colours.diffuse, *material.diffuse);
   material.mirror = strength(colours.specular);
   material.emitted_power_w = strength(colours.emissive) * rules_.emission_scale_w;
   if (*material.diffuse + *material.mirror > 1) {

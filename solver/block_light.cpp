@@ -15,6 +15,7 @@ constexpr std::size_t patches_per_task = 1024;
 
 BlockSources::BlockSources(std::span<const SunLight> block, std::size_t sky_cells)
     : suns(block), sky(columns(sky_cells)) {
+  circumsolar_factor.fill(1);
   for (std::size_t k = 0; k < suns.size(); ++k) {
     ground_exitance[k] = static_cast<float>(suns[k].ground_exitance);
     for (std::size_t c = 0; c < suns[k].sky.size(); ++c)

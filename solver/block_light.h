@@ -1,6 +1,7 @@
 /// Light of one block of suns on one set of lines: light iteration and Jacobi.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,11 @@ struct BlockSources {
   Columns sky;                                   ///< [cells][block] π·radiance, by way of mirrors
   Columns sky_of_lines;                          ///< the same, straight
   std::vector<CircumsolarSky> circumsolar;       ///< per sun, after split_sky
+  std::array<double, block_width> circumsolar_factor;  ///< multiple of it that shines: 1, or of a band
+  /// Radiance of a cell that the lines do not take [W m-2 sr-1].
+  double circumsolar_radiance(std::size_t k, std::size_t cell) const {
+    return circumsolar_factor[k] * circumsolar[k].radiance(cell);
+  }
   float ground_exitance[block_width] = {};
 };
 

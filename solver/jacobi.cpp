@@ -48,6 +48,16 @@ PatchOptics patch_optics(const Scene& scene, const Hierarchy& hierarchy) {
   return optics;
 }
 
+PatchOptics patch_optics(const Scene& scene, const Hierarchy& hierarchy, std::size_t band) {
+  PatchOptics optics = patch_optics(scene, hierarchy);
+  for (std::size_t i = 0; i < optics.diffuse.size(); ++i) {
+    const auto triangle = static_cast<std::size_t>(hierarchy.patches()[i].triangle);
+    optics.diffuse[i] = static_cast<float>(
+        diffuse_in(scene.materials[scene.material[triangle].index()], band));
+  }
+  return optics;
+}
+
 void gather(const LinkTable& links, const Columns& source, Columns& out, Into into) {
   parallel_for(links.blocks.size(), [&](std::size_t b) {
     gather_rows(links.blocks[b], source.data(),

@@ -35,6 +35,8 @@ struct PatchOptics {
   }
 };
 PatchOptics patch_optics(const Scene& scene, const Hierarchy& hierarchy);
+/// The same with the diffuse reflectances of a band.
+PatchOptics patch_optics(const Scene& scene, const Hierarchy& hierarchy, std::size_t band);
 
 /// out[i] (+)= Σ_links w · source[target], for all suns of a block.
 enum class Into { replace, add };

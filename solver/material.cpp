@@ -18,6 +18,14 @@ bool has_valid_shares(const Material& m) {
          m.diffuse + m.mirror + m.glossy + m.transmittance <= 1 + rounding;
 }
 
+bool has_valid_bands(const Material& m) {
+  if (!m.diffuse_in_band) return true;
+  if (depends_on_angle(m)) return false;
+  return std::all_of(m.diffuse_in_band->begin(), m.diffuse_in_band->end(), [&](double diffuse) {
+    return diffuse >= 0 && diffuse + m.mirror + m.transmittance <= 1 + rounding;
+  });
+}
+
 bool has_valid_index(const Material& m) {
   if (!is_fresnel(m)) return m.extinction_coefficient == 0;
   if (m.mirror > 0 || m.glossy > 0 || m.transmittance > 0) return false;
@@ -40,6 +48,7 @@ void expect_valid(const Scene& scene) {
   SUNLOAD_EXPECT(scene.material.size() == scene.mesh.triangle_count(), "one material per triangle");
   for (const auto& m : scene.materials) {
     SUNLOAD_EXPECT(has_valid_shares(m), "reflectances of " + m.name);
+    SUNLOAD_EXPECT(has_valid_bands(m), "reflectances in bands of " + m.name);
     SUNLOAD_EXPECT(has_valid_index(m), "refractive index of " + m.name);
     SUNLOAD_EXPECT(m.glossy_exponent >= 0, "exponent of " + m.name);
     SUNLOAD_EXPECT(m.emission_w_m2 >= 0, "emission of " + m.name);

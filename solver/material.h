@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "geo/mesh.h"
+#include "solver/band.h"
 #include "solver/sensor.h"
 
 namespace sunload {
@@ -32,6 +34,9 @@ struct Material {
   double glossy = 0;                  ///< reflectance rho_g of light from the normal (solver/lobe.h)
   double glossy_exponent = 0;         ///< n of its lobe
   double transmittance = 0;           ///< T: light that passes straight through (crowns, screens)
+  /// The share `diffuse` in each band, of which it is the mean; absent: grey. Only of constant
+  /// shares without gloss, whose other shares do not depend on it.
+  std::optional<BandShares> diffuse_in_band = {};
   bool operator==(const Material&) const = default;
 };
 
@@ -42,6 +47,10 @@ struct SmoothShares {
 };
 SmoothShares fresnel_shares(const Material& material, double cos_theta);
 
+/// Diffuse reflectance in a band.
+inline double diffuse_in(const Material& m, std::size_t band) {
+  return m.diffuse_in_band ? (*m.diffuse_in_band)[band] : m.diffuse;
+}
 /// Decided by Fresnel's formulas: panes and metals.
 inline bool is_fresnel(const Material& m) { return m.refractive_index > 0; }
 /// What it absorbs depends on the angle.

@@ -21,6 +21,12 @@ struct MirroredSun {
   std::vector<double> backs = escaped, cut = escaped;
   std::vector<double> transmitted = escaped, absorbed = escaped;  ///< where that depends on the angle
   MirroredSun& operator+=(const MirroredSun& other);
+  /// Calls visit(fate) for each kind of fate.
+  template <class Visit>
+  static void for_each(MirroredSun& self, Visit&& visit) {
+    for (auto* fate : {&self.escaped, &self.backs, &self.cut, &self.transmitted, &self.absorbed})
+      visit(*fate);
+  }
 };
 
 struct ChainRules {

@@ -76,7 +76,7 @@ void LightSolver::shoot_block(std::span<const SunLight> block, std::size_t first
     if (rules_.errors == Errors::instants) spread.add(light);
     add_realization(r, light, block, first_row, tally);
   }
-  store(mean.in_float(shooter_->lamps()), block, first_row, direct.sunlit, tally);
+  store(optics_, mean.in_float(shooter_->lamps()), block, first_row, direct.sunlit, tally);
   if (rules_.errors == Errors::instants) spread.store(first_row, tally);
 }
 

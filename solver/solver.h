@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/band_light.h"
 #include "solver/block_light.h"
 #include "solver/glossy_sun.h"
 #include "solver/hierarchy.h"
@@ -41,6 +42,7 @@ struct SolverRules {
   std::uint64_t seed = 1;
   std::string isa = "auto";
   Errors errors = Errors::totals;
+  Bands bands = Bands::broadband;  ///< rgb when gathering only
   Transport transport = Transport::gather;
   Jacobi jacobi = Jacobi::incremental;        ///< when shooting
   std::optional<double> power_per_sample_w;   ///< when shooting, ShootingRules
@@ -74,28 +76,42 @@ class LightSolver {
   /// Lines of the scene's sensors; no rows where it has none.
   const Lines& sensor_lines() const { return sensor_lines_; }
 
-  /// Light of consecutive intervals. Throws Interrupted.
+  /// Light of consecutive intervals; not for rgb. Throws Interrupted.
   BatchTally solve(std::span<const SunLight> batch, Watch& watch);
+  /// The same per band, in the order of `band_names`; broadband light is one band. With rgb every
+  /// sun has its light in `bands`.
+  std::vector<BatchTally> solve_bands(std::span<const SunLight> batch, Watch& watch);
 
   const WorkDone& work() const { return work_; }
 
  private:
   struct TimeSums;
-  void solve_block(std::span<const SunLight> block, std::size_t first_row, TimeSums& sums,
-                   BatchTally& tally);
+  struct SunColumns;
+  struct TracedLight;
+  bool is_rgb() const { return rules_.bands == Bands::rgb; }
+  TimeSums empty_sums() const;
+  void solve_block(std::span<const SunLight> block, std::size_t first_row,
+                   std::vector<TimeSums>& sums, std::vector<BatchTally>& tallies);
+  TracedLight trace_block(const BlockSources& sources, TimeSums& sums);
+  void trace_sensors(const BlockSources& sources, std::span<const SunBeams> beams, TimeSums& sums,
+                     TracedLight& traced);
+  static void add_exposures(const TracedLight& traced, const BandFactors& factors,
+                            std::span<const SunLight> suns, TimeSums& sums);
+  TracedLight in_band(const TracedLight& traced, const BandFactors& factors) const;
+  void solve_traced(std::size_t band, const BlockSources& sources, TracedLight traced,
+                    std::size_t first_row, TimeSums& sums, BatchTally& tally);
   std::vector<SunBeams> beams_of(std::span<const SunLight> block) const;
   void shoot_block(std::span<const SunLight> block, std::size_t first_row, BatchTally& tally);
   void add_realization(std::size_t r, const ShotLight& light, std::span<const SunLight> block,
                        std::size_t first_row, BatchTally& tally) const;
-  void store(const BlockLight& light, std::span<const SunLight> block, std::size_t first_row,
-             const Columns& sunlit, BatchTally& tally) const;
-  struct SunColumns;
-  void solve_sensors(const BlockSources& sources, std::span<const SunBeams> beams,
-                     const Columns& followed, std::size_t first_row, TimeSums& sums,
-                     SunColumns& of_realizations, ReceiverTally& tally);
-  void errors_per_instant(const BlockSources& sources, std::size_t first_row, SunColumns& patches,
-                          SunColumns& sensors, BatchTally& tally) const;
-  void solve_realization(std::size_t r, const TimeSums& sums, BatchTally& tally) const;
+  void store(const PatchOptics& optics, const BlockLight& light, std::span<const SunLight> block,
+             std::size_t first_row, const Columns& sunlit, BatchTally& tally) const;
+  void book_sun_sent_on(const TracedLight& traced, std::span<const SunLight> block,
+                        std::size_t first_row, TimeSums& sums, BatchTally& tally) const;
+  void errors_per_instant(const PatchOptics& optics, const BlockSources& sources,
+                          std::size_t first_row, TracedLight& traced, BatchTally& tally) const;
+  void solve_realization(const PatchOptics& optics, std::size_t r, const TimeSums& sums,
+                         BatchTally& tally) const;
   BatchTally empty_tally(std::span<const SunLight> batch) const;
   void make_room(ReceiverTally& tally, std::size_t receivers, std::size_t rows) const;
 
@@ -106,7 +122,8 @@ class LightSolver {
   const Hierarchy& hierarchy_;
   RayCaster caster_;
   SkyGrid grid_;
-  PatchOptics optics_;
+  PatchOptics optics_;                        ///< broadband
+  std::vector<PatchOptics> optics_of_band_;   ///< one where light is broadband
   Lines lines_, sensor_lines_;
   SunSampler sampler_, sensor_sampler_;
   MirrorGroups mirrors_;

@@ -27,6 +27,13 @@ struct SunLight {
   double sunlit_s = 0;           ///< above 0: the sun's centre is above the horizon
   double disk_half_angle = 0;    ///< of the sun's disk; 0: a point
 
+  /// The same light in one band (solver/band.h).
+  struct Band {
+    double dni = 0, ground_exitance = 0;
+    std::vector<double> sky;
+  };
+  std::vector<Band> bands;       ///< red, green, blue; empty where bands are not asked for
+
   bool has_sun() const { return sunlit_s > 0 && direction.z > 0; }
   bool is_dark() const { return !has_sun() && dhi <= 0; }
 };

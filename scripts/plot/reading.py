@@ -8,8 +8,11 @@ from dataclasses import dataclass
 import h5py
 import numpy as np
 
+import bands
+
 # One block of a series that is in memory at a time: values, not bytes.
 BLOCK_VALUES = 16_000_000
+DATASETS = (h5py.Dataset, bands.MeanOfBands)
 COMPONENTS = ("direct", "sky", "mirror", "lamps", "reflected")
 SHOWN_UNITS = {"W m-2": "W/m²", "kWh m-2": "kWh/m²", "degree": "°", "1": "", "lx": "lx",
                "klx h": "klx h", "m2": "m²"}
@@ -54,7 +57,7 @@ class Result:
     def __init__(self, path):
         self.path = str(path)
         try:
-            self.file = h5py.File(self.path, "r")
+            self.file = bands.broadband(h5py.File(self.path, "r"))
         except OSError as error:
             raise InputError(f"{path}: cannot be read as HDF5 ({error}); "
                              "give a result file of sunload, e.g. results/street/baseline.h5") from error
@@ -77,7 +80,8 @@ class Result:
 
     @property
     def title(self):
-        return f"{self.attribute('study') or self.attribute('title')} — {self.attribute('variant')}"
+        return f"{self.attribute('study') or self.attribute('title')} — {self.attribute('variant')}" \
+               + (", mean of the bands" if self.attribute("bands") else "")
 
     # Datasets.
 
@@ -113,7 +117,7 @@ class Result:
     def quantities(self, dims):
         """Numbers with these dimensions that have a unit: what can be drawn."""
         return [name for name, item in self.file.items()
-                if isinstance(item, h5py.Dataset) and item.dtype.kind == "f" and len(item.shape) == len(dims)
+                if isinstance(item, DATASETS) and item.dtype.kind == "f" and len(item.shape) == len(dims)
                 and "units" in item.attrs and self.dims(name) == dims]
 
     def main_series(self):
@@ -126,7 +130,7 @@ class Result:
 
     def wanted(self, name, *allowed):
         """Checks that a quantity has one of the dimensions that a picture can draw."""
-        if self.has(name) and isinstance(self.file[name], h5py.Dataset) and self.dims(name) in allowed:
+        if self.has(name) and isinstance(self.file[name], DATASETS) and self.dims(name) in allowed:
             return name
         known = [quantity for dims in allowed for quantity in self.quantities(dims)]
         has = f"has the dimensions {', '.join(self.dims(name))}" if self.has(name) else "is not in the file"

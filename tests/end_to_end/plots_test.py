@@ -203,6 +203,28 @@ def test_report(plots, folder):
     assert data.startswith(b"%PDF") and len(re.findall(rb"/Type /Page\b", data)) == 1 + len(pictures)
 
 
+def test_bands(plots, sunload, folder):
+    """Of light in bands the mean is drawn."""
+    study = STUDY[:STUDY.index("variants")].replace("name: square", "name: colours") \
+        .replace("batch_suns: 16", "batch_suns: 16, bands: rgb").replace("{diffuse: 0.6}", "{diffuse: [0.8, 0.6, 0.4]}")
+    with open(os.path.join(folder, "colours.yaml"), "w") as file:
+        file.write(study)
+    subprocess.run([sunload, "run", "colours.yaml"], cwd=folder, stderr=subprocess.PIPE, check=True)
+    path = os.path.join(folder, "results/colours/baseline.h5")
+    with h5py.File(path, "r") as result:
+        rows = plots.rows("series", path, "--facade", "house/south_1", "--patch", "3")
+        facade = [name.decode() for name in result["facade_name"][...]].index("house/south_1")
+        close(column(rows, "irradiance of house/south_1"), result["facade_irradiance"][:, :, facade].mean(axis=1), 1e-5)
+        owner = [name for name in rows[0] if "patch 3" in name]
+        close(column(rows, owner[0]), result["irradiance"][:, :, 3].mean(axis=1))
+        rows = plots.rows("facade_map", path)
+        close(column(rows, "light_load"), result["light_load"][...].mean(axis=0)[column(rows, "patch").astype(int)])
+    import reading
+    assert reading.Result(path).title.endswith("mean of the bands")
+    ran = plots.run("report", path, "-o", os.path.join(folder, "colours.html"))
+    assert ran.returncode == 0, ran.stderr
+
+
 def test_wrong_input(plots, path, folder):
     empty = os.path.join(folder, "empty")
     os.makedirs(empty)
@@ -250,6 +272,7 @@ def test(sunload, source, folder):
     test_compare(plots, sunload, path, other)
     test_report(plots, folder)
     test_wrong_input(plots, path, folder)
+    test_bands(plots, sunload, folder)
     print("comparison, report and wrong input: as they should be")
 
 

@@ -403,7 +403,7 @@ TEST(Study, ChecksLightSceneAndSolver) {
   expect_problem({{"solver", "{accuracy: {}}"}}, "light_load_relative is missing");
   expect_problem({{"solver", "{accuracy: {light_load_relative: 0.01}, max_lines_per_patch: 128}"}},
                  "is below the least counts");
-  expect_problem({{"solver", "{bands: rgb}"}}, "solver.bands is not supported yet");
+  expect_problem({{"solver", "{bands: rgb, transport: shoot}"}}, "cannot go with transport: shoot");
   expect_problem({{"output", "{series: [total, totl]}"}}, "'totl' is not known");
   expect_problem({{"output", "{series: [sky, sky]}"}}, "is written twice");
   expect_problem({{"sensors", "{points: []}"}}, "the list is empty");
@@ -687,6 +687,7 @@ TEST(CanonicalText, SeesEveryValueThatCanChangeANumber) {
                {"sky", [](Study& s) { s.light.sky = SkyModel::uniform; }},
                {"sky_type", [](Study& s) { s.light.sky_type = 1; }},
                {"turbidity", [](Study& s) { s.light.turbidity = 4; }},
+               {"bands", [](Study& s) { s.solver.bands = Bands::rgb; }},
                {"far ground", [](Study& s) { s.light.far_ground_albedo = 0; }},
                {"builtin", [](Study& s) { s.scene.builtin->name = "x"; }},
                {"builtin parameter", [](Study& s) { s.scene.builtin->parameters["a"] = "b"; }},

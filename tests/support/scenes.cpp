@@ -132,18 +132,46 @@ SolverRules test_rules() {
   return rules;
 }
 
-Solved solve(const Scene& scene, const std::vector<SunLight>& light, const SolverRules& rules,
-             const SplitRules& split) {
+namespace {
+
+std::vector<Solved> solved_bands(const Scene& scene, const std::vector<SunLight>& light,
+                                 const SolverRules& rules, const SplitRules& split) {
   Watch watch;
   LightSolver solver(scene, split, rules, watch);
-  Solved solved;
-  solved.area = solver.hierarchy().area();
-  solved.patches = solver.hierarchy().patches();
-  solved.tally = solver.solve(light, watch);
-  solved.sky_view = solver.sky_view_factor();
-  solved.bounces = solver.bounces();
-  solved.work = solver.work();
-  return solved;
+  std::vector<Solved> bands;
+  for (auto& tally : solver.solve_bands(light, watch)) {
+    Solved solved;
+    solved.area = solver.hierarchy().area();
+    solved.patches = solver.hierarchy().patches();
+    solved.tally = std::move(tally);
+    solved.sky_view = solver.sky_view_factor();
+    solved.bounces = solver.bounces();
+    solved.work = solver.work();
+    bands.push_back(std::move(solved));
+  }
+  return bands;
+}
+
+}  // namespace
+
+Solved solve(const Scene& scene, const std::vector<SunLight>& light, const SolverRules& rules,
+             const SplitRules& split) {
+  return solved_bands(scene, light, rules, split).front();
+}
+
+std::vector<Solved> solve_bands(const Scene& scene, const std::vector<SunLight>& light,
+                                SolverRules rules, const SplitRules& split) {
+  rules.bands = Bands::rgb;
+  return solved_bands(scene, light, rules, split);
+}
+
+SunLight in_bands(SunLight light, BandShares sun, BandShares sky) {
+  light.bands.clear();
+  for (std::size_t b = 0; b < band_count; ++b) {
+    light.bands.push_back({light.dni * sun[b], light.ground_exitance * sky[b], light.sky});
+    for (auto& radiance : light.bands[b].sky) radiance *= sky[b];
+  }
+  return light;
 }
 
 }  // namespace sunload::test

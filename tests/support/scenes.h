@@ -59,5 +59,10 @@ struct Solved {
 SolverRules test_rules();
 Solved solve(const Scene& scene, const std::vector<SunLight>& light, const SolverRules& rules,
              const SplitRules& split = {});
+/// The same in red, green and blue; every sun has its light in bands.
+std::vector<Solved> solve_bands(const Scene& scene, const std::vector<SunLight>& light,
+                                SolverRules rules, const SplitRules& split = {});
+/// The same light in every band, but for the sun's and the sky's colour (of mean 1).
+SunLight in_bands(SunLight light, BandShares sun = {1, 1, 1}, BandShares sky = {1, 1, 1});
 
 }  // namespace sunload::test
