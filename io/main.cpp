@@ -348,7 +348,9 @@ class CommandLine {
     });
     sub->add_option("RESULT", results_, "result file (.h5)")->required()->expected(1);
     sub->add_option("--to", export_.format, "format: " + export_formats())->required();
-    sub->add_option("-o,--output", picture_, "file to write (csv, vrml, energyplus: default standard output)");
+    sub->add_option("-o,--output", picture_, "file to write (csv, vrml, cityjson, energyplus: default standard output)");
+    sub->add_option("--model", export_.model,
+                    "cityjson: the study's own model, whose surfaces and objects get the values as attributes");
     sub->add_option("--quantity", export_.quantity,
                     "dataset per patch (default: light_load; csv and xdmf: all); csv: series");
     sub->add_option("--time", export_.time, "instant of a series, e.g. 2026-06-21T12:00 (default: the brightest)");
