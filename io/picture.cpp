@@ -139,6 +139,16 @@ void Picture::write(PicturePoint at, const std::string& text, const TextStyle& s
   cairo_show_text(canvas_->context, text.c_str());
 }
 
+std::string Picture::png() const {
+  std::string bytes;
+  const auto append = [](void* to, const unsigned char* from, unsigned count) {
+    static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(from), count);
+    return CAIRO_STATUS_SUCCESS;
+  };
+  expect_good(cairo_surface_write_to_png_stream(canvas_->surface, append, &bytes), "a picture");
+  return bytes;
+}
+
 void Picture::save(const std::string& path) const {
   expect_good(cairo_status(canvas_->context), path);
   FileAside file(path);
