@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "geo/check.h"
@@ -225,16 +223,6 @@ std::vector<std::size_t> sunny_intervals(const ResultReader& result, const std::
   return sunny;
 }
 
-void write_bytes(const std::string& path, const std::string& bytes) {
-  FileAside file(path);
-  errno = 0;
-  std::ofstream stream(file.aside(), std::ios::binary);
-  stream << bytes;
-  stream.close();
-  if (!stream) throw_cannot_write(path, errno);
-  file.publish();
-}
-
 ShownQuantity shown_at(const ResultReader& result, const std::string& dataset, std::size_t interval) {
   return shown_quantity(result, dataset, iso_utc(result.doubles("time").at(interval)));
 }
@@ -266,7 +254,7 @@ void render_animation(const ResultReader& result, const RenderRules& rules, cons
   AnimatedPng animation(path, intervals.size(), milliseconds_per_picture);
   for (const auto k : intervals) {
     const auto png = renderer.picture(shown_at(result, dataset, k), largest)->png();
-    write_bytes(fmt::format("{}-{:04}.png", stem, k + 1), png);
+    write_file(fmt::format("{}-{:04}.png", stem, k + 1), png);
     animation.add(png);
   }
   animation.finish();

@@ -13,6 +13,8 @@ namespace sunload {
 namespace {
 
 constexpr int samples = 2;  ///< per pixel and axis
+constexpr std::size_t tile_size = 4;
+static_assert(tile_size * tile_size == packet_size);
 // Two faces of a wall that turn by more are a fold that gets a line; the facets
 // of a round tower of 18 sides and more get none.
 constexpr double fold_deg = 20;
@@ -81,13 +83,14 @@ class Painter {
           colours.palette, static_cast<double>(k) / static_cast<double>(palette_steps - 1))));
   }
 
-  /// `column`, `row`: of the sample.
-  Colour operator()(const TracedPicture::Sample& sample, std::size_t column, std::size_t row) const {
+  /// `column`, `row`: of the sample; `border`: whether it lies at one.
+  Colour operator()(const TracedPicture::Sample& sample, std::size_t column, std::size_t row,
+                    bool border) const {
     if (sample.triangle < 0) return sky(column, row);
     const auto patch = scene_.patch_met(sample.triangle, sample.front);
     const double value = patch < 0 ? std::nan("") : value_at(sample, static_cast<std::size_t>(patch));
     auto colour = std::isnan(value) ? back_ : of_value(value);
-    if (sample.border) return lined(colour, border_strength);
+    if (border) return lined(colour, border_strength);
     if (colours_.mesh == MeshLines::patches && sample.mesh_line > 0)
       return lined(colour, static_cast<double>(sample.mesh_line));
     return colour;
@@ -146,10 +149,13 @@ TracedPicture::TracedPicture(const PatchScene& scene, const RayCaster& caster, c
       columns_(width_ * samples),
       rows_(height_ * samples),
       samples_(columns_ * rows_) {
-  parallel_for(rows_, [&](std::size_t row) { trace_row(row); });
+  parallel_for((rows_ + tile_size - 1) / tile_size,
+               [&](std::size_t k) { trace_tiles(k * tile_size); });
   parallel_for(rows_, [&](std::size_t row) {
-    for (std::size_t column = 0; column < columns_; ++column)
-      samples_[row * columns_ + column].border = is_border(column, row);
+    for (std::size_t k = row * columns_; k < (row + 1) * columns_; ++k) {
+      samples_[k].border_right = k + 1 < (row + 1) * columns_ && has_border(k, k + 1);
+      samples_[k].border_below = row + 1 < rows_ && has_border(k, k + columns_);
+    }
   });
 }
 
@@ -165,7 +171,8 @@ std::vector<Colour> TracedPicture::pixels(const PatchColours& colours,
       Colour sum;
       for (std::size_t row = y * samples; row < (y + 1) * samples; ++row)
         for (std::size_t column = x * samples; column < (x + 1) * samples; ++column) {
-          const auto c = paint(samples_[row * columns_ + column], column, row);
+          const auto c = paint(samples_[row * columns_ + column], column, row,
+                               is_border(column, row));
           sum = {sum.red + c.red, sum.green + c.green, sum.blue + c.blue};
         }
       constexpr double share = 1.0 / (samples * samples);
@@ -175,14 +182,18 @@ std::vector<Colour> TracedPicture::pixels(const PatchColours& colours,
   return result;
 }
 
-void TracedPicture::trace_row(std::size_t row) {
-  for (std::size_t first = 0; first < columns_; first += packet_size) {
-    const std::size_t count = std::min(packet_size, columns_ - first);
+/// Squares of rays, which meet the same triangles, along some rows.
+void TracedPicture::trace_tiles(std::size_t first_row) {
+  for (std::size_t first = 0; first < columns_; first += tile_size) {
     Packet origins{};
     PacketDirections directions{};
     std::array<CameraRay, packet_size> rays;
-    for (std::size_t k = 0; k < count; ++k) {
-      rays[k] = camera_.ray((static_cast<double>(first + k) + 0.5) / samples,
+    std::uint32_t active = 0;
+    for (std::size_t k = 0; k < packet_size; ++k) {
+      const std::size_t column = first + k % tile_size, row = first_row + k / tile_size;
+      if (column >= columns_ || row >= rows_) continue;
+      active |= 1U << k;
+      rays[k] = camera_.ray((static_cast<double>(column) + 0.5) / samples,
                             (static_cast<double>(row) + 0.5) / samples);
       origins.x[k] = static_cast<float>(rays[k].origin.x);
       origins.y[k] = static_cast<float>(rays[k].origin.y);
@@ -191,9 +202,10 @@ void TracedPicture::trace_row(std::size_t row) {
       directions.y[k] = static_cast<float>(rays[k].direction.y);
       directions.z[k] = static_cast<float>(rays[k].direction.z);
     }
-    const auto hits = caster_.first_hits(origins, directions, (1u << count) - 1u);
-    for (std::size_t k = 0; k < count; ++k) {
-      auto& sample = samples_[row * columns_ + first + k];
+    const auto hits = caster_.first_hits(origins, directions, active, RayCaster::Coherence::parallel);
+    for (std::size_t k = 0; k < packet_size; ++k) {
+      if (!(active >> k & 1U)) continue;
+      auto& sample = samples_[(first_row + k / tile_size) * columns_ + first + k % tile_size];
       sample.triangle = hits.triangle[k];
       sample.front = hits.front[k];
       sample.u = hits.u[k];
@@ -227,24 +239,24 @@ double TracedPicture::mesh_line(std::size_t triangle, double u, double v, const 
   return mesh_strength * std::min(1.0, least_height / mesh_fade_pixels);
 }
 
+bool TracedPicture::has_border(std::size_t sample, std::size_t other) const {
+  const auto a = samples_[sample].triangle, b = samples_[other].triangle;
+  return a != b && (a < 0 || b < 0 || scene_.is_border(a, b));
+}
+
 bool TracedPicture::is_border(std::size_t column, std::size_t row) const {
-  const auto triangle = samples_[row * columns_ + column].triangle;
-  if (triangle < 0) return false;  // lines belong to surfaces, not to the sky
-  const auto differs = [&](std::size_t other_column, std::size_t other_row) {
-    const auto other = samples_[other_row * columns_ + other_column].triangle;
-    return other != triangle && (other < 0 || scene_.is_border(triangle, other));
-  };
-  return (column > 0 && differs(column - 1, row)) ||
-         (column + 1 < columns_ && differs(column + 1, row)) ||
-         (row > 0 && differs(column, row - 1)) || (row + 1 < rows_ && differs(column, row + 1));
+  const auto* sample = &samples_[row * columns_ + column];
+  if (sample->triangle < 0) return false;  // lines belong to surfaces, not to the sky
+  return sample->border_right || sample->border_below || (column > 0 && sample[-1].border_right) ||
+         (row > 0 && (sample - columns_)->border_below);
 }
 
 PatchScene::PatchScene(const ResultReader& result)
-    : material_(result.integers("patch_material")),
-      surface_(result.integers("patch_surface")),
+    : surface_(result.integers("patch_surface")),
       area_(result.doubles("patch_area")),
-      normal_(vectors(result.doubles("patch_normal"))),
-      centroid_(vectors(result.doubles("patch_centroid"))) {
+      normal_(vectors(result.doubles("patch_normal"))) {
+  const auto material = result.integers("patch_material");
+  const auto centroid = result.doubles("patch_centroid");
   mesh_.vertices = vectors(result.doubles("vertex_position"));
   const auto corners = result.integers("patch_vertices");
   const auto side = result.integers("patch_side"), object = result.integers("patch_object");
@@ -259,6 +271,12 @@ PatchScene::PatchScene(const ResultReader& result)
     }
     mesh_.triangles.push_back({corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]});
     mesh_.triangle_object.push_back({object[i]});
+    const auto floats = [](double x, double y, double z) {
+      return std::array{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+    };
+    facets_.push_back({object[i], material[i], surface_[i],
+                       floats(normal_[i].x, normal_[i].y, normal_[i].z),
+                       floats(centroid[3 * i], centroid[3 * i + 1], centroid[3 * i + 2])});
     front_.push_back(patch);
     back_.push_back(-1);
   }
@@ -301,16 +319,18 @@ PatchScene::FacadeShape PatchScene::facade_shape(const ResultReader& result,
 }
 
 bool PatchScene::is_border(std::int32_t triangle, std::int32_t other) const {
-  const auto t = static_cast<std::size_t>(triangle), o = static_cast<std::size_t>(other);
-  if (mesh_.triangle_object[t] != mesh_.triangle_object[o]) return true;
-  const auto p = static_cast<std::size_t>(front_[t]), q = static_cast<std::size_t>(front_[o]);
-  if (material_[p] != material_[q] || surface_[p] != surface_[q]) return true;
-  static const double fold_cosine = std::cos(radians(fold_deg));
-  if (dot(normal_[p], normal_[q]) < fold_cosine) return true;
+  const auto& a = facets_[static_cast<std::size_t>(triangle)];
+  const auto& b = facets_[static_cast<std::size_t>(other)];
+  if (a.object != b.object || a.material != b.material || a.surface != b.surface) return true;
+  static const auto fold_cosine = static_cast<float>(std::cos(radians(fold_deg)));
+  const float cosine = a.normal[0] * b.normal[0] + a.normal[1] * b.normal[1] + a.normal[2] * b.normal[2];
+  if (cosine < fold_cosine) return true;
   // Coplanar faces may lie far apart across a bend: only parallel ones can be a step.
-  constexpr double parallel_cosine = 1 - 1e-6;
-  return dot(normal_[p], normal_[q]) > parallel_cosine &&
-         std::abs(dot(centroid_[p] - centroid_[q], normal_[p])) > step_m;
+  constexpr float parallel_cosine = 1 - 1e-6F;
+  if (cosine <= parallel_cosine) return false;
+  float step = 0;
+  for (std::size_t k = 0; k < 3; ++k) step += (a.centroid[k] - b.centroid[k]) * a.normal[k];
+  return std::abs(step) > static_cast<float>(step_m);
 }
 
 std::vector<Colour> drawn_pixels(const PatchScene& scene, const RayCaster& caster,

@@ -38,11 +38,18 @@ class PatchScene {
   bool is_border(std::int32_t triangle, std::int32_t other) const;
 
  private:
+  /// What decides lines, side by side in memory: millions of neighbours are compared.
+  struct Facet {
+    std::int32_t object, material, surface;
+    std::array<float, 3> normal, centroid;
+  };
+
   Mesh mesh_;
+  std::vector<Facet> facets_;               ///< of triangles
   std::vector<std::int32_t> front_, back_;  ///< patches of a triangle
-  std::vector<std::int32_t> material_, surface_;
+  std::vector<std::int32_t> surface_;
   std::vector<double> area_;
-  std::vector<Vec3> normal_, centroid_;
+  std::vector<Vec3> normal_;
   std::vector<std::array<std::int32_t, 3>> corners_;  ///< of patches, as stored
 };
 
@@ -82,12 +89,14 @@ class TracedPicture {
     float u = 0, v = 0;
     float mesh_line = 0;
     bool front = true;
-    bool border = false;  ///< of an object, a material or a fold
+    /// Whether a border (of an object, a material or a fold) is between this and the next sample.
+    bool border_right = false, border_below = false;
   };
 
  private:
-  void trace_row(std::size_t row);
+  void trace_tiles(std::size_t first_row);
   double mesh_line(std::size_t triangle, double u, double v, const CameraRay& ray) const;
+  bool has_border(std::size_t sample, std::size_t other) const;
   bool is_border(std::size_t column, std::size_t row) const;
 
   const PatchScene& scene_;
