@@ -32,6 +32,7 @@ constexpr std::array formats{
     ExportFormat{"vrml", export_vrml, Content::text, Colours::of_corners},
     ExportFormat{"ply", export_ply, Content::bytes, Colours::of_patches},
     ExportFormat{"cityjson", export_cityjson, Content::text, Colours::none},
+    ExportFormat{"gpkg", export_geopackage, Content::bytes, Colours::none},
     ExportFormat{"energyplus", export_energyplus, Content::text, Colours::none},
 };
 

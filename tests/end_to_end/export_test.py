@@ -9,6 +9,7 @@ import json
 import os
 import re
 import shutil
+import sqlite3
 import struct
 import subprocess
 import sys
@@ -400,6 +401,34 @@ def test_patches(result, city):
     assert count == len(load)
 
 
+def test_geopackage(exports):
+    """Read as what it is: a database of SQLite with geometries of WKB behind a head."""
+    import h5py
+    path = os.path.join(exports.folder, "a.gpkg")
+    ran = exports.run("export", "results/city/fine.h5", "--to", "gpkg", "-o", path)
+    assert ran.returncode == 0, ran.stderr
+    data = sqlite3.connect(path)
+    assert data.execute("SELECT organization_coordsys_id FROM gpkg_geometry_columns JOIN gpkg_spatial_ref_sys USING (srs_id)").fetchall() == [(7415,)] * 2
+    rows = data.execute("SELECT object, sunload_light_load_kwh_m2, geom FROM patches ORDER BY fid").fetchall()
+    with h5py.File(os.path.join(exports.folder, "results/city/fine.h5"), "r") as result:
+        names = list(result["object_name"].asstr())
+        assert [row[0] for row in rows] == [names[k] for k in result["patch_object"]]
+        assert np.allclose([row[1] for row in rows], result["light_load"][()])
+        corners = result["vertex_position"][()][result["patch_vertices"][()]] + result.attrs["origin"]
+        for row, expected in zip(rows, corners):
+            blob = row[2]
+            envelope = {0: 0, 1: 32, 2: 48, 3: 48, 4: 64}[(blob[3] >> 1) & 7]
+            kind, rings, points = struct.unpack_from("<III", blob, 8 + envelope + 1)
+            assert blob[:2] == b"GP" and (kind, rings, points) == (1003, 1, 4), (kind, rings, points)
+            assert np.allclose(np.frombuffer(blob, "<f8", 9, 8 + envelope + 13).reshape(3, 3), expected, atol=1e-9)
+        objects = dict(data.execute("SELECT object, sunload_light_load_kwh_m2 FROM objects").fetchall())
+        assert set(objects) == set(names)
+        for k, name in enumerate(names):
+            own = np.flatnonzero((result["patch_object"][()] == k) & (result["patch_side"][()] == 0))
+            assert np.isclose(objects[name], mean_and_error(result, own)[0], 1e-6)
+    data.close()
+
+
 def test_energyplus(exports):
     ran = exports.run("export", RESULT, "--to", "energyplus")
     assert ran.returncode == WRONG_INPUT and "365" in ran.stderr and not ran.stdout, ran.stderr
@@ -443,6 +472,8 @@ def main():
                 print(test.__name__, "passed")
         test_cityjson(exports)
         print("test_cityjson passed")
+        test_geopackage(exports)
+        print("test_geopackage passed")
         test_energyplus(exports)
         test_refusals(exports)
         left = [name for name in os.listdir(folder) if ".part-" in name]
