@@ -106,7 +106,8 @@ class Painter {
   double value_at(const TracedPicture::Sample& sample, std::size_t patch) const {
     if (colours_.corner_values.empty()) return colours_.values[patch];
     const auto& triangle = scene_.mesh().triangles[static_cast<std::size_t>(sample.triangle)];
-    const std::array<double, 3> weight{1.0 - static_cast<double>(sample.u) - static_cast<double>(sample.v), static_cast<double>(sample.u), static_cast<double>(sample.v)};
+    const auto u = static_cast<double>(sample.u), v = static_cast<double>(sample.v);
+    const std::array<double, 3> weight{1 - u - v, u, v};
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t m = 0; m < 3; ++m)  // a back has its corners in another order
