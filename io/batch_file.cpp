@@ -130,6 +130,9 @@ void BatchWriter::add(const ArraySpec& spec, const float* values) {
   }
   const auto chunks = encoded_chunks(values, spec.dims[0], spec.dims[1], chunk_shape(header_, spec),
                                      header_.compression);
+  std::size_t bytes = 0;
+  for (const auto& chunk : chunks) bytes += chunk.size();
+  block->bytes.reserve(bytes);
   for (const auto& chunk : chunks) {
     block->chunk_bytes.push_back(chunk.size());
     block->bytes.insert(block->bytes.end(), chunk.begin(), chunk.end());

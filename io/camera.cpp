@@ -69,7 +69,7 @@ Camera Camera::fitted(const std::vector<Vec3>& points, Vec3 towards_viewer, doub
 }
 
 Camera Camera::parallel(const std::vector<Vec3>& points, Vec3 towards_viewer, Vec3 up, int width,
-                        int height) {
+                        int height, std::optional<double> front_m) {
   const bool is_along = norm(cross(up, normalized(towards_viewer))) < vertical;
   Camera camera(Projection::parallel, towards_viewer, is_along ? Vec3{0, 1, 0} : up, width, height);
   std::vector<Vec3> projected;
@@ -79,7 +79,7 @@ Camera Camera::parallel(const std::vector<Vec3>& points, Vec3 towards_viewer, Ve
   const Vec3 size = box.high - box.low, centre = middle(projected);
   camera.scale_ = std::max(size.y, size.x * height / width) / 2 / filled_share;
   // In front of everything by as much as the scene is deep, points behind included.
-  const double reach = size.x + size.y + size.z;
+  const double reach = front_m.value_or(size.x + size.y + size.z);
   camera.eye_ =
       camera.right_ * centre.x + camera.up_ * centre.y + camera.back_ * (box.high.z + reach);
   return camera;

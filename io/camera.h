@@ -1,6 +1,7 @@
 /// Cameras for pictures of a scene.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "geo/vec.h"
@@ -22,9 +23,10 @@ class Camera {
   /// Central perspective along -`towards_viewer` that just holds all `points`.
   static Camera fitted(const std::vector<Vec3>& points, Vec3 towards_viewer, double field_deg,
                        int width, int height);
-  /// Parallel projection along -`towards_viewer` that just holds all `points`.
+  /// Parallel projection along -`towards_viewer` that just holds all `points`. What is more than
+  /// `front_m` before the foremost of them is cut away; left out: nothing is.
   static Camera parallel(const std::vector<Vec3>& points, Vec3 towards_viewer, Vec3 up, int width,
-                         int height);
+                         int height, std::optional<double> front_m = std::nullopt);
 
   CameraRay ray(double x, double y) const;
   /// Length that a pixel covers across the line of sight at that distance.

@@ -55,6 +55,19 @@ Colour clamped(Colour c) {
   return {std::clamp(c.red, 0.0, 1.0), std::clamp(c.green, 0.0, 1.0), std::clamp(c.blue, 0.0, 1.0)};
 }
 
+/// HLS with lightness and saturation ½ (Foley et al. 1990, Computer Graphics, fig. 13.37): channels
+/// lie between ¼ and ¾.
+Colour hue_colour(double hue_deg) {
+  constexpr double low = 0.25, high = 0.75, sextant_deg = 60;
+  const auto channel = [&](double shift_deg) {
+    const double h = std::fmod(hue_deg + shift_deg, 6 * sextant_deg) / sextant_deg;
+    const double rise = std::clamp(std::min(h, 4 - h), 0.0, 1.0);
+    return low + (high - low) * rise;
+  };
+  constexpr double of_red = 120, of_blue = 240;
+  return {channel(of_red), channel(0), channel(of_blue)};
+}
+
 }  // namespace
 
 // IEC 61966-2-1, 5.2: a power of 2.4 with a linear toe.
@@ -89,6 +102,8 @@ Lab lab_from_srgb(Colour colour) {
 
 Colour map_colour(Palette palette, double share) {
   const double t = std::clamp(share, 0.0, 1.0);
+  constexpr double cold_hue_deg = 240;
+  if (palette == Palette::hue) return hue_colour(cold_hue_deg * (1 - t));
   const double lightness = darkest + (lightest - darkest) * t;
   if (palette == Palette::grey) return clamped(srgb_from_lab({lightness, 0, 0}));
   const double hue = radians(first_hue_deg + (last_hue_deg - first_hue_deg) * t);

@@ -4,7 +4,9 @@
 /// dark blue by way of purple and orange to a light yellow, chroma is constant,
 /// so that equal steps of the value are equal steps of CIE 1976 colour
 /// difference; lightness alone orders the colours for any colour vision.
-/// `grey` is the neutral axis. CIE 15:2004, Colorimetry; sRGB: IEC 61966-2-1.
+/// `grey` is the neutral axis. `hue` is the scale of the historic system (METHOD 7): HLS hue from
+/// cold (blue) to warm (red), lightness and saturation ½; neither uniform nor safe, it is for
+/// pictures that are compared with old ones. CIE 15:2004, Colorimetry; sRGB: IEC 61966-2-1.
 #pragma once
 
 #include <array>
@@ -31,7 +33,7 @@ Lab lab_from_srgb(Colour colour);
 double linear_from_srgb(double channel);
 double srgb_from_linear(double channel);
 
-enum class Palette { false_colour, grey };
+enum class Palette { false_colour, grey, hue };
 
 /// Colour of `share` in [0, 1]; beyond, that of the nearer end.
 Colour map_colour(Palette palette, double share);

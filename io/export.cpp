@@ -31,6 +31,8 @@ constexpr std::array formats{
     ExportFormat{"glb", export_glb, Content::bytes, Colours::of_corners},
     ExportFormat{"vrml", export_vrml, Content::text, Colours::of_corners},
     ExportFormat{"ply", export_ply, Content::bytes, Colours::of_patches},
+    ExportFormat{"cityjson", export_cityjson, Content::text, Colours::none},
+    ExportFormat{"gpkg", export_geopackage, Content::bytes, Colours::none},
     ExportFormat{"energyplus", export_energyplus, Content::text, Colours::none},
 };
 
@@ -57,6 +59,8 @@ void expect_heeded(const ExportFormat& format, const ExportRules& rules, const s
   if (rules.crease_angle_deg && !(*rules.crease_angle_deg >= 0 && *rules.crease_angle_deg <= 180))
     problems.add({}, fmt::format("--crease-angle {}", *rules.crease_angle_deg),
                  "must lie in [0, 180] degrees", "20 joins the facets of round towers");
+  if (!rules.model.empty() && format.write != export_cityjson)
+    problems.add({}, "--model with " + to, "only city models get values back", "use --to cityjson");
   if (format.content != Content::text && path.empty())
     problems.add({}, to + " needs a file", "it is not written to the standard output",
                  "add -o FILE." + std::string(format.word));

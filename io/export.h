@@ -20,6 +20,7 @@ struct ExportRules {
   /// corner that turn by no more than the crease angle (20° where left out).
   bool interpolate = false;
   std::optional<double> crease_angle_deg;
+  std::string model;  ///< cityjson: the study's own model, which gets its values back; empty: none
 };
 
 /// "csv, vtk, …": words for `--to`.

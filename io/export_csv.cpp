@@ -15,25 +15,13 @@
 namespace sunload {
 namespace {
 
-/// A unit as the end of a column's name: "kWh m-2" → "_kwh_m2".
-std::string unit_ending(std::string units) {
-  if (units == "1") return {};
-  for (char& c : units) c = c == ' ' ? '_' : static_cast<char>(std::tolower(c));
-  std::erase(units, '-');
-  return "_" + units;
-}
-
-std::string header(const ResultReader& result, const std::string& dataset) {
-  return dataset + unit_ending(result.units(dataset));
-}
-
 void write_quantity(const ResultReader& result, const ExportRules& rules, std::ostream& out) {
   const auto shown = export_quantity(result, rules);
   const ExportPatches patches(result);
   const auto facades = result.strings("facade_name");
   const auto facade = result.integers("patch_facade"), surface = result.integers("patch_surface"),
              side = result.integers("patch_side");
-  out << "index,object,facade,surface,side,area_m2," << header(result, shown.dataset)
+  out << "index,object,facade,surface,side,area_m2," << column_name(result, shown.dataset)
       << (shown.is_series ? ",time_utc\n" : "\n");
   const std::string when =
       shown.is_series ? "," + iso_utc(result.doubles("time").at(shown.interval)) : "";
@@ -67,13 +55,13 @@ void write_series(const ResultReader& result, const ExportRules& rules, std::ost
   std::vector<std::vector<double>> columns;
   out << "begin_utc,end_utc,sun_utc";
   for (const auto& name : time_columns(result)) {
-    out << "," << header(result, name);
+    out << "," << column_name(result, name);
     columns.push_back(result.doubles(name));
   }
   if (has_light)
     for (const auto& group : groups.groups())
       out << ","
-          << csv_text(header(result, dataset) + " " +
+          << csv_text(column_name(result, dataset) + " " +
                       (group.kind == "whole" ? "whole" : group.kind + " " + group.name));
   out << "\n";
   const auto time = result.doubles("time"), bounds = result.doubles("time_bounds");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
@@ -120,6 +121,14 @@ ExportColours export_colours(const ResultReader& result, const ExportRules& rule
     for (std::size_t k = 0; k < 3; ++k) steps[k] = palette_step(corner[k], colours.largest);
   }
   return colours;
+}
+
+std::string column_name(const ResultReader& result, const std::string& dataset) {
+  std::string units = result.units(dataset);
+  if (units == "1") return dataset;
+  for (char& c : units) c = c == ' ' ? '_' : static_cast<char>(std::tolower(c));
+  std::erase(units, '-');
+  return dataset + "_" + units;
 }
 
 std::string export_caption(const ResultReader& result, const ShownQuantity& shown) {

@@ -58,6 +58,9 @@ std::vector<std::array<double, 3>> corner_values(const ExportPatches& patches,
                                                  const std::vector<double>& values,
                                                  double crease_angle_deg);
 
+/// Dataset and unit as the head of a column: "light_load" in "kWh m-2" → "light_load_kwh_m2".
+std::string column_name(const ResultReader& result, const std::string& dataset);
+
 /// "result.h5: light load kWh/m², when": a line for a head or comment.
 std::string export_caption(const ResultReader& result, const ShownQuantity& shown);
 
@@ -75,8 +78,17 @@ void export_vrml(const ResultReader&, const ExportRules&, const ExportTarget&);
 /// Binary PLY with colours and values of faces. Turk (1994), The PLY Polygon File Format.
 void export_ply(const ResultReader&, const ExportRules&, const ExportTarget&);
 
+/// CityJSON: the model of `ExportRules::model` with what its surfaces and objects receive as
+/// attributes, or CityJSON 2.0 of the patches. CityJSON specifications 2.0.1.
+void export_cityjson(const ResultReader&, const ExportRules&, const ExportTarget&);
+
+/// GeoPackage with the layers "patches" and "objects", surfaces with z, in the scene's CRS where it has one.
+/// OGC 12-128r18, GeoPackage Encoding Standard 1.3, written by GDAL.
+void export_geopackage(const ResultReader&, const ExportRules&, const ExportTarget&);
+
 /// Sunlit fraction of every facade at every step of a year, CSV: direct light by what an unshaded
-/// facade would get. The layout is meant for EnergyPlus' Schedule:File:Shading, and was not tried with it.
+/// facade would get. The layout is what EnergyPlus writes ("eplusshading.csv") and reads
+/// (Schedule:File:Shading): its sources ScheduleManager.cc and their tests, version 25.
 void export_energyplus(const ResultReader&, const ExportRules&, const ExportTarget&);
 
 }  // namespace sunload

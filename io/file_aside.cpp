@@ -111,4 +111,14 @@ void remove_left_aside(const std::string& folder) {
   }
 }
 
+void write_file(const std::string& path, std::string_view bytes) {
+  FileAside file(path);
+  errno = 0;
+  std::ofstream stream(file.aside(), std::ios::binary);
+  stream << bytes;
+  stream.close();
+  if (!stream) throw_cannot_write(path, errno);
+  file.publish();
+}
+
 }  // namespace sunload

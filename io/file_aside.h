@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace sunload {
 
@@ -40,5 +41,8 @@ void remove_left_aside(const std::string& folder);
 
 /// MachineError "cannot write `path`: <text of the error number>".
 [[noreturn]] void throw_cannot_write(const std::string& path, int error_number);
+
+/// Writes a whole file aside and publishes it. Throws MachineError.
+void write_file(const std::string& path, std::string_view bytes);
 
 }  // namespace sunload

@@ -92,6 +92,12 @@ class File : public Object {
  public:
   /// A new file; `path` must not exist yet.
   static File create(const std::string& path);
+  File(const File&) = default;
+  File(File&&) = default;
+  File& operator=(const File&) = default;
+  File& operator=(File&&) = default;
+  /// The root group goes before the file that it is in.
+  ~File() { handle_.reset(); }
   /// An existing file, for reading.
   static File open(const std::string& path);
 

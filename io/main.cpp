@@ -43,6 +43,15 @@ Vec3 point(const std::string& text, const char* option) {
   return p;
 }
 
+const std::map<std::string, Palette> palettes{
+    {"false", Palette::false_colour}, {"grey", Palette::grey}, {"hue", Palette::hue}};
+
+const std::map<std::string, std::pair<PictureColours, Palette>> picture_colours{
+    {"false", {PictureColours::of_values, Palette::false_colour}},
+    {"grey", {PictureColours::of_values, Palette::grey}},
+    {"hue", {PictureColours::of_values, Palette::hue}},
+    {"rgb", {PictureColours::of_bands, Palette::false_colour}}};
+
 /// An option that takes one of some words.
 template <class Value>
 void add_word(CLI::App* sub, const std::string& option, Value& target,
@@ -282,6 +291,7 @@ class CommandLine {
     auto* csv = sub->add_flag("--csv", csv_, "one row per group, for machines");
     sub->add_flag("--json", json_, "the same as JSON")->excludes(csv);
     add_band(sub);
+    sub->add_option("--hdf5", differences_, "file of the differences of groups, facades and patches, besides");
   }
 
   /// A result file as it is, or the result of a study's variant.
@@ -309,9 +319,15 @@ class CommandLine {
     if ((csv_ || json_) && variants.size() > 1)
       throw InputError({}, "--csv and --json take one variant", "their header has no column for it",
                        "call compare once per variant");
+    if (!differences_.empty() && variants.size() > 1)
+      throw InputError({}, "--hdf5 takes one variant", "a file holds one comparison",
+                       "call compare once per variant");
     const ResultReader base_result(base, band());
     for (const auto& variant : variants) {
-      const Comparison comparison = compare_results(base_result, ResultReader(variant, band()));
+      const ResultReader variant_result(variant, band());
+      const Comparison comparison = compare_results(base_result, variant_result);
+      if (!differences_.empty())
+        write_comparison_hdf5(comparison, base_result, variant_result, differences_);
       std::cout << (csv_    ? comparison_csv(comparison)
                     : json_ ? comparison_json(comparison)
                             : comparison_table(comparison));
@@ -329,28 +345,45 @@ class CommandLine {
         throw InputError({}, "--size " + size_, "not a size", "write e.g. 1600x1000");
       render_.colours = render_colours_.first;
       render_.palette = render_colours_.second;
-      if (render_.colours == PictureColours::of_bands && app_.get_subcommand("render")->count("--quantity") == 0)
-        render_.quantity = "power_load";
-      render_png(ResultReader(results_.front(), band()), render_, picture_);
+      const ResultReader result(results_.front(), band());
+      if (!day_.empty() && !animate_)
+        throw InputError({}, "--day without --animate", "one picture shows one time", "use --time");
+      animate_ ? render_animation(result, render_, day_, picture_)
+               : render_png(result, render_, picture_);
       return exit_code::done;
     });
     sub->add_option("RESULT", results_, "result file (.h5)")->required()->expected(1);
     sub->add_option("-o,--output", picture_, "picture to write (.png)")->required();
-    sub->add_option("--quantity", render_.quantity, "dataset to draw")->capture_default_str();
+    sub->add_option("--quantity", render_.quantity,
+                    "dataset to draw (default: light_load; animated: irradiance)");
     sub->add_option("--time", render_.time, "instant of a series, e.g. 2026-06-21T12:00");
     add_word(sub, "--camera", render_.view,
              {{"overview", View::overview}, {"sun", View::sun}, {"top", View::top}}, "view");
-    sub->add_option("--eye", eye_, "eye point x,y,z [m]");
+    sub->add_option("--facade", render_.facade, "camera before the facade of that name");
+    sub->add_option("--eye", eye_, "camera at the eye point x,y,z [m]");
     sub->add_option("--look", look_, "point looked at x,y,z [m]");
+    add_word(sub, "--projection", render_.projection,
+             {{"perspective", Projection::perspective}, {"parallel", Projection::parallel}},
+             "of overview and eye point");
     sub->add_option("--size", size_, "WIDTHxHEIGHT in pixels")->capture_default_str();
     sub->add_option("--max", largest_, "value of the last colour")->check(positive);
-    add_word(sub, "--colour", render_colours_,
-             {{"false", {PictureColours::of_values, Palette::false_colour}},
-              {"grey", {PictureColours::of_values, Palette::grey}},
-              {"rgb", {PictureColours::of_bands, Palette::false_colour}}},
+    add_word(sub, "--colour", render_colours_, picture_colours,
              "colours (rgb: the bands themselves, default quantity power_load)");
     add_band(sub);
+    sub->add_option("--same-scale", render_.same_scale,
+                    "results that the scale is to do for, too, so that pictures can be compared");
+    add_word<std::optional<SkyBackground>>(sub, "--sky", render_.sky,
+                                           {{"plain", SkyBackground::plain},
+                                            {"first", SkyBackground::first},
+                                            {"second", SkyBackground::second}},
+                                           "sky behind (default: plain for totals, second for series)");
     sub->add_flag("--mesh", mesh_lines_, "draw the patches' edges");
+    sub->add_flag("--interpolate", render_.interpolate, "colours run between corners");
+    sub->add_option("--crease-angle", render_.crease_angle_deg,
+                    "patches that turn by more are not interpolated [degrees, default 20]");
+    sub->add_flag("--animate", animate_,
+                  "a picture for every sun position, NAME-0001.png ..., and NAME.png with all (APNG)");
+    sub->add_option("--day", day_, "animate this day only (year-month-day)");
   }
 
   void add_view() {
@@ -375,13 +408,14 @@ class CommandLine {
     });
     sub->add_option("RESULT", results_, "result file (.h5)")->required()->expected(1);
     sub->add_option("--to", export_.format, "format: " + export_formats())->required();
-    sub->add_option("-o,--output", picture_, "file to write (csv, vrml, energyplus: default standard output)");
+    sub->add_option("-o,--output", picture_, "file to write (csv, vrml, cityjson, energyplus: default standard output)");
+    sub->add_option("--model", export_.model,
+                    "cityjson: the study's own model, whose surfaces and objects get the values as attributes");
     sub->add_option("--quantity", export_.quantity,
                     "dataset per patch (default: light_load; csv and xdmf: all); csv: series");
     sub->add_option("--time", export_.time, "instant of a series, e.g. 2026-06-21T12:00 (default: the brightest)");
-    add_word<std::optional<Palette>>(
-        sub, "--colour", export_.palette,
-        {{"false", Palette::false_colour}, {"grey", Palette::grey}}, "colours");
+    add_word<std::optional<Palette>>(sub, "--colour", export_.palette,
+                                     {palettes.begin(), palettes.end()}, "colours");
     sub->add_option("--max", export_.largest, "value of the last colour")->check(positive);
     add_band(sub);
     sub->add_flag("--interpolate", export_.interpolate, "colours of corners, not of patches (glb, vrml)");
@@ -419,8 +453,8 @@ class CommandLine {
 
   CLI::App app_{"sunload: how much sun and sky light falls on every patch of a city"};
   std::function<int()> action_;
-  std::string study_, base_, eye_, look_, picture_, scene_, shard_, size_ = "1600x1000", subdivision_ = "cells",
-      band_;
+  std::string study_, base_, differences_, eye_, look_, picture_, scene_, shard_, day_, size_ = "1600x1000",
+      subdivision_ = "cells", band_;
   std::vector<std::string> results_, parameters_;
   RunOptions options_;
   RenderRules render_;
@@ -432,7 +466,7 @@ class CommandLine {
   std::size_t view_step_ = 0;
   double largest_ = 0;
   bool resume_ = false, overwrite_ = false, keep_batches_ = false, json_ = false, csv_ = false,
-       patches_ = false, mesh_lines_ = false, partial_ = false, markdown_ = false, intersections_ = false;
+       patches_ = false, animate_ = false, mesh_lines_ = false, partial_ = false, markdown_ = false, intersections_ = false;
 };
 
 /// Listings count as written only once they have left the program.

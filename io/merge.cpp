@@ -300,6 +300,7 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
             {"sun_sampling", std::holds_alternative<InstantsPeriod>(study.period.kind)
                                  ? "sun at the given instant"
                                  : "sun at the middle of the sunlit part of the interval"}};
+  if (!plan.built.crs.empty()) a.text.emplace_back("crs", plan.built.crs);
   a.numbers = {{"latitude_deg", plan.built.site.latitude_deg},
                {"longitude_deg", plan.built.site.longitude_deg},
                {"elevation_m", plan.built.site.elevation_m},

@@ -49,6 +49,8 @@ class Picture {
   void write(PicturePoint at, const std::string& text, const TextStyle& style);
   double text_width(const std::string& text, const TextStyle& style) const;
 
+  /// The bytes of a PNG. ISO/IEC 15948:2004.
+  std::string png() const;
   /// Writes a PNG aside and renames it. Throws MachineError.
   void save(const std::string& path) const;
 

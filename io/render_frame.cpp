@@ -82,11 +82,11 @@ void draw_legend(Picture& picture, const Legend& legend) {
 void draw_north(Picture& picture, PicturePoint north) {
   const double u = unit(picture), radius = arrow_radius * u;
   const PicturePoint centre{margin * u + radius, picture.height() - margin * u - radius};
-  picture.fill_circle(centre, radius, {1, 1, 1});
-  picture.draw_circle(centre, radius, line_width * u, ink);
   const double length = std::hypot(north.x, north.y);
   constexpr double along_the_view = 0.05;
   if (length < along_the_view) return;
+  picture.fill_circle(centre, radius, {1, 1, 1});
+  picture.draw_circle(centre, radius, line_width * u, ink);
   const PicturePoint along{north.x / length, north.y / length};
   const auto at = [&](double forward, double aside) {
     return PicturePoint{centre.x + radius * (along.x * forward - along.y * aside),

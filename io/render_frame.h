@@ -27,7 +27,7 @@ struct Legend {
 void draw_legend(Picture& picture, const Legend& legend);
 
 /// Arrow in the lower left corner; `north` in the image, length 1 where it is
-/// not foreshortened.
+/// not foreshortened; none where one looks along it.
 void draw_north(Picture& picture, PicturePoint north);
 
 }  // namespace sunload

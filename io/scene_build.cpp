@@ -137,6 +137,7 @@ BuiltScene build_scene(const Study& study) {
   const PolygonModel model = read_models(study);
   built.notes = model.notes;
   built.site = resolve_site(study, model, built.site_source);
+  built.crs = study.site.crs.empty() ? model.crs : study.site.crs;
   PreparedMesh prepared = prepare(model, prepare_rules(study, model, built.site));
   built.report = std::move(prepared.report);
   built.warnings = built.report.warnings;

@@ -16,6 +16,7 @@ struct BuiltScene {
   PrepareReport report;
   Site site;                          ///< position and north, from study or CRS
   std::string site_source;            ///< in words: where position and north come from
+  std::string crs;                    ///< of the scene's coordinates; empty: none is known
   std::vector<std::string> notes;     ///< what readers counted
   std::vector<std::string> warnings;  ///< each states its consequence
 };

@@ -276,6 +276,10 @@ std::int32_t CityVertices::use(const json& value, PolygonModel& target, const Ge
   return place_in_model;
 }
 
+int lists_around_surfaces(const std::string& geometry_type) {
+  return levels_around_surfaces().at(geometry_type);
+}
+
 bool has_surfaces(const std::string& geometry_type) {
   return levels_around_surfaces().contains(geometry_type);
 }

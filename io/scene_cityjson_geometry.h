@@ -73,6 +73,9 @@ struct CityMaterials {
   std::string default_theme;
 };
 
+/// How many lists lie around the list of surfaces in the `boundaries` of a geometry that has surfaces.
+int lists_around_surfaces(const std::string& geometry_type);
+
 /// MultiSurface … CompositeSolid, which have surfaces.
 bool has_surfaces(const std::string& geometry_type);
 /// Solid, MultiSolid, CompositeSolid.

@@ -8,6 +8,7 @@
 #include "geo/check.h"
 #include "geo/time.h"
 #include "io/chunk.h"
+#include "io/h5.h"
 #include "io/half_float.h"
 #include "io/result_schema.h"
 #include "io/result_time.h"
@@ -112,8 +113,8 @@ double largest_value(const ResultReader& result, const std::string& name, std::s
 }
 
 /// Rows one after the other, each as the low bytes of all patches and then the high bytes.
-json series(const ResultReader& result, std::size_t step, ViewBlocks& blocks) {
-  const auto name = viewed_series(result);
+json series(const ResultReader& result, const std::string& name, std::size_t step,
+            ViewBlocks& blocks) {
   if (name.empty()) return nullptr;
   const auto shape = result.shape(name);
   const std::size_t intervals = shape.at(0), patches = shape.at(1);
@@ -145,6 +146,30 @@ json series(const ResultReader& result, std::size_t step, ViewBlocks& blocks) {
           {"values", add_block(blocks, planes)}};
 }
 
+/// Points of the study that receive light; names as those of patches. Null where there are none.
+json sensors(const ResultReader& result, std::size_t step, ViewBlocks& blocks) {
+  if (!result.has("sensor_position")) return nullptr;
+  const std::string prefix = "sensor_";
+  const auto centre = middle(result.doubles("vertex_position"));
+  auto position = result.doubles("sensor_position");
+  for (std::size_t i = 0; i < position.size(); ++i) position[i] -= centre[i % 3];
+  json values = json::array();
+  for (const auto& variable : result_schema(result.quantity())) {
+    const std::string name(variable.name);
+    if (variable.dims != "sensor" || variable.units.empty() || !result.has(name)) continue;
+    values.push_back({{"name", name.substr(prefix.size())},
+                      {"units", display_units(result.units(name))},
+                      {"values", add_numbers(blocks, floats(result.doubles(name)))}});
+  }
+  const auto of_patches = viewed_series(result);
+  auto own = result.has(prefix + of_patches) ? series(result, prefix + of_patches, step, blocks)
+                                             : json(nullptr);
+  if (!own.is_null()) own["name"] = of_patches;
+  return {{"position", add_numbers(blocks, floats(position))},
+          {"totals", std::move(values)},
+          {"series", std::move(own)}};
+}
+
 }  // namespace
 
 std::string viewed_series(const ResultReader& result) {
@@ -165,7 +190,9 @@ json view_data(const ResultReader& result, std::size_t step, ViewBlocks& blocks)
           {"times", times(result, step)},
           {"geometry", geometry(result, blocks)},
           {"totals", totals(result, blocks)},
-          {"series", series(result, step, blocks)}};
+          {"sensors", sensors(result, step, blocks)},
+          {"origin", h5::File::open(result.path()).numbers("origin").value_or(std::vector<double>(3, 0))},
+          {"series", series(result, viewed_series(result), step, blocks)}};
 }
 
 }  // namespace sunload

@@ -26,6 +26,38 @@ const integers = ["patch_vertices", "patch_object", "patch_facade", "patch_mater
   "patch_input_triangle", "input_triangle_vertices"];
 const surfaces = ["other", "wall", "roof", "ground", "window", "floor"];
 
+/** Value of a series of halves at interval k: low bytes of all columns, then high bytes. */
+function halfAt(series, halves, columns, k, column) {
+  const at = 2 * k * columns + column;
+  return halves[series.planes[at] | (series.planes[at + columns] << 8)] / series.scale;
+}
+
+/** Points that receive light; quantities have the names of those of patches. */
+class Sensors {
+  static async read(about, halves) {
+    const sensors = Object.assign(new Sensors(), about, { halves });
+    sensors.position = new Float32Array(await block(about.position));
+    sensors.count = sensors.position.length / 3;
+    for (const total of about.totals) total.values = new Float32Array(await block(total.values));
+    if (about.series) about.series.planes = new Uint8Array(await block(about.series.values));
+    return sensors;
+  }
+
+  seriesValue(k, sensor) { return halfAt(this.series, this.halves, this.count, k, sensor); }
+
+  /** One value per sensor; nothing where they lack the quantity. */
+  values(name, k) {
+    const total = this.totals.find((one) => one.name === name);
+    if (total) return total.values;
+    if (this.series?.name !== name || k < 0) return null;
+    return Float32Array.from({ length: this.count }, (_, s) => this.seriesValue(k, s));
+  }
+
+  units(name) {
+    return this.series?.name === name ? this.series.units : this.totals.find((one) => one.name === name)?.units ?? "";
+  }
+}
+
 /** One result: names as in its file, arrays unpacked. */
 class Result {
   static async read(about, halves) {
@@ -37,6 +69,7 @@ class Result {
     result.patches = result.patch_area.length;
     for (const total of about.totals) total.values = new Float32Array(await block(total.values));
     if (about.series) about.series.planes = new Uint8Array(await block(about.series.values));
+    if (about.sensors) result.sensors = await Sensors.read(about.sensors, halves);
     const twins = new Set();
     result.patch_side.forEach((side, p) => side && twins.add(result.patch_input_triangle[p]));
     result.isTwoSided = Uint8Array.from(result.patch_input_triangle, (triangle) => +twins.has(triangle));
@@ -47,8 +80,7 @@ class Result {
 
   /** Value of the series at interval k of the page. */
   seriesValue(k, patch) {
-    const at = 2 * k * this.patches + patch;
-    return this.halves[this.series.planes[at] | (this.series.planes[at + this.patches] << 8)] / this.series.scale;
+    return halfAt(this.series, this.halves, this.patches, k, patch);
   }
 
   /** One value per patch: of a total, or of the series at interval k (NaN: not covered). */

@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { CameraMan } from "./camera.js";
 import { matchedMean, readPage } from "./data.js";
 import { PatchMesh, paletteTexture } from "./mesh.js";
-import { $, drawLegend, preview, tellPatch, tellTime } from "./panels.js";
+import { $, drawLegend, isShape, materialPalette, materialValue, materials, preview, tellPatch, tellTime } from "./panels.js";
 import { scaleEnd, shown } from "./scale.js";
 import { Sky, sceneNorth } from "./sky.js";
 
@@ -12,10 +12,10 @@ const playIntervalMs = 250, clickPixels = 4;
 class Viewer {
   constructor({ results, palettes }) {
     this.results = results;
-    this.palettes = palettes;
+    this.palettes = { ...palettes, materials: materialPalette() };
     this.state = { view: results.length > 1 ? "side" : "0", quantity: "light_load", k: this.brightest(results[0]), colours: "false",
       shading: "constant", crease: 20, lines: "none", picked: null, limits: {} };
-    this.textures = Object.fromEntries(Object.entries(palettes).map(([name, colours]) => [name, paletteTexture(colours)]));
+    this.textures = Object.fromEntries(Object.entries(this.palettes).map(([name, colours]) => [name, paletteTexture(colours)]));
     this.buildScene();
     this.fillChoices();
     this.listen();
@@ -65,7 +65,7 @@ class Viewer {
     return [{ mesh: view === "1" ? 1 : 0, from: 0, to: 1 }];
   }
 
-  isDifference() { return this.state.view === "difference" && this.state.quantity !== preview; }
+  isDifference() { return this.state.view === "difference" && !isShape(this.state.quantity); }
 
   /** Value per patch of a result for the quantity that is shown, at the time of the slider. */
   valuesOf(n, quantity = this.state.quantity, k = this.state.k) {
@@ -83,18 +83,23 @@ class Viewer {
     const end = this.limit(), isSmooth = shading === "smooth";
     this.meshes.forEach((mesh, n) => {
       const uniforms = mesh.material.uniforms;
-      if (quantity !== preview) {
+      if (quantity === materials) {
+        mesh.show(Float32Array.from(this.results[n].patch_material, materialValue), false, crease);
+      } else if (quantity !== preview) {
         let values = this.valuesOf(n);
         if (this.isDifference() && n === 0) {
           values = this.difference(values, this.valuesOf(1));
         }
         mesh.show(values, isSmooth, crease);
       }
-      uniforms.preview.value = quantity === preview;
-      uniforms.palette.value = this.textures[this.isDifference() ? "difference" : colours];
+      uniforms.preview.value = isShape(quantity);
+      uniforms.materials.value = quantity === materials;
+      const palette = this.isDifference() ? "difference" : quantity === materials ? materials : colours;
+      uniforms.palette.value = this.textures[palette];
       uniforms.low.value = this.isDifference() ? -end : 0;
       uniforms.high.value = end;
       mesh.showLines(lines);
+      this.showSensors(mesh, n, end);
     });
     this.sky.show(k);
     drawLegend(this, end);
@@ -103,10 +108,18 @@ class Viewer {
     this.isStale = true;
   }
 
+  /** Sensors have the colours of their values; in a difference, and where they lack the quantity, they are white. */
+  showSensors(mesh, n, end) {
+    if (!mesh.sensors) return;
+    const { quantity, colours, k } = this.state, own = n === 0 ? k : this.results[n].intervalAt(this.results[0].times[k]);
+    const values = this.isDifference() || isShape(quantity) ? null : this.results[n].sensors.values(quantity, own);
+    mesh.sensors.show(values, this.palettes[colours], 0, end);
+  }
+
   /** What the colours end at: the user's limit, or one for all results and times. */
   limit() {
     const { quantity, limits } = this.state;
-    if (quantity === preview) return 1;
+    if (isShape(quantity)) return 1;
     const key = this.limitKey();
     return limits[key] ?? (this.ends ??= {})[key] ?? (this.ends[key] = this.automaticLimit());
   }
@@ -187,7 +200,7 @@ class Viewer {
     const series = results[0].series?.name;
     if (series && results.every((r) => r.series?.name === series)) names.push(series);
     if (!names.includes(state.quantity)) state.quantity = names[0];
-    fill($("quantity"), [[preview, "preview (shape only)"], ...names.map((name) => [name,
+    fill($("quantity"), [[preview, "preview (shape only)"], [materials, "materials"], ...names.map((name) => [name,
       name.replaceAll("_", " ") + (name === series ? " at the time" : name.endsWith("_se") ? " (error)" : "")])], state.quantity);
     $("slider").max = results[0].times.length - 1;
   }
@@ -261,9 +274,31 @@ class Viewer {
     return hit ? { n: part.mesh, patch: hit.faceIndex } : null;
   }
 
+  /** The sensor under a point of the window, where nothing stands before it. */
+  sensorAt(x, y) {
+    const { clientWidth: width, clientHeight: height } = $("scene");
+    const part = this.parts().find((one) => x / width < one.to) ?? this.parts()[0], { sensors } = this.meshes[part.mesh];
+    if (!sensors) return null;
+    this.man.fitTo(((part.to - part.from) * width) / height);
+    const found = sensors.near(x, y, this.man.camera, (point) => this.pixelOf(point, part));
+    if (!found) return null;
+    const way = new THREE.Vector3().fromArray(this.results[part.mesh].sensors.position, 3 * found.sensor)
+      .add(this.meshes[part.mesh].object.position).sub(this.man.camera.position).normalize();
+    this.rays.set(this.man.camera.position, way);
+    const [hit] = this.rays.intersectObject(this.meshes[part.mesh].object, false);
+    // Sensors lie on surfaces or before them.
+    return hit && hit.distance < 0.999 * found.distance ? null : { n: part.mesh, sensor: found.sensor };
+  }
+
   pick(x, y) {
-    this.state.picked = this.patchAt(x, y);
+    this.state.picked = this.sensorAt(x, y) ?? this.patchAt(x, y);
     this.refresh();
+  }
+
+  /** Where a point is in the window, and its depth. */
+  pixelOf(point, part) {
+    const { clientWidth: width, clientHeight: height } = $("scene"), at = point.clone().project(this.man.camera);
+    return { x: width * (part.from + ((at.x + 1) / 2) * (part.to - part.from)), y: (height * (1 - at.y)) / 2, z: at.z };
   }
 
   // For tests: where a patch is in the window, and how fast frames are.
@@ -272,8 +307,13 @@ class Viewer {
     const part = this.parts().find((one) => one.mesh === n);
     const { clientWidth: width, clientHeight: height } = $("scene");
     this.man.fitTo(((part.to - part.from) * width) / height);
-    const point = new THREE.Vector3(...this.results[n].centroid(patch)).add(this.meshes[n].object.position).project(this.man.camera);
-    return { x: width * (part.from + ((point.x + 1) / 2) * (part.to - part.from)), y: (height * (1 - point.y)) / 2 };
+    return this.pixelOf(new THREE.Vector3(...this.results[n].centroid(patch)).add(this.meshes[n].object.position), part);
+  }
+
+  placeOfSensor(sensor, n = 0) {
+    const part = this.parts().find((one) => one.mesh === n), { clientWidth: width, clientHeight: height } = $("scene");
+    this.man.fitTo(((part.to - part.from) * width) / height);
+    return this.pixelOf(new THREE.Vector3().fromArray(this.results[n].sensors.position, 3 * sensor).add(this.meshes[n].object.position), part);
   }
 
   /** Frames per second of a turn around the scene, each finished before the next begins. */

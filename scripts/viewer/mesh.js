@@ -1,5 +1,6 @@
 // The patches of a result as triangles that know a value at every corner.
 import * as THREE from "three";
+import { SensorPoints } from "./sensors.js";
 
 const vertexShader = `
 attribute float value;
@@ -20,6 +21,7 @@ uniform sampler2D palette;
 uniform float low;
 uniform float high;
 uniform bool preview;
+uniform bool materials;
 uniform vec3 light;
 varying float vValue;
 varying float vTwoSided;
@@ -29,7 +31,8 @@ void main() {
   if (!gl_FrontFacing) {
     if (vTwoSided > 0.5) discard;
   } else if (preview) {
-    colour = vec3(0.93, 0.92, 0.89) * (0.5 + 0.2 * vNormal.z + 0.3 * max(0.0, dot(vNormal, light)));
+    vec3 own = materials && vValue > -0.5 ? texture2D(palette, vec2((vValue + 0.5) / 256.0, 0.5)).rgb : vec3(0.93, 0.92, 0.89);
+    colour = own * (0.5 + 0.2 * vNormal.z + 0.3 * max(0.0, dot(vNormal, light)));
   } else if (vValue > -1e29) {
     float share = clamp((vValue - low) / (high - low), 0.0, 1.0);
     colour = texture2D(palette, vec2((share * 255.0 + 0.5) / 256.0, 0.5)).rgb;
@@ -69,13 +72,17 @@ export class PatchMesh {
     geometry.setAttribute("value", this.value);
     this.material = new THREE.ShaderMaterial({
       vertexShader, fragmentShader, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
-      uniforms: { palette: { value: null }, low: { value: 0 }, high: { value: 1 }, preview: { value: false },
+      uniforms: { palette: { value: null }, low: { value: 0 }, high: { value: 1 }, preview: { value: false }, materials: { value: false },
         light: { value: new THREE.Vector3(0.4, -0.6, 0.7) } },
     });
     this.object = new THREE.Mesh(geometry, this.material);
     this.object.add(new THREE.LineSegments(this.folds(), new THREE.LineBasicMaterial({ color: 0x30343c })));
     this.lines = {};
     this.creaseDeg = null;
+    if (result.sensors) {
+      this.sensors = new SensorPoints(result.sensors);
+      this.object.add(this.sensors.object);
+    }
   }
 
   /** One value per patch, constant on it or interpolated between its corners. */

@@ -9,6 +9,7 @@ import json
 import os
 import re
 import shutil
+import sqlite3
 import struct
 import subprocess
 import sys
@@ -228,6 +229,206 @@ def test_ply(exports, result):
     expect_scale(linear(table["colour"] / 255), result["light_load"][()], largest, 120 * 0.5 / 255)
 
 
+def city_model():
+    """A house of two parts: walls share one semantic surface, the roofs have none; a square before it."""
+    vertices, objects = [], {}
+
+    def box(low, high):
+        base = len(vertices)
+        vertices.extend([x, y, z] for z in (low[2], high[2])
+                        for x, y in ((low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1])))
+        faces = [(0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7), (4, 5, 6, 7), (3, 2, 1, 0)]
+        return [[[[base + k for k in face]] for face in faces]]
+
+    for name, low, high in (("part_1", (0, 10000, 0), (8000, 16000, 7000)), ("part_2", (12000, 10000, 0), (18000, 15000, 4000))):
+        objects[name] = {"type": "BuildingPart", "parents": ["house"], "geometry": [
+            {"type": "Solid", "lod": "1.2", "boundaries": box(low, high)},
+            {"type": "Solid", "lod": "2", "boundaries": box(low, high), "semantics": {
+                "surfaces": [{"type": "WallSurface", "paint": "lime"}, {"type": "GroundSurface"}], "values": [[0, 0, 0, 0, None, 1]]}}]}
+    objects["house"] = {"type": "Building", "children": ["part_1", "part_2"], "attributes": {"storeys": 2}}
+    corners = [[-5000, 0, 0], [25000, 0, 0], [25000, 9000, 0], [-5000, 9000, 0]]
+    objects["square"] = {"type": "LandUse", "geometry": [
+        {"type": "MultiSurface", "lod": "2", "boundaries": [[[len(vertices) + k for k in range(4)]]]}]}
+    vertices.extend(corners)
+    return {"type": "CityJSON", "version": "2.0", "CityObjects": objects, "vertices": vertices,
+            "metadata": {"referenceSystem": "https://www.opengis.net/def/crs/EPSG/0/7415"},
+            "transform": {"scale": [0.001] * 3, "translate": [84980, 447460, 1]}}
+
+
+CITY_STUDY = """format: sunload-study-1
+name: city
+site: {timezone: Europe/Amsterdam}
+period: {days: [2026-06-21], from: "06:00", to: "20:00", step_min: 120}
+light: {source: clear_sky}
+scene: {files: [city.json], ground: none}
+mesh: {max_edge_m: 3, oracle: none}
+solver: {lines_per_patch: 64}
+variants: [{name: fine}, {name: block, scene: {lod: "1.2"}}]
+"""
+
+
+def surfaces_of(city, name, place):
+    """Corners and semantic surface (or None) of every surface of a geometry, seen plainly."""
+    geometry = city["CityObjects"][name]["geometry"][place]
+    scale, shift = city["transform"]["scale"], city["transform"]["translate"]
+    semantics = geometry.get("semantics")
+    for shell in range(len(geometry["boundaries"]) if geometry["type"] == "Solid" else 1):
+        solid = geometry["type"] == "Solid"
+        faces = geometry["boundaries"][shell] if solid else geometry["boundaries"]
+        values = (semantics["values"][shell] if solid else semantics["values"]) if semantics else [None] * len(faces)
+        assert len(values) == len(faces)
+        for face, value in zip(faces, values):
+            corners = np.array([city["vertices"][k] for k in face[0]]) * scale + shift
+            yield corners, None if value is None else semantics["surfaces"][value]
+
+
+def patches_on(result, name, corners):
+    """Front patches of an object that lie in a rectangle or triangle, by its box."""
+    centre = result["patch_centroid"][()] + result.attrs["origin"]
+    low, high = corners.min(axis=0) - 0.005, corners.max(axis=0) + 0.005
+    mine = result["patch_object"][()] == list(result["object_name"].asstr()).index(name)
+    return np.flatnonzero(mine & (centre >= low).all(axis=1) & (centre <= high).all(axis=1) & (result["patch_side"][()] == 0))
+
+
+def mean_and_error(result, patches):
+    area = result["patch_area"][()][patches]
+    of_realizations = result["light_load_realization"][:, patches] @ area / area.sum()
+    return result["light_load"][()][patches] @ area / area.sum(), of_realizations.std(ddof=1) / len(of_realizations) ** 0.5
+
+
+def expect_values(result, patches, values):
+    mean, error = mean_and_error(result, patches)
+    # Datasets may be floats.
+    assert np.isclose(values["sunload_light_load_kwh_m2"], mean, 1e-6), (values, mean)
+    assert np.isclose(values["sunload_light_load_se_kwh_m2"], error, 1e-4), (values, error)
+    assert np.isclose(values["sunload_area_m2"], result["patch_area"][()][patches].sum())
+    assert np.isclose(values["sunload_irradiance_max_w_m2"], result["irradiance_max"][()][patches].max())
+
+
+def geometry_seen(exports, files):
+    """What the program's own reader says of a scene."""
+    with open(os.path.join(exports.folder, "again.yaml"), "w", encoding="utf-8") as file:
+        file.write(CITY_STUDY.replace("city.json", files))
+    ran = exports.run("check", "again.yaml", "--variant", "fine")
+    assert ran.returncode == 0, ran.stderr
+    return [line for line in ran.stdout.splitlines() if re.match(r"\s+(area|bounds|extent|floors)\b", line)]
+
+
+def test_cityjson(exports):
+    import h5py
+    model = city_model()
+    with open(os.path.join(exports.folder, "city.json"), "w", encoding="utf-8") as file:
+        json.dump(model, file)
+    with open(os.path.join(exports.folder, "city.yaml"), "w", encoding="utf-8") as file:
+        file.write(CITY_STUDY)
+    ran = exports.run("run", "city.yaml", "--progress", "none")
+    assert ran.returncode == 0, ran.stderr
+    for variant, place in (("fine", 1), ("block", 0)):
+        path = f"results/city/{variant}.h5"
+        ran = exports.run("export", path, "--to", "cityjson", "--model", "city.json", "-o", f"{variant}.json")
+        assert ran.returncode == 0 and not ran.stderr, ran.stderr
+        with open(os.path.join(exports.folder, f"{variant}.json"), encoding="utf-8") as file:
+            city = json.load(file)
+        with h5py.File(os.path.join(exports.folder, path), "r") as result:
+            test_model(result, model, city, place)
+    seen = geometry_seen(exports, "city.json")
+    assert len(seen) >= 2, seen
+    assert geometry_seen(exports, "fine.json") == seen
+    path = "results/city/fine.h5"
+    ran = exports.run("export", path, "--to", "cityjson", "-o", "patches.json")
+    assert ran.returncode == 0, ran.stderr
+    with h5py.File(os.path.join(exports.folder, path), "r") as result:
+        with open(os.path.join(exports.folder, "patches.json"), encoding="utf-8") as file:
+            test_patches(result, json.load(file))
+    assert geometry_seen(exports, "patches.json") == seen
+    other = json.loads(json.dumps(model).replace("part_", "piece_").replace("square", "place"))
+    with open(os.path.join(exports.folder, "other.json"), "w", encoding="utf-8") as file:
+        json.dump(other, file)
+    ran = exports.run("export", path, "--to", "cityjson", "--model", "other.json")
+    assert ran.returncode == WRONG_INPUT and "their ids differ" in ran.stderr, ran.stderr
+
+
+def test_model(result, model, city, place):
+    """The user's model is as it was, but for what was added."""
+    for key in ("type", "version", "vertices", "transform", "metadata"):
+        assert city[key] == model[key], key
+    for name, object_ in model["CityObjects"].items():
+        mine = city["CityObjects"][name]
+        assert mine["type"] == object_["type"] and mine.get("parents") == object_.get("parents")
+        for k, geometry in enumerate(object_.get("geometry", [])):
+            assert mine["geometry"][k]["boundaries"] == geometry["boundaries"]
+            if k != place and name != "square":
+                assert mine["geometry"][k] == geometry, "a level that was not read has values"
+    assert city["CityObjects"]["house"]["attributes"]["storeys"] == 2
+    names = list(result["object_name"].asstr())
+    for object_ in ("part_1", "part_2"):
+        own = np.flatnonzero(result["patch_object"][()] == names.index(object_))
+        expect_values(result, own, city["CityObjects"][object_]["attributes"])
+        kinds = []
+        for corners, semantic in surfaces_of(city, object_, place):
+            patches = patches_on(result, object_, corners)
+            if len(patches) == 0:
+                assert semantic is None or "sunload_area_m2" not in semantic
+                continue
+            expect_values(result, patches, semantic)
+            refuses(expect_values, result, own, semantic)
+            kinds.append(semantic["type"])
+            if semantic["type"] == "WallSurface" and place == 1:
+                assert semantic["paint"] == "lime"
+        assert sorted(kinds) == ["RoofSurface"] + 4 * ["WallSurface"], kinds
+    both = np.flatnonzero(np.isin(result["patch_object"][()], [names.index("part_1"), names.index("part_2")]))
+    expect_values(result, both, city["CityObjects"]["house"]["attributes"])
+    # Land use bears no semantic surfaces.
+    assert "semantics" not in city["CityObjects"]["square"]["geometry"][0]
+    assert "sunload_light_load_kwh_m2" in city["CityObjects"]["square"]["attributes"]
+
+
+def test_patches(result, city):
+    assert (city["type"], city["version"]) == ("CityJSON", "2.0")
+    assert city["metadata"]["referenceSystem"].endswith("/EPSG/0/7415")
+    types = {name: one["type"] for name, one in city["CityObjects"].items()}
+    assert types == {"part_1": "Building", "part_2": "Building", "square": "TransportSquare"}, types
+    assert all(isinstance(x, int) for vertex in city["vertices"] for x in vertex)
+    load, count = result["light_load"][()], 0
+    for name in types:
+        own = patches_on(result, name, np.array([[-1e9] * 3, [1e9] * 3]))
+        surfaces = [(corners, semantic) for corners, semantic in surfaces_of(city, name, 0) if "sunload_area_m2" in semantic]
+        assert len(surfaces) == len(own)
+        for patch, (corners, semantic) in zip(own, surfaces):
+            assert np.allclose(corners.mean(axis=0), result["patch_centroid"][patch] + result.attrs["origin"], atol=1e-4)
+            assert np.isclose(semantic["sunload_light_load_kwh_m2"], load[patch], 1e-6)
+            count += 1
+    assert count == len(load)
+
+
+def test_geopackage(exports):
+    """Read as what it is: a database of SQLite with geometries of WKB behind a head."""
+    import h5py
+    path = os.path.join(exports.folder, "a.gpkg")
+    ran = exports.run("export", "results/city/fine.h5", "--to", "gpkg", "-o", path)
+    assert ran.returncode == 0, ran.stderr
+    data = sqlite3.connect(path)
+    assert data.execute("SELECT organization_coordsys_id FROM gpkg_geometry_columns JOIN gpkg_spatial_ref_sys USING (srs_id)").fetchall() == [(7415,)] * 2
+    rows = data.execute("SELECT object, sunload_light_load_kwh_m2, geom FROM patches ORDER BY fid").fetchall()
+    with h5py.File(os.path.join(exports.folder, "results/city/fine.h5"), "r") as result:
+        names = list(result["object_name"].asstr())
+        assert [row[0] for row in rows] == [names[k] for k in result["patch_object"]]
+        assert np.allclose([row[1] for row in rows], result["light_load"][()])
+        corners = result["vertex_position"][()][result["patch_vertices"][()]] + result.attrs["origin"]
+        for row, expected in zip(rows, corners):
+            blob = row[2]
+            envelope = {0: 0, 1: 32, 2: 48, 3: 48, 4: 64}[(blob[3] >> 1) & 7]
+            kind, rings, points = struct.unpack_from("<III", blob, 8 + envelope + 1)
+            assert blob[:2] == b"GP" and (kind, rings, points) == (1003, 1, 4), (kind, rings, points)
+            assert np.allclose(np.frombuffer(blob, "<f8", 9, 8 + envelope + 13).reshape(3, 3), expected, atol=1e-9)
+        objects = dict(data.execute("SELECT object, sunload_light_load_kwh_m2 FROM objects").fetchall())
+        assert set(objects) == set(names)
+        for k, name in enumerate(names):
+            own = np.flatnonzero((result["patch_object"][()] == k) & (result["patch_side"][()] == 0))
+            assert np.isclose(objects[name], mean_and_error(result, own)[0], 1e-6)
+    data.close()
+
+
 def test_energyplus(exports):
     ran = exports.run("export", RESULT, "--to", "energyplus")
     assert ran.returncode == WRONG_INPUT and "365" in ran.stderr and not ran.stdout, ran.stderr
@@ -269,6 +470,10 @@ def main():
             for test in (test_csv, test_vtk, test_xdmf, test_glb, test_vrml, test_ply):
                 test(exports, result)
                 print(test.__name__, "passed")
+        test_cityjson(exports)
+        print("test_cityjson passed")
+        test_geopackage(exports)
+        print("test_geopackage passed")
         test_energyplus(exports)
         test_refusals(exports)
         left = [name for name in os.listdir(folder) if ".part-" in name]

@@ -104,6 +104,18 @@ async function use(tab) {
     await tab.click("#close");
   }
 
+  const sensor = await tab.evaluate(() => (window.sunload.results[0].sensors ? window.sunload.placeOfSensor(0) : null));
+  if (sensor) {
+    await tab.mouse.click(sensor.x, sensor.y);
+    await picture(tab, "sensor");
+    seen.sensor = { x: sensor.x, y: sensor.y,
+      rows: await tab.$$eval("#values tr", (list) => list.map((row) => [row.dataset.quantity ?? "", ...[...row.cells].map((cell) => cell.textContent)])) };
+    await tab.click("#close");
+  }
+  await set(tab, "quantity", "materials");
+  seen.materials = await tab.$$eval("#materials li", (list) => list.map((row) => row.textContent));
+  await picture(tab, "materials");
+
   const series = await tab.evaluate(() => window.sunload.results[0].series.name);
   await set(tab, "quantity", series);
   const times = await tab.evaluate(() => window.sunload.results[0].times.length);

@@ -25,6 +25,7 @@ scene:
   materials: {paving: {diffuse: 0.3}, plaster: {diffuse: 0.6}, glass: {diffuse: 0.05, mirror: 0.85}}
 mesh: {max_edge_m: 3, oracle: none}
 solver: {lines_per_patch: 64, batch_suns: 8}
+sensors: {points: [{position_m: [-8, -6, 2], normal: [0, 0, 1]}, {position_m: [0, 0, 1], normal: [0, -1, 0]}]}
 variants:
   - {name: baseline}
   - {name: bright, scene: {materials: {plaster: {diffuse: 0.9}}}}
@@ -105,6 +106,8 @@ def test_page(seen, pictures, path, other):
         assert seen["userLimit"] == 123
         assert_colours(pictures, "limit", patches, "false", result["irradiance"][int(last)][ids], 123)
         test_clicks(seen, result, bright, int(seen["dayTime"]))
+        test_sensor(seen, pictures, result)
+        test_materials(seen, pictures, patches, result)
         test_difference(seen, pictures, patches, bright["light_load"][...][ids] - load[ids])
     test_drawings(seen, pictures)
 
@@ -121,6 +124,31 @@ def test_clicks(seen, result, bright, k):
                 assert abs(number(text) - stored) <= THREE_DIGITS * abs(stored) + 1e-12, (name, text, stored)
         assert rows["object"][1] in (EVIL, "square"), rows["object"]
     assert any(EVIL in str(click["rows"]) for click in seen["clicks"]), seen["clicks"]
+
+
+def test_sensor(seen, pictures, result):
+    rows = {row[0]: row[2] for row in seen["sensor"]["rows"] if row[0]}
+    for name, data in (("light_load", "sensor_light_load"), ("sun_hours", "sensor_sun_hours"), ("irradiance", "sensor_irradiance")):
+        value = result[data][0] if result[data].ndim == 1 else result[data][int(seen["dayTime"]), 0]
+        assert abs(number(rows[name]) - value) <= THREE_DIGITS * value, (name, rows[name], value)
+    place = [{"x": seen["sensor"]["x"], "y": seen["sensor"]["y"]}]
+    assert_colours(pictures, "sensor", place, "false", [result["sensor_light_load"][0]], seen["limit"])
+
+
+def test_materials(seen, pictures, patches, result):
+    """Each material has a colour of its own, shaded by the turn of the patch."""
+    ids = [p["patch"] for p in patches]
+    normal, material = result["patch_normal"][...][ids], result["patch_material"][...][ids]
+    names = list(result["material_name"].asstr())
+    assert set(seen["materials"]) == {names[k] for k in np.unique(result["patch_material"][...])}, seen["materials"]
+    shade = 0.5 + 0.2 * normal[:, 2] + 0.3 * np.maximum(0, normal @ [0.4, -0.6, 0.7])
+    base = pictures.at("materials", patches) / shade[:, None]
+    middles = {k: np.median(base[material == k], axis=0) for k in np.unique(material)}
+    for k, colour in middles.items():
+        # Half a step of 255 is rounded, and the shade is at least a quarter.
+        assert np.abs(base[material == k] - colour).max() <= 4, f"material {names[k]} has several colours"
+    colours = list(middles.values())
+    assert all(np.abs(a - b).max() > 30 for i, a in enumerate(colours) for b in colours[:i]), colours
 
 
 def test_difference(seen, pictures, patches, difference):

@@ -2,14 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "geo/check.h"
+#include "geo/sky_colour.h"
 #include "geo/units.h"
 #include "io/camera.h"
+#include "io/chunk.h"
 #include "io/render_scene.h"
 #include "solver/parallel.h"
 #include "tests/support/small_result.h"
@@ -213,6 +216,171 @@ TEST(Render, EveryViewAndQuantityWorks) {
   EXPECT_NO_THROW(render_png(result, rules, picture_path("render_views")));
 }
 
+TEST(ColourMap, HueRunsFromBlueToRed) {
+  const auto expect = [](double share, double red, double green, double blue) {
+    const Colour c = map_colour(Palette::hue, share);
+    EXPECT_NEAR(c.red, red, 1e-12) << share;
+    EXPECT_NEAR(c.green, green, 1e-12) << share;
+    EXPECT_NEAR(c.blue, blue, 1e-12) << share;
+  };
+  // Lightness and saturation 1/2: the largest channel is 3/4, the smallest 1/4.
+  expect(0, 0.25, 0.25, 0.75);
+  expect(0.25, 0.25, 0.75, 0.75);
+  expect(0.5, 0.25, 0.75, 0.25);
+  expect(0.75, 0.75, 0.75, 0.25);
+  expect(1, 0.75, 0.25, 0.25);
+}
+
+/// Pixels of a result seen from above, one colour for every patch but by `values`.
+std::vector<Colour> seen_from_above(const ResultReader& result, const PatchColours& colours, int size) {
+  const PatchScene scene(result);
+  const auto camera = Camera::parallel({{-20, -20, 0}, {20, 20, 0}}, {0, 0, 1}, {0, 1, 0}, size, size);
+  const RayCaster caster(scene.mesh());
+  return drawn_pixels(scene, caster, camera, size, size, colours);
+}
+
+TEST(Render, InterpolatedColoursRunBetweenCorners) {
+  const ResultReader result(write_small_result(SmallResult{}, "render_smooth"));
+  constexpr int size = 200;
+  // The load grows with x as corners have it: colours of the ground are those of the place.
+  PatchColours colours;
+  colours.largest = 40;
+  const auto vertices = result.doubles("vertex_position");
+  const auto corners = result.integers("patch_vertices"), side = result.integers("patch_side");
+  for (std::size_t p = 0; p < side.size(); ++p) {
+    colours.values.push_back(0);
+    auto& values = colours.corner_values.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k)
+      values[k] = 20 + vertices[3 * static_cast<std::size_t>(corners[3 * p + k])];
+  }
+  const auto pixels = seen_from_above(result, colours, size);
+  const double metre = 0.94 * size / 40;
+  std::size_t wrong = 0, count = 0;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const double east = (x + 0.5 - size / 2.0) / metre, north = (size / 2.0 - y - 0.5) / metre;
+      // The open ground south of the houses and of the awning.
+      if (std::abs(east) > 19 || north < -19 || north > -12) continue;
+      ++count;
+      wrong += colour_difference(pixels[static_cast<std::size_t>(y * size + x)],
+                                 map_colour(Palette::false_colour, (20 + east) / 40)) > 1;
+    }
+  EXPECT_GT(count, 1000u);
+  EXPECT_EQ(wrong, 0u);
+  // Constant patches are another picture.
+  colours.corner_values.clear();
+  EXPECT_GT(colour_difference(pixels[180 * size + 150],
+                              seen_from_above(result, colours, size)[180 * size + 150]),
+            10);
+}
+
+TEST(Render, ThePlaneBehindIsTheSkysColour) {
+  const ResultReader result(write_small_result(SmallResult{}, "render_sky"));
+  const PatchScene scene(result);
+  const RayCaster caster(scene.mesh());
+  constexpr int size = 64;
+  // From the ground straight up between the houses, past the awning.
+  const auto camera = Camera::perspective({0, -15, 1}, {0, -15.1, 20}, 20, size, size);
+  const TracedPicture traced(scene, caster, camera, size, size, MeshLines::none);
+  PatchColours colours;
+  colours.values.assign(scene.patch_count(), 1);
+  const Vec3 sun = normalized({0, -1, 1});
+  for (const auto& [kind, model] : {std::pair{SkyBackground::first, SkyColourModel::first},
+                                    std::pair{SkyBackground::second, SkyColourModel::second}}) {
+    const auto pixels = traced.pixels(colours, {kind, sun});
+    const auto expected = sky_colour(model, camera.ray(size / 2.0, size / 2.0).direction, sun);
+    const Colour encoded{srgb_from_linear(expected.red), srgb_from_linear(expected.green),
+                         srgb_from_linear(expected.blue)};
+    EXPECT_LT(colour_difference(pixels[size / 2 * size + size / 2], encoded), 0.5);
+    EXPECT_GT(colour_difference(plain_sky, encoded), 5);
+  }
+  // A sun below the horizon paints no sky.
+  EXPECT_LT(colour_difference(traced.pixels(colours, {SkyBackground::second, {0, -1, -0.1}}).front(),
+                              plain_sky),
+            0.1);
+}
+
+TEST(Render, AFacadeIsSeenFromBeforeIt) {
+  const ResultReader result(write_small_result(SmallResult{}, "render_facade"));
+  const PatchScene scene(result);
+  const auto shape = scene.facade_shape(result, "house_1/south_1");
+  EXPECT_NEAR(shape.normal.y, -1, 1e-9);
+  constexpr int size = 100;
+  const auto camera = Camera::parallel(shape.points, shape.normal, {0, 0, 1}, size, size, 2);
+  const RayCaster caster(scene.mesh());
+  PatchColours colours;
+  colours.largest = 4;
+  const auto facade = result.integers("patch_facade");
+  const auto names = result.strings("facade_name");
+  for (const auto f : facade)
+    colours.values.push_back(f >= 0 && names[static_cast<std::size_t>(f)] == "house_1/south_1" ? 3 : 0);
+  const auto pixels = drawn_pixels(scene, caster, camera, size, size, colours);
+  EXPECT_LT(colour_difference(pixels[50 * size + 50], map_colour(Palette::false_colour, 0.75)), 1);
+  EXPECT_THROW(scene.facade_shape(result, "house_9/south_1"), InputError);
+}
+
+std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
+  std::uint32_t number = 0;
+  for (std::size_t k = 0; k < 4; ++k) number = number << 8 | static_cast<unsigned char>(bytes.at(at + k));
+  return number;
+}
+
+/// Names of the chunks of a PNG with the check of each.
+std::vector<std::string> chunks_of(const std::string& png) {
+  std::vector<std::string> names;
+  for (std::size_t at = 8; at < png.size();) {
+    const std::size_t length = big_endian(png, at);
+    names.push_back(png.substr(at + 4, 4));
+    EXPECT_EQ(big_endian(png, at + 8 + length), crc32(png.data() + at + 4, length + 4)) << names.back();
+    at += length + 12;
+  }
+  return names;
+}
+
+TEST(Render, AnAnimationHasAPictureForEverySun) {
+  const ResultReader result(write_small_result(SmallResult{}, "render_animation"));
+  RenderRules rules;
+  rules.width = 480;
+  rules.height = 320;
+  const auto path = picture_path("animation");
+  render_animation(result, rules, {}, path);
+  const auto png = bytes_of(path);
+  const auto chunks = chunks_of(png);
+  // Three hours of sun: the first picture is the one that all readers know.
+  EXPECT_EQ(std::count(chunks.begin(), chunks.end(), "fcTL"), 3);
+  EXPECT_EQ(chunks[1], "acTL");
+  EXPECT_EQ(big_endian(png, 8 + 25 + 8), 3u);
+  EXPECT_EQ(chunks.back(), "IEND");
+  const auto before_data = [&](const char* name) { return std::find(chunks.begin(), chunks.end(), name); };
+  EXPECT_LT(before_data("fcTL"), before_data("IDAT"));
+  EXPECT_LT(before_data("IDAT"), before_data("fdAT"));
+  // One scale for all: the second hour by itself, with the animation's limit, is its second picture.
+  std::vector<std::string> single;
+  for (const char* name : {"animation-0001", "animation-0002", "animation-0003"})
+    single.push_back(bytes_of(picture_path(name)));
+  EXPECT_NE(single[0], single[1]);
+  rules.quantity = "irradiance";
+  render_png(result, rules, picture_path("animation_second"));  // the brightest
+  EXPECT_EQ(bytes_of(picture_path("animation_second")), single[1]);
+  EXPECT_THROW(render_animation(result, rules, "2031-01-01", path), InputError);
+}
+
+TEST(Render, PicturesThatAreComparedShareTheirScale) {
+  SmallResult brighter;
+  brighter.load = [](const std::string&, Vec3, std::size_t) { return 30; };
+  const auto other = write_small_result(brighter, "render_brighter");
+  const ResultReader result(write_small_result(SmallResult{}, "render_scale"));
+  RenderRules rules;
+  rules.width = 480;
+  rules.height = 320;
+  rules.same_scale = {other};
+  render_png(result, rules, picture_path("shared"));
+  rules.same_scale = {};
+  rules.largest = 30;
+  render_png(result, rules, picture_path("limit"));
+  EXPECT_EQ(bytes_of(picture_path("shared")), bytes_of(picture_path("limit")));
+}
+
 TEST(Render, RefusesWhatTheResultDoesNotHave) {
   const ResultReader result(write_small_result(SmallResult{}, "render_refuses"));
   const auto path = picture_path("render_refuses");
@@ -233,6 +401,12 @@ TEST(Render, RefusesWhatTheResultDoesNotHave) {
                                          r.eye = r.look = Vec3{1, 2, 3};
                                        }),
                                        with([](RenderRules& r) { r.largest = 0.0; }),
+                                       with([](RenderRules& r) { r.facade = "no_facade"; }),
+                                       with([](RenderRules& r) { r.crease_angle_deg = 10; }),
+                                       with([](RenderRules& r) {
+                                         r.view = View::top;
+                                         r.projection = Projection::parallel;
+                                       }),
                                        with([](RenderRules& r) { r.width = 10; })};
   for (const auto& rules : wrong) EXPECT_THROW(render_png(result, rules, path), InputError);
   EXPECT_FALSE(std::filesystem::exists(path));

@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+"""`sunload compare --hdf5`: the differences are those of the two results, and the page about the file is right.
+
+compare_test.py SUNLOAD SOURCE_FOLDER
+"""
+
+import csv
+import io
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+from small_study import write_study
+
+VARIANTS = """variants:
+  - {name: baseline}
+  - {name: dark, scene: {materials: {plaster: {diffuse: 0.2}}}}
+  - {name: coarse, mesh: {max_edge_m: 4}}
+"""
+HEADER = ("group,name,area_m2,base_kwh_m2,variant_kwh_m2,difference_kwh_m2,difference_percent,se_kwh_m2,paired,p_value,"
+          "p_corrected,significant,unmatched_area_m2")
+
+
+def run(words, code=0):
+    ran = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
+    assert ran.returncode == code, f"{words}: {ran.returncode}\n{ran.stderr}"
+    return ran.stdout
+
+
+def documented(source):
+    with open(os.path.join(source, "docs/comparison-file.md"), encoding="utf-8") as file:
+        rows = [re.split(r"\s*\|\s*", line.strip("|\n ")) for line in file if re.match(r"\| \w+ \| ", line)]
+    return {row[0]: row[1:] for row in rows if row[0] != "name"}
+
+
+def kind_of(data):
+    return "text" if data.dtype.kind == "O" else str(data.dtype)
+
+
+def test_page(source, file):
+    table = documented(source)
+    for name, (dims, kind, units, meaning) in table.items():
+        data = file[name]
+        mine = [",".join(dim[0].name.strip("/") for dim in data.dims), kind_of(data), data.attrs.get("units", ""), data.attrs["long_name"]]
+        assert mine == [dims, kind, units, meaning], (name, mine)
+    spared = re.compile(r"mesh|vertex\w*|patch\w*|object\w*|xyz|corner|group|facade")
+    unknown = [name for name in file if name not in table and not spared.fullmatch(name)]
+    assert not unknown, unknown
+
+
+def expect_differences(file, base, variant):
+    apart = variant["light_load"][()] - base["light_load"][()]
+    assert np.array_equal(file["variant_patch"][()], np.arange(len(apart)))
+    assert np.allclose(file["light_load_difference"][()], apart, atol=1e-12)
+    rows = variant["light_load_realization"][()] - base["light_load_realization"][()]
+    se = rows.std(axis=0, ddof=1) / len(rows) ** 0.5
+    assert np.allclose(file["light_load_difference_se"][()], se, rtol=1e-9, atol=1e-12)
+
+
+def test_numbers(file, base, variant, listing):
+    assert file.attrs["errors"] == "paired" and file.attrs["sunload_format"] == "sunload-comparison-1"
+    expect_differences(file, base, variant)
+    try:
+        expect_differences(file, variant, base)
+    except AssertionError:
+        pass
+    else:
+        raise AssertionError("the test does not see the sign")
+    rows = list(csv.DictReader(io.StringIO(listing)))
+    assert [row["name"] for row in rows] == list(file["group_name"].asstr())
+    for column, name in (("difference_kwh_m2", "group_difference"), ("se_kwh_m2", "group_difference_se"), ("area_m2", "group_area"),
+                         ("p_corrected", "group_p_corrected")):
+        assert np.allclose([float(row[column]) for row in rows], file[name][()], rtol=1e-8, atol=1e-12), name
+    assert [row["significant"] == "true" for row in rows] == list(file["group_significant"][()] == 1)
+    facades = {row["name"]: float(row["difference_kwh_m2"]) for row in rows if row["group"] == "facade"}
+    assert np.allclose([facades[name] for name in file["facade_name"].asstr()], file["facade_light_load_difference"][()], rtol=1e-8)
+
+
+def test(sunload, source, folder):
+    write_study(folder, 2, 4)
+    study = os.path.join(folder, "square.yaml")
+    with open(study, "a", encoding="utf-8") as file:
+        file.write(VARIANTS)
+    run([sunload, "run", study, "--progress", "none", "--output", folder])
+    results = {name: os.path.join(folder, f"square/{name}.h5") for name in ("baseline", "dark", "coarse")}
+    target = os.path.join(folder, "dark-baseline.h5")
+    listing = run([sunload, "compare", results["baseline"], results["dark"], "--csv", "--hdf5", target])
+    assert listing.splitlines()[0] == HEADER
+    with h5py.File(target) as file, h5py.File(results["baseline"]) as base, h5py.File(results["dark"]) as variant:
+        test_page(source, file)
+        test_numbers(file, base, variant, listing)
+    run([sunload, "compare", results["baseline"], results["coarse"], "--hdf5", target])
+    with h5py.File(target) as file, h5py.File(results["coarse"]) as coarse:
+        match = file["variant_patch"][()]
+        assert (match < 0).any() and np.isnan(file["light_load_difference"][()][match < 0]).all()
+        found = match >= 0
+        assert np.allclose(file["patch_centroid"][()][found], coarse["patch_centroid"][()][match[found]], atol=1e-4)
+    run([sunload, "compare", *results.values(), "--hdf5", target], 2)
+    run([sunload, "compare", results["baseline"], results["dark"], "--hdf5", os.path.join(folder, "no/such.h5")], 3)
+    try:
+        import xarray
+    except ImportError:
+        print("NOT RUN: end_to_end/compare xarray: python3-xarray is not installed")
+        return
+    for engine in ("h5netcdf", "netcdf4"):
+        with xarray.open_dataset(target, engine=engine) as data:
+            assert data["light_load_difference"].dims == ("patch",)
+
+
+def main():
+    sunload, source = (os.path.abspath(word) for word in sys.argv[1:3])
+    if lacking:
+        print(f"NOT RUN: end_to_end/compare: {lacking}")
+        return
+    with tempfile.TemporaryDirectory(prefix="sunload-compare-") as folder:
+        test(sunload, source, folder)
+
+
+try:
+    import h5py
+    import numpy as np
+    lacking = ""
+except ImportError as error:
+    lacking = f"{error.name} is not installed (python3-h5py)"
+
+if __name__ == "__main__":
+    main()
