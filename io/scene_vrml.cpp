@@ -28,7 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_visits = 10'000'000;  ///< of nodes, where files are inlined many times: seconds
-constexpr double most_extruded = 1e6;             ///< points of one Extrusion: a quarter of a GB
+constexpr double extruded_at_least = 2e5;         ///< points of all Extrusions: seconds in Coin …
+constexpr double extruded_per_byte = 0.3;         ///< … and of large files
 
 Vec3 vec(const SbVec3f& v) { return {v[0], v[1], v[2]}; }
 std::array<double, 3> colour(const SbColor& c) { return {c[0], c[1], c[2]}; }
@@ -274,9 +275,9 @@ class VrmlWalk {
     if (auto* set = as<SoVRMLIndexedFaceSet>(node)) return face_set(*set);
     if (auto* grid = as<SoVRMLElevationGrid>(node)) return elevation_grid(*grid);
     if (auto* extrusion = as<SoVRMLExtrusion>(node)) {
-      if (static_cast<double>(extrusion->crossSection.getNum()) * extrusion->spine.getNum() >
-          most_extruded)
-        refuse(node, "Extrusion has too many points", "more than a million");
+      extruded_ += static_cast<double>(extrusion->crossSection.getNum()) * extrusion->spine.getNum();
+      if (extruded_ > extruded_at_least + extruded_per_byte * static_cast<double>(files_.bytes()))
+        refuse(node, "Extrusions have too many points", "too many for the size of the file");
       auto shape = triangles_of(extrusion);
       shape.is_two_sided = extrusion->solid.getValue() == 0;
       return shape;
@@ -525,6 +526,7 @@ class VrmlWalk {
   std::vector<const VrmlFiles::File*> files_stack_;
   std::string node_name_;
   std::size_t visits_ = 0;
+  double extruded_ = 0;
 };
 
 /// Coin's tables are one for all.
