@@ -46,6 +46,14 @@ def check(sunload, folder, file, repair, at_least):
     assert memory <= MOST_BYTES, f"{file}: {memory / 1e9:.2f} GB"
 
 
+def search(sunload, folder, file):
+    """Intersections of the study that was checked last."""
+    _, seconds, memory = run([sunload, "check", os.path.join(folder, "large.yaml"), "--intersections"])
+    print(f"{file:16} with the search for intersections     {seconds[0]:6.1f} s "
+          f"({seconds[1]:.1f} s of processors) {memory / 1e9:5.2f} GB", flush=True)
+    assert memory <= MOST_BYTES, f"{file}: {memory / 1e9:.2f} GB"
+
+
 def write_terrain(path, triangles):
     """Binary PLY: a square grid of waves."""
     import numpy  # comes with h5py
@@ -79,6 +87,7 @@ def main():
             for repair in ("safe", "all"):
                 # Floors and what the plots bury are no patches.
                 check(sunload, folder, file, repair, city // 3)
+            search(sunload, folder, file)
             os.remove(path)
         faces = write_terrain(os.path.join(folder, "terrain.ply"), terrain)
         check(sunload, folder, "terrain.ply", "safe", faces)
