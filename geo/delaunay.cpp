@@ -18,7 +18,11 @@ namespace {
 using Triangle = std::array<std::int32_t, 3>;
 
 constexpr double area_ratio = 1e-9;     // rounding of sums over some 10^5 corners stays below
-constexpr double largest_search = 1e9;  // triangle × corner pairs asked one by one: seconds
+constexpr double largest_search = 2e7;  // triangle × corner pairs asked one by one: a tenth of a second
+// Rings of n edges may cross n² times; such a polygon means nothing, and would take all memory.
+constexpr std::size_t fewest_crossings = 100;  // that are allowed, beside one for each edge
+
+struct TooManyCrossings {};
 
 struct CornerInfo {
   std::int32_t vertex = -1;  // of the mesh
@@ -106,11 +110,13 @@ class Triangulator {
   // An edge that is walked an even number of times separates nothing.
   void insert_odd_edges(std::vector<Edge>& edges) {
     std::sort(edges.begin(), edges.end());
+    const std::size_t most_vertices = delaunay_.number_of_vertices() + fewest_crossings + edges.size();
     for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
       while (end < edges.size() && edges[end] == edges[begin]) ++end;
       if ((end - begin) % 2 == 0) continue;
       const auto a = handle_of(edges[begin][0]), b = handle_of(edges[begin][1]);
       if (a != b) delaunay_.insert_constraint(a, b);
+      if (delaunay_.number_of_vertices() > most_vertices) throw TooManyCrossings{};
     }
   }
 
@@ -219,9 +225,10 @@ PolygonTriangles delaunay_triangles(std::vector<Vec3>& vertices, const PlanePoly
     const bool is_exact = vertices.size() == vertices_before && triangulator.has_right_area(result);
     return {std::move(result.triangles), is_exact ? Outcome::exact : Outcome::crossing};
   } catch (const CGAL::Failure_exception&) {
-    vertices.resize(vertices_before);
-    return {{}, Outcome::failed};
+  } catch (const TooManyCrossings&) {
   }
+  vertices.resize(vertices_before);
+  return {{}, Outcome::failed};
 }
 
 }  // namespace sunload

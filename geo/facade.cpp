@@ -16,6 +16,9 @@ constexpr std::array<const char*, 8> compass_points{"north", "northeast", "east"
                                                     "south", "southwest", "west", "northwest"};
 // Values that decide an order or a name are rounded first, so that a last bit does not.
 constexpr double area_digits = 1e6, angle_digits = 1e6, position_digits = 1e3;
+// Of one face at one edge, of one region among those beside it: buildings have a handful. Where
+// ten thousands share an edge or a place, all pairs would not fit into memory.
+constexpr std::size_t most_neighbours = 200;
 
 std::int64_t rounded(double value, double digits) { return std::llround(value * digits); }
 
@@ -146,7 +149,7 @@ Groups find_regions(const Mesh& mesh, const std::vector<std::size_t>& faces) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for_each_edge(edge_uses(mesh, included), [&](std::span<const EdgeUse> uses) {
     for (std::size_t i = 1; i < uses.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
+      for (std::size_t j = i - std::min(i, most_neighbours); j < i; ++j) {
         pairs.emplace_back(number[uses[j].triangle()], number[uses[i].triangle()]);
       }
     }
@@ -163,17 +166,23 @@ std::vector<std::pair<std::size_t, std::size_t>> near_pairs(
     return std::tuple(object_of[a].value, regions[a].box.low.x, a) <
            std::tuple(object_of[b].value, regions[b].box.low.x, b);
   });
+  static const double least_cosine = std::cos(radians(2 * facade_angle_deg)) - 1e-9;  // rounding
+  std::vector<Vec3> directions;
+  for (const auto& region : regions) directions.push_back(region.direction());
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (const auto b : order) {
     std::erase_if(open, [&](std::size_t a) {
       return object_of[a] != object_of[b] ||
              regions[a].box.high.x + facade_gap_m < regions[b].box.low.x;
     });
-    for (const auto a : open) {
-      // Whether they are in line is asked again for the facade's first region; regions that
-      // face other ways (most of them) can be left out at once.
-      if (!is_near(regions[a].box, regions[b].box)) continue;
-      if (dot(regions[a].direction(), regions[b].direction()) > 0) pairs.emplace_back(a, b);
+    std::size_t count = 0;
+    for (auto a = open.rbegin(); a != open.rend() && count < most_neighbours; ++a) {
+      // Whether they are in line is asked again for the facade's first region; two that are in
+      // line with one and the same are no more than twice the angle apart.
+      if (!is_near(regions[*a].box, regions[b].box)) continue;
+      if (dot(directions[*a], directions[b]) < least_cosine) continue;
+      pairs.emplace_back(*a, b);
+      ++count;
     }
     open.push_back(b);
   }

@@ -27,7 +27,8 @@ inline constexpr double least_facade_area_m2 = 1;
 /// largest region (at least `least_facade_area_m2`), a facade takes in regions
 /// within that angle and offset of its first region (area-weighted normal and
 /// centre) whose bounding boxes come within `facade_gap_m`, along each axis, of
-/// one that it has. Regions that no facade takes have none.
+/// one that it has. Regions that no facade takes have none. Of more than 200
+/// faces at one edge, or parallel regions in one place, not all are compared.
 ///
 /// Names are `<object>/<compass>_<n>`: the nearest of eight compass points to
 /// the facade's mean normal, `north_deg` (azimuth of scene +y) added, and n

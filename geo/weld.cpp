@@ -1,5 +1,6 @@
 #include "geo/weld.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -50,9 +51,15 @@ struct Range {
   std::int64_t low, high;
 };
 
+/// Where a tiny scene lies far off, cells are smaller than the spacing of its coordinates: any
+/// number does for those beyond 64 bits, as long as equal coordinates have the same.
+std::int64_t cell_number(double quotient) {
+  constexpr double beyond = 9e18;
+  return static_cast<std::int64_t>(std::clamp(std::floor(quotient), -beyond, beyond));
+}
+
 Range cells_near(double x, double tolerance, double width) {
-  return {static_cast<std::int64_t>(std::floor((x - tolerance) / width)),
-          static_cast<std::int64_t>(std::floor((x + tolerance) / width))};
+  return {cell_number((x - tolerance) / width), cell_number((x + tolerance) / width)};
 }
 
 std::uint64_t hash_of_cell(std::int64_t x, std::int64_t y, std::int64_t z) {

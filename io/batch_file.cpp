@@ -37,9 +37,11 @@ std::size_t value_bytes(ArrayType type) {
 }
 
 std::size_t value_count(const ArraySpec& spec) {
+  constexpr std::size_t most = std::size_t{1} << 48;  // no machine has them; sums do not overflow
   std::size_t count = 1;
   for (const std::size_t size : spec.dims) {
-    if (__builtin_mul_overflow(count, size, &count)) throw std::runtime_error("array too large");
+    if (__builtin_mul_overflow(count, size, &count) || size > most || count > most)
+      throw std::runtime_error("array too large");
   }
   return count;
 }
@@ -165,6 +167,9 @@ struct BatchReader::Content {
 
 namespace {
 
+/// Deflate packs no more than 1032 bytes into one (zlib's technical details).
+constexpr std::size_t most_packed = 1032;
+
 /// Where each chunk begins, and the end of the last; checks the block's length.
 std::vector<std::size_t> chunk_begins(const std::vector<std::size_t>& lengths,
                                       const BatchHeader& header, const ArraySpec& spec,
@@ -173,7 +178,9 @@ std::vector<std::size_t> chunk_begins(const std::vector<std::size_t>& lengths,
   if (lengths.size() != shape.count(spec.dims[1])) throw std::runtime_error("number of chunks");
   std::vector<std::size_t> begins{0};
   for (const std::size_t length : lengths) {
-    if (length == 0 || length > shape.bytes()) throw std::runtime_error("length of a chunk");
+    // Before a chunk that says it is large asks for memory.
+    if (length == 0 || length > shape.bytes() || shape.bytes() / most_packed > length)
+      throw std::runtime_error("length of a chunk");
     begins.push_back(begins.back() + length);
   }
   if (begins.back() != block_bytes) throw std::runtime_error("length of the chunks");
@@ -186,7 +193,9 @@ BatchReader::BatchReader(const std::string& path) : content_(std::make_unique<Co
   const Container& container = content_->container;
   try {
     header_ = header_from(container.header().at("batch"));
-    if (header_.interval_count == 0 || header_.interval_count > header_.chunk_intervals) {
+    constexpr std::size_t most_intervals = 1 << 20;  // studies have 65536
+    if (header_.interval_count == 0 || header_.interval_count > header_.chunk_intervals ||
+        header_.chunk_intervals > most_intervals) {
       throw std::runtime_error("number of intervals");
     }
     const json& tables = container.header().at("arrays");
@@ -199,10 +208,11 @@ BatchReader::BatchReader(const std::string& path) : content_(std::make_unique<Co
         throw std::runtime_error("rows of array " + spec.name);
       }
       Content::Array array;
+      const std::size_t values = value_count(spec);
       if (is_chunked(spec)) {
         array.chunk_begin =
             chunk_begins(table.at("chunk_bytes"), header_, spec, container.block_bytes(i));
-      } else if (value_count(spec) != container.block_bytes(i) / value_bytes(spec.type) ||
+      } else if (values != container.block_bytes(i) / value_bytes(spec.type) ||
                  container.block_bytes(i) % value_bytes(spec.type) != 0) {
         throw std::runtime_error("length of array " + spec.name);
       }

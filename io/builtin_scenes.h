@@ -51,6 +51,11 @@ struct Cylinder {
 };
 PolygonModel cylinder(const Cylinder& size);
 
+/// Gable houses of many sizes in rows, each on a plot of its own: about so many triangles, 48 a
+/// house. Every house and every plot (a plate with a shaft for its house) is a closed body;
+/// house_1, plot_1 stand at the origin, rows run east.
+PolygonModel city(double triangles);
+
 // The Global Illumination Test Scenes of Smits and Jensen (2000), University of
 // Utah, as the historic system used them. Sizes in metres and watts are ours.
 

@@ -112,6 +112,7 @@ std::optional<std::size_t> whole(const json& object, const char* key) {
 
 GltfFile::GltfFile(const std::string& path) : path_(path) {
   std::string bytes = read_whole_file(path);
+  bytes_ = bytes.size();
   if (bytes.starts_with("glTF")) {
     take_container_apart(bytes);
   } else {
@@ -186,6 +187,7 @@ const std::string& GltfFile::buffer(const json& index) {
   }
   if (!is_loaded_[i]) {
     buffers_[i] = load_buffer(stated, i);
+    bytes_ += buffers_[i].size();
     is_loaded_[i] = true;
     const auto length = whole(stated, "byteLength");
     if (!length || buffers_[i].size() < *length)

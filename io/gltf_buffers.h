@@ -17,6 +17,8 @@ class GltfFile {
   explicit GltfFile(const std::string& path);
 
   const std::string& path() const { return path_; }
+  /// Of the file and of the buffers beside it that were read so far.
+  std::size_t bytes() const { return bytes_; }
   const nlohmann::json& root() const { return json_; }
 
   /// Entry `index` of a list such as "nodes"; throws InputError where there is none.
@@ -37,6 +39,7 @@ class GltfFile {
   void take_container_apart(const std::string& bytes);
 
   std::string path_;
+  std::size_t bytes_ = 0;
   nlohmann::json json_;
   std::string binary_chunk_;
   std::vector<std::string> buffers_;

@@ -126,10 +126,18 @@ std::size_t element_count(const std::vector<std::size_t>& shape) {
 }
 
 /// A damaged header may claim any size: what is read must be there. Of chunked
-/// datasets, whose unwritten rows take no room, nothing is known beforehand.
+/// datasets, whose unwritten rows take no room and whose zeros take little, only
+/// what no file of that length stands for is refused.
 void expect_stored(hid_t dataset, std::size_t values) {
   const auto properties = handle(H5Dget_create_plist(dataset), &H5Pclose, "properties");
-  if (H5Pget_layout(*properties) == H5D_CHUNKED) return;
+  if (H5Pget_layout(*properties) == H5D_CHUNKED) {
+    constexpr std::size_t at_least = 20'000'000, per_byte = 64;
+    hsize_t file_bytes = 0;
+    const auto file = handle(H5Iget_file_id(dataset), &H5Fclose, "file");
+    checked(H5Fget_filesize(*file, &file_bytes), "file");
+    if (values > at_least + per_byte * file_bytes) throw Error("more values than the file can hold");
+    return;
+  }
   const auto type = handle(H5Dget_type(dataset), &H5Tclose, "type");
   if (H5Dget_storage_size(dataset) < values * H5Tget_size(*type)) throw Error("data are missing");
 }
@@ -312,7 +320,9 @@ std::vector<double> Dataset::rows(std::size_t first, std::size_t count) const {
     throw Error("has no row " + std::to_string(first + count - std::min<std::size_t>(count, 1)));
   const auto [file_space, memory_space] = rows_selected(id(), size, first, count);
   size[0] = count;
-  std::vector<double> values(element_count(size));
+  const std::size_t in_all = element_count(size);
+  expect_stored(id(), in_all);
+  std::vector<double> values(in_all);
   if (values.empty()) return values;
   checked(H5Dread(id(), H5T_NATIVE_DOUBLE, *memory_space, *file_space, H5P_DEFAULT, values.data()),
           "reading");

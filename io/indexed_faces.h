@@ -22,6 +22,7 @@ class IndexedFaces {
   /// False where the position is beyond all coordinates on Earth.
   bool add_vertex(Vec3 in_file);
   std::size_t vertex_count() const { return vertices_.size(); }
+  std::size_t corner_count() const { return model_.ring_vertex.size(); }
 
   /// What the faces that follow belong to; the same name again is the same object.
   /// `kind` is a CityJSON type or empty.

@@ -25,6 +25,7 @@
 #include "io/result_file.h"
 #include "io/run.h"
 #include "io/scene_builtin.h"
+#include "io/scene_cityjson_write.h"
 #include "io/scene_obj_write.h"
 #include "io/version.h"
 #include "io/view.h"
@@ -423,8 +424,15 @@ class CommandLine {
                     "patches that turn by more are not interpolated [degrees, default 20]");
   }
 
+  static void write_scene(const PolygonModel& model, const std::string& path) {
+    if (path.ends_with(".obj")) return write_obj(model, path);
+    if (path.ends_with(".json")) return write_cityjson(model, path);
+    throw InputError({path}, "is of no format that scenes are written in", "",
+                     "let its name end in .obj or .city.json");
+  }
+
   void add_scene() {
-    CLI::App* sub = command("scene", "write a built-in scene as OBJ", [this] {
+    CLI::App* sub = command("scene", "write a built-in scene as OBJ or CityJSON", [this] {
       BuiltinRules rules{scene_, {}};
       for (const auto& set : parameters_) {
         const auto equals = set.find('=');
@@ -432,13 +440,13 @@ class CommandLine {
           throw InputError({}, "--set " + set, "no '='", "write --set parameter=value");
         rules.parameters[set.substr(0, equals)] = set.substr(equals + 1);
       }
-      write_obj(builtin_scene(rules), picture_);
+      write_scene(builtin_scene(rules), picture_);
       return exit_code::done;
     });
     std::string names;
     for (const auto& name : builtin_scene_names()) names += (names.empty() ? "" : ", ") + name;
     sub->add_option("NAME", scene_, "one of: " + names)->required();
-    sub->add_option("-o,--output", picture_, "file to write (.obj)")->required();
+    sub->add_option("-o,--output", picture_, "file to write (.obj, .city.json)")->required();
     sub->add_option("--set", parameters_, "parameter of the scene, e.g. house_3=glazed")
         ->allow_extra_args(false);
   }

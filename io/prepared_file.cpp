@@ -96,6 +96,11 @@ class Input {
     std::uint32_t said = 0;
     return good_ && take(&said, sizeof(said)) && said == of_all_before;
   }
+  /// A line set has lengths of several arrays, and four bytes or more for each of its rows.
+  bool can_hold(std::uint64_t realizations, std::uint64_t rows) const {
+    return rows <= left_ / sizeof(std::uint32_t) &&
+           realizations <= left_ / (sizeof(std::uint64_t) + rows * sizeof(std::uint32_t));
+  }
   bool is_at_end() const { return left_ == 0; }
 
  private:
@@ -133,6 +138,7 @@ std::optional<Lines> read_prepared(const std::string& path, const std::string& c
   in(counts);
   // Before damaged counts ask for memory.
   if (!in.is_right() || std::string(hash.begin(), hash.end()) != content_hash) return {};
+  if (counts.size() != 3 || !in.can_hold(counts[0], counts[1])) return {};
   Lines lines;
   const auto rows = static_cast<std::size_t>(counts[1]);
   const LineSet empty{LinkTable(rows), LinkTable(rows), LinkTable(rows), {}, {}, {}};

@@ -7,6 +7,7 @@
 #include <ogr_srs_api.h>
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 
@@ -61,7 +62,11 @@ class RasterReader {
 
   void open() {
     static std::once_flag registered;
-    std::call_once(registered, [] { GDALAllRegister(); });
+    std::call_once(registered, [] {
+      GDALAllRegister();
+      constexpr GIntBig cache_bytes = 64'000'000;  // rows are read once; the default is 5 % of all memory
+      GDALSetCacheMax64(cache_bytes);
+    });
     // Only these two: other drivers may follow links to elsewhere.
     const std::array<const char*, 3> drivers{"GTiff", "AAIGrid", nullptr};
     dataset_.reset(GDALOpenEx(path_.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers.data(),
@@ -75,7 +80,14 @@ class RasterReader {
            fmt::format("at most {:.0f} million can be read", most_raster_cells / 1e6),
            "cut out the part that matters, or take wider cells");
     }
+    if (static_cast<double>(raster_.columns) * static_cast<double>(raster_.rows) >
+        raster_cells_at_least +
+            raster_cells_per_byte * static_cast<double>(std::filesystem::file_size(path_))) {
+      fail(fmt::format("has {} × {} cells", raster_.columns, raster_.rows),
+           "they are too many for its size", "is it cut off?");
+    }
     if (GDALGetRasterCount(dataset_.get()) < 1) fail("has no band", "heights were expected");
+    check_blocks();
     if (GDALGetRasterCount(dataset_.get()) > 1)
       notes_.say("the first of several bands of the raster is taken for heights");
     if (GDALGetGeoTransform(dataset_.get(), raster_.file_from_cell.data()) != CE_None)
@@ -83,6 +95,21 @@ class RasterReader {
     const auto& g = raster_.file_from_cell;
     if (!(std::abs(g[1] * g[5] - g[2] * g[4]) > 0))
       fail("has cells without area", "its georeference is degenerate");
+  }
+
+  /// GDAL unpacks a block of all bands at once, whatever the size that the file states for it.
+  void check_blocks() const {
+    constexpr double most_bytes = 256e6;
+    auto* band = GDALGetRasterBand(dataset_.get(), 1);
+    int width = 0, height = 0;
+    GDALGetBlockSize(band, &width, &height);
+    const int bands = GDALGetRasterCount(dataset_.get());
+    const double bytes = static_cast<double>(width) * height * bands *
+                         GDALGetDataTypeSizeBytes(GDALGetRasterDataType(band));
+    if (bytes > most_bytes) {
+      fail(fmt::format("has blocks of {} × {} cells in {} bands", width, height, bands),
+           "they do not fit into memory", "store it in smaller tiles");
+    }
   }
 
   void read_crs() {

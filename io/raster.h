@@ -12,6 +12,8 @@
 namespace sunload {
 
 inline constexpr double most_raster_cells = 25e6;  ///< 50 million triangles, 4 GB
+/// Packed cells may take little room, but a small file shall not ask for more than 1 GB.
+inline constexpr double raster_cells_at_least = 4e6, raster_cells_per_byte = 4;
 
 /// What the values of a raster are: heights of land, or heights above it.
 enum class RasterValues { elevations, heights };

@@ -83,11 +83,14 @@ double one_number(const h5::Object& object, const std::string& attribute) {
 h5::File opened(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError({path}, "there is no such file");
-  try {
-    h5::File file = h5::File::open(path);
-    const std::string problem = seal_problem(path, file);
+  const auto refuse_damage = [&](const std::string& problem) {
     if (!problem.empty())
       throw InputError({path}, "is damaged", problem, "run the study again with --overwrite");
+  };
+  try {
+    refuse_damage(seal_problem(path));
+    h5::File file = h5::File::open(path);
+    refuse_damage(end_problem(path, file));
     const auto format = file.text("sunload_format");
     if (!format) throw InputError({path}, "is not a result of sunload", "no sunload_format");
     if (*format != result_format) {

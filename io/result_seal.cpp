@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <vector>
 
 #include "io/chunk.h"
@@ -49,12 +50,30 @@ std::uint32_t crc_of(const std::string& path, const Seal& seal) {
   return crc_of(data, {seal.series.end, seal.file_bytes}, before);
 }
 
+/// The last bytes of a file, where they are a seal.
+std::optional<Seal> seal_of(const std::string& path) {
+  std::error_code unreadable;
+  if (!std::filesystem::is_regular_file(path, unreadable)) return {};
+  const std::uint64_t size = std::filesystem::file_size(path, unreadable);
+  Seal seal;
+  if (unreadable || size < sizeof seal) return {};
+  std::ifstream data(path, std::ios::binary);
+  data.seekg(static_cast<std::streamoff>(size - sizeof seal));
+  const bool is_seal = data.read(reinterpret_cast<char*>(&seal), sizeof seal).good() &&
+                       seal.magic_bytes == magic && seal.file_bytes == size - sizeof seal &&
+                       seal.series.begin <= seal.series.end && seal.series.end <= seal.file_bytes;
+  return is_seal ? std::optional(seal) : std::nullopt;
+}
+
 }  // namespace
 
 void seal_result(const std::string& path, Extent series) {
   Seal seal;
-  seal.series = series;
   seal.file_bytes = h5::File::open(path).end();
+  // HDF5 gives back what it reserved at the end and did not need: in a file of few patches the
+  // end may come to lie before where series began.
+  seal.series.end = std::min(series.end, seal.file_bytes);
+  seal.series.begin = std::min(series.begin, seal.series.end);
   seal.crc = crc_of(path, seal);
   errno = 0;
   std::ofstream data(path, std::ios::binary | std::ios::app);
@@ -63,18 +82,16 @@ void seal_result(const std::string& path, Extent series) {
   if (!data) throw_cannot_write(path, errno);
 }
 
-std::string seal_problem(const std::string& path, const h5::File& file) {
-  const std::uint64_t size = std::filesystem::file_size(path), end = file.end();
-  if (size == end) return {};
-  Seal seal;
-  std::ifstream data(path, std::ios::binary);
-  data.seekg(static_cast<std::streamoff>(end));
-  const bool is_there = size == end + sizeof seal &&
-                        data.read(reinterpret_cast<char*>(&seal), sizeof seal).good() &&
-                        seal.magic_bytes == magic && seal.file_bytes == end &&
-                        seal.series.begin <= seal.series.end && seal.series.end <= end;
-  if (!is_there) return "its end is damaged";
-  return seal.crc == crc_of(path, seal) ? "" : "its checksum is wrong";
+std::string seal_problem(const std::string& path) {
+  const auto seal = seal_of(path);
+  return !seal || seal->crc == crc_of(path, *seal) ? "" : "its checksum is wrong";
+}
+
+std::string end_problem(const std::string& path, const h5::File& file) {
+  const auto seal = seal_of(path);
+  const std::uint64_t end = file.end();
+  const bool is_right = seal ? seal->file_bytes == end : std::filesystem::file_size(path) == end;
+  return is_right ? "" : "its end is damaged";
 }
 
 }  // namespace sunload

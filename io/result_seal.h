@@ -30,7 +30,11 @@ struct Extent {
 /// Appends the seal to a finished and closed file. Throws h5::Error or MachineError.
 void seal_result(const std::string& path, Extent series);
 
-/// Empty, or what is wrong with the open file. Throws h5::Error.
-std::string seal_problem(const std::string& path, const h5::File& file);
+/// Empty, or what is wrong with a file that ends with a seal: asked before HDF5 sees damage.
+/// Throws h5::Error.
+std::string seal_problem(const std::string& path);
+
+/// Empty, or what is wrong behind the end of the open file. Throws h5::Error.
+std::string end_problem(const std::string& path, const h5::File& file);
 
 }  // namespace sunload

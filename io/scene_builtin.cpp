@@ -1,6 +1,9 @@
 #include "io/scene_builtin.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "geo/check.h"
@@ -28,6 +31,17 @@ class Parameters {
       length = *value;
     else
       wrong(key, *text, "must be a length from 0.1 to 10000 m", "");
+  }
+
+  /// Replaces `value` if the parameter is given.
+  void count(const std::string& key, double least, double most, double& value) {
+    const std::string* text = find(key);
+    if (text == nullptr) return;
+    const auto number = finite_number(*text);
+    if (number && *number >= least && *number <= most && *number == std::floor(*number))
+      value = *number;
+    else
+      wrong(key, *text, fmt::format("must be a whole number from {:.0f} to {:.0f}", least, most), "");
   }
 
   /// The place of the given word in `words`, 0 if the parameter is not given.
@@ -110,6 +124,13 @@ Build read_room(Parameters& p) {
   return [=] { return builtin::room(size); };
 }
 
+Build read_city(Parameters& p) {
+  constexpr double one_house = 48, most_triangles = 2e7;
+  double triangles = 1e4;
+  p.count("triangles", one_house, most_triangles, triangles);
+  return [=] { return builtin::city(triangles); };
+}
+
 Build read_cylinder(Parameters& p) {
   builtin::Cylinder size;
   p.length("radius", size.radius);
@@ -131,6 +152,7 @@ const std::vector<Scene>& scenes() {
   static const std::vector<Scene> all{
       {"street", read_street},
       {"skyscrapers", read_fixed<builtin::skyscrapers>},
+      {"city", read_city},
       {"windows", read_fixed<builtin::windows>},
       {"room", read_room},
       {"cylinder", read_cylinder},

@@ -30,6 +30,7 @@ std::vector<std::string> builtin_parameters(const std::string& name);
 /// | canyon | height, width, length |
 /// | room | width, depth, height |
 /// | cylinder | radius, height |
+/// | city | triangles: about so many, 48 … 20 000 000 (10 000) |
 /// | skyscrapers, windows, emission, shadow, large_extent, complex_paths, geometric_accuracy | |
 ///
 /// Lengths are metres, 0.1 … 10 000. Throws InputError for unknown names,

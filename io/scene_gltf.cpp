@@ -19,8 +19,8 @@ namespace {
 using nlohmann::json;
 
 constexpr int deepest_node = 500;                  // of a tree; a circle is found by it
-constexpr std::size_t most_nodes = 5'000'000;      // where nodes are shared, a file may unfold
-constexpr std::size_t most_vertices = 50'000'000;  // 3 GB
+constexpr std::size_t most_visits_per_node = 10;  // trees visit each once; some exporters share nodes
+constexpr std::size_t fewest_visits = 10'000;     // that are allowed
 
 std::string name_of(const json& object) {
   const auto name = object.value("name", json());
@@ -58,6 +58,8 @@ class GltfReader {
 
   PolygonModel read() {
     refuse_unknown_extensions();
+    const auto nodes = file_.root().value("nodes", json());
+    most_visits_ = std::max(fewest_visits, most_visits_per_node * nodes.size());
     for (const auto& root : roots()) visit(root, {}, {}, 0);
     return faces_.finish();
   }
@@ -109,7 +111,7 @@ class GltfReader {
   void visit(const json& index, const Affine& file_from_parent, const std::string& outer_name,
              int depth) {
     const auto& node = file_.entry("nodes", index);
-    if (depth > deepest_node || ++visits_ > most_nodes)
+    if (depth > deepest_node || ++visits_ > most_visits_)
       file_.fail("has too many nodes within nodes", "node " + index.dump() + " may contain itself");
     const Affine file_from_node = file_from_parent * placement(node, index);
     const auto name = name_of(node).empty() ? outer_name : name_of(node);
@@ -180,6 +182,8 @@ class GltfReader {
     } else {
       for (std::size_t i = 0; i < count; ++i) order.push_back(static_cast<std::int32_t>(i));
     }
+    if (faces_.corner_count() + 3 * order.size() > most_corners_of(file_.bytes()))
+      file_.fail("has too many faces", "shared meshes make too many for its size");
     use_material(primitive.value("material", json()));
     const bool is_mirrored = file_from_mesh.determinant() < 0;
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
@@ -201,8 +205,8 @@ class GltfReader {
   /// Index of the first one.
   std::int32_t add_points(const std::vector<Vec3>& points, const Affine& file_from_mesh) {
     const auto first = static_cast<std::int32_t>(faces_.vertex_count());
-    if (faces_.vertex_count() + points.size() > most_vertices)
-      file_.fail("has too many vertices", "at most 50 million can be read");
+    if (faces_.vertex_count() + points.size() > most_corners_of(file_.bytes()))
+      file_.fail("has too many vertices", "shared meshes make too many for its size");
     for (const Vec3 point : points) {
       if (!faces_.add_vertex(file_from_mesh(point)))
         file_.fail("has a vertex beyond all coordinates on Earth",
@@ -251,7 +255,7 @@ class GltfReader {
   std::string stem_;
   UniqueNames object_names_, material_names_;
   std::map<std::size_t, MaterialId> materials_;
-  std::size_t visits_ = 0;
+  std::size_t visits_ = 0, most_visits_ = 0;
 };
 
 }  // namespace

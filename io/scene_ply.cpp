@@ -252,7 +252,8 @@ class BodyReader {
       std::size_t least = 0;
       for (const auto& p : element.properties) least += Numbers::least_size(p.count.value_or(p.type));
       const auto body = text_.size() - header_.end + 1;  // the last blank may be missing
-      if (least > 0 && element.count > body / least) {
+      // Without properties it takes no bytes, and means nothing.
+      if (least == 0 ? element.count > body : element.count > body / least) {
         fail(element.count, "is not there", "the file is too short for as many", "is it cut off?");
       }
       if (element.name == "vertex") vertices = element.count;

@@ -18,6 +18,9 @@ constexpr std::uintmax_t largest_file_bytes = 2'000'000'000;
 /// decade of room; a double still resolves 0.1 µm there.
 constexpr double largest_coordinate_m = 1e9;
 
+/// Two million objects of 60 characters; tables hold each name up to four times.
+constexpr std::size_t most_name_bytes = 120'000'000;
+
 std::uintmax_t size_of_regular_file(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
@@ -98,6 +101,11 @@ std::string lower_extension(const std::string& path) {
 }
 
 std::string UniqueNames::operator()(const std::string& name) {
+  bytes_ += name.size();
+  if (bytes_ > most_name_bytes) {
+    throw InputError("names of objects take " + std::to_string(bytes_) +
+                     " bytes (a scene has few names of some words); is one name very long?");
+  }
   std::string candidate = name;
   for (int& n = last_.try_emplace(name, 1).first->second; !taken_.insert(candidate).second;)
     candidate = name + "_" + std::to_string(++n);

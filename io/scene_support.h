@@ -40,6 +40,10 @@ std::string read_file_head(const std::string& path, std::size_t byte_count);
 Where place_in_text(const std::string& file, std::string_view text, std::size_t byte,
                     int first_line = 1);
 
+/// Corners of faces that so many bytes may make, where a format names parts again and again
+/// (instances, USE, shared nodes): no file of less than 1 MB shall take more than 1 GB.
+constexpr std::size_t most_corners_of(std::size_t file_bytes) { return 8'000'000 + 4 * file_bytes; }
+
 std::string lower_case(std::string text);
 
 /// Extension in lower case with its dot, or nothing.
@@ -48,9 +52,11 @@ std::string lower_extension(const std::string& path);
 /// Hands out `name`, or `name_2`, `name_3` … where it is taken.
 class UniqueNames {
  public:
+  /// Throws InputError where names that are repeated take too much memory.
   std::string operator()(const std::string& name);
 
  private:
+  std::size_t bytes_ = 0;
   std::set<std::string> taken_;
   std::map<std::string, int> last_;
 };

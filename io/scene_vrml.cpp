@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <unordered_map>
 
 #include "io/vrml_model.h"
 #include "io/vrml_nodes.h"
@@ -27,6 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_visits = 10'000'000;  ///< of nodes, where files are inlined many times: seconds
+constexpr double extruded_at_least = 2e5;         ///< points of all Extrusions: seconds in Coin …
+constexpr double extruded_per_byte = 0.3;         ///< … and of large files
 
 Vec3 vec(const SbVec3f& v) { return {v[0], v[1], v[2]}; }
 std::array<double, 3> colour(const SbColor& c) { return {c[0], c[1], c[2]}; }
@@ -100,6 +103,7 @@ class VrmlWalk {
 
   void inline_file(const std::string& path, State& state, int place) {
     const auto& file = files_.read(path);
+    model_.set_file_bytes(files_.bytes());
     if (std::find(files_stack_.begin(), files_stack_.end(), &file) != files_stack_.end() ||
         files_stack_.size() >= deepest_inline) {
       throw InputError({files_stack_.back()->text.path}, "inlines itself",
@@ -271,9 +275,9 @@ class VrmlWalk {
     if (auto* set = as<SoVRMLIndexedFaceSet>(node)) return face_set(*set);
     if (auto* grid = as<SoVRMLElevationGrid>(node)) return elevation_grid(*grid);
     if (auto* extrusion = as<SoVRMLExtrusion>(node)) {
-      if (static_cast<double>(extrusion->crossSection.getNum()) * extrusion->spine.getNum() >
-          most_visits)
-        refuse(node, "Extrusion has too many points", "more than 10 million");
+      extruded_ += static_cast<double>(extrusion->crossSection.getNum()) * extrusion->spine.getNum();
+      if (extruded_ > extruded_at_least + extruded_per_byte * static_cast<double>(files_.bytes()))
+        refuse(node, "Extrusions have too many points", "too many for the size of the file");
       auto shape = triangles_of(extrusion);
       shape.is_two_sided = extrusion->solid.getValue() == 0;
       return shape;
@@ -290,21 +294,37 @@ class VrmlWalk {
   ShapeFaces face_set(SoVRMLIndexedFaceSet& node) {
     auto* coordinates = as<SoVRMLCoordinate>(node.coord.getValue());
     ShapeFaces shape;
-    if (coordinates != nullptr) shape.points = points_of(coordinates->point);
-    add_faces(node, node.coordIndex, shape);
+    add_faces(node, node.coordIndex, coordinates == nullptr ? 0 : coordinates->point.getNum(),
+              shape);
+    if (coordinates != nullptr) take_points(coordinates->point, shape);
     if (node.color.getValue() != nullptr) model_.notes().count("colours per face or vertex ignored");
     if (node.ccw.getValue() == 0) turn_faces(shape);
     shape.is_two_sided = node.solid.getValue() == 0;
     return shape;
   }
 
-  static std::vector<Vec3> points_of(const SoMFVec3f& field) {
-    std::vector<Vec3> points;
-    for (int i = 0; i < field.getNum(); ++i) points.push_back(vec(field[i]));
-    return points;
+  /// The points of the faces; few of a table that many shapes share, where they use few.
+  static void take_points(const SoMFVec3f& field, ShapeFaces& shape) {
+    std::size_t corners = 0;
+    for (const auto& face : shape.faces) corners += face.size();
+    if (corners >= static_cast<std::size_t>(field.getNum())) {
+      for (int i = 0; i < field.getNum(); ++i) shape.points.push_back(vec(field[i]));
+      return;
+    }
+    std::unordered_map<std::int32_t, std::int32_t> place;
+    for (auto& face : shape.faces) {
+      for (auto& corner : face) {
+        const auto [entry, is_new] =
+            place.try_emplace(corner, static_cast<std::int32_t>(shape.points.size()));
+        if (is_new) shape.points.push_back(vec(field[corner]));
+        corner = entry->second;
+      }
+    }
   }
 
-  void add_faces(const SoNode& node, const SoMFInt32& indices, ShapeFaces& shape) {
+  /// Faces by lists of indices, each closed by −1, into a table of `count` points.
+  void add_faces(const SoNode& node, const SoMFInt32& indices, std::int32_t count,
+                 ShapeFaces& shape) {
     std::vector<std::int32_t> face;
     std::int32_t number = 0;
     const auto finish = [&] {
@@ -317,7 +337,6 @@ class VrmlWalk {
       ++number;
       face.clear();
     };
-    const auto count = static_cast<std::int32_t>(shape.points.size());
     for (int i = 0; i < indices.getNum(); ++i) {
       const std::int32_t index = indices[i];
       if (index == -1) {
@@ -387,39 +406,91 @@ class VrmlWalk {
                             c->hasPart(SoCylinder::TOP) != 0});
     }
     ShapeFaces shape;
-    auto* set = as<SoIndexedFaceSet>(node);
-    auto* coordinates = set == nullptr ? nullptr : coordinates_of(*set, state);
-    if (set != nullptr && coordinates != nullptr) {
-      shape.points = points_of(*coordinates);
-      add_faces(*node, set->coordIndex, shape);
-    } else {
-      shape = triangles_in(node, state);
-      if (shape.faces.empty()) {
-        model_.notes().count(std::string(node->getTypeId().getName().getString()) +
-                             " shapes left out: they have no surface");
-      }
+    if (auto* set = as<SoVertexShape>(node)) {
+      const auto* coordinates = coordinates_of(*set, state);
+      const std::int32_t count = coordinates == nullptr ? 0 : coordinates->getNum();
+      add_vertex_shape(node, count, shape);
+      if (coordinates != nullptr) take_points(*coordinates, shape);
+    }
+    if (shape.faces.empty()) {
+      model_.notes().count(std::string(node->getTypeId().getName().getString()) +
+                           " shapes left out: no faces are read of them");
     }
     if (state.is_clockwise) turn_faces(shape);
     shape.is_two_sided = !state.is_solid;
     return shape;
   }
 
-  static const SoMFVec3f* coordinates_of(SoIndexedFaceSet& set, const State& state) {
+  /// Open Inventor's sets of faces, strips and meshes. They are not left to Coin, which does not
+  /// ask whether the points are there.
+  void add_vertex_shape(SoNode* node, std::int32_t count, ShapeFaces& shape) {
+    if (auto* set = as<SoIndexedFaceSet>(node)) {
+      add_faces(*node, set->coordIndex, count, shape);
+    } else if (auto* strips = as<SoIndexedTriangleStripSet>(node)) {
+      add_faces(*node, strips->coordIndex, count, shape);
+      cut_strips(shape);
+    } else if (auto* faces = as<SoFaceSet>(node)) {
+      add_rows(*node, faces->numVertices, faces->startIndex.getValue(), count, shape);
+    } else if (auto* strip_set = as<SoTriangleStripSet>(node)) {
+      add_rows(*node, strip_set->numVertices, strip_set->startIndex.getValue(), count, shape);
+      cut_strips(shape);
+    } else if (auto* mesh = as<SoQuadMesh>(node)) {
+      add_mesh(*mesh, count, shape);
+    }
+  }
+
+  /// Faces by their numbers of corners, which lie one after another; −1: all that are left.
+  void add_rows(const SoNode& node, const SoMFInt32& lengths, std::int32_t first,
+                std::int32_t count, ShapeFaces& shape) {
+    for (int row = 0; row < lengths.getNum(); ++row) {
+      const std::int32_t length = lengths[row] == -1 ? count - first : lengths[row];
+      if (first < 0 || first > count || length < 0 || length > count - first) {
+        refuse(&node, fmt::format("a face of {} corners has no points", lengths[row]),
+               fmt::format("{} points are there, it begins with the one of number {}", count, first));
+      }
+      if (length >= 3) {
+        auto& face = shape.faces.emplace_back();
+        for (std::int32_t k = 0; k < length; ++k) face.push_back(first + k);
+      } else {
+        model_.notes().count("faces of fewer than 3 corners left out");
+      }
+      first += length;
+    }
+  }
+
+  void add_mesh(const SoQuadMesh& node, std::int32_t count, ShapeFaces& shape) {
+    const std::int32_t first = node.startIndex.getValue();
+    const std::int32_t columns = node.verticesPerRow.getValue();
+    const std::int32_t rows = node.verticesPerColumn.getValue();
+    if (first < 0 || first > count || columns < 1 || rows < 1 ||
+        static_cast<std::int64_t>(columns) * rows > count - first) {
+      refuse(&node, fmt::format("a mesh of {} × {} points has no points", columns, rows),
+             fmt::format("{} points are there, it begins with the one of number {}", count, first));
+    }
+    for (std::int32_t r = 0; r + 1 < rows; ++r) {
+      for (std::int32_t c = 0; c + 1 < columns; ++c) {
+        const std::int32_t a = first + r * columns + c, b = a + columns;
+        shape.faces.push_back({a, b, b + 1});
+        shape.faces.push_back({a, b + 1, a + 1});
+      }
+    }
+  }
+
+  /// Faces that are strips become triangles; every other one runs the other way around.
+  static void cut_strips(ShapeFaces& shape) {
+    std::vector<std::vector<std::int32_t>> triangles;
+    for (const auto& strip : shape.faces) {
+      for (std::size_t i = 0; i + 2 < strip.size(); ++i)
+        triangles.push_back({strip[i], strip[i + 1 + i % 2], strip[i + 2 - i % 2]});
+    }
+    shape.faces = std::move(triangles);
+    shape.face_material.clear();
+  }
+
+  static const SoMFVec3f* coordinates_of(SoVertexShape& set, const State& state) {
     auto* own = as<SoVertexProperty>(set.vertexProperty.getValue());
     if (own != nullptr && own->vertex.getNum() > 0) return &own->vertex;
     return state.coordinates == nullptr ? nullptr : &state.coordinates->point;
-  }
-
-  /// Strips, meshes and curved surfaces of Inventor, with the coordinates in force.
-  static ShapeFaces triangles_in(SoNode* node, const State& state) {
-    if (node->isOfType(SoText3::getClassTypeId()) || node->isOfType(SoText2::getClassTypeId()) ||
-        node->isOfType(SoAsciiText::getClassTypeId()))
-      return {};
-    KeptNodes kept;
-    auto* root = kept.keep(new SoSeparator);
-    if (state.coordinates != nullptr) root->addChild(state.coordinates);
-    root->addChild(node);
-    return triangles_of(root);
   }
 
   std::vector<MaterialId> inventor_materials(ShapeFaces& shape, const State& state) {
@@ -455,6 +526,7 @@ class VrmlWalk {
   std::vector<const VrmlFiles::File*> files_stack_;
   std::string node_name_;
   std::size_t visits_ = 0;
+  double extruded_ = 0;
 };
 
 /// Coin's tables are one for all.

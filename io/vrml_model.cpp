@@ -9,13 +9,6 @@
 
 namespace sunload {
 
-namespace {
-
-/// Where USE is nested, a short file may stand for any number of corners; these take 3 GB.
-constexpr std::size_t most_corners = 50'000'000;
-
-}  // namespace
-
 VrmlModel::VrmlModel(const std::string& path, const SceneFileRules& rules)
     : rules_(rules),
       scene_from_file_(rules, 'y', path),
@@ -88,9 +81,11 @@ ObjectId VrmlModel::object_of(int place) {
 
 void VrmlModel::add(const ShapeFaces& shape, const Affine& file_from_shape, int place,
                     const std::vector<MaterialId>& materials) {
-  if (model_.ring_vertex.size() > most_corners) {
+  std::size_t corners = model_.ring_vertex.size();
+  for (const auto& face : shape.faces) corners += face.size();
+  if (corners > most_corners_of(file_bytes_)) {
     throw InputError({model_.source}, "has too many faces",
-                     "with every USE in its place they have more than 50 million corners");
+                     "with every USE in its place they are too many for its size");
   }
   // A mirrored shape keeps its front: its corners run the other way around.
   const bool is_mirrored = file_from_shape.determinant() < 0;

@@ -29,6 +29,9 @@ class VrmlModel {
  public:
   VrmlModel(const std::string& path, const SceneFileRules& rules);
 
+  /// Length of all files read so far: nested USEs let a short file stand for any number of faces.
+  void set_file_bytes(std::size_t bytes) { file_bytes_ = bytes; }
+
   /// A place below `parent` (an index, −1 = the root) under the name of a DEF.
   int enter(int parent, const std::string& name);
 
@@ -56,6 +59,7 @@ class VrmlModel {
   std::map<std::pair<const void*, int>, MaterialId> materials_;
   UniqueNames object_names_, material_names_;
   double largest_ = 0;
+  std::size_t file_bytes_ = 0;
 };
 
 }  // namespace sunload

@@ -54,6 +54,7 @@ const VrmlFiles::File& VrmlFiles::read(const std::string& path) {
   }
   being_read_.push_back(key);
   File file{read_vrml_text(path)};
+  bytes_ += file.text.text.size();
   check_vrml(file.text);
   prepare(file.text);
   file.root = parse(file.text);

@@ -55,6 +55,9 @@ class VrmlFiles {
   /// A file's nodes; the same path again is not read again. Throws InputError.
   const File& read(const std::string& path);
 
+  /// Length of the texts that were read.
+  std::size_t bytes() const { return bytes_; }
+
   /// Where a relative url of a file lies.
   static std::string beside(const std::string& file, const std::string& url);
 
@@ -75,6 +78,7 @@ class VrmlFiles {
   bool repair(VrmlText& text, const CoinError& error);
 
   NoteCounter& notes_;
+  std::size_t bytes_ = 0;
   KeptNodes nodes_;
   std::map<std::string, File> files_;
   std::vector<std::string> being_read_;

@@ -97,6 +97,7 @@ class Checker {
     std::size_t begin;
     std::string_view def, proto;  ///< name, where it has one
     double nodes = 0;             ///< in it, with USEs and PROTOs in their places
+    double made = 0;              ///< of these, what is a node of its own in memory: not USEs
     std::size_t height = 0;       ///< levels below it, with USEs and PROTOs in their places
   };
 
@@ -151,11 +152,13 @@ class Checker {
     frames_.pop_back();
     if (!frame.proto.empty()) {
       proto_nodes_[std::string(frame.proto)] = frame.nodes;
+      made_by_[frame.proto] = frame.made;
       height_of_[frame.proto] = frame.height;
       return;
     }
     if (!frame.def.empty()) nodes_of_[frame.def] = frame.nodes;
     put_nodes(frame.nodes);
+    put_made(frame.made);
     if (!frame.def.empty()) height_of_[frame.def] = frame.height;
     put_below(frame.height + 1);
   }
@@ -179,8 +182,10 @@ class Checker {
       }
     }
     put_nodes(1);
+    put_made(1);
     if (const auto known = proto_nodes_.find(std::string(type)); known != proto_nodes_.end()) {
       put_nodes(known->second);
+      put_made(made_by_[type]);
       put_below(height_of_[type] + 1);
     }
   }
@@ -191,6 +196,16 @@ class Checker {
     if (sum > most_vrml_nodes) {
       refuse(tokens_.byte(), "has too many nodes",
              "with its PROTOs and USEs put in their places they are more than 5 million");
+    }
+  }
+
+  void put_made(double count) {
+    double& sum = frames_.empty() ? made_ : frames_.back().made;
+    sum += count;
+    const double most = vrml_nodes_at_least + vrml_nodes_per_byte * static_cast<double>(file_.text.size());
+    if (sum > most) {
+      refuse(tokens_.byte(), "has too many nodes",
+             "its PROTOs make more than fit into memory for a file of its size");
     }
   }
 
@@ -214,10 +229,10 @@ class Checker {
   std::vector<Frame> frames_;
   std::string_view before_, def_, proto_;
   std::size_t proto_depth_ = 0;
-  double nodes_ = 0;
+  double nodes_ = 0, made_ = 0;
   std::map<std::string, double> proto_nodes_;
   std::map<std::string_view, std::size_t> latest_def_, height_of_;
-  std::map<std::string_view, double> nodes_of_;
+  std::map<std::string_view, double> nodes_of_, made_by_;
 };
 
 void skip_block(Tokens& tokens) {

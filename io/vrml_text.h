@@ -19,6 +19,8 @@ inline constexpr std::size_t deepest_vrml = 500;
 inline constexpr std::size_t longest_vrml_word = 4096;
 /// Nodes after PROTOs and USEs are put in their places: beyond any real file, seconds to read.
 inline constexpr double most_vrml_nodes = 5e6;
+/// Nodes that are in memory, USEs not counted: some kilobytes each where PROTOs make them.
+inline constexpr double vrml_nodes_at_least = 2e5, vrml_nodes_per_byte = 0.2;
 
 /// One VRML file, unpacked.
 struct VrmlText {

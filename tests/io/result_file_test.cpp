@@ -12,6 +12,7 @@
 #include "geo/check.h"
 #include "io/result_schema.h"
 #include "tests/io/result_example.h"
+#include "tests/support/small_result.h"
 
 namespace sunload::test {
 namespace {
@@ -226,6 +227,24 @@ TEST(ResultReader, ForeignFilesAreTheUsers) {
   EXPECT_THROW(reader.row("power_sun_se", 0), InputError);
   EXPECT_THROW(reader.strings("irradiance"), InputError);
   EXPECT_THROW(reader.doubles("object_name"), InputError);
+}
+
+// HDF5 gives back what it reserved: the end of a small file may lie before its series began.
+TEST(ResultReader, TheSmallestResultsAreReadable) {
+  const Folder folder;
+  for (std::size_t patches = 1; patches <= 12; ++patches) {
+    Example example;
+    example.patches = patches;
+    example.intervals = 1 + patches % 3;
+    const auto path = folder.file("small_" + std::to_string(patches) + ".h5");
+    example.write_result(folder, path);
+    EXPECT_NO_THROW(ResultReader{path}) << patches << " patches";
+  }
+  SmallResult house;
+  house.cells = 1;
+  house.houses.resize(1);
+  house.realizations = 2;
+  EXPECT_NO_THROW(ResultReader{write_small_result(house, "smallest")});
 }
 
 /// Reads all there is; InputError is a good end, and so is success (where only a value changed).

@@ -17,6 +17,7 @@
 #include "geo/mesh_prepare.h"
 #include "geo/units.h"
 #include "io/scene_file.h"
+#include "io/scene_cityjson_write.h"
 #include "io/scene_obj_write.h"
 
 namespace sunload {
@@ -382,6 +383,42 @@ std::string refusal(const BuiltinRules& rules) {
     return error.what();
   }
   return {};
+}
+
+TEST(SceneBuiltin, CityHasTheTrianglesAskedFor) {
+  const auto p = prepared({"city", {{"triangles", "4800"}}});
+  EXPECT_EQ(p.mesh.triangle_count(), 4800u);
+  EXPECT_EQ(p.report.closed_bodies, 200u) << "houses and their plots";
+  expect_clean(p, "city");
+  EXPECT_EQ(prepared({"city", {{"triangles", "100"}}}).mesh.triangle_count(), 96u);
+  for (const char* wrong : {"47", "1e8", "100.5", "many"})
+    EXPECT_NE(refusal({"city", {{"triangles", wrong}}}), "") << wrong;
+}
+
+TEST(SceneBuiltin, CityJsonReadsBackAsTheSameScene) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "sunload_builtin_cityjson";
+  std::filesystem::create_directories(folder);
+  const auto path = (folder / "city.city.json").string();
+  for (const char* name : {"city", "canyon", "windows"}) {
+    const auto model = builtin_scene({name, {}});
+    write_cityjson(model, path);
+    const auto again = prepare(read_scene_file(path, {}), {});
+    const auto direct = prepare(model, {});
+    EXPECT_EQ(again.mesh.triangle_count(), direct.mesh.triangle_count()) << name;
+    EXPECT_EQ(again.report.closed_bodies, direct.report.closed_bodies) << name;
+    // The file has micrometres: 1e-6 of a metre.
+    EXPECT_NEAR(again.report.volume_m3, direct.report.volume_m3, 1e-6 * direct.report.volume_m3);
+    for (const auto surface : {Surface::wall, Surface::roof, Surface::ground, Surface::floor}) {
+      const auto s = static_cast<std::size_t>(surface);
+      EXPECT_NEAR(again.report.area_m2[s], direct.report.area_m2[s], 1e-6 * direct.report.area_m2[s])
+          << name << " " << surface_names[s];
+    }
+    std::set<std::string> materials;
+    for (const auto& material : again.mesh.file_materials) materials.insert(material.name);
+    for (const auto& material : model.materials) EXPECT_TRUE(materials.contains(material.name));
+  }
+  EXPECT_THROW(write_cityjson(builtin_scene({"room", {}}), (folder / "missing" / "a.json").string()),
+               MachineError);
 }
 
 TEST(SceneBuiltin, RefusesWithTheNearestName) {

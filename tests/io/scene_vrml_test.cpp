@@ -215,6 +215,51 @@ TEST(SceneVrml, Vrml1) {
   EXPECT_NEAR(bounding_box(model.vertices).high.x, 6, 1e-12);
 }
 
+const std::string six_points =
+    "#Inventor V2.1 ascii\nSeparator { Coordinate3 { point [0 0 0, 1 0 0, 2 0 0, 0 1 0, 1 1 0, "
+    "2 1 0] } ";
+
+// Two squares side by side, as every set of Inventor has them; all look to +z.
+TEST(SceneVrml, InventorSetsStripsAndMeshes) {
+  for (const std::string set :
+       {"QuadMesh { verticesPerRow 3 verticesPerColumn 2 ccw }",
+        "IndexedTriangleStripSet { coordIndex [0 1 3 4 -1 1 2 4 5] }",
+        "IndexedFaceSet { coordIndex [0 1 4 3 -1 1 2 5 4] }"}) {
+    auto text = six_points + set + " }";
+    if (const auto word = text.find("ccw "); word != text.npos) {
+      // A mesh runs the other way around: rows first.
+      text.erase(word, 4);
+      const auto model = read_text("s.iv", text, {'z', 1, "highest"});
+      ASSERT_EQ(model.polygon_count(), 4u);
+      for (std::size_t p = 0; p < 4; ++p) EXPECT_EQ(area_vector2(model, p).z, -1);
+      continue;
+    }
+    const auto model = read_text("s.iv", text, {'z', 1, "highest"});
+    double area2 = 0;
+    for (std::size_t p = 0; p < model.polygon_count(); ++p) {
+      EXPECT_GT(area_vector2(model, p).z, 0) << set;
+      area2 += area_vector2(model, p).z;
+    }
+    EXPECT_EQ(area2, 4) << set;
+  }
+  const auto rest =
+      read_text("r.iv", six_points + "FaceSet { startIndex 1 numVertices [3 -1] } }", {'z', 1, "highest"});
+  EXPECT_EQ(rest.polygon_count(), 1u);
+  EXPECT_TRUE(has_note(rest, "1 faces of fewer than 3 corners left out"));
+}
+
+// Coin would read beyond the table.
+TEST(SceneVrml, InventorSetsWithoutPointsAreRefused) {
+  for (const char* set :
+       {"FaceSet { numVertices [7] }", "FaceSet { startIndex 7 }", "FaceSet { startIndex -2 }",
+        "TriangleStripSet { numVertices [3 4] }", "QuadMesh { verticesPerRow 4 verticesPerColumn 2 }",
+        "QuadMesh { verticesPerRow 2147483647 verticesPerColumn 2147483647 }"})
+    EXPECT_NE(refusal("s.iv", six_points + set + " }").find("has no points"), std::string::npos) << set;
+  EXPECT_NE(refusal("s.iv", six_points + "IndexedTriangleStripSet { coordIndex [0 1 6] } }")
+                .find("coordIndex 6 is out of range"),
+            std::string::npos);
+}
+
 TEST(SceneVrml, UnknownFieldsAreLeftOutAndCounted) {
   const auto model = read_text(
       "u.wrl", vrml97 + "Shape {\n appearance Appearance { material Material { shiny TRUE "

@@ -1,0 +1,11 @@
+// CityJSON and CityJSONSeq.
+#include "io/scene_cityjson.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace sunload::fuzz {
+
+static const Registered target("cityjson", [](std::string_view bytes) {
+  read_and_prepare(bytes, "scene.city.json", read_scene_cityjson);
+});
+
+}  // namespace sunload::fuzz

@@ -1,0 +1,11 @@
+// EnergyPlus weather.
+#include "io/weather_epw.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace sunload::fuzz {
+
+static const Registered target("epw", [](std::string_view bytes) {
+  read_epw(WeatherText(file_of(bytes, "weather.epw")));
+});
+
+}  // namespace sunload::fuzz

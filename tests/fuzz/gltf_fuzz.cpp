@@ -1,0 +1,11 @@
+// glTF as JSON, its buffers in data URIs.
+#include "io/scene_gltf.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace sunload::fuzz {
+
+static const Registered target("gltf", [](std::string_view bytes) {
+  read_and_prepare(bytes, "scene.gltf", read_scene_gltf);
+});
+
+}  // namespace sunload::fuzz

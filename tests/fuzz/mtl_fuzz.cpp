@@ -1,0 +1,14 @@
+// Material libraries of OBJ.
+#include "io/scene_mtl.h"
+#include "io/scene_support.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace sunload::fuzz {
+
+static const Registered target("mtl", [](std::string_view bytes) {
+  NoteCounter notes;
+  read_material_library(file_of(bytes, "scene.mtl"), notes);
+  notes.lines();
+});
+
+}  // namespace sunload::fuzz

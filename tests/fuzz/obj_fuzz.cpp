@@ -1,0 +1,11 @@
+// Wavefront OBJ.
+#include "io/scene_obj.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace sunload::fuzz {
+
+static const Registered target("obj", [](std::string_view bytes) {
+  read_and_prepare(bytes, "scene.obj", read_scene_obj);
+});
+
+}  // namespace sunload::fuzz

@@ -1,0 +1,11 @@
+// OFF.
+#include "io/scene_off.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace sunload::fuzz {
+
+static const Registered target("off", [](std::string_view bytes) {
+  read_and_prepare(bytes, "scene.off", read_scene_off);
+});
+
+}  // namespace sunload::fuzz

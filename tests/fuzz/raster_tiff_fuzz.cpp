@@ -1,0 +1,11 @@
+// GeoTIFF rasters, through GDAL.
+#include "io/scene_raster.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace sunload::fuzz {
+
+static const Registered target("raster_tiff", [](std::string_view bytes) {
+  read_and_prepare(bytes, "scene.tif", read_scene_raster);
+});
+
+}  // namespace sunload::fuzz

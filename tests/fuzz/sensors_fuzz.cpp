@@ -1,0 +1,11 @@
+// Sensor points.
+#include "io/sensor_file.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace sunload::fuzz {
+
+static const Registered target("sensors", [](std::string_view bytes) {
+  read_sensor_file(file_of(bytes, "grid.pts"));
+});
+
+}  // namespace sunload::fuzz

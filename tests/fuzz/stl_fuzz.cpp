@@ -1,0 +1,11 @@
+// STL, text and binary.
+#include "io/scene_stl.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace sunload::fuzz {
+
+static const Registered target("stl", [](std::string_view bytes) {
+  read_and_prepare(bytes, "scene.stl", read_scene_stl);
+});
+
+}  // namespace sunload::fuzz

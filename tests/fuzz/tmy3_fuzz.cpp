@@ -1,0 +1,11 @@
+// TMY3 weather.
+#include "io/weather_tmy3.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace sunload::fuzz {
+
+static const Registered target("tmy3", [](std::string_view bytes) {
+  read_tmy3(WeatherText(file_of(bytes, "weather.csv")), std::nullopt);
+});
+
+}  // namespace sunload::fuzz

@@ -1,0 +1,14 @@
+// Weather as plain CSV; what the other formats are told by, too.
+#include "io/weather_csv.h"
+#include "io/weather_file.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace sunload::fuzz {
+
+static const Registered target("weather_csv", [](std::string_view bytes) {
+  const auto path = file_of(bytes, "weather.csv");
+  read_weather_file(path, Stamp::end);
+  read_weather_csv(WeatherText(path), Stamp::start);
+});
+
+}  // namespace sunload::fuzz
