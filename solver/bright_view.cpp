@@ -29,7 +29,8 @@ double BrightView::chance(const BrightCluster& cluster) const {
   if (dot(normal_, way) + cluster.reach(normal_) <= 0) return 0;
   const double cosine = dot(normal_, cluster.normal);
   const double own_reach = radius_ * std::sqrt(std::max(0.0, 1 - cosine * cosine));
-  if (dot(cluster.normal, way) - own_reach - cluster.thickness >= 0) return 0;
+  const bool faces_one_way = dot(cluster.normal, cluster.normal) > 0;
+  if (faces_one_way && dot(cluster.normal, way) - own_reach - cluster.thickness >= 0) return 0;
   const double radii = radius_ + cluster.radius;
   return cluster.power / (dot(way, way) + radii * radii);
 }

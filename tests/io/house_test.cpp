@@ -96,7 +96,7 @@ TEST(House, SharedLibrariesStayWhereTheyBelong) {
         "io/export_cityjson_model", "io/export_glb",
         "io/gltf_buffers", "io/json_text", "io/progress",
         "io/scene_cityjson_geometry", "io/scene_cityjson_lod", "io/scene_cityjson_select",
-        "io/scene_cityjson_templates", "io/study_canonical", "io/view_data"}}};
+        "io/scene_cityjson_templates", "io/scene_cityjson_write", "io/study_canonical", "io/view_data"}}};
   for (const auto& [header, allowed] : owners)
     for (const auto& file : users_of(header))
       EXPECT_TRUE(allowed.contains(file)) << file << " includes " << header;

@@ -167,7 +167,7 @@ TEST(LightScenes, ComplexPathsReachTheCubeWithLittleNoise) {
   // emitter → tray → wall → screen → cube: a share of 1e-7 of the light, seen by every leaf.
   const SolvedPlan s = solve_study(night_study(
       "complex_paths",
-      "mesh: {oracle: none, max_edge_m: 1}\nsolver: {lines_per_patch: 8192, direct_samples: 16, "
+      "mesh: {oracle: none, max_edge_m: 1}\nsolver: {lines_per_patch: 16384, direct_samples: 16, "
       "realizations: 16, bounces: 8, unshot: 0}\n"));
   double worst_leaf = 0;
   std::vector<double> cube(s.tally.exposure_realization.size(), 0), edge = cube;

@@ -245,7 +245,7 @@ void check_concentric(const json& c, const Scene& coarse_scene, const Scene& fin
 TEST(Concentric, Spheres) {
   if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(exact_systems, "concentric_spheres_"))
-    check_concentric(c, concentric_spheres(c, 2), concentric_spheres(c, 3), 8);
+    check_concentric(c, concentric_spheres(c, 2), concentric_spheres(c, 3), 16);
 }
 
 TEST(Concentric, Cylinders) {
