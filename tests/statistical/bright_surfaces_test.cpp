@@ -199,7 +199,8 @@ TEST(Lamps, LightEachOtherThoughTheyTouch) {
     check(c["id"].get<std::string>() + " forth", received(light, builder.scene(), 1), F, bias);
     check(c["id"].get<std::string>() + " back", received(light, builder.scene(), 2),
           F * area[0] / area[1], bias);
-    EXPECT_LT(light.variance(light.both), light.variance(light.lines)) << c["id"];
+    // The same where what is lit fills most of the view: lines keep all of it.
+    EXPECT_LE(light.variance(light.both), light.variance(light.lines)) << c["id"];
     ++cases;
   }
   EXPECT_GE(cases, 17);
