@@ -83,16 +83,19 @@ class Output {
 
 }  // namespace
 
-void write_container(const std::string& path, json header,
-                     const std::vector<std::span<const unsigned char>>& blocks) {
+void write_container(const std::string& path, json header, const std::vector<BlockPieces>& blocks) {
   // Offsets count from the end of the header, whose length they would change.
   json table = json::array();
   std::size_t end = 0;
   for (const auto& block : blocks) {
-    table.push_back({{"offset", aligned(end)},
-                     {"bytes", block.size()},
-                     {"crc32", crc32(block.data(), block.size())}});
-    end = aligned(end) + block.size();
+    std::size_t bytes = 0;
+    std::uint32_t crc = 0;
+    for (const auto& piece : block) {
+      bytes += piece.size();
+      crc = crc32(piece.data(), piece.size(), crc);
+    }
+    table.push_back({{"offset", aligned(end)}, {"bytes", bytes}, {"crc32", crc}});
+    end = aligned(end) + bytes;
   }
   header["blocks"] = table;
   const std::string text = header.dump();
@@ -110,7 +113,7 @@ void write_container(const std::string& path, json header,
   output.pad_to(data);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     output.pad_to(data + table[i]["offset"].get<std::size_t>());
-    output.write(blocks[i].data(), blocks[i].size());
+    for (const auto& piece : blocks[i]) output.write(piece.data(), piece.size());
   }
   output.close();
   target.publish();
@@ -121,7 +124,6 @@ Container::Container(const std::string& path) : path_(path) {
   if (file_ < 0) throw InputError({path}, "cannot be read", std::strerror(errno));
   try {
     read_header();
-    for (const Block& block : blocks_) verify(block);
   } catch (const json::exception& error) {
     ::close(file_);
     refuse(error.what());
@@ -166,6 +168,10 @@ void Container::read_header() {
     block.offset += data;
     blocks_.push_back(block);
   }
+}
+
+void Container::verify() const {
+  for (const Block& block : blocks_) verify(block);
 }
 
 void Container::verify(const Block& block) const {

@@ -27,15 +27,17 @@ namespace sunload {
 
 inline constexpr std::uint32_t container_version = 1;
 
+/// Bytes of a block, one piece after another.
+using BlockPieces = std::vector<std::span<const unsigned char>>;
+
 /// Writes aside, flushes to the disk, renames. Throws MachineError.
 void write_container(const std::string& path, nlohmann::json header,
-                     const std::vector<std::span<const unsigned char>>& blocks);
+                     const std::vector<BlockPieces>& blocks);
 
-/// An open container of which every byte that counts was verified. Blocks are
-/// read when asked for (and verified again), so that memory stays small.
+/// An open container. Blocks are read when asked for, so that memory stays small, and verified then.
 class Container {
  public:
-  /// Throws InputError naming the file and what is wrong with it.
+  /// Verifies the header. Throws InputError naming the file and what is wrong with it.
   explicit Container(const std::string& path);
   ~Container();
   Container(const Container&) = delete;
@@ -44,7 +46,10 @@ class Container {
   const nlohmann::json& header() const { return header_; }
   std::size_t block_count() const { return blocks_.size(); }
   std::size_t block_bytes(std::size_t i) const { return blocks_[i].bytes; }
+  /// Throws InputError where it is damaged.
   Bytes block(std::size_t i) const;
+  /// Reads all blocks, keeping none. Throws InputError where one is damaged.
+  void verify() const;
   /// Throws InputError "`path`: is not a valid batch file (`why`); …".
   [[noreturn]] void refuse(const std::string& why) const;
 

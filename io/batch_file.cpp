@@ -94,8 +94,17 @@ ArraySpec spec_from(const json& from) {
 /// An array as it lies in the file: plain values, or chunks one after another.
 struct BatchWriter::Block {
   ArraySpec spec;
-  Bytes bytes;
-  std::vector<std::size_t> chunk_bytes;  ///< empty: plain values
+  Bytes plain;
+  std::vector<Bytes> chunks;
+
+  std::vector<std::size_t> chunk_bytes() const {
+    std::vector<std::size_t> lengths;
+    for (const auto& chunk : chunks) lengths.push_back(chunk.size());
+    return lengths;
+  }
+  BlockPieces pieces() const {
+    return chunks.empty() ? BlockPieces{plain} : BlockPieces(chunks.begin(), chunks.end());
+  }
 };
 
 BatchWriter::BatchWriter(BatchHeader header) : header_(std::move(header)) {
@@ -120,37 +129,30 @@ std::shared_ptr<BatchWriter::Block> BatchWriter::new_block(const ArraySpec& spec
 void BatchWriter::add(const ArraySpec& spec, const double* values) {
   const auto block = new_block(spec, ArrayType::float64);
   const auto* bytes = reinterpret_cast<const unsigned char*>(values);
-  block->bytes.assign(bytes, bytes + value_count(spec) * sizeof(double));
+  block->plain.assign(bytes, bytes + value_count(spec) * sizeof(double));
 }
 
 void BatchWriter::add(const ArraySpec& spec, const float* values) {
   const auto block = new_block(spec, ArrayType::float32);
   if (!is_chunked(spec)) {
     const auto* bytes = reinterpret_cast<const unsigned char*>(values);
-    block->bytes.assign(bytes, bytes + value_count(spec) * sizeof(float));
+    block->plain.assign(bytes, bytes + value_count(spec) * sizeof(float));
     return;
   }
-  const auto chunks = encoded_chunks(values, spec.dims[0], spec.dims[1], chunk_shape(header_, spec),
-                                     header_.compression);
-  std::size_t bytes = 0;
-  for (const auto& chunk : chunks) bytes += chunk.size();
-  block->bytes.reserve(bytes);
-  for (const auto& chunk : chunks) {
-    block->chunk_bytes.push_back(chunk.size());
-    block->bytes.insert(block->bytes.end(), chunk.begin(), chunk.end());
-  }
+  block->chunks = encoded_chunks(values, spec.dims[0], spec.dims[1], chunk_shape(header_, spec),
+                                 header_.compression);
 }
 
 void BatchWriter::write(const std::string& path) const {
   json tables = json::array();
-  std::vector<std::span<const unsigned char>> blocks;
+  std::vector<BlockPieces> blocks;
   for (const auto& block : blocks_) {
     tables.push_back({{"name", block->spec.name},
                       {"rule", name_of(block->spec.rule, rule_names)},
                       {"type", name_of(block->spec.type, type_names)},
                       {"dims", block->spec.dims},
-                      {"chunk_bytes", block->chunk_bytes}});
-    blocks.emplace_back(block->bytes);
+                      {"chunk_bytes", block->chunk_bytes()}});
+    blocks.push_back(block->pieces());
   }
   write_container(path, {{"batch", to_json(header_)}, {"arrays", tables}}, blocks);
 }
@@ -228,6 +230,8 @@ BatchReader::BatchReader(const std::string& path) : content_(std::make_unique<Co
 
 BatchReader::~BatchReader() = default;
 BatchReader::BatchReader(BatchReader&&) noexcept = default;
+
+void BatchReader::verify() const { content_->container.verify(); }
 
 bool BatchReader::has(const std::string& name) const {
   return std::any_of(specs_.begin(), specs_.end(), [&](const auto& s) { return s.name == name; });
@@ -310,6 +314,7 @@ BatchCheck check_batch(const std::string& path, const std::string& content_hash,
   if (!check.exists) return check;
   try {
     const BatchReader reader(path);
+    reader.verify();
     const BatchHeader& header = reader.header();
     if (header.content_hash != content_hash) {
       check.reason = path + ": is of another study, hash " + header.content_hash;

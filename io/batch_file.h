@@ -57,13 +57,15 @@ class BatchWriter {
 };
 
 /// A batch file whose magic, version, length and checksums were verified.
-/// Arrays are read when first asked for; not to be shared among threads.
+/// Arrays are read and verified when first asked for; not to be shared among threads.
 class BatchReader {
  public:
-  /// Throws InputError naming the file and what is wrong with it.
+  /// Throws InputError naming the file and what is wrong with its header.
   explicit BatchReader(const std::string& path);
   ~BatchReader();
   BatchReader(BatchReader&&) noexcept;
+  /// All of it. Throws InputError where the file is damaged.
+  void verify() const;
   const BatchHeader& header() const { return header_; }
   const std::vector<ArraySpec>& arrays() const { return specs_; }
   bool has(const std::string& name) const;

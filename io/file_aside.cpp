@@ -87,6 +87,15 @@ FileAside::~FileAside() {
   if (state_ == State::writing) ::unlink(aside_.c_str());
 }
 
+void FileAside::start_flushing() const {
+#ifdef SYNC_FILE_RANGE_WRITE
+  const int file = ::open(aside_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return;
+  ::sync_file_range(file, 0, 0, SYNC_FILE_RANGE_WRITE);  // errors come back from fsync
+  ::close(file);
+#endif
+}
+
 void FileAside::publish() {
   if (const int error = flushed_to_disk(aside_, O_RDONLY)) throw_cannot_write(path_, error);
   publish_unflushed();

@@ -20,6 +20,8 @@ class FileAside {
 
   const std::string& path() const { return path_; }
   const std::string& aside() const { return aside_; }
+  /// The disk may begin with what is written so far, so that `publish` waits less: a hint.
+  void start_flushing() const;
   /// Flushes the finished file to the disk, renames it to `path`, and flushes
   /// the folder. Throws MachineError.
   void publish();

@@ -451,6 +451,7 @@ void ResultWriter::append(const BatchReader& batch) {
       }
     }
     file_->series.end = file_->file->end();
+    file_->target.start_flushing();
   });
 }
 

@@ -80,15 +80,34 @@ std::vector<double> holm_corrected(const std::vector<double>& p_values) {
 double weighted_quantile(const std::vector<double>& values, const std::vector<double>& weights,
                          double share) {
   SUNLOAD_EXPECT(values.size() == weights.size(), "one weight per value");
-  const auto order = ascending(values);
-  double total = 0;
-  for (const auto i : order) total += weights[i];
-  double below = 0;
-  for (const auto i : order) {
-    below += weights[i];
-    if (below >= share * total) return values[i];
+  struct Weighted {
+    double value, weight;
+  };
+  std::vector<Weighted> known;
+  known.reserve(values.size());
+  double wanted = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i])) continue;
+    known.push_back({values[i], weights[i]});
+    wanted += share * weights[i];
   }
-  return order.empty() ? not_known : values[order.back()];
+  if (known.empty()) return not_known;
+  // By halves, each time the one that holds the quantile (Hoare 1961, Algorithm 65, with weights).
+  auto begin = known.begin(), end = known.end();
+  while (end - begin > 1) {
+    const auto middle = begin + (end - begin) / 2;
+    std::nth_element(begin, middle, end,
+                     [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
+    double lower = 0;
+    for (auto i = begin; i < middle; ++i) lower += i->weight;
+    if (lower >= wanted) {
+      end = middle;
+    } else {
+      wanted -= lower;
+      begin = middle;
+    }
+  }
+  return begin->value;
 }
 
 }  // namespace sunload

@@ -20,11 +20,11 @@ std::string file_with_checksums(std::string_view bytes) {
   const auto header = nlohmann::json::parse(bytes.substr(0, end), nullptr, false);
   if (!header.is_object()) return {};
   bytes.remove_prefix(std::min(end + 1, bytes.size()));
-  std::vector<std::span<const unsigned char>> blocks;
+  std::vector<BlockPieces> blocks;
   for (std::size_t b = 0; b < count; ++b) {
     const auto part = bytes.substr(b * bytes.size() / count,
                                    (b + 1) * bytes.size() / count - b * bytes.size() / count);
-    blocks.emplace_back(reinterpret_cast<const unsigned char*>(part.data()), part.size());
+    blocks.push_back({{reinterpret_cast<const unsigned char*>(part.data()), part.size()}});
   }
   const auto path = file_of({}, "checked.batch");
   std::filesystem::remove(path);
@@ -38,6 +38,7 @@ std::string file_with_checksums(std::string_view bytes) {
 
 void read_all(const std::string& path) {
   const BatchReader reader(path);
+  reader.verify();
   for (const auto& array : reader.arrays()) {
     reader.doubles(array.name);
     if (reader.spec(array.name).type == ArrayType::float32) reader.floats(array.name);
