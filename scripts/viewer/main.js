@@ -42,7 +42,7 @@ class Viewer {
       mesh.object.position.set(...this.results[n].geometry.centre.map((x, axis) => x - result.geometry.centre[axis]));
       this.scene.add(mesh.object);
     });
-    const box = new THREE.Box3().setFromBufferAttribute(this.meshes[0].object.geometry.attributes.position);
+    const { box } = this.meshes[0];
     const radius = 0.5 * box.getSize(new THREE.Vector3()).length();
     this.sky = new Sky(result.times, radius, box.min.z);
     this.scene.add(this.sky.object);
@@ -82,7 +82,7 @@ class Viewer {
     const { quantity, shading, crease, lines, colours, k } = this.state;
     const end = this.limit(), isSmooth = shading === "smooth";
     this.meshes.forEach((mesh, n) => {
-      const uniforms = mesh.material.uniforms;
+      const { uniforms } = mesh;
       if (quantity === materials) {
         mesh.show(Float32Array.from(this.results[n].patch_material, materialValue), false, crease);
       } else if (quantity !== preview) {
@@ -92,7 +92,7 @@ class Viewer {
         }
         mesh.show(values, isSmooth, crease);
       }
-      uniforms.preview.value = isShape(quantity);
+      mesh.showAs(isShape(quantity));
       uniforms.materials.value = quantity === materials;
       const palette = this.isDifference() ? "difference" : quantity === materials ? materials : colours;
       uniforms.palette.value = this.textures[palette];
@@ -151,7 +151,10 @@ class Viewer {
       this.renderer.setViewport(x, 0, wide, height);
       this.renderer.setScissor(x, 0, wide, height);
       this.man.fitTo(wide / height);
-      this.meshes.forEach((mesh, n) => { mesh.object.visible = n === part.mesh; });
+      this.meshes.forEach((mesh, n) => {
+        mesh.object.visible = n === part.mesh;
+        mesh.showFolds(this.man.camera, height);
+      });
       this.renderer.clear();
       this.renderer.render(this.scene, this.man.camera);
     }
@@ -266,12 +269,8 @@ class Viewer {
     const across = (x / width - part.from) / (part.to - part.from);
     this.man.fitTo(((part.to - part.from) * width) / height);
     this.rays.setFromCamera(new THREE.Vector2(2 * across - 1, 1 - (2 * y) / height), this.man.camera);
-    // Backs of two-sided patches are not drawn: the twin in the same place is.
-    const hits = this.rays.intersectObject(this.meshes[part.mesh].object, false);
-    const { patch_normal: normal, isTwoSided } = this.results[part.mesh], way = this.rays.ray.direction;
-    const hit = hits.find(({ faceIndex: p }) => !isTwoSided[p] ||
-      normal[3 * p] * way.x + normal[3 * p + 1] * way.y + normal[3 * p + 2] * way.z < 0);
-    return hit ? { n: part.mesh, patch: hit.faceIndex } : null;
+    const { object, patchOf } = this.meshes[part.mesh], [hit] = this.rays.intersectObject(object, false);
+    return hit ? { n: part.mesh, patch: patchOf[hit.faceIndex] } : null;
   }
 
   /** The sensor under a point of the window, where nothing stands before it. */

@@ -2,40 +2,52 @@
 import * as THREE from "three";
 import { SensorPoints } from "./sensors.js";
 
-const vertexShader = `
+// Two pairs of shaders: without a graphics card every number that is handed on costs frames.
+const lightVertexShader = `
 attribute float value;
-attribute float twoSided;
 varying float vValue;
-varying float vTwoSided;
-varying vec3 vNormal;
 void main() {
   vValue = value;
-  vTwoSided = twoSided;
-  vNormal = normal;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }`;
 
 // Colours are those of the legend, not shaded; backs of one-sided patches are grey.
-const fragmentShader = `
+const lightFragmentShader = `
 uniform sampler2D palette;
 uniform float low;
 uniform float high;
-uniform bool preview;
+varying float vValue;
+void main() {
+  vec3 colour = vec3(0.72);
+  if (gl_FrontFacing && vValue > -1e29) {
+    float share = clamp((vValue - low) / (high - low), 0.0, 1.0);
+    colour = texture2D(palette, vec2((share * 255.0 + 0.5) / 256.0, 0.5)).rgb;
+  }
+  gl_FragColor = vec4(colour, 1.0);
+}`;
+
+const shapeVertexShader = `
+attribute float value;
+varying float vValue;
+varying vec3 vNormal;
+void main() {
+  vValue = value;
+  vNormal = normal;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+}`;
+
+// What is built, shaded: in one colour or in those of the materials.
+const shapeFragmentShader = `
+uniform sampler2D palette;
 uniform bool materials;
 uniform vec3 light;
 varying float vValue;
-varying float vTwoSided;
 varying vec3 vNormal;
 void main() {
   vec3 colour = vec3(0.72);
-  if (!gl_FrontFacing) {
-    if (vTwoSided > 0.5) discard;
-  } else if (preview) {
+  if (gl_FrontFacing) {
     vec3 own = materials && vValue > -0.5 ? texture2D(palette, vec2((vValue + 0.5) / 256.0, 0.5)).rgb : vec3(0.93, 0.92, 0.89);
     colour = own * (0.5 + 0.2 * vNormal.z + 0.3 * max(0.0, dot(vNormal, light)));
-  } else if (vValue > -1e29) {
-    float share = clamp((vValue - low) / (high - low), 0.0, 1.0);
-    colour = texture2D(palette, vec2((share * 255.0 + 0.5) / 256.0, 0.5)).rgb;
   }
   gl_FragColor = vec4(colour, 1.0);
 }`;
@@ -54,29 +66,34 @@ export function paletteTexture(colours) {
 export class PatchMesh {
   constructor(result) {
     this.result = result;
-    const corners = 3 * result.patches;
-    const position = new Float32Array(3 * corners), normal = new Float32Array(3 * corners), twoSided = new Float32Array(corners);
+    // Two-sided patches first: their backs are not drawn, as the twin in the same place is.
+    const all = [...Array(result.patches).keys()], isTwoSided = (p) => result.isTwoSided[p];
+    this.patchOf = Uint32Array.from([...all.filter(isTwoSided), ...all.filter((p) => !isTwoSided(p))]);
+    const corners = 3 * result.patches, twoSidedCorners = 3 * all.filter(isTwoSided).length;
+    const position = new Float32Array(3 * corners), normal = new Float32Array(3 * corners);
     for (let c = 0; c < corners; ++c) {
-      const v = 3 * result.patch_vertices[c], p = Math.floor(c / 3);
+      const p = this.patchOf[Math.floor(c / 3)], v = 3 * result.patch_vertices[3 * p + (c % 3)];
       for (let axis = 0; axis < 3; ++axis) {
         position[3 * c + axis] = result.vertices[v + axis];
         normal[3 * c + axis] = result.patch_normal[3 * p + axis];
       }
-      twoSided[c] = result.isTwoSided[p];
     }
     this.value = new THREE.BufferAttribute(new Float32Array(corners), 1).setUsage(THREE.DynamicDrawUsage);
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
     geometry.setAttribute("normal", new THREE.BufferAttribute(normal, 3));
-    geometry.setAttribute("twoSided", new THREE.BufferAttribute(twoSided, 1));
     geometry.setAttribute("value", this.value);
-    this.material = new THREE.ShaderMaterial({
-      vertexShader, fragmentShader, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
-      uniforms: { palette: { value: null }, low: { value: 0 }, high: { value: 1 }, preview: { value: false }, materials: { value: false },
-        light: { value: new THREE.Vector3(0.4, -0.6, 0.7) } },
-    });
-    this.object = new THREE.Mesh(geometry, this.material);
-    this.object.add(new THREE.LineSegments(this.folds(), new THREE.LineBasicMaterial({ color: 0x30343c })));
+    if (twoSidedCorners > 0) geometry.addGroup(0, twoSidedCorners, 0);
+    if (twoSidedCorners < corners) geometry.addGroup(twoSidedCorners, corners - twoSidedCorners, 1);
+    this.uniforms = { palette: { value: null }, low: { value: 0 }, high: { value: 1 }, materials: { value: false },
+      light: { value: new THREE.Vector3(0.4, -0.6, 0.7) } };
+    const ofSides = (vertexShader, fragmentShader) => [THREE.FrontSide, THREE.DoubleSide].map((side) => new THREE.ShaderMaterial({
+      vertexShader, fragmentShader, side, uniforms: this.uniforms, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
+    this.ofLight = ofSides(lightVertexShader, lightFragmentShader);
+    this.ofShape = ofSides(shapeVertexShader, shapeFragmentShader);
+    this.object = new THREE.Mesh(geometry, this.ofLight);
+    this.box = new THREE.Box3().setFromBufferAttribute(geometry.attributes.position);
+    this.addFolds();
     this.lines = {};
     this.creaseDeg = null;
     if (result.sensors) {
@@ -85,18 +102,24 @@ export class PatchMesh {
     }
   }
 
+  /** What is built (preview, materials), or light on it. */
+  showAs(isShape) {
+    this.object.material = isShape ? this.ofShape : this.ofLight;
+  }
+
   /** One value per patch, constant on it or interpolated between its corners. */
   show(values, interpolate, creaseDeg) {
     const shown = this.value.array;
     if (!interpolate) {
-      for (let p = 0; p < values.length; ++p) {
-        const value = Number.isFinite(values[p]) ? values[p] : notKnown;
-        shown[3 * p] = shown[3 * p + 1] = shown[3 * p + 2] = value;
+      for (let t = 0; t < values.length; ++t) {
+        const value = values[this.patchOf[t]];
+        shown[3 * t] = shown[3 * t + 1] = shown[3 * t + 2] = Number.isFinite(value) ? value : notKnown;
       }
     } else {
       this.findNeighbours(creaseDeg);
       const area = this.result.patch_area;
-      for (let c = 0; c < shown.length; ++c) {
+      for (let s = 0; s < shown.length; ++s) {
+        const c = 3 * this.patchOf[Math.floor(s / 3)] + (s % 3);
         let sum = 0, weight = 0;
         for (let k = this.first[c]; k < this.first[c + 1]; ++k) {
           const q = this.neighbours[k];
@@ -104,7 +127,7 @@ export class PatchMesh {
           sum += area[q] * values[q];
           weight += area[q];
         }
-        shown[c] = weight > 0 ? sum / weight : notKnown;
+        shown[s] = weight > 0 ? sum / weight : notKnown;
       }
     }
     this.value.needsUpdate = true;
@@ -142,6 +165,23 @@ export class PatchMesh {
     this.lines[which].visible = true;
   }
 
+  /** Lines where the surface turns or ends, the longest first. */
+  addFolds() {
+    const folds = this.folds(), length = ([a, b]) => a.distanceTo(b);
+    folds.sort((one, other) => length(other) - length(one));
+    this.foldLengths = Float32Array.from(folds, length);
+    this.foldLines = new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(folds.flat()), new THREE.LineBasicMaterial({ color: 0x30343c }));
+    this.object.add(this.foldLines);
+  }
+
+  /** Leaves lines out that would be shorter than two pixels even on the side of the scene next to the camera. */
+  showFolds(camera, heightPixels) {
+    const distance = this.box.distanceToPoint(camera.position.clone().sub(this.object.position));
+    const shortest = (2 * 2 * distance * Math.tan((camera.fov * Math.PI) / 360)) / heightPixels;
+    const first = this.foldLengths.findIndex((length) => length < shortest);
+    this.foldLines.geometry.setDrawRange(0, first < 0 ? Infinity : 2 * first);
+  }
+
   /** Edges of the input triangles where the surface turns or ends. */
   folds() {
     const { vertices: v, input_triangle_vertices: triangles } = this.result, edges = new Map();
@@ -156,7 +196,7 @@ export class PatchMesh {
       }
     }
     const isFold = ({ normals: [first, ...rest] }) => !rest.length || rest.some((n) => Math.abs(n.dot(first)) < leastFold);
-    return new THREE.BufferGeometry().setFromPoints([...edges.values()].filter(isFold).flatMap(({ ends }) => ends));
+    return [...edges.values()].filter(isFold).map(({ ends }) => ends);
   }
 
   edges(triangles) {
