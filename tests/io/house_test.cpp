@@ -77,7 +77,7 @@ TEST(House, OneFileKnowsEachForeignLibrary) {
                                            {"date/", {"geo/time"}},
                                            {"cairo", {"io/picture"}},
                                            {"openssl", {"io/hash"}},
-                                           {"CLI/", {"io/main"}},
+                                           {"CLI/", {"io/command_line"}},
                                            {"gdal", {"io/export_geopackage", "io/raster"}},
                                            {"boost", {"io/statistics"}}};
   for (const auto& [header, files] : owner) EXPECT_EQ(users_of(header), files) << header;
