@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -179,13 +177,7 @@ class CityText {
 }  // namespace
 
 void write_cityjson(const PolygonModel& model, const std::string& path) {
-  const std::string text = CityText(model).text();
-  FileAside file(path);
-  std::ofstream stream(file.aside(), std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw_cannot_write(path, errno);
-  file.publish();
+  write_file(path, CityText(model).text());
 }
 
 }  // namespace sunload

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 
 #include "geo/mesh_prepare.h"
@@ -63,21 +61,12 @@ std::string scene_text(const Mesh& mesh, const std::string& library) {
   return text;
 }
 
-void write_whole(const std::string& path, const std::string& text) {
-  FileAside file(path);
-  std::ofstream stream(file.aside(), std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw_cannot_write(path, errno);
-  file.publish();
-}
-
 }  // namespace
 
 void write_obj(const Mesh& mesh, const std::string& path) {
   const auto library = std::filesystem::path(path).replace_extension(".mtl");
-  write_whole(library.string(), library_text(mesh.file_materials));
-  write_whole(path, scene_text(mesh, library.filename().string()));
+  write_file(library.string(), library_text(mesh.file_materials));
+  write_file(path, scene_text(mesh, library.filename().string()));
 }
 
 void write_obj(const PolygonModel& model, const std::string& path) {

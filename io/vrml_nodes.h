@@ -1,7 +1,11 @@
-/// VRML files as the nodes that Coin makes of them. With scene_vrml.cpp all that knows Coin.
+/// VRML files as the nodes that Coin makes of them. With vrml_faces and scene_vrml.cpp all that knows
+/// Coin.
 #pragma once
 
+#include <Inventor/SbMatrix.h>
+#include <Inventor/SbVec3f.h>
 #include <Inventor/misc/SoProto.h>
+#include <Inventor/misc/SoProtoInstance.h>
 #include <Inventor/nodes/SoSeparator.h>
 
 #include <exception>
@@ -9,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "io/affine.h"
 #include "io/scene_support.h"
 #include "io/vrml_text.h"
 
@@ -17,6 +22,33 @@ class SoError;
 namespace sunload {
 
 inline constexpr std::size_t deepest_inline = 64;  ///< files within files
+
+/// Coin's nodes and values, as ours.
+namespace coin {
+
+inline Vec3 vec(const SbVec3f& v) { return {v[0], v[1], v[2]}; }
+
+/// Coin's matrices act on row vectors.
+inline Affine affine(const SbMatrix& m) {
+  const auto row = [&](int i) { return Vec3{m[i][0], m[i][1], m[i][2]}; };
+  return {{row(0), row(1), row(2)}, row(3)};
+}
+
+/// PROTOs stand for the root of what they make.
+inline SoNode* plain(SoNode* node) {
+  while (node != nullptr && node->isOfType(SoProtoInstance::getClassTypeId()))
+    node = static_cast<SoProtoInstance*>(node)->getRootNode();
+  return node;
+}
+
+template <class Node>
+Node* as(SoNode* node) {
+  node = plain(node);
+  return node != nullptr && node->isOfType(Node::getClassTypeId()) ? static_cast<Node*>(node)
+                                                                   : nullptr;
+}
+
+}  // namespace coin
 
 /// Keeps Coin's nodes alive as long as it lives.
 class KeptNodes {

@@ -1,10 +1,10 @@
 #include "solver/bright_view.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "geo/units.h"
+#include "solver/point_pairs.h"
 #include "solver/sampling.h"
 
 namespace sunload {
@@ -14,6 +14,7 @@ namespace {
 /// Of points: to what the patch's own group sees, and the groups around; the others go to what
 /// faces the patch.
 constexpr double share_to_seen = 0.7, share_to_seen_around = 0.2;
+
 }  // namespace
 
 BrightView::BrightView(const Guide& guide)
@@ -111,33 +112,24 @@ std::uint64_t BrightView::see_points(const RayCaster& caster, const RandomWords&
                                      const std::function<void(const SeenPoint&)>& visit) const {
   if (alone_ >= 1 || up_to_.empty() || up_to_.back() <= 0) return 0;
   std::uint64_t rays = 0;
-  const double offset = caster.offset_m();
+  const Vec3 lift = normal_ * caster.offset_m();
   for (std::size_t first = 0; first < count; first += packet_size) {
-    Packet origins{}, ways{};
-    SeenPoint seen[packet_size];
-    std::uint32_t active = 0;
+    PointPairs pairs(caster);
+    SeenPoint point_of_pair[packet_size];
     for (std::size_t l = 0; l < std::min(packet_size, count - first); ++l) {
       const auto index = static_cast<std::uint32_t>(first + l);
       const Barycentric at =
           sample_triangle(scrambled_sobol(index, 0, seeds), scrambled_sobol(index, 1, seeds));
-      const Vec3 origin = a_ + at.w1 * ab_ + at.w2 * ac_ + normal_ * offset;
+      const Vec3 x = a_ + at.w1 * ab_ + at.w2 * ac_ + lift;
       const auto y = point(scrambled_sobol(index, 2, seeds), scrambled_sobol(index, 3, seeds));
-      const Vec3 way = y.position - origin;
-      const double distance_2 = dot(way, way);
-      // cosθ_x cosθ_y |y - x|²
-      const double cosines = std::max(0.0, dot(normal_, way)) * std::max(0.0, -dot(y.normal, way));
-      if (cosines <= 0 || distance_2 <= offset * offset) continue;
-      const double g = cosines / (pi * distance_2 * distance_2);
-      seen[l] = {y.source->patch, y.position, std::sqrt(distance_2),
-                 (1 - alone_) * g / (g + density(*y.source)), y.source->exitance};
-      put(origins, l, origin);
-      put(ways, l, way + y.normal * offset);
-      active |= 1u << l;
+      const auto facing = pairs.take(l, {x, normal_}, {y.position, y.normal});
+      if (!facing) continue;
+      const double g = facing->cosines_m2 / (pi * facing->distance_2 * facing->distance_2);
+      point_of_pair[l] = {y.source->patch, y.position, std::sqrt(facing->distance_2),
+                          (1 - alone_) * g / (g + density(*y.source)), y.source->exitance};
     }
-    if (active == 0) continue;
-    rays += static_cast<std::uint64_t>(std::popcount(active));
-    for (auto bits = caster.unoccluded_up_to(origins, ways, active); bits != 0; bits &= bits - 1)
-      visit(seen[std::countr_zero(bits)]);
+    rays += pairs.count();
+    pairs.for_each_seen([&](std::size_t l) { visit(point_of_pair[l]); });
   }
   return rays;
 }

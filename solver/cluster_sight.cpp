@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "solver/parallel.h"
+#include "solver/point_pairs.h"
 #include "solver/rng.h"
 #include "solver/sampling.h"
 
@@ -55,7 +56,8 @@ void ClusterSight::group_patches(const View& view, const Scene& scene, double ra
   const auto of_object = ranks_of_objects(scene.mesh);
   std::vector<std::uint32_t> rank;
   for (const auto& patch : hierarchy.patches())
-    rank.push_back(of_object[scene.mesh.triangle_object[static_cast<std::size_t>(patch.triangle)].index()]);
+    rank.push_back(of_object[scene.mesh.triangle_object[static_cast<std::size_t>(patch.triangle)]
+                                 .index()]);
   const auto order = in_neighbourhoods(hierarchy, std::move(all), rank);
   for (std::size_t k = 0; k < order.size(); ++k) {
     // Rather smaller groups than groups across edges, as long as they are not many more.
@@ -87,34 +89,29 @@ void ClusterSight::see(const View& view, std::size_t g, std::size_t c, Share& sh
        .element = mixed(hierarchy.key()[groups_[g].front()],
                         hierarchy.key()[surfaces.first_of(c).patch])});
   const double offset = caster.offset_m();
-  const auto pairs = static_cast<std::uint32_t>(pairs_);
+  const auto count = static_cast<std::uint32_t>(pairs_);
   double seen = 0, facing = 0;
-  for (std::uint32_t pair = 0; pair < pairs;) {
-    Packet origins{}, ways{};
+  for (std::uint32_t pair = 0; pair < count;) {
+    PointPairs pairs(caster);
     double cosines[packet_size] = {};
-    std::uint32_t active = 0;
     for (std::size_t l = 0; l < packet_size; ++l, ++pair) {
       const auto patch = groups_[g][pair % groups_[g].size()];
       const Vec3 n = hierarchy.normal(patch);
-      const Barycentric at = sample_triangle(scrambled_sobol(pair, 0, seeds), scrambled_sobol(pair, 1, seeds));
+      const Barycentric at =
+          sample_triangle(scrambled_sobol(pair, 0, seeds), scrambled_sobol(pair, 1, seeds));
       const Vec3 x = hierarchy.corner(patch, 0) * at.w0 + hierarchy.corner(patch, 1) * at.w1 +
                      hierarchy.corner(patch, 2) * at.w2 + n * offset;
-      const auto y = surfaces.point(c, scrambled_sobol(pair, 2, seeds), scrambled_sobol(pair, 3, seeds));
-      const Vec3 way = y.position - x;
-      const double cos_x = dot(n, way), cos_y = -dot(y.normal, way), distance_2 = dot(way, way);
-      if (cos_x <= 0 || cos_y <= 0 || distance_2 <= offset * offset) continue;
-      cosines[l] = cos_x * cos_y / distance_2;
+      const auto y =
+          surfaces.point(c, scrambled_sobol(pair, 2, seeds), scrambled_sobol(pair, 3, seeds));
+      const auto in_front = pairs.take(l, {x, n}, {y.position, y.normal});
+      if (!in_front) continue;
+      cosines[l] = in_front->cosines_m2 / in_front->distance_2;
       facing += cosines[l];
-      put(origins, l, x);
-      put(ways, l, way + y.normal * offset);
-      active |= 1u << l;
     }
-    if (active == 0) continue;
-    for (auto bits = caster.unoccluded_up_to(origins, ways, active); bits != 0; bits &= bits - 1)
-      seen += cosines[std::countr_zero(bits)];
+    pairs.for_each_seen([&](std::size_t l) { seen += cosines[l]; });
   }
-  share.seen = static_cast<float>(seen / pairs);
-  share.facing = static_cast<float>(facing / pairs);
+  share.seen = static_cast<float>(seen / count);
+  share.facing = static_cast<float>(facing / count);
 }
 
 /// What the groups and clusters around see of each other, of those that face alike.

@@ -1,6 +1,5 @@
 #include "solver/first_mirrored.h"
 
-#include <algorithm>
 #include <bit>
 
 #include "solver/parallel.h"
@@ -42,7 +41,7 @@ class FirstMirrored::LineTask {
     const double share = m_.hierarchy_.area()[patch] / static_cast<double>(count);
     // Packets as in trace_lines, so that the same lines are found to leave.
     for (std::size_t first = 0; first < count; first += packet_size)
-      run_packet(lines, patch, first, std::min(packet_size, count - first), share);
+      run_packet(LinePacket(lines, first, count), patch, first, share);
   }
 
   std::vector<Deposit> sky, ground;
@@ -51,24 +50,16 @@ class FirstMirrored::LineTask {
   std::uint64_t rays = 0;
 
  private:
-  void run_packet(const PatchLines& lines, std::size_t patch, std::size_t first,
-                  std::size_t count, double share) {
-    PatchLines::Line line[packet_size];
-    Packet origins{}, directions{};
-    for (std::size_t l = 0; l < count; ++l) {
-      line[l] = lines[static_cast<std::uint32_t>(first + l)];
-      put(origins, l, line[l].origin);
-      put(directions, l, line[l].w);
-    }
-    const auto hits = m_.caster_.first_hits(origins, directions, (1u << count) - 1u);
-    rays += count;
-    for (std::size_t l = 0; l < count; ++l) {
+  void run_packet(const LinePacket& lines, std::size_t patch, std::size_t first, double share) {
+    const auto hits = lines.first_hits(m_.caster_);
+    rays += lines.count;
+    for (std::size_t l = 0; l < lines.count; ++l) {
       if (!hits[l].left_scene()) continue;
-      const bool up = line[l].w.z > 0;
-      const auto source = up ? static_cast<std::uint32_t>(m_.grid_.cell(line[l].w)) : 0u;
-      const Fate fate =
-          m_.chain_.mirror_on(line[l].origin, line[l].w, patch, source, share,
-                             key(patch, first + l), up ? sky : ground);
+      const auto& [origin, w] = lines.line[l];
+      const bool up = w.z > 0;
+      const auto source = up ? static_cast<std::uint32_t>(m_.grid_.cell(w)) : 0u;
+      const Fate fate = m_.chain_.mirror_on(origin, w, patch, source, share, key(patch, first + l),
+                                            up ? sky : ground);
       (up ? sky_fates[source] : ground_fate) += fate;
       rays += fate.rays;
     }
@@ -186,7 +177,8 @@ class FirstMirrored::SunTask {
       const auto l = static_cast<std::size_t>(std::countr_zero(lit));
       const std::size_t sample = packet * packet_size + l, r = m_.sampler_.realization(sample);
       Vec3 towards = disk ? normalized(at(directions, l)) : sun.direction;
-      if (dot(towards, n) <= 0) towards = sun.direction;  // a disk that is half set behind the mirror
+      // A disk that is half set behind the mirror.
+      if (dot(towards, n) <= 0) towards = sun.direction;
       const RandomKey key{.seed = m_.rules_.seed,
                           .purpose = Purpose::shooting,
                           .realization = static_cast<std::uint32_t>(r),

@@ -79,7 +79,8 @@ struct Moments {
 Moments moments_of(const Hierarchy& hierarchy, const RayCaster& caster, const Guide& guide,
                    const BrightView& view, std::size_t patch, std::size_t count,
                    std::uint64_t seed) {
-  const PatchLines lines(hierarchy, patch, caster.offset_m(), line_seeds(hierarchy, patch, 0, seed));
+  const PatchLines lines(hierarchy, patch, caster.offset_m(),
+                         line_seeds(hierarchy, patch, 0, seed));
   const Vec3 normal = hierarchy.normal(patch);
   const auto radiosity = [&](std::int32_t seen) {
     const BrightSource* source =
@@ -88,20 +89,14 @@ Moments moments_of(const Hierarchy& hierarchy, const RayCaster& caster, const Gu
   };
   Moments sum;
   for (std::size_t first = 0; first < count; first += packet_size) {
-    PatchLines::Line line[packet_size];
-    Packet origins{}, directions{};
-    const std::size_t active = std::min(packet_size, count - first);
-    for (std::size_t l = 0; l < active; ++l) {
-      line[l] = lines[static_cast<std::uint32_t>(first + l)];
-      put(origins, l, line[l].origin);
-      put(directions, l, line[l].w);
-    }
-    const auto hits = caster.first_hits(origins, directions, (1u << active) - 1u);
-    for (std::size_t l = 0; l < active; ++l) {
+    const LinePacket packet(lines, first, count);
+    const auto hits = packet.first_hits(caster);
+    for (std::size_t l = 0; l < packet.count; ++l) {
       const Hit hit = hits[l];
       if (hit.left_scene()) continue;
+      const Vec3 w = packet.line[l].w;
       const double B = radiosity(hierarchy.patch_at(hit.triangle, hit.u, hit.v, hit.front));
-      const double share = view.share_of_line(hierarchy, hit, line[l].w, dot(line[l].w, normal));
+      const double share = view.share_of_line(hierarchy, hit, w, dot(w, normal));
       sum.add(B, share);
       sum.by_lines += share * B;
     }
@@ -145,8 +140,9 @@ Guide lit_surfaces(const Scene& scene, const Hierarchy& hierarchy, const RayCast
                    const SkyGrid& grid, const PatchOptics& optics, const LineRules& rules,
                    int bounces) {
   Watch silent;
-  const double rays = std::max(
-      least_rays, static_cast<double>(hierarchy.patch_count()) * rules.lines_per_patch / lines_share);
+  const double rays =
+      std::max(least_rays, static_cast<double>(hierarchy.patch_count()) * rules.lines_per_patch /
+                               lines_share);
   const auto guide_to = [&](std::span<const double> radiosity) {
     BrightSurfaces bright(scene, hierarchy, radiosity, clusters_for(rules.lines_per_patch));
     ClusterSight sight(scene, hierarchy, caster, bright, rays, rules.seed);

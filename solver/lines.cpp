@@ -102,7 +102,7 @@ class BlockTracer {
                   .element = hierarchy_.key()[patch]};
     const auto count = static_cast<std::size_t>(lines_per_realization());
     for (std::size_t first = 0; first < count; first += packet_size)
-      trace_packet(lines, patch, view, key, first, std::min(packet_size, count - first), into,
+      trace_packet(LinePacket(lines, first, count), patch, view, key, first, into,
                    output.first_light[realization], output.rays);
     if (!view.any()) return;
     key.purpose = Purpose::lamps;
@@ -110,22 +110,15 @@ class BlockTracer {
                                    [&](const auto& point) { follower_.link(point, into); });
   }
 
-  void trace_packet(const PatchLines& lines, std::size_t patch, const BrightView& view,
-                    RandomKey key, std::size_t first, std::size_t count, LineCollector& into,
+  void trace_packet(const LinePacket& lines, std::size_t patch, const BrightView& view,
+                    RandomKey key, std::size_t first, LineCollector& into,
                     MirroredFirstLight& first_light, std::uint64_t& rays) const {
-    PatchLines::Line line[packet_size];
-    Packet origins{}, directions{};
-    for (std::size_t l = 0; l < count; ++l) {
-      line[l] = lines[static_cast<std::uint32_t>(first + l)];
-      put(origins, l, line[l].origin);
-      put(directions, l, line[l].w);
-    }
-    const auto hits = caster_.first_hits(origins, directions, (1u << count) - 1u);
+    const auto hits = lines.first_hits(caster_);
     const Vec3 normal = hierarchy_.normal(patch);
-    rays += count;
-    for (std::size_t l = 0; l < count; ++l) {
+    rays += lines.count;
+    for (std::size_t l = 0; l < lines.count; ++l) {
       const Hit hit = hits[l];
-      const auto& [origin, w] = line[l];
+      const auto& [origin, w] = lines.line[l];
       key.sun = static_cast<std::uint32_t>(first + l);
       rays += follower_.follow(origin, w, hit, key, into,
                                view.share_of_line(hierarchy_, hit, w, dot(w, normal)));
@@ -163,7 +156,8 @@ void add(std::vector<double>& to, const std::vector<double>& from, double factor
 }
 
 void add(MirroredFirstLight& to, const MirroredFirstLight& from, double factor) {
-  MirroredFirstLight::for_each(to, from, [&](auto& sum, const auto& part) { add(sum, part, factor); });
+  MirroredFirstLight::for_each(to, from,
+                               [&](auto& sum, const auto& part) { add(sum, part, factor); });
 }
 
 void trim(LineSet& set, std::size_t block) {
@@ -194,7 +188,8 @@ Lines trace_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaste
     outputs[block] = tracer.trace(begin, end, lines);
     for (auto& set : lines.realizations) trim(set, block);
     trim(lines.pooled, block);
-    watch.advance(Stage::lines, static_cast<double>(done += end - begin) / static_cast<double>(patches));
+    watch.advance(Stage::lines,
+                  static_cast<double>(done += end - begin) / static_cast<double>(patches));
   });
 
   for (const auto& output : outputs) {

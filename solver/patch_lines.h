@@ -2,7 +2,10 @@
 /// with density cosθ/π, both from one Owen-scrambled Sobol sequence.
 #pragma once
 
+#include <algorithm>
+
 #include "solver/hierarchy.h"
+#include "solver/ray_caster.h"
 #include "solver/rng.h"
 #include "solver/sampling.h"
 
@@ -33,6 +36,27 @@ class PatchLines {
   Tangents axes_;
   Vec3 lift_;
   RandomWords seeds_;
+};
+
+/// Up to 16 consecutive lines of a patch, as rays.
+struct LinePacket {
+  /// Lines [first, end) or the first 16 of them.
+  LinePacket(const PatchLines& lines, std::size_t first, std::size_t end)
+      : count(std::min(packet_size, end - first)) {
+    for (std::size_t l = 0; l < count; ++l) {
+      line[l] = lines[static_cast<std::uint32_t>(first + l)];
+      put(origins, l, line[l].origin);
+      put(directions, l, line[l].w);
+    }
+  }
+  PacketHits first_hits(const RayCaster& caster) const {
+    return caster.first_hits(origins, directions, (1u << count) - 1u);
+  }
+
+  std::size_t count;
+  PatchLines::Line line[packet_size];
+  Packet origins{};
+  PacketDirections directions{};
 };
 
 /// Scrambling that makes them the lines that `trace_lines` casts from a patch.

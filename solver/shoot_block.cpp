@@ -1,4 +1,5 @@
 // A block of suns by shooting: every realization for itself, series and totals from their mean.
+#include "solver/block_tally.h"
 #include "solver/instant_spread.h"
 #include "solver/parallel.h"
 #include "solver/shooting.h"
@@ -76,7 +77,7 @@ void LightSolver::shoot_block(std::span<const SunLight> block, std::size_t first
     if (rules_.errors == Errors::instants) spread.add(light);
     add_realization(r, light, block, first_row, tally);
   }
-  store(optics_, mean.in_float(shooter_->lamps()), block, first_row, direct.sunlit, tally);
+  store_patches(optics_, mean.in_float(shooter_->lamps()), block, first_row, direct.sunlit, tally);
   if (rules_.errors == Errors::instants) spread.store(first_row, tally);
 }
 

@@ -24,8 +24,8 @@ namespace sunload {
 
 class Shooter;
 struct ShotLight;
-
-enum class Errors { totals, instants };
+struct TimeSums;
+struct TracedLight;
 
 struct SolverRules {
   int bounces = 5;            ///< light reflected diffusely 1 … bounces times is followed
@@ -85,35 +85,46 @@ class LightSolver {
   const WorkDone& work() const { return work_; }
 
  private:
-  struct TimeSums;
-  struct SunColumns;
-  struct TracedLight;
   bool is_rgb() const { return rules_.bands == Bands::rgb; }
+  BatchTally empty_tally(std::size_t intervals) const;
   TimeSums empty_sums() const;
+  std::span<const SunLight> lit_block(std::span<const SunLight> batch) const;
   void solve_block(std::span<const SunLight> block, std::size_t first_row,
                    std::vector<TimeSums>& sums, std::vector<BatchTally>& tallies);
   TracedLight trace_block(const BlockSources& sources, TimeSums& sums);
-  void trace_sensors(const BlockSources& sources, std::span<const SunBeams> beams, TimeSums& sums,
-                     TracedLight& traced);
-  static void add_exposures(const TracedLight& traced, const BandFactors& factors,
-                            std::span<const SunLight> suns, TimeSums& sums);
-  TracedLight in_band(const TracedLight& traced, const BandFactors& factors) const;
+  void make_columns(TracedLight& traced) const;
+  void trace_sun(const BlockSources& sources, TimeSums& sums, TracedLight& traced);
+  std::vector<SunBeams> trace_mirrors(std::span<const SunLight> block, MirroredIrradiance into,
+                                      std::vector<MirroredSun>& sent_on);
+  std::vector<SunBeams> beams_of(std::span<const SunLight> block) const;
+  void trace_gloss(std::span<const SunLight> block, MirroredIrradiance into,
+                   std::vector<MirroredSun>& sent_on);
+  void trace_sensors(std::span<const SunLight> block, std::span<const SunBeams> beams,
+                     TimeSums& sums, TracedLight& traced);
   void solve_traced(std::size_t band, const BlockSources& sources, TracedLight traced,
                     std::size_t first_row, TimeSums& sums, BatchTally& tally);
-  std::vector<SunBeams> beams_of(std::span<const SunLight> block) const;
+  /// Returns the radiosity that was gathered last.
+  Columns light_patches(const PatchOptics& optics, const BlockSources& sources,
+                        std::size_t first_row, TracedLight& traced, BatchTally& tally);
+  void light_sensors(const PatchOptics& optics, const BlockSources& sources,
+                     const Columns& followed, std::size_t first_row, TracedLight& traced,
+                     ReceiverTally& tally);
+  void book_sun_sent_on(const TracedLight& traced, std::span<const SunLight> block,
+                        std::size_t first_row, TimeSums& sums, BatchTally& tally) const;
+  void book_parallel(std::size_t suns, std::size_t first_row, BatchTally& tally) const;
+  void errors_per_instant(const PatchOptics& optics, const BlockSources& sources,
+                          std::size_t first_row, TracedLight& traced, BatchTally& tally) const;
+  void solve_realizations(std::vector<TimeSums>& sums, std::vector<BatchTally>& tallies);
+  void solve_realization(const PatchOptics& optics, std::size_t r, const TimeSums& sums,
+                         BatchTally& tally) const;
+  /// Returns the radiosity that was gathered last.
+  std::vector<double> realization_of_patches(const PatchOptics& optics, std::size_t r,
+                                             const TimeSums& sums, BatchTally& tally) const;
+  void realization_of_sensors(const PatchOptics& optics, std::size_t r, const TimeSums& sums,
+                              const std::vector<double>& followed, ReceiverTally& tally) const;
   void shoot_block(std::span<const SunLight> block, std::size_t first_row, BatchTally& tally);
   void add_realization(std::size_t r, const ShotLight& light, std::span<const SunLight> block,
                        std::size_t first_row, BatchTally& tally) const;
-  void store(const PatchOptics& optics, const BlockLight& light, std::span<const SunLight> block,
-             std::size_t first_row, const Columns& sunlit, BatchTally& tally) const;
-  void book_sun_sent_on(const TracedLight& traced, std::span<const SunLight> block,
-                        std::size_t first_row, TimeSums& sums, BatchTally& tally) const;
-  void errors_per_instant(const PatchOptics& optics, const BlockSources& sources,
-                          std::size_t first_row, TracedLight& traced, BatchTally& tally) const;
-  void solve_realization(const PatchOptics& optics, std::size_t r, const TimeSums& sums,
-                         BatchTally& tally) const;
-  BatchTally empty_tally(std::span<const SunLight> batch) const;
-  void make_room(ReceiverTally& tally, std::size_t receivers, std::size_t rows) const;
 
   const Scene& scene_;
   SolverRules rules_;

@@ -26,6 +26,36 @@ Ledger scaled(Ledger ledger, double factor) {
   return ledger;
 }
 
+namespace {
+
+void make_room(ReceiverTally& tally, std::size_t receivers, const TallyShape& shape) {
+  const std::size_t values = shape.intervals * receivers;
+  for (std::size_t p = 0; p < part_count; ++p) {
+    if (!shape.parts[p]) continue;
+    tally.irradiance[p].assign(values, 0);
+    tally.exposure[p].assign(receivers, 0);
+  }
+  tally.exposure_realization.assign(shape.realizations, std::vector<double>(receivers, 0));
+  tally.sunlit_s.assign(receivers, 0);
+  tally.irradiance_max.assign(receivers, 0);
+  if (shape.errors == Errors::instants) tally.irradiance_se.assign(values, 0);
+}
+
+}  // namespace
+
+BatchTally empty_tally(const TallyShape& shape) {
+  BatchTally tally;
+  tally.intervals = shape.intervals;
+  make_room(tally, shape.patches, shape);
+  make_room(tally.sensors, shape.sensors, shape);
+  tally.outgoing.assign(shape.patches, 0);
+  tally.ledger.resize(shape.intervals);
+  tally.ledger_realization.resize(shape.realizations);
+  if (shape.errors == Errors::instants)
+    tally.ledger_instants.assign(shape.realizations, std::vector<Ledger>(shape.intervals));
+  return tally;
+}
+
 WorkDone& WorkDone::operator-=(const WorkDone& earlier) {
   line_rays -= earlier.line_rays;
   direct_rays -= earlier.direct_rays;

@@ -49,6 +49,9 @@ struct ReceiverTally {
   std::vector<float> irradiance_max;                         ///< [N]
 };
 
+/// Standard errors of totals alone, or of every interval too.
+enum class Errors { totals, instants };
+
 /// Results of consecutive intervals: of the patches, of sensors, of the scene [J].
 struct BatchTally : ReceiverTally {
   std::size_t intervals = 0;
@@ -60,6 +63,16 @@ struct BatchTally : ReceiverTally {
   Ledger energy;                                             ///< J: time sum of `ledger`
   std::vector<std::vector<Ledger>> ledger_instants;          ///< [R][K] W, if errors per instant are asked for
 };
+
+/// What a tally has room for.
+struct TallyShape {
+  std::size_t patches = 0, sensors = 0, intervals = 0, realizations = 0;
+  std::array<bool, part_count> parts{};  ///< that the scene can have
+  Errors errors = Errors::totals;
+};
+/// All zeros; what errors per instant alone need only where they are asked for. The sun's part per
+/// realization is empty: solvers put theirs there.
+BatchTally empty_tally(const TallyShape& shape);
 
 /// Work done so far and the time it took, per stage.
 struct WorkDone {

@@ -15,7 +15,6 @@ namespace {
 using Facing = SceneBuilder::Facing;
 
 constexpr BandShares red_sun{1.4, 0.9, 0.7}, blue_sky{0.3, 0.8, 1.9};
-const auto everywhere = [](std::size_t) { return true; };
 
 /// Ground, a house of the given wall, a mirror, panes, a crown, a lamp, a sensor.
 Scene court(const Material& wall_material, double exitance = 25) {

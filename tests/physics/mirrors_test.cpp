@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "geo/units.h"
+#include "tests/support/known_truth.h"
 #include "tests/support/reference.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
@@ -17,29 +18,18 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* mirrors = "05_radiosity/mirrors.json";
-const SunLight night = one_second({0, 0, -1}, 0);
 
 SolverRules rules_of(int lines_per_realization, int mirror_depth = 1000) {
-  SolverRules rules = test_rules();
-  rules.realizations = 32;
-  rules.lines_per_patch = rules.realizations * lines_per_realization;
+  SolverRules rules = diffuse_rules(lines_per_realization, 0, 32);
   rules.direct_samples = 32 * 16;
-  rules.bounces = 0;
   rules.mirror_depth = mirror_depth;
   return rules;
 }
 
 void check(const std::string& id, const std::vector<double>& values, double truth, double bias,
            double fault) {
-  const Verdict verdict = expect_mean(values, truth, bias);
-  std::cout << id << ": " << verdict.text << "\n";
-  EXPECT_TRUE(verdict) << id << ": " << verdict.text;
-  constexpr double demanded_error = 0.005;  // of the truth, as a standard error
-  EXPECT_LE(verdict.standard_error, demanded_error * truth) << id << ": " << verdict.text;
-  EXPECT_FALSE(expect_mean(values, fault, bias)) << id << ": planted fault unnoticed";
+  expect_truth(id, values, truth, bias, {.fault = fault, .standard_error = 0.005});
 }
-
-Vec3 point(const json& p) { return {number(p[0]), number(p[1]), number(p[2])}; }
 
 /// A receiver at a point of the ground, cut into 32 triangles, and a lamp above it.
 struct Seen {

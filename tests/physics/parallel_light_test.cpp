@@ -16,7 +16,6 @@ namespace {
 using Facing = SceneBuilder::Facing;
 
 constexpr double exitance = 300;
-const SunLight night = one_second({0, 0, -1}, 0);
 
 /// A source from the corner p with edges x and y; light leaves along x × y.
 void add_source(Scene& scene, Vec3 p, Vec3 x, Vec3 y, double M = exitance) {

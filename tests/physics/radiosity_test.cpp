@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <iostream>
 
 #include "geo/units.h"
+#include "tests/support/known_truth.h"
 #include "tests/support/reference.h"
 #include "tests/support/scenes.h"
-#include "tests/support/statistics.h"
 
 namespace sunload::test {
 namespace {
@@ -19,20 +18,12 @@ using nlohmann::json;
 
 constexpr const char* exact_systems = "05_radiosity/exact_systems.json";
 
-constexpr double demanded_error = 0.005;  // of the truth, as a standard error
-const auto everywhere = [](std::size_t) { return true; };
-const SunLight night = one_second({0, 0, -1}, 0);
-
 /// Both transports must have the same truth.
 class Radiosity : public testing::TestWithParam<Transport> {
  protected:
   static SolverRules rules_of(int lines_per_realization, int bounces) {
-    SolverRules rules = test_rules();
-    rules.realizations = 32;
-    rules.lines_per_patch = rules.realizations * lines_per_realization;
+    SolverRules rules = diffuse_rules(lines_per_realization, bounces, 32);
     rules.direct_samples = 32 * 16;
-    rules.bounces = bounces;
-    rules.mirror_depth = 1000;
     rules.transport = GetParam();
     return rules;
   }
@@ -44,11 +35,7 @@ INSTANTIATE_TEST_SUITE_P(By, Radiosity, testing::Values(Transport::gather, Trans
 
 void check(const std::string& id, const std::vector<double>& values, double truth, double bias,
            double fault = 1.02) {
-  const Verdict verdict = expect_mean(values, truth, bias);
-  EXPECT_TRUE(verdict) << id << ": " << verdict.text;
-  EXPECT_LE(verdict.standard_error, demanded_error * truth) << id << ": " << verdict.text;
-  EXPECT_FALSE(expect_mean(values, truth * fault, bias))
-      << id << ": planted fault unnoticed: " << verdict.text;
+  expect_truth(id, values, truth, bias, {.fault = truth * fault, .standard_error = 0.005});
 }
 
 // One unknown per triangle with exact form factors: B = E + rho H.
@@ -77,14 +64,9 @@ TEST_P(Radiosity, RoomOfTwelveTrianglesHasTheExactRadiosity) {
       auto values = solved.of_patch(t);
       for (auto& H : values) H = M + rho * H;
       const std::string id = c["id"].get<std::string>() + " " + std::to_string(t);
-      const Verdict verdict = expect_mean(values, B, (left + reuse) * B);
-      EXPECT_TRUE(verdict) << id << ": " << verdict.text;
-      EXPECT_LE(verdict.standard_error, demanded_error * B) << id << ": " << verdict.text;
       // Planted fault: the wrong reflectance on the way back, where anything is reflected.
-      if (rho > 0) {
-        EXPECT_FALSE(expect_mean(values, M + (B - M) * 1.05, (left + reuse) * B))
-            << id << ": " << verdict.text;
-      }
+      const auto fault = rho > 0 ? std::optional(M + (B - M) * 1.05) : std::nullopt;
+      expect_truth(id, values, B, (left + reuse) * B, {.fault = fault, .standard_error = 0.005});
     }
   }
 }
@@ -238,9 +220,6 @@ TEST_P(Radiosity, StreetCanyonWithSunAndSky) {
       const auto values = of(fine);
       const double bias = std::abs(mean_error(of(coarse)).mean - mean_error(values).mean);
       const std::string id = c["id"].get<std::string>() + " " + name;
-      std::cout << id << ": "
-                << expect_mean(values, number(c["converged_mean_irradiance"][name]), bias).text
-                << "\n";
       check(id, values, number(c["converged_mean_irradiance"][name]), bias, 1.05);
     };
     check_surface("floor", 0);

@@ -5,12 +5,11 @@
 
 #include <array>
 #include <cmath>
-#include <iostream>
 
 #include "geo/units.h"
+#include "tests/support/known_truth.h"
 #include "tests/support/reference.h"
 #include "tests/support/scenes.h"
-#include "tests/support/statistics.h"
 
 namespace sunload::test {
 namespace {
@@ -19,27 +18,11 @@ using Facing = SceneBuilder::Facing;
 using nlohmann::json;
 
 constexpr const char* exact_systems = "05_radiosity/exact_systems.json";
-constexpr double demanded_error = 0.005;  // of the truth, as a standard error
-const SunLight night = one_second({0, 0, -1}, 0);
-const auto everywhere = [](std::size_t) { return true; };
 
-SolverRules rules_of(int lines_per_realization, int bounces) {
-  SolverRules rules = test_rules();
-  rules.lines_per_patch = rules.realizations * lines_per_realization;
-  rules.direct_samples = rules.realizations;
-  rules.bounces = bounces;
-  rules.mirror_depth = 1000;
-  return rules;
-}
-
-/// Accepted at the demanded standard error, and a truth that is off by `fault` refused.
+/// A truth that is off by `fault` is refused.
 void check(const std::string& id, const std::vector<double>& values, double truth, double bias,
            double fault = 1.03) {
-  const Verdict verdict = expect_mean(values, truth, bias);
-  std::cout << id << ": " << verdict.text << "\n";
-  EXPECT_TRUE(verdict) << id << ": " << verdict.text;
-  EXPECT_LE(verdict.standard_error, demanded_error * std::abs(truth)) << id;
-  EXPECT_FALSE(expect_mean(values, truth * fault, bias)) << id << ": planted fault unnoticed";
+  expect_truth(id, values, truth, bias, {.fault = truth * fault, .standard_error = 0.005});
 }
 
 /// Light that is left when reflections end, as a share of all.
@@ -120,7 +103,7 @@ TEST(BoxOfSixUnknowns, HasTheReferenceIrradiance) {
     const Scene scene = builder.scene();
     constexpr int lines = 1 << 12;
     Watch watch;
-    const LightSolver solver(scene, SplitRules{}, rules_of(lines, 0), watch);
+    const LightSolver solver(scene, SplitRules{}, diffuse_rules(lines, 0), watch);
     std::array<std::vector<double>, faces> H;
     for (const auto& set : solver.lines().realizations) {
       const auto solution = lumped_irradiance(face_factors(set, solver.hierarchy()), c);
@@ -147,7 +130,7 @@ TEST(ConvergedBox, MeansOfFacesAndTheirCentres) {
       scene.sensors.push_back({p, n, sensor_key(p, n)});
     const int bounces = bounces_until(1e-3, most(c["reflectance"]));
     const auto with = [&](double edges) {
-      return solve(scene, {night}, rules_of(64, bounces), {.max_edge_m = std::max({x, y, z}) / edges});
+      return solve(scene, {night}, diffuse_rules(64, bounces), {.max_edge_m = std::max({x, y, z}) / edges});
     };
     const Solved coarse = with(3), fine = with(6);
     for (std::size_t f = 0; f < faces; ++f) {
@@ -157,11 +140,7 @@ TEST(ConvergedBox, MeansOfFacesAndTheirCentres) {
           return static_cast<std::size_t>(s.patches[i].triangle) / 2 == f;
         });
       };
-      const auto at_centre = [&](const Solved& s) {
-        std::vector<double> values;
-        for (const auto& row : s.tally.sensors.exposure_realization) values.push_back(row[f]);
-        return values;
-      };
+      const auto at_centre = [&](const Solved& s) { return of_sensor(s.tally, f); };
       const auto halving = [&](const auto& of) {
         return std::abs(mean_error(of(coarse)).mean - mean_error(of(fine)).mean);
       };
@@ -224,7 +203,7 @@ Scene concentric_cylinders(const json& c, int corners) {
 void check_concentric(const json& c, const Scene& coarse_scene, const Scene& fine_scene, int lines) {
   const double rho_most = most(c["rho"]);
   const int bounces = bounces_until(1e-4, rho_most);
-  const auto solved = [&](const Scene& scene) { return solve(scene, {night}, rules_of(lines, bounces)); };
+  const auto solved = [&](const Scene& scene) { return solve(scene, {night}, diffuse_rules(lines, bounces)); };
   const Solved coarse = solved(coarse_scene), fine = solved(fine_scene);
   for (std::size_t body = 0; body < 2; ++body) {
     const auto B_of = [&](const Solved& s, const Scene& scene) {
@@ -271,7 +250,7 @@ TEST(IntegratingCube, MeanIndirectIrradiance) {
     const Vec3 middle{side / 2, side / 2, side / 2}, h{half, half, half};
     builder.box(middle - h, middle + h, lamp, Facing::outward);
     const int bounces = bounces_until(1e-4, rho);
-    const Solved solved = solve(builder.scene(), {night}, rules_of(64, bounces),
+    const Solved solved = solve(builder.scene(), {night}, diffuse_rules(64, bounces),
                                 {.max_edge_m = side / 4});
     const double surface = 6 * side * side;
     auto indirect = solved.means([&](std::size_t i) { return solved.patches[i].triangle < 12; });
@@ -292,7 +271,7 @@ TEST(TiltedPlane, OverInfiniteGroundUnderAUniformSky) {
                  builder.material({"black", 0, 0, 0}));
     SunLight light = with_uniform_sky(night, 1);
     light.ground_exitance = rho;
-    const Solved solved = solve(builder.scene(), {light}, rules_of(4096, 0));
+    const Solved solved = solve(builder.scene(), {light}, diffuse_rules(4096, 0));
     check(c["id"], solved.means(everywhere), number(c["H"]), 0);
   }
 }

@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <iostream>
 
 #include "geo/units.h"
+#include "tests/support/known_truth.h"
 #include "tests/support/reference.h"
 #include "tests/support/scenes.h"
-#include "tests/support/statistics.h"
 
 namespace sunload::test {
 namespace {
@@ -17,38 +16,13 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* cases_file = "08_smits_jensen_style/cases.json";
-constexpr double demanded_error = 0.005;  // of the truth, as a standard error
-const SunLight night = one_second({0, 0, -1}, 0);
 
-SolverRules rules_of(int lines_per_realization, int bounces = 0) {
-  SolverRules rules = test_rules();
-  rules.lines_per_patch = rules.realizations * lines_per_realization;
-  rules.direct_samples = rules.realizations;
-  rules.bounces = bounces;
-  rules.mirror_depth = 1000;
-  return rules;
+/// A truth that is 3 % off is refused.
+void check(const std::string& id, const std::vector<double>& values, double truth, double bias) {
+  expect_truth(id, values, truth, bias, {.fault = 1.03 * truth, .standard_error = 0.005});
 }
 
-/// Accepted at the demanded standard error, and a truth that is off by `fault` refused.
-void check(const std::string& id, const std::vector<double>& values, double truth, double bias,
-           double fault = 1.03, double largest_error = demanded_error) {
-  const Verdict verdict = expect_mean(values, truth, bias);
-  std::cout << id << ": " << verdict.text << "\n";
-  EXPECT_TRUE(verdict) << id << ": " << verdict.text;
-  EXPECT_LE(verdict.standard_error, largest_error * truth) << id;
-  EXPECT_FALSE(expect_mean(values, truth * fault, bias)) << id << ": planted fault unnoticed";
-}
-
-/// How far lines start above their surface (solver/ray_caster.h: 16 roundings to float).
-double lift(double coordinate) { return 16 * coordinate / (1 << 24); }
-
-Vec3 point(const json& p) { return {number(p[0]), number(p[1]), number(p[2])}; }
-
-struct Stage {
-  SceneBuilder builder;
-  int black = builder.material({"black", 0, 0, 0});
-  int lamp = builder.material({"lamp", 0, 0, 1});
-
+struct Stage : LampStage {
   /// Square of side s at height h over the origin, facing down.
   void square_lamp(double s, double h) {
     const double a = s / 2;
@@ -56,20 +30,12 @@ struct Stage {
   }
 };
 
-/// Irradiance per realization at a point of horizontal ground: as patches have as many lines as
-/// sensors, many sensors stand there with few lines each.
-std::vector<double> on_ground(Scene scene, Vec3 p, int lines, int bounces = 0, double max_edge = 1e9) {
+/// Irradiance per realization at a point of horizontal ground.
+std::vector<double> on_ground(const Scene& scene, Vec3 p, int lines, int bounces = 0,
+                              double max_edge = 1e9) {
   constexpr int lines_of_each = 32;
-  const auto sensors = static_cast<std::size_t>(lines / lines_of_each);
-  for (std::size_t k = 0; k < sensors; ++k) scene.sensors.push_back({p, {0, 0, 1}, k});
-  const Solved solved = solve(scene, {night}, rules_of(lines_of_each, bounces), {.max_edge_m = max_edge});
-  std::vector<double> means;
-  for (const auto& row : solved.tally.sensors.exposure_realization) {
-    double sum = 0;
-    for (const double value : row) sum += value;
-    means.push_back(sum / static_cast<double>(sensors));
-  }
-  return means;
+  return at_point(scene, p, {0, 0, 1}, static_cast<std::size_t>(lines / lines_of_each),
+                  diffuse_rules(lines_of_each, bounces), {.max_edge_m = max_edge});
 }
 
 constexpr int lines = 1 << 13;
@@ -96,7 +62,7 @@ TEST(Emission, WhatTheReceiverMissesLeavesTheScene) {
     Stage stage;
     stage.builder.quad({-a, -a, 0}, {a, -a, 0}, {a, a, 0}, {-a, a, 0}, stage.black);
     stage.square_lamp(s, h);
-    const Solved solved = solve(stage.builder.scene(), {night}, rules_of(1 << 12));
+    const Solved solved = solve(stage.builder.scene(), {night}, diffuse_rules(1 << 12));
     const double bias = F * lift(s + h) / h;
     check(c["id"], solved.means([&](std::size_t i) { return solved.patches[i].triangle < 2; }), F,
           bias);
@@ -166,7 +132,8 @@ TEST(HiddenEmitter, ArrivesByOneReflection) {
     const double bias = std::abs(mean_error(coarse).mean - mean_error(fine).mean) + beyond +
                         2 * E * lift(far);
     constexpr double error_of_faint_light = 0.01;  // lines alone find it in mirrors
-    check(c["id"], fine, E, bias, 1.12, error_of_faint_light);
+    expect_truth(c["id"], fine, E, bias,
+                 {.fault = 1.12 * E, .standard_error = error_of_faint_light});
   }
 }
 

@@ -9,6 +9,7 @@
 #include "geo/sky.h"
 #include "geo/units.h"
 #include "solver/parallel.h"
+#include "tests/support/known_truth.h"
 #include "tests/support/reference.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
@@ -19,38 +20,16 @@ namespace {
 using nlohmann::json;
 using Polygon = std::vector<Vec3>;
 
-const SunLight night = one_second({0, 0, -1}, 0);
-
 SolverRules rules_of(int lines_per_realization) {
-  SolverRules rules = test_rules();
-  rules.realizations = 32;
-  rules.lines_per_patch = rules.realizations * lines_per_realization;
-  rules.direct_samples = rules.realizations;
-  rules.bounces = 0;
-  rules.mirror_depth = 1000;
-  return rules;
-}
-
-Vec3 point(const json& p) { return {number(p[0]), number(p[1]), number(p[2])}; }
-
-Polygon polygon(const json& points) {
-  Polygon p;
-  for (const auto& v : points) p.push_back(point(v));
-  return p;
+  return diffuse_rules(lines_per_realization, 0, 32);
 }
 
 Sensor sensor(Vec3 position, Vec3 normal) {
   return {position, normalized(normal), sensor_key(position, normal)};
 }
 
-/// How far points start above their surface (solver/ray_caster.h: 16 roundings to float).
-double lift(double coordinate) { return 16 * coordinate / (1 << 24); }
-
 /// A scene, and the sensors in it.
-struct Stage {
-  SceneBuilder builder;
-  int black = builder.material({"black", 0, 0, 0});
-  int lamp = builder.material({"lamp", 0, 0, 1});
+struct Stage : LampStage {
   std::vector<Sensor> sensors;
 
   Stage& add(const Polygon& p, int material) {
@@ -68,19 +47,10 @@ struct Stage {
   }
 };
 
-std::vector<double> of_sensor(const BatchTally& tally, std::size_t s) {
-  std::vector<double> values;
-  for (const auto& row : tally.sensors.exposure_realization) values.push_back(row[s]);
-  return values;
-}
-
 /// Accepted, and a truth that is off by `fault` refused.
 void check(const std::string& id, const std::vector<double>& values, double truth, double bias,
            double fault = 1.02) {
-  const Verdict verdict = expect_mean(values, truth, bias);
-  std::cout << id << ": " << verdict.text << "\n";
-  EXPECT_TRUE(verdict) << id << ": " << verdict.text;
-  EXPECT_FALSE(expect_mean(values, truth * fault, bias)) << id << ": planted fault unnoticed";
+  expect_truth(id, values, truth, bias, {.fault = truth * fault, .standard_error = {}});
 }
 
 /// Lines of a realization by which a form factor is known to some 0.1 %. Patches have as many.

@@ -18,7 +18,6 @@ namespace {
 
 using Facing = SceneBuilder::Facing;
 
-const SunLight night = one_second({0, 0, -1}, 0);
 
 /// The ledger of shooting closes to this share of what comes in (DESIGN 5).
 constexpr double closes = 1e-6;

@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "solver/push_pull.h"
+#include "tests/support/known_truth.h"
 #include "tests/support/reference.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
@@ -19,19 +20,10 @@ using Facing = SceneBuilder::Facing;
 
 constexpr double exitance = 50;
 
-SolverRules rules_of(int lines_per_realization) {
-  SolverRules rules = test_rules();
-  rules.realizations = 32;
-  rules.lines_per_patch = rules.realizations * lines_per_realization;
-  rules.direct_samples = rules.realizations;
-  rules.bounces = 0;
-  return rules;
-}
-
 /// Irradiance by emitters of one scene [realization][patch], and what lines alone say of it.
 struct ByLamps {
   ByLamps(const Scene& scene, const SplitRules& split, int lines_per_realization)
-      : solver(scene, split, rules_of(lines_per_realization), watch) {
+      : solver(scene, split, diffuse_rules(lines_per_realization, 0, 32), watch) {
     const auto optics = patch_optics(scene, solver.hierarchy());
     std::vector<double> emission(optics.emission.begin(), optics.emission.end());
     emission.resize(solver.hierarchy().element_count());
@@ -158,11 +150,8 @@ std::vector<double> received(const ByLamps& light, const Scene& scene, std::size
 }
 
 void check(const std::string& what, const std::vector<double>& E, double truth, double bias = 0) {
-  constexpr double fault = 1.02;
-  const Verdict verdict = expect_mean(E, truth, bias + float_rounding * truth);
-  std::cout << what << ": " << verdict.text << "\n";
-  EXPECT_TRUE(verdict) << what << ": " << verdict.text;
-  EXPECT_FALSE(expect_mean(E, truth * fault, bias + float_rounding * truth)) << what;
+  expect_truth(what, E, truth, bias + float_rounding * truth,
+               {.fault = 1.02 * truth, .standard_error = {}});
 }
 
 // Unit squares, one over the other at distance 1, lit by each other; and at a right angle,

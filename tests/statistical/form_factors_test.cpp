@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
+#include "tests/support/known_truth.h"
 #include "tests/support/reference.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
@@ -20,14 +20,6 @@ using nlohmann::json;
 
 constexpr const char* closed_forms = "04_form_factors/closed_forms.json";
 constexpr const char* triangle_pairs = "04_form_factors/triangle_pairs.json";
-
-Vec3 point(const json& p) { return {number(p[0]), number(p[1]), number(p[2])}; }
-
-Polygon polygon(const json& points) {
-  Polygon p;
-  for (const auto& v : points) p.push_back(point(v));
-  return p;
-}
 
 /// Adds a polygon as a fan of triangles, each cut into pieces² congruent ones.
 std::size_t add(SceneBuilder& builder, const Polygon& p, int material, int pieces = 1) {
@@ -47,22 +39,10 @@ std::size_t add(SceneBuilder& builder, const Polygon& p, int material, int piece
 constexpr int receiver_pieces = 4;
 
 SolverRules rules_of(int lines_per_realization) {
-  SolverRules rules = test_rules();
-  rules.realizations = 32;
-  rules.lines_per_patch = rules.realizations * lines_per_realization;
-  rules.direct_samples = rules.realizations;
-  rules.bounces = 0;
-  rules.mirror_depth = 1000;
-  return rules;
+  return diffuse_rules(lines_per_realization, 0, 32);
 }
 
-const SunLight night = one_second({0, 0, -1}, 0);
-
-/// Materials of these scenes.
-struct Stage {
-  SceneBuilder builder;
-  int black = builder.material({"black", 0, 0, 0});
-  int lamp = builder.material({"lamp", 0, 0, 1});
+struct Stage : LampStage {
   int mirror = builder.material({"mirror", 0, 1, 0});
 };
 
@@ -89,9 +69,6 @@ double largest_coordinate(const Polygon& a, const Polygon& b) {
       largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   return largest;
 }
-
-/// How far lines start above their surface (solver/ray_caster.h: 16 roundings to float).
-double lift(double coordinate) { return 16 * coordinate / (1 << 24); }
 
 /// Smallest distance of p to a polygon, from a lattice of points on it.
 double distance(Vec3 p, const Polygon& q) {
@@ -122,12 +99,7 @@ double lift_bias(const Polygon& from, const Polygon& to) {
 
 /// Accepted, precise to 0.2 %, and a truth that is 2 % off refused.
 void check(const std::string& id, const std::vector<double>& F, double truth, double bias) {
-  constexpr double wanted_precision = 2e-3, fault = 1.02;
-  const Verdict verdict = expect_mean(F, truth, bias);
-  std::cout << id << ": " << verdict.text << "\n";
-  EXPECT_TRUE(verdict) << id << ": " << verdict.text;
-  EXPECT_LE(verdict.standard_error, wanted_precision * truth) << id;
-  EXPECT_FALSE(expect_mean(F, truth * fault, bias)) << id << ": planted fault unnoticed";
+  expect_truth(id, F, truth, bias, {.fault = 1.02 * truth, .standard_error = 0.002});
 }
 
 /// Lines per piece and realization, enough for some 0.2 % of a form factor: about 40 hits.

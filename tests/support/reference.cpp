@@ -88,4 +88,14 @@ bool shared_missing(const std::string& relative_path) {
   return true;
 }
 
+Vec3 point(const nlohmann::json& value) {
+  return {number(value[0]), number(value[1]), number(value[2])};
+}
+
+std::vector<Vec3> polygon(const nlohmann::json& points) {
+  std::vector<Vec3> corners;
+  for (const auto& value : points) corners.push_back(point(value));
+  return corners;
+}
+
 }  // namespace sunload::test

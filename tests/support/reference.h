@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "geo/vec.h"
+
 namespace sunload::test {
 
 /// One row of a CSV table by column name.
@@ -24,6 +26,9 @@ std::vector<nlohmann::json> reference_cases(const std::string& name,
 /// A number that the JSON files give as number or as text with all its digits.
 double number(const nlohmann::json& value);
 double number(const Row& row, const std::string& column);
+/// A list of three numbers, and one of points.
+Vec3 point(const nlohmann::json& value);
+std::vector<Vec3> polygon(const nlohmann::json& points);
 
 /// True where the file or folder (relative to the shared folder) is not there; prints
 /// `NOT RUN: <test>: <path> is missing` so that the test's output names it.

@@ -117,6 +117,12 @@ std::vector<double> Solved::of_patch(std::size_t patch) const {
   return means([&](std::size_t i) { return i == patch; });
 }
 
+std::vector<double> of_sensor(const BatchTally& tally, std::size_t sensor) {
+  std::vector<double> values;
+  for (const auto& row : tally.sensors.exposure_realization) values.push_back(row[sensor]);
+  return values;
+}
+
 std::vector<double> Solved::ledger(const std::function<double(const Ledger&)>& quantity) const {
   std::vector<double> values;
   for (const auto& ledger : tally.ledger_realization) values.push_back(quantity(ledger));

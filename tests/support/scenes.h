@@ -41,6 +41,9 @@ SunLight one_second(Vec3 sun_direction, double dni);
 /// Adds a uniform sky of that horizontal irradiance.
 SunLight with_uniform_sky(SunLight light, double dhi, const SkyGrid& grid = SkyGrid());
 
+/// Neither sun nor sky.
+inline const SunLight night = one_second({0, 0, -1}, 0);
+
 struct Solved {
   std::vector<double> area;
   std::vector<Patch> patches;
@@ -54,6 +57,12 @@ struct Solved {
   /// A ledger quantity per realization.
   std::vector<double> ledger(const std::function<double(const Ledger&)>& quantity) const;
 };
+
+/// Irradiance of a sensor per realization.
+std::vector<double> of_sensor(const BatchTally& tally, std::size_t sensor);
+
+/// Chooses all patches.
+inline bool everywhere(std::size_t /*patch*/) { return true; }
 
 /// Solves one batch; the defaults suit tests: 16 realizations, errors of totals.
 SolverRules test_rules();
