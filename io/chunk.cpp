@@ -180,7 +180,9 @@ Bytes zlib_stream(const Bytes& planes, std::size_t values, int level) {
   if (length == 0 || head + length + check_bytes >= planes.size()) return {};
   to = put_number(to + length, libdeflate_adler32(1, planes.data(), planes.size()), check_bytes,
                   std::endian::big);
-  return {stream.data(), to};
+  Bytes whole;  // GCC 12 warns of memory that is not freed where it is built at once
+  whole.assign(stream.data(), to);
+  return whole;
 }
 
 Bytes encoded(const Piece& piece, int level) {
