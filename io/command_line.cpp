@@ -243,13 +243,15 @@ class CommandLine {
 
   /// Which band of a result in bands.
   void add_band(CLI::App* sub) {
-    sub->add_option("--band", result_.band,
+    sub->add_option("--band", band_,
                     "of a result with solver.bands: rgb: red, green or blue (default: their mean)");
   }
 
+  NamedResult result() const { return {results_.front(), band_}; }
+
   void add_info() {
     CLI::App* sub = command("info", "what a result holds, on one screen", [this] {
-      return print_info(result_, patches_ ? InfoFormat::patches_csv : InfoFormat::screen);
+      return print_info(result(), patches_ ? InfoFormat::patches_csv : InfoFormat::screen);
     });
     add_result(sub);
     sub->add_flag("--patches", patches_, "every patch as CSV");
@@ -257,13 +259,13 @@ class CommandLine {
   }
 
   void add_result(CLI::App* sub) {
-    sub->add_option("RESULT", result_.path, "result file (.h5)")->required();
+    sub->add_option("RESULT", results_, "result file (.h5)")->required()->expected(1);
   }
 
   void add_compare() {
     CLI::App* sub =
         command("compare", "differences of the light load with their significance", [this] {
-          compare_.band = result_.band;
+          compare_.band = band_;
           if (json_) compare_.format = CompareOptions::Format::json;
           if (csv_) compare_.format = CompareOptions::Format::csv;
           return compare(compare_);
@@ -281,7 +283,7 @@ class CommandLine {
 
   void add_render() {
     CLI::App* sub = command("render", "picture of a result in false colour, with legend", [this] {
-      render_.result = result_;
+      render_.result = result();
       RenderRules& rules = render_.rules;
       if (largest_ > 0) rules.largest = largest_;
       if (mesh_lines_) rules.mesh = MeshLines::patches;
@@ -329,7 +331,7 @@ class CommandLine {
     CLI::App* sub = command(
         "view", "one self-contained page: walk through the scene, any time, two results", [this] {
           if (view_step_ > 0) view_.step = view_step_;
-          view_.band = chosen_band(result_.band);
+          view_.band = chosen_band(band_);
           view_html(results_, view_, picture_);
           return exit_code::done;
         });
@@ -343,7 +345,7 @@ class CommandLine {
 
   void add_export() {
     CLI::App* sub = command("export", "a result in the format of another program", [this] {
-      export_result(ResultReader(result_.path, chosen_band(result_.band)), export_, picture_);
+      export_result(ResultReader(results_.front(), chosen_band(band_)), export_, picture_);
       return exit_code::done;
     });
     add_result(sub);
@@ -390,8 +392,7 @@ class CommandLine {
 
   CLI::App app_{"sunload: how much sun and sky light falls on every patch of a city"};
   std::function<int()> action_;
-  std::string study_, picture_, shard_, subdivision_ = "cells";
-  NamedResult result_;
+  std::string study_, picture_, shard_, band_, subdivision_ = "cells";
   std::vector<std::string> results_;
   RunOptions options_;
   CompareOptions compare_;
