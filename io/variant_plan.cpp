@@ -140,23 +140,13 @@ void refuse_lamps_in_lux(const VariantPlan& plan) {
                    "set their emission_w_m2 to 0, or light.quantity to irradiance");
 }
 
-/// What asks for the lines of gathering.
-void refuse_what_shooting_has_not(const VariantPlan& plan) {
-  const Study& study = plan.study;
-  if (study.solver.transport != Transport::shoot) return;
-  Problems problems;
-  const auto refuse = [&](const Where& where, const std::string& key, const std::string& why) {
-    problems.add(where, key + " cannot go with solver.transport: shoot", why,
-                 "write transport: gather, or leave " + key + " away");
-  };
-  if (!study.scene.parallel_sources.empty())
-    refuse(study.scene.parallel_sources_where, "scene.parallel_sources",
-           "shooting sends the light of sun, sky and the scene's own emitters");
-  if (!plan.built.scene.sensors.empty())
-    refuse({}, "sensors", "they gather by lines of their own, and what is shot meets surfaces only");
-  if (study.solver.accuracy)
-    refuse({}, "solver.accuracy", "its pilot counts the lines of gathering");
-  problems.throw_if_any();
+/// The pilot counts the lines of gathering.
+void refuse_accuracy_of_shots(const VariantPlan& plan) {
+  const SolverStudy& solver = plan.study.solver;
+  if (solver.transport != Transport::shoot || !solver.accuracy) return;
+  throw InputError({}, "solver.accuracy cannot go with solver.transport: shoot",
+                   "its pilot counts the lines of gathering",
+                   "write transport: gather, or leave solver.accuracy away");
 }
 
 /// Samples of all shots: those of the first reflection, then (incremental) less by what is
@@ -194,7 +184,7 @@ VariantPlan make_plan(const Study& study) {
   plan.built = build_scene(study);
   plan.light = light_series(study, plan.built.site);
   refuse_lamps_in_lux(plan);
-  refuse_what_shooting_has_not(plan);
+  refuse_accuracy_of_shots(plan);
   plan.content_hash = content_hash(plan, plan.isa);
   plan.pairing_id = pairing_id(plan);
   return plan;

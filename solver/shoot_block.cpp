@@ -2,9 +2,11 @@
 #include "solver/block_tally.h"
 #include "solver/instant_spread.h"
 #include "solver/parallel.h"
+#include "solver/sensor_light.h"
 #include "solver/shooting.h"
 #include "solver/solver.h"
 #include "solver/stopwatch.h"
+#include "solver/traced_light.h"
 
 namespace sunload {
 
@@ -12,83 +14,126 @@ namespace {
 
 constexpr std::size_t patches_per_task = 1024;
 
-/// Mean over realizations.
+/// Mean over realizations, of patches or sensors.
 class MeanLight {
  public:
-  MeanLight(std::size_t patches, std::size_t realizations)
-      : of_one_(1.0 / static_cast<double>(realizations)) {
-    for (auto& part : parts_) part = double_columns(patches);
+  MeanLight(std::size_t receivers, std::size_t realizations)
+      : of_one_(1.0 / static_cast<double>(realizations)), lamps_(receivers, 0) {
+    for (auto& part : parts_) part = double_columns(receivers);
   }
-  void add(const ShotLight& light) {
-    const std::array from{&light.direct, &light.sky, &light.mirror, &light.reflected};
-    parallel_for(from[0]->size() / block_width, [&](std::size_t i) {
-      for (std::size_t p = 0; p < from.size(); ++p)
-        for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k)
-          parts_[p][k] += of_one_ * (*from[p])[k];
-    }, patches_per_task);
-  }
-  BlockLight in_float(std::vector<float> lamps) const {
+  void add(const ShotLight& light) { add(light, *light.lamps); }
+  void add(const BlockLight& light) { add(light, light.lamps); }
+  BlockLight in_float() const {
     const auto to_float = [](const DoubleColumns& part) { return Columns(part.begin(), part.end()); };
     BlockLight light;
     light.direct = to_float(parts_[0]);
     light.sky = to_float(parts_[1]);
     light.mirror = to_float(parts_[2]);
     light.reflected = to_float(parts_[3]);
-    light.lamps = std::move(lamps);
+    light.lamps.assign(lamps_.begin(), lamps_.end());
     return light;
   }
 
  private:
+  template <class Light, class Lamps>
+  void add(const Light& light, const Lamps& lamps) {
+    const std::array from{&light.direct, &light.sky, &light.mirror, &light.reflected};
+    parallel_for(lamps_.size(), [&](std::size_t i) {
+      for (std::size_t p = 0; p < from.size(); ++p)
+        for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k)
+          parts_[p][k] += of_one_ * static_cast<double>((*from[p])[k]);
+      lamps_[i] += of_one_ * static_cast<double>(lamps[i]);
+    }, patches_per_task);
+  }
+
   double of_one_;
   std::array<DoubleColumns, 4> parts_;  ///< direct, sky, mirror, reflected
+  std::vector<double> lamps_;
 };
+
+/// Adds the time sums of one realization to its exposures.
+template <class Light>
+void add_exposure(const Light& light, std::span<const SunLight> block,
+                  std::vector<double>& exposure) {
+  parallel_for(exposure.size(), [&](std::size_t i) {
+    for (std::size_t k = 0; k < block.size(); ++k)
+      exposure[i] += static_cast<double>(light.total(i, k)) * block[k].length_s;
+  }, patches_per_task);
+}
 
 }  // namespace
 
 void LightSolver::shoot_block(std::span<const SunLight> block, std::size_t first_row,
                               BatchTally& tally) {
-  const std::size_t patches = hierarchy_.patch_count();
-  const auto realizations = static_cast<std::size_t>(rules_.realizations);
   const BlockSources sources(block, static_cast<std::size_t>(grid_.cell_count()));
-  std::vector<Columns> direct_of(realizations, columns(patches));
-  // Totals come from the series of each realization, which the direct sun is part of.
-  std::vector<std::vector<double>> unused(realizations, std::vector<double>(patches, 0));
-  DirectSun direct;
-  {
-    const Stopwatch time(work_.direct_s);
-    direct = direct_sun(caster_, sampler_, block, unused, &direct_of);
-    work_.direct_rays += direct.rays;
-  }
-  FirstMirrored::SentSuns sent;
-  {
-    const Stopwatch time(work_.mirror_s);
-    sent = shooter_->send_sun(block);
-    work_.mirror_rays += sent.rays;
-  }
-
+  TracedLight traced = trace_for_shooting(sources);
+  const FirstMirrored::SentSuns sent = send_sun(block);
   const Stopwatch time(work_.shoot_s);
-  MeanLight mean(patches, realizations);
-  InstantSpread spread(patches, block.size());
+  const auto realizations = static_cast<std::size_t>(rules_.realizations);
+  const std::size_t sensors = scene_.sensors.size();
+  MeanLight mean(hierarchy_.patch_count(), realizations), on_sensors(sensors, realizations);
+  InstantSpread spread(hierarchy_.patch_count(), block.size()), of_sensors(sensors, block.size());
   for (std::size_t r = 0; r < realizations; ++r) {
-    const ShotLight light = shooter_->light(r, sources, direct_of[r], sent);
+    const ShotLight light = shooter_->light(r, sources, traced.of_patches.direct[r], sent);
     work_.samples += light.samples;
     work_.shot_rays += light.rays;
     mean.add(light);
-    if (rules_.errors == Errors::instants) spread.add(light);
+    spread.add(light);
     add_realization(r, light, block, first_row, tally);
+    if (sensors == 0) continue;
+    const BlockLight received = shot_to_sensors(r, sources, light, traced.of_sensors);
+    on_sensors.add(received);
+    of_sensors.add(received);
+    add_exposure(received, block, tally.sensors.exposure_realization[r]);
   }
-  store_patches(optics_, mean.in_float(shooter_->lamps()), block, first_row, direct.sunlit, tally);
-  if (rules_.errors == Errors::instants) spread.store(first_row, tally);
+  store_patches(optics_, mean.in_float(), block, first_row, traced.direct.sunlit, tally);
+  if (sensors > 0)
+    store_received(on_sensors.in_float(), block, first_row, traced.on_sensors.sunlit,
+                   tally.sensors);
+  if (rules_.errors != Errors::instants) return;
+  spread.store(first_row, tally);
+  of_sensors.store(first_row, tally.sensors);
+}
+
+/// The direct sun of every realization, and what comes to sensors by planar mirrors.
+TracedLight LightSolver::trace_for_shooting(const BlockSources& sources) {
+  const auto realizations = static_cast<std::size_t>(rules_.realizations);
+  TracedLight traced;
+  traced.of_patches = {realizations, hierarchy_.patch_count()};
+  traced.of_sensors = {realizations, scene_.sensors.size()};
+  // Totals come from the series of each realization, which these are part of.
+  TimeSums unused(realizations, hierarchy_.patch_count(), scene_.sensors.size(), 0);
+  {
+    const Stopwatch time(work_.direct_s);
+    traced.direct = direct_sun(caster_, sampler_, sources.suns, unused.direct,
+                               &traced.of_patches.direct);
+    work_.direct_rays += traced.direct.rays;
+  }
+  if (scene_.sensors.empty()) return traced;
+  const auto beams = mirrors_.size() > 0 ? beams_of(sources.suns) : std::vector<SunBeams>{};
+  trace_sensors(sources.suns, beams, unused, traced);
+  return traced;
+}
+
+FirstMirrored::SentSuns LightSolver::send_sun(std::span<const SunLight> block) {
+  const Stopwatch time(work_.mirror_s);
+  auto sent = shooter_->send_sun(block);
+  work_.mirror_rays += sent.rays;
+  return sent;
+}
+
+/// Sensors gather what patches have shot.
+BlockLight LightSolver::shot_to_sensors(std::size_t r, const BlockSources& sources,
+                                        const ShotLight& light, SunColumns& of_sensors) const {
+  return sensor_light(sensor_lines_.realizations[r], optics_, sources,
+                      std::move(of_sensors.direct[r]), std::move(of_sensors.by_mirror[r]),
+                      sensor_parallel_.of(r), Columns(light.followed.begin(), light.followed.end()));
 }
 
 void LightSolver::add_realization(std::size_t r, const ShotLight& light,
                                   std::span<const SunLight> block, std::size_t first_row,
                                   BatchTally& tally) const {
-  auto& exposure = tally.exposure_realization[r];
-  parallel_for(exposure.size(), [&](std::size_t i) {
-    for (std::size_t k = 0; k < block.size(); ++k)
-      exposure[i] += light.total(i, k) * block[k].length_s;
-  }, patches_per_task);
+  add_exposure(light, block, tally.exposure_realization[r]);
   for (std::size_t k = 0; k < block.size(); ++k) {
     const Ledger& ledger = light.ledger[k];
     tally.ledger[first_row + k] +=

@@ -50,8 +50,9 @@ DoubleColumns ground_exitance(const BlockSources& sources) {
 }  // namespace
 
 Shooter::Shooter(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-                 const SunSampler& sampler, const SkyGrid& grid, const Lines& lines,
-                 const LineRules& line_rules, const ShootingRules& rules)
+                 const SunSampler& sampler, const SkyGrid& grid, const PatchOptics& optics,
+                 const Lines& lines, const ParallelLight& parallel, const LineRules& line_rules,
+                 const ShootingRules& rules)
     : hierarchy_(hierarchy),
       caster_(caster),
       lines_(lines),
@@ -68,20 +69,11 @@ Shooter::Shooter(const Scene& scene, const Hierarchy& hierarchy, const RayCaster
     sends_on_.push_back(sends_on(m));
   }
   shoot_emitters();
+  if (!parallel.ledger.empty()) add_parallel(parallel, optics);
 }
 
 FirstMirrored::SentSuns Shooter::send_sun(std::span<const SunLight> block) const {
   return first_mirrored_.send(block);
-}
-
-std::vector<float> Shooter::lamps() const {
-  std::vector<float> mean;
-  for (std::size_t i = 0; i < emission_.size(); ++i) {
-    double sum = 0;
-    for (const auto& of : emitters_) sum += of.irradiance[i];
-    mean.push_back(static_cast<float>(sum / static_cast<double>(emitters_.size())));
-  }
-  return mean;
 }
 
 /// The samples of one chunk of patches, traced in packets that patches share.
@@ -214,6 +206,19 @@ void Shooter::shoot_emitters() {
   }
 }
 
+/// Its ledger holds what meets the scene and what mirrors send on, not what patches absorb of it.
+void Shooter::add_parallel(const ParallelLight& parallel, const PatchOptics& optics) {
+  for (std::size_t r = 0; r < emitters_.size(); ++r) {
+    OfEmitters& of = emitters_[r];
+    of.parallel = parallel.ledger[r];
+    for (std::size_t i = 0; i < of.irradiance.size(); ++i) {
+      const double E = parallel.irradiance[r][i];
+      of.irradiance[i] += E;
+      of.parallel[Term::absorbed] += hierarchy_.area()[i] * optics.absorbed(i) * E;
+    }
+  }
+}
+
 DoubleColumns Shooter::reflected_power(const DoubleColumns& received) const {
   DoubleColumns power(received.size());
   parallel_for(diffuse_.size(), [&](std::size_t i) {
@@ -225,7 +230,7 @@ DoubleColumns Shooter::reflected_power(const DoubleColumns& received) const {
 
 Shooter::Reflected Shooter::reflect(const DoubleColumns& first, std::size_t realization,
                                     std::uint32_t sun) const {
-  Reflected out{double_columns(diffuse_.size()), {}};
+  Reflected out{double_columns(diffuse_.size()), double_columns(diffuse_.size()), {}};
   DoubleColumns power = reflected_power(first);
   const SunTotals first_total = total_power(power);
   SunTotals total = first_total, sent{};
@@ -239,11 +244,13 @@ Shooter::Reflected Shooter::reflect(const DoubleColumns& first, std::size_t real
     out.samples += shot.samples;
     out.rays += shot.rays;
     if (rules_.jacobi == Jacobi::incremental) {
+      add(out.followed, power);
       power = reflected_power(shot.irradiance);
       add(out.irradiance, shot.irradiance);
       out.fates += shot.fates;
     } else {
       sent = total;
+      out.followed = std::move(power);
       out.irradiance = std::move(shot.irradiance);
       out.fates = shot.fates;
       DoubleColumns received = first;
@@ -253,6 +260,8 @@ Shooter::Reflected Shooter::reflect(const DoubleColumns& first, std::size_t real
     total = total_power(power);
   }
   for (std::size_t k = 0; k < block_width; ++k) out.unshot[k] = total[k] - sent[k];
+  for (std::size_t i = 0; i < out.followed.size(); ++i)
+    out.followed[i] /= hierarchy_.area()[i / block_width];
   return out;
 }
 
@@ -334,6 +343,7 @@ ShotLight Shooter::light(std::size_t realization, const BlockSources& sources,
   }, patches_per_task);
   Reflected reflected = reflect(first, realization, sources.suns.front().number);
   light.reflected = std::move(reflected.irradiance);
+  light.followed = std::move(reflected.followed);
   add(light.reflected, ground);
   fates += reflected.fates;
   light.samples = reflected.samples;
@@ -343,11 +353,13 @@ ShotLight Shooter::light(std::size_t realization, const BlockSources& sources,
   for (std::size_t k = 0; k < sources.suns.size(); ++k) {
     Ledger& ledger = light.ledger[k];
     const Fate& lamps = emitters.fate;
-    ledger.lost_at_backs = fates.backs[k] + lamps.backs;
-    ledger[Term::absorbed] += fates.absorbed[k] + lamps.absorbed + ledger.lost_at_backs;
-    ledger[Term::transmitted] = fates.transmitted[k] + lamps.transmitted;
-    ledger[Term::escaped] = fates.escaped[k] + lamps.escaped;
-    ledger[Term::unshot] = reflected.unshot[k] + fates.cut[k] + lamps.cut;
+    ledger += emitters.parallel;
+    const double backs = fates.backs[k] + lamps.backs;
+    ledger.lost_at_backs += backs;
+    ledger[Term::absorbed] += fates.absorbed[k] + lamps.absorbed + backs;
+    ledger[Term::transmitted] += fates.transmitted[k] + lamps.transmitted;
+    ledger[Term::escaped] += fates.escaped[k] + lamps.escaped;
+    ledger[Term::unshot] += reflected.unshot[k] + fates.cut[k] + lamps.cut;
   }
   return light;
 }

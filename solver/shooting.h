@@ -9,7 +9,7 @@
 /// results are added. Regular: P_i = A_i rho_i (E_0 + E_reflected) of all of it
 /// again, with new samples. E_0 is what arrives without diffuse reflection:
 /// direct sun and sky as when gathering, what mirrors send on (first_mirrored),
-/// and the emitters' power, which is shot once.
+/// the light of parallel sources, and the emitters' power, which is shot once.
 ///
 /// Samples are independent from iteration to iteration and from realization to
 /// realization: unbiased but for the light that is not followed. All suns of a
@@ -24,6 +24,7 @@
 
 #include "solver/block_light.h"
 #include "solver/first_mirrored.h"
+#include "solver/parallel_light.h"
 #include "solver/shot_power.h"
 #include "solver/tally.h"
 #include "solver/transport.h"
@@ -42,6 +43,7 @@ struct ShootingRules {
 /// Light of one realization of a block, [N][block] W m-2.
 struct ShotLight {
   DoubleColumns direct, sky, mirror, reflected;
+  DoubleColumns followed;                      ///< radiosity that was shot
   const std::vector<double>* lamps = nullptr;  ///< [N], the same for all suns
   std::array<Ledger, block_width> ledger;      ///< W
   std::uint64_t samples = 0, rays = 0;         ///< shot; cast for them, chains included
@@ -54,10 +56,11 @@ struct ShotLight {
 class Shooter {
  public:
   /// Sends on what mirrors receive from sky and ground, and shoots the emitters.
-  /// `lines` are those of trace_lines by `line_rules`.
+  /// `lines` are those of trace_lines by `line_rules`; `parallel` is with what mirrors send on.
   Shooter(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-          const SunSampler& sampler, const SkyGrid& grid, const Lines& lines,
-          const LineRules& line_rules, const ShootingRules& rules);
+          const SunSampler& sampler, const SkyGrid& grid, const PatchOptics& optics,
+          const Lines& lines, const ParallelLight& parallel, const LineRules& line_rules,
+          const ShootingRules& rules);
 
   /// The sun's light that mirrors send on, for all realizations of a block at once.
   FirstMirrored::SentSuns send_sun(std::span<const SunLight> block) const;
@@ -66,8 +69,6 @@ class Shooter {
   ShotLight light(std::size_t realization, const BlockSources& sources, const Columns& direct,
                   const FirstMirrored::SentSuns& sent) const;
 
-  /// Irradiance by the emitters, mean over realizations.
-  std::vector<float> lamps() const;
   /// Of the constructor: samples shot by emitters; rays cast, chains included.
   std::uint64_t samples() const { return samples_; }
   std::uint64_t rays() const { return rays_; }
@@ -82,11 +83,13 @@ class Shooter {
     std::uint64_t samples = 0, rays = 0;
   };
   struct OfEmitters {
-    std::vector<double> irradiance;
-    Fate fate;  ///< W
+    std::vector<double> irradiance;  ///< parallel sources included
+    Fate fate;                       ///< of diffuse emitters' power [W]
+    Ledger parallel;                 ///< [W]
   };
   struct Reflected {
     DoubleColumns irradiance;
+    DoubleColumns followed;  ///< radiosity that was shot
     Fates fates;
     SunTotals unshot{};
     std::uint64_t samples = 0, rays = 0;
@@ -94,6 +97,7 @@ class Shooter {
   class Task;
   Shot shoot(const DoubleColumns& power, double samples, const Address& address) const;
   void shoot_emitters();
+  void add_parallel(const ParallelLight& parallel, const PatchOptics& optics);
   Reflected reflect(const DoubleColumns& first, std::size_t realization, std::uint32_t sun) const;
   DoubleColumns reflected_power(const DoubleColumns& received) const;
   double wanted_samples(const SunTotals& power, const SunTotals& first) const;

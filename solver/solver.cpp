@@ -97,7 +97,7 @@ LightSolver::LightSolver(const Scene& scene, std::shared_ptr<const Hierarchy> me
   if (rules.transport != Transport::shoot) return;
   const Stopwatch time(work_.shoot_s);
   shooter_ = std::make_unique<Shooter>(
-      scene, hierarchy_, caster_, sampler_, grid_, lines_, line_rules(rules),
+      scene, hierarchy_, caster_, sampler_, grid_, optics_, lines_, parallel_, line_rules(rules),
       ShootingRules{bounces_, rules.jacobi, rules.power_per_sample_w});
   work_.shot_rays = shooter_->rays();
   work_.samples = shooter_->samples();

@@ -9,6 +9,7 @@
 
 #include "solver/band_light.h"
 #include "solver/block_light.h"
+#include "solver/first_mirrored.h"
 #include "solver/glossy_sun.h"
 #include "solver/hierarchy.h"
 #include "solver/jacobi.h"
@@ -24,6 +25,7 @@ namespace sunload {
 
 class Shooter;
 struct ShotLight;
+struct SunColumns;
 struct TimeSums;
 struct TracedLight;
 
@@ -123,6 +125,10 @@ class LightSolver {
   void realization_of_sensors(const PatchOptics& optics, std::size_t r, const TimeSums& sums,
                               const std::vector<double>& followed, ReceiverTally& tally) const;
   void shoot_block(std::span<const SunLight> block, std::size_t first_row, BatchTally& tally);
+  TracedLight trace_for_shooting(const BlockSources& sources);
+  FirstMirrored::SentSuns send_sun(std::span<const SunLight> block);
+  BlockLight shot_to_sensors(std::size_t r, const BlockSources& sources, const ShotLight& light,
+                             SunColumns& of_sensors) const;
   void add_realization(std::size_t r, const ShotLight& light, std::span<const SunLight> block,
                        std::size_t first_row, BatchTally& tally) const;
 

@@ -29,7 +29,9 @@ std::string run(const WorkFolder& folder, const std::string& output, const std::
 }
 
 std::string shooting_study(const std::string& more = "", const std::string& errors = "totals") {
-  return square_study(errors, ", transport: shoot" + more);
+  return square_study(errors, ", transport: shoot" + more) +
+         "sensors: {points: [{position_m: [0, 0, 0], normal: [0, 0, 1]}, "
+         "{position_m: [0, 2.9, 2], normal: [0, -1, 0]}]}\n";
 }
 
 /// Energy on all patches, per realization [kWh].
@@ -66,6 +68,22 @@ TEST(ShootingStudy, ClosesItsLedgerAndAgreesWithGathering) {
     EXPECT_LE(std::abs(shot.mean - gathered.mean), limit);
     // Planted fault: a tenth of the reflected light is lost.
     EXPECT_GT(std::abs(shot.mean - 0.1 * energy_of_part(path, "reflected") - gathered.mean), limit);
+  }
+}
+
+TEST(ShootingStudy, LightsSensors) {
+  const WorkFolder folder;
+  const ResultReader result(run(folder, "sensors", shooting_study("", "instants")));
+  const auto load = result.doubles("sensor_light_load"), se = result.doubles("sensor_light_load_se");
+  ASSERT_EQ(load.size(), 2u);
+  for (std::size_t s = 0; s < 2; ++s) {
+    EXPECT_GT(load[s], 0);
+    EXPECT_GT(se[s], 0);
+    EXPECT_LT(se[s], 0.1 * load[s]);
+    double parts = 0;
+    for (const char* part : {"direct", "sky", "mirror", "lamps", "reflected"})
+      parts += result.doubles(std::string("sensor_light_load_") + part)[s];
+    EXPECT_NEAR(parts, load[s], 1e-5 * load[s]);  // series are floats
   }
 }
 

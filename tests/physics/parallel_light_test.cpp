@@ -17,19 +17,10 @@ using Facing = SceneBuilder::Facing;
 
 constexpr double exitance = 300;
 
-/// A source from the corner p with edges x and y; light leaves along x × y.
-void add_source(Scene& scene, Vec3 p, Vec3 x, Vec3 y, double M = exitance) {
-  Mesh& mesh = scene.parallel_sources.mesh;
-  const auto first = static_cast<std::int32_t>(mesh.vertices.size());
-  for (const Vec3 corner : {p, p + x, p + x + y, p + y}) mesh.vertices.push_back(corner);
-  for (const std::array<std::int32_t, 3> t : {std::array{0, 1, 2}, {0, 2, 3}}) {
-    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-    scene.parallel_sources.exitance.push_back(M);
-  }
-}
-
 /// 4 m × 4 m about the z axis at a height of 5 m, shining down.
-void add_lamp_above(Scene& scene) { add_source(scene, {-2, -2, 5}, {0, 4, 0}, {4, 0, 0}); }
+void add_lamp_above(Scene& scene) {
+  add_parallel_source(scene, {-2, -2, 5}, {0, 4, 0}, {4, 0, 0}, exitance);
+}
 
 const auto lamps = static_cast<std::size_t>(Part::lamps);
 
@@ -100,10 +91,10 @@ TEST(ParallelLight, OfSeveralDirectionsAddsUp) {
                                builder.material({"black", 0, 0, 0}));
   Scene scene = builder.scene();
   add_lamp_above(scene);
-  add_source(scene, {-3, -3, 3}, {0, 6, 0}, {6, 0, 0}, 100);
+  add_parallel_source(scene, {-3, -3, 3}, {0, 6, 0}, {6, 0, 0}, 100);
   // Along (0.6, 0, -0.8).
-  add_source(scene, {-6, -2, 2}, {0, 4, 0}, {6.4, 0, 4.8}, 50);
-  add_source(scene, {-3, -3, 4}, {6, 0, 0}, {0, 6, 0}, 1000);  // shines up
+  add_parallel_source(scene, {-6, -2, 2}, {0, 4, 0}, {6.4, 0, 4.8}, 50);
+  add_parallel_source(scene, {-3, -3, 4}, {6, 0, 0}, {0, 6, 0}, 1000);  // shines up
   const auto solved = solve(scene, {night}, rules_of(0), {.max_edge_m = 0.5});
   for (std::size_t i = 0; i < solved.area.size(); ++i)
     ASSERT_NEAR(static_cast<double>(solved.tally.irradiance[lamps][i]), exitance + 100 + 50 * 0.8,

@@ -24,10 +24,6 @@ SolverRules rules_of(int lines_per_realization) {
   return diffuse_rules(lines_per_realization, 0, 32);
 }
 
-Sensor sensor(Vec3 position, Vec3 normal) {
-  return {position, normalized(normal), sensor_key(position, normal)};
-}
-
 /// A scene, and the sensors in it.
 struct Stage : LampStage {
   std::vector<Sensor> sensors;
@@ -37,7 +33,7 @@ struct Stage : LampStage {
     return *this;
   }
   Stage& at(Vec3 position, Vec3 normal) {
-    sensors.push_back(sensor(position, normal));
+    sensors.push_back(sensor_at(position, normal));
     return *this;
   }
   BatchTally light(const SunLight& light, const SolverRules& rules) const {

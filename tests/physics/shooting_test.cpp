@@ -18,7 +18,6 @@ namespace {
 
 using Facing = SceneBuilder::Facing;
 
-
 /// The ledger of shooting closes to this share of what comes in (DESIGN 5).
 constexpr double closes = 1e-6;
 
@@ -125,6 +124,15 @@ Scene facing_mirrors(Change change) {
   return builder.scene();
 }
 
+/// The court in the light of a parallel source, which falls on ground, glass and screen.
+Scene court_under_a_beam(Change change) {
+  Scene scene = court(change);
+  add_parallel_source(scene, {-4, -7, 9}, {0, 6, -4}, {11, 0, 0}, 400);
+  scene.sensors = {sensor_at({-1, 1, 0}, {0, 0, 1}), sensor_at({0, 0, 1.5}, {0, 1, 0}),
+                   sensor_at({-2.99, -3.5, 4}, {1, 0, 0}), sensor_at({6.5, -7.9, 1}, {0, 1, 0.2})};
+  return scene;
+}
+
 /// Sky and far ground only: each transport cuts the sun's chains in its own place.
 std::vector<SunLight> overcast() {
   auto light = with_uniform_sky(night, 100);
@@ -134,6 +142,7 @@ std::vector<SunLight> overcast() {
 
 std::vector<Case> cases() {
   return {{"court", three_suns(), {.max_edge_m = 3}, 3, court},
+          {"court under a beam", three_suns(), {.max_edge_m = 3}, 3, court_under_a_beam},
           {"street", three_suns(), {.max_edge_m = 3}, 4, street},
           {"room", {night}, {.max_edge_m = 1}, 20, room},
           {"lamp room", {night}, {.max_edge_m = 1}, 8, lamp_room},
@@ -190,6 +199,49 @@ TEST(Shooting, AgreesWithGathering) {
       }
       EXPECT_GT(noticed, 0) << c.name << ": planted fault: reflectance applied twice";
     }
+  }
+}
+
+/// Irradiance of a sensor, from both.
+Compared compared(const BatchTally& gathered, const BatchTally& shot, std::size_t sensor) {
+  const MeanError g = mean_error(of_sensor(gathered, sensor)),
+                  s = mean_error(of_sensor(shot, sensor));
+  // Bias of gathering by reuse of lines.
+  const double reuse = 2 * std::abs(g.mean - gathered.sensors.exposure[0][sensor]);
+  return {s.mean - g.mean,
+          accepted_t(realizations) * std::hypot(g.standard_error, s.standard_error) + reuse +
+              float_rounding * g.mean,
+          g.mean};
+}
+
+TEST(Shooting, LightsSensorsAsGatheringDoes) {
+  const Scene scene = court_under_a_beam(as_it_is);
+  constexpr int bounces = 3;
+  const auto tally_of = [&](const Scene& lit, const SolverRules& rules) {
+    return solve(lit, three_suns(), rules, {.max_edge_m = 3}).tally;
+  };
+  const BatchTally gathered = tally_of(scene, rules_of(Transport::gather, bounces));
+  for (const Jacobi jacobi : {Jacobi::incremental, Jacobi::regular}) {
+    SolverRules rules = rules_of(Transport::shoot, bounces, jacobi);
+    rules.errors = Errors::instants;
+    const BatchTally shot = tally_of(scene, rules),
+                     faulty = tally_of(court_under_a_beam(squared), rules);
+    int noticed = 0;
+    for (std::size_t s = 0; s < scene.sensors.size(); ++s) {
+      const Compared both = compared(gathered, shot, s);
+      std::cout << "sensor " << s << ": " << both.value << " W/m2, off by " << both.difference
+                << ", limit " << both.limit << "\n";
+      EXPECT_TRUE(both.agree()) << s;
+      noticed += !compared(gathered, faulty, s).agree();
+      double parts = 0, se = 0;
+      for (std::size_t p = 1; p < part_count; ++p) parts += shot.sensors.exposure[p][s];
+      EXPECT_NEAR(parts, shot.sensors.exposure[0][s], float_rounding * parts);
+      EXPECT_NEAR(parts, mean_error(of_sensor(shot, s)).mean, float_rounding * parts);
+      for (std::size_t k = 0; k < 3; ++k)
+        se += static_cast<double>(shot.sensors.irradiance_se[k * scene.sensors.size() + s]);
+      EXPECT_LE(mean_error(of_sensor(shot, s)).standard_error, se * (1 + float_rounding));
+    }
+    EXPECT_GT(noticed, 0) << "planted fault: reflectance applied twice";
   }
 }
 

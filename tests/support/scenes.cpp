@@ -84,6 +84,20 @@ Scene inward_sphere(int subdivisions, std::vector<Material> materials,
   return builder.scene();
 }
 
+void add_parallel_source(Scene& scene, Vec3 p, Vec3 x, Vec3 y, double exitance) {
+  Mesh& mesh = scene.parallel_sources.mesh;
+  const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+  for (const Vec3 corner : {p, p + x, p + x + y, p + y}) mesh.vertices.push_back(corner);
+  for (const std::array<std::int32_t, 3> t : {std::array{0, 1, 2}, {0, 2, 3}}) {
+    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    scene.parallel_sources.exitance.push_back(exitance);
+  }
+}
+
+Sensor sensor_at(Vec3 position, Vec3 normal) {
+  return {position, normalized(normal), sensor_key(position, normal)};
+}
+
 SunLight one_second(Vec3 sun_direction, double dni) {
   SunLight light;
   light.direction = normalized(sun_direction);

@@ -36,6 +36,11 @@ class SceneBuilder {
 Scene inward_sphere(int subdivisions, std::vector<Material> materials,
                     const std::function<int(Vec3)>& material_of);
 
+/// Adds a parallel source: from the corner p with edges x and y; light leaves along x × y.
+void add_parallel_source(Scene& scene, Vec3 p, Vec3 x, Vec3 y, double exitance);
+/// `normal` of any length.
+Sensor sensor_at(Vec3 position, Vec3 normal);
+
 /// One second of light, so that exposures are irradiances.
 SunLight one_second(Vec3 sun_direction, double dni);
 /// Adds a uniform sky of that horizontal irradiance.
