@@ -9,7 +9,7 @@
 
 namespace sunload {
 
-/// `weight` of the power of row `source` arrives at the patch `target`.
+/// `weight` of the power of row `source` arrives at the patch or element `target`.
 struct Deposit {
   std::uint32_t target, source;
   double weight;

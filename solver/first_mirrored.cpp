@@ -85,7 +85,7 @@ FirstMirrored::FirstMirrored(const Scene& scene, const Hierarchy& hierarchy,
       caster_(caster),
       sampler_(sampler),
       grid_(grid),
-      chain_(scene, hierarchy, caster, rules.mirror_depth),
+      chain_(scene, hierarchy, caster, rules.mirror_depth, 0),
       rules_(rules) {
   for (std::size_t i = 0; i < hierarchy.patch_count(); ++i) {
     const auto triangle = static_cast<std::size_t>(hierarchy.patches()[i].triangle);

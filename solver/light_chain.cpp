@@ -1,6 +1,7 @@
 #include "solver/light_chain.h"
 
 #include "solver/line_follower.h"
+#include "solver/linked_element.h"
 
 namespace sunload {
 
@@ -45,8 +46,12 @@ Fates& Fates::operator+=(const Fates& other) {
 }
 
 LightChain::LightChain(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-                       int mirror_depth)
-    : scene_(scene), hierarchy_(hierarchy), caster_(caster), mirror_depth_(mirror_depth) {}
+                       int mirror_depth, double largest_link)
+    : scene_(scene),
+      hierarchy_(hierarchy),
+      caster_(caster),
+      mirror_depth_(mirror_depth),
+      largest_link_(largest_link) {}
 
 const Material& LightChain::material_of(std::int32_t triangle) const {
   return scene_.materials[scene_.material[static_cast<std::size_t>(triangle)].index()];
@@ -61,7 +66,7 @@ Vec3 LightChain::lifted_point(const Hit& hit, Vec3 normal) const {
 
 Fate LightChain::follow(Vec3 w, const Hit& hit, std::uint32_t source, double weight,
                         RandomKey key, std::vector<Deposit>& deposits) const {
-  return go_on(w, hit, source, weight, 0, key, deposits);
+  return go_on(w, hit, source, weight, 0, key, largest_link_, deposits);
 }
 
 Fate LightChain::mirror_on(Vec3 point, Vec3 towards, std::size_t mirror_patch,
@@ -80,14 +85,16 @@ Fate LightChain::mirror_on(Vec3 point, Vec3 towards, std::size_t mirror_patch,
   }
   ++key.block;
   fate += go_on(on.direction, caster_.first_hit(point, on.direction), source, weight, 1, key,
-                deposits);
+                0, deposits);
   ++fate.rays;
   return fate;
 }
 
 Fate LightChain::go_on(Vec3 w, Hit hit, std::uint32_t source, double weight, int reflections,
-                       RandomKey key, std::vector<Deposit>& deposits) const {
+                       RandomKey key, double largest_link,
+                       std::vector<Deposit>& deposits) const {
   Fate fate;
+  double path_m = 0;
   for (;; ++reflections, ++key.block) {
     if (hit.left_scene()) {
       fate.escaped = weight;
@@ -100,8 +107,12 @@ Fate LightChain::go_on(Vec3 w, Hit hit, std::uint32_t source, double weight, int
     }
     const Material& material = material_of(hit.triangle);
     weight /= 1 - material.transmittance;  // rays are stopped by that share
-    deposits.push_back({static_cast<std::uint32_t>(patch), source, weight});
+    path_m += hit.distance_m;
     const Vec3 n = hierarchy_.normal(static_cast<std::size_t>(patch));
+    const Vec3 point = lifted_point(hit, n);
+    deposits.push_back({linked_element(hierarchy_, static_cast<std::size_t>(patch), point, path_m,
+                                       largest_link),
+                        source, weight});
     const auto on = sends_on(material) ? LineFollower::onward(material, n, -w, key)
                                        : LineFollower::Onward{};
     fate.absorbed += weight * absorbed_share(material, on);
@@ -112,8 +123,9 @@ Fate LightChain::go_on(Vec3 w, Hit hit, std::uint32_t source, double weight, int
       fate.cut = weight;
       return fate;
     }
+    if (material.glossy > 0) path_m = 0;  // what a lobe sees is not seen from the beginning
     w = on.direction;
-    hit = caster_.first_hit(lifted_point(hit, n), w);
+    hit = caster_.first_hit(point, w);
     ++fate.rays;
   }
 }

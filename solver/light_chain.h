@@ -34,23 +34,24 @@ struct Fates {
 
 class LightChain {
  public:
+  /// `largest_link`: of elements that receive as a whole (solver/linked_element.h).
   LightChain(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-             int mirror_depth);
+             int mirror_depth, double largest_link);
 
   /// A sample that left row `source` diffusely with `weight` of its power along
-  /// the unit vector `w` and met `hit`: deposits on every surface of its chain.
+  /// the unit vector `w` and met `hit`: deposits on elements of every surface of its chain.
   /// `key` addresses the random numbers of glossy surfaces, from its block on.
   Fate follow(Vec3 w, const Hit& hit, std::uint32_t source, double weight, RandomKey key,
               std::vector<Deposit>& deposits) const;
 
   /// A sample of first light that meets a mirror patch at `point` (lifted off
-  /// it) from the direction `towards`: absorbed there in part, then sent on.
+  /// it) from the direction `towards`: absorbed there in part, then sent on to patches.
   Fate mirror_on(Vec3 point, Vec3 towards, std::size_t mirror_patch, std::uint32_t source,
                  double weight, RandomKey key, std::vector<Deposit>& deposits) const;
 
  private:
   Fate go_on(Vec3 w, Hit hit, std::uint32_t source, double weight, int reflections, RandomKey key,
-             std::vector<Deposit>& deposits) const;
+             double largest_link, std::vector<Deposit>& deposits) const;
   const Material& material_of(std::int32_t triangle) const;
   Vec3 lifted_point(const Hit& hit, Vec3 normal) const;
 
@@ -58,6 +59,7 @@ class LightChain {
   const Hierarchy& hierarchy_;
   const RayCaster& caster_;
   int mirror_depth_;
+  double largest_link_;
 };
 
 }  // namespace sunload

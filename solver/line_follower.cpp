@@ -1,8 +1,8 @@
 #include "solver/line_follower.h"
 
 #include "geo/check.h"
+#include "solver/linked_element.h"
 #include "solver/lobe.h"
-#include "solver/oracle.h"
 #include "solver/sampling.h"
 
 namespace sunload {
@@ -107,21 +107,6 @@ Vec3 LineFollower::offset_point(std::int32_t triangle, const Hit& hit, Vec3 side
   return point + side_normal * caster_.offset_m();
 }
 
-/// The largest element about a patch that is still small as seen from the line's beginning.
-/// Its centre lies as far away as the line has come, give or take its distance from `point`.
-std::uint32_t LineFollower::linked_element(std::size_t patch, Vec3 point, double path_m) const {
-  std::size_t element = patch;
-  for (auto up = hierarchy_.parent(element); up >= 0; up = hierarchy_.parent(element)) {
-    const auto& sphere = hierarchy_.sphere(static_cast<std::size_t>(up) - hierarchy_.patch_count());
-    const Vec3 centre{static_cast<double>(sphere.x), static_cast<double>(sphere.y),
-                      static_cast<double>(sphere.z)};
-    const double distance_m = path_m - norm(centre - point);
-    if (largest_form_factor(static_cast<double>(sphere.radius), distance_m) > largest_link_) break;
-    element = static_cast<std::size_t>(up);
-  }
-  return static_cast<std::uint32_t>(element);
-}
-
 Glimpse LineFollower::glimpse(const Hit& hit, Vec3 n, Vec3 w, double weight) const {
   const Vec3 at = offset_point(hit.triangle, hit, n), axis = mirrored(w, n);
   Glimpse glimpse;
@@ -165,9 +150,10 @@ std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first,
     weight /= 1 - material.transmittance;  // rays are stopped by that share
     const double counted = reflections == 0 ? weight * share_of_first : weight;
     if (material.diffuse > 0 || material.emission_w_m2 > 0)
-      into.patches.push_back({linked_element(static_cast<std::size_t>(patch),
-                                             origin + w * hit.distance_m, path_m),
-                              static_cast<float>(counted)});
+      into.patches.push_back(
+          {linked_element(hierarchy_, static_cast<std::size_t>(patch), origin + w * hit.distance_m,
+                          path_m, largest_link_),
+           static_cast<float>(counted)});
     into.lamps += counted * material.emission_w_m2;
     if (!sends_on(material)) return rays;
     const Vec3 n = met_normal(scene_.mesh, hit);
@@ -192,7 +178,8 @@ std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first,
 }
 
 void LineFollower::link(const BrightView::SeenPoint& point, LineCollector& into) const {
-  into.patches.push_back({linked_element(point.patch, point.position, point.distance_m),
+  into.patches.push_back({linked_element(hierarchy_, point.patch, point.position,
+                                         point.distance_m, largest_link_),
                           static_cast<float>(point.share)});
   into.lamps += point.share * point.exitance;
 }

@@ -74,7 +74,6 @@ class LineFollower {
 
  private:
   const Material& material_of(std::int32_t triangle) const;
-  std::uint32_t linked_element(std::size_t patch, Vec3 point, double path_m) const;
   /// Of a line that arrived along -`w`.
   Glimpse glimpse(const Hit& hit, Vec3 n, Vec3 w, double weight) const;
   Vec3 offset_point(std::int32_t triangle, const Hit& hit, Vec3 side_normal) const;

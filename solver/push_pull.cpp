@@ -36,4 +36,16 @@ void pull_up(const Hierarchy& mesh, std::vector<double>& radiosity) {
   });
 }
 
+void push_down(const Hierarchy& mesh, DoubleColumns& irradiance) {
+  const std::size_t patches = mesh.patch_count();
+  if (irradiance.size() < mesh.element_count() * block_width) return;
+  parallel_for(mesh.tree_count(), [&](std::size_t tree) {
+    for (auto i = mesh.first_inner(tree + 1); i-- > mesh.first_inner(tree);)
+      for (const std::size_t half : mesh.halves_of(i))
+        for (std::size_t k = 0; k < block_width; ++k)
+          irradiance[half * block_width + k] += irradiance[(patches + i) * block_width + k];
+  }, trees_per_task);
+  irradiance.resize(patches * block_width);
+}
+
 }  // namespace sunload

@@ -5,6 +5,7 @@
 
 #include "solver/parallel.h"
 #include "solver/patch_lines.h"
+#include "solver/push_pull.h"
 
 namespace sunload {
 
@@ -58,9 +59,15 @@ Shooter::Shooter(const Scene& scene, const Hierarchy& hierarchy, const RayCaster
       lines_(lines),
       line_rules_(line_rules),
       rules_(rules),
-      chain_(scene, hierarchy, caster, line_rules.mirror_depth),
+      chain_(scene, hierarchy, caster, line_rules.mirror_depth, line_rules.largest_link),
       first_mirrored_(scene, hierarchy, caster, sampler, grid, line_rules),
+      receiver_area_(hierarchy.area()),
       rays_(first_mirrored_.rays()) {
+  if (line_rules.largest_link > 0)
+    for (std::size_t i = 0; hierarchy.patch_count() + i < hierarchy.element_count(); ++i) {
+      const auto [a, b] = hierarchy.halves_of(i);
+      receiver_area_.push_back(receiver_area_[a] + receiver_area_[b]);
+    }
   for (const Patch& patch : hierarchy.patches()) {
     const auto& m = scene.materials[scene.material[static_cast<std::size_t>(patch.triangle)].index()];
     diffuse_.push_back(m.diffuse);
@@ -167,8 +174,9 @@ Shooter::Shot Shooter::shoot(const DoubleColumns& power, double samples,
     deposits.put(chunk, std::move(task.deposits));
   });
 
-  Shot shot{double_columns(patches), {}};
-  deposits.add_to(shot.irradiance, power, hierarchy_.area());
+  Shot shot{double_columns(receiver_area_.size()), {}};
+  deposits.add_to(shot.irradiance, power, receiver_area_);
+  push_down(hierarchy_, shot.irradiance);
   for (const Fates& of_chunk : fates) shot.fates += of_chunk;
   shot.samples = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
   shot.rays = std::accumulate(rays.begin(), rays.end(), std::uint64_t{0});

@@ -5,7 +5,8 @@
 ///     E_j = (1/A_j) Σ_i F_ij P_i
 ///
 /// F_ij is never formed: a uniformly distributed line from i first meets j with
-/// that probability. Incremental: P_i = A_i rho_i E_i of what was received last,
+/// that probability; where j is small as seen from i, it is an element of which patches are parts
+/// and which receives as a whole (linked_element). Incremental: P_i = A_i rho_i E_i of what was received last,
 /// results are added. Regular: P_i = A_i rho_i (E_0 + E_reflected) of all of it
 /// again, with new samples. E_0 is what arrives without diffuse reflection:
 /// direct sun and sky as when gathering, what mirrors send on (first_mirrored),
@@ -114,6 +115,7 @@ class Shooter {
   ShootingRules rules_;
   LightChain chain_;
   FirstMirrored first_mirrored_;
+  std::vector<double> receiver_area_;       ///< of patches, and of elements that receive as a whole
   std::vector<double> diffuse_, emission_;  ///< of patches
   std::vector<double> passed_;              ///< straight through
   std::vector<bool> sends_on_;

@@ -287,6 +287,45 @@ TEST(Shooting, LedgerClosesForEverySunAndRealization) {
     }
 }
 
+/// Mean square of the patches' standard errors, by area.
+double variance_of_patches(const Solved& solved) {
+  double sum = 0, area = 0;
+  for (std::size_t i = 0; i < solved.area.size(); ++i) {
+    const double se = mean_error(solved.of_patch(i)).standard_error;
+    sum += solved.area[i] * se * se;
+    area += solved.area[i];
+  }
+  return sum / area;
+}
+
+// What is far away receives as a whole: less noise, the same light.
+TEST(Shooting, SendsLightToElementsThatAreSmallAsSeenFromAPatch) {
+  const Scene scene = street(as_it_is);
+  constexpr int bounces = 2;
+  const auto shot = [&](const Scene& lit, double link_threshold) {
+    SolverRules rules = rules_of(Transport::shoot, bounces);
+    rules.link_threshold = link_threshold;
+    rules.seed = link_threshold > 0 ? 2 : 3;  // no sample in common
+    // The sky would bring noise of its own.
+    return solve(lit, {one_second({0, -0.6, 0.8}, 700)}, rules, {.max_edge_m = 1.5});
+  };
+  const Solved to_patches = shot(scene, 0), to_elements = shot(scene, 16),
+               faulty = shot(street(squared), 16);
+  int noticed = 0;
+  for (const char* object : {"road", "north", "south"}) {
+    const Compared both = compared(to_patches, to_elements, scene, object);
+    std::cout << object << ": " << both.value << " W/m2, off by " << both.difference << ", limit "
+              << both.limit << "\n";
+    EXPECT_TRUE(both.agree()) << object;
+    noticed += !compared(to_patches, faulty, scene, object).agree();
+  }
+  EXPECT_GT(noticed, 0) << "planted fault: reflectance applied twice";
+  EXPECT_LE(largest_residual(to_elements), closes);
+  const double gain = variance_of_patches(to_patches) / variance_of_patches(to_elements);
+  std::cout << "variance to patches is " << gain << " times that to elements\n";
+  EXPECT_GT(gain, 1.2);  // elements of a few patches each
+}
+
 // Sun, sky, ground and lamp by chains of mirrors of any depth, also of the sun.
 TEST(Shooting, LedgerClosesAtEveryMirrorDepth) {
   auto light = with_uniform_sky(one_second({0.6, 0.1, 0.7}, 600), 100);
