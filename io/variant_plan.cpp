@@ -125,7 +125,7 @@ constexpr double program_bytes = 3.6e7, bytes_per_line = 12.2, bytes_per_patch =
 constexpr double double_bytes = 8, float_bytes = 4;
 constexpr double s_per_sample = 6e-7;                  ///< shot, with its deposit
 constexpr double bytes_per_sample = 40;                ///< of one realization and iteration
-constexpr double shooting_bytes_per_patch = 2300;      ///< columns in double
+constexpr double shooting_bytes_per_patch = 2700;      ///< columns in double
 constexpr double columns_of_a_realization = 8;         ///< direct sun, in doubles
 constexpr double arrays_of_realizations = 4;  ///< doubles of a patch and realization
 constexpr double stored_bytes_per_value = 2.5;

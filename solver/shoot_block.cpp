@@ -98,19 +98,21 @@ void LightSolver::shoot_block(std::span<const SunLight> block, std::size_t first
 /// The direct sun of every realization, and what comes to sensors by planar mirrors.
 TracedLight LightSolver::trace_for_shooting(const BlockSources& sources) {
   const auto realizations = static_cast<std::size_t>(rules_.realizations);
+  const std::size_t patches = hierarchy_.patch_count();
   TracedLight traced;
-  traced.of_patches = {realizations, hierarchy_.patch_count()};
+  traced.of_patches.direct.assign(realizations, columns(patches));
   traced.of_sensors = {realizations, scene_.sensors.size()};
-  // Totals come from the series of each realization, which these are part of.
-  TimeSums unused(realizations, hierarchy_.patch_count(), scene_.sensors.size(), 0);
   {
     const Stopwatch time(work_.direct_s);
-    traced.direct = direct_sun(caster_, sampler_, sources.suns, unused.direct,
+    // Totals come from the series of each realization, which the sun is part of.
+    std::vector<std::vector<double>> unused(realizations, std::vector<double>(patches, 0));
+    traced.direct = direct_sun(caster_, sampler_, sources.suns, unused,
                                &traced.of_patches.direct);
     work_.direct_rays += traced.direct.rays;
   }
   if (scene_.sensors.empty()) return traced;
   const auto beams = mirrors_.size() > 0 ? beams_of(sources.suns) : std::vector<SunBeams>{};
+  TimeSums unused(realizations, 0, scene_.sensors.size(), 0);
   trace_sensors(sources.suns, beams, unused, traced);
   return traced;
 }
