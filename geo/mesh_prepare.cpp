@@ -210,8 +210,8 @@ void add_warnings(PrepareReport& r, Orientation orientation) {
   warn("triangles with a back of their own", r.sheets_merged,
        "made two-sided, so front and back are separate patches");
   warn("triangles turned over", r.triangles_flipped,
-       "their body was inside out or its faces disagreed, so their lit side has changed; scene.orient: keep "
-       "leaves them, for rooms lit inside");
+       "their body was inside out or its faces disagreed, so their lit side has changed; "
+       "scene.orient: keep leaves them, for rooms lit inside");
   if (orientation == Orientation::outward)
     warn("closed bodies inside out", r.inside_out_bodies,
          "left so, hence their outside absorbs all light; set scene.repair: safe");

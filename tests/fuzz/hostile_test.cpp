@@ -88,8 +88,10 @@ TEST(HostileFiles, LongExtrusions) {
     section += std::to_string(i * i % 97) + " " + std::to_string(i * 7 % 89) + ", ";
     spine += "0 " + std::to_string(i) + " 0, ";
   }
-  expect_refused("long.wrl", "#VRML V2.0 utf8\nShape { geometry Extrusion { crossSection [ " + section +
-                                 "] spine [ " + spine + "] } }\n", "too many points");
+  expect_refused("long.wrl",
+                 "#VRML V2.0 utf8\nShape { geometry Extrusion { crossSection [ " + section +
+                     "] spine [ " + spine + "] } }\n",
+                 "too many points");
 }
 
 /// A polygon all of whose edges cross all others: n² crossings.

@@ -101,12 +101,16 @@ Scene glazed_street() {
             sheet = builder.material(metal), printed = builder.material(frit);
   builder.object("ground").quad({-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}, ground);
   builder.object("house").box({-6, 3, 0.01}, {6, 6, 5}, wall, Facing::outward);
-  builder.object("window").quad({-5, 2.99, 0.5}, {0, 2.99, 0.5}, {0, 2.99, 4.5}, {-5, 2.99, 4.5}, window);
-  builder.object("printed").quad({0, 2.99, 0.5}, {5, 2.99, 0.5}, {5, 2.99, 4.5}, {0, 2.99, 4.5}, printed);
+  builder.object("window").quad({-5, 2.99, 0.5}, {0, 2.99, 0.5}, {0, 2.99, 4.5}, {-5, 2.99, 4.5},
+                                window);
+  builder.object("printed").quad({0, 2.99, 0.5}, {5, 2.99, 0.5}, {5, 2.99, 4.5}, {0, 2.99, 4.5},
+                                 printed);
   builder.object("tower").box({-6, -5, 0.01}, {-3, -2, 8}, wall, Facing::outward);
   builder.object("metal").quad({2, -3, 0.2}, {-2, -3, 0.2}, {-2, -3, 4}, {2, -3, 4}, sheet);
   builder.object("lamp").quad({3, -1, 3}, {3, 0, 3}, {4, 0, 3}, {4, -1, 3}, lamp);
-  builder.sides(Sides::two).object("screen").quad({5, -8, 0.2}, {8, -8, 0.2}, {8, -8, 3}, {5, -8, 3}, window);
+  builder.sides(Sides::two)
+      .object("screen")
+      .quad({5, -8, 0.2}, {8, -8, 0.2}, {8, -8, 3}, {5, -8, 3}, window);
   return builder.scene();
 }
 

@@ -491,7 +491,8 @@ TEST(Shooting, SunIsSentOnByMoreThanOneMirror) {
   const auto mirrored = static_cast<std::size_t>(Part::mirror);
   double power = 0;
   for (std::size_t i = 0; i < solved.area.size(); ++i)
-    if (solved.patches[i].triangle >= 4) power += solved.area[i] * solved.tally.exposure[mirrored][i];
+    if (solved.patches[i].triangle >= 4)
+      power += solved.area[i] * solved.tally.exposure[mirrored][i];
   EXPECT_LE(largest_residual(solved), closes);
   std::cout << "the plate receives " << power << " W\n";
   EXPECT_NEAR(power, 1000 * 0.9 * 0.8, 720 * float_rounding);
