@@ -31,18 +31,8 @@ Scene court() {
   return builder.scene();
 }
 
-std::vector<SunLight> suns() {
-  std::vector<SunLight> light;
-  for (const Vec3 w : {Vec3{0.5, -0.7, 0.4}, Vec3{0, -0.6, 0.8}, Vec3{-0.8, -0.3, 0.3}}) {
-    auto sun = with_uniform_sky(one_second(w, 700), 90);
-    sun.ground_exitance = 0.2 * (700 * sun.direction.z + 90);
-    light.push_back(sun);
-  }
-  return light;
-}
-
 TEST(Ledger, ResidualIsZeroWithinItsError) {
-  const auto solved = solve(court(), suns(), test_rules(), {.max_edge_m = 1.5});
+  const auto solved = solve(court(), three_suns(), test_rules(), {.max_edge_m = 1.5});
   const auto residual = solved.ledger([](const Ledger& l) { return l.residual(); });
   const auto in = solved.ledger([](const Ledger& l) { return l.in(); });
   const double power = mean_error(in).mean;
@@ -57,7 +47,7 @@ TEST(Ledger, ResidualIsZeroWithinItsError) {
 }
 
 TEST(Ledger, ClosesForEverySunOfThePooledLines) {
-  const auto solved = solve(court(), suns(), test_rules(), {.max_edge_m = 1.5});
+  const auto solved = solve(court(), three_suns(), test_rules(), {.max_edge_m = 1.5});
   const auto residual = solved.ledger([](const Ledger& l) { return l.residual(); });
   const double sd_of_sum = mean_error(residual).standard_error;
   for (const auto& ledger : solved.tally.ledger) {

@@ -115,15 +115,9 @@ Scene glazed_street() {
 }
 
 TEST(Pane, LedgerOfAGlazedStreetCloses) {
-  std::vector<SunLight> suns;
-  for (const Vec3 w : {Vec3{0.5, -0.7, 0.4}, Vec3{0, -0.6, 0.8}, Vec3{-0.8, -0.3, 0.3}}) {
-    auto sun = with_uniform_sky(one_second(w, 700), 90);
-    sun.ground_exitance = 0.2 * (700 * sun.direction.z + 90);
-    suns.push_back(sun);
-  }
   auto rules = test_rules();
   rules.bounces = 20;
-  const auto solved = solve(glazed_street(), suns, rules, {.max_edge_m = 1.5});
+  const auto solved = solve(glazed_street(), three_suns(), rules, {.max_edge_m = 1.5});
   const auto residual = solved.ledger([](const Ledger& l) { return l.residual(); });
   const double in = mean_error(solved.ledger([](const Ledger& l) { return l.in(); })).mean;
   const auto transmitted = solved.ledger([](const Ledger& l) { return l[Term::transmitted]; });

@@ -86,21 +86,11 @@ Scene shaded_court() {
   return builder.scene();
 }
 
-std::vector<SunLight> suns() {
-  std::vector<SunLight> light;
-  for (const Vec3 w : {Vec3{0.5, -0.7, 0.4}, Vec3{0, -0.6, 0.8}, Vec3{-0.8, -0.3, 0.3}}) {
-    auto sun = with_uniform_sky(one_second(w, 700), 90);
-    sun.ground_exitance = 0.2 * (700 * sun.direction.z + 90);
-    light.push_back(sun);
-  }
-  return light;
-}
-
 TEST(Screens, LedgerOfAShadedCourtCloses) {
   auto rules = test_rules();
   rules.bounces = 20;
   const Scene scene = shaded_court();
-  const auto solved = solve(scene, suns(), rules, {.max_edge_m = 1.5});
+  const auto solved = solve(scene, three_suns(), rules, {.max_edge_m = 1.5});
   const auto residual = solved.ledger([](const Ledger& l) { return l.residual(); });
   const double in = mean_error(solved.ledger([](const Ledger& l) { return l.in(); })).mean;
   const Verdict verdict = expect_mean(residual, 0, float_rounding * in);
@@ -127,7 +117,8 @@ TEST(Screens, SameBitsForAnyNumberOfThreads) {
   std::vector<std::vector<float>> totals;
   for (const int threads : {1, 3}) {
     set_thread_count(threads);
-    totals.push_back(solve(shaded_court(), suns(), rules, {.max_edge_m = 1.5}).tally.irradiance[0]);
+    totals.push_back(
+        solve(shaded_court(), three_suns(), rules, {.max_edge_m = 1.5}).tally.irradiance[0]);
   }
   set_thread_count(before);
   EXPECT_EQ(totals[0], totals[1]);

@@ -114,6 +114,16 @@ SunLight with_uniform_sky(SunLight light, double dhi, const SkyGrid& grid) {
   return light;
 }
 
+std::vector<SunLight> three_suns() {
+  std::vector<SunLight> light;
+  for (const Vec3 w : {Vec3{0.5, -0.7, 0.4}, Vec3{0, -0.6, 0.8}, Vec3{-0.8, -0.3, 0.3}}) {
+    auto sun = with_uniform_sky(one_second(w, 700), 90);
+    sun.ground_exitance = 0.2 * (700 * sun.direction.z + 90);
+    light.push_back(sun);
+  }
+  return light;
+}
+
 std::vector<double> Solved::means(const std::function<bool(std::size_t)>& chosen) const {
   std::vector<double> means;
   for (const auto& exposure : tally.exposure_realization) {
