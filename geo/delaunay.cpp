@@ -18,7 +18,8 @@ namespace {
 using Triangle = std::array<std::int32_t, 3>;
 
 constexpr double area_ratio = 1e-9;     // rounding of sums over some 10^5 corners stays below
-constexpr double largest_search = 2e7;  // triangle × corner pairs asked one by one: a tenth of a second
+/// Triangle × corner pairs asked one by one: a tenth of a second.
+constexpr double largest_search = 2e7;
 // Rings of n edges may cross n² times; such a polygon means nothing, and would take all memory.
 constexpr std::size_t fewest_crossings = 100;  // that are allowed, beside one for each edge
 
@@ -110,7 +111,8 @@ class Triangulator {
   // An edge that is walked an even number of times separates nothing.
   void insert_odd_edges(std::vector<Edge>& edges) {
     std::sort(edges.begin(), edges.end());
-    const std::size_t most_vertices = delaunay_.number_of_vertices() + fewest_crossings + edges.size();
+    const std::size_t most_vertices =
+        delaunay_.number_of_vertices() + fewest_crossings + edges.size();
     for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
       while (end < edges.size() && edges[end] == edges[begin]) ++end;
       if ((end - begin) % 2 == 0) continue;

@@ -136,10 +136,10 @@ Mesh triangles_of(const PolygonModel& model, const PrepareRules& rules, const Pl
 }
 
 /// Steps 5 to 8: T-joints, twins, windings, kinds of surface.
-void settle(Mesh& mesh, const PrepareRules& rules, SceneKind kind, double tolerance,
+void settle(Mesh& mesh, const PrepareRules& rules, const PolygonModel& model, double tolerance,
             PrepareReport& report) {
   std::vector<std::uint8_t> faced_both_ways(mesh.triangle_count(), 0);
-  if (rules.repair == Repair::all) report.t_joints_split = split_t_joints(mesh, tolerance);
+  if (rules.repair == Repair::all) report.t_joints_split = split_t_joints(mesh, tolerance, model.source);
   if (rules.repair != Repair::none) {
     auto duplicates = drop_duplicates(mesh);
     report.duplicates_dropped = duplicates.dropped;
@@ -162,7 +162,7 @@ void settle(Mesh& mesh, const PrepareRules& rules, SceneKind kind, double tolera
     mesh.triangle_sides[t] = Sides::two;
     ++report.sheets_merged;
   }
-  decide_surfaces(mesh, bodies, kind);
+  decide_surfaces(mesh, bodies, model.is_city_format ? SceneKind::city : SceneKind::plain);
 }
 
 /// Step 9.
@@ -210,8 +210,8 @@ void add_warnings(PrepareReport& r, Orientation orientation) {
   warn("triangles with a back of their own", r.sheets_merged,
        "made two-sided, so front and back are separate patches");
   warn("triangles turned over", r.triangles_flipped,
-       "their body was inside out or its faces disagreed, so their lit side has changed; scene.orient: keep "
-       "leaves them, for rooms lit inside");
+       "their body was inside out or its faces disagreed, so their lit side has changed; "
+       "scene.orient: keep leaves them, for rooms lit inside");
   if (orientation == Orientation::outward)
     warn("closed bodies inside out", r.inside_out_bodies,
          "left so, hence their outside absorbs all light; set scene.repair: safe");
@@ -236,8 +236,7 @@ PreparedMesh prepare(const PolygonModel& model, const PrepareRules& rules) {
   report.polygons_read = model.polygon_count();
   report.vertices_read = model.vertices.size();
   mesh = triangles_of(model, rules, placement, is_used, report);
-  settle(mesh, rules, model.is_city_format ? SceneKind::city : SceneKind::plain,
-         weld_tolerance(rules.repair, placement.diagonal), report);
+  settle(mesh, rules, model, weld_tolerance(rules.repair, placement.diagonal), report);
   drop_degenerates(mesh, rules.repair, model.source, report);
   find_facades(mesh, rules.north_deg);
   if (rules.ground) add_ground_plate(mesh, rules.ground->margin_m);

@@ -93,8 +93,8 @@ struct PreparedMesh {
 };
 
 /// Throws InputError where the model is empty or nothing of it is left, where a
-/// coordinate is not finite or too large, and, under `none`, where triangles
-/// have no area.
+/// coordinate is not finite or too large, under `none`, where triangles
+/// have no area, and, under `all`, where the edges of too many of them overlap.
 PreparedMesh prepare(const PolygonModel& model, const PrepareRules& rules);
 
 }  // namespace sunload

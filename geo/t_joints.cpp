@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geo/check.h"
 #include "geo/edge_table.h"
+#include "geo/point_tree.h"
 
 namespace sunload {
 
@@ -11,58 +13,55 @@ namespace {
 
 using Triangle = std::array<std::int32_t, 3>;
 
-double component(Vec3 p, int axis) { return axis == 0 ? p.x : (axis == 1 ? p.y : p.z); }
+/// Where no triangles overlap, a corner lies on few edges. Beyond this the pieces of triangles that
+/// overlap would need more time and memory than any scene of that size …
+constexpr std::size_t corners_at_least = 100'000, corners_per_edge = 8;
+/// … and beyond this as much time would pass until it is known that few corners lie on the edges.
+constexpr std::size_t looks_at_least = 100'000'000, looks_per_edge = 1000;
 
-/// Open edges of one object, and their ends sorted along its longest axis.
+/// Open edges of one object, and their ends.
 class OpenEdges {
  public:
-  OpenEdges(const Mesh& mesh, std::vector<EdgeUse> uses) : mesh_(mesh), uses_(std::move(uses)) {
-    std::vector<Vec3> points;
-    for (const auto& use : uses_) {
-      for (const auto v : {use.low, use.high}) {
-        ends_.push_back(v);
-        points.push_back(at(v));
-      }
-    }
-    const Box box = bounding_box(points);
-    const Vec3 size = box.high - box.low;
-    axis_ = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
-    std::sort(ends_.begin(), ends_.end(), [&](std::int32_t a, std::int32_t b) {
-      return std::pair(component(at(a), axis_), a) < std::pair(component(at(b), axis_), b);
-    });
-    ends_.erase(std::unique(ends_.begin(), ends_.end()), ends_.end());
-  }
+  OpenEdges(const Mesh& mesh, std::vector<EdgeUse> uses)
+      : mesh_(mesh), uses_(std::move(uses)), ends_(mesh.vertices, ends_of(uses_)) {}
 
   const std::vector<EdgeUse>& uses() const { return uses_; }
 
-  /// Ends of other edges that lie on this one, ordered from its lower vertex.
-  std::vector<std::int32_t> corners_on(const EdgeUse& use, double tolerance) const {
+  struct Corners {
+    std::vector<std::int32_t> on_edge;  ///< ordered from its lower vertex
+    std::size_t looks = 0;              ///< what finding them has cost
+  };
+  /// Ends of other edges that lie on this one.
+  Corners corners_on(const EdgeUse& use, double tolerance) const {
     const Vec3 start = at(use.low), edge = at(use.high) - start;
     const double length = norm(edge);
+    const auto near = ends_.near_segment(start, at(use.high), tolerance);
     std::vector<std::pair<double, std::int32_t>> found;
-    const double s0 = component(start, axis_), s1 = component(at(use.high), axis_);
-    auto it =
-        std::lower_bound(ends_.begin(), ends_.end(), std::min(s0, s1) - tolerance,
-                         [&](std::int32_t v, double s) { return component(at(v), axis_) < s; });
-    for (; it != ends_.end() && component(at(*it), axis_) <= std::max(s0, s1) + tolerance; ++it) {
-      const Vec3 p = at(*it) - start;
+    for (const auto v : near.points) {
+      const Vec3 p = at(v) - start;
       const double along = dot(p, edge) / length;
       if (!(along > tolerance && along < length - tolerance)) continue;
-      if (norm(p - edge * (along / length)) <= tolerance) found.emplace_back(along, *it);
+      if (norm(p - edge * (along / length)) <= tolerance) found.emplace_back(along, v);
     }
     std::sort(found.begin(), found.end());
-    std::vector<std::int32_t> result;
-    for (const auto& item : found) result.push_back(item.second);
+    Corners result{{}, near.looks};
+    for (const auto& item : found) result.on_edge.push_back(item.second);
     return result;
   }
 
  private:
+  static std::vector<std::int32_t> ends_of(const std::vector<EdgeUse>& uses) {
+    std::vector<std::int32_t> ends;
+    for (const auto& use : uses) ends.insert(ends.end(), {use.low, use.high});
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    return ends;
+  }
   Vec3 at(std::int32_t v) const { return mesh_.vertices[static_cast<std::size_t>(v)]; }
 
   const Mesh& mesh_;
   std::vector<EdgeUse> uses_;
-  std::vector<std::int32_t> ends_;
-  int axis_ = 0;
+  PointTree ends_;
 };
 
 /// A triangle and the corners on its edges, each list from corner k to the next.
@@ -142,16 +141,32 @@ void replace(Mesh& mesh, std::vector<std::pair<std::uint32_t, std::vector<std::i
 
 }  // namespace
 
-std::size_t split_t_joints(Mesh& mesh, double tolerance) {
+std::size_t split_t_joints(Mesh& mesh, double tolerance, const std::string& source) {
+  const auto objects = open_edges(mesh);
+  std::size_t edges = 0;
+  for (const auto& object : objects) edges += object.uses().size();
+  const std::size_t most_corners = corners_at_least + corners_per_edge * edges;
+  const std::size_t most_looks = looks_at_least + looks_per_edge * edges;
+
   std::vector<std::pair<std::uint32_t, std::vector<std::int32_t>>> found;
-  std::size_t count = 0;
-  for (const auto& object : open_edges(mesh)) {
+  std::size_t count = 0, looks = 0;
+  for (const auto& object : objects) {
     for (const auto& use : object.uses()) {
-      auto corners = object.corners_on(use, tolerance);
+      auto [corners, cost] = object.corners_on(use, tolerance);
       // The third corner of a sliver lies on its own edge.
       std::erase(corners, mesh.triangles[use.triangle()][(use.corner() + 2) % 3]);
-      if (corners.empty()) continue;
       count += corners.size();
+      looks += cost;
+      if (count > most_corners || looks > most_looks) {
+        throw InputError(
+            {source}, "too many triangles of object '" +
+                          mesh.object_names[static_cast<std::size_t>(use.object)] +
+                          "' overlap in a plane or along an edge",
+            "their open edges hold, or pass by, so many corners of others that it would take too "
+            "long to split them there",
+            "remove overlapping faces, or set scene.repair: safe, which splits nothing");
+      }
+      if (corners.empty()) continue;
       if (!walks_up(mesh, use)) std::reverse(corners.begin(), corners.end());
       found.emplace_back(use.half_edge, std::move(corners));
     }

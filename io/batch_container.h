@@ -34,7 +34,8 @@ using BlockPieces = std::vector<std::span<const unsigned char>>;
 void write_container(const std::string& path, nlohmann::json header,
                      const std::vector<BlockPieces>& blocks);
 
-/// An open container. Blocks are read when asked for, so that memory stays small, and verified then.
+/// An open container. Blocks are read when asked for, so that memory stays small, and verified
+/// then.
 class Container {
  public:
   /// Verifies the header. Throws InputError naming the file and what is wrong with it.

@@ -53,7 +53,8 @@ void add_ledger(BatchWriter& writer, const BatchTally& tally, const std::string&
     if (tally.ledger_instants.empty()) continue;
     for (std::size_t k = 0; k < K; ++k) {
       std::vector<double> realizations;
-      for (std::size_t r = 0; r < R; ++r) realizations.push_back(value(tally.ledger_instants[r][k]));
+      for (std::size_t r = 0; r < R; ++r)
+        realizations.push_back(value(tally.ledger_instants[r][k]));
       errors.push_back(mean_error(realizations).standard_error);
     }
     writer.add({name + "_se", MergeRule::append, ArrayType::float64, {K}}, errors.data());

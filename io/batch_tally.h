@@ -11,17 +11,17 @@ namespace sunload {
 
 /// Names of arrays that merge needs but the result does not show.
 namespace batch_array {
-inline constexpr const char* exposure = "exposure";                          ///< [R, N] J m-2
-inline constexpr const char* ledger = "ledger";                              ///< [R, 9] J: terms, residual
-inline constexpr const char* outgoing = "outgoing";                          ///< [N] J m-2
-inline constexpr const char* sunlit = "sunlit";                              ///< [N] s
-inline constexpr const char* maximum = "irradiance_max";                     ///< [N] W m-2
-inline constexpr const char* sky_view = "sky_view_factor";                   ///< [N]
-inline constexpr const char* bounces = "bounces";                            ///< [1]
-inline constexpr const char* counts = "counts";                              ///< [2] lines and direct samples per patch
-inline constexpr const char* energy = "energy";                              ///< [3] J: in, residual, lost at backs
-inline constexpr const char* sensor_backs = "sensor_backs";                  ///< [S] share of lines that met backs
-inline constexpr const char* work = "work";                                  ///< see WorkDone
+inline constexpr const char* exposure = "exposure";          ///< [R, N] J m-2
+inline constexpr const char* ledger = "ledger";              ///< [R, 9] J: terms, residual
+inline constexpr const char* outgoing = "outgoing";          ///< [N] J m-2
+inline constexpr const char* sunlit = "sunlit";              ///< [N] s
+inline constexpr const char* maximum = "irradiance_max";     ///< [N] W m-2
+inline constexpr const char* sky_view = "sky_view_factor";   ///< [N]
+inline constexpr const char* bounces = "bounces";            ///< [1]
+inline constexpr const char* counts = "counts";              ///< [2] lines and samples per patch
+inline constexpr const char* energy = "energy";              ///< [3] J: in, residual, lost at backs
+inline constexpr const char* sensor_backs = "sensor_backs";  ///< [S] share of lines that met backs
+inline constexpr const char* work = "work";                  ///< see WorkDone
 }  // namespace batch_array
 
 /// Before the names of arrays and datasets of sensors: `sensor_irradiance`, ….

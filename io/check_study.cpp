@@ -28,9 +28,10 @@ std::string counts_text(const PrepareReport& r) {
       "  repaired  {} vertices welded, {} triangles turned, {} fronts with a back made two-sided, "
       "{} T-joints split\n"
       "  dropped   {} degenerate, {} duplicate, {} polygons not triangulable\n"
-      "  doubtful  {} polygons not planar, {} crossing themselves, {} bodies without consistent fronts\n"
-      "  bodies    {} closed ({:.6g} m3), {} with their fronts inward, {} open sheets; {} open edges, "
-      "{} non-manifold edges\n"
+      "  doubtful  {} polygons not planar, {} crossing themselves, {} bodies without consistent "
+      "fronts\n"
+      "  bodies    {} closed ({:.6g} m3), {} with their fronts inward, {} open sheets; {} open "
+      "edges, {} non-manifold edges\n"
       "  floors    {} triangles touch the ground: they cast shadows, are no patches\n"
       "  shape     the thinnest triangle is {:.4g} times as long as high\n",
       r.polygons_read, r.polygons_with_holes, r.vertices_read, r.vertices_welded,
@@ -47,8 +48,8 @@ std::string counts_text(const PrepareReport& r) {
 std::string intersections_text(const Mesh& mesh) {
   const Intersections found = find_intersections(mesh);
   std::string text = fmt::format(
-      "  meeting   {} pairs of triangles cut and {} cover each other ({} of both between objects), {} of "
-      "{} triangles",
+      "  meeting   {} pairs of triangles cut and {} cover each other ({} of both between objects), "
+      "{} of {} triangles",
       found.cutting, found.covering, found.between_objects, found.triangles, mesh.triangle_count());
   if (found.pairs() > 0) {
     const Vec3 p = mesh.corner(found.first[0], 0) + mesh.origin;
@@ -80,7 +81,8 @@ std::string shares_text(const Material& m) {
   const SmoothShares smooth =
       is_fresnel(m) ? fresnel_shares(m, 1) : SmoothShares{m.mirror, 0};
   std::string text = fmt::format("diffuse {:.3f}  mirror {:.3f}", m.diffuse, smooth.mirror);
-  if (m.glossy > 0) text += fmt::format("  glossy {:.3f} (exponent {:g})", m.glossy, m.glossy_exponent);
+  if (m.glossy > 0)
+    text += fmt::format("  glossy {:.3f} (exponent {:g})", m.glossy, m.glossy_exponent);
   if (m.transmittance > 0) text += fmt::format("  passes {:.3f}", m.transmittance);
   if (m.extinction_coefficient > 0) {
     text += fmt::format("  metal n {:g} k {:g}", m.refractive_index, m.extinction_coefficient);
@@ -100,7 +102,8 @@ std::string materials_text(const Scene& scene) {
   for (std::size_t m = 0; m < area.size(); ++m) {
     const Material& material = scene.materials[m];
     text += fmt::format("  {:<24} {}", material.name, shares_text(material));
-    if (material.emission_w_m2 > 0) text += fmt::format("  emits {:.4g} W/m2", material.emission_w_m2);
+    if (material.emission_w_m2 > 0)
+      text += fmt::format("  emits {:.4g} W/m2", material.emission_w_m2);
     text += fmt::format("  {:.6g} m2\n", area[m]);
   }
   return text;
@@ -122,12 +125,13 @@ std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
   std::string text;
   if (const auto& accuracy = plan.study.solver.accuracy)
     text = fmt::format(
-        "  a standard error of {:.3g} % is asked for: counts are decided at the start of the run, from "
-        "{} lines and {} direct samples up to {}; what follows is with the least\n",
+        "  a standard error of {:.3g} % is asked for: counts are decided at the start of the run, "
+        "from {} lines and {} direct samples up to {}; what follows is with the least\n",
         100 * accuracy->light_load_relative, plan.study.solver.lines_per_patch,
         plan.study.solver.direct_samples, plan.study.solver.max_lines_per_patch);
   const std::string shot =
-      work.samples > 0 ? fmt::format(", {:.3g} samples shot", static_cast<double>(work.samples)) : "";
+      work.samples > 0 ? fmt::format(", {:.3g} samples shot", static_cast<double>(work.samples))
+                       : "";
   return text + fmt::format(
       "  {} patches, {} intervals ({} with sun) in {} batches\n"
       "  {:.3g} lines, about {:.3g} shadow rays{}; estimated {:.0f} MiB memory, {:.0f} MiB disk, "

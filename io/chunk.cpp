@@ -22,8 +22,8 @@ namespace {
 
 constexpr float fill = std::numeric_limits<float>::quiet_NaN();
 
-/// The filter "shuffle" of HDF5 of `count` values that follow `first` others of a chunk: first byte of
-/// all values, second byte of all …
+/// The filter "shuffle" of HDF5 of `count` values that follow `first` others of a chunk: first byte
+/// of all values, second byte of all …
 void shuffle(const float* from, std::size_t count, std::size_t first, std::size_t values,
              unsigned char* planes) {
   for (std::size_t plane = 0; plane < sizeof(float); ++plane) {
@@ -61,7 +61,8 @@ Bytes plain(const Piece& piece) {
   for (std::size_t k = 0; k < piece.shape.rows; ++k) {
     if (k == piece.rows) std::fill(row.begin(), row.end(), fill);
     if (k < piece.rows) std::copy_n(piece.row(k), piece.width(), row.data());
-    std::memcpy(bytes.data() + k * row.size() * sizeof(float), row.data(), row.size() * sizeof(float));
+    std::memcpy(bytes.data() + k * row.size() * sizeof(float), row.data(),
+                row.size() * sizeof(float));
   }
   return bytes;
 }
@@ -73,7 +74,8 @@ void shuffled(const Piece& piece, Bytes& planes) {
   for (std::size_t k = 0; k < piece.shape.rows; ++k) {
     const std::size_t known = k < piece.rows ? piece.width() : 0, first = k * piece.shape.columns;
     if (known > 0) shuffle(piece.row(k), known, first, piece.count(), planes.data());
-    shuffle(padding.data(), piece.shape.columns - known, first + known, piece.count(), planes.data());
+    shuffle(padding.data(), piece.shape.columns - known, first + known, piece.count(),
+            planes.data());
   }
 }
 
@@ -84,11 +86,13 @@ struct NoiseRule {
   std::size_t one_of;   ///< pieces of so many are looked at
 };
 
-/// Where deflate gains at most 2.5 %: bytes are nearly equally frequent and hardly ever repeat their
-/// neighbour (noise: 1 / 256; the rest may be dark rows), as the last bits of a Monte Carlo estimate are.
+/// Where deflate gains at most 2.5 %: bytes are nearly equally frequent and hardly ever repeat
+/// their neighbour (noise: 1 / 256; the rest may be dark rows), as the last bits of a Monte Carlo
+/// estimate are.
 constexpr NoiseRule pure_noise{7.8, 1.0 / 32, 1};
-/// As long as one waits for it: the plane of a mantissa's first bits costs half of all the time for 5 % of
-/// the size (measured on a street, 8 realizations). Rows without light, of many repeats, are still deflated.
+/// As long as one waits for it: the plane of a mantissa's first bits costs half of all the time for
+/// 5 % of the size (measured on a street, 8 realizations). Rows without light, of many repeats, are
+/// still deflated.
 constexpr NoiseRule mostly_noise{7.5, 1.0 / 4, 4};
 constexpr int patient_level = 6;
 
@@ -129,7 +133,8 @@ class Compressor {
 };
 
 /// A whole number as that many bytes; where they end.
-unsigned char* put_number(unsigned char* to, std::size_t value, std::size_t bytes, std::endian order) {
+unsigned char* put_number(unsigned char* to, std::size_t value, std::size_t bytes,
+                          std::endian order) {
   for (std::size_t i = 0; i < bytes; ++i) {
     const std::size_t byte = order == std::endian::little ? i : bytes - 1 - i;
     *to++ = static_cast<unsigned char>(value >> (8 * byte));
@@ -150,8 +155,8 @@ unsigned char* put_stored(unsigned char* to, const unsigned char* from, std::siz
   return to;
 }
 
-/// As long as one waits for it, libdeflate's fastest: its level 4 takes twice as long for planes that are
-/// no noise, and saves 0.5 % of the size.
+/// As long as one waits for it, libdeflate's fastest: its level 4 takes twice as long for planes
+/// that are no noise, and saves 0.5 % of the size.
 int level_of_deflate(int level) { return level < patient_level ? 1 : level; }
 
 /// A zlib stream (RFC 1950) that stores the leading planes of noise, where
@@ -166,7 +171,8 @@ Bytes zlib_stream(const Bytes& planes, std::size_t values, int level) {
     stored += values;
 
   thread_local Bytes stream;  // fresh memory of a megabyte costs more than what is done with it
-  stream.resize(std::max(stream.size(), planes.size() + stored_head * (planes.size() / longest_stored + 1) + 2));
+  stream.resize(std::max(stream.size(),
+                         planes.size() + stored_head * (planes.size() / longest_stored + 1) + 2));
   unsigned char* to = stream.data();
   *to++ = method_and_window;
   *to++ = check_bits;

@@ -57,8 +57,8 @@ std::string comparison_csv(const Comparison& comparison);
 std::string comparison_json(const Comparison& comparison);
 
 /// The groups, the facades and, on the base's mesh, the patches that both results have, with their
-/// differences and the standard errors of these (docs/comparison-file.md). The file appears when it is
-/// complete. Throws MachineError where it cannot be written.
+/// differences and the standard errors of these (docs/comparison-file.md). The file appears when it
+/// is complete. Throws MachineError where it cannot be written.
 void write_comparison_hdf5(const Comparison& comparison, const ResultReader& base,
                            const ResultReader& variant, const std::string& path);
 

@@ -79,7 +79,8 @@ class ComparisonFile {
     const auto number = std::to_string(size);
     sizes_[name] = size;
     auto scale = file_.create_dataset(name, {h5::Type::float32, {size}, {}, 0});
-    scale.make_scale(no_variable + std::string(digits - std::min(digits, number.size()), ' ') + number);
+    scale.make_scale(no_variable + std::string(digits - std::min(digits, number.size()), ' ') +
+                     number);
     scales_.emplace(name, scale);
   }
 
@@ -167,7 +168,8 @@ void put_facades(ComparisonFile& file, const Comparison& comparison, const Resul
     if (row.kind == "facade") rows[row.name] = &row;
   const auto values = [&](const auto& get) {
     std::vector<double> list;
-    for (const auto& name : names) list.push_back(rows.contains(name) ? get(*rows[name]) : not_known);
+    for (const auto& name : names)
+      list.push_back(rows.contains(name) ? get(*rows[name]) : not_known);
     return list;
   };
   const std::vector<std::string> dims{"facade"};
@@ -188,9 +190,9 @@ void put_mesh(ComparisonFile& file, const ResultReader& base) {
   file.dimension("vertex", base.shape("vertex_position").front());
   file.dimension("patch", base.shape("patch_area").front());
   file.dimension("object", base.strings("object_name").size());
-  for (const char* name : {"object_name", "vertex_position", "vertex_x", "vertex_y", "vertex_z", "patch_vertices",
-                           "patch_area", "patch_centroid", "patch_normal", "patch_object", "patch_facade",
-                           "patch_surface", "patch_side"}) {
+  for (const char* name : {"object_name", "vertex_position", "vertex_x", "vertex_y", "vertex_z",
+                           "patch_vertices", "patch_area", "patch_centroid", "patch_normal",
+                           "patch_object", "patch_facade", "patch_surface", "patch_side"}) {
     const auto* of = find_result_variable(name);
     const auto dims = dimension_names(*of);
     const std::string units(of->units), what(of->long_name);
@@ -201,7 +203,8 @@ void put_mesh(ComparisonFile& file, const ResultReader& base) {
     else
       file.put(name, dims, of->type, units, what, base.integers(name));
   }
-  auto mesh = file.put("mesh", {}, h5::Type::int32, "", "topology of the patches", std::vector<std::int32_t>{0});
+  auto mesh = file.put("mesh", {}, h5::Type::int32, "", "topology of the patches",
+                       std::vector<std::int32_t>{0});
   mesh.set("cf_role", "mesh_topology");
   mesh.set("topology_dimension", 2.0, h5::Type::int32);
   mesh.set("node_coordinates", "vertex_x vertex_y vertex_z");
@@ -222,11 +225,15 @@ void put_patches(ComparisonFile& file, const Comparison& comparison, const Resul
     difference[p] = theirs[q] - own[p];
     if (comparison.errors == Comparison::Errors::unknown) continue;
     const auto a = column(own_rows, p), b = column(their_rows, q);
-    se[p] = (comparison.errors == Comparison::Errors::paired ? paired_error(a, b) : welch_error(a, b)).se;
+    se[p] =
+        (comparison.errors == Comparison::Errors::paired ? paired_error(a, b) : welch_error(a, b))
+            .se;
   }
   const std::vector<std::string> dims{"patch"};
-  file.put("variant_patch", dims, h5::Type::int32, "", "index of the same patch in the variant, -1: none", match);
-  const auto put = [&](const std::string& name, const std::string& what, const std::vector<double>& values) {
+  file.put("variant_patch", dims, h5::Type::int32, "",
+           "index of the same patch in the variant, -1: none", match);
+  const auto put = [&](const std::string& name, const std::string& what,
+                       const std::vector<double>& values) {
     auto dataset = file.put(name, dims, h5::Type::float64, comparison.units, what, values);
     dataset.set("mesh", "mesh");
     dataset.set("location", "face");

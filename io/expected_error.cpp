@@ -30,7 +30,8 @@ int count_for(double factor, double tolerable) {
 double small_area(const Hierarchy& mesh) {
   std::vector<double> area = mesh.area();
   if (area.empty()) return 0;
-  const auto at = area.begin() + static_cast<std::ptrdiff_t>(smallest_share * static_cast<double>(area.size()));
+  const auto at =
+      area.begin() + static_cast<std::ptrdiff_t>(smallest_share * static_cast<double>(area.size()));
   std::nth_element(area.begin(), at, area.end());
   return *at;
 }
@@ -44,8 +45,9 @@ std::vector<std::string> expected_error_warnings(const VariantPlan& plan, const 
   constexpr double of_lines = 0.6, of_samples = 0.5;
   if (const double error = of_lines / std::sqrt(s.lines_per_patch); error > tolerable_of_lines)
     warnings.push_back(fmt::format(
-        "solver.lines_per_patch {} lets expect a standard error of some {:.0f} % in the light of sky "
-        "and surroundings on a patch (facades and totals are better); {} would give less than {:.0f} %",
+        "solver.lines_per_patch {} lets expect a standard error of some {:.0f} % in the light of "
+        "sky and surroundings on a patch (facades and totals are better); {} would give less "
+        "than {:.0f} %",
         s.lines_per_patch, 100 * error, count_for(of_lines, tolerable_of_lines),
         100 * tolerable_of_lines));
   if (const double error = of_samples / std::sqrt(s.direct_samples); error > tolerable_of_samples)
@@ -61,10 +63,11 @@ std::vector<std::string> expected_error_warnings(const VariantPlan& plan, const 
   const auto samples = static_cast<double>(estimate_work(plan, mesh.patch_count()).samples);
   const double blocks = std::max(1.0, std::ceil(static_cast<double>(plan.intervals()) / 16));
   const double each = samples / blocks / std::max(1, s.bounces);
-  if (const double error = std::sqrt(area / (std::max(each, 1.0) * small)); error > tolerable_of_shots)
+  if (const double error = std::sqrt(area / (std::max(each, 1.0) * small));
+      error > tolerable_of_shots)
     warnings.push_back(fmt::format(
-        "{:.3g} samples for {} patches let expect a standard error of {:.0f} % or more in the reflected "
-        "light on a tenth of the patches (those below {:.2g} m2); use a smaller "
+        "{:.3g} samples for {} patches let expect a standard error of {:.0f} % or more in the "
+        "reflected light on a tenth of the patches (those below {:.2g} m2); use a smaller "
         "solver.power_per_sample_w or lines_per_patch {} or a larger mesh.min_area_m2",
         each, mesh.patch_count(), 100 * error, small,
         round_up(s.lines_per_patch * error * error / (tolerable_of_shots * tolerable_of_shots))));

@@ -54,8 +54,8 @@ void expect_heeded(const ExportFormat& format, const ExportRules& rules, const s
                  "--interpolate and --crease-angle are for colours of corners",
                  "leave them out, or export to glb or vrml");
   if (rules.crease_angle_deg && !rules.interpolate)
-    problems.add({}, "--crease-angle without --interpolate", "patches of one colour have no creases",
-                 "add --interpolate");
+    problems.add({}, "--crease-angle without --interpolate",
+                 "patches of one colour have no creases", "add --interpolate");
   if (rules.crease_angle_deg && !(*rules.crease_angle_deg >= 0 && *rules.crease_angle_deg <= 180))
     problems.add({}, fmt::format("--crease-angle {}", *rules.crease_angle_deg),
                  "must lie in [0, 180] degrees", "20 joins the facets of round towers");

@@ -23,7 +23,8 @@ constexpr double grid_m = 1e-4;
 
 /// The object of triangles that bear no patch (floors): of those before and after it in the file,
 /// the one that it shares most corners with.
-std::vector<std::int32_t> triangle_objects(const ResultReader& result, const ExportPatches& patches) {
+std::vector<std::int32_t> triangle_objects(const ResultReader& result,
+                                           const ExportPatches& patches) {
   const auto corners = result.integers("input_triangle_vertices");
   const auto of_patch = result.integers("patch_input_triangle");
   std::vector<std::int32_t> object(corners.size() / 3, -1);
@@ -189,8 +190,9 @@ std::string surface_type(Surface kind, Vec3 normal) {
 std::string reference_system(const std::string& crs) {
   static const std::regex epsg(".*EPSG.*?([0-9]+)", std::regex::icase);
   std::smatch found;
-  return std::regex_match(crs, found, epsg) ? "https://www.opengis.net/def/crs/EPSG/0/" + found[1].str()
-                                            : std::string();
+  return std::regex_match(crs, found, epsg)
+             ? "https://www.opengis.net/def/crs/EPSG/0/" + found[1].str()
+             : std::string();
 }
 
 void export_cityjson(const ResultReader& result, const ExportRules& rules,

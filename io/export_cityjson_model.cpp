@@ -117,7 +117,8 @@ json& semantic_place(json& values, const json& boundaries, const Numbers& place)
   return *inner;
 }
 
-/// Whether semantic surfaces of that type may be put on objects that have none (CityJSON 2.0.1, 3.3).
+/// Whether semantic surfaces of that type may be put on objects that have none
+/// (CityJSON 2.0.1, 3.3).
 bool may_bear(const std::string& object, const std::string& surface) {
   const bool is_built = object.starts_with("Building") || object.starts_with("Bridge") ||
                         object.starts_with("Tunnel");
@@ -217,7 +218,8 @@ class ModelWriter {
   }
 
   /// Patches of an object and of its parts.
-  void collect(const json& objects, const std::string& id, Numbers& to, std::set<std::string>& seen) const {
+  void collect(const json& objects, const std::string& id, Numbers& to,
+               std::set<std::string>& seen) const {
     if (!seen.insert(id).second) return;
     if (const auto found = patches_.by_object.find(id); found != patches_.by_object.end())
       for (const auto& face : found->second)

@@ -76,9 +76,10 @@ Direct direct_light(const ResultReader& result) {
   direct.normal_dataset =
       result.quantity() == Quantity::illuminance ? "direct_normal_illuminance" : "dni";
   if (!result.has(direct.dataset))
-    throw InputError({result.path()}, "no dataset " + direct.dataset,
-                     "sunlit fractions are the direct light's share of what an unshaded facade gets",
-                     "run the study with the series in parts, or export to csv");
+    throw InputError(
+        {result.path()}, "no dataset " + direct.dataset,
+        "sunlit fractions are the direct light's share of what an unshaded facade gets",
+        "run the study with the series in parts, or export to csv");
   direct.normal = result.doubles(direct.normal_dataset);
   direct.sun = result.doubles("sun_direction");
   return direct;
@@ -135,8 +136,10 @@ void export_energyplus(const ResultReader& result, const ExportRules& rules,
     if (sun.z > 0 && !(direct.normal[k] > 0)) ++unknown;
     const auto row = result.row(direct.dataset, k);
     if (std::any_of(row.begin(), row.end(), [](double value) { return std::isnan(value); }))
-      throw InputError({result.path()}, "the series is not complete",
-                       "there is no value at the interval that ends " + end_text(year.begin[k], year.step_s), "finish the run");
+      throw InputError(
+          {result.path()}, "the series is not complete",
+          "there is no value at the interval that ends " + end_text(year.begin[k], year.step_s),
+          "finish the run");
     out << end_text(year.begin[k], year.step_s);
     for (const double share : facades.sunlit(row, direct.normal[k], sun))
       out << fmt::format(",{:.6g}", share);

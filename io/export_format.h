@@ -52,8 +52,8 @@ ShownQuantity export_quantity(const ResultReader& result, const ExportRules& rul
 ExportColours export_colours(const ResultReader& result, const ExportRules& rules,
                              const ExportPatches& patches);
 
-/// Values of the corners: means as ExportRules::interpolate says. Vertices in the same place are one.
-/// Values that are not known are left out of the means; a corner without known ones is NaN.
+/// Values of the corners: means as ExportRules::interpolate says. Vertices in the same place are
+/// one. Values that are not known are left out of the means; a corner without known ones is NaN.
 std::vector<std::array<double, 3>> corner_values(const ExportPatches& patches,
                                                  const std::vector<double>& values,
                                                  double crease_angle_deg);
@@ -82,8 +82,8 @@ void export_ply(const ResultReader&, const ExportRules&, const ExportTarget&);
 /// attributes, or CityJSON 2.0 of the patches. CityJSON specifications 2.0.1.
 void export_cityjson(const ResultReader&, const ExportRules&, const ExportTarget&);
 
-/// GeoPackage with the layers "patches" and "objects", surfaces with z, in the scene's CRS where it has one.
-/// OGC 12-128r18, GeoPackage Encoding Standard 1.3, written by GDAL.
+/// GeoPackage with the layers "patches" and "objects", surfaces with z, in the scene's CRS where it
+/// has one. OGC 12-128r18, GeoPackage Encoding Standard 1.3, written by GDAL.
 void export_geopackage(const ResultReader&, const ExportRules&, const ExportTarget&);
 
 /// Sunlit fraction of every facade at every step of a year, CSV: direct light by what an unshaded

@@ -43,7 +43,8 @@ class MemoryFile {
   std::string_view bytes() const {
     vsi_l_offset count = 0;
     const auto* data = VSIGetMemFileBuffer(path_.c_str(), &count, FALSE);
-    return {reinterpret_cast<const char*>(data), data == nullptr ? 0 : static_cast<std::size_t>(count)};
+    return {reinterpret_cast<const char*>(data),
+            data == nullptr ? 0 : static_cast<std::size_t>(count)};
   }
 
  private:
@@ -58,7 +59,8 @@ class Shapes {
   OGRGeometryH triangle(std::size_t patch) const {
     OGRGeometryH ring = OGR_G_CreateGeometry(wkbLinearRing);
     for (const std::size_t k : {0U, 1U, 2U, 0U}) {
-      const Vec3 at = patches_.vertices[static_cast<std::size_t>(patches_.corners[patch][k])] + patches_.origin;
+      const Vec3 at =
+          patches_.vertices[static_cast<std::size_t>(patches_.corners[patch][k])] + patches_.origin;
       OGR_G_AddPoint(ring, at.x, at.y, at.z);
     }
     OGRGeometryH polygon = OGR_G_CreateGeometry(wkbPolygon25D);
@@ -153,11 +155,13 @@ void export_geopackage(const ResultReader& result, const ExportRules& rules,
   if (driver == nullptr) throw MachineError("GDAL has no driver GPKG here");
   const MemoryFile memory;
   {
-    const auto file = owned(GDALCreate(driver, memory.path(), 0, 0, 0, GDT_Unknown, nullptr), &GDALClose);
+    const auto file =
+        owned(GDALCreate(driver, memory.path(), 0, 0, 0, GDT_Unknown, nullptr), &GDALClose);
     if (!file) fail(target.path);
     const auto crs = owned(OSRNewSpatialReference(nullptr), &OSRDestroySpatialReference);
     const auto name = result.text_attribute("crs");
-    const bool has_crs = !name.empty() && OSRSetFromUserInput(crs.get(), name.c_str()) == OGRERR_NONE;
+    const bool has_crs =
+        !name.empty() && OSRSetFromUserInput(crs.get(), name.c_str()) == OGRERR_NONE;
     OSRSetAxisMappingStrategy(crs.get(), OAMS_TRADITIONAL_GIS_ORDER);
     // One transaction: a row for itself would be flushed for itself.
     GDALDatasetStartTransaction(file.get(), FALSE);

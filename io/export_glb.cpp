@@ -102,7 +102,8 @@ class Scene {
   }
 };
 
-/// Colours are shown as they are, not lit; readers without the extension light a white matt surface.
+/// Colours are shown as they are, not lit; readers without the extension light a white matt
+/// surface.
 json unlit_material() {
   return {{"name", "colours"},
           {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}},

@@ -78,8 +78,8 @@ class Grid {
 
   std::string text(std::size_t interval, double time, const std::string& name) const {
     std::string out = fmt::format(
-        "      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n{}", name, time,
-        fixed_);
+        "      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n{}", name,
+        time, fixed_);
     const std::string whole = fmt::format("{} {}", intervals_, patches_);
     for (const auto& series : series_)
       out += attribute(

@@ -160,7 +160,8 @@ const json& GltfFile::entry(const std::string& list, const json& index) const {
   const bool is_there = found != json_.end() && found->is_array() && index.is_number_unsigned() &&
                         index.get<std::size_t>() < found->size() &&
                         (*found)[index.get<std::size_t>()].is_object();
-  if (!is_there) fail("has no entry " + index.dump() + " in '" + list + "'", "something refers to it");
+  if (!is_there)
+    fail("has no entry " + index.dump() + " in '" + list + "'", "something refers to it");
   return (*found)[index.get<std::size_t>()];
 }
 
@@ -203,7 +204,8 @@ std::vector<double> GltfFile::numbers(const json& index, const std::string& type
   if (accessor.value("type", json()) != type) fail(name + " is no " + type);
   const auto component_type = whole(accessor, "componentType");
   const auto* component =
-      component_type ? component_of(static_cast<int>(std::min<std::size_t>(*component_type, 9999))) : nullptr;
+      component_type ? component_of(static_cast<int>(std::min<std::size_t>(*component_type, 9999)))
+                     : nullptr;
   if (component == nullptr) fail(name + " has no known componentType");
   const auto count = whole(accessor, "count"), offset = whole(accessor, "byteOffset");
   const auto& view = entry("bufferViews", accessor.value("bufferView", json()));
@@ -217,10 +219,12 @@ std::vector<double> GltfFile::numbers(const json& index, const std::string& type
     fail(name + " lies outside of its buffer", "", "is the file cut off?");
   const std::size_t stride = *stated_stride == 0 ? size : *stated_stride;
   if (stride < size || *offset > *length ||
-      (*count > 0 && (*length - *offset < size || (*length - *offset - size) / stride < *count - 1)))
+      (*count > 0 &&
+       (*length - *offset < size || (*length - *offset - size) / stride < *count - 1)))
     fail(name + " lies outside of its buffer view", "", "is the file cut off?");
   const auto normalized = accessor.value("normalized", json());
-  const double scale = normalized.is_boolean() && normalized.get<bool>() ? 1 / component->largest : 1;
+  const double scale =
+      normalized.is_boolean() && normalized.get<bool>() ? 1 / component->largest : 1;
   std::vector<double> values;
   values.reserve(*count * width);
   for (std::size_t i = 0; i < *count; ++i) {

@@ -135,7 +135,8 @@ void expect_stored(hid_t dataset, std::size_t values) {
     hsize_t file_bytes = 0;
     const auto file = handle(H5Iget_file_id(dataset), &H5Fclose, "file");
     checked(H5Fget_filesize(*file, &file_bytes), "file");
-    if (values > at_least + per_byte * file_bytes) throw Error("more values than the file can hold");
+    if (values > at_least + per_byte * file_bytes)
+      throw Error("more values than the file can hold");
     return;
   }
   const auto type = handle(H5Dget_type(dataset), &H5Tclose, "type");

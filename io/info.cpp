@@ -86,8 +86,9 @@ std::string accuracy(const ResultReader& result, const PatchGroups& groups,
   const std::string asked =
       std::isnan(goal)
           ? std::string()
-          : line("", fmt::format("asked for: below {:.3g} % on 95 % of the area; reached on {:.3g} %",
-                                 100 * goal, 100 * result.number_attribute("accuracy_area_share")));
+          : line("",
+                 fmt::format("asked for: below {:.3g} % on 95 % of the area; reached on {:.3g} %",
+                             100 * goal, 100 * result.number_attribute("accuracy_area_share")));
   return line(
       "accuracy",
       fmt::format("standard error of a patch's light load: {:.2g} % (median by area), below "

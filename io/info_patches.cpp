@@ -64,7 +64,8 @@ std::string patches_csv(const ResultReader& result) {
   fmt::format_to(out,
                  "index,object,facade,surface,material,side,area_m2,centroid_x_m,centroid_y_m,"
                  "centroid_z_m,normal_x,normal_y,normal_z");
-  for (const auto& column : columns) fmt::format_to(out, ",{}", unit_names(column.header, result.quantity()));
+  for (const auto& column : columns)
+    fmt::format_to(out, ",{}", unit_names(column.header, result.quantity()));
   fmt::format_to(out, "\n");
   for (std::size_t i = 0; i < area.size(); ++i) {
     fmt::format_to(out, "{},{},{},{},{},{},{}", i, objects[object[i]], facades[facade[i]],

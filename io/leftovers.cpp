@@ -66,7 +66,8 @@ void remove_finished_work(const std::string& folder, const Study& study, const s
   VariantPlan finished;
   finished.study = study;
   finished.content_hash = hash;
-  const std::string work = work_folder(folder, finished), lock_path = merge_lock_path(folder, study);
+  const std::string work = work_folder(folder, finished),
+                    lock_path = merge_lock_path(folder, study);
   std::error_code unreadable;
   if (fs::exists(work + "/" + kept, unreadable)) return;
   if (!fs::exists(work, unreadable) && !fs::exists(lock_path, unreadable)) return;

@@ -10,7 +10,8 @@ namespace sunload {
 /// Lock of a variant's merge.
 std::string merge_lock_path(const std::string& folder, const Study& study);
 
-/// Marks a variant's batches as wanted (--keep-batches): later runs leave them. Throws MachineError.
+/// Marks a variant's batches as wanted (--keep-batches): later runs leave them. Throws
+/// MachineError.
 void keep_work(const std::string& folder, const VariantPlan& plan);
 
 /// Removes a variant's batches, its lines and all that belongs to them.

@@ -110,11 +110,12 @@ class MaterialAssigner {
     for (const auto& [other, m] : by_name_) known.push_back(other);
     for (const auto& [other, m] : of_files_) known.push_back(other);
     const std::string hint = key_hint(name, known);
-    problems_.add(where, "material '" + name + "' is not known",
-                  "neither scene.materials nor the scene files define it, and the table has no such row",
-                  hint.starts_with("did you mean")
-                      ? hint
-                      : "define it under scene.materials, or take one that `sunload materials` lists");
+    problems_.add(
+        where, "material '" + name + "' is not known",
+        "neither scene.materials nor the scene files define it, and the table has no such row",
+        hint.starts_with("did you mean")
+            ? hint
+            : "define it under scene.materials, or take one that `sunload materials` lists");
   }
 
   const MaterialStudy& named(const std::string& name) const {
@@ -211,7 +212,8 @@ class MaterialAssigner {
     for (std::size_t s = 0; s < surface_names.size(); ++s) {
       if (static_cast<Surface>(s) == Surface::floor || defaulted_m2_[s] == 0) continue;
       defaulted += defaulted_m2_[s];
-      kinds += fmt::format("{}{} {:.0f} m2", kinds.empty() ? "" : ", ", surface_names[s], defaulted_m2_[s]);
+      kinds += fmt::format("{}{} {:.0f} m2", kinds.empty() ? "" : ", ", surface_names[s],
+                           defaulted_m2_[s]);
     }
     if (defaulted == 0) return;
     for (std::size_t t = 0; t < scene_.mesh.triangle_count(); ++t)
@@ -238,8 +240,8 @@ class MaterialAssigner {
     }
     for (const auto& [name, area] : dark_m2)
       warnings_.push_back(fmt::format(
-          "material '{}' glows by its file, which tells no power: its {:.4g} m2 emit nothing; write "
-          "scene.materials: {{{}: {{emission_w_m2: …}}}}, 0 if that is meant",
+          "material '{}' glows by its file, which tells no power: its {:.4g} m2 emit nothing; "
+          "write scene.materials: {{{}: {{emission_w_m2: …}}}}, 0 if that is meant",
           name, area, name));
   }
 

@@ -98,7 +98,8 @@ constexpr double kwh_per_joule = 1 / joules_per_kwh;
 /// Writes what follows from the totals of every band, side by side.
 class BandWriter {
  public:
-  BandWriter(ResultWriter& writer, Bands bands) : writer_(writer), prefixes_(band_prefixes(bands)) {}
+  BandWriter(ResultWriter& writer, Bands bands)
+      : writer_(writer), prefixes_(band_prefixes(bands)) {}
 
   /// `of_band(prefix)` gives the values of one band, [rows, n].
   template <class OfBand>
@@ -306,7 +307,8 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
                {"elevation_m", plan.built.site.elevation_m},
                {"north_deg", plan.built.site.north_deg},
                {"reuse_bias_share", reuse_bias(totals, geometry, R)},
-               {unit_names("residual_reuse_bias_kwh", study.light.quantity), residual_reuse_bias_kwh(totals, R)},
+               {unit_names("residual_reuse_bias_kwh", study.light.quantity),
+                residual_reuse_bias_kwh(totals, R)},
                {"runtime_lines_s", work.lines_s},
                {"runtime_direct_s", work.direct_s},
                {"runtime_mirror_s", work.mirror_s},

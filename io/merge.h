@@ -29,8 +29,9 @@ std::vector<std::size_t> batches_not_there(const std::string& folder, const Vari
 /// Throws InputError where a batch is missing or not valid (check first), but
 /// for those that are to be left out: their rows are missing values, and sums are
 /// those of the other batches. Returns warnings that only the results bring to light.
-std::vector<std::string> merge_variant(const std::string& folder, const VariantPlan& plan, const StudyFile& file,
-                   const Hierarchy& hierarchy, const std::string& path,
-                   const std::vector<std::size_t>& left_out = {});
+std::vector<std::string> merge_variant(const std::string& folder, const VariantPlan& plan,
+                                       const StudyFile& file, const Hierarchy& hierarchy,
+                                       const std::string& path,
+                                       const std::vector<std::size_t>& left_out = {});
 
 }  // namespace sunload

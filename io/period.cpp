@@ -78,7 +78,8 @@ PeriodSteps period_steps(const PeriodStudy& period, const TimeZone& zone) {
   std::visit(StepsOf{zone, out}, period.kind);
   for (std::size_t i = 1; i < out.steps.size(); ++i)
     if (out.steps[i].instant <= out.steps[i - 1].instant)
-      throw InputError(period.where, "period: " + iso_utc(out.steps[i].instant) + " does not come after " +
+      throw InputError(period.where,
+                       "period: " + iso_utc(out.steps[i].instant) + " does not come after " +
                            iso_utc(out.steps[i - 1].instant),
                        "time must strictly increase", "sort the days or instants, name each once");
   return out;

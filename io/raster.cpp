@@ -64,7 +64,8 @@ class RasterReader {
     static std::once_flag registered;
     std::call_once(registered, [] {
       GDALAllRegister();
-      constexpr GIntBig cache_bytes = 64'000'000;  // rows are read once; the default is 5 % of all memory
+      // Rows are read once; the default is 5 % of all memory.
+      constexpr GIntBig cache_bytes = 64'000'000;
       GDALSetCacheMax64(cache_bytes);
     });
     // Only these two: other drivers may follow links to elsewhere.

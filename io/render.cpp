@@ -81,16 +81,16 @@ void expect_sense(const RenderRules& rules) {
   if (rules.projection == Projection::parallel && !is_free)
     problems.add({}, "--projection with this camera", "it is always parallel", "leave it out");
   if (rules.crease_angle_deg && !rules.interpolate)
-    problems.add({}, "--crease-angle without --interpolate", "patches of one colour have no creases",
-                 "add --interpolate");
+    problems.add({}, "--crease-angle without --interpolate",
+                 "patches of one colour have no creases", "add --interpolate");
   if (rules.crease_angle_deg && !(*rules.crease_angle_deg >= 0 && *rules.crease_angle_deg <= 180))
     problems.add({}, fmt::format("--crease-angle {}", *rules.crease_angle_deg),
                  "must lie in [0, 180] degrees");
   if (rules.largest && !rules.same_scale.empty())
     problems.add({}, "--max with --same-scale", "both set the end of the scale", "leave out one");
   if (rules.colours == PictureColours::of_bands && (rules.interpolate || !rules.same_scale.empty()))
-    problems.add({}, "--colour rgb with --interpolate or --same-scale", "these are of values, not of bands",
-                 "leave them out; --max sets what is white");
+    problems.add({}, "--colour rgb with --interpolate or --same-scale",
+                 "these are of values, not of bands", "leave them out; --max sets what is white");
   problems.throw_if_any();
 }
 
@@ -141,7 +141,8 @@ class Renderer {
     PatchColours colours{shown.values, largest, rules_.palette, rules_.mesh, {}, {}};
     const bool in_rgb = rules_.colours == PictureColours::of_bands;
     if (in_rgb) {
-      auto bands = colours_of_bands(result_, shown.dataset, rules_.time, rules_.largest, scene_.area());
+      auto bands =
+          colours_of_bands(result_, shown.dataset, rules_.time, rules_.largest, scene_.area());
       colours.own = std::move(bands.of_patches);
       largest = bands.white;
     }
@@ -152,10 +153,11 @@ class Renderer {
                                                           : SkyBackground::plain);
     picture->paint(area.x, area.y, area.width,
                    traced_->pixels(colours, {kind, sun_at(result_, shown.interval)}));
-    draw_title(*picture, title(result_) + band_title(result_),
-               shown.name + ", " + shown.when +
-                   (rules_.facade.empty() ? "" : "; facade " + rules_.facade) +
-                   (in_rgb ? fmt::format(", in colour, white: {:.4g} {}", largest, shown.units) : ""));
+    draw_title(
+        *picture, title(result_) + band_title(result_),
+        shown.name + ", " + shown.when +
+            (rules_.facade.empty() ? "" : "; facade " + rules_.facade) +
+            (in_rgb ? fmt::format(", in colour, white: {:.4g} {}", largest, shown.units) : ""));
     const bool is_exceeded = std::any_of(shown.values.begin(), shown.values.end(),
                                          [&](double value) { return value > largest; });
     if (!in_rgb)
@@ -235,7 +237,8 @@ std::vector<std::size_t> sunny_intervals(const ResultReader& result, const std::
   return sunny;
 }
 
-ShownQuantity shown_at(const ResultReader& result, const std::string& dataset, std::size_t interval) {
+ShownQuantity shown_at(const ResultReader& result, const std::string& dataset,
+                       std::size_t interval) {
   return shown_quantity(result, dataset, iso_utc(result.doubles("time").at(interval)));
 }
 
@@ -256,7 +259,8 @@ void render_animation(const ResultReader& result, const RenderRules& rules, cons
   if (!rules.time.empty())
     throw InputError({}, "--time with --animate", "it shows all times", "use --day");
   if (rules.colours == PictureColours::of_bands)
-    throw InputError({}, "--colour rgb with --animate", "each picture would have a white of its own",
+    throw InputError({}, "--colour rgb with --animate",
+                     "each picture would have a white of its own",
                      "draw single pictures with --time and --max");
   const std::string dataset = rules.quantity.empty() ? dataset_name("irradiance", result.quantity())
                                                      : rules.quantity;

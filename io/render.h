@@ -28,12 +28,14 @@ enum class PictureColours { of_values, of_bands };
 enum class SkyBackground { plain, first, second };
 
 struct RenderRules {
-  std::string quantity;  ///< a dataset [patch] or [time, patch]; empty: the light load, animated the irradiance
+  /// A dataset [patch] or [time, patch]; empty: the light load, animated the irradiance.
+  std::string quantity;
   std::string time;      ///< as in a study; empty: the brightest interval
   View view = View::overview;
   /// Parallel, from before the facade of that name; what stands farther in front is cut away.
   std::string facade;
-  /// From a point to a point of the scene, in the coordinates of the study (absolute). Both or none.
+  /// From a point to a point of the scene, in the coordinates of the study (absolute). Both or
+  /// none.
   std::optional<Vec3> eye, look;
   /// Of the overview and of eye and look; parallel pictures hold the whole scene.
   Projection projection = Projection::perspective;
@@ -58,9 +60,10 @@ struct RenderRules {
 /// not have, MachineError where the picture cannot be written.
 void render_png(const ResultReader& result, const RenderRules& rules, const std::string& path);
 
-/// A picture for every interval of `day` (year-month-day; empty: of the period) with the sun above the
-/// horizon: `NAME-0001.png` … by the interval's place in the result (from 1), and `NAME.png` with all of
-/// them as an animation (APNG). One scale does for all. Throws as above, and where no sun is up.
+/// A picture for every interval of `day` (year-month-day; empty: of the period) with the sun above
+/// the horizon: `NAME-0001.png` … by the interval's place in the result (from 1), and `NAME.png`
+/// with all of them as an animation (APNG). One scale does for all. Throws as above, and where no
+/// sun is up.
 void render_animation(const ResultReader& result, const RenderRules& rules, const std::string& day,
                       const std::string& path);
 

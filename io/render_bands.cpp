@@ -12,9 +12,10 @@ BandColours colours_of_bands(const ResultReader& result, const std::string& data
                              const std::string& time, const std::optional<double>& largest,
                              const std::vector<double>& area) {
   if (result.bands() == Bands::broadband || result.band())
-    throw InputError({result.path()}, "--colour rgb needs all bands of a result in bands",
-                     result.band() ? "--band chooses one" : "this one has none",
-                     result.band() ? "leave --band away" : "compute the study with solver.bands: rgb");
+    throw InputError(
+        {result.path()}, "--colour rgb needs all bands of a result in bands",
+        result.band() ? "--band chooses one" : "this one has none",
+        result.band() ? "leave --band away" : "compute the study with solver.bands: rgb");
   std::array<std::vector<double>, band_count> bands;
   std::vector<double> brightest(area.size(), 0);
   for (std::size_t b = 0; b < band_count; ++b) {

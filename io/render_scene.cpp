@@ -88,7 +88,8 @@ class Painter {
                     bool border) const {
     if (sample.triangle < 0) return sky(column, row);
     const auto patch = scene_.patch_met(sample.triangle, sample.front);
-    const double value = patch < 0 ? std::nan("") : value_at(sample, static_cast<std::size_t>(patch));
+    const double value =
+        patch < 0 ? std::nan("") : value_at(sample, static_cast<std::size_t>(patch));
     auto colour = std::isnan(value)        ? back_
                   : colours_.own.empty() ? of_value(value)
                                          : colours_.own[static_cast<std::size_t>(patch)];
@@ -205,7 +206,8 @@ void TracedPicture::trace_tiles(std::size_t first_row) {
       directions.y[k] = static_cast<float>(rays[k].direction.y);
       directions.z[k] = static_cast<float>(rays[k].direction.z);
     }
-    const auto hits = caster_.first_hits(origins, directions, active, RayCaster::Coherence::parallel);
+    const auto hits =
+        caster_.first_hits(origins, directions, active, RayCaster::Coherence::parallel);
     for (std::size_t k = 0; k < packet_size; ++k) {
       if (!(active >> k & 1U)) continue;
       auto& sample = samples_[(first_row + k / tile_size) * columns_ + first + k % tile_size];
@@ -222,7 +224,8 @@ void TracedPicture::trace_tiles(std::size_t first_row) {
 }
 
 /// Strength of the nearest edge's line at barycentric weights (u, v).
-double TracedPicture::mesh_line(std::size_t triangle, double u, double v, const CameraRay& ray) const {
+double TracedPicture::mesh_line(std::size_t triangle, double u, double v,
+                                const CameraRay& ray) const {
   const auto& mesh = scene_.mesh();
   const Vec3 a = mesh.corner(triangle, 0), b = mesh.corner(triangle, 1),
              c = mesh.corner(triangle, 2);
@@ -316,7 +319,8 @@ PatchScene::FacadeShape PatchScene::facade_shape(const ResultReader& result,
     shape.normal += normal_[i] * area_[i];
   }
   if (shape.points.empty() || norm(shape.normal) == 0)
-    throw InputError({result.path()}, "facade " + name + " has no patches", "there is nothing to see");
+    throw InputError({result.path()}, "facade " + name + " has no patches",
+                     "there is nothing to see");
   shape.normal = normalized(shape.normal);
   return shape;
 }
@@ -326,7 +330,8 @@ bool PatchScene::is_border(std::int32_t triangle, std::int32_t other) const {
   const auto& b = facets_[static_cast<std::size_t>(other)];
   if (a.object != b.object || a.material != b.material || a.surface != b.surface) return true;
   static const auto fold_cosine = static_cast<float>(std::cos(radians(fold_deg)));
-  const float cosine = a.normal[0] * b.normal[0] + a.normal[1] * b.normal[1] + a.normal[2] * b.normal[2];
+  const float cosine =
+      a.normal[0] * b.normal[0] + a.normal[1] * b.normal[1] + a.normal[2] * b.normal[2];
   if (cosine < fold_cosine) return true;
   // Coplanar faces may lie far apart across a bend: only parallel ones can be a step.
   constexpr float parallel_cosine = 1 - 1e-6F;

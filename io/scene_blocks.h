@@ -12,7 +12,8 @@ namespace sunload {
 struct RasterFiles {
   std::string surface;  ///< elevations of roofs and ground (DSM)
   std::string terrain;  ///< elevations of bare ground (DEM)
-  std::string canopy;   ///< heights of crowns above the ground, 0 where there is none (CDSM); or empty
+  /// Heights of crowns above the ground, 0 where there is none (CDSM); or empty.
+  std::string canopy;
   double least_height_m = 2;  ///< a cell is built on where surface − terrain is at least this
   double trunk_share = 0.25;  ///< of a crown's height: light passes below it freely
 };

@@ -23,8 +23,9 @@ std::vector<Sensor> place_sensors(const SensorsStudy& study, const Mesh& mesh, c
   for (const auto& point : study.points) {
     const Vec3 at = point.position - mesh.origin;
     sensors.push_back({at, normalized(point.normal), sensor_key(point.position, point.normal)});
-    const double beyond = std::max({bounds.low.x - at.x, at.x - bounds.high.x, bounds.low.y - at.y,
-                                    at.y - bounds.high.y, bounds.low.z - at.z, at.z - bounds.high.z});
+    const double beyond =
+        std::max({bounds.low.x - at.x, at.x - bounds.high.x, bounds.low.y - at.y,
+                  at.y - bounds.high.y, bounds.low.z - at.z, at.z - bounds.high.z});
     if (beyond > diagonal && far++ == 0) first_far = sensors.size() - 1;
   }
   if (far > 0) {
@@ -98,7 +99,10 @@ ParallelSources read_parallel_sources(const Study& study, Vec3 origin, BuiltScen
   const PolygonModel model =
       read_scene_file(scene.parallel_sources, {scene.up, scene.unit_m, scene.lod,
                                                scene.vrml_colour, scene.emission_scale_w});
-  const Mesh mesh = prepare(model, {.repair = scene.repair, .ground = {}, .orientation = scene.orient, .north_deg = 0}).mesh;
+  const Mesh mesh =
+      prepare(model,
+              {.repair = scene.repair, .ground = {}, .orientation = scene.orient, .north_deg = 0})
+          .mesh;
   std::vector<double> area(mesh.file_materials.size(), 0);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
     if (mesh.triangle_material[t].exists())
@@ -120,10 +124,11 @@ ParallelSources read_parallel_sources(const Study& study, Vec3 origin, BuiltScen
     sources.exitance.push_back(M);
   }
   if (sources.exitance.empty())
-    throw InputError(scene.parallel_sources_where,
-                     "scene.parallel_sources: nothing in " + scene.parallel_sources + " emits",
-                     "no material of it has an emission",
-                     "write scene.materials: {NAME: {emission_w_m2: …}} for a material of that file");
+    throw InputError(
+        scene.parallel_sources_where,
+        "scene.parallel_sources: nothing in " + scene.parallel_sources + " emits",
+        "no material of it has an emission",
+        "write scene.materials: {NAME: {emission_w_m2: …}} for a material of that file");
   if (const std::size_t dark = mesh.triangle_count() - sources.exitance.size(); dark > 0)
     built.notes.push_back(fmt::format("{}: {} triangles that emit nothing are left out",
                                       scene.parallel_sources, dark));

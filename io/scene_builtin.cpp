@@ -41,7 +41,8 @@ class Parameters {
     if (number && *number >= least && *number <= most && *number == std::floor(*number))
       value = *number;
     else
-      wrong(key, *text, fmt::format("must be a whole number from {:.0f} to {:.0f}", least, most), "");
+      wrong(key, *text, fmt::format("must be a whole number from {:.0f} to {:.0f}", least, most),
+            "");
   }
 
   /// The place of the given word in `words`, 0 if the parameter is not given.

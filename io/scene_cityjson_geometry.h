@@ -73,7 +73,8 @@ struct CityMaterials {
   std::string default_theme;
 };
 
-/// How many lists lie around the list of surfaces in the `boundaries` of a geometry that has surfaces.
+/// How many lists lie around the list of surfaces in the `boundaries` of a geometry that has
+/// surfaces.
 int lists_around_surfaces(const std::string& geometry_type);
 
 /// MultiSurface … CompositeSolid, which have surfaces.

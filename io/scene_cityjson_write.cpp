@@ -32,7 +32,8 @@ const char* semantic_of(Surface surface) {
 
 class CityText {
  public:
-  explicit CityText(const PolygonModel& model) : model_(model), polygons_(model.object_names.size()) {
+  explicit CityText(const PolygonModel& model)
+      : model_(model), polygons_(model.object_names.size()) {
     for (std::size_t p = 0; p < model.polygon_count(); ++p)
       polygons_[model.facts[p].object.index()].push_back(p);
   }

@@ -44,7 +44,10 @@ const std::vector<Format>& formats() {
       {"OFF", {"OFF", "COFF", "NOFF", "STOFF"}, {".off"}, read_scene_off},
       {"STL", {"solid "}, {".stl"}, read_scene_stl},
       {"glTF", {"glTF"}, {".gltf", ".glb"}, read_scene_gltf},
-      {"GeoTIFF raster", {{"II*\0", 4}, {"MM\0*", 4}, {"II+\0", 4}}, {".tif", ".tiff"}, read_scene_raster},
+      {"GeoTIFF raster",
+       {{"II*\0", 4}, {"MM\0*", 4}, {"II+\0", 4}},
+       {".tif", ".tiff"},
+       read_scene_raster},
       {"ESRI ASCII raster", {"ncols", "NCOLS"}, {".asc"}, read_scene_raster},
   };
   return table;

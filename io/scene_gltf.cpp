@@ -19,7 +19,8 @@ namespace {
 using nlohmann::json;
 
 constexpr int deepest_node = 500;                  // of a tree; a circle is found by it
-constexpr std::size_t most_visits_per_node = 10;  // trees visit each once; some exporters share nodes
+/// Trees visit each once; some exporters share nodes.
+constexpr std::size_t most_visits_per_node = 10;
 constexpr std::size_t fewest_visits = 10'000;     // that are allowed
 
 std::string name_of(const json& object) {
@@ -245,7 +246,8 @@ class GltfReader {
       if (!read.set_diffuse({(*rgba)[0], (*rgba)[1], (*rgba)[2]}))
         faces_.notes().count("colours outside [0, 1] ignored");
     }
-    const auto emissive = numbers_of(material, "emissiveFactor", 3).value_or(std::vector<double>(3));
+    const auto emissive =
+        numbers_of(material, "emissiveFactor", 3).value_or(std::vector<double>(3));
     read.glows = *std::max_element(emissive.begin(), emissive.end()) > 0;
     return read;
   }

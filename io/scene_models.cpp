@@ -31,9 +31,9 @@ void add_object_names(PolygonModel& into, const PolygonModel& from) {
     into.object_names.push_back(name);
   }
   if (renamed > 0)
-    into.notes.push_back(fmt::format("{}: {} object{} named as in an earlier file, kept apart: {}{}",
-                                     short_name(from.source), renamed, renamed == 1 ? " is" : "s are",
-                                     first, renamed == 1 ? "" : ", …"));
+    into.notes.push_back(fmt::format(
+        "{}: {} object{} named as in an earlier file, kept apart: {}{}", short_name(from.source),
+        renamed, renamed == 1 ? " is" : "s are", first, renamed == 1 ? "" : ", …"));
 }
 
 void append(PolygonModel& into, const PolygonModel& from) {
@@ -152,7 +152,8 @@ class SceneJoin {
         problems_.add({file.path}, "coordinates in " + part.crs,
                       "an earlier file of the scene has " + model_.crs,
                       "bring all files of a scene into one CRS");
-      if (model_.source.empty()) model_ = std::move(part);  // tens of millions of faces are not copied
+      // Tens of millions of faces are not copied.
+      if (model_.source.empty()) model_ = std::move(part);
       else append(model_, part);
     } catch (const InputError& error) {
       problems_.add(error);

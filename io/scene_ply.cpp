@@ -244,13 +244,15 @@ class BodyReader {
          "is the file cut off?");
   }
 
-  /// A header may promise anything: what the body cannot hold is refused before memory is asked for.
+  /// A header may promise anything: what the body cannot hold is refused before memory is asked
+  /// for.
   void check_sizes() {
     std::size_t vertices = 0, triangles = 0;
     for (const auto& element : header_.elements) {
       element_ = &element;
       std::size_t least = 0;
-      for (const auto& p : element.properties) least += Numbers::least_size(p.count.value_or(p.type));
+      for (const auto& p : element.properties)
+        least += Numbers::least_size(p.count.value_or(p.type));
       const auto body = text_.size() - header_.end + 1;  // the last blank may be missing
       // Without properties it takes no bytes, and means nothing.
       if (least == 0 ? element.count > body : element.count > body / least) {

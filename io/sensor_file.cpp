@@ -105,7 +105,8 @@ class SensorTable {
       const auto found = std::find_if(fields.begin(), fields.end(),
                                       [&](auto f) { return plain(f) == column_names[c]; });
       if (found == fields.end())
-        throw InputError({path_, line}, fmt::format("the header names no column {}", column_names[c]),
+        throw InputError({path_, line},
+                         fmt::format("the header names no column {}", column_names[c]),
                          "sensors are x, y, z, nx, ny, nz");
       columns[c] = static_cast<std::size_t>(found - fields.begin());
     }

@@ -152,10 +152,10 @@ void check_together(YamlMap& root, const Study& study, PlaceWritten placed) {
     root.reading().warn(root.where("light"), "light.colour is not used",
                         "it belongs to solver.bands: rgb");
   const auto& files = study.scene.files;
-  const bool no_crs =
-      study.scene.builtin || std::all_of(files.begin(), files.end(), [](const SceneFileStudy& file) {
-        return is_without_crs(file.path);
-      });
+  const bool no_crs = study.scene.builtin ||
+                      std::all_of(files.begin(), files.end(), [](const SceneFileStudy& file) {
+                        return is_without_crs(file.path);
+                      });
   // The header of a weather file may say the place.
   if (!positions && !weather && placed == PlaceWritten::no && no_crs &&
       (study.scene.builtin || !files.empty())) {

@@ -38,7 +38,8 @@ struct SiteStudy {
   std::optional<double> latitude_deg, longitude_deg;
   std::string crs;  ///< of the scene's coordinates, overrides the file's own
   std::optional<double> elevation_m;
-  std::string timezone = "UTC";  ///< must be written unless the period has only `positions` or UTC times
+  /// Must be written unless the period has only `positions` or UTC times.
+  std::string timezone = "UTC";
   std::optional<double> north_deg;
   Horizon horizon;
   Where where;
@@ -149,7 +150,8 @@ struct SceneFileStudy {
   std::optional<EarthPosition> earth_position;  ///< the same by way of the scene's CRS
   double turn_deg = 0;   ///< about the file's origin, clockwise seen from above
   std::string material;  ///< of all its faces; empty: as the file says
-  std::string terrain;   ///< raster of bare ground: `path` is a raster of surfaces, made into blocks
+  /// Raster of bare ground: `path` is a raster of surfaces, made into blocks.
+  std::string terrain;
   std::string canopy;    ///< raster of heights of crowns above the ground
   double least_height_m = 2;   ///< of buildings in rasters
   double trunk_share = 0.25;   ///< of a crown's height, free below it

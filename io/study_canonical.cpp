@@ -27,7 +27,8 @@ json canonical(const ParsedTime& time) {
 }
 
 json canonical(const SiteStudy& site) {
-  const auto& [latitude_deg, longitude_deg, crs, elevation_m, timezone, north_deg, horizon, where] = site;
+  const auto& [latitude_deg, longitude_deg, crs, elevation_m, timezone, north_deg, horizon, where] =
+      site;
   json all{{"latitude_deg", maybe(latitude_deg)},
           {"longitude_deg", maybe(longitude_deg)},
           {"crs", crs},
@@ -169,8 +170,9 @@ json canonical(const SceneFileStudy& file) {
 }
 
 json canonical(const SceneStudy& scene) {
-  const auto& [files, builtin, parallel_sources, parallel_sources_where, up, unit_m,
-               lod, vrml_colour, emission_scale_w, repair, orient, materials, assign, ground, where] = scene;
+  const auto& [files, builtin, parallel_sources, parallel_sources_where, up, unit_m, lod,
+               vrml_colour, emission_scale_w, repair, orient, materials, assign, ground, where] =
+      scene;
   return {{"builtin", builtin ? canonical(*builtin) : json()},
           {"files", list_of(files)},
           {"up", up == 0 ? std::string() : std::string(1, up)},
@@ -200,9 +202,9 @@ json canonical(const MeshStudy& mesh) {
 json canonical(const SolverStudy& solver, LightColour colour) {
   // `isa` is left out: the instruction set in force is hashed apart, so that
   // pinning it finds the batches that `auto` computed on such a machine.
-  const auto& [transport, jacobi, power_per_sample_w, bands, bounces, unshot, lines_per_patch, direct_samples,
-               realizations, mirror_depth, batch_suns, isa, seed, accuracy, max_lines_per_patch] =
-      solver;
+  const auto& [transport, jacobi, power_per_sample_w, bands, bounces, unshot, lines_per_patch,
+               direct_samples, realizations, mirror_depth, batch_suns, isa, seed, accuracy,
+               max_lines_per_patch] = solver;
   json all{{"transport", transport},
            {"jacobi", jacobi},
            {"power_per_sample_w", maybe(power_per_sample_w)},

@@ -18,7 +18,8 @@ constexpr Range shares{0, 1};
 constexpr Range emissions_w_m2{0, 1e7};  // the surface of the sun has 6.3e7
 constexpr Range powers_w{0, 1e15};  // of a light in a file: to the sun's on a thousand km2
 constexpr Range refractive_indices{0.01, 10};  // silver has 0.05 in green, germanium 5
-constexpr Range extinctions{0, 100, Range::Low::excluded, "glass has no such key: it has absorption_per_m"};
+constexpr Range extinctions{0, 100, Range::Low::excluded,
+                            "glass has no such key: it has absorption_per_m"};
 constexpr Range thicknesses_m{0, 1, Range::Low::excluded};
 constexpr Range absorptions_per_m{0, 1e5};
 constexpr int most_panes = 10;

@@ -25,7 +25,8 @@ SunStudy read_sun(YamlMap& map);
 /// Paths of files are relative to `folder`.
 LightStudy read_light(YamlMap& map, const std::string& folder);
 SceneStudy read_scene(YamlMap& map, const std::string& folder);
-inline constexpr Range units_m{1e-6, 1e6};  ///< a model in micrometres, one in thousands of kilometres
+/// A model in micrometres, one in thousands of kilometres.
+inline constexpr Range units_m{1e-6, 1e6};
 void check_lod(YamlMap& map, const std::string& lod);
 /// `scene.files`; paths are relative to `folder`.
 std::vector<SceneFileStudy> read_scene_files(YamlMap& scene, const std::string& folder);

@@ -42,9 +42,9 @@ SensorsStudy read_sensors(YamlMap& map, const std::string& folder) {
   });
   const auto file = map.text("file");
   if (map.has("points") == map.has("file") && map.is_usable())
-    map.reading().problem(map.where(),
-                          file ? "sensors has points and file" : "sensors has neither points nor file",
-                          "it needs one of the two");
+    map.reading().problem(
+        map.where(), file ? "sensors has points and file" : "sensors has neither points nor file",
+        "it needs one of the two");
   if (!file || map.has("points")) return sensors;
   try {
     const auto path = (std::filesystem::path(folder) / *file).lexically_normal();

@@ -50,8 +50,9 @@ std::vector<std::string> read_series(YamlMap& map, std::vector<std::string> abse
 
 /// Gathering has no samples of power.
 void read_shooting(YamlMap& map, SolverStudy& solver) {
-  solver.jacobi = map.choice(
-      "jacobi", {{"incremental", Jacobi::incremental}, {"regular", Jacobi::regular}}, solver.jacobi);
+  solver.jacobi =
+      map.choice("jacobi", {{"incremental", Jacobi::incremental}, {"regular", Jacobi::regular}},
+                 solver.jacobi);
   const std::string key = "power_per_sample_w";
   if (map.kind(key) != YamlNode::Kind::text || map.text(key, "") != "auto")
     solver.power_per_sample_w = map.number(key, watts);

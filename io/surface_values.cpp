@@ -23,7 +23,9 @@ double weighted_mean(const double* values, const std::vector<double>& area,
 
 SurfaceValues::SurfaceValues(const ResultReader& result, const ExportRules& rules)
     : area_(result.doubles("patch_area")) {
-  const auto name = [&](const std::string& dataset) { return "sunload_" + column_name(result, dataset); };
+  const auto name = [&](const std::string& dataset) {
+    return "sunload_" + column_name(result, dataset);
+  };
   if (!rules.quantity.empty()) {
     auto shown = export_quantity(result, rules);
     columns_.push_back({name(shown.dataset), Kind::mean, std::move(shown.values)});

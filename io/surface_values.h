@@ -27,7 +27,8 @@ class SurfaceValues {
   struct Column {
     std::string name;
     Kind kind = Kind::mean;
-    std::vector<double> values;  ///< of patches; error_of_mean: of realizations, one after the other
+    /// Of patches; error_of_mean: of realizations, one after the other.
+    std::vector<double> values;
   };
   double value(const Column& column, const std::vector<std::size_t>& patches) const;
 

@@ -25,7 +25,8 @@ class PilotSum {
     light_.sky.assign(static_cast<std::size_t>(grid_.cell_count()), 0);
   }
 
-  void add(std::size_t interval, double sun_weight, double sky_weight, std::vector<PilotSun>& suns) {
+  void add(std::size_t interval, double sun_weight, double sky_weight,
+           std::vector<PilotSun>& suns) {
     const SunLight sun = sun_light(plan_.light.intervals[interval],
                                    static_cast<std::uint32_t>(interval), plan_.study.light, grid_,
                                    open_share_);
@@ -73,8 +74,8 @@ PilotLight pilot_light(const VariantPlan& plan) {
     for (std::size_t s = 0; s < suns_per_sample; ++s) {
       const double at = static_cast<double>(s) + static_cast<double>(uniform(words(sample, s)[0]));
       const auto chosen = std::min(static_cast<std::size_t>(at * stretch_length), lit.size() - 1);
-      sum.add(lit[chosen], stretch_length, stretch_length / static_cast<double>(light.samples.size()),
-              light.samples[sample]);
+      sum.add(lit[chosen], stretch_length,
+              stretch_length / static_cast<double>(light.samples.size()), light.samples[sample]);
     }
   return light;
 }

@@ -352,8 +352,9 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
     const double blocks = batches * std::ceil(batch / static_cast<double>(block_width));
     work.samples = static_cast<std::uint64_t>(estimated_samples(plan, n, blocks));
     const double per_shot = static_cast<double>(work.samples) / (blocks * std::max(1, s.bounces));
-    work.memory_bytes += n * (shooting_bytes_per_patch + of_realizations * columns_of_a_realization) +
-                         per_shot / s.realizations * bytes_per_sample;
+    work.memory_bytes +=
+        n * (shooting_bytes_per_patch + of_realizations * columns_of_a_realization) +
+        per_shot / s.realizations * bytes_per_sample;
   }
   work.disk_bytes = bands * n * lit * stored_bytes_per_value *
                         (parts + static_cast<double>(plan.study.output.series.size())) +

@@ -112,8 +112,9 @@ void VariantRun::read_or_trace() {
 }
 
 void VariantRun::build(std::optional<Lines> ready) {
-  progress_.count_rays([rays = static_cast<double>(estimate_work(plan_, mesh_->patch_count()).line_rays)](
-                           Stage, double share) { return rays * share; });
+  progress_.count_rays(
+      [rays = static_cast<double>(estimate_work(plan_, mesh_->patch_count()).line_rays)](
+          Stage, double share) { return rays * share; });
   if (!ready) progress_.advance(Stage::lines, 0);
   solver_ = std::make_unique<LightSolver>(plan_.built.scene, mesh_, rules_, progress_,
                                           std::move(ready));
@@ -131,8 +132,8 @@ void VariantRun::keep_lines(const std::string& path) {
     make_writable_folder(work_folder(folder_, plan_));
     write_prepared(path, plan_.content_hash, solver_->lines());
   } catch (const MachineError& error) {
-    progress_.say(plan_.study.variant + ": warning: the traced lines are not kept (" + error.what() +
-                  "); who goes on with this work traces them again");
+    progress_.say(plan_.study.variant + ": warning: the traced lines are not kept (" +
+                  error.what() + "); who goes on with this work traces them again");
   }
 }
 
@@ -166,7 +167,8 @@ SolverRules VariantRun::decided_rules() {
   parallel_for(count, [&](std::size_t p) {
     suns[p] = light_of(lit[(2 * p + 1) * lit.size() / (2 * count)], grid, open_share);
   });
-  const double weight = count > 0 ? static_cast<double>(lit.size()) / static_cast<double>(count) : 1;
+  const double weight =
+      count > 0 ? static_cast<double>(lit.size()) / static_cast<double>(count) : 1;
   SolverRules of_pilot = rules;
   of_pilot.bands = Bands::broadband;  // the goal is for the mean of the bands
   const PatchSpread spread = pilot_spread(scene, mesh_, of_pilot, suns, weight, progress_);

@@ -191,7 +191,8 @@ json view_data(const ResultReader& result, std::size_t step, ViewBlocks& blocks)
           {"geometry", geometry(result, blocks)},
           {"totals", totals(result, blocks)},
           {"sensors", sensors(result, step, blocks)},
-          {"origin", h5::File::open(result.path()).numbers("origin").value_or(std::vector<double>(3, 0))},
+          {"origin",
+           h5::File::open(result.path()).numbers("origin").value_or(std::vector<double>(3, 0))},
           {"series", series(result, viewed_series(result), step, blocks)}};
 }
 

@@ -125,8 +125,8 @@ PolygonModel VrmlModel::finish() {
   // Floats of this size are spaced by at most 2⁻²³ of it.
   const double step = largest_ * std::numeric_limits<float>::epsilon();
   if (step > telling_m) {
-    notes_.say(fmt::format("coordinates are read in single precision: steps of {:.2g} m at {:.0f} m",
-                           step, largest_));
+    notes_.say(fmt::format(
+        "coordinates are read in single precision: steps of {:.2g} m at {:.0f} m", step, largest_));
   }
   for (auto& line : notes_.lines()) model_.notes.push_back(std::move(line));
   return std::move(model_);

@@ -1,5 +1,5 @@
-/// VRML files as the nodes that Coin makes of them. With vrml_faces and scene_vrml.cpp all that knows
-/// Coin.
+/// VRML files as the nodes that Coin makes of them. With vrml_faces and scene_vrml.cpp all that
+/// knows Coin.
 #pragma once
 
 #include <Inventor/SbMatrix.h>

@@ -202,7 +202,8 @@ class Checker {
   void put_made(double count) {
     double& sum = frames_.empty() ? made_ : frames_.back().made;
     sum += count;
-    const double most = vrml_nodes_at_least + vrml_nodes_per_byte * static_cast<double>(file_.text.size());
+    const double most =
+        vrml_nodes_at_least + vrml_nodes_per_byte * static_cast<double>(file_.text.size());
     if (sum > most) {
       refuse(tokens_.byte(), "has too many nodes",
              "its PROTOs make more than fit into memory for a file of its size");
@@ -326,8 +327,9 @@ VrmlText read_vrml_text(const std::string& path) {
   file.is_vrml97 = file.text.starts_with("#VRML V2.0");
   const auto first_line = file.text.substr(0, file.text.find_first_of("\r\n"));
   if (!file.is_vrml97 && !begins_with_any(first_line, {"#VRML V1.0", "#Inventor V"})) {
-    throw InputError({path, 1, 1}, "is no VRML file",
-                     "its first line is not '#VRML V2.0 utf8', '#VRML V1.0 ascii' or '#Inventor V…'");
+    throw InputError(
+        {path, 1, 1}, "is no VRML file",
+        "its first line is not '#VRML V2.0 utf8', '#VRML V1.0 ascii' or '#Inventor V…'");
   }
   if (first_line.find("binary") != first_line.npos) {
     throw InputError({path, 1, 1}, "is a binary Inventor file", "only the text form is read",

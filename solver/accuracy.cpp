@@ -110,7 +110,8 @@ SampleCounts needed_counts(const PatchSpread& spread, const SolverRules& least,
   // Where it is out of reach, errors are to be nearly as small as the most can make them.
   constexpr double nearly = 1.1;
   const bool is_met = share_met(spread, stated, lines.back(), samples.back()) >= share_to_be_met;
-  const double relative = is_met ? stated : nearly * reachable(spread, lines.back(), samples.back());
+  const double relative =
+      is_met ? stated : nearly * reachable(spread, lines.back(), samples.back());
   SampleCounts chosen{lines.back(), samples.back(), 0};
   double least_cost = cost(lines.back(), samples.back(), least.bounces, static_cast<double>(suns));
   for (const int L : lines)

@@ -50,7 +50,8 @@ double share_met(const PatchSpread& spread, double light_load_relative, int line
 
 /// The cheapest counts that meet the goal on `share_to_be_met` of the area that counts, from
 /// those of `least` on, doubled, at most `most_per_patch`; where no counts do, the cheapest
-/// that come within 10 % of the errors of the most. `suns`: of the whole period. Depends on nothing else.
+/// that come within 10 % of the errors of the most. `suns`: of the whole period. Depends on nothing
+/// else.
 SampleCounts needed_counts(const PatchSpread& spread, const SolverRules& least,
                            const AccuracyGoal& goal, std::size_t suns);
 

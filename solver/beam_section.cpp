@@ -113,7 +113,8 @@ std::vector<ConvexPolygon> BeamSection::lit(const MirrorGroups& groups, std::siz
   for (const auto triangle : groups[group].triangles) {
     const ConvexPolygon mirror = whole(groups.scene().mesh, triangle);
     Box b = box(mirror);
-    const double beside = source_.margin_m + source_.spread * std::max(0.0, all_.farthest - b.nearest);
+    const double beside =
+        source_.margin_m + source_.spread * std::max(0.0, all_.farthest - b.nearest);
     b.x0 -= beside, b.x1 += beside, b.y0 -= beside, b.y1 += beside;
     if (b.x1 < all_.x0 || b.x0 > all_.x1 || b.y1 < all_.y0 || b.y0 > all_.y1) continue;
     Rectangle all(groups[group].normal), lit(groups[group].normal);

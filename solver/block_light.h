@@ -22,7 +22,8 @@ struct BlockSources {
   Columns sky;                                   ///< [cells][block] π·radiance, by way of mirrors
   Columns sky_of_lines;                          ///< the same, straight
   std::vector<CircumsolarSky> circumsolar;       ///< per sun, after split_sky
-  std::array<double, block_width> circumsolar_factor;  ///< multiple of it that shines: 1, or of a band
+  /// Multiple of it that shines: 1, or of a band.
+  std::array<double, block_width> circumsolar_factor;
   /// Radiance of a cell that the lines do not take [W m-2 sr-1].
   double circumsolar_radiance(std::size_t k, std::size_t cell) const {
     return circumsolar_factor[k] * circumsolar[k].radiance(cell);

@@ -118,8 +118,10 @@ void SunSampler::seed(std::size_t receiver, std::uint32_t sun, Seeds& seeds,
                                      .sun = sun});
     std::copy_n(words.word[0], lanes, seeds.u.begin() + static_cast<std::ptrdiff_t>(g * lanes));
     std::copy_n(words.word[1], lanes, seeds.v.begin() + static_cast<std::ptrdiff_t>(g * lanes));
-    std::copy_n(words.word[2], lanes, seeds.disk_u.begin() + static_cast<std::ptrdiff_t>(g * lanes));
-    std::copy_n(words.word[3], lanes, seeds.disk_v.begin() + static_cast<std::ptrdiff_t>(g * lanes));
+    std::copy_n(words.word[2], lanes,
+                seeds.disk_u.begin() + static_cast<std::ptrdiff_t>(g * lanes));
+    std::copy_n(words.word[3], lanes,
+                seeds.disk_v.begin() + static_cast<std::ptrdiff_t>(g * lanes));
   }
 }
 
@@ -217,9 +219,10 @@ class PatchSuns {
       const auto active = sampler_.active(p);
       rays += static_cast<std::uint64_t>(std::popcount(active));
       const Packet origins = sampler_.origins(geometry, seeds_, p);
-      auto bits = sun.disk_half_angle > 0
-                      ? caster_.unoccluded_each(origins, sampler_.directions(sun, seeds_, p), active)
-                      : caster_.unoccluded(origins, sun.direction, active);
+      auto bits =
+          sun.disk_half_angle > 0
+              ? caster_.unoccluded_each(origins, sampler_.directions(sun, seeds_, p), active)
+              : caster_.unoccluded(origins, sun.direction, active);
       visible += std::popcount(bits);
       for (; bits != 0; bits &= bits - 1)
         ++seen_[sampler_.realization(p * packet_size +

@@ -82,7 +82,8 @@ void ElementForest::split_long_edges(const SplitRules& rules) {
 
 void ElementForest::split_tree(std::size_t element, const SplitRules& rules) {
   const auto [p, q] = edge_opposite(elements_[element].vertices, elements_[element].apex);
-  const double longest_m = norm(vertices_[static_cast<std::size_t>(q)] - vertices_[static_cast<std::size_t>(p)]);
+  const double longest_m =
+      norm(vertices_[static_cast<std::size_t>(q)] - vertices_[static_cast<std::size_t>(p)]);
   if (longest_m <= rules.max_edge_m || area(element) < 2 * rules.min_area_m2) return;
   bisect(element);
   if (patch_count_ > rules.max_patches) refuse_size(rules.max_patches);

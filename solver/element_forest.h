@@ -5,7 +5,8 @@
 /// decides the numbers of vertices and elements, never the shape of the final mesh's trees for a
 /// given set of split leaves.
 /// Rivara (1997), New longest-edge algorithms for the refinement of unstructured triangulations:
-/// the propagation of a split to its neighbours, which ends because every step goes to a longer edge.
+/// the propagation of a split to its neighbours, which ends because every step goes to a longer
+/// edge.
 #pragma once
 
 #include <cstdint>

@@ -76,7 +76,8 @@ class GlossySun::Chunk {
 
  private:
   Vec3 normal_of(const Glimpse& glimpse) const {
-    const auto n = normalized(g_.scene_.mesh.area_vector2(static_cast<std::size_t>(glimpse.triangle)));
+    const auto n =
+        normalized(g_.scene_.mesh.area_vector2(static_cast<std::size_t>(glimpse.triangle)));
     return glimpse.front != 0 ? n : -n;
   }
 

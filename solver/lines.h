@@ -26,7 +26,8 @@
 
 namespace sunload {
 
-/// Weighted links of patches to targets (elements of the mesh, cells of the sky), compressed rows in blocks.
+/// Weighted links of patches to targets (elements of the mesh, cells of the sky), compressed rows
+/// in blocks.
 class LinkTable {
  public:
   static constexpr std::size_t rows_per_block = 1024;
@@ -80,7 +81,8 @@ struct MirroredFirstLight {
 struct LineSet {
   LinkTable patches, sky, sky_by_mirror;
   std::vector<LineEnds> ends;
-  std::vector<double> lamps;  ///< irradiance by emitters, straight or by mirrors [W m-2]; empty: none
+  /// Irradiance by emitters, straight or by mirrors [W m-2]; empty: none.
+  std::vector<double> lamps;
   MirroredFirstLight first_light;
 };
 

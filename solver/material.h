@@ -31,7 +31,8 @@ struct Material {
   double thickness_m = 0.004;         ///< of one pane
   double absorption_per_m = 0;        ///< K of the glass
   int panes = 1;
-  double glossy = 0;                  ///< reflectance rho_g of light from the normal (solver/lobe.h)
+  /// Reflectance rho_g of light from the normal (solver/lobe.h).
+  double glossy = 0;
   double glossy_exponent = 0;         ///< n of its lobe
   double transmittance = 0;           ///< T: light that passes straight through (crowns, screens)
   /// The share `diffuse` in each band, of which it is the mean; absent: grey. Only of constant

@@ -126,7 +126,8 @@ class MirrorChains::Task {
   static void keep(const Material& m, double power, double cos_theta, std::size_t k,
                    MirroredSun& fate) {
     if (!depends_on_angle(m)) return;
-    const SmoothShares shares = is_fresnel(m) ? fresnel_shares(m, cos_theta) : SmoothShares{m.mirror, 0};
+    const SmoothShares shares =
+        is_fresnel(m) ? fresnel_shares(m, cos_theta) : SmoothShares{m.mirror, 0};
     fate.transmitted[k] += power * shares.transmitted;
     fate.cut[k] += power * m.glossy;
     fate.absorbed[k] += power * (1 - m.diffuse - shares.mirror - shares.transmitted - m.glossy -

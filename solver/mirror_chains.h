@@ -19,7 +19,8 @@ namespace sunload {
 struct MirroredSun {
   std::vector<double> escaped = std::vector<double>(block_width, 0);
   std::vector<double> backs = escaped, cut = escaped;
-  std::vector<double> transmitted = escaped, absorbed = escaped;  ///< where that depends on the angle
+  /// Where that depends on the angle.
+  std::vector<double> transmitted = escaped, absorbed = escaped;
   MirroredSun& operator+=(const MirroredSun& other);
   /// Calls visit(fate) for each kind of fate.
   template <class Visit>

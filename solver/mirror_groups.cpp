@@ -23,7 +23,8 @@ MirrorGroups::MirrorGroups(const Scene& scene)
     const MaterialId material = scene.material[t];
     if (!is_mirror(scene.materials[material.index()])) continue;
     const Vec3 front = normalized(scene.mesh.area_vector2(t));
-    for (std::size_t side = 0; side < (scene.mesh.triangle_sides[t] == Sides::two ? 2 : 1); ++side) {
+    for (std::size_t side = 0; side < (scene.mesh.triangle_sides[t] == Sides::two ? 2 : 1);
+         ++side) {
       const Vec3 n = side == 0 ? front : -front;
       auto group = std::find_if(groups_.begin(), groups_.end(), [&](const MirrorGroup& g) {
         return dot(g.normal, n) >= least_cosine;

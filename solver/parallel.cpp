@@ -18,7 +18,9 @@ int thread_count() { return chosen_threads > 0 ? chosen_threads : omp_get_num_pr
 
 void set_thread_count(int threads) { chosen_threads = std::max(1, threads); }
 
-void set_cancellation(std::function<bool()> is_cancelled) { cancellation = std::move(is_cancelled); }
+void set_cancellation(std::function<bool()> is_cancelled) {
+  cancellation = std::move(is_cancelled);
+}
 
 void parallel_chunks(std::size_t count, std::size_t chunk,
                      const std::function<void(std::size_t, std::size_t)>& body) {

@@ -20,7 +20,8 @@ namespace sunload {
 struct ParallelLight {
   std::vector<std::vector<double>> irradiance;  ///< [R][N], straight and by mirrors [W m-2]
   std::vector<double> pooled;                   ///< [N]
-  std::vector<Ledger> ledger;                   ///< [R] what meets the scene, and what mirrors send on [W]
+  /// [R] what meets the scene, and what mirrors send on [W].
+  std::vector<Ledger> ledger;
   std::uint64_t rays = 0;
   /// Irradiance of realization r, or empty.
   const std::vector<double>& of(std::size_t r) const {

@@ -175,7 +175,8 @@ void Pilot::add_emitters(const Points& points, std::size_t packet, std::uint32_t
         [](const Emitter& e, double share) { return e.power_share <= share; });
     const auto t = static_cast<std::size_t>(emitter->triangle);
     const Barycentric at = sample_triangle(number(1), number(2));
-    const Vec3 y = mesh.corner(t, 0) * at.w0 + mesh.corner(t, 1) * at.w1 + mesh.corner(t, 2) * at.w2;
+    const Vec3 y =
+        mesh.corner(t, 0) * at.w0 + mesh.corner(t, 1) * at.w1 + mesh.corner(t, 2) * at.w2;
     const Vec3 front = normalized(mesh.area_vector2(t));
     const bool two_sided = mesh.triangle_sides[t] == Sides::two;
     PacketDirections directions;

@@ -2,9 +2,9 @@
 /// varies inside of it. Only the mesh is decided by it; no number of a result is made from it.
 ///
 /// Light comes from parallel directions (suns of the period with their exposure), from emitters of
-/// the scene, from the sky and the far ground, and from surfaces after one diffuse reflection. It is seen from the same points
-/// of the element along the same directions, so that the differences between the points are those
-/// of the light and not of its sampling.
+/// the scene, from the sky and the far ground, and from surfaces after one diffuse reflection. It
+/// is seen from the same points of the element along the same directions, so that the differences
+/// between the points are those of the light and not of its sampling.
 #pragma once
 
 #include <array>

@@ -162,7 +162,8 @@ class Refinement {
   }
 
   bool exceeds_historic_threshold(const Estimate& e) const {
-    return e.historic_m2 > rules_.light_threshold_m2 || e.form_factor > rules_.form_factor_threshold;
+    return e.historic_m2 > rules_.light_threshold_m2 ||
+           e.form_factor > rules_.form_factor_threshold;
   }
 
   void refine_historically() {

@@ -42,7 +42,8 @@ extern const std::array<std::array<std::uint32_t, 32>, sobol_dimensions> sobol_d
 inline std::uint32_t sobol(std::uint32_t index, int dimension) {
   std::uint32_t x = 0;
   for (int bit = 0; index != 0; index >>= 1, ++bit)
-    if (index & 1u) x ^= sobol_directions[static_cast<std::size_t>(dimension)][static_cast<std::size_t>(bit)];
+    if (index & 1u)
+      x ^= sobol_directions[static_cast<std::size_t>(dimension)][static_cast<std::size_t>(bit)];
   return x;
 }
 

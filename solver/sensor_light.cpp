@@ -40,8 +40,9 @@ std::uint64_t trace(const Sensor& sensor, const Hierarchy& hierarchy, const RayC
       RandomKey of_line = key;
       of_line.purpose = Purpose::glossy;
       of_line.sun = static_cast<std::uint32_t>(first + l);
-      rays += follower.follow(origin, w[l], hits[l], of_line, into,
-                              view.share_of_line(hierarchy, hits[l], w[l], dot(w[l], sensor.normal)));
+      rays +=
+          follower.follow(origin, w[l], hits[l], of_line, into,
+                          view.share_of_line(hierarchy, hits[l], w[l], dot(w[l], sensor.normal)));
     }
   }
   if (!view.any()) return rays;

@@ -31,7 +31,8 @@ struct TracedLight;
 
 struct SolverRules {
   int bounces = 5;            ///< light reflected diffusely 1 … bounces times is followed
-  double unshot = 1e-3;       ///< fewer bounces (and mirrors of the sun) where less than this is left
+  /// Fewer bounces (and mirrors of the sun) where less than this is left.
+  double unshot = 1e-3;
   int lines_per_patch = 256;  ///< over all realizations
   int direct_samples = 16;    ///< per patch and sun, over all realizations
   int realizations = 8;

@@ -27,7 +27,8 @@ SunBeams::SunBeams(const MirrorGroups& groups, const SunLight& sun, const BeamRu
     : groups_(&groups), rules_(rules), spread_(std::tan(sun.disk_half_angle)) {
   if (!sun.has_sun() || sun.dni <= 0 || rules.mirror_depth < 1) return;
   std::vector<SunBeam> level = first_level(sun);
-  while (!level.empty() && beams_.size() + level.size() <= static_cast<std::size_t>(rules.most_beams)) {
+  while (!level.empty() &&
+         beams_.size() + level.size() <= static_cast<std::size_t>(rules.most_beams)) {
     const std::size_t begin = beams_.size();
     append(std::move(level));
     if (beams_.back().reflections == rules.mirror_depth) return;

@@ -22,7 +22,8 @@ struct SunLight {
   double dni = 0;
   double dhi = 0;
   double ground_exitance = 0;    ///< of the far ground, rho_g * GHI
-  std::vector<double> sky;       ///< mean radiance per cell of the sky grid [W m-2 sr-1]; empty: dark
+  /// Mean radiance per cell of the sky grid [W m-2 sr-1]; empty: dark.
+  std::vector<double> sky;
   double length_s = 0;
   double sunlit_s = 0;           ///< above 0: the sun's centre is above the horizon
   double disk_half_angle = 0;    ///< of the sun's disk; 0: a point

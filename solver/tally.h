@@ -56,12 +56,14 @@ enum class Errors { totals, instants };
 struct BatchTally : ReceiverTally {
   std::size_t intervals = 0;
   std::vector<double> outgoing;                              ///< [N] radiosity, time-integrated
-  std::vector<std::vector<double>> sun_realization;          ///< [R][N] the sun's part of the exposure, mirrored included
+  /// [R][N] the sun's part of the exposure, mirrored included.
+  std::vector<std::vector<double>> sun_realization;
   ReceiverTally sensors;
   std::vector<Ledger> ledger;                                ///< [K] W
   std::vector<Ledger> ledger_realization;                    ///< [R] J
   Ledger energy;                                             ///< J: time sum of `ledger`
-  std::vector<std::vector<Ledger>> ledger_instants;          ///< [R][K] W, if errors per instant are asked for
+  /// [R][K] W, if errors per instant are asked for.
+  std::vector<std::vector<Ledger>> ledger_instants;
 };
 
 /// What a tally has room for.

@@ -36,7 +36,8 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "render_bench RESULT.h5 [WIDTH HEIGHT]\n");
     return 2;
   }
-  const int width = argc > 3 ? std::stoi(argv[2]) : 1920, height = argc > 3 ? std::stoi(argv[3]) : 1080;
+  const int width = argc > 3 ? std::stoi(argv[2]) : 1920,
+            height = argc > 3 ? std::stoi(argv[3]) : 1080;
   Stages stages;
   const ResultReader result(argv[1]);
   const auto shown = shown_quantity(result, "light_load", {});

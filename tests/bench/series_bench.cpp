@@ -1,7 +1,9 @@
-// How fast series become chunks, batch files and a result; processor time, as others may use the machine:
+// How fast series become chunks, batch files and a result; processor time, as others may use the
+// machine:
 //   series_bench RESULT.h5 [FOLDER] [BATCHES]
-// Rows of the result's irradiance with light, repeated to 60 000 patches and batches of 64 suns. FOLDER: where
-// files go (default: none are written). A second on N processors is N seconds of processor time.
+// Rows of the result's irradiance with light, repeated to 60 000 patches and batches of 64 suns.
+// FOLDER: where files go (default: none are written). A second on N processors is N seconds of
+// processor time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -67,7 +69,9 @@ std::vector<float> lit_rows(const ResultReader& result) {
   return values;
 }
 
-ArraySpec series(std::size_t rows) { return {"irradiance", MergeRule::append, ArrayType::float32, {rows, patches}}; }
+ArraySpec series(std::size_t rows) {
+  return {"irradiance", MergeRule::append, ArrayType::float32, {rows, patches}};
+}
 
 /// Batches written, merged, and removed, as `run` does it.
 void write_year(const std::vector<float>& values, const std::string& folder, std::size_t batches) {
@@ -91,7 +95,8 @@ void write_year(const std::vector<float>& values, const std::string& folder, std
     geometry.patch_centroid.push_back({0.3, 0.3, 0});
     geometry.patch_normal.push_back({0, 0, 1});
   }
-  for (auto* list : {&geometry.patch_object, &geometry.patch_facade, &geometry.patch_material, &geometry.patch_input_triangle})
+  for (auto* list : {&geometry.patch_object, &geometry.patch_facade, &geometry.patch_material,
+                     &geometry.patch_input_triangle})
     list->assign(patches, 0);
   geometry.patch_surface.assign(patches, 0);
   geometry.patch_side.assign(patches, 0);
@@ -103,7 +108,8 @@ void write_year(const std::vector<float>& values, const std::string& folder, std
     times.time.push_back(begin + 1800);
     times.bounds.push_back({begin, begin + 3600});
     times.sun_direction.push_back({0, 0, 1});
-    for (auto* list : {&times.sun_azimuth_deg, &times.sun_elevation_deg, &times.dni, &times.dhi, &times.ghi})
+    for (auto* list :
+         {&times.sun_azimuth_deg, &times.sun_elevation_deg, &times.dni, &times.dhi, &times.ghi})
       list->push_back(1);
   }
   const auto target = folder + "/year.h5";
@@ -113,7 +119,8 @@ void write_year(const std::vector<float>& values, const std::string& folder, std
     for (std::size_t b = 0; b < batches; ++b) writer.append(BatchReader(path(b)));
     writer.finish({}, "");
   });
-  tell("merged", bytes, merging, fmt::format("({:.0f} MB)", static_cast<double>(fs::file_size(target)) / mega));
+  tell("merged", bytes, merging,
+       fmt::format("({:.0f} MB)", static_cast<double>(fs::file_size(target)) / mega));
   tell("both", bytes, {writing.wall_s + merging.wall_s, writing.processor_s + merging.processor_s});
   for (std::size_t b = 0; b < batches; ++b) fs::remove(path(b));
 }
@@ -128,13 +135,15 @@ int main(int argc, char** argv) {
   const auto values = lit_rows(ResultReader(argv[1]));
   const std::size_t bytes = values.size() * sizeof(float);
   std::vector<float> copy(values.size());
-  tell("memcpy", bytes, best([&] { std::memcpy(copy.data(), values.data(), bytes); }), fmt::format("({} threads)", thread_count()));
+  tell("memcpy", bytes, best([&] { std::memcpy(copy.data(), values.data(), bytes); }),
+       fmt::format("({} threads)", thread_count()));
   const ChunkShape shape{suns, patches_per_chunk};
   for (const int level : {0, 1, 4, 6}) {
     std::size_t size = 0;
     const auto time = best([&] {
       size = 0;
-      for (const auto& chunk : encoded_chunks(values.data(), suns, patches, shape, level)) size += chunk.size();
+      for (const auto& chunk : encoded_chunks(values.data(), suns, patches, shape, level))
+        size += chunk.size();
     });
     tell(fmt::format("chunks at level {}", level), bytes, time,
          fmt::format("({:.2f}:1)", static_cast<double>(bytes) / static_cast<double>(size)));

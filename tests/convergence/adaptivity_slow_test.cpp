@@ -106,7 +106,8 @@ constexpr const char* solver_section =
 TEST(Adaptivity, PaysOnTheStreet) {
   const Comparison c = compare(
       "format: sunload-study-1\nname: street\n"
-      "site: {latitude_deg: 49.7475, longitude_deg: 13.3776, elevation_m: 310, timezone: Europe/Prague}\n"
+      "site: {latitude_deg: 49.7475, longitude_deg: 13.3776, elevation_m: 310, "
+      "timezone: Europe/Prague}\n"
       "period: {days: [2026-03-08], from: \"06:30\", to: \"12:30\", step_min: 40}\n"
       "light: {source: clear_sky}\nscene: {builtin: {name: street}}\n" +
           std::string(solver_section),
@@ -120,8 +121,8 @@ TEST(Adaptivity, PaysOnACityModel) {
       "format: sunload-study-1\nname: city\nsite: {timezone: Europe/Berlin}\n"
       "period: {days: [2026-06-21], from: \"06:00\", to: \"20:00\", step_min: 60}\n"
       "light: {source: clear_sky}\nscene: {files: [" +
-          std::string(SUNLOAD_SHARED_DIR) + "/data/city/lod2_100_buildings_v11_epsg3068.city.json]}\n" +
-          std::string(solver_section),
+          std::string(SUNLOAD_SHARED_DIR) +
+          "/data/city/lod2_100_buildings_v11_epsg3068.city.json]}\n" + std::string(solver_section),
       0.8, 0.1, 8);
   EXPECT_LE(2 * c.adaptive, c.even);
 }

@@ -27,7 +27,8 @@ struct Square {
       text.replace(text.find(old), old.size(), now);
     };
     put("source: clear_sky", "source: clear_sky, colour: " + colour);
-    if (colour == "sky" && walls == Walls::by_light) put("{diffuse: 0.6}", "{diffuse: [0.8, 0.6, 0.4]}");
+    if (colour == "sky" && walls == Walls::by_light)
+      put("{diffuse: 0.6}", "{diffuse: [0.8, 0.6, 0.4]}");
     folder.write("square.yaml", text);
   }
   Ran run(const std::string& output, std::vector<std::string> more = {}) const {
@@ -53,8 +54,8 @@ TEST(BandStudy, SameBitsForThreadsShardsAndResumedRuns) {
   }
   for (const char* shard : {"2/3", "1/3"})
     ASSERT_EQ(square.run("shards", {"--threads", "1", "--shard", shard}).code, 0) << shard;
-  ASSERT_EQ(program(square.folder, {"merge", "square.yaml", "--output", "shards", "--partial"}).code,
-            0);
+  ASSERT_EQ(
+      program(square.folder, {"merge", "square.yaml", "--output", "shards", "--partial"}).code, 0);
   ASSERT_EQ(square.run("shards", {"--threads", "1", "--resume"}).code, 0);
   EXPECT_EQ(different_data(square.result("one"), square.result("shards")), Strings{});
   // The twin: another colour of the light is noticed.
@@ -100,8 +101,8 @@ TEST(BandStudy, EveryBandOfWhiteLightOnGreyIsTheBroadbandResult) {
   }
 }
 
-// Transport is linear: on grey surfaces the mean of coloured bands is the broadband light, whichever
-// part of a sky of many colours comes by lines or by samples about the sun.
+// Transport is linear: on grey surfaces the mean of coloured bands is the broadband light,
+// whichever part of a sky of many colours comes by lines or by samples about the sun.
 TEST(BandStudy, MeanOfColouredLightOnGreyIsTheBroadbandResult) {
   const Square square;
   square.write("", "totals", "sky", Square::Walls::grey);

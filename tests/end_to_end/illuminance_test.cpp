@@ -16,13 +16,16 @@ std::string field_study(const std::string& name, const std::string& quantity) {
          "\nsite: {latitude_deg: 50, longitude_deg: 14, timezone: UTC}\n"
          "period: {days: [2026-06-21], from: \"06:00\", to: \"16:00\", step_min: 60}\n"
          "light: {source: fixed, dni_w_m2: 700, dhi_w_m2: 120, sky: uniform, quantity: " +
-         quantity + "}\nscene: {files: [field.obj], materials: {soil: {diffuse: 0.2}}}\nmesh: {max_edge_m: 4}\n";
+         quantity +
+         "}\nscene: {files: [field.obj], materials: {soil: {diffuse: 0.2}}}\n"
+         "mesh: {max_edge_m: 4}\n";
 }
 
 class Fields : public ::testing::Test {
  protected:
   Fields() {
-    folder.write("field.obj", "o field\nusemtl soil\nv 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nf 1 2 3 4\n");
+    folder.write("field.obj",
+                 "o field\nusemtl soil\nv 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nf 1 2 3 4\n");
     for (const char* quantity : {"irradiance", "illuminance"}) {
       const std::string name = std::string("field_") + quantity;
       folder.write(name + ".yaml", field_study(name, quantity));
@@ -69,19 +72,24 @@ TEST_F(Fields, ProgramsSayLuxAndDoNotMixThem) {
   const Ran info = program(folder, {"info", path("illuminance")});
   for (const char* words : {"light load, klx h", "illuminance, lx (1)", "light, klm h"})
     EXPECT_NE(info.out.find(words), std::string::npos) << info.out;
-  for (const char* words : {"kWh", "W/m²"}) EXPECT_EQ(info.out.find(words), std::string::npos) << info.out;
+  for (const char* words : {"kWh", "W/m²"})
+    EXPECT_EQ(info.out.find(words), std::string::npos) << info.out;
   const Ran patches = program(folder, {"info", path("illuminance"), "--patches"});
   EXPECT_NE(patches.out.find("light_load_klx_h"), std::string::npos) << patches.out;
   const Ran mixed = program(folder, {"compare", path("irradiance"), path("illuminance")});
   EXPECT_EQ(mixed.code, 2);
   EXPECT_NE(mixed.err.find("klx h"), std::string::npos) << mixed.err;
   const Ran same = program(folder, {"compare", path("illuminance"), path("illuminance"), "--csv"});
-  EXPECT_EQ(same.out.substr(0, same.out.find('\n')),
-            "group,name,area_m2,base_klx_h,variant_klx_h,difference_klx_h,difference_percent,se_klx_h,paired,"
-            "p_value,p_corrected,significant,unmatched_area_m2");
-  EXPECT_EQ(program(folder, {"render", path("illuminance"), "--quantity", "illuminance", "--camera", "top",
-                             "-o", "a.png"}).code, 0);
-  const Ran wrong = program(folder, {"render", path("illuminance"), "--quantity", "irradiance", "-o", "b.png"});
+  EXPECT_EQ(
+      same.out.substr(0, same.out.find('\n')),
+      "group,name,area_m2,base_klx_h,variant_klx_h,difference_klx_h,difference_percent,se_klx_h,"
+      "paired,p_value,p_corrected,significant,unmatched_area_m2");
+  EXPECT_EQ(program(folder, {"render", path("illuminance"), "--quantity", "illuminance", "--camera",
+                             "top", "-o", "a.png"})
+                .code,
+            0);
+  const Ran wrong =
+      program(folder, {"render", path("illuminance"), "--quantity", "irradiance", "-o", "b.png"});
   EXPECT_EQ(wrong.code, 2);
   EXPECT_NE(wrong.err.find("illuminance_direct"), std::string::npos) << wrong.err;
 }

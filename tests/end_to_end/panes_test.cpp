@@ -60,7 +60,8 @@ TEST(Materials, CheckListsThem) {
                                          "diffuse: 0.2, transmittance: 0.4, sides: two"));
   const Ran ran = program(folder, {"check", "square.yaml"});
   ASSERT_EQ(ran.code, 0) << ran.err;
-  for (const char* words : {"2 x 4 mm of n 1.52", "mirror 0.151", "transmits 0.849", "passes 0.400"})
+  for (const char* words :
+       {"2 x 4 mm of n 1.52", "mirror 0.151", "transmits 0.849", "passes 0.400"})
     EXPECT_NE(ran.out.find(words), std::string::npos) << words << "\n" << ran.out;
 }
 
@@ -84,8 +85,8 @@ TEST(Materials, EveryPropertyIsInTheHash) {
 }
 
 // Share of a year's light on a south window that clear glass transmits, against six building
-// simulation programs (ANSI/ASHRAE 140-2020, B8-13 and B8-14): two panes (case 600) and one (670) of
-// 3.048 mm, n 1.493, K 33.7 /m.
+// simulation programs (ANSI/ASHRAE 140-2020, B8-13 and B8-14): two panes (case 600) and one (670)
+// of 3.048 mm, n 1.493, K 33.7 /m.
 TEST(Materials, WindowsOfDenverTransmitAsPublished) {
   const std::string table = "07_cie171_bestest/ashrae140_solar_annual.csv";
   const std::string weather = "data/weather/WD100_denver.epw";
@@ -114,7 +115,8 @@ TEST(Materials, WindowsOfDenverTransmitAsPublished) {
     const ResultReader result(folder / "results/window/baseline.h5");
     constexpr double area_m2 = 6, hours_to_kwh = 1e-3;  // one interval is an hour
     const auto loads = result.doubles("light_load"), areas = result.doubles("patch_area");
-    const double received = std::inner_product(loads.begin(), loads.end(), areas.begin(), 0.0) / area_m2;
+    const double received =
+        std::inner_product(loads.begin(), loads.end(), areas.begin(), 0.0) / area_m2;
     const double transmitted = sum(result.doubles("power_transmitted")) * hours_to_kwh / area_m2;
     const Row published = row("annual transmitted unshaded", name);
     std::vector<double> shares;

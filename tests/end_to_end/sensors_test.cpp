@@ -159,8 +159,10 @@ std::string walls(const nlohmann::json& c) {
     return wall(1, far, -d, -far, -d, H);
   }
   const double W = number(p["W"]) / 2;
-  if (kind == "ew_street_centre") return wall(1, far, -W, -far, -W, H) + wall(5, -far, W, far, W, H);
-  if (kind == "ns_street_centre") return wall(1, -W, -far, -W, far, H) + wall(5, W, far, W, -far, H);
+  if (kind == "ew_street_centre")
+    return wall(1, far, -W, -far, -W, H) + wall(5, -far, W, far, W, H);
+  if (kind == "ns_street_centre")
+    return wall(1, -W, -far, -W, far, H) + wall(5, W, far, W, -far, H);
   const double D = number(p["D"]) / 2;
   return wall(1, -W, -D, W, -D, H) + wall(5, W, -D, W, D, H) + wall(9, W, D, -W, D, H) +
          wall(13, -W, D, -W, -D, H);
@@ -216,16 +218,17 @@ TEST(SensorSunHours, OfCourtyardsStreetsAndWalls) {
     const int offset = static_cast<int>(begin_h);  // the day of that offset is the window's
     folder.write(
         "study.yaml",
-        fmt::format("format: sunload-study-1\nname: study\n"
-                    "site: {{latitude_deg: {}, longitude_deg: {}, timezone: \"{}{:02}:00\"}}\n"
-                    "period: {{days: [{}], step_min: {}}}\nsun: {{refraction: none}}\n"
-                    "light: {{source: fixed, dni_w_m2: 1000, dhi_w_m2: 0}}\n"
-                    "scene: {{files: [walls.obj], materials: {{wall: {{diffuse: 0, sides: two}}}}}}\n"
-                    "sensors: {{points: [{{position_m: [0, 0, 0], normal: [0, 0, 1]}},"
-                    " {{position_m: [3, 3, 0], normal: [0, 0, 1]}}]}}\n"
-                    "solver: {{lines_per_patch: 2, direct_samples: 2, realizations: 2}}\n",
-                    number(c["lat_deg"]), number(c["lon_deg_east"]), offset > 0 ? "-" : "+",
-                    std::abs(offset), date, step_min));
+        fmt::format(
+            "format: sunload-study-1\nname: study\n"
+            "site: {{latitude_deg: {}, longitude_deg: {}, timezone: \"{}{:02}:00\"}}\n"
+            "period: {{days: [{}], step_min: {}}}\nsun: {{refraction: none}}\n"
+            "light: {{source: fixed, dni_w_m2: 1000, dhi_w_m2: 0}}\n"
+            "scene: {{files: [walls.obj], materials: {{wall: {{diffuse: 0, sides: two}}}}}}\n"
+            "sensors: {{points: [{{position_m: [0, 0, 0], normal: [0, 0, 1]}},"
+            " {{position_m: [3, 3, 0], normal: [0, 0, 1]}}]}}\n"
+            "solver: {{lines_per_patch: 2, direct_samples: 2, realizations: 2}}\n",
+            number(c["lat_deg"]), number(c["lon_deg_east"]), offset > 0 ? "-" : "+",
+            std::abs(offset), date, step_min));
     const Ran ran = program(folder, {"run", "study.yaml"});
     ASSERT_EQ(ran.code, 0) << ran.err;
     const ResultReader result(folder / "results/study/baseline.h5");
@@ -240,7 +243,8 @@ TEST(SensorSunHours, OfCourtyardsStreetsAndWalls) {
     EXPECT_LE(at_ends, most_at_an_end) << id;
     // Planted fault: an observer who stands 4 m aside.
     if (truth > 0) {
-      EXPECT_GT(largest_difference(stretches(result, 1, date), c["intervals_utc_h"]), most_at_an_end);
+      EXPECT_GT(largest_difference(stretches(result, 1, date), c["intervals_utc_h"]),
+                most_at_an_end);
       EXPECT_GT(std::abs(result.doubles("sensor_sun_hours")[1] - truth), most + 1e-3) << id;
     }
   }

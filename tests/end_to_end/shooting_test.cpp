@@ -40,7 +40,8 @@ std::vector<double> energies(const std::string& path) {
   const auto area = result.doubles("patch_area"), rows = result.doubles("light_load_realization");
   std::vector<double> energies(rows.size() / area.size(), 0);
   for (std::size_t r = 0; r < energies.size(); ++r)
-    for (std::size_t i = 0; i < area.size(); ++i) energies[r] += area[i] * rows[r * area.size() + i];
+    for (std::size_t i = 0; i < area.size(); ++i)
+      energies[r] += area[i] * rows[r * area.size() + i];
   return energies;
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "geo/check.h"
 #include "geo/mesh_prepare.h"
@@ -15,10 +16,10 @@ namespace {
 constexpr std::size_t largest_file = 1'000'000;
 
 /// What the file is refused with; empty where it is read and prepared.
-std::string refusal(const std::string& name, const std::string& text) {
+std::string refusal(const std::string& name, const std::string& text, const PrepareRules& rules = {}) {
   EXPECT_LT(text.size(), largest_file);
   try {
-    prepare(read_scene_file(file_of(text, name), {}), {});
+    prepare(read_scene_file(file_of(text, name), {}), rules);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -88,8 +89,10 @@ TEST(HostileFiles, LongExtrusions) {
     section += std::to_string(i * i % 97) + " " + std::to_string(i * 7 % 89) + ", ";
     spine += "0 " + std::to_string(i) + " 0, ";
   }
-  expect_refused("long.wrl", "#VRML V2.0 utf8\nShape { geometry Extrusion { crossSection [ " + section +
-                                 "] spine [ " + spine + "] } }\n", "too many points");
+  expect_refused("long.wrl",
+                 "#VRML V2.0 utf8\nShape { geometry Extrusion { crossSection [ " + section +
+                     "] spine [ " + spine + "] } }\n",
+                 "too many points");
 }
 
 /// A polygon all of whose edges cross all others: n² crossings.
@@ -114,6 +117,45 @@ TEST(HostileFiles, WallsAroundOneEdge) {
             std::to_string(std::sin(i / 40.0)).substr(0, 7) + " .5\n";
   for (int i = 0; i < walls; ++i) text += "f 1 2 " + std::to_string(i + 3) + "\n";
   EXPECT_EQ(refusal("fan.obj", text), "");
+}
+
+std::string triangles_between(int corners, int count) {
+  std::mt19937 random(3);
+  const auto corner = [&] {
+    return " " + std::to_string(random() % static_cast<unsigned>(corners) + 1);
+  };
+  std::string text;
+  for (int i = 0; i < count; ++i) text += "f" + corner() + corner() + corner() + "\n";
+  return text;
+}
+
+const PrepareRules splitting_t_joints{.repair = Repair::all, .ground = {}};
+
+/// Every edge crosses the whole scene.
+TEST(HostileFiles, OverlappingTriangles) {
+  constexpr int corners = 20000;
+  std::mt19937 random(2);
+  std::string text;
+  for (int i = 0; i < corners; ++i)
+    text += "v " + std::to_string(random() % 1000) + " " + std::to_string(random() % 1000) + " 0\n";
+  text += triangles_between(corners, 37000);
+  EXPECT_EQ(refusal("overlap.obj", text, splitting_t_joints), "");
+}
+
+/// Every corner lies near every edge, on few of them: on a line but for some centimetres.
+TEST(HostileFiles, TrianglesAlongOneLine) {
+  constexpr int corners = 20000;
+  std::mt19937 random(2);
+  std::string text;
+  for (int i = 0; i < corners; ++i) {
+    const auto place = [&, along = random() % 899'000] {
+      return " " + std::to_string(static_cast<double>(along + random() % 20) / 1000).substr(0, 7);
+    };
+    text += "v" + place() + place() + place() + "\n";
+  }
+  text += triangles_between(corners, 22000);
+  const auto message = refusal("line.obj", text, splitting_t_joints);
+  EXPECT_NE(message.find("too many triangles of object"), std::string::npos) << message;
 }
 
 }  // namespace

@@ -67,7 +67,8 @@ INSTANTIATE_TEST_SUITE_P(Fuzz, Replay, testing::ValuesIn(names()),
 // The twin: an exception that is no InputError, and a request beyond all reason, are noticed.
 TEST(ReplayTwin, FaultsAreNoticed) {
   EXPECT_ANY_THROW(run([](std::string_view) { throw std::logic_error("planted"); }, {}));
-  EXPECT_THROW(run([](std::string_view) { std::vector<char>(most_bytes + 1); }, {}), std::bad_alloc);
+  EXPECT_THROW(run([](std::string_view) { std::vector<char>(most_bytes + 1); }, {}),
+               std::bad_alloc);
 }
 
 }  // namespace

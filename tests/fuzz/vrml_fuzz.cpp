@@ -6,8 +6,10 @@ namespace sunload::fuzz {
 
 static const Registered target("vrml", [](std::string_view bytes) {
   static const auto neighbour = file_of(
-      "#VRML V2.0 utf8\nPROTO Far [ field SFFloat a 1 ] { Shape { geometry Sphere { radius IS a } } }\n"
-      "Shape { geometry Box { } }\n", "far.wrl");
+      "#VRML V2.0 utf8\n"
+      "PROTO Far [ field SFFloat a 1 ] { Shape { geometry Sphere { radius IS a } } }\n"
+      "Shape { geometry Box { } }\n",
+      "far.wrl");
   read_and_prepare(bytes, "scene.wrl", read_scene_vrml);
 });
 

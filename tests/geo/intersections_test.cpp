@@ -25,7 +25,9 @@ TEST(Intersections, BodiesThatOverlapHaveSome) {
   EXPECT_GT(found.cutting, 0u);
   EXPECT_EQ(found.covering, 0u);
   EXPECT_EQ(found.between_objects, found.pairs());
-  const auto name = [&](std::size_t t) { return p.mesh.object_names[p.mesh.triangle_object[t].index()]; };
+  const auto name = [&](std::size_t t) {
+    return p.mesh.object_names[p.mesh.triangle_object[t].index()];
+  };
   EXPECT_EQ(name(found.first[0]), "one");
   EXPECT_EQ(name(found.first[1]), "other");
 }

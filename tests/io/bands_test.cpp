@@ -66,7 +66,8 @@ TEST(BandReflectances, ComeFromFilesAndStudies) {
   EXPECT_EQ(*material(of_study, "grey").diffuse_in_band, (BandShares{0.1, 0.2, 0.6}));
   EXPECT_NEAR(material(of_study, "grey").diffuse, 0.3, 1e-15);
   // One number of the study's is grey, whatever the file says; broadband light knows no colours.
-  EXPECT_FALSE(material(scene.plan("bands: rgb", "ochre: {diffuse: 0.4}"), "ochre").diffuse_in_band);
+  EXPECT_FALSE(
+      material(scene.plan("bands: rgb", "ochre: {diffuse: 0.4}"), "ochre").diffuse_in_band);
   EXPECT_FALSE(material(scene.plan("bounces: 5"), "ochre").diffuse_in_band);
 }
 
@@ -148,7 +149,9 @@ TEST(BandLight, MeanOfTheBandsIsTheBroadbandLightOfEverySource) {
 }
 
 TEST(BandLight, LowSunIsRedHighSunWhiteAndTheSkyBlue) {
-  const auto redness = [](const SunLight& light) { return light.bands[0].dni / light.bands[2].dni; };
+  const auto redness = [](const SunLight& light) {
+    return light.bands[0].dni / light.bands[2].dni;
+  };
   EXPECT_NEAR(redness(Sky30(45).light()), 1, 1e-12);
   EXPECT_GT(redness(Sky30(20).light()), 1.1);
   EXPECT_GT(redness(Sky30(5).light()), redness(Sky30(20).light()));
@@ -156,7 +159,8 @@ TEST(BandLight, LowSunIsRedHighSunWhiteAndTheSkyBlue) {
   for (const double elevation : {60.0, 20.0}) {
     const Sky30 clear(elevation);
     const SunLight light = clear.light();
-    EXPECT_GT(diffuse(light.bands[2].sky, clear.grid), 1.2 * diffuse(light.bands[0].sky, clear.grid));
+    EXPECT_GT(diffuse(light.bands[2].sky, clear.grid),
+              1.2 * diffuse(light.bands[0].sky, clear.grid));
     EXPECT_GT(redness(light), diffuse(light.bands[0].sky, clear.grid) /
                                   diffuse(light.bands[2].sky, clear.grid));
   }

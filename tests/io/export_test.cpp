@@ -137,7 +137,8 @@ TEST(Export, TablesHaveARowPerPatchOrTime) {
     whole += area[i];
   }
   const auto last = series.back();
-  EXPECT_EQ(last.find("2026-06-21T11:00:00Z,2026-06-21T12:00:00Z,2026-06-21T11:30:00Z,180,60,"), 0u);
+  EXPECT_EQ(last.find("2026-06-21T11:00:00Z,2026-06-21T12:00:00Z,2026-06-21T11:30:00Z,180,60,"),
+            0u);
   EXPECT_NE(last.find(fmt::format(",{:.9g},", 200 * sum / whole)), std::string::npos)
       << last << " " << 200 * sum / whole;
 }
@@ -146,7 +147,8 @@ TEST(Export, CornersAreMeansWithinTheCreaseAngle) {
   const ResultReader result(write_small_result({}, "export_crease"));
   const ExportPatches patches(result);
   std::vector<double> values;
-  for (std::size_t i = 0; i < patches.area.size(); ++i) values.push_back(static_cast<double>(i % 7));
+  for (std::size_t i = 0; i < patches.area.size(); ++i)
+    values.push_back(static_cast<double>(i % 7));
   // By definition, over all pairs.
   for (const double crease_deg : {20.0, 100.0}) {
     const auto means = corner_values(patches, values, crease_deg);
@@ -238,16 +240,28 @@ TEST(Export, RefusesWhatItWouldNotHeed) {
   };
   const auto nothing = [](ExportRules&) {};
   EXPECT_NE(with("obj", nothing).find("one of: csv, vtk, xdmf, glb, vrml, ply"), std::string::npos);
-  EXPECT_NE(with("vtk", [](auto& r) { r.palette = Palette::grey; }).find("no colours"), std::string::npos);
-  EXPECT_NE(with("ply", [](auto& r) { r.interpolate = true; }).find("one value per patch"), std::string::npos);
-  EXPECT_NE(with("glb", [](auto& r) { r.crease_angle_deg = 20; }).find("add --interpolate"), std::string::npos);
-  EXPECT_NE(with("glb", [](auto& r) { r.interpolate = true, r.crease_angle_deg = 181; }).find("[0, 180]"),
+  EXPECT_NE(with("vtk", [](auto& r) { r.palette = Palette::grey; }).find("no colours"),
             std::string::npos);
-  EXPECT_NE(with("glb", [](auto& r) { r.quantity = "patch_object"; }).find("choose one of"), std::string::npos);
-  EXPECT_NE(with("vtk", [](auto& r) { r.time = "2026-06-21T09:30Z"; }).find("--quantity irradiance"),
+  EXPECT_NE(with("ply", [](auto& r) { r.interpolate = true; }).find("one value per patch"),
             std::string::npos);
-  EXPECT_NE(with("xdmf", [](auto& r) { r.time = "2026-06-21T09:30Z"; }).find("all intervals"), std::string::npos);
-  EXPECT_NE(with("csv", [](auto& r) { r.time = "2025-01-01T00:00Z"; r.quantity = "irradiance"; }), "");
+  EXPECT_NE(with("glb", [](auto& r) { r.crease_angle_deg = 20; }).find("add --interpolate"),
+            std::string::npos);
+  EXPECT_NE(
+      with("glb", [](auto& r) { r.interpolate = true, r.crease_angle_deg = 181; }).find("[0, 180]"),
+      std::string::npos);
+  EXPECT_NE(with("glb", [](auto& r) { r.quantity = "patch_object"; }).find("choose one of"),
+            std::string::npos);
+  EXPECT_NE(
+      with("vtk", [](auto& r) { r.time = "2026-06-21T09:30Z"; }).find("--quantity irradiance"),
+      std::string::npos);
+  EXPECT_NE(with("xdmf", [](auto& r) { r.time = "2026-06-21T09:30Z"; }).find("all intervals"),
+            std::string::npos);
+  EXPECT_NE(with("csv",
+                 [](auto& r) {
+                   r.time = "2025-01-01T00:00Z";
+                   r.quantity = "irradiance";
+                 }),
+            "");
   rules.format = "glb";
   EXPECT_NE(refusal(rules, "").find("add -o FILE.glb"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(path_of("refused"))) << "nothing is left behind";

@@ -92,11 +92,11 @@ TEST(House, SharedLibrariesStayWhereTheyBelong) {
        {"io/checksum", "io/chunk", "io/batch_container", "io/gzip", "io/result_seal"}},
       {"Inventor/", {"io/scene_vrml", "io/vrml_faces", "io/vrml_nodes"}},
       {"nlohmann",
-       {"io/batch_container", "io/batch_file", "io/check_study", "io/compare_text", "io/export_cityjson",
-        "io/export_cityjson_model", "io/export_glb",
-        "io/gltf_buffers", "io/json_text", "io/progress",
-        "io/scene_cityjson_geometry", "io/scene_cityjson_lod", "io/scene_cityjson_select",
-        "io/scene_cityjson_templates", "io/scene_cityjson_write", "io/study_canonical", "io/view_data"}}};
+       {"io/batch_container", "io/batch_file", "io/check_study", "io/compare_text",
+        "io/export_cityjson", "io/export_cityjson_model", "io/export_glb", "io/gltf_buffers",
+        "io/json_text", "io/progress", "io/scene_cityjson_geometry", "io/scene_cityjson_lod",
+        "io/scene_cityjson_select", "io/scene_cityjson_templates", "io/scene_cityjson_write",
+        "io/study_canonical", "io/view_data"}}};
   for (const auto& [header, allowed] : owners)
     for (const auto& file : users_of(header))
       EXPECT_TRUE(allowed.contains(file)) << file << " includes " << header;

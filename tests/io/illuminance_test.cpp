@@ -29,7 +29,8 @@ TEST(Illuminance, BeamAndSkyAreConvertedByTheirOwnEfficacies) {
   const Site site{.latitude_deg = 50, .longitude_deg = 14};
   const SkyGrid grid;
   for (const auto source : {LightSource::clear_sky, LightSource::fixed}) {
-    const Study power = study(source, Quantity::irradiance), light = study(source, Quantity::illuminance);
+    const Study power = study(source, Quantity::irradiance),
+                light = study(source, Quantity::illuminance);
     const LightSeries series = light_series(light, site);
     int lit = 0;
     for (std::uint32_t k = 0; k < series.intervals.size(); ++k) {
@@ -89,9 +90,11 @@ TEST(Illuminance, DatasetsHaveItsNamesAndUnits) {
 }
 
 std::string text_of(const std::string& quantity, const std::string& emission) {
-  return "format: sunload-study-1\nname: w\nsite: {latitude_deg: 50, longitude_deg: 14, timezone: UTC}\n"
+  return "format: sunload-study-1\nname: w\n"
+         "site: {latitude_deg: 50, longitude_deg: 14, timezone: UTC}\n"
          "period: {days: [2026-06-21]}\nlight: {source: clear_sky, quantity: " +
-         quantity + "}\nscene: {files: [flat.obj], materials: {tile: {diffuse: 0.3, emission_w_m2: " +
+         quantity +
+         "}\nscene: {files: [flat.obj], materials: {tile: {diffuse: 0.3, emission_w_m2: " +
          emission + "}}}\n";
 }
 

@@ -44,7 +44,8 @@ TEST(MaterialTable, RowsAreSourcedAndPossible) {
 }
 
 TEST(MaterialTable, HasTheLecturesValues) {
-  const std::map<std::string, double> lecture{{"snow_fresh", 0.80}, {"snow_old", 0.40}, {"soil", 0.15}};
+  const std::map<std::string, double> lecture{
+      {"snow_fresh", 0.80}, {"snow_old", 0.40}, {"soil", 0.15}};
   for (const auto& [name, value] : lecture) EXPECT_EQ(tabled_material(name)->diffuse, value);
 }
 
@@ -66,11 +67,15 @@ TEST(MaterialTable, PageIsWrittenFromIt) {
 class Names : public testing::Test {
  protected:
   Names() {
-    folder_.write("plates.mtl", "newmtl m\nKd 0.5 0.5 0.5\nnewmtl brick\nnewmtl lamp\nKd 0.1 0.1 0.1\nKe 1 1 1\n");
-    folder_.write("plates.obj",
-                  "mtllib plates.mtl\no plate\nusemtl m\nv 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nf 1 2 3 4\n"
-                  "o strip\nusemtl brick\nv 5 0 0\nv 6 0 0\nv 6 4 0\nv 5 4 0\nf 5 6 7 8\n");
-    folder_.write("lamp.obj", "mtllib plates.mtl\no lamp\nusemtl lamp\nv 0 0 0\nv 4 0 0\nv 4 4 0\nf 1 2 3\n");
+    folder_.write(
+        "plates.mtl",
+        "newmtl m\nKd 0.5 0.5 0.5\nnewmtl brick\nnewmtl lamp\nKd 0.1 0.1 0.1\nKe 1 1 1\n");
+    folder_.write(
+        "plates.obj",
+        "mtllib plates.mtl\no plate\nusemtl m\nv 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nf 1 2 3 4\n"
+        "o strip\nusemtl brick\nv 5 0 0\nv 6 0 0\nv 6 4 0\nv 5 4 0\nf 5 6 7 8\n");
+    folder_.write("lamp.obj",
+                  "mtllib plates.mtl\no lamp\nusemtl lamp\nv 0 0 0\nv 4 0 0\nv 4 4 0\nf 1 2 3\n");
   }
 
   VariantPlan plan(const std::string& scene) const {
@@ -128,13 +133,16 @@ TEST_F(Names, OfTheStudyAndOfFilesGoFirst) {
   EXPECT_EQ(of(plan(rule + ", materials: {brick: {diffuse: 0.4}}"), "plate").diffuse, 0.4);
   EXPECT_EQ(of(plan(rule + ", materials: {brick: {mirror: 0.4}}"), "plate").diffuse, 0);
   EXPECT_EQ(of(plan(rule + ", materials: {brick: {sides: two}}"), "plate").diffuse, 0.3);
-  EXPECT_EQ(of(plan("files: [plates.obj], assign: [{object: strip, material: m}]"), "strip").diffuse, 0.5);
+  EXPECT_EQ(
+      of(plan("files: [plates.obj], assign: [{object: strip, material: m}]"), "strip").diffuse,
+      0.5);
 }
 
 TEST_F(Names, OfFilesAloneAreNotLookedUp) {
   const auto left = plan("files: [plates.obj]");
   EXPECT_EQ(of(left, "strip").diffuse, default_reflectance);
-  EXPECT_NE(warnings(left).find("4 m2, 20 % of the surface, have no material in file or study (other 4 m2)"),
+  EXPECT_NE(warnings(left).find(
+                "4 m2, 20 % of the surface, have no material in file or study (other 4 m2)"),
             std::string::npos)
       << warnings(left);
   const auto named = plan("files: [plates.obj], materials: {brick: {}}");
@@ -144,16 +152,19 @@ TEST_F(Names, OfFilesAloneAreNotLookedUp) {
 }
 
 TEST_F(Names, ThatNobodyKnowsAreRefusedWithTheNearest) {
-  const std::string text = refusal("files: [plates.obj], assign: [{object: plate, material: asfalt}]");
+  const std::string text =
+      refusal("files: [plates.obj], assign: [{object: plate, material: asfalt}]");
   EXPECT_NE(text.find("material 'asfalt' is not known"), std::string::npos) << text;
   EXPECT_NE(text.find("did you mean 'asphalt'?"), std::string::npos) << text;
-  EXPECT_NE(refusal("files: [plates.obj], ground: {material: unobtainium}").find("sunload materials"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal("files: [plates.obj], ground: {material: unobtainium}").find("sunload materials"),
+      std::string::npos);
 }
 
 TEST_F(Names, OfMaterialsThatGlowAskForTheirPower) {
   const auto dark = plan("files: [plates.obj, lamp.obj]");
-  EXPECT_NE(warnings(dark).find("material 'lamp' glows by its file"), std::string::npos) << warnings(dark);
+  EXPECT_NE(warnings(dark).find("material 'lamp' glows by its file"), std::string::npos)
+      << warnings(dark);
   const auto lit = plan("files: [plates.obj, lamp.obj], materials: {lamp: {emission_w_m2: 5}}");
   EXPECT_EQ(warnings(lit).find("glows"), std::string::npos);
   EXPECT_EQ(of(lit, "lamp").emission_w_m2, 5);

@@ -20,7 +20,8 @@ constexpr const char* with_lamp =
     "parallel_sources: lamps.obj, materials: {m: {diffuse: 0.3}, lamp: {emission_w_m2: 250}}";
 
 void write_models(const WorkFolder& folder, const std::string& height = "5") {
-  folder.write("plate.obj", "o plate\nusemtl m\nv 5000 0 0\nv 5004 0 0\nv 5004 4 0\nv 5000 4 0\nf 1 2 3 4\n");
+  folder.write("plate.obj",
+               "o plate\nusemtl m\nv 5000 0 0\nv 5004 0 0\nv 5004 4 0\nv 5000 4 0\nf 1 2 3 4\n");
   folder.write("lamps.obj", "o lamp\nusemtl lamp\nv 5001 1 " + height + "\nv 5001 3 " + height +
                                 "\nv 5003 3 " + height + "\nv 5003 1 " + height +
                                 "\nf 1 2 3 4\n");
@@ -63,8 +64,9 @@ TEST(ParallelSources, AreInTheContentHash) {
   write_models(folder);
   const auto hash = plan_of(folder, with_lamp).content_hash;
   EXPECT_EQ(plan_of(folder, with_lamp).content_hash, hash);
-  EXPECT_NE(plan_of(folder, "materials: {m: {diffuse: 0.3}, lamp: {emission_w_m2: 250}}").content_hash,
-            hash);
+  EXPECT_NE(
+      plan_of(folder, "materials: {m: {diffuse: 0.3}, lamp: {emission_w_m2: 250}}").content_hash,
+      hash);
   write_models(folder, "6");
   EXPECT_NE(plan_of(folder, with_lamp).content_hash, hash);
 }

@@ -45,7 +45,8 @@ TEST(PolygonMatch, HoldsFacesOfAPolygonOutOfPlane) {
 
 TEST(PolygonMatch, HasNothingToSayWithoutPolygons) {
   EXPECT_FALSE(PolygonMatch({}).polygon_at({0, 0, 0}, {0, 0, 1}));
-  EXPECT_FALSE(PolygonMatch({{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}}}).polygon_at({1, 1, 1}, {0, 0, 1}));
+  EXPECT_FALSE(
+      PolygonMatch({{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}}}).polygon_at({1, 1, 1}, {0, 0, 1}));
 }
 
 }  // namespace

@@ -69,8 +69,8 @@ bool same(const LinkTable& a, const LinkTable& b) {
 
 bool same(const LineSet& a, const LineSet& b) {
   return same(a.patches, b.patches) && same(a.sky, b.sky) &&
-         same(a.sky_by_mirror, b.sky_by_mirror) && same_bits(a.ends, b.ends) && same_bits(a.lamps, b.lamps) &&
-         same_bits(a.first_light.escaped, b.first_light.escaped) &&
+         same(a.sky_by_mirror, b.sky_by_mirror) && same_bits(a.ends, b.ends) &&
+         same_bits(a.lamps, b.lamps) && same_bits(a.first_light.escaped, b.first_light.escaped) &&
          same_bits(a.first_light.backs, b.first_light.backs) &&
          same_bits(a.first_light.cut, b.first_light.cut) &&
          same_bits(a.first_light.transmitted, b.first_light.transmitted) &&

@@ -232,9 +232,11 @@ TEST(ColourMap, HueRunsFromBlueToRed) {
 }
 
 /// Pixels of a result seen from above, one colour for every patch but by `values`.
-std::vector<Colour> seen_from_above(const ResultReader& result, const PatchColours& colours, int size) {
+std::vector<Colour> seen_from_above(const ResultReader& result, const PatchColours& colours,
+                                    int size) {
   const PatchScene scene(result);
-  const auto camera = Camera::parallel({{-20, -20, 0}, {20, 20, 0}}, {0, 0, 1}, {0, 1, 0}, size, size);
+  const auto camera =
+      Camera::parallel({{-20, -20, 0}, {20, 20, 0}}, {0, 0, 1}, {0, 1, 0}, size, size);
   const RayCaster caster(scene.mesh());
   return drawn_pixels(scene, caster, camera, size, size, colours);
 }
@@ -294,8 +296,8 @@ TEST(Render, ThePlaneBehindIsTheSkysColour) {
     EXPECT_GT(colour_difference(plain_sky, encoded), 5);
   }
   // A sun below the horizon paints no sky.
-  EXPECT_LT(colour_difference(traced.pixels(colours, {SkyBackground::second, {0, -1, -0.1}}).front(),
-                              plain_sky),
+  EXPECT_LT(colour_difference(
+                traced.pixels(colours, {SkyBackground::second, {0, -1, -0.1}}).front(), plain_sky),
             0.1);
 }
 
@@ -312,7 +314,8 @@ TEST(Render, AFacadeIsSeenFromBeforeIt) {
   const auto facade = result.integers("patch_facade");
   const auto names = result.strings("facade_name");
   for (const auto f : facade)
-    colours.values.push_back(f >= 0 && names[static_cast<std::size_t>(f)] == "house_1/south_1" ? 3 : 0);
+    colours.values.push_back(f >= 0 && names[static_cast<std::size_t>(f)] == "house_1/south_1" ? 3
+                                                                                               : 0);
   const auto pixels = drawn_pixels(scene, caster, camera, size, size, colours);
   EXPECT_LT(colour_difference(pixels[50 * size + 50], map_colour(Palette::false_colour, 0.75)), 1);
   EXPECT_THROW(scene.facade_shape(result, "house_9/south_1"), InputError);
@@ -320,7 +323,8 @@ TEST(Render, AFacadeIsSeenFromBeforeIt) {
 
 std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
   std::uint32_t number = 0;
-  for (std::size_t k = 0; k < 4; ++k) number = number << 8 | static_cast<unsigned char>(bytes.at(at + k));
+  for (std::size_t k = 0; k < 4; ++k)
+    number = number << 8 | static_cast<unsigned char>(bytes.at(at + k));
   return number;
 }
 
@@ -330,7 +334,8 @@ std::vector<std::string> chunks_of(const std::string& png) {
   for (std::size_t at = 8; at < png.size();) {
     const std::size_t length = big_endian(png, at);
     names.push_back(png.substr(at + 4, 4));
-    EXPECT_EQ(big_endian(png, at + 8 + length), crc32(png.data() + at + 4, length + 4)) << names.back();
+    EXPECT_EQ(big_endian(png, at + 8 + length), crc32(png.data() + at + 4, length + 4))
+        << names.back();
     at += length + 12;
   }
   return names;
@@ -350,10 +355,13 @@ TEST(Render, AnAnimationHasAPictureForEverySun) {
   EXPECT_EQ(chunks[1], "acTL");
   EXPECT_EQ(big_endian(png, 8 + 25 + 8), 3u);
   EXPECT_EQ(chunks.back(), "IEND");
-  const auto before_data = [&](const char* name) { return std::find(chunks.begin(), chunks.end(), name); };
+  const auto before_data = [&](const char* name) {
+    return std::find(chunks.begin(), chunks.end(), name);
+  };
   EXPECT_LT(before_data("fcTL"), before_data("IDAT"));
   EXPECT_LT(before_data("IDAT"), before_data("fdAT"));
-  // One scale for all: the second hour by itself, with the animation's limit, is its second picture.
+  // One scale for all: the second hour by itself, with the animation's limit, is its second
+  // picture.
   std::vector<std::string> single;
   for (const char* name : {"animation-0001", "animation-0002", "animation-0003"})
     single.push_back(bytes_of(picture_path(name)));

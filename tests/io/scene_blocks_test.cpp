@@ -27,8 +27,8 @@ using Value = std::function<double(std::size_t column, std::size_t row)>;
 /// Rows from north to south, the south-west corner at (1000, 2000).
 std::string grid(const Value& value) {
   std::string text = fmt::format(
-      "ncols {}\nnrows {}\nxllcorner 1000\nyllcorner 2000\ncellsize {}\nnodata_value -9999\n", columns,
-      rows, cell);
+      "ncols {}\nnrows {}\nxllcorner 1000\nyllcorner 2000\ncellsize {}\nnodata_value -9999\n",
+      columns, rows, cell);
   for (std::size_t r = 0; r < rows; ++r)
     for (std::size_t c = 0; c < columns; ++c)
       text += fmt::format("{}{}", value(c, r), c + 1 == columns ? "\n" : " ");
@@ -71,7 +71,9 @@ TEST(SceneBlocks, VolumesAndAreasAreThoseOfTheCells) {
   const auto area = [&](Surface s) { return p.report.area_m2[static_cast<std::size_t>(s)]; };
   EXPECT_NEAR(area(Surface::roof), 5 * cell * cell, 1e-9);
   // Walls between cells by their mean heights at the border, here at the corners of the plane.
-  const auto corner = [](double row) { return row == 0 ? 10 : row == rows ? 8.5 : 10.25 - 0.5 * row; };
+  const auto corner = [](double row) {
+    return row == 0 ? 10 : row == rows ? 8.5 : 10.25 - 0.5 * row;
+  };
   const auto beside = [&](double top, double row) {
     return cell * (top - (corner(row) + corner(row + 1)) / 2);
   };
@@ -117,7 +119,9 @@ TEST(SceneBlocks, LowThingsAreLand) {
 }
 
 TEST(SceneBlocks, MissingCellsAreLeftOut) {
-  const auto surface = [](std::size_t c, std::size_t r) { return c == 1 && r == 1 ? -9999 : houses(c, r); };
+  const auto surface = [](std::size_t c, std::size_t r) {
+    return c == 1 && r == 1 ? -9999 : houses(c, r);
+  };
   const auto terrain = [](std::size_t c, std::size_t r) { return c == 4 ? -9999 : land(c, r); };
   const auto model = blocks(surface, terrain);
   EXPECT_TRUE(has_note(model, "5 cells of the raster have no data"));  // of both together
@@ -157,11 +161,13 @@ TEST(SceneBlocks, CrownsAreOfTheTablesMaterial) {
   folder.write("cdsm.asc", grid([](std::size_t c, std::size_t) { return c == 0 ? 8.0 : 0.0; }));
   const auto built = [&](const std::string& more) {
     return build_scene(
-        read_study(folder.write("s.yaml",
-                                "format: sunload-study-1\nname: s\n"
-                                "site: {latitude_deg: 57.7, longitude_deg: 12, timezone: UTC}\n"
-                                "period: {days: [2026-03-21]}\nscene: {files: [{file: dsm.asc, terrain: "
-                                "dem.asc, canopy: cdsm.asc" + more + "}\n"))
+        read_study(
+            folder.write("s.yaml",
+                         "format: sunload-study-1\nname: s\n"
+                         "site: {latitude_deg: 57.7, longitude_deg: 12, timezone: UTC}\n"
+                         "period: {days: [2026-03-21]}\nscene: {files: [{file: dsm.asc, terrain: "
+                         "dem.asc, canopy: cdsm.asc" +
+                             more + "}\n"))
             .variants.front());
   };
   const auto material = [](const BuiltScene& b, const std::string& name) {
@@ -172,7 +178,8 @@ TEST(SceneBlocks, CrownsAreOfTheTablesMaterial) {
   const auto plain = built("}], assign: [{type: Building, material: brick}]");
   EXPECT_NEAR(material(plain, "crown").transmittance, 0.173, 1e-12);
   EXPECT_EQ(material(plain, "brick").diffuse, 0.3);
-  const auto own = built(", material: asphalt}], materials: {crown: {diffuse: 0.2, transmittance: 0.5}}");
+  const auto own =
+      built(", material: asphalt}], materials: {crown: {diffuse: 0.2, transmittance: 0.5}}");
   EXPECT_EQ(material(own, "crown").transmittance, 0.5);
   EXPECT_EQ(material(own, "asphalt").diffuse, 0.125);
   EXPECT_EQ(own.scene.materials.size(), 2u);
@@ -184,9 +191,11 @@ TEST(SceneBlocks, OtherGridsAreRefused) {
   moved.replace(moved.find("1000"), 4, "1001");
   auto shorter = grid(land);
   shorter.replace(shorter.find("nrows 4"), 7, "nrows 3");
-  for (const auto& [text, part] : {std::pair{moved, "lies on another grid"}, {shorter, "has 5 × 3 cells"}}) {
+  for (const auto& [text, part] :
+       {std::pair{moved, "lies on another grid"}, {shorter, "has 5 × 3 cells"}}) {
     try {
-      read_scene_blocks({.surface = surface, .terrain = write_text("dem.asc", text), .canopy = ""}, {});
+      read_scene_blocks({.surface = surface, .terrain = write_text("dem.asc", text), .canopy = ""},
+                        {});
       ADD_FAILURE() << part;
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
@@ -259,11 +268,13 @@ void expect_site(const std::string& folder, const RasterFiles& files) {
 TEST(SceneBlocks, GothenburgsSites) {
   if (shared_missing("data/studies")) return;
   const std::string ga = shared_path("data/studies/gothenburg_gustav_adolfs/");
-  expect_site("gothenburg_gustav_adolfs",
-              {.surface = ga + "DSM_GA.tif", .terrain = ga + "DEM_GA.tif", .canopy = ga + "CDSM_GA.tif"});
+  expect_site(
+      "gothenburg_gustav_adolfs",
+      {.surface = ga + "DSM_GA.tif", .terrain = ga + "DEM_GA.tif", .canopy = ga + "CDSM_GA.tif"});
   const std::string kr = shared_path("data/studies/gothenburg_kronenhuset/");
-  expect_site("gothenburg_kronenhuset",
-              {.surface = kr + "DSM_KR.tif", .terrain = kr + "DEM_KR.tif", .canopy = kr + "CDSM_KR.asc"});
+  expect_site(
+      "gothenburg_kronenhuset",
+      {.surface = kr + "DSM_KR.tif", .terrain = kr + "DEM_KR.tif", .canopy = kr + "CDSM_KR.asc"});
 }
 
 }  // namespace

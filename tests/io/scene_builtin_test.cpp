@@ -410,15 +410,17 @@ TEST(SceneBuiltin, CityJsonReadsBackAsTheSameScene) {
     EXPECT_NEAR(again.report.volume_m3, direct.report.volume_m3, 1e-6 * direct.report.volume_m3);
     for (const auto surface : {Surface::wall, Surface::roof, Surface::ground, Surface::floor}) {
       const auto s = static_cast<std::size_t>(surface);
-      EXPECT_NEAR(again.report.area_m2[s], direct.report.area_m2[s], 1e-6 * direct.report.area_m2[s])
+      EXPECT_NEAR(again.report.area_m2[s], direct.report.area_m2[s],
+                  1e-6 * direct.report.area_m2[s])
           << name << " " << surface_names[s];
     }
     std::set<std::string> materials;
     for (const auto& material : again.mesh.file_materials) materials.insert(material.name);
     for (const auto& material : model.materials) EXPECT_TRUE(materials.contains(material.name));
   }
-  EXPECT_THROW(write_cityjson(builtin_scene({"room", {}}), (folder / "missing" / "a.json").string()),
-               MachineError);
+  EXPECT_THROW(
+      write_cityjson(builtin_scene({"room", {}}), (folder / "missing" / "a.json").string()),
+      MachineError);
 }
 
 TEST(SceneBuiltin, RefusesWithTheNearestName) {

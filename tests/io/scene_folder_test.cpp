@@ -77,7 +77,8 @@ void expect_box(const PolygonModel& model, const Facts& facts, const std::string
                                     box.high.x, box.high.y, box.high.z};
   double largest = 0;
   for (const double value : found) largest = std::max(largest, std::abs(value));
-  const double rounding = 4 * std::numeric_limits<double>::epsilon() * largest;  // of a few products
+  // Of a few products.
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() * largest;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const double value = std::stod(expected[i]);
     // 5 significant digits are written for meshes, 2 decimals for cities.

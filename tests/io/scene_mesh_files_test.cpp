@@ -23,8 +23,9 @@ std::string bytes_of(Number number, std::endian order) {
 
 std::string header(const std::string& format, const std::string& number, int vertices, int faces) {
   return "ply\r\nformat " + format + " 1.0\r\ncomment a\r\nelement vertex " +
-         std::to_string(vertices) + "\r\nproperty " + number + " x\r\nproperty uchar red\r\nproperty " +
-         number + " y\r\nproperty " + number + " z\r\nelement face " + std::to_string(faces) +
+         std::to_string(vertices) + "\r\nproperty " + number +
+         " x\r\nproperty uchar red\r\nproperty " + number + " y\r\nproperty " + number +
+         " z\r\nelement face " + std::to_string(faces) +
          "\r\nproperty int quality\r\nproperty list uchar int vertex_indices\r\nelement edge 1\r\n"
          "property list ushort float weights\r\nend_header\r\n";
 }
@@ -85,12 +86,14 @@ TEST(ScenePly, RefusesWhatIsBroken) {
 }
 
 TEST(SceneOff, HeadersCommentsAndColours) {
-  const auto plain = read_text("p.off", "# c\nOFF 3 1 0\n0 0 0\n1 0 0 # v\n\n0 1 3512345.678901\n3 0 1 2 255 0 0\n");
+  const auto plain = read_text(
+      "p.off", "# c\nOFF 3 1 0\n0 0 0\n1 0 0 # v\n\n0 1 3512345.678901\n3 0 1 2 255 0 0\n");
   ASSERT_EQ(plain.polygon_count(), 1u);
   EXPECT_EQ(plain.vertices[2].z, 3512345.678901);
-  EXPECT_EQ(read_text("c.off", "COFF\n3 1 0\n0 0 0 1 1 1 1\n1 0 0 1 1 1 1\n0 1 0 1 1 1 1\n3 0 1 2\n")
-                .polygon_count(),
-            1u);
+  EXPECT_EQ(
+      read_text("c.off", "COFF\n3 1 0\n0 0 0 1 1 1 1\n1 0 0 1 1 1 1\n0 1 0 1 1 1 1\n3 0 1 2\n")
+          .polygon_count(),
+      1u);
   EXPECT_NE(refusal("r.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n").find(":6:7: vertex"),
             std::string::npos);
   EXPECT_NE(refusal("r.off", "OFF\n3 1 0\n0 0 0\n1 0 x\n").find(":4:5:"), std::string::npos);
@@ -126,8 +129,9 @@ TEST(SceneStl, SolidsOfTextFilesAreObjects) {
     return "  FACET normal 0 0 1\n outer loop\n vertex " + x + " 0 0\n vertex 1 0 0\n vertex 0 1 "
            "0\n endloop\n endfacet\n";
   };
-  const auto model = read_text("t.stl", "solid tower a\n" + facet("5812345.0123456789") +
-                                            "endsolid tower a\nsolid\n" + facet("0") + "endsolid\n");
+  const auto model =
+      read_text("t.stl", "solid tower a\n" + facet("5812345.0123456789") +
+                             "endsolid tower a\nsolid\n" + facet("0") + "endsolid\n");
   EXPECT_EQ(model.object_names, (std::vector<std::string>{"tower a", "t"}));
   EXPECT_EQ(model.vertices[0].x, 5812345.0123456789);
   EXPECT_NE(refusal("t.stl", "solid a\n" + facet("nan") + "endsolid\n").find("t.stl:4:9: 'nan'"),
@@ -207,7 +211,8 @@ TEST(SceneGltf, StripsAndFansAndContainers) {
   const auto word = [](std::size_t n) {
     return bytes_of(static_cast<std::uint32_t>(n), std::endian::little);
   };
-  const std::string glb = "glTF" + word(2) + word(20 + json.size()) + word(json.size()) + "JSON" + json;
+  const std::string glb =
+      "glTF" + word(2) + word(20 + json.size()) + word(json.size()) + "JSON" + json;
   EXPECT_EQ(read_text("s.glb", glb).polygon_count(), 2u);
   for (std::size_t cut = 1; cut < glb.size(); cut += 97)
     EXPECT_NE(refusal("s.glb", glb.substr(0, glb.size() - cut)), "") << cut;

@@ -25,11 +25,13 @@ class Files : public testing::Test {
     folder_.write("a.obj", sheet);
     folder_.write("b.obj", sheet);
   }
-  Study study(const std::string& files, const std::string& site = "latitude_deg: 50, longitude_deg: 14") const {
-    return read_study(folder_.write("s.yaml",
-                                    "format: sunload-study-1\nname: s\nsite: {timezone: UTC, " + site +
-                                        "}\nperiod: {days: [2026-03-21]}\nscene: {repair: none, files: [" +
-                                        files + "]}\n"))
+  Study study(const std::string& files,
+              const std::string& site = "latitude_deg: 50, longitude_deg: 14") const {
+    return read_study(
+               folder_.write("s.yaml",
+                             "format: sunload-study-1\nname: s\nsite: {timezone: UTC, " + site +
+                                 "}\nperiod: {days: [2026-03-21]}\nscene: {repair: none, files: [" +
+                                 files + "]}\n"))
         .variants.front();
   }
   PolygonModel model(const std::string& files) const { return read_models(study(files)); }
@@ -45,7 +47,8 @@ class Files : public testing::Test {
 };
 
 void expect_at(Vec3 found, Vec3 expected) {
-  for (const auto& [a, b] : {std::pair{found.x, expected.x}, {found.y, expected.y}, {found.z, expected.z}})
+  for (const auto& [a, b] :
+       {std::pair{found.x, expected.x}, {found.y, expected.y}, {found.z, expected.z}})
     EXPECT_NEAR(a, b, 1e-12 * (1 + std::abs(b)));  // two products and a sum
 }
 
@@ -74,7 +77,8 @@ TEST_F(Files, HaveAxesOfTheirOwn) {
 }
 
 TEST_F(Files, KeepObjectsOfOneNameApart) {
-  const auto m = model("a.obj, {file: b.obj, position_m: [10, 0, 0]}, {file: b.obj, position_m: [20, 0, 0]}");
+  const auto m =
+      model("a.obj, {file: b.obj, position_m: [10, 0, 0]}, {file: b.obj, position_m: [20, 0, 0]}");
   EXPECT_EQ(m.object_names, (std::vector<std::string>{"sheet", "sheet_2", "sheet_3"}));
   EXPECT_EQ(std::count_if(m.notes.begin(), m.notes.end(),
                           [](const std::string& note) {
@@ -122,7 +126,8 @@ TEST_F(Files, KeepTheirShapeInEveryPlace) {
   folder_.write("box.obj",
                 "o box\nv 0 0 0\nv 2 0 0\nv 2 3 0\nv 0 3 0\nv 0 0 4\nv 2 0 4\nv 2 3 4\nv 0 3 4\n"
                 "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
-  const auto built = build_scene(study("{file: box.obj, position_m: [91000, 435000, 2], turn_deg: 17}"));
+  const auto built =
+      build_scene(study("{file: box.obj, position_m: [91000, 435000, 2], turn_deg: 17}"));
   EXPECT_EQ(built.report.closed_bodies, 1u);
   EXPECT_NEAR(built.report.volume_m3, 24, 24 * 1e-9);  // a grid coordinate rounds at 1e-11 m
   EXPECT_NEAR(built.scene.mesh.facades.at(0).azimuth_deg, 17, 1e-6);

@@ -11,7 +11,8 @@ namespace {
 using namespace sunload::test;
 
 std::string grid(const std::string& rows) {
-  return "ncols 3\nnrows 3\nxllcorner 1000\nyllcorner 2000\ncellsize 2\nnodata_value -9999\n" + rows;
+  return "ncols 3\nnrows 3\nxllcorner 1000\nyllcorner 2000\ncellsize 2\nnodata_value -9999\n" +
+         rows;
 }
 
 double up(const PolygonModel& model, std::size_t p) {
@@ -57,7 +58,8 @@ TEST(SceneRaster, CellsWithoutDataAreLeftOut) {
 TEST(SceneRaster, RefusesWhatIsBroken) {
   EXPECT_NE(refusal("b.asc", grid("1 2 3\n4 -32768 6\n7 8 9\n")).find("row 2, column 2"),
             std::string::npos);
-  EXPECT_NE(refusal("b.asc", "ncols 99999\nnrows 99999\nxllcorner 0\nyllcorner 0\ncellsize 1\n1\n"), "");
+  EXPECT_NE(refusal("b.asc", "ncols 99999\nnrows 99999\nxllcorner 0\nyllcorner 0\ncellsize 1\n1\n"),
+            "");
   EXPECT_NE(refusal("b.tif", std::string("II*\0\x08\0\0\0", 8)), "");
 }
 

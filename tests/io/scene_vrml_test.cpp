@@ -178,12 +178,14 @@ TEST(SceneVrml, SwitchLodAndProto) {
 
 TEST(SceneVrml, GzipByContentInlineAndExternProto) {
   write_text("part.wrl", gzip(vrml97 + "DEF box Shape { geometry Box { } }"));
-  write_text("protos.wrl", vrml97 + "PROTO A [ field SFFloat r 1 ] { Shape { geometry Sphere { "
-                                    "radius IS r } } }\nPROTO B [ ] { Shape { geometry Box { } } }");
+  write_text("protos.wrl", vrml97 +
+                               "PROTO A [ field SFFloat r 1 ] { Shape { geometry Sphere { "
+                               "radius IS r } } }\nPROTO B [ ] { Shape { geometry Box { } } }");
   const auto model = read_text(
-      "whole.wrl", vrml97 + "Inline { url [\"lost.wrl\" \"part.wrl\"] }\nTransform { translation 3 0 "
-                            "0 children Inline { url \"part.wrl\" } }\nInline { url \"gone.wrl\" }\n"
-                            "EXTERNPROTO A [ field SFFloat r ] \"protos.wrl#A\"\nA { r 2 }\n");
+      "whole.wrl", vrml97 +
+                       "Inline { url [\"lost.wrl\" \"part.wrl\"] }\nTransform { translation 3 0 "
+                       "0 children Inline { url \"part.wrl\" } }\nInline { url \"gone.wrl\" }\n"
+                       "EXTERNPROTO A [ field SFFloat r ] \"protos.wrl#A\"\nA { r 2 }\n");
   EXPECT_EQ(model.polygon_count(), 6u + 6 + 512);
   EXPECT_EQ(model.object_names, (std::vector<std::string>{"box", "box_2", "whole"}));
   EXPECT_TRUE(has_note(model, "'gone.wrl' is not there"));
@@ -194,8 +196,9 @@ TEST(SceneVrml, CirclesOfFilesAreRefused) {
   write_text("b.wrl", vrml97 + "Inline { url \"a.wrl\" }");
   EXPECT_NE(refusal("a.wrl", vrml97 + "Inline { url \"b.wrl\" }").find("leads back to it"),
             std::string::npos);
-  EXPECT_NE(refusal("c.wrl", vrml97 + "EXTERNPROTO A [ ] \"c.wrl#A\"\nA { }").find("contains itself"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal("c.wrl", vrml97 + "EXTERNPROTO A [ ] \"c.wrl#A\"\nA { }").find("contains itself"),
+      std::string::npos);
 }
 
 TEST(SceneVrml, Vrml1) {
@@ -242,19 +245,20 @@ TEST(SceneVrml, InventorSetsStripsAndMeshes) {
     }
     EXPECT_EQ(area2, 4) << set;
   }
-  const auto rest =
-      read_text("r.iv", six_points + "FaceSet { startIndex 1 numVertices [3 -1] } }", {'z', 1, "highest"});
+  const auto rest = read_text("r.iv", six_points + "FaceSet { startIndex 1 numVertices [3 -1] } }",
+                              {'z', 1, "highest"});
   EXPECT_EQ(rest.polygon_count(), 1u);
   EXPECT_TRUE(has_note(rest, "1 faces of fewer than 3 corners left out"));
 }
 
 // Coin would read beyond the table.
 TEST(SceneVrml, InventorSetsWithoutPointsAreRefused) {
-  for (const char* set :
-       {"FaceSet { numVertices [7] }", "FaceSet { startIndex 7 }", "FaceSet { startIndex -2 }",
-        "TriangleStripSet { numVertices [3 4] }", "QuadMesh { verticesPerRow 4 verticesPerColumn 2 }",
-        "QuadMesh { verticesPerRow 2147483647 verticesPerColumn 2147483647 }"})
-    EXPECT_NE(refusal("s.iv", six_points + set + " }").find("has no points"), std::string::npos) << set;
+  for (const char* set : {"FaceSet { numVertices [7] }", "FaceSet { startIndex 7 }",
+                          "FaceSet { startIndex -2 }", "TriangleStripSet { numVertices [3 4] }",
+                          "QuadMesh { verticesPerRow 4 verticesPerColumn 2 }",
+                          "QuadMesh { verticesPerRow 2147483647 verticesPerColumn 2147483647 }"})
+    EXPECT_NE(refusal("s.iv", six_points + set + " }").find("has no points"), std::string::npos)
+        << set;
   EXPECT_NE(refusal("s.iv", six_points + "IndexedTriangleStripSet { coordIndex [0 1 6] } }")
                 .find("coordIndex 6 is out of range"),
             std::string::npos);
@@ -289,16 +293,19 @@ TEST(SceneVrml, HostileFilesAreRefused) {
   std::string groups = vrml97 + "DEF G0 Shape { geometry Box { } }\n";
   for (int i = 1; i < 40; ++i) {
     const auto name = std::to_string(i), inner = std::to_string(i - 1);
-    protos += "PROTO P" + name + " [] { Group { children [ P" + inner + " { } P" + inner + " { } ] } }\n";
+    protos +=
+        "PROTO P" + name + " [] { Group { children [ P" + inner + " { } P" + inner + " { } ] } }\n";
     groups += "DEF G" + name + " Group { children [ USE G" + inner + " USE G" + inner + " ] }\n";
   }
   EXPECT_NE(refusal("h.wrl", protos + "P39 { }").find("too many nodes"), std::string::npos);
   EXPECT_NE(refusal("h.wrl", groups).find("too many"), std::string::npos);
   std::string chain = vrml97 + "DEF G0 Group { }\n";
   for (int i = 1; i < 100000; ++i)
-    chain += "DEF G" + std::to_string(i) + " Group { children USE G" + std::to_string(i - 1) + " }\n";
+    chain +=
+        "DEF G" + std::to_string(i) + " Group { children USE G" + std::to_string(i - 1) + " }\n";
   EXPECT_NE(refusal("h.wrl", chain).find("nested too deep"), std::string::npos);
-  EXPECT_NE(refusal("h.wrl", vrml97 + "Shape { " + std::string(1'000'000, 'a') + " 1 }").find("a word of"),
+  EXPECT_NE(refusal("h.wrl", vrml97 + "Shape { " + std::string(1'000'000, 'a') + " 1 }")
+                .find("a word of"),
             std::string::npos);
   EXPECT_NE(refusal("h.wrl", vrml97 + "Shape { geometry Box { }").find("never closed"),
             std::string::npos);
@@ -321,9 +328,10 @@ TEST(SceneVrml, HostileFilesAreRefused) {
 
 TEST(SceneVrml, DamagedBytesNeverCrash) {
   const std::string good =
-      vrml97 + "PROTO Hut [ field SFVec3f size 1 1 1 ] { Shape { geometry Box { size IS size } } }\n"
-               "DEF a Transform { children [ Hut { size 2 2 2 } DEF s Shape { appearance Appearance "
-               "{ material Material { diffuseColor 0.5 0.5 0.5 } } " +
+      vrml97 +
+      "PROTO Hut [ field SFVec3f size 1 1 1 ] { Shape { geometry Box { size IS size } } }\n"
+      "DEF a Transform { children [ Hut { size 2 2 2 } DEF s Shape { appearance Appearance "
+      "{ material Material { diffuseColor 0.5 0.5 0.5 } } " +
       triangle + "} } USE s ] }\n";
   std::size_t read = 0;
   for (std::size_t at = vrml97.size(); at < good.size(); ++at) {

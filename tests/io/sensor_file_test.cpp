@@ -54,11 +54,13 @@ TEST(SensorFile, SaysWhatIsWrongAndWhere) {
             (Strings{"grid.csv:1: the row has 5 fields, not 6 (a sensor is x y z nx ny nz)",
                      "grid.csv:3: z: 'b' is no number",
                      "grid.csv:4: the normal has no length (it tells where the sensor looks)"}));
-  EXPECT_EQ(problems("1,5;2,0;3,0;0;0;1\n"),
-            (Strings{"grid.csv:1: the row has 9 fields, not 6 (a sensor is x y z nx ny nz); decimal "
-                     "commas are not read: write points"}));
-  EXPECT_EQ(problems("\nx,y,z,nx,ny\n1,2,3,0,0\n"),
-            (Strings{"grid.csv:2: the header names no column nz (sensors are x, y, z, nx, ny, nz)"}));
+  EXPECT_EQ(
+      problems("1,5;2,0;3,0;0;0;1\n"),
+      (Strings{"grid.csv:1: the row has 9 fields, not 6 (a sensor is x y z nx ny nz); decimal "
+               "commas are not read: write points"}));
+  EXPECT_EQ(
+      problems("\nx,y,z,nx,ny\n1,2,3,0,0\n"),
+      (Strings{"grid.csv:2: the header names no column nz (sensors are x, y, z, nx, ny, nz)"}));
   EXPECT_EQ(problems("x,y,z,nx,ny,nz\n1,2,3,0,0\n"),
             (Strings{"grid.csv:2: the row has 5 fields, not 6 (a sensor is x y z nx ny nz)"}));
   EXPECT_EQ(problems("1 2 nan 0 0 1\n"), (Strings{"grid.csv:1: z: 'nan' is no number"}));
@@ -67,7 +69,8 @@ TEST(SensorFile, SaysWhatIsWrongAndWhere) {
                 "grid.csv:1: the position lies beyond any map projection of the Earth"}));
   EXPECT_EQ(problems("# nothing\n\n"),
             (Strings{"grid.csv: holds no sensors (a row is x y z nx ny nz)"}));
-  EXPECT_EQ(problems(std::string("1,2\n") + std::string(100, '\n') + std::string("1,2\n")).size(), 2u);
+  EXPECT_EQ(problems(std::string("1,2\n") + std::string(100, '\n') + std::string("1,2\n")).size(),
+            2u);
   std::string many;
   for (int k = 0; k < 100; ++k) many += "1,2\n";
   EXPECT_EQ(problems(many).size(), 20u);

@@ -61,7 +61,8 @@ TEST(WaitingLock, IsTakenAtOnceWhereNobodyHasItAndItsFileGoesWithIt) {
   const WorkFolder folder;
   bool waited = false;
   {
-    const WaitingLock lock(folder / "work/x.lock", {.is_cancelled = {}, .waiting = [&] { waited = true; }});
+    const WaitingLock lock(folder / "work/x.lock",
+                           {.is_cancelled = {}, .waiting = [&] { waited = true; }});
     EXPECT_TRUE(lock.is_held());
     EXPECT_EQ(lock.problem(), "");
     EXPECT_TRUE(std::filesystem::exists(folder / "work/x.lock"));
@@ -95,7 +96,8 @@ TEST(WaitingLock, AWaitCanBeLeft) {
   const WorkFolder folder;
   const Holder holder(folder / "x.lock");
   int asked = 0;
-  EXPECT_THROW(WaitingLock(folder / "x.lock", {.is_cancelled = [&] { return ++asked > 2; }}), Interrupted);
+  EXPECT_THROW(WaitingLock(folder / "x.lock", {.is_cancelled = [&] { return ++asked > 2; }}),
+               Interrupted);
   EXPECT_TRUE(std::filesystem::exists(folder / "x.lock")) << "it is the holder's";
 }
 

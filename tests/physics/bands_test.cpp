@@ -81,7 +81,8 @@ double largest_difference(const std::vector<Real>& a, const std::vector<Real>& b
   EXPECT_EQ(a.size(), b.size());
   double difference = 0, largest = 0;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-    difference = std::max(difference, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
+    difference =
+        std::max(difference, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
     largest = std::max(largest, std::abs(static_cast<double>(a[i])));
   }
   return largest > 0 ? difference / largest : difference;

@@ -151,7 +151,8 @@ class Document {
       for (std::size_t k = 0; k < 3; ++k) middle[k] += p[k] / static_cast<double>(corners.size());
     double offset = 0, around = 0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      if (area > 0) offset = std::max(offset, std::abs(inner(minus(corners[i], middle), vector)) / area);
+      if (area > 0)
+        offset = std::max(offset, std::abs(inner(minus(corners[i], middle), vector)) / area);
       const Point side = minus(corners[(i + 1) % corners.size()], corners[i]);
       around += std::sqrt(inner(side, side));
     }
@@ -250,7 +251,8 @@ std::vector<std::filesystem::path> city_files() {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(test::shared_path("data/city"))) {
     const auto name = entry.path().filename().string();
-    if (name.ends_with(".city.json") || name.ends_with(".city.jsonl")) files.push_back(entry.path());
+    if (name.ends_with(".city.json") || name.ends_with(".city.jsonl"))
+      files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -265,9 +267,11 @@ TEST(CitySolids, VolumesAndAreasAreThoseOfThePolygons) {
     const auto prepared = prepare(read_scene_file(file.string(), {}), {});
     const auto comparison = compared(raw, prepared.mesh);
     bodies += comparison.bodies;
-    std::printf("%-44s %4zu closed solids compared of %4zu, %4zu of flat polygons; within 1e-6: volume %4zu, area %4zu\n",
-                file.filename().c_str(), comparison.bodies, raw.size(), comparison.flat,
-                comparison.volumes_within, comparison.areas_within);
+    std::printf(
+        "%-44s %4zu closed solids compared of %4zu, %4zu of flat polygons; within 1e-6: volume "
+        "%4zu, area %4zu\n",
+        file.filename().c_str(), comparison.bodies, raw.size(), comparison.flat,
+        comparison.volumes_within, comparison.areas_within);
     for (const auto& wrong : comparison.wrong) ADD_FAILURE() << file.filename() << " " << wrong;
   }
   EXPECT_GT(bodies, 200u) << "the folder has more";
@@ -282,7 +286,8 @@ TEST(CitySolids, APlantedFaultIsRefused) {
   ASSERT_TRUE(compared(raw, mesh).wrong.empty());
   const auto is_roof_of_solid = [&](std::size_t t) {
     const auto found = raw.find(mesh.object_names[mesh.triangle_object[t].index()]);
-    return mesh.triangle_surface[t] == Surface::roof && found != raw.end() && found->second.has_kinds;
+    return mesh.triangle_surface[t] == Surface::roof && found != raw.end() &&
+           found->second.has_kinds;
   };
   std::size_t roof = 0;
   while (roof < mesh.triangle_count() && !is_roof_of_solid(roof)) ++roof;

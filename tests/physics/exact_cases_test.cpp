@@ -63,7 +63,8 @@ TEST(SphereOfTwoSurfaces, IrradianceIsUniformAndExact) {
   const auto fine = mean_of(3, truth);
   // Facets are chords: the bias falls with the square of their size, so that it
   // is at most what one halving changed.
-  const double bias = std::abs(mean_error(coarse).mean / coarse_truth - mean_error(fine).mean / truth) * truth;
+  const double bias =
+      std::abs(mean_error(coarse).mean / coarse_truth - mean_error(fine).mean / truth) * truth;
   expect_accepted(fine, truth, bias);
   expect_refused(fine, truth * 0.97, bias);
 }
@@ -108,8 +109,10 @@ TEST(InfiniteCanyon, ViewFactorsOfFloorAndWalls) {
   // Only a short piece in the middle is looked at; the rest stands for infinity.
   constexpr double piece = 10;
   const int measured = builder.material({"measured", 0, 0, 0});
-  builder.object("floor_piece").quad({0, -piece, 1e-3}, {W, -piece, 1e-3}, {W, piece, 1e-3}, {0, piece, 1e-3}, measured);
-  builder.object("wall_piece").quad({1e-3, -piece, 0}, {1e-3, piece, 0}, {1e-3, piece, H}, {1e-3, -piece, H}, measured);
+  builder.object("floor_piece")
+      .quad({0, -piece, 1e-3}, {W, -piece, 1e-3}, {W, piece, 1e-3}, {0, piece, 1e-3}, measured);
+  builder.object("wall_piece")
+      .quad({1e-3, -piece, 0}, {1e-3, piece, 0}, {1e-3, piece, H}, {1e-3, -piece, H}, measured);
   const auto light = with_uniform_sky(one_second({0, 0, -1}, 0), pi);
   auto rules = test_rules();
   rules.lines_per_patch = 16 * 1024;  // few patches: a standard error far below 1 %

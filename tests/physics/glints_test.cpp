@@ -21,7 +21,8 @@ constexpr const char* mirrors = "05_radiosity/mirrors.json";
 TEST(Corner, EveryDepthAddsItsImages) {
   constexpr double rho = 0.9, wall = 6, floor = 1;
   SceneBuilder builder;
-  const int mirror = builder.material({"mirror", 0, rho, 0}), black = builder.material({"black", 0, 0, 0});
+  const int mirror = builder.material({"mirror", 0, rho, 0}),
+            black = builder.material({"black", 0, 0, 0});
   builder.quad({0, 0, 0}, {floor, 0, 0}, {floor, floor, 0}, {0, floor, 0}, black);
   builder.quad({0, 0, 0}, {0, wall, 0}, {0, wall, wall}, {0, 0, wall}, mirror);
   builder.quad({0, 0, 0}, {0, 0, wall}, {wall, 0, wall}, {wall, 0, 0}, mirror);
@@ -99,7 +100,8 @@ TEST(Periscope, BringsItsBeamToTheScreen) {
     EXPECT_NEAR(cut.tally.ledger[0][Term::unshot], depth == 0 ? 900 : depth == 1 ? H : 0.0, 0.01);
     double power = 0;
     for (std::size_t i = 0; i < cut.area.size(); ++i)
-      if (cut.patches[i].triangle < 2) power += cut.area[i] * static_cast<double>(by_mirrors(cut, i));
+      if (cut.patches[i].triangle < 2)
+        power += cut.area[i] * static_cast<double>(by_mirrors(cut, i));
     EXPECT_NEAR(power, arriving, 0.05 * H);  // how the samples of large patches see the outline
   }
 }
@@ -111,7 +113,8 @@ TEST(CornerCube, SendsBackAntiparallel) {
   const double factor = number(reference_cases(mirrors, "corner_cube").front()["factor"]);
   constexpr double rho = 0.95, size = 4, half_hole = 0.2, half_screen = 4;
   SceneBuilder builder;
-  const int black = builder.material({"black", 0, 0, 0}), mirror = builder.material({"m", 0, rho, 0});
+  const int black = builder.material({"black", 0, 0, 0}),
+            mirror = builder.material({"m", 0, rho, 0});
   const Vec3 sun = normalized({1, 1, 1});
   const Tangents axes = tangents(sun);
   const auto on_screen = [&](double u, double v) {
@@ -174,7 +177,8 @@ TEST(LightPipe, TransmitsWhatItsReflectionsLeave) {
       const int mirror = builder.material({"mirror", 0, rho, 0});
       builder.quad({0, -half, 0}, {gap, -half, 0}, {gap, half, 0}, {0, half, 0}, black);
       builder.quad({0, -half, 0}, {0, half, 0}, {0, half, length}, {0, -half, length}, mirror);
-      builder.quad({gap, half, 0}, {gap, -half, 0}, {gap, -half, length}, {gap, half, length}, mirror);
+      builder.quad({gap, half, 0}, {gap, -half, 0}, {gap, -half, length}, {gap, half, length},
+                   mirror);
       auto rules = glint_rules(by);
       rules.direct_samples = 32 * 8;
       const auto solved =
@@ -195,7 +199,8 @@ TEST(Street, SecondGlintLandsWhereTheLawOfReflectionSays) {
   constexpr double rho_window = 0.85, rho_wall = 0.7, edge = 0.2;
   const TwoMirrorStreet street;
   const Scene scene = street.scene(rho_window, rho_wall);
-  const Vec3 low = street.on_ground(street.y0, street.z0), high = street.on_ground(street.y1, street.z1);
+  const Vec3 low = street.on_ground(street.y0, street.z0),
+             high = street.on_ground(street.y1, street.z1);
   ASSERT_GT(low.x, 1);
   ASSERT_LT(low.x, street.width);
   Watch watch;
@@ -263,7 +268,8 @@ TEST(SunDiskInAMirror, BlursTheEdgeOfTheGlint) {
     const double direct = dni * sun.z, full = 0.8 * dni * sun.z;
     // Curvature of the share over a strip of a fiftieth of a radius (sun_disk_test).
     const double bias = full * 0.02 * 0.02 / 24;
-    check_glint("disk at " + std::to_string(x), E, direct + full * share, direct + (x < 0 ? 0 : full), bias);
+    check_glint("disk at " + std::to_string(x), E, direct + full * share,
+                direct + (x < 0 ? 0 : full), bias);
   }
 }
 

@@ -50,7 +50,8 @@ TEST(Glossy, PlateUnderAUniformSky) {
   for (const double n : {2.0, 40.0}) {
     const OverPlate scene(glossy(0.8, n));
     const auto solved = scene.solve_with(with_uniform_sky(one_second({0, 0, -1}, 0), 100));
-    const double truth = 80 * integral(0, 1, 60, [&](double c) { return 2 * c * lobe_albedo(c, n); });
+    const double truth =
+        80 * integral(0, 1, 60, [&](double c) { return 2 * c * lobe_albedo(c, n); });
     const auto means = OverPlate::means(solved);
     const Verdict verdict = expect_mean(means, truth, 100 * (n + 2) * OverPlate::hidden + 1e-3);
     EXPECT_TRUE(verdict) << n << ": " << verdict.text;
@@ -81,13 +82,16 @@ Scene court() {
   pane.refractive_index = 1.52;
   pane.absorption_per_m = 20;
   const int ground = builder.material({"ground", 0.25}), wall = builder.material({"wall", 0.45}),
-            mirror = builder.material({"mirror", 0.1, 0.7}), lamp = builder.material({"lamp", 0.3, 0, 25}),
+            mirror = builder.material({"mirror", 0.1, 0.7}),
+            lamp = builder.material({"lamp", 0.3, 0, 25}),
             satin = builder.material(glossy(0.5, 20, 0.2)),
             enamel = builder.material(glossy(0.3, 5, 0.1, 0.4)), window = builder.material(pane);
   builder.object("ground").quad({-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}, ground);
   builder.object("house").box({-6, 3, 0.01}, {6, 6, 5}, wall, Facing::outward);
-  builder.object("satin").quad({-5, 2.99, 0.5}, {0, 2.99, 0.5}, {0, 2.99, 4.5}, {-5, 2.99, 4.5}, satin);
-  builder.object("mirror").quad({0, 2.99, 0.5}, {5, 2.99, 0.5}, {5, 2.99, 4.5}, {0, 2.99, 4.5}, mirror);
+  builder.object("satin").quad({-5, 2.99, 0.5}, {0, 2.99, 0.5}, {0, 2.99, 4.5}, {-5, 2.99, 4.5},
+                               satin);
+  builder.object("mirror").quad({0, 2.99, 0.5}, {5, 2.99, 0.5}, {5, 2.99, 4.5}, {0, 2.99, 4.5},
+                                mirror);
   builder.object("enamel").quad({2, -3, 0.2}, {-2, -3, 0.2}, {-2, -3, 4}, {2, -3, 4}, enamel);
   builder.object("window").quad({6, -3, 0.2}, {3, -3, 0.2}, {3, -3, 4}, {6, -3, 4}, window);
   builder.object("lamp").quad({3, -1, 3}, {3, 0, 3}, {4, 0, 3}, {4, -1, 3}, lamp);

@@ -21,25 +21,18 @@ Scene court() {
   const int lamp = builder.material({"lamp", 0.3, 0, 25});
   builder.object("ground").quad({-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}, ground);
   builder.object("house").box({-6, 3, 0.01}, {6, 6, 5}, wall, Facing::outward);
-  builder.object("glass").quad({-5, 2.99, 0.5}, {5, 2.99, 0.5}, {5, 2.99, 4.5}, {-5, 2.99, 4.5}, glass);
+  builder.object("glass").quad({-5, 2.99, 0.5}, {5, 2.99, 0.5}, {5, 2.99, 4.5}, {-5, 2.99, 4.5},
+                               glass);
   builder.object("tower").box({-6, -5, 0.01}, {-3, -2, 8}, wall, Facing::outward);
   builder.object("lamp").quad({3, -4, 3}, {3, -3, 3}, {4, -3, 3}, {4, -4, 3}, lamp);
-  builder.sides(Sides::two).object("screen").quad({5, -8, 0.2}, {8, -8, 0.2}, {8, -8, 3}, {5, -8, 3}, wall);
+  builder.sides(Sides::two)
+      .object("screen")
+      .quad({5, -8, 0.2}, {8, -8, 0.2}, {8, -8, 3}, {5, -8, 3}, wall);
   return builder.scene();
 }
 
-std::vector<SunLight> suns() {
-  std::vector<SunLight> light;
-  for (const Vec3 w : {Vec3{0.5, -0.7, 0.4}, Vec3{0, -0.6, 0.8}, Vec3{-0.8, -0.3, 0.3}}) {
-    auto sun = with_uniform_sky(one_second(w, 700), 90);
-    sun.ground_exitance = 0.2 * (700 * sun.direction.z + 90);
-    light.push_back(sun);
-  }
-  return light;
-}
-
 TEST(Ledger, ResidualIsZeroWithinItsError) {
-  const auto solved = solve(court(), suns(), test_rules(), {.max_edge_m = 1.5});
+  const auto solved = solve(court(), three_suns(), test_rules(), {.max_edge_m = 1.5});
   const auto residual = solved.ledger([](const Ledger& l) { return l.residual(); });
   const auto in = solved.ledger([](const Ledger& l) { return l.in(); });
   const double power = mean_error(in).mean;
@@ -54,7 +47,7 @@ TEST(Ledger, ResidualIsZeroWithinItsError) {
 }
 
 TEST(Ledger, ClosesForEverySunOfThePooledLines) {
-  const auto solved = solve(court(), suns(), test_rules(), {.max_edge_m = 1.5});
+  const auto solved = solve(court(), three_suns(), test_rules(), {.max_edge_m = 1.5});
   const auto residual = solved.ledger([](const Ledger& l) { return l.residual(); });
   const double sd_of_sum = mean_error(residual).standard_error;
   for (const auto& ledger : solved.tally.ledger) {
@@ -75,9 +68,11 @@ TEST(Ledger, ClosesForEverySunOfThePooledLines) {
 TEST(Ledger, DirectPowerIsDniTimesSilhouette) {
   SceneBuilder builder;
   builder.box({0, 0, 0}, {2, 3, 4}, builder.material({"m", 0.4, 0, 0}), Facing::outward);
-  builder.object("second").box({3, 0, 0}, {4, 1, 1}, builder.material({"n", 0.2, 0, 0}), Facing::outward);
+  builder.object("second").box({3, 0, 0}, {4, 1, 1}, builder.material({"n", 0.2, 0, 0}),
+                               Facing::outward);
   const Vec3 w = normalized({0.6, 0.5, 0.62});
-  const auto solved = solve(builder.scene(), {one_second(w, 900)}, test_rules(), {.max_edge_m = 0.5});
+  const auto solved =
+      solve(builder.scene(), {one_second(w, 900)}, test_rules(), {.max_edge_m = 0.5});
   // The small box stands partly in the shadow of the large one: the union of two
   // hexagons, from a fine raster of the plane across w.
   const Tangents axes = tangents(w);

@@ -119,7 +119,8 @@ TEST(LightScenes, ShadowsAreRightAtChangingDistance) {
   const SolvedPlan s = solve_study(
       night_study("shadow", "mesh: {light_tolerance: 0.03, min_area_m2: 0.004}\n" + common));
   const double error = worst_error(s, across_the_bars(), 24);
-  const SolvedPlan historic = solve_study(night_study("shadow", "mesh: {oracle: historic}\n" + common));
+  const SolvedPlan historic =
+      solve_study(night_study("shadow", "mesh: {oracle: historic}\n" + common));
   const double historic_error = worst_error(historic, across_the_bars(), 24);
   std::cout << "shadow: " << s.made.report.patches_before << " -> " << s.mesh().patch_count()
             << " patches, worst error " << error << "; historic oracle "
@@ -183,7 +184,8 @@ TEST(LightScenes, ComplexPathsReachTheCubeWithLittleNoise) {
     for (std::size_t r = 0; r < load.size(); ++r)
       (on_cube ? cube : edge)[r] += s.mesh().area()[i] * load[r];
   }
-  for (const auto& [name, energy] : {std::pair{"cube", mean_error(cube)}, {"edge", mean_error(edge)}}) {
+  for (const auto& [name, energy] :
+       {std::pair{"cube", mean_error(cube)}, {"edge", mean_error(edge)}}) {
     std::cout << "complex paths: " << name << " " << energy.mean << " J, relative standard error "
               << energy.standard_error / energy.mean << "\n";
     EXPECT_GT(energy.mean, 0) << "light arrives after three diffuse reflections";

@@ -101,25 +101,23 @@ Scene glazed_street() {
             sheet = builder.material(metal), printed = builder.material(frit);
   builder.object("ground").quad({-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}, ground);
   builder.object("house").box({-6, 3, 0.01}, {6, 6, 5}, wall, Facing::outward);
-  builder.object("window").quad({-5, 2.99, 0.5}, {0, 2.99, 0.5}, {0, 2.99, 4.5}, {-5, 2.99, 4.5}, window);
-  builder.object("printed").quad({0, 2.99, 0.5}, {5, 2.99, 0.5}, {5, 2.99, 4.5}, {0, 2.99, 4.5}, printed);
+  builder.object("window").quad({-5, 2.99, 0.5}, {0, 2.99, 0.5}, {0, 2.99, 4.5}, {-5, 2.99, 4.5},
+                                window);
+  builder.object("printed").quad({0, 2.99, 0.5}, {5, 2.99, 0.5}, {5, 2.99, 4.5}, {0, 2.99, 4.5},
+                                 printed);
   builder.object("tower").box({-6, -5, 0.01}, {-3, -2, 8}, wall, Facing::outward);
   builder.object("metal").quad({2, -3, 0.2}, {-2, -3, 0.2}, {-2, -3, 4}, {2, -3, 4}, sheet);
   builder.object("lamp").quad({3, -1, 3}, {3, 0, 3}, {4, 0, 3}, {4, -1, 3}, lamp);
-  builder.sides(Sides::two).object("screen").quad({5, -8, 0.2}, {8, -8, 0.2}, {8, -8, 3}, {5, -8, 3}, window);
+  builder.sides(Sides::two)
+      .object("screen")
+      .quad({5, -8, 0.2}, {8, -8, 0.2}, {8, -8, 3}, {5, -8, 3}, window);
   return builder.scene();
 }
 
 TEST(Pane, LedgerOfAGlazedStreetCloses) {
-  std::vector<SunLight> suns;
-  for (const Vec3 w : {Vec3{0.5, -0.7, 0.4}, Vec3{0, -0.6, 0.8}, Vec3{-0.8, -0.3, 0.3}}) {
-    auto sun = with_uniform_sky(one_second(w, 700), 90);
-    sun.ground_exitance = 0.2 * (700 * sun.direction.z + 90);
-    suns.push_back(sun);
-  }
   auto rules = test_rules();
   rules.bounces = 20;
-  const auto solved = solve(glazed_street(), suns, rules, {.max_edge_m = 1.5});
+  const auto solved = solve(glazed_street(), three_suns(), rules, {.max_edge_m = 1.5});
   const auto residual = solved.ledger([](const Ledger& l) { return l.residual(); });
   const double in = mean_error(solved.ledger([](const Ledger& l) { return l.in(); })).mean;
   const auto transmitted = solved.ledger([](const Ledger& l) { return l[Term::transmitted]; });

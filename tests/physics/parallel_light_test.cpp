@@ -149,7 +149,8 @@ TEST(ParallelLight, ClosesTheLedger) {
     EXPECT_LE(std::abs(ledger.residual()),
               accepted_t(16) * verdict.standard_error + float_rounding * emitted);
   for (std::size_t r = 0; r < 16; ++r) {
-    const double sum = solved.tally.ledger_instants[r][0].in() + solved.tally.ledger_instants[r][1].in();
+    const double sum =
+        solved.tally.ledger_instants[r][0].in() + solved.tally.ledger_instants[r][1].in();
     EXPECT_NEAR(sum, solved.tally.ledger_realization[r].in(), float_rounding * emitted);
   }
 }

@@ -192,7 +192,8 @@ TEST(Spheres, SeeTheirOwnInside) {
   EXPECT_NEAR(cap / all, share, 0.01);
   const double scale = share / (cap / all);
   auto everywhere = received(scene, 16, [](std::size_t) { return true; });
-  auto opposite = received(scene, 16, [&](std::size_t t) { return scene.mesh.corner(t, 0).z > 0.6; });
+  auto opposite =
+      received(scene, 16, [&](std::size_t t) { return scene.mesh.corner(t, 0).z > 0.6; });
   for (auto* values : {&everywhere, &opposite})
     for (auto& v : *values) v *= scale;
   check("sphere_interior_0 everywhere", everywhere, share, 0);
@@ -228,7 +229,9 @@ TEST(Rooms, TetrahedronAndCube) {
       .triangle(a, b, d, tetrahedron.black)
       .triangle(a, d, c, tetrahedron.black)
       .triangle(b, c, d, tetrahedron.black);
-  const auto case_of = [](const char* prefix) { return reference_cases(closed_forms, prefix).front(); };
+  const auto case_of = [](const char* prefix) {
+    return reference_cases(closed_forms, prefix).front();
+  };
   for (std::size_t face = 1; face < 4; ++face)
     check("regular_tetrahedron_inside_0 face " + std::to_string(face),
           received(tetrahedron.builder.scene(), 1 << 12, [&](std::size_t t) { return t == face; }),

@@ -41,8 +41,9 @@ SceneBuilder room(const json& c) {
   const double x = number(c["size"][0]), y = number(c["size"][1]), z = number(c["size"][2]);
   SceneBuilder builder;
   const auto face = [&](std::size_t f, Vec3 p, Vec3 q, Vec3 r, Vec3 s) {
-    builder.quad(p, q, r, s,
-                 builder.material({"face", number(c["reflectance"][f]), 0, number(c["emission"][f])}));
+    builder.quad(
+        p, q, r, s,
+        builder.material({"face", number(c["reflectance"][f]), 0, number(c["emission"][f])}));
   };
   face(0, {0, 0, 0}, {0, y, 0}, {0, y, z}, {0, 0, z});
   face(1, {x, 0, 0}, {x, 0, z}, {x, y, z}, {x, y, 0});
@@ -73,7 +74,8 @@ Square face_factors(const LineSet& lines, const Hierarchy& mesh) {
     const auto& block = lines.patches.blocks[i / LinkTable::rows_per_block];
     const std::size_t row = i % LinkTable::rows_per_block;
     for (auto l = block.begin[row]; l < block.begin[row + 1]; ++l)
-      F[face_of(i)][face_of(block.target[l])] += mesh.area()[i] * static_cast<double>(block.weight[l]);
+      F[face_of(i)][face_of(block.target[l])] +=
+          mesh.area()[i] * static_cast<double>(block.weight[l]);
   }
   for (std::size_t f = 0; f < faces; ++f)
     for (auto& share : F[f]) share /= area[f];
@@ -130,7 +132,8 @@ TEST(ConvergedBox, MeansOfFacesAndTheirCentres) {
       scene.sensors.push_back({p, n, sensor_key(p, n)});
     const int bounces = bounces_until(1e-3, most(c["reflectance"]));
     const auto with = [&](double edges) {
-      return solve(scene, {night}, diffuse_rules(64, bounces), {.max_edge_m = std::max({x, y, z}) / edges});
+      return solve(scene, {night}, diffuse_rules(64, bounces),
+                   {.max_edge_m = std::max({x, y, z}) / edges});
     };
     const Solved coarse = with(3), fine = with(6);
     for (std::size_t f = 0; f < faces; ++f) {
@@ -200,10 +203,13 @@ Scene concentric_cylinders(const json& c, int corners) {
 
 /// Radiosities of inner and outer body. Facets stand for curved surfaces: what halving them
 /// changes bounds what they err by.
-void check_concentric(const json& c, const Scene& coarse_scene, const Scene& fine_scene, int lines) {
+void check_concentric(const json& c, const Scene& coarse_scene, const Scene& fine_scene,
+                      int lines) {
   const double rho_most = most(c["rho"]);
   const int bounces = bounces_until(1e-4, rho_most);
-  const auto solved = [&](const Scene& scene) { return solve(scene, {night}, diffuse_rules(lines, bounces)); };
+  const auto solved = [&](const Scene& scene) {
+    return solve(scene, {night}, diffuse_rules(lines, bounces));
+  };
   const Solved coarse = solved(coarse_scene), fine = solved(fine_scene);
   for (std::size_t body = 0; body < 2; ++body) {
     const auto B_of = [&](const Solved& s, const Scene& scene) {

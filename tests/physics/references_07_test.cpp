@@ -37,7 +37,8 @@ TEST(Glass, TransmitsReflectsAndKeepsTheReferencesShares) {
     };
     // Planted fault: the sun 15° lower.
     const Solved solved = at(angle), lower = at(angle + radians(15));
-    for (const auto& [name, term] : {std::pair{"T", Term::transmitted}, {"R", Term::escaped}, {"A", Term::absorbed}}) {
+    for (const auto& [name, term] :
+         {std::pair{"T", Term::transmitted}, {"R", Term::escaped}, {"A", Term::absorbed}}) {
       const double truth = number(c[name]);
       const auto values = share(solved, term);
       const std::string id = c["id"].get<std::string>() + " " + name;

@@ -58,7 +58,8 @@ TEST(Emission, SquareAtEveryPointHoweverFaint) {
 TEST(Emission, WhatTheReceiverMissesLeavesTheScene) {
   if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(cases_file, "emission_total")) {
-    const double s = number(c["s"]), h = number(c["h"]), F = number(c["mean_irradiance"]), a = s / 2;
+    const double s = number(c["s"]), h = number(c["h"]), F = number(c["mean_irradiance"]),
+                 a = s / 2;
     Stage stage;
     stage.builder.quad({-a, -a, 0}, {a, -a, 0}, {a, a, 0}, {-a, a, 0}, stage.black);
     stage.square_lamp(s, h);
@@ -78,8 +79,8 @@ TEST(Scale, MakesNoDifference) {
     const double scale = number(c["scale"]), E = number(c["irradiance"]);
     Stage stage;
     stage.square_lamp(scale, scale);
-    check(c["id"],
-          on_ground(stage.builder.scene(), {0.5 * scale, 0.5 * scale, 0}, lines), E, 2 * E * lift(2));
+    check(c["id"], on_ground(stage.builder.scene(), {0.5 * scale, 0.5 * scale, 0}, lines), E,
+          2 * E * lift(2));
   }
 }
 
@@ -128,7 +129,8 @@ TEST(HiddenEmitter, ArrivesByOneReflection) {
       return on_ground(s.scene(), {8, wide / 2, 0}, 1 << 13, 1, edge);
     };
     const auto coarse = with(2), fine = with(1);
-    const double beyond = rho * (6 * b - b * b) / 4 * 9 / 2 / (2 * far * far * (far - 8) * (far - 8));
+    const double beyond =
+        rho * (6 * b - b * b) / 4 * 9 / 2 / (2 * far * far * (far - 8) * (far - 8));
     const double bias = std::abs(mean_error(coarse).mean - mean_error(fine).mean) + beyond +
                         2 * E * lift(far);
     constexpr double error_of_faint_light = 0.01;  // lines alone find it in mirrors

@@ -55,7 +55,8 @@ TEST(Screens, SunThroughLayersIsAPower) {
 TEST(Screens, SkyThroughLayersIsAPower) {
   for (const int layers : {1, 3}) {
     const double T = 0.6, E = 100 * std::pow(T, layers);
-    const auto solved = under(layers, T, Sides::two, with_uniform_sky(one_second({0, 0, -1}, 0), 100));
+    const auto solved =
+        under(layers, T, Sides::two, with_uniform_sky(one_second({0, 0, -1}, 0), 100));
     const auto means = solved.means([&](std::size_t i) { return of_receiver(solved, i); });
     // Past the edges of the screens, 200 m away and at most 0.3 m above: (0.3/200)² of the sky.
     const Verdict verdict = expect_mean(means, E, 100 * std::pow(0.1 * layers / 199, 2));
@@ -68,13 +69,15 @@ TEST(Screens, SkyThroughLayersIsAPower) {
 Scene shaded_court() {
   SceneBuilder builder;
   const int ground = builder.material({"ground", 0.25}), wall = builder.material({"wall", 0.45}),
-            glass = builder.material({"glass", 0.1, 0.7}), lamp = builder.material({"lamp", 0.3, 0, 25}),
+            glass = builder.material({"glass", 0.1, 0.7}),
+            lamp = builder.material({"lamp", 0.3, 0, 25}),
             leaves = builder.material(crown(0.4, 0.25)),
             veil = builder.material(crown(0.5, 0.1, 0.3)),
             awning = builder.material(crown(0.2, 0.5));
   builder.object("ground").quad({-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}, ground);
   builder.object("house").box({-6, 3, 0.01}, {6, 6, 5}, wall, Facing::outward);
-  builder.object("glass").quad({-5, 2.99, 0.5}, {5, 2.99, 0.5}, {5, 2.99, 4.5}, {-5, 2.99, 4.5}, glass);
+  builder.object("glass").quad({-5, 2.99, 0.5}, {5, 2.99, 0.5}, {5, 2.99, 4.5}, {-5, 2.99, 4.5},
+                               glass);
   builder.object("lamp").quad({3, -4, 3}, {3, -3, 3}, {4, -3, 3}, {4, -4, 3}, lamp);
   builder.object("awning").quad({-5, 1, 3}, {5, 1, 3}, {5, 2.9, 3.2}, {-5, 2.9, 3.2}, awning);
   builder.sides(Sides::two);
@@ -83,21 +86,11 @@ Scene shaded_court() {
   return builder.scene();
 }
 
-std::vector<SunLight> suns() {
-  std::vector<SunLight> light;
-  for (const Vec3 w : {Vec3{0.5, -0.7, 0.4}, Vec3{0, -0.6, 0.8}, Vec3{-0.8, -0.3, 0.3}}) {
-    auto sun = with_uniform_sky(one_second(w, 700), 90);
-    sun.ground_exitance = 0.2 * (700 * sun.direction.z + 90);
-    light.push_back(sun);
-  }
-  return light;
-}
-
 TEST(Screens, LedgerOfAShadedCourtCloses) {
   auto rules = test_rules();
   rules.bounces = 20;
   const Scene scene = shaded_court();
-  const auto solved = solve(scene, suns(), rules, {.max_edge_m = 1.5});
+  const auto solved = solve(scene, three_suns(), rules, {.max_edge_m = 1.5});
   const auto residual = solved.ledger([](const Ledger& l) { return l.residual(); });
   const double in = mean_error(solved.ledger([](const Ledger& l) { return l.in(); })).mean;
   const Verdict verdict = expect_mean(residual, 0, float_rounding * in);
@@ -124,7 +117,8 @@ TEST(Screens, SameBitsForAnyNumberOfThreads) {
   std::vector<std::vector<float>> totals;
   for (const int threads : {1, 3}) {
     set_thread_count(threads);
-    totals.push_back(solve(shaded_court(), suns(), rules, {.max_edge_m = 1.5}).tally.irradiance[0]);
+    totals.push_back(
+        solve(shaded_court(), three_suns(), rules, {.max_edge_m = 1.5}).tally.irradiance[0]);
   }
   set_thread_count(before);
   EXPECT_EQ(totals[0], totals[1]);
@@ -156,7 +150,9 @@ TEST(Screens, SingleRaysAndPacketsDecideAlike) {
       EXPECT_EQ(alone.triangle, packet.triangle[l]);
       EXPECT_EQ(alone.left_scene(), (seen >> l & 1u) != 0);
       if (!alone.left_scene())
-        hits_of_crowns += scene.materials[scene.material[static_cast<std::size_t>(alone.triangle)].index()].transmittance > 0;
+        hits_of_crowns +=
+            scene.materials[scene.material[static_cast<std::size_t>(alone.triangle)].index()]
+                .transmittance > 0;
     }
   }
   EXPECT_GT(hits_of_crowns, 100);

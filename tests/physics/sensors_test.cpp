@@ -88,7 +88,8 @@ Polygon disk(Vec3 centre, double radius, int corners) {
   const double r = radius * std::sqrt(2 * pi / corners / std::sin(2 * pi / corners));
   Polygon p;
   for (int k = 0; k < corners; ++k)
-    p.push_back(centre + Vec3{r * std::cos(2 * pi * k / corners), -r * std::sin(2 * pi * k / corners), 0});
+    p.push_back(centre +
+                Vec3{r * std::cos(2 * pi * k / corners), -r * std::sin(2 * pi * k / corners), 0});
   return p;
 }
 
@@ -518,7 +519,8 @@ TEST(Sensors, AgreeWithPatchesPartByPart) {
   const auto tally = open.light(noon(), rules);
   std::vector<double> difference, faulty;
   for (std::size_t r = 0; r < tally.exposure_realization.size(); ++r) {
-    const double patches = (tally.exposure_realization[r][0] + tally.exposure_realization[r][1]) / 2;
+    const double patches =
+        (tally.exposure_realization[r][0] + tally.exposure_realization[r][1]) / 2;
     difference.push_back(tally.sensors.exposure_realization[r][0] - patches);
     faulty.push_back(tally.sensors.exposure_realization[r][0] - 1.02 * patches);
   }

@@ -35,14 +35,10 @@ SolverRules rules_of(Transport transport, int bounces = 5, Jacobi jacobi = Jacob
   return rules;
 }
 
-std::vector<SunLight> three_suns() {
-  std::vector<SunLight> light;
-  for (const Vec3 w : {Vec3{0.5, -0.7, 0.4}, Vec3{0, -0.6, 0.8}, Vec3{-0.8, -0.3, 0.3}}) {
-    auto sun = with_uniform_sky(one_second(w, 700), 90);
-    sun.ground_exitance = 0.2 * (700 * sun.direction.z + 90);
-    sun.number = static_cast<std::uint32_t>(light.size());
-    light.push_back(sun);
-  }
+/// Each with random numbers of its own.
+std::vector<SunLight> numbered_suns() {
+  auto light = three_suns();
+  for (std::size_t k = 0; k < light.size(); ++k) light[k].number = static_cast<std::uint32_t>(k);
   return light;
 }
 
@@ -141,9 +137,9 @@ std::vector<SunLight> overcast() {
 }
 
 std::vector<Case> cases() {
-  return {{"court", three_suns(), {.max_edge_m = 3}, 3, court},
-          {"court under a beam", three_suns(), {.max_edge_m = 3}, 3, court_under_a_beam},
-          {"street", three_suns(), {.max_edge_m = 3}, 4, street},
+  return {{"court", numbered_suns(), {.max_edge_m = 3}, 3, court},
+          {"court under a beam", numbered_suns(), {.max_edge_m = 3}, 3, court_under_a_beam},
+          {"street", numbered_suns(), {.max_edge_m = 3}, 4, street},
           {"room", {night}, {.max_edge_m = 1}, 20, room},
           {"lamp room", {night}, {.max_edge_m = 1}, 8, lamp_room},
           {"facing mirrors", overcast(), {.max_edge_m = 1}, 6, facing_mirrors}};
@@ -218,7 +214,7 @@ TEST(Shooting, LightsSensorsAsGatheringDoes) {
   const Scene scene = court_under_a_beam(as_it_is);
   constexpr int bounces = 3;
   const auto tally_of = [&](const Scene& lit, const SolverRules& rules) {
-    return solve(lit, three_suns(), rules, {.max_edge_m = 3}).tally;
+    return solve(lit, numbered_suns(), rules, {.max_edge_m = 3}).tally;
   };
   const BatchTally gathered = tally_of(scene, rules_of(Transport::gather, bounces));
   for (const Jacobi jacobi : {Jacobi::incremental, Jacobi::regular}) {
@@ -350,7 +346,7 @@ TEST(Shooting, LedgerClosesAtEveryMirrorDepth) {
 TEST(Shooting, SeriesAreTheMeanOfRealizations) {
   auto rules = rules_of(Transport::shoot);
   rules.errors = Errors::instants;
-  const Solved solved = solve(court(as_it_is), three_suns(), rules, {.max_edge_m = 3});
+  const Solved solved = solve(court(as_it_is), numbered_suns(), rules, {.max_edge_m = 3});
   const std::size_t patches = solved.area.size();
   for (std::size_t i = 0; i < patches; ++i) {
     std::vector<double> of;
@@ -376,7 +372,7 @@ TEST(Shooting, SameBitsForAnyNumberOfThreads) {
     set_thread_count(threads);
     auto rules = rules_of(Transport::shoot);
     rules.errors = Errors::instants;
-    tallies.push_back(solve(court(as_it_is), three_suns(), rules, {.max_edge_m = 1}).tally);
+    tallies.push_back(solve(court(as_it_is), numbered_suns(), rules, {.max_edge_m = 1}).tally);
   }
   set_thread_count(before);
   for (const auto& tally : {tallies[1], tallies[2]}) {
@@ -530,7 +526,8 @@ TEST(Shooting, SunIsSentOnByMoreThanOneMirror) {
   const auto mirrored = static_cast<std::size_t>(Part::mirror);
   double power = 0;
   for (std::size_t i = 0; i < solved.area.size(); ++i)
-    if (solved.patches[i].triangle >= 4) power += solved.area[i] * solved.tally.exposure[mirrored][i];
+    if (solved.patches[i].triangle >= 4)
+      power += solved.area[i] * solved.tally.exposure[mirrored][i];
   EXPECT_LE(largest_residual(solved), closes);
   std::cout << "the plate receives " << power << " W\n";
   EXPECT_NEAR(power, 1000 * 0.9 * 0.8, 720 * float_rounding);

@@ -108,7 +108,8 @@ TEST(ElementForest, FindsTheLeafThatHoldsAPoint) {
   const Hierarchy frozen(forest);
   for (const auto leaf : leaves(forest)) {
     const auto& e = forest.elements()[leaf];
-    const Vec3 centre = (forest.corner(leaf, 0) + forest.corner(leaf, 1) + forest.corner(leaf, 2)) / 3;
+    const Vec3 centre =
+        (forest.corner(leaf, 0) + forest.corner(leaf, 1) + forest.corner(leaf, 2)) / 3;
     const auto t = static_cast<std::size_t>(e.triangle);
     const Vec3 a = scene.mesh.corner(t, 0), n = scene.mesh.area_vector2(t);
     const Vec3 ab = scene.mesh.corner(t, 1) - a, ac = scene.mesh.corner(t, 2) - a;

@@ -128,7 +128,8 @@ Leaks leaks(const Town& town, std::size_t rays) {
         const auto& house =
             town.houses[static_cast<std::size_t>(draw.x[0] * double(town.houses.size()))];
         const Vec3 o = within(house, draw.x + 1);
-        const Vec3 w = r % 2 ? any_direction(draw.x + 4) : normalized(on_edge(house, draw.x + 6) - o);
+        const Vec3 w =
+            r % 2 ? any_direction(draw.x + 4) : normalized(on_edge(house, draw.x + 6) - o);
         put(origins, r, town.in_mesh(o));
         put(directions, r, turned(w, Town::angle));
         out[r] = way_out(house, o, w);

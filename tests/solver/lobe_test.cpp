@@ -58,7 +58,8 @@ TEST(Lobe, SamplesFollowTheirDensity) {
     const Vec3 w = sample_power_cosine(static_cast<double>(uniform(words[0])),
                                        static_cast<double>(uniform(words[1])), n);
     const double turn = std::atan2(w.y, w.x) / (2 * pi);
-    const int sector = std::min(sectors - 1, static_cast<int>(sectors * (turn < 0 ? turn + 1 : turn)));
+    const int sector =
+        std::min(sectors - 1, static_cast<int>(sectors * (turn < 0 ? turn + 1 : turn)));
     const int ring = std::min(rings - 1, static_cast<int>(rings * w.z));
     ++counted[static_cast<std::size_t>(ring * sectors + sector)];
   }
@@ -90,7 +91,8 @@ TEST(Lobe, SurfaceSendsOnItsAlbedo) {
       constexpr std::uint32_t each = 2000;
       for (std::uint32_t i = 0; i < each; ++i) {
         const auto on = LineFollower::onward(
-            m, up, towards(c, 1), {.seed = 3, .purpose = Purpose::glossy, .realization = r, .sun = i});
+            m, up, towards(c, 1),
+            {.seed = 3, .purpose = Purpose::glossy, .realization = r, .sun = i});
         weight += on.weight / each;
         absorbed += on.absorbed / each;
         EXPECT_TRUE(on.weight == 0 || on.direction.z > 0);

@@ -29,7 +29,8 @@ PilotLight suns(int count) {
   light.sky.assign(static_cast<std::size_t>(SkyGrid().cell_count()), 0);
   for (int s = 0; s < count; ++s) {
     const double azimuth = count == 1 ? 3.3 : 2.2 + 1.9 * s / (count - 1);
-    light.suns.push_back({normalized(Vec3{std::sin(azimuth), std::cos(azimuth), 0.8}), 1.0 / count});
+    light.suns.push_back(
+        {normalized(Vec3{std::sin(azimuth), std::cos(azimuth), 0.8}), 1.0 / count});
   }
   return light;
 }
@@ -49,7 +50,8 @@ double true_error(const Scene& scene, const Hierarchy& mesh, const PilotLight& l
       double H = 0;
       for (const auto& sun : light.suns) {
         const double cos_theta = dot(n, sun.direction);
-        if (cos_theta > 0 && caster.first_hit(x + n * caster.offset_m(), sun.direction).left_scene())
+        if (cos_theta > 0 &&
+            caster.first_hit(x + n * caster.offset_m(), sun.direction).left_scene())
           H += sun.exposure * cos_theta;
       }
       sum += H;
@@ -79,7 +81,8 @@ TEST(Refine, MeetsItsToleranceByTheTrueError) {
         refined(scene, light, {.oracle = Oracle::light_load, .light_tolerance = tolerance}, report);
     const double error = true_error(scene, mesh, light);
     std::cout << "tolerance " << tolerance << ": " << report.patches_before << " -> "
-              << report.patches << " patches, claimed " << report.error << ", true " << error << "\n";
+              << report.patches << " patches, claimed " << report.error << ", true " << error
+              << "\n";
     EXPECT_LE(report.error, tolerance);
     EXPECT_FALSE(report.is_exhausted);
     EXPECT_GT(report.error_before, tolerance);
@@ -147,10 +150,10 @@ TEST(Refine, StopsAtTheLeastAreaAndSaysSo) {
   const Scene scene = tower_on_plate();
   RefineReport report;
   const double least = 0.5;
-  const Hierarchy mesh =
-      refined(scene, suns(3),
-              {.oracle = Oracle::light_load, .light_tolerance = 0.001, .t_vertices = TVertices::keep},
-              report, least);
+  const Hierarchy mesh = refined(
+      scene, suns(3),
+      {.oracle = Oracle::light_load, .light_tolerance = 0.001, .t_vertices = TVertices::keep},
+      report, least);
   EXPECT_TRUE(report.is_exhausted);
   EXPECT_GT(report.error, 0.001);
   for (const double area : mesh.area()) EXPECT_GE(area, least);

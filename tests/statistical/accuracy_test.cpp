@@ -70,7 +70,8 @@ TEST(NeededCounts, StopAtTheMostAndSayWhatShareIsMet) {
   EXPECT_EQ(all.lines_per_patch, 1000);  // the most that 8 can share
   EXPECT_EQ(all.share, 1);
   // The least counts stand, even above the most.
-  EXPECT_EQ(needed_counts(spread_of({1e8}, {0}), rules_of(64, 8), {0.1, 32}, 10).lines_per_patch, 64);
+  EXPECT_EQ(needed_counts(spread_of({1e8}, {0}), rules_of(64, 8), {0.1, 32}, 10).lines_per_patch,
+            64);
 }
 
 TEST(NeededCounts, LeaveOutWhatReceivesNextToNothing) {
@@ -187,7 +188,8 @@ TEST(Accuracy, PilotOfSomeSunsStandsForAll) {
   const auto mesh = std::make_shared<const Hierarchy>(scene, split);
   const auto all = pilot_spread(scene, mesh, rules, suns, 1, watch);
   const auto half = pilot_spread(scene, mesh, rules, some, 2, watch);
-  double lines_all = 0, lines_half = 0, samples_all = 0, samples_half = 0, load_all = 0, load_half = 0;
+  double lines_all = 0, lines_half = 0, samples_all = 0, samples_half = 0, load_all = 0,
+         load_half = 0;
   for (std::size_t i = 0; i < all.area.size(); ++i) {
     load_all += all.area[i] * all.load[i];
     load_half += all.area[i] * half.load[i];

@@ -29,10 +29,9 @@ struct ByLamps {
     emission.resize(solver.hierarchy().element_count());
     pull_up(solver.hierarchy(), emission);
     const SolverRules& rules = solver.rules();
-    const auto plain = trace_lines(scene, solver.hierarchy(), solver.caster(), solver.sky_grid(), {},
-                                   {rules.lines_per_patch, rules.realizations, rules.mirror_depth,
-                                    rules.seed, 0},
-                                   watch);
+    const auto plain = trace_lines(
+        scene, solver.hierarchy(), solver.caster(), solver.sky_grid(), {},
+        {rules.lines_per_patch, rules.realizations, rules.mirror_depth, rules.seed, 0}, watch);
     for (std::size_t r = 0; r < plain.realizations.size(); ++r) {
       both.push_back(solver.lines().realizations[r].lamps);
       lines.emplace_back(both.back().size());
@@ -111,7 +110,9 @@ TEST(Lamps, TheirPowerArrives) {
   builder.object("box").box({1, 1, 0.001}, {2, 2, 1}, wall, Facing::outward);
   builder.object("corner").quad({0.001, 0, 0}, {0.001, 1, 0}, {0.001, 1, 1}, {0.001, 0, 1}, lamp);
   builder.object("cube").box({3, 2, 0.5}, {3.1, 2.1, 0.6}, lamp, Facing::outward);
-  builder.sides(Sides::two).object("sheet").quad({2.5, 0.5, 1}, {3, 0.5, 1}, {3, 1, 1.5}, {2.5, 1, 1.5}, lamp);
+  builder.sides(Sides::two)
+      .object("sheet")
+      .quad({2.5, 0.5, 1}, {3, 0.5, 1}, {3, 1, 1.5}, {2.5, 1, 1.5}, lamp);
   const double sheet = 0.5 * std::sqrt(0.5);
   const ByLamps light(builder.scene(), {.max_edge_m = 1.2}, 64);
   expect_power(light, exitance * (1 + 6 * 0.01 + 2 * sheet));
@@ -124,7 +125,8 @@ TEST(Lamps, MoreThanAPatchCanWeighOneByOne) {
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < rows; ++j) {
       const double x = 0.1 + 3.8 * i / rows, y = 0.1 + 2.8 * j / rows;
-      builder.object("lamp").quad({x, y, 2.4}, {x, y + 0.02, 2.4}, {x + 0.02, y + 0.02, 2.4}, {x + 0.02, y, 2.4}, lamp);
+      builder.object("lamp").quad({x, y, 2.4}, {x, y + 0.02, 2.4}, {x + 0.02, y + 0.02, 2.4},
+                                  {x + 0.02, y, 2.4}, lamp);
     }
   const ByLamps light(builder.scene(), {.max_edge_m = 2}, 512);
   // Backs are black and receive too: all of it arrives on fronts all the same, as lamps hang
@@ -237,8 +239,9 @@ TEST(BrightSurfaces, LinksDoNotDependOnTheGuide) {
   SceneBuilder builder = room();
   builder.object("box").box({1, 1, 0.5}, {2, 2, 1.5}, builder.material({"box", 0.3, 0, 0}),
                             Facing::outward);
-  builder.object("screen").quad({2.5, 0.5, 1}, {2.5, 2.5, 1}, {2.5, 2.5, 2}, {2.5, 0.5, 2},
-                                builder.material({.name = "screen", .diffuse = 0.4, .transmittance = 0.5}));
+  builder.object("screen").quad(
+      {2.5, 0.5, 1}, {2.5, 2.5, 1}, {2.5, 2.5, 2}, {2.5, 0.5, 2},
+      builder.material({.name = "screen", .diffuse = 0.4, .transmittance = 0.5}));
   const Scene& scene = builder.scene();
   const Hierarchy mesh(scene, {.max_edge_m = 1});
   const RayCaster caster(scene.mesh, "auto", screens(scene));
@@ -252,7 +255,8 @@ TEST(BrightSurfaces, LinksDoNotDependOnTheGuide) {
   guide.sight = ClusterSight(scene, mesh, caster, guide.surfaces, 1e5, 1);
   for (std::size_t i = 0; i < guess.size(); ++i)
     guide.lines_alone.push_back(0.25f * static_cast<float>(i % 5));
-  const auto guided = linked_power(trace_lines(scene, mesh, caster, grid, guide, rules, watch), mesh);
+  const auto guided =
+      linked_power(trace_lines(scene, mesh, caster, grid, guide, rules, watch), mesh);
   std::vector<double> difference, both;
   for (std::size_t r = 0; r < plain.size(); ++r) {
     difference.push_back(guided[r] - plain[r]);
@@ -273,8 +277,8 @@ TEST(Lamps, CloseTheLedger) {
   builder.object("wall").box({-3, 2, 0.01}, {3, 3, 4}, wall, Facing::outward);
   builder.object("glass").quad({-2, 1.99, 1}, {2, 1.99, 1}, {2, 1.99, 3}, {-2, 1.99, 3},
                                builder.material({"glass", 0.1, 0.6, 0}));
-  builder.object("lamp").box({0, 0, 2}, {0.1, 0.1, 2.1}, builder.material({"lamp", 0.2, 0, exitance}),
-                             Facing::outward);
+  builder.object("lamp").box({0, 0, 2}, {0.1, 0.1, 2.1},
+                             builder.material({"lamp", 0.2, 0, exitance}), Facing::outward);
   SolverRules rules = test_rules();
   rules.bounces = 20;
   const auto solved = solve(builder.scene(), {one_second({0, 0, -1}, 0)}, rules, {.max_edge_m = 1});

@@ -39,8 +39,9 @@ SunLight sky_light(SkyModel model, double dni, Vec3 to_sun = low_sun) {
 SunLight clear_sky() { return sky_light(SkyModel::perez, 700); }
 
 TEST(Circumsolar, IsTakenFromClearSkiesOnly) {
-  for (const SunLight& light : {sky_light(SkyModel::uniform, 0), sky_light(SkyModel::cie_overcast, 0),
-                                sky_light(SkyModel::perez, 0)})
+  for (const SunLight& light :
+       {sky_light(SkyModel::uniform, 0), sky_light(SkyModel::cie_overcast, 0),
+        sky_light(SkyModel::perez, 0)})
     EXPECT_FALSE(CircumsolarSky(grid, light.sky, light.direction).any());
   EXPECT_FALSE(CircumsolarSky(grid, {}, low_sun).any());
   const SunLight clear = clear_sky();
@@ -68,7 +69,8 @@ TEST(Circumsolar, IsDrawnByItsRadiance) {
   for (std::uint32_t p = 0; p < packets; ++p) {
     ScrambledPoints points;
     for (std::size_t s = 0; s < packet_size; ++s) {
-      const RandomWords words = random_words({.element = p, .block = static_cast<std::uint32_t>(s)});
+      const RandomWords words =
+          random_words({.element = p, .block = static_cast<std::uint32_t>(s)});
       points.u[s] = words[0];
       points.v[s] = words[1];
     }
@@ -125,8 +127,9 @@ TEST(Circumsolar, OnOpenPlatesIsExact) {
   std::vector<double> circumsolar(light.sky.size());
   for (std::size_t c = 0; c < circumsolar.size(); ++c) circumsolar[c] = sky.radiance(c);
   const Tangents axes = tangents(low_sun);
-  for (const Vec3 n : {Vec3{0, 0, 1}, low_sun, axes.tangent, normalized(axes.bitangent + 0.1 * low_sun),
-                       normalized(-0.2 * low_sun + axes.tangent), normalized({0.6, -0.75, 0})}) {
+  for (const Vec3 n :
+       {Vec3{0, 0, 1}, low_sun, axes.tangent, normalized(axes.bitangent + 0.1 * low_sun),
+        normalized(-0.2 * low_sun + axes.tangent), normalized({0.6, -0.75, 0})}) {
     SceneBuilder builder;
     const Tangents plane = tangents(n);
     builder.quad({0, 0, 0}, plane.tangent, plane.tangent + plane.bitangent, plane.bitangent,
@@ -239,8 +242,8 @@ TEST(Circumsolar, LowersTheErrorOfTheStreet) {
     circumsolar_light(h, solver.caster(), sampler, block, sources.circumsolar, sun.sunlit, exposure,
                       &circumsolar);
     std::cout << "processor time circumsolar / direct sun: "
-              << static_cast<double>(end - middle) / static_cast<double>(middle - start) << ", rays "
-              << static_cast<double>(rays) / static_cast<double>(sun.rays) << "\n";
+              << static_cast<double>(end - middle) / static_cast<double>(middle - start)
+              << ", rays " << static_cast<double>(rays) / static_cast<double>(sun.rays) << "\n";
     std::vector<std::vector<double>> before(patches), after(patches);
     std::vector<double> difference(realizations, 0), extra(realizations, 0);
     for (std::size_t r = 0; r < realizations; ++r) {
@@ -267,7 +270,8 @@ TEST(Circumsolar, LowersTheErrorOfTheStreet) {
     for (std::size_t i = 0; i < patches; ++i) {
       if (sky_view[i] < least_sky_view) continue;
       const double mean = mean_error(after[i]).mean;
-      for (auto [values, errors] : {std::pair{&before[i], &errors_before}, {&after[i], &errors_after}})
+      for (auto [values, errors] :
+           {std::pair{&before[i], &errors_before}, {&after[i], &errors_after}})
         errors->values.push_back(
             {mean_error(*values).standard_error * to_default / mean, h.area()[i]});
     }

@@ -30,10 +30,12 @@ std::vector<double> at_point(Scene scene, Vec3 position, Vec3 normal, std::size_
                              const SolverRules& rules, const SplitRules& split = {});
 
 struct Demand {
-  std::optional<double> fault;           ///< a wrong truth that must be refused; none: not to be seen
+  /// A wrong truth that must be refused; none: not to be seen.
+  std::optional<double> fault;
   std::optional<double> standard_error;  ///< at most, as a share of the truth
 };
-/// Expects that the mean of realizations is the truth (expect_mean), at least as precise as demanded.
+/// Expects that the mean of realizations is the truth (expect_mean), at least as precise as
+/// demanded.
 void expect_truth(const std::string& id, const std::vector<double>& realizations, double truth,
                   double bias_bound, const Demand& demand);
 

@@ -41,8 +41,9 @@ SceneBuilder& SceneBuilder::quad(Vec3 a, Vec3 b, Vec3 c, Vec3 d, int material) {
 }
 
 SceneBuilder& SceneBuilder::box(Vec3 l, Vec3 h, int material, Facing facing) {
-  const std::array<Vec3, 8> p{Vec3{l.x, l.y, l.z}, {h.x, l.y, l.z}, {h.x, h.y, l.z}, {l.x, h.y, l.z},
-                              {l.x, l.y, h.z},     {h.x, l.y, h.z}, {h.x, h.y, h.z}, {l.x, h.y, h.z}};
+  const std::array<Vec3, 8> p{Vec3{l.x, l.y, l.z}, {h.x, l.y, l.z}, {h.x, h.y, l.z},
+                              {l.x, h.y, l.z},     {l.x, l.y, h.z}, {h.x, l.y, h.z},
+                              {h.x, h.y, h.z},     {l.x, h.y, h.z}};
   constexpr std::array<std::array<std::size_t, 4>, 6> faces{
       {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {2, 3, 7, 6}, {1, 2, 6, 5}, {3, 0, 4, 7}}};
   for (const auto& f : faces) {
@@ -110,6 +111,16 @@ SunLight one_second(Vec3 sun_direction, double dni) {
 SunLight with_uniform_sky(SunLight light, double dhi, const SkyGrid& grid) {
   light.dhi = dhi;
   light.sky.assign(static_cast<std::size_t>(grid.cell_count()), dhi / pi);
+  return light;
+}
+
+std::vector<SunLight> three_suns() {
+  std::vector<SunLight> light;
+  for (const Vec3 w : {Vec3{0.5, -0.7, 0.4}, Vec3{0, -0.6, 0.8}, Vec3{-0.8, -0.3, 0.3}}) {
+    auto sun = with_uniform_sky(one_second(w, 700), 90);
+    sun.ground_exitance = 0.2 * (700 * sun.direction.z + 90);
+    light.push_back(sun);
+  }
   return light;
 }
 

@@ -46,6 +46,8 @@ SunLight one_second(Vec3 sun_direction, double dni);
 /// Adds a uniform sky of that horizontal irradiance.
 SunLight with_uniform_sky(SunLight light, double dhi, const SkyGrid& grid = SkyGrid());
 
+/// Suns of different heights, each under a uniform sky and over a far ground of albedo 0.2.
+std::vector<SunLight> three_suns();
 /// Neither sun nor sky.
 inline const SunLight night = one_second({0, 0, -1}, 0);
 
