@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "tests/support/reference.h"
 #include "tests/support/scene_text.h"
@@ -61,6 +65,87 @@ TEST(SceneRaster, RefusesWhatIsBroken) {
   EXPECT_NE(refusal("b.asc", "ncols 99999\nnrows 99999\nxllcorner 0\nyllcorner 0\ncellsize 1\n1\n"),
             "");
   EXPECT_NE(refusal("b.tif", std::string("II*\0\x08\0\0\0", 8)), "");
+}
+
+/// Appends integers of the lowest byte first.
+void append(std::string& bytes, std::uint64_t value, int count) {
+  for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> 8 * i & 0xff);
+}
+
+/// A TIFF of 32-bit floats whose tag 34264 (GeoTIFF 1.1, section 7.1.3: ModelTransformation) takes
+/// column and row of cells' corners to x and y by x = x0 + a·column + b·row, y = y0 + d·column + e·row.
+std::string tiff(std::uint32_t columns, std::uint32_t rows, const std::vector<float>& heights,
+                 const std::array<double, 6>& x0_a_b_y0_d_e) {
+  const auto& [x0, a, b, y0, d, e] = x0_a_b_y0_d_e;
+  const std::array<double, 16> matrix{a, b, 0, x0, d, e, 0, y0, 0, 0, 0, 0, 0, 0, 0, 1};
+  struct Field {
+    std::uint64_t tag, type, count, value;
+  };
+  constexpr std::uint64_t is_short = 3, is_long = 4, is_double = 12;
+  constexpr std::uint64_t key_count = 8, directory = 8, field_count = 13;
+  constexpr std::uint64_t keys_at = directory + 2 + 12 * field_count + 4;
+  constexpr std::uint64_t matrix_at = keys_at + 2 * key_count, heights_at = matrix_at + 8 * 16;
+  const std::array<Field, field_count> fields{{
+      {256, is_long, 1, columns},
+      {257, is_long, 1, rows},
+      {258, is_short, 1, 32},              // bits of a sample
+      {259, is_short, 1, 1},               // not compressed
+      {262, is_short, 1, 1},               // 0 is black
+      {273, is_long, 1, heights_at},       // one strip
+      {277, is_short, 1, 1},               // samples per cell
+      {278, is_long, 1, rows},             // rows of the strip
+      {279, is_long, 1, 4 * heights.size()},
+      {284, is_short, 1, 1},               // contiguous
+      {339, is_short, 1, 3},               // IEEE floats
+      {34264, is_double, 16, matrix_at},
+      {34735, is_short, key_count, keys_at},
+  }};
+  std::string bytes("II*\0", 4);
+  append(bytes, directory, 4);
+  append(bytes, field_count, 2);
+  for (const auto& field : fields) {
+    append(bytes, field.tag, 2);
+    append(bytes, field.type, 2);
+    append(bytes, field.count, 4);
+    append(bytes, field.value, 4);
+  }
+  append(bytes, 0, 4);
+  constexpr std::array<std::uint64_t, key_count> keys{1, 1, 0, 1, 1025, 0, 1, 1};  // cells are areas
+  for (const auto key : keys) append(bytes, key, 2);
+  for (const double number : matrix) append(bytes, std::bit_cast<std::uint64_t>(number), 8);
+  for (const float height : heights) append(bytes, std::bit_cast<std::uint32_t>(height), 4);
+  return bytes;
+}
+
+/// Cells of 5 m, their columns along (3, 4) / 5: whole numbers in a turned raster.
+TEST(SceneRaster, TurnedRastersLieWhereTheySay) {
+  const std::vector<float> heights{1, 2, 3, 4, 5, 6};
+  const std::array<double, 6> rows_to_the_right{1000, 3, 4, 2000, 4, -3};
+  const auto model = read_text("turned.tif", tiff(3, 2, heights, rows_to_the_right));
+  ASSERT_EQ(model.vertices.size(), 6u);
+  for (std::size_t cell = 0; cell < 6; ++cell) {
+    const double column = static_cast<double>(cell % 3) + 0.5, row = static_cast<double>(cell / 3) + 0.5;
+    EXPECT_EQ(model.vertices[cell],
+              (Vec3{1000 + 3 * column + 4 * row, 2000 + 4 * column - 3 * row,
+                    static_cast<double>(heights[cell])}))
+        << cell;
+  }
+  ASSERT_EQ(model.polygon_count(), 4u);
+  for (std::size_t p = 0; p < 4; ++p) EXPECT_EQ(up(model, p), 25) << p;  // twice the area, from above
+}
+
+/// Mirrored: rows go to the left of the columns. Faces still look up.
+TEST(SceneRaster, TurnedAndMirroredRastersLookUp) {
+  const std::array<double, 6> rows_to_the_left{1000, 3, -4, 2000, 4, 3};
+  const auto model = read_text("turned.tif", tiff(3, 2, {1, 2, 3, 4, 5, 6}, rows_to_the_left));
+  ASSERT_EQ(model.polygon_count(), 4u);
+  EXPECT_EQ(model.vertices[5], (Vec3{1000 + 3 * 2.5 - 4 * 1.5, 2000 + 4 * 2.5 + 3 * 1.5, 6}));
+  for (std::size_t p = 0; p < 4; ++p) EXPECT_EQ(up(model, p), 25) << p;
+}
+
+TEST(SceneRaster, CellsWithoutAreaAreRefused) {
+  const auto message = refusal("flat.tif", tiff(3, 2, {1, 2, 3, 4, 5, 6}, {1000, 3, 6, 2000, 4, 8}));
+  EXPECT_NE(message.find("has cells without area"), std::string::npos) << message;
 }
 
 TEST(SceneRaster, GothenburgsModels) {
