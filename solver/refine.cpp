@@ -66,6 +66,11 @@ class Refinement {
     return forest_.area(leaf) >= 2 * split_.min_area_m2;
   }
 
+  Leaves large_enough(Leaves leaves) const {
+    std::erase_if(leaves, [&](std::size_t leaf) { return !is_large_enough(leaf); });
+    return leaves;
+  }
+
   Estimate estimate(std::size_t leaf, double (&loads)[2]) const {
     Estimate e;
     const double area = forest_.area(leaf);
@@ -122,7 +127,8 @@ class Refinement {
 
   void refine_by_load(RefineReport& report) {
     Leaves leaves = all_leaves();
-    if (is_clearly_fine(leaves)) return;
+    // Where nothing may be split it does not matter what the pilot would say.
+    if (large_enough(leaves).empty() || is_clearly_fine(leaves)) return;
     look_at(leaves);
     look_at(leaves);
     report.error_before = report.error = relative_error(leaves);
@@ -167,14 +173,14 @@ class Refinement {
   }
 
   void refine_historically() {
-    Leaves leaves = all_leaves();
+    // What others receive is not asked for: the small ones need no look.
+    Leaves leaves = large_enough(all_leaves());
     while (!leaves.empty()) {
       look_at(leaves);
       Leaves lit;
       for (const auto leaf : leaves)
-        if (is_large_enough(leaf) && exceeds_historic_threshold(estimates_[leaf]))
-          lit.push_back(leaf);
-      leaves = split(lit);
+        if (exceeds_historic_threshold(estimates_[leaf])) lit.push_back(leaf);
+      leaves = large_enough(split(lit));
     }
   }
 

@@ -20,7 +20,8 @@
 
 namespace sunload {
 
-/// How refinement ended; errors are the pilot's estimates.
+/// How refinement ended; errors are the pilot's estimates, 0 where it was not asked: where no patch
+/// is large enough to be split, and where a sample of a large mesh was fine.
 struct RefineReport {
   std::size_t patches_before = 0, patches = 0;
   double error_before = 0, error = 0;  ///< of the light load, share of its mean
@@ -28,7 +29,8 @@ struct RefineReport {
 };
 
 /// Splits by `max_edge_m`, refines, freezes. Throws InputError beyond `max_patches`, Interrupted.
-/// Cost: some 16 rays per element, sun and pilot direction, for about twice the final leaves.
+/// Cost: some 16 rays per element, sun and pilot direction, for about twice the final leaves;
+/// none where `min_area_m2` lets no patch be split.
 Hierarchy refined_mesh(const Scene& scene, const RayCaster& caster, const SplitRules& split,
                        const RefineRules& rules, const PilotLight& light, Watch& watch,
                        RefineReport* report = nullptr);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -157,6 +158,23 @@ TEST(Refine, StopsAtTheLeastAreaAndSaysSo) {
   EXPECT_TRUE(report.is_exhausted);
   EXPECT_GT(report.error, 0.001);
   for (const double area : mesh.area()) EXPECT_GE(area, least);
+}
+
+/// The twin below the limit is looked at, with the same light and the same patches.
+TEST(Refine, LooksAtNothingWhereNothingMayBeSplit) {
+  const Scene scene = tower_on_plate();
+  const Hierarchy whole(scene, SplitRules{});
+  double largest = 0;
+  for (const double area : whole.area()) largest = std::max(largest, area);
+  const RefineRules rules{.oracle = Oracle::light_load, .light_tolerance = 1e-3};
+  RefineReport skipped, looked;
+  EXPECT_EQ(refined(scene, suns(5), rules, skipped, largest * 0.51).patch_count(),
+            skipped.patches_before);
+  EXPECT_EQ(skipped.error_before, 0);
+  EXPECT_GT(refined(scene, suns(5), rules, looked, largest * 0.49).patch_count(),
+            skipped.patches_before);
+  EXPECT_EQ(looked.patches_before, skipped.patches_before);
+  EXPECT_GT(looked.error_before, 0);
 }
 
 TEST(Refine, HistoricOracleSplitsWhatSeesTheSunAndNothingElse) {
