@@ -9,25 +9,26 @@ namespace sunload {
 
 namespace {
 
-constexpr const char* oke_natural = "Oke (1987), Boundary Layer Climates, table 1.1";
-constexpr const char* oke_urban = "Oke (1987), Boundary Layer Climates, table 8.2";
+// A source with an asterisk was not at hand: its values are from memory.
+constexpr const char* oke_natural = "Oke (1987), Boundary Layer Climates, table 1.1 *";
+constexpr const char* oke_urban = "Oke (1987), Boundary Layer Climates, table 8.2 *";
 constexpr const char* hunn =
     "Hunn & Calafell (1977), Solar Energy 19, 87-89; in Thevenard & Haddad (2006), Energy and "
-    "Buildings 38, 972-980";
+    "Buildings 38, 972-980 *";
 constexpr const char* roofing =
     "Cool Roofing Materials Database, Lawrence Berkeley National Laboratory (2000)";
 constexpr const char* incropera =
-    "Incropera & DeWitt (2002), Fundamentals of Heat and Mass Transfer, table A.12";
+    "Incropera & DeWitt (2002), Fundamentals of Heat and Mass Transfer, table A.12 *";
 constexpr const char* solweig =
     "Parameters of SOLWEIG: Lindberg, Holmer & Thorsson (2008), Int. J. Biometeorology 52, 697-713";
 constexpr const char* wood_walls = "Parameters of SOLWEIG: Wallenberg et al. (2025)";
 constexpr const char* lecture = "Lecture notes on reflection of light, section 4.1, table of albedo";
 constexpr const char* panes =
     "Duffie & Beckman (2013), Solar Engineering of Thermal Processes, section 5.1: index, middle of "
-    "the range of absorption";
+    "the range of absorption *";
 constexpr const char* konarska =
     "Konarska et al. (2014), Theor. Appl. Climatology 117, 363-376 (transmission of a whole "
-    "crown, here the square of a surface's); reflectance: Oke (1987), table 1.1";
+    "crown, here the square of a surface's); reflectance: Oke (1987), table 1.1 *";
 
 // Of one surface: light through a crown crosses two. Whole crowns pass 3 % in leaf and 46 % bare.
 constexpr double skin_in_leaf = 0.173, skin_bare = 0.678;
@@ -146,8 +147,8 @@ reflectance. The values are part of the content that a result is known by.
 
 Reflectances are shares of sunlight, broadband over the solar spectrum (0.3 to 3 µm). Where the source gives a range
 the value is its middle; all reflect diffusely unless stated. Eyes see half of the spectrum only: a colour says little.
-Light crosses the surface of a crown twice: its transmittance is the square root of the whole crown's. This page is
-what `sunload materials --markdown` writes.
+Light crosses the surface of a crown twice: its transmittance is the square root of the whole crown's. Rows whose source
+ends with an asterisk are from memory and were not compared with it: read it before a result rests on them. This page is what `sunload materials --markdown` writes.
 
 | name | diffuse | range | further | what | source |
 |---|---|---|---|---|---|
@@ -165,6 +166,7 @@ std::string material_listing() {
     text += fmt::format("{:<20} {:<6.3g} {}{}\n{:27} {}\n", m.name, m.diffuse(), m.what,
                         further.empty() ? "" : " (" + further + ")", "", m.source);
   }
+  text += "* from memory, not compared with the source\n";
   return text;
 }
 

@@ -63,6 +63,19 @@ TEST(MaterialTable, PageIsWrittenFromIt) {
   EXPECT_EQ(text.str(), material_page()) << "run sunload materials --markdown > docs/materials.md";
 }
 
+/// Books and papers that were not at hand when their values were written down.
+TEST(MaterialTable, SourcesThatWereNotReadAreMarked) {
+  for (const auto& row : material_table()) {
+    const std::string source = row.source;
+    bool is_quoted = false;
+    for (const char* name : {"Oke", "Hunn", "Incropera", "Duffie", "Konarska"})
+      is_quoted = is_quoted || source.find(name) != source.npos;
+    EXPECT_EQ(source.ends_with(" *"), is_quoted) << row.name;
+  }
+  EXPECT_NE(material_page().find("were not compared with it"), std::string::npos);
+  EXPECT_NE(material_listing().find("\n* from memory, not compared"), std::string::npos);
+}
+
 /// A floor of 4 m x 4 m, and 1 m x 4 m beside it whose material the file leaves open.
 class Names : public testing::Test {
  protected:
