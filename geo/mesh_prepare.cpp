@@ -139,7 +139,8 @@ Mesh triangles_of(const PolygonModel& model, const PrepareRules& rules, const Pl
 void settle(Mesh& mesh, const PrepareRules& rules, const PolygonModel& model, double tolerance,
             PrepareReport& report) {
   std::vector<std::uint8_t> faced_both_ways(mesh.triangle_count(), 0);
-  if (rules.repair == Repair::all) report.t_joints_split = split_t_joints(mesh, tolerance, model.source);
+  if (rules.repair == Repair::all)
+    report.t_joints_split = split_t_joints(mesh, tolerance, model.source);
   if (rules.repair != Repair::none) {
     auto duplicates = drop_duplicates(mesh);
     report.duplicates_dropped = duplicates.dropped;

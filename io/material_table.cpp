@@ -148,7 +148,8 @@ reflectance. The values are part of the content that a result is known by.
 Reflectances are shares of sunlight, broadband over the solar spectrum (0.3 to 3 µm). Where the source gives a range
 the value is its middle; all reflect diffusely unless stated. Eyes see half of the spectrum only: a colour says little.
 Light crosses the surface of a crown twice: its transmittance is the square root of the whole crown's. Rows whose source
-ends with an asterisk are from memory and were not compared with it: read it before a result rests on them. This page is what `sunload materials --markdown` writes.
+ends with an asterisk are from memory and were not compared with it: read it before a result rests on them. This page
+is what `sunload materials --markdown` writes.
 
 | name | diffuse | range | further | what | source |
 |---|---|---|---|---|---|

@@ -16,7 +16,8 @@ namespace {
 constexpr std::size_t largest_file = 1'000'000;
 
 /// What the file is refused with; empty where it is read and prepared.
-std::string refusal(const std::string& name, const std::string& text, const PrepareRules& rules = {}) {
+std::string refusal(const std::string& name, const std::string& text,
+                    const PrepareRules& rules = {}) {
   EXPECT_LT(text.size(), largest_file);
   try {
     prepare(read_scene_file(file_of(text, name), {}), rules);

@@ -181,7 +181,8 @@ void check_city(const std::string& path, const std::string& name, const PolygonM
   if (lods.size() == 1 && !facts.has("'None'")) {
     EXPECT_EQ(triangle_count(model), facts.number(R"(~(\d+) tri)")) << name;
     EXPECT_EQ(polygons_with_holes(model), facts.number(R"((\d+) with holes)")) << name;
-    EXPECT_EQ(model.vertices.size() + unused_vertices(name), facts.number(R"(; (\d+) vertices;)")) << name;
+    EXPECT_EQ(model.vertices.size() + unused_vertices(name), facts.number(R"(; (\d+) vertices;)"))
+        << name;
     expect_box(model, facts, name);
   } else if (!facts.has("'None'")) {  // levels share vertices, and one of them is read
     EXPECT_LE(model.vertices.size(), facts.number(R"(; (\d+) vertices;)")) << name;
@@ -267,7 +268,8 @@ void check_mesh(const std::string& name, const PolygonModel& model, const Facts&
   if (!facts.has("fmt ")) return;  // "does not parse with a plain reader"
   EXPECT_EQ(model.polygon_count(), facts.number(R"(faces (\d+))")) << name;
   if (facts.has("verts ")) {
-    EXPECT_EQ(model.vertices.size() + unused_vertices(name), facts.number(R"(verts (\d+))")) << name;
+    EXPECT_EQ(model.vertices.size() + unused_vertices(name), facts.number(R"(verts (\d+))"))
+        << name;
   }
   expect_box(model, facts, name);
   check_connections(name, model, facts);

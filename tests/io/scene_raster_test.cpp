@@ -72,8 +72,8 @@ void append(std::string& bytes, std::uint64_t value, int count) {
   for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> 8 * i & 0xff);
 }
 
-/// A TIFF of 32-bit floats whose tag 34264 (GeoTIFF 1.1, section 7.1.3: ModelTransformation) takes
-/// column and row of cells' corners to x and y by x = x0 + a·column + b·row, y = y0 + d·column + e·row.
+/// A TIFF of 32-bit floats whose tag 34264 (GeoTIFF 1.1: ModelTransformation) takes column and row
+/// of cells' corners to x = x0 + a·column + b·row and y = y0 + d·column + e·row.
 std::string tiff(std::uint32_t columns, std::uint32_t rows, const std::vector<float>& heights,
                  const std::array<double, 6>& x0_a_b_y0_d_e) {
   const auto& [x0, a, b, y0, d, e] = x0_a_b_y0_d_e;
@@ -110,7 +110,8 @@ std::string tiff(std::uint32_t columns, std::uint32_t rows, const std::vector<fl
     append(bytes, field.value, 4);
   }
   append(bytes, 0, 4);
-  constexpr std::array<std::uint64_t, key_count> keys{1, 1, 0, 1, 1025, 0, 1, 1};  // cells are areas
+  // Version 1.1.0, one key: 1025 (raster type), 1: cells are areas.
+  constexpr std::array<std::uint64_t, key_count> keys{1, 1, 0, 1, 1025, 0, 1, 1};
   for (const auto key : keys) append(bytes, key, 2);
   for (const double number : matrix) append(bytes, std::bit_cast<std::uint64_t>(number), 8);
   for (const float height : heights) append(bytes, std::bit_cast<std::uint32_t>(height), 4);
@@ -124,14 +125,15 @@ TEST(SceneRaster, TurnedRastersLieWhereTheySay) {
   const auto model = read_text("turned.tif", tiff(3, 2, heights, rows_to_the_right));
   ASSERT_EQ(model.vertices.size(), 6u);
   for (std::size_t cell = 0; cell < 6; ++cell) {
-    const double column = static_cast<double>(cell % 3) + 0.5, row = static_cast<double>(cell / 3) + 0.5;
+    const double column = static_cast<double>(cell % 3) + 0.5;
+    const double row = static_cast<double>(cell / 3) + 0.5;
     EXPECT_EQ(model.vertices[cell],
               (Vec3{1000 + 3 * column + 4 * row, 2000 + 4 * column - 3 * row,
                     static_cast<double>(heights[cell])}))
         << cell;
   }
   ASSERT_EQ(model.polygon_count(), 4u);
-  for (std::size_t p = 0; p < 4; ++p) EXPECT_EQ(up(model, p), 25) << p;  // twice the area, from above
+  for (std::size_t p = 0; p < 4; ++p) EXPECT_EQ(up(model, p), 25) << p;  // twice the area
 }
 
 /// Mirrored: rows go to the left of the columns. Faces still look up.
@@ -144,7 +146,8 @@ TEST(SceneRaster, TurnedAndMirroredRastersLookUp) {
 }
 
 TEST(SceneRaster, CellsWithoutAreaAreRefused) {
-  const auto message = refusal("flat.tif", tiff(3, 2, {1, 2, 3, 4, 5, 6}, {1000, 3, 6, 2000, 4, 8}));
+  const auto message =
+      refusal("flat.tif", tiff(3, 2, {1, 2, 3, 4, 5, 6}, {1000, 3, 6, 2000, 4, 8}));
   EXPECT_NE(message.find("has cells without area"), std::string::npos) << message;
 }
 
