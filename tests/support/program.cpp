@@ -71,8 +71,12 @@ std::vector<std::string> WorkFolder::content(const std::string& below) const {
   std::vector<std::string> names;
   const fs::path root = path_ / below;
   if (!fs::exists(root)) return names;
-  for (const auto& entry : fs::recursive_directory_iterator(root))
-    names.push_back(fs::relative(entry.path(), root).string() + (entry.is_directory() ? "/" : ""));
+  // A program at work may remove what is listed: nothing here looks at a file twice or throws.
+  std::error_code gone;
+  fs::recursive_directory_iterator entry(root, gone);
+  for (; entry != fs::recursive_directory_iterator(); entry.increment(gone))
+    names.push_back(entry->path().lexically_relative(root).string() +
+                    (entry->is_directory(gone) ? "/" : ""));
   std::sort(names.begin(), names.end());
   return names;
 }
