@@ -70,7 +70,9 @@ void remove_finished_work(const std::string& folder, const Study& study, const s
                     lock_path = merge_lock_path(folder, study);
   std::error_code unreadable;
   if (fs::exists(work + "/" + kept, unreadable)) return;
-  if (!fs::exists(work, unreadable) && !fs::exists(lock_path, unreadable)) return;
+  // A process that died at the very end may have left no more than empty folders.
+  if (!fs::exists(work, unreadable) && !fs::exists(lock_path, unreadable))
+    return remove_empty_folders(folder, finished);
   try {
     const MergeLock lock(lock_path);
     if (lock.is_held()) remove_files(work);
