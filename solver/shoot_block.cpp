@@ -70,9 +70,11 @@ void LightSolver::shoot_block(std::span<const SunLight> block, std::size_t first
   const FirstMirrored::SentSuns sent = send_sun(block);
   const Stopwatch time(work_.shoot_s);
   const auto realizations = static_cast<std::size_t>(rules_.realizations);
-  const std::size_t sensors = scene_.sensors.size();
-  MeanLight mean(hierarchy_.patch_count(), realizations), on_sensors(sensors, realizations);
-  InstantSpread spread(hierarchy_.patch_count(), block.size()), of_sensors(sensors, block.size());
+  const std::size_t patches = hierarchy_.patch_count(), sensors = scene_.sensors.size();
+  const bool of_instants = rules_.errors == Errors::instants;  // else spreads have nothing to do
+  MeanLight mean(patches, realizations), on_sensors(sensors, realizations);
+  InstantSpread spread(of_instants ? patches : 0, block.size()),
+      of_sensors(of_instants ? sensors : 0, block.size());
   for (std::size_t r = 0; r < realizations; ++r) {
     const ShotLight light = shooter_->light(r, sources, traced.of_patches.direct[r], sent);
     work_.samples += light.samples;
@@ -90,7 +92,6 @@ void LightSolver::shoot_block(std::span<const SunLight> block, std::size_t first
   if (sensors > 0)
     store_received(on_sensors.in_float(), block, first_row, traced.on_sensors.sunlit,
                    tally.sensors);
-  if (rules_.errors != Errors::instants) return;
   spread.store(first_row, tally);
   of_sensors.store(first_row, tally.sensors);
 }
