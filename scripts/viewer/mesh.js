@@ -67,9 +67,9 @@ export class PatchMesh {
   constructor(result) {
     this.result = result;
     // Two-sided patches first: their backs are not drawn, as the twin in the same place is.
-    const all = [...Array(result.patches).keys()], isTwoSided = (p) => result.isTwoSided[p];
-    this.patchOf = Uint32Array.from([...all.filter(isTwoSided), ...all.filter((p) => !isTwoSided(p))]);
-    const corners = 3 * result.patches, twoSidedCorners = 3 * all.filter(isTwoSided).length;
+    const all = [...Array(result.patches).keys()], twoSided = all.filter((p) => result.isTwoSided[p]);
+    this.patchOf = Uint32Array.from([...twoSided, ...all.filter((p) => !result.isTwoSided[p])]);
+    const corners = 3 * result.patches, twoSidedCorners = 3 * twoSided.length;
     const position = new Float32Array(3 * corners), normal = new Float32Array(3 * corners);
     for (let c = 0; c < corners; ++c) {
       const p = this.patchOf[Math.floor(c / 3)], v = 3 * result.patch_vertices[3 * p + (c % 3)];
