@@ -47,7 +47,6 @@ class Plane {
   Vec3 normal() const { return normal_; }
 
  private:
-  static double component(Vec3 p, int k) { return k == 0 ? p.x : (k == 1 ? p.y : p.z); }
   Vec3 through_, normal_;
   int axis_ = 2;
   bool is_mirrored_ = false;

@@ -12,8 +12,6 @@ constexpr std::uint32_t points_per_leaf = 8;
 /// Halving 32-bit numbers of points ends after as many levels.
 constexpr std::size_t most_levels = 32;
 
-double component(Vec3 p, int axis) { return axis == 0 ? p.x : (axis == 1 ? p.y : p.z); }
-
 int longest_axis(const Box& box) {
   const Vec3 size = box.high - box.low;
   return size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);

@@ -27,6 +27,8 @@ constexpr Vec3 cross(Vec3 a, Vec3 b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 inline double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
+/// Coordinate along axis 0, 1 or 2.
+constexpr double component(Vec3 a, int axis) { return axis == 0 ? a.x : (axis == 1 ? a.y : a.z); }
 /// Unit vector along `a`, which must not be the null vector.
 inline Vec3 normalized(Vec3 a) { return a / norm(a); }
 

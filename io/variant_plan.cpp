@@ -109,7 +109,7 @@ std::string pairing_id(const VariantPlan& plan) {
 // before, and three times an eighth is spent on what sees what (solver/guide.cpp).
 constexpr double rays_by_guide = 1 + 3 * 2 * 0.125 + 3 * 0.125;
 // A line through 2^n triangles takes s_per_line + n · s_per_level: from a box on a plane to a city.
-constexpr double s_per_line = 1.64e-7, s_per_level = 1.23e-8;
+constexpr double s_per_line = 1.0e-7, s_per_level = 8.3e-9;
 constexpr double share_that_meets = 0.6;  ///< of the lines; the others leave the scene
 constexpr double s_per_direct_ray = 3.5e-8;
 constexpr double s_per_mirror_ray = 1.3e-7;

@@ -16,7 +16,7 @@ constexpr int fewest_realizations = 8, most_realizations = 256;
 constexpr int fewest_lines = 512;
 
 // Costs of one core [s], docs/scaling.md; here only their ratios matter.
-constexpr double s_per_line = 3.6e-7, s_per_link_sun = 2.0e-10, s_per_direct_ray = 3.5e-8;
+constexpr double s_per_line = 2.3e-7, s_per_link_sun = 2.0e-10, s_per_direct_ray = 3.5e-8;
 constexpr double facing_share = 0.62;  // of a sun's rays that need be cast
 
 double cost(double lines, double samples, int bounces, double suns) {

@@ -45,7 +45,7 @@ LineCollector& LineCollector::operator+=(const LineCollector& other) {
   return *this;
 }
 
-void LineCollector::store(LineSet& set, std::size_t row, int count) {
+void LineCollector::store(LineSet& set, std::size_t row, std::size_t count) {
   const float scale = 1.0f / static_cast<float>(count);
   const std::size_t block = row / LinkTable::rows_per_block;
   LinkTable::append_row(set.patches.blocks[block], patches, scale);
@@ -54,7 +54,7 @@ void LineCollector::store(LineSet& set, std::size_t row, int count) {
   set.ends[row] = {ends.sky * scale,     ends.ground * scale, ends.ground_by_mirror * scale,
                    ends.escaped * scale, ends.backs * scale,  ends.cut * scale,
                    ends.transmitted * scale, ends.absorbed * scale};
-  if (!set.lamps.empty()) set.lamps[row] = lamps / count;
+  if (!set.lamps.empty()) set.lamps[row] = lamps / static_cast<double>(count);
 }
 
 LineFollower::LineFollower(const Scene& scene, const Hierarchy& hierarchy,

@@ -24,7 +24,7 @@ struct LineCollector {
   /// Puts the lines of another realization to these.
   LineCollector& operator+=(const LineCollector& other);
   /// Writes the next row of its block in `set`: what `count` lines brought.
-  void store(LineSet& set, std::size_t row, int count);
+  void store(LineSet& set, std::size_t row, std::size_t count);
 };
 
 /// Follows lines from their first hit on, by the law of reflection, until they

@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "geo/check.h"
+#include "solver/line_bundle.h"
 #include "solver/line_follower.h"
 #include "solver/parallel.h"
 #include "solver/patch_lines.h"
@@ -26,10 +27,40 @@ std::size_t LinkTable::memory_bytes() const {
   return bytes;
 }
 
+namespace {
+
+/// By target. Few links are sorted by comparison, many by a byte of the target after another.
+void sort_links(std::vector<LinkTable::Link>& links) {
+  using Link = LinkTable::Link;
+  constexpr std::size_t few = 48;
+  if (links.size() <= few) {
+    // By insertion: links with the same target keep their order, as below.
+    for (std::size_t i = 1; i < links.size(); ++i) {
+      const Link link = links[i];
+      std::size_t at = i;
+      for (; at > 0 && links[at - 1].target > link.target; --at) links[at] = links[at - 1];
+      links[at] = link;
+    }
+    return;
+  }
+  constexpr std::uint32_t digit_bits = 8, digits = 1u << digit_bits;
+  std::uint32_t all_bits = 0;
+  for (const Link& link : links) all_bits |= link.target;
+  thread_local std::vector<Link> other;
+  other.resize(links.size());
+  for (std::uint32_t shift = 0; shift < 32 && all_bits >> shift != 0; shift += digit_bits) {
+    std::uint32_t begin[digits + 1] = {};
+    for (const Link& link : links) ++begin[(link.target >> shift & (digits - 1)) + 1];
+    for (std::uint32_t d = 0; d < digits; ++d) begin[d + 1] += begin[d];
+    for (const Link& link : links) other[begin[link.target >> shift & (digits - 1)]++] = link;
+    links.swap(other);
+  }
+}
+
+}  // namespace
+
 void LinkTable::append_row(Block& block, std::vector<Link>& links, float scale) {
-  std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
-    return a.target != b.target ? a.target < b.target : a.weight < b.weight;
-  });
+  sort_links(links);
   for (std::size_t l = 0; l < links.size();) {
     const auto target = links[l].target;
     float weight = 0;
@@ -68,63 +99,91 @@ class BlockTracer {
   Output trace(std::size_t begin, std::size_t end, Lines& lines) const {
     Output output;
     output.first_light.resize(lines.realizations.size());
-    LineCollector own, pooled;
-    BrightView view(guide_);
-    for (std::size_t patch = begin; patch < end; ++patch) {
-      pooled.clear();
-      view.look_from(hierarchy_, patch);
-      for (std::size_t r = 0; r < lines.realizations.size(); ++r) {
-        own.clear();
-        trace_patch(patch, r, view, own, output);
-        for (Glimpse& glimpse : own.glimpses) {
-          glimpse.patch = static_cast<std::uint32_t>(patch);
-          glimpse.realization = static_cast<std::uint32_t>(r);
-        }
-        output.glimpses.insert(output.glimpses.end(), own.glimpses.begin(), own.glimpses.end());
-        pooled += own;
-        own.store(lines.realizations[r], patch, lines_per_realization());
-      }
-      pooled.store(lines.pooled, patch, rules_.lines_per_patch);
+    LineBundle bundle;
+    Row row{BrightView(guide_), {}, {}};
+    const std::size_t patches = patches_per_bundle();
+    for (std::size_t first = begin; first < end; first += patches) {
+      const std::size_t last = std::min(end, first + patches);
+      cast(first, last, bundle);
+      for (std::size_t patch = first; patch < last; ++patch)
+        follow_patch(patch, bundle, (patch - first) * all_lines(), row, lines, output);
     }
     return output;
   }
 
  private:
-  int lines_per_realization() const { return rules_.lines_per_patch / rules_.realizations; }
+  /// What one patch's lines bring.
+  struct Row {
+    BrightView view;
+    LineCollector own, pooled;
+  };
 
-  void trace_patch(std::size_t patch, std::size_t realization, const BrightView& view,
-                   LineCollector& into, Output& output) const {
-    const PatchLines lines(hierarchy_, patch, caster_.offset_m(),
-                           line_seeds(hierarchy_, patch, realization, rules_.seed));
+  std::size_t lines_per_realization() const {
+    return static_cast<std::size_t>(rules_.lines_per_patch / rules_.realizations);
+  }
+  std::size_t all_lines() const { return static_cast<std::size_t>(rules_.lines_per_patch); }
+  /// Enough lines to fill packets with similar directions, few enough for the cache.
+  std::size_t patches_per_bundle() const {
+    constexpr std::size_t lines_per_bundle = 2048;
+    return std::max<std::size_t>(1, lines_per_bundle / all_lines());
+  }
+
+  /// The lines of patches [first, last), realization by realization.
+  void cast(std::size_t first, std::size_t last, LineBundle& bundle) const {
+    bundle.clear();
+    for (std::size_t patch = first; patch < last; ++patch)
+      for (std::size_t r = 0; r < static_cast<std::size_t>(rules_.realizations); ++r)
+        bundle.add(PatchLines(hierarchy_, patch, caster_.offset_m(),
+                              line_seeds(hierarchy_, patch, r, rules_.seed)),
+                   lines_per_realization());
+    bundle.cast(caster_);
+  }
+
+  /// Its lines are those of the bundle from number `at` on.
+  void follow_patch(std::size_t patch, const LineBundle& bundle, std::size_t at, Row& row,
+                    Lines& lines, Output& output) const {
+    row.pooled.clear();
+    row.view.look_from(hierarchy_, patch);
+    for (std::size_t r = 0; r < lines.realizations.size(); ++r) {
+      row.own.clear();
+      follow_realization(patch, r, bundle, at + r * lines_per_realization(), row, output);
+      for (Glimpse& glimpse : row.own.glimpses) {
+        glimpse.patch = static_cast<std::uint32_t>(patch);
+        glimpse.realization = static_cast<std::uint32_t>(r);
+      }
+      output.glimpses.insert(output.glimpses.end(), row.own.glimpses.begin(),
+                             row.own.glimpses.end());
+      row.pooled += row.own;
+      row.own.store(lines.realizations[r], patch, lines_per_realization());
+    }
+    row.pooled.store(lines.pooled, patch, all_lines());
+  }
+
+  void follow_realization(std::size_t patch, std::size_t realization, const LineBundle& bundle,
+                          std::size_t at, Row& row, Output& output) const {
     RandomKey key{.seed = rules_.seed,
                   .purpose = Purpose::glossy,
                   .realization = static_cast<std::uint32_t>(realization),
                   .element = hierarchy_.key()[patch]};
-    const auto count = static_cast<std::size_t>(lines_per_realization());
-    for (std::size_t first = 0; first < count; first += packet_size)
-      trace_packet(LinePacket(lines, first, count), patch, view, key, first, into,
-                   output.first_light[realization], output.rays);
-    if (!view.any()) return;
-    key.purpose = Purpose::lamps;
-    output.rays += view.see_points(caster_, random_words(key), count,
-                                   [&](const auto& point) { follower_.link(point, into); });
-  }
-
-  void trace_packet(const LinePacket& lines, std::size_t patch, const BrightView& view,
-                    RandomKey key, std::size_t first, LineCollector& into,
-                    MirroredFirstLight& first_light, std::uint64_t& rays) const {
-    const auto hits = lines.first_hits(caster_);
     const Vec3 normal = hierarchy_.normal(patch);
-    rays += lines.count;
-    for (std::size_t l = 0; l < lines.count; ++l) {
-      const Hit hit = hits[l];
-      const auto& [origin, w] = lines.line[l];
-      key.sun = static_cast<std::uint32_t>(first + l);
-      rays += follower_.follow(origin, w, hit, key, into,
-                               view.share_of_line(hierarchy_, hit, w, dot(w, normal)));
-      if (hit.left_scene() && sends_on(follower_.material_of_patch(patch)))
-        rays += book_mirrored(origin, w, patch, key, first_light);
+    const bool sends_light_on = sends_on(follower_.material_of_patch(patch));
+    const std::size_t count = lines_per_realization();
+    output.rays += count;
+    for (std::size_t l = 0; l < count; ++l) {
+      const Hit hit = bundle.hit(at + l);
+      const auto& [origin, w] = bundle.line(at + l);
+      key.sun = static_cast<std::uint32_t>(l);
+      output.rays +=
+          follower_.follow(origin, w, hit, key, row.own,
+                           row.view.share_of_line(hierarchy_, hit, w, dot(w, normal)));
+      if (hit.left_scene() && sends_light_on)
+        output.rays += book_mirrored(origin, w, patch, key, output.first_light[realization]);
     }
+    if (!row.view.any()) return;
+    key.purpose = Purpose::lamps;
+    output.rays +=
+        row.view.see_points(caster_, random_words(key), count,
+                            [&](const auto& point) { follower_.link(point, row.own); });
   }
 
   /// The line brings first light to a mirror: its way on is booked here, since
@@ -132,7 +191,7 @@ class BlockTracer {
   std::uint64_t book_mirrored(Vec3 origin, Vec3 w, std::size_t patch, const RandomKey& line,
                               MirroredFirstLight& book) const {
     const auto fate = follower_.mirrored_on(origin, w, patch, line);
-    const double share = hierarchy_.area()[patch] / lines_per_realization();
+    const double share = hierarchy_.area()[patch] / static_cast<double>(lines_per_realization());
     const std::size_t source = w.z > 0 ? follower_.sky_cell(w) : ground_source_;
     MirroredFirstLight::for_each(book, fate, [&](std::vector<double>& power, double part) {
       if (power.empty()) power.assign(ground_source_ + 1, 0);

@@ -22,16 +22,20 @@ class PatchLines {
     Vec3 origin, w;  ///< w: unit, away from the patch
   };
   Line operator[](std::uint32_t index) const {
-    double x[sobol_dimensions];
-    for (int d = 0; d < sobol_dimensions; ++d)
-      x[d] = scrambled_sobol(index, d, seeds_);
-    const Vec3 local = sample_cosine(x[0], x[1]);
-    const Barycentric at = sample_triangle(x[2], x[3]);
+    return line(sobol(index, 0), sobol(index, 1), sobol(index, 2), sobol(index, 3));
+  }
+  /// Lines first … first + 15, the same bits, several times as fast; `first` is a multiple of 16.
+  void packet(std::size_t first, Line (&lines)[packet_size]) const;
+
+ private:
+  /// Of a Sobol point's coordinates.
+  Line line(std::uint32_t x0, std::uint32_t x1, std::uint32_t x2, std::uint32_t x3) const {
+    const Vec3 local = sample_cosine(scrambled(x0, seeds_[0]), scrambled(x1, seeds_[1]));
+    const Barycentric at = sample_triangle(scrambled(x2, seeds_[2]), scrambled(x3, seeds_[3]));
     return {a_ * at.w0 + b_ * at.w1 + c_ * at.w2 + lift_,
             axes_.tangent * local.x + axes_.bitangent * local.y + n_ * local.z};
   }
 
- private:
   Vec3 a_, b_, c_, n_;
   Tangents axes_;
   Vec3 lift_;
@@ -40,11 +44,11 @@ class PatchLines {
 
 /// Up to 16 consecutive lines of a patch, as rays.
 struct LinePacket {
-  /// Lines [first, end) or the first 16 of them.
+  /// Lines [first, end) or the first 16 of them; `first` is a multiple of 16.
   LinePacket(const PatchLines& lines, std::size_t first, std::size_t end)
       : count(std::min(packet_size, end - first)) {
-    for (std::size_t l = 0; l < count; ++l) {
-      line[l] = lines[static_cast<std::uint32_t>(first + l)];
+    lines.packet(first, line);
+    for (std::size_t l = 0; l < packet_size; ++l) {
       put(origins, l, line[l].origin);
       put(directions, l, line[l].w);
     }

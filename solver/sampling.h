@@ -8,9 +8,11 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
+#include "geo/fast_math.h"
 #include "geo/units.h"
 #include "geo/vec.h"
 #include "solver/rng.h"
@@ -47,10 +49,23 @@ inline std::uint32_t sobol(std::uint32_t index, int dimension) {
   return x;
 }
 
-/// The same in [0, 1), scrambled by the dimension's own seed.
+/// A scrambled coordinate in [0, 1).
+constexpr double scrambled(std::uint32_t coordinate, std::uint32_t seed) {
+  return owen_scrambled(coordinate, seed) * 0x1p-32;
+}
+/// Sobol point in [0, 1), scrambled by the dimension's own seed.
 inline double scrambled_sobol(std::uint32_t index, int dimension, const RandomWords& seeds) {
-  return owen_scrambled(sobol(index, dimension), seeds[static_cast<std::size_t>(dimension)]) *
-         0x1p-32;
+  return scrambled(sobol(index, dimension), seeds[static_cast<std::size_t>(dimension)]);
+}
+
+/// Coordinates of the `count` Sobol points from `first`, a multiple of `count`, on.
+template <std::size_t count>
+void sobol_points(std::uint32_t first, int dimension, std::uint32_t (&x)[count]) {
+  static_assert((count & (count - 1)) == 0, "points of a packet share their higher bits");
+  const auto& directions = sobol_directions[static_cast<std::size_t>(dimension)];
+  x[0] = sobol(first, dimension);
+  for (std::size_t l = 1; l < count; ++l)
+    x[l] = x[l & (l - 1)] ^ directions[static_cast<std::size_t>(std::countr_zero(l))];
 }
 
 /// Barycentric weights (of corners 0, 1, 2), uniform on a triangle.
@@ -59,14 +74,10 @@ struct Barycentric {
   double w0, w1, w2;
 };
 constexpr Barycentric sample_triangle(double u, double v) {
-  if (v > u) {
-    u *= 0.5;
-    v -= u;
-  } else {
-    v *= 0.5;
-    u -= v;
-  }
-  return {1 - u - v, u, v};
+  const double half = 0.5 * (u < v ? u : v);
+  const double w1 = v > u ? half : u - half;
+  const double w2 = v > u ? v - half : half;
+  return {1 - w1 - w2, w1, w2};
 }
 /// Density with respect to the unit square of barycentrics per area: 1 / area.
 constexpr double triangle_pdf(double area) { return 1 / area; }
@@ -82,17 +93,14 @@ constexpr UnitSquare invert_triangle(Barycentric b) {
 /// square to the disc (Shirley & Chiu 1997), which keeps strata compact.
 inline Vec3 sample_cosine(double u, double v) {
   const double a = 2 * u - 1, b = 2 * v - 1;
-  if (a == 0 && b == 0) return {0, 0, 1};
-  double radius = 0, angle = 0;
-  if (std::abs(a) > std::abs(b)) {
-    radius = a;
-    angle = pi / 4 * (b / a);
-  } else {
-    radius = b;
-    angle = pi / 2 - pi / 4 * (a / b);
-  }
-  return {radius * std::cos(angle), radius * std::sin(angle),
-          std::sqrt(std::max(0.0, 1 - radius * radius))};
+  const bool along_a = std::abs(a) > std::abs(b);
+  const double radius = along_a ? a : b, across = along_a ? b : a;
+  const double angle = pi / 4 * (across / (radius != 0 ? radius : 1.0));  // from the nearest axis
+  const double sign = angle < 0 ? -1.0 : 1.0;
+  const double near = radius * fast_cos(sign * angle);
+  const double far = radius * (sign * fast_sin(sign * angle));
+  const double square = 1 - radius * radius;
+  return {along_a ? near : far, along_a ? far : near, std::sqrt(square > 0 ? square : 0.0)};
 }
 constexpr double cosine_pdf(double cos_theta) { return cos_theta > 0 ? cos_theta / pi : 0; }
 /// The (u, v) that sample_cosine maps to this unit direction (w.z ≥ 0).

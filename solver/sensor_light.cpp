@@ -66,7 +66,7 @@ Lines trace_sensor_lines(const Scene& scene, const Hierarchy& hierarchy, const R
   SUNLOAD_EXPECT(rules.realizations >= 1 && rules.lines_per_patch % rules.realizations == 0,
                  "lines are shared equally by the realizations");
   const auto& sensors = scene.sensors;
-  const int each = rules.lines_per_patch / rules.realizations;
+  const auto each = static_cast<std::size_t>(rules.lines_per_patch / rules.realizations);
   const LineFollower follower(scene, hierarchy, caster, grid, rules.mirror_depth);
   Lines lines;
   lines.pooled = empty_line_set(sensors.size(), guide.any());
@@ -87,11 +87,11 @@ Lines trace_sensor_lines(const Scene& scene, const Hierarchy& hierarchy, const R
                            .purpose = Purpose::lines,
                            .realization = static_cast<std::uint32_t>(r),
                            .element = sensors[s].key},
-                          static_cast<std::size_t>(each), own);
+                          each, own);
             pooled += own;
             own.store(lines.realizations[r], s, each);
           }
-          pooled.store(lines.pooled, s, rules.lines_per_patch);
+          pooled.store(lines.pooled, s, static_cast<std::size_t>(rules.lines_per_patch));
         }
         return rays;
       });
