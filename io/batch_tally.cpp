@@ -189,8 +189,10 @@ void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
              solver.sky_view_factor().data());
   const double bounces = solver.bounces();
   writer.add({batch_array::bounces, MergeRule::maximum, ArrayType::float64, {1}}, &bounces);
-  const std::array<double, 2> counts{static_cast<double>(solver.rules().lines_per_patch),
-                                     static_cast<double>(solver.rules().direct_samples)};
+  const SolverRules& rules = solver.rules();
+  std::vector<double> counts{static_cast<double>(rules.lines_per_patch),
+                             static_cast<double>(rules.direct_samples)};
+  if (rules.samples_per_patch) counts.push_back(*rules.samples_per_patch);
   writer.add({batch_array::counts, MergeRule::maximum, ArrayType::float64, {counts.size()}},
              counts.data());
   const auto cost = work_values(work);

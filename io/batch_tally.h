@@ -18,7 +18,8 @@ inline constexpr const char* sunlit = "sunlit";              ///< [N] s
 inline constexpr const char* maximum = "irradiance_max";     ///< [N] W m-2
 inline constexpr const char* sky_view = "sky_view_factor";   ///< [N]
 inline constexpr const char* bounces = "bounces";            ///< [1]
-inline constexpr const char* counts = "counts";              ///< [2] lines and samples per patch
+/// Per patch: lines, direct samples, and samples of the first shot where a pilot chose them.
+inline constexpr const char* counts = "counts";
 inline constexpr const char* energy = "energy";              ///< [3] J: in, residual, lost at backs
 inline constexpr const char* sensor_backs = "sensor_backs";  ///< [S] share of lines that met backs
 inline constexpr const char* work = "work";                  ///< see WorkDone

@@ -283,9 +283,9 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
   const auto lines = static_cast<std::int64_t>(counts[0]);
   const auto samples = static_cast<std::int64_t>(counts[1]);
   // Other counts, other random points.
-  const std::string pairing_id =
-      study.solver.accuracy ? fmt::format("{}-{}-{}", plan.pairing_id, lines, samples)
-                            : plan.pairing_id;
+  std::string pairing_id = plan.pairing_id;
+  if (study.solver.accuracy) pairing_id += fmt::format("-{}-{}", lines, samples);
+  if (counts.size() > 2) pairing_id += fmt::format("-{}", counts[2]);
   ResultAttributes a;
   a.text = {{"title", "Light load: " + study.name + ", variant " + study.variant},
             {"source", std::string("sunload ") + version + " (" + commit + ")"},
@@ -336,6 +336,7 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
     const double relative = study.solver.accuracy->light_load_relative;
     a.numbers.emplace_back("accuracy_light_load_relative", relative);
     a.numbers.emplace_back("accuracy_area_share", accuracy_share(totals, geometry, relative));
+    if (counts.size() > 2) a.numbers.emplace_back("samples_per_patch", counts[2]);
   }
   if (study.solver.bands == Bands::rgb) {
     a.text.emplace_back("bands", "rgb");

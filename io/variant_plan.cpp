@@ -140,18 +140,10 @@ void refuse_lamps_in_lux(const VariantPlan& plan) {
                    "set their emission_w_m2 to 0, or light.quantity to irradiance");
 }
 
-/// The pilot counts the lines of gathering.
-void refuse_accuracy_of_shots(const VariantPlan& plan) {
-  const SolverStudy& solver = plan.study.solver;
-  if (solver.transport != Transport::shoot || !solver.accuracy) return;
-  throw InputError({}, "solver.accuracy cannot go with solver.transport: shoot",
-                   "its pilot counts the lines of gathering",
-                   "write transport: gather, or leave solver.accuracy away");
-}
-
 /// Samples of all shots: those of the first reflection, then (incremental) less by what is
 /// absorbed, one at least of every patch. The light on a patch is taken as that on a sphere.
-double estimated_samples(const VariantPlan& plan, double patches, double blocks) {
+double estimated_samples(const VariantPlan& plan, double patches, double blocks,
+                         int samples_per_patch) {
   const SolverStudy& s = plan.study.solver;
   const Scene& scene = plan.built.scene;
   double area = 0, reflecting = 0, emitted_w = 0, brightest_w_m2 = 0;
@@ -164,9 +156,10 @@ double estimated_samples(const VariantPlan& plan, double patches, double blocks)
   }
   for (const auto& i : plan.light.intervals)
     brightest_w_m2 = std::max(brightest_w_m2, i.mean.dni / 4 + i.mean.dhi / 2);
-  const double by_auto = patches * s.lines_per_patch, least = patches * s.realizations;
+  const double by_auto = patches * samples_per_patch, least = patches * s.realizations;
+  const double raised = static_cast<double>(samples_per_patch) / s.lines_per_patch;
   const auto samples_of = [&](double power_w) {
-    return s.power_per_sample_w ? power_w / *s.power_per_sample_w : by_auto;
+    return s.power_per_sample_w ? raised * power_w / *s.power_per_sample_w : by_auto;
   };
   const double first = samples_of(reflecting * brightest_w_m2 + emitted_w);
   const double left = s.jacobi == Jacobi::regular ? 1 : reflecting / area;  // after a reflection
@@ -184,7 +177,6 @@ VariantPlan make_plan(const Study& study) {
   plan.built = build_scene(study);
   plan.light = light_series(study, plan.built.site);
   refuse_lamps_in_lux(plan);
-  refuse_accuracy_of_shots(plan);
   plan.content_hash = content_hash(plan, plan.isa);
   plan.pairing_id = pairing_id(plan);
   return plan;
@@ -234,7 +226,9 @@ SolverRules solver_rules(const VariantPlan& plan) {
           .bands = s.bands,
           .transport = s.transport,
           .jacobi = s.jacobi,
-          .power_per_sample_w = s.power_per_sample_w};
+          .power_per_sample_w = s.power_per_sample_w,
+          .samples_per_patch = {},
+          .by_source = false};
 }
 
 AccuracyGoal accuracy_goal(const Study& study) {
@@ -311,7 +305,7 @@ double line_seconds(const Scene& scene, int mirror_depth) {
 
 WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
   const SolverStudy& s = plan.study.solver;
-  return estimate_work(plan, patches, {s.lines_per_patch, s.direct_samples, 0});
+  return estimate_work(plan, patches, {s.lines_per_patch, s.direct_samples, s.lines_per_patch});
 }
 
 WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
@@ -350,7 +344,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
     work.memory_bytes += n * s.realizations * block_width * float_bytes * (mirrors ? 3.0 : 2.0);
   if (s.transport == Transport::shoot) {
     const double blocks = batches * std::ceil(batch / static_cast<double>(block_width));
-    work.samples = static_cast<std::uint64_t>(estimated_samples(plan, n, blocks));
+    work.samples = static_cast<std::uint64_t>(estimated_samples(plan, n, blocks, counts.samples_per_patch));
     const double per_shot = static_cast<double>(work.samples) / (blocks * std::max(1, s.bounces));
     work.memory_bytes +=
         n * (shooting_bytes_per_patch + of_realizations * columns_of_a_realization) +

@@ -32,11 +32,17 @@ std::size_t suns_before(const VariantPlan& plan, std::size_t batch) {
 
 /// What the pilot decided.
 std::string counts_text(const VariantPlan& plan, const SampleCounts& counts) {
+  const SolverRules rules = with_counts(solver_rules(plan), counts);
+  std::string shot;
+  if (rules.power_per_sample_w)
+    shot = fmt::format(", shots of {:.3g} W per sample", *rules.power_per_sample_w);
+  else if (rules.samples_per_patch)
+    shot = fmt::format(", {} samples per patch in the first shot", *rules.samples_per_patch);
   std::string text = fmt::format(
-      "{}: accuracy of {:.3g} %: {} lines and {} direct samples per patch, by which a pilot "
+      "{}: accuracy of {:.3g} %: {} lines and {} direct samples per patch{}, by which a pilot "
       "expects it on {:.3g} % of the area",
       plan.study.variant, 100 * plan.study.solver.accuracy->light_load_relative,
-      counts.lines_per_patch, counts.direct_samples, 100 * counts.share);
+      counts.lines_per_patch, counts.direct_samples, shot, 100 * counts.share);
   if (counts.share < share_to_be_met)
     text += fmt::format("; {} lines and samples at most cannot give more (max_lines_per_patch)",
                         plan.study.solver.max_lines_per_patch);
@@ -171,14 +177,13 @@ SolverRules VariantRun::decided_rules() {
       count > 0 ? static_cast<double>(lit.size()) / static_cast<double>(count) : 1;
   SolverRules of_pilot = rules;
   of_pilot.bands = Bands::broadband;  // the goal is for the mean of the bands
-  const PatchSpread spread = pilot_spread(scene, mesh_, of_pilot, suns, weight, progress_);
+  const PatchSpread spread =
+      pilot_spread(scene, mesh_, of_pilot, suns, weight, progress_, plan_.batch_suns());
   const SampleCounts counts =
       needed_counts(spread, rules, accuracy_goal(plan_.study), lit.size());
   refuse_too_much(estimate_work(plan_, spread.area.size(), counts));
   progress_.say(counts_text(plan_, counts));
-  rules.lines_per_patch = counts.lines_per_patch;
-  rules.direct_samples = counts.direct_samples;
-  return rules;
+  return with_counts(rules, counts);
 }
 
 void VariantRun::compute_batch(std::size_t batch) {

@@ -1,12 +1,16 @@
-/// How many lines and direct samples a study needs for the accuracy it asks for.
+/// How many lines, direct samples and, when shooting, samples of power a study needs for the
+/// accuracy it asks for.
 ///
 /// A pilot, with random numbers of its own, solves some of the study's suns and tells for
-/// every patch the variance that one line (a) and one direct sample (b) bring to its light
-/// load H. With L lines and D samples the standard error is then about
+/// every patch the variance that one line (a), one direct sample (b) and one sample shot per patch
+/// (c) bring to its light load H. With L lines, D and S samples the standard error is then about
 ///
-///     SE² = a / L + b / D
+///     SE² = a / L + b / D + c / S
 ///
-/// (scrambled Sobol points do no worse than independent ones). Counts are doubled until
+/// (scrambled Sobol points do no worse than independent ones). When gathering, what is not the
+/// sun's comes by lines, and c = 0. When shooting, lines bring the first light of sky and ground,
+/// and reflected light counts as the samples' alone: what the errors of first light add to it is
+/// the mean of many patches. Counts are doubled until
 /// SE / H meets the goal on 95 % of the leaf area that counts, the cheapest way, and frozen
 /// before the first tally, with room for the errors of the errors that so few realizations state:
 /// counts chosen from the very realizations that are tallied would
@@ -25,7 +29,7 @@ namespace sunload {
 
 struct AccuracyGoal {
   double light_load_relative = 0.01;  ///< standard error / light load of a patch
-  int most_per_patch = 4096;          ///< lines, and direct samples
+  int most_per_patch = 4096;          ///< lines, direct samples, samples shot
 };
 
 /// Of the leaf area whose load is at least `share_that_counts` of the largest,
@@ -38,15 +42,26 @@ struct PatchSpread {
   std::vector<double> load;        ///< J m-2
   std::vector<double> of_line;     ///< a: variance of the load by one line
   std::vector<double> of_sample;   ///< b: variance of the load by one direct sample
+  std::vector<double> of_shot;     ///< c: variance by one sample shot per patch; empty: none is
+  /// Samples that a block of suns takes with all its reflections, for every one of the first shot.
+  double shots_per_block = 0;
 };
 
+/// Over all realizations together.
 struct SampleCounts {
-  int lines_per_patch = 0, direct_samples = 0;  ///< over all realizations together
+  int lines_per_patch = 0, direct_samples = 0;
+  /// Of the first shot, in the mean of patches. With a power per sample of its own this is what
+  /// `lines_per_patch` stands for, and the power falls as the count rises.
+  int samples_per_patch = 0;
   double share = 0;  ///< of the area that counts, where the goal will be met
 };
 
-/// Share of the area that counts where √(a/L + b/D) ≤ goal · load; 1 where nothing counts.
-double share_met(const PatchSpread& spread, double light_load_relative, int lines, int samples);
+/// The rules with these counts; `least` are those that the counts were chosen for.
+SolverRules with_counts(const SolverRules& least, const SampleCounts& counts);
+
+/// Share of the area that counts where √(a/L + b/D + c/S) ≤ goal · load; 1 where nothing counts.
+double share_met(const PatchSpread& spread, double light_load_relative,
+                 const SampleCounts& counts);
 
 /// The cheapest counts that meet the goal on `share_to_be_met` of the area that counts, from
 /// those of `least` on, doubled, at most `most_per_patch`; where no counts do, the cheapest
@@ -58,9 +73,10 @@ SampleCounts needed_counts(const PatchSpread& spread, const SolverRules& least,
 /// Suns of a pilot, at most.
 inline constexpr std::size_t pilot_suns = 32;
 
-/// Solves `suns`, each of which stands for `weight` suns of the period. Deterministic.
+/// Solves `suns`, each of which stands for `weight` suns of the period, which is solved in batches
+/// of `batch_suns`. Deterministic.
 PatchSpread pilot_spread(const Scene& scene, std::shared_ptr<const Hierarchy> mesh,
                          const SolverRules& rules, std::span<const SunLight> suns, double weight,
-                         Watch& watch);
+                         Watch& watch, std::size_t batch_suns = block_width);
 
 }  // namespace sunload

@@ -79,6 +79,7 @@ void LightSolver::shoot_block(std::span<const SunLight> block, std::size_t first
     const ShotLight light = shooter_->light(r, sources, traced.of_patches.direct[r], sent);
     work_.samples += light.samples;
     work_.shot_rays += light.rays;
+    work_.wanted_samples += light.wanted;
     mean.add(light);
     spread.add(light);
     add_realization(r, light, block, first_row, tally);
@@ -118,6 +119,23 @@ TracedLight LightSolver::trace_for_shooting(const BlockSources& sources) {
   return traced;
 }
 
+/// What came by which samples, for pilots.
+void LightSolver::add_by_source(std::size_t r, const ShotLight& light,
+                                std::span<const SunLight> block, ExposureBySource& to) const {
+  const std::vector<double>& parallel = parallel_.of(r);
+  parallel_for(hierarchy_.patch_count(), [&](std::size_t i) {
+    const double of_parallel = parallel.empty() ? 0 : parallel[i];
+    for (std::size_t k = 0; k < block.size(); ++k) {
+      const double s = block[k].length_s;
+      const std::size_t at = i * block_width + k;
+      to.sun[r][i] += s * light.by_source->sun[at];
+      to.parallel[r][i] += s * of_parallel;
+      to.emitted[r][i] += s * ((*light.lamps)[i] - of_parallel);
+      to.reflected[r][i] += s * light.by_source->shot[at];
+    }
+  }, patches_per_task);
+}
+
 FirstMirrored::SentSuns LightSolver::send_sun(std::span<const SunLight> block) {
   const Stopwatch time(work_.mirror_s);
   auto sent = shooter_->send_sun(block);
@@ -137,6 +155,7 @@ void LightSolver::add_realization(std::size_t r, const ShotLight& light,
                                   std::span<const SunLight> block, std::size_t first_row,
                                   BatchTally& tally) const {
   add_exposure(light, block, tally.exposure_realization[r]);
+  if (light.by_source) add_by_source(r, light, block, tally.by_source);
   for (std::size_t k = 0; k < block.size(); ++k) {
     const Ledger& ledger = light.ledger[k];
     tally.ledger[first_row + k] +=

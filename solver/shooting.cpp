@@ -185,11 +185,11 @@ Shooter::Shot Shooter::shoot(const DoubleColumns& power, double samples,
 
 double Shooter::wanted_samples(const SunTotals& power, const SunTotals& first) const {
   const double R = line_rules_.realizations;
-  const double lines = static_cast<double>(hierarchy_.patch_count()) * line_rules_.lines_per_patch;
+  const double by_auto = static_cast<double>(hierarchy_.patch_count()) * rules_.samples_per_patch;
   double samples = 0;  // as many as the sun that needs most
   for (std::size_t k = 0; k < block_width; ++k) {
     if (power[k] <= 0) continue;
-    const double per_sample = rules_.power_per_sample_w.value_or(first[k] / lines);
+    const double per_sample = rules_.power_per_sample_w.value_or(first[k] / by_auto);
     samples = std::max(samples, power[k] / (per_sample * R));
   }
   return samples;
@@ -205,11 +205,13 @@ void Shooter::shoot_emitters() {
     OfEmitters& of = emitters_.emplace_back();
     of.irradiance.assign(patches, 0);
     if (total[0] <= 0) continue;
-    const Shot shot = shoot(power, wanted_samples(total, total), {r, 0, shot_of_emitters});
+    const double wanted = wanted_samples(total, total);
+    const Shot shot = shoot(power, wanted, {r, 0, shot_of_emitters});
     for (std::size_t i = 0; i < patches; ++i) of.irradiance[i] = shot.irradiance[i * block_width];
     of.fate = {shot.fates.absorbed[0], shot.fates.backs[0], shot.fates.escaped[0],
                shot.fates.cut[0], shot.fates.transmitted[0], 0};
     samples_ += shot.samples;
+    wanted_ += wanted;
     rays_ += shot.rays;
   }
 }
@@ -246,10 +248,12 @@ Shooter::Reflected Shooter::reflect(const DoubleColumns& first, std::size_t real
     return std::any_of(of.begin(), of.end(), [](double P) { return P > 0; });
   };
   for (int b = 1; b <= rules_.bounces && any(total); ++b) {
-    Shot shot = shoot(power, wanted_samples(total, first_total),
+    const double wanted = wanted_samples(total, first_total);
+    Shot shot = shoot(power, wanted,
                       {static_cast<std::uint32_t>(realization), sun,
                        shot_of_emitters + static_cast<std::uint32_t>(b)});
     out.samples += shot.samples;
+    out.wanted += wanted;
     out.rays += shot.rays;
     if (rules_.jacobi == Jacobi::incremental) {
       add(out.followed, power);
@@ -290,6 +294,7 @@ Fates Shooter::add_first_light(ShotLight& light, DoubleColumns& ground, std::siz
     fates += from.fates;
   };
   take(first_mirrored_.sun(sent.of_realization[realization]), light.mirror);
+  if (light.by_source) add(light.by_source->sun, light.mirror);
   take(first_mirrored_.sky(realization, sky), light.mirror);
   take(first_mirrored_.ground(realization, exitance), ground);
   return fates;
@@ -340,6 +345,7 @@ ShotLight Shooter::light(std::size_t realization, const BlockSources& sources,
   light.direct = in_double(direct);
   light.sky = light.mirror = double_columns(patches);
   light.lamps = &emitters.irradiance;
+  if (rules_.by_source) light.by_source = {light.direct, {}};
   DoubleColumns ground = double_columns(patches);
   Fates fates = add_first_light(light, ground, realization, sources, sent);
 
@@ -352,9 +358,11 @@ ShotLight Shooter::light(std::size_t realization, const BlockSources& sources,
   Reflected reflected = reflect(first, realization, sources.suns.front().number);
   light.reflected = std::move(reflected.irradiance);
   light.followed = std::move(reflected.followed);
+  if (light.by_source) light.by_source->shot = light.reflected;
   add(light.reflected, ground);
   fates += reflected.fates;
   light.samples = reflected.samples;
+  light.wanted = reflected.wanted;
   light.rays = reflected.rays;
 
   book_first_light(light, realization, sources);

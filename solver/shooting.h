@@ -35,10 +35,12 @@ namespace sunload {
 struct ShootingRules {
   int bounces = 5;
   Jacobi jacobi = Jacobi::incremental;
-  /// Power of a sample [W] where all realizations are taken together. Absent: as
-  /// many samples as there are lines for the first reflection and for the
-  /// emitters, and samples of the same power from there on.
+  /// Power of a sample [W] where all realizations are taken together. Absent:
+  /// `samples_per_patch` for the first reflection and for the emitters, and samples of the same
+  /// power from there on.
   std::optional<double> power_per_sample_w;
+  int samples_per_patch = 256;  ///< over all realizations, in the mean of patches; of no power given
+  bool by_source = false;       ///< keep ShotLight::by_source
 };
 
 /// Light of one realization of a block, [N][block] W m-2.
@@ -48,6 +50,12 @@ struct ShotLight {
   const std::vector<double>* lamps = nullptr;  ///< [N], the same for all suns
   std::array<Ledger, block_width> ledger;      ///< W
   std::uint64_t samples = 0, rays = 0;         ///< shot; cast for them, chains included
+  double wanted = 0;                           ///< samples, WorkDone
+  /// What direct samples of the sun bring, mirrored included, and what samples of patches bring.
+  struct BySource {
+    DoubleColumns sun, shot;
+  };
+  std::optional<BySource> by_source;
   double total(std::size_t patch, std::size_t k) const {
     const std::size_t at = patch * block_width + k;
     return direct[at] + sky[at] + mirror[at] + (*lamps)[patch] + reflected[at];
@@ -70,8 +78,9 @@ class Shooter {
   ShotLight light(std::size_t realization, const BlockSources& sources, const Columns& direct,
                   const FirstMirrored::SentSuns& sent) const;
 
-  /// Of the constructor: samples shot by emitters; rays cast, chains included.
+  /// Of the constructor: samples shot by emitters, and wanted; rays cast, chains included.
   std::uint64_t samples() const { return samples_; }
+  double wanted() const { return wanted_; }
   std::uint64_t rays() const { return rays_; }
 
  private:
@@ -94,6 +103,7 @@ class Shooter {
     Fates fates;
     SunTotals unshot{};
     std::uint64_t samples = 0, rays = 0;
+    double wanted = 0;
   };
   class Task;
   Shot shoot(const DoubleColumns& power, double samples, const Address& address) const;
@@ -121,6 +131,7 @@ class Shooter {
   std::vector<bool> sends_on_;
   std::vector<OfEmitters> emitters_;        ///< per realization
   std::uint64_t samples_ = 0, rays_ = 0;
+  double wanted_ = 0;
 };
 
 }  // namespace sunload

@@ -21,6 +21,19 @@ LineRules line_rules(const SolverRules& rules) {
           rules.link_threshold / rules.lines_per_patch};
 }
 
+ShootingRules shooting_rules(const SolverRules& rules, int bounces) {
+  return {bounces, rules.jacobi, rules.power_per_sample_w,
+          rules.samples_per_patch.value_or(rules.lines_per_patch), rules.by_source};
+}
+
+/// Samples that are more than the lines exchange light on a finer level.
+LineRules line_rules_of_shots(const SolverRules& rules) {
+  LineRules of_shots = line_rules(rules);
+  const int samples = std::max(rules.lines_per_patch, rules.samples_per_patch.value_or(0));
+  of_shots.largest_link = rules.link_threshold / samples;
+  return of_shots;
+}
+
 Lines timed_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
                   const SkyGrid& grid, const PatchOptics& optics, const SolverRules& rules,
                   Watch& watch, WorkDone& work) {
@@ -97,10 +110,11 @@ LightSolver::LightSolver(const Scene& scene, std::shared_ptr<const Hierarchy> me
   if (rules.transport != Transport::shoot) return;
   const Stopwatch time(work_.shoot_s);
   shooter_ = std::make_unique<Shooter>(
-      scene, hierarchy_, caster_, sampler_, grid_, optics_, lines_, parallel_, line_rules(rules),
-      ShootingRules{bounces_, rules.jacobi, rules.power_per_sample_w});
+      scene, hierarchy_, caster_, sampler_, grid_, optics_, lines_, parallel_,
+      line_rules_of_shots(rules), shooting_rules(rules, bounces_));
   work_.shot_rays = shooter_->rays();
   work_.samples = shooter_->samples();
+  work_.wanted_samples = shooter_->wanted();
 }
 
 LightSolver::~LightSolver() = default;
@@ -124,7 +138,8 @@ BatchTally LightSolver::solve(std::span<const SunLight> batch, Watch& watch) {
 
 BatchTally LightSolver::empty_tally(std::size_t intervals) const {
   TallyShape shape{hierarchy_.patch_count(), scene_.sensors.size(), intervals,
-                   static_cast<std::size_t>(rules_.realizations), {}, rules_.errors};
+                   static_cast<std::size_t>(rules_.realizations), {}, rules_.errors,
+                   rules_.by_source && rules_.transport == Transport::shoot};
   for (std::size_t p = 0; p < part_count; ++p) shape.parts[p] = has_part(static_cast<Part>(p));
   return sunload::empty_tally(shape);
 }
@@ -280,7 +295,7 @@ void LightSolver::solve_realizations(std::vector<TimeSums>& sums,
       for (std::size_t i = 0; i < hierarchy_.patch_count(); ++i)
         sums[b].direct[r][i] += sums[b].by_mirror[r][i] + sums[b].circumsolar[r][i];
     }
-    tallies[b].sun_realization = std::move(sums[b].direct);
+    tallies[b].by_source.sun = std::move(sums[b].direct);
   }
 }
 

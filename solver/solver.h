@@ -49,6 +49,8 @@ struct SolverRules {
   Transport transport = Transport::gather;
   Jacobi jacobi = Jacobi::incremental;        ///< when shooting
   std::optional<double> power_per_sample_w;   ///< when shooting, ShootingRules
+  std::optional<int> samples_per_patch;       ///< when shooting, ShootingRules
+  bool by_source = false;                     ///< when shooting: BatchTally::by_source
 };
 
 /// Light on a frozen mesh: prepared once per variant, then any batch of suns.
@@ -132,6 +134,8 @@ class LightSolver {
                              SunColumns& of_sensors) const;
   void add_realization(std::size_t r, const ShotLight& light, std::span<const SunLight> block,
                        std::size_t first_row, BatchTally& tally) const;
+  void add_by_source(std::size_t r, const ShotLight& light, std::span<const SunLight> block,
+                     ExposureBySource& to) const;
 
   const Scene& scene_;
   SolverRules rules_;

@@ -51,6 +51,11 @@ BatchTally empty_tally(const TallyShape& shape) {
   tally.outgoing.assign(shape.patches, 0);
   tally.ledger.resize(shape.intervals);
   tally.ledger_realization.resize(shape.realizations);
+  if (shape.by_source) {
+    const std::vector<std::vector<double>> zeros(shape.realizations,
+                                                 std::vector<double>(shape.patches, 0));
+    tally.by_source = {zeros, zeros, zeros, zeros};
+  }
   if (shape.errors == Errors::instants)
     tally.ledger_instants.assign(shape.realizations, std::vector<Ledger>(shape.intervals));
   return tally;
@@ -71,6 +76,7 @@ WorkDone& WorkDone::operator-=(const WorkDone& earlier) {
   realizations_s -= earlier.realizations_s;
   samples -= earlier.samples;
   shot_rays -= earlier.shot_rays;
+  wanted_samples -= earlier.wanted_samples;
   shoot_s -= earlier.shoot_s;
   return *this;
 }

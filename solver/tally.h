@@ -49,6 +49,16 @@ struct ReceiverTally {
   std::vector<float> irradiance_max;                         ///< [N]
 };
 
+/// Exposures of every realization by what their errors come from, [R][N] J m-2. What they leave of
+/// the whole exposure comes by lines.
+struct ExposureBySource {
+  std::vector<std::vector<double>> sun;  ///< by direct samples of every sun, mirrored included
+  // When shooting, and only if asked for (SolverRules).
+  std::vector<std::vector<double>> parallel;   ///< by direct samples, the same for all suns
+  std::vector<std::vector<double>> emitted;    ///< by samples of emitters, the same for all suns
+  std::vector<std::vector<double>> reflected;  ///< by samples of every block of suns
+};
+
 /// Standard errors of totals alone, or of every interval too.
 enum class Errors { totals, instants };
 
@@ -56,8 +66,7 @@ enum class Errors { totals, instants };
 struct BatchTally : ReceiverTally {
   std::size_t intervals = 0;
   std::vector<double> outgoing;                              ///< [N] radiosity, time-integrated
-  /// [R][N] the sun's part of the exposure, mirrored included.
-  std::vector<std::vector<double>> sun_realization;
+  ExposureBySource by_source;
   ReceiverTally sensors;
   std::vector<Ledger> ledger;                                ///< [K] W
   std::vector<Ledger> ledger_realization;                    ///< [R] J
@@ -71,9 +80,10 @@ struct TallyShape {
   std::size_t patches = 0, sensors = 0, intervals = 0, realizations = 0;
   std::array<bool, part_count> parts{};  ///< that the scene can have
   Errors errors = Errors::totals;
+  bool by_source = false;                ///< when shooting
 };
-/// All zeros; what errors per instant alone need only where they are asked for. The sun's part per
-/// realization is empty: solvers put theirs there.
+/// All zeros; what errors per instant alone need only where they are asked for, and sources when
+/// shooting. When gathering these are empty: the sun's part is put there at the end.
 BatchTally empty_tally(const TallyShape& shape);
 
 /// Work done so far and the time it took, per stage.
@@ -83,6 +93,7 @@ struct WorkDone {
   std::uint64_t mirror_shots = 0;  ///< arrivals of mirrored sun that no beam stands for
   double lines_s = 0, direct_s = 0, mirror_s = 0, solve_s = 0, realizations_s = 0, sensors_s = 0;
   std::uint64_t samples = 0, shot_rays = 0;  ///< shot; cast for them, chains included
+  double wanted_samples = 0;  ///< shot, but for those that patches get who would have none
   double shoot_s = 0;
   WorkDone& operator-=(const WorkDone& earlier);
 };

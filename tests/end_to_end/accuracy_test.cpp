@@ -12,9 +12,9 @@ namespace {
 
 struct Square {
   WorkFolder folder;
-  explicit Square(const std::string& solver) {
+  explicit Square(const std::string& solver, const std::string& max_edge_m = "1.5") {
     folder.write("square.obj", square_obj);
-    folder.write("square.yaml", square_study("totals", solver));
+    folder.write("square.yaml", square_study("totals", solver, max_edge_m));
   }
   Ran run(const std::string& output, std::vector<std::string> more = {}) const {
     more.insert(more.begin(), {"run", "square.yaml", "--output", output});
@@ -49,6 +49,28 @@ TEST(AccuracyStudy, DecidesCountsOnceForThreadsAndShards) {
             std::vector<std::string>{});
   EXPECT_EQ(ResultReader(square.result("shards")).number_attribute("lines_per_patch"), lines);
   EXPECT_EQ(ledger_problem(square.result("one")), "");
+}
+
+TEST(AccuracyStudy, DecidesWhatIsShot) {
+  for (const std::string power : {"auto", "100"}) {
+    const Square square(", accuracy: {light_load_relative: 0.03}, max_lines_per_patch: 8192, "
+                        "transport: shoot, power_per_sample_w: " + power,
+                        "4");
+    const Ran ran = square.run("one", {"--threads", "1"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_NE(ran.err.find(power == "auto" ? "in the first shot" : "W per sample"),
+              std::string::npos)
+        << ran.err;
+    const ResultReader result(square.result("one"));
+    EXPECT_GT(result.number_attribute("samples_per_patch"), 64);
+    EXPECT_GE(result.number_attribute("accuracy_area_share"), 0.9);
+    EXPECT_EQ(ledger_problem(square.result("one")), "");
+    if (power != "auto") continue;
+    for (const char* shard : {"1/2", "0/2"})
+      ASSERT_EQ(square.run("shards", {"--shard", shard, "--threads", "3"}).code, 0);
+    EXPECT_EQ(different_data(square.result("one"), square.result("shards")),
+              std::vector<std::string>{});
+  }
 }
 
 TEST(AccuracyStudy, SaysWhereTheMostIsTooLittle) {

@@ -91,6 +91,43 @@ TEST(NeededCounts, LeaveOutWhatReceivesNextToNothing) {
   EXPECT_EQ(needed_counts(spread_of({}, {}), rules_of(64, 8), {0.1, 4096}, 10).share, 1);
 }
 
+TEST(NeededCounts, TellSamplesThatAreShotFromLines) {
+  auto spread = spread_of({300 * 300}, {0});
+  spread.of_shot = {0};
+  spread.shots_per_block = 2;
+  auto counts = needed_counts(spread, rules_of(64, 8), {0.1, 4096}, 10);
+  EXPECT_EQ(counts.lines_per_patch, 2048);
+  EXPECT_EQ(counts.samples_per_patch, 64);
+  std::swap(spread.of_line, spread.of_shot);
+  counts = needed_counts(spread, rules_of(64, 8), {0.1, 4096}, 10);
+  EXPECT_EQ(counts.lines_per_patch, 64);
+  EXPECT_EQ(counts.direct_samples, 8);
+  EXPECT_EQ(counts.samples_per_patch, 2048);
+  EXPECT_EQ(counts.share, 1);
+  // With many suns shots are dear, which lines are not.
+  spread.of_line = {300 * 300};
+  spread.shots_per_block = 0.01;
+  const auto few = needed_counts(spread, rules_of(64, 8), {0.1, 1 << 20}, 1);
+  const auto dear = needed_counts(spread, rules_of(64, 8), {0.1, 1 << 20}, 100000);
+  EXPECT_GT(dear.lines_per_patch, few.lines_per_patch);
+  EXPECT_LT(dear.samples_per_patch, few.samples_per_patch);
+  // Without shots there is nothing to be raised.
+  spread.of_shot.clear();
+  EXPECT_EQ(needed_counts(spread, rules_of(64, 8), {0.1, 4096}, 10).samples_per_patch, 64);
+}
+
+TEST(NeededCounts, LowerTheStudysOwnPowerPerSample) {
+  SolverRules least = rules_of(64, 8);
+  least.transport = Transport::shoot;
+  EXPECT_EQ(with_counts(least, {128, 16, 512, 1}).samples_per_patch, 512);
+  EXPECT_FALSE(with_counts(least, {128, 16, 512, 1}).power_per_sample_w);
+  least.power_per_sample_w = 4;
+  EXPECT_EQ(with_counts(least, {128, 16, 512, 1}).power_per_sample_w, 0.5);
+  EXPECT_EQ(with_counts(least, {128, 16, 512, 1}).lines_per_patch, 128);
+  least.transport = Transport::gather;
+  EXPECT_FALSE(with_counts(least, {128, 16, 64, 1}).samples_per_patch);
+}
+
 /// A courtyard with a mast before a wall, a mirror and a face that no light reaches.
 Scene courtyard() {
   SceneBuilder builder;
@@ -146,23 +183,20 @@ double share_that_keeps(const SplitRules& split, SolverRules rules, double goal,
   return kept / counts;
 }
 
-TEST(Accuracy, IsMetByTheRealSpreadOfIndependentRuns) {
-  const SplitRules split{.max_edge_m = 1.2};
-  const SolverRules least = rules_of(64, 8);
-  constexpr double goal = 0.02;
+/// Counts that a pilot chooses keep the goal, the least ones and much smaller ones do not.
+void expect_kept(const SolverRules& least, double goal, const SplitRules& split) {
   const auto suns = day();
   Watch watch;
   const Scene scene = courtyard();
   const auto mesh = std::make_shared<const Hierarchy>(scene, split);
   const auto spread = pilot_spread(scene, mesh, least, suns, 1, watch);
   const auto counts = needed_counts(spread, least, {goal, 1 << 14}, suns.size());
-  SolverRules raised = least;
-  raised.lines_per_patch = counts.lines_per_patch;
-  raised.direct_samples = counts.direct_samples;
+  SolverRules raised = with_counts(least, counts);
   constexpr int runs = 24;
   const double share = share_that_keeps(split, raised, goal, runs);
   std::cout << "lines " << counts.lines_per_patch << ", samples " << counts.direct_samples
-            << ": predicted " << counts.share << ", kept " << share << "\n";
+            << ", shot " << counts.samples_per_patch << ": predicted " << counts.share << ", kept "
+            << share << "\n";
   EXPECT_GT(counts.lines_per_patch, least.lines_per_patch);
   EXPECT_LT(counts.lines_per_patch, 1 << 14);
   EXPECT_GE(counts.share, share_to_be_met);
@@ -173,36 +207,83 @@ TEST(Accuracy, IsMetByTheRealSpreadOfIndependentRuns) {
   // let pass above make 2 · 1.27² · 1.2², so that an eighth of both is too little.
   raised.lines_per_patch /= 8;
   raised.direct_samples = std::max(8, raised.direct_samples / 8);
+  if (raised.samples_per_patch) *raised.samples_per_patch /= 8;
+  if (raised.power_per_sample_w) *raised.power_per_sample_w *= 8;
   EXPECT_LT(share_that_keeps(split, raised, goal, runs), share_to_be_met);
 }
 
-// Half of the suns, each for two, tell of the same errors.
-TEST(Accuracy, PilotOfSomeSunsStandsForAll) {
-  const SplitRules split{.max_edge_m = 2};
-  const auto suns = day();
+TEST(Accuracy, IsMetByTheRealSpreadOfIndependentRuns) {
+  expect_kept(rules_of(64, 8), 0.02, {.max_edge_m = 1.2});
+}
+
+TEST(Accuracy, IsMetByShooting) {
+  SolverRules least = rules_of(16, 8);
+  least.transport = Transport::shoot;
+  expect_kept(least, 0.2, {.max_edge_m = 2.4});
+}
+
+TEST(Accuracy, IsMetByShootingWithThePowerOfASample) {
+  SolverRules least = rules_of(16, 8);
+  least.transport = Transport::shoot;
+  least.power_per_sample_w = 4;
+  expect_kept(least, 0.2, {.max_edge_m = 2.4});
+}
+
+/// Sums over all patches of what a pilot finds.
+struct SpreadSums {
+  double load = 0, of_line = 0, of_sample = 0, of_shot = 0;
+  explicit SpreadSums(const PatchSpread& spread) {
+    for (std::size_t i = 0; i < spread.area.size(); ++i) {
+      load += spread.area[i] * spread.load[i];
+      of_line += spread.of_line[i];
+      of_sample += spread.of_sample[i];
+      if (!spread.of_shot.empty()) of_shot += spread.of_shot[i];
+    }
+  }
+};
+
+/// Every second of the suns.
+std::vector<SunLight> half_of(const std::vector<SunLight>& suns) {
   std::vector<SunLight> some;
   for (std::size_t k = 0; k < suns.size(); k += 2) some.push_back(suns[k]);
+  return some;
+}
+
+SpreadSums spread_sums(const SolverRules& rules, const std::vector<SunLight>& suns, double weight) {
   Watch watch;
-  const SolverRules rules = rules_of(2048, 512);
   const Scene scene = courtyard();
-  const auto mesh = std::make_shared<const Hierarchy>(scene, split);
-  const auto all = pilot_spread(scene, mesh, rules, suns, 1, watch);
-  const auto half = pilot_spread(scene, mesh, rules, some, 2, watch);
-  double lines_all = 0, lines_half = 0, samples_all = 0, samples_half = 0, load_all = 0,
-         load_half = 0;
-  for (std::size_t i = 0; i < all.area.size(); ++i) {
-    load_all += all.area[i] * all.load[i];
-    load_half += all.area[i] * half.load[i];
-    lines_all += all.of_line[i];
-    lines_half += half.of_line[i];
-    samples_all += all.of_sample[i];
-    samples_half += half.of_sample[i];
-  }
-  EXPECT_NEAR(load_half / load_all, 1, 0.1);
-  // Sums over some hundred patches of variances of 8 realizations; a weight that is squared, or
-  // is not, would be off by 2.
-  EXPECT_NEAR(lines_half / lines_all, 1, 0.4);
-  EXPECT_NEAR(samples_half / samples_all, 1, 0.4);
+  const auto mesh = std::make_shared<const Hierarchy>(scene, SplitRules{.max_edge_m = 2});
+  return SpreadSums(pilot_spread(scene, mesh, rules, suns, weight, watch));
+}
+
+// Half of the suns, each for two, tell of the same errors. Sums over some hundred patches of
+// variances of 8 realizations; a weight that is squared, or is not, would be off by 2.
+constexpr double near_one = 0.4;
+
+TEST(Accuracy, PilotOfSomeSunsStandsForAll) {
+  const SolverRules rules = rules_of(2048, 512);
+  const SpreadSums all = spread_sums(rules, day(), 1), half = spread_sums(rules, half_of(day()), 2);
+  EXPECT_NEAR(half.load / all.load, 1, 0.1);
+  EXPECT_NEAR(half.of_line / all.of_line, 1, near_one);
+  EXPECT_NEAR(half.of_sample / all.of_sample, 1, near_one);
+}
+
+TEST(Accuracy, PilotOfSomeBlocksStandsForAllThatAreShot) {
+  SolverRules rules = rules_of(2048, 512);
+  rules.transport = Transport::shoot;
+  std::vector<SunLight> suns;
+  for (int d = 0; d < 4; ++d)
+    for (SunLight sun : day()) {
+      sun.number = static_cast<std::uint32_t>(suns.size());
+      suns.push_back(sun);
+    }
+  const SpreadSums all = spread_sums(rules, suns, 1), half = spread_sums(rules, half_of(suns), 2);
+  EXPECT_NEAR(half.load / all.load, 1, 0.1);
+  EXPECT_NEAR(half.of_line / all.of_line, 1, near_one);
+  EXPECT_NEAR(half.of_sample / all.of_sample, 1, near_one);
+  EXPECT_NEAR(half.of_shot / all.of_shot, 1, near_one);
+  // Planted fault: as if all suns shared their samples, as they do lines.
+  EXPECT_GT(std::abs(2 * half.of_shot / all.of_shot - 1), near_one);
 }
 
 }  // namespace

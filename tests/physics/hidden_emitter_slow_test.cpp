@@ -1,0 +1,14 @@
+/// The emitter that is hidden, by gathering: lines alone find it in mirrors, and need several times
+/// as long as samples of the lamp (references_08_test) for the same error.
+#include "tests/support/hidden_emitter.h"
+
+namespace sunload::test {
+namespace {
+
+TEST(HiddenEmitter, ArrivesByOneReflection) {
+  if (shared_missing("reference")) return;
+  expect_hidden_emitter(Transport::gather, {128, 256}, 0.005);
+}
+
+}  // namespace
+}  // namespace sunload::test
