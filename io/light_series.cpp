@@ -1,5 +1,7 @@
 #include "io/light_series.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -100,6 +102,24 @@ double sky_zenith_deg(const SunInterval& when) {
   return std::clamp(90 - when.sun.elevation_deg, 0.0, 90.0);
 }
 
+/// What to say where noon by the site's clocks is hours from noon by the sun: a zone or longitude
+/// of somewhere else. Empty for UTC, which is asked for everywhere.
+std::string clock_warning(const std::string& timezone, const Site& site, UnixTime when) {
+  if (timezone == "UTC" || timezone == "Z" || timezone.ends_with("/UTC")) return {};
+  // The widest true gap is 3.1 h: China keeps the time of Beijing as far as 73.5 degrees east.
+  constexpr double widest_gap_h = 3.5, hours_per_day = 24, deg_per_hour = 15;
+  const TimeZone zone(timezone);
+  const double clock_h =
+      zone.standard_offset_s(zone.civil_from_utc(when).year) / seconds_per_hour;
+  const double gap_h =
+      std::remainder(clock_h - site.longitude_deg / deg_per_hour, hours_per_day);
+  if (std::abs(gap_h) <= widest_gap_h) return {};
+  return fmt::format(
+      "clocks of {} are {:.1f} h {} the sun at longitude {:.2f}; are site.timezone and longitude "
+      "right (east is positive)?",
+      timezone, std::abs(gap_h), gap_h > 0 ? "ahead of" : "behind", site.longitude_deg);
+}
+
 SunPath path_of(const std::vector<PeriodStep>& steps, const Study& study, const Site& site,
                 LightSeries& series) {
   if (steps.empty()) throw InputError(study.period.where, "period has no intervals");
@@ -108,6 +128,9 @@ SunPath path_of(const std::vector<PeriodStep>& steps, const Study& study, const 
     series.notes.push_back(
         "part of the period lies outside of the table of UT1-UTC; UT1 = UTC is taken there "
         "(moves the sun's azimuth by at most 0.004 degrees)");
+  if (const auto note = clock_warning(study.site.timezone, site, steps.front().begin);
+      !note.empty())
+    series.notes.push_back(note);
   return sun_path(steps, site, study.sun.refraction, study.sun.ut1_utc);
 }
 

@@ -420,6 +420,8 @@ TEST(Study, WarnsOfValuesWithoutEffect) {
   const auto warnings = read_text(with({{"light", "{turbidity: 4, dni_w_m2: 3}"}})).warnings;
   EXPECT_EQ(warnings.size(), 2u);
   EXPECT_TRUE(has(warnings, "light.turbidity: is not used")) << joined(warnings);
+  const auto bird = read_text(with({{"light", "{model: bird, linke_turbidity: 3}"}})).warnings;
+  EXPECT_TRUE(has(bird, "light.linke_turbidity: is not used")) << joined(bird);
   EXPECT_TRUE(has(
       read_text(with({{"period", "{instants: [2026-06-21T12:00, 2026-06-21T12:10]}"}})).warnings,
       "intervals overlap"));
