@@ -52,6 +52,38 @@ UnixTime change_between(UnixTime before, UnixTime after, const TimeZone& zone) {
   return std::round(after);
 }
 
+std::string clock_time(UnixTime utc, const TimeZone& zone) {
+  constexpr double to_the_minute_s = seconds_per_minute / 2;
+  const CivilTime civil = zone.civil_from_utc(utc + to_the_minute_s);
+  return fmt::format("{:02}:{:02}", civil.hour, civil.minute);
+}
+
+/// "sunrise 06:07, sunset 18:21", or why there is neither.
+std::string passages(const SunEvents& events, const char* up, const char* down,
+                     const TimeZone& zone) {
+  if (events.never_rises) return fmt::format("no {}, the sun stays too low", up);
+  if (events.never_sets) return fmt::format("no {}, the sun stays high enough", down);
+  std::string text;
+  if (events.rise) text = fmt::format("{} {}", up, clock_time(*events.rise, zone));
+  if (events.set)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", down, clock_time(*events.set, zone));
+  return text;
+}
+
+/// Sunrise, noon, sunset and civil twilight on the civil day of an instant.
+std::string day_words(const Site& site, UnixTime first, const TimeZone& zone,
+                      const SunStudy& sun_study) {
+  constexpr double civil_twilight_deg = -6;
+  const UnixTime day = civil_days({first}, zone).front();
+  const SunEphemeris sun(day, day + seconds_per_day, site, sun_study.refraction, sun_study.ut1_utc,
+                         Air{});
+  const SunEvents light = sun_events(sun, day), dusk = sun_events(sun, day, civil_twilight_deg);
+  return fmt::format("{}: {} (upper limb at the sea's horizon), noon {}; civil twilight: {}",
+                     iso_local(day, zone).substr(0, 10),
+                     passages(light, "sunrise", "sunset", zone), clock_time(light.transit, zone),
+                     passages(dusk, "dawn", "dusk", zone));
+}
+
 std::string hills_words(const LightSeries& light, const Horizon& hills) {
   const auto& points = hills.points();
   const auto highest = std::max_element(points.begin(), points.end(), [](auto a, auto b) {
@@ -131,6 +163,8 @@ std::string time_words(const LightSeries& light, const Site& site, const Study& 
     text = fmt::format("  site       {} ({})\n", place_words(site), site_source);
     text += "  first      " + interval_words(light.intervals.front(), zone) + "\n";
     text += "  last       " + interval_words(light.intervals.back(), zone) + "\n";
+    text += "  day        " +
+            day_words(site, light.intervals.front().when.sun_time, zone, study.sun) + "\n";
     if (const auto clock = clock_words(light, zone); !clock.empty())
       text += "  clocks     " + clock + "\n";
   }

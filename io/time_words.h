@@ -21,8 +21,8 @@ std::string clock_words(const LightSeries& light, const TimeZone& zone);
 std::string pole_words(const Site& site, const std::vector<UnixTime>& times, const TimeZone& zone,
                        const SunStudy& sun = {});
 
-/// Which instant and interval the first and last values belong to, changes of the clocks, hills,
-/// where north is, and length and bearing of the shadow of a 1 m pole at local noon.
+/// Which instant and interval the first and last values belong to, sunrise and sunset of the first
+/// day, changes of the clocks, hills, where north is, and length and bearing of the shadow of a 1 m pole at local noon.
 std::string time_words(const LightSeries& light, const Site& site, const Study& study,
                        const std::string& site_source);
 

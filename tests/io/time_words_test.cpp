@@ -20,8 +20,8 @@ const std::string plzen = "latitude_deg: 49.7475, longitude_deg: 13.3776";
 
 Study study_of(const std::string& site, const std::string& period,
                const std::string& scene = "builtin: {name: box_on_plane}") {
-  const std::string text = "format: sunload-study-1\nname: words\nsite: {" + site +
-                           "}\nperiod: {" + period + "}\nscene: {" + scene + "}\n";
+  const std::string text = "format: sunload-study-1\nname: words\nsite: {" + site + "}\nperiod: {" +
+                           period + "}\nscene: {" + scene + "}\n";
   return read_study(write_text("words.yaml", text)).variants.front();
 }
 
@@ -48,7 +48,9 @@ bool says(const std::vector<std::string>& lines, const std::string& part) {
   return false;
 }
 
-bool says(const std::string& text, const std::string& part) { return says(std::vector{text}, part); }
+bool says(const std::string& text, const std::string& part) {
+  return says(std::vector{text}, part);
+}
 
 TEST(NorthWords, TakeTheShortWayRound) {
   EXPECT_TRUE(says(north_words(358.153), "1.847 deg counter-clockwise"));
@@ -93,6 +95,20 @@ TEST(PoleWords, AreTheShadowOfNoon) {
   EXPECT_TRUE(says(text, "deg north, 13.37760 deg east"));
 }
 
+// Table of the U.S. Naval Observatory, as in reference/01_solar_position/rise_transit_set.csv.
+TEST(TimeWords, SayWhenTheSunRisesAndSets) {
+  const auto text = [](const std::string& place, const std::string& day) {
+    return words_of(study_of(place, "days: [" + day + "]")).text;
+  };
+  const std::string summer =
+      text("latitude_deg: 39, longitude_deg: -105, timezone: \"-07:00\"", "2015-08-02");
+  EXPECT_TRUE(says(summer, "day        2015-08-02: sunrise 05:01, sunset 19:10")) << summer;
+  EXPECT_TRUE(says(summer, "civil twilight: dawn 04:3")) << summer;
+  const std::string svalbard = "latitude_deg: 78.22, longitude_deg: 15.65, timezone: UTC";
+  EXPECT_TRUE(says(text(svalbard, "2026-12-21"), "no sunrise")) << text(svalbard, "2026-12-21");
+  EXPECT_TRUE(says(text(svalbard, "2026-06-21"), "no sunset"));
+}
+
 TEST(TimeWords, SayWhatHillsHide) {
   write_text("hills.csv", "azimuth_deg,elevation_deg\n0,80\n180,80\n");
   const std::string text =
@@ -104,7 +120,8 @@ TEST(TimeWords, SayWhatHillsHide) {
 
 TEST(Clocks, TimesThatAreSkippedOrRepeatedAreNamed) {
   const auto notes = [](const std::string& instant) {
-    return words_of(study_of(plzen + ", timezone: Europe/Prague", "instants: [\"" + instant + "\"]"))
+    return words_of(
+               study_of(plzen + ", timezone: Europe/Prague", "instants: [\"" + instant + "\"]"))
         .light.notes;
   };
   EXPECT_TRUE(says(notes("2024-03-31T02:30"), "2024-03-31 02:30 is skipped in Europe/Prague"));
@@ -141,10 +158,10 @@ TEST(SiteOnMap, WarnsOfAMapThatIsNotTheScenes) {
   EXPECT_TRUE(says(on_map(netherlands, 2683000, 1247000).warnings, "area of use"));
   EXPECT_TRUE(says(on_map(netherlands + ", " + plzen, 85000, 447000).warnings,
                    "the sun is that of the study's position"));
-  EXPECT_FALSE(says(on_map(netherlands + ", latitude_deg: 52.0113, longitude_deg: 4.3679", 85000,
-                           447000)
-                        .warnings,
-                    "the sun is that of the study's position"));
+  EXPECT_FALSE(
+      says(on_map(netherlands + ", latitude_deg: 52.0113, longitude_deg: 4.3679", 85000, 447000)
+               .warnings,
+           "the sun is that of the study's position"));
 }
 
 TEST(SiteOnMap, AMapThatCannotBeReadIsNotSaidToGiveNorth) {
