@@ -120,14 +120,27 @@ std::string clock_warning(const std::string& timezone, const Site& site, UnixTim
       timezone, std::abs(gap_h), gap_h > 0 ? "ahead of" : "behind", site.longitude_deg);
 }
 
+/// Puts the model's own luminance in place of the diffuse light while the sun is up, at the
+/// representative sun.
+void make_sky_absolute(LitInterval& interval, const LightStudy& light) {
+  constexpr double lux_per_kilolux = 1000;
+  interval.lm_per_w = efficacy_of(interval);
+  Irradiance& sky = interval.of_the_sky;
+  const double dhi = preetham_illuminance_klx(light.turbidity, sky_zenith_deg(interval.when)) *
+                     lux_per_kilolux / interval.lm_per_w->diffuse;
+  sky.ghi += dhi - sky.dhi;
+  sky.dhi = dhi;
+}
+
 SunPath path_of(const std::vector<PeriodStep>& steps, const Study& study, const Site& site,
                 LightSeries& series) {
   if (steps.empty()) throw InputError(study.period.where, "period has no intervals");
   if (study.sun.ut1_utc == Ut1::table &&
       !(ut1_table_covers(steps.front().begin) && ut1_table_covers(steps.back().end)))
     series.notes.push_back(
-        "part of the period lies outside of the table of UT1-UTC; UT1 = UTC is taken there "
-        "(moves the sun's azimuth by at most 0.004 degrees)");
+        "part of the period lies outside of the table of UT1-UTC, which ends at " +
+        iso_utc(ut1_table_end()) +
+        "; UT1 = UTC is taken there (moves the sun's azimuth by at most 0.004 degrees)");
   if (const auto note = clock_warning(study.site.timezone, site, steps.front().begin);
       !note.empty())
     series.notes.push_back(note);
@@ -196,6 +209,7 @@ LightSeries light_series(const Study& study, const Site& site) {
     LitInterval interval{when, {}, {}};
     if (when.up_s > 0) {
       interval.of_the_sky = sky.mean_while_up(when);
+      if (study.light.sky_scale == SkyScale::absolute) make_sky_absolute(interval, study.light);
       interval.mean = over_interval(when, interval.of_the_sky,
                                     when.sunlit_s == when.up_s ? interval.of_the_sky
                                     : when.sunlit_s > 0        ? sky.mean_while_sunlit(when)
@@ -210,6 +224,7 @@ LuminousEfficacy efficacy_of(const LitInterval& interval) {
   // Water vapour changes the efficacy by some per cent; 2 cm is a usual value in temperate
   // summers, and what Radiance's gendaylit assumes.
   constexpr double water_cm = 2;
+  if (interval.lm_per_w) return *interval.lm_per_w;
   const Irradiance& sky = interval.of_the_sky;
   const double zenith_deg = sky_zenith_deg(interval.when);
   return luminous_efficacy(sky_condition(sky.dni, sky.dhi, zenith_deg,
