@@ -61,14 +61,11 @@ void paint_luminance(Picture& picture, const DomeChart& chart, const SkyDome& do
 
 void paint_colour(Picture& picture, const DomeChart& chart, const SkyDome& dome,
                   SkyColourModel model) {
-  // Where the disc ends, 3 degrees from the sun, the sky has some 0.87 of its brightness: the whole
-  // disc becomes white by day.
-  constexpr double disc_gain = 1.15;
   const Vec3 sun = dome.light.when.direction;
   paint_dome(picture, chart, [&](Horizontal w) {
     if (!dome.hills.is_above(w)) return hills_in_colour;
     // As their author saw them when he chose the reddenings: values of the display, not light.
-    const Rgb c = sky_colour(model, enu_direction(w), sun, disc_gain);
+    const Rgb c = sky_colour(model, enu_direction(w), sun, picture_gain);
     return Colour{c.red, c.green, c.blue};
   });
 }
