@@ -60,7 +60,7 @@ Site site_from_text(const std::string& text);
 std::string position_text(const Site& site);
 
 /// What to warn about where the point lies outside of the projection's area of
-/// use (usually the wrong projection); empty otherwise. Throws as above.
+/// use by more than 0.2° (usually the wrong projection); empty otherwise. Throws as above.
 std::string area_of_use_warning(const std::string& crs, Vec3 position);
 
 }  // namespace sunload

@@ -61,6 +61,10 @@ PerezCoefficients perez_coefficients(const SkyCondition& sky, double sun_zenith_
 /// negative (the formula is, for low turbidity and a low sun).
 double preetham_zenith_luminance_kcd(double turbidity, double sun_zenith_deg);
 
+/// Horizontal illuminance [klx] of the whole sky with that zenith luminance and Preetham's
+/// distribution; the sun at most 90 degrees from the zenith.
+double preetham_illuminance_klx(double turbidity, double sun_zenith_deg);
+
 /// ∫ gradation·indicatrix·cosθ dω over the hemisphere with the sun at this cosine of the
 /// zenith angle, within 2e-7 (measured in the tests), in about 40 µs.
 double horizontal_integral(const SkyShape& shape, double sun_cos_zenith);

@@ -15,6 +15,10 @@ struct Rgb {
 /// of the sky reddened each on its own, so that a low sun stands out.
 enum class SkyColourModel { first, second };
 
+/// Of pictures: where the disc ends, 3 degrees from the sun, the sky has some 0.87 of its
+/// brightness, so that the whole disc becomes all but white by day.
+inline constexpr double picture_gain = 1.15;
+
 /// Colour in [0, 1] of the unit direction `w` on or above the horizon (below counts as on
 /// it), sun in the unit direction `sun`, z up. `gain` strengthens the sun of the second
 /// model. Brightness follows Kittler's clear sky relative to that at the sun.

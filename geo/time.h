@@ -83,5 +83,6 @@ TimeScales time_scales_with_tt_minus_ut1(UnixTime ut1, double tt_minus_ut1_s);
 
 /// False where the bundled UT1 table does not reach (error of azimuth up to 0.004°).
 bool ut1_table_covers(UnixTime utc);
+UnixTime ut1_table_end();
 
 }  // namespace sunload

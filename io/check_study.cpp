@@ -207,12 +207,23 @@ int check_study(const std::string& path, const RunOptions& options, CheckFormat 
   return exit_code::done;
 }
 
+namespace {
+
+/// To stderr: the listing goes to stdout.
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const auto& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+}
+
+}  // namespace
+
 int print_sun(const std::string& path, const std::string& picture) {
   const StudyFile file = read_study(path);
+  print_warnings(file.warnings);
   const Study& study = file.variants.front();
   // The site may come from the scene's CRS, which only its reader knows.
   const Site site = build_scene(study).site;
   const LightSeries light = light_series(study, site);
+  print_warnings(light.notes);
   if (!picture.empty()) {
     draw_sun_diagram(study, site, light, picture);
     return exit_code::done;
@@ -226,7 +237,10 @@ int print_sun(const std::string& path, const std::string& picture) {
 }
 
 int print_sky(const std::string& path, const SkyOptions& options) {
-  const SkyDome dome = sky_dome(read_study(path).variants.front(), options.time);
+  const StudyFile file = read_study(path);
+  print_warnings(file.warnings);
+  const SkyDome dome = sky_dome(file.variants.front(), options.time);
+  print_warnings(dome.notes);
   if (options.picture.empty()) {
     std::cout << sky_csv(sky_rows(dome, options.subdivision));
   } else {

@@ -57,8 +57,7 @@ std::string orientation(const ResultReader& result) {
   site.latitude_deg = latitude;
   site.longitude_deg = result.number_attribute("longitude_deg");
   site.elevation_m = result.number_attribute("elevation_m");
-  return text + line("pole test", pole_words(site, result.doubles("time").front(),
-                                             result_zone(result)));
+  return text + line("pole test", pole_words(site, result.doubles("time"), result_zone(result)));
 }
 
 std::string size(const ResultReader& result, const PatchGroups& groups) {
@@ -76,6 +75,7 @@ std::string accuracy(const ResultReader& result, const PatchGroups& groups,
     return line("accuracy", "not known: the result has no standard errors");
   const auto se = result.doubles("light_load_se");
   const double largest = *std::max_element(load.begin(), load.end());
+  if (largest <= 0) return line("accuracy", "no patch receives light");
   std::vector<double> relative, area;
   for (std::size_t i = 0; i < load.size(); ++i) {
     if (load[i] <= 0 || load[i] < share_that_counts * largest) continue;
@@ -225,6 +225,7 @@ std::string ledger_lines(const ResultReader& result, const std::string& label) {
     if (energy != 0)
       out_words += fmt::format("{}{} {:.5g}", out_words.empty() ? "" : " + ", term, energy);
   }
+  if (in == 0 && out == 0) return line(label.c_str(), "none");
   const double residual = ledger_kwh(result, "residual");
   // An attribute of the term: the dataset of errors may hold those of the instants.
   const double error_kwh = result.has("power_residual")

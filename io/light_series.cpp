@@ -1,5 +1,7 @@
 #include "io/light_series.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -100,14 +102,48 @@ double sky_zenith_deg(const SunInterval& when) {
   return std::clamp(90 - when.sun.elevation_deg, 0.0, 90.0);
 }
 
+/// What to say where noon by the site's clocks is hours from noon by the sun: a zone or longitude
+/// of somewhere else. Empty for UTC, which is asked for everywhere.
+std::string clock_warning(const std::string& timezone, const Site& site, UnixTime when) {
+  if (timezone == "UTC" || timezone == "Z" || timezone.ends_with("/UTC")) return {};
+  // The widest true gap is 3.1 h: China keeps the time of Beijing as far as 73.5 degrees east.
+  constexpr double widest_gap_h = 3.5, hours_per_day = 24, deg_per_hour = 15;
+  const TimeZone zone(timezone);
+  const double clock_h =
+      zone.standard_offset_s(zone.civil_from_utc(when).year) / seconds_per_hour;
+  const double gap_h =
+      std::remainder(clock_h - site.longitude_deg / deg_per_hour, hours_per_day);
+  if (std::abs(gap_h) <= widest_gap_h) return {};
+  return fmt::format(
+      "clocks of {} are {:.1f} h {} the sun at longitude {:.2f}; are site.timezone and longitude "
+      "right (east is positive)?",
+      timezone, std::abs(gap_h), gap_h > 0 ? "ahead of" : "behind", site.longitude_deg);
+}
+
+/// Puts the model's own luminance in place of the diffuse light while the sun is up, at the
+/// representative sun.
+void make_sky_absolute(LitInterval& interval, const LightStudy& light) {
+  constexpr double lux_per_kilolux = 1000;
+  interval.lm_per_w = efficacy_of(interval);
+  Irradiance& sky = interval.of_the_sky;
+  const double dhi = preetham_illuminance_klx(light.turbidity, sky_zenith_deg(interval.when)) *
+                     lux_per_kilolux / interval.lm_per_w->diffuse;
+  sky.ghi += dhi - sky.dhi;
+  sky.dhi = dhi;
+}
+
 SunPath path_of(const std::vector<PeriodStep>& steps, const Study& study, const Site& site,
                 LightSeries& series) {
   if (steps.empty()) throw InputError(study.period.where, "period has no intervals");
   if (study.sun.ut1_utc == Ut1::table &&
       !(ut1_table_covers(steps.front().begin) && ut1_table_covers(steps.back().end)))
     series.notes.push_back(
-        "part of the period lies outside of the table of UT1-UTC; UT1 = UTC is taken there "
-        "(moves the sun's azimuth by at most 0.004 degrees)");
+        "part of the period lies outside of the table of UT1-UTC, which ends at " +
+        iso_utc(ut1_table_end()) +
+        "; UT1 = UTC is taken there (moves the sun's azimuth by at most 0.004 degrees)");
+  if (const auto note = clock_warning(study.site.timezone, site, steps.front().begin);
+      !note.empty())
+    series.notes.push_back(note);
   return sun_path(steps, site, study.sun.refraction, study.sun.ut1_utc);
 }
 
@@ -173,6 +209,7 @@ LightSeries light_series(const Study& study, const Site& site) {
     LitInterval interval{when, {}, {}};
     if (when.up_s > 0) {
       interval.of_the_sky = sky.mean_while_up(when);
+      if (study.light.sky_scale == SkyScale::absolute) make_sky_absolute(interval, study.light);
       interval.mean = over_interval(when, interval.of_the_sky,
                                     when.sunlit_s == when.up_s ? interval.of_the_sky
                                     : when.sunlit_s > 0        ? sky.mean_while_sunlit(when)
@@ -187,6 +224,7 @@ LuminousEfficacy efficacy_of(const LitInterval& interval) {
   // Water vapour changes the efficacy by some per cent; 2 cm is a usual value in temperate
   // summers, and what Radiance's gendaylit assumes.
   constexpr double water_cm = 2;
+  if (interval.lm_per_w) return *interval.lm_per_w;
   const Irradiance& sky = interval.of_the_sky;
   const double zenith_deg = sky_zenith_deg(interval.when);
   return luminous_efficacy(sky_condition(sky.dni, sky.dhi, zenith_deg,

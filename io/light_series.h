@@ -1,6 +1,7 @@
 /// Period, sun path and irradiance of a study: the light of every interval.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "geo/irradiance.h"
@@ -16,6 +17,8 @@ struct LitInterval {
   SunInterval when;
   Irradiance mean;        ///< over the whole interval
   Irradiance of_the_sky;  ///< what the sky's shape follows from: DNI while the sun is up
+  /// Given where a model's luminance was made into irradiance by it.
+  std::optional<LuminousEfficacy> lm_per_w{};
 };
 
 struct LightSeries {
@@ -32,7 +35,7 @@ struct LightSeries {
 LightSeries light_series(const Study& study, const Site& site);
 
 /// Lumens per watt of an interval's light (Perez et al. 1990) under the sky that it has while the
-/// sun is up; with 2 cm of precipitable water, which most sources of light do not tell.
+/// sun is up, unless it has its own; with 2 cm of precipitable water, which most sources of light do not tell.
 LuminousEfficacy efficacy_of(const LitInterval& interval);
 
 /// Means over the interval in the study's quantity: W m-2 as they are, or lx: DNI and DHI by their

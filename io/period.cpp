@@ -12,21 +12,33 @@ namespace {
 /// 2000-01-01T12:00:00Z: where positions without a date begin.
 constexpr UnixTime synthetic_epoch = 946728000;
 
+/// "2026-03-29 02:30".
+std::string clock_reading(const CivilTime& civil) {
+  std::string text = iso_utc(utc_from_calendar(civil));
+  text.pop_back();
+  text.replace(text.find('T'), 1, " ");
+  return text.ends_with(":00") ? text.substr(0, text.size() - 3) : text;
+}
+
 UnixTime resolved(const CivilTime& civil, const TimeZone& zone, std::vector<std::string>& notes) {
   const ResolvedTime time = zone.utc_from_civil(civil);
-  if (time.change == ClockChange::skipped)
-    notes.push_back("a clock time of the period is skipped in " + zone.name() +
-                    "; taken as " + iso_local(time.utc, zone));
-  if (time.change == ClockChange::repeated)
-    notes.push_back("a clock time of the period occurs twice in " + zone.name() +
-                    "; taken as the first, " + iso_local(time.utc, zone));
+  if (time.change == ClockChange::none) return time.utc;
+  const bool is_skipped = time.change == ClockChange::skipped;
+  notes.push_back(clock_reading(civil) +
+                  (is_skipped ? " is skipped in " : " occurs twice in ") + zone.name() +
+                  ", where clocks change then; taken as " + (is_skipped ? "" : "the first, ") +
+                  iso_local(time.utc, zone));
   return time.utc;
 }
 
-UnixTime resolved(const ParsedTime& time, const TimeZone& zone, std::vector<std::string>& notes) {
+}  // namespace
+
+UnixTime utc_of(const ParsedTime& time, const TimeZone& zone, std::vector<std::string>& notes) {
   if (time.has_offset) return utc_from_calendar(time.civil) - time.offset_s;
   return resolved(time.civil, zone, notes);
 }
+
+namespace {
 
 /// Midnight of a day plus a time of day; 24:00 is the next midnight.
 CivilTime at_time_of_day(CivilTime day, double seconds) {
@@ -57,13 +69,13 @@ struct StepsOf {
                    period.step_min * seconds_per_minute, out.steps);
   }
   void operator()(const RangePeriod& period) const {
-    append_steps(resolved(period.start, zone, out.notes), resolved(period.end, zone, out.notes),
+    append_steps(utc_of(period.start, zone, out.notes), utc_of(period.end, zone, out.notes),
                  period.step_min * seconds_per_minute, out.steps);
   }
   void operator()(const InstantsPeriod& period) const {
     const double half = period.interval_min * seconds_per_minute / 2;
     for (const auto& instant : period.instants) {
-      const UnixTime t = resolved(instant, zone, out.notes);
+      const UnixTime t = utc_of(instant, zone, out.notes);
       out.steps.push_back({t - half, t + half, t, SunInstant::given});
     }
   }

@@ -10,6 +10,9 @@
 
 namespace sunload {
 
+/// UTC of a time as a study writes it; what happens to it where clocks change goes to `notes`.
+UnixTime utc_of(const ParsedTime& time, const TimeZone& zone, std::vector<std::string>& notes);
+
 struct PeriodSteps {
   std::vector<PeriodStep> steps;
   std::vector<std::string> notes;  ///< hours that the clocks skip or repeat

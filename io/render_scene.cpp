@@ -128,7 +128,7 @@ class Painter {
     if (w.z < 0) return far_ground_;
     const auto c = sky_colour(background_.kind == SkyBackground::first ? SkyColourModel::first
                                                                        : SkyColourModel::second,
-                              w, background_.sun);
+                              w, background_.sun, picture_gain);
     return linear({c.red, c.green, c.blue});
   }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "geo/weather.h"
 #include "io/material_assign.h"
 #include "io/scene_file.h"
 #include "io/scene_models.h"
@@ -52,21 +53,47 @@ PrepareRules prepare_rules(const Study& study, const PolygonModel& model, const 
   return rules;
 }
 
-Site resolve_site(const Study& study, const PolygonModel& model, std::string& source) {
+/// Site of the scene's middle on its map; `built` gets where it comes from and what is doubtful.
+/// Where the study gives a position a map of no use is only warned about.
+Site site_on_map(const SiteStudy& given, const std::string& crs, const PolygonModel& model,
+                 BuiltScene& built) {
+  constexpr double far_m = 10000;  // moves the sun by up to 0.1 degrees
+  const Box box = bounding_box(model.vertices);
+  Vec3 middle = (box.low + box.high) / 2;
+  middle.z = box.low.z;
+  Site site;
+  try {
+    site = site_from_crs(crs, middle);
+  } catch (const InputError& error) {
+    if (!given.latitude_deg) throw;
+    built.warnings.push_back(std::string(error.problems().front()) +
+                             "; north and elevation are not taken from it");
+    built.site_source = "position from the study";
+    return site;
+  }
+  built.site_source = given.latitude_deg ? "position from the study, north from " + crs
+                                         : "position and north from " + crs;
+  if (const auto warning = area_of_use_warning(crs, middle); !warning.empty())
+    built.warnings.push_back(warning);
+  if (!given.latitude_deg) return site;
+  const double away_m =
+      distance_m(site, {.latitude_deg = *given.latitude_deg,
+                        .longitude_deg = given.longitude_deg.value_or(0)});
+  if (away_m > far_m)
+    built.warnings.push_back(fmt::format(
+        "the position of the study is {:.0f} km from where {} puts the scene (latitude {:.4f}, "
+        "longitude {:.4f}); the sun is that of the study's position",
+        away_m / 1000, crs, site.latitude_deg, site.longitude_deg));
+  return site;
+}
+
+Site resolve_site(const Study& study, const PolygonModel& model, BuiltScene& built) {
   const SiteStudy& given = study.site;
   const std::string crs = given.crs.empty() ? model.crs : given.crs;
+  std::string& source = built.site_source;
   Site site;
   if (!crs.empty() && !model.vertices.empty()) {
-    const Box box = bounding_box(model.vertices);
-    Vec3 middle = (box.low + box.high) / 2;
-    middle.z = box.low.z;
-    try {
-      site = site_from_crs(crs, middle);
-      source = "position and north from " + crs;
-    } catch (const InputError&) {
-      if (!given.latitude_deg) throw;
-      source = crs + " could not be used";
-    }
+    site = site_on_map(given, crs, model, built);
   } else if (const auto station = given.latitude_deg ? std::nullopt : weather_place(study)) {
     site.latitude_deg = station->latitude_deg;
     site.longitude_deg = station->longitude_deg;
@@ -80,7 +107,7 @@ Site resolve_site(const Study& study, const PolygonModel& model, std::string& so
   if (given.latitude_deg) {
     site.latitude_deg = *given.latitude_deg;
     site.longitude_deg = given.longitude_deg.value_or(0);
-    source = crs.empty() ? "position from the study" : "position from the study, north from " + crs;
+    if (source.empty()) source = "position from the study";
   }
   if (given.elevation_m) site.elevation_m = *given.elevation_m;
   if (given.north_deg) {
@@ -141,11 +168,12 @@ BuiltScene build_scene(const Study& study) {
   BuiltScene built;
   const PolygonModel model = read_models(study);
   built.notes = model.notes;
-  built.site = resolve_site(study, model, built.site_source);
+  built.site = resolve_site(study, model, built);
   built.crs = study.site.crs.empty() ? model.crs : study.site.crs;
   PreparedMesh prepared = prepare(model, prepare_rules(study, model, built.site));
   built.report = std::move(prepared.report);
-  built.warnings = built.report.warnings;
+  built.warnings.insert(built.warnings.end(), built.report.warnings.begin(),
+                        built.report.warnings.end());
   built.scene.mesh = std::move(prepared.mesh);
   assign_materials(study, built.scene, built.warnings);
   built.scene.parallel_sources = read_parallel_sources(study, built.scene.mesh.origin, built);

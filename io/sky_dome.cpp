@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/period.h"
 #include "io/scene_build.h"
 
 namespace sunload {
@@ -22,16 +23,19 @@ LitInterval position_at(const Study& study, const Site& site, UnixTime utc) {
                    "choose a time in between");
 }
 
-LitInterval light_at(const Study& study, const Site& site, UnixTime utc) {
+LitInterval light_at(const Study& study, const Site& site, UnixTime utc,
+                     std::vector<std::string>& notes) {
   if (std::holds_alternative<PositionsPeriod>(study.period.kind))
     return position_at(study, site, utc);
   constexpr double moment_min = 1 / seconds_per_minute;  // short: the value of the instant
   Study moment = study;
   moment.period.kind = InstantsPeriod{{{calendar_from_utc(utc), true, true, 0}}, moment_min};
-  return light_series(moment, site).intervals.front();
+  const LightSeries light = light_series(moment, site);
+  notes.insert(notes.end(), light.notes.begin(), light.notes.end());
+  return light.intervals.front();
 }
 
-UnixTime instant(const std::string& text, const TimeZone& zone) {
+UnixTime instant(const std::string& text, const TimeZone& zone, std::vector<std::string>& notes) {
   ParsedTime time;
   try {
     time = parse_time(text);
@@ -41,8 +45,25 @@ UnixTime instant(const std::string& text, const TimeZone& zone) {
   if (!time.has_time)
     throw InputError({}, "--time " + text + " has no time of day", "the sky of an instant is asked",
                      "write for example --time " + text + "T12:00");
-  if (time.has_offset) return utc_from_calendar(time.civil) - time.offset_s;
-  return zone.utc_from_civil(time.civil).utc;
+  return utc_of(time, zone, notes);
+}
+
+std::string sky_words(const LightStudy& light) {
+  switch (light.sky) {
+    case SkyModel::uniform:
+      return "uniform sky";
+    case SkyModel::cie_overcast:
+      return "CIE overcast sky";
+    case SkyModel::cie_clear:
+      return "CIE clear sky";
+    case SkyModel::cie_general:
+      return fmt::format("CIE general sky {}", light.sky_type);
+    case SkyModel::perez:
+      return "Perez all-weather sky";
+    case SkyModel::preetham:
+      return fmt::format("Preetham sky, turbidity {:g}", light.turbidity);
+  }
+  return {};
 }
 
 /// What of a patch hills leave free, counted on points of equal solid angle.
@@ -69,18 +90,21 @@ double SkyDome::radiance(Horizontal w) const {
 
 SkyDome sky_dome(const Study& study, const std::string& time) {
   const TimeZone zone(study.site.timezone);
-  const UnixTime utc = instant(time, zone);
+  std::vector<std::string> notes;
+  const UnixTime utc = instant(time, zone, notes);
   // The site may come from the scene's CRS, which only its reader knows.
   Site site = build_scene(study).site;
   site.north_deg = 0;  // axes of the dome: x east, y north
-  const LitInterval light = light_at(study, site, utc);
+  const LitInterval light = light_at(study, site, utc, notes);
   const bool has_place = !std::holds_alternative<PositionsPeriod>(study.period.kind);
   return {light,
           sky_of(light, study.light),
           site.horizon,
           study.light.far_ground_albedo * light.mean.ghi / pi,
           study.name + (has_place ? ", " + position_text(site) : ""),
-          iso_local(utc, zone)};
+          sky_words(study.light),
+          iso_local(utc, zone),
+          notes};
 }
 
 std::vector<SkyRow> sky_rows(const SkyDome& dome, std::optional<Subdivision> subdivision) {
@@ -95,7 +119,7 @@ std::vector<SkyRow> sky_rows(const SkyDome& dome, std::optional<Subdivision> sub
       const double share = open.empty() ? 1 : open[c];
       rows.push_back({middle.azimuth_deg, middle.elevation_deg,
                       share * radiance[c] + (1 - share) * dome.ground_radiance,
-                      grid.solid_angle()});
+                      grid.solid_angle(), grid.projected()[c]});
     }
     return rows;
   }
@@ -106,16 +130,17 @@ std::vector<SkyRow> sky_rows(const SkyDome& dome, std::optional<Subdivision> sub
     const double share = open_share(patches[p], dome.hills);
     rows.push_back({middle.azimuth_deg, middle.elevation_deg,
                     share * radiance[p] + (1 - share) * dome.ground_radiance,
-                    patches[p].solid_angle});
+                    patches[p].solid_angle, patches[p].projected});
   }
   return rows;
 }
 
 std::string sky_csv(const std::vector<SkyRow>& rows) {
-  std::string text = "azimuth_deg,elevation_deg,radiance_w_m2_sr,solid_angle_sr\n";
+  std::string text =
+      "azimuth_deg,elevation_deg,radiance_w_m2_sr,solid_angle_sr,projected_solid_angle_sr\n";
   for (const auto& row : rows)
-    text += fmt::format("{:.6f},{:.6f},{:.8g},{:.8g}\n", row.azimuth_deg, row.elevation_deg,
-                        row.radiance, row.solid_angle);
+    text += fmt::format("{:.6f},{:.6f},{:.8g},{:.8g},{:.8g}\n", row.azimuth_deg,
+                        row.elevation_deg, row.radiance, row.solid_angle, row.projected);
   return text;
 }
 

@@ -19,7 +19,8 @@ struct SkyDome {
   Sky sky;
   Horizon hills;
   double ground_radiance = 0;  ///< of the far ground and the hills [W m-2 sr-1]
-  std::string place, when;     ///< in words
+  std::string place, model, when;  ///< in words
+  std::vector<std::string> notes;  ///< what the user should know of time and light
 
   /// Radiance of sky or hills [W m-2 sr-1] in a direction above the horizon.
   double radiance(Horizontal w) const;
@@ -34,11 +35,12 @@ struct SkyRow {
   double azimuth_deg = 0, elevation_deg = 0;  ///< of the middle
   double radiance = 0;                        ///< mean over the patch [W m-2 sr-1]
   double solid_angle = 0;                     ///< [sr]
+  double projected = 0;  ///< ∫ sin(elevation) dω [sr]: times the radiance it is irradiance
 };
 /// Patches of a subdivision, or without one the 64 × 64 equal cells that the solver uses.
 /// Hills count by the share of a patch that they fill.
 std::vector<SkyRow> sky_rows(const SkyDome& dome, std::optional<Subdivision> subdivision);
-/// `azimuth_deg,elevation_deg,radiance_w_m2_sr,solid_angle_sr`
+/// `azimuth_deg,elevation_deg,radiance_w_m2_sr,solid_angle_sr,projected_solid_angle_sr`
 std::string sky_csv(const std::vector<SkyRow>& rows);
 
 /// luminance: false colour [kcd m-2], by Perez's luminous efficacy of the diffuse light.

@@ -65,7 +65,7 @@ void paint_colour(Picture& picture, const DomeChart& chart, const SkyDome& dome,
   paint_dome(picture, chart, [&](Horizontal w) {
     if (!dome.hills.is_above(w)) return hills_in_colour;
     // As their author saw them when he chose the reddenings: values of the display, not light.
-    const Rgb c = sky_colour(model, enu_direction(w), sun);
+    const Rgb c = sky_colour(model, enu_direction(w), sun, picture_gain);
     return Colour{c.red, c.green, c.blue};
   });
 }
@@ -97,10 +97,10 @@ void draw_sky(const SkyDome& dome, const SkyPictureRules& rules, const std::stri
   draw_title(
       picture,
       fmt::format("Sky {}: {} ({})", is_luminance ? "luminance" : "colour", dome.when, dome.place),
-      fmt::format("sun (ring): azimuth {:.2f}°, elevation {:.2f}°; DNI {:.0f}, DHI {:.0f} W/m²; "
-                  "equidistant fisheye, {}",
-                  sun.azimuth_deg, sun.elevation_deg, dome.light.mean.dni, dome.light.mean.dhi,
-                  dome_convention));
+      fmt::format("{}; sun (ring): azimuth {:.2f}°, elevation {:.2f}°; DNI {:.3g}, DHI {:.3g} "
+                  "W/m²; equidistant, {}",
+                  is_luminance ? dome.model : "clear sky", sun.azimuth_deg, sun.elevation_deg,
+                  dome.light.mean.dni, dome.light.mean.dhi, dome_convention));
   picture.save(path);
 }
 

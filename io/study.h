@@ -82,6 +82,9 @@ struct SunStudy {
 enum class LightColour { sky, white };
 
 enum class LightSource { clear_sky, weather, fixed };
+/// Strength of the sky: that of the source's diffuse irradiance, or the model's own luminance.
+enum class SkyScale { diffuse, absolute };
+
 struct LightStudy {
   LightSource source = LightSource::clear_sky;
   ClearSkyModel model = ClearSkyModel::ineichen;
@@ -90,6 +93,7 @@ struct LightStudy {
   SkyModel sky = SkyModel::perez;
   int sky_type = 12;           ///< of cie_general
   double turbidity = 3;        ///< of preetham
+  SkyScale sky_scale = SkyScale::diffuse;
   double far_ground_albedo = 0.2;
   Quantity quantity = Quantity::irradiance;
   std::string weather;         ///< file, already resolved; the rest is of `weather` too

@@ -97,17 +97,25 @@ json canonical(const SunStudy& sun) {
 
 json canonical(const LightStudy& light) {
   const auto& [source, model, linke_turbidity, dni_w_m2, dhi_w_m2, sky, sky_type, turbidity,
-               far_ground_albedo, quantity, weather, colour, stamp, missing, decomposition] = light;
+               sky_scale, far_ground_albedo, quantity, weather, colour, stamp, missing,
+               decomposition] = light;
   // The weather file is hashed by its bytes; the colour belongs to the solver's bands.
-  return {{"stamp", maybe(stamp)},
-          {"quantity", quantity},
-          {"missing", missing},
-          {"decomposition", decomposition},
-          {"source", source},      {"model", model},
-          {"dni_w_m2", dni_w_m2},  {"linke_turbidity", linke_turbidity.monthly},
-          {"dhi_w_m2", dhi_w_m2},  {"sky", sky},
-          {"sky_type", sky_type},  {"far_ground_albedo", far_ground_albedo},
-          {"turbidity", turbidity}};
+  json canon = {{"stamp", maybe(stamp)},
+                {"quantity", quantity},
+                {"missing", missing},
+                {"decomposition", decomposition},
+                {"source", source},
+                {"model", model},
+                {"dni_w_m2", dni_w_m2},
+                {"linke_turbidity", linke_turbidity.monthly},
+                {"dhi_w_m2", dhi_w_m2},
+                {"sky", sky},
+                {"sky_type", sky_type},
+                {"far_ground_albedo", far_ground_albedo},
+                {"turbidity", turbidity}};
+  // The usual scale has no key: hashes stay those of the time before there was another.
+  if (sky_scale != SkyScale::diffuse) canon["sky_scale"] = sky_scale;
+  return canon;
 }
 
 json canonical(const MaterialStudy& material) {

@@ -45,6 +45,8 @@ void warn_unused(YamlMap& map, const LightStudy& light) {
   if (light.source != LightSource::clear_sky) {
     unused("model", "source: clear_sky");
     unused("linke_turbidity", "source: clear_sky");
+  } else if (light.model != ClearSkyModel::ineichen) {
+    unused("linke_turbidity", "model: ineichen");
   }
   if (light.source != LightSource::weather) {
     for (const char* key : {"weather", "stamp", "missing", "decomposition"}) {
@@ -123,6 +125,15 @@ LightStudy read_light(YamlMap& map, const std::string& folder) {
                          light.sky);
   light.sky_type = map.integer("sky_type", 1, cie_sky_types, light.sky_type);
   light.turbidity = map.number("turbidity", preetham_turbidities, light.turbidity);
+  light.sky_scale = map.choice(
+      "sky_scale", {{"diffuse", SkyScale::diffuse}, {"absolute", SkyScale::absolute}},
+      light.sky_scale);
+  if (light.sky_scale == SkyScale::absolute &&
+      (light.sky != SkyModel::preetham || light.source != LightSource::clear_sky))
+    map.problem("sky_scale", "absolute goes with sky: preetham and source: clear_sky only",
+                "no other model has a luminance of its own, and other sources say how bright the "
+                "sky is",
+                "write sky_scale: diffuse");
   light.far_ground_albedo = map.number("far_ground_albedo", albedos, light.far_ground_albedo);
   read_weather(map, folder, light);
   light.quantity = map.choice(

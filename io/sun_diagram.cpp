@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "geo/seasons.h"
@@ -63,6 +64,7 @@ class SunDiagram {
     chart_.draw_line(picture_, site_.horizon, hills_line);
     draw_scene_axis();
     draw_suns();
+    for (const auto& [hour, place] : hour_labels_) label_hour(hour, place);
     draw_words();
     picture_.save(path);
   }
@@ -114,10 +116,11 @@ class SunDiagram {
     draw_above(places, is_season ? 2 : 1, arc_colour);
     label_arc(places,
               fmt::format("{} {}", date.day, month_names[static_cast<std::size_t>(month) - 1]),
-              month);
+              month, middle);
   }
 
-  void label_arc(const std::vector<Horizontal>& places, const std::string& text, int month) {
+  void label_arc(const std::vector<Horizontal>& places, const std::string& text, int month,
+                 UnixTime transit) {
     constexpr double label_share = 0.012;
     constexpr int last_rising_month = 6;
     const bool at_rise = month <= last_rising_month;
@@ -131,10 +134,26 @@ class SunDiagram {
       picture_.write({p.x, p.y + 0.3 * style.size}, text, style);
       return;
     }
-    // Polar day: beside the highest point. Polar night has no arc.
+    // Polar night has no arc; that of a polar day carries its date on the line.
     if (places.front().elevation_deg < 0) return;
-    const PicturePoint p = chart_.at(places[places.size() / 2]);
-    picture_.write({p.x, p.y - 0.3 * style.size}, text, style);
+    const PicturePoint p = chart_.at(place_of((*sun_)(beside_transit(transit, at_rise))));
+    write_over({p.x, p.y + 0.35 * style.size}, text,
+               {style.size, Align::centre, style.weight, style.colour});
+  }
+
+  /// The half hour of standard time before or after a transit: between two hour lines.
+  UnixTime beside_transit(UnixTime transit, bool before) const {
+    const double offset_s = zone_.standard_offset_s(year());
+    const double half = std::floor((transit + offset_s) / seconds_per_hour - 0.5) + 0.5;
+    return (before ? half : half + 1) * seconds_per_hour - offset_s;
+  }
+
+  /// Centred text on a white patch, so that it can be read on lines and dots.
+  void write_over(PicturePoint at, const std::string& text, const TextStyle& style) {
+    const double width = picture_.text_width(text, style);
+    picture_.fill_rectangle({at.x - width / 2, at.y - 0.8 * style.size}, width, 0.9 * style.size,
+                            {1, 1, 1});
+    picture_.write(at, text, style);
   }
 
   /// The sun at one hour of standard time on every day, in the two halves of the year.
@@ -157,8 +176,8 @@ class SunDiagram {
     draw_above(rising, 1.1, rising_half);
     draw_above(falling, 1.1, falling_half);
     constexpr double least_elevation_deg = 3;
-    if (highest.front().elevation_deg < least_elevation_deg) return;
-    label_hour(hour, highest.front());
+    if (highest.front().elevation_deg >= least_elevation_deg)
+      hour_labels_.push_back({hour, highest.front()});
   }
 
   /// Beside the highest point, on the side where the hour line ends.
@@ -168,10 +187,10 @@ class SunDiagram {
                        inside = chart_.at({highest.azimuth_deg, highest.elevation_deg + 1});
     const double length = std::hypot(inside.x - p.x, inside.y - p.y);
     const double shift = length > 0 ? distance * chart_.text_size() / length : 0;
-    picture_.write({p.x + shift * (inside.x - p.x),
-                    p.y + shift * (inside.y - p.y) + 0.36 * chart_.text_size()},
-                   fmt::format("{}", hour),
-                   {chart_.text_size() * 0.9, Align::centre, Weight::bold, ink});
+    write_over({p.x + shift * (inside.x - p.x),
+                p.y + shift * (inside.y - p.y) + 0.36 * chart_.text_size()},
+               fmt::format("{}", hour),
+               {chart_.text_size() * 0.9, Align::centre, Weight::bold, ink});
   }
 
   void draw_scene_axis() {
@@ -233,6 +252,8 @@ class SunDiagram {
   const LightSeries& light_;
   TimeZone zone_;
   std::optional<SunEphemeris> sun_;  ///< of the whole year
+  /// Hours with the highest points of their lines.
+  std::vector<std::pair<int, Horizontal>> hour_labels_;
   Picture picture_;
   DomeChart chart_;
 };

@@ -230,8 +230,13 @@ void StudyWeather::say_closure(const std::vector<DatedWeather>& used, const SunP
 }
 
 void StudyWeather::refuse_uncovered(const SunInterval& when) const {
+  const int year = calendar_from_utc(when.begin).year;
+  const CivilTime date = calendar_from_utc(when.begin + offset_s(year));
+  const bool is_leap_day = date.month == 2 && date.day == 29;
   const std::string why =
-      dated_.empty()
+      years_ == WeatherYears::typical && is_leap_day
+          ? std::string("typical years have no 29 February")
+      : dated_.empty()
           ? std::string("it has no date in that year")
           : fmt::format("it reaches from {} to {}{}", iso_utc(dated_.front().begin),
                         iso_utc(dated_.back().end),

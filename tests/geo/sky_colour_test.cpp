@@ -49,6 +49,28 @@ TEST(SkyColour, FirstModelFollowsItsFormula) {
   EXPECT_NEAR(sky_colour(SkyColourModel::second, up, sun).red, 0.150 * (1 - I) + I, 1e-12);
 }
 
+TEST(SkyColour, TheDiscIsWhiteByDayAndStandsOutAtDusk) {
+  constexpr double edge_deg = 3, beyond_deg = 15;
+  for (const double elevation_deg : {40.0, 50.0}) {
+    const Vec3 sun = enu_direction({180, elevation_deg});
+    for (const double azimuth_deg : {0.0, 180.0}) {  // of the edge, seen from the disc's middle
+      const double sign = azimuth_deg == 0 ? 1 : -1;
+      const auto colour = [&](double away_deg) {
+        return sky_colour(SkyColourModel::second,
+                          enu_direction({180, elevation_deg + sign * away_deg}), sun,
+                          picture_gain);
+      };
+      EXPECT_GT(colour(edge_deg).red, 0.99);
+      EXPECT_LT(colour(beyond_deg).red, 0.9);
+    }
+  }
+  const Vec3 low = enu_direction({180, 5});
+  const auto disc = sky_colour(SkyColourModel::second, low, low, picture_gain);
+  const auto halo =
+      sky_colour(SkyColourModel::second, enu_direction({184.1, 5}), low, picture_gain);
+  EXPECT_GT(disc.green, 1.5 * halo.green);
+}
+
 TEST(SkyColour, StaysWithinItsRange) {
   for (const auto model : models) {
     for (const double sun_deg : {-10.0, 0.0, 5.0, 40.0, 90.0}) {

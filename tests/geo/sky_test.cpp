@@ -198,6 +198,8 @@ TEST(Preetham, MeetsTheReference) {
     expect_relative(integral, number(row, "Eh_over_Yz"), 1e-6, "integral");
     expect_relative(integral * preetham_zenith_luminance_kcd(turbidity, sun_zenith_deg),
                     number(row, "Eh_klx"), 1e-6, "illuminance");
+    expect_relative(preetham_illuminance_klx(turbidity, sun_zenith_deg), number(row, "Eh_klx"),
+                    1e-6, "illuminance");
   }
 }
 

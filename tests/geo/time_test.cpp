@@ -171,6 +171,7 @@ TEST(Time, ScalesAreThoseOfTheBulletins) {
   EXPECT_EQ(ut1_minus_utc("2030-01-01T00:00"), 0);
   EXPECT_TRUE(ut1_table_covers(instant("2025-12-31T23:59")));
   EXPECT_FALSE(ut1_table_covers(instant("2026-01-01T00:00")));
+  EXPECT_EQ(ut1_table_end(), instant("2026-01-01T00:00"));
   EXPECT_FALSE(ut1_table_covers(instant("1971-12-31T23:59")));
   // UT1−UTC stays below 0.9 s by definition: a wrong line of the table would break that.
   constexpr double agreed_limit_s = 0.9;

@@ -114,5 +114,33 @@ TEST(Illuminance, IsAnotherContentAndKnowsNoLamps) {
   }
 }
 
+// Preetham, Shirley & Smits (1999): zenith luminance and the sky's illuminance, on an open plane.
+TEST(Illuminance, OfTheAbsoluteSkyIsTheModelsOwn) {
+  Study absolute;
+  absolute.site.timezone = "UTC";
+  absolute.period.kind = InstantsPeriod{{parse_time("2024-06-21T12:00Z")}, 10};
+  absolute.light.sky = SkyModel::preetham;
+  absolute.light.sky_scale = SkyScale::absolute;
+  absolute.light.turbidity = 4;
+  const Site site{.latitude_deg = 50, .longitude_deg = 0};
+  const auto noon = [&](Quantity quantity) {
+    absolute.light.quantity = quantity;
+    const LitInterval interval = light_series(absolute, site).intervals.front();
+    return std::pair(interval, source_means(interval, quantity));
+  };
+  const auto [interval, lux] = noon(Quantity::illuminance);
+  const double klx = preetham_illuminance_klx(4, 90 - interval.when.sun.elevation_deg);
+  EXPECT_GT(klx, 20);
+  EXPECT_NEAR(lux.dhi, 1000 * klx, 1e-9 * lux.dhi);
+  const Irradiance power = noon(Quantity::irradiance).second;
+  EXPECT_NEAR(power.dhi * interval.lm_per_w->diffuse, lux.dhi, 1e-9 * lux.dhi);
+  // The beam is that of the clear sky either way.
+  absolute.light.sky_scale = SkyScale::diffuse;
+  const Irradiance scaled = noon(Quantity::irradiance).second;
+  EXPECT_EQ(scaled.dni, power.dni);
+  EXPECT_NE(scaled.dhi, power.dhi);
+  EXPECT_NEAR(scaled.ghi - scaled.dhi, power.ghi - power.dhi, 1e-9 * power.ghi);
+}
+
 }  // namespace
 }  // namespace sunload

@@ -43,6 +43,14 @@ TEST(Info, OneScreenSaysWhatWhenAndHowGood) {
   EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 24);  // a screen
 }
 
+TEST(Info, ASceneInTheDarkHasNoAccuracy) {
+  SmallResult dark;
+  dark.load = [](const std::string&, Vec3, std::size_t) { return 0; };
+  const auto text = info_text(ResultReader(write_small_result(dark, "info_dark")));
+  expect_in(text, "no patch receives light");
+  EXPECT_EQ(text.find("nan"), std::string::npos) << text;
+}
+
 TEST(Info, IntervalOfATimeIsFoundInCivilTimeAndUtc) {
   const ResultReader result(write_small_result(SmallResult{}, "info_time"));
   EXPECT_EQ(brightest_interval(result), 1u);

@@ -290,7 +290,8 @@ TEST(Render, ThePlaneBehindIsTheSkysColour) {
   for (const auto& [kind, model] : {std::pair{SkyBackground::first, SkyColourModel::first},
                                     std::pair{SkyBackground::second, SkyColourModel::second}}) {
     const auto pixels = traced.pixels(colours, {kind, sun});
-    const auto expected = sky_colour(model, camera.ray(size / 2.0, size / 2.0).direction, sun);
+    const auto expected =
+        sky_colour(model, camera.ray(size / 2.0, size / 2.0).direction, sun, picture_gain);
     const Colour encoded{expected.red, expected.green, expected.blue};  // values of a display
     EXPECT_LT(colour_difference(pixels[size / 2 * size + size / 2], encoded), 0.5);
     EXPECT_GT(colour_difference(plain_sky, encoded), 5);

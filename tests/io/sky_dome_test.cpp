@@ -56,7 +56,38 @@ TEST(SkyDome, TableHoldsTheDiffuseLight) {
                 tolerances[n] * dome.light.mean.dhi);
   }
   const std::string csv = sky_csv(sky_rows(dome, Subdivision::tregenza));
-  EXPECT_TRUE(csv.starts_with("azimuth_deg,elevation_deg,radiance_w_m2_sr,solid_angle_sr\n0.0"));
+  EXPECT_TRUE(
+      csv.starts_with("azimuth_deg,elevation_deg,radiance_w_m2_sr,solid_angle_sr,"
+                      "projected_solid_angle_sr\n0.0"));
+}
+
+// By the exact projection no light is lost or won at the horizon, of a low sun either; what is
+// left is that radiance and cosine vary together inside of a patch.
+TEST(SkyDome, ProjectionsOfPatchesKeepTheDiffuseLight) {
+  const SkyDome dome = sky_dome(study_at_prague(), "2026-06-21T05:30");
+  const auto error = [&](std::optional<Subdivision> subdivision, auto cosine_weight) {
+    double sum = 0;
+    for (const auto& row : sky_rows(dome, subdivision)) sum += row.radiance * cosine_weight(row);
+    return std::abs(sum / dome.light.mean.dhi - 1);
+  };
+  const auto exact = [](const SkyRow& row) { return row.projected; };
+  const auto middle = [](const SkyRow& row) {
+    return row.solid_angle * std::sin(radians(row.elevation_deg));
+  };
+  EXPECT_LT(error({}, exact), 1e-9);
+  for (const auto kind : {Subdivision::reinhart_mf2, Subdivision::reinhart_mf4})
+    EXPECT_LT(error(kind, exact), error(kind, middle));
+  double projected = 0;
+  for (const auto& row : sky_rows(dome, Subdivision::tregenza)) projected += row.projected;
+  EXPECT_NEAR(projected, pi, 1e-9);
+}
+
+TEST(SkyDome, SaysWhatHappensToItsTime) {
+  const SkyDome skipped = sky_dome(study_at_prague(), "2024-03-31T02:30");
+  ASSERT_FALSE(skipped.notes.empty());
+  EXPECT_NE(skipped.notes.front().find("02:30 is skipped"), std::string::npos);
+  EXPECT_TRUE(sky_dome(study_at_prague(), "2024-03-31T12:30").notes.empty());
+  EXPECT_EQ(skipped.model, "Perez all-weather sky");
 }
 
 TEST(SkyDome, BrightestPatchIsAtTheSun) {

@@ -411,6 +411,10 @@ TEST(Study, ChecksLightSceneAndSolver) {
   expect_problem({{"output", "{series: [total, totl]}"}}, "'totl' is not known");
   expect_problem({{"output", "{series: [sky, sky]}"}}, "is written twice");
   expect_problem({{"sensors", "{points: []}"}}, "the list is empty");
+  expect_problem({{"light", "{sky: perez, sky_scale: absolute}"}}, "goes with sky: preetham");
+  expect_problem({{"light", "{sky: preetham, sky_scale: absolute, source: fixed, dni_w_m2: 1, "
+                            "dhi_w_m2: 1}"}},
+                 "and source: clear_sky only");
   expect_problem({{"format", "sunload-study-9"}}, "must be one of sunload-study-1");
   expect_problem({{"period", ""}}, "period is missing");
   expect_problem({{"name", ".hidden"}}, "cannot be a name");
@@ -420,6 +424,8 @@ TEST(Study, WarnsOfValuesWithoutEffect) {
   const auto warnings = read_text(with({{"light", "{turbidity: 4, dni_w_m2: 3}"}})).warnings;
   EXPECT_EQ(warnings.size(), 2u);
   EXPECT_TRUE(has(warnings, "light.turbidity: is not used")) << joined(warnings);
+  const auto bird = read_text(with({{"light", "{model: bird, linke_turbidity: 3}"}})).warnings;
+  EXPECT_TRUE(has(bird, "light.linke_turbidity: is not used")) << joined(bird);
   EXPECT_TRUE(has(
       read_text(with({{"period", "{instants: [2026-06-21T12:00, 2026-06-21T12:10]}"}})).warnings,
       "intervals overlap"));
@@ -695,6 +701,7 @@ TEST(CanonicalText, SeesEveryValueThatCanChangeANumber) {
        {"sky", [](Study& s) { s.light.sky = SkyModel::uniform; }},
        {"sky_type", [](Study& s) { s.light.sky_type = 1; }},
        {"turbidity", [](Study& s) { s.light.turbidity = 4; }},
+       {"sky scale", [](Study& s) { s.light.sky_scale = SkyScale::absolute; }},
        {"bands", [](Study& s) { s.solver.bands = Bands::rgb; }},
        {"far ground", [](Study& s) { s.light.far_ground_albedo = 0; }},
        {"builtin", [](Study& s) { s.scene.builtin->name = "x"; }},

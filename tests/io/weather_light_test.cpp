@@ -101,6 +101,17 @@ TEST(WeatherLight, YearOfAnEpwIsItsRecordsAndFast) {
   EXPECT_TRUE(series.notes.empty());
 }
 
+TEST(WeatherLight, TypicalYearsSayThatTheyHaveNoLeapDay) {
+  if (shared_missing(weather_folder + "chicago_tmy3.epw")) return;
+  const auto why = [](const std::string& day) {
+    return refused(study_of("timezone: America/Chicago", "days: [" + day + "]",
+                            shared("chicago_tmy3.epw")));
+  };
+  EXPECT_NE(why("2024-02-29").find("have no 29 February"), std::string::npos)
+      << why("2024-02-29");
+  EXPECT_EQ(why("2024-02-28"), "");
+}
+
 TEST(WeatherLight, SolverGetsDiffuseLightInTheDark) {
   const auto file =
       write_text("day.csv", csv_day("2026-06-21", "100,40", "dni_w_m2,dhi_w_m2", roof));
