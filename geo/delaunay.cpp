@@ -21,7 +21,7 @@ constexpr double area_ratio = 1e-9;     // rounding of sums over some 10^5 corne
 /// Triangle × corner pairs asked one by one: a tenth of a second.
 constexpr double largest_search = 2e7;
 // Rings of n edges may cross n² times; such a polygon means nothing, and would take all memory.
-constexpr std::size_t fewest_crossings = 20;  // that are allowed, beside one for each edge
+constexpr std::size_t fewest_crossings = 60;  // that are allowed, beside one for each edge
 
 struct TooManyCrossings {};
 

@@ -166,6 +166,18 @@ void settle(Mesh& mesh, const PrepareRules& rules, const PolygonModel& model, do
   decide_surfaces(mesh, bodies, model.is_city_format ? SceneKind::city : SceneKind::plain);
 }
 
+InputError nothing_left(const std::string& source, const PrepareReport& report) {
+  const std::size_t crossing = report.polygons_untriangulated;
+  const std::string what = "nothing is left of the scene";
+  if (crossing == 0)
+    return {{source}, what, "all " + counted(report.polygons_read, "polygon") + " are without area",
+            "are scene.unit_m and the file's coordinates right?"};
+  return {{source}, what,
+          std::to_string(crossing) + " of " + counted(report.polygons_read, "polygon") +
+              " cross themselves more often than can be triangulated, others are without area",
+          "are the corners of its faces in order?"};
+}
+
 /// Step 9.
 void drop_degenerates(Mesh& mesh, Repair repair, const std::string& source, PrepareReport& report) {
   const auto keep = with_area(mesh, repair == Repair::none ? 0 : least_height_ratio);
@@ -176,11 +188,7 @@ void drop_degenerates(Mesh& mesh, Repair repair, const std::string& source, Prep
                      "irradiance is light per area", "set scene.repair: safe");
   }
   keep_triangles(mesh, keep);
-  if (mesh.triangle_count() == 0) {
-    throw InputError({source}, "nothing is left of the scene",
-                     "all " + counted(report.polygons_read, "polygon") + " are without area",
-                     "are scene.unit_m and the file's coordinates right?");
-  }
+  if (mesh.triangle_count() == 0) throw nothing_left(source, report);
   drop_unused_vertices(mesh);
 }
 
