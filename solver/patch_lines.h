@@ -26,9 +26,7 @@ class PatchLines {
   }
   /// Lines first … first + 15, the same bits, several times as fast; `first` is a multiple of 16.
   void packet(std::size_t first, Line (&lines)[packet_size]) const;
-
- private:
-  /// Of a Sobol point's coordinates.
+  /// That of a Sobol point's coordinates, which are scrambled here.
   Line line(std::uint32_t x0, std::uint32_t x1, std::uint32_t x2, std::uint32_t x3) const {
     const Vec3 local = sample_cosine(scrambled(x0, seeds_[0]), scrambled(x1, seeds_[1]));
     const Barycentric at = sample_triangle(scrambled(x2, seeds_[2]), scrambled(x3, seeds_[3]));
@@ -36,6 +34,7 @@ class PatchLines {
             axes_.tangent * local.x + axes_.bitangent * local.y + n_ * local.z};
   }
 
+ private:
   Vec3 a_, b_, c_, n_;
   Tangents axes_;
   Vec3 lift_;
