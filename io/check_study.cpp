@@ -176,13 +176,18 @@ nlohmann::ordered_json as_json(const VariantPlan& plan, const WorkEstimate& work
           {"seconds", work.seconds}};
 }
 
+/// To stderr: what was asked for goes to stdout.
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const auto& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+}
+
 }  // namespace
 
 int check_study(const std::string& path, const RunOptions& options, CheckFormat format,
                 SearchIntersections search) {
   set_thread_count(options.threads > 0 ? options.threads : permitted_processors());
   const StudyFile file = read_study(path);
-  for (const auto& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  print_warnings(file.warnings);
   nlohmann::ordered_json json;
   json["variants"] = nlohmann::ordered_json::array();
   std::size_t units = 0;
@@ -206,15 +211,6 @@ int check_study(const std::string& path, const RunOptions& options, CheckFormat 
   if (format == CheckFormat::json) std::cout << json.dump(2) << "\n";
   return exit_code::done;
 }
-
-namespace {
-
-/// To stderr: the listing goes to stdout.
-void print_warnings(const std::vector<std::string>& warnings) {
-  for (const auto& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
-}
-
-}  // namespace
 
 int print_sun(const std::string& path, const std::string& picture) {
   const StudyFile file = read_study(path);

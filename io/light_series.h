@@ -35,7 +35,8 @@ struct LightSeries {
 LightSeries light_series(const Study& study, const Site& site);
 
 /// Lumens per watt of an interval's light (Perez et al. 1990) under the sky that it has while the
-/// sun is up, unless it has its own; with 2 cm of precipitable water, which most sources of light do not tell.
+/// sun is up, unless it has its own; with 2 cm of precipitable water, which most sources of light
+/// do not tell.
 LuminousEfficacy efficacy_of(const LitInterval& interval);
 
 /// Means over the interval in the study's quantity: W m-2 as they are, or lx: DNI and DHI by their

@@ -24,12 +24,17 @@ std::string place_words(const Site& site) {
                      site.longitude_deg < 0 ? "west" : "east", site.elevation_m);
 }
 
+/// Beginning of the civil day that holds an instant.
+UnixTime civil_day(UnixTime t, const TimeZone& zone) {
+  const CivilTime civil = zone.civil_from_utc(t);
+  return zone.utc_from_civil({civil.year, civil.month, civil.day, 0, 0, 0}).utc;
+}
+
 /// Beginnings of the civil days that hold these instants, each once, in order.
 std::vector<UnixTime> civil_days(const std::vector<UnixTime>& times, const TimeZone& zone) {
   std::vector<UnixTime> days;
   for (const UnixTime t : times) {
-    const CivilTime civil = zone.civil_from_utc(t);
-    const UnixTime day = zone.utc_from_civil({civil.year, civil.month, civil.day, 0, 0, 0}).utc;
+    const UnixTime day = civil_day(t, zone);
     if (days.empty() || day > days.back()) days.push_back(day);
   }
   return days;
@@ -74,7 +79,7 @@ std::string passages(const SunEvents& events, const char* up, const char* down,
 std::string day_words(const Site& site, UnixTime first, const TimeZone& zone,
                       const SunStudy& sun_study) {
   constexpr double civil_twilight_deg = -6;
-  const UnixTime day = civil_days({first}, zone).front();
+  const UnixTime day = civil_day(first, zone);
   const SunEphemeris sun(day, day + seconds_per_day, site, sun_study.refraction, sun_study.ut1_utc,
                          Air{});
   const SunEvents light = sun_events(sun, day), dusk = sun_events(sun, day, civil_twilight_deg);
@@ -113,8 +118,7 @@ std::string clock_words(const LightSeries& light, const TimeZone& zone) {
   std::string text;
   for (const UnixTime day : civil_days(sun_times(light), zone)) {
     // 30 hours on it is the next day, however long this one is.
-    const CivilTime later = zone.civil_from_utc(day + 1.25 * seconds_per_day);
-    const UnixTime next = zone.utc_from_civil({later.year, later.month, later.day, 0, 0, 0}).utc;
+    const UnixTime next = civil_day(day + 1.25 * seconds_per_day, zone);
     // Some zones change at midnight, which then belongs to the day that it begins.
     const UnixTime before = day - 1, last = next - 1;
     if (zone.offset_s(before) == zone.offset_s(last)) continue;

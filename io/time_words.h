@@ -22,7 +22,8 @@ std::string pole_words(const Site& site, const std::vector<UnixTime>& times, con
                        const SunStudy& sun = {});
 
 /// Which instant and interval the first and last values belong to, sunrise and sunset of the first
-/// day, changes of the clocks, hills, where north is, and length and bearing of the shadow of a 1 m pole at local noon.
+/// day, changes of the clocks, hills, where north is, and length and bearing of the shadow of a 1 m
+/// pole at local noon.
 std::string time_words(const LightSeries& light, const Site& site, const Study& study,
                        const std::string& site_source);
 

@@ -344,7 +344,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
     work.memory_bytes += n * s.realizations * block_width * float_bytes * (mirrors ? 3.0 : 2.0);
   if (s.transport == Transport::shoot) {
     const double blocks = batches * std::ceil(batch / static_cast<double>(block_width));
-    work.samples = static_cast<std::uint64_t>(estimated_samples(plan, n, blocks, counts.samples_per_patch));
+    work.samples = static_cast<std::uint64_t>(
+        estimated_samples(plan, n, blocks, counts.samples_per_patch));
     const double per_shot = static_cast<double>(work.samples) / (blocks * std::max(1, s.bounces));
     work.memory_bytes +=
         n * (shooting_bytes_per_patch + of_realizations * columns_of_a_realization) +

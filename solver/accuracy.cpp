@@ -94,15 +94,23 @@ SolverRules pilot_rules(SolverRules rules) {
   return rules;
 }
 
-/// Variance of the values [r][patch].
+/// Mean of the values [r].
+template <class Value>
+double mean(std::size_t realizations, Value&& value) {
+  const auto n = static_cast<double>(realizations);
+  double mean = 0;
+  for (std::size_t r = 0; r < realizations; ++r) mean += value(r) / n;
+  return mean;
+}
+
+/// Variance of the values [r].
 template <class Value>
 double variance(std::size_t realizations, Value&& value) {
-  const auto n = static_cast<double>(realizations);
-  double mean = 0, squares = 0;
-  for (std::size_t r = 0; r < realizations; ++r) mean += value(r) / n;
+  const double middle = mean(realizations, value);
+  double squares = 0;
   for (std::size_t r = 0; r < realizations; ++r)
-    squares += (value(r) - mean) * (value(r) - mean);
-  return squares / (n - 1);
+    squares += (value(r) - middle) * (value(r) - middle);
+  return squares / (static_cast<double>(realizations) - 1);
 }
 
 /// Counts of one realization, which variances are told of.
@@ -123,9 +131,7 @@ PatchSpread gathered_spread(const LightSolver& solver, const BatchTally& tally, 
   for (std::size_t i = 0; i < spread.area.size(); ++i) {
     const auto total = [&](std::size_t r) { return tally.exposure_realization[r][i]; };
     const auto sun = [&](std::size_t r) { return tally.by_source.sun[r][i]; };
-    double mean = 0;
-    for (std::size_t r = 0; r < R; ++r) mean += total(r) / static_cast<double>(R);
-    spread.load.push_back(weight * mean);
+    spread.load.push_back(weight * mean(R, total));
     const double by_lines = variance(R, [&](std::size_t r) { return total(r) - sun(r); });
     spread.of_line.push_back(weight * weight * by_lines * count.lines);
     spread.of_sample.push_back(weight * variance(R, sun) * count.samples);
@@ -179,9 +185,7 @@ PatchSpread shot_spread(const LightSolver& solver, const BatchTally& tally, doub
     const auto by_lines = [&](std::size_t r) {
       return total(r) - by.sun[r][i] - by.parallel[r][i] - by.emitted[r][i] - by.reflected[r][i];
     };
-    double mean = 0;
-    for (std::size_t r = 0; r < R; ++r) mean += total(r) / static_cast<double>(R);
-    spread.load.push_back(weight * mean);
+    spread.load.push_back(weight * mean(R, total));
     spread.of_line.push_back(weight * weight * variance(R, by_lines) * count.lines);
     const double of_suns = weight * variance(R, of(by.sun));
     const double of_parallel = weight * weight * variance(R, of(by.parallel));

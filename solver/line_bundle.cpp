@@ -1,14 +1,18 @@
 #include "solver/line_bundle.h"
 
 #include <cmath>
+#include <numeric>
+
+#include "solver/counting_sort.h"
 
 namespace sunload {
 
 namespace {
 
 /// The directions' octahedron, unfolded to a square of 16 × 16 cells, about 160 of which make a
-/// hemisphere (Cigolle et al. 2014, A Survey of Efficient Representations for Independent Unit Vectors).
-constexpr std::uint32_t cells_per_side = 16, cells = cells_per_side * cells_per_side;
+/// hemisphere (Cigolle et al. 2014, A Survey of Efficient Representations for Independent Unit
+/// Vectors). Their numbers fill a byte.
+constexpr std::int32_t cells_per_side = 16;
 
 /// Bits x3 x2 x1 x0 to x3 0 x2 0 x1 0 x0.
 constexpr std::uint32_t spread_bits(std::uint32_t x) {
@@ -17,32 +21,17 @@ constexpr std::uint32_t spread_bits(std::uint32_t x) {
 }
 
 /// Along the Morton curve, so that neighbouring cells are mostly near each other.
-std::uint32_t direction_cell(Vec3 w) {
+std::uint8_t direction_cell(Vec3 w) {
   const double scale = 1 / (std::abs(w.x) + std::abs(w.y) + std::abs(w.z));
   const double x = w.x * scale, y = w.y * scale;
   const double folded_x = std::copysign(1 - std::abs(y), x);
   const double folded_y = std::copysign(1 - std::abs(x), y);
   const auto coordinate = [](double c) {
     const auto cell = static_cast<std::int32_t>((c + 1) * (0.5 * cells_per_side));
-    return static_cast<std::uint32_t>(std::min(cell, static_cast<std::int32_t>(cells_per_side) - 1));
+    return static_cast<std::uint32_t>(std::min(cell, cells_per_side - 1));
   };
-  return spread_bits(coordinate(w.z < 0 ? folded_x : x)) |
-         spread_bits(coordinate(w.z < 0 ? folded_y : y)) << 1;
-}
-
-/// Numbers of the lines, sorted by cell.
-void sort_by_direction(const std::vector<PatchLines::Line>& lines,
-                       std::vector<std::uint32_t>& order) {
-  std::uint32_t begin[cells + 1] = {};
-  std::vector<std::uint8_t> cell(lines.size());
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    cell[i] = static_cast<std::uint8_t>(direction_cell(lines[i].w));
-    ++begin[cell[i] + 1];
-  }
-  for (std::uint32_t c = 0; c < cells; ++c) begin[c + 1] += begin[c];
-  order.resize(lines.size());
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    order[begin[cell[i]]++] = static_cast<std::uint32_t>(i);
+  return static_cast<std::uint8_t>(spread_bits(coordinate(w.z < 0 ? folded_x : x)) |
+                                   spread_bits(coordinate(w.z < 0 ? folded_y : y)) << 1);
 }
 
 }  // namespace
@@ -55,8 +44,16 @@ void LineBundle::add(const PatchLines& lines, std::size_t count) {
   }
 }
 
+void LineBundle::sort_by_direction() {
+  cell_.resize(lines_.size());
+  for (std::size_t i = 0; i < lines_.size(); ++i) cell_[i] = direction_cell(lines_[i].w);
+  in_order_.resize(lines_.size());
+  std::iota(in_order_.begin(), in_order_.end(), 0u);
+  sort_by_byte(in_order_, order_, [this](std::uint32_t line) { return cell_[line]; });
+}
+
 void LineBundle::cast(const RayCaster& caster) {
-  sort_by_direction(lines_, order_);
+  sort_by_direction();
   hits_.resize(lines_.size());
   Packet origins{};
   PacketDirections directions{};

@@ -21,9 +21,12 @@ class LineBundle {
   Hit hit(std::size_t i) const { return hits_[i]; }
 
  private:
+  void sort_by_direction();
+
   std::vector<PatchLines::Line> lines_;
   std::vector<Hit> hits_;
-  std::vector<std::uint32_t> order_;  ///< by direction
+  std::vector<std::uint8_t> cell_;  ///< of each line's direction
+  std::vector<std::uint32_t> in_order_, order_;  ///< numbers of the lines: as added, by direction
 };
 
 }  // namespace sunload

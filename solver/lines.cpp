@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "geo/check.h"
+#include "solver/counting_sort.h"
 #include "solver/line_bundle.h"
 #include "solver/line_follower.h"
 #include "solver/parallel.h"
@@ -43,17 +44,14 @@ void sort_links(std::vector<LinkTable::Link>& links) {
     }
     return;
   }
-  constexpr std::uint32_t digit_bits = 8, digits = 1u << digit_bits;
   std::uint32_t all_bits = 0;
   for (const Link& link : links) all_bits |= link.target;
-  thread_local std::vector<Link> other;
-  other.resize(links.size());
-  for (std::uint32_t shift = 0; shift < 32 && all_bits >> shift != 0; shift += digit_bits) {
-    std::uint32_t begin[digits + 1] = {};
-    for (const Link& link : links) ++begin[(link.target >> shift & (digits - 1)) + 1];
-    for (std::uint32_t d = 0; d < digits; ++d) begin[d + 1] += begin[d];
-    for (const Link& link : links) other[begin[link.target >> shift & (digits - 1)]++] = link;
-    links.swap(other);
+  thread_local std::vector<Link> sorted;
+  for (std::uint32_t shift = 0; shift < 32 && all_bits >> shift != 0; shift += 8) {
+    sort_by_byte(links, sorted, [shift](const Link& link) {
+      return static_cast<std::uint8_t>(link.target >> shift);
+    });
+    links.swap(sorted);
   }
 }
 

@@ -104,7 +104,8 @@ TEST(LinkTable, MergesLinksToTheSameTarget) {
     LinkTable::Block block;
     LinkTable::append_row(block, links, 0.125f);
     ASSERT_EQ(block.target.size(), expected.size());
-    ASSERT_EQ(block.begin, (std::vector<std::uint32_t>{0, static_cast<std::uint32_t>(expected.size())}));
+    const auto row_end = static_cast<std::uint32_t>(expected.size());
+    ASSERT_EQ(block.begin, (std::vector<std::uint32_t>{0, row_end}));
     std::size_t at = 0;
     for (const auto& [target, weight] : expected) {
       EXPECT_EQ(block.target[at], target);
