@@ -1,8 +1,10 @@
 #include "io/batch_tally.h"
 
 #include <array>
+#include <numeric>
 
 #include "io/bands.h"
+#include "solver/accuracy.h"
 
 namespace sunload {
 
@@ -164,7 +166,8 @@ WorkDone work_from(const std::vector<double>& v) {
 }
 
 void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
-                 const LightSolver& solver, const Mesh& mesh, const WorkDone& work) {
+                 const LightSolver& solver, const Mesh& mesh, const WorkDone& work,
+                 std::optional<double> irradiance_relative) {
   const Hierarchy& hierarchy = solver.hierarchy();
   const std::size_t N = hierarchy.patch_count();
   const auto prefixes = band_prefixes(solver.rules().bands);
@@ -190,11 +193,23 @@ void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
   const double bounces = solver.bounces();
   writer.add({batch_array::bounces, MergeRule::maximum, ArrayType::float64, {1}}, &bounces);
   const SolverRules& rules = solver.rules();
-  std::vector<double> counts{static_cast<double>(rules.lines_per_patch),
-                             static_cast<double>(rules.direct_samples)};
+  const std::vector<double> lines(rules.lines_of_patch.begin(), rules.lines_of_patch.end());
+  const double mean_lines =
+      lines.empty() ? rules.lines_per_patch : std::accumulate(lines.begin(), lines.end(), 0.0) /
+                                                  static_cast<double>(lines.size());
+  if (!lines.empty())
+    writer.add({batch_array::patch_lines, MergeRule::maximum, ArrayType::float64, {N}},
+               lines.data());
+  std::vector<double> counts{mean_lines, static_cast<double>(rules.direct_samples)};
   if (rules.samples_per_patch) counts.push_back(*rules.samples_per_patch);
   writer.add({batch_array::counts, MergeRule::maximum, ArrayType::float64, {counts.size()}},
              counts.data());
+  if (irradiance_relative && bands.size() == 1 && !bands.front().irradiance_se.empty()) {
+    const auto [all, kept] = kept_area(bands.front(), hierarchy.area(), *irradiance_relative);
+    const std::array area{all, kept};
+    writer.add({batch_array::kept_area, MergeRule::sum, ArrayType::float64, {area.size()}},
+               area.data());
+  }
   const auto cost = work_values(work);
   writer.add({batch_array::work, MergeRule::sum, ArrayType::float64, {cost.size()}}, cost.data());
 }

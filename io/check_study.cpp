@@ -125,9 +125,9 @@ std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
   std::string text;
   if (const auto& accuracy = plan.study.solver.accuracy)
     text = fmt::format(
-        "  a standard error of {:.3g} % is asked for: counts are decided at the start of the run, "
+        "  a standard error of {} is asked for: counts are decided at the start of the run, "
         "from {} lines and {} direct samples up to {}; what follows is with the least\n",
-        100 * accuracy->light_load_relative, plan.study.solver.lines_per_patch,
+        goal_words(*accuracy), plan.study.solver.lines_per_patch,
         plan.study.solver.direct_samples, plan.study.solver.max_lines_per_patch);
   const std::string shot =
       work.samples > 0 ? fmt::format(", {:.3g} samples shot", static_cast<double>(work.samples))

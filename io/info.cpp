@@ -67,6 +67,23 @@ std::string size(const ResultReader& result, const PatchGroups& groups) {
                           result.strings("facade_name").size()));
 }
 
+/// The goals of the study and what came of them.
+std::string asked_for(const ResultReader& result) {
+  std::string text;
+  const auto add = [&](const char* goal_name, const char* share_name, const char* when) {
+    const double goal = result.number_attribute(goal_name);
+    if (std::isnan(goal)) return;
+    const double share = result.number_attribute(share_name);
+    text += line("", fmt::format("asked for: below {:.3g} %{} on 95 % of the area", 100 * goal,
+                                 when) +
+                         (std::isnan(share) ? std::string()
+                                            : fmt::format("; reached on {:.3g} %", 100 * share)));
+  };
+  add("accuracy_light_load_relative", "accuracy_area_share", "");
+  add("accuracy_irradiance_relative", "accuracy_irradiance_share", " at every instant");
+  return text;
+}
+
 std::string accuracy(const ResultReader& result, const PatchGroups& groups,
                      const std::vector<double>& load) {
   const auto realizations =
@@ -82,20 +99,13 @@ std::string accuracy(const ResultReader& result, const PatchGroups& groups,
     relative.push_back(se[i] / load[i] * 100);
     area.push_back(groups.patch_area()[i]);
   }
-  const double goal = result.number_attribute("accuracy_light_load_relative");
-  const std::string asked =
-      std::isnan(goal)
-          ? std::string()
-          : line("",
-                 fmt::format("asked for: below {:.3g} % on 95 % of the area; reached on {:.3g} %",
-                             100 * goal, 100 * result.number_attribute("accuracy_area_share")));
   return line(
       "accuracy",
       fmt::format("standard error of a patch's light load: {:.2g} % (median by area), below "
                   "{:.2g} % on 95 %; {} realizations",
                   weighted_quantile(relative, area, median),
                   weighted_quantile(relative, area, upper_quantile), realizations)) +
-         asked;
+         asked_for(result);
 }
 
 /// Least, mean and largest value of a quantity over the patches.

@@ -150,6 +150,8 @@ void write_loads(BandWriter& writer, const Totals& totals, const ResultGeometry&
                  std::size_t realizations) {
   const std::size_t N = geometry.patch_area.size(), F = geometry.facade_name.size();
   write_received(writer, totals, "", N, realizations);
+  if (totals.has(batch_array::patch_lines))
+    writer.write_once(batch_array::patch_lines, totals[batch_array::patch_lines]);
   writer.write("power_load", 1, [&](const std::string& band) {
     return scaled(totals[band + batch_array::outgoing], kwh_per_joule);
   });
@@ -280,11 +282,11 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
   const WorkDone work = work_from(totals[batch_array::work]);
   const auto R = static_cast<std::size_t>(study.solver.realizations);
   const auto& counts = totals[batch_array::counts];
-  const auto lines = static_cast<std::int64_t>(counts[0]);
+  const auto lines = std::llround(counts[0]);
   const auto samples = static_cast<std::int64_t>(counts[1]);
   // Other counts, other random points.
   std::string pairing_id = plan.pairing_id;
-  if (study.solver.accuracy) pairing_id += fmt::format("-{}-{}", lines, samples);
+  if (study.solver.accuracy) pairing_id += fmt::format("-{}-{}", counts[0], samples);
   if (counts.size() > 2) pairing_id += fmt::format("-{}", counts[2]);
   ResultAttributes a;
   a.text = {{"title", "Light load: " + study.name + ", variant " + study.variant},
@@ -333,9 +335,16 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
     a.integers.emplace_back("shot_rays", static_cast<std::int64_t>(work.shot_rays));
   }
   if (study.solver.accuracy) {
-    const double relative = study.solver.accuracy->light_load_relative;
-    a.numbers.emplace_back("accuracy_light_load_relative", relative);
-    a.numbers.emplace_back("accuracy_area_share", accuracy_share(totals, geometry, relative));
+    if (const auto relative = study.solver.accuracy->light_load_relative) {
+      a.numbers.emplace_back("accuracy_light_load_relative", *relative);
+      a.numbers.emplace_back("accuracy_area_share", accuracy_share(totals, geometry, *relative));
+    }
+    if (const auto relative = study.solver.accuracy->irradiance_relative)
+      a.numbers.emplace_back("accuracy_irradiance_relative", *relative);
+    if (totals.has(batch_array::kept_area)) {
+      const auto& area = totals[batch_array::kept_area];
+      a.numbers.emplace_back("accuracy_irradiance_share", area[0] > 0 ? area[1] / area[0] : 1);
+    }
     if (counts.size() > 2) a.numbers.emplace_back("samples_per_patch", counts[2]);
   }
   if (study.solver.bands == Bands::rgb) {

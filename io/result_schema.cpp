@@ -81,6 +81,7 @@ constexpr std::array table{
     ResultVariable{"sun_hours", "patch", float64, "h", total, "time in the sun, regardless of weather"},
     ResultVariable{"irradiance_max", "patch", float64, w_m2, total, "largest irradiance of the series", "", "time: maximum"},
     ResultVariable{"sky_view_factor", "patch", float64, "1", total, "cosine-weighted share of the hemisphere that is sky"},
+    ResultVariable{"patch_lines", "patch", float64, "1", total, "lines that the patch cast, over all realizations"},
     ResultVariable{"power_load", "patch", float64, kwh_m2, total, "outgoing diffuse energy per area: reflected and emitted"},
     ResultVariable{"facade_light_load", "facade", float64, kwh_m2, total, "light load, mean over the facade", "", "area: mean"},
     ResultVariable{"facade_light_load_se", "facade", float64, kwh_m2, total, "standard error of facade_light_load"},
@@ -180,7 +181,9 @@ std::vector<std::string> dimension_names(const ResultVariable& variable) {
 
 bool has_bands(const ResultVariable& variable) {
   const std::string_view name = variable.name;
-  if (name.ends_with("sun_hours") || name.ends_with("sky_view_factor")) return false;
+  if (name.ends_with("sun_hours") || name.ends_with("sky_view_factor") ||
+      name == "patch_lines")
+    return false;
   return variable.part == ResultPart::series || variable.part == ResultPart::ledger ||
          variable.part == ResultPart::total;
 }

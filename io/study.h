@@ -192,9 +192,10 @@ struct MeshStudy {
   double link_threshold = 0.5;        ///< of the exchange between elements
 };
 
-/// Counts per patch are raised until errors are as small as asked for.
+/// Counts per patch are raised until errors are as small as asked for: at least one of these.
 struct AccuracyStudy {
-  double light_load_relative = 0.01;  ///< standard error / light load
+  std::optional<double> light_load_relative = {};  ///< standard error / light load
+  std::optional<double> irradiance_relative = {};  ///< standard error / irradiance, at every instant
 };
 struct SolverStudy {
   Transport transport = Transport::gather;

@@ -229,8 +229,9 @@ json canonical(const SolverStudy& solver, LightColour colour) {
     all["colour"] = colour;
   }
   if (accuracy) {
-    const auto& [light_load_relative] = *accuracy;
-    all["accuracy"] = {{"light_load_relative", light_load_relative},
+    const auto& [light_load_relative, irradiance_relative] = *accuracy;
+    all["accuracy"] = {{"light_load_relative", maybe(light_load_relative)},
+                       {"irradiance_relative", maybe(irradiance_relative)},
                        {"max_lines_per_patch", max_lines_per_patch}};
   }
   return all;

@@ -71,11 +71,11 @@ void read_accuracy(YamlMap& map, SolverStudy& solver) {
   map.tree("accuracy");
   if (map.has("accuracy") || describe) {
     map.section("accuracy", [&](YamlMap& section) {
-      AccuracyStudy accuracy;
-      section.require("light_load_relative");
-      accuracy.light_load_relative =
-          section.number("light_load_relative", relative_errors, accuracy.light_load_relative);
-      solver.accuracy = accuracy;
+      solver.accuracy = {section.number("light_load_relative", relative_errors),
+                         section.number("irradiance_relative", relative_errors)};
+      if (!section.has("irradiance_relative"))
+        section.require("light_load_relative", "an accuracy has a goal",
+                        "write it, or irradiance_relative");
     });
   }
   solver.max_lines_per_patch =

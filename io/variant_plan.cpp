@@ -1,5 +1,7 @@
 #include "io/variant_plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -215,6 +217,7 @@ SolverRules solver_rules(const VariantPlan& plan) {
   return {.bounces = s.bounces,
           .unshot = s.unshot,
           .lines_per_patch = s.lines_per_patch,
+          .lines_of_patch = {},
           .direct_samples = s.direct_samples,
           .realizations = s.realizations,
           .mirror_depth = s.mirror_depth,
@@ -232,7 +235,17 @@ SolverRules solver_rules(const VariantPlan& plan) {
 }
 
 AccuracyGoal accuracy_goal(const Study& study) {
-  return {study.solver.accuracy->light_load_relative, study.solver.max_lines_per_patch};
+  const AccuracyStudy& accuracy = *study.solver.accuracy;
+  return {accuracy.light_load_relative, study.solver.max_lines_per_patch,
+          accuracy.irradiance_relative};
+}
+
+std::string goal_words(const AccuracyStudy& accuracy) {
+  const auto load = accuracy.light_load_relative, irradiance = accuracy.irradiance_relative;
+  std::string words = load ? fmt::format("{:.3g} %", 100 * *load) : "";
+  if (load && irradiance) words += " and ";
+  if (irradiance) words += fmt::format("{:.3g} % at every instant", 100 * *irradiance);
+  return words;
 }
 
 std::string result_path(const std::string& folder, const Study& study) {
@@ -325,7 +338,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   const auto lit = static_cast<double>(lamps ? plan.intervals() : plan.light.lit_count());
   const auto batch = static_cast<double>(std::min(plan.batch_suns(), plan.intervals()));
   const auto batches = static_cast<double>(plan.batches());
-  const double lines = n * counts.lines_per_patch, links = lines * s.bounces;
+  const double lines = n * counts.mean_lines(), links = lines * s.bounces;
   const double of_realizations = double_bytes * s.realizations;
   const bool is_rgb = s.bands == Bands::rgb;
   const double bands = is_rgb ? static_cast<double>(band_count) : 1;

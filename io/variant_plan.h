@@ -40,6 +40,8 @@ RefineRules refine_rules(const Study& study);
 SolverRules solver_rules(const VariantPlan& plan);
 /// The study's goal; only of a study that has one.
 AccuracyGoal accuracy_goal(const Study& study);
+/// "1 %", "5 % at every instant" or both.
+std::string goal_words(const AccuracyStudy& accuracy);
 
 /// Paths of DESIGN 2.
 std::string result_path(const std::string& folder, const Study& study);

@@ -38,11 +38,17 @@ std::string counts_text(const VariantPlan& plan, const SampleCounts& counts) {
     shot = fmt::format(", shots of {:.3g} W per sample", *rules.power_per_sample_w);
   else if (rules.samples_per_patch)
     shot = fmt::format(", {} samples per patch in the first shot", *rules.samples_per_patch);
+  const auto [fewest, most] =
+      std::minmax_element(counts.lines_of_patch.begin(), counts.lines_of_patch.end());
+  const std::string lines =
+      fewest == most || *fewest == *most
+          ? fmt::format("{}", counts.lines_per_patch)
+          : fmt::format("{} to {} (mean {:.0f})", *fewest, *most, counts.mean_lines());
   std::string text = fmt::format(
-      "{}: accuracy of {:.3g} %: {} lines and {} direct samples per patch{}, by which a pilot "
+      "{}: accuracy of {}: {} lines and {} direct samples per patch{}, by which a pilot "
       "expects it on {:.3g} % of the area",
-      plan.study.variant, 100 * plan.study.solver.accuracy->light_load_relative,
-      counts.lines_per_patch, counts.direct_samples, shot, 100 * counts.share);
+      plan.study.variant, goal_words(*plan.study.solver.accuracy), lines, counts.direct_samples,
+      shot, 100 * counts.share);
   if (counts.share < share_to_be_met)
     text += fmt::format("; {} lines and samples at most cannot give more (max_lines_per_patch)",
                         plan.study.solver.max_lines_per_patch);
@@ -55,7 +61,7 @@ void refuse_too_much(const WorkEstimate& work) {
   if (const double left = available_memory_bytes(); work.memory_bytes > left)
     throw MachineError(fmt::format(
         "too little memory for the accuracy asked for: about {:.1f} GiB are needed, {:.1f} GiB are "
-        "available; use a smaller max_lines_per_patch or a larger accuracy.light_load_relative",
+        "available; use a smaller max_lines_per_patch or a larger error in accuracy",
         work.memory_bytes / gib, left / gib));
 }
 
@@ -177,10 +183,11 @@ SolverRules VariantRun::decided_rules() {
       count > 0 ? static_cast<double>(lit.size()) / static_cast<double>(count) : 1;
   SolverRules of_pilot = rules;
   of_pilot.bands = Bands::broadband;  // the goal is for the mean of the bands
-  const PatchSpread spread =
-      pilot_spread(scene, mesh_, of_pilot, suns, weight, progress_, plan_.batch_suns());
-  const SampleCounts counts =
-      needed_counts(spread, rules, accuracy_goal(plan_.study), lit.size());
+  const AccuracyGoal goal = accuracy_goal(plan_.study);
+  const PatchSpread spread = pilot_spread(
+      scene, mesh_, of_pilot, suns,
+      {weight, plan_.batch_suns(), goal.irradiance_relative.has_value()}, progress_);
+  const SampleCounts counts = needed_counts(spread, rules, goal, lit.size());
   refuse_too_much(estimate_work(plan_, spread.area.size(), counts));
   progress_.say(counts_text(plan_, counts));
   return with_counts(rules, counts);
@@ -204,7 +211,9 @@ void VariantRun::compute_batch(std::size_t batch) {
                       .interval_count = count,
                       .chunk_intervals = plan_.batch_suns(),
                       .compression = plan_.study.output.compression});
-  add_tallies(writer, tallies, *solver_, plan_.built.scene.mesh, work);
+  const auto& accuracy = plan_.study.solver.accuracy;
+  add_tallies(writer, tallies, *solver_, plan_.built.scene.mesh, work,
+              accuracy ? accuracy->irradiance_relative : std::nullopt);
   // Another process that failed may have removed the folder, which was empty until now.
   make_writable_folder(work_folder(folder_, plan_));
   writer.write(batch_path(folder_, plan_, batch));

@@ -1,82 +1,73 @@
 /// How many lines, direct samples and, when shooting, samples of power a study needs for the
-/// accuracy it asks for.
+/// accuracy it asks for, by what a pilot found out.
 ///
-/// A pilot, with random numbers of its own, solves some of the study's suns and tells for
-/// every patch the variance that one line (a), one direct sample (b) and one sample shot per patch
-/// (c) bring to its light load H. With L lines, D and S samples the standard error is then about
-///
-///     SE² = a / L + b / D + c / S
-///
-/// (scrambled Sobol points do no worse than independent ones). When gathering, what is not the
-/// sun's comes by lines, and c = 0. When shooting, lines bring the first light of sky and ground,
-/// and reflected light counts as the samples' alone: what the errors of first light add to it is
-/// the mean of many patches. Counts are doubled until
-/// SE / H meets the goal on 95 % of the leaf area that counts, the cheapest way, and frozen
-/// before the first tally, with room for the errors of the errors that so few realizations state:
-/// counts chosen from the very realizations that are tallied would
-/// bias them. Patches whose load is below 1 % of the largest do not count, those that can
+/// Every patch gets the lines that it needs itself. Direct samples and samples shot are doubled
+/// until the goals are met on 95 % of the leaf area that counts, the cheapest way. All counts
+/// are frozen before the first tally, with room for the errors of the errors that so few
+/// realizations state: counts chosen from the very realizations that are tallied would
+/// bias them. Patches with less than 1 % of the largest value do not count, those that can
 /// receive no light among them; the pilot has lines enough that a patch of which none finds
 /// light lies below that share.
 #pragma once
 
-#include <memory>
-#include <span>
+#include <optional>
 #include <vector>
 
-#include "solver/solver.h"
+#include "solver/accuracy_pilot.h"
 
 namespace sunload {
 
+/// At least one of the two.
 struct AccuracyGoal {
-  double light_load_relative = 0.01;  ///< standard error / light load of a patch
-  int most_per_patch = 4096;          ///< lines, direct samples, samples shot
+  std::optional<double> light_load_relative = {};  ///< standard error / light load of a patch
+  int most_per_patch = 4096;                       ///< lines, direct samples, samples shot
+  std::optional<double> irradiance_relative = {};  ///< standard error / irradiance, every instant
 };
 
-/// Of the leaf area whose load is at least `share_that_counts` of the largest,
-/// `share_to_be_met` shall meet the goal (DESIGN 4).
+/// Of the leaf area (with irradiance: of that of all suns) whose value is at least
+/// `share_that_counts` of the largest, `share_to_be_met` shall meet the goal (DESIGN 4).
 inline constexpr double share_that_counts = 0.01, share_to_be_met = 0.95;
-
-/// What a pilot finds out of every patch.
-struct PatchSpread {
-  std::vector<double> area;        ///< m2
-  std::vector<double> load;        ///< J m-2
-  std::vector<double> of_line;     ///< a: variance of the load by one line
-  std::vector<double> of_sample;   ///< b: variance of the load by one direct sample
-  std::vector<double> of_shot;     ///< c: variance by one sample shot per patch; empty: none is
-  /// Samples that a block of suns takes with all its reflections, for every one of the first shot.
-  double shots_per_block = 0;
-};
 
 /// Over all realizations together.
 struct SampleCounts {
-  int lines_per_patch = 0, direct_samples = 0;
+  /// Of patches unless `lines_of_patch` has them, and of sensors: then the least multiple of the
+  /// study's own count that is no less than the mean of patches.
+  int lines_per_patch = 0;
+  int direct_samples = 0;
   /// Of the first shot, in the mean of patches. With a power per sample of its own this is what
   /// `lines_per_patch` stands for, and the power falls as the count rises.
   int samples_per_patch = 0;
-  double share = 0;  ///< of the area that counts, where the goal will be met
+  double share = 0;  ///< of the area that counts, where the goals will be met
+  std::vector<int> lines_of_patch = {};
+
+  int lines_of(std::size_t patch) const {
+    return lines_of_patch.empty() ? lines_per_patch : lines_of_patch[patch];
+  }
+  /// Mean over patches.
+  double mean_lines() const;
 };
+
+/// Area of all instants together [m2]: that counts, and of it that where the errors of the series
+/// (Errors::instants) are no more than `irradiance_relative` of it.
+struct KeptArea {
+  double counts = 0, kept = 0;
+};
+KeptArea kept_area(const ReceiverTally& tally, const std::vector<double>& area,
+                   double irradiance_relative);
 
 /// The rules with these counts; `least` are those that the counts were chosen for.
 SolverRules with_counts(const SolverRules& least, const SampleCounts& counts);
 
-/// Share of the area that counts where √(a/L + b/D + c/S) ≤ goal · load; 1 where nothing counts.
-double share_met(const PatchSpread& spread, double light_load_relative,
-                 const SampleCounts& counts);
+/// Share of the area that counts where √(a/L + b/D + c/S) ≤ goal · value, the smaller of those of
+/// the goals; 1 where nothing counts.
+double share_met(const PatchSpread& spread, const AccuracyGoal& goal, const SampleCounts& counts);
 
-/// The cheapest counts that meet the goal on `share_to_be_met` of the area that counts, from
-/// those of `least` on, doubled, at most `most_per_patch`; where no counts do, the cheapest
-/// that come within 10 % of the errors of the most. `suns`: of the whole period. Depends on nothing
-/// else.
+/// The cheapest counts that meet the goals on `share_to_be_met` of the area that counts: lines for
+/// every patch, where what else it receives by samples leaves room, or until lines are no more of
+/// its error than those; samples for all. From the counts of `least` on, doubled, at most
+/// `most_per_patch`; where none do, the cheapest that come within 10 % of the errors of the most.
+/// `suns`: of the whole period. Depends on nothing else.
 SampleCounts needed_counts(const PatchSpread& spread, const SolverRules& least,
                            const AccuracyGoal& goal, std::size_t suns);
-
-/// Suns of a pilot, at most.
-inline constexpr std::size_t pilot_suns = 32;
-
-/// Solves `suns`, each of which stands for `weight` suns of the period, which is solved in batches
-/// of `batch_suns`. Deterministic.
-PatchSpread pilot_spread(const Scene& scene, std::shared_ptr<const Hierarchy> mesh,
-                         const SolverRules& rules, std::span<const SunLight> suns, double weight,
-                         Watch& watch, std::size_t batch_suns = block_width);
 
 }  // namespace sunload

@@ -37,7 +37,7 @@ class FirstMirrored::LineTask {
     const PatchLines lines(m_.hierarchy_, patch, m_.caster_.offset_m(),
                            line_seeds(m_.hierarchy_, patch, realization_, m_.rules_.seed));
     const auto count =
-        static_cast<std::size_t>(m_.rules_.lines_per_patch / m_.rules_.realizations);
+        static_cast<std::size_t>(m_.rules_.lines_of(patch) / m_.rules_.realizations);
     const double share = m_.hierarchy_.area()[patch] / static_cast<double>(count);
     // Packets as in trace_lines, so that the same lines are found to leave.
     for (std::size_t first = 0; first < count; first += packet_size)

@@ -96,7 +96,7 @@ std::uint64_t GlossySun::add_light(std::span<const SunLight> block, MirroredIrra
     return std::partition_point(glimpses_.begin(), glimpses_.end(),
                                 [&](const Glimpse& g) { return g.patch < patch; });
   };
-  const double R = rules_.realizations, lines_each = rules_.lines_per_patch / rules_.realizations;
+  const double R = rules_.realizations;
   return ordered_sum(
       hierarchy_.patch_count(), patches_per_task, std::uint64_t{0},
       [&](std::size_t begin, std::size_t end) {
@@ -111,6 +111,7 @@ std::uint64_t GlossySun::add_light(std::span<const SunLight> block, MirroredIrra
           chunk.cast();
           rays += chunk.rays;
           for (std::size_t i = begin; i < end; ++i) {
+            const double lines_each = rules_.lines_of(i) / R;
             double pooled = 0;
             for (std::size_t r = 0; r < into.realizations(); ++r) {
               const double E = chunk.sum(i, r) / lines_each;

@@ -28,6 +28,7 @@ std::vector<double> emission_of(const PatchOptics& optics) {
 
 LineRules rules_of_look(LineRules rules, int look) {
   rules.lines_per_patch = std::max(fewest_lines, rules.lines_per_patch / lines_share);
+  rules.lines_of_patch.clear();
   rules.realizations = 1;
   rules.largest_link = 0;
   rules.seed = mixed(mixed(rules.seed, static_cast<std::uint64_t>(Purpose::bright_surfaces)),

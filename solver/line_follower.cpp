@@ -58,14 +58,12 @@ void LineCollector::store(LineSet& set, std::size_t row, std::size_t count) {
 }
 
 LineFollower::LineFollower(const Scene& scene, const Hierarchy& hierarchy,
-                           const RayCaster& caster, const SkyGrid& grid, int mirror_depth,
-                           double largest_link)
+                           const RayCaster& caster, const SkyGrid& grid, int mirror_depth)
     : scene_(scene),
       hierarchy_(hierarchy),
       caster_(caster),
       grid_(grid),
-      mirror_depth_(mirror_depth),
-      largest_link_(largest_link) {}
+      mirror_depth_(mirror_depth) {}
 
 const Material& LineFollower::material_of(std::int32_t triangle) const {
   return scene_.materials[scene_.material[static_cast<std::size_t>(triangle)].index()];
@@ -152,7 +150,7 @@ std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first,
     if (material.diffuse > 0 || material.emission_w_m2 > 0)
       into.patches.push_back(
           {linked_element(hierarchy_, static_cast<std::size_t>(patch), origin + w * hit.distance_m,
-                          path_m, largest_link_),
+                          path_m, into.largest_link),
            static_cast<float>(counted)});
     into.lamps += counted * material.emission_w_m2;
     if (!sends_on(material)) return rays;
@@ -179,7 +177,7 @@ std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first,
 
 void LineFollower::link(const BrightView::SeenPoint& point, LineCollector& into) const {
   into.patches.push_back({linked_element(hierarchy_, point.patch, point.position,
-                                         point.distance_m, largest_link_),
+                                         point.distance_m, into.largest_link),
                           static_cast<float>(point.share)});
   into.lamps += point.share * point.exitance;
 }

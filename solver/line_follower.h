@@ -19,7 +19,9 @@ struct LineCollector {
   std::vector<LinkTable::Link> patches, sky, sky_by_mirror;
   std::vector<Glimpse> glimpses;  ///< patch and realization are the collector's owner's
   LineEnds ends;
+  double largest_link = 0;  ///< form factor that no element exceeds to which a link leads
   double lamps = 0;  ///< exitance of emitters that was seen, summed over lines [W m-2]
+  /// Forgets the lines.
   void clear();
   /// Puts the lines of another realization to these.
   LineCollector& operator+=(const LineCollector& other);
@@ -32,7 +34,7 @@ struct LineCollector {
 class LineFollower {
  public:
   LineFollower(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-               const SkyGrid& grid, int mirror_depth, double largest_link = 0);
+               const SkyGrid& grid, int mirror_depth);
 
   /// A line that left its patch from `origin` along the unit vector `w` and met `hit`; adds
   /// its links, its end, and the emitters that it sees. Of what it meets straight it counts
@@ -83,7 +85,6 @@ class LineFollower {
   const RayCaster& caster_;
   const SkyGrid& grid_;
   int mirror_depth_;
-  double largest_link_;
 };
 
 }  // namespace sunload

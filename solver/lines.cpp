@@ -84,7 +84,7 @@ class BlockTracer {
       : hierarchy_(hierarchy),
         caster_(caster),
         rules_(rules),
-        follower_(scene, hierarchy, caster, grid, rules.mirror_depth, rules.largest_link),
+        follower_(scene, hierarchy, caster, grid, rules.mirror_depth),
         guide_(guide),
         ground_source_(static_cast<std::size_t>(grid.cell_count())) {}
 
@@ -99,12 +99,12 @@ class BlockTracer {
     output.first_light.resize(lines.realizations.size());
     LineBundle bundle;
     Row row{BrightView(guide_), {}, {}};
-    const std::size_t patches = patches_per_bundle();
-    for (std::size_t first = begin; first < end; first += patches) {
-      const std::size_t last = std::min(end, first + patches);
+    for (std::size_t first = begin, last; first < end; first = last) {
+      last = end_of_bundle(first, end);
       cast(first, last, bundle);
-      for (std::size_t patch = first; patch < last; ++patch)
-        follow_patch(patch, bundle, (patch - first) * all_lines(), row, lines, output);
+      std::size_t at = 0;
+      for (std::size_t patch = first; patch < last; at += lines_of(patch++))
+        follow_patch(patch, bundle, at, row, lines, output);
     }
     return output;
   }
@@ -116,14 +116,18 @@ class BlockTracer {
     LineCollector own, pooled;
   };
 
-  std::size_t lines_per_realization() const {
-    return static_cast<std::size_t>(rules_.lines_per_patch / rules_.realizations);
+  std::size_t lines_of(std::size_t patch) const {
+    return static_cast<std::size_t>(rules_.lines_of(patch));
   }
-  std::size_t all_lines() const { return static_cast<std::size_t>(rules_.lines_per_patch); }
+  std::size_t lines_per_realization(std::size_t patch) const {
+    return lines_of(patch) / static_cast<std::size_t>(rules_.realizations);
+  }
   /// Enough lines to fill packets with similar directions, few enough for the cache.
-  std::size_t patches_per_bundle() const {
+  std::size_t end_of_bundle(std::size_t first, std::size_t end) const {
     constexpr std::size_t lines_per_bundle = 2048;
-    return std::max<std::size_t>(1, lines_per_bundle / all_lines());
+    std::size_t lines = lines_of(first), last = first + 1;
+    while (last < end && lines + lines_of(last) <= lines_per_bundle) lines += lines_of(last++);
+    return last;
   }
 
   /// The lines of patches [first, last), realization by realization.
@@ -133,7 +137,7 @@ class BlockTracer {
       for (std::size_t r = 0; r < static_cast<std::size_t>(rules_.realizations); ++r)
         bundle.add(PatchLines(hierarchy_, patch, caster_.offset_m(),
                               line_seeds(hierarchy_, patch, r, rules_.seed)),
-                   lines_per_realization());
+                   lines_per_realization(patch));
     bundle.cast(caster_);
   }
 
@@ -142,9 +146,11 @@ class BlockTracer {
                     Lines& lines, Output& output) const {
     row.pooled.clear();
     row.view.look_from(hierarchy_, patch);
+    row.own.largest_link = rules_.largest_link_of(patch);
+    const std::size_t lines_each = lines_per_realization(patch);
     for (std::size_t r = 0; r < lines.realizations.size(); ++r) {
       row.own.clear();
-      follow_realization(patch, r, bundle, at + r * lines_per_realization(), row, output);
+      follow_realization(patch, r, bundle, at + r * lines_each, row, output);
       for (Glimpse& glimpse : row.own.glimpses) {
         glimpse.patch = static_cast<std::uint32_t>(patch);
         glimpse.realization = static_cast<std::uint32_t>(r);
@@ -152,9 +158,9 @@ class BlockTracer {
       output.glimpses.insert(output.glimpses.end(), row.own.glimpses.begin(),
                              row.own.glimpses.end());
       row.pooled += row.own;
-      row.own.store(lines.realizations[r], patch, lines_per_realization());
+      row.own.store(lines.realizations[r], patch, lines_each);
     }
-    row.pooled.store(lines.pooled, patch, all_lines());
+    row.pooled.store(lines.pooled, patch, lines_of(patch));
   }
 
   void follow_realization(std::size_t patch, std::size_t realization, const LineBundle& bundle,
@@ -165,7 +171,7 @@ class BlockTracer {
                   .element = hierarchy_.key()[patch]};
     const Vec3 normal = hierarchy_.normal(patch);
     const bool sends_light_on = sends_on(follower_.material_of_patch(patch));
-    const std::size_t count = lines_per_realization();
+    const std::size_t count = lines_per_realization(patch);
     output.rays += count;
     for (std::size_t l = 0; l < count; ++l) {
       const Hit hit = bundle.hit(at + l);
@@ -189,7 +195,7 @@ class BlockTracer {
   std::uint64_t book_mirrored(Vec3 origin, Vec3 w, std::size_t patch, const RandomKey& line,
                               MirroredFirstLight& book) const {
     const auto fate = follower_.mirrored_on(origin, w, patch, line);
-    const double share = hierarchy_.area()[patch] / static_cast<double>(lines_per_realization());
+    const double share = hierarchy_.area()[patch] / static_cast<double>(lines_per_realization(patch));
     const std::size_t source = w.z > 0 ? follower_.sky_cell(w) : ground_source_;
     MirroredFirstLight::for_each(book, fate, [&](std::vector<double>& power, double part) {
       if (power.empty()) power.assign(ground_source_ + 1, 0);
@@ -225,14 +231,22 @@ void trim(LineSet& set, std::size_t block) {
   }
 }
 
+void expect_shared_equally(const LineRules& rules, std::size_t patches) {
+  SUNLOAD_EXPECT(rules.realizations >= 1, "at least one realization");
+  SUNLOAD_EXPECT(rules.lines_of_patch.empty() || rules.lines_of_patch.size() == patches,
+                 "lines of every patch");
+  for (std::size_t patch = 0; patch < std::max<std::size_t>(1, rules.lines_of_patch.size()); ++patch)
+    SUNLOAD_EXPECT(rules.lines_of(patch) % rules.realizations == 0,
+                   "lines are shared equally by the realizations");
+}
+
 }  // namespace
 
 Lines trace_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
                   const SkyGrid& grid, const Guide& guide, const LineRules& rules,
                   Watch& watch) {
-  SUNLOAD_EXPECT(rules.realizations >= 1 && rules.lines_per_patch % rules.realizations == 0,
-                 "lines are shared equally by the realizations");
   const std::size_t patches = hierarchy.patch_count();
+  expect_shared_equally(rules, patches);
   const BlockTracer tracer(scene, hierarchy, caster, grid, guide, rules);
   Lines lines;
   lines.pooled = empty_line_set(patches, guide.any());

@@ -102,11 +102,21 @@ LineSet empty_line_set(std::size_t rows, bool any_lamps);
 
 struct LineRules {
   int lines_per_patch = 256;  ///< over all realizations together
+  /// Of each patch, if they differ; multiples of `realizations`.
+  std::vector<int> lines_of_patch = {};
   int realizations = 8;
   int mirror_depth = 8;
   std::uint64_t seed = 1;
-  /// Links lead to the largest element of the tree whose form factor cannot exceed this.
+  /// Links of `lines_per_patch` lines lead to the largest element of the tree whose form factor
+  /// cannot exceed this; those of more lines to smaller ones, which as many can meet.
   double largest_link = 0;
+
+  int lines_of(std::size_t patch) const {
+    return lines_of_patch.empty() ? lines_per_patch : lines_of_patch[patch];
+  }
+  double largest_link_of(std::size_t patch) const {
+    return largest_link * lines_per_patch / lines_of(patch);
+  }
 };
 
 struct Lines {

@@ -61,6 +61,20 @@ void add_exposure(const Light& light, std::span<const SunLight> block,
   }, patches_per_task);
 }
 
+/// `parallel`: irradiance by parallel sources, or empty.
+void add_spread(const ShotLight& light, const std::vector<double>& parallel,
+                InstantSpreadBySource& spread) {
+  const auto of_parallel = [&](std::size_t i) { return parallel.empty() ? 0 : parallel[i]; };
+  spread.add(
+      total_of(light),
+      [&](std::size_t i, std::size_t k) {
+        return light.by_source->sun[i * block_width + k] + of_parallel(i);
+      },
+      [&](std::size_t i, std::size_t k) {
+        return light.by_source->shot[i * block_width + k] + (*light.lamps)[i] - of_parallel(i);
+      });
+}
+
 }  // namespace
 
 void LightSolver::shoot_block(std::span<const SunLight> block, std::size_t first_row,
@@ -75,26 +89,29 @@ void LightSolver::shoot_block(std::span<const SunLight> block, std::size_t first
   MeanLight mean(patches, realizations), on_sensors(sensors, realizations);
   InstantSpread spread(of_instants ? patches : 0, block.size()),
       of_sensors(of_instants ? sensors : 0, block.size());
+  InstantSpreadBySource by_source(of_instants && rules_.by_source ? patches : 0, block.size());
   for (std::size_t r = 0; r < realizations; ++r) {
     const ShotLight light = shooter_->light(r, sources, traced.of_patches.direct[r], sent);
     work_.samples += light.samples;
     work_.shot_rays += light.rays;
     work_.wanted_samples += light.wanted;
     mean.add(light);
-    spread.add(light);
+    spread.add(total_of(light));
+    if (light.by_source) add_spread(light, parallel_.of(r), by_source);
     add_realization(r, light, block, first_row, tally);
     if (sensors == 0) continue;
     const BlockLight received = shot_to_sensors(r, sources, light, traced.of_sensors);
     on_sensors.add(received);
-    of_sensors.add(received);
+    of_sensors.add(total_of(received));
     add_exposure(received, block, tally.sensors.exposure_realization[r]);
   }
   store_patches(optics_, mean.in_float(), block, first_row, traced.direct.sunlit, tally);
   if (sensors > 0)
     store_received(on_sensors.in_float(), block, first_row, traced.on_sensors.sunlit,
                    tally.sensors);
-  spread.store(first_row, tally);
-  of_sensors.store(first_row, tally.sensors);
+  spread.store(first_row, tally.irradiance_se);
+  of_sensors.store(first_row, tally.sensors.irradiance_se);
+  by_source.store(first_row, tally.se_by_source);
 }
 
 /// The direct sun of every realization, and what comes to sensors by planar mirrors.

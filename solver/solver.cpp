@@ -17,8 +17,8 @@ namespace sunload {
 namespace {
 
 LineRules line_rules(const SolverRules& rules) {
-  return {rules.lines_per_patch, rules.realizations, rules.mirror_depth, rules.seed,
-          rules.link_threshold / rules.lines_per_patch};
+  return {rules.lines_per_patch, rules.lines_of_patch, rules.realizations,
+          rules.mirror_depth,    rules.seed,           rules.link_threshold / rules.lines_per_patch};
 }
 
 ShootingRules shooting_rules(const SolverRules& rules, int bounces) {
@@ -139,7 +139,7 @@ BatchTally LightSolver::solve(std::span<const SunLight> batch, Watch& watch) {
 BatchTally LightSolver::empty_tally(std::size_t intervals) const {
   TallyShape shape{hierarchy_.patch_count(), scene_.sensors.size(), intervals,
                    static_cast<std::size_t>(rules_.realizations), {}, rules_.errors,
-                   rules_.by_source && rules_.transport == Transport::shoot};
+                   rules_.by_source, rules_.transport};
   for (std::size_t p = 0; p < part_count; ++p) shape.parts[p] = has_part(static_cast<Part>(p));
   return sunload::empty_tally(shape);
 }
@@ -261,8 +261,10 @@ void LightSolver::errors_per_instant(const PatchOptics& optics, const BlockSourc
   SunColumns &of_patches = traced.of_patches, &of_sensors = traced.of_sensors;
   InstantSpread patches(hierarchy_.patch_count(), suns);
   InstantSpread sensors(scene_.sensors.size(), suns);
+  InstantSpreadBySource by_source(rules_.by_source ? hierarchy_.patch_count() : 0, suns);
   for (std::size_t r = 0; r < of_patches.direct.size(); ++r) {
     const LineSet& lines = lines_.realizations[r];
+    const Columns by_samples = rules_.by_source ? traced_sum(of_patches, r) : Columns{};
     const BlockLight light = block_light(
         hierarchy_, lines, optics, sources,
         {std::move(of_patches.direct[r]), std::move(of_patches.by_mirror[r]),
@@ -271,13 +273,20 @@ void LightSolver::errors_per_instant(const PatchOptics& optics, const BlockSourc
     const auto ledger = block_ledger(lines, optics, hierarchy_.area(), sources, light);
     std::copy(ledger.begin(), ledger.end(),
               tally.ledger_instants[r].begin() + static_cast<std::ptrdiff_t>(first_row));
-    patches.add(light);
-    sensors.add(sensor_light(sensor_lines_.realizations[r], optics, sources,
-                             std::move(of_sensors.direct[r]), std::move(of_sensors.by_mirror[r]),
-                             sensor_parallel_.of(r), light.followed));
+    const BlockLight on_sensors =
+        sensor_light(sensor_lines_.realizations[r], optics, sources,
+                     std::move(of_sensors.direct[r]), std::move(of_sensors.by_mirror[r]),
+                     sensor_parallel_.of(r), light.followed);
+    patches.add(total_of(light));
+    sensors.add(total_of(on_sensors));
+    by_source.add(
+        total_of(light),
+        [&](std::size_t i, std::size_t k) { return by_samples[i * block_width + k]; },
+        [](std::size_t, std::size_t) { return 0; });
   }
-  patches.store(first_row, tally);
-  sensors.store(first_row, tally.sensors);
+  patches.store(first_row, tally.irradiance_se);
+  sensors.store(first_row, tally.sensors.irradiance_se);
+  by_source.store(first_row, tally.se_by_source);
   for (std::size_t r = 0; r < traced.sent_on.size(); ++r)
     for (std::size_t k = 0; k < suns; ++k)
       tally.ledger_instants[r][first_row + k] += booked(traced.sent_on[r], k);

@@ -34,6 +34,7 @@ struct SolverRules {
   /// Fewer bounces (and mirrors of the sun) where less than this is left.
   double unshot = 1e-3;
   int lines_per_patch = 256;  ///< over all realizations
+  std::vector<int> lines_of_patch = {};  ///< if they differ; sensors have lines_per_patch
   int direct_samples = 16;    ///< per patch and sun, over all realizations
   int realizations = 8;
   int mirror_depth = 8;
@@ -50,7 +51,8 @@ struct SolverRules {
   Jacobi jacobi = Jacobi::incremental;        ///< when shooting
   std::optional<double> power_per_sample_w;   ///< when shooting, ShootingRules
   std::optional<int> samples_per_patch;       ///< when shooting, ShootingRules
-  bool by_source = false;                     ///< when shooting: BatchTally::by_source
+  /// BatchTally::by_source and, with errors per instant, se_by_source.
+  bool by_source = false;
 };
 
 /// Light on a frozen mesh: prepared once per variant, then any batch of suns.

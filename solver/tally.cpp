@@ -51,10 +51,14 @@ BatchTally empty_tally(const TallyShape& shape) {
   tally.outgoing.assign(shape.patches, 0);
   tally.ledger.resize(shape.intervals);
   tally.ledger_realization.resize(shape.realizations);
-  if (shape.by_source) {
+  if (shape.by_source && shape.transport == Transport::shoot) {
     const std::vector<std::vector<double>> zeros(shape.realizations,
                                                  std::vector<double>(shape.patches, 0));
     tally.by_source = {zeros, zeros, zeros, zeros};
+  }
+  if (shape.by_source && shape.errors == Errors::instants) {
+    const std::vector<float> zeros(shape.intervals * shape.patches, 0);
+    tally.se_by_source = {zeros, zeros, zeros};
   }
   if (shape.errors == Errors::instants)
     tally.ledger_instants.assign(shape.realizations, std::vector<Ledger>(shape.intervals));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/sun_block.h"
+#include "solver/transport.h"
 
 namespace sunload {
 
@@ -59,6 +60,13 @@ struct ExposureBySource {
   std::vector<std::vector<double>> reflected;  ///< by samples of every block of suns
 };
 
+/// Standard errors of irradiance by what they come from, [K][N] W m-2.
+struct ErrorsBySource {
+  std::vector<float> samples;  ///< direct ones, of suns and parallel sources
+  std::vector<float> shots;    ///< samples of power; 0 when gathering
+  std::vector<float> lines;    ///< all the rest
+};
+
 /// Standard errors of totals alone, or of every interval too.
 enum class Errors { totals, instants };
 
@@ -67,6 +75,7 @@ struct BatchTally : ReceiverTally {
   std::size_t intervals = 0;
   std::vector<double> outgoing;                              ///< [N] radiosity, time-integrated
   ExposureBySource by_source;
+  ErrorsBySource se_by_source;                               ///< if asked for, per instant
   ReceiverTally sensors;
   std::vector<Ledger> ledger;                                ///< [K] W
   std::vector<Ledger> ledger_realization;                    ///< [R] J
@@ -80,10 +89,11 @@ struct TallyShape {
   std::size_t patches = 0, sensors = 0, intervals = 0, realizations = 0;
   std::array<bool, part_count> parts{};  ///< that the scene can have
   Errors errors = Errors::totals;
-  bool by_source = false;                ///< when shooting
+  bool by_source = false;
+  Transport transport = Transport::gather;
 };
-/// All zeros; what errors per instant alone need only where they are asked for, and sources when
-/// shooting. When gathering these are empty: the sun's part is put there at the end.
+/// All zeros; what errors per instant alone need only where they are asked for, and sources
+/// likewise. When gathering exposures by source are empty: the sun's part is put there at the end.
 BatchTally empty_tally(const TallyShape& shape);
 
 /// Work done so far and the time it took, per stage.

@@ -22,6 +22,14 @@ void scale(MirroredSun& fates, const std::array<double, block_width>& factors) {
 
 }  // namespace
 
+Columns traced_sum(const SunColumns& columns, std::size_t realization) {
+  Columns sum = columns.direct[realization];
+  for (const auto* part : {&columns.by_mirror, &columns.circumsolar})
+    for (std::size_t at = 0; at < (*part)[realization].size(); ++at)
+      sum[at] += (*part)[realization][at];
+  return sum;
+}
+
 void add_exposures(const TracedLight& traced, const BandFactors& factors,
                    std::span<const SunLight> suns, TimeSums& sums) {
   std::array<double, block_width> sun_s{}, sky_s{};

@@ -25,6 +25,10 @@ inline std::vector<Columns>* or_none(std::vector<Columns>& of_realizations) {
   return of_realizations.empty() ? nullptr : &of_realizations;
 }
 
+/// What direct samples bring in one realization: the sun, straight, by mirrors and by the bright
+/// sky about it.
+Columns traced_sum(const SunColumns& columns, std::size_t realization);
+
 struct TracedLight {
   DirectSun direct, on_sensors;
   CircumsolarLight circumsolar;

@@ -762,6 +762,7 @@ TEST(CanonicalText, SeesEveryValueThatCanChangeANumber) {
        {"batch suns", [](Study& s) { s.solver.batch_suns = 1; }},
        {"accuracy", [](Study& s) { s.solver.accuracy = AccuracyStudy{0.02}; }},
        {"another accuracy", [](Study& s) { s.solver.accuracy = AccuracyStudy{0.03}; }},
+       {"accuracy of instants", [](Study& s) { s.solver.accuracy = AccuracyStudy{{}, 0.02}; }},
        {"most lines",
         [](Study& s) {
           s.solver.accuracy = AccuracyStudy{0.02};

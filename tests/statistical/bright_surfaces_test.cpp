@@ -31,7 +31,7 @@ struct ByLamps {
     const SolverRules& rules = solver.rules();
     const auto plain = trace_lines(
         scene, solver.hierarchy(), solver.caster(), solver.sky_grid(), {},
-        {rules.lines_per_patch, rules.realizations, rules.mirror_depth, rules.seed, 0}, watch);
+        {rules.lines_per_patch, {}, rules.realizations, rules.mirror_depth, rules.seed, 0}, watch);
     for (std::size_t r = 0; r < plain.realizations.size(); ++r) {
       both.push_back(solver.lines().realizations[r].lamps);
       lines.emplace_back(both.back().size());

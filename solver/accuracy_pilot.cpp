@@ -1,0 +1,277 @@
+#include "solver/accuracy_pilot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "solver/rng.h"
+
+namespace sunload {
+
+namespace {
+
+// Fewer realizations say little of a variance; more than most take memory, the more if each keeps
+// the light of every instant.
+constexpr int fewest_realizations = 8, most_realizations = 256, most_realizations_of_instants = 16;
+// None of so many lines meets what sends a patch 1 % of the largest load: 0.6 % of patches.
+constexpr int fewest_lines = 512;
+
+/// A pilot is part of the preparation.
+class PilotWatch : public Watch {
+ public:
+  explicit PilotWatch(Watch& watch) : watch_(watch) {}
+  void advance(Stage stage, double share) override {
+    watch_.advance(Stage::prepare,
+                   stage == Stage::lines ? share / 2 : (1 + begin_ + share * length_) / 2);
+  }
+  /// The light that is solved next is this part of all.
+  void begin_part(double begin, double length) {
+    begin_ = begin;
+    length_ = length;
+  }
+
+ private:
+  Watch& watch_;
+  double begin_ = 0, length_ = 1;
+};
+
+/// The realizations are like the study's own (the errors of few scrambled points are not those
+/// of many), only more, or with more lines where they may not be as many as that takes.
+SolverRules pilot_rules(SolverRules rules, bool of_instants) {
+  int lines = rules.lines_per_patch / rules.realizations;
+  const int samples = rules.direct_samples / rules.realizations;
+  const double of_study = rules.realizations;
+  const int most = of_instants ? most_realizations_of_instants : most_realizations;
+  const int wanted = std::min(most, (fewest_lines + lines - 1) / lines);
+  rules.realizations = std::max({rules.realizations, fewest_realizations, wanted});
+  lines = std::max(lines, (fewest_lines + rules.realizations - 1) / rules.realizations);
+  // The power of a sample is that of all realizations together.
+  if (rules.power_per_sample_w) *rules.power_per_sample_w *= of_study / rules.realizations;
+  rules.lines_per_patch = lines * rules.realizations;
+  rules.direct_samples = samples * rules.realizations;
+  rules.seed = mixed(rules.seed, static_cast<std::uint64_t>(Purpose::pilot));
+  rules.errors = of_instants ? Errors::instants : Errors::totals;
+  rules.by_source = true;
+  return rules;
+}
+
+/// Mean of the values [r].
+template <class Value>
+double mean(std::size_t realizations, Value&& value) {
+  const auto n = static_cast<double>(realizations);
+  double mean = 0;
+  for (std::size_t r = 0; r < realizations; ++r) mean += value(r) / n;
+  return mean;
+}
+
+/// Variance of the values [r].
+template <class Value>
+double variance(std::size_t realizations, Value&& value) {
+  const double middle = mean(realizations, value);
+  double squares = 0;
+  for (std::size_t r = 0; r < realizations; ++r)
+    squares += (value(r) - middle) * (value(r) - middle);
+  return squares / (static_cast<double>(realizations) - 1);
+}
+
+/// Counts of one realization, which variances are told of.
+struct OfRealization {
+  double lines, samples;
+  explicit OfRealization(const SolverRules& rules)
+      : lines(rules.lines_per_patch / rules.realizations),
+        samples(rules.direct_samples / rules.realizations) {}
+};
+
+/// Lines are shared by all suns, so that their errors add up; samples are each sun's own, so that
+/// their variances do.
+Spread gathered_load(const LightSolver& solver, const BatchTally& tally, double weight) {
+  const OfRealization count(solver.rules());
+  const auto R = tally.exposure_realization.size();
+  Spread spread;
+  for (std::size_t i = 0; i < solver.hierarchy().patch_count(); ++i) {
+    const auto total = [&](std::size_t r) { return tally.exposure_realization[r][i]; };
+    const auto sun = [&](std::size_t r) { return tally.by_source.sun[r][i]; };
+    spread.value.push_back(weight * mean(R, total));
+    const double by_lines = variance(R, [&](std::size_t r) { return total(r) - sun(r); });
+    spread.of_line.push_back(weight * weight * by_lines * count.lines);
+    spread.of_sample.push_back(weight * variance(R, sun) * count.samples);
+  }
+  return spread;
+}
+
+void add(std::vector<std::vector<double>>& to, const std::vector<std::vector<double>>& from) {
+  for (std::size_t r = 0; r < to.size(); ++r)
+    for (std::size_t i = 0; i < to[r].size(); ++i) to[r][i] += from[r][i];
+}
+
+void append(std::vector<float>& to, const std::vector<float>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+/// Exposures of all suns, and what is told of every one; so many at a time share their samples.
+BatchTally solved_in_blocks(LightSolver& solver, std::span<const SunLight> suns,
+                            std::size_t block, PilotWatch& watch) {
+  BatchTally sum = solver.solve({}, watch);
+  constexpr auto total = static_cast<std::size_t>(Part::total);
+  for (std::size_t begin = 0; begin < suns.size(); begin += block) {
+    const auto part = suns.subspan(begin, std::min(block, suns.size() - begin));
+    const auto all = static_cast<double>(suns.size());
+    watch.begin_part(static_cast<double>(begin) / all, static_cast<double>(part.size()) / all);
+    const BatchTally of_part = solver.solve(part, watch);
+    add(sum.exposure_realization, of_part.exposure_realization);
+    add(sum.by_source.sun, of_part.by_source.sun);
+    add(sum.by_source.parallel, of_part.by_source.parallel);
+    add(sum.by_source.emitted, of_part.by_source.emitted);
+    add(sum.by_source.reflected, of_part.by_source.reflected);
+    append(sum.irradiance[total], of_part.irradiance[total]);
+    append(sum.se_by_source.samples, of_part.se_by_source.samples);
+    append(sum.se_by_source.shots, of_part.se_by_source.shots);
+    append(sum.se_by_source.lines, of_part.se_by_source.lines);
+  }
+  return sum;
+}
+
+/// So many samples of a pilot came for every one that its power asked for.
+double excess(const WorkDone& work) {
+  return work.wanted_samples > 0 ? static_cast<double>(work.samples) / work.wanted_samples : 1;
+}
+
+/// What shots were done for: emitters once, patches for every block of suns.
+struct Excess {
+  double of_emitters, of_patches;
+};
+
+/// Every block of suns has samples of its own, which its suns share. Where patches got a sample
+/// that they would not have had by their power, more samples than those must be asked for before
+/// errors fall.
+Spread shot_load(const LightSolver& solver, const BatchTally& tally, double weight,
+                 const Excess& excess) {
+  const OfRealization count(solver.rules());
+  const auto R = tally.exposure_realization.size();
+  const ExposureBySource& by = tally.by_source;
+  Spread spread;
+  for (std::size_t i = 0; i < solver.hierarchy().patch_count(); ++i) {
+    const auto of = [i](const std::vector<std::vector<double>>& exposure) {
+      return [&exposure, i](std::size_t r) { return exposure[r][i]; };
+    };
+    const auto total = of(tally.exposure_realization);
+    const auto by_lines = [&](std::size_t r) {
+      return total(r) - by.sun[r][i] - by.parallel[r][i] - by.emitted[r][i] - by.reflected[r][i];
+    };
+    spread.value.push_back(weight * mean(R, total));
+    spread.of_line.push_back(weight * weight * variance(R, by_lines) * count.lines);
+    const double of_suns = weight * variance(R, of(by.sun));
+    const double of_parallel = weight * weight * variance(R, of(by.parallel));
+    spread.of_sample.push_back((of_suns + of_parallel) * count.samples);
+    const double of_blocks = weight * variance(R, of(by.reflected)) * excess.of_patches;
+    const double of_emitters = weight * weight * variance(R, of(by.emitted)) * excess.of_emitters;
+    spread.of_shot.push_back((of_blocks + of_emitters) * count.lines);
+  }
+  return spread;
+}
+
+/// Of every sun; `excess`: of all that is shot, 0 where nothing is.
+std::vector<Spread> spread_of_instants(const LightSolver& solver, const BatchTally& tally,
+                                       double excess) {
+  const OfRealization count(solver.rules());
+  const std::size_t patches = solver.hierarchy().patch_count();
+  const double R = solver.rules().realizations;
+  const auto variances = [&](const std::vector<float>& se, std::size_t begin, double factor) {
+    std::vector<double> of_patches(patches);
+    for (std::size_t i = 0; i < patches; ++i) {
+      const auto error = static_cast<double>(se[begin + i]);
+      of_patches[i] = error * error * R * factor;
+    }
+    return of_patches;
+  };
+  const auto& irradiance = tally.irradiance[static_cast<std::size_t>(Part::total)];
+  std::vector<Spread> spreads;
+  for (std::size_t begin = 0; begin < irradiance.size(); begin += patches) {
+    const auto first = irradiance.begin() + static_cast<std::ptrdiff_t>(begin);
+    Spread spread;
+    spread.value.assign(first, first + static_cast<std::ptrdiff_t>(patches));
+    spread.of_line = variances(tally.se_by_source.lines, begin, count.lines);
+    spread.of_sample = variances(tally.se_by_source.samples, begin, count.samples);
+    if (excess > 0)
+      spread.of_shot = variances(tally.se_by_source.shots, begin, excess * count.lines);
+    spreads.push_back(std::move(spread));
+  }
+  return spreads;
+}
+
+/// Neighbours on one input triangle see much the same: together they know variances better than
+/// few realizations of one patch do.
+void share_with_neighbours(const Hierarchy& hierarchy, std::vector<double>& of_line) {
+  constexpr std::ptrdiff_t reach = 2;
+  constexpr double weight_of_others = 0.5;
+  const auto patches = static_cast<std::ptrdiff_t>(of_line.size());
+  const auto triangle = [&](std::ptrdiff_t i) {
+    return hierarchy.patches()[static_cast<std::size_t>(i)].triangle;
+  };
+  const std::vector<double> own = of_line;
+  for (std::ptrdiff_t i = 0; i < patches; ++i) {
+    double sum = 0, weights = 0;
+    for (auto j = std::max(i - reach, std::ptrdiff_t{0}); j < std::min(i + reach + 1, patches); ++j) {
+      if (triangle(j) != triangle(i)) continue;
+      const double weight = j == i ? 1 : weight_of_others;
+      sum += weight * own[static_cast<std::size_t>(j)];
+      weights += weight;
+    }
+    of_line[static_cast<std::size_t>(i)] = sum / weights;
+  }
+}
+
+PatchSpread gathered_spread(LightSolver& solver, std::span<const SunLight> suns,
+                            const PilotRules& pilot, PilotWatch& watch) {
+  const BatchTally tally = solver.solve(suns, watch);
+  PatchSpread spread;
+  spread.load = gathered_load(solver, tally, pilot.weight);
+  if (pilot.of_instants) spread.irradiance = spread_of_instants(solver, tally, 0);
+  return spread;
+}
+
+PatchSpread shot_spread(LightSolver& solver, std::span<const SunLight> suns,
+                        const PilotRules& pilot, PilotWatch& watch) {
+  const WorkDone by_emitters = solver.work();
+  const std::size_t block = std::min(pilot.batch_suns, block_width);
+  const BatchTally tally = solved_in_blocks(solver, suns, block, watch);
+  WorkDone by_patches = solver.work();
+  by_patches -= by_emitters;
+  const Excess excess_of{excess(by_emitters), excess(by_patches)};
+  PatchSpread spread;
+  spread.load = shot_load(solver, tally, pilot.weight, excess_of);
+  if (pilot.of_instants)
+    spread.irradiance = spread_of_instants(
+        solver, tally, std::max(excess_of.of_emitters, excess_of.of_patches));
+  const double first = static_cast<double>(solver.rules().lines_per_patch) *
+                       static_cast<double>(solver.hierarchy().patch_count());
+  const double blocks = std::ceil(static_cast<double>(suns.size()) / static_cast<double>(block));
+  if (blocks > 0 && first > 0)
+    spread.shots_per_block = by_patches.wanted_samples / first / blocks;
+  return spread;
+}
+
+}  // namespace
+
+PatchSpread pilot_spread(const Scene& scene, std::shared_ptr<const Hierarchy> mesh,
+                         const SolverRules& rules, std::span<const SunLight> suns,
+                         const PilotRules& pilot, Watch& watch) {
+  PilotWatch pilot_watch(watch);
+  std::optional<Scene> without_sensors;
+  if (!scene.sensors.empty()) {
+    without_sensors = scene;
+    without_sensors->sensors.clear();
+  }
+  LightSolver solver(without_sensors ? *without_sensors : scene, std::move(mesh),
+                     pilot_rules(rules, pilot.of_instants), pilot_watch);
+  PatchSpread spread = rules.transport == Transport::gather
+                           ? gathered_spread(solver, suns, pilot, pilot_watch)
+                           : shot_spread(solver, suns, pilot, pilot_watch);
+  spread.area = solver.hierarchy().area();
+  share_with_neighbours(solver.hierarchy(), spread.load.of_line);
+  for (Spread& of_sun : spread.irradiance)
+    share_with_neighbours(solver.hierarchy(), of_sun.of_line);
+  return spread;
+}
+
+}  // namespace sunload
