@@ -272,7 +272,9 @@ class MaterialAssigner {
                     fmt::format("material '{}': diffuse {} + mirror {}{} exceeds 1", m.name,
                                 diffuse, m.mirror, other_shares(m)),
                     "more light would leave than arrives (triangle " + std::to_string(t) + ")",
-                    "override it in scene.materials");
+                    m.normal_transmittance > 0
+                        ? "diffuse and mirror under scene.materials go before those of the file"
+                        : "override it in scene.materials");
     const auto same = std::find(scene_.materials.begin(), scene_.materials.end(), m);
     const auto id = make_id<MaterialId>(static_cast<std::size_t>(same - scene_.materials.begin()));
     if (same == scene_.materials.end()) scene_.materials.push_back(m);

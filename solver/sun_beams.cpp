@@ -52,8 +52,7 @@ std::vector<SunBeam> SunBeams::first_level(const SunLight& sun) const {
   };
   std::size_t facing = 0;
   for (std::size_t g = 0; g < groups_->size(); ++g)
-    if (strongest(g) > 0) ++facing;
-  if (facing > static_cast<std::size_t>(rules_.most_beams)) return level;
+    if (strongest(g) > 0 && ++facing > static_cast<std::size_t>(rules_.most_beams)) return level;
   for (std::size_t g = 0; g < groups_->size(); ++g) {
     const Vec3 n = (*groups_)[g].normal;
     const double reflected = strongest(g);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iostream>
 
 #include "geo/units.h"
 #include "tests/support/scenes.h"
@@ -12,6 +13,9 @@
 
 namespace sunload::test {
 namespace {
+
+/// The ledger of shooting closes to this share of what comes in (DESIGN 5).
+constexpr double closes = 1e-6;
 
 constexpr double T0 = 0.85, diffuse = 0.02, mirror = 0.1;
 
@@ -76,29 +80,39 @@ TEST(ClearGlass, TransmitsTheSkyAtEveryAngle) {
   }
 }
 
-// The sun on a facade of clear glass reaches the ground before it with the share that is given.
+/// The sun on a facade of clear glass, 2 m × 2 m, reaches the black ground before it with the share
+/// that is given. The facade's light lands on 2 m × 2.4 m.
+Scene facade(double rho_s, double ground_from, double ground_to) {
+  SceneBuilder builder;
+  builder.object("ground").quad({ground_from, -1, 0}, {ground_to, -1, 0}, {ground_to, 1, 0},
+                                {ground_from, 1, 0}, builder.material({"black"}));
+  builder.object("facade").quad({0, -1, 0}, {0, 1, 0}, {0, 1, 2}, {0, -1, 2},
+                                builder.material(clear_glass(rho_s)));
+  return builder.scene();
+}
+
+/// Mirrored power on the ground.
+double mirrored_w(const Solved& solved) {
+  const auto part = static_cast<std::size_t>(Part::mirror);
+  double power = 0;
+  for (std::size_t i = 0; i < solved.area.size(); ++i)
+    if (solved.patches[i].triangle < 2)
+      power += solved.area[i] * static_cast<double>(solved.tally.irradiance[part][i]);
+  return power;
+}
+
 TEST(ClearGlass, ReflectsWhatItIsGiven) {
   const Vec3 sun = sun_at(50);
-  for (const auto transport : both)
-    for (const double rho_s : {0.0, mirror}) {
-      SceneBuilder builder;
-      builder.object("ground").quad({0.2, -1, 0}, {1, -1, 0}, {1, 1, 0}, {0.2, 1, 0},
-                                    builder.material({"black"}));
-      builder.object("facade").quad({0, -50, 0}, {0, 50, 0}, {0, 50, 90}, {0, -50, 90},
-                                    builder.material(clear_glass(rho_s)));
-      SolverRules rules = rules_of(transport);
-      rules.bounces = 0;
-      // Shooting finds the ground, a five-thousandth of the facade, with few of its samples.
-      if (transport == Transport::shoot) rules.direct_samples *= 64;
-      const auto solved = solve(builder.scene(), {one_second(sun, 700)}, rules);
-      const auto part = static_cast<std::size_t>(Part::mirror);
-      const double E = static_cast<double>(solved.tally.irradiance[part][0]);
-      const double truth = 700 * sun.z * rho_s;
-      if (transport == Transport::gather || rho_s == 0)
-        EXPECT_NEAR(E, truth, 700 * float_rounding);
-      else
-        EXPECT_GT(E, 0);
-    }
+  for (const double rho_s : {0.0, mirror}) {
+    // Images of the sun: every point of the ground near the facade sees one. All of it is shot
+    // onto a ground that is large enough.
+    const auto gathered = solve(facade(rho_s, 0.2, 1), {one_second(sun, 700)},
+                                rules_of(Transport::gather));
+    EXPECT_NEAR(mirrored_w(gathered), 700 * sun.z * rho_s * 2 * 0.8, 700 * float_rounding);
+    const auto shot = solve(facade(rho_s, 0, 3), {one_second(sun, 700)},
+                            rules_of(Transport::shoot));
+    EXPECT_NEAR(mirrored_w(shot), 700 * sun.x * rho_s * 4, 700 * 4 * float_rounding);
+  }
 }
 
 /// A mirror at 45° turns light from the zenith towards -x, onto a pane that hangs over: its front
@@ -127,8 +141,9 @@ TEST(ClearGlass, DividesMirroredSunAtItsAngle) {
       // Planted fault: as if from the normal.
       EXPECT_GT(std::abs(ledger[Term::transmitted] - clear_glass_transmittance(T0, 1) * sent),
                 100 * float_rounding * sent);
-      EXPECT_NEAR(ledger.residual(), 0, float_rounding * sent);
     }
+    EXPECT_TRUE(expect_mean(solved.ledger([](const Ledger& l) { return l.residual(); }), 0,
+                            float_rounding * sent));
   }
 }
 
@@ -164,13 +179,15 @@ Scene court() {
   return builder.scene();
 }
 
+const SplitRules court_mesh{.max_edge_m = 4};
+
 TEST(ClearGlass, LedgerOfACourtCloses) {
   for (const auto transport : both)
-    for (const int depth : {0, 1, 4}) {
+    for (const int depth : {0, 4}) {
       SolverRules rules = rules_of(transport);
       rules.bounces = 20;
       rules.mirror_depth = depth;
-      const auto solved = solve(court(), three_suns(), rules, {.max_edge_m = 2});
+      const auto solved = solve(court(), three_suns(), rules, court_mesh);
       const double in = mean_error(solved.ledger([](const Ledger& l) { return l.in(); })).mean;
       const auto residual = solved.ledger([](const Ledger& l) { return l.residual(); });
       const Verdict verdict = expect_mean(residual, 0, float_rounding * in);
@@ -182,6 +199,9 @@ TEST(ClearGlass, LedgerOfACourtCloses) {
                        return l.residual() + fault * l[Term::transmitted];
                      }),
                                  0, float_rounding * in));
+      if (transport == Transport::gather) continue;
+      for (const auto& ledger : solved.tally.ledger)
+        EXPECT_LE(std::abs(ledger.residual()), closes * ledger.in()) << depth;
     }
 }
 
@@ -193,7 +213,7 @@ TEST(ClearGlass, TransportsAgreeOnWhatPasses) {
     rules.bounces = 20;
     rules.seed = transport == Transport::shoot ? 2 : 1;
     of[transport == Transport::shoot] =
-        solve(court(), three_suns(), rules, {.max_edge_m = 2}).ledger([](const Ledger& l) {
+        solve(court(), three_suns(), rules, court_mesh).ledger([](const Ledger& l) {
           return l[Term::transmitted];
         });
   }
@@ -201,10 +221,12 @@ TEST(ClearGlass, TransportsAgreeOnWhatPasses) {
   std::vector<double> difference, faulty;
   for (std::size_t r = 0; r < of[0].size(); ++r) {
     difference.push_back(of[0][r] - of[1][r]);
-    faulty.push_back(of[0][r] - of[1][r] / clear_glass_factor);
+    faulty.push_back(of[0][r] - of[1][r] * 0.9);
   }
   const Verdict verdict = expect_mean(difference, 0, float_rounding * of[0][0]);
   EXPECT_TRUE(verdict) << verdict.text;
+  std::cout << "of " << of[0][0] << " W: " << verdict.text << "\n";
+  // Planted fault: one books a tenth less.
   EXPECT_FALSE(expect_mean(faulty, 0, float_rounding * of[0][0]));
 }
 
