@@ -138,8 +138,11 @@ void check_clear_glass(YamlMap& map, const MaterialStudy& material) {
   const double shown = std::max(0.0, std::floor(most * digits) / digits);
   map.problem("normal_transmittance",
               fmt::format("{} is above {}", *material.normal_transmittance, shown),
-              fmt::format("the angular formula passes {} of it at normal incidence, and diffuse + "
-                          "mirror reflect {:.6g} of the light", clear_glass_factor, reflected),
+              fmt::format("the angular formula transmits {} times that at normal incidence{}",
+                          clear_glass_factor,
+                          reflected > 0
+                              ? fmt::format(", diffuse + mirror reflect {:.6g}", reflected)
+                              : ""),
               reflected > 0 ? "less diffuse or mirror leaves more" : "");
 }
 
