@@ -68,7 +68,7 @@ BuiltinStudy read_builtin(YamlMap& map) {
   return builtin;
 }
 
-/// Which keys may stand together: panes, clear glass, metals and constant shares exclude each other.
+/// Which keys may stand together: panes, clear glass, metals, constant shares exclude each other.
 void check_kind(YamlMap& map, const MaterialStudy& material) {
   const auto excluded = [&](const std::vector<std::string>& keys, const std::string& what,
                             const std::string& why) {

@@ -68,7 +68,8 @@ TEST(Materials, CheckListsThem) {
   for (const char* words :
        {"2 x 4 mm of n 1.52", "mirror 0.151", "transmits 0.849", "passes 0.400"})
     EXPECT_NE(ran.out.find(words), std::string::npos) << words << "\n" << ran.out;
-  folder.write("clear.yaml", study_with("normal_transmittance: 0.88, mirror: 0.07", "diffuse: 0.2"));
+  folder.write("clear.yaml",
+               study_with("normal_transmittance: 0.88, mirror: 0.07", "diffuse: 0.2"));
   const Ran clear = program(folder, {"check", "clear.yaml"});
   ASSERT_EQ(clear.code, 0) << clear.err;
   EXPECT_NE(clear.out.find("mirror 0.070  transmits 0.896  clear glass of 0.88"), std::string::npos)

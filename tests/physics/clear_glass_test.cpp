@@ -67,9 +67,9 @@ TEST(ClearGlass, DividesTheSunAtItsAngle) {
 TEST(ClearGlass, TransmitsTheSkyAtEveryAngle) {
   const double truth = 400 * 1.018 * T0 * (2.0 / 3 + pi / 16);
   for (const auto transport : both) {
-    const auto solved = solve(plate(clear_glass()),
-                              {with_uniform_sky(one_second({0, 0, -1}, 0), 100)},
-                              rules_of(transport));
+    const auto solved =
+        solve(plate(clear_glass()), {with_uniform_sky(one_second({0, 0, -1}, 0), 100)},
+              rules_of(transport));
     const auto transmitted = solved.ledger([](const Ledger& l) { return l[Term::transmitted]; });
     const Verdict verdict = expect_mean(transmitted, truth);
     EXPECT_TRUE(verdict) << verdict.text;
@@ -106,11 +106,11 @@ TEST(ClearGlass, ReflectsWhatItIsGiven) {
   for (const double rho_s : {0.0, mirror}) {
     // Images of the sun: every point of the ground near the facade sees one. All of it is shot
     // onto a ground that is large enough.
-    const auto gathered = solve(facade(rho_s, 0.2, 1), {one_second(sun, 700)},
-                                rules_of(Transport::gather));
+    const auto gathered =
+        solve(facade(rho_s, 0.2, 1), {one_second(sun, 700)}, rules_of(Transport::gather));
     EXPECT_NEAR(mirrored_w(gathered), 700 * sun.z * rho_s * 2 * 0.8, 700 * float_rounding);
-    const auto shot = solve(facade(rho_s, 0, 3), {one_second(sun, 700)},
-                            rules_of(Transport::shoot));
+    const auto shot =
+        solve(facade(rho_s, 0, 3), {one_second(sun, 700)}, rules_of(Transport::shoot));
     EXPECT_NEAR(mirrored_w(shot), 700 * sun.x * rho_s * 4, 700 * 4 * float_rounding);
   }
 }
@@ -196,8 +196,8 @@ TEST(ClearGlass, LedgerOfACourtCloses) {
       // Planted faults: what glass transmits is not booked, or is booked a tenth too high.
       for (const double fault : {1.0, -0.1})
         EXPECT_FALSE(expect_mean(solved.ledger([&](const Ledger& l) {
-                       return l.residual() + fault * l[Term::transmitted];
-                     }),
+          return l.residual() + fault * l[Term::transmitted];
+        }),
                                  0, float_rounding * in));
       if (transport == Transport::gather) continue;
       for (const auto& ledger : solved.tally.ledger)
