@@ -78,8 +78,7 @@ std::string extent_text(const Mesh& mesh, const Box& bounds) {
 
 /// Shares of light from the normal, and what decides at other angles.
 std::string shares_text(const Material& m) {
-  const SmoothShares smooth =
-      is_fresnel(m) ? fresnel_shares(m, 1) : SmoothShares{m.mirror, 0};
+  const SmoothShares smooth = smooth_shares(m, 1);
   std::string text = fmt::format("diffuse {:.3f}  mirror {:.3f}", m.diffuse, smooth.mirror);
   if (m.glossy > 0)
     text += fmt::format("  glossy {:.3f} (exponent {:g})", m.glossy, m.glossy_exponent);
@@ -90,6 +89,9 @@ std::string shares_text(const Material& m) {
     text += fmt::format("  transmits {:.3f}  {} x {:g} mm of n {:g}", smooth.transmitted, m.panes,
                         1000 * m.thickness_m, m.refractive_index);
     if (m.absorption_per_m > 0) text += fmt::format(", K {:g} /m", m.absorption_per_m);
+  } else if (m.normal_transmittance > 0) {
+    text += fmt::format("  transmits {:.3f}  clear glass of {:g}", smooth.transmitted,
+                        m.normal_transmittance);
   }
   return text;
 }

@@ -9,6 +9,7 @@
 
 #include "io/key_names.h"
 #include "io/material_table.h"
+#include "solver/clear_glass.h"
 
 namespace sunload {
 
@@ -16,7 +17,8 @@ namespace {
 
 /// Whether a study's material leaves reflection to what the file or the table says of its name.
 bool says_nothing(const MaterialStudy& m) {
-  return !m.diffuse && !m.mirror && !m.refractive_index && m.glossy == 0 && m.transmittance == 0;
+  return !m.diffuse && !m.mirror && !m.refractive_index && !m.normal_transmittance &&
+         m.glossy == 0 && m.transmittance == 0;
 }
 
 bool says_nothing(const FileMaterial& m) { return !m.diffuse && !m.mirror; }
@@ -173,6 +175,10 @@ class MaterialAssigner {
       return m;
     }
     m.mirror = study.mirror.value_or(file ? file->mirror.value_or(0) : 0);
+    if (study.normal_transmittance) {
+      m.normal_transmittance = *study.normal_transmittance;
+      return m;
+    }
     m.glossy = study.glossy;
     m.glossy_exponent = study.glossy_exponent;
     m.transmittance = study.transmittance;
@@ -249,6 +255,9 @@ class MaterialAssigner {
     std::string text;
     if (m.glossy > 0) text += fmt::format(" + glossy {}", m.glossy);
     if (m.transmittance > 0) text += fmt::format(" + transmittance {}", m.transmittance);
+    if (m.normal_transmittance > 0)
+      text += fmt::format(" + {} normal_transmittance {}", clear_glass_factor,
+                          m.normal_transmittance);
     return text;
   }
 
@@ -256,13 +265,16 @@ class MaterialAssigner {
     const auto known = ids_.find(m.name);
     if (known != ids_.end() && scene_.materials[known->second.index()] == m) return known->second;
     const double diffuse = m.diffuse_in_band ? std::ranges::max(*m.diffuse_in_band) : m.diffuse;
-    const double sum = diffuse + m.mirror + m.glossy + m.transmittance;
+    const double sum = diffuse + m.mirror + m.glossy + m.transmittance +
+                       clear_glass_factor * m.normal_transmittance;
     if (sum > 1 + 1e-9 && refused_.insert(m.name).second)
       problems_.add({},
                     fmt::format("material '{}': diffuse {} + mirror {}{} exceeds 1", m.name,
                                 diffuse, m.mirror, other_shares(m)),
                     "more light would leave than arrives (triangle " + std::to_string(t) + ")",
-                    "override it in scene.materials");
+                    m.normal_transmittance > 0
+                        ? "diffuse and mirror under scene.materials go before those of the file"
+                        : "override it in scene.materials");
     const auto same = std::find(scene_.materials.begin(), scene_.materials.end(), m);
     const auto id = make_id<MaterialId>(static_cast<std::size_t>(same - scene_.materials.begin()));
     if (same == scene_.materials.end()) scene_.materials.push_back(m);

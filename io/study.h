@@ -114,6 +114,7 @@ struct MaterialStudy {
   std::optional<double> refractive_index, extinction_coefficient;  ///< of panes or a metal
   double thickness_m = 0.004, absorption_per_m = 0;                ///< of one pane
   int panes = 1;
+  std::optional<double> normal_transmittance;  ///< of clear glass without an index
   double glossy = 0, glossy_exponent = 0;
   double transmittance = 0;  ///< straight through
 };

@@ -121,21 +121,24 @@ json canonical(const LightStudy& light) {
 json canonical(const MaterialStudy& material) {
   // A colour is hashed with the scene, where bands are asked for.
   const auto& [name, diffuse, mirror, diffuse_rgb, emission_w_m2, sides, where, refractive_index,
-               extinction_coefficient, thickness_m, absorption_per_m, panes, glossy,
-               glossy_exponent, transmittance] = material;
-  return {{"name", name},
-          {"diffuse", maybe(diffuse)},
-          {"mirror", maybe(mirror)},
-          {"emission_w_m2", emission_w_m2},
-          {"sides", maybe(sides)},
-          {"refractive_index", maybe(refractive_index)},
-          {"extinction_coefficient", maybe(extinction_coefficient)},
-          {"thickness_m", thickness_m},
-          {"absorption_per_m", absorption_per_m},
-          {"panes", panes},
-          {"glossy", glossy},
-          {"glossy_exponent", glossy_exponent},
-          {"transmittance", transmittance}};
+               extinction_coefficient, thickness_m, absorption_per_m, panes, normal_transmittance,
+               glossy, glossy_exponent, transmittance] = material;
+  json canon = {{"name", name},
+                {"diffuse", maybe(diffuse)},
+                {"mirror", maybe(mirror)},
+                {"emission_w_m2", emission_w_m2},
+                {"sides", maybe(sides)},
+                {"refractive_index", maybe(refractive_index)},
+                {"extinction_coefficient", maybe(extinction_coefficient)},
+                {"thickness_m", thickness_m},
+                {"absorption_per_m", absorption_per_m},
+                {"panes", panes},
+                {"glossy", glossy},
+                {"glossy_exponent", glossy_exponent},
+                {"transmittance", transmittance}};
+  // Hashes of studies without such glass stay those of the time before there was any.
+  if (normal_transmittance) canon["normal_transmittance"] = *normal_transmittance;
+  return canon;
 }
 
 json canonical(const AssignRule& rule) {

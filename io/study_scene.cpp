@@ -1,12 +1,14 @@
 // Sections `scene` and `mesh` of a study.
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <system_error>
 
 #include "io/key_names.h"
 #include "io/scene_builtin.h"
 #include "io/study_sections.h"
+#include "solver/clear_glass.h"
 
 namespace sunload::study_sections {
 
@@ -23,6 +25,7 @@ constexpr Range extinctions{0, 100, Range::Low::excluded,
 constexpr Range thicknesses_m{0, 1, Range::Low::excluded};
 constexpr Range absorptions_per_m{0, 1e5};
 constexpr int most_panes = 10;
+constexpr Range normal_transmittances{0, 1, Range::Low::excluded};  // check_clear_glass: below 1
 constexpr Range exponents{0, 1e5};  // a lobe of some 0.4 degrees
 constexpr Range margins_m{0, 1e5};
 constexpr Range edges_m{1e-3, 1e9};
@@ -65,7 +68,7 @@ BuiltinStudy read_builtin(YamlMap& map) {
   return builtin;
 }
 
-/// Which keys may stand together: panes, metals and constant shares exclude each other.
+/// Which keys may stand together: panes, clear glass, metals, constant shares exclude each other.
 void check_kind(YamlMap& map, const MaterialStudy& material) {
   const auto excluded = [&](const std::vector<std::string>& keys, const std::string& what,
                             const std::string& why) {
@@ -73,7 +76,15 @@ void check_kind(YamlMap& map, const MaterialStudy& material) {
       if (map.has(key)) map.problem(key, what, why);
   };
   const std::vector<std::string> of_panes{"thickness_m", "absorption_per_m", "panes"};
-  if (!map.has("refractive_index")) {
+  if (map.has("normal_transmittance")) {
+    excluded({"refractive_index", "extinction_coefficient"},
+             "cannot stand with normal_transmittance", "the index says what is transmitted");
+    excluded(of_panes, "cannot stand with normal_transmittance",
+             "that is of all the glass, whatever it consists of");
+    excluded({"glossy"}, "cannot stand with normal_transmittance", "clear glass is smooth");
+    excluded({"transmittance"}, "cannot stand with normal_transmittance",
+             "the one stays in the scene, the other leaves it");
+  } else if (!map.has("refractive_index")) {
     for (const auto& key : of_panes)
       if (map.has(key)) map.warn(key, "is not used", "it belongs to panes: refractive_index");
     excluded({"extinction_coefficient"}, "stands without refractive_index",
@@ -117,6 +128,24 @@ void check_sum(YamlMap& map, const MaterialStudy& material) {
                 "no surface reflects more than it receives");
 }
 
+/// Nor does clear glass, which passes most of light from the normal.
+void check_clear_glass(YamlMap& map, const MaterialStudy& material) {
+  if (!material.normal_transmittance) return;
+  const double reflected = material.diffuse.value_or(0) + material.mirror.value_or(0);
+  const double most = largest_normal_transmittance(reflected);
+  if (*material.normal_transmittance <= most + share_rounding) return;
+  constexpr double digits = 1e4;
+  const double shown = std::max(0.0, std::floor(most * digits) / digits);
+  map.problem("normal_transmittance",
+              fmt::format("{} is above {}", *material.normal_transmittance, shown),
+              fmt::format("the angular formula transmits {} times that at normal incidence{}",
+                          clear_glass_factor,
+                          reflected > 0
+                              ? fmt::format(", diffuse + mirror reflect {:.6g}", reflected)
+                              : ""),
+              reflected > 0 ? "less diffuse or mirror leaves more" : "");
+}
+
 /// One share, or its red, green and blue.
 void read_diffuse(YamlMap& map, MaterialStudy& material) {
   const std::string key = "diffuse";
@@ -132,7 +161,7 @@ void read_diffuse(YamlMap& map, MaterialStudy& material) {
     material.diffuse_rgb = {rgb[0], rgb[1], rgb[2]};
     material.diffuse = mean_of(*material.diffuse_rgb);
   }
-  for (const char* other : {"refractive_index", "glossy"})
+  for (const char* other : {"refractive_index", "normal_transmittance", "glossy"})
     if (map.has(other))
       map.problem(key, fmt::format("has a colour beside {}", other),
                   "what such a surface does with light does not depend on the band",
@@ -152,6 +181,7 @@ MaterialStudy read_material(const std::string& name, YamlMap& map) {
   material.absorption_per_m =
       map.number("absorption_per_m", absorptions_per_m, material.absorption_per_m);
   material.panes = map.integer("panes", 1, most_panes, material.panes);
+  material.normal_transmittance = map.number("normal_transmittance", normal_transmittances);
   material.glossy = map.number("glossy", shares, material.glossy);
   material.glossy_exponent = map.number("glossy_exponent", exponents, material.glossy_exponent);
   material.transmittance = map.number("transmittance", shares, material.transmittance);
@@ -161,6 +191,7 @@ MaterialStudy read_material(const std::string& name, YamlMap& map) {
   map.tree("sides");
   check_kind(map, material);
   check_sum(map, material);
+  check_clear_glass(map, material);
   return material;
 }
 

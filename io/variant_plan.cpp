@@ -56,6 +56,10 @@ void add_scene(Digest& digest, const Scene& scene) {
                                   m.absorption_per_m, m.glossy, m.glossy_exponent, m.transmittance})
       digest.add(property);
     digest.add(m.panes);
+    if (m.normal_transmittance > 0) {
+      digest.add(std::string("clear glass"));
+      digest.add(m.normal_transmittance);
+    }
     if (m.diffuse_in_band) digest.add(*m.diffuse_in_band);
   }
   const ParallelSources& sources = scene.parallel_sources;

@@ -73,8 +73,8 @@ LineFollower::Onward LineFollower::onward(const Material& m, Vec3 n, Vec3 w,
                                           const RandomKey& key) {
   const double cos_theta = dot(w, n);
   Onward on{mirrored(w, n)};
-  if (is_fresnel(m)) {
-    const SmoothShares shares = fresnel_shares(m, cos_theta);
+  if (is_pane_or_metal(m)) {
+    const SmoothShares shares = smooth_shares(m, cos_theta);
     on.weight = shares.mirror;
     on.transmitted = shares.transmitted;
     on.absorbed = 1 - m.diffuse - shares.mirror - shares.transmitted;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geo/check.h"
+#include "solver/clear_glass.h"
 #include "solver/fresnel.h"
 #include "solver/rng.h"
 
@@ -14,8 +15,10 @@ namespace {
 constexpr double rounding = 1e-12;
 
 bool has_valid_shares(const Material& m) {
+  const double transmitted = clear_glass_factor * m.normal_transmittance;  // the most
   return m.diffuse >= 0 && m.mirror >= 0 && m.glossy >= 0 && m.transmittance >= 0 &&
-         m.diffuse + m.mirror + m.glossy + m.transmittance <= 1 + rounding;
+         transmitted >= 0 &&
+         m.diffuse + m.mirror + m.glossy + m.transmittance + transmitted <= 1 + rounding;
 }
 
 bool has_valid_bands(const Material& m) {
@@ -26,7 +29,9 @@ bool has_valid_bands(const Material& m) {
   });
 }
 
-bool has_valid_index(const Material& m) {
+bool has_valid_kind(const Material& m) {
+  if (m.normal_transmittance > 0 && (is_fresnel(m) || m.glossy > 0 || m.transmittance > 0))
+    return false;
   if (!is_fresnel(m)) return m.extinction_coefficient == 0;
   if (m.mirror > 0 || m.glossy > 0 || m.transmittance > 0) return false;
   return m.extinction_coefficient > 0 ||
@@ -35,7 +40,9 @@ bool has_valid_index(const Material& m) {
 
 }  // namespace
 
-SmoothShares fresnel_shares(const Material& m, double cos_theta) {
+SmoothShares smooth_shares(const Material& m, double cos_theta) {
+  if (!is_fresnel(m))
+    return {m.mirror, clear_glass_transmittance(m.normal_transmittance, cos_theta)};
   const double bare = 1 - m.diffuse;
   if (m.extinction_coefficient > 0)
     return {bare * metal_reflectance(m.refractive_index, m.extinction_coefficient, cos_theta), 0};
@@ -49,7 +56,7 @@ void expect_valid(const Scene& scene) {
   for (const auto& m : scene.materials) {
     SUNLOAD_EXPECT(has_valid_shares(m), "reflectances of " + m.name);
     SUNLOAD_EXPECT(has_valid_bands(m), "reflectances in bands of " + m.name);
-    SUNLOAD_EXPECT(has_valid_index(m), "refractive index of " + m.name);
+    SUNLOAD_EXPECT(has_valid_kind(m), "kind of " + m.name);
     SUNLOAD_EXPECT(m.glossy_exponent >= 0, "exponent of " + m.name);
     SUNLOAD_EXPECT(m.emission_w_m2 >= 0, "emission of " + m.name);
   }

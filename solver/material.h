@@ -12,13 +12,15 @@
 
 namespace sunload {
 
-/// What a surface does with light. Three kinds exclude each other:
+/// What a surface does with light. Four kinds exclude each other:
 ///
 /// - constant shares: diffuse + mirror + glossy + transmittance ≤ 1, the rest is absorbed;
 /// - panes (refractive_index > 1 alone): what they transmit leaves the outdoor scene;
+/// - clear glass (normal_transmittance): the same of panes whose index is not known, with constant
+///   shares diffuse and mirror; diffuse + mirror + transmitted ≤ 1 at every angle;
 /// - smooth metal (refractive_index with extinction_coefficient).
 ///
-/// A share `diffuse` of a pane or metal is a coat (frit, dust, print): that share of the
+/// A share `diffuse` of what has an index is a coat (frit, dust, print): that share of the
 /// light never meets the glass, whatever its angle; of the rest Fresnel's formulas decide.
 /// So diffuse + mirror + transmitted ≤ 1 holds at every angle.
 struct Material {
@@ -31,6 +33,7 @@ struct Material {
   double thickness_m = 0.004;         ///< of one pane
   double absorption_per_m = 0;        ///< K of the glass
   int panes = 1;
+  double normal_transmittance = 0;    ///< T0 of clear glass (solver/clear_glass.h); 0: none
   /// Reflectance rho_g of light from the normal (solver/lobe.h).
   double glossy = 0;
   double glossy_exponent = 0;         ///< n of its lobe
@@ -46,7 +49,8 @@ struct SmoothShares {
   double mirror = 0;
   double transmitted = 0;  ///< out of the outdoor scene
 };
-SmoothShares fresnel_shares(const Material& material, double cos_theta);
+/// Of a material of any kind, at the angle of incidence of that cosine.
+SmoothShares smooth_shares(const Material& material, double cos_theta);
 
 /// Diffuse reflectance in a band.
 inline double diffuse_in(const Material& m, std::size_t band) {
@@ -54,17 +58,21 @@ inline double diffuse_in(const Material& m, std::size_t band) {
 }
 /// Decided by Fresnel's formulas: panes and metals.
 inline bool is_fresnel(const Material& m) { return m.refractive_index > 0; }
+/// What a smooth surface does with light depends on the angle: panes of either kind, metals.
+inline bool is_pane_or_metal(const Material& m) {
+  return is_fresnel(m) || m.normal_transmittance > 0;
+}
 /// What it absorbs depends on the angle.
-inline bool depends_on_angle(const Material& m) { return is_fresnel(m) || m.glossy > 0; }
-/// Reflects by the law of reflection.
-inline bool is_mirror(const Material& m) { return m.mirror > 0 || is_fresnel(m); }
-/// A line that meets it goes on.
+inline bool depends_on_angle(const Material& m) { return is_pane_or_metal(m) || m.glossy > 0; }
+/// Reflects by the law of reflection, though clear glass may reflect a share of 0.
+inline bool is_mirror(const Material& m) { return m.mirror > 0 || is_pane_or_metal(m); }
+/// A line that meets it goes on, or ends in ways that depend on its angle.
 inline bool sends_on(const Material& m) { return is_mirror(m) || m.glossy > 0; }
 
 /// Share of power that an ideal mirror of this material returns at the angle
 /// whose cosine is `cos_theta` (of incidence). Constant for plain mirrors.
 inline double mirror_reflectance(const Material& material, double cos_theta) {
-  return is_fresnel(material) ? fresnel_shares(material, cos_theta).mirror : material.mirror;
+  return is_fresnel(material) ? smooth_shares(material, cos_theta).mirror : material.mirror;
 }
 
 /// The same of a ray that was stopped: rays are stopped by 1 - T of what they meet.

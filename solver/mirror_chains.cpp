@@ -66,10 +66,10 @@ class MirrorChains::Task {
                       power_per_sample,
                       static_cast<std::uint16_t>(c_.sampler_.realization(p * packet_size + l))};
         // The glossy part of the sun's light is GlossySun's.
-        if (is_fresnel(material))
+        if (is_pane_or_metal(material))
           keep(material, power_per_sample, cos_theta, k, fates[chains_[l].realization]);
       }
-      follow(k, beams, points, lit);
+      if (sent > 0) follow(k, beams, points, lit);
     }
   }
 
@@ -126,8 +126,7 @@ class MirrorChains::Task {
   static void keep(const Material& m, double power, double cos_theta, std::size_t k,
                    MirroredSun& fate) {
     if (!depends_on_angle(m)) return;
-    const SmoothShares shares =
-        is_fresnel(m) ? fresnel_shares(m, cos_theta) : SmoothShares{m.mirror, 0};
+    const SmoothShares shares = smooth_shares(m, cos_theta);
     fate.transmitted[k] += power * shares.transmitted;
     fate.cut[k] += power * m.glossy;
     fate.absorbed[k] += power * (1 - m.diffuse - shares.mirror - shares.transmitted - m.glossy -

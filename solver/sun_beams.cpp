@@ -45,15 +45,19 @@ std::int32_t SunBeams::next(std::int32_t beam, std::size_t group) const {
 
 std::vector<SunBeam> SunBeams::first_level(const SunLight& sun) const {
   std::vector<SunBeam> level;
+  // Of mirrors; clear glass may reflect nothing.
+  const auto strongest = [&](std::size_t g) {
+    const double cos_theta = dot(sun.direction, (*groups_)[g].normal);
+    return cos_theta > least_cosine ? groups_->strongest(g, cos_theta) : 0;
+  };
   std::size_t facing = 0;
   for (std::size_t g = 0; g < groups_->size(); ++g)
-    if (dot(sun.direction, (*groups_)[g].normal) > least_cosine) ++facing;
-  if (facing > static_cast<std::size_t>(rules_.most_beams)) return level;
+    if (strongest(g) > 0 && ++facing > static_cast<std::size_t>(rules_.most_beams)) return level;
   for (std::size_t g = 0; g < groups_->size(); ++g) {
     const Vec3 n = (*groups_)[g].normal;
-    const double cos_theta = dot(sun.direction, n);
-    if (cos_theta <= least_cosine) continue;
-    SunBeam beam{g, -1, 1, followed_by_image({}, n), {}, groups_->strongest(g, cos_theta), {}, {}};
+    const double reflected = strongest(g);
+    if (reflected <= 0) continue;
+    SunBeam beam{g, -1, 1, followed_by_image({}, n), {}, reflected, {}, {}};
     beam.image = beam.image_of(sun.direction);
     for (const auto t : (*groups_)[g].triangles) {
       const Mesh& mesh = groups_->scene().mesh;

@@ -36,6 +36,8 @@ TEST(Materials, EveryKindBalances) {
       {"refractive_index: 1.52, diffuse: 0.2", "refractive_index: 1.52, sides: two"},
       {"refractive_index: 1.44, extinction_coefficient: 5.23",
        "diffuse: 0.2, transmittance: 0.4, sides: two"},
+      {"normal_transmittance: 0.78, mirror: 0.14, diffuse: 0.02",
+       "normal_transmittance: 0.9, sides: two"},
       {"diffuse: 0.1, glossy: 0.6, glossy_exponent: 40",
        "diffuse: 0.2, transmittance: 0.4, mirror: 0.1, sides: two"}};
   for (const auto& [glass, canvas] : kinds) {
@@ -48,7 +50,10 @@ TEST(Materials, EveryKindBalances) {
     EXPECT_EQ(ledger_problem(path), "") << glass;
     EXPECT_NE(ledger_problem(path, 0.05), "") << glass;
     EXPECT_EQ(sums_problem(path), "") << glass;
-    const bool has_panes = std::string(glass).find("1.52") != std::string::npos;
+    const auto says = [&](const char* words) {
+      return std::string(glass).find(words) != std::string::npos;
+    };
+    const bool has_panes = says("1.52") || says("normal_transmittance");
     EXPECT_EQ(sum(ResultReader(path).doubles("power_transmitted")) > 0, has_panes) << glass;
   }
 }
@@ -63,6 +68,12 @@ TEST(Materials, CheckListsThem) {
   for (const char* words :
        {"2 x 4 mm of n 1.52", "mirror 0.151", "transmits 0.849", "passes 0.400"})
     EXPECT_NE(ran.out.find(words), std::string::npos) << words << "\n" << ran.out;
+  folder.write("clear.yaml",
+               study_with("normal_transmittance: 0.88, mirror: 0.07", "diffuse: 0.2"));
+  const Ran clear = program(folder, {"check", "clear.yaml"});
+  ASSERT_EQ(clear.code, 0) << clear.err;
+  EXPECT_NE(clear.out.find("mirror 0.070  transmits 0.896  clear glass of 0.88"), std::string::npos)
+      << clear.out;
 }
 
 TEST(Materials, EveryPropertyIsInTheHash) {
@@ -74,7 +85,8 @@ TEST(Materials, EveryPropertyIsInTheHash) {
         "refractive_index: 1.52, absorption_per_m: 9",
         "refractive_index: 1.52, absorption_per_m: 9, thickness_m: 0.005",
         "refractive_index: 1.52, extinction_coefficient: 2", "glossy: 0.2, glossy_exponent: 2",
-        "glossy: 0.2, glossy_exponent: 3", "transmittance: 0.2"}) {
+        "glossy: 0.2, glossy_exponent: 3", "transmittance: 0.2", "normal_transmittance: 0.2",
+        "normal_transmittance: 0.21", "normal_transmittance: 0.21, mirror: 0.1"}) {
     folder.write("square.yaml", study_with(glass, "diffuse: 0.5"));
     const Ran ran = program(folder, {"check", "square.yaml", "--json"});
     ASSERT_EQ(ran.code, 0) << ran.err;

@@ -94,6 +94,10 @@ TEST(BandStudy, RefusesWhatBandsCannotHave) {
   EXPECT_NE(scene.refusal("bands: rgb", "ochre: {diffuse: [0.1, 0.2, 0.3], refractive_index: 1.5}")
                 .find("has a colour beside refractive_index"),
             std::string::npos);
+  EXPECT_NE(
+      scene.refusal("bands: rgb", "ochre: {diffuse: [0.1, 0.2, 0.3], normal_transmittance: 0.5}")
+          .find("has a colour beside normal_transmittance"),
+      std::string::npos);
   // The brightest band counts.
   EXPECT_NE(scene.refusal("bands: rgb", "ochre: {diffuse: [0.8, 0.2, 0.3], mirror: 0.3}")
                 .find("diffuse + mirror = 1.1 is above 1"),

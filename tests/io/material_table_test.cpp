@@ -151,6 +151,28 @@ TEST_F(Names, OfTheStudyAndOfFilesGoFirst) {
       0.5);
 }
 
+TEST_F(Names, OfClearGlassTakeNothingFromTheTable) {
+  const std::string rule = "files: [plates.obj], assign: [{object: strip, material: glass}], ";
+  const auto clear = plan(rule + "materials: {glass: {normal_transmittance: 0.8, mirror: 0.1}}");
+  const Material& glass = of(clear, "strip");
+  EXPECT_EQ(glass.normal_transmittance, 0.8);
+  EXPECT_EQ(glass.mirror, 0.1);
+  EXPECT_EQ(glass.diffuse, 0);
+  EXPECT_EQ(glass.refractive_index, 0);
+  const auto darker = plan(rule + "materials: {glass: {normal_transmittance: 0.7, mirror: 0.1}}");
+  EXPECT_NE(clear.content_hash, darker.content_hash);
+  // What the file says of reflection holds for glass, too, where the study is silent.
+  const std::string text =
+      refusal("files: [plates.obj], materials: {m: {normal_transmittance: 0.5}}");
+  EXPECT_NE(text.find("diffuse 0.5 + mirror 0 + 1.018 normal_transmittance 0.5 exceeds 1"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(of(plan("files: [plates.obj], materials: {m: {normal_transmittance: 0.9, diffuse: 0}}"),
+               "plate")
+                .normal_transmittance,
+            0.9);
+}
+
 TEST_F(Names, OfFilesAloneAreNotLookedUp) {
   const auto left = plan("files: [plates.obj]");
   EXPECT_EQ(of(left, "strip").diffuse, default_reflectance);

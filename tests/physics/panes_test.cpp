@@ -87,7 +87,8 @@ TEST(Pane, ReflectsTheSunToTheGround) {
     }
 }
 
-/// A street whose north side is glazed, with a bay of metal and a lamp.
+/// A street whose north side is glazed, with a bay of metal, a lamp, and clear glass that has no
+/// index: a screen, and a roof light that reflects nothing.
 Scene glazed_street() {
   SceneBuilder builder;
   Material glass = pane(1.52, 2, 15), metal = pane(1.44), frit = pane(1.52, 1, 30);
@@ -96,9 +97,13 @@ Scene glazed_street() {
   metal.diffuse = 0.2;
   frit.name = "frit";
   frit.diffuse = 0.4;
+  Material screen{"screen", 0.05, 0.1}, roof_light{"roof light"};
+  screen.normal_transmittance = 0.8;
+  roof_light.normal_transmittance = 0.6;
   const int ground = builder.material({"ground", 0.25}), wall = builder.material({"wall", 0.45}),
             lamp = builder.material({"lamp", 0.3, 0, 25}), window = builder.material(glass),
-            sheet = builder.material(metal), printed = builder.material(frit);
+            sheet = builder.material(metal), printed = builder.material(frit),
+            clear = builder.material(screen), skylight = builder.material(roof_light);
   builder.object("ground").quad({-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}, ground);
   builder.object("house").box({-6, 3, 0.01}, {6, 6, 5}, wall, Facing::outward);
   builder.object("window").quad({-5, 2.99, 0.5}, {0, 2.99, 0.5}, {0, 2.99, 4.5}, {-5, 2.99, 4.5},
@@ -108,9 +113,12 @@ Scene glazed_street() {
   builder.object("tower").box({-6, -5, 0.01}, {-3, -2, 8}, wall, Facing::outward);
   builder.object("metal").quad({2, -3, 0.2}, {-2, -3, 0.2}, {-2, -3, 4}, {2, -3, 4}, sheet);
   builder.object("lamp").quad({3, -1, 3}, {3, 0, 3}, {4, 0, 3}, {4, -1, 3}, lamp);
+  builder.object("skylight").quad({-5, 4, 5.1}, {5, 4, 5.1}, {5, 5, 5.5}, {-5, 5, 5.5}, skylight);
   builder.sides(Sides::two)
       .object("screen")
-      .quad({5, -8, 0.2}, {8, -8, 0.2}, {8, -8, 3}, {5, -8, 3}, window);
+      .quad({5, -8, 0.2}, {8, -8, 0.2}, {8, -8, 3}, {5, -8, 3}, clear)
+      .object("double")
+      .quad({8, -8, 0.2}, {9, -8, 0.2}, {9, -8, 3}, {8, -8, 3}, window);
   return builder.scene();
 }
 

@@ -99,7 +99,7 @@ TEST(Coat, TakesItsShareAtEveryAngle) {
   pane.refractive_index = 1.52;
   pane.absorption_per_m = 10;
   for (int degree = 0; degree <= 90; ++degree) {
-    const SmoothShares shares = fresnel_shares(pane, cosine(degree));
+    const SmoothShares shares = smooth_shares(pane, cosine(degree));
     EXPECT_LE(pane.diffuse + shares.mirror + shares.transmitted, 1 + 1e-12);
     EXPECT_NEAR(shares.mirror,
                 0.7 * pane_shares({1.52, 0.04, 1}, cosine(degree)).reflected, 1e-12);
