@@ -13,7 +13,7 @@
 namespace sunload {
 
 /// Raised when results change, not at every commit: part of the content hash.
-inline constexpr int numerics_version = 5;
+inline constexpr int numerics_version = 6;
 
 struct VariantPlan {
   Study study;

@@ -20,11 +20,12 @@ float rounded_up(double value) {
 
 }  // namespace
 
-BeamRaster::BeamRaster(std::span<const ConvexPolygon> section, Vec3 w, double spread)
+BeamRaster::BeamRaster(std::span<const ConvexPolygon> section, Vec3 w, double spread, int size)
     : w_(w),
       spread_(spread),
+      size_(size),
       farthest_of_all_(nowhere),
-      farthest_(static_cast<std::size_t>(size) * size, static_cast<float>(nowhere)) {
+      farthest_(static_cast<std::size_t>(size * size), static_cast<float>(nowhere)) {
   const Tangents axes = tangents(w);
   x_axis_ = axes.tangent;
   y_axis_ = axes.bitangent;
@@ -47,7 +48,7 @@ BeamRaster::BeamRaster(std::span<const ConvexPolygon> section, Vec3 w, double sp
     const float reach = rounded_up(r.farthest);
     for (int y = r.y0; y <= r.y1; ++y)
       for (int x = r.x0; x <= r.x1; ++x) {
-        float& farthest = farthest_[static_cast<std::size_t>(y * size + x)];
+        float& farthest = farthest_[static_cast<std::size_t>(y * size_ + x)];
         farthest = std::max(farthest, reach);
       }
   }
@@ -68,8 +69,8 @@ BeamRaster::Range BeamRaster::range(std::span<const Vec3> points, double spread)
     x[0] -= beside_m * cells_per_x_, x[1] += beside_m * cells_per_x_;
     y[0] -= beside_m * cells_per_y_, y[1] += beside_m * cells_per_y_;
   }
-  const auto cell = [](double v) { return static_cast<int>(std::clamp(v, 0.0, size - 1.0)); };
-  if (x[1] < 0 || x[0] > size || y[1] < 0 || y[0] > size) return {1, 0, 1, 0, z[0], z[1]};
+  const auto cell = [&](double v) { return static_cast<int>(std::clamp(v, 0.0, size_ - 1.0)); };
+  if (x[1] < 0 || x[0] > size_ || y[1] < 0 || y[0] > size_) return {1, 0, 1, 0, z[0], z[1]};
   return {cell(x[0]), cell(x[1]), cell(y[0]), cell(y[1]), z[0], z[1]};
 }
 
@@ -77,7 +78,7 @@ bool BeamRaster::may_meet(std::span<const Vec3> points) const {
   const Range r = range(points, spread_);
   for (int y = r.y0; y <= r.y1; ++y)
     for (int x = r.x0; x <= r.x1; ++x)
-      if (static_cast<double>(farthest_[static_cast<std::size_t>(y * size + x)]) > r.nearest)
+      if (static_cast<double>(farthest_[static_cast<std::size_t>(y * size_ + x)]) > r.nearest)
         return true;
   return false;
 }

@@ -12,7 +12,7 @@ namespace sunload {
 
 namespace {
 
-constexpr std::size_t patches_per_task = 1024;
+constexpr std::size_t receivers_per_task = 1024;
 
 // Glimpses so far out in the lobe are not asked: what they would bring, relative to one in
 // the lobe's middle, is below the rounding of the float series.
@@ -21,23 +21,22 @@ constexpr double least_lobe = 1e-8;
 }  // namespace
 
 GlossySun::GlossySun(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-                     const SunSampler& sampler, const PatchOptics& optics, const Lines& lines,
+                     const SunSampler& sampler, const PatchOptics& optics,
                      const LineRules& rules)
     : scene_(scene),
       hierarchy_(hierarchy),
       caster_(caster),
       sampler_(sampler),
       optics_(optics),
-      glimpses_(lines.glimpses),
       rules_(rules) {}
 
-/// Irradiance of the patches of one task by one sun.
+/// Irradiance of the receivers of one task by one sun.
 class GlossySun::Chunk {
  public:
-  Chunk(const GlossySun& glossy, const SunLight& sun, std::size_t first_patch, std::size_t patches)
-      : g_(glossy), sun_(sun), first_patch_(first_patch),
+  Chunk(const GlossySun& glossy, const SunLight& sun, std::size_t first, std::size_t receivers)
+      : g_(glossy), sun_(sun), first_(first),
         realizations_(static_cast<std::size_t>(glossy.rules_.realizations)),
-        sum_(patches * realizations_, 0) {}
+        sum_(receivers * realizations_, 0) {}
 
   void ask(const Glimpse& glimpse) {
     const Vec3 s = sun_.direction;
@@ -50,7 +49,7 @@ class GlossySun::Chunk {
     origins_.x[waiting_] = glimpse.at[0];
     origins_.y[waiting_] = glimpse.at[1];
     origins_.z[waiting_] = glimpse.at[2];
-    slot_[waiting_] = (glimpse.patch - first_patch_) * realizations_ + glimpse.realization;
+    slot_[waiting_] = (glimpse.receiver - first_) * realizations_ + glimpse.realization;
     brings_[waiting_] = pi * static_cast<double>(glimpse.weight) * lobe * cos_s * sun_.dni;
     if (++waiting_ == packet_size) cast();
   }
@@ -69,8 +68,8 @@ class GlossySun::Chunk {
   }
 
   /// Sum over the lines of a realization.
-  double sum(std::size_t patch, std::size_t realization) const {
-    return sum_[(patch - first_patch_) * realizations_ + realization];
+  double sum(std::size_t receiver, std::size_t realization) const {
+    return sum_[(receiver - first_) * realizations_ + realization];
   }
   std::uint64_t rays = 0;
 
@@ -83,7 +82,7 @@ class GlossySun::Chunk {
 
   const GlossySun& g_;
   const SunLight& sun_;
-  std::size_t first_patch_, realizations_;
+  std::size_t first_, realizations_;
   std::vector<double> sum_;
   Packet origins_{};
   std::size_t slot_[packet_size];
@@ -91,14 +90,16 @@ class GlossySun::Chunk {
   std::size_t waiting_ = 0;
 };
 
-std::uint64_t GlossySun::add_light(std::span<const SunLight> block, MirroredIrradiance into) const {
-  const auto first_of = [&](std::size_t patch) {
-    return std::partition_point(glimpses_.begin(), glimpses_.end(),
-                                [&](const Glimpse& g) { return g.patch < patch; });
+std::uint64_t GlossySun::add_light(const Lines& lines, std::span<const SunLight> block,
+                                   MirroredIrradiance into) const {
+  const auto& glimpses = lines.glimpses;
+  const auto first_of = [&](std::size_t receiver) {
+    return std::partition_point(glimpses.begin(), glimpses.end(),
+                                [&](const Glimpse& g) { return g.receiver < receiver; });
   };
   const double R = rules_.realizations;
   return ordered_sum(
-      hierarchy_.patch_count(), patches_per_task, std::uint64_t{0},
+      lines.pooled.ends.size(), receivers_per_task, std::uint64_t{0},
       [&](std::size_t begin, std::size_t end) {
         std::uint64_t rays = 0;
         const auto first = first_of(begin), last = first_of(end);

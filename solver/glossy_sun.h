@@ -1,12 +1,12 @@
 /// Direct sun by way of glossy surfaces: next-event estimation at the lines' meetings.
 ///
-/// A glossy lobe has no image direction. But where a line of patch i meets a glossy surface
-/// (a glimpse, recorded when lines are traced), every sun can be asked: one shadow ray from
+/// A glossy lobe has no image direction. But where a line of receiver i (a patch or a sensor)
+/// meets a glossy surface (a glimpse, recorded when lines are traced), every sun can be asked: one shadow ray from
 /// there along s brings, with f_r the lobe of solver/lobe.h and w the line's weight so far,
 ///
 ///     E_i += π / lines · w · f_r(s, -line) · (s·n) · dni · visible
 ///
-/// Exact but for noise, also by way of mirrors between patch and glossy surface, and of further
+/// Exact but for noise, also by way of mirrors between receiver and glossy surface, and of further
 /// lobes. Narrow lobes are noisy: few glimpses lie in them. Sun that a mirror sends to a glossy
 /// surface is cut there. The sun is a point.
 #pragma once
@@ -24,11 +24,11 @@ class GlossySun {
  public:
   /// Everything must outlive it.
   GlossySun(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-            const SunSampler& sampler, const PatchOptics& optics, const Lines& lines,
-            const LineRules& rules);
+            const SunSampler& sampler, const PatchOptics& optics, const LineRules& rules);
 
-  /// As MirrorSun::add_light.
-  std::uint64_t add_light(std::span<const SunLight> block, MirroredIrradiance into) const;
+  /// As MirrorSun::add_light, for the receivers whose lines these are.
+  std::uint64_t add_light(const Lines& lines, std::span<const SunLight> block,
+                          MirroredIrradiance into) const;
 
   /// Adds to `fates` ([realizations]) where the direct sun ends that glossy patches receive:
   /// each visible sample goes on in a direction of the lobe.
@@ -47,7 +47,6 @@ class GlossySun {
   const RayCaster& caster_;
   const SunSampler& sampler_;
   const PatchOptics& optics_;
-  const std::vector<Glimpse>& glimpses_;
   LineRules rules_;
 };
 

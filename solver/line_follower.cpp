@@ -26,6 +26,16 @@ void LineCollector::clear() {
   lamps = 0;
 }
 
+void LineCollector::move_glimpses(std::size_t receiver, std::size_t realization,
+                                  std::vector<Glimpse>& to) {
+  for (Glimpse& glimpse : glimpses) {
+    glimpse.receiver = static_cast<std::uint32_t>(receiver);
+    glimpse.realization = static_cast<std::uint32_t>(realization);
+    to.push_back(glimpse);
+  }
+  glimpses.clear();
+}
+
 LineCollector& LineCollector::operator+=(const LineCollector& other) {
   const auto append = [](auto& to, const auto& from) {
     to.insert(to.end(), from.begin(), from.end());

@@ -17,12 +17,14 @@ namespace sunload {
 /// Links and ends of the lines of one patch or sensor.
 struct LineCollector {
   std::vector<LinkTable::Link> patches, sky, sky_by_mirror;
-  std::vector<Glimpse> glimpses;  ///< patch and realization are the collector's owner's
+  std::vector<Glimpse> glimpses;  ///< receiver and realization not yet known
   LineEnds ends;
   double largest_link = 0;  ///< form factor that no element exceeds to which a link leads
   double lamps = 0;  ///< exitance of emitters that was seen, summed over lines [W m-2]
   /// Forgets the lines.
   void clear();
+  /// Appends the glimpses as those of a receiver in one realization; none are left here.
+  void move_glimpses(std::size_t receiver, std::size_t realization, std::vector<Glimpse>& to);
   /// Puts the lines of another realization to these.
   LineCollector& operator+=(const LineCollector& other);
   /// Writes the next row of its block in `set`: what `count` lines brought.

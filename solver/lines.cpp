@@ -151,12 +151,7 @@ class BlockTracer {
     for (std::size_t r = 0; r < lines.realizations.size(); ++r) {
       row.own.clear();
       follow_realization(patch, r, bundle, at + r * lines_each, row, output);
-      for (Glimpse& glimpse : row.own.glimpses) {
-        glimpse.patch = static_cast<std::uint32_t>(patch);
-        glimpse.realization = static_cast<std::uint32_t>(r);
-      }
-      output.glimpses.insert(output.glimpses.end(), row.own.glimpses.begin(),
-                             row.own.glimpses.end());
+      row.own.move_glimpses(patch, r, output.glimpses);
       row.pooled += row.own;
       row.own.store(lines.realizations[r], patch, lines_each);
     }

@@ -88,7 +88,7 @@ struct LineSet {
 
 /// Where a line met a glossy surface: any sun may be asked from there (solver/glossy_sun.h).
 struct Glimpse {
-  std::uint32_t patch = 0;        ///< that the line left
+  std::uint32_t receiver = 0;     ///< patch or sensor that the line left
   std::uint32_t realization = 0;
   std::int32_t triangle = -1;     ///< of the glossy surface
   std::int32_t front = 1;         ///< 1: its front was met
@@ -122,7 +122,7 @@ struct LineRules {
 struct Lines {
   std::vector<LineSet> realizations;
   LineSet pooled;
-  std::vector<Glimpse> glimpses;  ///< by patch
+  std::vector<Glimpse> glimpses;  ///< by receiver
   std::uint64_t rays = 0;  ///< cast, chains included
 };
 

@@ -39,9 +39,15 @@ std::vector<Cluster> clusters_of(const SunSampler& receivers) {
 }
 
 std::vector<BeamRaster> rasters_of(const SunBeams& beams) {
+  constexpr std::size_t cells_of_all = std::size_t{1} << 23;
+  constexpr int coarsest = 16;
+  int size = BeamRaster::finest;
+  while (size > coarsest && beams.size() * static_cast<std::size_t>(size * size) > cells_of_all)
+    size /= 2;
   std::vector<BeamRaster> rasters;
+  rasters.reserve(beams.size());
   for (std::size_t b = 0; b < beams.size(); ++b)
-    rasters.emplace_back(beams[b].section, beams[b].image, beams.spread());
+    rasters.emplace_back(beams[b].section, beams[b].image, beams.spread(), size);
   return rasters;
 }
 

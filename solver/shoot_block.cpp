@@ -114,7 +114,7 @@ void LightSolver::shoot_block(std::span<const SunLight> block, std::size_t first
   by_source.store(first_row, tally.se_by_source);
 }
 
-/// The direct sun of every realization, and what comes to sensors by planar mirrors.
+/// The direct sun of every realization, and what comes to sensors by mirrors and gloss.
 TracedLight LightSolver::trace_for_shooting(const BlockSources& sources) {
   const auto realizations = static_cast<std::size_t>(rules_.realizations);
   const std::size_t patches = hierarchy_.patch_count();
@@ -130,9 +130,9 @@ TracedLight LightSolver::trace_for_shooting(const BlockSources& sources) {
     work_.direct_rays += traced.direct.rays;
   }
   if (scene_.sensors.empty()) return traced;
-  const auto beams = mirrors_.size() > 0 ? beams_of(sources.suns) : std::vector<SunBeams>{};
+  auto beams = mirrors_.size() > 0 ? beams_of(sources.suns) : std::vector<SunBeams>{};
   TimeSums unused(realizations, 0, scene_.sensors.size(), 0);
-  trace_sensors(sources.suns, beams, unused, traced);
+  trace_sensors(sources.suns, std::move(beams), unused, traced);
   return traced;
 }
 

@@ -106,8 +106,10 @@ class LightSolver {
   std::vector<SunBeams> beams_of(std::span<const SunLight> block) const;
   void trace_gloss(std::span<const SunLight> block, MirroredIrradiance into,
                    std::vector<MirroredSun>& sent_on);
-  void trace_sensors(std::span<const SunLight> block, std::span<const SunBeams> beams,
-                     TimeSums& sums, TracedLight& traced);
+  void trace_sensors(std::span<const SunLight> block, std::vector<SunBeams> beams, TimeSums& sums,
+                     TracedLight& traced);
+  std::vector<SunBeams> with_first_reflections(std::vector<SunBeams> beams,
+                                               std::span<const SunLight> block) const;
   void solve_traced(std::size_t band, const BlockSources& sources, TracedLight traced,
                     std::size_t first_row, TimeSums& sums, BatchTally& tally);
   /// Returns the radiosity that was gathered last.

@@ -1,4 +1,7 @@
 // What a block of suns brings by rays: shadow rays, image directions, chains of mirrors.
+#include <algorithm>
+#include <limits>
+
 #include "solver/parallel.h"
 #include "solver/solver.h"
 #include "solver/stopwatch.h"
@@ -12,9 +15,9 @@ TracedLight LightSolver::trace_block(const BlockSources& sources, TimeSums& sums
   trace_sun(sources, sums, traced);
   const MirroredIrradiance into{traced.by_mirror, sums.by_mirror,
                                 or_none(traced.of_patches.by_mirror)};
-  const std::vector<SunBeams> beams = trace_mirrors(sources.suns, into, traced.sent_on);
+  std::vector<SunBeams> beams = trace_mirrors(sources.suns, into, traced.sent_on);
   trace_gloss(sources.suns, into, traced.sent_on);
-  if (!scene_.sensors.empty()) trace_sensors(sources.suns, beams, sums, traced);
+  if (!scene_.sensors.empty()) trace_sensors(sources.suns, std::move(beams), sums, traced);
   return traced;
 }
 
@@ -68,22 +71,36 @@ void LightSolver::trace_gloss(std::span<const SunLight> block, MirroredIrradianc
                               std::vector<MirroredSun>& sent_on) {
   if (!optics_.any_glossy) return;
   const Stopwatch time(work_.mirror_s);
-  work_.mirror_rays += glossy_sun_.add_light(block, into);
+  work_.mirror_rays += glossy_sun_.add_light(lines_, block, into);
   sent_on.resize(static_cast<std::size_t>(rules_.realizations));
   glossy_sun_.follow_light(block, sent_on);
 }
 
-void LightSolver::trace_sensors(std::span<const SunLight> block, std::span<const SunBeams> beams,
+void LightSolver::trace_sensors(std::span<const SunLight> block, std::vector<SunBeams> beams,
                                 TimeSums& sums, TracedLight& traced) {
   const Stopwatch time(work_.sensors_s);
   traced.on_sensors = direct_sun(caster_, sensor_sampler_, block, sums.sensor_direct,
                                  or_none(traced.of_sensors.direct));
   work_.sensor_rays += traced.on_sensors.rays;
   traced.on_sensors_by_mirror = columns(scene_.sensors.size());
+  const MirroredIrradiance into{traced.on_sensors_by_mirror, sums.sensor_by_mirror,
+                                or_none(traced.of_sensors.by_mirror)};
   if (mirrors_.size() > 0)
-    work_.sensor_rays += mirror_sun_.add_light(
-        sensor_sampler_, block, beams,
-        {traced.on_sensors_by_mirror, sums.sensor_by_mirror, or_none(traced.of_sensors.by_mirror)});
+    work_.sensor_rays += mirror_sun_.add_light(sensor_sampler_, block,
+                                               with_first_reflections(std::move(beams), block), into);
+  if (optics_.any_glossy) work_.sensor_rays += glossy_sun_.add_light(sensor_lines_, block, into);
+}
+
+/// Suns of too many mirrors for beams (curved glass) get those of the first reflection: sensors are
+/// few, and no chain of mirrors ends on them.
+std::vector<SunBeams> LightSolver::with_first_reflections(std::vector<SunBeams> beams,
+                                                          std::span<const SunLight> block) const {
+  const BeamRules of_first{.mirror_depth = std::min(rules_.mirror_depth, 1),
+                           .most_beams = std::numeric_limits<int>::max()};
+  parallel_for(block.size(), [&](std::size_t k) {
+    if (beams[k].size() == 0) beams[k] = SunBeams(mirrors_, block[k], of_first);
+  });
+  return beams;
 }
 
 }  // namespace sunload
