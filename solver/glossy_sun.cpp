@@ -33,12 +33,14 @@ GlossySun::GlossySun(const Scene& scene, const Hierarchy& hierarchy, const RayCa
 /// Irradiance of the receivers of one task by one sun.
 class GlossySun::Chunk {
  public:
-  Chunk(const GlossySun& glossy, const SunLight& sun, std::size_t first, std::size_t receivers)
-      : g_(glossy), sun_(sun), first_(first),
+  Chunk(const GlossySun& glossy, const LobeImages* images, const SunLight& sun, std::size_t first,
+        std::size_t receivers)
+      : g_(glossy), images_(images), sun_(sun), first_(first),
         realizations_(static_cast<std::size_t>(glossy.rules_.realizations)),
         sum_(receivers * realizations_, 0) {}
 
   void ask(const Glimpse& glimpse) {
+    if (images_ && images_->stand_for(glimpse)) return;
     const Vec3 s = sun_.direction;
     const double cos_s = dot(normal_of(glimpse), s);
     const double cos_a = glimpse.axis[0] * s.x + glimpse.axis[1] * s.y + glimpse.axis[2] * s.z;
@@ -81,6 +83,7 @@ class GlossySun::Chunk {
   }
 
   const GlossySun& g_;
+  const LobeImages* images_;
   const SunLight& sun_;
   std::size_t first_, realizations_;
   std::vector<double> sum_;
@@ -90,7 +93,8 @@ class GlossySun::Chunk {
   std::size_t waiting_ = 0;
 };
 
-std::uint64_t GlossySun::add_light(const Lines& lines, std::span<const SunLight> block,
+std::uint64_t GlossySun::add_light(const Lines& lines, const LobeImages* images,
+                                   std::span<const SunLight> block,
                                    MirroredIrradiance into) const {
   const auto& glimpses = lines.glimpses;
   const auto first_of = [&](std::size_t receiver) {
@@ -107,7 +111,7 @@ std::uint64_t GlossySun::add_light(const Lines& lines, std::span<const SunLight>
         for (std::size_t k = 0; k < block.size(); ++k) {
           const SunLight& sun = block[k];
           if (!sun.has_sun() || sun.dni <= 0) continue;
-          Chunk chunk(*this, sun, begin, end - begin);
+          Chunk chunk(*this, images, sun, begin, end - begin);
           for (auto glimpse = first; glimpse != last; ++glimpse) chunk.ask(*glimpse);
           chunk.cast();
           rays += chunk.rays;

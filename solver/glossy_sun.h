@@ -7,7 +7,8 @@
 ///     E_i += π / lines · w · f_r(s, -line) · (s·n) · dni · visible
 ///
 /// Exact but for noise, also by way of mirrors between receiver and glossy surface, and of further
-/// lobes. Narrow lobes are noisy: few glimpses lie in them. Sun that a mirror sends to a glossy
+/// lobes. Narrow lobes are noisy: few glimpses lie in them; sensors have
+/// solver/lobe_images.h instead. Sun that a mirror sends to a glossy
 /// surface is cut there. The sun is a point.
 #pragma once
 
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "solver/line_follower.h"
+#include "solver/lobe_images.h"
 #include "solver/mirror_chains.h"
 
 namespace sunload {
@@ -26,9 +28,10 @@ class GlossySun {
   GlossySun(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
             const SunSampler& sampler, const PatchOptics& optics, const LineRules& rules);
 
-  /// As MirrorSun::add_light, for the receivers whose lines these are.
-  std::uint64_t add_light(const Lines& lines, std::span<const SunLight> block,
-                          MirroredIrradiance into) const;
+  /// As MirrorSun::add_light, for the receivers whose lines these are; without what `images`, if not
+  /// null, stand for.
+  std::uint64_t add_light(const Lines& lines, const LobeImages* images,
+                          std::span<const SunLight> block, MirroredIrradiance into) const;
 
   /// Adds to `fates` ([realizations]) where the direct sun ends that glossy patches receive:
   /// each visible sample goes on in a direction of the lobe.

@@ -165,8 +165,10 @@ std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first,
     into.lamps += counted * material.emission_w_m2;
     if (!sends_on(material)) return rays;
     const Vec3 n = met_normal(scene_.mesh, hit);
-    if (material.glossy > 0 && reflections < mirror_depth_)
+    if (material.glossy > 0 && reflections < mirror_depth_) {
       into.glimpses.push_back(glimpse(hit, n, -w, weight * material.glossy));
+      into.glimpses.back().reflections = reflections;
+    }
     key.block = static_cast<std::uint32_t>(reflections);
     const Onward on = onward(material, n, -w, key);
     into.ends.transmitted += static_cast<float>(weight * on.transmitted);

@@ -95,6 +95,7 @@ struct Glimpse {
   float at[3] = {};               ///< off the surface [m]
   float axis[3] = {};             ///< of the lobe: the line, mirrored
   float weight = 0;               ///< of the line so far, times rho_g
+  std::int32_t reflections = 0;   ///< of the line before it
 };
 
 /// Room for the lines of so many patches or sensors, and for what emitters send them.

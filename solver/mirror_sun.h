@@ -3,7 +3,7 @@
 /// Receivers look along the image directions of the sun's beams
 /// (solver/sun_beams.h) from their sample points, back from mirror to mirror and
 /// to the sun: noise-free in power, every sample brings dni · Π rho_s · cosθ.
-/// Light of mirrors that no beam stands for arrives from where it is sent on
+/// Light of mirrors that no beam stands for arrives on patches from where it is sent on
 /// (solver/mirror_chains.h). Samples of a sun with a disk look at the images of
 /// their own points on it; cosθ stays that of its centre.
 #pragma once

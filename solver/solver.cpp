@@ -104,6 +104,7 @@ LightSolver::LightSolver(const Scene& scene, std::shared_ptr<const Hierarchy> me
       sensor_parallel_(parallel_light_on_sensors(scene, caster_, sensor_sampler_,
                                                  static_cast<std::size_t>(rules.realizations))),
       glossy_sun_(scene, hierarchy_, caster_, sampler_, optics_, line_rules(rules)),
+      lobe_images_(scene, caster_, sensor_sampler_, line_rules(rules)),
       bounces_(bounces_of_bands(hierarchy_, lines_.pooled, optics_of_band_, rules)) {
   SUNLOAD_EXPECT(!is_rgb() || rules.transport == Transport::gather, "bands are gathered");
   work_.direct_rays += parallel_.rays;

@@ -157,6 +157,7 @@ class LightSolver {
   MirrorChains mirror_chains_;
   ParallelLight parallel_, sensor_parallel_;
   GlossySun glossy_sun_;
+  LobeImages lobe_images_;                    ///< for sensors
   int bounces_;
   std::unique_ptr<Shooter> shooter_;  ///< null when gathering
 };
