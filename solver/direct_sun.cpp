@@ -91,9 +91,16 @@ Vec3 SunSampler::normal(std::size_t receiver) const {
 
 SunSampler::Geometry SunSampler::geometry(std::size_t receiver) const {
   Geometry g;
-  const auto [a, b, c] = corners(receiver);
+  auto [a, b, c] = corners(receiver);
+  g.normal = sensors_ ? normal(receiver) : normalized(cross(b - a, c - a));
+  if (sensors_) {
+    // Screens let equal rays pass or none of them: those of a sensor differ by a rounding or two.
+    const Tangents axes = tangents(g.normal);
+    a = a - (axes.tangent + axes.bitangent) * (offset_m_ / 3);
+    b = a + axes.tangent * offset_m_;
+    c = a + axes.bitangent * offset_m_;
+  }
   const Vec3 ab = b - a, ac = c - a;
-  g.normal = sensors_ ? (*sensors_)[receiver].normal : normalized(cross(ab, ac));
   to_float(a + g.normal * offset_m_, g.a);
   to_float(ab, g.ab);
   to_float(ac, g.ac);

@@ -33,8 +33,8 @@ struct ScrambledPoints {
   alignas(64) std::uint32_t v[packet_size];
 };
 
-/// Sample points of receivers (patches, or sensors, whose samples all lie in one
-/// point) for the sun, addressable one by one.
+/// Sample points of receivers (patches, or sensors, whose samples lie within the
+/// caster's offset about their point) for the sun, addressable one by one.
 class SunSampler {
  public:
   SunSampler(const Hierarchy& hierarchy, const RayCaster& caster, const DirectRules& rules);

@@ -167,8 +167,9 @@ class MirrorSun::PatchWork {
 std::uint64_t MirrorSun::add_light(const SunSampler& receivers, std::span<const SunLight> block,
                                    std::span<const SunBeams> beams,
                                    MirroredIrradiance into) const {
-  constexpr std::size_t clusters_per_task = 8;
   const auto clusters = clusters_of(receivers);
+  // Few receivers (sensors) are work for all threads, too.
+  const std::size_t clusters_per_task = std::clamp<std::size_t>(clusters.size() / 64, 1, 8);
   std::uint64_t rays = 0;
   for (std::size_t k = 0; k < block.size(); ++k) {
     if (beams[k].size() == 0) continue;

@@ -552,5 +552,27 @@ TEST(Sensors, SeeAPartOfTheSunsDisk) {
   for (const double E : of_sensor(tally, 2)) EXPECT_EQ(E, 0);
 }
 
+// A point under a crown: some of its samples pass, and their number tells the error.
+TEST(Sensors, SeeTheSunThroughAScreen) {
+  Stage stage;
+  Material crown{"crown"};
+  crown.transmittance = 0.3;
+  const int screen = stage.builder.material(crown);
+  stage.builder.sides(Sides::two);
+  stage.builder.quad({-9, -9, 5}, {9, -9, 5}, {9, 9, 5}, {-9, 9, 5}, screen);
+  stage.at({1, 2, 0.5}, {0, 0, 1}).at({1000, 2, 0.5}, {0, 0, 1});
+  SolverRules rules = rules_of(1);
+  rules.direct_samples = rules.realizations * 64;
+  const auto tally = stage.light(one_second({0.1, 0.2, 1}, 1000), rules);
+  const double cos_s = 1 / std::sqrt(1.05);
+  check("crown", of_sensor(tally, 0), 300 * cos_s, 0, 1.4);
+  // Equal rays would share their fate: all or nothing in every realization.
+  for (const double E : of_sensor(tally, 0)) {
+    EXPECT_GT(E, 0);
+    EXPECT_LT(E, 1000 * cos_s);
+  }
+  for (const double E : of_sensor(tally, 1)) EXPECT_NEAR(E, 1000 * cos_s, 0.01);
+}
+
 }  // namespace
 }  // namespace sunload::test
