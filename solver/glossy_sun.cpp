@@ -93,7 +93,7 @@ class GlossySun::Chunk {
   std::size_t waiting_ = 0;
 };
 
-std::uint64_t GlossySun::add_light(const Lines& lines, const LobeImages* images,
+std::uint64_t GlossySun::add_light(const Lines& lines, const LobeImages* of_sensors,
                                    std::span<const SunLight> block,
                                    MirroredIrradiance into) const {
   const auto& glimpses = lines.glimpses;
@@ -111,12 +111,13 @@ std::uint64_t GlossySun::add_light(const Lines& lines, const LobeImages* images,
         for (std::size_t k = 0; k < block.size(); ++k) {
           const SunLight& sun = block[k];
           if (!sun.has_sun() || sun.dni <= 0) continue;
-          Chunk chunk(*this, images, sun, begin, end - begin);
+          Chunk chunk(*this, of_sensors, sun, begin, end - begin);
           for (auto glimpse = first; glimpse != last; ++glimpse) chunk.ask(*glimpse);
           chunk.cast();
           rays += chunk.rays;
           for (std::size_t i = begin; i < end; ++i) {
-            const double lines_each = rules_.lines_of(i) / R;
+            const int lines_of = of_sensors ? rules_.lines_per_patch : rules_.lines_of(i);
+            const double lines_each = lines_of / R;
             double pooled = 0;
             for (std::size_t r = 0; r < into.realizations(); ++r) {
               const double E = chunk.sum(i, r) / lines_each;

@@ -5,8 +5,8 @@
 ///
 ///     E = E_direct + E_sky + E_mirror + E_lamps + Σ_links w B_target + w_ground B_ground
 ///
-/// follows the light exactly as far as the patches' own reflected part does. E_mirror is the sun's by
-/// mirrors and gloss and the sky's by the lines (LightSolver::trace_sensors).
+/// follows the light exactly as far as the patches' own reflected part does. E_mirror is the sun's
+/// by mirrors and gloss (LightSolver::trace_sensors) and the sky's by the lines.
 #pragma once
 
 #include "solver/block_light.h"

@@ -71,7 +71,7 @@ void LightSolver::trace_gloss(std::span<const SunLight> block, MirroredIrradianc
                               std::vector<MirroredSun>& sent_on) {
   if (!optics_.any_glossy) return;
   const Stopwatch time(work_.mirror_s);
-  work_.mirror_rays += glossy_sun_.add_light(lines_, nullptr, block, into);
+  work_.mirror_rays += glossy_sun_.add_light(lines_, block, into);
   sent_on.resize(static_cast<std::size_t>(rules_.realizations));
   glossy_sun_.follow_light(block, sent_on);
 }
@@ -86,10 +86,10 @@ void LightSolver::trace_sensors(std::span<const SunLight> block, std::vector<Sun
   const MirroredIrradiance into{traced.on_sensors_by_mirror, sums.sensor_by_mirror,
                                 or_none(traced.of_sensors.by_mirror)};
   if (mirrors_.size() > 0)
-    work_.sensor_rays += mirror_sun_.add_light(sensor_sampler_, block,
-                                               with_first_reflections(std::move(beams), block), into);
+    work_.sensor_rays += mirror_sun_.add_light(
+        sensor_sampler_, block, with_first_reflections(std::move(beams), block), into);
   if (!optics_.any_glossy) return;
-  work_.sensor_rays += glossy_sun_.add_light(sensor_lines_, &lobe_images_, block, into) +
+  work_.sensor_rays += glossy_sun_.add_light_on_sensors(sensor_lines_, lobe_images_, block, into) +
                        lobe_images_.add_light(block, into);
 }
 
