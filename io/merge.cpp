@@ -284,10 +284,6 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
   const auto& counts = totals[batch_array::counts];
   const auto lines = std::llround(counts[0]);
   const auto samples = static_cast<std::int64_t>(counts[1]);
-  // Other counts, other random points.
-  std::string pairing_id = plan.pairing_id;
-  if (study.solver.accuracy) pairing_id += fmt::format("-{}-{}", counts[0], samples);
-  if (counts.size() > 2) pairing_id += fmt::format("-{}", counts[2]);
   ResultAttributes a;
   a.text = {{"title", "Light load: " + study.name + ", variant " + study.variant},
             {"source", std::string("sunload ") + version + " (" + commit + ")"},
@@ -295,7 +291,7 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
             {"study", study.name},
             {"variant", study.variant},
             {"study_sha256", plan.content_hash},
-            {"pairing_id", pairing_id},
+            {"pairing_id", plan.pairing_id},
             {"isa", plan.isa},
             {"transport", study.solver.transport == Transport::shoot ? "shoot" : "gather"},
             {"timezone", study.site.timezone},

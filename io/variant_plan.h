@@ -21,7 +21,9 @@ struct VariantPlan {
   LightSeries light;
   std::string isa;           ///< that rays will be traced with
   std::string content_hash;  ///< SHA-256 of everything that can change a number
-  std::string pairing_id;    ///< equal where realizations share their random numbers
+  /// Equal where realizations share their random numbers. Counts that an accuracy has raised are no
+  /// part of it: the first points are the same, and pairs are independent of each other.
+  std::string pairing_id;
 
   std::size_t intervals() const { return light.intervals.size(); }
   std::size_t batch_suns() const { return static_cast<std::size_t>(study.solver.batch_suns); }

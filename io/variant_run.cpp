@@ -130,12 +130,23 @@ void VariantRun::build(std::optional<Lines> ready) {
   if (!ready) progress_.advance(Stage::lines, 0);
   solver_ = std::make_unique<LightSolver>(plan_.built.scene, mesh_, rules_, progress_,
                                           std::move(ready));
+  warn_of_sensors();
   progress_.count_rays([this](Stage, double) {
     const WorkDone& work = solver_->work();
     return static_cast<double>(work.direct_rays + work.mirror_rays);
   });
   open_share_ = open_shares(solver_->sky_grid(), plan_.built.site.horizon,
                             scene_from_enu(plan_.built.site));
+}
+
+void VariantRun::warn_of_sensors() {
+  const std::size_t orientations = solver_->mirror_orientations();
+  const auto most = static_cast<std::size_t>(rules_.most_sensor_beams);
+  if (plan_.built.scene.sensors.empty() || orientations <= most) return;
+  progress_.say(fmt::format(
+      "{}: warning: mirrors face in {} directions; sensors do not see the sun by way of mirrors "
+      "while more than {} face it (patches do)",
+      plan_.study.variant, orientations, most));
 }
 
 /// Only a help for later: where it cannot be written, the work goes on.

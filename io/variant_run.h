@@ -32,6 +32,7 @@ class VariantRun {
   void make_solver(MpiWorld* world);
   void read_or_trace();
   void build(std::optional<Lines> ready);
+  void warn_of_sensors();
   void keep_lines(const std::string& path);
   SolverRules decided_rules();
   SunLight light_of(std::size_t interval, const SkyGrid& grid,

@@ -40,34 +40,37 @@ LobeImages::LobeImages(const Scene& scene, const RayCaster& caster, const SunSam
       samples_each_(static_cast<double>(receivers.samples()) / rules.realizations) {
   if (receivers.receivers() == 0 || rules.mirror_depth < 1) return;
   of_side_.assign(2 * scene.mesh.triangle_count(), -1);
+  std::map<std::size_t, OrientationIndex> of_material;
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
     if (!is_narrow(material_of(t))) continue;
-    add_side(t, true);
-    if (scene.mesh.triangle_sides[t] == Sides::two) add_side(t, false);
+    add_side(t, true, of_material);
+    if (scene.mesh.triangle_sides[t] == Sides::two) add_side(t, false, of_material);
   }
 }
 
-void LobeImages::add_side(std::size_t triangle, bool front) {
+void LobeImages::add_side(std::size_t triangle, bool front,
+                          std::map<std::size_t, OrientationIndex>& of_material) {
   const Vec3 n = normal_of_side(scene_.mesh, triangle, front);
   const MaterialId material = scene_.material[triangle];
   const double exponent = material_of(triangle).glossy_exponent;
-  const double least_cosine = std::cos(shared_width / std::sqrt(exponent));
-  auto found = std::find_if(orientations_.begin(), orientations_.end(), [&](const auto& o) {
-    return o.material == material && dot(o.normal, n) >= least_cosine;
-  });
-  const Vec3 corner = scene_.mesh.corner(triangle, 0);
-  if (found == orientations_.end())
-    found = orientations_.insert(
-        orientations_.end(), {n, material, exponent, std::acos(std::pow(least_lobe, 1 / exponent)),
-                              corner, corner});
-  of_side_[2 * triangle + (front ? 0u : 1u)] =
-      static_cast<std::int32_t>(found - orientations_.begin());
+  OrientationIndex& known =
+      of_material.try_emplace(material.index(), shared_width / std::sqrt(exponent)).first->second;
+  std::int32_t number = known.find(n);
+  if (number < 0) {
+    number = static_cast<std::int32_t>(orientations_.size());
+    const Vec3 corner = scene_.mesh.corner(triangle, 0);
+    const double reach = std::acos(std::pow(least_lobe, 1 / exponent));
+    orientations_.push_back({n, material, exponent, reach, corner, corner});
+    known.add(n, number);
+  }
+  of_side_[2 * triangle + (front ? 0u : 1u)] = number;
+  Orientation& found = orientations_[static_cast<std::size_t>(number)];
   for (int c = 0; c < 3; ++c) {
     const Vec3 p = scene_.mesh.corner(triangle, c);
-    found->low = {std::min(found->low.x, p.x), std::min(found->low.y, p.y),
-                  std::min(found->low.z, p.z)};
-    found->high = {std::max(found->high.x, p.x), std::max(found->high.y, p.y),
-                   std::max(found->high.z, p.z)};
+    found.low = {std::min(found.low.x, p.x), std::min(found.low.y, p.y),
+                 std::min(found.low.z, p.z)};
+    found.high = {std::max(found.high.x, p.x), std::max(found.high.y, p.y),
+                  std::max(found.high.z, p.z)};
   }
 }
 

@@ -15,11 +15,13 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
 #include "solver/lines.h"
 #include "solver/mirror_sun.h"
+#include "solver/orientation_index.h"
 
 namespace sunload {
 
@@ -44,7 +46,9 @@ class LobeImages {
     double reach;    ///< angle from an image beyond which the lobe is not looked for
     Vec3 low, high;  ///< box about them
   };
-  void add_side(std::size_t triangle, bool front);
+  /// `of_material`: the orientations of each material that has any.
+  void add_side(std::size_t triangle, bool front,
+                std::map<std::size_t, OrientationIndex>& of_material);
   const Material& material_of(std::size_t triangle) const {
     return scene_.materials[scene_.material[triangle].index()];
   }

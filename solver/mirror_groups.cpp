@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geo/units.h"
+#include "solver/orientation_index.h"
 
 namespace sunload {
 
@@ -18,7 +19,7 @@ constexpr double same_orientation = 0.05 * radians_per_degree;
 
 MirrorGroups::MirrorGroups(const Scene& scene)
     : scene_(scene), group_of_side_(2 * scene.mesh.triangle_count(), -1) {
-  const double least_cosine = std::cos(same_orientation);
+  OrientationIndex orientations(same_orientation);
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
     const MaterialId material = scene.material[t];
     if (!is_mirror(scene.materials[material.index()])) continue;
@@ -26,15 +27,18 @@ MirrorGroups::MirrorGroups(const Scene& scene)
     for (std::size_t side = 0; side < (scene.mesh.triangle_sides[t] == Sides::two ? 2 : 1);
          ++side) {
       const Vec3 n = side == 0 ? front : -front;
-      auto group = std::find_if(groups_.begin(), groups_.end(), [&](const MirrorGroup& g) {
-        return dot(g.normal, n) >= least_cosine;
-      });
-      if (group == groups_.end()) group = groups_.insert(groups_.end(), MirrorGroup{n, {}, {}});
-      group_of_side_[2 * t + side] = static_cast<std::int32_t>(group - groups_.begin());
-      group->triangles.push_back(static_cast<std::int32_t>(t));
-      if (std::find(group->materials.begin(), group->materials.end(), material) ==
-          group->materials.end())
-        group->materials.push_back(material);
+      std::int32_t number = orientations.find(n);
+      if (number < 0) {
+        number = static_cast<std::int32_t>(groups_.size());
+        groups_.push_back({n, {}, {}});
+        orientations.add(n, number);
+      }
+      group_of_side_[2 * t + side] = number;
+      MirrorGroup& group = groups_[static_cast<std::size_t>(number)];
+      group.triangles.push_back(static_cast<std::int32_t>(t));
+      if (std::find(group.materials.begin(), group.materials.end(), material) ==
+          group.materials.end())
+        group.materials.push_back(material);
     }
   }
 }

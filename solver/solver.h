@@ -40,6 +40,9 @@ struct SolverRules {
   int mirror_depth = 8;
   double faint_glint = 0.02;  ///< share of the sun below which light reflected again is no beam
   int most_sun_beams = 128;   ///< sequences of mirror orientations per sun that are beams
+  /// Orientations that face a sun of which sensors get the first reflection, where no beams stand;
+  /// of more they get none.
+  int most_sensor_beams = 1 << 14;
   /// A link leads to an element above the leaves where no more than so many of a
   /// patch's lines can be expected to meet it; 0: to leaves only.
   double link_threshold = 0;
@@ -78,6 +81,8 @@ class LightSolver {
   int bounces() const { return bounces_; }
   const SolverRules& rules() const { return rules_; }
   bool has_part(Part part) const;
+  /// Directions in which the scene's mirrors face.
+  std::size_t mirror_orientations() const { return mirrors_.size(); }
   /// Cosine-weighted share of the hemisphere above each patch that is sky.
   std::vector<double> sky_view_factor() const;
   /// Lines of the scene's sensors; no rows where it has none.

@@ -1,6 +1,5 @@
 // What a block of suns brings by rays: shadow rays, image directions, chains of mirrors.
 #include <algorithm>
-#include <limits>
 
 #include "solver/parallel.h"
 #include "solver/solver.h"
@@ -98,7 +97,7 @@ void LightSolver::trace_sensors(std::span<const SunLight> block, std::vector<Sun
 std::vector<SunBeams> LightSolver::with_first_reflections(std::vector<SunBeams> beams,
                                                           std::span<const SunLight> block) const {
   const BeamRules of_first{.mirror_depth = std::min(rules_.mirror_depth, 1),
-                           .most_beams = std::numeric_limits<int>::max()};
+                           .most_beams = rules_.most_sensor_beams};
   parallel_for(block.size(), [&](std::size_t k) {
     if (beams[k].size() == 0) beams[k] = SunBeams(mirrors_, block[k], of_first);
   });

@@ -98,6 +98,22 @@ TEST(AccuracyStudy, MeetsAGoalAtEveryInstant) {
   EXPECT_LT(static_cast<double>(kept), 0.95 * static_cast<double>(lit));
 }
 
+TEST(AccuracyStudy, PairsVariantsWhoseCountsDiffer) {
+  const Square square("", "4");
+  square.folder.write(
+      "square.yaml",
+      square_study("totals", ", accuracy: {light_load_relative: 0.05}", "4") +
+          "variants: [{name: baseline}, {name: pale, scene: {materials: {paving: {diffuse: 0.7}}}}]\n");
+  const Ran ran = square.run("one");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const std::string base = square.result("one"), pale = square.folder / "one/square/pale.h5";
+  EXPECT_NE(ResultReader(base).doubles("patch_lines"), ResultReader(pale).doubles("patch_lines"));
+  const Ran compared = program(square.folder, {"compare", base, pale});
+  EXPECT_EQ(compared.code, 0) << compared.err;
+  EXPECT_NE(compared.out.find("standard errors of paired differences"), std::string::npos)
+      << compared.out;
+}
+
 TEST(AccuracyStudy, NeedsAGoal) {
   const Square square(", accuracy: {}");
   const Ran check = program(square.folder, {"check", "square.yaml"});
