@@ -55,7 +55,7 @@ std::string counts_text(const VariantPlan& plan, const SampleCounts& counts) {
   return text;
 }
 
-/// Counts that the pilot chose may need more than the least counts that were checked before.
+/// The pilot, or counts that it chose, may need more than the least counts that were checked before.
 void refuse_too_much(const WorkEstimate& work) {
   constexpr double gib = 1024.0 * 1024 * 1024;
   if (const double left = available_memory_bytes(); work.memory_bytes > left)
@@ -63,6 +63,15 @@ void refuse_too_much(const WorkEstimate& work) {
         "too little memory for the accuracy asked for: about {:.1f} GiB are needed, {:.1f} GiB are "
         "available; use a smaller max_lines_per_patch or a larger error in accuracy",
         work.memory_bytes / gib, left / gib));
+}
+
+WorkEstimate work_of_pilot(const VariantPlan& plan, std::size_t patches) {
+  const SolverStudy& s = plan.study.solver;
+  const int lines = std::max(pilot_lines, s.lines_per_patch);
+  WorkEstimate work = estimate_work(plan, patches, {lines, s.direct_samples, lines});
+  if (s.accuracy->irradiance_relative)
+    work.memory_bytes += pilot_bytes_of_instants * static_cast<double>(patches);
+  return work;
 }
 
 }  // namespace
@@ -195,6 +204,7 @@ SolverRules VariantRun::decided_rules() {
   SolverRules of_pilot = rules;
   of_pilot.bands = Bands::broadband;  // the goal is for the mean of the bands
   const AccuracyGoal goal = accuracy_goal(plan_.study);
+  refuse_too_much(work_of_pilot(plan_, mesh_->patch_count()));
   const PatchSpread spread = pilot_spread(
       scene, mesh_, of_pilot, suns,
       {weight, plan_.batch_suns(), goal.irradiance_relative.has_value()}, progress_);

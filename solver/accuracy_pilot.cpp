@@ -12,9 +12,9 @@ namespace {
 
 // Fewer realizations say little of a variance; more than most take memory, the more if each keeps
 // the light of every instant.
-constexpr int fewest_realizations = 8, most_realizations = 256, most_realizations_of_instants = 16;
+constexpr int fewest_realizations = 8, most_realizations = 256;
 // None of so many lines meets what sends a patch 1 % of the largest load: 0.6 % of patches.
-constexpr int fewest_lines = 512;
+constexpr int fewest_lines = pilot_lines;
 
 /// A pilot is part of the preparation.
 class PilotWatch : public Watch {

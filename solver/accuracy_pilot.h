@@ -38,6 +38,13 @@ struct PatchSpread {
 /// Suns of a pilot, at most.
 inline constexpr std::size_t pilot_suns = 32;
 
+/// What a pilot takes, for those who ask whether there is room for it: lines per patch, at least, and
+/// bytes per patch for the light of instants.
+inline constexpr int pilot_lines = 512;
+inline constexpr int most_realizations_of_instants = 16;
+inline constexpr double pilot_bytes_of_instants =
+    most_realizations_of_instants * 3.0 * block_width * sizeof(float);
+
 struct PilotRules {
   double weight = 1;                     ///< suns of the period for which each of the pilot's stands
   std::size_t batch_suns = block_width;  ///< of the period, which share samples when shooting

@@ -42,7 +42,7 @@ struct SolverRules {
   int most_sun_beams = 128;   ///< sequences of mirror orientations per sun that are beams
   /// Orientations that face a sun of which sensors get the first reflection, where no beams stand;
   /// of more they get none.
-  int most_sensor_beams = 1 << 14;
+  int most_sensor_beams = 1 << 16;
   /// A link leads to an element above the leaves where no more than so many of a
   /// patch's lines can be expected to meet it; 0: to leaves only.
   double link_threshold = 0;
