@@ -196,7 +196,7 @@ struct MeshStudy {
 /// Counts per patch are raised until errors are as small as asked for: at least one of these.
 struct AccuracyStudy {
   std::optional<double> light_load_relative = {};  ///< standard error / light load
-  std::optional<double> irradiance_relative = {};  ///< standard error / irradiance, at every instant
+  std::optional<double> irradiance_relative = {};  ///< standard error / irradiance, every instant
 };
 struct SolverStudy {
   Transport transport = Transport::gather;

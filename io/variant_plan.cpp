@@ -320,6 +320,20 @@ double line_seconds(const Scene& scene, int mirror_depth) {
 
 }  // namespace
 
+double pilot_memory_bytes(const VariantPlan& plan, std::size_t patches) {
+  const bool of_instants = plan.study.solver.accuracy->irradiance_relative.has_value();
+  const SolverRules rules = pilot_rules(solver_rules(plan), of_instants);
+  const double R = rules.realizations, block = block_width * float_bytes;
+  constexpr double sun_columns = 4;      // straight, circumsolar, by mirrors, all of them
+  constexpr double spread_columns = 16;  // sums, squares, variances of three sources, in doubles
+  double per_patch = rules.lines_per_patch * bytes_per_line + bytes_per_patch +
+                     arrays_of_realizations * double_bytes * R;
+  if (of_instants) per_patch += (sun_columns * R + spread_columns) * block;
+  if (rules.transport == Transport::shoot)
+    per_patch += shooting_bytes_per_patch + columns_of_a_realization * double_bytes * R;
+  return program_bytes + static_cast<double>(patches) * per_patch;
+}
+
 WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
   const SolverStudy& s = plan.study.solver;
   return estimate_work(plan, patches, {s.lines_per_patch, s.direct_samples, s.lines_per_patch});

@@ -42,6 +42,8 @@ RefineRules refine_rules(const Study& study);
 SolverRules solver_rules(const VariantPlan& plan);
 /// The study's goal; only of a study that has one.
 AccuracyGoal accuracy_goal(const Study& study);
+/// Memory of the pilot that an accuracy asks for.
+double pilot_memory_bytes(const VariantPlan& plan, std::size_t patches);
 /// "1 %", "5 % at every instant" or both.
 std::string goal_words(const AccuracyStudy& accuracy);
 

@@ -55,23 +55,14 @@ std::string counts_text(const VariantPlan& plan, const SampleCounts& counts) {
   return text;
 }
 
-/// The pilot, or counts that it chose, may need more than the least counts that were checked before.
-void refuse_too_much(const WorkEstimate& work) {
+/// The pilot, or counts that it chose, may need more than the least counts that `check` knows.
+void refuse_too_much(double memory_bytes) {
   constexpr double gib = 1024.0 * 1024 * 1024;
-  if (const double left = available_memory_bytes(); work.memory_bytes > left)
+  if (const double left = available_memory_bytes(); memory_bytes > left)
     throw MachineError(fmt::format(
         "too little memory for the accuracy asked for: about {:.1f} GiB are needed, {:.1f} GiB are "
         "available; use a smaller max_lines_per_patch or a larger error in accuracy",
-        work.memory_bytes / gib, left / gib));
-}
-
-WorkEstimate work_of_pilot(const VariantPlan& plan, std::size_t patches) {
-  const SolverStudy& s = plan.study.solver;
-  const int lines = std::max(pilot_lines, s.lines_per_patch);
-  WorkEstimate work = estimate_work(plan, patches, {lines, s.direct_samples, lines});
-  if (s.accuracy->irradiance_relative)
-    work.memory_bytes += pilot_bytes_of_instants * static_cast<double>(patches);
-  return work;
+        memory_bytes / gib, left / gib));
 }
 
 }  // namespace
@@ -204,12 +195,12 @@ SolverRules VariantRun::decided_rules() {
   SolverRules of_pilot = rules;
   of_pilot.bands = Bands::broadband;  // the goal is for the mean of the bands
   const AccuracyGoal goal = accuracy_goal(plan_.study);
-  refuse_too_much(work_of_pilot(plan_, mesh_->patch_count()));
+  refuse_too_much(pilot_memory_bytes(plan_, mesh_->patch_count()));
   const PatchSpread spread = pilot_spread(
       scene, mesh_, of_pilot, suns,
       {weight, plan_.batch_suns(), goal.irradiance_relative.has_value()}, progress_);
   const SampleCounts counts = needed_counts(spread, rules, goal, lit.size());
-  refuse_too_much(estimate_work(plan_, spread.area.size(), counts));
+  refuse_too_much(estimate_work(plan_, spread.area.size(), counts).memory_bytes);
   progress_.say(counts_text(plan_, counts));
   return with_counts(rules, counts);
 }

@@ -161,7 +161,8 @@ void choose_lines(const PatchSpread& spread, const AccuracyGoal& goal,
     double needed = 0;
     for (const auto& kind : of_kinds)
       for (const Wanted& quantity : kind)
-        if (quantity.counts(i)) needed = std::max(needed, quantity.needed_lines(i, counts, levels.back()));
+        if (quantity.counts(i))
+          needed = std::max(needed, quantity.needed_lines(i, counts, levels.back()));
     const auto level = std::lower_bound(levels.begin(), levels.end(), needed);
     counts.lines_of_patch[i] = level == levels.end() ? levels.back() : *level;
   }, patches_per_task);

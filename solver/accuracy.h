@@ -30,8 +30,8 @@ inline constexpr double share_that_counts = 0.01, share_to_be_met = 0.95;
 
 /// Over all realizations together.
 struct SampleCounts {
-  /// Of patches unless `lines_of_patch` has them, and of sensors: then the least multiple of the
-  /// study's own count that is no less than the mean of patches.
+  /// Of patches unless `lines_of_patch` has them, and of sensors: then the least of the doubled
+  /// counts that is no less than the mean of patches.
   int lines_per_patch = 0;
   int direct_samples = 0;
   /// Of the first shot, in the mean of patches. With a power per sample of its own this is what

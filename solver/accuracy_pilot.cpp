@@ -12,9 +12,9 @@ namespace {
 
 // Fewer realizations say little of a variance; more than most take memory, the more if each keeps
 // the light of every instant.
-constexpr int fewest_realizations = 8, most_realizations = 256;
+constexpr int fewest_realizations = 8, most_realizations = 256, most_realizations_of_instants = 16;
 // None of so many lines meets what sends a patch 1 % of the largest load: 0.6 % of patches.
-constexpr int fewest_lines = pilot_lines;
+constexpr int fewest_lines = 512;
 
 /// A pilot is part of the preparation.
 class PilotWatch : public Watch {
@@ -35,18 +35,19 @@ class PilotWatch : public Watch {
   double begin_ = 0, length_ = 1;
 };
 
-/// The realizations are like the study's own (the errors of few scrambled points are not those
-/// of many), only more, or with more lines where they may not be as many as that takes.
+}  // namespace
+
 SolverRules pilot_rules(SolverRules rules, bool of_instants) {
   int lines = rules.lines_per_patch / rules.realizations;
   const int samples = rules.direct_samples / rules.realizations;
-  const double of_study = rules.realizations;
+  const double of_study = static_cast<double>(rules.realizations) * lines;
   const int most = of_instants ? most_realizations_of_instants : most_realizations;
   const int wanted = std::min(most, (fewest_lines + lines - 1) / lines);
   rules.realizations = std::max({rules.realizations, fewest_realizations, wanted});
   lines = std::max(lines, (fewest_lines + rules.realizations - 1) / rules.realizations);
-  // The power of a sample is that of all realizations together.
-  if (rules.power_per_sample_w) *rules.power_per_sample_w *= of_study / rules.realizations;
+  // The power of a sample is that of all realizations together; shots go with lines.
+  if (rules.power_per_sample_w)
+    *rules.power_per_sample_w *= of_study / (static_cast<double>(rules.realizations) * lines);
   rules.lines_per_patch = lines * rules.realizations;
   rules.direct_samples = samples * rules.realizations;
   rules.seed = mixed(rules.seed, static_cast<std::uint64_t>(Purpose::pilot));
@@ -54,6 +55,8 @@ SolverRules pilot_rules(SolverRules rules, bool of_instants) {
   rules.by_source = true;
   return rules;
 }
+
+namespace {
 
 /// Mean of the values [r].
 template <class Value>
@@ -92,9 +95,15 @@ Spread gathered_load(const LightSolver& solver, const BatchTally& tally, double 
     const auto total = [&](std::size_t r) { return tally.exposure_realization[r][i]; };
     const auto sun = [&](std::size_t r) { return tally.by_source.sun[r][i]; };
     spread.value.push_back(weight * mean(R, total));
-    const double by_lines = variance(R, [&](std::size_t r) { return total(r) - sun(r); });
+    const auto parallel = [&](std::size_t r) {
+      const auto& exposure = tally.by_source.parallel[r];
+      return exposure.empty() ? 0 : exposure[i];
+    };
+    const double by_lines =
+        variance(R, [&](std::size_t r) { return total(r) - sun(r) - parallel(r); });
     spread.of_line.push_back(weight * weight * by_lines * count.lines);
-    spread.of_sample.push_back(weight * variance(R, sun) * count.samples);
+    const double by_samples = weight * variance(R, sun) + weight * weight * variance(R, parallel);
+    spread.of_sample.push_back(by_samples * count.samples);
   }
   return spread;
 }
@@ -199,20 +208,27 @@ std::vector<Spread> spread_of_instants(const LightSolver& solver, const BatchTal
   return spreads;
 }
 
-/// Neighbours on one input triangle see much the same: together they know variances better than
-/// few realizations of one patch do.
+/// Neighbours on one side of an input triangle see much the same: together they know variances
+/// better than few realizations of one patch do.
 void share_with_neighbours(const Hierarchy& hierarchy, std::vector<double>& of_line) {
-  constexpr std::ptrdiff_t reach = 2;
+  constexpr std::ptrdiff_t reach = 2;  // to either side
   constexpr double weight_of_others = 0.5;
   const auto patches = static_cast<std::ptrdiff_t>(of_line.size());
-  const auto triangle = [&](std::ptrdiff_t i) {
-    return hierarchy.patches()[static_cast<std::size_t>(i)].triangle;
+  const auto are_on_one = [&](std::ptrdiff_t i, std::ptrdiff_t j) {
+    return j >= 0 && j < patches &&
+           hierarchy.patches()[static_cast<std::size_t>(i)].triangle ==
+               hierarchy.patches()[static_cast<std::size_t>(j)].triangle;
+  };
+  const auto side = [&](std::ptrdiff_t i) {
+    return hierarchy.patches()[static_cast<std::size_t>(i)].side;
   };
   const std::vector<double> own = of_line;
   for (std::ptrdiff_t i = 0; i < patches; ++i) {
     double sum = 0, weights = 0;
-    for (auto j = std::max(i - reach, std::ptrdiff_t{0}); j < std::min(i + reach + 1, patches); ++j) {
-      if (triangle(j) != triangle(i)) continue;
+    const std::ptrdiff_t back = side(i) == 0 ? i + 1 : i - 1;  // if there is one
+    const std::ptrdiff_t step = are_on_one(i, back) && side(back) != side(i) ? 2 : 1;
+    for (auto j = i - reach * step; j <= i + reach * step; j += step) {
+      if (!are_on_one(i, j)) continue;
       const double weight = j == i ? 1 : weight_of_others;
       sum += weight * own[static_cast<std::size_t>(j)];
       weights += weight;

@@ -38,15 +38,13 @@ struct PatchSpread {
 /// Suns of a pilot, at most.
 inline constexpr std::size_t pilot_suns = 32;
 
-/// What a pilot takes, for those who ask whether there is room for it: lines per patch, at least, and
-/// bytes per patch for the light of instants.
-inline constexpr int pilot_lines = 512;
-inline constexpr int most_realizations_of_instants = 16;
-inline constexpr double pilot_bytes_of_instants =
-    most_realizations_of_instants * 3.0 * block_width * sizeof(float);
+/// The rules that a pilot of a study solves by. Its realizations are like the study's own (the
+/// errors of few scrambled points are not those of many), only more, or with more lines where they
+/// may not be as many as that takes.
+SolverRules pilot_rules(SolverRules of_study, bool of_instants);
 
 struct PilotRules {
-  double weight = 1;                     ///< suns of the period for which each of the pilot's stands
+  double weight = 1;  ///< suns of the period for which each of the pilot's stands
   std::size_t batch_suns = block_width;  ///< of the period, which share samples when shooting
   bool of_instants = false;              ///< PatchSpread::irradiance
 };

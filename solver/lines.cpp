@@ -190,7 +190,8 @@ class BlockTracer {
   std::uint64_t book_mirrored(Vec3 origin, Vec3 w, std::size_t patch, const RandomKey& line,
                               MirroredFirstLight& book) const {
     const auto fate = follower_.mirrored_on(origin, w, patch, line);
-    const double share = hierarchy_.area()[patch] / static_cast<double>(lines_per_realization(patch));
+    const auto lines_each = static_cast<double>(lines_per_realization(patch));
+    const double share = hierarchy_.area()[patch] / lines_each;
     const std::size_t source = w.z > 0 ? follower_.sky_cell(w) : ground_source_;
     MirroredFirstLight::for_each(book, fate, [&](std::vector<double>& power, double part) {
       if (power.empty()) power.assign(ground_source_ + 1, 0);
@@ -230,9 +231,10 @@ void expect_shared_equally(const LineRules& rules, std::size_t patches) {
   SUNLOAD_EXPECT(rules.realizations >= 1, "at least one realization");
   SUNLOAD_EXPECT(rules.lines_of_patch.empty() || rules.lines_of_patch.size() == patches,
                  "lines of every patch");
-  for (std::size_t patch = 0; patch < std::max<std::size_t>(1, rules.lines_of_patch.size()); ++patch)
-    SUNLOAD_EXPECT(rules.lines_of(patch) % rules.realizations == 0,
-                   "lines are shared equally by the realizations");
+  const auto is_shared = [&](int lines) { return lines % rules.realizations == 0; };
+  SUNLOAD_EXPECT(is_shared(rules.lines_per_patch) &&
+                     std::all_of(rules.lines_of_patch.begin(), rules.lines_of_patch.end(), is_shared),
+                 "lines are shared equally by the realizations");
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ struct Lines {
   std::uint64_t rays = 0;  ///< cast, chains included
 };
 
-/// Traces all lines. Cost: patches × lines_per_patch rays, and as many shadow rays where there
+/// Traces all lines. Cost: a ray for each line of every patch, and as many shadow rays where there
 /// are bright surfaces. Throws Interrupted.
 Lines trace_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
                   const SkyGrid& grid, const Guide& guide, const LineRules& rules,

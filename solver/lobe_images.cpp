@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "geo/units.h"
 #include "solver/lobe.h"
@@ -22,6 +23,9 @@ constexpr double broadest = 10;
 // Where the lobe is fainter than this, relative to its middle, it is not looked for (as in
 // solver/glossy_sun.cpp).
 constexpr double least_lobe = 1e-8;
+
+// Each costs every sensor and sun.
+constexpr std::size_t most_orientations = 4096;
 
 Vec3 normal_of_side(const Mesh& mesh, std::size_t triangle, bool front) {
   const Vec3 n = normalized(mesh.area_vector2(triangle));
@@ -45,6 +49,10 @@ LobeImages::LobeImages(const Scene& scene, const RayCaster& caster, const SunSam
     if (!is_narrow(material_of(t))) continue;
     add_side(t, true, of_material);
     if (scene.mesh.triangle_sides[t] == Sides::two) add_side(t, false, of_material);
+    if (orientations_.size() <= most_orientations) continue;
+    orientations_.clear();  // lines do it, with their noise
+    least_exponent_ = std::numeric_limits<double>::infinity();
+    return;
   }
 }
 
@@ -60,7 +68,8 @@ void LobeImages::add_side(std::size_t triangle, bool front,
     number = static_cast<std::int32_t>(orientations_.size());
     const Vec3 corner = scene_.mesh.corner(triangle, 0);
     const double reach = std::acos(std::pow(least_lobe, 1 / exponent));
-    orientations_.push_back({n, material, exponent, reach, corner, corner});
+    const double apart = std::sin(shared_width / std::sqrt(exponent));
+    orientations_.push_back({n, material, exponent, reach, apart, corner, corner});
     known.add(n, number);
   }
   of_side_[2 * triangle + (front ? 0u : 1u)] = number;
@@ -92,7 +101,8 @@ class LobeImages::Receiver {
     const Vec3 at{geometry_.a[0], geometry_.a[1], geometry_.a[2]};
     const Vec3 to = (o.low + o.high) * 0.5 - at;
     const double radius = norm(o.high - o.low) / 2, distance = norm(to);
-    if (dot(to, geometry_.normal) < -radius || dot(to, o.normal) > radius) return false;
+    if (dot(to, geometry_.normal) < -radius || dot(to, o.normal) > radius + o.apart * distance)
+      return false;
     if (distance <= radius) return true;
     const double off_axis = std::acos(std::clamp(
         dot(to, image(sun_.direction, o.normal)) / distance, -1.0, 1.0));
@@ -188,7 +198,7 @@ std::uint64_t LobeImages::add_light(std::span<const SunLight> block,
             std::fill(of_realization.begin(), of_realization.end(), 0);
             Receiver receiver(*this, i, block[k]);
             for (std::size_t o = 0; o < orientations_.size(); ++o)
-              if (dot(block[k].direction, orientations_[o].normal) > 0 &&
+              if (dot(block[k].direction, orientations_[o].normal) > -orientations_[o].apart &&
                   receiver.may_see(orientations_[o]))
                 receiver.look_for(o, of_realization);
             rays += receiver.rays;

@@ -43,6 +43,13 @@ MirrorGroups::MirrorGroups(const Scene& scene)
   }
 }
 
+std::size_t MirrorGroups::reflecting() const {
+  std::size_t count = 0;
+  for (std::size_t group = 0; group < groups_.size(); ++group)
+    if (strongest(group, 1) > 0) ++count;
+  return count;
+}
+
 const Material& MirrorGroups::material(std::int32_t triangle) const {
   return scene_.materials[scene_.material[static_cast<std::size_t>(triangle)].index()];
 }

@@ -22,6 +22,8 @@ class MirrorGroups {
   std::size_t size() const { return groups_.size(); }
   const MirrorGroup& operator[](std::size_t group) const { return groups_[group]; }
   const Scene& scene() const { return scene_; }
+  /// Groups that reflect anything: clear glass may reflect nothing.
+  std::size_t reflecting() const;
 
   /// Group of a side of a triangle; -1: no mirror.
   std::int32_t of_side(std::int32_t triangle, bool front) const {

@@ -18,7 +18,7 @@ namespace {
 
 LineRules line_rules(const SolverRules& rules) {
   return {rules.lines_per_patch, rules.lines_of_patch, rules.realizations,
-          rules.mirror_depth,    rules.seed,           rules.link_threshold / rules.lines_per_patch};
+          rules.mirror_depth, rules.seed, rules.link_threshold / rules.lines_per_patch};
 }
 
 ShootingRules shooting_rules(const SolverRules& rules, int bounces) {
@@ -146,8 +146,10 @@ BatchTally LightSolver::empty_tally(std::size_t intervals) const {
 }
 
 TimeSums LightSolver::empty_sums() const {
-  return {static_cast<std::size_t>(rules_.realizations), hierarchy_.patch_count(),
-          scene_.sensors.size(), static_cast<std::size_t>(grid_.cell_count())};
+  TimeSums sums(static_cast<std::size_t>(rules_.realizations), hierarchy_.patch_count(),
+                scene_.sensors.size(), static_cast<std::size_t>(grid_.cell_count()));
+  if (optics_.any_glossy) sums.by_gloss = sums.by_mirror;
+  return sums;
 }
 
 std::vector<BatchTally> LightSolver::solve_bands(std::span<const SunLight> batch, Watch& watch) {
@@ -265,11 +267,11 @@ void LightSolver::errors_per_instant(const PatchOptics& optics, const BlockSourc
   InstantSpreadBySource by_source(rules_.by_source ? hierarchy_.patch_count() : 0, suns);
   for (std::size_t r = 0; r < of_patches.direct.size(); ++r) {
     const LineSet& lines = lines_.realizations[r];
-    const Columns by_samples = rules_.by_source ? traced_sum(of_patches, r) : Columns{};
+    const std::vector<double>& parallel = parallel_.of(r);
     const BlockLight light = block_light(
         hierarchy_, lines, optics, sources,
         {std::move(of_patches.direct[r]), std::move(of_patches.by_mirror[r]),
-         of_patches.circumsolar[r], parallel_.of(r)},
+         of_patches.circumsolar[r], parallel},
         bounces_);
     const auto ledger = block_ledger(lines, optics, hierarchy_.area(), sources, light);
     std::copy(ledger.begin(), ledger.end(),
@@ -282,7 +284,10 @@ void LightSolver::errors_per_instant(const PatchOptics& optics, const BlockSourc
     sensors.add(total_of(on_sensors));
     by_source.add(
         total_of(light),
-        [&](std::size_t i, std::size_t k) { return by_samples[i * block_width + k]; },
+        [&](std::size_t i, std::size_t k) {
+          return static_cast<double>(traced.by_samples[r][i * block_width + k]) +
+                 (parallel.empty() ? 0 : parallel[i]);
+        },
         [](std::size_t, std::size_t) { return 0; });
   }
   patches.store(first_row, tally.irradiance_se);
@@ -301,11 +306,18 @@ void LightSolver::solve_realizations(std::vector<TimeSums>& sums,
   const Stopwatch time(work_.realizations_s);
   for (std::size_t b = 0; b < tallies.size(); ++b) {
     for (std::size_t r = 0; r < sums[b].direct.size(); ++r) {
+      std::vector<double> sun = sums[b].direct[r];
+      for (std::size_t i = 0; i < sun.size(); ++i) {
+        sun[i] += sums[b].by_mirror[r][i] + sums[b].circumsolar[r][i];
+        if (!sums[b].by_gloss.empty()) sums[b].by_mirror[r][i] += sums[b].by_gloss[r][i];
+      }
       solve_realization(optics_of_band_[b], r, sums[b], tallies[b]);
-      for (std::size_t i = 0; i < hierarchy_.patch_count(); ++i)
-        sums[b].direct[r][i] += sums[b].by_mirror[r][i] + sums[b].circumsolar[r][i];
+      tallies[b].by_source.sun.push_back(std::move(sun));
+      if (!rules_.by_source) continue;
+      std::vector<double> parallel = parallel_.of(r);
+      for (double& E : parallel) E *= sums[b].length_s;
+      tallies[b].by_source.parallel.push_back(std::move(parallel));
     }
-    tallies[b].by_source.sun = std::move(sums[b].direct);
   }
 }
 

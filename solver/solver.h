@@ -82,7 +82,7 @@ class LightSolver {
   const SolverRules& rules() const { return rules_; }
   bool has_part(Part part) const;
   /// Directions in which the scene's mirrors face.
-  std::size_t mirror_orientations() const { return mirrors_.size(); }
+  std::size_t mirror_orientations() const { return mirrors_.reflecting(); }
   /// Cosine-weighted share of the hemisphere above each patch that is sky.
   std::vector<double> sky_view_factor() const;
   /// Lines of the scene's sensors; no rows where it has none.

@@ -54,8 +54,9 @@ struct ReceiverTally {
 /// the whole exposure comes by lines.
 struct ExposureBySource {
   std::vector<std::vector<double>> sun;  ///< by direct samples of every sun, mirrored included
-  // When shooting, and only if asked for (SolverRules).
+  // Only if asked for (SolverRules).
   std::vector<std::vector<double>> parallel;   ///< by direct samples, the same for all suns
+  // When shooting, and only if asked for.
   std::vector<std::vector<double>> emitted;    ///< by samples of emitters, the same for all suns
   std::vector<std::vector<double>> reflected;  ///< by samples of every block of suns
 };

@@ -18,6 +18,7 @@ struct TimeSums {
   void add_sources(const BlockSources& sources);
 
   std::vector<std::vector<double>> direct, by_mirror;  ///< [R][N]
+  std::vector<std::vector<double>> by_gloss;  ///< [R][N], by lines; empty where nothing is glossy
   std::vector<std::vector<double>> circumsolar;        ///< [R][N]
   std::vector<std::vector<double>> sensor_direct, sensor_by_mirror;  ///< [R][sensors]
   std::vector<double> sky;                             ///< [cells] π·radiance·time

@@ -15,7 +15,10 @@ TracedLight LightSolver::trace_block(const BlockSources& sources, TimeSums& sums
   const MirroredIrradiance into{traced.by_mirror, sums.by_mirror,
                                 or_none(traced.of_patches.by_mirror)};
   std::vector<SunBeams> beams = trace_mirrors(sources.suns, into, traced.sent_on);
-  trace_gloss(sources.suns, into, traced.sent_on);
+  if (rules_.by_source) traced.by_samples = traced_sums(traced.of_patches);
+  trace_gloss(sources.suns,
+              {traced.by_mirror, sums.by_gloss, or_none(traced.of_patches.by_mirror)},
+              traced.sent_on);
   if (!scene_.sensors.empty()) trace_sensors(sources.suns, std::move(beams), sums, traced);
   return traced;
 }
@@ -88,8 +91,8 @@ void LightSolver::trace_sensors(std::span<const SunLight> block, std::vector<Sun
     work_.sensor_rays += mirror_sun_.add_light(
         sensor_sampler_, block, with_first_reflections(std::move(beams), block), into);
   if (!optics_.any_glossy) return;
-  work_.sensor_rays += glossy_sun_.add_light_on_sensors(sensor_lines_, lobe_images_, block, into) +
-                       lobe_images_.add_light(block, into);
+  work_.sensor_rays += glossy_sun_.add_light_on_sensors(sensor_lines_, lobe_images_, block, into);
+  work_.sensor_rays += lobe_images_.add_light(block, into);
 }
 
 /// Suns of too many mirrors for beams (curved glass) get those of the first reflection: sensors are

@@ -22,12 +22,12 @@ void scale(MirroredSun& fates, const std::array<double, block_width>& factors) {
 
 }  // namespace
 
-Columns traced_sum(const SunColumns& columns, std::size_t realization) {
-  Columns sum = columns.direct[realization];
+std::vector<Columns> traced_sums(const SunColumns& columns) {
+  std::vector<Columns> sums = columns.direct;
   for (const auto* part : {&columns.by_mirror, &columns.circumsolar})
-    for (std::size_t at = 0; at < (*part)[realization].size(); ++at)
-      sum[at] += (*part)[realization][at];
-  return sum;
+    for (std::size_t r = 0; r < part->size(); ++r)
+      for (std::size_t at = 0; at < (*part)[r].size(); ++at) sums[r][at] += (*part)[r][at];
+  return sums;
 }
 
 void add_exposures(const TracedLight& traced, const BandFactors& factors,
@@ -53,6 +53,7 @@ TracedLight in_band(const TracedLight& traced, const BandFactors& factors, Error
                     .on_sensors_by_mirror = traced.on_sensors_by_mirror,
                     .of_patches = of_instants ? traced.of_patches : SunColumns{},
                     .of_sensors = of_instants ? traced.of_sensors : SunColumns{},
+                    .by_samples = {},
                     .sent_on = traced.sent_on};
   scale(light.direct.irradiance, factors.sun);
   scale(light.on_sensors.irradiance, factors.sun);

@@ -25,15 +25,15 @@ inline std::vector<Columns>* or_none(std::vector<Columns>& of_realizations) {
   return of_realizations.empty() ? nullptr : &of_realizations;
 }
 
-/// What direct samples bring in one realization: the sun, straight, by mirrors and by the bright
-/// sky about it.
-Columns traced_sum(const SunColumns& columns, std::size_t realization);
+/// The sum of all columns of each realization.
+std::vector<Columns> traced_sums(const SunColumns& columns);
 
 struct TracedLight {
   DirectSun direct, on_sensors;
   CircumsolarLight circumsolar;
   Columns by_mirror, on_sensors_by_mirror;
   SunColumns of_patches, of_sensors;
+  std::vector<Columns> by_samples;   ///< [R] of patches, all but gloss; if asked for
   std::vector<MirroredSun> sent_on;  ///< [R] by mirrors and gloss, where the scene has any
 };
 

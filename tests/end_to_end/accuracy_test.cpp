@@ -103,7 +103,9 @@ TEST(AccuracyStudy, PairsVariantsWhoseCountsDiffer) {
   square.folder.write(
       "square.yaml",
       square_study("totals", ", accuracy: {light_load_relative: 0.05}", "4") +
-          "variants: [{name: baseline}, {name: pale, scene: {materials: {paving: {diffuse: 0.7}}}}]\n");
+          "variants:\n"
+          "  - {name: baseline}\n"
+          "  - {name: pale, scene: {materials: {paving: {diffuse: 0.7}}}}\n");
   const Ran ran = square.run("one");
   ASSERT_EQ(ran.code, 0) << ran.err;
   const std::string base = square.result("one"), pale = square.folder / "one/square/pale.h5";

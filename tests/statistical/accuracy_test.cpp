@@ -371,5 +371,71 @@ TEST(Accuracy, PilotOfSomeBlocksStandsForAllThatAreShot) {
   EXPECT_GT(std::abs(2 * half.of_shot / all.of_shot - 1), near_one);
 }
 
+TEST(Accuracy, PilotOfMoreLinesKeepsThePowerOfASample) {
+  // What is shot is the same, whatever lines there are; c is told per sample of as many as lines.
+  const auto variance_of = [](int lines) {
+    SolverRules rules = rules_of(lines, 64);
+    rules.transport = Transport::shoot;
+    rules.power_per_sample_w = 50;
+    Watch watch;
+    const Scene scene = courtyard();
+    const auto mesh = std::make_shared<const Hierarchy>(scene, SplitRules{.max_edge_m = 2});
+    const auto spread = pilot_spread(scene, mesh, rules, day(), {.of_instants = true}, watch);
+    return SpreadSums(spread).of_shot / lines;
+  };
+  // 8 lines per realization are raised to 32, 64 are left.
+  EXPECT_NEAR(variance_of(64) / variance_of(512), 1, near_one);
+}
+
+/// A pilot of one sun in the south, without sky.
+PatchSpread pilot_of_one_sun(const SceneBuilder& builder) {
+  SunLight sun = one_second(normalized(Vec3{0, -1, 1}), 800);
+  Watch watch;
+  const Scene scene = builder.scene();
+  const auto mesh = std::make_shared<const Hierarchy>(scene, SplitRules{.max_edge_m = 1});
+  return pilot_spread(scene, mesh, rules_of(256, 16), std::vector{sun}, {.of_instants = true},
+                      watch);
+}
+
+TEST(Accuracy, PilotTakesTheSunByGlossForNoiseOfLines) {
+  SceneBuilder builder;
+  Material satin{"satin", 0.1, 0, 0};
+  satin.glossy = 0.5;
+  satin.glossy_exponent = 40;
+  const int grey = builder.material({"grey", 0, 0, 0}), gloss = builder.material(satin);
+  builder.object("floor").quad({-3, -6, 0}, {3, -6, 0}, {3, 0, 0}, {-3, 0, 0}, grey);
+  builder.object("wall").quad({-3, 0, 0}, {3, 0, 0}, {3, 0, 4}, {-3, 0, 4}, gloss);
+  const PatchSpread spread = pilot_of_one_sun(builder);
+  double lines = 0, samples = 0, lines_of_load = 0, samples_of_load = 0;
+  for (std::size_t i = 0; i < spread.area.size(); ++i) {
+    lines += spread.irradiance[0].of_line[i];
+    samples += spread.irradiance[0].of_sample[i];
+    lines_of_load += spread.load.of_line[i];
+    samples_of_load += spread.load.of_sample[i];
+  }
+  // No shadow falls anywhere: every sample of the sun brings the same.
+  EXPECT_GT(lines, 1);
+  EXPECT_LT(samples, 1e-6 * lines);
+  EXPECT_GT(lines_of_load, 1);
+  EXPECT_LT(samples_of_load, 1e-6 * lines_of_load);
+}
+
+TEST(Accuracy, PilotTellsTheSidesOfAScreenApart) {
+  SceneBuilder builder;
+  const int floor = builder.material({"white", 0.8, 0, 0});
+  const int screen = builder.material({"black", 0, 0, 0});
+  builder.object("floor").quad({-6, -6, 0}, {6, -6, 0}, {6, 6, 0}, {-6, 6, 0}, floor);
+  builder.object("screen").sides(Sides::two).quad({-3, 6, 1}, {3, 6, 1}, {3, 6, 5}, {-3, 6, 5}, screen);
+  const Scene scene = builder.scene();
+  const Hierarchy mesh(scene, SplitRules{.max_edge_m = 1});
+  const PatchSpread spread = pilot_of_one_sun(builder);
+  double front = 0, back = 0;
+  for (std::size_t i = 0; i < spread.area.size(); ++i)
+    if (std::abs(mesh.normal(i).y) > 0.5)
+      (mesh.normal(i).y < 0 ? front : back) += spread.irradiance[0].of_line[i];
+  EXPECT_GT(front, 1);
+  EXPECT_EQ(back, 0);  // nothing is behind it
+}
+
 }  // namespace
 }  // namespace sunload::test
