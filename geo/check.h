@@ -68,7 +68,7 @@ class Problems {
 }  // namespace sunload
 
 /// A promise of our own code: std::logic_error (exit code 70) where it is broken.
-#define SUNLOAD_EXPECT(condition, context)                                      \
-  do {                                                                          \
+#define SUNLOAD_EXPECT(condition, context)                                                 \
+  do {                                                                                     \
     if (!(condition)) ::sunload::contract_failed(#condition, __FILE__, __LINE__, context); \
   } while (false)

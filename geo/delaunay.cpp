@@ -17,7 +17,7 @@ namespace {
 
 using Triangle = std::array<std::int32_t, 3>;
 
-constexpr double area_ratio = 1e-9;     // rounding of sums over some 10^5 corners stays below
+constexpr double area_ratio = 1e-9;  // rounding of sums over some 10^5 corners stays below
 /// Triangle × corner pairs asked one by one: a tenth of a second.
 constexpr double largest_search = 2e7;
 // Rings of n edges may cross n² times; such a polygon means nothing, and would take all memory.

@@ -22,11 +22,11 @@ enum class Sides : std::uint8_t { one, two };
 /// A material as a scene file states it; what it leaves open the study decides.
 struct FileMaterial {
   std::string name;
-  std::optional<double> diffuse;   ///< reflectance [0, 1]
-  std::optional<double> mirror;    ///< reflectance [0, 1]
-  double emitted_power_w = 0;      ///< shared by area among all triangles of the material
-  bool glows = false;              ///< emits, with a power that the file does not tell
-  bool is_reference = false;       ///< just a name, which study or table of materials define
+  std::optional<double> diffuse;  ///< reflectance [0, 1]
+  std::optional<double> mirror;   ///< reflectance [0, 1]
+  double emitted_power_w = 0;     ///< shared by area among all triangles of the material
+  bool glows = false;             ///< emits, with a power that the file does not tell
+  bool is_reference = false;      ///< just a name, which study or table of materials define
   /// `diffuse` in red, green and blue, of which it is the mean; absent: grey.
   std::optional<std::array<double, 3>> diffuse_rgb = {};
 

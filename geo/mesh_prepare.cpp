@@ -146,8 +146,7 @@ void settle(Mesh& mesh, const PrepareRules& rules, const PolygonModel& model, do
     report.duplicates_dropped = duplicates.dropped;
     faced_both_ways = std::move(duplicates.faced_both_ways);
   }
-  const bool may_turn =
-      rules.repair != Repair::none && rules.orientation == Orientation::outward;
+  const bool may_turn = rules.repair != Repair::none && rules.orientation == Orientation::outward;
   const auto bodies = orient(mesh, faced_both_ways, may_turn ? Winding::turn : Winding::keep);
   report.triangles_flipped = bodies.triangles_flipped;
   report.inside_out_bodies = bodies.inside_out;
@@ -170,9 +169,12 @@ InputError nothing_left(const std::string& source, const PrepareReport& report) 
   const std::size_t crossing = report.polygons_untriangulated;
   const std::string what = "nothing is left of the scene";
   if (crossing == 0)
-    return {{source}, what, "all " + counted(report.polygons_read, "polygon") + " are without area",
+    return {{source},
+            what,
+            "all " + counted(report.polygons_read, "polygon") + " are without area",
             "are scene.unit_m and the file's coordinates right?"};
-  return {{source}, what,
+  return {{source},
+          what,
           std::to_string(crossing) + " of " + counted(report.polygons_read, "polygon") +
               " cross themselves more often than can be triangulated, others are without area",
           "are the corners of its faces in order?"};

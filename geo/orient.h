@@ -15,9 +15,9 @@ enum class Winding { keep, turn };
 /// uses (two, or more where bodies touch).
 struct Body {
   ObjectId object;
-  bool is_closed = false;  ///< every edge is walked as often up as down
-  double area = 0;         ///< m²
-  double volume = 0;       ///< m³, signed, of closed bodies: negative for cavities
+  bool is_closed = false;      ///< every edge is walked as often up as down
+  double area = 0;             ///< m²
+  double volume = 0;           ///< m³, signed, of closed bodies: negative for cavities
   bool is_inside_out = false;  ///< closed, in no other body, negative volume: a room (`keep` only)
   Box box;
 };

@@ -26,7 +26,7 @@ class PointTree {
  private:
   struct Node {
     Box box;
-    std::uint32_t first, last;  ///< range of points_
+    std::uint32_t first, last;   ///< range of points_
     std::uint32_t second_child;  ///< the first one follows its parent; 0: a leaf
   };
   std::uint32_t build(std::uint32_t first, std::uint32_t last);

@@ -226,14 +226,13 @@ std::string area_of_use_warning(const std::string& crs, Vec3 position) {
   const auto area = earth_from_map.area_of_use();
   if (!area.known) return {};
   const Site site = earth_from_map(position);
-  constexpr double margin_deg = 0.2;  // maps serve the neighbourhood, too
+  constexpr double margin_deg = 0.2;                            // maps serve the neighbourhood, too
   const double width_deg = wrapped_deg(area.east - area.west);  // may cross the date line
   const bool all_around = area.east - area.west >= 360;
-  const bool inside =
-      site.latitude_deg >= area.south - margin_deg &&
-      site.latitude_deg <= area.north + margin_deg &&
-      (all_around || wrapped_deg(site.longitude_deg - area.west + margin_deg) <=
-                         width_deg + 2 * margin_deg);
+  const bool inside = site.latitude_deg >= area.south - margin_deg &&
+                      site.latitude_deg <= area.north + margin_deg &&
+                      (all_around || wrapped_deg(site.longitude_deg - area.west + margin_deg) <=
+                                         width_deg + 2 * margin_deg);
   if (inside) return {};
   return message({},
                  "the scene at latitude " + std::to_string(site.latitude_deg) + ", longitude " +

@@ -131,8 +131,8 @@ struct SunInterval {
   UnixTime sun_time = 0;
   double sunlit_s = 0;  ///< length of the sunlit part(s) of [begin, end]
   UnixTime sunlit_begin = 0,
-           sunlit_end = 0;  ///< bounds (hull of several parts); both sun_time in the dark
-  double up_s = 0;          ///< as sunlit_s, of an open horizon: at least sunlit_s
+           sunlit_end = 0;            ///< bounds (hull of several parts); both sun_time in the dark
+  double up_s = 0;                    ///< as sunlit_s, of an open horizon: at least sunlit_s
   UnixTime up_begin = 0, up_end = 0;  ///< as sunlit_begin and sunlit_end
   SunPosition sun;
   Vec3 direction;  ///< to the sun, scene frame, unit

@@ -159,9 +159,10 @@ std::size_t split_t_joints(Mesh& mesh, double tolerance, const std::string& sour
       looks += cost;
       if (count > most_corners || looks > most_looks) {
         throw InputError(
-            {source}, "too many triangles of object '" +
-                          mesh.object_names[static_cast<std::size_t>(use.object)] +
-                          "' overlap in a plane or along an edge",
+            {source},
+            "too many triangles of object '" +
+                mesh.object_names[static_cast<std::size_t>(use.object)] +
+                "' overlap in a plane or along an edge",
             "their open edges hold, or pass by, so many corners of others that it would take too "
             "long to split them there",
             "remove overlapping faces, or set scene.repair: safe, which splits nothing");

@@ -57,9 +57,7 @@ TimeScales time_scales_with_tt_minus_ut1(UnixTime ut1, double tt_minus_ut1_s) {
   return {date, date, later(date, tt_minus_ut1_s)};
 }
 
-bool ut1_table_covers(UnixTime utc) {
-  return utc >= half_year_begin(0) && utc < ut1_table_end();
-}
+bool ut1_table_covers(UnixTime utc) { return utc >= half_year_begin(0) && utc < ut1_table_end(); }
 
 UnixTime ut1_table_end() { return half_year_begin(last_half_year); }
 

@@ -66,9 +66,9 @@ void add_ledger(BatchWriter& writer, const BatchTally& tally, const std::string&
     energies.insert(energies.end(), ledger.terms.begin(), ledger.terms.end());
     energies.push_back(ledger.residual());
   }
-  writer.add({prefix + batch_array::ledger, MergeRule::sum, ArrayType::float64,
-              {R, term_count + 1}},
-             energies.data());
+  writer.add(
+      {prefix + batch_array::ledger, MergeRule::sum, ArrayType::float64, {R, term_count + 1}},
+      energies.data());
   const std::array energy{tally.energy.in(), tally.energy.residual(), tally.energy.lost_at_backs};
   writer.add({prefix + batch_array::energy, MergeRule::sum, ArrayType::float64, {energy.size()}},
              energy.data());
@@ -97,9 +97,9 @@ void add_received(BatchWriter& writer, const ReceiverTally& tally, std::size_t K
 }
 
 void add_sunlit(BatchWriter& writer, const ReceiverTally& tally, const std::string& prefix) {
-  writer.add({prefix + batch_array::sunlit, MergeRule::sum, ArrayType::float64,
-              {tally.sunlit_s.size()}},
-             tally.sunlit_s.data());
+  writer.add(
+      {prefix + batch_array::sunlit, MergeRule::sum, ArrayType::float64, {tally.sunlit_s.size()}},
+      tally.sunlit_s.data());
 }
 
 /// What sensors have that is the same in all bands.
@@ -110,9 +110,9 @@ void add_sensors(BatchWriter& writer, const BatchTally& tally, const LightSolver
     sky.push_back(static_cast<double>(ends.sky));
     backs.push_back(static_cast<double>(ends.backs));
   }
-  writer.add({sensor_prefix + batch_array::sky_view, MergeRule::maximum, ArrayType::float64,
-              {sky.size()}},
-             sky.data());
+  writer.add(
+      {sensor_prefix + batch_array::sky_view, MergeRule::maximum, ArrayType::float64, {sky.size()}},
+      sky.data());
   writer.add({batch_array::sensor_backs, MergeRule::maximum, ArrayType::float64, {backs.size()}},
              backs.data());
 }
@@ -179,7 +179,9 @@ void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
     if (!tally.sensors.sunlit_s.empty())
       add_received(writer, tally.sensors, K, prefix + sensor_prefix);
     if (!mesh.facades.empty())
-      writer.add({prefix + "facade_irradiance", MergeRule::append, ArrayType::float32,
+      writer.add({prefix + "facade_irradiance",
+                  MergeRule::append,
+                  ArrayType::float32,
                   {K, mesh.facades.size()}},
                  facade_series(tally, hierarchy, mesh).data());
     add_ledger(writer, tally, prefix);
@@ -194,9 +196,9 @@ void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
   writer.add({batch_array::bounces, MergeRule::maximum, ArrayType::float64, {1}}, &bounces);
   const SolverRules& rules = solver.rules();
   const std::vector<double> lines(rules.lines_of_patch.begin(), rules.lines_of_patch.end());
-  const double mean_lines =
-      lines.empty() ? rules.lines_per_patch : std::accumulate(lines.begin(), lines.end(), 0.0) /
-                                                  static_cast<double>(lines.size());
+  const double mean_lines = lines.empty() ? rules.lines_per_patch
+                                          : std::accumulate(lines.begin(), lines.end(), 0.0) /
+                                                static_cast<double>(lines.size());
   if (!lines.empty())
     writer.add({batch_array::patch_lines, MergeRule::maximum, ArrayType::float64, {N}},
                lines.data());

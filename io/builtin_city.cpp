@@ -71,8 +71,8 @@ void plot(Builder& b, Point2 half_house, const Finishes& finish) {
 }  // namespace
 
 PolygonModel city(double triangles) {
-  const auto houses = static_cast<std::size_t>(
-      std::max(1.0, std::round(triangles / triangles_per_house)));
+  const auto houses =
+      static_cast<std::size_t>(std::max(1.0, std::round(triangles / triangles_per_house)));
   const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(houses))));
   Builder b("builtin:city");
   const MaterialId wall = b.material("wall", wall_grey), roof = b.material("roof", roof_grey),

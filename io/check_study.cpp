@@ -65,8 +65,8 @@ std::string intersections_text(const Mesh& mesh) {
 /// What float can resolve at the scene's largest coordinate (a float has 24 bits).
 std::string extent_text(const Mesh& mesh, const Box& bounds) {
   double largest = 0;
-  for (const double c : {bounds.low.x, bounds.low.y, bounds.low.z, bounds.high.x, bounds.high.y,
-                         bounds.high.z})
+  for (const double c :
+       {bounds.low.x, bounds.low.y, bounds.low.z, bounds.high.x, bounds.high.y, bounds.high.z})
     largest = std::max(largest, std::abs(c));
   const Vec3 size = bounds.high - bounds.low;
   return fmt::format(
@@ -129,18 +129,20 @@ std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
     text = fmt::format(
         "  a standard error of {} is asked for: counts are decided at the start of the run, "
         "from {} lines and {} direct samples up to {}; what follows is with the least\n",
-        goal_words(*accuracy), plan.study.solver.lines_per_patch,
-        plan.study.solver.direct_samples, plan.study.solver.max_lines_per_patch);
+        goal_words(*accuracy), plan.study.solver.lines_per_patch, plan.study.solver.direct_samples,
+        plan.study.solver.max_lines_per_patch);
   const std::string shot =
       work.samples > 0 ? fmt::format(", {:.3g} samples shot", static_cast<double>(work.samples))
                        : "";
   return text + fmt::format(
-      "  {} patches, {} intervals ({} with sun) in {} batches\n"
-      "  {:.3g} lines, about {:.3g} shadow rays{}; estimated {:.0f} MiB memory, {:.0f} MiB disk, "
-      "{:.0f} s on {} threads\n",
-      work.patches, plan.intervals(), plan.light.lit_count(), plan.batches(),
-      static_cast<double>(work.line_rays), static_cast<double>(work.direct_rays),
-      shot, work.memory_bytes / mib, work.disk_bytes / mib, work.seconds, thread_count());
+                    "  {} patches, {} intervals ({} with sun) in {} batches\n"
+                    "  {:.3g} lines, about {:.3g} shadow rays{}; estimated {:.0f} MiB memory, "
+                    "{:.0f} MiB disk, "
+                    "{:.0f} s on {} threads\n",
+                    work.patches, plan.intervals(), plan.light.lit_count(), plan.batches(),
+                    static_cast<double>(work.line_rays), static_cast<double>(work.direct_rays),
+                    shot, work.memory_bytes / mib, work.disk_bytes / mib, work.seconds,
+                    thread_count());
 }
 
 void print_text(const VariantPlan& plan, const VariantMesh& made, const WorkEstimate& work,
@@ -159,8 +161,8 @@ void print_text(const VariantPlan& plan, const VariantMesh& made, const WorkEsti
   if (const auto refined = refine_text(made.report, plan.study); !refined.empty())
     text += "mesh\n  " + refined + "\n";
   text += "work\n" + work_text(plan, work);
-  for (const auto& list : {plan.built.warnings, plan.light.notes,
-                           expected_error_warnings(plan, *made.mesh)})
+  for (const auto& list :
+       {plan.built.warnings, plan.light.notes, expected_error_warnings(plan, *made.mesh)})
     for (const auto& line : list) text += "warning: " + line + "\n";
   std::cout << text;
 }

@@ -95,8 +95,8 @@ constexpr NoiseRule pure_noise{7.8, 1.0 / 32, 1};
 /// still deflated.
 constexpr NoiseRule mostly_noise{7.5, 1.0 / 4, 4};
 constexpr int patient_level = 6;
-/// libdeflate's fastest, below it: its level 4 takes twice as long for planes that are no noise, and
-/// saves 0.5 % of the size.
+/// libdeflate's fastest, below it: its level 4 takes twice as long for planes that are no noise,
+/// and saves 0.5 % of the size.
 constexpr int quick_level = 1;
 
 bool is_noise(const unsigned char* plane, std::size_t count, NoiseRule rule) {

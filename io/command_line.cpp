@@ -70,8 +70,8 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
     return edit_distance(word, a) < edit_distance(word, b);
   });
   // A third of the letters wrong is as far as a slip of the hand goes.
-  const bool is_near = nearest != known.end() &&
-                       edit_distance(word, *nearest) <= static_cast<int>(word.size() / 3);
+  const bool is_near =
+      nearest != known.end() && edit_distance(word, *nearest) <= static_cast<int>(word.size() / 3);
   return is_near ? "did you mean '" + *nearest + "'?" : "see " + help;
 }
 
@@ -381,12 +381,11 @@ class CommandLine {
   }
 
   void add_materials() {
-    CLI::App* sub =
-        command("materials", "list the materials that studies may name without defining them",
-                [this] {
-                  std::cout << (markdown_ ? material_page() : material_listing());
-                  return exit_code::done;
-                });
+    CLI::App* sub = command(
+        "materials", "list the materials that studies may name without defining them", [this] {
+          std::cout << (markdown_ ? material_page() : material_listing());
+          return exit_code::done;
+        });
     sub->add_flag("--markdown", markdown_, "as the page docs/materials.md");
   }
 

@@ -63,9 +63,12 @@ void expect_one_variant(const CompareOptions& options) {
 
 std::string text_of(const Comparison& comparison, CompareOptions::Format format) {
   switch (format) {
-    case CompareOptions::Format::csv: return comparison_csv(comparison);
-    case CompareOptions::Format::json: return comparison_json(comparison);
-    case CompareOptions::Format::table: break;
+    case CompareOptions::Format::csv:
+      return comparison_csv(comparison);
+    case CompareOptions::Format::json:
+      return comparison_json(comparison);
+    case CompareOptions::Format::table:
+      break;
   }
   return comparison_table(comparison);
 }

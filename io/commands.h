@@ -26,7 +26,7 @@ struct CompareOptions {
   std::string output;                 ///< folder of the study's results; empty: as it says
   std::string band;
   enum class Format { table, csv, json } format = Format::table;
-  std::string differences;            ///< HDF5 file of the differences, besides; empty: none
+  std::string differences;  ///< HDF5 file of the differences, besides; empty: none
 };
 /// Compares results with a base, on stdout. Of a study's variants the first name is the base; a
 /// single one is compared with the study's first variant. Throws InputError.
@@ -35,11 +35,11 @@ int compare(const CompareOptions& options);
 struct RenderOptions {
   NamedResult result;
   RenderRules rules;
-  std::string eye, look;           ///< x,y,z; empty: none
+  std::string eye, look;  ///< x,y,z; empty: none
   std::string size = "1600x1000";
-  std::string picture;             ///< file to write
+  std::string picture;  ///< file to write
   bool animate = false;
-  std::string day;                 ///< of the animation; empty: all
+  std::string day;  ///< of the animation; empty: all
 };
 /// Throws InputError for words that do not say what they should.
 int render(RenderOptions options);

@@ -11,9 +11,9 @@ namespace sunload {
 
 /// What was asked for; what is left out is empty.
 struct ExportRules {
-  std::string format;    ///< a word of `export_formats`
-  std::string quantity;  ///< a dataset [patch] or [time, patch]; csv also "series"
-  std::string time;      ///< as in a study; empty: the brightest interval
+  std::string format;              ///< a word of `export_formats`
+  std::string quantity;            ///< a dataset [patch] or [time, patch]; csv also "series"
+  std::string time;                ///< as in a study; empty: the brightest interval
   std::optional<Palette> palette;  ///< false colour where left out
   std::optional<double> largest;   ///< value of the last colour, in units of the quantity
   /// Colours of corners instead of patches: the area-weighted mean of the patches around the

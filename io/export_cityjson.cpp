@@ -62,8 +62,8 @@ std::vector<std::int32_t> triangle_objects(const ResultReader& result,
 /// One object as it is put together.
 struct CityObject {
   std::vector<std::array<std::int32_t, 3>> faces;
-  std::vector<std::int32_t> patch;      ///< of a face, -1: a floor
-  std::vector<std::size_t> patches;     ///< fronts
+  std::vector<std::int32_t> patch;   ///< of a face, -1: a floor
+  std::vector<std::size_t> patches;  ///< fronts
   std::set<Surface> kinds;
 };
 

@@ -71,8 +71,8 @@ class ResultPatches {
       if (faces.empty() || faces.back().triangle != t) {
         Face face{t, {}, patches.normal[p], {}};
         for (std::size_t k = 0; k < 3; ++k)
-          face.middle += (patches.vertices[static_cast<std::size_t>(corners[3 * t + k])] +
-                          patches.origin) / 3;
+          face.middle +=
+              (patches.vertices[static_cast<std::size_t>(corners[3 * t + k])] + patches.origin) / 3;
         faces.push_back(std::move(face));
       }
       faces.back().patches.push_back(p);
@@ -199,8 +199,7 @@ class ModelWriter {
                                  std::size_t geometry) -> const json& {
       return templates_->shape_of(instance, {path_, line, object, geometry});
     };
-    const auto choices =
-        choose_geometries(*found, wish_, template_of, {path_, line}, notes_);
+    const auto choices = choose_geometries(*found, wish_, template_of, {path_, line}, notes_);
     const CityVertices vertices(find_member(document, "vertices"), transform_, &scene_from_file_,
                                 {path_, line, "", 0});
     for (const auto& [id, choice] : choices)

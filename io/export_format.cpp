@@ -38,8 +38,8 @@ std::vector<std::size_t> same_places(const std::vector<Vec3>& vertices) {
     return std::tuple(key(a), a) < std::tuple(key(b), b);
   });
   for (std::size_t k = 0; k < order.size(); ++k)
-    place[order[k]] = k > 0 && vertices[order[k]] == vertices[order[k - 1]] ? place[order[k - 1]]
-                                                                            : order[k];
+    place[order[k]] =
+        k > 0 && vertices[order[k]] == vertices[order[k - 1]] ? place[order[k - 1]] : order[k];
   return place;
 }
 

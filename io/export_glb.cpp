@@ -73,9 +73,12 @@ class Scene {
   std::string buffer;
 
   void add(const std::string& name, const ObjectMesh& mesh) {
-    json position{{"bufferView", view(mesh.positions)}, {"componentType", type_float},
-                  {"count", mesh.corners},              {"type", "VEC3"},
-                  {"min", mesh.low},                    {"max", mesh.high}};
+    json position{{"bufferView", view(mesh.positions)},
+                  {"componentType", type_float},
+                  {"count", mesh.corners},
+                  {"type", "VEC3"},
+                  {"min", mesh.low},
+                  {"max", mesh.high}};
     json colour{{"bufferView", view(mesh.colours)},
                 {"componentType", type_unsigned_short},
                 {"normalized", true},
@@ -141,8 +144,8 @@ void export_glb(const ResultReader& result, const ExportRules& rules, const Expo
   scene.tree["buffers"] = json::array({json{{"byteLength", scene.buffer.size()}}});
 
   std::string chunks;
-  append_chunk(chunks, json_chunk,
-               scene.tree.dump(-1, ' ', false, json::error_handler_t::replace), ' ');
+  append_chunk(chunks, json_chunk, scene.tree.dump(-1, ' ', false, json::error_handler_t::replace),
+               ' ');
   append_chunk(chunks, binary_chunk, scene.buffer, '\0');
   const std::size_t bytes = head_bytes + chunks.size();
   if (bytes > UINT32_MAX)

@@ -93,8 +93,8 @@ void export_vtk(const ResultReader& result, const ExportRules& rules, const Expo
   const ExportPatches patches(result);
   const auto shown = export_quantity(result, rules);
   std::vector<std::string> arrays;
-  for (const char* name : {"patch_object", "patch_facade", "patch_material", "patch_surface",
-                           "patch_side"})
+  for (const char* name :
+       {"patch_object", "patch_facade", "patch_material", "patch_surface", "patch_side"})
     arrays.push_back(array_text(name, 1, result.integers(name), "int"));
   for (const auto& name : patch_datasets(result, PatchDatasets::totals))
     arrays.push_back(array_text(name, 1, result.doubles(name), "double"));

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
-#include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include "io/json_text.h"
@@ -51,13 +51,20 @@ const Component* component_of(int type) {
   static constexpr Component uint32{4, 4294967295.0, read_as<std::uint32_t>};
   static constexpr Component float32{4, 1, read_as<float>};
   switch (type) {
-    case 5120: return &int8;
-    case 5121: return &uint8;
-    case 5122: return &int16;
-    case 5123: return &uint16;
-    case 5125: return &uint32;
-    case 5126: return &float32;
-    default: return nullptr;
+    case 5120:
+      return &int8;
+    case 5121:
+      return &uint8;
+    case 5122:
+      return &int16;
+    case 5123:
+      return &uint16;
+    case 5125:
+      return &uint32;
+    case 5126:
+      return &float32;
+    default:
+      return nullptr;
   }
 }
 
@@ -86,8 +93,10 @@ std::string from_base64(std::string_view text) {
 std::string without_escapes(const std::string& uri) {
   std::string text;
   const auto digit = [](char c) {
-    return c >= '0' && c <= '9' ? c - '0' : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                        : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+                                  : -1;
   };
   for (std::size_t i = 0; i < uri.size(); ++i) {
     if (uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0) {
@@ -120,7 +129,8 @@ GltfFile::GltfFile(const std::string& path) : path_(path) {
     json_ = parse_json(path, bytes);
   }
   const auto version = json_.is_object() && json_.contains("asset") && json_["asset"].is_object()
-                           ? json_["asset"].value("version", json()) : json();
+                           ? json_["asset"].value("version", json())
+                           : json();
   if (!version.is_string()) fail("is no glTF file", "it has no asset.version");
   if (!version.get<std::string>().starts_with("2"))
     fail("is of glTF version " + version.get<std::string>(), "version 2 is read");

@@ -28,8 +28,8 @@ std::uint16_t half_bits(float value) {
   const std::uint32_t odd = magnitude >> dropped & 1U;
   // A carry out of the mantissa goes on into the exponent, as it should.
   const std::uint32_t rounded = magnitude + ((1U << (dropped - 1)) - 1) + odd;
-  constexpr std::uint32_t bias =
-      static_cast<std::uint32_t>(float_bias - half_bias) << half_mantissa_bits;
+  constexpr std::uint32_t bias = static_cast<std::uint32_t>(float_bias - half_bias)
+                                 << half_mantissa_bits;
   return sign | static_cast<std::uint16_t>((rounded >> dropped) - bias);
 }
 

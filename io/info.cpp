@@ -74,10 +74,10 @@ std::string asked_for(const ResultReader& result) {
     const double goal = result.number_attribute(goal_name);
     if (std::isnan(goal)) return;
     const double share = result.number_attribute(share_name);
-    text += line("", fmt::format("asked for: below {:.3g} %{} on 95 % of the area", 100 * goal,
-                                 when) +
-                         (std::isnan(share) ? std::string()
-                                            : fmt::format("; reached on {:.3g} %", 100 * share)));
+    text +=
+        line("", fmt::format("asked for: below {:.3g} %{} on 95 % of the area", 100 * goal, when) +
+                     (std::isnan(share) ? std::string()
+                                        : fmt::format("; reached on {:.3g} %", 100 * share)));
   };
   add("accuracy_light_load_relative", "accuracy_area_share", "");
   add("accuracy_irradiance_relative", "accuracy_irradiance_share", " at every instant");
@@ -100,11 +100,11 @@ std::string accuracy(const ResultReader& result, const PatchGroups& groups,
     area.push_back(groups.patch_area()[i]);
   }
   return line(
-      "accuracy",
-      fmt::format("standard error of a patch's light load: {:.2g} % (median by area), below "
-                  "{:.2g} % on 95 %; {} realizations",
-                  weighted_quantile(relative, area, median),
-                  weighted_quantile(relative, area, upper_quantile), realizations)) +
+             "accuracy",
+             fmt::format("standard error of a patch's light load: {:.2g} % (median by area), below "
+                         "{:.2g} % on 95 %; {} realizations",
+                         weighted_quantile(relative, area, median),
+                         weighted_quantile(relative, area, upper_quantile), realizations)) +
          asked_for(result);
 }
 
@@ -186,10 +186,9 @@ std::string facades(const ResultReader& result, const PatchGroups& groups,
     worst += (k ? ", " : "") + words(order[order.size() - 1 - k]);
   }
   if (shown == 0) return {};
-  return line("facades", "mean light load ± standard error, " +
-                             display_units(result.units("light_load"))) +
-         line("  most", best) +
-         line("  least", worst);
+  return line("facades",
+              "mean light load ± standard error, " + display_units(result.units("light_load"))) +
+         line("  most", best) + line("  least", worst);
 }
 
 /// Time sum of one term of the ledger [kWh, klm h]; 0 where the result lacks it.
@@ -238,16 +237,16 @@ std::string ledger_lines(const ResultReader& result, const std::string& label) {
   if (in == 0 && out == 0) return line(label.c_str(), "none");
   const double residual = ledger_kwh(result, "residual");
   // An attribute of the term: the dataset of errors may hold those of the instants.
-  const double error_kwh = result.has("power_residual")
-                               ? result.number_attribute("power_residual",
-                                                         unit_names("time_sum_se_kwh", quantity))
-                               : std::nan("");
+  const double error_kwh =
+      result.has("power_residual")
+          ? result.number_attribute("power_residual", unit_names("time_sum_se_kwh", quantity))
+          : std::nan("");
   const std::string error =
       std::isnan(error_kwh) ? std::string() : fmt::format(" ± {:.2g}", error_kwh);
   // Of the mean of bands.
-  const double bias = result.band() ? std::nan("")
-                                    : result.number_attribute(
-                                          unit_names("residual_reuse_bias_kwh", quantity));
+  const double bias =
+      result.band() ? std::nan("")
+                    : result.number_attribute(unit_names("residual_reuse_bias_kwh", quantity));
   const std::string reuse =
       std::isnan(bias) ? std::string() : fmt::format(", of which {:.2g} by reuse of lines", bias);
   return line(label.c_str(), fmt::format("in {:.6g} = {}", in, in_words)) +

@@ -27,8 +27,8 @@ void replace_all(std::string& text, Pair pair, Match match) {
   const auto [from, to] = pair;
   for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
     const auto end = at + from.size();
-    const bool is_word = (at == 0 || !is_letter(text[at - 1])) &&
-                         (end == text.size() || !is_letter(text[end]));
+    const bool is_word =
+        (at == 0 || !is_letter(text[at - 1])) && (end == text.size() || !is_letter(text[end]));
     if (match == Match::words && !is_word) {
       at = end;
       continue;

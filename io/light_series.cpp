@@ -109,10 +109,8 @@ std::string clock_warning(const std::string& timezone, const Site& site, UnixTim
   // The widest true gap is 3.1 h: China keeps the time of Beijing as far as 73.5 degrees east.
   constexpr double widest_gap_h = 3.5, hours_per_day = 24, deg_per_hour = 15;
   const TimeZone zone(timezone);
-  const double clock_h =
-      zone.standard_offset_s(zone.civil_from_utc(when).year) / seconds_per_hour;
-  const double gap_h =
-      std::remainder(clock_h - site.longitude_deg / deg_per_hour, hours_per_day);
+  const double clock_h = zone.standard_offset_s(zone.civil_from_utc(when).year) / seconds_per_hour;
+  const double gap_h = std::remainder(clock_h - site.longitude_deg / deg_per_hour, hours_per_day);
   if (std::abs(gap_h) <= widest_gap_h) return {};
   return fmt::format(
       "clocks of {} are {:.1f} h {} the sun at longitude {:.2f}; are site.timezone and longitude "
@@ -227,9 +225,9 @@ LuminousEfficacy efficacy_of(const LitInterval& interval) {
   if (interval.lm_per_w) return *interval.lm_per_w;
   const Irradiance& sky = interval.of_the_sky;
   const double zenith_deg = sky_zenith_deg(interval.when);
-  return luminous_efficacy(sky_condition(sky.dni, sky.dhi, zenith_deg,
-                                         extraterrestrial(interval.when.sun.distance_au)),
-                           zenith_deg, water_cm);
+  return luminous_efficacy(
+      sky_condition(sky.dni, sky.dhi, zenith_deg, extraterrestrial(interval.when.sun.distance_au)),
+      zenith_deg, water_cm);
 }
 
 Irradiance source_means(const LitInterval& interval, Quantity quantity) {

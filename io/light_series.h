@@ -23,10 +23,10 @@ struct LitInterval {
 
 struct LightSeries {
   std::vector<LitInterval> intervals;
-  bool times_are_synthetic = false;   ///< `positions`: time counts from 2000-01-01T12:00Z
-  std::vector<std::string> weather;   ///< the weather file in words; empty without one
-  std::string weather_sha256;         ///< of its bytes
-  std::vector<std::string> notes;     ///< what happened at clock changes, table ends, …
+  bool times_are_synthetic = false;  ///< `positions`: time counts from 2000-01-01T12:00Z
+  std::vector<std::string> weather;  ///< the weather file in words; empty without one
+  std::string weather_sha256;        ///< of its bytes
+  std::vector<std::string> notes;    ///< what happened at clock changes, table ends, …
   std::size_t lit_count() const;
 };
 

@@ -256,8 +256,8 @@ class MaterialAssigner {
     if (m.glossy > 0) text += fmt::format(" + glossy {}", m.glossy);
     if (m.transmittance > 0) text += fmt::format(" + transmittance {}", m.transmittance);
     if (m.normal_transmittance > 0)
-      text += fmt::format(" + {} normal_transmittance {}", clear_glass_factor,
-                          m.normal_transmittance);
+      text +=
+          fmt::format(" + {} normal_transmittance {}", clear_glass_factor, m.normal_transmittance);
     return text;
   }
 

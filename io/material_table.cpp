@@ -22,9 +22,11 @@ constexpr const char* incropera =
 constexpr const char* solweig =
     "Parameters of SOLWEIG: Lindberg, Holmer & Thorsson (2008), Int. J. Biometeorology 52, 697-713";
 constexpr const char* wood_walls = "Parameters of SOLWEIG: Wallenberg et al. (2025)";
-constexpr const char* lecture = "Lecture notes on reflection of light, section 4.1, table of albedo";
+constexpr const char* lecture =
+    "Lecture notes on reflection of light, section 4.1, table of albedo";
 constexpr const char* panes =
-    "Duffie & Beckman (2013), Solar Engineering of Thermal Processes, section 5.1: index, middle of "
+    "Duffie & Beckman (2013), Solar Engineering of Thermal Processes, section 5.1: index, middle "
+    "of "
     "the range of absorption *";
 constexpr const char* konarska =
     "Konarska et al. (2014), Theor. Appl. Climatology 117, 363-376 (transmission of a whole "

@@ -8,8 +8,8 @@
 #include <map>
 
 #include "geo/units.h"
-#include "io/batch_file.h"
 #include "io/bands.h"
+#include "io/batch_file.h"
 #include "io/batch_tally.h"
 #include "io/version.h"
 
@@ -33,8 +33,8 @@ class Totals {
       }
       auto& total = place->second;
       for (std::size_t i = 0; i < total.size(); ++i)
-        total[i] = spec.rule == MergeRule::sum ? total[i] + values[i]
-                                               : std::max(total[i], values[i]);
+        total[i] =
+            spec.rule == MergeRule::sum ? total[i] + values[i] : std::max(total[i], values[i]);
     }
   }
   /// Where arrays are those of bands, adds their means under the names without band.
@@ -88,8 +88,8 @@ std::vector<double> facade_means(const std::vector<double>& rows, const ResultGe
   for (std::size_t row = 0; row < count; ++row)
     for (std::size_t i = 0; i < N; ++i)
       if (const auto f = geometry.patch_facade[i]; f >= 0)
-        means[row * F + static_cast<std::size_t>(f)] += geometry.patch_area[i] * rows[row * N + i] /
-                                                        area[static_cast<std::size_t>(f)];
+        means[row * F + static_cast<std::size_t>(f)] +=
+            geometry.patch_area[i] * rows[row * N + i] / area[static_cast<std::size_t>(f)];
   return means;
 }
 

@@ -24,10 +24,9 @@ UnixTime resolved(const CivilTime& civil, const TimeZone& zone, std::vector<std:
   const ResolvedTime time = zone.utc_from_civil(civil);
   if (time.change == ClockChange::none) return time.utc;
   const bool is_skipped = time.change == ClockChange::skipped;
-  notes.push_back(clock_reading(civil) +
-                  (is_skipped ? " is skipped in " : " occurs twice in ") + zone.name() +
-                  ", where clocks change then; taken as " + (is_skipped ? "" : "the first, ") +
-                  iso_local(time.utc, zone));
+  notes.push_back(clock_reading(civil) + (is_skipped ? " is skipped in " : " occurs twice in ") +
+                  zone.name() + ", where clocks change then; taken as " +
+                  (is_skipped ? "" : "the first, ") + iso_local(time.utc, zone));
   return time.utc;
 }
 

@@ -90,9 +90,8 @@ std::size_t PolygonMatch::cell(double x, double y) const {
 
 bool PolygonMatch::holds(const Polygon& polygon, Vec3 point) const {
   if (!is_inside(polygon.rings.front(), polygon.drop, point)) return false;
-  return std::none_of(polygon.rings.begin() + 1, polygon.rings.end(), [&](const auto& hole) {
-    return is_inside(hole, polygon.drop, point);
-  });
+  return std::none_of(polygon.rings.begin() + 1, polygon.rings.end(),
+                      [&](const auto& hole) { return is_inside(hole, polygon.drop, point); });
 }
 
 std::optional<std::size_t> PolygonMatch::polygon_at(Vec3 point, Vec3 normal) const {

@@ -41,10 +41,14 @@ constexpr double mib = 1024.0 * 1024, million = 1e6;
 
 const char* stage_name(Stage stage) {
   switch (stage) {
-    case Stage::prepare: return "prepare";
-    case Stage::refine: return "refine mesh";
-    case Stage::lines: return "trace lines";
-    case Stage::light: return "sun positions";
+    case Stage::prepare:
+      return "prepare";
+    case Stage::refine:
+      return "refine mesh";
+    case Stage::lines:
+      return "trace lines";
+    case Stage::light:
+      return "sun positions";
   }
   return "";
 }
@@ -210,9 +214,14 @@ void Progress::print(const State& state) {
       bar_is_open_ = true;
       if (state.share >= 1) end_bar();
       break;
-    case ProgressStyle::lines: fmt::print(stderr, "{}\n", state.line()); break;
-    case ProgressStyle::json: fmt::print(stderr, "{}\n", state.json()); break;
-    default: break;
+    case ProgressStyle::lines:
+      fmt::print(stderr, "{}\n", state.line());
+      break;
+    case ProgressStyle::json:
+      fmt::print(stderr, "{}\n", state.json());
+      break;
+    default:
+      break;
   }
   std::fflush(stderr);
 }
@@ -226,8 +235,7 @@ void Progress::say(const std::string& text) {
   const std::lock_guard lock(guard_);
   if (style_ == ProgressStyle::none) return;
   end_bar();
-  fmt::print(stderr, "{}\n",
-             style_ == ProgressStyle::json ? message_json(text) : text);
+  fmt::print(stderr, "{}\n", style_ == ProgressStyle::json ? message_json(text) : text);
   std::fflush(stderr);
 }
 
@@ -247,10 +255,14 @@ void install_stop_signals() {
 
 std::string stop_signal() {
   switch (static_cast<int>(caught_signal)) {
-    case SIGTERM: return "SIGTERM";
-    case SIGINT: return "SIGINT";
-    case SIGUSR1: return "SIGUSR1";
-    default: return {};
+    case SIGTERM:
+      return "SIGTERM";
+    case SIGINT:
+      return "SIGINT";
+    case SIGUSR1:
+      return "SIGUSR1";
+    default:
+      return {};
   }
 }
 

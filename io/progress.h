@@ -45,12 +45,12 @@ class Progress : public Watch {
   double time_limit_s_;
   std::mutex guard_;
   std::string variant_, stage_;
-  std::size_t suns_ = 0;              ///< of the variant
-  std::size_t finished_ = 0;          ///< before the batch in hand
-  std::size_t in_batch_ = 0;          ///< of the batch in hand
-  double computed_ = 0;               ///< of `finished_`, in this stage
+  std::size_t suns_ = 0;      ///< of the variant
+  std::size_t finished_ = 0;  ///< before the batch in hand
+  std::size_t in_batch_ = 0;  ///< of the batch in hand
+  double computed_ = 0;       ///< of `finished_`, in this stage
   RayCount rays_;
-  double rays_before_ = 0;            ///< the stage
+  double rays_before_ = 0;  ///< the stage
   Clock::time_point start_ = Clock::now(), stage_start_ = start_, last_ = start_;
   bool bar_is_open_ = false;
 };

@@ -131,9 +131,10 @@ class RasterReader {
     }
     char* unit = nullptr;
     if (const double metres = OSRGetLinearUnits(crs, &unit); metres != 1 && unit_m_ == 1) {
-      notes_.say(fmt::format("coordinates of the raster are in {} of {:.6g} m, taken for "
-                             "metres: scene.unit_m says otherwise",
-                             unit == nullptr ? "units" : unit, metres));
+      notes_.say(
+          fmt::format("coordinates of the raster are in {} of {:.6g} m, taken for "
+                      "metres: scene.unit_m says otherwise",
+                      unit == nullptr ? "units" : unit, metres));
     }
   }
 
@@ -142,8 +143,8 @@ class RasterReader {
     auto& values = raster_.values;
     values.resize(raster_.columns * raster_.rows);
     const auto width = static_cast<int>(raster_.columns), height = static_cast<int>(raster_.rows);
-    if (GDALRasterIO(band, GF_Read, 0, 0, width, height, values.data(), width, height,
-                     GDT_Float64, 0, 0) != CE_None)
+    if (GDALRasterIO(band, GF_Read, 0, 0, width, height, values.data(), width, height, GDT_Float64,
+                     0, 0) != CE_None)
       fail("cannot be read to its end", {}, "is it cut off?");
     int has_no_data = 0;
     double no_data = GDALGetRasterNoDataValue(band, &has_no_data);

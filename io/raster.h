@@ -41,7 +41,6 @@ struct Raster {
 /// Notes what is left out and what the file does not say. Throws InputError for damaged files,
 /// coordinates in degrees, more than `most_raster_cells`, and values that no land has (a NODATA
 /// value that the file does not declare); `unit_m` is the length of one unit of the file.
-Raster read_raster(const std::string& path, double unit_m, RasterValues values,
-                   NoteCounter& notes);
+Raster read_raster(const std::string& path, double unit_m, RasterValues values, NoteCounter& notes);
 
 }  // namespace sunload

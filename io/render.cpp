@@ -149,8 +149,8 @@ class Renderer {
     if (patches_)
       colours.corner_values = corner_values(*patches_, shown.values,
                                             rules_.crease_angle_deg.value_or(default_crease_deg));
-    const auto kind = rules_.sky.value_or(shown.is_series ? SkyBackground::second
-                                                          : SkyBackground::plain);
+    const auto kind =
+        rules_.sky.value_or(shown.is_series ? SkyBackground::second : SkyBackground::plain);
     picture->paint(area.x, area.y, area.width,
                    traced_->pixels(colours, {kind, sun_at(result_, shown.interval)}));
     draw_title(
@@ -262,8 +262,8 @@ void render_animation(const ResultReader& result, const RenderRules& rules, cons
     throw InputError({}, "--colour rgb with --animate",
                      "each picture would have a white of its own",
                      "draw single pictures with --time and --max");
-  const std::string dataset = rules.quantity.empty() ? dataset_name("irradiance", result.quantity())
-                                                     : rules.quantity;
+  const std::string dataset =
+      rules.quantity.empty() ? dataset_name("irradiance", result.quantity()) : rules.quantity;
   const auto intervals = sunny_intervals(result, day);
   Renderer renderer(result, rules);
   double largest = 0;

@@ -30,7 +30,7 @@ enum class SkyBackground { plain, first, second };
 struct RenderRules {
   /// A dataset [patch] or [time, patch]; empty: the light load, animated the irradiance.
   std::string quantity;
-  std::string time;      ///< as in a study; empty: the brightest interval
+  std::string time;  ///< as in a study; empty: the brightest interval
   View view = View::overview;
   /// Parallel, from before the facade of that name; what stands farther in front is cut away.
   std::string facade;

@@ -90,7 +90,7 @@ class Painter {
     const auto patch = scene_.patch_met(sample.triangle, sample.front);
     const double value =
         patch < 0 ? std::nan("") : value_at(sample, static_cast<std::size_t>(patch));
-    auto colour = std::isnan(value)        ? back_
+    auto colour = std::isnan(value)      ? back_
                   : colours_.own.empty() ? of_value(value)
                                          : colours_.own[static_cast<std::size_t>(patch)];
     if (border) return lined(colour, border_strength);
@@ -126,9 +126,9 @@ class Painter {
                             (static_cast<double>(row) + 0.5) / samples)
                        .direction;
     if (w.z < 0) return far_ground_;
-    const auto c = sky_colour(background_.kind == SkyBackground::first ? SkyColourModel::first
-                                                                       : SkyColourModel::second,
-                              w, background_.sun, picture_gain);
+    const auto c = sky_colour(
+        background_.kind == SkyBackground::first ? SkyColourModel::first : SkyColourModel::second,
+        w, background_.sun, picture_gain);
     return linear({c.red, c.green, c.blue});
   }
 
@@ -175,8 +175,8 @@ std::vector<Colour> TracedPicture::pixels(const PatchColours& colours,
       Colour sum;
       for (std::size_t row = y * samples; row < (y + 1) * samples; ++row)
         for (std::size_t column = x * samples; column < (x + 1) * samples; ++column) {
-          const auto c = paint(samples_[row * columns_ + column], column, row,
-                               is_border(column, row));
+          const auto c =
+              paint(samples_[row * columns_ + column], column, row, is_border(column, row));
           sum = {sum.red + c.red, sum.green + c.green, sum.blue + c.blue};
         }
       constexpr double share = 1.0 / (samples * samples);
@@ -216,9 +216,9 @@ void TracedPicture::trace_tiles(std::size_t first_row) {
       sample.u = hits.u[k];
       sample.v = hits.v[k];
       if (sample.triangle >= 0 && mesh_ == MeshLines::patches)
-        sample.mesh_line = static_cast<float>(
-            mesh_line(static_cast<std::size_t>(sample.triangle), static_cast<double>(hits.u[k]),
-                      static_cast<double>(hits.v[k]), rays[k]));
+        sample.mesh_line = static_cast<float>(mesh_line(static_cast<std::size_t>(sample.triangle),
+                                                        static_cast<double>(hits.u[k]),
+                                                        static_cast<double>(hits.v[k]), rays[k]));
     }
   }
 }

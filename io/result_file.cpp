@@ -13,8 +13,10 @@ namespace {
 /// One number, or one per band.
 void set_values(h5::Dataset& dataset, const std::string& attribute,
                 const std::vector<double>& values) {
-  if (values.size() == 1) dataset.set(attribute, values.front(), h5::Type::float64);
-  else dataset.set(attribute, values, h5::Type::float64);
+  if (values.size() == 1)
+    dataset.set(attribute, values.front(), h5::Type::float64);
+  else
+    dataset.set(attribute, values, h5::Type::float64);
 }
 
 /// Ledger terms end without it, their standard errors with it.
@@ -52,8 +54,8 @@ void ResultWriter::File::append_series(const BatchReader& batch, const ArraySpec
     std::vector<std::size_t> offset{batch.header().first_interval};
     if (array.band) offset.push_back(*array.band);
     offset.push_back(c * shape.columns);
-    dataset.write_chunk(offset, bytes, is_plain ? h5::ChunkCoding::plain
-                                                : h5::ChunkCoding::deflated);
+    dataset.write_chunk(offset, bytes,
+                        is_plain ? h5::ChunkCoding::plain : h5::ChunkCoding::deflated);
   };
   if (batch.chunk_count(spec.name) > 0) {
     SUNLOAD_EXPECT(batch.chunk_count(spec.name) == shape.count(columns), "chunks of " + spec.name);

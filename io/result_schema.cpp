@@ -181,8 +181,7 @@ std::vector<std::string> dimension_names(const ResultVariable& variable) {
 
 bool has_bands(const ResultVariable& variable) {
   const std::string_view name = variable.name;
-  if (name.ends_with("sun_hours") || name.ends_with("sky_view_factor") ||
-      name == "patch_lines")
+  if (name.ends_with("sun_hours") || name.ends_with("sky_view_factor") || name == "patch_lines")
     return false;
   return variable.part == ResultPart::series || variable.part == ResultPart::ledger ||
          variable.part == ResultPart::total;

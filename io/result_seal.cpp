@@ -1,6 +1,5 @@
 #include "io/result_seal.h"
 
-
 #include <algorithm>
 #include <array>
 #include <cerrno>

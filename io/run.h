@@ -7,8 +7,8 @@
 
 #include "io/exit_code.h"
 #include "io/progress.h"
-#include "io/sky_dome.h"
 #include "io/shard.h"
+#include "io/sky_dome.h"
 #include "io/study.h"
 
 namespace sunload {
@@ -22,10 +22,10 @@ struct RunOptions {
   std::string output;                 ///< replaces output.folder
   Existing existing = Existing::refuse;
   Batches batches = Batches::remove;
-  int threads = 0;                    ///< 0: all permitted processors
+  int threads = 0;  ///< 0: all permitted processors
   ProgressStyle progress = ProgressStyle::automatic;
-  double time_limit_min = 0;          ///< 0: none
-  Shard shard;                        ///< which units are this process' own
+  double time_limit_min = 0;  ///< 0: none
+  Shard shard;                ///< which units are this process' own
 };
 
 /// Computes what is missing, merges, prints one block per variant on stderr.

@@ -76,10 +76,10 @@ class BlockReader {
   Raster read_on_grid(const std::string& path, RasterValues values) {
     Raster raster = read_raster(path, unit_m_, values, faces_.notes());
     const auto refuse = [&](const std::string& what) {
-      throw InputError({path}, what,
-                       "its cells must be those of " +
-                           std::filesystem::path(files_.surface).filename().string(),
-                       "bring it onto that grid, for example with gdalwarp -te … -ts …");
+      throw InputError(
+          {path}, what,
+          "its cells must be those of " + std::filesystem::path(files_.surface).filename().string(),
+          "bring it onto that grid, for example with gdalwarp -te … -ts …");
     };
     if (raster.columns != surface_.columns || raster.rows != surface_.rows)
       refuse(fmt::format("has {} × {} cells, not {} × {}", raster.columns, raster.rows,
@@ -164,9 +164,8 @@ class BlockReader {
   }
 
   std::int32_t vertex(Corner corner, double height) {
-    const auto [entry, is_new] =
-        vertices_.try_emplace({corner_index(corner), height},
-                              static_cast<std::int32_t>(faces_.vertex_count()));
+    const auto [entry, is_new] = vertices_.try_emplace(
+        {corner_index(corner), height}, static_cast<std::int32_t>(faces_.vertex_count()));
     if (is_new && !faces_.add_vertex(surface_.place(static_cast<double>(corner.column),
                                                     static_cast<double>(corner.row), height)))
       throw InputError({files_.surface}, "lies beyond all coordinates on Earth", "",
@@ -203,7 +202,8 @@ class BlockReader {
     faces_.use_surface(Surface::ground);
     for (std::size_t cell = 0; cell < cell_count(); ++cell)
       if (!std::isnan(terrain_.values[cell]) && !buildings_.has(cell))
-        add_sloping(cell, [&](std::size_t corner) { return land_[corner]; }, true);
+        add_sloping(
+            cell, [&](std::size_t corner) { return land_[corner]; }, true);
   }
 
   /// The cell across the border from corner k to k + 1; none at the rim of the raster.
@@ -270,7 +270,8 @@ class BlockReader {
     for (int k = 0; k < 4; ++k) faces_.add_corner(vertex(corner_of(cell, k), top));
     faces_.end_face();
     faces_.use_surface(kinds.bottom);
-    add_sloping(cell, [&](std::size_t corner) { return bottom_at(columns, cell, corner); }, false);
+    add_sloping(
+        cell, [&](std::size_t corner) { return bottom_at(columns, cell, corner); }, false);
     faces_.use_surface(kinds.side);
     for (int k = 0; k < 4; ++k) add_sides(columns, cell, k);
   }

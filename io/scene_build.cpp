@@ -76,9 +76,8 @@ Site site_on_map(const SiteStudy& given, const std::string& crs, const PolygonMo
   if (const auto warning = area_of_use_warning(crs, middle); !warning.empty())
     built.warnings.push_back(warning);
   if (!given.latitude_deg) return site;
-  const double away_m =
-      distance_m(site, {.latitude_deg = *given.latitude_deg,
-                        .longitude_deg = given.longitude_deg.value_or(0)});
+  const double away_m = distance_m(site, {.latitude_deg = *given.latitude_deg,
+                                          .longitude_deg = given.longitude_deg.value_or(0)});
   if (away_m > far_m)
     built.warnings.push_back(fmt::format(
         "the position of the study is {:.0f} km from where {} puts the scene (latitude {:.4f}, "
@@ -123,9 +122,9 @@ Site resolve_site(const Study& study, const PolygonModel& model, BuiltScene& bui
 ParallelSources read_parallel_sources(const Study& study, Vec3 origin, BuiltScene& built) {
   const SceneStudy& scene = study.scene;
   if (scene.parallel_sources.empty()) return {};
-  const PolygonModel model =
-      read_scene_file(scene.parallel_sources, {scene.up, scene.unit_m, scene.lod,
-                                               scene.vrml_colour, scene.emission_scale_w});
+  const PolygonModel model = read_scene_file(
+      scene.parallel_sources,
+      {scene.up, scene.unit_m, scene.lod, scene.vrml_colour, scene.emission_scale_w});
   const Mesh mesh =
       prepare(model,
               {.repair = scene.repair, .ground = {}, .orientation = scene.orient, .north_deg = 0})
@@ -177,8 +176,8 @@ BuiltScene build_scene(const Study& study) {
   built.scene.mesh = std::move(prepared.mesh);
   assign_materials(study, built.scene, built.warnings);
   built.scene.parallel_sources = read_parallel_sources(study, built.scene.mesh.origin, built);
-  built.scene.sensors = place_sensors(study.sensors, built.scene.mesh, built.report.bounds,
-                                      built.warnings);
+  built.scene.sensors =
+      place_sensors(study.sensors, built.scene.mesh, built.report.bounds, built.warnings);
   return built;
 }
 

@@ -20,12 +20,18 @@ std::string quoted(const std::string& text) { return nlohmann::json(text).dump()
 /// Type of semantic surface, null where CityJSON 2.0 has none that is read back as this kind.
 const char* semantic_of(Surface surface) {
   switch (surface) {
-    case Surface::wall: return "WallSurface";
-    case Surface::roof: return "RoofSurface";
-    case Surface::window: return "Window";
-    case Surface::floor: return "GroundSurface";
-    case Surface::ground: return "TrafficArea";
-    case Surface::other: return nullptr;
+    case Surface::wall:
+      return "WallSurface";
+    case Surface::roof:
+      return "RoofSurface";
+    case Surface::window:
+      return "Window";
+    case Surface::floor:
+      return "GroundSurface";
+    case Surface::ground:
+      return "TrafficArea";
+    case Surface::other:
+      return nullptr;
   }
   return nullptr;
 }
@@ -41,8 +47,7 @@ class CityText {
   std::string text() {
     text_ = R"({"type":"CityJSON","version":"2.0")";
     add(R"(,"transform":{{"scale":[{0},{0},{0}],"translate":[0,0,0]}})", step_m);
-    if (!model_.crs.empty())
-      add(R"(,"metadata":{{"referenceSystem":{}}})", quoted(model_.crs));
+    if (!model_.crs.empty()) add(R"(,"metadata":{{"referenceSystem":{}}})", quoted(model_.crs));
     add_materials();
     text_ += ",\n\"CityObjects\":{";
     const char* between = "\n";
@@ -103,8 +108,8 @@ class CityText {
     for (std::size_t i = 0; i < edges_.size(); i += 2) {
       const auto &first = edges_[i], &second = edges_[i + 1];
       const bool is_pair = first[0] == second[0] && first[1] == second[1] && first[2] != second[2];
-      const bool is_last = i + 2 == edges_.size() || edges_[i + 2][0] != first[0] ||
-                           edges_[i + 2][1] != first[1];
+      const bool is_last =
+          i + 2 == edges_.size() || edges_[i + 2][0] != first[0] || edges_[i + 2][1] != first[1];
       if (!is_pair || !is_last) return false;
     }
     return !polygons.empty();

@@ -18,10 +18,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int deepest_node = 500;                  // of a tree; a circle is found by it
+constexpr int deepest_node = 500;  // of a tree; a circle is found by it
 /// Trees visit each once; some exporters share nodes.
 constexpr std::size_t most_visits_per_node = 10;
-constexpr std::size_t fewest_visits = 10'000;     // that are allowed
+constexpr std::size_t fewest_visits = 10'000;  // that are allowed
 
 std::string name_of(const json& object) {
   const auto name = object.value("name", json());
@@ -53,9 +53,7 @@ Affine rotation(const std::vector<double>& q) {
 class GltfReader {
  public:
   GltfReader(const std::string& path, const SceneFileRules& rules)
-      : file_(path),
-        faces_(path, rules, 'y'),
-        stem_(std::filesystem::path(path).stem().string()) {}
+      : file_(path), faces_(path, rules, 'y'), stem_(std::filesystem::path(path).stem().string()) {}
 
   PolygonModel read() {
     refuse_unknown_extensions();
@@ -197,8 +195,7 @@ class GltfReader {
     if (mode == triangles)
       for (std::size_t i = 0; i + 2 < order.size(); i += 3) add(i, i + 1, i + 2);
     if (mode == strip)
-      for (std::size_t i = 0; i + 2 < order.size(); ++i)
-        add(i, i + 1 + i % 2, i + 2 - i % 2);
+      for (std::size_t i = 0; i + 2 < order.size(); ++i) add(i, i + 1 + i % 2, i + 2 - i % 2);
     if (mode == fan)
       for (std::size_t i = 1; i + 1 < order.size(); ++i) add(i, i + 1, 0);
   }
@@ -241,8 +238,8 @@ class GltfReader {
     }
     if (colours.is_object() && colours.contains(texture)) {
       faces_.notes().count("materials are coloured by a texture: their reflectance is the study's");
-    } else if (const auto rgba = colours.is_object() ? numbers_of(colours, factor, 4)
-                                                     : std::nullopt) {
+    } else if (const auto rgba =
+                   colours.is_object() ? numbers_of(colours, factor, 4) : std::nullopt) {
       if (!read.set_diffuse({(*rgba)[0], (*rgba)[1], (*rgba)[2]}))
         faces_.notes().count("colours outside [0, 1] ignored");
     }

@@ -126,8 +126,10 @@ class SceneJoin {
   PolygonModel run() {
     std::vector<const SceneFileStudy*> later;  // placed by a CRS that is not known yet
     for (const auto& file : study_.scene.files) {
-      if (file.earth_position && crs().empty()) later.push_back(&file);
-      else add(file);
+      if (file.earth_position && crs().empty())
+        later.push_back(&file);
+      else
+        add(file);
     }
     for (const auto* file : later) add(*file);
     problems_.throw_if_any();
@@ -135,9 +137,7 @@ class SceneJoin {
   }
 
  private:
-  const std::string& crs() const {
-    return study_.site.crs.empty() ? model_.crs : study_.site.crs;
-  }
+  const std::string& crs() const { return study_.site.crs.empty() ? model_.crs : study_.site.crs; }
 
   void add(const SceneFileStudy& file) {
     try {
@@ -153,8 +153,10 @@ class SceneJoin {
                       "an earlier file of the scene has " + model_.crs,
                       "bring all files of a scene into one CRS");
       // Tens of millions of faces are not copied.
-      if (model_.source.empty()) model_ = std::move(part);
-      else append(model_, part);
+      if (model_.source.empty())
+        model_ = std::move(part);
+      else
+        append(model_, part);
     } catch (const InputError& error) {
       problems_.add(error);
     }

@@ -25,7 +25,7 @@ class OffReader {
       if (word == "BINARY") fail(word, "is a binary OFF file", "only the text form is read");
     }
     const auto vertices = count(word), faces = count(next_word());
-    count(next_word());  // edges, which nobody needs
+    count(next_word());                     // edges, which nobody needs
     constexpr std::size_t least_bytes = 2;  // of a number and its blank
     if (vertices > text_.size() / least_bytes || faces > text_.size() / least_bytes)
       fail({}, "is too short for what its header promises", "is the file cut off?");
@@ -63,8 +63,8 @@ class OffReader {
     for (auto& coordinate : xyz) {
       word = next_word();
       const auto value = finite_number(word);
-      if (!value) fail(word, "'" + shortened(word) + "' is no finite number",
-                       "a coordinate was expected");
+      if (!value)
+        fail(word, "'" + shortened(word) + "' is no finite number", "a coordinate was expected");
       coordinate = *value;
     }
     if (!faces_.add_vertex({xyz[0], xyz[1], xyz[2]}))

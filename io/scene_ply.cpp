@@ -37,13 +37,17 @@ constexpr std::array type_names{
 std::size_t size_of(Type type) {
   switch (type) {
     case Type::int8:
-    case Type::uint8: return 1;
+    case Type::uint8:
+      return 1;
     case Type::int16:
-    case Type::uint16: return 2;
+    case Type::uint16:
+      return 2;
     case Type::int32:
     case Type::uint32:
-    case Type::float32: return 4;
-    case Type::float64: return 8;
+    case Type::float32:
+      return 4;
+    case Type::float64:
+      return 8;
   }
   return 8;
 }
@@ -103,10 +107,14 @@ class HeaderReader {
 
   void read_format(Words& words) {
     const auto name = words.next();
-    if (name == "ascii") header_.encoding = Encoding::ascii;
-    else if (name == "binary_little_endian") header_.encoding = Encoding::little_endian;
-    else if (name == "binary_big_endian") header_.encoding = Encoding::big_endian;
-    else fail("its format is '" + shortened(name) + "'");
+    if (name == "ascii")
+      header_.encoding = Encoding::ascii;
+    else if (name == "binary_little_endian")
+      header_.encoding = Encoding::little_endian;
+    else if (name == "binary_big_endian")
+      header_.encoding = Encoding::big_endian;
+    else
+      fail("its format is '" + shortened(name) + "'");
   }
 
   void read_element(Words& words) {
@@ -156,14 +164,22 @@ class BinaryNumbers {
 
   double next(Type type) {
     switch (type) {
-      case Type::int8: return take<std::int8_t>();
-      case Type::uint8: return take<std::uint8_t>();
-      case Type::int16: return take<std::int16_t>();
-      case Type::uint16: return take<std::uint16_t>();
-      case Type::int32: return take<std::int32_t>();
-      case Type::uint32: return take<std::uint32_t>();
-      case Type::float32: return static_cast<double>(take<float>());
-      case Type::float64: return take<double>();
+      case Type::int8:
+        return take<std::int8_t>();
+      case Type::uint8:
+        return take<std::uint8_t>();
+      case Type::int16:
+        return take<std::int16_t>();
+      case Type::uint16:
+        return take<std::uint16_t>();
+      case Type::int32:
+        return take<std::int32_t>();
+      case Type::uint32:
+        return take<std::uint32_t>();
+      case Type::float32:
+        return static_cast<double>(take<float>());
+      case Type::float64:
+        return take<double>();
     }
     return 0;
   }
@@ -215,17 +231,20 @@ class AsciiNumbers {
 template <class Numbers>
 class BodyReader {
  public:
-  BodyReader(const std::string& path, std::string_view text, const Header& header,
-             Numbers numbers, IndexedFaces& faces)
+  BodyReader(const std::string& path, std::string_view text, const Header& header, Numbers numbers,
+             IndexedFaces& faces)
       : path_(path), text_(text), header_(header), numbers_(numbers), faces_(faces) {}
 
   void read() {
     check_sizes();
     for (const auto& element : header_.elements) {
       element_ = &element;
-      if (element.name == "vertex") read_vertices();
-      else if (element.name == "face") read_faces();
-      else skip();
+      if (element.name == "vertex")
+        read_vertices();
+      else if (element.name == "face")
+        read_faces();
+      else
+        skip();
     }
     if (highest_ >= static_cast<double>(faces_.vertex_count())) refuse_index(highest_, highest_at_);
   }
@@ -299,8 +318,10 @@ class BodyReader {
     for (std::size_t v = 0; v < element_->count; ++v) {
       for (const auto& p : element_->properties) {
         const int axis = axis_of(p);
-        if (axis < 0) pass_over(p, v);
-        else xyz[static_cast<std::size_t>(axis)] = number(p.type, v);
+        if (axis < 0)
+          pass_over(p, v);
+        else
+          xyz[static_cast<std::size_t>(axis)] = number(p.type, v);
       }
       if (!faces_.add_vertex({xyz[0], xyz[1], xyz[2]})) {
         fail(v, "is no point on Earth", "a coordinate is no finite number below 1e9 m",
@@ -319,8 +340,10 @@ class BodyReader {
       fail(0, "has no list vertex_indices", "its properties were read from the header");
     for (std::size_t f = 0; f < element_->count; ++f) {
       for (const auto& p : all) {
-        if (is_corner_list(p)) read_corners(p, f);
-        else pass_over(p, f);
+        if (is_corner_list(p))
+          read_corners(p, f);
+        else
+          pass_over(p, f);
       }
     }
   }

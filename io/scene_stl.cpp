@@ -36,9 +36,12 @@ class StlReader {
       : path_(path), text_(read_whole_file(path)), faces_(path, rules, 'z') {}
 
   PolygonModel read() {
-    if (has_binary_length()) read_binary();
-    else if (lower_case(text_.substr(0, 5)) == "solid") read_text();
-    else refuse_length();
+    if (has_binary_length())
+      read_binary();
+    else if (lower_case(text_.substr(0, 5)) == "solid")
+      read_text();
+    else
+      refuse_length();
     return faces_.finish();
   }
 
@@ -69,8 +72,8 @@ class StlReader {
   /// False where the point is beyond all coordinates on Earth.
   bool add_point(Vec3 point) {
     const Vec3 no_signed_zeros = point + Vec3{};  // −0 + 0 is 0: they are the same place
-    const auto [entry, is_new] = vertex_at_.try_emplace(
-        no_signed_zeros, static_cast<std::int32_t>(faces_.vertex_count()));
+    const auto [entry, is_new] =
+        vertex_at_.try_emplace(no_signed_zeros, static_cast<std::int32_t>(faces_.vertex_count()));
     faces_.add_corner(entry->second);
     return !is_new || faces_.add_vertex(no_signed_zeros);
   }
@@ -144,8 +147,9 @@ class StlReader {
     for (auto& coordinate : xyz) {
       const auto word = words.next();
       const auto value = finite_number(word);
-      if (!value) fail(words, word, "'" + shortened(word) + "' is no finite number",
-                       "a coordinate was expected");
+      if (!value)
+        fail(words, word, "'" + shortened(word) + "' is no finite number",
+             "a coordinate was expected");
       coordinate = *value;
     }
     if (!add_point({xyz[0], xyz[1], xyz[2]}))

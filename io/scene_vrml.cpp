@@ -46,8 +46,8 @@ Affine affine(const SoVRMLTransform& node) {
   const Vec3 center = vec(node.center.getValue());
   const SbRotation orientation = node.scaleOrientation.getValue();
   return moved(vec(node.translation.getValue()) + center) * affine(node.rotation.getValue()) *
-         affine(orientation) * scaled(vec(node.scale.getValue())) *
-         affine(orientation.inverse()) * moved(-center);
+         affine(orientation) * scaled(vec(node.scale.getValue())) * affine(orientation.inverse()) *
+         moved(-center);
 }
 
 /// What Inventor's property nodes set for the shapes that follow them.
@@ -116,8 +116,8 @@ class VrmlWalk {
     const std::string outer_name = node_name_;
     if (!name.empty()) node_name_ = name;
     const bool is_geometry = node->isOfType(SoVRMLGeometry::getClassTypeId());
-    const bool names_object = !name.empty() && !is_geometry &&
-                              (node->getChildren() != nullptr || is_shape(node));
+    const bool names_object =
+        !name.empty() && !is_geometry && (node->getChildren() != nullptr || is_shape(node));
     const int here = names_object ? model_.enter(place, name) : place;
     visit_kind(node, state, here, depth);
     node_name_ = outer_name;
@@ -236,8 +236,7 @@ class VrmlWalk {
     return model_.material(node, 0,
                            {text_of(node->getName()), colour(node->diffuseColor.getValue()),
                             colour(node->specularColor.getValue()),
-                            colour(node->emissiveColor.getValue()),
-                            node->transparency.getValue()});
+                            colour(node->emissiveColor.getValue()), node->transparency.getValue()});
   }
 
   void add_inventor(SoNode* node, const State& state, int place) {

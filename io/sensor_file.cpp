@@ -87,8 +87,7 @@ class SensorTable {
       const auto field = fields[(*columns_)[c]];
       const auto value = number_of(field);
       if (!value) {
-        problems_.add({path_, line},
-                      fmt::format("{}: '{}' is no number", column_names[c], field));
+        problems_.add({path_, line}, fmt::format("{}: '{}' is no number", column_names[c], field));
         return;
       }
       values[c] = *value;

@@ -13,11 +13,11 @@ namespace sunload {
 struct ShownQuantity {
   std::vector<double> values;
   std::string dataset;
-  std::string name;   ///< words: "light load"
-  std::string units;  ///< as people write them
-  std::string when;   ///< the whole period, or the interval in words
+  std::string name;          ///< words: "light load"
+  std::string units;         ///< as people write them
+  std::string when;          ///< the whole period, or the interval in words
   std::size_t interval = 0;  ///< of the time asked for, or the brightest one
-  bool is_series = false;  ///< values are those of `interval`
+  bool is_series = false;    ///< values are those of `interval`
 };
 
 /// A dataset [patch] as it is, or the interval of a dataset [time, patch] that holds `time`

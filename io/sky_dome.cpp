@@ -118,8 +118,8 @@ std::vector<SkyRow> sky_rows(const SkyDome& dome, std::optional<Subdivision> sub
       const Horizontal middle = horizontal(grid.direction(cell, 0.5, 0.5));
       const double share = open.empty() ? 1 : open[c];
       rows.push_back({middle.azimuth_deg, middle.elevation_deg,
-                      share * radiance[c] + (1 - share) * dome.ground_radiance,
-                      grid.solid_angle(), grid.projected()[c]});
+                      share * radiance[c] + (1 - share) * dome.ground_radiance, grid.solid_angle(),
+                      grid.projected()[c]});
     }
     return rows;
   }
@@ -139,8 +139,8 @@ std::string sky_csv(const std::vector<SkyRow>& rows) {
   std::string text =
       "azimuth_deg,elevation_deg,radiance_w_m2_sr,solid_angle_sr,projected_solid_angle_sr\n";
   for (const auto& row : rows)
-    text += fmt::format("{:.6f},{:.6f},{:.8g},{:.8g},{:.8g}\n", row.azimuth_deg,
-                        row.elevation_deg, row.radiance, row.solid_angle, row.projected);
+    text += fmt::format("{:.6f},{:.6f},{:.8g},{:.8g},{:.8g}\n", row.azimuth_deg, row.elevation_deg,
+                        row.radiance, row.solid_angle, row.projected);
   return text;
 }
 

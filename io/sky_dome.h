@@ -18,7 +18,7 @@ struct SkyDome {
   LitInterval light;  ///< of that instant
   Sky sky;
   Horizon hills;
-  double ground_radiance = 0;  ///< of the far ground and the hills [W m-2 sr-1]
+  double ground_radiance = 0;      ///< of the far ground and the hills [W m-2 sr-1]
   std::string place, model, when;  ///< in words
   std::vector<std::string> notes;  ///< what the user should know of time and light
 

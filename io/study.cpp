@@ -172,11 +172,11 @@ void expect_same_weather_years(const std::vector<Study>& variants, YamlReading& 
   for (const auto& variant : variants) {
     if (variant.light.weather == first.light.weather && variant.light.stamp == first.light.stamp)
       continue;
-    reading.problem(variant.period.where,
-                    "variant " + variant.variant + " has another weather file than " +
-                        first.variant,
-                    "with year_of: weather the file makes the times, which all variants share",
-                    "make another study of it, or write days or start and end");
+    reading.problem(
+        variant.period.where,
+        "variant " + variant.variant + " has another weather file than " + first.variant,
+        "with year_of: weather the file makes the times, which all variants share",
+        "make another study of it, or write days or start and end");
   }
 }
 

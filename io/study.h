@@ -24,11 +24,11 @@
 #include "geo/sun.h"
 #include "geo/time.h"
 #include "geo/weather.h"
+#include "io/light_quantity.h"
 #include "io/scene_file.h"
 #include "io/sensor_file.h"
 #include "solver/band.h"
 #include "solver/oracle.h"
-#include "io/light_quantity.h"
 #include "solver/transport.h"
 
 namespace sunload {
@@ -64,7 +64,7 @@ struct SunAt {
 struct PositionsPeriod {
   std::vector<SunAt> positions;
 };
-struct WeatherPeriod {  ///< `year_of: weather`: one interval per record of the file
+struct WeatherPeriod {         ///< `year_of: weather`: one interval per record of the file
   std::optional<int> as_year;  ///< absent: actual years as they are, typical ones as 2001
 };
 struct PeriodStudy {
@@ -91,12 +91,12 @@ struct LightStudy {
   Turbidity linke_turbidity;
   double dni_w_m2 = 0, dhi_w_m2 = 0;  ///< of `fixed`
   SkyModel sky = SkyModel::perez;
-  int sky_type = 12;           ///< of cie_general
-  double turbidity = 3;        ///< of preetham
+  int sky_type = 12;     ///< of cie_general
+  double turbidity = 3;  ///< of preetham
   SkyScale sky_scale = SkyScale::diffuse;
   double far_ground_albedo = 0.2;
   Quantity quantity = Quantity::irradiance;
-  std::string weather;         ///< file, already resolved; the rest is of `weather` too
+  std::string weather;  ///< file, already resolved; the rest is of `weather` too
   LightColour colour = LightColour::sky;
   std::optional<Stamp> stamp;  ///< absent: the format's own
   Missing missing = Missing::refuse;
@@ -108,7 +108,7 @@ struct MaterialStudy {
   std::string name;
   std::optional<double> diffuse, mirror;
   std::optional<BandShares> diffuse_rgb;  ///< where written as colour, with `diffuse` its mean
-  double emission_w_m2 = 0;  ///< diffuse exitance of an emitter
+  double emission_w_m2 = 0;               ///< diffuse exitance of an emitter
   std::optional<Sides> sides;
   Where where;
   std::optional<double> refractive_index, extinction_coefficient;  ///< of panes or a metal
@@ -157,9 +157,9 @@ struct SceneFileStudy {
   std::string material;  ///< of all its faces; empty: as the file says
   /// Raster of bare ground: `path` is a raster of surfaces, made into blocks.
   std::string terrain;
-  std::string canopy;    ///< raster of heights of crowns above the ground
-  double least_height_m = 2;   ///< of buildings in rasters
-  double trunk_share = 0.25;   ///< of a crown's height, free below it
+  std::string canopy;         ///< raster of heights of crowns above the ground
+  double least_height_m = 2;  ///< of buildings in rasters
+  double trunk_share = 0.25;  ///< of a crown's height, free below it
 
   bool is_placed() const { return position || earth_position || turn_deg != 0; }
 };
@@ -190,7 +190,7 @@ struct MeshStudy {
   double light_tolerance = 0.05;      ///< of the default oracle
   double light_threshold_m2 = 0.005;  ///< of the historic one
   TVertices t_vertices = TVertices::remove;
-  double link_threshold = 0.5;        ///< of the exchange between elements
+  double link_threshold = 0.5;  ///< of the exchange between elements
 };
 
 /// Counts per patch are raised until errors are as small as asked for: at least one of these.

@@ -30,11 +30,11 @@ json canonical(const SiteStudy& site) {
   const auto& [latitude_deg, longitude_deg, crs, elevation_m, timezone, north_deg, horizon, where] =
       site;
   json all{{"latitude_deg", maybe(latitude_deg)},
-          {"longitude_deg", maybe(longitude_deg)},
-          {"crs", crs},
-          {"elevation_m", maybe(elevation_m)},
-          {"timezone", timezone},
-          {"north_deg", maybe(north_deg)}};
+           {"longitude_deg", maybe(longitude_deg)},
+           {"crs", crs},
+           {"elevation_m", maybe(elevation_m)},
+           {"timezone", timezone},
+           {"north_deg", maybe(north_deg)}};
   if (horizon.is_open()) return all;
   json line = json::array();
   for (const auto& [azimuth_deg, elevation_deg] : horizon.points())
@@ -100,18 +100,12 @@ json canonical(const LightStudy& light) {
                sky_scale, far_ground_albedo, quantity, weather, colour, stamp, missing,
                decomposition] = light;
   // The weather file is hashed by its bytes; the colour belongs to the solver's bands.
-  json canon = {{"stamp", maybe(stamp)},
-                {"quantity", quantity},
-                {"missing", missing},
-                {"decomposition", decomposition},
-                {"source", source},
-                {"model", model},
-                {"dni_w_m2", dni_w_m2},
-                {"linke_turbidity", linke_turbidity.monthly},
-                {"dhi_w_m2", dhi_w_m2},
-                {"sky", sky},
-                {"sky_type", sky_type},
-                {"far_ground_albedo", far_ground_albedo},
+  json canon = {{"stamp", maybe(stamp)}, {"quantity", quantity},
+                {"missing", missing},    {"decomposition", decomposition},
+                {"source", source},      {"model", model},
+                {"dni_w_m2", dni_w_m2},  {"linke_turbidity", linke_turbidity.monthly},
+                {"dhi_w_m2", dhi_w_m2},  {"sky", sky},
+                {"sky_type", sky_type},  {"far_ground_albedo", far_ground_albedo},
                 {"turbidity", turbidity}};
   // The usual scale has no key: hashes stay those of the time before there was another.
   if (sky_scale != SkyScale::diffuse) canon["sky_scale"] = sky_scale;
@@ -201,7 +195,9 @@ json canonical(const SceneStudy& scene) {
 json canonical(const MeshStudy& mesh) {
   const auto& [max_edge_m, min_area_m2, oracle, light_tolerance, light_threshold_m2, t_vertices,
                link_threshold] = mesh;
-  json values{{"max_edge_m", max_edge_m}, {"min_area_m2", min_area_m2}, {"oracle", oracle},
+  json values{{"max_edge_m", max_edge_m},
+              {"min_area_m2", min_area_m2},
+              {"oracle", oracle},
               {"link_threshold", link_threshold}};
   // Thresholds of an oracle that is not asked change nothing.
   if (oracle == Oracle::light_load) values["light_tolerance"] = light_tolerance;
@@ -219,14 +215,14 @@ json canonical(const SolverStudy& solver, LightColour colour) {
   json all{{"transport", transport},
            {"jacobi", jacobi},
            {"power_per_sample_w", maybe(power_per_sample_w)},
-          {"bounces", bounces},
-          {"unshot", unshot},
-          {"lines_per_patch", lines_per_patch},
-          {"direct_samples", direct_samples},
-          {"realizations", realizations},
-          {"mirror_depth", mirror_depth},
-          {"batch_suns", batch_suns},
-          {"seed", seed}};
+           {"bounces", bounces},
+           {"unshot", unshot},
+           {"lines_per_patch", lines_per_patch},
+           {"direct_samples", direct_samples},
+           {"realizations", realizations},
+           {"mirror_depth", mirror_depth},
+           {"batch_suns", batch_suns},
+           {"seed", seed}};
   if (bands == Bands::rgb) {
     all["bands"] = "rgb";
     all["colour"] = colour;
@@ -246,9 +242,12 @@ std::string canonical_text(const Study& study) {
   // Sensors are hashed with the scene.
   const auto& [name, variant, site, period, sun, light, scene, mesh, solver, sensors, output] =
       study;
-  const json all{{"site", canonical(site)},    {"period", canonical(period)},
-                 {"sun", canonical(sun)},      {"light", canonical(light)},
-                 {"scene", canonical(scene)},  {"mesh", canonical(mesh)},
+  const json all{{"site", canonical(site)},
+                 {"period", canonical(period)},
+                 {"sun", canonical(sun)},
+                 {"light", canonical(light)},
+                 {"scene", canonical(scene)},
+                 {"mesh", canonical(mesh)},
                  {"solver", canonical(solver, light.colour)}};
   return all.dump();
 }

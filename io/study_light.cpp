@@ -125,9 +125,9 @@ LightStudy read_light(YamlMap& map, const std::string& folder) {
                          light.sky);
   light.sky_type = map.integer("sky_type", 1, cie_sky_types, light.sky_type);
   light.turbidity = map.number("turbidity", preetham_turbidities, light.turbidity);
-  light.sky_scale = map.choice(
-      "sky_scale", {{"diffuse", SkyScale::diffuse}, {"absolute", SkyScale::absolute}},
-      light.sky_scale);
+  light.sky_scale =
+      map.choice("sky_scale", {{"diffuse", SkyScale::diffuse}, {"absolute", SkyScale::absolute}},
+                 light.sky_scale);
   if (light.sky_scale == SkyScale::absolute &&
       (light.sky != SkyModel::preetham || light.source != LightSource::clear_sky))
     map.problem("sky_scale", "absolute goes with sky: preetham and source: clear_sky only",
@@ -137,8 +137,7 @@ LightStudy read_light(YamlMap& map, const std::string& folder) {
   light.far_ground_albedo = map.number("far_ground_albedo", albedos, light.far_ground_albedo);
   read_weather(map, folder, light);
   light.quantity = map.choice(
-      "quantity",
-      {{"irradiance", Quantity::irradiance}, {"illuminance", Quantity::illuminance}},
+      "quantity", {{"irradiance", Quantity::irradiance}, {"illuminance", Quantity::illuminance}},
       light.quantity);
   light.colour = map.choice("colour", {{"sky", LightColour::sky}, {"white", LightColour::white}},
                             light.colour);

@@ -306,8 +306,8 @@ SiteRead read_site(YamlMap& map, const std::string& folder) {
 PeriodStudy read_period(YamlMap& map, const SiteRead& site) {
   PeriodStudy period;
   period.where = map.where();
-  for (const char* key : {"days", "from", "to", "start", "end", "instants", "positions", "year_of",
-                          "as_year"}) {
+  for (const char* key :
+       {"days", "from", "to", "start", "end", "instants", "positions", "year_of", "as_year"}) {
     map.tree(key);  // known, whatever the kind: what does not fit is told as such
   }
   const double step_min = map.number("step_min", lengths_min, DaysPeriod{}.step_min);

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr Range shares{0, 1};
 constexpr Range emissions_w_m2{0, 1e7};  // the surface of the sun has 6.3e7
-constexpr Range powers_w{0, 1e15};  // of a light in a file: to the sun's on a thousand km2
+constexpr Range powers_w{0, 1e15};       // of a light in a file: to the sun's on a thousand km2
 constexpr Range refractive_indices{0.01, 10};  // silver has 0.05 in green, germanium 5
 constexpr Range extinctions{0, 100, Range::Low::excluded,
                             "glass has no such key: it has absorption_per_m"};
@@ -26,7 +26,7 @@ constexpr Range thicknesses_m{0, 1, Range::Low::excluded};
 constexpr Range absorptions_per_m{0, 1e5};
 constexpr int most_panes = 10;
 constexpr Range normal_transmittances{0, 1, Range::Low::excluded};  // check_clear_glass: below 1
-constexpr Range exponents{0, 1e5};  // a lobe of some 0.4 degrees
+constexpr Range exponents{0, 1e5};                                  // a lobe of some 0.4 degrees
 constexpr Range margins_m{0, 1e5};
 constexpr Range edges_m{1e-3, 1e9};
 constexpr Range areas_m2{0, 1e6};
@@ -95,8 +95,7 @@ void check_kind(YamlMap& map, const MaterialStudy& material) {
     if (map.has("extinction_coefficient")) {
       excluded(of_panes, "cannot stand with extinction_coefficient", "no light passes a metal");
     } else if (material.refractive_index && *material.refractive_index <= 1) {
-      map.problem("refractive_index",
-                  fmt::format("{} is not above 1", *material.refractive_index),
+      map.problem("refractive_index", fmt::format("{} is not above 1", *material.refractive_index),
                   "panes are denser than air", "metals have an extinction_coefficient, too");
     }
   }
@@ -109,8 +108,8 @@ void check_kind(YamlMap& map, const MaterialStudy& material) {
 
 /// No surface sends on more than it receives.
 void check_sum(YamlMap& map, const MaterialStudy& material) {
-  const double diffuse = material.diffuse_rgb ? std::ranges::max(*material.diffuse_rgb)
-                                              : material.diffuse.value_or(0);
+  const double diffuse =
+      material.diffuse_rgb ? std::ranges::max(*material.diffuse_rgb) : material.diffuse.value_or(0);
   const std::pair<const char*, double> parts[] = {{"diffuse", diffuse},
                                                   {"mirror", material.mirror.value_or(0)},
                                                   {"glossy", material.glossy},
@@ -136,14 +135,12 @@ void check_clear_glass(YamlMap& map, const MaterialStudy& material) {
   if (*material.normal_transmittance <= most + share_rounding) return;
   constexpr double digits = 1e4;
   const double shown = std::max(0.0, std::floor(most * digits) / digits);
-  map.problem("normal_transmittance",
-              fmt::format("{} is above {}", *material.normal_transmittance, shown),
-              fmt::format("the angular formula transmits {} times that at normal incidence{}",
-                          clear_glass_factor,
-                          reflected > 0
-                              ? fmt::format(", diffuse + mirror reflect {:.6g}", reflected)
-                              : ""),
-              reflected > 0 ? "less diffuse or mirror leaves more" : "");
+  map.problem(
+      "normal_transmittance", fmt::format("{} is above {}", *material.normal_transmittance, shown),
+      fmt::format("the angular formula transmits {} times that at normal incidence{}",
+                  clear_glass_factor,
+                  reflected > 0 ? fmt::format(", diffuse + mirror reflect {:.6g}", reflected) : ""),
+      reflected > 0 ? "less diffuse or mirror leaves more" : "");
 }
 
 /// One share, or its red, green and blue.
@@ -284,16 +281,14 @@ MeshStudy read_mesh(YamlMap& map) {
   MeshStudy mesh;
   mesh.max_edge_m = map.number("max_edge_m", edges_m, mesh.max_edge_m);
   mesh.min_area_m2 = map.number("min_area_m2", areas_m2, mesh.min_area_m2);
-  mesh.oracle = map.choice("oracle",
-                           {{"default", Oracle::light_load},
-                            {"historic", Oracle::historic},
-                            {"none", Oracle::none}},
-                           mesh.oracle);
+  mesh.oracle = map.choice(
+      "oracle",
+      {{"default", Oracle::light_load}, {"historic", Oracle::historic}, {"none", Oracle::none}},
+      mesh.oracle);
   mesh.light_tolerance = map.number("light_tolerance", tolerances, mesh.light_tolerance);
   mesh.light_threshold_m2 = map.number("light_threshold_m2", areas_m2, mesh.light_threshold_m2);
-  mesh.t_vertices = map.choice("t_vertices",
-                               {{"remove", TVertices::remove}, {"keep", TVertices::keep}},
-                               mesh.t_vertices);
+  mesh.t_vertices = map.choice(
+      "t_vertices", {{"remove", TVertices::remove}, {"keep", TVertices::keep}}, mesh.t_vertices);
   mesh.link_threshold = map.number("link_threshold", link_thresholds, mesh.link_threshold);
   check_oracle_keys(map, mesh.oracle);
   return mesh;

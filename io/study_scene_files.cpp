@@ -116,8 +116,9 @@ std::vector<SceneFileStudy> read_scene_files(YamlMap& scene, const std::string& 
       return other.path == file.path && is_same_place(other, file);
     });
     if (is_twice && !file.path.empty())
-      map.reading().problem(file.where, "scene.files: '" + fs::path(file.path).filename().string() +
-                                            "' is written twice in the same place",
+      map.reading().problem(file.where,
+                            "scene.files: '" + fs::path(file.path).filename().string() +
+                                "' is written twice in the same place",
                             "its faces would lie upon each other",
                             "remove one of the two, or give one another position_m");
     files.push_back(file);

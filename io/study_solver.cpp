@@ -93,9 +93,8 @@ void read_accuracy(YamlMap& map, SolverStudy& solver) {
 
 SolverStudy read_solver(YamlMap& map) {
   SolverStudy solver;
-  solver.transport =
-      map.choice("transport", {{"gather", Transport::gather}, {"shoot", Transport::shoot}},
-                 solver.transport);
+  solver.transport = map.choice(
+      "transport", {{"gather", Transport::gather}, {"shoot", Transport::shoot}}, solver.transport);
   read_shooting(map, solver);
   solver.bounces = map.integer("bounces", 0, most_bounces, solver.bounces);
   solver.unshot = map.number("unshot", shares, solver.unshot);
@@ -105,8 +104,8 @@ SolverStudy read_solver(YamlMap& map) {
   const int realizations =
       map.integer("realizations", fewest_realizations, most_realizations, unread);
   solver.mirror_depth = map.integer("mirror_depth", 0, most_bounces, solver.mirror_depth);
-  solver.bands = map.choice("bands", {{"broadband", Bands::broadband}, {"rgb", Bands::rgb}},
-                            solver.bands);
+  solver.bands =
+      map.choice("bands", {{"broadband", Bands::broadband}, {"rgb", Bands::rgb}}, solver.bands);
   if (solver.bands == Bands::rgb && solver.transport == Transport::shoot)
     map.problem("bands", "rgb cannot go with transport: shoot",
                 "bands share the lines of gathering", "write transport: gather");
@@ -137,8 +136,6 @@ OutputStudy read_output(YamlMap& map) {
   return output;
 }
 
-std::vector<LaterKey> later_keys() {
-  return {};
-}
+std::vector<LaterKey> later_keys() { return {}; }
 
 }  // namespace sunload::study_sections

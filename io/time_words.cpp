@@ -84,9 +84,8 @@ std::string day_words(const Site& site, UnixTime first, const TimeZone& zone,
                          Air{});
   const SunEvents light = sun_events(sun, day), dusk = sun_events(sun, day, civil_twilight_deg);
   return fmt::format("{}: {} (upper limb at the sea's horizon), noon {}; civil twilight: {}",
-                     iso_local(day, zone).substr(0, 10),
-                     passages(light, "sunrise", "sunset", zone), clock_time(light.transit, zone),
-                     passages(dusk, "dawn", "dusk", zone));
+                     iso_local(day, zone).substr(0, 10), passages(light, "sunrise", "sunset", zone),
+                     clock_time(light.transit, zone), passages(dusk, "dawn", "dusk", zone));
 }
 
 std::string hills_words(const LightSeries& light, const Horizon& hills) {
@@ -174,8 +173,7 @@ std::string time_words(const LightSeries& light, const Site& site, const Study& 
   }
   for (std::size_t i = 0; i < light.weather.size(); ++i)
     text += (i == 0 ? "  weather    " : "             ") + light.weather[i] + "\n";
-  if (!site.horizon.is_open())
-    text += "  hills      " + hills_words(light, site.horizon) + "\n";
+  if (!site.horizon.is_open()) text += "  hills      " + hills_words(light, site.horizon) + "\n";
   text += "  north      " + north_words(site.north_deg) + "\n";
   if (!light.times_are_synthetic)
     text += "  pole test  " + pole_words(site, sun_times(light), zone, study.sun) + "\n";

@@ -27,9 +27,9 @@ class PilotSum {
 
   void add(std::size_t interval, double sun_weight, double sky_weight,
            std::vector<PilotSun>& suns) {
-    const SunLight sun = sun_light(plan_.light.intervals[interval],
-                                   static_cast<std::uint32_t>(interval), plan_.study.light, grid_,
-                                   open_share_);
+    const SunLight sun =
+        sun_light(plan_.light.intervals[interval], static_cast<std::uint32_t>(interval),
+                  plan_.study.light, grid_, open_share_);
     if (sun.has_sun() && sun.dni > 0)
       suns.push_back({sun.direction, sun_weight * sun.dni * sun.length_s});
     const double time = sky_weight * sun.length_s;
@@ -66,8 +66,10 @@ PilotLight pilot_light(const VariantPlan& plan) {
   }
   // One interval at random of every stretch of the period: all hours and seasons come in.
   const auto words = [&](std::size_t sample, std::size_t stretch) {
-    return random_words({.seed = plan.study.solver.seed, .purpose = Purpose::pilot,
-                         .realization = static_cast<std::uint32_t>(sample), .element = stretch});
+    return random_words({.seed = plan.study.solver.seed,
+                         .purpose = Purpose::pilot,
+                         .realization = static_cast<std::uint32_t>(sample),
+                         .element = stretch});
   };
   const double stretch_length = static_cast<double>(lit.size()) / suns_per_sample;
   for (std::size_t sample = 0; sample < light.samples.size(); ++sample)

@@ -129,11 +129,11 @@ constexpr double facing_share = 0.62;    ///< of a sun's rays that need be cast
 constexpr double mirrored_share = 0.11;  ///< of them again, where there are mirrors
 constexpr double program_bytes = 3.6e7, bytes_per_line = 12.2, bytes_per_patch = 1400;
 constexpr double double_bytes = 8, float_bytes = 4;
-constexpr double s_per_sample = 6e-7;                  ///< shot, with its deposit
-constexpr double bytes_per_sample = 40;                ///< of one realization and iteration
-constexpr double shooting_bytes_per_patch = 2700;      ///< columns in double
-constexpr double columns_of_a_realization = 8;         ///< direct sun, in doubles
-constexpr double arrays_of_realizations = 4;  ///< doubles of a patch and realization
+constexpr double s_per_sample = 6e-7;              ///< shot, with its deposit
+constexpr double bytes_per_sample = 40;            ///< of one realization and iteration
+constexpr double shooting_bytes_per_patch = 2700;  ///< columns in double
+constexpr double columns_of_a_realization = 8;     ///< direct sun, in doubles
+constexpr double arrays_of_realizations = 4;       ///< doubles of a patch and realization
 constexpr double stored_bytes_per_value = 2.5;
 constexpr double kept_bytes_per_line = 12.5;  ///< in the prepared file
 constexpr double batch_bytes_per_patch = 80, result_bytes_per_patch = 175;
@@ -284,9 +284,8 @@ std::size_t sun_count(const VariantPlan& plan, std::size_t batch) {
   const auto at = [&](std::size_t k) {
     return plan.light.intervals.begin() + static_cast<std::ptrdiff_t>(k);
   };
-  return static_cast<std::size_t>(std::count_if(at(begin), at(end), [](const LitInterval& i) {
-    return i.mean.dni > 0 || i.mean.dhi > 0;
-  }));
+  return static_cast<std::size_t>(std::count_if(
+      at(begin), at(end), [](const LitInterval& i) { return i.mean.dni > 0 || i.mean.dhi > 0; }));
 }
 
 namespace {
@@ -366,17 +365,17 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   work.line_rays = static_cast<std::uint64_t>(lines);
   const double rays = n * facing_share * lit * counts.direct_samples;
   work.direct_rays = static_cast<std::uint64_t>(rays);
-  work.memory_bytes = program_bytes + lines * bytes_per_line +
-                      n * (bands * (batch * parts * float_bytes +
-                                    arrays_of_realizations * of_realizations) +
-                           bytes_per_patch);
+  work.memory_bytes =
+      program_bytes + lines * bytes_per_line +
+      n * (bands * (batch * parts * float_bytes + arrays_of_realizations * of_realizations) +
+           bytes_per_patch);
   // The sun's light of each realization, straight and circumsolar, and by mirrors.
   if (is_rgb)
     work.memory_bytes += n * s.realizations * block_width * float_bytes * (mirrors ? 3.0 : 2.0);
   if (s.transport == Transport::shoot) {
     const double blocks = batches * std::ceil(batch / static_cast<double>(block_width));
-    work.samples = static_cast<std::uint64_t>(
-        estimated_samples(plan, n, blocks, counts.samples_per_patch));
+    work.samples =
+        static_cast<std::uint64_t>(estimated_samples(plan, n, blocks, counts.samples_per_patch));
     const double per_shot = static_cast<double>(work.samples) / (blocks * std::max(1, s.bounces));
     work.memory_bytes +=
         n * (shooting_bytes_per_patch + of_realizations * columns_of_a_realization) +
@@ -396,8 +395,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
             ? bands * (links * lit * s_per_link_sun + links * batches * s_per_link_batch)
             : static_cast<double>(work.samples) * s_per_sample) +
        (plan.study.mesh.oracle == Oracle::none ? 0 : refinement_rays(n, lit) * s_per_direct_ray) +
-       bands * (n * lit * s_per_patch_sun +
-                n * static_cast<double>(plan.intervals()) * s_per_value)) /
+       bands *
+           (n * lit * s_per_patch_sun + n * static_cast<double>(plan.intervals()) * s_per_value)) /
       thread_count();
   return work;
 }

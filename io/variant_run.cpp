@@ -110,12 +110,13 @@ void VariantRun::read_or_trace() {
   const std::string path = prepared_path(folder_, plan_);
   if (auto ready = read_prepared(path, plan_.content_hash)) return build(std::move(ready));
   if (batches_not_there(folder_, plan_).size() < 2) return build({});
-  const WaitingLock lock(
-      path + ".lock",
-      {.is_cancelled = [this] { return progress_.stop_requested(); },
-       .waiting = [this] {
-         progress_.say(plan_.study.variant + ": another process traces the lines; waiting for it");
-       }});
+  const WaitingLock lock(path + ".lock",
+                         {.is_cancelled = [this] { return progress_.stop_requested(); },
+                          .waiting =
+                              [this] {
+                                progress_.say(plan_.study.variant +
+                                              ": another process traces the lines; waiting for it");
+                              }});
   if (!lock.is_held())
     progress_.say("warning: cannot lock " + path + ".lock (" + lock.problem() +
                   "); processes that start together each trace the lines");
@@ -128,15 +129,15 @@ void VariantRun::build(std::optional<Lines> ready) {
       [rays = static_cast<double>(estimate_work(plan_, mesh_->patch_count()).line_rays)](
           Stage, double share) { return rays * share; });
   if (!ready) progress_.advance(Stage::lines, 0);
-  solver_ = std::make_unique<LightSolver>(plan_.built.scene, mesh_, rules_, progress_,
-                                          std::move(ready));
+  solver_ =
+      std::make_unique<LightSolver>(plan_.built.scene, mesh_, rules_, progress_, std::move(ready));
   warn_of_sensors();
   progress_.count_rays([this](Stage, double) {
     const WorkDone& work = solver_->work();
     return static_cast<double>(work.direct_rays + work.mirror_rays);
   });
-  open_share_ = open_shares(solver_->sky_grid(), plan_.built.site.horizon,
-                            scene_from_enu(plan_.built.site));
+  open_share_ =
+      open_shares(solver_->sky_grid(), plan_.built.site.horizon, scene_from_enu(plan_.built.site));
 }
 
 void VariantRun::warn_of_sensors() {
@@ -163,9 +164,8 @@ void VariantRun::keep_lines(const std::string& path) {
 SunLight VariantRun::light_of(std::size_t interval, const SkyGrid& grid,
                               const std::vector<double>& open_share) const {
   const LitInterval& lit = plan_.light.intervals[interval];
-  SunLight light =
-      sun_light(lit, static_cast<std::uint32_t>(interval), plan_.study.light, grid, open_share,
-                plan_.study.solver.bands);
+  SunLight light = sun_light(lit, static_cast<std::uint32_t>(interval), plan_.study.light, grid,
+                             open_share, plan_.study.solver.bands);
   light.disk_half_angle = disk_half_angle(plan_.study.sun.disk, lit.when.sun.distance_au);
   return light;
 }
@@ -196,9 +196,9 @@ SolverRules VariantRun::decided_rules() {
   of_pilot.bands = Bands::broadband;  // the goal is for the mean of the bands
   const AccuracyGoal goal = accuracy_goal(plan_.study);
   refuse_too_much(pilot_memory_bytes(plan_, mesh_->patch_count()));
-  const PatchSpread spread = pilot_spread(
-      scene, mesh_, of_pilot, suns,
-      {weight, plan_.batch_suns(), goal.irradiance_relative.has_value()}, progress_);
+  const PatchSpread spread =
+      pilot_spread(scene, mesh_, of_pilot, suns,
+                   {weight, plan_.batch_suns(), goal.irradiance_relative.has_value()}, progress_);
   const SampleCounts counts = needed_counts(spread, rules, goal, lit.size());
   refuse_too_much(estimate_work(plan_, spread.area.size(), counts).memory_bytes);
   progress_.say(counts_text(plan_, counts));
@@ -235,8 +235,8 @@ void VariantRun::compute_batch(std::size_t batch) {
 void VariantRun::report_work() const {
   constexpr double mib = 1024.0 * 1024;
   const WorkDone& w = solver_->work();
-  std::string text = fmt::format("{}: {} patches\n", plan_.study.variant,
-                                 solver_->hierarchy().patch_count());
+  std::string text =
+      fmt::format("{}: {} patches\n", plan_.study.variant, solver_->hierarchy().patch_count());
   text += rays_text("lines", w.line_rays, w.lines_s);
   text += rays_text("direct sun", w.direct_rays, w.direct_s);
   text += rays_text("mirrored sun", w.mirror_rays, w.mirror_s);

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 #include <vector>
-#include <string>
 
 #include "io/progress.h"
 #include "io/units.h"
@@ -47,7 +46,7 @@ class VariantRun {
   SolverRules rules_;  ///< of the solver, counts decided
   std::unique_ptr<LightSolver> solver_;
   std::vector<double> open_share_;  ///< of the solver's sky cells: what hills leave free
-  WorkDone written_;  ///< work that finished batches carry already
+  WorkDone written_;                ///< work that finished batches carry already
 };
 
 }  // namespace sunload

@@ -106,8 +106,7 @@ json times(const ResultReader& result, std::size_t step) {
 double largest_value(const ResultReader& result, const std::string& name, std::size_t intervals) {
   double largest = 0;
   for (std::size_t first = 0; first < intervals; first += rows_at_a_time)
-    for (const double value :
-         result.rows(name, first, std::min(rows_at_a_time, intervals - first)))
+    for (const double value : result.rows(name, first, std::min(rows_at_a_time, intervals - first)))
       if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
   return largest;
 }

@@ -49,8 +49,8 @@ ShapeFaces triangles_of(SoNode* node) {
   SoCallbackAction action;
   action.addTriangleCallback(
       SoShape::getClassTypeId(),
-      [](void* data, SoCallbackAction* from, const SoPrimitiveVertex* a,
-         const SoPrimitiveVertex* b, const SoPrimitiveVertex* c) {
+      [](void* data, SoCallbackAction* from, const SoPrimitiveVertex* a, const SoPrimitiveVertex* b,
+         const SoPrimitiveVertex* c) {
         auto& faces = *static_cast<ShapeFaces*>(data);
         const auto first = static_cast<std::int32_t>(faces.points.size());
         const Affine here = affine(from->getModelMatrix());
@@ -96,9 +96,9 @@ std::optional<ShapeFaces> VrmlFaces::of_vrml97(SoNode* node) {
                      {cone->side.getValue() != 0, cone->bottom.getValue() != 0});
   }
   if (auto* c = as<SoVRMLCylinder>(node)) {
-    return vrml_cylinder(c->radius.getValue(), c->height.getValue(),
-                         {c->side.getValue() != 0, c->bottom.getValue() != 0,
-                          c->top.getValue() != 0});
+    return vrml_cylinder(
+        c->radius.getValue(), c->height.getValue(),
+        {c->side.getValue() != 0, c->bottom.getValue() != 0, c->top.getValue() != 0});
   }
   if (auto* set = as<SoVRMLIndexedFaceSet>(node)) return face_set(*set);
   if (auto* grid = as<SoVRMLElevationGrid>(node)) return elevation_grid(*grid);
@@ -118,8 +118,7 @@ std::optional<ShapeFaces> VrmlFaces::of_vrml97(SoNode* node) {
 ShapeFaces VrmlFaces::face_set(SoVRMLIndexedFaceSet& node) {
   auto* coordinates = as<SoVRMLCoordinate>(node.coord.getValue());
   ShapeFaces shape;
-  add_faces(node, node.coordIndex, coordinates == nullptr ? 0 : coordinates->point.getNum(),
-            shape);
+  add_faces(node, node.coordIndex, coordinates == nullptr ? 0 : coordinates->point.getNum(), shape);
   if (coordinates != nullptr) take_points(coordinates->point, shape);
   if (node.color.getValue() != nullptr) notes_.count("colours per face or vertex ignored");
   if (node.ccw.getValue() == 0) turn_faces(shape);
@@ -129,7 +128,7 @@ ShapeFaces VrmlFaces::face_set(SoVRMLIndexedFaceSet& node) {
 
 /// Faces by lists of indices, each closed by −1, into a table of `count` points.
 void VrmlFaces::add_faces(const SoNode& node, const SoMFInt32& indices, std::int32_t count,
-               ShapeFaces& shape) {
+                          ShapeFaces& shape) {
   std::vector<std::int32_t> face;
   std::int32_t number = 0;
   const auto finish = [&] {
@@ -164,8 +163,8 @@ ShapeFaces VrmlFaces::elevation_grid(SoVRMLElevationGrid& node) {
   }
   std::vector<double> heights;
   for (int i = 0; i < node.height.getNum(); ++i) heights.push_back(node.height[i]);
-  auto shape = vrml_elevation_grid(
-      heights, {nx, nz, node.xSpacing.getValue(), node.zSpacing.getValue()});
+  auto shape =
+      vrml_elevation_grid(heights, {nx, nz, node.xSpacing.getValue(), node.zSpacing.getValue()});
   if (node.ccw.getValue() == 0) turn_faces(shape);
   shape.is_two_sided = node.solid.getValue() == 0;
   return shape;
@@ -181,8 +180,7 @@ std::optional<ShapeFaces> VrmlFaces::of_inventor(SoNode* node, const Hints& hint
   }
   if (auto* c = as<SoCylinder>(node)) {
     return vrml_cylinder(c->radius.getValue(), c->height.getValue(),
-                         {c->hasPart(SoCylinder::SIDES) != 0,
-                          c->hasPart(SoCylinder::BOTTOM) != 0,
+                         {c->hasPart(SoCylinder::SIDES) != 0, c->hasPart(SoCylinder::BOTTOM) != 0,
                           c->hasPart(SoCylinder::TOP) != 0});
   }
   ShapeFaces shape;
@@ -221,7 +219,7 @@ void VrmlFaces::add_vertex_shape(SoNode* node, std::int32_t count, ShapeFaces& s
 
 /// Faces by their numbers of corners, which lie one after another; −1: all that are left.
 void VrmlFaces::add_rows(const SoNode& node, const SoMFInt32& lengths, std::int32_t first,
-              std::int32_t count, ShapeFaces& shape) {
+                         std::int32_t count, ShapeFaces& shape) {
   for (int row = 0; row < lengths.getNum(); ++row) {
     const std::int32_t length = lengths[row] == -1 ? count - first : lengths[row];
     if (first < 0 || first > count || length < 0 || length > count - first) {

@@ -18,8 +18,7 @@ VrmlModel::VrmlModel(const std::string& path, const SceneFileRules& rules)
 }
 
 int VrmlModel::enter(int parent, const std::string& name) {
-  const std::string prefix =
-      parent < 0 ? "" : places_[static_cast<std::size_t>(parent)].name + "/";
+  const std::string prefix = parent < 0 ? "" : places_[static_cast<std::size_t>(parent)].name + "/";
   places_.push_back({prefix + name});
   return static_cast<int>(places_.size()) - 1;
 }
@@ -58,9 +57,10 @@ MaterialId VrmlModel::material(const void* node, int index, const VrmlMaterial& 
     notes_.count("materials reflect more than they receive (diffuseColor + specularColor above 1)");
   }
   if (material.emitted_power_w > 0) {
-    notes_.say(fmt::format("material '{}' emits {:.6g} W in all (emissiveColor × "
-                           "scene.emission_scale_w)",
-                           material.name, material.emitted_power_w));
+    notes_.say(
+        fmt::format("material '{}' emits {:.6g} W in all (emissiveColor × "
+                    "scene.emission_scale_w)",
+                    material.name, material.emitted_power_w));
   }
   if (colours.transparency > 0) notes_.count("transparencies of materials ignored");
   model_.materials.push_back(std::move(material));
@@ -99,12 +99,11 @@ void VrmlModel::add(const ShapeFaces& shape, const Affine& file_from_shape, int 
         const Vec3 position = scene_from_file_(in_file);
         if (!is_usable(position)) {
           throw InputError({model_.source}, "has a vertex beyond all coordinates on Earth",
-                           "in object '" +
-                               model_.object_names[object_of(place).index()] + "'",
+                           "in object '" + model_.object_names[object_of(place).index()] + "'",
                            "is unit_m right?");
         }
-        largest_ = std::max({largest_, std::abs(position.x), std::abs(position.y),
-                             std::abs(position.z)});
+        largest_ =
+            std::max({largest_, std::abs(position.x), std::abs(position.y), std::abs(position.z)});
         target = static_cast<std::int32_t>(model_.vertices.size());
         model_.vertices.push_back(position);
       }

@@ -21,7 +21,7 @@ struct VrmlMaterial {
 
 /// One place in the tree under a name; every instance of a node is a place of its own.
 struct VrmlPlace {
-  std::string name;                     ///< DEFs from the root, joined by '/'
+  std::string name;                    ///< DEFs from the root, joined by '/'
   ObjectId object = ObjectId::none();  ///< once it has faces
 };
 

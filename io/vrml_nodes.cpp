@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t longest_message = 400;  ///< characters kept of one of Coin
-constexpr int most_repairs = 200;  ///< kinds of unknown fields; each reads anew
+constexpr int most_repairs = 200;             ///< kinds of unknown fields; each reads anew
 
 std::string text_of(const SbName& name) { return name.getString(); }
 
@@ -165,8 +165,8 @@ SoSeparator* VrmlFiles::parse(VrmlText& text) {
 
 void VrmlFiles::refuse(const VrmlText& text) const {
   if (errors_.empty()) throw InputError({text.path}, "cannot be parsed", "Coin gives no reason");
-  throw InputError({text.path, errors_.front().line}, "cannot be parsed",
-                   errors_.front().text, "is the file cut off?");
+  throw InputError({text.path, errors_.front().line}, "cannot be parsed", errors_.front().text,
+                   "is the file cut off?");
 }
 
 /// Takes away what Coin does not know. False where that is not the trouble.

@@ -45,8 +45,10 @@ void add_band(ShapeFaces& shape, std::int32_t lower, std::int32_t upper) {
 void add_tip(ShapeFaces& shape, std::int32_t circle, std::int32_t tip, Facing facing) {
   for (std::int32_t k = 0; k < turn_segments; ++k) {
     const auto next = (k + 1) % turn_segments;
-    if (facing == Facing::up) shape.faces.push_back({circle + k, circle + next, tip});
-    else shape.faces.push_back({circle + next, circle + k, tip});
+    if (facing == Facing::up)
+      shape.faces.push_back({circle + k, circle + next, tip});
+    else
+      shape.faces.push_back({circle + next, circle + k, tip});
   }
 }
 
@@ -73,8 +75,10 @@ ShapeFaces vrml_sphere(double radius) {
     const double latitude = std::numbers::pi * ring / rings - std::numbers::pi / 2;
     const auto circle =
         add_circle(sphere, radius * std::cos(latitude), radius * std::sin(latitude));
-    if (ring == 1) add_tip(sphere, circle, bottom, Facing::down);
-    else add_band(sphere, below, circle);
+    if (ring == 1)
+      add_tip(sphere, circle, bottom, Facing::down);
+    else
+      add_band(sphere, below, circle);
     below = circle;
   }
   add_tip(sphere, below, add_point(sphere, {0, radius, 0}), Facing::up);
@@ -101,9 +105,9 @@ ShapeFaces vrml_cylinder(double radius, double height, CylinderParts parts) {
 
 ShapeFaces vrml_elevation_grid(const std::vector<double>& heights, ElevationRules rules) {
   const auto [x_count, z_count, x_spacing, z_spacing] = rules;
-  SUNLOAD_EXPECT(heights.size() == static_cast<std::size_t>(x_count) *
-                                       static_cast<std::size_t>(z_count),
-                 "heights of an elevation grid");
+  SUNLOAD_EXPECT(
+      heights.size() == static_cast<std::size_t>(x_count) * static_cast<std::size_t>(z_count),
+      "heights of an elevation grid");
   ShapeFaces grid;
   for (std::int32_t j = 0; j < z_count; ++j) {
     for (std::int32_t i = 0; i < x_count; ++i) {

@@ -280,8 +280,7 @@ struct Span {
 /// Blanks out the spans and puts `word` at their begin; lines stay where they are.
 VrmlDropped replace_all(VrmlText& file, const std::vector<Span>& spans, std::string_view word) {
   if (spans.empty()) return {};
-  const VrmlDropped dropped{spans.size(),
-                            place_in_text(file.path, file.text, spans.front().begin)};
+  const VrmlDropped dropped{spans.size(), place_in_text(file.path, file.text, spans.front().begin)};
   for (auto span = spans.rbegin(); span != spans.rend(); ++span) {
     for (auto at = span->begin; at < span->end; ++at) {
       if (file.text[at] != '\n' && file.text[at] != '\r') file.text[at] = ' ';
@@ -393,8 +392,7 @@ VrmlDropped drop_vrml_events(VrmlText& file) {
   return replace_all(file, spans, {});
 }
 
-std::optional<std::string> node_with_field(const VrmlText& file, std::string_view field,
-                                           int line) {
+std::optional<std::string> node_with_field(const VrmlText& file, std::string_view field, int line) {
   std::optional<std::string> node;
   in_nodes(file.text, [&](Tokens& tokens, std::string_view type, std::string_view token) {
     if (token != field || node) return;

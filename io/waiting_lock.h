@@ -13,7 +13,7 @@ class WaitingLock {
  public:
   struct Rules {
     std::function<bool()> is_cancelled{};  ///< asked every tenth of a second while waiting
-    std::function<void()> waiting{};     ///< called once, where another process has the lock
+    std::function<void()> waiting{};       ///< called once, where another process has the lock
   };
   /// Returns when the lock is held, or at once where the file system has no locks: then
   /// `problem` says so, and nothing is held. Throws Interrupted where the wait is cancelled.

@@ -45,9 +45,7 @@ struct Wanted {
                         ? 0
                         : share_that_counts * *std::max_element(of.value.begin(), of.value.end())) {
   }
-  bool counts(std::size_t i) const {
-    return spread.value[i] > 0 && spread.value[i] >= least_value;
-  }
+  bool counts(std::size_t i) const { return spread.value[i] > 0 && spread.value[i] >= least_value; }
   double largest_variance(std::size_t i) const {
     const double error = relative * spread.value[i];
     return error * error;
@@ -144,7 +142,7 @@ AccuracyGoal with_room(AccuracyGoal goal, int realizations) {
 std::vector<int> doubled(int least, int most, int realizations) {
   most = std::max(least, most / realizations * realizations);
   std::vector<int> counts;
-  for (int count = least; count < most; count = count > most / 2 ? most : 2 * count)
+  for (int count = least; count<most; count = count> most / 2 ? most : 2 * count)
     counts.push_back(count);
   counts.push_back(most);
   return counts;
@@ -157,15 +155,18 @@ void choose_lines(const PatchSpread& spread, const AccuracyGoal& goal,
                                           wanted_irradiances(spread, goal)};
   constexpr std::size_t patches_per_task = 4096;
   counts.lines_of_patch.assign(spread.area.size(), levels.front());
-  parallel_for(spread.area.size(), [&](std::size_t i) {
-    double needed = 0;
-    for (const auto& kind : of_kinds)
-      for (const Wanted& quantity : kind)
-        if (quantity.counts(i))
-          needed = std::max(needed, quantity.needed_lines(i, counts, levels.back()));
-    const auto level = std::lower_bound(levels.begin(), levels.end(), needed);
-    counts.lines_of_patch[i] = level == levels.end() ? levels.back() : *level;
-  }, patches_per_task);
+  parallel_for(
+      spread.area.size(),
+      [&](std::size_t i) {
+        double needed = 0;
+        for (const auto& kind : of_kinds)
+          for (const Wanted& quantity : kind)
+            if (quantity.counts(i))
+              needed = std::max(needed, quantity.needed_lines(i, counts, levels.back()));
+        const auto level = std::lower_bound(levels.begin(), levels.end(), needed);
+        counts.lines_of_patch[i] = level == levels.end() ? levels.back() : *level;
+      },
+      patches_per_task);
   const double mean = counts.mean_lines();
   counts.lines_per_patch = *std::lower_bound(levels.begin(), levels.end(), mean);
 }

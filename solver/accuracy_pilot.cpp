@@ -118,8 +118,8 @@ void append(std::vector<float>& to, const std::vector<float>& from) {
 }
 
 /// Exposures of all suns, and what is told of every one; so many at a time share their samples.
-BatchTally solved_in_blocks(LightSolver& solver, std::span<const SunLight> suns,
-                            std::size_t block, PilotWatch& watch) {
+BatchTally solved_in_blocks(LightSolver& solver, std::span<const SunLight> suns, std::size_t block,
+                            PilotWatch& watch) {
   BatchTally sum = solver.solve({}, watch);
   constexpr auto total = static_cast<std::size_t>(Part::total);
   for (std::size_t begin = 0; begin < suns.size(); begin += block) {
@@ -257,13 +257,12 @@ PatchSpread shot_spread(LightSolver& solver, std::span<const SunLight> suns,
   PatchSpread spread;
   spread.load = shot_load(solver, tally, pilot.weight, excess_of);
   if (pilot.of_instants)
-    spread.irradiance = spread_of_instants(
-        solver, tally, std::max(excess_of.of_emitters, excess_of.of_patches));
+    spread.irradiance =
+        spread_of_instants(solver, tally, std::max(excess_of.of_emitters, excess_of.of_patches));
   const double first = static_cast<double>(solver.rules().lines_per_patch) *
                        static_cast<double>(solver.hierarchy().patch_count());
   const double blocks = std::ceil(static_cast<double>(suns.size()) / static_cast<double>(block));
-  if (blocks > 0 && first > 0)
-    spread.shots_per_block = by_patches.wanted_samples / first / blocks;
+  if (blocks > 0 && first > 0) spread.shots_per_block = by_patches.wanted_samples / first / blocks;
   return spread;
 }
 

@@ -70,9 +70,12 @@ BlockSources sources_in_band(const BlockSources& broadband, std::span<const SunL
 Columns scaled(Columns columns, const std::array<double, block_width>& factors) {
   std::array<float, block_width> of_sun;
   for (std::size_t k = 0; k < block_width; ++k) of_sun[k] = static_cast<float>(factors[k]);
-  parallel_for(columns.size() / block_width, [&](std::size_t i) {
-    for (std::size_t k = 0; k < block_width; ++k) columns[i * block_width + k] *= of_sun[k];
-  }, patches_per_task);
+  parallel_for(
+      columns.size() / block_width,
+      [&](std::size_t i) {
+        for (std::size_t k = 0; k < block_width; ++k) columns[i * block_width + k] *= of_sun[k];
+      },
+      patches_per_task);
   return columns;
 }
 
@@ -81,10 +84,13 @@ void add_weighted(const std::vector<Columns>& of_realizations,
                   std::vector<std::vector<double>>& sums) {
   for (std::size_t r = 0; r < of_realizations.size(); ++r) {
     const Columns& irradiance = of_realizations[r];
-    parallel_for(irradiance.size() / block_width, [&](std::size_t i) {
-      for (std::size_t k = 0; k < block_width; ++k)
-        sums[r][i] += weights[k] * static_cast<double>(irradiance[i * block_width + k]);
-    }, patches_per_task);
+    parallel_for(
+        irradiance.size() / block_width,
+        [&](std::size_t i) {
+          for (std::size_t k = 0; k < block_width; ++k)
+            sums[r][i] += weights[k] * static_cast<double>(irradiance[i * block_width + k]);
+        },
+        patches_per_task);
   }
 }
 

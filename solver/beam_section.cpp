@@ -76,8 +76,8 @@ BeamSection::BeamSection(const BeamSource& source, const std::vector<ConvexPolyg
             std::min(all_.nearest, b.nearest), std::max(all_.farthest, b.farthest)};
   }
   constexpr double most_cells = 128;
-  cells_ = static_cast<int>(
-      std::clamp(std::sqrt(static_cast<double>(parts.size())), 1.0, most_cells));
+  cells_ =
+      static_cast<int>(std::clamp(std::sqrt(static_cast<double>(parts.size())), 1.0, most_cells));
   parts_of_cell_.resize(static_cast<std::size_t>(cells_ * cells_));
   for (std::size_t part = 0; part < parts.size(); ++part)
     for_each_cell(boxes_[part], [&](std::vector<std::uint32_t>& cell) {
@@ -89,8 +89,8 @@ BeamSection::Box BeamSection::box(const ConvexPolygon& polygon) const {
   Box b{infinite, -infinite, infinite, -infinite, infinite, -infinite};
   for (const Vec3 p : polygon) {
     const double x = dot(p, axes_.tangent), y = dot(p, axes_.bitangent), z = dot(p, source_.w);
-    b = {std::min(b.x0, x),      std::max(b.x1, x),       std::min(b.y0, y),
-         std::max(b.y1, y),      std::min(b.nearest, z),  std::max(b.farthest, z)};
+    b = {std::min(b.x0, x), std::max(b.x1, x),      std::min(b.y0, y),
+         std::max(b.y1, y), std::min(b.nearest, z), std::max(b.farthest, z)};
   }
   return b;
 }

@@ -34,8 +34,8 @@ void BlockSources::split_sky(const SkyGrid& grid) {
   }
 }
 
-BlockLight first_light(const LineSet& lines, const PatchOptics& optics,
-                       const BlockSources& sources, FirstLight first) {
+BlockLight first_light(const LineSet& lines, const PatchOptics& optics, const BlockSources& sources,
+                       FirstLight first) {
   const std::size_t rows = lines.ends.size();
   BlockLight light;
   light.direct = std::move(first.direct);
@@ -51,11 +51,14 @@ BlockLight first_light(const LineSet& lines, const PatchOptics& optics,
   for (std::size_t i = 0; i < first.parallel.size(); ++i)
     light.lamps[i] += static_cast<float>(first.parallel[i]);
   light.reflected = columns(rows);
-  parallel_for(rows, [&](std::size_t i) {
-    const float seen = lines.ends[i].ground + lines.ends[i].ground_by_mirror;
-    for (std::size_t k = 0; k < block_width; ++k)
-      light.reflected[i * block_width + k] = seen * sources.ground_exitance[k];
-  }, patches_per_task);
+  parallel_for(
+      rows,
+      [&](std::size_t i) {
+        const float seen = lines.ends[i].ground + lines.ends[i].ground_by_mirror;
+        for (std::size_t k = 0; k < block_width; ++k)
+          light.reflected[i * block_width + k] = seen * sources.ground_exitance[k];
+      },
+      patches_per_task);
   return light;
 }
 
@@ -63,12 +66,15 @@ BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchO
                        const BlockSources& sources, FirstLight first, int bounces) {
   BlockLight light = first_light(lines, optics, sources, std::move(first));
   Columns base = columns(optics.diffuse.size());
-  parallel_for(optics.diffuse.size(), [&](std::size_t i) {
-    for (std::size_t k = 0; k < block_width; ++k) {
-      const std::size_t at = i * block_width + k;
-      base[at] = light.direct[at] + light.sky[at] + light.mirror[at] + light.lamps[i];
-    }
-  }, patches_per_task);
+  parallel_for(
+      optics.diffuse.size(),
+      [&](std::size_t i) {
+        for (std::size_t k = 0; k < block_width; ++k) {
+          const std::size_t at = i * block_width + k;
+          base[at] = light.direct[at] + light.sky[at] + light.mirror[at] + light.lamps[i];
+        }
+      },
+      patches_per_task);
   Reflected reflected = reflect(mesh, lines, optics, base, light.reflected, bounces);
   light.reflected = std::move(reflected.irradiance);
   light.followed = std::move(reflected.followed);
@@ -87,15 +93,13 @@ std::vector<Ledger> block_ledger(const LineSet& lines, const PatchOptics& optics
     for (std::size_t i = begin; i < end; ++i)
       for (std::size_t k = 0; k < suns; ++k) {
         const std::size_t at = i * block_width + k;
-        part[k] += booked({area[i], static_cast<double>(optics.diffuse[i]), optics.absorbed(i),
-                           static_cast<double>(optics.passed[i]),
-                           static_cast<double>(optics.emission[i]),
-                           static_cast<double>(light.direct[at]),
-                           static_cast<double>(light.sky[at]),
-                           static_cast<double>(sources.ground_exitance[k]),
-                           static_cast<double>(light.total(i, k)),
-                           static_cast<double>(light.followed[at])},
-                          lines.ends[i]);
+        part[k] += booked(
+            {area[i], static_cast<double>(optics.diffuse[i]), optics.absorbed(i),
+             static_cast<double>(optics.passed[i]), static_cast<double>(optics.emission[i]),
+             static_cast<double>(light.direct[at]), static_cast<double>(light.sky[at]),
+             static_cast<double>(sources.ground_exitance[k]),
+             static_cast<double>(light.total(i, k)), static_cast<double>(light.followed[at])},
+            lines.ends[i]);
       }
   });
   std::vector<Ledger> ledger(suns);

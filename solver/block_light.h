@@ -19,9 +19,9 @@ struct BlockSources {
   /// From now on the lines carry the sky without its circumsolar part.
   void split_sky(const SkyGrid& grid);
   std::span<const SunLight> suns;
-  Columns sky;                                   ///< [cells][block] π·radiance, by way of mirrors
-  Columns sky_of_lines;                          ///< the same, straight
-  std::vector<CircumsolarSky> circumsolar;       ///< per sun, after split_sky
+  Columns sky;                              ///< [cells][block] π·radiance, by way of mirrors
+  Columns sky_of_lines;                     ///< the same, straight
+  std::vector<CircumsolarSky> circumsolar;  ///< per sun, after split_sky
   /// Multiple of it that shines: 1, or of a band.
   std::array<double, block_width> circumsolar_factor;
   /// Radiance of a cell that the lines do not take [W m-2 sr-1].
@@ -34,8 +34,8 @@ struct BlockSources {
 /// Irradiance of a block by parts, [N][block] W m-2.
 struct BlockLight {
   Columns direct, sky, mirror, reflected;
-  Columns followed;           ///< radiosity gathered last
-  std::vector<float> lamps;   ///< [N], the same for all suns
+  Columns followed;          ///< radiosity gathered last
+  std::vector<float> lamps;  ///< [N], the same for all suns
 
   float total(std::size_t patch, std::size_t k) const {
     const std::size_t at = patch * block_width + k;
@@ -52,8 +52,8 @@ struct FirstLight {
 
 /// What arrives at the rows of `lines` without diffuse reflection by patches; `reflected`
 /// holds the far ground alone, `followed` nothing.
-BlockLight first_light(const LineSet& lines, const PatchOptics& optics,
-                       const BlockSources& sources, FirstLight first);
+BlockLight first_light(const LineSet& lines, const PatchOptics& optics, const BlockSources& sources,
+                       FirstLight first);
 
 BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                        const BlockSources& sources, FirstLight first, int bounces);

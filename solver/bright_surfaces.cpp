@@ -137,9 +137,8 @@ BrightSurfaces::Point BrightSurfaces::point(std::size_t c, double u, double v) c
   const BrightCluster& cluster = clusters_[c];
   const auto begin = sources_.begin() + static_cast<std::ptrdiff_t>(cluster.begin);
   const auto last = sources_.begin() + static_cast<std::ptrdiff_t>(cluster.end) - 1;
-  const auto chosen = std::upper_bound(begin, last, u, [](double share, const BrightSource& s) {
-    return share < s.up_to;
-  });
+  const auto chosen = std::upper_bound(
+      begin, last, u, [](double share, const BrightSource& s) { return share < s.up_to; });
   // What is left of u after a choice is uniform again.
   constexpr double below_one = 1 - 0x1p-53;
   const double low = chosen == begin ? 0 : (chosen - 1)->up_to;

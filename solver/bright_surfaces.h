@@ -22,20 +22,20 @@ std::vector<std::uint32_t> ranks_of_objects(const Mesh& mesh);
 
 struct BrightSource {
   Vec3 a, ab, ac, normal;
-  double radiosity, area;    ///< estimate [W m-2], exitance included
-  double exitance;           ///< known exactly [W m-2]
+  double radiosity, area;  ///< estimate [W m-2], exitance included
+  double exitance;         ///< known exactly [W m-2]
   std::uint32_t patch;
   std::size_t cluster = 0;
-  double up_to = 0;          ///< share of the cluster's power, this source included
+  double up_to = 0;  ///< share of the cluster's power, this source included
 };
 
 /// Neighbours that face alike.
 struct BrightCluster {
-  std::size_t begin, end;    ///< of sources
+  std::size_t begin, end;  ///< of sources
   Vec3 centre;
   double radius = 0, power = 0;
-  Vec3 normal;               ///< of all its sources; 0 where they differ
-  double thickness = 0;      ///< largest distance from the centre along the normal
+  Vec3 normal;           ///< of all its sources; 0 where they differ
+  double thickness = 0;  ///< largest distance from the centre along the normal
   /// Largest of n·(y - centre) over its points y; n unit.
   double reach(Vec3 n) const;
 };

@@ -17,8 +17,9 @@ constexpr std::size_t patches_per_task = 1024;
 // Measured on the built-in street under clear skies, suns from 12° to 40°: with less the samples
 // of half-hidden skies have the larger part of the error, with more the lines.
 constexpr double cap_by_mean = 3;
-constexpr double reach = 30 * radians_per_degree;  ///< about the sun: a clear horizon is bright, too
-constexpr double least_share = 0.02;               ///< of the sky, for its samples to be worth it
+constexpr double reach =
+    30 * radians_per_degree;          ///< about the sun: a clear horizon is bright, too
+constexpr double least_share = 0.02;  ///< of the sky, for its samples to be worth it
 constexpr double slots = 4096;
 
 /// SkyGrid::direction in single precision and without branches, in the shape that compilers turn
@@ -31,8 +32,7 @@ __attribute__((target_clones("default", "avx2", "avx512f"))) void aim(
     const float r = size_a > size_b ? size_a : size_b, less = size_a > size_b ? size_b : size_a;
     const float angle = quarter_pi * less / (r + least), square = angle * angle;
     const float sine = angle * (1 - square / 6 * (1 - square / 20 * (1 - square / 42)));
-    const float cosine =
-        1 - square / 2 * (1 - square / 12 * (1 - square / 30 * (1 - square / 56)));
+    const float cosine = 1 - square / 2 * (1 - square / 12 * (1 - square / 30 * (1 - square / 56)));
     const float sine_of_zenith = r * std::sqrt(2 - r * r);
     const float across = sine_of_zenith * cosine, along = sine_of_zenith * sine;
     const float x = std::copysign(size_a > size_b ? across : along, a[s]);
@@ -213,8 +213,7 @@ CircumsolarLight circumsolar_light(const Hierarchy& hierarchy, const RayCaster& 
   out.irradiance = columns(patches);
   out.rays = ordered_sum(patches, patches_per_task, std::uint64_t{0},
                          [&](std::size_t begin, std::size_t end) {
-                           PatchSkies work(caster, sampler, block, skies, sunlit,
-                                           exposure.size());
+                           PatchSkies work(caster, sampler, block, skies, sunlit, exposure.size());
                            for (std::size_t i = begin; i < end; ++i)
                              work.run(i, out.irradiance, exposure, of_realizations);
                            return work.rays;

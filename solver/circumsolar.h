@@ -48,7 +48,7 @@ class CircumsolarSky {
   struct Samples {
     PacketDirections directions;
     alignas(64) float cos_theta[packet_size];  ///< n·w, of any sign
-    std::uint32_t in_front = 0;  ///< bits: cos_theta > 0
+    std::uint32_t in_front = 0;                ///< bits: cos_theta > 0
   };
   void sample(const ScrambledPoints& points, Vec3 normal, Samples& out) const;
 

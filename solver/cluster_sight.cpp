@@ -36,10 +36,13 @@ ClusterSight::ClusterSight(const Scene& scene, const Hierarchy& hierarchy, const
   const View view{hierarchy, caster, surfaces, seed};
   group_patches(view, scene, rays);
   shares_.assign(groups_.size() * clusters_, {0, 0, 0});
-  parallel_for(groups_.size(), [&](std::size_t g) {
-    for (std::size_t c = 0; c < clusters_; ++c)
-      if (may_face(view, g, c)) see(view, g, c, shares_[g * clusters_ + c]);
-  }, groups_per_task);
+  parallel_for(
+      groups_.size(),
+      [&](std::size_t g) {
+        for (std::size_t c = 0; c < clusters_; ++c)
+          if (may_face(view, g, c)) see(view, g, c, shares_[g * clusters_ + c]);
+      },
+      groups_per_task);
   look_around(view);
 }
 
@@ -47,8 +50,7 @@ void ClusterSight::group_patches(const View& view, const Scene& scene, double ra
   const Hierarchy& hierarchy = view.hierarchy;
   std::vector<std::uint32_t> all(hierarchy.patch_count());
   std::iota(all.begin(), all.end(), 0u);
-  const double pairs =
-      rays / (static_cast<double>(clusters_) * static_cast<double>(all.size()));
+  const double pairs = rays / (static_cast<double>(clusters_) * static_cast<double>(all.size()));
   pairs_ = static_cast<int>(std::clamp(pairs, double{fewest_pairs}, double{most_pairs}));
   pairs_ -= pairs_ % static_cast<int>(packet_size);
   const auto each = static_cast<std::size_t>(std::ceil(std::max(1.0, fewest_pairs / pairs)));
@@ -56,8 +58,8 @@ void ClusterSight::group_patches(const View& view, const Scene& scene, double ra
   const auto of_object = ranks_of_objects(scene.mesh);
   std::vector<std::uint32_t> rank;
   for (const auto& patch : hierarchy.patches())
-    rank.push_back(of_object[scene.mesh.triangle_object[static_cast<std::size_t>(patch.triangle)]
-                                 .index()]);
+    rank.push_back(
+        of_object[scene.mesh.triangle_object[static_cast<std::size_t>(patch.triangle)].index()]);
   const auto order = in_neighbourhoods(hierarchy, std::move(all), rank);
   for (std::size_t k = 0; k < order.size(); ++k) {
     // Rather smaller groups than groups across edges, as long as they are not many more.
@@ -83,11 +85,10 @@ bool ClusterSight::may_face(const View& view, std::size_t g, std::size_t c) cons
 
 void ClusterSight::see(const View& view, std::size_t g, std::size_t c, Share& share) const {
   const auto& [hierarchy, caster, surfaces, seed] = view;
-  const auto seeds = random_words(
-      {.seed = seed,
-       .purpose = Purpose::bright_surfaces,
-       .element = mixed(hierarchy.key()[groups_[g].front()],
-                        hierarchy.key()[surfaces.first_of(c).patch])});
+  const auto seeds = random_words({.seed = seed,
+                                   .purpose = Purpose::bright_surfaces,
+                                   .element = mixed(hierarchy.key()[groups_[g].front()],
+                                                    hierarchy.key()[surfaces.first_of(c).patch])});
   const double offset = caster.offset_m();
   const auto count = static_cast<std::uint32_t>(pairs_);
   double seen = 0, facing = 0;

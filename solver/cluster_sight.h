@@ -38,7 +38,7 @@ class ClusterSight {
   int pairs_ = 0;                                   ///< per group and cluster
   std::vector<std::vector<std::uint32_t>> groups_;  ///< patches
   std::vector<std::uint32_t> group_of_patch_;
-  std::vector<Share> shares_;                       ///< [group][cluster]
+  std::vector<Share> shares_;  ///< [group][cluster]
 };
 
 }  // namespace sunload

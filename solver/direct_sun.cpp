@@ -109,8 +109,7 @@ SunSampler::Geometry SunSampler::geometry(std::size_t receiver) const {
 
 void SunSampler::seed(std::size_t receiver, std::uint32_t sun, Seeds& seeds,
                       Purpose purpose) const {
-  const std::uint64_t element =
-      sensors_ ? (*sensors_)[receiver].key : hierarchy_->key()[receiver];
+  const std::uint64_t element = sensors_ ? (*sensors_)[receiver].key : hierarchy_->key()[receiver];
   const auto count = static_cast<std::size_t>(rules_.realizations);
   const std::size_t groups = (count + lanes - 1) / lanes;
   seeds.u.resize(groups * lanes);

@@ -78,7 +78,7 @@ class SunSampler {
   SunSampler(const Hierarchy* hierarchy, const std::vector<Sensor>* sensors,
              const RayCaster& caster, const DirectRules& rules);
 
-  const Hierarchy* hierarchy_;          // one of the two
+  const Hierarchy* hierarchy_;  // one of the two
   const std::vector<Sensor>* sensors_;
   double offset_m_;
   DirectRules rules_;
@@ -87,8 +87,8 @@ class SunSampler {
 
 /// Result of one block of suns. Sizes: receivers N, realizations R.
 struct DirectSun {
-  Columns irradiance;             ///< [N][block] pooled, W m-2
-  Columns sunlit;                 ///< [N][block] visible share, for every sun above the horizon
+  Columns irradiance;  ///< [N][block] pooled, W m-2
+  Columns sunlit;      ///< [N][block] visible share, for every sun above the horizon
   std::uint64_t rays = 0;
 };
 

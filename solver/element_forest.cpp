@@ -56,7 +56,8 @@ std::int32_t ElementForest::midpoint(const Edge& edge) {
       midpoints_.try_emplace(packed(edge), static_cast<std::int32_t>(vertices_.size()));
   if (is_new)
     vertices_.push_back((vertices_[static_cast<std::size_t>(edge.first)] +
-                         vertices_[static_cast<std::size_t>(edge.second)]) / 2);
+                         vertices_[static_cast<std::size_t>(edge.second)]) /
+                        2);
   return place->second;
 }
 

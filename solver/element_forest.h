@@ -19,8 +19,8 @@
 namespace sunload {
 
 struct SplitRules {
-  double max_edge_m = 1e9;   ///< split while the longest edge is longer
-  double min_area_m2 = 0;    ///< never split an element below twice this area
+  double max_edge_m = 1e9;  ///< split while the longest edge is longer
+  double min_area_m2 = 0;   ///< never split an element below twice this area
   std::size_t max_patches = 100'000'000;
 };
 
@@ -30,8 +30,8 @@ class ElementForest {
     Corners vertices;
     std::int32_t first_child = -1;  ///< its sibling follows; -1: a leaf
     std::int32_t triangle = -1;
-    std::uint64_t path = 1;         ///< 1 for a root, 2·path and 2·path + 1 for its children
-    std::uint8_t apex = 0;          ///< corner opposite of the longest edge
+    std::uint64_t path = 1;  ///< 1 for a root, 2·path and 2·path + 1 for its children
+    std::uint8_t apex = 0;   ///< corner opposite of the longest edge
     bool is_leaf() const { return first_child < 0; }
   };
 

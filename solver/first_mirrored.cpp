@@ -36,8 +36,7 @@ class FirstMirrored::LineTask {
   void run(std::size_t patch) {
     const PatchLines lines(m_.hierarchy_, patch, m_.caster_.offset_m(),
                            line_seeds(m_.hierarchy_, patch, realization_, m_.rules_.seed));
-    const auto count =
-        static_cast<std::size_t>(m_.rules_.lines_of(patch) / m_.rules_.realizations);
+    const auto count = static_cast<std::size_t>(m_.rules_.lines_of(patch) / m_.rules_.realizations);
     const double share = m_.hierarchy_.area()[patch] / static_cast<double>(count);
     // Packets as in trace_lines, so that the same lines are found to leave.
     for (std::size_t first = 0; first < count; first += packet_size)
@@ -167,8 +166,8 @@ class FirstMirrored::SunTask {
     // The rays of the direct sun once more, so that the same ones are found to be lit.
     const auto active = m_.sampler_.active(packet);
     const bool disk = sun.disk_half_angle > 0;
-    const PacketDirections directions = disk ? m_.sampler_.directions(sun, seeds_, packet)
-                                             : PacketDirections{};
+    const PacketDirections directions =
+        disk ? m_.sampler_.directions(sun, seeds_, packet) : PacketDirections{};
     auto lit = disk ? m_.caster_.unoccluded_each(origins, directions, active)
                     : m_.caster_.unoccluded(origins, sun.direction, active);
     const Vec3 n = m_.hierarchy_.normal(patch);
@@ -212,8 +211,7 @@ FirstMirrored::SentSuns FirstMirrored::send(std::span<const SunLight> block) con
   SentSuns sent;
   if (!any()) return sent;
   const std::size_t chunks = tasks(mirrors_.size());
-  sent.of_realization.resize(static_cast<std::size_t>(rules_.realizations),
-                             {Deposits(chunks), {}});
+  sent.of_realization.resize(static_cast<std::size_t>(rules_.realizations), {Deposits(chunks), {}});
   std::vector<SunTask> parts(chunks, SunTask(*this, block));
   parallel_chunks(mirrors_.size(), mirrors_per_task, [&](std::size_t begin, std::size_t end) {
     const std::size_t chunk = begin / mirrors_per_task;

@@ -16,8 +16,8 @@ struct PaneShares {
 /// Plane-parallel panes in air, with all reflections between their faces.
 struct Panes {
   double refractive_index = 1.52;  ///< n > 1
-  double absorption = 0;           ///< K·L, absorption coefficient times thickness of one pane ≥ 0
-  int count = 1;                   ///< equal panes one behind the other
+  double absorption = 0;  ///< K·L, absorption coefficient times thickness of one pane ≥ 0
+  int count = 1;          ///< equal panes one behind the other
 };
 
 /// At the angle of incidence whose cosine is `cos_theta`, 0 … 1. Grazing light is reflected.

@@ -48,8 +48,8 @@ class GlossySun {
   class Chunk;
   std::uint64_t add_light(const Lines& lines, const LobeImages* of_sensors,
                           std::span<const SunLight> block, MirroredIrradiance into) const;
-  void send_on(const LineFollower& follower, const SunLight& sun, std::size_t k,
-               std::size_t patch, std::vector<MirroredSun>& fates) const;
+  void send_on(const LineFollower& follower, const SunLight& sun, std::size_t k, std::size_t patch,
+               std::vector<MirroredSun>& fates) const;
   const Material& material_of(std::int32_t triangle) const {
     return scene_.materials[scene_.material[static_cast<std::size_t>(triangle)].index()];
   }

@@ -102,9 +102,8 @@ Moments moments_of(const Hierarchy& hierarchy, const RayCaster& caster, const Gu
       sum.by_lines += share * B;
     }
   }
-  const auto seeds = random_words({.seed = seed,
-                                   .purpose = Purpose::bright_surfaces,
-                                   .element = hierarchy.key()[patch]});
+  const auto seeds = random_words(
+      {.seed = seed, .purpose = Purpose::bright_surfaces, .element = hierarchy.key()[patch]});
   view.see_points(caster, seeds, count, [&](const BrightView::SeenPoint& point) {
     const double B = radiosity(static_cast<std::int32_t>(point.patch));
     sum.add(B, point.share);
@@ -132,8 +131,7 @@ std::vector<float> shares_of_lines(const Hierarchy& hierarchy, const RayCaster& 
 
 }  // namespace
 
-Guide emitting_surfaces(const Scene& scene, const Hierarchy& hierarchy,
-                        const PatchOptics& optics) {
+Guide emitting_surfaces(const Scene& scene, const Hierarchy& hierarchy, const PatchOptics& optics) {
   return {{scene, hierarchy, emission_of(optics), fewest_clusters}, {}, {}};
 }
 
@@ -141,9 +139,8 @@ Guide lit_surfaces(const Scene& scene, const Hierarchy& hierarchy, const RayCast
                    const SkyGrid& grid, const PatchOptics& optics, const LineRules& rules,
                    int bounces) {
   Watch silent;
-  const double rays =
-      std::max(least_rays, static_cast<double>(hierarchy.patch_count()) * rules.lines_per_patch /
-                               lines_share);
+  const double rays = std::max(least_rays, static_cast<double>(hierarchy.patch_count()) *
+                                               rules.lines_per_patch / lines_share);
   const auto guide_to = [&](std::span<const double> radiosity) {
     BrightSurfaces bright(scene, hierarchy, radiosity, clusters_for(rules.lines_per_patch));
     ClusterSight sight(scene, hierarchy, caster, bright, rays, rules.seed);
@@ -151,13 +148,12 @@ Guide lit_surfaces(const Scene& scene, const Hierarchy& hierarchy, const RayCast
   };
   Guide guide = guide_to(emission_of(optics));
   for (int look = 0; look < looks && guide.any(); ++look) {
-    const Lines lines = trace_lines(scene, hierarchy, caster, grid, guide,
-                                    rules_of_look(rules, look), silent);
+    const Lines lines =
+        trace_lines(scene, hierarchy, caster, grid, guide, rules_of_look(rules, look), silent);
     guide = guide_to(radiosity_by(lines.pooled, hierarchy, optics, bounces));
   }
   if (guide.any())
-    guide.lines_alone =
-        shares_of_lines(hierarchy, caster, guide, rules_of_look(rules, looks));
+    guide.lines_alone = shares_of_lines(hierarchy, caster, guide, rules_of_look(rules, looks));
   return guide;
 }
 

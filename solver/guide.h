@@ -8,8 +8,7 @@
 namespace sunload {
 
 /// Emitters alone, each by its exitance, whether they are seen or not. Cost: a scan of the patches.
-Guide emitting_surfaces(const Scene& scene, const Hierarchy& hierarchy,
-                                 const PatchOptics& optics);
+Guide emitting_surfaces(const Scene& scene, const Hierarchy& hierarchy, const PatchOptics& optics);
 
 /// Emitters and what they light, after `bounces` diffuse reflections. None where nothing emits:
 /// the sun and the sky light large surfaces, which lines do not miss.

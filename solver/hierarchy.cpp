@@ -22,8 +22,8 @@ ElementForest split_evenly(const Scene& scene, const SplitRules& rules) {
 }  // namespace
 
 std::size_t least_patch_count(const Scene& scene, const SplitRules& rules) {
-  const double largest_leaf_m2 = std::max(std::sqrt(3.0) / 4 * rules.max_edge_m * rules.max_edge_m,
-                                          2 * rules.min_area_m2);
+  const double largest_leaf_m2 =
+      std::max(std::sqrt(3.0) / 4 * rules.max_edge_m * rules.max_edge_m, 2 * rules.min_area_m2);
   const Mesh& mesh = scene.mesh;
   double count = 0;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {

@@ -74,7 +74,7 @@ class Hierarchy {
   struct Node {
     std::int32_t first_child = -1;  ///< its sibling follows; -1 for a leaf
     std::int32_t first_patch = -1;
-    std::uint8_t apex = 0;          ///< corner opposite of the split edge
+    std::uint8_t apex = 0;  ///< corner opposite of the split edge
   };
   /// Numbers of an element's two sides; -1 where it has but one.
   using Sides2 = std::array<std::int32_t, 2>;

@@ -24,25 +24,31 @@ class InstantSpread {
   template <class Irradiance>
   void add(const Irradiance& irradiance) {
     ++realizations_;
-    parallel_for(receivers_, [&](std::size_t i) {
-      for (std::size_t k = 0; k < suns_; ++k) {
-        const auto E = static_cast<double>(irradiance(i, k));
-        sum_[i * block_width + k] += E;
-        squares_[i * block_width + k] += E * E;
-      }
-    }, receivers_per_task);
+    parallel_for(
+        receivers_,
+        [&](std::size_t i) {
+          for (std::size_t k = 0; k < suns_; ++k) {
+            const auto E = static_cast<double>(irradiance(i, k));
+            sum_[i * block_width + k] += E;
+            squares_[i * block_width + k] += E * E;
+          }
+        },
+        receivers_per_task);
   }
   /// Writes s / √R to the rows [K][N] from `first_row` on.
   void store(std::size_t first_row, std::vector<float>& standard_error) const {
     const auto n = static_cast<double>(realizations_);
-    parallel_for(receivers_, [&](std::size_t i) {
-      for (std::size_t k = 0; k < suns_; ++k) {
-        const std::size_t at = i * block_width + k;
-        const double variance = std::max(0.0, squares_[at] - sum_[at] * sum_[at] / n) / (n - 1);
-        standard_error[(first_row + k) * receivers_ + i] =
-            static_cast<float>(std::sqrt(variance / n));
-      }
-    }, receivers_per_task);
+    parallel_for(
+        receivers_,
+        [&](std::size_t i) {
+          for (std::size_t k = 0; k < suns_; ++k) {
+            const std::size_t at = i * block_width + k;
+            const double variance = std::max(0.0, squares_[at] - sum_[at] * sum_[at] / n) / (n - 1);
+            standard_error[(first_row + k) * receivers_ + i] =
+                static_cast<float>(std::sqrt(variance / n));
+          }
+        },
+        receivers_per_task);
   }
 
  private:

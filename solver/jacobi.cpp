@@ -52,8 +52,8 @@ PatchOptics patch_optics(const Scene& scene, const Hierarchy& hierarchy, std::si
   PatchOptics optics = patch_optics(scene, hierarchy);
   for (std::size_t i = 0; i < optics.diffuse.size(); ++i) {
     const auto triangle = static_cast<std::size_t>(hierarchy.patches()[i].triangle);
-    optics.diffuse[i] = static_cast<float>(
-        diffuse_in(scene.materials[scene.material[triangle].index()], band));
+    optics.diffuse[i] =
+        static_cast<float>(diffuse_in(scene.materials[scene.material[triangle].index()], band));
   }
   return optics;
 }
@@ -82,10 +82,13 @@ Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics
                   const Columns& base, const Columns& ground, int bounces) {
   Reflected out{ground, columns(mesh.element_count())};
   for (int b = 1; b <= bounces; ++b) {
-    parallel_for(optics.diffuse.size(), [&](std::size_t i) {
-      for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k)
-        out.followed[k] = optics.diffuse[i] * (base[k] + out.irradiance[k]);
-    }, LinkTable::rows_per_block);
+    parallel_for(
+        optics.diffuse.size(),
+        [&](std::size_t i) {
+          for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k)
+            out.followed[k] = optics.diffuse[i] * (base[k] + out.irradiance[k]);
+        },
+        LinkTable::rows_per_block);
     pull_up(mesh, out.followed);
     out.irradiance = ground;
     gather(lines.patches, out.followed, out.irradiance, Into::add);

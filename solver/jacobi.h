@@ -19,12 +19,12 @@ namespace sunload {
 /// Shares and exitance of every patch.
 struct PatchOptics {
   std::vector<float> diffuse, emission;
-  std::vector<float> mirror;  ///< of light from the normal
-  std::vector<float> glossy;  ///< the same
-  std::vector<float> passed;  ///< straight through
-  std::vector<bool> by_angle; ///< what it absorbs depends on the angle
-  bool any_emission = false;  ///< of a patch, or of a parallel source
-  bool any_mirror = false;    ///< or pane, metal, glossy surface
+  std::vector<float> mirror;   ///< of light from the normal
+  std::vector<float> glossy;   ///< the same
+  std::vector<float> passed;   ///< straight through
+  std::vector<bool> by_angle;  ///< what it absorbs depends on the angle
+  bool any_emission = false;   ///< of a patch, or of a parallel source
+  bool any_mirror = false;     ///< or pane, metal, glossy surface
   bool any_glossy = false;
 
   /// Share of its irradiance that a patch absorbs; 0 where its meetings with lines tell.

@@ -9,14 +9,14 @@ namespace sunload {
 /// What one patch receives and sends, all W m-2 (or J m-2).
 struct PatchLight {
   double area = 0;
-  double diffuse = 0;              ///< reflectance
-  double absorbed = 0;             ///< constant share; 0 where lines book what is absorbed
-  double passed = 0;               ///< share that goes straight through
-  double emission = 0;             ///< exitance of an emitter
-  double direct = 0, sky = 0;      ///< irradiance straight from sun and sky
-  double ground_exitance = 0;      ///< of the far ground
-  double total = 0;                ///< irradiance in all
-  double followed = 0;             ///< reflected radiosity that was gathered last
+  double diffuse = 0;          ///< reflectance
+  double absorbed = 0;         ///< constant share; 0 where lines book what is absorbed
+  double passed = 0;           ///< share that goes straight through
+  double emission = 0;         ///< exitance of an emitter
+  double direct = 0, sky = 0;  ///< irradiance straight from sun and sky
+  double ground_exitance = 0;  ///< of the far ground
+  double total = 0;            ///< irradiance in all
+  double followed = 0;         ///< reflected radiosity that was gathered last
 };
 
 /// Terms of one patch; every one from its own estimate, none by difference:
@@ -29,17 +29,15 @@ inline Ledger booked(const PatchLight& p, const LineEnds& ends) {
   Ledger ledger;
   ledger[Term::sun] = p.area * p.direct * stopped;
   ledger[Term::sky] = p.area * p.sky * stopped;
-  ledger[Term::ground] =
-      p.area * static_cast<double>(ends.ground) * p.ground_exitance * stopped;
+  ledger[Term::ground] = p.area * static_cast<double>(ends.ground) * p.ground_exitance * stopped;
   ledger[Term::emitted] = p.area * p.emission;
-  ledger[Term::absorbed] = p.area * p.absorbed * p.total +
-                           sent * static_cast<double>(ends.backs) +
+  ledger[Term::absorbed] = p.area * p.absorbed * p.total + sent * static_cast<double>(ends.backs) +
                            sent * static_cast<double>(ends.absorbed);
   ledger[Term::transmitted] = sent * static_cast<double>(ends.transmitted);
   ledger.lost_at_backs = sent * static_cast<double>(ends.backs);
   ledger[Term::escaped] = sent * static_cast<double>(ends.escaped);
-  ledger[Term::unshot] = p.area * (p.diffuse * p.total - p.followed) +
-                         sent * static_cast<double>(ends.cut);
+  ledger[Term::unshot] =
+      p.area * (p.diffuse * p.total - p.followed) + sent * static_cast<double>(ends.cut);
   return ledger;
 }
 

@@ -64,14 +64,13 @@ Vec3 LightChain::lifted_point(const Hit& hit, Vec3 normal) const {
          mesh.corner(t, 2) * hit.v + normal * caster_.offset_m();
 }
 
-Fate LightChain::follow(Vec3 w, const Hit& hit, std::uint32_t source, double weight,
-                        RandomKey key, std::vector<Deposit>& deposits) const {
+Fate LightChain::follow(Vec3 w, const Hit& hit, std::uint32_t source, double weight, RandomKey key,
+                        std::vector<Deposit>& deposits) const {
   return go_on(w, hit, source, weight, 0, key, largest_link_, deposits);
 }
 
-Fate LightChain::mirror_on(Vec3 point, Vec3 towards, std::size_t mirror_patch,
-                           std::uint32_t source, double weight, RandomKey key,
-                           std::vector<Deposit>& deposits) const {
+Fate LightChain::mirror_on(Vec3 point, Vec3 towards, std::size_t mirror_patch, std::uint32_t source,
+                           double weight, RandomKey key, std::vector<Deposit>& deposits) const {
   const Material& material = material_of(hierarchy_.patches()[mirror_patch].triangle);
   const auto on = LineFollower::onward(material, hierarchy_.normal(mirror_patch), towards, key);
   Fate fate;
@@ -84,15 +83,14 @@ Fate LightChain::mirror_on(Vec3 point, Vec3 towards, std::size_t mirror_patch,
     return fate;
   }
   ++key.block;
-  fate += go_on(on.direction, caster_.first_hit(point, on.direction), source, weight, 1, key,
-                0, deposits);
+  fate += go_on(on.direction, caster_.first_hit(point, on.direction), source, weight, 1, key, 0,
+                deposits);
   ++fate.rays;
   return fate;
 }
 
 Fate LightChain::go_on(Vec3 w, Hit hit, std::uint32_t source, double weight, int reflections,
-                       RandomKey key, double largest_link,
-                       std::vector<Deposit>& deposits) const {
+                       RandomKey key, double largest_link, std::vector<Deposit>& deposits) const {
   Fate fate;
   double path_m = 0;
   for (;; ++reflections, ++key.block) {
@@ -110,11 +108,11 @@ Fate LightChain::go_on(Vec3 w, Hit hit, std::uint32_t source, double weight, int
     path_m += hit.distance_m;
     const Vec3 n = hierarchy_.normal(static_cast<std::size_t>(patch));
     const Vec3 point = lifted_point(hit, n);
-    deposits.push_back({linked_element(hierarchy_, static_cast<std::size_t>(patch), point, path_m,
-                                       largest_link),
-                        source, weight});
-    const auto on = sends_on(material) ? LineFollower::onward(material, n, -w, key)
-                                       : LineFollower::Onward{};
+    deposits.push_back(
+        {linked_element(hierarchy_, static_cast<std::size_t>(patch), point, path_m, largest_link),
+         source, weight});
+    const auto on =
+        sends_on(material) ? LineFollower::onward(material, n, -w, key) : LineFollower::Onward{};
     fate.absorbed += weight * absorbed_share(material, on);
     fate.transmitted += weight * on.transmitted;
     weight *= on.weight;

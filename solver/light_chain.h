@@ -14,10 +14,10 @@ namespace sunload {
 /// Where the power of samples ends that is not reflected diffusely; shares of
 /// what their source sent.
 struct Fate {
-  double absorbed = 0;  ///< by fronts
-  double backs = 0;     ///< met the back of a one-sided surface
-  double escaped = 0;   ///< left the scene
-  double cut = 0;       ///< would go on beyond the mirror depth
+  double absorbed = 0;     ///< by fronts
+  double backs = 0;        ///< met the back of a one-sided surface
+  double escaped = 0;      ///< left the scene
+  double cut = 0;          ///< would go on beyond the mirror depth
   double transmitted = 0;  ///< through panes, out of the scene
   std::uint64_t rays = 0;
   Fate& operator+=(const Fate& other);

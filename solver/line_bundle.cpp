@@ -63,8 +63,8 @@ void LineBundle::cast(const RayCaster& caster) {
       put(origins, l, lines_[order_[first + l]].origin);
       put(directions, l, lines_[order_[first + l]].w);
     }
-    const PacketHits hits = caster.first_hits(origins, directions, (1u << count) - 1u,
-                                              RayCaster::Coherence::parallel);
+    const PacketHits hits =
+        caster.first_hits(origins, directions, (1u << count) - 1u, RayCaster::Coherence::parallel);
     for (std::size_t l = 0; l < count; ++l) hits_[order_[first + l]] = hits[l];
   }
 }

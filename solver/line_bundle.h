@@ -25,7 +25,7 @@ class LineBundle {
 
   std::vector<PatchLines::Line> lines_;
   std::vector<Hit> hits_;
-  std::vector<std::uint8_t> cell_;  ///< of each line's direction
+  std::vector<std::uint8_t> cell_;               ///< of each line's direction
   std::vector<std::uint32_t> in_order_, order_;  ///< numbers of the lines: as added, by direction
 };
 

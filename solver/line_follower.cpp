@@ -61,14 +61,14 @@ void LineCollector::store(LineSet& set, std::size_t row, std::size_t count) {
   LinkTable::append_row(set.patches.blocks[block], patches, scale);
   LinkTable::append_row(set.sky.blocks[block], sky, scale);
   LinkTable::append_row(set.sky_by_mirror.blocks[block], sky_by_mirror, scale);
-  set.ends[row] = {ends.sky * scale,     ends.ground * scale, ends.ground_by_mirror * scale,
-                   ends.escaped * scale, ends.backs * scale,  ends.cut * scale,
+  set.ends[row] = {ends.sky * scale,         ends.ground * scale,  ends.ground_by_mirror * scale,
+                   ends.escaped * scale,     ends.backs * scale,   ends.cut * scale,
                    ends.transmitted * scale, ends.absorbed * scale};
   if (!set.lamps.empty()) set.lamps[row] = lamps / static_cast<double>(count);
 }
 
-LineFollower::LineFollower(const Scene& scene, const Hierarchy& hierarchy,
-                           const RayCaster& caster, const SkyGrid& grid, int mirror_depth)
+LineFollower::LineFollower(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
+                           const SkyGrid& grid, int mirror_depth)
     : scene_(scene),
       hierarchy_(hierarchy),
       caster_(caster),
@@ -79,8 +79,7 @@ const Material& LineFollower::material_of(std::int32_t triangle) const {
   return scene_.materials[scene_.material[static_cast<std::size_t>(triangle)].index()];
 }
 
-LineFollower::Onward LineFollower::onward(const Material& m, Vec3 n, Vec3 w,
-                                          const RandomKey& key) {
+LineFollower::Onward LineFollower::onward(const Material& m, Vec3 n, Vec3 w, const RandomKey& key) {
   const double cos_theta = dot(w, n);
   Onward on{mirrored(w, n)};
   if (is_pane_or_metal(m)) {
@@ -95,9 +94,9 @@ LineFollower::Onward LineFollower::onward(const Material& m, Vec3 n, Vec3 w,
     const RandomWords random = random_words(key);
     if (uniform(random[2]) * on.weight >= m.mirror) {  // the lobe, in proportion to its share
       const Tangents axes = tangents(on.direction);
-      const Vec3 local = sample_power_cosine(static_cast<double>(uniform(random[0])),
-                                             static_cast<double>(uniform(random[1])),
-                                             m.glossy_exponent);
+      const Vec3 local =
+          sample_power_cosine(static_cast<double>(uniform(random[0])),
+                              static_cast<double>(uniform(random[1])), m.glossy_exponent);
       on.direction = axes.tangent * local.x + axes.bitangent * local.y + on.direction * local.z;
       on.weight *= lobe_sample_weight(dot(on.direction, n), m.glossy_exponent);
     }
@@ -129,9 +128,8 @@ Glimpse LineFollower::glimpse(const Hit& hit, Vec3 n, Vec3 w, double weight) con
   return glimpse;
 }
 
-std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first,
-                                   const RandomKey& line, LineCollector& into,
-                                   double share_of_first) const {
+std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first, const RandomKey& line,
+                                   LineCollector& into, double share_of_first) const {
   std::uint64_t rays = 0;
   double weight = 1, path_m = 0;
   Hit hit = first;
@@ -188,9 +186,9 @@ std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first,
 }
 
 void LineFollower::link(const BrightView::SeenPoint& point, LineCollector& into) const {
-  into.patches.push_back({linked_element(hierarchy_, point.patch, point.position,
-                                         point.distance_m, into.largest_link),
-                          static_cast<float>(point.share)});
+  into.patches.push_back(
+      {linked_element(hierarchy_, point.patch, point.position, point.distance_m, into.largest_link),
+       static_cast<float>(point.share)});
   into.lamps += point.share * point.exitance;
 }
 

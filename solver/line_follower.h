@@ -20,7 +20,7 @@ struct LineCollector {
   std::vector<Glimpse> glimpses;  ///< receiver and realization not yet known
   LineEnds ends;
   double largest_link = 0;  ///< form factor that no element exceeds to which a link leads
-  double lamps = 0;  ///< exitance of emitters that was seen, summed over lines [W m-2]
+  double lamps = 0;         ///< exitance of emitters that was seen, summed over lines [W m-2]
   /// Forgets the lines.
   void clear();
   /// Appends the glimpses as those of a receiver in one realization; none are left here.
@@ -65,8 +65,8 @@ class LineFollower {
   /// Light that arrives at a surface along -`w` (unit, w·n > 0), and where it goes.
   struct Onward {
     Vec3 direction;
-    double weight = 0;                    ///< carried along `direction`
-    double transmitted = 0, absorbed = 0; ///< of materials that depend on the angle
+    double weight = 0;                     ///< carried along `direction`
+    double transmitted = 0, absorbed = 0;  ///< of materials that depend on the angle
   };
   static Onward onward(const Material& material, Vec3 n, Vec3 w, const RandomKey& key);
 

@@ -70,8 +70,12 @@ void LinkTable::append_row(Block& block, std::vector<Link>& links, float scale) 
 }
 
 LineSet empty_line_set(std::size_t rows, bool any_lamps) {
-  return {LinkTable(rows), LinkTable(rows), LinkTable(rows), std::vector<LineEnds>(rows),
-          std::vector<double>(any_lamps ? rows : 0), {}};
+  return {LinkTable(rows),
+          LinkTable(rows),
+          LinkTable(rows),
+          std::vector<LineEnds>(rows),
+          std::vector<double>(any_lamps ? rows : 0),
+          {}};
 }
 
 namespace {
@@ -172,17 +176,15 @@ class BlockTracer {
       const Hit hit = bundle.hit(at + l);
       const auto& [origin, w] = bundle.line(at + l);
       key.sun = static_cast<std::uint32_t>(l);
-      output.rays +=
-          follower_.follow(origin, w, hit, key, row.own,
-                           row.view.share_of_line(hierarchy_, hit, w, dot(w, normal)));
+      output.rays += follower_.follow(origin, w, hit, key, row.own,
+                                      row.view.share_of_line(hierarchy_, hit, w, dot(w, normal)));
       if (hit.left_scene() && sends_light_on)
         output.rays += book_mirrored(origin, w, patch, key, output.first_light[realization]);
     }
     if (!row.view.any()) return;
     key.purpose = Purpose::lamps;
-    output.rays +=
-        row.view.see_points(caster_, random_words(key), count,
-                            [&](const auto& point) { follower_.link(point, row.own); });
+    output.rays += row.view.see_points(caster_, random_words(key), count,
+                                       [&](const auto& point) { follower_.link(point, row.own); });
   }
 
   /// The line brings first light to a mirror: its way on is booked here, since
@@ -232,16 +234,16 @@ void expect_shared_equally(const LineRules& rules, std::size_t patches) {
   SUNLOAD_EXPECT(rules.lines_of_patch.empty() || rules.lines_of_patch.size() == patches,
                  "lines of every patch");
   const auto is_shared = [&](int lines) { return lines % rules.realizations == 0; };
-  SUNLOAD_EXPECT(is_shared(rules.lines_per_patch) &&
-                     std::all_of(rules.lines_of_patch.begin(), rules.lines_of_patch.end(), is_shared),
-                 "lines are shared equally by the realizations");
+  SUNLOAD_EXPECT(
+      is_shared(rules.lines_per_patch) &&
+          std::all_of(rules.lines_of_patch.begin(), rules.lines_of_patch.end(), is_shared),
+      "lines are shared equally by the realizations");
 }
 
 }  // namespace
 
 Lines trace_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-                  const SkyGrid& grid, const Guide& guide, const LineRules& rules,
-                  Watch& watch) {
+                  const SkyGrid& grid, const Guide& guide, const LineRules& rules, Watch& watch) {
   const std::size_t patches = hierarchy.patch_count();
   expect_shared_equally(rules, patches);
   const BlockTracer tracer(scene, hierarchy, caster, grid, guide, rules);

@@ -88,14 +88,14 @@ struct LineSet {
 
 /// Where a line met a glossy surface: any sun may be asked from there (solver/glossy_sun.h).
 struct Glimpse {
-  std::uint32_t receiver = 0;     ///< patch or sensor that the line left
+  std::uint32_t receiver = 0;  ///< patch or sensor that the line left
   std::uint32_t realization = 0;
-  std::int32_t triangle = -1;     ///< of the glossy surface
-  std::int32_t front = 1;         ///< 1: its front was met
-  float at[3] = {};               ///< off the surface [m]
-  float axis[3] = {};             ///< of the lobe: the line, mirrored
-  float weight = 0;               ///< of the line so far, times rho_g
-  std::int32_t reflections = 0;   ///< of the line before it
+  std::int32_t triangle = -1;    ///< of the glossy surface
+  std::int32_t front = 1;        ///< 1: its front was met
+  float at[3] = {};              ///< off the surface [m]
+  float axis[3] = {};            ///< of the lobe: the line, mirrored
+  float weight = 0;              ///< of the line so far, times rho_g
+  std::int32_t reflections = 0;  ///< of the line before it
 };
 
 /// Room for the lines of so many patches or sensors, and for what emitters send them.
@@ -124,13 +124,12 @@ struct Lines {
   std::vector<LineSet> realizations;
   LineSet pooled;
   std::vector<Glimpse> glimpses;  ///< by receiver
-  std::uint64_t rays = 0;  ///< cast, chains included
+  std::uint64_t rays = 0;         ///< cast, chains included
 };
 
 /// Traces all lines. Cost: a ray for each line of every patch, and as many shadow rays where there
 /// are bright surfaces. Throws Interrupted.
 Lines trace_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-                  const SkyGrid& grid, const Guide& guide, const LineRules& rules,
-                  Watch& watch);
+                  const SkyGrid& grid, const Guide& guide, const LineRules& rules, Watch& watch);
 
 }  // namespace sunload

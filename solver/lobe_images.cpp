@@ -39,8 +39,8 @@ LobeImages::LobeImages(const Scene& scene, const RayCaster& caster, const SunSam
     : scene_(scene),
       caster_(caster),
       receivers_(receivers),
-      least_exponent_(std::max(broadest, 2.0 * rules.lines_per_patch /
-                                                 static_cast<double>(receivers.samples()) - 1)),
+      least_exponent_(std::max(
+          broadest, 2.0 * rules.lines_per_patch / static_cast<double>(receivers.samples()) - 1)),
       samples_each_(static_cast<double>(receivers.samples()) / rules.realizations) {
   if (receivers.receivers() == 0 || rules.mirror_depth < 1) return;
   of_side_.assign(2 * scene.mesh.triangle_count(), -1);
@@ -104,8 +104,8 @@ class LobeImages::Receiver {
     if (dot(to, geometry_.normal) < -radius || dot(to, o.normal) > radius + o.apart * distance)
       return false;
     if (distance <= radius) return true;
-    const double off_axis = std::acos(std::clamp(
-        dot(to, image(sun_.direction, o.normal)) / distance, -1.0, 1.0));
+    const double off_axis =
+        std::acos(std::clamp(dot(to, image(sun_.direction, o.normal)) / distance, -1.0, 1.0));
     return off_axis <= o.reach + std::asin(radius / distance);
   }
 
@@ -156,8 +156,9 @@ class LobeImages::Receiver {
       if (brings_[l] <= 0) continue;
       on_it |= 1u << l;
       const Mesh& mesh = i_.scene_.mesh;
-      put(points, l, mesh.corner(t, 0) * (1 - hit.u - hit.v) + mesh.corner(t, 1) * hit.u +
-                         mesh.corner(t, 2) * hit.v + n * i_.caster_.offset_m());
+      put(points, l,
+          mesh.corner(t, 0) * (1 - hit.u - hit.v) + mesh.corner(t, 1) * hit.u +
+              mesh.corner(t, 2) * hit.v + n * i_.caster_.offset_m());
     }
     if (on_it == 0) return 0;
     rays += static_cast<std::uint64_t>(std::popcount(on_it));
@@ -169,8 +170,8 @@ class LobeImages::Receiver {
     const double cos_s = dot(n, sun_.direction), cos_theta = dot(w, geometry_.normal);
     if (cos_s <= 0) return 0;
     // Rays are stopped by 1 - T of what they meet.
-    const double f = m.glossy / (1 - m.transmittance) *
-                     lobe_value(dot(image(w, n), sun_.direction), o.exponent);
+    const double f =
+        m.glossy / (1 - m.transmittance) * lobe_value(dot(image(w, n), sun_.direction), o.exponent);
     const double p = power_cosine_pdf(dot(w, image(sun_.direction, o.normal)), o.exponent);
     return p > 0 ? f * cos_s * cos_theta * sun_.dni / (p * i_.samples_each_) : 0;
   }

@@ -10,9 +10,8 @@
 ///
 /// which is the same for all of them but for cosθ and (s·n). Lobes are narrow where such directions
 /// are denser about m than the L lines can be: M (e+1)/(2π) > L/π. Light that reaches a sensor by
-/// way of another mirror or lobe is the lines', as is all of it where narrow lobes face in more than
-/// 4096 directions.
-/// Cost: up to 2 M rays for each sensor, sun and orientation in sight.
+/// way of another mirror or lobe is the lines', as is all of it where narrow lobes face in more
+/// than 4096 directions. Cost: up to 2 M rays for each sensor, sun and orientation in sight.
 #pragma once
 
 #include <cstdint>

@@ -46,8 +46,8 @@ SmoothShares smooth_shares(const Material& m, double cos_theta) {
   const double bare = 1 - m.diffuse;
   if (m.extinction_coefficient > 0)
     return {bare * metal_reflectance(m.refractive_index, m.extinction_coefficient, cos_theta), 0};
-  const PaneShares glass = pane_shares(
-      {m.refractive_index, m.absorption_per_m * m.thickness_m, m.panes}, cos_theta);
+  const PaneShares glass =
+      pane_shares({m.refractive_index, m.absorption_per_m * m.thickness_m, m.panes}, cos_theta);
   return {bare * glass.reflected, bare * glass.transmitted};
 }
 

@@ -33,11 +33,11 @@ struct Material {
   double thickness_m = 0.004;         ///< of one pane
   double absorption_per_m = 0;        ///< K of the glass
   int panes = 1;
-  double normal_transmittance = 0;    ///< T0 of clear glass (solver/clear_glass.h); 0: none
+  double normal_transmittance = 0;  ///< T0 of clear glass (solver/clear_glass.h); 0: none
   /// Reflectance rho_g of light from the normal (solver/lobe.h).
   double glossy = 0;
-  double glossy_exponent = 0;         ///< n of its lobe
-  double transmittance = 0;           ///< T: light that passes straight through (crowns, screens)
+  double glossy_exponent = 0;  ///< n of its lobe
+  double transmittance = 0;    ///< T: light that passes straight through (crowns, screens)
   /// The share `diffuse` in each band, of which it is the mean; absent: grey. Only of constant
   /// shares without gloss, whose other shares do not depend on it.
   std::optional<BandShares> diffuse_in_band = {};

@@ -31,8 +31,7 @@ MirrorChains::MirrorChains(const Hierarchy& hierarchy, const RayCaster& caster,
 /// Chains from the mirror patches of one task.
 class MirrorChains::Task {
  public:
-  Task(const MirrorChains& chains, std::size_t realizations)
-      : c_(chains), fates(realizations) {}
+  Task(const MirrorChains& chains, std::size_t realizations) : c_(chains), fates(realizations) {}
 
   struct Arrival {
     std::uint32_t patch;
@@ -62,7 +61,10 @@ class MirrorChains::Task {
       rays += count(active);
       for (auto bits = lit; bits != 0; bits &= bits - 1) {
         const auto l = static_cast<std::size_t>(std::countr_zero(bits));
-        chains_[l] = {{to_sun.x[l], to_sun.y[l], to_sun.z[l]}, group, beams.next(-1, group), sent,
+        chains_[l] = {{to_sun.x[l], to_sun.y[l], to_sun.z[l]},
+                      group,
+                      beams.next(-1, group),
+                      sent,
                       power_per_sample,
                       static_cast<std::uint16_t>(c_.sampler_.realization(p * packet_size + l))};
         // The glossy part of the sun's light is GlossySun's.
@@ -113,9 +115,9 @@ class MirrorChains::Task {
         if (!arrive(k, beams, hits[l], chains_[l])) continue;
         further |= 1u << l;
         const Hit hit = hits[l];
-        put(points, l, c_.groups_.above(hit.triangle, hit.u, hit.v,
-                                        c_.groups_[chains_[l].group].normal,
-                                        c_.caster_.offset_m()));
+        put(points, l,
+            c_.groups_.above(hit.triangle, hit.u, hit.v, c_.groups_[chains_[l].group].normal,
+                             c_.caster_.offset_m()));
       }
       active = further;
     }
@@ -129,8 +131,8 @@ class MirrorChains::Task {
     const SmoothShares shares = smooth_shares(m, cos_theta);
     fate.transmitted[k] += power * shares.transmitted;
     fate.cut[k] += power * m.glossy;
-    fate.absorbed[k] += power * (1 - m.diffuse - shares.mirror - shares.transmitted - m.glossy -
-                                 m.transmittance);
+    fate.absorbed[k] +=
+        power * (1 - m.diffuse - shares.mirror - shares.transmitted - m.glossy - m.transmittance);
   }
 
   /// Books what a chain meets; false where it ends there.

@@ -31,8 +31,8 @@ struct MirroredSun {
 };
 
 struct ChainRules {
-  int mirror_depth = 8;    ///< reflections that are followed
-  double negligible = 0;   ///< share of the sun below which further reflections are cut
+  int mirror_depth = 8;   ///< reflections that are followed
+  double negligible = 0;  ///< share of the sun below which further reflections are cut
 };
 
 class MirrorChains {
@@ -43,7 +43,7 @@ class MirrorChains {
   struct Followed {
     std::vector<MirroredSun> fates;  ///< per realization, each with its own samples
     std::uint64_t rays = 0;
-    std::uint64_t shots = 0;         ///< arrivals that no beam stands for
+    std::uint64_t shots = 0;  ///< arrivals that no beam stands for
   };
   /// Follows the direct sun that mirror patches receive; adds to `into` what no
   /// beam brings.

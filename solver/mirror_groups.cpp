@@ -65,8 +65,7 @@ double MirrorGroups::weight_of_hit(std::int32_t triangle, double cos_theta) cons
 double MirrorGroups::strongest(std::size_t group, double cos_theta) const {
   double strongest = 0;
   for (const auto id : groups_[group].materials)
-    strongest =
-        std::max(strongest, mirror_reflectance(scene_.materials[id.index()], cos_theta));
+    strongest = std::max(strongest, mirror_reflectance(scene_.materials[id.index()], cos_theta));
   return strongest;
 }
 

@@ -21,20 +21,23 @@ std::vector<Cluster> clusters_of(const SunSampler& receivers) {
   constexpr std::size_t patches_per_cluster = 64;
   const std::size_t patches = receivers.receivers();
   std::vector<Cluster> clusters((patches + patches_per_cluster - 1) / patches_per_cluster);
-  parallel_for(clusters.size(), [&](std::size_t c) {
-    clusters[c].begin = c * patches_per_cluster;
-    clusters[c].end = std::min(patches, clusters[c].begin + patches_per_cluster);
-    constexpr double infinite = std::numeric_limits<double>::infinity();
-    Vec3 low{infinite, infinite, infinite}, high{-infinite, -infinite, -infinite};
-    for (std::size_t i = clusters[c].begin; i < clusters[c].end; ++i)
-      for (const Vec3 p : receivers.corners(i)) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-      }
-    for (std::size_t k = 0; k < 8; ++k)
-      clusters[c].corners[k] = {k & 1 ? high.x : low.x, k & 2 ? high.y : low.y,
-                                k & 4 ? high.z : low.z};
-  }, 64);
+  parallel_for(
+      clusters.size(),
+      [&](std::size_t c) {
+        clusters[c].begin = c * patches_per_cluster;
+        clusters[c].end = std::min(patches, clusters[c].begin + patches_per_cluster);
+        constexpr double infinite = std::numeric_limits<double>::infinity();
+        Vec3 low{infinite, infinite, infinite}, high{-infinite, -infinite, -infinite};
+        for (std::size_t i = clusters[c].begin; i < clusters[c].end; ++i)
+          for (const Vec3 p : receivers.corners(i)) {
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+          }
+        for (std::size_t k = 0; k < 8; ++k)
+          clusters[c].corners[k] = {k & 1 ? high.x : low.x, k & 2 ? high.y : low.y,
+                                    k & 4 ? high.z : low.z};
+      },
+      64);
   return clusters;
 }
 
@@ -85,7 +88,12 @@ class MirrorSun::PatchWork {
  public:
   PatchWork(const MirrorSun& mirror, const SunSampler& sampler, const SunLight& sun, std::size_t k,
             const SunBeams& beams, MirroredIrradiance into)
-      : m_(mirror), sampler_(sampler), sun_(sun), k_(k), beams_(beams), into_(into),
+      : m_(mirror),
+        sampler_(sampler),
+        sun_(sun),
+        k_(k),
+        beams_(beams),
+        into_(into),
         of_realization_(into.realizations()) {}
 
   void receive(std::size_t patch, std::span<const std::size_t> by_beams) {
@@ -165,8 +173,7 @@ class MirrorSun::PatchWork {
 };
 
 std::uint64_t MirrorSun::add_light(const SunSampler& receivers, std::span<const SunLight> block,
-                                   std::span<const SunBeams> beams,
-                                   MirroredIrradiance into) const {
+                                   std::span<const SunBeams> beams, MirroredIrradiance into) const {
   const auto clusters = clusters_of(receivers);
   // Few receivers (sensors) are work for all threads, too.
   const std::size_t clusters_per_task = std::clamp<std::size_t>(clusters.size() / 64, 1, 8);
@@ -174,28 +181,27 @@ std::uint64_t MirrorSun::add_light(const SunSampler& receivers, std::span<const 
   for (std::size_t k = 0; k < block.size(); ++k) {
     if (beams[k].size() == 0) continue;
     const auto rasters = rasters_of(beams[k]);
-    rays += ordered_sum(
-        clusters.size(), clusters_per_task, std::uint64_t{0},
-        [&](std::size_t begin, std::size_t end) {
-          PatchWork work(*this, receivers, block[k], k, beams[k], into);
-          std::vector<std::size_t> near, by_beams;
-          for (std::size_t c = begin; c < end; ++c) {
-            near.clear();
-            for (std::size_t b = 0; b < rasters.size(); ++b)
-              if (rasters[b].may_meet(clusters[c].corners)) near.push_back(b);
-            if (near.empty()) continue;
-            for (std::size_t i = clusters[c].begin; i < clusters[c].end; ++i) {
-              const Vec3 n = receivers.normal(i);
-              const auto corners = receivers.corners(i);
-              by_beams.clear();
-              for (const auto b : near)
-                if (dot(n, beams[k][b].image) > 0 && rasters[b].may_meet(corners))
-                  by_beams.push_back(b);
-              if (!by_beams.empty()) work.receive(i, by_beams);
-            }
-          }
-          return work.rays;
-        });
+    rays += ordered_sum(clusters.size(), clusters_per_task, std::uint64_t{0},
+                        [&](std::size_t begin, std::size_t end) {
+                          PatchWork work(*this, receivers, block[k], k, beams[k], into);
+                          std::vector<std::size_t> near, by_beams;
+                          for (std::size_t c = begin; c < end; ++c) {
+                            near.clear();
+                            for (std::size_t b = 0; b < rasters.size(); ++b)
+                              if (rasters[b].may_meet(clusters[c].corners)) near.push_back(b);
+                            if (near.empty()) continue;
+                            for (std::size_t i = clusters[c].begin; i < clusters[c].end; ++i) {
+                              const Vec3 n = receivers.normal(i);
+                              const auto corners = receivers.corners(i);
+                              by_beams.clear();
+                              for (const auto b : near)
+                                if (dot(n, beams[k][b].image) > 0 && rasters[b].may_meet(corners))
+                                  by_beams.push_back(b);
+                              if (!by_beams.empty()) work.receive(i, by_beams);
+                            }
+                          }
+                          return work.rays;
+                        });
   }
   return rays;
 }

@@ -15,8 +15,8 @@ enum class Oracle { none, light_load, historic };
 
 struct RefineRules {
   Oracle oracle = Oracle::none;
-  double light_tolerance = 0.05;      ///< of the default oracle, share of the mean light load
-  double light_threshold_m2 = 0.005;  ///< F1_eps of the historic one
+  double light_tolerance = 0.05;       ///< of the default oracle, share of the mean light load
+  double light_threshold_m2 = 0.005;   ///< F1_eps of the historic one
   double form_factor_threshold = 0.5;  ///< F_eps of the historic one, for light of emitters
   TVertices t_vertices = TVertices::remove;
   std::uint64_t seed = 1;

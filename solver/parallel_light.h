@@ -32,8 +32,7 @@ struct ParallelLight {
 /// Empty where the scene has no parallel sources.
 ParallelLight parallel_light(const Scene& scene, const Hierarchy& hierarchy,
                              const RayCaster& caster, const SunSampler& sampler,
-                             const PatchOptics& optics, std::size_t realizations,
-                             int mirror_depth);
+                             const PatchOptics& optics, std::size_t realizations, int mirror_depth);
 /// The same on sensors, but for what mirrors send on; no ledger.
 ParallelLight parallel_light_on_sensors(const Scene& scene, const RayCaster& caster,
                                         const SunSampler& sensors, std::size_t realizations);

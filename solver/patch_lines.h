@@ -15,8 +15,13 @@ class PatchLines {
  public:
   /// Origins keep `offset_m` from the patch; `seeds` scramble the sequence.
   PatchLines(const Hierarchy& h, std::size_t patch, double offset_m, const RandomWords& seeds)
-      : a_(h.corner(patch, 0)), b_(h.corner(patch, 1)), c_(h.corner(patch, 2)),
-        n_(h.normal(patch)), axes_(tangents(n_)), lift_(n_ * offset_m), seeds_(seeds) {}
+      : a_(h.corner(patch, 0)),
+        b_(h.corner(patch, 1)),
+        c_(h.corner(patch, 2)),
+        n_(h.normal(patch)),
+        axes_(tangents(n_)),
+        lift_(n_ * offset_m),
+        seeds_(seeds) {}
 
   struct Line {
     Vec3 origin, w;  ///< w: unit, away from the patch

@@ -49,8 +49,8 @@ struct Pilot::Points {
     axes = tangents(normal);
     const std::uint64_t key = mixed(forest.key(element), side);
     const auto words = [&](std::uint32_t realization) {
-      return random_words({.seed = seed, .purpose = Purpose::pilot, .realization = realization,
-                           .element = key});
+      return random_words(
+          {.seed = seed, .purpose = Purpose::pilot, .realization = realization, .element = key});
     };
     for (std::uint32_t h = 0; h < halves_of_light; ++h) {
       direction_seeds[h] = words(h);
@@ -152,10 +152,10 @@ void Pilot::add_surroundings(const Points& points, std::size_t packet, std::uint
   constexpr double share = 1.0 / directions_per_half;
   for (std::uint32_t d = 0; d < directions_per_half; ++d) {
     const Vec3 local = sample_cosine(scrambled_sobol(d, 0, seeds), scrambled_sobol(d, 1, seeds));
-    const Vec3 w = points.axes.tangent * local.x + points.axes.bitangent * local.y +
-                   points.normal * local.z;
-    const double beyond = w.z > 0 ? light_.sky[static_cast<std::size_t>(grid_.cell(w))]
-                                  : light_.ground;
+    const Vec3 w =
+        points.axes.tangent * local.x + points.axes.bitangent * local.y + points.normal * local.z;
+    const double beyond =
+        w.z > 0 ? light_.sky[static_cast<std::size_t>(grid_.cell(w))] : light_.ground;
     const PacketHits hits = caster_.first_hits(points.packets[packet], w, all_rays);
     for (std::size_t r = 0; r < packet_size; ++r)
       sum[r] += share * (hits.triangle[r] < 0 ? beyond : radiosity(hits, r));
@@ -170,9 +170,9 @@ void Pilot::add_emitters(const Points& points, std::size_t packet, std::uint32_t
   const RandomWords& seeds = points.emitter_seeds[half];
   for (std::uint32_t s = 0; s < emitter_points_per_half; ++s) {
     const auto number = [&](int d) { return scrambled_sobol(s, d, seeds); };
-    const auto emitter = std::lower_bound(
-        emitters_.begin(), emitters_.end() - 1, number(0),
-        [](const Emitter& e, double share) { return e.power_share <= share; });
+    const auto emitter =
+        std::lower_bound(emitters_.begin(), emitters_.end() - 1, number(0),
+                         [](const Emitter& e, double share) { return e.power_share <= share; });
     const auto t = static_cast<std::size_t>(emitter->triangle);
     const Barycentric at = sample_triangle(number(1), number(2));
     const Vec3 y =
@@ -208,8 +208,8 @@ void Pilot::add_emitters(const Points& points, std::size_t packet, std::uint32_t
 
 double Pilot::radiosity(const PacketHits& hits, std::size_t ray) const {
   const std::int32_t triangle = hits.triangle[ray];
-  const std::int32_t leaf = forest_.leaf_at(triangle, static_cast<double>(hits.u[ray]),
-                                            static_cast<double>(hits.v[ray]));
+  const std::int32_t leaf =
+      forest_.leaf_at(triangle, static_cast<double>(hits.u[ray]), static_cast<double>(hits.v[ray]));
   if (leaf < 0) return 0;
   const auto element = static_cast<std::size_t>(leaf);
   if (!hits.front[ray] && !forest_.is_two_sided(element)) return 0;

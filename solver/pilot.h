@@ -36,12 +36,12 @@ struct PilotLight {
 
 /// What one side of an element receives.
 struct PilotLoad {
-  double mean = 0;      ///< light load [J m-2]
-  double variance = 0;  ///< of the light load over its points; estimated without the variance of
-                        ///< the sampling, hence below zero at times [J2 m-4]
-  bool sees_sun = false;         ///< some point sees some sun
-  double largest_cosine = 0;     ///< of the suns that it sees
-  double lamp_form_factor = 0;   ///< largest disc estimate from a point of an emitter that it sees
+  double mean = 0;        ///< light load [J m-2]
+  double variance = 0;    ///< of the light load over its points; estimated without the variance of
+                          ///< the sampling, hence below zero at times [J2 m-4]
+  bool sees_sun = false;  ///< some point sees some sun
+  double largest_cosine = 0;    ///< of the suns that it sees
+  double lamp_form_factor = 0;  ///< largest disc estimate from a point of an emitter that it sees
 };
 
 class Pilot {
@@ -80,7 +80,7 @@ class Pilot {
   SkyGrid grid_;
   std::vector<Emitter> emitters_;
   double emitted_power_ = 0;  ///< of all of them [W]
-  std::vector<float> load_;  ///< [2·element + side] J m-2
+  std::vector<float> load_;   ///< [2·element + side] J m-2
 };
 
 }  // namespace sunload

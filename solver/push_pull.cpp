@@ -12,10 +12,13 @@ constexpr std::size_t trees_per_task = 256;
 template <class Mean>
 void for_each_inner(const Hierarchy& mesh, Mean&& mean) {
   const std::size_t patches = mesh.patch_count();
-  parallel_for(mesh.tree_count(), [&](std::size_t tree) {
-    for (auto i = mesh.first_inner(tree); i < mesh.first_inner(tree + 1); ++i)
-      mean(patches + i, mesh.halves_of(i)[0], mesh.halves_of(i)[1]);
-  }, trees_per_task);
+  parallel_for(
+      mesh.tree_count(),
+      [&](std::size_t tree) {
+        for (auto i = mesh.first_inner(tree); i < mesh.first_inner(tree + 1); ++i)
+          mean(patches + i, mesh.halves_of(i)[0], mesh.halves_of(i)[1]);
+      },
+      trees_per_task);
 }
 
 }  // namespace
@@ -39,12 +42,15 @@ void pull_up(const Hierarchy& mesh, std::vector<double>& radiosity) {
 void push_down(const Hierarchy& mesh, DoubleColumns& irradiance) {
   const std::size_t patches = mesh.patch_count();
   if (irradiance.size() < mesh.element_count() * block_width) return;
-  parallel_for(mesh.tree_count(), [&](std::size_t tree) {
-    for (auto i = mesh.first_inner(tree + 1); i-- > mesh.first_inner(tree);)
-      for (const std::size_t half : mesh.halves_of(i))
-        for (std::size_t k = 0; k < block_width; ++k)
-          irradiance[half * block_width + k] += irradiance[(patches + i) * block_width + k];
-  }, trees_per_task);
+  parallel_for(
+      mesh.tree_count(),
+      [&](std::size_t tree) {
+        for (auto i = mesh.first_inner(tree + 1); i-- > mesh.first_inner(tree);)
+          for (const std::size_t half : mesh.halves_of(i))
+            for (std::size_t k = 0; k < block_width; ++k)
+              irradiance[half * block_width + k] += irradiance[(patches + i) * block_width + k];
+      },
+      trees_per_task);
   irradiance.resize(patches * block_width);
 }
 

@@ -144,12 +144,12 @@ RayCaster::RayCaster(const Mesh& mesh, const std::string& isa, Screens screens)
   rtcSetSceneBuildQuality(embree_->scene, RTC_BUILD_QUALITY_HIGH);
 
   RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-      mesh.vertices.size()));
-  auto* corners = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
-      mesh.triangle_count()));
+  auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                             RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+                                                             mesh.vertices.size()));
+  auto* corners = static_cast<unsigned*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(unsigned), mesh.triangle_count()));
   if (points && corners) {
     for (const auto& p : mesh.vertices)
       for (const double coordinate : {p.x, p.y, p.z}) *points++ = static_cast<float>(coordinate);
@@ -203,8 +203,8 @@ Hit RayCaster::first_hit(Vec3 origin, Vec3 direction) const {
                         static_cast<double>(query.hit.Ng_y) * direction.y +
                         static_cast<double>(query.hit.Ng_z) * direction.z;
   return {static_cast<std::int32_t>(query.hit.primID), static_cast<double>(query.hit.u),
-          static_cast<double>(query.hit.v),
-          static_cast<double>(query.ray.tfar) * norm(direction), facing < 0};
+          static_cast<double>(query.hit.v), static_cast<double>(query.ray.tfar) * norm(direction),
+          facing < 0};
 }
 
 PacketHits RayCaster::first_hits(const Packet& origins, const PacketDirections& directions,
@@ -237,7 +237,8 @@ PacketHits RayCaster::first_hits(const Packet& origins, const PacketDirections& 
     hits.v[r] = query.hit.v[r];
     hits.distance[r] = query.ray.tfar[r];
     hits.front[r] = query.hit.Ng_x[r] * directions.x[r] + query.hit.Ng_y[r] * directions.y[r] +
-                        query.hit.Ng_z[r] * directions.z[r] < 0;
+                        query.hit.Ng_z[r] * directions.z[r] <
+                    0;
   }
   return hits;
 }

@@ -52,7 +52,7 @@ PacketDirections same_for_all(Vec3 direction);
 struct PacketHits {
   std::int32_t triangle[packet_size];  ///< -1: left the scene
   float u[packet_size], v[packet_size];
-  float distance[packet_size];         ///< in lengths of the direction
+  float distance[packet_size];  ///< in lengths of the direction
   bool front[packet_size];
 
   Hit operator[](std::size_t r) const {

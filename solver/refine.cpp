@@ -28,18 +28,21 @@ constexpr double clearly_below = 0.95;
 
 /// What the pilot says of one leaf, both sides together.
 struct Estimate {
-  double squared_error = 0;   ///< ∫ (H - mean H)² dA [J2 m-2]
-  double power = 0;           ///< ∫ H dA [J]
-  double area_m2 = 0;         ///< of the sides that have patches
-  double historic_m2 = 0;     ///< largest estimate of the historic oracle, by suns
-  double form_factor = 0;     ///< the same by emitters
+  double squared_error = 0;  ///< ∫ (H - mean H)² dA [J2 m-2]
+  double power = 0;          ///< ∫ H dA [J]
+  double area_m2 = 0;        ///< of the sides that have patches
+  double historic_m2 = 0;    ///< largest estimate of the historic oracle, by suns
+  double form_factor = 0;    ///< the same by emitters
 };
 
 class Refinement {
  public:
   Refinement(ElementForest& forest, const RayCaster& caster, const SplitRules& split,
              const RefineRules& rules, const PilotLight& light, Watch& watch)
-      : forest_(forest), split_(split), rules_(rules), watch_(watch),
+      : forest_(forest),
+        split_(split),
+        rules_(rules),
+        watch_(watch),
         pilot_(forest, caster, light, rules.seed) {}
 
   void run(RefineReport& report) {
@@ -82,8 +85,8 @@ class Refinement {
       e.area_m2 += area;
       e.form_factor = std::max(e.form_factor, load.lamp_form_factor);
       if (load.sees_sun)
-        e.historic_m2 = std::max(e.historic_m2,
-                                 historic_light_estimate_m2(load.largest_cosine, area));
+        e.historic_m2 =
+            std::max(e.historic_m2, historic_light_estimate_m2(load.largest_cosine, area));
     }
     return e;
   }
@@ -92,11 +95,14 @@ class Refinement {
   void look_at(const Leaves& leaves) {
     estimates_.resize(forest_.elements().size());
     std::vector<std::pair<double, double>> loads(leaves.size());
-    parallel_for(leaves.size(), [&](std::size_t l) {
-      double of_sides[2] = {};
-      estimates_[leaves[l]] = estimate(leaves[l], of_sides);
-      loads[l] = {of_sides[0], of_sides[1]};
-    }, elements_per_task);
+    parallel_for(
+        leaves.size(),
+        [&](std::size_t l) {
+          double of_sides[2] = {};
+          estimates_[leaves[l]] = estimate(leaves[l], of_sides);
+          loads[l] = {of_sides[0], of_sides[1]};
+        },
+        elements_per_task);
     for (std::size_t l = 0; l < leaves.size(); ++l) {
       pilot_.set_load(leaves[l], 0, loads[l].first);
       pilot_.set_load(leaves[l], 1, loads[l].second);

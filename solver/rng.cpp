@@ -14,8 +14,7 @@ struct Address {
 };
 
 Address address(const RandomKey& key) {
-  const std::uint64_t stream =
-      mixed(key.seed, static_cast<std::uint64_t>(key.purpose));
+  const std::uint64_t stream = mixed(key.seed, static_cast<std::uint64_t>(key.purpose));
   return {{static_cast<std::uint32_t>(stream) + key.realization,
            static_cast<std::uint32_t>(stream >> 32)},
           {static_cast<std::uint32_t>(key.element), static_cast<std::uint32_t>(key.element >> 32),
@@ -27,8 +26,8 @@ Address address(const RandomKey& key) {
 RandomWords random_words(const RandomKey& key) {
   const Address a = address(key);
   const r123::Philox4x32 philox;
-  const auto words = philox({{a.counter[0], a.counter[1], a.counter[2], a.counter[3]}},
-                            {{a.key[0], a.key[1]}});
+  const auto words =
+      philox({{a.counter[0], a.counter[1], a.counter[2], a.counter[3]}}, {{a.key[0], a.key[1]}});
   return {words[0], words[1], words[2], words[3]};
 }
 

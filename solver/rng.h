@@ -26,12 +26,12 @@ enum class Purpose : std::uint32_t {
 
 /// Address of a block of random words.
 struct RandomKey {
-  std::uint64_t seed = 1;           ///< of the study
+  std::uint64_t seed = 1;  ///< of the study
   Purpose purpose = Purpose::lines;
   std::uint32_t realization = 0;
-  std::uint64_t element = 0;        ///< stable key of a patch (object, input triangle, path, side)
-  std::uint32_t sun = 0;            ///< number of the interval in the period, 0 for lines
-  std::uint32_t block = 0;          ///< further words for the same address
+  std::uint64_t element = 0;  ///< stable key of a patch (object, input triangle, path, side)
+  std::uint32_t sun = 0;      ///< number of the interval in the period, 0 for lines
+  std::uint32_t block = 0;    ///< further words for the same address
 };
 
 using RandomWords = std::array<std::uint32_t, 4>;

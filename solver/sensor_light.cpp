@@ -78,29 +78,29 @@ Lines trace_sensor_lines(const Scene& scene, const Hierarchy& hierarchy, const R
   lines.pooled = empty_line_set(sensors.size(), guide.any());
   lines.realizations.assign(static_cast<std::size_t>(rules.realizations), lines.pooled);
   std::vector<Output> outputs(lines.pooled.patches.blocks.size());
-  parallel_chunks(sensors.size(), LinkTable::rows_per_block,
-                  [&](std::size_t begin, std::size_t end) {
-    Output& output = outputs[begin / LinkTable::rows_per_block];
-    LineCollector own, pooled;
-    BrightView view(guide);
-    for (std::size_t s = begin; s < end; ++s) {
-      pooled.clear();
-      view.look_from(sensors[s].position, sensors[s].normal);
-      for (std::size_t r = 0; r < lines.realizations.size(); ++r) {
-        own.clear();
-        output.rays += trace(sensors[s], hierarchy, caster, follower, view,
-                             {.seed = rules.seed,
-                              .purpose = Purpose::lines,
-                              .realization = static_cast<std::uint32_t>(r),
-                              .element = sensors[s].key},
-                             each, own);
-        own.move_glimpses(s, r, output.glimpses);
-        pooled += own;
-        own.store(lines.realizations[r], s, each);
-      }
-      pooled.store(lines.pooled, s, static_cast<std::size_t>(rules.lines_per_patch));
-    }
-  });
+  parallel_chunks(
+      sensors.size(), LinkTable::rows_per_block, [&](std::size_t begin, std::size_t end) {
+        Output& output = outputs[begin / LinkTable::rows_per_block];
+        LineCollector own, pooled;
+        BrightView view(guide);
+        for (std::size_t s = begin; s < end; ++s) {
+          pooled.clear();
+          view.look_from(sensors[s].position, sensors[s].normal);
+          for (std::size_t r = 0; r < lines.realizations.size(); ++r) {
+            own.clear();
+            output.rays += trace(sensors[s], hierarchy, caster, follower, view,
+                                 {.seed = rules.seed,
+                                  .purpose = Purpose::lines,
+                                  .realization = static_cast<std::uint32_t>(r),
+                                  .element = sensors[s].key},
+                                 each, own);
+            own.move_glimpses(s, r, output.glimpses);
+            pooled += own;
+            own.store(lines.realizations[r], s, each);
+          }
+          pooled.store(lines.pooled, s, static_cast<std::size_t>(rules.lines_per_patch));
+        }
+      });
   for (const auto& output : outputs) {
     lines.rays += output.rays;
     lines.glimpses.insert(lines.glimpses.end(), output.glimpses.begin(), output.glimpses.end());

@@ -20,8 +20,7 @@ namespace sunload {
 /// normal, so that one on a surface sees the hemisphere above it. Of bright surfaces it takes
 /// those that face it, seen or not.
 Lines trace_sensor_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-                         const SkyGrid& grid, const Guide& guide,
-                         const LineRules& rules);
+                         const SkyGrid& grid, const Guide& guide, const LineRules& rules);
 
 /// Light of a block on the rows of `lines`, whose targets are patches of which
 /// `followed` is the radiosity gathered last.

@@ -24,7 +24,9 @@ class MeanLight {
   void add(const ShotLight& light) { add(light, *light.lamps); }
   void add(const BlockLight& light) { add(light, light.lamps); }
   BlockLight in_float() const {
-    const auto to_float = [](const DoubleColumns& part) { return Columns(part.begin(), part.end()); };
+    const auto to_float = [](const DoubleColumns& part) {
+      return Columns(part.begin(), part.end());
+    };
     BlockLight light;
     light.direct = to_float(parts_[0]);
     light.sky = to_float(parts_[1]);
@@ -38,12 +40,15 @@ class MeanLight {
   template <class Light, class Lamps>
   void add(const Light& light, const Lamps& lamps) {
     const std::array from{&light.direct, &light.sky, &light.mirror, &light.reflected};
-    parallel_for(lamps_.size(), [&](std::size_t i) {
-      for (std::size_t p = 0; p < from.size(); ++p)
-        for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k)
-          parts_[p][k] += of_one_ * static_cast<double>((*from[p])[k]);
-      lamps_[i] += of_one_ * static_cast<double>(lamps[i]);
-    }, patches_per_task);
+    parallel_for(
+        lamps_.size(),
+        [&](std::size_t i) {
+          for (std::size_t p = 0; p < from.size(); ++p)
+            for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k)
+              parts_[p][k] += of_one_ * static_cast<double>((*from[p])[k]);
+          lamps_[i] += of_one_ * static_cast<double>(lamps[i]);
+        },
+        patches_per_task);
   }
 
   double of_one_;
@@ -55,10 +60,13 @@ class MeanLight {
 template <class Light>
 void add_exposure(const Light& light, std::span<const SunLight> block,
                   std::vector<double>& exposure) {
-  parallel_for(exposure.size(), [&](std::size_t i) {
-    for (std::size_t k = 0; k < block.size(); ++k)
-      exposure[i] += static_cast<double>(light.total(i, k)) * block[k].length_s;
-  }, patches_per_task);
+  parallel_for(
+      exposure.size(),
+      [&](std::size_t i) {
+        for (std::size_t k = 0; k < block.size(); ++k)
+          exposure[i] += static_cast<double>(light.total(i, k)) * block[k].length_s;
+      },
+      patches_per_task);
 }
 
 /// `parallel`: irradiance by parallel sources, or empty.
@@ -125,8 +133,7 @@ TracedLight LightSolver::trace_for_shooting(const BlockSources& sources) {
     const Stopwatch time(work_.direct_s);
     // Totals come from the series of each realization, which the sun is part of.
     std::vector<std::vector<double>> unused(realizations, std::vector<double>(patches, 0));
-    traced.direct = direct_sun(caster_, sampler_, sources.suns, unused,
-                               &traced.of_patches.direct);
+    traced.direct = direct_sun(caster_, sampler_, sources.suns, unused, &traced.of_patches.direct);
     work_.direct_rays += traced.direct.rays;
   }
   if (scene_.sensors.empty()) return traced;
@@ -140,17 +147,20 @@ TracedLight LightSolver::trace_for_shooting(const BlockSources& sources) {
 void LightSolver::add_by_source(std::size_t r, const ShotLight& light,
                                 std::span<const SunLight> block, ExposureBySource& to) const {
   const std::vector<double>& parallel = parallel_.of(r);
-  parallel_for(hierarchy_.patch_count(), [&](std::size_t i) {
-    const double of_parallel = parallel.empty() ? 0 : parallel[i];
-    for (std::size_t k = 0; k < block.size(); ++k) {
-      const double s = block[k].length_s;
-      const std::size_t at = i * block_width + k;
-      to.sun[r][i] += s * light.by_source->sun[at];
-      to.parallel[r][i] += s * of_parallel;
-      to.emitted[r][i] += s * ((*light.lamps)[i] - of_parallel);
-      to.reflected[r][i] += s * light.by_source->shot[at];
-    }
-  }, patches_per_task);
+  parallel_for(
+      hierarchy_.patch_count(),
+      [&](std::size_t i) {
+        const double of_parallel = parallel.empty() ? 0 : parallel[i];
+        for (std::size_t k = 0; k < block.size(); ++k) {
+          const double s = block[k].length_s;
+          const std::size_t at = i * block_width + k;
+          to.sun[r][i] += s * light.by_source->sun[at];
+          to.parallel[r][i] += s * of_parallel;
+          to.emitted[r][i] += s * ((*light.lamps)[i] - of_parallel);
+          to.reflected[r][i] += s * light.by_source->shot[at];
+        }
+      },
+      patches_per_task);
 }
 
 FirstMirrored::SentSuns LightSolver::send_sun(std::span<const SunLight> block) {
@@ -165,7 +175,8 @@ BlockLight LightSolver::shot_to_sensors(std::size_t r, const BlockSources& sourc
                                         const ShotLight& light, SunColumns& of_sensors) const {
   return sensor_light(sensor_lines_.realizations[r], optics_, sources,
                       std::move(of_sensors.direct[r]), std::move(of_sensors.by_mirror[r]),
-                      sensor_parallel_.of(r), Columns(light.followed.begin(), light.followed.end()));
+                      sensor_parallel_.of(r),
+                      Columns(light.followed.begin(), light.followed.end()));
 }
 
 void LightSolver::add_realization(std::size_t r, const ShotLight& light,

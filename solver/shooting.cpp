@@ -23,9 +23,12 @@ constexpr std::uint32_t blocks_of_glossy(std::uint32_t iteration) {
 }
 
 void add(DoubleColumns& to, const DoubleColumns& from) {
-  parallel_for(to.size() / block_width, [&](std::size_t i) {
-    for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k) to[k] += from[k];
-  }, patches_per_task);
+  parallel_for(
+      to.size() / block_width,
+      [&](std::size_t i) {
+        for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k) to[k] += from[k];
+      },
+      patches_per_task);
 }
 
 void gather(const LinkTable& links, const DoubleColumns& source, DoubleColumns& out) {
@@ -69,7 +72,8 @@ Shooter::Shooter(const Scene& scene, const Hierarchy& hierarchy, const RayCaster
       receiver_area_.push_back(receiver_area_[a] + receiver_area_[b]);
     }
   for (const Patch& patch : hierarchy.patches()) {
-    const auto& m = scene.materials[scene.material[static_cast<std::size_t>(patch.triangle)].index()];
+    const auto& m =
+        scene.materials[scene.material[static_cast<std::size_t>(patch.triangle)].index()];
     diffuse_.push_back(m.diffuse);
     emission_.push_back(m.emission_w_m2);
     passed_.push_back(m.transmittance);
@@ -110,9 +114,9 @@ class Shooter::Task {
     rays += waiting_;
     for (std::size_t l = 0; l < waiting_; ++l) {
       const std::uint64_t sample = mixed(s_.hierarchy_.key()[patch_[l]], line_[l]);
-      const Fate fate = s_.chain_.follow(w_[l], hits[l], patch_[l], share_[l],
-                                         key(sample, blocks_of_glossy(address_.iteration)),
-                                         deposits);
+      const Fate fate =
+          s_.chain_.follow(w_[l], hits[l], patch_[l], share_[l],
+                           key(sample, blocks_of_glossy(address_.iteration)), deposits);
       rays += fate.rays;
       fates_[patch_[l] - begin_] += fate;
     }
@@ -208,8 +212,8 @@ void Shooter::shoot_emitters() {
     const double wanted = wanted_samples(total, total);
     const Shot shot = shoot(power, wanted, {r, 0, shot_of_emitters});
     for (std::size_t i = 0; i < patches; ++i) of.irradiance[i] = shot.irradiance[i * block_width];
-    of.fate = {shot.fates.absorbed[0], shot.fates.backs[0], shot.fates.escaped[0],
-               shot.fates.cut[0], shot.fates.transmitted[0], 0};
+    of.fate = {shot.fates.absorbed[0], shot.fates.backs[0],       shot.fates.escaped[0],
+               shot.fates.cut[0],      shot.fates.transmitted[0], 0};
     samples_ += shot.samples;
     wanted_ += wanted;
     rays_ += shot.rays;
@@ -231,10 +235,13 @@ void Shooter::add_parallel(const ParallelLight& parallel, const PatchOptics& opt
 
 DoubleColumns Shooter::reflected_power(const DoubleColumns& received) const {
   DoubleColumns power(received.size());
-  parallel_for(diffuse_.size(), [&](std::size_t i) {
-    for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k)
-      power[k] = hierarchy_.area()[i] * diffuse_[i] * received[k];
-  }, patches_per_task);
+  parallel_for(
+      diffuse_.size(),
+      [&](std::size_t i) {
+        for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k)
+          power[k] = hierarchy_.area()[i] * diffuse_[i] * received[k];
+      },
+      patches_per_task);
   return power;
 }
 
@@ -283,10 +290,13 @@ Fates Shooter::add_first_light(ShotLight& light, DoubleColumns& ground, std::siz
   const LineSet& lines = lines_.realizations[realization];
   const DoubleColumns sky = in_double(sources.sky), exitance = ground_exitance(sources);
   gather(lines.sky, sky, light.sky);
-  parallel_for(lines.ends.size(), [&](std::size_t i) {
-    for (std::size_t k = 0; k < block_width; ++k)
-      ground[i * block_width + k] = static_cast<double>(lines.ends[i].ground) * exitance[k];
-  }, patches_per_task);
+  parallel_for(
+      lines.ends.size(),
+      [&](std::size_t i) {
+        for (std::size_t k = 0; k < block_width; ++k)
+          ground[i * block_width + k] = static_cast<double>(lines.ends[i].ground) * exitance[k];
+      },
+      patches_per_task);
   Fates fates;
   if (!first_mirrored_.any()) return fates;
   const auto take = [&](const FirstMirrored::Light& from, DoubleColumns& to) {
@@ -320,9 +330,8 @@ void Shooter::book_first_light(ShotLight& light, std::size_t realization,
                         Ledger& ledger = sum.of[k];
                         const double sun = area[i] * light.direct[i * block_width + k];
                         const double sky = area[i] * light.sky[i * block_width + k];
-                        const double ground =
-                            area[i] * static_cast<double>(ends[i].ground) *
-                            static_cast<double>(sources.ground_exitance[k]);
+                        const double ground = area[i] * static_cast<double>(ends[i].ground) *
+                                              static_cast<double>(sources.ground_exitance[k]);
                         const double stopped = 1 - passed_[i];
                         ledger[Term::sun] += stopped * sun;
                         ledger[Term::sky] += stopped * sky;
@@ -351,10 +360,13 @@ ShotLight Shooter::light(std::size_t realization, const BlockSources& sources,
 
   DoubleColumns first = ground;
   for (const auto* part : {&light.direct, &light.sky, &light.mirror}) add(first, *part);
-  parallel_for(patches, [&](std::size_t i) {
-    for (std::size_t k = 0; k < sources.suns.size(); ++k)
-      first[i * block_width + k] += emitters.irradiance[i];
-  }, patches_per_task);
+  parallel_for(
+      patches,
+      [&](std::size_t i) {
+        for (std::size_t k = 0; k < sources.suns.size(); ++k)
+          first[i * block_width + k] += emitters.irradiance[i];
+      },
+      patches_per_task);
   Reflected reflected = reflect(first, realization, sources.suns.front().number);
   light.reflected = std::move(reflected.irradiance);
   light.followed = std::move(reflected.followed);

@@ -6,8 +6,8 @@
 ///
 /// F_ij is never formed: a uniformly distributed line from i first meets j with
 /// that probability; where j is small as seen from i, it is an element of which patches are parts
-/// and which receives as a whole (linked_element). Incremental: P_i = A_i rho_i E_i of what was received last,
-/// results are added. Regular: P_i = A_i rho_i (E_0 + E_reflected) of all of it
+/// and which receives as a whole (linked_element). Incremental: P_i = A_i rho_i E_i of what was
+/// received last, results are added. Regular: P_i = A_i rho_i (E_0 + E_reflected) of all of it
 /// again, with new samples. E_0 is what arrives without diffuse reflection:
 /// direct sun and sky as when gathering, what mirrors send on (first_mirrored),
 /// the light of parallel sources, and the emitters' power, which is shot once.
@@ -39,8 +39,9 @@ struct ShootingRules {
   /// `samples_per_patch` for the first reflection and for the emitters, and samples of the same
   /// power from there on.
   std::optional<double> power_per_sample_w;
-  int samples_per_patch = 256;  ///< over all realizations, in the mean of patches; of no power given
-  bool by_source = false;       ///< keep ShotLight::by_source
+  int samples_per_patch =
+      256;                 ///< over all realizations, in the mean of patches; of no power given
+  bool by_source = false;  ///< keep ShotLight::by_source
 };
 
 /// Light of one realization of a block, [N][block] W m-2.
@@ -113,8 +114,7 @@ class Shooter {
   DoubleColumns reflected_power(const DoubleColumns& received) const;
   double wanted_samples(const SunTotals& power, const SunTotals& first) const;
   Fates add_first_light(ShotLight& light, DoubleColumns& ground, std::size_t realization,
-                        const BlockSources& sources,
-                        const FirstMirrored::SentSuns& sent) const;
+                        const BlockSources& sources, const FirstMirrored::SentSuns& sent) const;
   void book_first_light(ShotLight& light, std::size_t realization,
                         const BlockSources& sources) const;
 
@@ -129,7 +129,7 @@ class Shooter {
   std::vector<double> diffuse_, emission_;  ///< of patches
   std::vector<double> passed_;              ///< straight through
   std::vector<bool> sends_on_;
-  std::vector<OfEmitters> emitters_;        ///< per realization
+  std::vector<OfEmitters> emitters_;  ///< per realization
   std::uint64_t samples_ = 0, rays_ = 0;
   double wanted_ = 0;
 };

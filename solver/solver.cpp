@@ -17,8 +17,9 @@ namespace sunload {
 namespace {
 
 LineRules line_rules(const SolverRules& rules) {
-  return {rules.lines_per_patch, rules.lines_of_patch, rules.realizations,
-          rules.mirror_depth, rules.seed, rules.link_threshold / rules.lines_per_patch};
+  return {
+      rules.lines_per_patch, rules.lines_of_patch, rules.realizations,
+      rules.mirror_depth,    rules.seed,           rules.link_threshold / rules.lines_per_patch};
 }
 
 ShootingRules shooting_rules(const SolverRules& rules, int bounces) {
@@ -110,9 +111,9 @@ LightSolver::LightSolver(const Scene& scene, std::shared_ptr<const Hierarchy> me
   work_.direct_rays += parallel_.rays;
   if (rules.transport != Transport::shoot) return;
   const Stopwatch time(work_.shoot_s);
-  shooter_ = std::make_unique<Shooter>(
-      scene, hierarchy_, caster_, sampler_, grid_, optics_, lines_, parallel_,
-      line_rules_of_shots(rules), shooting_rules(rules, bounces_));
+  shooter_ = std::make_unique<Shooter>(scene, hierarchy_, caster_, sampler_, grid_, optics_, lines_,
+                                       parallel_, line_rules_of_shots(rules),
+                                       shooting_rules(rules, bounces_));
   work_.shot_rays = shooter_->rays();
   work_.samples = shooter_->samples();
   work_.wanted_samples = shooter_->wanted();
@@ -138,9 +139,14 @@ BatchTally LightSolver::solve(std::span<const SunLight> batch, Watch& watch) {
 }
 
 BatchTally LightSolver::empty_tally(std::size_t intervals) const {
-  TallyShape shape{hierarchy_.patch_count(), scene_.sensors.size(), intervals,
-                   static_cast<std::size_t>(rules_.realizations), {}, rules_.errors,
-                   rules_.by_source, rules_.transport};
+  TallyShape shape{hierarchy_.patch_count(),
+                   scene_.sensors.size(),
+                   intervals,
+                   static_cast<std::size_t>(rules_.realizations),
+                   {},
+                   rules_.errors,
+                   rules_.by_source,
+                   rules_.transport};
   for (std::size_t p = 0; p < part_count; ++p) shape.parts[p] = has_part(static_cast<Part>(p));
   return sunload::empty_tally(shape);
 }
@@ -217,11 +223,10 @@ void LightSolver::solve_traced(std::size_t band, const BlockSources& sources, Tr
 Columns LightSolver::light_patches(const PatchOptics& optics, const BlockSources& sources,
                                    std::size_t first_row, TracedLight& traced, BatchTally& tally) {
   const Stopwatch time(work_.solve_s);
-  BlockLight light =
-      block_light(hierarchy_, lines_.pooled, optics, sources,
-                  {std::move(traced.direct.irradiance), std::move(traced.by_mirror),
-                   traced.circumsolar.irradiance, parallel_.pooled},
-                  bounces_);
+  BlockLight light = block_light(hierarchy_, lines_.pooled, optics, sources,
+                                 {std::move(traced.direct.irradiance), std::move(traced.by_mirror),
+                                  traced.circumsolar.irradiance, parallel_.pooled},
+                                 bounces_);
   const auto ledger = block_ledger(lines_.pooled, optics, hierarchy_.area(), sources, light);
   std::copy(ledger.begin(), ledger.end(),
             tally.ledger.begin() + static_cast<std::ptrdiff_t>(first_row));
@@ -230,18 +235,17 @@ Columns LightSolver::light_patches(const PatchOptics& optics, const BlockSources
 }
 
 void LightSolver::light_sensors(const PatchOptics& optics, const BlockSources& sources,
-                                const Columns& followed, std::size_t first_row,
-                                TracedLight& traced, ReceiverTally& tally) {
+                                const Columns& followed, std::size_t first_row, TracedLight& traced,
+                                ReceiverTally& tally) {
   const Stopwatch time(work_.sensors_s);
-  const BlockLight light = sensor_light(
-      sensor_lines_.pooled, optics, sources, std::move(traced.on_sensors.irradiance),
-      std::move(traced.on_sensors_by_mirror), sensor_parallel_.pooled, followed);
+  const BlockLight light =
+      sensor_light(sensor_lines_.pooled, optics, sources, std::move(traced.on_sensors.irradiance),
+                   std::move(traced.on_sensors_by_mirror), sensor_parallel_.pooled, followed);
   store_received(light, sources.suns, first_row, traced.on_sensors.sunlit, tally);
 }
 
 void LightSolver::book_sun_sent_on(const TracedLight& traced, std::span<const SunLight> block,
-                                   std::size_t first_row, TimeSums& sums,
-                                   BatchTally& tally) const {
+                                   std::size_t first_row, TimeSums& sums, BatchTally& tally) const {
   for (std::size_t r = 0; r < traced.sent_on.size(); ++r)
     for (std::size_t k = 0; k < block.size(); ++k) {
       const Ledger fate = booked(traced.sent_on[r], k);
@@ -268,18 +272,17 @@ void LightSolver::errors_per_instant(const PatchOptics& optics, const BlockSourc
   for (std::size_t r = 0; r < of_patches.direct.size(); ++r) {
     const LineSet& lines = lines_.realizations[r];
     const std::vector<double>& parallel = parallel_.of(r);
-    const BlockLight light = block_light(
-        hierarchy_, lines, optics, sources,
-        {std::move(of_patches.direct[r]), std::move(of_patches.by_mirror[r]),
-         of_patches.circumsolar[r], parallel},
-        bounces_);
+    const BlockLight light =
+        block_light(hierarchy_, lines, optics, sources,
+                    {std::move(of_patches.direct[r]), std::move(of_patches.by_mirror[r]),
+                     of_patches.circumsolar[r], parallel},
+                    bounces_);
     const auto ledger = block_ledger(lines, optics, hierarchy_.area(), sources, light);
     std::copy(ledger.begin(), ledger.end(),
               tally.ledger_instants[r].begin() + static_cast<std::ptrdiff_t>(first_row));
-    const BlockLight on_sensors =
-        sensor_light(sensor_lines_.realizations[r], optics, sources,
-                     std::move(of_sensors.direct[r]), std::move(of_sensors.by_mirror[r]),
-                     sensor_parallel_.of(r), light.followed);
+    const BlockLight on_sensors = sensor_light(
+        sensor_lines_.realizations[r], optics, sources, std::move(of_sensors.direct[r]),
+        std::move(of_sensors.by_mirror[r]), sensor_parallel_.of(r), light.followed);
     patches.add(total_of(light));
     sensors.add(total_of(on_sensors));
     by_source.add(
@@ -321,12 +324,12 @@ void LightSolver::solve_realizations(std::vector<TimeSums>& sums,
   }
 }
 
-void LightSolver::solve_realization(const PatchOptics& optics, std::size_t r,
-                                    const TimeSums& sums, BatchTally& tally) const {
+void LightSolver::solve_realization(const PatchOptics& optics, std::size_t r, const TimeSums& sums,
+                                    BatchTally& tally) const {
   const auto followed = realization_of_patches(optics, r, sums, tally);
   Ledger& ledger = tally.ledger_realization[r];
-  ledger += booked(lines_.realizations[r].first_light,
-                   [&](std::size_t c) { return sums.sky[c]; }, sums.ground);
+  ledger += booked(
+      lines_.realizations[r].first_light, [&](std::size_t c) { return sums.sky[c]; }, sums.ground);
   ledger += sums.sent_on[r];
   if (!parallel_.ledger.empty()) ledger += scaled(parallel_.ledger[r], sums.length_s);
   realization_of_sensors(optics, r, sums, followed, tally.sensors);
@@ -354,8 +357,7 @@ std::vector<double> LightSolver::realization_of_patches(const PatchOptics& optic
 }
 
 void LightSolver::realization_of_sensors(const PatchOptics& optics, std::size_t r,
-                                         const TimeSums& sums,
-                                         const std::vector<double>& followed,
+                                         const TimeSums& sums, const std::vector<double>& followed,
                                          ReceiverTally& tally) const {
   const LineSet& lines = sensor_lines_.realizations[r];
   const std::vector<double> whole_sky;  // sensors see all of it by their lines

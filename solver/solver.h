@@ -30,12 +30,12 @@ struct TimeSums;
 struct TracedLight;
 
 struct SolverRules {
-  int bounces = 5;            ///< light reflected diffusely 1 … bounces times is followed
+  int bounces = 5;  ///< light reflected diffusely 1 … bounces times is followed
   /// Fewer bounces (and mirrors of the sun) where less than this is left.
   double unshot = 1e-3;
-  int lines_per_patch = 256;  ///< over all realizations
+  int lines_per_patch = 256;             ///< over all realizations
   std::vector<int> lines_of_patch = {};  ///< if they differ; sensors have lines_per_patch
-  int direct_samples = 16;    ///< per patch and sun, over all realizations
+  int direct_samples = 16;               ///< per patch and sun, over all realizations
   int realizations = 8;
   int mirror_depth = 8;
   double faint_glint = 0.02;  ///< share of the sun below which light reflected again is no beam
@@ -51,9 +51,9 @@ struct SolverRules {
   Errors errors = Errors::totals;
   Bands bands = Bands::broadband;  ///< rgb when gathering only
   Transport transport = Transport::gather;
-  Jacobi jacobi = Jacobi::incremental;        ///< when shooting
-  std::optional<double> power_per_sample_w;   ///< when shooting, ShootingRules
-  std::optional<int> samples_per_patch;       ///< when shooting, ShootingRules
+  Jacobi jacobi = Jacobi::incremental;       ///< when shooting
+  std::optional<double> power_per_sample_w;  ///< when shooting, ShootingRules
+  std::optional<int> samples_per_patch;      ///< when shooting, ShootingRules
   /// BatchTally::by_source and, with errors per instant, se_by_source.
   bool by_source = false;
 };
@@ -70,8 +70,8 @@ class LightSolver {
   LightSolver(const Scene& scene, std::shared_ptr<const Hierarchy> mesh, const SolverRules& rules,
               Watch& watch, std::optional<Lines> ready = {});
   /// On a mesh that is split by edge length alone.
-  LightSolver(const Scene& scene, const SplitRules& split, const SolverRules& rules,
-              Watch& watch, std::optional<Lines> ready = {});
+  LightSolver(const Scene& scene, const SplitRules& split, const SolverRules& rules, Watch& watch,
+              std::optional<Lines> ready = {});
   ~LightSolver();
 
   const Hierarchy& hierarchy() const { return hierarchy_; }
@@ -153,8 +153,8 @@ class LightSolver {
   const Hierarchy& hierarchy_;
   RayCaster caster_;
   SkyGrid grid_;
-  PatchOptics optics_;                        ///< broadband
-  std::vector<PatchOptics> optics_of_band_;   ///< one where light is broadband
+  PatchOptics optics_;                       ///< broadband
+  std::vector<PatchOptics> optics_of_band_;  ///< one where light is broadband
   Lines lines_, sensor_lines_;
   SunSampler sampler_, sensor_sampler_;
   MirrorGroups mirrors_;
@@ -162,7 +162,7 @@ class LightSolver {
   MirrorChains mirror_chains_;
   ParallelLight parallel_, sensor_parallel_;
   GlossySun glossy_sun_;
-  LobeImages lobe_images_;                    ///< for sensors
+  LobeImages lobe_images_;  ///< for sensors
   int bounces_;
   std::unique_ptr<Shooter> shooter_;  ///< null when gathering
 };

@@ -83,9 +83,14 @@ std::vector<SunBeam> SunBeams::next_level(std::size_t begin) const {
       if (strongest < rules_.faint_glint) continue;
       auto lit = section.lit(*groups_, g);
       if (lit.empty()) continue;
-      level.push_back({g, static_cast<std::int32_t>(b), beam.reflections + 1,
-                       followed_by_image(beam.image_of, n), image(beam.image, n), strongest,
-                       std::move(lit), {}});
+      level.push_back({g,
+                       static_cast<std::int32_t>(b),
+                       beam.reflections + 1,
+                       followed_by_image(beam.image_of, n),
+                       image(beam.image, n),
+                       strongest,
+                       std::move(lit),
+                       {}});
       if (beams_.size() + level.size() > static_cast<std::size_t>(rules_.most_beams)) return level;
     }
   }

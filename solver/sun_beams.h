@@ -26,22 +26,22 @@
 namespace sunload {
 
 struct BeamRules {
-  int mirror_depth = 8;     ///< reflections, at most
-  double faint_glint = 0;   ///< share of the sun below which further reflections are no beams
-  int most_beams = 0;       ///< of one sun; a level that would exceed it is left out
-  double margin_m = 0;      ///< by which points of mirrors are known
+  int mirror_depth = 8;    ///< reflections, at most
+  double faint_glint = 0;  ///< share of the sun below which further reflections are no beams
+  int most_beams = 0;      ///< of one sun; a level that would exceed it is left out
+  double margin_m = 0;     ///< by which points of mirrors are known
 };
 
 /// One sun by way of mirrors of a sequence of orientations.
 struct SunBeam {
-  std::size_t group;       ///< of the last mirror: the one that receivers see
-  std::int32_t before;     ///< beam that the last mirror reflects; -1: the sun
+  std::size_t group;    ///< of the last mirror: the one that receivers see
+  std::int32_t before;  ///< beam that the last mirror reflects; -1: the sun
   int reflections;
-  Rotation image_of;       ///< from directions on the sun to where receivers see them
-  Vec3 image;              ///< of the sun's centre
-  double strongest;        ///< largest product of reflectances
-  std::vector<ConvexPolygon> section;                       ///< parts of mirrors
-  std::vector<std::pair<std::size_t, std::int32_t>> next;   ///< group, beam
+  Rotation image_of;                   ///< from directions on the sun to where receivers see them
+  Vec3 image;                          ///< of the sun's centre
+  double strongest;                    ///< largest product of reflectances
+  std::vector<ConvexPolygon> section;  ///< parts of mirrors
+  std::vector<std::pair<std::size_t, std::int32_t>> next;  ///< group, beam
 };
 
 class SunBeams {

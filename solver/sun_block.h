@@ -17,23 +17,23 @@ inline constexpr std::size_t block_width = 16;
 
 /// Light of one interval, as means over the interval [W m-2].
 struct SunLight {
-  std::uint32_t number = 0;      ///< of the interval in the period: address of random numbers
-  Vec3 direction{0, 0, 1};       ///< to the sun, scene frame, unit
+  std::uint32_t number = 0;  ///< of the interval in the period: address of random numbers
+  Vec3 direction{0, 0, 1};   ///< to the sun, scene frame, unit
   double dni = 0;
   double dhi = 0;
-  double ground_exitance = 0;    ///< of the far ground, rho_g * GHI
+  double ground_exitance = 0;  ///< of the far ground, rho_g * GHI
   /// Mean radiance per cell of the sky grid [W m-2 sr-1]; empty: dark.
   std::vector<double> sky;
   double length_s = 0;
-  double sunlit_s = 0;           ///< above 0: the sun's centre is above the horizon
-  double disk_half_angle = 0;    ///< of the sun's disk; 0: a point
+  double sunlit_s = 0;         ///< above 0: the sun's centre is above the horizon
+  double disk_half_angle = 0;  ///< of the sun's disk; 0: a point
 
   /// The same light in one band (solver/band.h).
   struct Band {
     double dni = 0, ground_exitance = 0;
     std::vector<double> sky;
   };
-  std::vector<Band> bands;       ///< red, green, blue; empty where bands are not asked for
+  std::vector<Band> bands;  ///< red, green, blue; empty where bands are not asked for
 
   bool has_sun() const { return sunlit_s > 0 && direction.z > 0; }
   bool is_dark() const { return !has_sun() && dhi <= 0; }
@@ -47,11 +47,13 @@ struct Aligned {
   template <class Other>
   explicit Aligned(const Aligned<Other>&) {}
   Real* allocate(std::size_t n) {
-    return static_cast<Real*>(::operator new(n * sizeof(Real), std::align_val_t{64}));
+    return static_cast<Real*>(::operator new (n * sizeof(Real), std::align_val_t{64}));
   }
-  void deallocate(Real* p, std::size_t) { ::operator delete(p, std::align_val_t{64}); }
+  void deallocate(Real* p, std::size_t) { ::operator delete (p, std::align_val_t{64}); }
   template <class Other>
-  bool operator==(const Aligned<Other>&) const { return true; }
+  bool operator==(const Aligned<Other>&) const {
+    return true;
+  }
 };
 
 /// One value per patch (or sky cell) and sun of a block.

@@ -20,7 +20,14 @@ inline constexpr std::array<const char*, part_count> part_names{"total",  "direc
 ///
 /// in = sun + sky + ground + emitted;  out = absorbed + transmitted + escaped + unshot
 enum class Term : std::uint8_t {
-  sun, sky, ground, emitted, absorbed, transmitted, escaped, unshot
+  sun,
+  sky,
+  ground,
+  emitted,
+  absorbed,
+  transmitted,
+  escaped,
+  unshot
 };
 inline constexpr std::size_t term_count = 8;
 inline constexpr std::array<const char*, term_count> term_names{
@@ -42,12 +49,12 @@ Ledger scaled(Ledger ledger, double factor);
 /// What N receivers (patches or sensors) get in K consecutive intervals, R
 /// realizations. Energies are J m-2; a part that the scene cannot have is empty.
 struct ReceiverTally {
-  std::array<std::vector<float>, part_count> irradiance;     ///< [K][N] W m-2
-  std::vector<float> irradiance_se;                          ///< [K][N], if asked for
-  std::array<std::vector<double>, part_count> exposure;      ///< [N] time sum of the series
-  std::vector<std::vector<double>> exposure_realization;     ///< [R][N]
-  std::vector<double> sunlit_s;                              ///< [N]
-  std::vector<float> irradiance_max;                         ///< [N]
+  std::array<std::vector<float>, part_count> irradiance;  ///< [K][N] W m-2
+  std::vector<float> irradiance_se;                       ///< [K][N], if asked for
+  std::array<std::vector<double>, part_count> exposure;   ///< [N] time sum of the series
+  std::vector<std::vector<double>> exposure_realization;  ///< [R][N]
+  std::vector<double> sunlit_s;                           ///< [N]
+  std::vector<float> irradiance_max;                      ///< [N]
 };
 
 /// Exposures of every realization by what their errors come from, [R][N] J m-2. What they leave of
@@ -55,7 +62,7 @@ struct ReceiverTally {
 struct ExposureBySource {
   std::vector<std::vector<double>> sun;  ///< by direct samples of every sun, mirrored included
   // Only if asked for (SolverRules).
-  std::vector<std::vector<double>> parallel;   ///< by direct samples, the same for all suns
+  std::vector<std::vector<double>> parallel;  ///< by direct samples, the same for all suns
   // When shooting, and only if asked for.
   std::vector<std::vector<double>> emitted;    ///< by samples of emitters, the same for all suns
   std::vector<std::vector<double>> reflected;  ///< by samples of every block of suns
@@ -74,13 +81,13 @@ enum class Errors { totals, instants };
 /// Results of consecutive intervals: of the patches, of sensors, of the scene [J].
 struct BatchTally : ReceiverTally {
   std::size_t intervals = 0;
-  std::vector<double> outgoing;                              ///< [N] radiosity, time-integrated
+  std::vector<double> outgoing;  ///< [N] radiosity, time-integrated
   ExposureBySource by_source;
-  ErrorsBySource se_by_source;                               ///< if asked for, per instant
+  ErrorsBySource se_by_source;  ///< if asked for, per instant
   ReceiverTally sensors;
-  std::vector<Ledger> ledger;                                ///< [K] W
-  std::vector<Ledger> ledger_realization;                    ///< [R] J
-  Ledger energy;                                             ///< J: time sum of `ledger`
+  std::vector<Ledger> ledger;              ///< [K] W
+  std::vector<Ledger> ledger_realization;  ///< [R] J
+  Ledger energy;                           ///< J: time sum of `ledger`
   /// [R][K] W, if errors per instant are asked for.
   std::vector<std::vector<Ledger>> ledger_instants;
 };

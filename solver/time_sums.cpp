@@ -27,8 +27,8 @@ void TimeSums::add_sources(const BlockSources& sources) {
   }
 }
 
-FirstExposure first_exposure(const LineSet& lines, const PatchOptics& optics,
-                             const TimeSums& sums, const ExposureByRays& by_rays) {
+FirstExposure first_exposure(const LineSet& lines, const PatchOptics& optics, const TimeSums& sums,
+                             const ExposureByRays& by_rays) {
   const std::size_t rows = lines.ends.size();
   const auto& [direct, by_mirror, circumsolar, parallel] = by_rays;
   FirstExposure first{std::vector<double>(rows, 0), std::vector<double>(rows, 0),
@@ -40,8 +40,8 @@ FirstExposure first_exposure(const LineSet& lines, const PatchOptics& optics,
   for (std::size_t i = 0; i < circumsolar.size(); ++i) first.sky[i] += circumsolar[i];
   for (std::size_t i = 0; i < rows; ++i) {
     first.base[i] += direct[i] + by_mirror[i] + first.sky[i];
-    first.ground[i] = static_cast<double>(lines.ends[i].ground + lines.ends[i].ground_by_mirror) *
-                      sums.ground;
+    first.ground[i] =
+        static_cast<double>(lines.ends[i].ground + lines.ends[i].ground_by_mirror) * sums.ground;
   }
   return first;
 }

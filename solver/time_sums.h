@@ -19,13 +19,13 @@ struct TimeSums {
 
   std::vector<std::vector<double>> direct, by_mirror;  ///< [R][N]
   std::vector<std::vector<double>> by_gloss;  ///< [R][N], by lines; empty where nothing is glossy
-  std::vector<std::vector<double>> circumsolar;        ///< [R][N]
+  std::vector<std::vector<double>> circumsolar;                      ///< [R][N]
   std::vector<std::vector<double>> sensor_direct, sensor_by_mirror;  ///< [R][sensors]
-  std::vector<double> sky;                             ///< [cells] π·radiance·time
-  std::vector<double> sky_of_lines;                    ///< the same without circumsolar light
+  std::vector<double> sky;                                           ///< [cells] π·radiance·time
+  std::vector<double> sky_of_lines;  ///< the same without circumsolar light
   double ground = 0;
-  double length_s = 0;                                 ///< for lamps
-  std::vector<Ledger> sent_on;                         ///< [R] the sun's light that mirrors sent on
+  double length_s = 0;          ///< for lamps
+  std::vector<Ledger> sent_on;  ///< [R] the sun's light that mirrors sent on
 };
 
 /// What the rows of one realization's lines receive otherwise than by these.
@@ -39,7 +39,7 @@ struct ExposureByRays {
 struct FirstExposure {
   std::vector<double> sky, base, ground;  ///< straight from the sky; all but ground; far ground
 };
-FirstExposure first_exposure(const LineSet& lines, const PatchOptics& optics,
-                             const TimeSums& sums, const ExposureByRays& by_rays);
+FirstExposure first_exposure(const LineSet& lines, const PatchOptics& optics, const TimeSums& sums,
+                             const ExposureByRays& by_rays);
 
 }  // namespace sunload

@@ -16,8 +16,7 @@ TracedLight LightSolver::trace_block(const BlockSources& sources, TimeSums& sums
                                 or_none(traced.of_patches.by_mirror)};
   std::vector<SunBeams> beams = trace_mirrors(sources.suns, into, traced.sent_on);
   if (rules_.by_source) traced.by_samples = traced_sums(traced.of_patches);
-  trace_gloss(sources.suns,
-              {traced.by_mirror, sums.by_gloss, or_none(traced.of_patches.by_mirror)},
+  trace_gloss(sources.suns, {traced.by_mirror, sums.by_gloss, or_none(traced.of_patches.by_mirror)},
               traced.sent_on);
   if (!scene_.sensors.empty()) trace_sensors(sources.suns, std::move(beams), sums, traced);
   return traced;
@@ -37,8 +36,8 @@ void LightSolver::make_columns(TracedLight& traced) const {
 
 void LightSolver::trace_sun(const BlockSources& sources, TimeSums& sums, TracedLight& traced) {
   const Stopwatch time(work_.direct_s);
-  traced.direct = direct_sun(caster_, sampler_, sources.suns, sums.direct,
-                             or_none(traced.of_patches.direct));
+  traced.direct =
+      direct_sun(caster_, sampler_, sources.suns, sums.direct, or_none(traced.of_patches.direct));
   traced.circumsolar = circumsolar_light(hierarchy_, caster_, sampler_, sources.suns,
                                          sources.circumsolar, traced.direct.sunlit,
                                          sums.circumsolar, or_none(traced.of_patches.circumsolar));

@@ -44,8 +44,11 @@ int main(int argc, char** argv) {
   const PatchScene scene(result);
   stages.end("loading");
   fmt::print("{} patches\n", scene.patch_count());
-  const PatchColours colours{shown.values, scale_end({}, shown.values, scene.area()),
-                             Palette::false_colour, MeshLines::none, {}};
+  const PatchColours colours{shown.values,
+                             scale_end({}, shown.values, scene.area()),
+                             Palette::false_colour,
+                             MeshLines::none,
+                             {}};
   stages.end("scale");
   const RayCaster caster(scene.mesh());
   stages.end("ray caster");

@@ -24,8 +24,8 @@ struct Loaded {
 Loaded loaded(const VariantPlan& plan, std::shared_ptr<const Hierarchy> mesh) {
   Watch watch;
   LightSolver solver(plan.built.scene, mesh, solver_rules(plan), watch);
-  const auto open = open_shares(solver.sky_grid(), plan.built.site.horizon,
-                                scene_from_enu(plan.built.site));
+  const auto open =
+      open_shares(solver.sky_grid(), plan.built.site.horizon, scene_from_enu(plan.built.site));
   std::vector<SunLight> suns;
   for (std::size_t k = 0; k < plan.intervals(); ++k)
     suns.push_back(sun_light(plan.light.intervals[k], static_cast<std::uint32_t>(k),
@@ -53,8 +53,8 @@ double error_against(const Loaded& fine, const Loaded& coarse, const Scene& scen
     const Vec3 p = fine.mesh->centroid(i) - a;
     const double u = dot(cross(p, scene.mesh.corner(t, 2) - a), n) / dot(n, n);
     const double v = dot(cross(scene.mesh.corner(t, 1) - a, p), n) / dot(n, n);
-    const auto holder = static_cast<std::size_t>(
-        coarse.mesh->patch_at(patch.triangle, u, v, patch.side == 0));
+    const auto holder =
+        static_cast<std::size_t>(coarse.mesh->patch_at(patch.triangle, u, v, patch.side == 0));
     const double A = fine.mesh->area()[i], d = coarse.load[holder] - fine.load[i];
     squares += A * (d * d - coarse.variance[holder] - fine.variance[i]);
     power += A * fine.load[i];
@@ -79,17 +79,17 @@ Comparison compare(const std::string& study, double min_area_m2, double toleranc
   Watch watch;
   // Halving a triangle's area twice halves its edges.
   const double finest_edge = std::sqrt(min_area_m2 / 4 * 4 / std::sqrt(3.0));
-  const Loaded truth = loaded(plan, std::make_shared<const Hierarchy>(
-                                        scene, SplitRules{.max_edge_m = finest_edge,
-                                                          .min_area_m2 = min_area_m2 / 8}));
+  const Loaded truth = loaded(
+      plan, std::make_shared<const Hierarchy>(
+                scene, SplitRules{.max_edge_m = finest_edge, .min_area_m2 = min_area_m2 / 8}));
   const Loaded adaptive = loaded(plan, make_mesh(plan, watch).mesh);
   Comparison c;
   c.adaptive = adaptive.mesh->patch_count();
   c.error = error_against(truth, adaptive, scene);
   for (double edge = coarsest_edge;; edge /= std::pow(2, 0.25)) {
-    const Loaded even = loaded(plan, std::make_shared<const Hierarchy>(
-                                         scene, SplitRules{.max_edge_m = edge,
-                                                           .min_area_m2 = min_area_m2}));
+    const Loaded even =
+        loaded(plan, std::make_shared<const Hierarchy>(
+                         scene, SplitRules{.max_edge_m = edge, .min_area_m2 = min_area_m2}));
     c.even = even.mesh->patch_count();
     const double error = error_against(truth, even, scene);
     std::cout << "  even, " << edge << " m: " << c.even << " leaves, error " << error << "\n";

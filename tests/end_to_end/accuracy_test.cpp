@@ -100,12 +100,11 @@ TEST(AccuracyStudy, MeetsAGoalAtEveryInstant) {
 
 TEST(AccuracyStudy, PairsVariantsWhoseCountsDiffer) {
   const Square square("", "4");
-  square.folder.write(
-      "square.yaml",
-      square_study("totals", ", accuracy: {light_load_relative: 0.05}", "4") +
-          "variants:\n"
-          "  - {name: baseline}\n"
-          "  - {name: pale, scene: {materials: {paving: {diffuse: 0.7}}}}\n");
+  square.folder.write("square.yaml",
+                      square_study("totals", ", accuracy: {light_load_relative: 0.05}", "4") +
+                          "variants:\n"
+                          "  - {name: baseline}\n"
+                          "  - {name: pale, scene: {materials: {paving: {diffuse: 0.7}}}}\n");
   const Ran ran = square.run("one");
   ASSERT_EQ(ran.code, 0) << ran.err;
   const std::string base = square.result("one"), pale = square.folder / "one/square/pale.h5";
@@ -127,9 +126,11 @@ TEST(AccuracyStudy, NeedsAGoal) {
 
 TEST(AccuracyStudy, DecidesWhatIsShot) {
   for (const std::string power : {"auto", "100"}) {
-    const Square square(", accuracy: {light_load_relative: 0.03}, max_lines_per_patch: 8192, "
-                        "transport: shoot, power_per_sample_w: " + power,
-                        "4");
+    const Square square(
+        ", accuracy: {light_load_relative: 0.03}, max_lines_per_patch: 8192, "
+        "transport: shoot, power_per_sample_w: " +
+            power,
+        "4");
     const Ran ran = square.run("one", {"--threads", "1"});
     ASSERT_EQ(ran.code, 0) << ran.err;
     EXPECT_NE(ran.err.find(power == "auto" ? "in the first shot" : "W per sample"),

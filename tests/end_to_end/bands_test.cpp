@@ -84,9 +84,9 @@ TEST(BandStudy, EveryBandOfWhiteLightOnGreyIsTheBroadbandResult) {
   square.write(", bands: rgb", "totals", "white");
   ASSERT_EQ(square.run("rgb", {"--threads", "1"}).code, 0);
   const ResultReader broadband(square.result("broad")), mean(square.result("rgb"));
-  for (const char* series : {"irradiance", "irradiance_mirror", "facade_irradiance",
-                             "sensor_irradiance", "light_load", "irradiance_max", "power_sun",
-                             "power_residual", "sun_hours", "sky_view_factor"}) {
+  for (const char* series :
+       {"irradiance", "irradiance_mirror", "facade_irradiance", "sensor_irradiance", "light_load",
+        "irradiance_max", "power_sun", "power_residual", "sun_hours", "sky_view_factor"}) {
     EXPECT_EQ(mean.shape(series), broadband.shape(series)) << series;
     for (std::size_t b = 0; b < band_count; ++b)
       EXPECT_EQ(ResultReader(square.result("rgb"), b).doubles(series), broadband.doubles(series))

@@ -25,8 +25,7 @@ const std::string three_sensors =
 
 struct Square {
   WorkFolder folder;
-  explicit Square(const std::string& more = three_sensors,
-                  const std::string& errors = "totals") {
+  explicit Square(const std::string& more = three_sensors, const std::string& errors = "totals") {
     folder.write("square.obj", square_obj);
     write(more, errors);
   }
@@ -143,9 +142,8 @@ TEST(SensorStudy, MistakesAreToldWithTheirPlace) {
 
 /// Upright wall along the points, facing left of the way.
 std::string wall(int first, double x0, double y0, double x1, double y1, double height) {
-  return fmt::format(
-      "v {0} {1} 0\nv {2} {3} 0\nv {2} {3} {4}\nv {0} {1} {4}\nf {5} {6} {7} {8}\n", x0, y0, x1, y1,
-      height, first, first + 1, first + 2, first + 3);
+  return fmt::format("v {0} {1} 0\nv {2} {3} 0\nv {2} {3} {4}\nv {0} {1} {4}\nf {5} {6} {7} {8}\n",
+                     x0, y0, x1, y1, height, first, first + 1, first + 2, first + 3);
 }
 
 /// Walls of a case around its observer at the origin.

@@ -64,8 +64,7 @@ TEST(ShootingStudy, ClosesItsLedgerAndAgreesWithGathering) {
     EXPECT_LE(std::abs(energy.residual), closes * energy.in) << jacobi;
     EXPECT_EQ(ResultReader(path).text_attribute("transport"), "shoot");
     const MeanError shot = mean_error(energies(path));
-    const double limit =
-        accepted_t(16) * std::hypot(shot.standard_error, gathered.standard_error);
+    const double limit = accepted_t(16) * std::hypot(shot.standard_error, gathered.standard_error);
     EXPECT_LE(std::abs(shot.mean - gathered.mean), limit);
     // Planted fault: a tenth of the reflected light is lost.
     EXPECT_GT(std::abs(shot.mean - 0.1 * energy_of_part(path, "reflected") - gathered.mean), limit);
@@ -75,7 +74,8 @@ TEST(ShootingStudy, ClosesItsLedgerAndAgreesWithGathering) {
 TEST(ShootingStudy, LightsSensors) {
   const WorkFolder folder;
   const ResultReader result(run(folder, "sensors", shooting_study("", "instants")));
-  const auto load = result.doubles("sensor_light_load"), se = result.doubles("sensor_light_load_se");
+  const auto load = result.doubles("sensor_light_load"),
+             se = result.doubles("sensor_light_load_se");
   ASSERT_EQ(load.size(), 2u);
   for (std::size_t s = 0; s < 2; ++s) {
     EXPECT_GT(load[s], 0);

@@ -5,9 +5,8 @@
 #include <new>
 
 void* operator new(std::size_t bytes) {
-  void* memory = bytes <= sunload::fuzz::most_bytes
-                     ? std::malloc(std::max<std::size_t>(bytes, 1))
-                     : nullptr;
+  void* memory =
+      bytes <= sunload::fuzz::most_bytes ? std::malloc(std::max<std::size_t>(bytes, 1)) : nullptr;
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }

@@ -40,8 +40,10 @@ std::string times(std::size_t count, const std::string& text) {
 
 TEST(HostileFiles, ElementsWithoutBytes) {
   for (const char* name : {"vertex", "face", "edge"})
-    expect_refused("empty.ply", std::string("ply\nformat ascii 1.0\nelement ") + name +
-                                    " 900000000000\nend_header\n", "is not there");
+    expect_refused(
+        "empty.ply",
+        std::string("ply\nformat ascii 1.0\nelement ") + name + " 900000000000\nend_header\n",
+        "is not there");
 }
 
 TEST(HostileFiles, ManyPrototypes) {
@@ -60,7 +62,8 @@ TEST(HostileFiles, ManyInstances) {
   const std::string accessor =
       R"("accessors":[{"bufferView":0,"componentType":5126,"count":20000,"type":"VEC3"}],)"
       R"("bufferViews":[{"buffer":0,"byteLength":240000}],"buffers":[{"byteLength":240000,)"
-      R"("uri":"data:;base64,)" + times(20000, "AAAAAAAAAAAAAAAA") + "\"}]}";
+      R"("uri":"data:;base64,)" +
+      times(20000, "AAAAAAAAAAAAAAAA") + "\"}]}";
   const std::string mesh = R"({"asset":{"version":"2.0"},"meshes":[{"primitives":[{"attributes":)"
                            R"({"POSITION":0}}]}],"nodes":[)";
   expect_refused("meshes.gltf", mesh + times(3000, "{\"mesh\":0},") + "{\"mesh\":0}]," + accessor,

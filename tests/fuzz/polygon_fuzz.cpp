@@ -55,9 +55,12 @@ class PolygonText {
     const double u = scale_ * static_cast<signed char>(first);
     const double v = scale_ * static_cast<signed char>(take_byte(bytes_));
     switch (lie_) {
-      case Lie::flat: return Vec3{u, v, 3} + offset_;
-      case Lie::upright: return Vec3{u, 2, v} + offset_;
-      case Lie::tilted: return Vec3{u, v, u / 3 + v / 7} + offset_;
+      case Lie::flat:
+        return Vec3{u, v, 3} + offset_;
+      case Lie::upright:
+        return Vec3{u, 2, v} + offset_;
+      case Lie::tilted:
+        return Vec3{u, v, u / 3 + v / 7} + offset_;
       case Lie::free:
         return Vec3{u, v, scale_ * static_cast<signed char>(take_byte(bytes_))} + offset_;
     }

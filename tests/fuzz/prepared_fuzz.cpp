@@ -35,8 +35,7 @@ std::string with_checksums(std::string_view bytes) {
 
 static const Registered target("prepared", [](std::string_view bytes) {
   const bool has_right_checksums = take_byte(bytes) % 2 == 1;
-  const std::string file =
-      has_right_checksums ? with_checksums(bytes) : std::string(bytes);
+  const std::string file = has_right_checksums ? with_checksums(bytes) : std::string(bytes);
   read_prepared(file_of(file, "prepared"), std::string(hash));
 });
 

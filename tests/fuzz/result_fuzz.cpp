@@ -12,8 +12,10 @@ static const Registered target("result", [](std::string_view bytes) {
     if (!result.has(name)) return;
     result.units(name);
     const auto shape = result.shape(name);
-    if (variable.type == h5::Type::text) result.strings(name);
-    else result.doubles(name);
+    if (variable.type == h5::Type::text)
+      result.strings(name);
+    else
+      result.doubles(name);
     if (!shape.empty() && shape[0] > 0) result.row(name, 0);
   };
   for (const auto& variable : result_schema(result.quantity()))

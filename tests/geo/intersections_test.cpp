@@ -61,14 +61,14 @@ TEST(Intersections, PiercedSheetsFoldsAndCovers) {
   const std::vector<Vec3> flat{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
   EXPECT_EQ(of({flat, {{1, 1, -1}, {1, 1, 1}, {1, 9, 1}}}), cut);
   EXPECT_EQ(of({flat, {{5, 5, -1}, {5, 5, 1}, {9, 9, 1}}}), none);
-  EXPECT_EQ(of({flat, {{1, 1, 0}, {1, 2, 0}, {1, 1, 1}}}), none);      // stands on it
-  EXPECT_EQ(of({flat, {{0, 0, 0}, {2, 2, -1}, {2, 2, 1}}}), cut);      // a common corner, and more
-  EXPECT_EQ(of({flat, {{0, 0, 0}, {-1, -1, -1}, {-1, -1, 1}}}), none); // a common corner alone
-  EXPECT_EQ(of({flat, {{0, 0, 0}, {4, 0, 0}, {1, -4, 0}}}), none);     // beyond a common edge
-  EXPECT_EQ(of({flat, {{0, 0, 0}, {4, 0, 0}, {1, 1, 3}}}), none);      // risen from it
-  EXPECT_EQ(of({flat, {{0, 0, 0}, {4, 0, 0}, {1, 1, 0}}}), cover);     // folded upon it
+  EXPECT_EQ(of({flat, {{1, 1, 0}, {1, 2, 0}, {1, 1, 1}}}), none);       // stands on it
+  EXPECT_EQ(of({flat, {{0, 0, 0}, {2, 2, -1}, {2, 2, 1}}}), cut);       // a common corner, and more
+  EXPECT_EQ(of({flat, {{0, 0, 0}, {-1, -1, -1}, {-1, -1, 1}}}), none);  // a common corner alone
+  EXPECT_EQ(of({flat, {{0, 0, 0}, {4, 0, 0}, {1, -4, 0}}}), none);      // beyond a common edge
+  EXPECT_EQ(of({flat, {{0, 0, 0}, {4, 0, 0}, {1, 1, 3}}}), none);       // risen from it
+  EXPECT_EQ(of({flat, {{0, 0, 0}, {4, 0, 0}, {1, 1, 0}}}), cover);      // folded upon it
   EXPECT_EQ(of({flat, {{1, 1, 0}, {2, 1, 0}, {1, 2, 0}}}), cover);
-  EXPECT_EQ(of({flat, {{1, 0, 0}, {2, 0, 0}, {1, -2, 0}}}), none);     // a T-joint in its plane
+  EXPECT_EQ(of({flat, {{1, 0, 0}, {2, 0, 0}, {1, -2, 0}}}), none);  // a T-joint in its plane
 }
 
 }  // namespace

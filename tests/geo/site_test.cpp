@@ -66,9 +66,9 @@ void expect_place(const std::string& text, double latitude_deg, double longitude
 TEST(SiteFromText, ReadsDegrees) {
   const double latitude_deg = 49 + 44.0 / 60 + 51.0 / 3600;
   const double longitude_deg = 13 + 22.0 / 60 + 39.0 / 3600;
-  for (const char* text : {"49d44'51\"N 13d22'39\"E", "N49:44:51 E13:22:39", "49:44:51 13:22:39",
-                           "13d22'39\"E 49d44'51\"N", "49°44′51″N 13°22′39″E",
-                           "49d44.85N, 13d22.65E"}) {
+  for (const char* text :
+       {"49d44'51\"N 13d22'39\"E", "N49:44:51 E13:22:39", "49:44:51 13:22:39",
+        "13d22'39\"E 49d44'51\"N", "49°44′51″N 13°22′39″E", "49d44.85N, 13d22.65E"}) {
     expect_place(text, latitude_deg, longitude_deg);
   }
   expect_place("33d55'31\"S 18d25'26\"W", -33.925277777778, -18.423888888889);
@@ -78,8 +78,8 @@ TEST(SiteFromText, ReadsDegrees) {
 // Coordinates and MGRS square of one point, from the manual of GeographicLib's GeoConvert.
 TEST(SiteFromText, ReadsUtmUpsAndMgrs) {
   constexpr double half_metre_deg = 1e-5;
-  for (const char* text : {"38n 444140.54 3684706.36", "38north 444140.54 3684706.36",
-                           "38SMB4414084706"}) {
+  for (const char* text :
+       {"38n 444140.54 3684706.36", "38north 444140.54 3684706.36", "38SMB4414084706"}) {
     expect_place(text, 33.3, 44.4, half_metre_deg);
   }
   // With its band. The inverse is the library's own, checked there.
@@ -87,8 +87,7 @@ TEST(SiteFromText, ReadsUtmUpsAndMgrs) {
   int zone = 0;
   bool is_north = false;
   GeographicLib::UTMUPS::Forward(49.7475, 13.3776, zone, is_north, easting_m, northing_m);
-  const std::string rest =
-      " " + std::to_string(easting_m) + " " + std::to_string(northing_m);
+  const std::string rest = " " + std::to_string(easting_m) + " " + std::to_string(northing_m);
   expect_place("33U" + rest, 49.7475, 13.3776, half_metre_deg);
   expect_place("33u" + rest, 49.7475, 13.3776, half_metre_deg);
   expect_place("33 n" + rest, 49.7475, 13.3776, half_metre_deg);

@@ -57,8 +57,7 @@ TEST(SkyColour, TheDiscIsWhiteByDayAndStandsOutAtDusk) {
       const double sign = azimuth_deg == 0 ? 1 : -1;
       const auto colour = [&](double away_deg) {
         return sky_colour(SkyColourModel::second,
-                          enu_direction({180, elevation_deg + sign * away_deg}), sun,
-                          picture_gain);
+                          enu_direction({180, elevation_deg + sign * away_deg}), sun, picture_gain);
       };
       EXPECT_GT(colour(edge_deg).red, 0.99);
       EXPECT_LT(colour(beyond_deg).red, 0.9);

@@ -346,8 +346,7 @@ TEST(SunPathWithHills, HiddenAndPartlyHiddenIntervals) {
   for (const auto& interval : path_behind(mountain, begin, end, 600)) {
     sunlit_s += interval.sunlit_s;
     up_s += interval.up_s;
-    const bool above =
-        mountain.is_above({interval.sun.azimuth_deg, interval.sun.elevation_deg});
+    const bool above = mountain.is_above({interval.sun.azimuth_deg, interval.sun.elevation_deg});
     EXPECT_EQ(interval.sunlit_s > 0, above && interval.sun.elevation_deg > 0);
     if (interval.sunlit_s > 0 && interval.sunlit_s < interval.up_s) ++parts;
     EXPECT_GE(interval.sunlit_begin, interval.up_begin);

@@ -21,9 +21,14 @@ std::string study_text(const std::string& solver, const std::string& materials,
                        const std::string& light = "") {
   return "format: sunload-study-1\nname: study\n"
          "period: {positions: [{azimuth_deg: 180, elevation_deg: 30}]}\n"
-         "light: {source: fixed, dni_w_m2: 700, dhi_w_m2: 100" + light + "}\n"
-         "scene: {files: [scene.obj], materials: {" + materials + "}}\n"
-         "solver: {" + solver + "}\n";
+         "light: {source: fixed, dni_w_m2: 700, dhi_w_m2: 100" +
+         light +
+         "}\n"
+         "scene: {files: [scene.obj], materials: {" +
+         materials +
+         "}}\n"
+         "solver: {" +
+         solver + "}\n";
 }
 
 /// A folder with a scene of one coloured and one grey material.
@@ -165,8 +170,8 @@ TEST(BandLight, LowSunIsRedHighSunWhiteAndTheSkyBlue) {
     const SunLight light = clear.light();
     EXPECT_GT(diffuse(light.bands[2].sky, clear.grid),
               1.2 * diffuse(light.bands[0].sky, clear.grid));
-    EXPECT_GT(redness(light), diffuse(light.bands[0].sky, clear.grid) /
-                                  diffuse(light.bands[2].sky, clear.grid));
+    EXPECT_GT(redness(light),
+              diffuse(light.bands[0].sky, clear.grid) / diffuse(light.bands[2].sky, clear.grid));
   }
 }
 

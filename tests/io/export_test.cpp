@@ -82,9 +82,9 @@ void expect_read_back(const std::string& format, const std::string& file, bool s
   const auto model = read_scene_file(path_of(file), {});
   ASSERT_EQ(model.polygon_count(), patches.corners.size()) << format;
   const auto rounded = [&](Vec3 p) {
-    return single_precision ? Vec3{static_cast<float>(p.x), static_cast<float>(p.y),
-                                   static_cast<float>(p.z)}
-                            : p;
+    return single_precision
+               ? Vec3{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}
+               : p;
   };
   for (std::size_t i = 0; i < patches.corners.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)

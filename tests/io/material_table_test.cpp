@@ -36,10 +36,9 @@ TEST(MaterialTable, RowsAreSourcedAndPossible) {
     EXPECT_EQ(as_study->diffuse, row.diffuse());
   }
   EXPECT_FALSE(tabled_material("unobtainium"));
-  for (const char* name :
-       {"brick", "concrete", "asphalt", "grass", "snow_fresh", "snow_old", "soil", "sand", "water",
-        "glass", "limestone", "plaster", "wood", "steel", "aluminium", "roof_tile", "bitumen",
-        "gravel", "crown"})
+  for (const char* name : {"brick", "concrete", "asphalt", "grass", "snow_fresh", "snow_old",
+                           "soil", "sand", "water", "glass", "limestone", "plaster", "wood",
+                           "steel", "aluminium", "roof_tile", "bitumen", "gravel", "crown"})
     EXPECT_TRUE(names.contains(name)) << name;
 }
 
@@ -97,7 +96,8 @@ class Names : public testing::Test {
                                  "format: sunload-study-1\nname: s\nsite: {timezone: UTC}\n"
                                  "period: {positions: [{azimuth_deg: 180, elevation_deg: 45}]}\n"
                                  "light: {source: fixed, dni_w_m2: 100, dhi_w_m2: 10}\n"
-                                 "scene: {" + scene + "}\n"))
+                                 "scene: {" +
+                                     scene + "}\n"))
             .variants.front());
   }
   static const Material& of(const VariantPlan& plan, const std::string& object) {

@@ -13,7 +13,8 @@ std::string study_text(const std::string& scene) {
   return "format: sunload-study-1\nname: beam\nsite: {timezone: UTC}\n"
          "period: {positions: [{azimuth_deg: 180, elevation_deg: 45}]}\n"
          "light: {source: fixed, dni_w_m2: 100, dhi_w_m2: 10}\n"
-         "scene: {files: [plate.obj], " + scene + "}\n";
+         "scene: {files: [plate.obj], " +
+         scene + "}\n";
 }
 
 constexpr const char* with_lamp =
@@ -23,8 +24,7 @@ void write_models(const WorkFolder& folder, const std::string& height = "5") {
   folder.write("plate.obj",
                "o plate\nusemtl m\nv 5000 0 0\nv 5004 0 0\nv 5004 4 0\nv 5000 4 0\nf 1 2 3 4\n");
   folder.write("lamps.obj", "o lamp\nusemtl lamp\nv 5001 1 " + height + "\nv 5001 3 " + height +
-                                "\nv 5003 3 " + height + "\nv 5003 1 " + height +
-                                "\nf 1 2 3 4\n");
+                                "\nv 5003 3 " + height + "\nv 5003 1 " + height + "\nf 1 2 3 4\n");
 }
 
 VariantPlan plan_of(const WorkFolder& folder, const std::string& scene) {
@@ -74,8 +74,8 @@ TEST(ParallelSources, AreInTheContentHash) {
 TEST(ParallelSources, AreRefusedByName) {
   const WorkFolder folder;
   write_models(folder);
-  EXPECT_NE(refusal(folder, "parallel_sources: none.obj").find(
-                "scene.parallel_sources: 'none.obj' is not there"),
+  EXPECT_NE(refusal(folder, "parallel_sources: none.obj")
+                .find("scene.parallel_sources: 'none.obj' is not there"),
             std::string::npos);
   EXPECT_NE(refusal(folder, "parallel_sources: lamps.obj").find("emits"), std::string::npos);
 }

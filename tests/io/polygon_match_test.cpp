@@ -16,7 +16,7 @@ TEST(PolygonMatch, TellsNeighboursInAPlaneApartAndLeavesHolesOut) {
   const Vec3 up{0, 0, 1};
   EXPECT_EQ(match.polygon_at({1, 1, 3}, up), 0u);
   EXPECT_EQ(match.polygon_at({11, 1, 3}, up), 1u);
-  EXPECT_EQ(match.polygon_at({5, 5, 3}, up), 2u);  // fills the hole
+  EXPECT_EQ(match.polygon_at({5, 5, 3}, up), 2u);   // fills the hole
   EXPECT_EQ(match.polygon_at({1, 1, 3}, -up), 0u);  // repairs may turn a face
   EXPECT_FALSE(match.polygon_at({21, 1, 3}, up));
   EXPECT_FALSE(match.polygon_at({1, 1, 3.1}, up));

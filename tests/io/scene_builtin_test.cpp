@@ -16,8 +16,8 @@
 #include "geo/check.h"
 #include "geo/mesh_prepare.h"
 #include "geo/units.h"
-#include "io/scene_file.h"
 #include "io/scene_cityjson_write.h"
+#include "io/scene_file.h"
 #include "io/scene_obj_write.h"
 
 namespace sunload {

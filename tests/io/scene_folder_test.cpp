@@ -195,12 +195,12 @@ void check_city(const std::string& path, const std::string& name, const PolygonM
 
 /// What the READMEs count of meshes, here by rings of polygons after welding equal positions.
 struct Connections {
-  std::size_t open = 0;        ///< edges of one face
-  std::size_t nonmanifold = 0; ///< edges of more than two
-  std::size_t flipped = 0;     ///< edges that both faces walk in the same direction
-  std::size_t degenerate = 0;  ///< faces that come twice to a place; they count no further
-  std::size_t duplicate = 0;   ///< faces on the same corners as an earlier one
-  std::size_t welded = 0;      ///< vertices in the place of an earlier one
+  std::size_t open = 0;         ///< edges of one face
+  std::size_t nonmanifold = 0;  ///< edges of more than two
+  std::size_t flipped = 0;      ///< edges that both faces walk in the same direction
+  std::size_t degenerate = 0;   ///< faces that come twice to a place; they count no further
+  std::size_t duplicate = 0;    ///< faces on the same corners as an earlier one
+  std::size_t welded = 0;       ///< vertices in the place of an earlier one
 };
 
 Connections connections(const PolygonModel& model) {

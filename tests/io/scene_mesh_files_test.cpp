@@ -62,9 +62,10 @@ TEST(ScenePly, AllEncodingsGiveTheSameNumbers) {
 }
 
 TEST(ScenePly, RefusesWhatIsBroken) {
-  const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty "
-                           "float y\nproperty float z\nelement face 1\nproperty list uchar int "
-                           "vertex_index\nend_header\n";
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty "
+      "float y\nproperty float z\nelement face 1\nproperty list uchar int "
+      "vertex_index\nend_header\n";
   const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
   EXPECT_EQ(refusal("r.ply", head + points + "3 0 1 2\n"), "");
   EXPECT_EQ(refusal("r.ply", head + points + "3 0 1 3\n").substr(0, 6), "r.ply:");
@@ -75,8 +76,9 @@ TEST(ScenePly, RefusesWhatIsBroken) {
   EXPECT_NE(refusal("r.ply", head + "0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n").find("vertex 0"),
             std::string::npos);
   EXPECT_NE(refusal("r.ply", head + points).find("ends within it"), std::string::npos);
-  EXPECT_NE(refusal("r.ply", "ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float "
-                             "x\nend_header\n")
+  EXPECT_NE(refusal("r.ply",
+                    "ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float "
+                    "x\nend_header\n")
                 .find("too short"),
             std::string::npos);
   EXPECT_NE(refusal("r.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\n")
@@ -126,7 +128,8 @@ TEST(SceneStl, BinaryEvenWhereItBeginsWithSolid) {
 
 TEST(SceneStl, SolidsOfTextFilesAreObjects) {
   const auto facet = [](const std::string& x) {
-    return "  FACET normal 0 0 1\n outer loop\n vertex " + x + " 0 0\n vertex 1 0 0\n vertex 0 1 "
+    return "  FACET normal 0 0 1\n outer loop\n vertex " + x +
+           " 0 0\n vertex 1 0 0\n vertex 0 1 "
            "0\n endloop\n endfacet\n";
   };
   const auto model =
@@ -169,11 +172,13 @@ std::string gltf(const std::string& nodes, const std::string& primitive = "\"ind
                  const std::string& count = "6") {
   return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [)" +
          nodes + R"(], "meshes": [{"name": "square", "primitives": [{"attributes": {"POSITION": 0},
-         "material": 0, )" + primitive + R"(}]}],
+         "material": 0, )" +
+         primitive + R"(}]}],
          "materials": [{"name": "brick", "doubleSided": true,
            "pbrMetallicRoughness": {"baseColorFactor": [0.6, 0.3, 0, 1]}}],
          "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
-           {"bufferView": 1, "componentType": 5123, "count": )" + count + R"(, "type": "SCALAR"}],
+           {"bufferView": 1, "componentType": 5123, "count": )" +
+         count + R"(, "type": "SCALAR"}],
          "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48,
            "byteLength": 12}],
          "buffers": [{"byteLength": 60, "uri": "data:application/octet-stream;base64,)" +
@@ -234,7 +239,8 @@ TEST(SceneGltf, RefusesWhatIsBroken) {
   EXPECT_NE(refusal("r.gltf", R"({"asset": {"version": "1.0"}})").find("version 1.0"),
             std::string::npos);
   EXPECT_NE(refusal("r.gltf", R"({"asset": {"version": "2.0"}, "extensionsRequired":
-                                ["KHR_draco_mesh_compression"]})").find("draco"),
+                                ["KHR_draco_mesh_compression"]})")
+                .find("draco"),
             std::string::npos);
   EXPECT_NE(refusal("r.gltf", R"({"asset": 3, "scenes": 7})"), "");
 }

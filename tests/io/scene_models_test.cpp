@@ -82,8 +82,9 @@ TEST_F(Files, KeepObjectsOfOneNameApart) {
   EXPECT_EQ(m.object_names, (std::vector<std::string>{"sheet", "sheet_2", "sheet_3"}));
   EXPECT_EQ(std::count_if(m.notes.begin(), m.notes.end(),
                           [](const std::string& note) {
-                            return note.find("b.obj: 1 object is named as in an earlier file, kept "
-                                             "apart: 'sheet' is 'sheet_") != std::string::npos;
+                            return note.find(
+                                       "b.obj: 1 object is named as in an earlier file, kept "
+                                       "apart: 'sheet' is 'sheet_") != std::string::npos;
                           }),
             2);
 }

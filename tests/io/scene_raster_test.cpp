@@ -88,15 +88,15 @@ std::string tiff(std::uint32_t columns, std::uint32_t rows, const std::vector<fl
   const std::array<Field, field_count> fields{{
       {256, is_long, 1, columns},
       {257, is_long, 1, rows},
-      {258, is_short, 1, 32},              // bits of a sample
-      {259, is_short, 1, 1},               // not compressed
-      {262, is_short, 1, 1},               // 0 is black
-      {273, is_long, 1, heights_at},       // one strip
-      {277, is_short, 1, 1},               // samples per cell
-      {278, is_long, 1, rows},             // rows of the strip
+      {258, is_short, 1, 32},         // bits of a sample
+      {259, is_short, 1, 1},          // not compressed
+      {262, is_short, 1, 1},          // 0 is black
+      {273, is_long, 1, heights_at},  // one strip
+      {277, is_short, 1, 1},          // samples per cell
+      {278, is_long, 1, rows},        // rows of the strip
       {279, is_long, 1, 4 * heights.size()},
-      {284, is_short, 1, 1},               // contiguous
-      {339, is_short, 1, 3},               // IEEE floats
+      {284, is_short, 1, 1},  // contiguous
+      {339, is_short, 1, 3},  // IEEE floats
       {34264, is_double, 16, matrix_at},
       {34735, is_short, key_count, keys_at},
   }};
@@ -127,9 +127,8 @@ TEST(SceneRaster, TurnedRastersLieWhereTheySay) {
   for (std::size_t cell = 0; cell < 6; ++cell) {
     const double column = static_cast<double>(cell % 3) + 0.5;
     const double row = static_cast<double>(cell / 3) + 0.5;
-    EXPECT_EQ(model.vertices[cell],
-              (Vec3{1000 + 3 * column + 4 * row, 2000 + 4 * column - 3 * row,
-                    static_cast<double>(heights[cell])}))
+    EXPECT_EQ(model.vertices[cell], (Vec3{1000 + 3 * column + 4 * row, 2000 + 4 * column - 3 * row,
+                                          static_cast<double>(heights[cell])}))
         << cell;
   }
   ASSERT_EQ(model.polygon_count(), 4u);

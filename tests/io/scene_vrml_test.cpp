@@ -47,9 +47,10 @@ std::string gzip(const std::string& text) {
 
 TEST(SceneVrml, TurnsYUpAndKeepsPolygons) {
   const auto model = read_text(
-      "a.wrl", vrml97 + "DEF house Transform { translation 10 20 30 children Shape { geometry "
-                        "IndexedFaceSet { coord Coordinate { point [0 0 0, 4 0 0, 4 3 0, 0 3 0] } "
-                        "coordIndex [0 1 2 3] } } }");
+      "a.wrl", vrml97 +
+                   "DEF house Transform { translation 10 20 30 children Shape { geometry "
+                   "IndexedFaceSet { coord Coordinate { point [0 0 0, 4 0 0, 4 3 0, 0 3 0] } "
+                   "coordIndex [0 1 2 3] } } }");
   ASSERT_EQ(model.polygon_count(), 1u);
   EXPECT_EQ(ring_size(model, 0, 0), 4);
   EXPECT_EQ(corner(model, 0, 0, 0), (Vec3{10, -30, 20}));
@@ -62,26 +63,29 @@ TEST(SceneVrml, TurnsYUpAndKeepsPolygons) {
 TEST(SceneVrml, TransformsNestInTheOrderOfTheStandard) {
   const std::string inner = "Shape { " + triangle + "} }";
   // Corner (1, 0, 0): scaled to (2, 0, 0), turned a quarter about y to (0, 0, -2), moved.
-  const auto model = read_text("a.wrl", vrml97 + "Transform { scale 2 1 1 rotation 0 1 0 1.5707963 "
-                                                 "translation 5 0 0 children " +
-                                            inner + " }",
+  const auto model = read_text("a.wrl",
+                               vrml97 +
+                                   "Transform { scale 2 1 1 rotation 0 1 0 1.5707963 "
+                                   "translation 5 0 0 children " +
+                                   inner + " }",
                                {'z', 1, "highest"});
   const Vec3 moved = corner(model, 0, 0, 1);
   EXPECT_NEAR(moved.x, 5, 1e-6);
   EXPECT_NEAR(moved.z, -2, 1e-6);
   // The centre stays where it is.
-  const auto centred = read_text(
-      "b.wrl", vrml97 + "Transform { center 1 0 0 scale 3 3 3 children " + inner + " }",
-      {'z', 1, "highest"});
+  const auto centred =
+      read_text("b.wrl", vrml97 + "Transform { center 1 0 0 scale 3 3 3 children " + inner + " }",
+                {'z', 1, "highest"});
   EXPECT_NEAR(corner(centred, 0, 0, 1).x, 1, 1e-12);
   EXPECT_NEAR(corner(centred, 0, 0, 0).x, -2, 1e-12);
 }
 
 TEST(SceneVrml, FrontAndSides) {
   const auto front = [](const std::string& fields, const std::string& scale = "1 1 1") {
-    const auto model = read_text("a.wrl", vrml97 + "Transform { scale " + scale +
-                                              " children Shape { " + triangle + fields + " } } }",
-                                 {'z', 1, "highest"});
+    const auto model = read_text(
+        "a.wrl",
+        vrml97 + "Transform { scale " + scale + " children Shape { " + triangle + fields + " } } }",
+        {'z', 1, "highest"});
     return std::pair(area_vector2(model, 0).z > 0, model.facts[0].sides);
   };
   EXPECT_EQ(front(""), std::pair(true, Sides::one));
@@ -106,8 +110,9 @@ TEST(SceneVrml, ShapesAreClosedAndFaceOutward) {
   EXPECT_GT(ball, 4 * std::numbers::pi / 3 * 0.98);  // corners on the sphere, 32 × 16
   EXPECT_EQ(shape("Cylinder { side FALSE }").polygon_count(), 2u);
   EXPECT_EQ(shape("Cone { bottom FALSE }").polygon_count(), 32u);
-  const auto prism = shape("Extrusion { crossSection [1 1, 1 -1, -1 -1, -1 1, 1 1] "
-                           "spine [0 0 0, 0 5 0] }");
+  const auto prism = shape(
+      "Extrusion { crossSection [1 1, 1 -1, -1 -1, -1 1, 1 1] "
+      "spine [0 0 0, 0 5 0] }");
   EXPECT_NEAR(std::abs(volume(prism)), 20, 1e-4);
   const auto text = shape("Text { string \"x\" }");
   EXPECT_EQ(text.polygon_count(), 0u);
@@ -129,8 +134,9 @@ TEST(SceneVrml, ElevationGridLooksUp) {
 
 TEST(SceneVrml, MaterialsByNode) {
   const std::string text =
-      vrml97 + "Shape { appearance Appearance { material DEF brick Material { diffuseColor 0.6 0.3 "
-               "0 specularColor 0.1 0.1 0.1 } } " +
+      vrml97 +
+      "Shape { appearance Appearance { material DEF brick Material { diffuseColor 0.6 0.3 "
+      "0 specularColor 0.1 0.1 0.1 } } " +
       triangle + "} }\nShape { appearance Appearance { material USE brick } " + triangle +
       "} }\nShape { appearance Appearance { material Material { diffuseColor 0 0 0 emissiveColor 1 "
       "0.5 0 } } " +
@@ -154,24 +160,25 @@ TEST(SceneVrml, MaterialsByNode) {
 TEST(SceneVrml, ObjectsByDef) {
   const auto model = read_text(
       "street.wrl",
-      vrml97 + "DEF a Transform { children [ DEF wall Shape { " + triangle +
-          "} } Shape { " + triangle + "} } ] }\nTransform { children USE a }\nShape { " +
-          triangle + "} }\nShape { geometry DEF lone IndexedFaceSet { coord Coordinate { point [0 "
-                     "0 0, 1 0 0, 0 1 0] } coordIndex [0 1 2] } }");
+      vrml97 + "DEF a Transform { children [ DEF wall Shape { " + triangle + "} } Shape { " +
+          triangle + "} } ] }\nTransform { children USE a }\nShape { " + triangle +
+          "} }\nShape { geometry DEF lone IndexedFaceSet { coord Coordinate { point [0 "
+          "0 0, 1 0 0, 0 1 0] } coordIndex [0 1 2] } }");
   EXPECT_EQ(model.object_names,
             (std::vector<std::string>{"a/wall", "a", "a/wall_2", "a_2", "street", "lone"}));
 }
 
 TEST(SceneVrml, SwitchLodAndProto) {
   const auto model = read_text(
-      "p.wrl", vrml97 + "PROTO Hut [ field SFVec3f size 1 1 1 field SFVec3f at 0 0 0 "
-                        "eventIn SFVec3f grow ] { Transform { translation IS at scale IS grow "
-                        "children Shape { geometry Box { size IS size } } } }\n"
-                        "Hut { size 2 2 2 at 5 0 0 }\nHut { }\n"
-                        "Switch { whichChoice 1 choice [ Shape { geometry Sphere {} } Shape { "
-                        "geometry Box { } } ] }\nSwitch { choice [ Shape { geometry Box {} } ] }\n"
-                        "LOD { range [1] level [ Shape { geometry Box {} } Shape { geometry Sphere "
-                        "{} } ] }\n");
+      "p.wrl", vrml97 +
+                   "PROTO Hut [ field SFVec3f size 1 1 1 field SFVec3f at 0 0 0 "
+                   "eventIn SFVec3f grow ] { Transform { translation IS at scale IS grow "
+                   "children Shape { geometry Box { size IS size } } } }\n"
+                   "Hut { size 2 2 2 at 5 0 0 }\nHut { }\n"
+                   "Switch { whichChoice 1 choice [ Shape { geometry Sphere {} } Shape { "
+                   "geometry Box { } } ] }\nSwitch { choice [ Shape { geometry Box {} } ] }\n"
+                   "LOD { range [1] level [ Shape { geometry Box {} } Shape { geometry Sphere "
+                   "{} } ] }\n");
   EXPECT_EQ(model.polygon_count(), 4u * 6);
   EXPECT_NEAR(bounding_box(model.vertices).high.x, 6, 1e-12);
 }
@@ -202,13 +209,14 @@ TEST(SceneVrml, CirclesOfFilesAreRefused) {
 }
 
 TEST(SceneVrml, Vrml1) {
-  const auto model = read_text(
-      "one.wrl", "#VRML V1.0 ascii\nSeparator {\n Material { diffuseColor [0.2 0.2 0.2, 0.4 0.4 "
-                 "0.4] }\n MaterialBinding { value PER_FACE }\n Coordinate3 { point [0 0 0, 1 0 0, "
-                 "0 1 0, 0 0 1] }\n ShapeHints { vertexOrdering CLOCKWISE shapeType SOLID }\n "
-                 "IndexedFaceSet { coordIndex [0 1 2 -1 0 1 3 -1] }\n}\nSeparator { Translation { "
-                 "translation 5 0 0 } Cube { } }\nCube { width 4 }\n",
-      {'z', 1, "highest"});
+  const auto model =
+      read_text("one.wrl",
+                "#VRML V1.0 ascii\nSeparator {\n Material { diffuseColor [0.2 0.2 0.2, 0.4 0.4 "
+                "0.4] }\n MaterialBinding { value PER_FACE }\n Coordinate3 { point [0 0 0, 1 0 0, "
+                "0 1 0, 0 0 1] }\n ShapeHints { vertexOrdering CLOCKWISE shapeType SOLID }\n "
+                "IndexedFaceSet { coordIndex [0 1 2 -1 0 1 3 -1] }\n}\nSeparator { Translation { "
+                "translation 5 0 0 } Cube { } }\nCube { width 4 }\n",
+                {'z', 1, "highest"});
   ASSERT_EQ(model.polygon_count(), 2u + 6 + 6);
   EXPECT_LT(area_vector2(model, 0).z, 0);
   EXPECT_EQ(model.facts[0].sides, Sides::one);
@@ -224,10 +232,9 @@ const std::string six_points =
 
 // Two squares side by side, as every set of Inventor has them; all look to +z.
 TEST(SceneVrml, InventorSetsStripsAndMeshes) {
-  for (const std::string set :
-       {"QuadMesh { verticesPerRow 3 verticesPerColumn 2 ccw }",
-        "IndexedTriangleStripSet { coordIndex [0 1 3 4 -1 1 2 4 5] }",
-        "IndexedFaceSet { coordIndex [0 1 4 3 -1 1 2 5 4] }"}) {
+  for (const std::string set : {"QuadMesh { verticesPerRow 3 verticesPerColumn 2 ccw }",
+                                "IndexedTriangleStripSet { coordIndex [0 1 3 4 -1 1 2 4 5] }",
+                                "IndexedFaceSet { coordIndex [0 1 4 3 -1 1 2 5 4] }"}) {
     auto text = six_points + set + " }";
     if (const auto word = text.find("ccw "); word != text.npos) {
       // A mesh runs the other way around: rows first.
@@ -266,16 +273,19 @@ TEST(SceneVrml, InventorSetsWithoutPointsAreRefused) {
 
 TEST(SceneVrml, UnknownFieldsAreLeftOutAndCounted) {
   const auto model = read_text(
-      "u.wrl", vrml97 + "Shape {\n appearance Appearance { material Material { shiny TRUE "
-                        "diffuseColor 0.5 0.5 0.5\n glow [1 2 3] } }\n geometry Box { grain Wood { "
-                        "rings 3 } size 2 2 2 }\n}\nUnheardOf { a 1 b [2 3] }\n");
+      "u.wrl", vrml97 +
+                   "Shape {\n appearance Appearance { material Material { shiny TRUE "
+                   "diffuseColor 0.5 0.5 0.5\n glow [1 2 3] } }\n geometry Box { grain Wood { "
+                   "rings 3 } size 2 2 2 }\n}\nUnheardOf { a 1 b [2 3] }\n");
   EXPECT_EQ(model.polygon_count(), 6u);
   EXPECT_NEAR(*model.materials.at(0).diffuse, 0.5, 1e-7);
   EXPECT_EQ(bounding_box(model.vertices).high.x, 1);
-  EXPECT_TRUE(has_note(model, "1 fields 'shiny' of Material are unknown and left out (first at "
-                              "u.wrl:3)"));
-  EXPECT_TRUE(has_note(model, "1 fields 'glow' of Material are unknown and left out (first at "
-                              "u.wrl:4)"));
+  EXPECT_TRUE(has_note(model,
+                       "1 fields 'shiny' of Material are unknown and left out (first at "
+                       "u.wrl:3)"));
+  EXPECT_TRUE(has_note(model,
+                       "1 fields 'glow' of Material are unknown and left out (first at "
+                       "u.wrl:4)"));
   EXPECT_TRUE(has_note(model, "1 fields 'grain' of Box"));
   EXPECT_TRUE(has_note(model, "1 nodes 'UnheardOf' are unknown and left out (first at u.wrl:7)"));
 }

@@ -42,8 +42,9 @@ TEST(SensorFile, ReadsEveryKindOfTable) {
   expect_two(read("1,2.5,-3,0,0,1\n155000.25,463000.5,1e1,0,-2,0\n"));
   expect_two(read("1;2.5;-3;0;0;1\r\n155000.25;463000.5;10;0;-2;0"));
   expect_two(read("x,y,z,nx,ny,nz\n1,2.5,-3,0,0,1\n\n155000.25,463000.5,10,0,-2,0\n"));
-  expect_two(read("\xEF\xBB\xBF\"NX\"; \"NY\"; \"NZ\"; name; X; Y; Z\n0;0;1;a;1;2.5;-3\n"
-                  "0;-2;0;b;155000.25;463000.5;10\n"));
+  expect_two(
+      read("\xEF\xBB\xBF\"NX\"; \"NY\"; \"NZ\"; name; X; Y; Z\n0;0;1;a;1;2.5;-3\n"
+           "0;-2;0;b;155000.25;463000.5;10\n"));
   expect_two(read("# a grid\n1.0\t2.5\t-3\t0 0 1\n\n155000.25 463000.5 +10 0 -2.0 0 # last\n",
                   "grid.pts"));
 }
@@ -65,8 +66,7 @@ TEST(SensorFile, SaysWhatIsWrongAndWhere) {
             (Strings{"grid.csv:2: the row has 5 fields, not 6 (a sensor is x y z nx ny nz)"}));
   EXPECT_EQ(problems("1 2 nan 0 0 1\n"), (Strings{"grid.csv:1: z: 'nan' is no number"}));
   EXPECT_EQ(problems("1e300 2 3 0 0 1\n"),
-            (Strings{
-                "grid.csv:1: the position lies beyond any map projection of the Earth"}));
+            (Strings{"grid.csv:1: the position lies beyond any map projection of the Earth"}));
   EXPECT_EQ(problems("# nothing\n\n"),
             (Strings{"grid.csv: holds no sensors (a row is x y z nx ny nz)"}));
   EXPECT_EQ(problems(std::string("1,2\n") + std::string(100, '\n') + std::string("1,2\n")).size(),

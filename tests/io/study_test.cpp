@@ -126,8 +126,7 @@ TEST(StudyMaterials, KindsExcludeEachOther) {
         "refractive_index: 1.52, absorption_per_m: 30",
         "refractive_index: 0.05, extinction_coefficient: 4",
         "diffuse: 0.2, mirror: 0.1, glossy: 0.4, glossy_exponent: 30, transmittance: 0.3",
-        "diffuse: 0.2, transmittance: 0.8, sides: two",
-        "normal_transmittance: 0.88, sides: two",
+        "diffuse: 0.2, transmittance: 0.8, sides: two", "normal_transmittance: 0.88, sides: two",
         "normal_transmittance: 0.9823", "diffuse: 0.02, mirror: 0.08, normal_transmittance: 0.884"})
     expect_right({{"scene", scene_of(right)}});
   const std::pair<const char*, const char*> wrong[] = {
@@ -234,9 +233,11 @@ TEST(Study, FilesHaveUnitsAndPlacesOfTheirOwn) {
     return read_study(folder.write("s.yaml", with({{"scene", "{files: [" + files + "]}"}})));
   };
   const auto files =
-      read("a.obj, {file: a.obj, up: y, unit_m: 0.001, position_m: [1, 2, 3], turn_deg: 30, "
-           "material: brick}, {file: a.obj, position: \"50 14\", height_m: 200}")
-          .variants[0].scene.files;
+      read(
+          "a.obj, {file: a.obj, up: y, unit_m: 0.001, position_m: [1, 2, 3], turn_deg: 30, "
+          "material: brick}, {file: a.obj, position: \"50 14\", height_m: 200}")
+          .variants[0]
+          .scene.files;
   ASSERT_EQ(files.size(), 3u);
   EXPECT_FALSE(files[0].is_placed());
   EXPECT_EQ(files[1].up, 'y');
@@ -335,8 +336,7 @@ TEST(Study, ChecksPositions) {
 
 TEST(Study, KnowsDaysByName) {
   const auto days = [](const std::string& site, const std::string& list) {
-    const auto file =
-        read_text(with({{"site", site}, {"period", "{days: [" + list + "]}"}}));
+    const auto file = read_text(with({{"site", site}, {"period", "{days: [" + list + "]}"}}));
     std::string text;
     for (const auto& day : std::get<DaysPeriod>(file.variants[0].period.kind).days)
       text += fmt::format("{}-{}-{} ", day.year, day.month, day.day);
@@ -344,8 +344,9 @@ TEST(Study, KnowsDaysByName) {
   };
   const std::string prague = "{latitude_deg: 50, longitude_deg: 14, timezone: Europe/Prague}";
   const std::string cape = "{latitude_deg: -34, longitude_deg: 18, timezone: Africa/Johannesburg}";
-  EXPECT_EQ(days(prague, "march_equinox 2026, 2026-05-01, summer_solstice 2026, "
-                         "september_equinox 2026, winter_solstice 2026"),
+  EXPECT_EQ(days(prague,
+                 "march_equinox 2026, 2026-05-01, summer_solstice 2026, "
+                 "september_equinox 2026, winter_solstice 2026"),
             "2026-3-20 2026-5-1 2026-6-21 2026-9-23 2026-12-21 ");
   EXPECT_EQ(days(cape, "winter_solstice 2026, summer_solstice 2026"), "2026-6-21 2026-12-21 ");
 }
@@ -356,9 +357,9 @@ TEST(Study, ChecksDaysByName) {
   expect_problem({{"period", "{days: [midsummer 2026]}"}}, "names: march_equinox, june_solstice");
   expect_problem({{"period", "{days: [june_solstice 2026, march_equinox 2026]}"}},
                  "march_equinox 2026 is not after the day before it");
-  expect_problem({{"site", "{crs: EPSG:28992, timezone: UTC}"},
-                  {"period", "{days: [summer_solstice 2026]}"}},
-                 "depends on the hemisphere");
+  expect_problem(
+      {{"site", "{crs: EPSG:28992, timezone: UTC}"}, {"period", "{days: [summer_solstice 2026]}"}},
+      "depends on the hemisphere");
 }
 
 TEST(Study, ChecksTheTimes) {
@@ -428,8 +429,9 @@ TEST(Study, ChecksLightSceneAndSolver) {
   expect_problem({{"output", "{series: [sky, sky]}"}}, "is written twice");
   expect_problem({{"sensors", "{points: []}"}}, "the list is empty");
   expect_problem({{"light", "{sky: perez, sky_scale: absolute}"}}, "goes with sky: preetham");
-  expect_problem({{"light", "{sky: preetham, sky_scale: absolute, source: fixed, dni_w_m2: 1, "
-                            "dhi_w_m2: 1}"}},
+  expect_problem({{"light",
+                   "{sky: preetham, sky_scale: absolute, source: fixed, dni_w_m2: 1, "
+                   "dhi_w_m2: 1}"}},
                  "and source: clear_sky only");
   expect_problem({{"format", "sunload-study-9"}}, "must be one of sunload-study-1");
   expect_problem({{"period", ""}}, "period is missing");
@@ -780,7 +782,10 @@ TEST(CanonicalText, SeesEveryValueThatCanChangeANumber) {
        {"batch suns", [](Study& s) { s.solver.batch_suns = 1; }},
        {"accuracy", [](Study& s) { s.solver.accuracy = AccuracyStudy{0.02}; }},
        {"another accuracy", [](Study& s) { s.solver.accuracy = AccuracyStudy{0.03}; }},
-       {"accuracy of instants", [](Study& s) { s.solver.accuracy = AccuracyStudy{{}, 0.02}; }},
+       {"accuracy of instants",
+        [](Study& s) {
+          s.solver.accuracy = AccuracyStudy{{}, 0.02};
+        }},
        {"most lines",
         [](Study& s) {
           s.solver.accuracy = AccuracyStudy{0.02};

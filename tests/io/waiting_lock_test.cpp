@@ -39,7 +39,9 @@ class Holder {
     EXPECT_EQ(held, 'y');
     tell_ = tell[1];
   }
-  void kill() { end([&] { ::kill(process_, SIGKILL); }); }
+  void kill() {
+    end([&] { ::kill(process_, SIGKILL); });
+  }
   void go_on() {
     end([&] { EXPECT_EQ(::write(tell_, "x", 1), 1); });
   }

@@ -104,11 +104,10 @@ TEST(WeatherLight, YearOfAnEpwIsItsRecordsAndFast) {
 TEST(WeatherLight, TypicalYearsSayThatTheyHaveNoLeapDay) {
   if (shared_missing(weather_folder + "chicago_tmy3.epw")) return;
   const auto why = [](const std::string& day) {
-    return refused(study_of("timezone: America/Chicago", "days: [" + day + "]",
-                            shared("chicago_tmy3.epw")));
+    return refused(
+        study_of("timezone: America/Chicago", "days: [" + day + "]", shared("chicago_tmy3.epw")));
   };
-  EXPECT_NE(why("2024-02-29").find("have no 29 February"), std::string::npos)
-      << why("2024-02-29");
+  EXPECT_NE(why("2024-02-29").find("have no 29 February"), std::string::npos) << why("2024-02-29");
   EXPECT_EQ(why("2024-02-28"), "");
 }
 

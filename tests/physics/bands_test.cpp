@@ -32,8 +32,9 @@ Scene court(const Material& wall_material, double exitance = 25) {
                                glass);
   builder.object("tower").box({-6, -5, 0.01}, {-3, -2, 8}, builder.material(pane), Facing::outward);
   builder.object("lamp").quad({3, -4, 3}, {3, -3, 3}, {4, -3, 3}, {4, -4, 3}, lamp);
-  builder.sides(Sides::two).object("crown").quad({5, -8, 0.2}, {8, -8, 0.2}, {8, -8, 3},
-                                                 {5, -8, 3}, builder.material(crown));
+  builder.sides(Sides::two)
+      .object("crown")
+      .quad({5, -8, 0.2}, {8, -8, 0.2}, {8, -8, 3}, {5, -8, 3}, builder.material(crown));
   Scene scene = builder.scene();
   scene.sensors.push_back({{0, -6, 1.5}, {0, 0, 1}, 7});
   return scene;
@@ -215,7 +216,8 @@ TEST(Bands, SphereOfTwoSurfacesIsExactInEachOfThem) {
     // Facets are chords: the bias falls with the square of their size, so that it is at most what
     // one halving changed.
     const double bias = std::abs(mean_error(coarse[b]).mean / coarse_truth[b] -
-                                 mean_error(fine[b]).mean / truth[b]) * truth[b];
+                                 mean_error(fine[b]).mean / truth[b]) *
+                        truth[b];
     const Verdict verdict = expect_mean(fine[b], truth[b], bias);
     EXPECT_TRUE(verdict) << band_names[b] << ": " << verdict.text;
     // Planted faults: a wrong factor, and the broadband reflectances in every band.
@@ -235,11 +237,9 @@ TEST(Bands, LedgerClosesInEachOfThem) {
     EXPECT_TRUE(verdict) << verdict.text;
     EXPECT_LE(verdict.standard_error, 0.01 * power);
     // Planted fault: another band's absorption.
-    const double wrong = mean_error(bands[0].ledger([](const Ledger& l) {
-                           return l[Term::absorbed];
-                         })).mean - mean_error(bands[2].ledger([](const Ledger& l) {
-                           return l[Term::absorbed];
-                         })).mean;
+    const double wrong =
+        mean_error(bands[0].ledger([](const Ledger& l) { return l[Term::absorbed]; })).mean -
+        mean_error(bands[2].ledger([](const Ledger& l) { return l[Term::absorbed]; })).mean;
     auto faulty = residual;
     for (auto& r : faulty) r += wrong;
     EXPECT_FALSE(expect_mean(faulty, 0, float_rounding * power));

@@ -25,7 +25,6 @@ void expect_refused(const std::vector<double>& realizations, double wrong, doubl
   EXPECT_FALSE(verdict) << "a planted fault went unnoticed: " << verdict.text;
 }
 
-
 // E after n bounces in a closed cavity of uniform M and rho: M Σ_{b=0..n} rho^b.
 TEST(ClosedCavity, IrradianceIsTheTruncatedSeries) {
   constexpr double rho = 0.6, M = 100;

@@ -21,9 +21,7 @@ TEST(Street, ImagesAndShootingAgree) {
   const auto power = [&](By by, int depth) {
     const auto solved = solve_sun(scene, street.sun, glint_rules(by, depth), 0.5);
     check_ledger(by == By::images ? "images" : "shooting", solved);
-    return solved.means([&](std::size_t i) {
-      return solved.patches[i].triangle < 2;
-    });
+    return solved.means([&](std::size_t i) { return solved.patches[i].triangle < 2; });
   };
   for (const int depth : {1, 2, 3}) {
     const auto seen = power(By::images, depth), shot = power(By::shooting, depth);

@@ -38,14 +38,15 @@ TEST(Corner, EveryDepthAddsItsImages) {
     for (std::size_t i = 0; i < seen.area.size(); ++i)
       if (seen.patches[i].triangle < 2) {
         EXPECT_NEAR(static_cast<double>(by_mirrors(seen, i)), once * images,
-                    float_rounding * once * images) << name;
+                    float_rounding * once * images)
+            << name;
       }
     check_ledger(name, seen);
     EXPECT_EQ(seen.work.mirror_shots, 0u);
     const auto shot = solve_sun(builder.scene(), sun, glint_rules(By::shooting, depth), 0.5);
     // Planted fault: the double image counted in both orders.
     check_glint(name + " by shooting", shot.means(on_floor(shot)), once * (1 + images),
-          once * (1 + 2 * rho + 2 * rho * rho));
+                once * (1 + 2 * rho + 2 * rho * rho));
     check_ledger(name + " by shooting", shot);
     EXPECT_EQ(shot.work.mirror_beams, 0u);
   }
@@ -181,13 +182,12 @@ TEST(LightPipe, TransmitsWhatItsReflectionsLeave) {
                    mirror);
       auto rules = glint_rules(by);
       rules.direct_samples = 32 * 8;
-      const auto solved =
-          solve_sun(builder.scene(), {std::sin(t), 0, std::cos(t)}, rules, 0.5);
+      const auto solved = solve_sun(builder.scene(), {std::sin(t), 0, std::cos(t)}, rules, 0.5);
       const double E = dni * std::cos(t), transmitted = number(c["transmitted"]);
       const std::string name =
           c["id"].get<std::string>() + (by == By::images ? " by images" : " by shooting");
       check_glint(name, solved.means([&](std::size_t i) { return solved.patches[i].triangle < 2; }),
-            E * transmitted, E * std::pow(rho, number(c["n"])));
+                  E * transmitted, E * std::pow(rho, number(c["n"])));
       check_ledger(name, solved);
       if (by == By::images) {
         EXPECT_EQ(solved.work.mirror_shots, 0u);

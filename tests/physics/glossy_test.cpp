@@ -24,8 +24,8 @@ Material glossy(double share, double exponent, double diffuse = 0, double mirror
 /// A small black receiver that looks down on a wide glossy plate, 1 m above it.
 struct OverPlate {
   explicit OverPlate(const Material& plate) {
-    builder.object("receiver").quad({0, 0, 1}, {0, edge, 1}, {edge, edge, 1}, {edge, 0, 1},
-                                    builder.material({"black"}));
+    builder.object("receiver")
+        .quad({0, 0, 1}, {0, edge, 1}, {edge, edge, 1}, {edge, 0, 1}, builder.material({"black"}));
     builder.object("plate").quad({-half, -half, 0}, {half, -half, 0}, {half, half, 0},
                                  {-half, half, 0}, builder.material(plate));
   }

@@ -22,8 +22,8 @@ std::string day_study(const std::string& builtin, const std::string& period,
                       const std::string& sections) {
   return "format: sunload-study-1\nname: scene\n"
          "site: {latitude_deg: 49.7475, longitude_deg: 13.3776, timezone: Europe/Prague}\n"
-         "light: {source: clear_sky}\nperiod: " + period + "\nscene: {builtin: {name: " + builtin +
-         "}}\n" + sections;
+         "light: {source: clear_sky}\nperiod: " +
+         period + "\nscene: {builtin: {name: " + builtin + "}}\n" + sections;
 }
 
 /// Light load [J m-2], area-weighted over the patches that are chosen.
@@ -39,9 +39,9 @@ double mean_load(const SolvedPlan& s, Chosen&& chosen) {
 }
 
 TEST(HistoricScenes, ABlackCylinderIsBlackInPowerNotInLightLoad) {
-  const SolvedPlan s = solve_study(day_study(
-      "cylinder", "{days: [2026-06-21], from: \"08:00\", to: \"18:00\", step_min: 60}",
-      "mesh: {oracle: none, max_edge_m: 2}\n" + std::string(few_lines)));
+  const SolvedPlan s = solve_study(
+      day_study("cylinder", "{days: [2026-06-21], from: \"08:00\", to: \"18:00\", step_min: 60}",
+                "mesh: {oracle: none, max_edge_m: 2}\n" + std::string(few_lines)));
   double load = 0, outgoing = 0, outgoing_of_others = 0;
   for (std::size_t i = 0; i < s.mesh().patch_count(); ++i) {
     if (s.object(i) == "cylinder") {
@@ -59,10 +59,11 @@ TEST(HistoricScenes, ABlackCylinderIsBlackInPowerNotInLightLoad) {
 TEST(HistoricScenes, TheCeilingOfARoomGetsBrighterWithEveryReflection) {
   double before = 0;
   for (int bounces = 0; bounces <= 3; ++bounces) {
-    const SolvedPlan s = solve_study(night_study(
-        "room", "mesh: {oracle: none, max_edge_m: 1}\nsolver: {lines_per_patch: 64, "
-                "direct_samples: 16, realizations: 16, unshot: 0, bounces: " +
-                    std::to_string(bounces) + "}\n"));
+    const SolvedPlan s = solve_study(
+        night_study("room",
+                    "mesh: {oracle: none, max_edge_m: 1}\nsolver: {lines_per_patch: 64, "
+                    "direct_samples: 16, realizations: 16, unshot: 0, bounces: " +
+                        std::to_string(bounces) + "}\n"));
     // Level faces of the room that look down from above: the ceiling but for the lamp itself.
     const double ceiling = mean_load(s, [&](std::size_t i) {
       const auto t = static_cast<std::size_t>(s.mesh().patches()[i].triangle);
@@ -99,8 +100,8 @@ TEST(HistoricScenes, LitRegionsAreMeshedFinerAndNoTVertexIsLeft) {
                      "mesh: {" + mesh + "}\n" + few_lines);
   };
   Watch watch;
-  for (const std::string oracle : {"oracle: historic, light_threshold_m2: 0.05, min_area_m2: 0.02",
-                                   "light_tolerance: 0.02"}) {
+  for (const std::string oracle :
+       {"oracle: historic, light_threshold_m2: 0.05, min_area_m2: 0.02", "light_tolerance: 0.02"}) {
     const VariantPlan plan = plan_of(study(oracle));
     const VariantMesh made = make_mesh(plan, watch);
     EXPECT_GT(made.report.patches, 4 * made.report.patches_before) << oracle;

@@ -18,8 +18,9 @@ namespace {
 constexpr double hour_s = 3600;
 
 std::string solver_of(int lines, int realizations = 16, int bounces = 0) {
-  return "solver: {lines_per_patch: " + std::to_string(lines) + ", direct_samples: " +
-         std::to_string(realizations) + ", realizations: " + std::to_string(realizations) +
+  return "solver: {lines_per_patch: " + std::to_string(lines) +
+         ", direct_samples: " + std::to_string(realizations) +
+         ", realizations: " + std::to_string(realizations) +
          ", bounces: " + std::to_string(bounces) + "}\n";
 }
 
@@ -70,17 +71,16 @@ TEST(LightScenes, EmissionIsSymmetricAndTilingChangesNothing) {
   // Pairs of points on the plane that are mirror images about x = 0; a mesh of bisected triangles
   // is not its own mirror image.
   constexpr double distance = 4;
-  const std::vector<std::pair<double, double>> from_foot{
-      {0, 0}, {0.9, 0.4}, {2.1, -1.2}, {0.3, 3.2}, {-2.5, 0.7}, {5, 4}};
+  const std::vector<std::pair<double, double>> from_foot{{0, 0},     {0.9, 0.4},  {2.1, -1.2},
+                                                         {0.3, 3.2}, {-2.5, 0.7}, {5, 4}};
   std::string points;
   for (const double side : {-1.0, 1.0})
     for (const auto& [x, y] : from_foot)
       points += (points.empty() ? "" : ", ") + std::string("{position_m: [") +
                 std::to_string(side * (distance + x)) + ", " + std::to_string(y) +
                 ", 0], normal: [0, 0, 1]}";
-  const SolvedPlan s = solve_study(
-      night_study("emission", "mesh: {oracle: none}\nsensors: {points: [" + points + "]}\n" +
-                                  solver_of(4096)));
+  const SolvedPlan s = solve_study(night_study(
+      "emission", "mesh: {oracle: none}\nsensors: {points: [" + points + "]}\n" + solver_of(4096)));
   for (std::size_t p = 0; p < from_foot.size(); ++p) {
     std::vector<double> difference, shifted;
     for (const auto& load : s.tally.sensors.exposure_realization) {
@@ -197,9 +197,9 @@ TEST(LightScenes, ComplexPathsReachTheCubeWithLittleNoise) {
 }
 
 TEST(LightScenes, GeometricAccuracyLeaksNothing) {
-  const SolvedPlan s = solve_study(night_study(
-      "geometric_accuracy",
-      "mesh: {light_tolerance: 0.05, min_area_m2: 0.002}\n" + solver_of(256)));
+  const SolvedPlan s = solve_study(
+      night_study("geometric_accuracy",
+                  "mesh: {light_tolerance: 0.05, min_area_m2: 0.002}\n" + solver_of(256)));
   const Scene& scene = s.plan.built.scene;
   const RayCaster caster(scene.mesh);
   // Under the sunk cube (side 2 about (-4, 0)) the plane is dark but for leaves across its edges.

@@ -58,8 +58,8 @@ TEST(Pane, TransmitsTheSkyAtEveryAngle) {
   const Material glass = pane(1.52, 1, 20);
   const auto solved = alone(glass, with_uniform_sky(one_second({0, 0, -1}, 0), 100));
   const double truth = 400 * hemispherical([](double c) {
-    return pane_shares({1.52, 20 * 0.004, 1}, c).transmitted;
-  });
+                         return pane_shares({1.52, 20 * 0.004, 1}, c).transmitted;
+                       });
   const auto transmitted = solved.ledger([](const Ledger& l) { return l[Term::transmitted]; });
   const Verdict verdict = expect_mean(transmitted, truth);
   EXPECT_TRUE(verdict) << verdict.text;
@@ -80,8 +80,8 @@ TEST(Pane, ReflectsTheSunToTheGround) {
       builder.object("facade").quad({0, -50, 0}, {0, 50, 0}, {0, 50, 90}, {0, -50, 90}, mirror);
       const Vec3 sun = sun_at(zenith);
       const auto solved = solve(builder.scene(), {one_second(sun, 700)}, test_rules());
-      const double R = metal ? metal_reflectance(1.44, 5.23, sun.x)
-                             : pane_shares({1.52, 0, 1}, sun.x).reflected;
+      const double R =
+          metal ? metal_reflectance(1.44, 5.23, sun.x) : pane_shares({1.52, 0, 1}, sun.x).reflected;
       const auto part = static_cast<std::size_t>(Part::mirror);
       EXPECT_NEAR(solved.tally.irradiance[part][0], 700 * sun.z * R, 700 * float_rounding);
     }
@@ -155,8 +155,8 @@ TEST(Pane, LedgerClosesAtEveryMirrorDepth) {
     rules.bounces = 20;
     const auto solved = solve(glazed_street(), {light}, rules, {.max_edge_m = 1.5});
     const double in = mean_error(solved.ledger([](const Ledger& l) { return l.in(); })).mean;
-    const Verdict verdict = expect_mean(
-        solved.ledger([](const Ledger& l) { return l.residual(); }), 0, float_rounding * in);
+    const Verdict verdict = expect_mean(solved.ledger([](const Ledger& l) { return l.residual(); }),
+                                        0, float_rounding * in);
     EXPECT_TRUE(verdict) << depth << ": " << verdict.text;
   }
 }

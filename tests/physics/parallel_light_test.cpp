@@ -69,16 +69,16 @@ TEST(ParallelLight, CastsTheShadowOfABox) {
   const auto solved = solve(scene, {night}, rules_of(0), {.max_edge_m = 1});
   const double shadow = 1.3 * 1.3;
   const auto power = [&](bool on_ground) {
-    std::vector<double> values = solved.means(
-        [&](std::size_t i) { return (solved.patches[i].triangle < 2) == on_ground; });
+    std::vector<double> values =
+        solved.means([&](std::size_t i) { return (solved.patches[i].triangle < 2) == on_ground; });
     double area = 0;
     for (std::size_t i = 0; i < solved.area.size(); ++i)
       if ((solved.patches[i].triangle < 2) == on_ground) area += solved.area[i];
     for (auto& v : values) v *= area;
     return values;
   };
-  for (const auto& [values, truth] : {std::pair{power(true), exitance * (16 - shadow)},
-                                      {power(false), exitance * shadow}}) {
+  for (const auto& [values, truth] :
+       {std::pair{power(true), exitance * (16 - shadow)}, {power(false), exitance * shadow}}) {
     const Verdict verdict = expect_mean(values, truth, float_rounding * truth);
     EXPECT_TRUE(verdict) << verdict.text;
     EXPECT_FALSE(expect_mean(values, truth * 1.02, float_rounding * truth));

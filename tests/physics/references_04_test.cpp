@@ -127,10 +127,13 @@ double sphere_form_factor(double R, double d, double angle) {
   const double half = std::asin(R / d);
   constexpr int steps = 400;
   return integral(0, half, steps, [&](double a) {
-    return std::sin(a) * integral(0, 2 * pi, steps, [&](double phi) {
-             return std::max(0.0, std::cos(angle) * std::cos(a) +
-                                      std::sin(angle) * std::sin(a) * std::cos(phi));
-           }) / pi;
+    return std::sin(a) *
+           integral(0, 2 * pi, steps,
+                    [&](double phi) {
+                      return std::max(0.0, std::cos(angle) * std::cos(a) +
+                                               std::sin(angle) * std::sin(a) * std::cos(phi));
+                    }) /
+           pi;
   });
 }
 
@@ -185,8 +188,8 @@ TEST(Spheres, SeeTheirOwnInside) {
     const double area = norm(scene.mesh.area_vector2(t)) / 2;
     all += area;
     if (scene.material[t].index() == 1) cap += area;
-    inner = std::min(inner, std::abs(dot(scene.mesh.corner(t, 0),
-                                         normalized(scene.mesh.area_vector2(t)))));
+    inner = std::min(
+        inner, std::abs(dot(scene.mesh.corner(t, 0), normalized(scene.mesh.area_vector2(t)))));
   }
   // Facets make the cap's rim a zigzag: its own share is the truth, near that of the case.
   EXPECT_NEAR(cap / all, share, 0.01);

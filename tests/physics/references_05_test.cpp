@@ -128,8 +128,7 @@ TEST(ConvergedBox, MeansOfFacesAndTheirCentres) {
                                                            {{x / 2, y, z / 2}, {0, -1, 0}},
                                                            {{x / 2, y / 2, 0}, {0, 0, 1}},
                                                            {{x / 2, y / 2, z}, {0, 0, -1}}}};
-    for (const auto& [p, n] : centre)
-      scene.sensors.push_back({p, n, sensor_key(p, n)});
+    for (const auto& [p, n] : centre) scene.sensors.push_back({p, n, sensor_key(p, n)});
     const int bounces = bounces_until(1e-3, most(c["reflectance"]));
     const auto with = [&](double edges) {
       return solve(scene, {night}, diffuse_rules(64, bounces),
@@ -257,8 +256,8 @@ TEST(IntegratingCube, MeanIndirectIrradiance) {
     builder.box(middle - h, middle + h, lamp, Facing::outward);
     const int bounces = bounces_until(1e-4, rho);
     constexpr int lines = 128;  // of fewer the limit is as large as the planted fault
-    const Solved solved = solve(builder.scene(), {night}, diffuse_rules(lines, bounces),
-                                {.max_edge_m = side / 4});
+    const Solved solved =
+        solve(builder.scene(), {night}, diffuse_rules(lines, bounces), {.max_edge_m = side / 4});
     const double surface = 6 * side * side;
     auto indirect = solved.means([&](std::size_t i) { return solved.patches[i].triangle < 12; });
     for (auto& E : indirect) E -= flux / surface;  // the lamp's own light all falls on walls
@@ -274,8 +273,7 @@ TEST(TiltedPlane, OverInfiniteGroundUnderAUniformSky) {
     const double tilt = radians(number(c["tilt_deg"])), rho = number(c["rho"]);
     const Vec3 up_slope{0, std::cos(tilt), std::sin(tilt)}, east{1, 0, 0};
     SceneBuilder builder;
-    builder.quad({0, 0, 0}, east, east + up_slope, up_slope,
-                 builder.material({"black", 0, 0, 0}));
+    builder.quad({0, 0, 0}, east, east + up_slope, up_slope, builder.material({"black", 0, 0, 0}));
     SunLight light = with_uniform_sky(night, 1);
     light.ground_exitance = rho;
     const Solved solved = solve(builder.scene(), {light}, diffuse_rules(4096, 0));

@@ -82,8 +82,7 @@ TEST(Glass, KnownByItsNormalTransmittanceTransmitsTheReferencesShare) {
         << id;
     EXPECT_FALSE(expect_mean(transmitted, T / clear_glass_factor, float_rounding)) << id;
     if (const double s = std::sin(angle); s > 0) {
-      EXPECT_FALSE(
-          expect_mean(transmitted, T * (1 + s * s) / (1 + s * s * s), float_rounding))
+      EXPECT_FALSE(expect_mean(transmitted, T * (1 + s * s) / (1 + s * s * s), float_rounding))
           << id;
     }
   }

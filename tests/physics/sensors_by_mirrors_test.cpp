@@ -122,8 +122,8 @@ TEST(SensorsByCurvedMirrors, AgreeWithAPatchOfTheSamePlace) {
   }
   const double E = mean_error(sensors).mean, bias = std::abs(mean_error(rough).mean - E);
   const Verdict same = expect_mean(difference, 0, bias);
-  std::cout << "sensors " << E << " W/m2, by half as many off by " << bias << ", from the patch: "
-            << same.text << "\n";
+  std::cout << "sensors " << E << " W/m2, by half as many off by " << bias
+            << ", from the patch: " << same.text << "\n";
   EXPECT_TRUE(same) << same.text;
   EXPECT_FALSE(expect_mean(faulty, 0, bias));
   EXPECT_GT(E, 0.1 * dni);

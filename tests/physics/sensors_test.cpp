@@ -240,8 +240,8 @@ TEST(SensorSun, MirroredOntoTheGround) {
     stage.at(middle, {0, 0, 1}).at(corner + (corner - middle) * 0.01, {0, 0, 1});
     const double azimuth = radians(number(c["sun_azimuth_deg"]));
     const double elevation = radians(number(c["sun_elevation_deg"]));
-    const Vec3 sun{std::sin(azimuth) * std::cos(elevation),
-                   std::cos(azimuth) * std::cos(elevation), std::sin(elevation)};
+    const Vec3 sun{std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation),
+                   std::sin(elevation)};
     SolverRules rules = rules_of(1);
     rules.direct_samples = rules.realizations;
     const auto tally = stage.light(one_second(sun, number(c["DNI"])), rules);

@@ -251,9 +251,9 @@ TEST(Shooting, AgreesPatchByPatch) {
   int noticed = 0;
   for (std::size_t i = 0; i < shot.area.size(); ++i) {
     const MeanError g = mean_error(gathered.of_patch(i)), s = mean_error(shot.of_patch(i));
-    const double limit =
-        accepted_t(realizations) * std::hypot(g.standard_error, s.standard_error) +
-        2 * std::abs(g.mean - gathered.tally.exposure[0][i]) + float_rounding * g.mean;
+    const double limit = accepted_t(realizations) * std::hypot(g.standard_error, s.standard_error) +
+                         2 * std::abs(g.mean - gathered.tally.exposure[0][i]) +
+                         float_rounding * g.mean;
     EXPECT_LE(std::abs(s.mean - g.mean), limit) << i;
     noticed += std::abs(s.mean * shot.area[i] / mean_area - g.mean) > limit;
   }
@@ -335,8 +335,8 @@ TEST(Shooting, LedgerClosesAtEveryMirrorDepth) {
     rules.mirror_depth = depth;
     const Solved solved = solve(facing_mirrors(as_it_is), {light, disk}, rules, {.max_edge_m = 1});
     const double residual = largest_residual(solved), unshot = solved.tally.energy[Term::unshot];
-    std::cout << "depth " << depth << ": in " << solved.tally.energy.in() << " J, unshot "
-              << unshot << " J, residual " << residual << " of in\n";
+    std::cout << "depth " << depth << ": in " << solved.tally.energy.in() << " J, unshot " << unshot
+              << " J, residual " << residual << " of in\n";
     EXPECT_LE(residual, closes) << depth;
     EXPECT_LT(unshot, unshot_before);
     unshot_before = unshot;
@@ -392,8 +392,7 @@ TEST(Shooting, NumberOfSamplesIsPowerByPowerPerSample) {
   rules.power_per_sample_w = per_sample;
   // The two patches of the lamp shoot, in every realization.
   const Solved lamp_only = solve(scene, {night}, rules);
-  EXPECT_NEAR(static_cast<double>(lamp_only.work.samples), lamp_w / per_sample,
-              realizations);
+  EXPECT_NEAR(static_cast<double>(lamp_only.work.samples), lamp_w / per_sample, realizations);
   // A reflection more: what its patches have received, times their reflectance.
   rules.bounces = 1;
   const Solved one = solve(scene, {night}, rules);
@@ -499,8 +498,7 @@ TEST(Shooting, FloorSeesTheCeilingInMirrorWalls) {
     rules.mirror_depth = 1000;
     rules.lines_per_patch = realizations * 2048;
     const Solved solved = solve(builder.scene(), {night}, rules);
-    const auto values =
-        solved.means([&](std::size_t i) { return solved.patches[i].triangle < 2; });
+    const auto values = solved.means([&](std::size_t i) { return solved.patches[i].triangle < 2; });
     const double F = number(c["F_floor_to_ceiling_mean"]);
     const Verdict verdict = expect_mean(values, F);
     std::cout << c["id"] << ": " << verdict.text << "\n";

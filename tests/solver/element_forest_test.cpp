@@ -19,7 +19,7 @@ Scene closed_box() {
   Scene scene = SceneBuilder().scene();
   scene.materials.push_back({"m", 0.3, 0, 0});
   scene.mesh.object_names = {"box"};
-  scene.mesh.vertices = {{0, 0, 0}, {3, 0, 0}, {3, 2, 0}, {0, 2, 0},
+  scene.mesh.vertices = {{0, 0, 0},   {3, 0, 0},   {3, 2, 0},   {0, 2, 0},
                          {0, 0, 1.3}, {3, 0, 1.3}, {3, 2, 1.3}, {0, 2, 1.3}};
   scene.mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
                           {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};

@@ -17,8 +17,7 @@ double cosine(double angle_deg) { return std::cos(angle_deg * radians_per_degree
 
 TEST(Pane, ReferenceCases) {
   if (shared_missing("reference")) return;
-  for (const auto& c :
-       reference_cases("07_cie171_bestest/cie171_style.json", "glass_fresnel")) {
+  for (const auto& c : reference_cases("07_cie171_bestest/cie171_style.json", "glass_fresnel")) {
     const PaneShares glass =
         pane_shares({1.526, number(c["KL"]), 1}, cosine(number(c["angle_deg"])));
     constexpr double last_digit = 1e-9;
@@ -43,8 +42,8 @@ TEST(Pane, StackOfClearPanesIsStokes) {
     for (const int count : {1, 2, 3, 7}) {
       const double c = cosine(angle), t = std::sqrt(1 - (1 - c * c) / (n * n));
       double T = 0;
-      for (const double r : {std::pow((c - n * t) / (c + n * t), 2),
-                             std::pow((t - n * c) / (t + n * c), 2)})
+      for (const double r :
+           {std::pow((c - n * t) / (c + n * t), 2), std::pow((t - n * c) / (t + n * c), 2)})
         T += (1 - r) / (1 + (2 * count - 1) * r) / 2;
       const PaneShares glass = pane_shares({n, 0, count}, c);
       EXPECT_NEAR(glass.transmitted, T, 1e-12);
@@ -84,8 +83,8 @@ TEST(Metal, WithoutExtinctionIsOneFaceOfGlass) {
 TEST(Metal, NormalAndGrazing) {
   // ((n - 1)² + k²) / ((n + 1)² + k²): aluminium at 589 nm, Born & Wolf (1999), table 14.1.
   const double n = 1.44, k = 5.23;
-  EXPECT_NEAR(metal_reflectance(n, k, 1),
-              ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k), 1e-12);
+  EXPECT_NEAR(metal_reflectance(n, k, 1), ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k),
+              1e-12);
   EXPECT_NEAR(metal_reflectance(n, k, 1), 0.83, 0.005);
   EXPECT_EQ(metal_reflectance(n, k, 0), 1);
   for (int degree = 0; degree <= 90; ++degree) {
@@ -101,8 +100,7 @@ TEST(Coat, TakesItsShareAtEveryAngle) {
   for (int degree = 0; degree <= 90; ++degree) {
     const SmoothShares shares = smooth_shares(pane, cosine(degree));
     EXPECT_LE(pane.diffuse + shares.mirror + shares.transmitted, 1 + 1e-12);
-    EXPECT_NEAR(shares.mirror,
-                0.7 * pane_shares({1.52, 0.04, 1}, cosine(degree)).reflected, 1e-12);
+    EXPECT_NEAR(shares.mirror, 0.7 * pane_shares({1.52, 0.04, 1}, cosine(degree)).reflected, 1e-12);
   }
 }
 

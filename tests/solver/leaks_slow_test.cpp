@@ -172,8 +172,8 @@ TEST(Town, NothingLeaksOutOfItsHouses) {
     EXPECT_EQ(town.prepared.report.open_edges, 0u) << place.name;
     const Leaks count = leaks(town, rays_demanded / 3 + packet_size);
     std::cout << place.name << ": " << town.prepared.mesh.triangle_count() << " triangles of "
-              << town.houses.size() << " houses; of " << count.rays << " rays "
-              << count.left_scene << " left the scene, " << count.left_house << " their house\n";
+              << town.houses.size() << " houses; of " << count.rays << " rays " << count.left_scene
+              << " left the scene, " << count.left_house << " their house\n";
     all.rays += count.rays;
     all.left_scene += count.left_scene;
     all.left_house += count.left_house;

@@ -53,8 +53,8 @@ TEST(Lobe, SamplesFollowTheirDensity) {
   constexpr double n = 20;
   std::vector<double> counted(rings * sectors, 0), expected = counted, faulty = counted;
   for (int i = 0; i < samples; ++i) {
-    const auto words = random_words({.seed = 7, .purpose = Purpose::glossy,
-                                     .sun = static_cast<std::uint32_t>(i)});
+    const auto words =
+        random_words({.seed = 7, .purpose = Purpose::glossy, .sun = static_cast<std::uint32_t>(i)});
     const Vec3 w = sample_power_cosine(static_cast<double>(uniform(words[0])),
                                        static_cast<double>(uniform(words[1])), n);
     const double turn = std::atan2(w.y, w.x) / (2 * pi);

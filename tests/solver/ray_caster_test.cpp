@@ -78,7 +78,6 @@ Scene sphere_at(Vec3 centre, double radius) {
   return scene;
 }
 
-
 enum class Aim { anywhere_and_edges, vertices };
 
 /// Rays of 16 from inside. Half of them aim at points of edges, where leaks would be, or

@@ -182,19 +182,20 @@ TEST(Refine, HistoricOracleSplitsWhatSeesTheSunAndNothingElse) {
   const PilotLight light = suns(1);
   RefineReport report;
   const double threshold = 0.05, least = 0.02;
-  const Hierarchy mesh =
-      refined(scene, light,
-              {.oracle = Oracle::historic, .light_threshold_m2 = threshold,
-               .t_vertices = TVertices::keep},
-              report, least);
+  const Hierarchy mesh = refined(
+      scene, light,
+      {.oracle = Oracle::historic, .light_threshold_m2 = threshold, .t_vertices = TVertices::keep},
+      report, least);
   const RayCaster caster(scene.mesh);
   std::size_t lit = 0, dark = 0;
   double area_of_lit = 0, area_of_dark = 0;
   for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
     const double cos_theta = dot(mesh.normal(i), light.suns[0].direction);
-    const bool sees = cos_theta > 0 &&
-                      caster.first_hit(mesh.centroid(i) + mesh.normal(i) * caster.offset_m(),
-                                       light.suns[0].direction).left_scene();
+    const bool sees =
+        cos_theta > 0 && caster
+                             .first_hit(mesh.centroid(i) + mesh.normal(i) * caster.offset_m(),
+                                        light.suns[0].direction)
+                             .left_scene();
     if (sees) {
       EXPECT_TRUE(historic_light_estimate_m2(cos_theta, mesh.area()[i]) <= threshold ||
                   mesh.area()[i] < 2 * least);

@@ -53,8 +53,8 @@ TEST(NeededCounts, AreRaisedWhereTheErrorComesFrom) {
   counts = needed_counts(spread_of({300 * 300}, {300 * 300}), rules_of(64, 8), {0.1, 65536}, 10);
   EXPECT_LE(9e4 / counts.lines_per_patch + 9e4 / counts.direct_samples, 100.0);
   // With many suns samples are dear.
-  const auto dear = needed_counts(spread_of({300 * 300}, {300 * 300}), rules_of(64, 8),
-                                  {0.1, 65536}, 100000);
+  const auto dear =
+      needed_counts(spread_of({300 * 300}, {300 * 300}), rules_of(64, 8), {0.1, 65536}, 100000);
   EXPECT_GE(dear.lines_per_patch, counts.lines_per_patch);
   EXPECT_LE(dear.direct_samples, counts.direct_samples);
 }
@@ -64,10 +64,10 @@ TEST(NeededCounts, StopAtTheMostAndSayWhatShareIsMet) {
       needed_counts(spread_of({100, 1e8}, {0, 0}), rules_of(64, 8), {0.1, 1003}, 10);
   // The best that can be had, for the patch that it helps.
   EXPECT_EQ(counts.lines_of_patch, (std::vector{64, 1000}));
-  EXPECT_EQ(counts.direct_samples, 8);      // which samples do nothing for
+  EXPECT_EQ(counts.direct_samples, 8);  // which samples do nothing for
   EXPECT_EQ(counts.share, 0.5);
-  const auto all = needed_counts(spread_of({500 * 100, 600 * 100}, {0, 0}), rules_of(64, 8),
-                                 {0.1, 1003}, 10);
+  const auto all =
+      needed_counts(spread_of({500 * 100, 600 * 100}, {0, 0}), rules_of(64, 8), {0.1, 1003}, 10);
   EXPECT_EQ(all.lines_per_patch, 1000);  // the most that 8 can share
   EXPECT_EQ(all.share, 1);
   // The least counts stand, even above the most.
@@ -95,8 +95,8 @@ TEST(NeededCounts, LeaveOutWhatReceivesNextToNothing) {
 TEST(NeededCounts, GiveEveryPatchTheLinesThatItNeeds) {
   // 10 % / 1.27 of 100: a variance of 62.
   const auto rules = rules_of(64, 8);
-  const auto counts = needed_counts(spread_of({100, 64 * 61, 64 * 63, 9e4}, {0, 0, 0, 0}), rules,
-                                    {0.1, 4096}, 10);
+  const auto counts =
+      needed_counts(spread_of({100, 64 * 61, 64 * 63, 9e4}, {0, 0, 0, 0}), rules, {0.1, 4096}, 10);
   EXPECT_EQ(counts.lines_of_patch, (std::vector{64, 64, 128, 2048}));
   EXPECT_EQ(counts.mean_lines(), 576);
   EXPECT_EQ(counts.lines_per_patch, 1024);  // of sensors
@@ -105,12 +105,12 @@ TEST(NeededCounts, GiveEveryPatchTheLinesThatItNeeds) {
   // Those of the mean would do for no more than three of them.
   SampleCounts mean = counts;
   mean.lines_of_patch.clear();
-  EXPECT_EQ(share_met(spread_of({100, 64 * 61, 64 * 63, 9e4}, {0, 0, 0, 0}), {0.1 / 1.27, 4096},
-                      mean),
-            0.75);
+  EXPECT_EQ(
+      share_met(spread_of({100, 64 * 61, 64 * 63, 9e4}, {0, 0, 0, 0}), {0.1 / 1.27, 4096}, mean),
+      0.75);
   // Where samples leave no room, lines are not to blame for the rest.
-  const auto shadowed = needed_counts(spread_of({9e4, 0, 0}, {8 * 1e4, 1e9, 1e9}), rules,
-                                      {0.1, 4096}, 10);
+  const auto shadowed =
+      needed_counts(spread_of({9e4, 0, 0}, {8 * 1e4, 1e9, 1e9}), rules, {0.1, 4096}, 10);
   EXPECT_LT(shadowed.lines_of_patch[0], 4096);
 }
 
@@ -265,9 +265,9 @@ void expect_kept(const SolverRules& least, const AccuracyGoal& goal, const Split
   SolverRules raised = with_counts(least, counts);
   constexpr int runs = 24;
   const double share = share_that_keeps(split, raised, goal, runs);
-  std::cout << "lines " << counts.mean_lines() << ", samples " << counts.direct_samples
-            << ", shot " << counts.samples_per_patch << ": predicted " << counts.share << ", kept "
-            << share << "\n";
+  std::cout << "lines " << counts.mean_lines() << ", samples " << counts.direct_samples << ", shot "
+            << counts.samples_per_patch << ": predicted " << counts.share << ", kept " << share
+            << "\n";
   EXPECT_GT(counts.mean_lines(), least.lines_per_patch);
   EXPECT_LT(counts.mean_lines(), goal.most_per_patch);
   EXPECT_GE(counts.share, share_to_be_met);
@@ -425,7 +425,9 @@ TEST(Accuracy, PilotTellsTheSidesOfAScreenApart) {
   const int floor = builder.material({"white", 0.8, 0, 0});
   const int screen = builder.material({"black", 0, 0, 0});
   builder.object("floor").quad({-6, -6, 0}, {6, -6, 0}, {6, 6, 0}, {-6, 6, 0}, floor);
-  builder.object("screen").sides(Sides::two).quad({-3, 6, 1}, {3, 6, 1}, {3, 6, 5}, {-3, 6, 5}, screen);
+  builder.object("screen")
+      .sides(Sides::two)
+      .quad({-3, 6, 1}, {3, 6, 1}, {3, 6, 5}, {-3, 6, 5}, screen);
   const Scene scene = builder.scene();
   const Hierarchy mesh(scene, SplitRules{.max_edge_m = 1});
   const PatchSpread spread = pilot_of_one_sun(builder);

@@ -289,8 +289,8 @@ TEST(Lamps, CloseTheLedger) {
   const Verdict verdict = expect_mean(residual, 0, float_rounding * emitted);
   EXPECT_TRUE(verdict) << verdict.text;
   EXPECT_LE(verdict.standard_error, 0.01 * emitted);
-  const auto faulty = solved.ledger(
-      [](const Ledger& l) { return l.residual() - 0.3 * l[Term::absorbed]; });
+  const auto faulty =
+      solved.ledger([](const Ledger& l) { return l.residual() - 0.3 * l[Term::absorbed]; });
   EXPECT_FALSE(expect_mean(faulty, 0, float_rounding * emitted));
 }
 

@@ -144,8 +144,7 @@ TEST(Circumsolar, OnOpenPlatesIsExact) {
                              {rules.direct_samples, rules.realizations, 1});
     std::vector<std::vector<double>> direct(64, std::vector<double>(2, 0)), exposure(direct);
     const std::vector<SunLight> block{light};
-    const DirectSun sun =
-        direct_sun(solver.caster(), sampler, block, direct, nullptr);
+    const DirectSun sun = direct_sun(solver.caster(), sampler, block, direct, nullptr);
     circumsolar_light(solver.hierarchy(), solver.caster(), sampler, block, {sky}, sun.sunlit,
                       exposure, nullptr);
     std::vector<double> means;
@@ -176,8 +175,8 @@ TEST(Circumsolar, ClosesTheLedger) {
   EXPECT_TRUE(verdict) << verdict.text;
   EXPECT_LE(verdict.standard_error, 0.005 * power);
   // Planted: the circumsolar part, a fifth of the sky, left to the lines as well.
-  const auto faulty = solved.ledger(
-      [](const Ledger& l) { return l.residual() + 0.2 * l[Term::sky]; });
+  const auto faulty =
+      solved.ledger([](const Ledger& l) { return l.residual() + 0.2 * l[Term::sky]; });
   EXPECT_FALSE(expect_mean(faulty, 0, float_rounding * power));
 }
 

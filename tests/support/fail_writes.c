@@ -1,6 +1,7 @@
 /* Makes the k-th call that changes a file fail, as a full or broken disk would, or the last one.
  *
- *   LD_PRELOAD=fail_writes.so FAIL_AT=k FAIL_WITH=errno FAIL_BELOW=path FAIL_COUNT=file FAIL_ON=1 program
+ *   LD_PRELOAD=fail_writes.so FAIL_AT=k FAIL_WITH=errno FAIL_BELOW=path FAIL_COUNT=file FAIL_ON=1
+ * program
  *
  * Counted are write, writev, pwrite, fsync, fdatasync, ftruncate, rename, mkdir and
  * open for writing, of files below FAIL_BELOW only. Without FAIL_AT nothing fails.
@@ -25,13 +26,13 @@
 
 static atomic_long calls;
 
-static long number(const char *name, long otherwise) {
-  const char *text = getenv(name);
+static long number(const char* name, long otherwise) {
+  const char* text = getenv(name);
   return text ? atol(text) : otherwise;
 }
 
-static int is_below(const char *path) {
-  const char *below = getenv("FAIL_BELOW");
+static int is_below(const char* path) {
+  const char* below = getenv("FAIL_BELOW");
   if (!below || !path) return 0;
   char absolute[2 * PATH_MAX];
   if (path[0] != '/') {
@@ -63,34 +64,34 @@ static int fails(void) {
 }
 
 __attribute__((destructor)) static void tell(void) {
-  const char *path = getenv("FAIL_COUNT");
-  FILE *file = path ? fopen(path, "w") : NULL;
+  const char* path = getenv("FAIL_COUNT");
+  FILE* file = path ? fopen(path, "w") : NULL;
   if (!file) return;
   fprintf(file, "%ld\n", (long)calls);
   fclose(file);
 }
 
-#define REAL(result, name, ...) \
+#define REAL(result, name, ...)       \
   static result (*real)(__VA_ARGS__); \
-  if (!real) *(void **)&real = dlsym(RTLD_NEXT, name)
+  if (!real) *(void**)&real = dlsym(RTLD_NEXT, name)
 
-ssize_t write(int file, const void *data, size_t bytes) {
-  REAL(ssize_t, "write", int, const void *, size_t);
+ssize_t write(int file, const void* data, size_t bytes) {
+  REAL(ssize_t, "write", int, const void*, size_t);
   return is_file_below(file) && fails() ? -1 : real(file, data, bytes);
 }
 
-ssize_t writev(int file, const struct iovec *parts, int count) {
-  REAL(ssize_t, "writev", int, const struct iovec *, int);
+ssize_t writev(int file, const struct iovec* parts, int count) {
+  REAL(ssize_t, "writev", int, const struct iovec*, int);
   return is_file_below(file) && fails() ? -1 : real(file, parts, count);
 }
 
-ssize_t pwrite(int file, const void *data, size_t bytes, off_t at) {
-  REAL(ssize_t, "pwrite", int, const void *, size_t, off_t);
+ssize_t pwrite(int file, const void* data, size_t bytes, off_t at) {
+  REAL(ssize_t, "pwrite", int, const void*, size_t, off_t);
   return is_file_below(file) && fails() ? -1 : real(file, data, bytes, at);
 }
 
-ssize_t pwrite64(int file, const void *data, size_t bytes, off64_t at) {
-  REAL(ssize_t, "pwrite64", int, const void *, size_t, off64_t);
+ssize_t pwrite64(int file, const void* data, size_t bytes, off64_t at) {
+  REAL(ssize_t, "pwrite64", int, const void*, size_t, off64_t);
   return is_file_below(file) && fails() ? -1 : real(file, data, bytes, at);
 }
 
@@ -114,35 +115,35 @@ int ftruncate64(int file, off64_t length) {
   return is_file_below(file) && fails() ? -1 : real(file, length);
 }
 
-int rename(const char *from, const char *to) {
-  REAL(int, "rename", const char *, const char *);
+int rename(const char* from, const char* to) {
+  REAL(int, "rename", const char*, const char*);
   return is_below(to) && fails() ? -1 : real(from, to);
 }
 
-int mkdir(const char *path, mode_t mode) {
-  REAL(int, "mkdir", const char *, mode_t);
+int mkdir(const char* path, mode_t mode) {
+  REAL(int, "mkdir", const char*, mode_t);
   return is_below(path) && fails() ? -1 : real(path, mode);
 }
 
 /* Removing makes room: a full disk does not hinder it, but a kill may come before it. */
-static void count_removal(const char *path) {
+static void count_removal(const char* path) {
   if (number("FAIL_KILL", 0) && is_below(path)) (void)fails();
 }
 
-int remove(const char *path) {
-  REAL(int, "remove", const char *);
+int remove(const char* path) {
+  REAL(int, "remove", const char*);
   count_removal(path);
   return real(path);
 }
 
-int unlink(const char *path) {
-  REAL(int, "unlink", const char *);
+int unlink(const char* path) {
+  REAL(int, "unlink", const char*);
   count_removal(path);
   return real(path);
 }
 
-int rmdir(const char *path) {
-  REAL(int, "rmdir", const char *);
+int rmdir(const char* path) {
+  REAL(int, "rmdir", const char*);
   count_removal(path);
   return real(path);
 }
@@ -153,8 +154,8 @@ static mode_t mode_of(int flags, va_list more) {
   return flags & (O_CREAT | O_TMPFILE) ? va_arg(more, mode_t) : 0;
 }
 
-int open(const char *path, int flags, ...) {
-  REAL(int, "open", const char *, int, ...);
+int open(const char* path, int flags, ...) {
+  REAL(int, "open", const char*, int, ...);
   va_list more;
   va_start(more, flags);
   const mode_t mode = mode_of(flags, more);
@@ -162,8 +163,8 @@ int open(const char *path, int flags, ...) {
   return changes(flags) && is_below(path) && fails() ? -1 : real(path, flags, mode);
 }
 
-int open64(const char *path, int flags, ...) {
-  REAL(int, "open64", const char *, int, ...);
+int open64(const char* path, int flags, ...) {
+  REAL(int, "open64", const char*, int, ...);
   va_list more;
   va_start(more, flags);
   const mode_t mode = mode_of(flags, more);
@@ -171,12 +172,12 @@ int open64(const char *path, int flags, ...) {
   return changes(flags) && is_below(path) && fails() ? -1 : real(path, flags, mode);
 }
 
-FILE *fopen64(const char *path, const char *mode) {
-  REAL(FILE *, "fopen64", const char *, const char *);
+FILE* fopen64(const char* path, const char* mode) {
+  REAL(FILE*, "fopen64", const char*, const char*);
   return mode[0] != 'r' && is_below(path) && fails() ? NULL : real(path, mode);
 }
 
-FILE *fopen(const char *path, const char *mode) {
-  REAL(FILE *, "fopen", const char *, const char *);
+FILE* fopen(const char* path, const char* mode) {
+  REAL(FILE*, "fopen", const char*, const char*);
   return mode[0] != 'r' && is_below(path) && fails() ? NULL : real(path, mode);
 }

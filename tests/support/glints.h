@@ -70,7 +70,7 @@ struct TwoMirrorStreet {
   }
   /// Where light from the window's point falls on the ground: by the wall.
   Vec3 on_ground(double y, double z) const {
-    const Vec3 away = -image(sun, {1, 0, 0});         // from the window
+    const Vec3 away = -image(sun, {1, 0, 0});                     // from the window
     const Vec3 back = -image(image(sun, {1, 0, 0}), {-1, 0, 0});  // from the wall
     const Vec3 at_window{0, y, z}, at_wall = at_window + away * (width / away.x);
     return at_wall + back * (at_wall.z / -back.z);

@@ -22,8 +22,7 @@ struct HiddenEmitterCounts {
 /// (6b - b²) / 4x² of the lamp's light, of which 9 / 2(x - 8)³ per metre reach the point.
 inline void expect_hidden_emitter(Transport transport, const HiddenEmitterCounts& counts,
                                   double standard_error) {
-  for (const auto& c :
-       reference_cases("08_smits_jensen_style/cases.json", "hidden_emitter_2d")) {
+  for (const auto& c : reference_cases("08_smits_jensen_style/cases.json", "hidden_emitter_2d")) {
     const double b = number(c["b"]), rho = number(c["rho"]), E = number(c["irradiance_one_bounce"]);
     constexpr double far = 24, wide = 16, h = 3;
     LampStage stage;
@@ -34,8 +33,9 @@ inline void expect_hidden_emitter(Transport transport, const HiddenEmitterCounts
     s.object("ceiling").quad({0, 0, h}, {0, wide, h}, {far, wide, h}, {far, 0, h}, ceiling);
     s.object("mirrors").quad({0, 0, 0}, {0, 0, h}, {far, 0, h}, {far, 0, 0}, mirror);
     s.quad({0, wide, 0}, {far, wide, 0}, {far, wide, h}, {0, wide, h}, mirror);
-    s.sides(Sides::two).object("baffle").quad({4, 0, 0}, {4, wide, 0}, {4, wide, 2}, {4, 0, 2},
-                                              stage.black);
+    s.sides(Sides::two)
+        .object("baffle")
+        .quad({4, 0, 0}, {4, wide, 0}, {4, wide, 2}, {4, 0, 2}, stage.black);
     SolverRules rules = diffuse_rules(counts.lines, 1);
     rules.transport = transport;
     const auto with = [&](double edge) {
@@ -45,8 +45,8 @@ inline void expect_hidden_emitter(Transport transport, const HiddenEmitterCounts
     const auto coarse = with(2), fine = with(1);
     const double beyond =
         rho * (6 * b - b * b) / 4 * 9 / 2 / (2 * far * far * (far - 8) * (far - 8));
-    const double bias = std::abs(mean_error(coarse).mean - mean_error(fine).mean) + beyond +
-                        2 * E * lift(far);
+    const double bias =
+        std::abs(mean_error(coarse).mean - mean_error(fine).mean) + beyond + 2 * E * lift(far);
     expect_truth(c["id"], fine, E, bias, {.fault = 1.12 * E, .standard_error = standard_error});
   }
 }

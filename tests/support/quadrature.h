@@ -27,9 +27,12 @@ inline double lobe_albedo(double cos_theta, double n) {
   constexpr int steps = 200;
   return integral(0, 1, steps, [&](double u) {  // u = cos^(n+1) α: equal parts of the pdf
     const double cos_a = std::pow(u, 1 / (n + 1)), sin_a = std::sqrt(1 - cos_a * cos_a);
-    return integral(0, 2 * pi, steps, [&](double phi) {
-             return lobe_sample_weight(cos_a * cos_theta + sin_a * sin_theta * std::cos(phi), n);
-           }) / (2 * pi);
+    return integral(0, 2 * pi, steps,
+                    [&](double phi) {
+                      return lobe_sample_weight(
+                          cos_a * cos_theta + sin_a * sin_theta * std::cos(phi), n);
+                    }) /
+           (2 * pi);
   });
 }
 
