@@ -8,11 +8,11 @@
 #include <iostream>
 #include <new>
 
-#include "geo/check.h"
-#include "io/command_line.h"
-#include "io/exit_code.h"
-#include "io/file_aside.h"
-#include "io/progress.h"
+#include "geo/base/check.h"
+#include "io/base/exit_code.h"
+#include "io/base/file_aside.h"
+#include "io/command/command_line.h"
+#include "io/run/progress.h"
 
 namespace sunload {
 namespace {

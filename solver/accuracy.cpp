@@ -5,7 +5,7 @@
 #include <numeric>
 #include <span>
 
-#include "solver/parallel.h"
+#include "solver/base/threads.h"
 
 namespace sunload {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "solver/rng.h"
+#include "solver/base/rng.h"
 
 namespace sunload {
 

@@ -1,12 +1,12 @@
 // A block of suns by shooting: every realization for itself, series and totals from their mean.
-#include "solver/block_tally.h"
-#include "solver/instant_spread.h"
-#include "solver/parallel.h"
-#include "solver/sensor_light.h"
-#include "solver/shooting.h"
+#include "solver/base/stopwatch.h"
+#include "solver/base/threads.h"
+#include "solver/gather/block_tally.h"
+#include "solver/gather/sensor_light.h"
+#include "solver/gather/traced_light.h"
+#include "solver/light/instant_spread.h"
+#include "solver/shoot/shooting.h"
 #include "solver/solver.h"
-#include "solver/stopwatch.h"
-#include "solver/traced_light.h"
 
 namespace sunload {
 

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 
-#include "geo/check.h"
-#include "solver/block_tally.h"
-#include "solver/guide.h"
-#include "solver/instant_spread.h"
-#include "solver/sensor_light.h"
-#include "solver/shooting.h"
-#include "solver/stopwatch.h"
-#include "solver/time_sums.h"
-#include "solver/traced_light.h"
+#include "geo/base/check.h"
+#include "solver/base/stopwatch.h"
+#include "solver/gather/block_tally.h"
+#include "solver/gather/guide.h"
+#include "solver/gather/sensor_light.h"
+#include "solver/gather/time_sums.h"
+#include "solver/gather/traced_light.h"
+#include "solver/light/instant_spread.h"
+#include "solver/shoot/shooting.h"
 
 namespace sunload {
 

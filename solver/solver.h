@@ -7,19 +7,19 @@
 #include <string>
 #include <vector>
 
-#include "solver/band_light.h"
-#include "solver/block_light.h"
-#include "solver/first_mirrored.h"
-#include "solver/glossy_sun.h"
-#include "solver/hierarchy.h"
-#include "solver/jacobi.h"
-#include "solver/lines.h"
-#include "solver/mirror_chains.h"
-#include "solver/mirror_sun.h"
-#include "solver/parallel_light.h"
-#include "solver/tally.h"
-#include "solver/transport.h"
-#include "solver/watch.h"
+#include "solver/base/watch.h"
+#include "solver/first_light/glossy_sun.h"
+#include "solver/first_light/mirror_chains.h"
+#include "solver/first_light/mirror_sun.h"
+#include "solver/first_light/parallel_light.h"
+#include "solver/gather/band_light.h"
+#include "solver/gather/block_light.h"
+#include "solver/gather/jacobi.h"
+#include "solver/light/tally.h"
+#include "solver/light/transport.h"
+#include "solver/lines/lines.h"
+#include "solver/mesh/hierarchy.h"
+#include "solver/shoot/first_mirrored.h"
 
 namespace sunload {
 

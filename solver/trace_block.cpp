@@ -1,10 +1,10 @@
 // What a block of suns brings by rays: shadow rays, image directions, chains of mirrors.
 #include <algorithm>
 
-#include "solver/parallel.h"
+#include "solver/base/stopwatch.h"
+#include "solver/base/threads.h"
+#include "solver/gather/traced_light.h"
 #include "solver/solver.h"
-#include "solver/stopwatch.h"
-#include "solver/traced_light.h"
 
 namespace sunload {
 

@@ -44,7 +44,7 @@ def srgb_from_lab(lightness, a, b):
 
 
 def palette(kind):
-    """The false colours and greys of `sunload render` (io/colour_map.h): equal steps of value
+    """The false colours and greys of `sunload render` (io/base/colour_map.h): equal steps of value
     are equal steps of lightness and of colour difference."""
     share = np.linspace(0, 1, 256)
     lightness, chroma, hue = 12 + 80 * share, 58 if kind == "false" else 0, np.radians(305 + 153 * share)

@@ -1,4 +1,4 @@
-// Bundles the viewer and writes it as a C++ source (io/viewer_page.h):
+// Bundles the viewer and writes it as a C++ source (io/view/page.h):
 //   node build.mjs NPM WORK_FOLDER VIEWER_PAGE.cpp
 // Packages are installed from the lock file into the work folder. Where npm
 // cannot have them (no network) the source says that there is no page.
@@ -60,5 +60,5 @@ try {
 if (why) console.error(`viewer: built without its page, because npm could not install its packages (to try again, remove ${target} and build):\n${why}`);
 else parts = page();
 mkdirSync(dirname(target), { recursive: true });
-writeFileSync(target, `#include "io/viewer_page.h"\n\nnamespace sunload {\n\n${pieces("viewer_page_head", parts[0])}
+writeFileSync(target, `#include "io/view/page.h"\n\nnamespace sunload {\n\n${pieces("viewer_page_head", parts[0])}
 ${pieces("viewer_page_tail", parts[1])}\n}  // namespace sunload\n`);

@@ -1,4 +1,4 @@
-// Reads what io/view_data.cpp has put into the page.
+// Reads what io/view/data.cpp has put into the page.
 
 /** Value of every half-precision float (IEEE 754 binary16) by its bits. */
 function halfValues() {

@@ -5,8 +5,8 @@
 #include <ctime>
 #include <string>
 
-#include "io/render_scene.h"
-#include "io/shown_quantity.h"
+#include "io/picture/render_scene.h"
+#include "io/result/shown_quantity.h"
 
 using namespace sunload;
 

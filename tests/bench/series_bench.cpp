@@ -13,10 +13,11 @@
 #include <filesystem>
 #include <string>
 
-#include "io/batch_file.h"
-#include "io/chunk.h"
-#include "io/result_file.h"
-#include "solver/parallel.h"
+#include "io/batch/chunk.h"
+#include "io/batch/file.h"
+#include "io/result/reader.h"
+#include "io/result/writer.h"
+#include "solver/base/threads.h"
 
 using namespace sunload;
 

@@ -6,9 +6,10 @@
 #include <iostream>
 #include <memory>
 
-#include "io/light_series.h"
-#include "io/variant_mesh.h"
-#include "solver/parallel.h"
+#include "io/plan/light_series.h"
+#include "io/plan/variant_mesh.h"
+#include "solver/base/threads.h"
+#include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/reference.h"
 
@@ -121,8 +122,8 @@ TEST(Adaptivity, PaysOnACityModel) {
       "format: sunload-study-1\nname: city\nsite: {timezone: Europe/Berlin}\n"
       "period: {days: [2026-06-21], from: \"06:00\", to: \"20:00\", step_min: 60}\n"
       "light: {source: clear_sky}\nscene: {files: [" +
-          std::string(SUNLOAD_SHARED_DIR) +
-          "/data/city/lod2_100_buildings_v11_epsg3068.city.json]}\n" + std::string(solver_section),
+          test::shared_folder() + "/data/city/lod2_100_buildings_v11_epsg3068.city.json]}\n" +
+          std::string(solver_section),
       0.8, 0.1, 8);
   EXPECT_LE(2 * c.adaptive, c.even);
 }

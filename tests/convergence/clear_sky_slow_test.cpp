@@ -3,7 +3,7 @@
 
 #include <iostream>
 
-#include "io/result_file.h"
+#include "io/result/reader.h"
 #include "tests/support/program.h"
 #include "tests/support/small_study.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "geo/units.h"
+#include "geo/base/units.h"
 #include "tests/support/reference.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"

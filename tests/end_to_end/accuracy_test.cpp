@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "io/result_file.h"
+#include "io/result/reader.h"
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"

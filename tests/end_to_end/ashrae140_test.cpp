@@ -18,9 +18,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "io/light_series.h"
-#include "io/result_file.h"
-#include "io/scene_build.h"
+#include "io/plan/light_series.h"
+#include "io/plan/scene_build.h"
+#include "io/result/reader.h"
 #include "tests/support/program.h"
 #include "tests/support/reference.h"
 

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <regex>
 
-#include "io/result_file.h"
+#include "io/result/reader.h"
+#include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"
@@ -206,7 +207,7 @@ TEST(MachineLimits, FolderThatCannotBeWritten) {
 
 TEST(MachineLimits, ListingsThatCannotBeWritten) {
   const Small small;
-  const std::string command = std::string(SUNLOAD_PROGRAM) + " sun square.yaml > /dev/full";
+  const std::string command = test::program_path() + " sun square.yaml > /dev/full";
   const Ran ran = Process({"/bin/sh", "-c", command}, small.folder.path()).wait();
   EXPECT_EQ(ran.code, 3) << ran.err;
   // Beside a warning of the study, perhaps.

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/result_file.h"
+#include "io/result/reader.h"
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/result_file.h"
+#include "io/result/reader.h"
+#include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"
@@ -153,7 +154,7 @@ TEST(CommonSense, BlackSurfacesReceiveAndSendNothing) {
 /// The ledger of the demonstration, as it is shipped.
 TEST(CommonSense, EnergyOfTheStreetDemonstration) {
   const WorkFolder folder;
-  const Ran ran = program(folder, {"run", SUNLOAD_SOURCE_DIR "/configs/street.yaml"});
+  const Ran ran = program(folder, {"run", test::source_folder() + "/configs/street.yaml"});
   ASSERT_EQ(ran.code, 0) << ran.err;
   for (const char* variant : {"baseline", "glazed"}) {
     const std::string path = folder / fmt::format("results/street/{}.h5", variant);

@@ -6,7 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "io/result_file.h"
+#include "io/result/reader.h"
+#include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/reference.h"
 #include "tests/support/result_check.h"
@@ -18,7 +19,7 @@ namespace {
 /// `max_edge_m`: at 2 m it has 680 000 patches and needs two minutes and 3.7 GB.
 std::string coarser_study(const std::string& city, const std::string& max_edge_m) {
   std::ostringstream text;
-  text << std::ifstream(SUNLOAD_SOURCE_DIR "/configs/delft_day.yaml").rdbuf();
+  text << std::ifstream(test::source_folder() + "/configs/delft_day.yaml").rdbuf();
   std::string study = text.str();
   const auto change = [&](const std::string& from, const std::string& to) {
     const auto at = study.find(from);

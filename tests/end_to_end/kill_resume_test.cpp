@@ -10,8 +10,8 @@
 #include <regex>
 #include <thread>
 
-#include "io/batch_file.h"
-#include "io/result_file.h"
+#include "io/batch/file.h"
+#include "io/result/reader.h"
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"

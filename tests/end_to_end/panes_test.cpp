@@ -6,7 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "io/result_file.h"
+#include "io/result/reader.h"
 #include "tests/support/program.h"
 #include "tests/support/reference.h"
 #include "tests/support/result_check.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "io/result_file.h"
+#include "io/result/reader.h"
 #include "tests/support/program.h"
 #include "tests/support/reference.h"
 #include "tests/support/result_check.h"

@@ -10,7 +10,7 @@
 #include <regex>
 #include <thread>
 
-#include "io/waiting_lock.h"
+#include "io/base/waiting_lock.h"
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"

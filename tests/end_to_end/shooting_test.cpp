@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "io/result_file.h"
-#include "solver/tally.h"
+#include "io/result/reader.h"
+#include "solver/light/tally.h"
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"

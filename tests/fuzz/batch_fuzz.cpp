@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "io/batch_container.h"
-#include "io/batch_file.h"
+#include "io/batch/container.h"
+#include "io/batch/file.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

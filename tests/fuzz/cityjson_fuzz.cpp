@@ -1,5 +1,5 @@
 // CityJSON and CityJSONSeq.
-#include "io/scene_cityjson.h"
+#include "io/scene/cityjson/reader.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

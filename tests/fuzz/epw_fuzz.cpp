@@ -1,5 +1,5 @@
 // EnergyPlus weather.
-#include "io/weather_epw.h"
+#include "io/weather/epw.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "geo/check.h"
-#include "geo/mesh_prepare.h"
+#include "geo/base/check.h"
+#include "geo/mesh/mesh_prepare.h"
 
 namespace sunload::fuzz {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
-#include "geo/mesh.h"
-#include "io/scene_file.h"
+#include "geo/mesh/mesh.h"
+#include "io/scene/file.h"
 
 namespace sunload::fuzz {
 

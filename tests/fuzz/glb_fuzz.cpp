@@ -1,5 +1,5 @@
 // glTF as one binary file.
-#include "io/scene_gltf.h"
+#include "io/scene/mesh_files/gltf.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

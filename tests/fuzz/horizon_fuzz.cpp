@@ -1,5 +1,5 @@
 // Horizon lines.
-#include "io/horizon_csv.h"
+#include "io/weather/horizon_csv.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

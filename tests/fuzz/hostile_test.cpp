@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
-#include "geo/check.h"
-#include "geo/mesh_prepare.h"
-#include "io/scene_file.h"
+#include "geo/base/check.h"
+#include "geo/mesh/mesh_prepare.h"
+#include "io/scene/file.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

@@ -1,6 +1,6 @@
 // Material libraries of OBJ.
-#include "io/scene_mtl.h"
-#include "io/scene_support.h"
+#include "io/scene/base/from_file.h"
+#include "io/scene/mesh_files/mtl.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

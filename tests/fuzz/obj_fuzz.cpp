@@ -1,5 +1,5 @@
 // Wavefront OBJ.
-#include "io/scene_obj.h"
+#include "io/scene/mesh_files/obj.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

@@ -1,5 +1,5 @@
 // OFF.
-#include "io/scene_off.h"
+#include "io/scene/mesh_files/off.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

@@ -1,5 +1,5 @@
 // PLY, text and binary.
-#include "io/scene_ply.h"
+#include "io/scene/mesh_files/ply.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

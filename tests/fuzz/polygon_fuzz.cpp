@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "geo/check.h"
-#include "geo/mesh_prepare.h"
+#include "geo/base/check.h"
+#include "geo/mesh/mesh_prepare.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

@@ -1,11 +1,11 @@
 // Prepared files: as they come, and, where the first byte is odd, with checksums that are right:
 // a byte with the number of counts, the counts, and all that follows them.
-#include "io/prepared_file.h"
+#include "io/batch/prepared_file.h"
 
 #include <cstring>
 
-#include "io/byte_text.h"
-#include "io/chunk.h"
+#include "io/base/byte_text.h"
+#include "io/batch/chunk.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

@@ -1,5 +1,5 @@
 // GeoTIFF rasters, through GDAL.
-#include "io/scene_raster.h"
+#include "io/scene/raster/raster_scene.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

@@ -11,13 +11,14 @@
 
 #include "tests/fuzz/counted_memory.h"
 #include "tests/fuzz/fuzz_target.h"
+#include "tests/support/paths.h"
 
 namespace sunload::fuzz {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path folder = fs::path(SUNLOAD_SOURCE_DIR) / "tests" / "fuzz";
+const fs::path folder = fs::path(test::source_folder()) / "tests" / "fuzz";
 
 std::vector<fs::path> files_of(const fs::path& place) {
   std::vector<fs::path> files;

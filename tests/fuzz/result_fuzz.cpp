@@ -1,6 +1,6 @@
 // Result files, through HDF5: every dataset of the schema that is there.
-#include "io/result_file.h"
-#include "io/result_schema.h"
+#include "io/result/reader.h"
+#include "io/result/schema.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

@@ -1,5 +1,5 @@
 // Sensor points.
-#include "io/sensor_file.h"
+#include "io/scene/sensor_file.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

@@ -1,5 +1,5 @@
 // STL, text and binary.
-#include "io/scene_stl.h"
+#include "io/scene/mesh_files/stl.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

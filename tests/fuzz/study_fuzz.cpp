@@ -1,5 +1,5 @@
 // Studies: YAML, all sections, canonical text. The files that a study names are there.
-#include "io/study.h"
+#include "io/study/study.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

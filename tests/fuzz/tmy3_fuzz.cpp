@@ -1,5 +1,5 @@
 // TMY3 weather.
-#include "io/weather_tmy3.h"
+#include "io/weather/tmy3.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

@@ -1,5 +1,5 @@
 // VRML97, VRML 1.0 and Inventor, also packed by gzip, through Coin.
-#include "io/scene_vrml.h"
+#include "io/scene/vrml/reader.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

@@ -1,5 +1,5 @@
 // Weather of Daysim and Radiance.
-#include "io/weather_wea.h"
+#include "io/weather/wea.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

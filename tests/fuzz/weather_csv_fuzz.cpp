@@ -1,6 +1,6 @@
 // Weather as plain CSV; what the other formats are told by, too.
-#include "io/weather_csv.h"
-#include "io/weather_file.h"
+#include "io/weather/csv.h"
+#include "io/weather/file.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace sunload::fuzz {

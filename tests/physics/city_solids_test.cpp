@@ -12,8 +12,8 @@
 #include <set>
 #include <sstream>
 
-#include "geo/mesh_prepare.h"
-#include "io/scene_file.h"
+#include "geo/mesh/mesh_prepare.h"
+#include "io/scene/file.h"
 #include "tests/support/reference.h"
 
 namespace sunload {

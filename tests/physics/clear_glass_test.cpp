@@ -1,13 +1,13 @@
 /// Clear glass known by its normal transmittance, in all kinds of light and by both transports.
 
-#include "solver/clear_glass.h"
+#include "solver/surface/clear_glass.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <iostream>
 
-#include "geo/units.h"
+#include "geo/base/units.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <iostream>
 
-#include "geo/mesh_prepare.h"
-#include "geo/units.h"
-#include "io/scene_builtin.h"
-#include "solver/parallel.h"
+#include "geo/base/units.h"
+#include "geo/mesh/mesh_prepare.h"
+#include "io/scene/builtin.h"
+#include "solver/base/threads.h"
 #include "tests/support/glints.h"
 
 namespace sunload::test {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "geo/units.h"
+#include "geo/base/units.h"
 #include "tests/support/glints.h"
 #include "tests/support/reference.h"
 

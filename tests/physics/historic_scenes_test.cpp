@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "geo/units.h"
-#include "io/expected_error.h"
+#include "geo/base/units.h"
+#include "io/plan/expected_error.h"
 #include "tests/support/statistics.h"
 #include "tests/support/study_plan.h"
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <iostream>
 
-#include "geo/units.h"
-#include "solver/sampling.h"
+#include "geo/base/units.h"
+#include "solver/base/sampling.h"
 #include "tests/support/statistics.h"
 #include "tests/support/study_plan.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "geo/units.h"
+#include "geo/base/units.h"
 #include "tests/support/known_truth.h"
 #include "tests/support/reference.h"
 #include "tests/support/scenes.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "solver/fresnel.h"
+#include "solver/surface/fresnel.h"
 #include "tests/support/quadrature.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"

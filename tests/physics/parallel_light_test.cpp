@@ -1,6 +1,6 @@
 /// Parallel emitters: beams of known cross-section on plates, boxes and mirrors.
 
-#include "solver/parallel_light.h"
+#include "solver/first_light/parallel_light.h"
 
 #include <gtest/gtest.h>
 

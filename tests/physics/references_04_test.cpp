@@ -11,7 +11,7 @@
 #include <cmath>
 #include <functional>
 
-#include "geo/units.h"
+#include "geo/base/units.h"
 #include "tests/support/known_truth.h"
 #include "tests/support/quadrature.h"
 #include "tests/support/reference.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <iostream>
 
-#include "geo/units.h"
-#include "solver/clear_glass.h"
+#include "geo/base/units.h"
+#include "solver/surface/clear_glass.h"
 #include "tests/support/reference.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "geo/units.h"
+#include "geo/base/units.h"
 #include "tests/support/hidden_emitter.h"
 #include "tests/support/known_truth.h"
 #include "tests/support/reference.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "solver/parallel.h"
+#include "solver/base/threads.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 

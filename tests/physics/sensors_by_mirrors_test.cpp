@@ -7,9 +7,9 @@
 #include <array>
 #include <cmath>
 
-#include "geo/sun.h"
-#include "geo/units.h"
-#include "solver/parallel.h"
+#include "geo/base/units.h"
+#include "geo/sun/sun.h"
+#include "solver/base/threads.h"
 #include "tests/support/glints.h"
 #include "tests/support/quadrature.h"
 

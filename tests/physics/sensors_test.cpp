@@ -6,9 +6,9 @@
 #include <cmath>
 #include <iostream>
 
-#include "geo/sky.h"
-#include "geo/units.h"
-#include "solver/parallel.h"
+#include "geo/base/units.h"
+#include "geo/sky/sky.h"
+#include "solver/base/threads.h"
 #include "tests/support/known_truth.h"
 #include "tests/support/reference.h"
 #include "tests/support/scenes.h"

@@ -7,8 +7,8 @@
 #include <iostream>
 #include <set>
 
-#include "geo/units.h"
-#include "solver/parallel.h"
+#include "geo/base/units.h"
+#include "solver/base/threads.h"
 #include "tests/support/reference.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "geo/sun.h"
-#include "solver/direct_sun.h"
+#include "geo/sun/sun.h"
+#include "solver/first_light/direct_sun.h"
 #include "tests/support/reference.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"

@@ -1,13 +1,13 @@
 /// Emitters sampled directly: exact where the answer is known, quiet where lines are not.
 
-#include "solver/bright_view.h"
+#include "solver/lines/bright_view.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <iostream>
 
-#include "solver/push_pull.h"
+#include "solver/mesh/push_pull.h"
 #include "tests/support/known_truth.h"
 #include "tests/support/reference.h"
 #include "tests/support/scenes.h"

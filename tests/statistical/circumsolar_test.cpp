@@ -1,6 +1,6 @@
 /// The circumsolar part of a clear sky: exact, drawn as it should be, and worth its samples.
 
-#include "solver/circumsolar.h"
+#include "solver/first_light/circumsolar.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <ctime>
 #include <iostream>
 
-#include "io/variant_plan.h"
+#include "io/plan/variant_plan.h"
 #include "tests/support/program.h"
 #include "tests/support/scenes.h"
 #include "tests/support/small_study.h"

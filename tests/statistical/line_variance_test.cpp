@@ -5,8 +5,8 @@
 #include <cmath>
 #include <iostream>
 
-#include "solver/lines.h"
-#include "solver/sampling.h"
+#include "solver/base/sampling.h"
+#include "solver/lines/lines.h"
 #include "tests/support/scenes.h"
 
 namespace sunload::test {

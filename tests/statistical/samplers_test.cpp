@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "solver/sampling.h"
+#include "solver/base/sampling.h"
 #include "tests/support/statistics.h"
 
 namespace sunload::test {

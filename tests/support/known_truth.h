@@ -19,8 +19,8 @@ struct LampStage {
 /// For light without sun: one direct sample per realization, no chain of mirrors cut.
 SolverRules diffuse_rules(int lines_per_realization, int bounces = 0, int realizations = 16);
 
-/// How far lines start above their surface (solver/ray_caster.h: 16 roundings to float) [m], where
-/// no coordinate is larger than this.
+/// How far lines start above their surface (solver/surface/ray_caster.h: 16 roundings to float)
+/// [m], where no coordinate is larger than this.
 double lift(double coordinate);
 
 /// Irradiance at night, per realization, at a point with a unit normal: the mean of so many

@@ -1,4 +1,5 @@
 #include "tests/support/program.h"
+#include "tests/support/paths.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -149,7 +150,7 @@ Ran Process::wait() {
 }
 
 std::vector<std::string> program_words(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), SUNLOAD_PROGRAM);
+  arguments.insert(arguments.begin(), test::program_path());
   return arguments;
 }
 

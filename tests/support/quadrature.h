@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "geo/units.h"
-#include "solver/lobe.h"
+#include "geo/base/units.h"
+#include "solver/surface/lobe.h"
 
 namespace sunload::test {
 
@@ -21,7 +21,7 @@ inline double hemispherical(const std::function<double(double)>& share_of_cosine
   return integral(0, 1, 20000, [&](double c) { return 2 * c * share_of_cosine(c); });
 }
 
-/// Share of light at cos_theta that the lobe of solver/lobe.h reflects, per ρ_g.
+/// Share of light at cos_theta that the lobe of solver/surface/lobe.h reflects, per ρ_g.
 inline double lobe_albedo(double cos_theta, double n) {
   const double sin_theta = std::sqrt(1 - cos_theta * cos_theta);
   constexpr int steps = 200;

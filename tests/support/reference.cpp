@@ -1,4 +1,5 @@
 #include "tests/support/reference.h"
+#include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +40,7 @@ std::ifstream open_reference(const std::string& name) {
 }  // namespace
 
 std::string shared_path(const std::string& relative_path) {
-  return std::string(SUNLOAD_SHARED_DIR) + "/" + relative_path;
+  return test::shared_folder() + "/" + relative_path;
 }
 
 std::vector<Row> read_csv(const std::string& name) {

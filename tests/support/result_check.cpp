@@ -8,10 +8,10 @@
 #include <cstring>
 #include <numeric>
 
-#include "geo/units.h"
-#include "io/h5.h"
-#include "io/result_file.h"
-#include "solver/tally.h"
+#include "geo/base/units.h"
+#include "io/result/h5.h"
+#include "io/result/reader.h"
+#include "solver/light/tally.h"
 #include "tests/support/statistics.h"
 
 namespace sunload::test {

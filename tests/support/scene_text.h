@@ -7,8 +7,8 @@
 #include <fstream>
 #include <string>
 
-#include "geo/check.h"
-#include "io/scene_file.h"
+#include "geo/base/check.h"
+#include "io/scene/file.h"
 
 namespace sunload::test {
 

@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
-#include "geo/mesh.h"
-#include "geo/units.h"
-#include "io/result_file.h"
-#include "io/statistics.h"
+#include "geo/base/units.h"
+#include "geo/mesh/mesh.h"
+#include "io/base/statistics.h"
+#include "io/result/writer.h"
 
 namespace sunload::test {
 namespace {

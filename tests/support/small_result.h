@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "geo/vec.h"
+#include "geo/base/vec.h"
 
 namespace sunload::test {
 

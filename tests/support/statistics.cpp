@@ -9,7 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "solver/tally.h"
+#include "solver/light/tally.h"
 
 namespace sunload::test {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "io/variant_mesh.h"
+#include "io/plan/variant_mesh.h"
 
 namespace sunload::test {
 

@@ -1,0 +1,32 @@
+#include "geo/mesh/edge_table.h"
+
+#include <tuple>
+
+namespace sunload {
+
+std::vector<EdgeUse> edge_uses(const Mesh& mesh, const std::vector<std::uint8_t>& included) {
+  std::vector<EdgeUse> uses;
+  uses.reserve(3 * mesh.triangle_count());
+  const auto by_edge = [](const EdgeUse& a, const EdgeUse& b) {
+    return std::tie(a.low, a.high, a.half_edge) < std::tie(b.low, b.high, b.half_edge);
+  };
+  // Triangles are ordered by object: sorting one object at a time is faster than all at once.
+  std::size_t object_begin = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const std::int32_t object = mesh.triangle_object[t].value;
+    if (object_begin < uses.size() && uses[object_begin].object != object) {
+      std::sort(uses.begin() + static_cast<std::ptrdiff_t>(object_begin), uses.end(), by_edge);
+      object_begin = uses.size();
+    }
+    if (!included[t]) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
+      uses.push_back(
+          {object, std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(3 * t + k)});
+    }
+  }
+  std::sort(uses.begin() + static_cast<std::ptrdiff_t>(object_begin), uses.end(), by_edge);
+  return uses;
+}
+
+}  // namespace sunload

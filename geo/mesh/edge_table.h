@@ -1,0 +1,43 @@
+/// Which triangles of one object meet at an edge.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geo/mesh/mesh.h"
+
+namespace sunload {
+
+/// Triangle t has the half-edges 3t + k, from its corner k to the next corner.
+struct EdgeUse {
+  std::int32_t object, low, high;  ///< vertices, low < high
+  std::uint32_t half_edge;
+
+  std::size_t triangle() const { return half_edge / 3; }
+  std::size_t corner() const { return half_edge % 3; }
+  bool same_edge(const EdgeUse& other) const {
+    return object == other.object && low == other.low && high == other.high;
+  }
+};
+
+/// All uses of edges by the triangles for which `included` is not 0, sorted by
+/// object, edge and half-edge. An edge is shared within one object only.
+std::vector<EdgeUse> edge_uses(const Mesh& mesh, const std::vector<std::uint8_t>& included);
+
+/// Calls `visit` with the uses of each edge, in order.
+template <class Visit>
+void for_each_edge(const std::vector<EdgeUse>& uses, Visit visit) {
+  for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
+    while (end < uses.size() && uses[end].same_edge(uses[begin])) ++end;
+    visit(std::span(uses).subspan(begin, end - begin));
+  }
+}
+
+/// True where the triangle walks the edge from its lower to its higher vertex.
+inline bool walks_up(const Mesh& mesh, const EdgeUse& use) {
+  return mesh.triangles[use.triangle()][use.corner()] == use.low;
+}
+
+}  // namespace sunload

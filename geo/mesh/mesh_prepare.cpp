@@ -1,0 +1,259 @@
+#include "geo/mesh/mesh_prepare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "geo/base/check.h"
+#include "geo/mesh/facade.h"
+#include "geo/mesh/ground_plate.h"
+#include "geo/mesh/mesh_clean.h"
+#include "geo/mesh/orient.h"
+#include "geo/mesh/surface_kind.h"
+#include "geo/mesh/t_joints.h"
+#include "geo/mesh/triangulate.h"
+#include "geo/mesh/weld.h"
+
+namespace sunload {
+
+namespace {
+
+// `half_edge` counts three per triangle in 32 bits.
+constexpr std::size_t most_triangles = 0xffffffff / 3;
+
+bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+double largest_component(Vec3 p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+
+std::string text_of(double value) {
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.3g", value);
+  return buffer.data();
+}
+
+/// "1 triangle", "2 triangles".
+std::string counted(std::size_t count, const std::string& one) {
+  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
+
+void check_model(const PolygonModel& model) {
+  if (model.polygon_count() == 0) {
+    throw InputError({model.source}, "the scene has no polygons", "there is nothing to light",
+                     "does the file hold faces, and not only points or lines?");
+  }
+  std::size_t count = 0, first = 0;
+  for (std::size_t v = model.vertices.size(); v-- > 0;) {
+    if (is_finite(model.vertices[v])) continue;
+    ++count;
+    first = v;
+  }
+  if (count > 0) {
+    throw InputError({model.source},
+                     counted(count, "vertex coordinate") + " not finite, first at vertex " +
+                         std::to_string(first + 1),
+                     "positions must be finite numbers", "mend or export the file again");
+  }
+  if (model.ring_vertex.size() > most_triangles) {
+    throw InputError({model.source}, counted(model.ring_vertex.size(), "polygon corner"),
+                     "at most " + std::to_string(most_triangles) + " are supported",
+                     "divide the scene");
+  }
+  for (const auto v : model.ring_vertex) {
+    SUNLOAD_EXPECT(v >= 0 && static_cast<std::size_t>(v) < model.vertices.size(),
+                   "a reader made a ring with vertex " + std::to_string(v));
+  }
+  for (const auto& facts : model.facts) {
+    SUNLOAD_EXPECT(facts.object.exists() && facts.object.index() < model.object_names.size(),
+                   "a reader made a polygon without object");
+  }
+}
+
+std::vector<std::uint8_t> used_vertices(const PolygonModel& model) {
+  std::vector<std::uint8_t> is_used(model.vertices.size(), 0);
+  for (const auto v : model.ring_vertex) is_used[static_cast<std::size_t>(v)] = 1;
+  return is_used;
+}
+
+struct Placement {
+  Vec3 origin;
+  double diagonal = 0;
+};
+
+Placement place(const PolygonModel& model, const std::vector<std::uint8_t>& is_used) {
+  Box box;
+  for (std::size_t v = 0; v < is_used.size(); ++v) {
+    if (!is_used[v]) continue;
+    const Vec3 p = model.vertices[v];
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+  }
+  const double extent = largest_component(box.high - box.low);
+  if (!(extent <= largest_extent_m)) {
+    throw InputError({model.source}, "the scene is " + text_of(extent) + " m wide",
+                     "at most " + text_of(largest_extent_m) + " m are supported",
+                     "is scene.unit_m right, or is one vertex far away?");
+  }
+  Placement placement;
+  placement.diagonal = norm(box.high - box.low);
+  if (std::max(largest_component(box.low), largest_component(box.high)) > near_origin_m) {
+    // Halves first: the sum of two finite numbers may not be finite.
+    placement.origin = {std::round(box.low.x / 2 + box.high.x / 2),
+                        std::round(box.low.y / 2 + box.high.y / 2), std::round(box.low.z)};
+  }
+  return placement;
+}
+
+double weld_tolerance(Repair repair, double diagonal) {
+  if (repair == Repair::none) return 0;
+  return std::min(weld_tolerance_m, weld_tolerance_ratio * diagonal);
+}
+
+/// Steps 2 to 4: local coordinates, welding, triangles.
+Mesh triangles_of(const PolygonModel& model, const PrepareRules& rules, const Placement& placement,
+                  const std::vector<std::uint8_t>& is_used, PrepareReport& report) {
+  std::vector<Vec3> local(model.vertices.size());
+  for (std::size_t v = 0; v < local.size(); ++v) {
+    if (is_used[v]) local[v] = model.vertices[v] - placement.origin;
+  }
+  auto welded = weld(local, is_used, weld_tolerance(rules.repair, placement.diagonal));
+  report.vertices_welded = welded.merged;
+
+  Mesh mesh;
+  mesh.origin = placement.origin;
+  mesh.vertices = std::move(welded.vertices);
+  mesh.object_names = model.object_names;
+  mesh.object_kinds = model.object_kinds;
+  mesh.object_kinds.resize(mesh.object_names.size());
+  mesh.file_materials = model.materials;
+  const auto counts = triangulate(model, welded.new_index, mesh);
+  report.polygons_with_holes = counts.with_holes;
+  report.polygons_nonplanar = counts.nonplanar;
+  report.polygons_crossing = counts.crossing;
+  report.polygons_untriangulated = counts.untriangulated;
+  report.degenerates_dropped = counts.collapsed;
+  return mesh;
+}
+
+/// Steps 5 to 8: T-joints, twins, windings, kinds of surface.
+void settle(Mesh& mesh, const PrepareRules& rules, const PolygonModel& model, double tolerance,
+            PrepareReport& report) {
+  std::vector<std::uint8_t> faced_both_ways(mesh.triangle_count(), 0);
+  if (rules.repair == Repair::all)
+    report.t_joints_split = split_t_joints(mesh, tolerance, model.source);
+  if (rules.repair != Repair::none) {
+    auto duplicates = drop_duplicates(mesh);
+    report.duplicates_dropped = duplicates.dropped;
+    faced_both_ways = std::move(duplicates.faced_both_ways);
+  }
+  const bool may_turn = rules.repair != Repair::none && rules.orientation == Orientation::outward;
+  const auto bodies = orient(mesh, faced_both_ways, may_turn ? Winding::turn : Winding::keep);
+  report.triangles_flipped = bodies.triangles_flipped;
+  report.inside_out_bodies = bodies.inside_out;
+  report.unorientable = bodies.unorientable;
+  report.open_edges = bodies.open_edges;
+  report.nonmanifold_edges = bodies.nonmanifold_edges;
+  for (const auto& body : bodies.bodies) {
+    ++(body.is_closed ? report.closed_bodies : report.open_sheets);
+    if (!body.is_inside_out) report.volume_m3 += body.volume;
+  }
+  for (std::size_t t = 0; t < faced_both_ways.size(); ++t) {
+    if (!faced_both_ways[t] || bodies.triangle_body[t] >= 0) continue;
+    mesh.triangle_sides[t] = Sides::two;
+    ++report.sheets_merged;
+  }
+  decide_surfaces(mesh, bodies, model.is_city_format ? SceneKind::city : SceneKind::plain);
+}
+
+InputError nothing_left(const std::string& source, const PrepareReport& report) {
+  const std::size_t crossing = report.polygons_untriangulated;
+  const std::string what = "nothing is left of the scene";
+  if (crossing == 0)
+    return {{source},
+            what,
+            "all " + counted(report.polygons_read, "polygon") + " are without area",
+            "are scene.unit_m and the file's coordinates right?"};
+  return {{source},
+          what,
+          std::to_string(crossing) + " of " + counted(report.polygons_read, "polygon") +
+              " cross themselves more often than can be triangulated, others are without area",
+          "are the corners of its faces in order?"};
+}
+
+/// Step 9.
+void drop_degenerates(Mesh& mesh, Repair repair, const std::string& source, PrepareReport& report) {
+  const auto keep = with_area(mesh, repair == Repair::none ? 0 : least_height_ratio);
+  const auto degenerates = static_cast<std::size_t>(std::count(keep.begin(), keep.end(), 0));
+  report.degenerates_dropped += degenerates;
+  if (repair == Repair::none && report.degenerates_dropped > 0) {
+    throw InputError({source}, counted(report.degenerates_dropped, "polygon") + " without area",
+                     "irradiance is light per area", "set scene.repair: safe");
+  }
+  keep_triangles(mesh, keep);
+  if (mesh.triangle_count() == 0) throw nothing_left(source, report);
+  drop_unused_vertices(mesh);
+}
+
+void measure(const Mesh& mesh, PrepareReport& report) {
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const auto surface = static_cast<std::size_t>(mesh.triangle_surface[t]);
+    report.area_m2[surface] += norm(mesh.area_vector2(t)) / 2;
+    report.worst_aspect = std::max(report.worst_aspect, aspect(mesh, t));
+    if (mesh.triangle_surface[t] == Surface::floor) ++report.floors;
+  }
+  report.bounds = bounding_box(mesh.vertices);
+}
+
+void add_warnings(PrepareReport& r, Orientation orientation) {
+  const auto warn = [&](const std::string& what, std::size_t count,
+                        const std::string& consequence) {
+    if (count > 0) r.warnings.push_back(what + ": " + std::to_string(count) + "; " + consequence);
+  };
+  warn("non-planar polygons", r.polygons_nonplanar,
+       "triangulated in projection, so folded along edges that the file does not state");
+  warn("polygons with crossing rings", r.polygons_crossing,
+       "filled by the even-odd rule, so area and shape may differ from what was meant");
+  warn("polygons that could not be triangulated", r.polygons_untriangulated,
+       "left out, so light passes through the gap");
+  warn("polygons and triangles without area", r.degenerates_dropped,
+       "dropped without effect on light");
+  warn("duplicate triangles", r.duplicates_dropped, "dropped, so that each place is lit once");
+  warn("triangles with a back of their own", r.sheets_merged,
+       "made two-sided, so front and back are separate patches");
+  warn("triangles turned over", r.triangles_flipped,
+       "their body was inside out or its faces disagreed, so their lit side has changed; "
+       "scene.orient: keep leaves them, for rooms lit inside");
+  if (orientation == Orientation::outward)
+    warn("closed bodies inside out", r.inside_out_bodies,
+         "left so, hence their outside absorbs all light; set scene.repair: safe");
+  warn("bodies without consistent fronts", r.unorientable,
+       "left as in the file, hence light that meets a back is absorbed");
+  warn("edges with more than two triangles", r.nonmanifold_edges,
+       "bodies with an odd number there count as open");
+  warn("open edges", r.open_edges,
+       "bodies with such edges are not closed: they keep the file's fronts and have no volume");
+}
+
+}  // namespace
+
+PreparedMesh prepare(const PolygonModel& model, const PrepareRules& rules) {
+  check_model(model);
+  const auto is_used = used_vertices(model);
+  const auto placement = place(model, is_used);
+
+  PreparedMesh result;
+  Mesh& mesh = result.mesh;
+  PrepareReport& report = result.report;
+  report.polygons_read = model.polygon_count();
+  report.vertices_read = model.vertices.size();
+  mesh = triangles_of(model, rules, placement, is_used, report);
+  settle(mesh, rules, model, weld_tolerance(rules.repair, placement.diagonal), report);
+  drop_degenerates(mesh, rules.repair, model.source, report);
+  find_facades(mesh, rules.north_deg);
+  if (rules.ground) add_ground_plate(mesh, rules.ground->margin_m);
+  measure(mesh, report);
+  add_warnings(report, rules.orientation);
+  return result;
+}
+
+}  // namespace sunload

@@ -1,0 +1,50 @@
+/// Fronts and backs: closed bodies turned outward, sheets made consistent.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geo/mesh/mesh.h"
+
+namespace sunload {
+
+/// keep: only find bodies, with the winding of the file. turn: change it.
+enum class Winding { keep, turn };
+
+/// Triangles of one object that are joined over edges with an even number of
+/// uses (two, or more where bodies touch).
+struct Body {
+  ObjectId object;
+  bool is_closed = false;      ///< every edge is walked as often up as down
+  double area = 0;             ///< m²
+  double volume = 0;           ///< m³, signed, of closed bodies: negative for cavities
+  bool is_inside_out = false;  ///< closed, in no other body, negative volume: a room (`keep` only)
+  Box box;
+};
+
+struct Bodies {
+  std::vector<Body> bodies;                 ///< in the order of their first triangle
+  std::vector<std::int32_t> triangle_body;  ///< -1: part of no body (a merged front and back)
+  std::size_t triangles_flipped = 0;
+  std::size_t inside_out = 0;         ///< closed, outermost and with negative volume (`keep` only)
+  std::size_t unorientable = 0;       ///< no winding satisfies all edges: left as in the file
+  std::size_t open_edges = 0;         ///< with one use
+  std::size_t nonmanifold_edges = 0;  ///< with more than two uses
+};
+
+/// Two triangles at an edge agree if they walk it in opposite directions; of
+/// 2m triangles at an edge those next to each other by angle must agree, since
+/// solid and void alternate around it. Edges with an odd number of uses say
+/// nothing, and bodies with such edges are open.
+///
+/// `turn`: an open body gets the winding that the larger part of its area has
+/// in the file. A closed body is turned outward (positive volume); a closed
+/// body inside another one of the same object, a cavity, keeps the winding that
+/// it has in the file relative to the body around it.
+///
+/// Where `faced_both_ways` is not 0 a front and a back share the triangle. It
+/// belongs to a body only if that body is closed by it: else it is left out and
+/// the rest is oriented without it (two cells that share a wall).
+Bodies orient(Mesh& mesh, const std::vector<std::uint8_t>& faced_both_ways, Winding winding);
+
+}  // namespace sunload

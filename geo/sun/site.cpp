@@ -1,0 +1,244 @@
+// Frames by GeographicLib, map projections by PROJ.
+#include "geo/sun/site.h"
+
+#include <proj.h>
+
+#include <GeographicLib/Geocentric.hpp>
+#include <GeographicLib/Math.hpp>
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "geo/base/check.h"
+
+namespace sunload {
+
+namespace {
+
+void expect_on_earth(const Site& site) {
+  constexpr double pole_deg = 90;
+  SUNLOAD_EXPECT(std::abs(site.latitude_deg) <= pole_deg && std::isfinite(site.longitude_deg) &&
+                     std::isfinite(site.elevation_m) && std::isfinite(site.north_deg),
+                 "site");
+}
+
+/// Where a point is, and the columns east, north, up there in Earth-centred axes.
+struct LocalFrame {
+  Vec3 position;
+  Rotation enu_from_ecef;
+};
+
+LocalFrame local_frame(const Site& site) {
+  expect_on_earth(site);
+  LocalFrame frame;
+  std::vector<double> m(9);  // GeographicLib: 3×3, row major, Earth-centred from east-north-up
+  GeographicLib::Geocentric::WGS84().Forward(site.latitude_deg, site.longitude_deg,
+                                             site.elevation_m, frame.position.x, frame.position.y,
+                                             frame.position.z, m);
+  frame.enu_from_ecef =
+      Rotation{{Vec3{m[0], m[1], m[2]}, Vec3{m[3], m[4], m[5]}, Vec3{m[6], m[7], m[8]}}}.inverse();
+  return frame;
+}
+
+// ---- PROJ. Each call of ours has a context of its own: contexts are not thread-safe.
+
+struct ProjDeleter {
+  void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
+  void operator()(PJ* object) const { proj_destroy(object); }
+};
+using Context = std::unique_ptr<PJ_CONTEXT, ProjDeleter>;
+using Object = std::unique_ptr<PJ, ProjDeleter>;
+
+Context make_context() {
+  Context context(proj_context_create());
+  SUNLOAD_EXPECT(context != nullptr, "PROJ context");
+  proj_log_level(context.get(), PJ_LOG_NONE);
+  proj_context_set_enable_network(context.get(), 0);  // the same answer with and without network
+  return context;
+}
+
+// A bare number is an EPSG code.
+std::string canonical_name(const std::string& crs) {
+  const bool is_number = !crs.empty() && std::all_of(crs.begin(), crs.end(), [](unsigned char c) {
+    return std::isdigit(c) != 0;
+  });
+  return is_number ? "EPSG:" + crs : crs;
+}
+
+// Part of a coordinate reference system that places points on the map.
+Object horizontal_part(PJ_CONTEXT* context, Object crs) {
+  while (crs) {
+    const PJ_TYPE type = proj_get_type(crs.get());
+    if (type == PJ_TYPE_COMPOUND_CRS) {
+      crs.reset(proj_crs_get_sub_crs(context, crs.get(), 0));
+    } else if (type == PJ_TYPE_BOUND_CRS) {
+      crs.reset(proj_get_source_crs(context, crs.get()));
+    } else {
+      break;
+    }
+  }
+  return crs;
+}
+
+Object map_projection(PJ_CONTEXT* context, const std::string& crs) {
+  Object object(proj_create(context, canonical_name(crs).c_str()));
+  if (!object || !proj_is_crs(object.get())) {
+    throw InputError({}, "unknown coordinate reference system '" + crs + "'",
+                     "not in PROJ's database",
+                     "use the code of a map projection such as EPSG:28992");
+  }
+  object = horizontal_part(context, std::move(object));
+  if (!object || proj_get_type(object.get()) != PJ_TYPE_PROJECTED_CRS) {
+    throw InputError({}, "coordinate reference system '" + crs + "' is no map projection",
+                     "the scene's x and y must be lengths, not degrees",
+                     "convert the scene to a map projection such as UTM, or give latitude_deg and "
+                     "longitude_deg instead of crs");
+  }
+  return object;
+}
+
+// Length of the projection's own unit, e.g. a US survey foot.
+double metres_per_unit(PJ_CONTEXT* context, const PJ* projection) {
+  const Object axes(proj_crs_get_coordinate_system(context, projection));
+  double factor = 0;
+  const bool known = axes && proj_cs_get_axis_info(context, axes.get(), 0, nullptr, nullptr,
+                                                   nullptr, &factor, nullptr, nullptr, nullptr);
+  SUNLOAD_EXPECT(known && factor > 0, "unit of a map projection");
+  return factor;
+}
+
+/// From the map [m, east and north first] to WGS84.
+class MapToEarth {
+ public:
+  explicit MapToEarth(const std::string& crs)
+      : name_(crs), context_(make_context()), projection_(map_projection(context_.get(), crs)) {
+    metres_per_unit_ = metres_per_unit(context_.get(), projection_.get());
+    const Object wgs84(proj_create(context_.get(), "EPSG:4326"));
+    const Object as_defined(proj_create_crs_to_crs_from_pj(context_.get(), projection_.get(),
+                                                           wgs84.get(), nullptr, nullptr));
+    if (as_defined) {
+      earth_from_map_.reset(proj_normalize_for_visualization(context_.get(), as_defined.get()));
+    }
+    if (!earth_from_map_) fail("PROJ knows no way from it to WGS84");
+  }
+
+  Site operator()(Vec3 position) const {
+    const PJ_COORD map =
+        proj_coord(position.x / metres_per_unit_, position.y / metres_per_unit_, 0, HUGE_VAL);
+    const PJ_COORD earth = proj_trans(earth_from_map_.get(), PJ_FWD, map);
+    const double longitude_deg = earth.lp.lam, latitude_deg = earth.lp.phi;
+    if (!std::isfinite(longitude_deg) || !std::isfinite(latitude_deg)) {
+      fail("the point x = " + std::to_string(position.x) + " m, y = " + std::to_string(position.y) +
+           " m has no place on Earth in it");
+    }
+    return {.latitude_deg = latitude_deg,
+            .longitude_deg = GeographicLib::Math::AngNormalize(longitude_deg),
+            .elevation_m = position.z};
+  }
+
+  Vec3 back(double latitude_deg, double longitude_deg, double height_m) const {
+    const PJ_COORD earth = proj_coord(longitude_deg, latitude_deg, 0, HUGE_VAL);
+    const PJ_COORD map = proj_trans(earth_from_map_.get(), PJ_INV, earth);
+    if (!std::isfinite(map.xy.x) || !std::isfinite(map.xy.y)) {
+      fail("latitude " + std::to_string(latitude_deg) + ", longitude " +
+           std::to_string(longitude_deg) + " has no place on its map");
+    }
+    return {map.xy.x * metres_per_unit_, map.xy.y * metres_per_unit_, height_m};
+  }
+
+  /// Bounds in degrees; nothing where the database has none.
+  struct AreaOfUse {
+    bool known = false;
+    double west = 0, south = 0, east = 0, north = 0;
+    std::string name;
+  };
+  AreaOfUse area_of_use() const {
+    AreaOfUse area;
+    const char* name = nullptr;
+    constexpr double unknown = -1000;  // PROJ's own mark
+    area.known = proj_get_area_of_use(context_.get(), projection_.get(), &area.west, &area.south,
+                                      &area.east, &area.north, &name) != 0 &&
+                 area.west > unknown;
+    if (name) area.name = name;
+    return area;
+  }
+
+  [[noreturn]] void fail(const std::string& why) const {
+    throw InputError({}, "coordinate reference system '" + name_ + "' cannot be used", why,
+                     "does the scene's crs belong to its coordinates?");
+  }
+
+ private:
+  std::string name_;
+  Context context_;
+  Object projection_;
+  Object earth_from_map_;
+  double metres_per_unit_ = 1;
+};
+
+// Azimuth at `site` of the way from one point to another.
+double azimuth_deg(const Site& site, const Site& from, const Site& to) {
+  return horizontal(enu_from_ecef(site)(ecef_position(to) - ecef_position(from))).azimuth_deg;
+}
+
+}  // namespace
+
+Rotation scene_from_enu(const Site& site) {
+  expect_on_earth(site);
+  double s = 0, c = 0;
+  GeographicLib::Math::sincosd(site.north_deg, s, c);  // exact at multiples of 90°
+  return {{Vec3{c, -s, 0}, Vec3{s, c, 0}, Vec3{0, 0, 1}}};
+}
+
+Rotation enu_from_ecef(const Site& site) { return local_frame(site).enu_from_ecef; }
+
+Vec3 ecef_position(const Site& site) { return local_frame(site).position; }
+
+Site site_from_crs(const std::string& crs, Vec3 position) {
+  // Short against the radius of any projection's curvature (the error falls with its square),
+  // long against the rounding of map coordinates.
+  constexpr double half_step_m = 50;
+  // Conformal maps give 90° here; a mirrored pair of axes gives 270°.
+  constexpr double half_turn_deg = 180;
+  const MapToEarth earth_from_map(crs);
+  const Vec3 east{half_step_m, 0, 0}, north{0, half_step_m, 0};
+  Site site = earth_from_map(position);
+  site.north_deg =
+      azimuth_deg(site, earth_from_map(position - north), earth_from_map(position + north));
+  const double east_deg =
+      azimuth_deg(site, earth_from_map(position - east), earth_from_map(position + east));
+  if (wrapped_deg(east_deg - site.north_deg) > half_turn_deg) {
+    earth_from_map.fail("its axes are left-handed, and the scene would be a mirror image");
+  }
+  return site;
+}
+
+Vec3 map_position(const std::string& crs, double latitude_deg, double longitude_deg,
+                  double height_m) {
+  return MapToEarth(crs).back(latitude_deg, longitude_deg, height_m);
+}
+
+std::string area_of_use_warning(const std::string& crs, Vec3 position) {
+  const MapToEarth earth_from_map(crs);
+  const auto area = earth_from_map.area_of_use();
+  if (!area.known) return {};
+  const Site site = earth_from_map(position);
+  constexpr double margin_deg = 0.2;                            // maps serve the neighbourhood, too
+  const double width_deg = wrapped_deg(area.east - area.west);  // may cross the date line
+  const bool all_around = area.east - area.west >= 360;
+  const bool inside = site.latitude_deg >= area.south - margin_deg &&
+                      site.latitude_deg <= area.north + margin_deg &&
+                      (all_around || wrapped_deg(site.longitude_deg - area.west + margin_deg) <=
+                                         width_deg + 2 * margin_deg);
+  if (inside) return {};
+  return message({},
+                 "the scene at latitude " + std::to_string(site.latitude_deg) + ", longitude " +
+                     std::to_string(site.longitude_deg) + " lies outside of the area of use of '" +
+                     crs + "'",
+                 area.name, "does the scene's crs belong to its coordinates?");
+}
+
+}  // namespace sunload

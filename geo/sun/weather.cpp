@@ -1,0 +1,365 @@
+#include "geo/sun/weather.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+
+#include "geo/base/check.h"
+#include "geo/base/units.h"
+
+namespace sunload {
+
+namespace {
+
+/// Overlaps and gaps of less are rounding of stamps.
+constexpr double rounding_s = 1e-3;
+/// Irradiance changes steadily over a few hours at most.
+constexpr double short_gap_s = 3 * seconds_per_hour;
+constexpr double earth_radius_m = 6371008.8;  // IUGG mean radius R1 (Moritz 2000)
+
+bool has_day(int year, int month, int day) {
+  return std::chrono::year_month_day{std::chrono::year{year},
+                                     std::chrono::month{static_cast<unsigned>(month)},
+                                     std::chrono::day{static_cast<unsigned>(day)}}
+      .ok();
+}
+
+double sine_of_elevation(double elevation_deg) {
+  return std::max(0.0, std::sin(radians(elevation_deg)));
+}
+
+using Quantity = std::optional<double> WeatherValues::*;
+
+std::vector<Quantity> needed(WeatherSource source) {
+  switch (source) {
+    case WeatherSource::dni_and_dhi:
+      return {&WeatherValues::dni, &WeatherValues::dhi};
+    case WeatherSource::ghi_and_dhi:
+      return {&WeatherValues::ghi, &WeatherValues::dhi};
+    case WeatherSource::ghi_and_dni:
+      return {&WeatherValues::ghi, &WeatherValues::dni};
+    case WeatherSource::ghi_alone:
+      return {&WeatherValues::ghi};
+    case WeatherSource::none:
+      break;
+  }
+  return {};
+}
+
+/// A run of records without a value: [first, last).
+struct Gap {
+  std::size_t first, last;
+};
+
+std::vector<Gap> gaps_of(const std::vector<DatedWeather>& weather, Quantity quantity) {
+  std::vector<Gap> gaps;
+  for (std::size_t i = 0; i < weather.size(); ++i) {
+    if (weather[i].values.*quantity) continue;
+    if (!gaps.empty() && gaps.back().last == i) {
+      ++gaps.back().last;
+    } else {
+      gaps.push_back({i, i + 1});
+    }
+  }
+  return gaps;
+}
+
+double middle(const DatedWeather& w) { return (w.begin + w.end) / 2; }
+
+/// A value at a time, to be mixed with another by distance.
+struct Neighbour {
+  double distance_s = 0, value = 0;
+};
+
+double mixed(const std::optional<Neighbour>& before, const std::optional<Neighbour>& after) {
+  if (!before && !after) return 0;
+  if (!before) return after->value;
+  if (!after) return before->value;
+  return std::lerp(before->value, after->value,
+                   before->distance_s / (before->distance_s + after->distance_s));
+}
+
+/// The values that a gap is filled from; `weather` is as it was read.
+class GapFiller {
+ public:
+  GapFiller(const std::vector<DatedWeather>& weather, Quantity quantity)
+      : weather_(weather), quantity_(quantity) {}
+
+  double linear(const Gap& gap, std::size_t at) const {
+    std::optional<Neighbour> before, after;
+    if (gap.first > 0) before = neighbour(gap.first - 1, at);
+    if (gap.last < weather_.size()) after = neighbour(gap.last, at);
+    return mixed(before, after);
+  }
+
+  /// The same time of the nearest days that have it.
+  double by_days(std::size_t at) const {
+    return mixed(same_hour(at, -seconds_per_day), same_hour(at, seconds_per_day));
+  }
+
+ private:
+  std::optional<Neighbour> neighbour(std::size_t of, std::size_t at) const {
+    return Neighbour{std::abs(middle(weather_[of]) - middle(weather_[at])),
+                     *(weather_[of].values.*quantity_)};
+  }
+
+  std::optional<Neighbour> same_hour(std::size_t at, double step_s) const {
+    for (double t = weather_[at].begin + step_s;
+         t >= weather_.front().begin - rounding_s && t <= weather_.back().begin + rounding_s;
+         t += step_s) {
+      const auto found =
+          std::lower_bound(weather_.begin(), weather_.end(), t - rounding_s,
+                           [](const DatedWeather& w, double time) { return w.begin < time; });
+      if (found == weather_.end() || found->begin > t + rounding_s) continue;
+      if (found->values.*quantity_)
+        return neighbour(static_cast<std::size_t>(found - weather_.begin()), at);
+    }
+    return {};
+  }
+
+  const std::vector<DatedWeather>& weather_;
+  Quantity quantity_;
+};
+
+/// Light of a record while the sun is up, as means over the whole record.
+Irradiance divided(const WeatherValues& values, const SunInterval& when, WeatherSource source,
+                   Decomposition decomposition, double elevation_m) {
+  const double sine = sine_of_elevation(when.sun.elevation_deg);
+  const double share = when.up_s / when.length_s();
+  const double outside = extraterrestrial(when.sun.distance_au);
+  const double strongest = outside * share;  // no sky adds to the sun's own beam
+  switch (source) {
+    case WeatherSource::dni_and_dhi:
+      return {*values.dni, *values.dhi, 0};
+    case WeatherSource::ghi_and_dhi: {
+      const double beam = std::max(0.0, *values.ghi - *values.dhi);
+      return {sine > 0 ? std::min(beam / sine, strongest) : 0, *values.dhi, 0};
+    }
+    case WeatherSource::ghi_and_dni:
+      return {*values.dni, std::max(0.0, *values.ghi - *values.dni * sine), 0};
+    case WeatherSource::ghi_alone: {
+      const double lit = *values.ghi / share;
+      const Irradiance parts =
+          decomposition == Decomposition::erbs
+              ? erbs(lit, when.sun.elevation_deg, outside)
+              : disc(lit, when.sun.elevation_deg, outside, standard_pressure(elevation_m));
+      const double dni = std::min(parts.dni * share, strongest);
+      return {dni, std::max(0.0, *values.ghi - dni * sine), 0};
+    }
+    case WeatherSource::none:
+      break;
+  }
+  contract_failed("weather has values", __FILE__, __LINE__, "source none");
+}
+
+/// Without sun all of the global irradiance is diffuse.
+double dark_dhi(const WeatherValues& values) {
+  return values.dhi ? *values.dhi : values.ghi.value_or(0);
+}
+
+/// Squares of closure residuals with the sun of other times.
+class ShiftedClosure {
+ public:
+  explicit ShiftedClosure(const SunEphemeris& sun) : sun_(sun) {}
+
+  /// `rest`: DHI - GHI. Intervals that are partly dark have no sun to be shifted.
+  void add(const SunInterval& when, double dni, double rest) {
+    if (when.up_s < when.length_s() - rounding_s) return;
+    step_s_ = when.length_s();
+    for (std::size_t s = 0; s < steps.size(); ++s) {
+      const double sine = sine_of_elevation(sun_(when.sun_time + steps[s] * step_s_).elevation_deg);
+      squares_[s] += (dni * sine + rest) * (dni * sine + rest);
+    }
+  }
+  double best_s() const { return steps[best()] * step_s_; }
+  /// Of the root mean square without shift.
+  double best_share() const {
+    return squares_[0] > 0 ? std::sqrt(squares_[best()] / squares_[0]) : 0;
+  }
+
+ private:
+  static constexpr std::array steps{0.0, -0.5, 0.5, -1.0, 1.0};
+  std::size_t best() const {
+    return static_cast<std::size_t>(std::min_element(squares_.begin(), squares_.end()) -
+                                    squares_.begin());
+  }
+
+  const SunEphemeris& sun_;
+  std::array<double, steps.size()> squares_{};
+  double step_s_ = 0;
+};
+
+double overlap(double a_begin, double a_end, double b_begin, double b_end) {
+  return std::max(0.0, std::min(a_end, b_end) - std::max(a_begin, b_begin));
+}
+
+}  // namespace
+
+WeatherYears years_of(const std::vector<WeatherRecord>& records) {
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const WeatherRecord& now = records[i];
+    if (now.year == 0) return WeatherYears::typical;
+    if (i == 0 || now.year == records[i - 1].year) continue;
+    const bool is_new_year =
+        now.year == records[i - 1].year + 1 && now.month < records[i - 1].month;
+    if (!is_new_year) return WeatherYears::typical;
+  }
+  return WeatherYears::actual;
+}
+
+std::vector<DatedWeather> dated(const std::vector<WeatherRecord>& records,
+                                std::optional<int> first_year, double offset_s) {
+  const bool is_typical = years_of(records) == WeatherYears::typical;
+  SUNLOAD_EXPECT(first_year || !is_typical, "a typical year needs a year to be written as");
+  std::vector<DatedWeather> weather;
+  weather.reserve(records.size());
+  for (const auto& r : records) {
+    const int year =
+        !first_year ? r.year : *first_year + (is_typical ? 0 : r.year - records.front().year);
+    if (!has_day(year, r.month, r.day)) continue;
+    const UnixTime midnight = utc_from_calendar({year, r.month, r.day, 0, 0, 0}) - offset_s;
+    weather.push_back({midnight + r.begin_s, midnight + r.end_s, r.values, r.line});
+  }
+  return weather;
+}
+
+std::size_t first_out_of_order(const std::vector<DatedWeather>& weather) {
+  for (std::size_t i = 1; i < weather.size(); ++i)
+    if (weather[i].begin < weather[i - 1].end - rounding_s) return i;
+  return weather.size();
+}
+
+WeatherSource source_of(const std::vector<DatedWeather>& weather) {
+  const auto any = [&](Quantity quantity) {
+    return std::any_of(weather.begin(), weather.end(),
+                       [&](const DatedWeather& w) { return (w.values.*quantity).has_value(); });
+  };
+  const bool dni = any(&WeatherValues::dni), dhi = any(&WeatherValues::dhi),
+             ghi = any(&WeatherValues::ghi);
+  if (dni && dhi) return WeatherSource::dni_and_dhi;
+  if (ghi && dhi) return WeatherSource::ghi_and_dhi;
+  if (ghi && dni) return WeatherSource::ghi_and_dni;
+  return ghi ? WeatherSource::ghi_alone : WeatherSource::none;
+}
+
+bool is_incomplete(const WeatherValues& values, WeatherSource source) {
+  const auto quantities = needed(source);
+  return std::any_of(quantities.begin(), quantities.end(),
+                     [&](Quantity q) { return !(values.*q).has_value(); });
+}
+
+FilledWeather fill_missing(std::vector<DatedWeather> weather, WeatherSource source,
+                           Missing missing) {
+  FilledWeather filled;
+  for (const auto& w : weather)
+    if (is_incomplete(w.values, source)) ++filled.records;
+  for (const Quantity quantity : needed(source)) {
+    const auto gaps = gaps_of(weather, quantity);
+    if (gaps.empty()) continue;
+    const auto read = weather;
+    const GapFiller filler(read, quantity);
+    for (const Gap& gap : gaps) {
+      const double length = read[gap.last - 1].end - read[gap.first].begin;
+      filled.longest_gap_s = std::max(filled.longest_gap_s, length);
+      if (missing == Missing::refuse) continue;
+      for (std::size_t i = gap.first; i < gap.last; ++i)
+        weather[i].values.*quantity = missing == Missing::zero             ? 0
+                                      : length <= short_gap_s + rounding_s ? filler.linear(gap, i)
+                                                                           : filler.by_days(i);
+    }
+  }
+  filled.weather = std::move(weather);
+  return filled;
+}
+
+WeatherLight with_sun(const std::vector<DatedWeather>& weather, const SunPath& path,
+                      WeatherSource source, Decomposition decomposition, double elevation_m) {
+  SUNLOAD_EXPECT(weather.size() == path.size(), "one interval per record");
+  WeatherLight light;
+  light.intervals.reserve(path.size());
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const WeatherValues& values = weather[i].values;
+    SUNLOAD_EXPECT(!is_incomplete(values, source), "missing values are filled or refused before");
+    Irradiance mean;
+    if (path[i].up_s > 0) {
+      mean = divided(values, path[i], source, decomposition, elevation_m);
+    } else {
+      mean.dhi = dark_dhi(values);
+      if (values.dni.value_or(0) > 0) {
+        ++light.dark_beams;
+        light.dropped_dni_wh_m2 += *values.dni * path[i].length_s() / seconds_per_hour;
+      }
+    }
+    mean.ghi = values.ghi ? *values.ghi
+                          : mean.dni * sine_of_elevation(path[i].sun.elevation_deg) + mean.dhi;
+    light.intervals.push_back({path[i], mean});
+  }
+  return light;
+}
+
+Resampled resample(const std::vector<SunnyWeather>& weather, const SunPath& path) {
+  Resampled out;
+  out.mean.reserve(path.size());
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const SunInterval& to = path[i];
+    Irradiance sum;
+    double covered = 0;
+    auto from = std::upper_bound(weather.begin(), weather.end(), to.begin,
+                                 [](double t, const SunnyWeather& w) { return t < w.when.end; });
+    for (; from != weather.end() && from->when.begin < to.end; ++from) {
+      const SunInterval& w = from->when;
+      const double time = overlap(w.begin, w.end, to.begin, to.end);
+      covered += time;
+      // Of the record's beam as much as of its sunlit part lies in this one's.
+      const double lit = w.up_end - w.up_begin;
+      const double beam_time =
+          lit > 0 ? w.length_s() / lit * overlap(w.up_begin, w.up_end, to.up_begin, to.up_end) : 0;
+      sum.dni += from->mean.dni * beam_time;
+      sum.dhi += from->mean.dhi * time;
+      sum.ghi +=
+          from->mean.dhi * time + (from->mean.ghi - from->mean.dhi) * (lit > 0 ? beam_time : time);
+    }
+    if (!out.uncovered && covered < to.length_s() - 1) out.uncovered = i;
+    const double length = to.length_s();
+    out.mean.push_back({sum.dni / length, sum.dhi / length, std::max(0.0, sum.ghi / length)});
+  }
+  return out;
+}
+
+Closure closure(const std::vector<DatedWeather>& weather, const SunPath& path,
+                const SunEphemeris& sun) {
+  SUNLOAD_EXPECT(weather.size() == path.size(), "one interval per record");
+  ShiftedClosure shifted(sun);
+  Closure result;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const auto& [dni, dhi, ghi] = weather[i].values;
+    if (!dni || !dhi || !ghi || path[i].up_s <= 0) continue;
+    const double residual = *dni * sine_of_elevation(path[i].sun.elevation_deg) + *dhi - *ghi;
+    ++result.intervals;
+    result.mean_ghi += *ghi;
+    result.bias += residual;
+    result.rms += residual * residual;
+    if (std::abs(residual) > std::abs(result.worst)) {
+      result.worst = residual;
+      result.worst_at = path[i].sun_time;
+    }
+    shifted.add(path[i], *dni, *dhi - *ghi);
+  }
+  if (result.intervals == 0) return result;
+  const auto count = static_cast<double>(result.intervals);
+  result.mean_ghi /= count;
+  result.bias /= count;
+  result.rms = std::sqrt(result.rms / count);
+  result.best_shift_s = shifted.best_s();
+  result.best_rms = result.rms * shifted.best_share();
+  return result;
+}
+
+double distance_m(const Site& a, const Site& b) {
+  const Vec3 from = enu_direction({a.longitude_deg, a.latitude_deg});
+  const Vec3 to = enu_direction({b.longitude_deg, b.latitude_deg});
+  return earth_radius_m * std::atan2(norm(cross(from, to)), dot(from, to));
+}
+
+}  // namespace sunload

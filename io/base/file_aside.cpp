@@ -1,0 +1,133 @@
+#include "io/base/file_aside.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <random>
+
+#include "geo/base/check.h"
+#include "io/base/hash.h"
+
+namespace sunload {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string part_mark = ".part-";
+/// Who writes a result or a batch writes to it every few seconds.
+constexpr std::chrono::hours unwritten_for{24};
+constexpr std::size_t place_digits = 12;  // hexadecimal: two places alike once in 10^14
+
+/// Where process numbers mean the same processes: this start of the kernel, and
+/// the container's own numbering.
+std::string this_place() {
+  std::string boot;
+  std::ifstream("/proc/sys/kernel/random/boot_id") >> boot;
+  std::error_code unknown;
+  return sha256(boot + fs::read_symlink("/proc/self/ns/pid", unknown).string())
+      .substr(0, place_digits);
+}
+
+struct Writer {
+  std::string place;
+  pid_t process = 0;
+};
+
+/// Who wrote a file aside, from its name; none where it is another file.
+std::optional<Writer> writer_of(const std::string& name) {
+  const auto mark = name.rfind(part_mark);
+  if (mark == std::string::npos) return {};
+  const std::string words = name.substr(mark + part_mark.size());
+  const auto dash = words.find('-');
+  if (dash != place_digits) return {};
+  Writer writer{words.substr(0, dash), 0};
+  const char* digits = words.data() + dash + 1;
+  const auto [end, error] = std::from_chars(digits, words.data() + words.size(), writer.process);
+  if (error != std::errc() || writer.process <= 0 || *end != '-') return {};
+  return writer;
+}
+
+bool is_left_over(const fs::path& file, const Writer& writer) {
+  if (writer.place == this_place()) return ::kill(writer.process, 0) != 0 && errno == ESRCH;
+  std::error_code gone;
+  const auto written = fs::last_write_time(file, gone);
+  return !gone && fs::file_time_type::clock::now() - written > unwritten_for;
+}
+
+/// fsync of a file or folder; the number of the error, or 0.
+int flushed_to_disk(const std::string& path, int flags) {
+  const int file = ::open(path.c_str(), flags | O_CLOEXEC);
+  if (file < 0) return errno;
+  const int error = ::fsync(file) == 0 ? 0 : errno;
+  ::close(file);
+  return error;
+}
+
+}  // namespace
+
+void throw_cannot_write(const std::string& path, int error_number) {
+  throw MachineError("cannot write " + path + ": " + std::strerror(error_number));
+}
+
+FileAside::FileAside(std::string path)
+    : path_(std::move(path)),
+      aside_(path_ + part_mark + this_place() + "-" + std::to_string(::getpid()) + "-" +
+             std::to_string(std::random_device{}())) {}
+
+FileAside::~FileAside() {
+  if (state_ == State::writing) ::unlink(aside_.c_str());
+}
+
+void FileAside::start_flushing() const {
+#ifdef SYNC_FILE_RANGE_WRITE
+  const int file = ::open(aside_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return;
+  ::sync_file_range(file, 0, 0, SYNC_FILE_RANGE_WRITE);  // errors come back from fsync
+  ::close(file);
+#endif
+}
+
+void FileAside::publish() {
+  if (const int error = flushed_to_disk(aside_, O_RDONLY)) throw_cannot_write(path_, error);
+  publish_unflushed();
+  const auto folder = fs::path(path_).parent_path();
+  const int error = flushed_to_disk(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
+  // Some network file systems cannot flush folders and say so: nothing more can be done there.
+  if (error != 0 && error != EINVAL && error != ENOTSUP) throw_cannot_write(path_, error);
+}
+
+void FileAside::publish_unflushed() {
+  if (std::rename(aside_.c_str(), path_.c_str()) != 0) throw_cannot_write(path_, errno);
+  state_ = State::published;
+}
+
+void remove_left_aside(const std::string& folder) {
+  std::error_code unreadable;
+  for (const auto& entry : fs::directory_iterator(folder, unreadable)) {
+    const auto writer = writer_of(entry.path().filename().string());
+    if (!writer || !is_left_over(entry.path(), *writer)) continue;
+    std::error_code removed_meanwhile;
+    fs::remove(entry.path(), removed_meanwhile);
+  }
+}
+
+void write_file(const std::string& path, std::string_view bytes) {
+  FileAside file(path);
+  errno = 0;
+  std::ofstream stream(file.aside(), std::ios::binary);
+  stream << bytes;
+  stream.close();
+  if (!stream) throw_cannot_write(path, errno);
+  file.publish();
+}
+
+}  // namespace sunload

@@ -1,0 +1,43 @@
+/// Text of files as readers need it: bytes, places in them, counted notes.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geo/base/check.h"
+
+namespace sunload {
+
+/// The bytes of a regular file of at most 2 GB; throws InputError otherwise.
+std::string read_whole_file(const std::string& path);
+
+/// The first bytes of a file, enough to tell its format.
+std::string read_file_head(const std::string& path, std::size_t byte_count);
+
+/// Line and column (from 1) of a byte of a text.
+Where place_in_text(const std::string& file, std::string_view text, std::size_t byte,
+                    int first_line = 1);
+
+std::string lower_case(std::string text);
+
+/// Extension in lower case with its dot, or nothing.
+std::string lower_extension(const std::string& path);
+
+/// Counts what happened; each kind becomes one note, `12 faces …`.
+class NoteCounter {
+ public:
+  void count(const std::string& what, std::size_t times = 1) {
+    if (times > 0) counts_[what] += times;
+  }
+  /// A note without a number, kept once.
+  void say(const std::string& what) { counts_.try_emplace(what, 0); }
+  std::vector<std::string> lines() const;
+
+ private:
+  std::map<std::string, std::size_t> counts_;
+};
+
+}  // namespace sunload

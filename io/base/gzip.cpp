@@ -1,0 +1,52 @@
+#include "io/base/gzip.h"
+
+#include <libdeflate.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "geo/base/check.h"
+
+namespace sunload {
+
+bool is_gzip(const std::string& bytes) { return bytes.starts_with("\x1F\x8B"); }
+
+std::string unpack_gzip(const std::string& bytes, const std::string& path,
+                        std::size_t largest_bytes) {
+  const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)>
+      decompressor(libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
+  std::string content;
+  // The trailer's length is not to be trusted: the buffer grows as the content asks for it.
+  std::size_t room = std::max<std::size_t>(4 * bytes.size(), 4096);
+  for (std::size_t at = 0; at < bytes.size();) {
+    const std::size_t begin = content.size();
+    content.resize(begin + room);
+    std::size_t used = 0, written = 0;
+    const auto outcome =
+        libdeflate_gzip_decompress_ex(decompressor.get(), bytes.data() + at, bytes.size() - at,
+                                      content.data() + begin, room, &used, &written);
+    if (outcome == LIBDEFLATE_INSUFFICIENT_SPACE) {
+      content.resize(begin);
+      room *= 2;
+      if (begin + room > 2 * largest_bytes) {
+        throw InputError({path}, "unpacks to too much",
+                         "at most " + std::to_string(largest_bytes) + " bytes can be read");
+      }
+      continue;
+    }
+    if (outcome != LIBDEFLATE_SUCCESS) {
+      throw InputError({path}, "is a damaged gzip file",
+                       at == 0 ? "it cannot be unpacked" : "what follows its first part is no gzip",
+                       "was it copied completely?");
+    }
+    content.resize(begin + written);
+    at += used;
+  }
+  if (content.size() > largest_bytes) {
+    throw InputError({path}, "unpacks to too much",
+                     "at most " + std::to_string(largest_bytes) + " bytes can be read");
+  }
+  return content;
+}
+
+}  // namespace sunload

@@ -1,0 +1,68 @@
+#include "io/base/hash.h"
+
+#include <openssl/evp.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <memory>
+
+#include "geo/base/check.h"
+
+namespace sunload {
+namespace {
+
+constexpr std::size_t read_bytes = 1 << 20;  // per read: large against the cost of a call
+
+class Sha256 {
+ public:
+  Sha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
+    SUNLOAD_EXPECT(context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1,
+                   "SHA-256 of OpenSSL");
+  }
+  void add(const void* bytes, std::size_t count) {
+    SUNLOAD_EXPECT(EVP_DigestUpdate(context_.get(), bytes, count) == 1, "SHA-256 of OpenSSL");
+  }
+  std::string hexadecimal() {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned int length = 0;
+    SUNLOAD_EXPECT(EVP_DigestFinal_ex(context_.get(), digest.data(), &length) == 1,
+                   "SHA-256 of OpenSSL");
+    constexpr const char* digits = "0123456789abcdef";
+    std::string text;
+    for (unsigned int i = 0; i < length; ++i) {
+      text += digits[digest[i] / 16];
+      text += digits[digest[i] % 16];
+    }
+    return text;
+  }
+
+ private:
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+};
+
+}  // namespace
+
+std::string sha256(const std::string& bytes) {
+  Sha256 hash;
+  hash.add(bytes.data(), bytes.size());
+  return hash.hexadecimal();
+}
+
+std::string sha256_of_file(const std::string& path) {
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::string buffer(read_bytes, '\0');
+  Sha256 hash;
+  while (file.good()) {
+    file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+    hash.add(buffer.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  if (!file.eof()) {  // not opened, a folder, or a failing disk
+    throw InputError({path}, "cannot be read", errno != 0 ? std::strerror(errno) : "read error");
+  }
+  return hash.hexadecimal();
+}
+
+}  // namespace sunload

@@ -1,0 +1,121 @@
+#include "io/base/machine.h"
+
+#include <sched.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <sstream>
+
+#include "geo/base/check.h"
+
+namespace sunload {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+/// First number of a file, infinite for `max` or a missing file.
+double first_number(const fs::path& path) {
+  std::ifstream file(path);
+  std::string word;
+  if (!(file >> word) || word == "max") return unlimited;
+  return std::stod(word);
+}
+
+/// Folder of this process' control group (version 2), or none.
+std::optional<fs::path> control_group() {
+  std::ifstream file("/proc/self/cgroup");
+  for (std::string line; std::getline(file, line);)
+    if (line.rfind("0::", 0) == 0) return fs::path("/sys/fs/cgroup" + line.substr(3));
+  return {};
+}
+
+/// Smallest value of `left` over the control group and its parents.
+template <class Left>
+double over_groups(Left&& left) {
+  double least = unlimited;
+  if (const auto group = control_group())
+    for (fs::path g = *group; g.native().size() >= std::string("/sys/fs/cgroup").size();
+         g = g.parent_path())
+      least = std::min(least, left(g));
+  return least;
+}
+
+double system_available_bytes() {
+  std::ifstream file("/proc/meminfo");
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string name;
+    double kib = 0;
+    if (words >> name >> kib && name == "MemAvailable:") return kib * 1024;
+  }
+  return unlimited;
+}
+
+/// What the limit of the address space (`ulimit -v`) leaves.
+double address_space_left_bytes() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
+  const double pages = first_number("/proc/self/statm");
+  const double used = pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+  return std::max(0.0, static_cast<double>(limit.rlim_cur) - used);
+}
+
+}  // namespace
+
+double available_memory_bytes() {
+  const double of_group = over_groups([](const fs::path& g) {
+    const double limit = first_number(g / "memory.max");
+    return std::isinf(limit) ? unlimited : limit - first_number(g / "memory.current");
+  });
+  return std::min({system_available_bytes(), of_group, address_space_left_bytes()});
+}
+
+double free_disk_bytes(const std::string& path) {
+  fs::path at = fs::absolute(path);
+  std::error_code failed;
+  while (!fs::exists(at, failed) && at.has_relative_path()) at = at.parent_path();
+  const auto space = fs::space(at, failed);
+  return failed ? unlimited : static_cast<double>(space.available);
+}
+
+int permitted_processors() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  int processors = 1;
+  if (sched_getaffinity(0, sizeof(set), &set) == 0) processors = CPU_COUNT(&set);
+  const double quota = over_groups([](const fs::path& g) {
+    std::ifstream file(g / "cpu.max");
+    std::string limit;
+    double period = 0;
+    if (!(file >> limit >> period) || limit == "max" || period <= 0) return unlimited;
+    return std::stod(limit) / period;
+  });
+  return std::max(1, static_cast<int>(std::min<double>(processors, std::ceil(quota))));
+}
+
+double peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024;
+}
+
+void make_writable_folder(const std::string& path) {
+  std::error_code failed;
+  fs::create_directories(path, failed);
+  if (failed)
+    throw MachineError("cannot make the folder " + path + " (" + failed.message() +
+                       "); choose another with --output");
+  if (access(path.c_str(), W_OK | X_OK) != 0)
+    throw MachineError("cannot write into " + path +
+                       " (permission denied); choose another folder with --output");
+}
+
+}  // namespace sunload

@@ -1,0 +1,52 @@
+/// A batch's tally as the arrays of a batch file, and back.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/batch/file.h"
+#include "solver/solver.h"
+
+namespace sunload {
+
+/// Names of arrays that merge needs but the result does not show.
+namespace batch_array {
+inline constexpr const char* exposure = "exposure";         ///< [R, N] J m-2
+inline constexpr const char* ledger = "ledger";             ///< [R, 9] J: terms, residual
+inline constexpr const char* outgoing = "outgoing";         ///< [N] J m-2
+inline constexpr const char* sunlit = "sunlit";             ///< [N] s
+inline constexpr const char* maximum = "irradiance_max";    ///< [N] W m-2
+inline constexpr const char* sky_view = "sky_view_factor";  ///< [N]
+inline constexpr const char* bounces = "bounces";           ///< [1]
+/// Per patch: lines in the mean, direct samples, and samples of the first shot where a pilot chose
+/// them.
+inline constexpr const char* counts = "counts";
+inline constexpr const char* patch_lines = "patch_lines";    ///< [N] if a pilot chose them
+inline constexpr const char* kept_area = "kept_area";        ///< [2] see KeptArea
+inline constexpr const char* energy = "energy";              ///< [3] J: in, residual, lost at backs
+inline constexpr const char* sensor_backs = "sensor_backs";  ///< [S] share of lines that met backs
+inline constexpr const char* work = "work";                  ///< see WorkDone
+}  // namespace batch_array
+
+/// Before the names of arrays and datasets of sensors: `sensor_irradiance`, ….
+inline const std::string sensor_prefix = "sensor_";
+
+/// Name of the series of a part: `irradiance`, `irradiance_direct`, ….
+std::string series_name(Part part);
+/// Name of its time sum within a batch file: `sum_total`, `sum_direct`, …
+std::string sum_name(Part part);
+
+/// Rays and seconds as one row of a batch file, and back.
+std::vector<double> work_values(const WorkDone& work);
+WorkDone work_from(const std::vector<double>& values);
+
+/// Everything of the tallies, one per band, into a batch file's arrays; `work` is what this batch
+/// cost; `irradiance_relative` is the goal that the study has for its series, if it has one.
+/// Arrays of three bands have the prefixes of `band_prefixes`, but for those that are the
+/// same in all of them.
+void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
+                 const LightSolver& solver, const Mesh& mesh, const WorkDone& work,
+                 std::optional<double> irradiance_relative);
+
+}  // namespace sunload

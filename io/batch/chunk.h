@@ -1,0 +1,38 @@
+/// Chunks of float series as HDF5 stores them: byte shuffle, then zlib deflate.
+///
+/// A chunk always has its full shape: past the edges of an array it is padded
+/// with NaN, the fill value of the series. A chunk that deflate does not make
+/// smaller, and every chunk at level 0, is stored as it is (neither shuffled
+/// nor deflated): its length is then `ChunkShape::bytes()`.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/base/deflate.h"
+
+namespace sunload {
+
+struct ChunkShape {
+  std::size_t rows = 0, columns = 0;
+
+  std::size_t bytes() const { return rows * columns * sizeof(float); }
+  /// Number of chunks side by side in an array of that many columns.
+  std::size_t count(std::size_t array_columns) const {
+    return (array_columns + columns - 1) / columns;
+  }
+};
+
+/// One row of chunks, from `rows` ≤ shape.rows rows of `columns` values, in
+/// parallel; level 0 (stored) … 9 (smallest). The same bytes for any number of threads.
+std::vector<Bytes> encoded_chunks(const float* values, std::size_t rows, std::size_t columns,
+                                  ChunkShape shape, int level);
+
+/// Inverse for one chunk: shape.rows × shape.columns values. Throws
+/// std::runtime_error where the bytes are not such a chunk.
+std::vector<float> decoded_chunk(std::span<const unsigned char> chunk, ChunkShape shape);
+
+}  // namespace sunload

@@ -1,0 +1,155 @@
+#include "io/batch/prepared_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "io/base/deflate.h"
+#include "io/base/file_aside.h"
+
+namespace sunload {
+
+namespace {
+
+// Layout, in the byte order of the machine: magic, content hash and counts, CRC-32
+// of these, the arrays of `visit_set`, CRC-32 of all before. An array is its
+// length and its bytes.
+constexpr char magic[16] = "sunload-lines-3";
+
+/// Calls `array` for every array of the lines, in the order of the file.
+template <class Set, class Array>
+void visit_set(Set& set, Array&& array) {
+  for (auto* table : {&set.patches, &set.sky, &set.sky_by_mirror})
+    for (auto& block : table->blocks) {
+      array(block.begin);
+      array(block.target);
+      array(block.weight);
+    }
+  array(set.ends);
+  array(set.lamps);
+  MirroredFirstLight::for_each(set.first_light, set.first_light,
+                               [&](auto& power, auto&) { array(power); });
+}
+
+class Output {
+ public:
+  explicit Output(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+    if (!file_) error_ = errno;
+  }
+  void bytes(const void* data, std::size_t count) {
+    crc_ = crc32(data, count, crc_);
+    file_.write(static_cast<const char*>(data), static_cast<std::streamsize>(count));
+    if (!file_ && error_ == 0) error_ = errno;
+  }
+  template <class T>
+  void operator()(const std::vector<T>& values) {
+    const std::uint64_t count = values.size();
+    bytes(&count, sizeof(count));
+    bytes(values.data(), count * sizeof(T));
+  }
+  void checksum() {
+    const std::uint32_t of_all_before = crc_;
+    bytes(&of_all_before, sizeof(of_all_before));
+  }
+  void finish() {
+    file_.close();
+    if (!file_) throw_cannot_write(path_, error_ != 0 ? error_ : errno);
+  }
+
+ private:
+  std::string path_;
+  std::ofstream file_;
+  int error_ = 0;  ///< number of the first error
+  std::uint32_t crc_ = 0;
+};
+
+/// Reads arrays from a file that may be damaged: never more than it holds.
+class Input {
+ public:
+  explicit Input(const std::string& path) {
+    std::error_code unreadable;
+    if (!std::filesystem::is_regular_file(path, unreadable)) return;
+    file_.open(path, std::ios::binary | std::ios::ate);
+    if (!file_) return;
+    left_ = static_cast<std::size_t>(file_.tellg());
+    file_.seekg(0);
+  }
+  bool take(void* to, std::size_t count) {
+    if (count > left_ || !file_.read(static_cast<char*>(to), static_cast<std::streamsize>(count)))
+      return false;
+    crc_ = crc32(to, count, crc_);
+    left_ -= count;
+    return true;
+  }
+  template <class T>
+  void operator()(std::vector<T>& values) {
+    std::uint64_t count = 0;
+    good_ = good_ && take(&count, sizeof(count)) && count <= left_ / sizeof(T);
+    if (!good_) return;
+    values.resize(count);
+    good_ = take(values.data(), count * sizeof(T));
+  }
+  /// What was read so far is what was written.
+  bool is_right() {
+    const std::uint32_t of_all_before = crc_;
+    std::uint32_t said = 0;
+    return good_ && take(&said, sizeof(said)) && said == of_all_before;
+  }
+  /// A line set has lengths of several arrays, and four bytes or more for each of its rows.
+  bool can_hold(std::uint64_t realizations, std::uint64_t rows) const {
+    return rows <= left_ / sizeof(std::uint32_t) &&
+           realizations <= left_ / (sizeof(std::uint64_t) + rows * sizeof(std::uint32_t));
+  }
+  bool is_at_end() const { return left_ == 0; }
+
+ private:
+  std::ifstream file_;
+  std::size_t left_ = 0;
+  std::uint32_t crc_ = 0;
+  bool good_ = true;
+};
+
+}  // namespace
+
+void write_prepared(const std::string& path, const std::string& content_hash, const Lines& lines) {
+  FileAside target(path);
+  Output out(target.aside());
+  out.bytes(magic, sizeof(magic));
+  out(std::vector<char>(content_hash.begin(), content_hash.end()));
+  out(std::vector<std::uint64_t>{lines.realizations.size(), lines.pooled.ends.size(), lines.rays});
+  out.checksum();
+  for (const auto& set : lines.realizations) visit_set(set, out);
+  visit_set(lines.pooled, out);
+  out(lines.glimpses);
+  out.checksum();
+  out.finish();
+  // Its checksum tells what a lost power supply has spoilt.
+  target.publish_unflushed();
+}
+
+std::optional<Lines> read_prepared(const std::string& path, const std::string& content_hash) {
+  Input in(path);
+  char word[sizeof(magic)];
+  if (!in.take(word, sizeof(word)) || std::memcmp(word, magic, sizeof(magic)) != 0) return {};
+  std::vector<char> hash;
+  std::vector<std::uint64_t> counts;
+  in(hash);
+  in(counts);
+  // Before damaged counts ask for memory.
+  if (!in.is_right() || std::string(hash.begin(), hash.end()) != content_hash) return {};
+  if (counts.size() != 3 || !in.can_hold(counts[0], counts[1])) return {};
+  Lines lines;
+  const auto rows = static_cast<std::size_t>(counts[1]);
+  const LineSet empty{LinkTable(rows), LinkTable(rows), LinkTable(rows), {}, {}, {}};
+  lines.realizations.assign(static_cast<std::size_t>(counts[0]), empty);
+  lines.pooled = empty;
+  lines.rays = counts[2];
+  for (auto& set : lines.realizations) visit_set(set, in);
+  visit_set(lines.pooled, in);
+  in(lines.glimpses);
+  if (!in.is_right() || !in.is_at_end()) return {};
+  return lines;
+}
+
+}  // namespace sunload

@@ -1,0 +1,252 @@
+/// `sunload check` and `sunload sun`: everything that is known before computing.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "geo/mesh/intersections.h"
+#include "io/base/machine.h"
+#include "io/picture/sun_diagram.h"
+#include "io/plan/expected_error.h"
+#include "io/plan/time_words.h"
+#include "io/plan/variant_mesh.h"
+#include "io/plan/variant_plan.h"
+#include "io/run/run.h"
+#include "solver/base/threads.h"
+
+namespace sunload {
+
+namespace {
+
+constexpr double mib = 1024.0 * 1024;
+
+std::string counts_text(const PrepareReport& r) {
+  std::string text = fmt::format(
+      "  read      {} polygons ({} with holes), {} vertices\n"
+      "  repaired  {} vertices welded, {} triangles turned, {} fronts with a back made two-sided, "
+      "{} T-joints split\n"
+      "  dropped   {} degenerate, {} duplicate, {} polygons not triangulable\n"
+      "  doubtful  {} polygons not planar, {} crossing themselves, {} bodies without consistent "
+      "fronts\n"
+      "  bodies    {} closed ({:.6g} m3), {} with their fronts inward, {} open sheets; {} open "
+      "edges, {} non-manifold edges\n"
+      "  floors    {} triangles touch the ground: they cast shadows, are no patches\n"
+      "  shape     the thinnest triangle is {:.4g} times as long as high\n",
+      r.polygons_read, r.polygons_with_holes, r.vertices_read, r.vertices_welded,
+      r.triangles_flipped, r.sheets_merged, r.t_joints_split, r.degenerates_dropped,
+      r.duplicates_dropped, r.polygons_untriangulated, r.polygons_nonplanar, r.polygons_crossing,
+      r.unorientable, r.closed_bodies, r.volume_m3, r.inside_out_bodies, r.open_sheets,
+      r.open_edges, r.nonmanifold_edges, r.floors, r.worst_aspect);
+  text += "  area     ";
+  for (std::size_t s = 0; s < surface_names.size(); ++s)
+    if (r.area_m2[s] > 0) text += fmt::format(" {} {:.6g} m2", surface_names[s], r.area_m2[s]);
+  return text + "\n";
+}
+
+std::string intersections_text(const Mesh& mesh) {
+  const Intersections found = find_intersections(mesh);
+  std::string text = fmt::format(
+      "  meeting   {} pairs of triangles cut and {} cover each other ({} of both between objects), "
+      "{} of {} triangles",
+      found.cutting, found.covering, found.between_objects, found.triangles, mesh.triangle_count());
+  if (found.pairs() > 0) {
+    const Vec3 p = mesh.corner(found.first[0], 0) + mesh.origin;
+    const auto name = [&](std::size_t t) {
+      return mesh.object_names[mesh.triangle_object[t].index()];
+    };
+    text += fmt::format("; first {} and {} near ({:.10g}, {:.10g}, {:.10g})", name(found.first[0]),
+                        name(found.first[1]), p.x, p.y, p.z);
+  }
+  return text + "\n";
+}
+
+/// What float can resolve at the scene's largest coordinate (a float has 24 bits).
+std::string extent_text(const Mesh& mesh, const Box& bounds) {
+  double largest = 0;
+  for (const double c :
+       {bounds.low.x, bounds.low.y, bounds.low.z, bounds.high.x, bounds.high.y, bounds.high.z})
+    largest = std::max(largest, std::abs(c));
+  const Vec3 size = bounds.high - bounds.low;
+  return fmt::format(
+      "  extent    {:.6g} x {:.6g} x {:.6g} m, local origin at ({:.10g}, {:.10g}, {:.10g}); "
+      "rays resolve {:.2g} mm\n",
+      size.x, size.y, size.z, mesh.origin.x, mesh.origin.y, mesh.origin.z,
+      1000 * largest * 0x1p-24);
+}
+
+/// Shares of light from the normal, and what decides at other angles.
+std::string shares_text(const Material& m) {
+  const SmoothShares smooth = smooth_shares(m, 1);
+  std::string text = fmt::format("diffuse {:.3f}  mirror {:.3f}", m.diffuse, smooth.mirror);
+  if (m.glossy > 0)
+    text += fmt::format("  glossy {:.3f} (exponent {:g})", m.glossy, m.glossy_exponent);
+  if (m.transmittance > 0) text += fmt::format("  passes {:.3f}", m.transmittance);
+  if (m.extinction_coefficient > 0) {
+    text += fmt::format("  metal n {:g} k {:g}", m.refractive_index, m.extinction_coefficient);
+  } else if (is_fresnel(m)) {
+    text += fmt::format("  transmits {:.3f}  {} x {:g} mm of n {:g}", smooth.transmitted, m.panes,
+                        1000 * m.thickness_m, m.refractive_index);
+    if (m.absorption_per_m > 0) text += fmt::format(", K {:g} /m", m.absorption_per_m);
+  } else if (m.normal_transmittance > 0) {
+    text += fmt::format("  transmits {:.3f}  clear glass of {:g}", smooth.transmitted,
+                        m.normal_transmittance);
+  }
+  return text;
+}
+
+std::string materials_text(const Scene& scene) {
+  std::vector<double> area(scene.materials.size(), 0);
+  for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t)
+    area[scene.material[t].index()] += norm(scene.mesh.area_vector2(t)) / 2;
+  std::string text;
+  for (std::size_t m = 0; m < area.size(); ++m) {
+    const Material& material = scene.materials[m];
+    text += fmt::format("  {:<24} {}", material.name, shares_text(material));
+    if (material.emission_w_m2 > 0)
+      text += fmt::format("  emits {:.4g} W/m2", material.emission_w_m2);
+    text += fmt::format("  {:.6g} m2\n", area[m]);
+  }
+  return text;
+}
+
+std::string parallel_sources_text(const ParallelSources& sources) {
+  if (sources.exitance.empty()) return {};
+  double area = 0, power = 0;
+  for (std::size_t t = 0; t < sources.exitance.size(); ++t) {
+    const double own = norm(sources.mesh.area_vector2(t)) / 2;
+    area += own;
+    power += own * sources.exitance[t];
+  }
+  return fmt::format("  parallel  {} triangles of {:.6g} m2 send {:.6g} W along their normals\n",
+                     sources.exitance.size(), area, power);
+}
+
+std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
+  std::string text;
+  if (const auto& accuracy = plan.study.solver.accuracy)
+    text = fmt::format(
+        "  a standard error of {} is asked for: counts are decided at the start of the run, "
+        "from {} lines and {} direct samples up to {}; what follows is with the least\n",
+        goal_words(*accuracy), plan.study.solver.lines_per_patch, plan.study.solver.direct_samples,
+        plan.study.solver.max_lines_per_patch);
+  const std::string shot =
+      work.samples > 0 ? fmt::format(", {:.3g} samples shot", static_cast<double>(work.samples))
+                       : "";
+  return text + fmt::format(
+                    "  {} patches, {} intervals ({} with sun) in {} batches\n"
+                    "  {:.3g} lines, about {:.3g} shadow rays{}; estimated {:.0f} MiB memory, "
+                    "{:.0f} MiB disk, "
+                    "{:.0f} s on {} threads\n",
+                    work.patches, plan.intervals(), plan.light.lit_count(), plan.batches(),
+                    static_cast<double>(work.line_rays), static_cast<double>(work.direct_rays),
+                    shot, work.memory_bytes / mib, work.disk_bytes / mib, work.seconds,
+                    thread_count());
+}
+
+void print_text(const VariantPlan& plan, const VariantMesh& made, const WorkEstimate& work,
+                SearchIntersections search) {
+  std::string text = fmt::format("study {}, variant {} (content {})\n", plan.study.name,
+                                 plan.study.variant, plan.content_hash.substr(0, 12));
+  text += "scene\n" + counts_text(plan.built.report) +
+          extent_text(plan.built.scene.mesh, plan.built.report.bounds);
+  if (search == SearchIntersections::yes) text += intersections_text(plan.built.scene.mesh);
+  for (const auto& note : plan.built.notes) text += "  note      " + note + "\n";
+  text += "materials\n" + materials_text(plan.built.scene) +
+          parallel_sources_text(plan.built.scene.parallel_sources);
+  if (const auto sensors = plan.built.scene.sensors.size(); sensors > 0)
+    text += fmt::format("sensors\n  {} points\n", sensors);
+  text += "sun\n" + time_words(plan.light, plan.built.site, plan.study, plan.built.site_source);
+  if (const auto refined = refine_text(made.report, plan.study); !refined.empty())
+    text += "mesh\n  " + refined + "\n";
+  text += "work\n" + work_text(plan, work);
+  for (const auto& list :
+       {plan.built.warnings, plan.light.notes, expected_error_warnings(plan, *made.mesh)})
+    for (const auto& line : list) text += "warning: " + line + "\n";
+  std::cout << text;
+}
+
+nlohmann::ordered_json as_json(const VariantPlan& plan, const WorkEstimate& work) {
+  return {{"name", plan.study.variant},
+          {"hash", plan.content_hash},
+          {"patches", work.patches},
+          {"intervals", plan.intervals()},
+          {"lit", plan.light.lit_count()},
+          {"batches", plan.batches()},
+          {"lines", work.line_rays},
+          {"memory_bytes", static_cast<std::uint64_t>(work.memory_bytes)},
+          {"disk_bytes", static_cast<std::uint64_t>(work.disk_bytes)},
+          {"seconds", work.seconds}};
+}
+
+/// To stderr: what was asked for goes to stdout.
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const auto& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+}
+
+}  // namespace
+
+int check_study(const std::string& path, const RunOptions& options, CheckFormat format,
+                SearchIntersections search) {
+  set_thread_count(options.threads > 0 ? options.threads : permitted_processors());
+  const StudyFile file = read_study(path);
+  print_warnings(file.warnings);
+  nlohmann::ordered_json json;
+  json["variants"] = nlohmann::ordered_json::array();
+  std::size_t units = 0;
+  Problems problems;
+  for (const auto& study : chosen_variants(file, options)) {
+    try {
+      const VariantPlan plan = make_plan(study);
+      Watch nobody;
+      const VariantMesh made = make_mesh(plan, nobody);
+      const WorkEstimate work = estimate_work(plan, made.mesh->patch_count());
+      units += plan.batches();
+      json["variants"].push_back(as_json(plan, work));
+      json["batch_suns"] = plan.batch_suns();
+      if (format == CheckFormat::text) print_text(plan, made, work, search);
+    } catch (const InputError& error) {
+      problems.add(error);
+    }
+  }
+  problems.throw_if_any();
+  json["units"] = units;
+  if (format == CheckFormat::json) std::cout << json.dump(2) << "\n";
+  return exit_code::done;
+}
+
+int print_sun(const std::string& path, const std::string& picture) {
+  const StudyFile file = read_study(path);
+  print_warnings(file.warnings);
+  const Study& study = file.variants.front();
+  // The site may come from the scene's CRS, which only its reader knows.
+  const Site site = build_scene(study).site;
+  const LightSeries light = light_series(study, site);
+  print_warnings(light.notes);
+  if (!picture.empty()) {
+    draw_sun_diagram(study, site, light, picture);
+    return exit_code::done;
+  }
+  fmt::print("time,azimuth_deg,elevation_deg,dni_w_m2,dhi_w_m2,ghi_w_m2\n");
+  for (const auto& i : light.intervals)
+    fmt::print("{},{:.6f},{:.6f},{:.4f},{:.4f},{:.4f}\n", iso_utc(i.when.sun_time),
+               i.when.sun.azimuth_deg, i.when.sun.elevation_deg, i.mean.dni, i.mean.dhi,
+               i.mean.ghi);
+  return exit_code::done;
+}
+
+int print_sky(const std::string& path, const SkyOptions& options) {
+  const StudyFile file = read_study(path);
+  print_warnings(file.warnings);
+  const SkyDome dome = sky_dome(file.variants.front(), options.time);
+  print_warnings(dome.notes);
+  if (options.picture.empty()) {
+    std::cout << sky_csv(sky_rows(dome, options.subdivision));
+  } else {
+    draw_sky(dome, options.rules, options.picture);
+  }
+  return exit_code::done;
+}
+
+}  // namespace sunload

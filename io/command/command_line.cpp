@@ -1,0 +1,416 @@
+#include "io/command/command_line.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <iostream>
+#include <map>
+
+#include "geo/base/check.h"
+#include "io/base/exit_code.h"
+#include "io/base/key_names.h"
+#include "io/base/version.h"
+#include "io/command/commands.h"
+#include "io/export/export.h"
+#include "io/run/progress.h"
+#include "io/run/run.h"
+#include "io/scene/builtin.h"
+#include "io/study/material_table.h"
+#include "io/view/view.h"
+
+namespace sunload {
+namespace {
+
+const std::map<std::string, Palette> palettes{
+    {"false", Palette::false_colour}, {"grey", Palette::grey}, {"hue", Palette::hue}};
+
+const std::map<std::string, std::pair<PictureColours, Palette>> picture_colours{
+    {"false", {PictureColours::of_values, Palette::false_colour}},
+    {"grey", {PictureColours::of_values, Palette::grey}},
+    {"hue", {PictureColours::of_values, Palette::hue}},
+    {"rgb", {PictureColours::of_bands, Palette::false_colour}}};
+
+/// An option that takes one of some words.
+template <class Value>
+void add_word(CLI::App* sub, const std::string& option, Value& target,
+              const std::map<std::string, Value>& words, const std::string& what) {
+  std::string list;
+  for (const auto& [word, value] : words) list += (list.empty() ? "" : ", ") + word;
+  sub->add_option_function<std::string>(
+      option,
+      [&target, words, option, list](const std::string& word) {
+        const auto found = words.find(word);
+        if (found == words.end())
+          throw InputError({}, option + " " + word, "no such word", "write one of: " + list);
+        target = found->second;
+      },
+      what + ": " + list);
+}
+
+const CLI::Validator positive(
+    [](const std::string& text) {
+      double value = 0;
+      return CLI::detail::lexical_cast(text, value) && value > 0
+                 ? std::string()
+                 : "'" + text + "' is not a number above 0";
+    },
+    "NUMBER > 0");
+
+const std::map<std::string, ProgressStyle> progress_styles{{"auto", ProgressStyle::automatic},
+                                                           {"bar", ProgressStyle::bar},
+                                                           {"lines", ProgressStyle::lines},
+                                                           {"json", ProgressStyle::json},
+                                                           {"none", ProgressStyle::none}};
+
+/// What to try instead of a word that is not known.
+std::string nearest_word(const std::string& word, const std::vector<std::string>& known,
+                         const std::string& help) {
+  const auto nearest = std::min_element(known.begin(), known.end(), [&](auto& a, auto& b) {
+    return edit_distance(word, a) < edit_distance(word, b);
+  });
+  // A third of the letters wrong is as far as a slip of the hand goes.
+  const bool is_near =
+      nearest != known.end() && edit_distance(word, *nearest) <= static_cast<int>(word.size() / 3);
+  return is_near ? "did you mean '" + *nearest + "'?" : "see " + help;
+}
+
+/// The commands and what they were given.
+class CommandLine {
+ public:
+  CommandLine() {
+    app_.require_subcommand(1);
+    app_.set_version_flag("--version", std::string("sunload ") + version + " (" + commit + ")");
+    add_run();
+    add_merge();
+    add_check();
+    add_sun();
+    add_sky();
+    add_info();
+    add_compare();
+    add_render();
+    add_view();
+    add_export();
+    add_scene();
+    add_materials();
+  }
+
+  int run(int argc, char** argv) {
+    try {
+      app_.parse(argc, argv);
+    } catch (const CLI::Success& asked) {  // --help, --version
+      app_.exit(asked);
+      return exit_code::done;
+    } catch (const CLI::ParseError& error) {
+      refuse(error, argc > 1 ? argv[1] : "");
+    }
+    return action_();
+  }
+
+ private:
+  /// Tells what is wrong with the command line, in one line, and the nearest right word.
+  [[noreturn]] void refuse(const CLI::ParseError& error, const std::string& first) const {
+    std::vector<std::string> commands, options;
+    const CLI::App* chosen = nullptr;
+    for (const CLI::App* sub : app_.get_subcommands({})) {
+      commands.push_back(sub->get_name());
+      if (sub->parsed()) chosen = sub;
+    }
+    const std::string help =
+        chosen ? "sunload " + chosen->get_name() + " --help" : "sunload --help";
+    if (!chosen && !first.empty() && first.front() != '-')
+      throw InputError({}, "unknown command '" + first + "'", {},
+                       nearest_word(first, commands, help));
+    if (const auto rest = chosen ? chosen->remaining() : app_.remaining(); !rest.empty()) {
+      for (const CLI::Option* option : (chosen ? chosen : &app_)->get_options())
+        options.push_back(option->get_name());
+      const std::string word = rest.front().substr(0, rest.front().find('='));
+      throw InputError({}, "unknown argument '" + word + "'", {},
+                       nearest_word(word, options, help));
+    }
+    throw InputError({}, error.what(), {}, "see " + help);
+  }
+
+  /// A sub-command that runs `action` once the line is parsed.
+  CLI::App* command(const char* name, const char* what, std::function<int()> action) {
+    CLI::App* sub = app_.add_subcommand(name, what);
+    sub->callback([this, action = std::move(action)] { action_ = action; });
+    return sub;
+  }
+
+  void add_study(CLI::App* sub) {
+    sub->add_option("STUDY", study_, "study file (YAML)")->required();
+  }
+
+  void add_place(CLI::App* sub) {
+    sub->add_option("--variant", options_.variants, "only these variants (repeatable)")
+        ->allow_extra_args(false);
+    sub->add_option("--output", options_.output, "folder for results, replaces output.folder");
+    sub->add_option("--threads", options_.threads,
+                    "threads (default: the processors this process may use)")
+        ->envname("SUNLOAD_THREADS")
+        ->check(CLI::Range(1, 4096));
+  }
+
+  void add_run() {
+    CLI::App* sub = command("run", "compute a study and write its result files", [this] {
+      if (overwrite_) options_.existing = Existing::overwrite;
+      if (resume_) options_.existing = Existing::resume;
+      if (keep_batches_) options_.batches = Batches::keep;
+      if (!shard_.empty()) options_.shard = parse_shard(shard_);
+      install_stop_signals();
+      return run_study(study_, options_);
+    });
+    add_study(sub);
+    add_place(sub);
+    auto* resume =
+        sub->add_flag("--resume", resume_, "accept finished results, go on with the rest");
+    sub->add_flag("--overwrite", overwrite_, "replace results that are there")->excludes(resume);
+    sub->add_flag("--keep-batches", keep_batches_, "do not remove batch files after the merge");
+    sub->add_option("--shard", shard_,
+                    "compute only a share of the batches: I/N (I from 0), auto (Slurm, OpenMPI), "
+                    "auto/N (PBS)");
+    sub->add_option("--time-limit", options_.time_limit_min, "stop cleanly after so many minutes")
+        ->check(positive);
+    add_word(sub, "--progress", options_.progress, progress_styles, "how to tell of the work");
+  }
+
+  void add_merge() {
+    CLI::App* sub = command("merge", "put finished batches together", [this] {
+      if (overwrite_) options_.existing = Existing::overwrite;
+      if (keep_batches_) options_.batches = Batches::keep;
+      return merge_study(study_, options_, partial_ ? Merge::partial : Merge::complete);
+    });
+    add_study(sub);
+    add_place(sub);
+    sub->add_flag("--partial", partial_,
+                  "write what is there to .work/.../partial.h5 where batches are missing");
+    sub->add_flag("--overwrite", overwrite_, "replace results that are there");
+    sub->add_flag("--keep-batches", keep_batches_, "do not remove batch files after the merge");
+  }
+
+  void add_check() {
+    CLI::App* sub = command(
+        "check", "read everything, report scene, sun path and cost; compute nothing", [this] {
+          return check_study(study_, options_, json_ ? CheckFormat::json : CheckFormat::text,
+                             intersections_ ? SearchIntersections::yes : SearchIntersections::no);
+        });
+    add_study(sub);
+    add_place(sub);
+    sub->add_flag("--json", json_, "machine-readable");
+    sub->add_flag("--intersections", intersections_, "look for triangles that cut or cover others");
+  }
+
+  void add_sun() {
+    CLI::App* sub = command("sun", "the sun path as CSV or as a stereographic diagram",
+                            [this] { return print_sun(study_, picture_); });
+    add_study(sub);
+    add_picture(sub);
+  }
+
+  void add_picture(CLI::App* sub) {
+    sub->add_option("--image", picture_, "picture to write instead of CSV (.png)");
+  }
+
+  void add_sky() {
+    CLI::App* sub = command("sky", "the sky dome at one instant as CSV or as a fisheye picture",
+                            [this] { return sky(); });
+    add_study(sub);
+    add_picture(sub);
+    sub->add_option("--time", sky_.time,
+                    "instant, e.g. 2026-06-21T12:00 (civil time of the site), …Z, …+02:00")
+        ->required();
+    sub->add_option("--colour", sky_.rules.kind, "of the picture: false (luminance) or rgb")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, SkyPicture>{
+            {"false", SkyPicture::luminance}, {"rgb", SkyPicture::colour}}));
+    sub->add_option("--colour-model", sky_.rules.model, "of rgb: second (default) or first")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, SkyColourModel>{
+            {"first", SkyColourModel::first}, {"second", SkyColourModel::second}}));
+    sub->add_option("--subdivision", subdivision_,
+                    "patches of the CSV: cells (64 x 64, default), tregenza, mf2 or mf4")
+        ->check(CLI::IsMember({"cells", "tregenza", "mf2", "mf4"}));
+  }
+
+  int sky() {
+    const std::map<std::string, Subdivision> subdivisions{{"tregenza", Subdivision::tregenza},
+                                                          {"mf2", Subdivision::reinhart_mf2},
+                                                          {"mf4", Subdivision::reinhart_mf4}};
+    const auto found = subdivisions.find(subdivision_);
+    if (found != subdivisions.end()) sky_.subdivision = found->second;
+    sky_.picture = picture_;
+    return print_sky(study_, sky_);
+  }
+
+  /// Which band of a result in bands.
+  void add_band(CLI::App* sub) {
+    sub->add_option("--band", band_,
+                    "of a result with solver.bands: rgb: red, green or blue (default: their mean)");
+  }
+
+  NamedResult result() const { return {results_.front(), band_}; }
+
+  void add_info() {
+    CLI::App* sub = command("info", "what a result holds, on one screen", [this] {
+      return print_info(result(), patches_ ? InfoFormat::patches_csv : InfoFormat::screen);
+    });
+    add_result(sub);
+    sub->add_flag("--patches", patches_, "every patch as CSV");
+    add_band(sub);
+  }
+
+  void add_result(CLI::App* sub) {
+    sub->add_option("RESULT", results_, "result file (.h5)")->required()->expected(1);
+  }
+
+  void add_compare() {
+    CLI::App* sub =
+        command("compare", "differences of the light load with their significance", [this] {
+          compare_.band = band_;
+          if (json_) compare_.format = CompareOptions::Format::json;
+          if (csv_) compare_.format = CompareOptions::Format::csv;
+          return compare(compare_);
+        });
+    sub->add_option("BASE", compare_.base, "result file of the base, or a study")->required();
+    sub->add_option("VARIANT", compare_.variants, "result files, or names of variants of the study")
+        ->required();
+    sub->add_option("--output", compare_.output, "folder of the study's results");
+    auto* csv = sub->add_flag("--csv", csv_, "one row per group, for machines");
+    sub->add_flag("--json", json_, "the same as JSON")->excludes(csv);
+    add_band(sub);
+    sub->add_option("--hdf5", compare_.differences,
+                    "file of the differences of groups, facades and patches, besides");
+  }
+
+  void add_render() {
+    CLI::App* sub = command("render", "picture of a result in false colour, with legend", [this] {
+      render_.result = result();
+      RenderRules& rules = render_.rules;
+      if (largest_ > 0) rules.largest = largest_;
+      if (mesh_lines_) rules.mesh = MeshLines::patches;
+      rules.colours = render_colours_.first;
+      rules.palette = render_colours_.second;
+      return render(render_);
+    });
+    add_result(sub);
+    sub->add_option("-o,--output", render_.picture, "picture to write (.png)")->required();
+    sub->add_option("--quantity", render_.rules.quantity,
+                    "dataset to draw (default: light_load; animated: irradiance)");
+    sub->add_option("--time", render_.rules.time, "instant of a series, e.g. 2026-06-21T12:00");
+    add_word(sub, "--camera", render_.rules.view,
+             {{"overview", View::overview}, {"sun", View::sun}, {"top", View::top}}, "view");
+    sub->add_option("--facade", render_.rules.facade, "camera before the facade of that name");
+    sub->add_option("--eye", render_.eye, "camera at the eye point x,y,z [m]");
+    sub->add_option("--look", render_.look, "point looked at x,y,z [m]");
+    add_word(sub, "--projection", render_.rules.projection,
+             {{"perspective", Projection::perspective}, {"parallel", Projection::parallel}},
+             "of overview and eye point");
+    sub->add_option("--size", render_.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    sub->add_option("--max", largest_, "value of the last colour")->check(positive);
+    add_word(sub, "--colour", render_colours_, picture_colours,
+             "colours (rgb: the bands themselves, default quantity power_load)");
+    add_band(sub);
+    sub->add_option("--same-scale", render_.rules.same_scale,
+                    "results that the scale is to do for, too, so that pictures can be compared");
+    add_word<std::optional<SkyBackground>>(sub, "--sky", render_.rules.sky,
+                                           {{"plain", SkyBackground::plain},
+                                            {"first", SkyBackground::first},
+                                            {"second", SkyBackground::second}},
+                                           "sky behind (default: plain for totals, second for "
+                                           "series)");
+    sub->add_flag("--mesh", mesh_lines_, "draw the patches' edges");
+    sub->add_flag("--interpolate", render_.rules.interpolate, "colours run between corners");
+    sub->add_option("--crease-angle", render_.rules.crease_angle_deg,
+                    "patches that turn by more are not interpolated [degrees, default 20]");
+    sub->add_flag("--animate", render_.animate,
+                  "a picture for every sun position, NAME-0001.png ..., and NAME.png with all "
+                  "(APNG)");
+    sub->add_option("--day", render_.day, "animate this day only (year-month-day)");
+  }
+
+  void add_view() {
+    CLI::App* sub = command(
+        "view", "one self-contained page: walk through the scene, any time, two results", [this] {
+          if (view_step_ > 0) view_.step = view_step_;
+          view_.band = chosen_band(band_);
+          view_html(results_, view_, picture_);
+          return exit_code::done;
+        });
+    sub->add_option("RESULT", results_, "one result file (.h5), or two to compare")->required();
+    sub->add_option("-o,--output", picture_, "page to write (.html)")->required();
+    sub->add_option("--step", view_step_,
+                    "hold every N-th interval only (default: as many as 60 MB hold)")
+        ->check(CLI::Range(1, 1'000'000));
+    add_band(sub);
+  }
+
+  void add_export() {
+    CLI::App* sub = command("export", "a result in the format of another program", [this] {
+      export_result(ResultReader(results_.front(), chosen_band(band_)), export_, picture_);
+      return exit_code::done;
+    });
+    add_result(sub);
+    sub->add_option("--to", export_.format, "format: " + export_formats())->required();
+    sub->add_option("-o,--output", picture_,
+                    "file to write (csv, vrml, cityjson, energyplus: default standard output)");
+    sub->add_option("--model", export_.model,
+                    "cityjson: the study's own model, whose surfaces and objects get the values as "
+                    "attributes");
+    sub->add_option("--quantity", export_.quantity,
+                    "dataset per patch (default: light_load; csv and xdmf: all); csv: series");
+    sub->add_option("--time", export_.time,
+                    "instant of a series, e.g. 2026-06-21T12:00 (default: the brightest)");
+    add_word<std::optional<Palette>>(sub, "--colour", export_.palette,
+                                     {palettes.begin(), palettes.end()}, "colours");
+    sub->add_option("--max", export_.largest, "value of the last colour")->check(positive);
+    add_band(sub);
+    sub->add_flag("--interpolate", export_.interpolate,
+                  "colours of corners, not of patches (glb, vrml)");
+    sub->add_option("--crease-angle", export_.crease_angle_deg,
+                    "patches that turn by more are not interpolated [degrees, default 20]");
+  }
+
+  void add_scene() {
+    CLI::App* sub = command("scene", "write a built-in scene as OBJ or CityJSON",
+                            [this] { return write_builtin(builtin_); });
+    std::string names;
+    for (const auto& name : builtin_scene_names()) names += (names.empty() ? "" : ", ") + name;
+    sub->add_option("NAME", builtin_.name, "one of: " + names)->required();
+    sub->add_option("-o,--output", builtin_.path, "file to write (.obj, .city.json)")->required();
+    sub->add_option("--set", builtin_.parameters, "parameter of the scene, e.g. house_3=glazed")
+        ->allow_extra_args(false);
+  }
+
+  void add_materials() {
+    CLI::App* sub = command(
+        "materials", "list the materials that studies may name without defining them", [this] {
+          std::cout << (markdown_ ? material_page() : material_listing());
+          return exit_code::done;
+        });
+    sub->add_flag("--markdown", markdown_, "as the page docs/materials.md");
+  }
+
+  CLI::App app_{"sunload: how much sun and sky light falls on every patch of a city"};
+  std::function<int()> action_;
+  std::string study_, picture_, shard_, band_, subdivision_ = "cells";
+  std::vector<std::string> results_;
+  RunOptions options_;
+  CompareOptions compare_;
+  RenderOptions render_;
+  std::pair<PictureColours, Palette> render_colours_{PictureColours::of_values,
+                                                     Palette::false_colour};
+  ExportRules export_;
+  SkyOptions sky_;
+  ViewRules view_;
+  BuiltinOptions builtin_;
+  std::size_t view_step_ = 0;
+  double largest_ = 0;
+  bool resume_ = false, overwrite_ = false, keep_batches_ = false, json_ = false, csv_ = false,
+       patches_ = false, mesh_lines_ = false, partial_ = false, markdown_ = false,
+       intersections_ = false;
+};
+
+}  // namespace
+
+int run_command(int argc, char** argv) { return CommandLine().run(argc, argv); }
+
+}  // namespace sunload

@@ -1,0 +1,10 @@
+/// The command line of sunload: its commands and their options.
+#pragma once
+
+namespace sunload {
+
+/// Runs the command that is asked for and returns its exit code (io/base/exit_code.h). Throws
+/// InputError for a line that is not understood, and what the command throws.
+int run_command(int argc, char** argv);
+
+}  // namespace sunload

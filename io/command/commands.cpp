@@ -1,0 +1,137 @@
+#include "io/command/commands.h"
+
+#include <cstdio>
+#include <iostream>
+#include <sstream>
+
+#include "geo/base/check.h"
+#include "io/base/bands.h"
+#include "io/base/exit_code.h"
+#include "io/report/compare.h"
+#include "io/report/info.h"
+#include "io/result/patches_csv.h"
+#include "io/run/run.h"
+#include "io/scene/builtin.h"
+#include "io/scene/cityjson/write.h"
+#include "io/scene/mesh_files/obj_write.h"
+
+namespace sunload {
+namespace {
+
+/// Parses "x,y,z".
+Vec3 point(const std::string& text, const char* option) {
+  std::istringstream words(text);
+  Vec3 p;
+  char comma = 0, second = 0;
+  if (!(words >> p.x >> comma >> p.y >> second >> p.z) || comma != ',' || second != ',')
+    throw InputError({}, std::string(option) + " " + text, "not three numbers",
+                     "write x,y,z in metres, e.g. 10,-20,1.7");
+  return p;
+}
+
+/// The result of a study's variant.
+std::string result_named(const CompareOptions& options, const std::string& variant) {
+  RunOptions chosen;
+  chosen.output = options.output;
+  chosen.variants = {variant};
+  const Study study = chosen_variants(read_study(options.base), chosen).front();
+  const std::string folder = options.output.empty() ? study.output.folder : options.output;
+  return folder + "/" + study.name + "/" + study.variant + ".h5";
+}
+
+/// With the files of a study's variants in place of their names.
+CompareOptions with_files(CompareOptions options) {
+  const bool is_study = options.base.ends_with(".yaml") || options.base.ends_with(".yml");
+  if (!is_study) return options;
+  auto& names = options.variants;
+  if (names.size() == 1)
+    names.insert(names.begin(), read_study(options.base).variants.front().variant);
+  for (auto& name : names) name = result_named(options, name);
+  options.base = names.front();
+  names.erase(names.begin());
+  return options;
+}
+
+void expect_one_variant(const CompareOptions& options) {
+  if (options.variants.size() == 1) return;
+  if (options.format != CompareOptions::Format::table)
+    throw InputError({}, "--csv and --json take one variant", "their header has no column for it",
+                     "call compare once per variant");
+  if (!options.differences.empty())
+    throw InputError({}, "--hdf5 takes one variant", "a file holds one comparison",
+                     "call compare once per variant");
+}
+
+std::string text_of(const Comparison& comparison, CompareOptions::Format format) {
+  switch (format) {
+    case CompareOptions::Format::csv:
+      return comparison_csv(comparison);
+    case CompareOptions::Format::json:
+      return comparison_json(comparison);
+    case CompareOptions::Format::table:
+      break;
+  }
+  return comparison_table(comparison);
+}
+
+void write_scene(const PolygonModel& model, const std::string& path) {
+  if (path.ends_with(".obj")) return write_obj(model, path);
+  if (path.ends_with(".json")) return write_cityjson(model, path);
+  throw InputError({path}, "is of no format that scenes are written in", "",
+                   "let its name end in .obj or .city.json");
+}
+
+}  // namespace
+
+std::optional<std::size_t> chosen_band(const std::string& name) {
+  return name.empty() ? std::nullopt : std::optional(band_by_name(name));
+}
+
+int print_info(const NamedResult& named, InfoFormat format) {
+  const ResultReader result(named.path, chosen_band(named.band));
+  std::cout << (format == InfoFormat::patches_csv ? patches_csv(result) : info_text(result));
+  return exit_code::done;
+}
+
+int compare(const CompareOptions& asked) {
+  const CompareOptions options = with_files(asked);
+  expect_one_variant(options);
+  const auto band = chosen_band(options.band);
+  const ResultReader base(options.base, band);
+  for (const auto& path : options.variants) {
+    const ResultReader variant(path, band);
+    const Comparison comparison = compare_results(base, variant);
+    if (!options.differences.empty())
+      write_comparison_hdf5(comparison, base, variant, options.differences);
+    std::cout << text_of(comparison, options.format);
+  }
+  return exit_code::done;
+}
+
+int render(RenderOptions options) {
+  RenderRules& rules = options.rules;
+  if (!options.eye.empty()) rules.eye = point(options.eye, "--eye");
+  if (!options.look.empty()) rules.look = point(options.look, "--look");
+  if (std::sscanf(options.size.c_str(), "%dx%d", &rules.width, &rules.height) != 2)
+    throw InputError({}, "--size " + options.size, "not a size", "write e.g. 1600x1000");
+  const ResultReader result(options.result.path, chosen_band(options.result.band));
+  if (!options.day.empty() && !options.animate)
+    throw InputError({}, "--day without --animate", "one picture shows one time", "use --time");
+  options.animate ? render_animation(result, rules, options.day, options.picture)
+                  : render_png(result, rules, options.picture);
+  return exit_code::done;
+}
+
+int write_builtin(const BuiltinOptions& options) {
+  BuiltinRules rules{options.name, {}};
+  for (const auto& set : options.parameters) {
+    const auto equals = set.find('=');
+    if (equals == std::string::npos)
+      throw InputError({}, "--set " + set, "no '='", "write --set parameter=value");
+    rules.parameters[set.substr(0, equals)] = set.substr(equals + 1);
+  }
+  write_scene(builtin_scene(rules), options.path);
+  return exit_code::done;
+}
+
+}  // namespace sunload

@@ -1,0 +1,58 @@
+/// What commands on results and scenes do, and what they are asked for in words. The commands on
+/// studies are in io/run/run.h.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/picture/render.h"
+
+namespace sunload {
+
+/// A result file as a command names it.
+struct NamedResult {
+  std::string path;
+  std::string band;  ///< red, green or blue of a result in bands; empty: their mean
+};
+
+/// What a result holds, on stdout.
+enum class InfoFormat { screen, patches_csv };
+int print_info(const NamedResult& result, InfoFormat format);
+
+struct CompareOptions {
+  std::string base;                   ///< result file, or a study
+  std::vector<std::string> variants;  ///< result files, or names of variants of the study
+  std::string output;                 ///< folder of the study's results; empty: as it says
+  std::string band;
+  enum class Format { table, csv, json } format = Format::table;
+  std::string differences;  ///< HDF5 file of the differences, besides; empty: none
+};
+/// Compares results with a base, on stdout. Of a study's variants the first name is the base; a
+/// single one is compared with the study's first variant. Throws InputError.
+int compare(const CompareOptions& options);
+
+struct RenderOptions {
+  NamedResult result;
+  RenderRules rules;
+  std::string eye, look;  ///< x,y,z; empty: none
+  std::string size = "1600x1000";
+  std::string picture;  ///< file to write
+  bool animate = false;
+  std::string day;  ///< of the animation; empty: all
+};
+/// Throws InputError for words that do not say what they should.
+int render(RenderOptions options);
+
+struct BuiltinOptions {
+  std::string name;
+  std::vector<std::string> parameters;  ///< parameter=value
+  std::string path;                     ///< .obj or .city.json
+};
+/// Writes a built-in scene to a file. Throws InputError.
+int write_builtin(const BuiltinOptions& options);
+
+/// Number of a named band; none of an empty name. Throws InputError.
+std::optional<std::size_t> chosen_band(const std::string& name);
+
+}  // namespace sunload

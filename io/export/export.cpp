@@ -1,0 +1,92 @@
+#include "io/export/export.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+
+#include "geo/base/check.h"
+#include "io/base/file_aside.h"
+#include "io/export/format.h"
+
+namespace sunload {
+namespace {
+
+enum class Content : std::uint8_t { text, bytes, reference };
+enum class Colours : std::uint8_t { none, of_patches, of_corners };
+
+struct ExportFormat {
+  std::string_view word;
+  ExportWriter write;
+  Content content;  ///< reference: names the result by its path from the file
+  Colours colours;  ///< finest that the format has
+};
+
+constexpr std::array formats{
+    ExportFormat{"csv", export_csv, Content::text, Colours::none},
+    ExportFormat{"vtk", export_vtk, Content::bytes, Colours::none},
+    ExportFormat{"xdmf", export_xdmf, Content::reference, Colours::none},
+    ExportFormat{"glb", export_glb, Content::bytes, Colours::of_corners},
+    ExportFormat{"vrml", export_vrml, Content::text, Colours::of_corners},
+    ExportFormat{"ply", export_ply, Content::bytes, Colours::of_patches},
+    ExportFormat{"cityjson", export_cityjson, Content::text, Colours::none},
+    ExportFormat{"gpkg", export_geopackage, Content::bytes, Colours::none},
+    ExportFormat{"energyplus", export_energyplus, Content::text, Colours::none},
+};
+
+const ExportFormat& chosen_format(const std::string& word) {
+  for (const auto& format : formats)
+    if (format.word == word) return format;
+  throw InputError({}, "--to " + word, "no such format", "write one of: " + export_formats());
+}
+
+/// Options that the format would not heed are refused, not dropped.
+void expect_heeded(const ExportFormat& format, const ExportRules& rules, const std::string& path) {
+  Problems problems;
+  const std::string to = "--to " + std::string(format.word);
+  if (format.colours == Colours::none && (rules.palette || rules.largest))
+    problems.add({}, to + " has no colours", "--colour and --max are for colours",
+                 "leave them out, or export to glb, vrml or ply");
+  if (format.colours != Colours::of_corners && (rules.interpolate || rules.crease_angle_deg))
+    problems.add({}, to + " has one value per patch",
+                 "--interpolate and --crease-angle are for colours of corners",
+                 "leave them out, or export to glb or vrml");
+  if (rules.crease_angle_deg && !rules.interpolate)
+    problems.add({}, "--crease-angle without --interpolate",
+                 "patches of one colour have no creases", "add --interpolate");
+  if (rules.crease_angle_deg && !(*rules.crease_angle_deg >= 0 && *rules.crease_angle_deg <= 180))
+    problems.add({}, fmt::format("--crease-angle {}", *rules.crease_angle_deg),
+                 "must lie in [0, 180] degrees", "20 joins the facets of round towers");
+  if (!rules.model.empty() && format.write != export_cityjson)
+    problems.add({}, "--model with " + to, "only city models get values back", "use --to cityjson");
+  if (format.content != Content::text && path.empty())
+    problems.add({}, to + " needs a file", "it is not written to the standard output",
+                 "add -o FILE." + std::string(format.word));
+  problems.throw_if_any();
+}
+
+}  // namespace
+
+std::string export_formats() {
+  std::string words;
+  for (const auto& format : formats)
+    words += (words.empty() ? "" : ", ") + std::string(format.word);
+  return words;
+}
+
+void export_result(const ResultReader& result, const ExportRules& rules, const std::string& path) {
+  const auto& format = chosen_format(rules.format);
+  expect_heeded(format, rules, path);
+  if (path.empty()) return format.write(result, rules, {std::cout, path});
+  FileAside file(path);
+  errno = 0;
+  std::ofstream stream(file.aside(), std::ios::binary);
+  format.write(result, rules, {stream, path});
+  stream.close();
+  if (!stream) throw_cannot_write(path, errno);
+  file.publish();
+}
+
+}  // namespace sunload

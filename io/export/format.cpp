@@ -1,0 +1,74 @@
+#include "io/export/format.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+#include <tuple>
+
+#include "geo/base/check.h"
+#include "geo/base/units.h"
+#include "io/base/colour_map.h"
+
+namespace sunload {
+namespace {
+
+std::int32_t palette_step(double value, double largest) {
+  if (std::isnan(value)) return -1;
+  const double share = std::clamp(value / largest, 0.0, 1.0);
+  return static_cast<std::int32_t>(std::lround(share * (export_palette_steps - 1)));
+}
+
+}  // namespace
+
+Colour export_colour(Palette palette, std::int32_t step) {
+  return step < 0 ? back_colour
+                  : map_colour(palette, static_cast<double>(step) / (export_palette_steps - 1));
+}
+
+ShownQuantity export_quantity(const ResultReader& result, const ExportRules& rules) {
+  const bool is_default = rules.quantity.empty();
+  auto shown = shown_quantity(result, is_default ? "light_load" : rules.quantity, rules.time);
+  if (!rules.time.empty() && !shown.is_series)
+    throw InputError({}, "--time " + rules.time,
+                     shown.dataset + " is of the whole period" +
+                         (is_default ? " and what is exported without --quantity" : ""),
+                     "leave it out, or name a series, e.g. --quantity " +
+                         dataset_name("irradiance", result.quantity()));
+  return shown;
+}
+
+ExportColours export_colours(const ResultReader& result, const ExportRules& rules,
+                             const ResultPatches& patches) {
+  ExportColours colours;
+  colours.shown = export_quantity(result, rules);
+  colours.largest = scale_end(rules.largest, colours.shown.values, patches.area);
+  colours.palette = rules.palette.value_or(Palette::false_colour);
+  for (const double value : colours.shown.values)
+    colours.patch_step.push_back(palette_step(value, colours.largest));
+  if (!rules.interpolate) return colours;
+  for (const auto& corner : corner_values(patches, colours.shown.values,
+                                          rules.crease_angle_deg.value_or(default_crease_deg))) {
+    auto& steps = colours.corner_step.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) steps[k] = palette_step(corner[k], colours.largest);
+  }
+  return colours;
+}
+
+std::string column_name(const ResultReader& result, const std::string& dataset) {
+  std::string units = result.units(dataset);
+  if (units == "1") return dataset;
+  for (char& c : units) c = c == ' ' ? '_' : static_cast<char>(std::tolower(c));
+  std::erase(units, '-');
+  return dataset + "_" + units;
+}
+
+std::string export_caption(const ResultReader& result, const ShownQuantity& shown) {
+  return fmt::format("{}: {}{}{}, {}", std::filesystem::path(result.path()).filename().string(),
+                     shown.name, shown.units.empty() ? "" : " ", shown.units, shown.when);
+}
+
+}  // namespace sunload

@@ -1,0 +1,74 @@
+/// What all formats of `sunload export` draw from, and one function for each.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "io/export/export.h"
+#include "io/result/patches.h"
+
+namespace sunload {
+
+/// Where it is written to; the path is for references to other files.
+struct ExportTarget {
+  std::ostream& stream;
+  std::string path;  ///< empty: standard output
+};
+
+/// A quantity as colours.
+struct ExportColours {
+  ShownQuantity shown;
+  double largest = 1;
+  Palette palette = Palette::false_colour;
+  /// A step of the palette for every patch, or for its corners; -1: not known.
+  std::vector<std::int32_t> patch_step;
+  std::vector<std::array<std::int32_t, 3>> corner_step;  ///< empty: constant patches
+};
+
+inline constexpr int export_palette_steps = 1024;
+/// sRGB of a step; grey for -1.
+Colour export_colour(Palette palette, std::int32_t step);
+
+/// The quantity asked for, or light_load. Throws InputError for a time of what is no series.
+ShownQuantity export_quantity(const ResultReader& result, const ExportRules& rules);
+
+ExportColours export_colours(const ResultReader& result, const ExportRules& rules,
+                             const ResultPatches& patches);
+
+/// Dataset and unit as the head of a column: "light_load" in "kWh m-2" → "light_load_kwh_m2".
+std::string column_name(const ResultReader& result, const std::string& dataset);
+
+/// "result.h5: light load kWh/m², when": a line for a head or comment.
+std::string export_caption(const ResultReader& result, const ShownQuantity& shown);
+
+using ExportWriter = void (*)(const ResultReader&, const ExportRules&, const ExportTarget&);
+/// One row per patch; --quantity series: one row per interval, RFC 4180.
+void export_csv(const ResultReader&, const ExportRules&, const ExportTarget&);
+/// Legacy VTK PolyData, binary. Kitware, VTK File Formats.
+void export_vtk(const ResultReader&, const ExportRules&, const ExportTarget&);
+/// XDMF 2 whose numbers are those of the result file itself.
+void export_xdmf(const ResultReader&, const ExportRules&, const ExportTarget&);
+/// Binary glTF. Khronos Group (2021), glTF 2.0 Specification.
+void export_glb(const ResultReader&, const ExportRules&, const ExportTarget&);
+/// VRML97. ISO/IEC 14772-1:1997.
+void export_vrml(const ResultReader&, const ExportRules&, const ExportTarget&);
+/// Binary PLY with colours and values of faces. Turk (1994), The PLY Polygon File Format.
+void export_ply(const ResultReader&, const ExportRules&, const ExportTarget&);
+
+/// CityJSON: the model of `ExportRules::model` with what its surfaces and objects receive as
+/// attributes, or CityJSON 2.0 of the patches. CityJSON specifications 2.0.1.
+void export_cityjson(const ResultReader&, const ExportRules&, const ExportTarget&);
+
+/// GeoPackage with the layers "patches" and "objects", surfaces with z, in the scene's CRS where it
+/// has one. OGC 12-128r18, GeoPackage Encoding Standard 1.3, written by GDAL.
+void export_geopackage(const ResultReader&, const ExportRules&, const ExportTarget&);
+
+/// Sunlit fraction of every facade at every step of a year, CSV: direct light by what an unshaded
+/// facade would get. The layout is what EnergyPlus writes ("eplusshading.csv") and reads
+/// (Schedule:File:Shading): its sources ScheduleManager.cc and their tests, version 25.
+void export_energyplus(const ResultReader&, const ExportRules&, const ExportTarget&);
+
+}  // namespace sunload

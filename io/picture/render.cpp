@@ -1,0 +1,282 @@
+#include "io/picture/render.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "geo/base/check.h"
+#include "geo/base/units.h"
+#include "io/base/file_aside.h"
+#include "io/picture/animated_png.h"
+#include "io/picture/render_bands.h"
+#include "io/picture/render_frame.h"
+#include "io/picture/render_scene.h"
+#include "io/result/patches.h"
+#include "io/result/shown_quantity.h"
+#include "io/result/time.h"
+
+namespace sunload {
+namespace {
+
+constexpr int least_pixels = 320, most_pixels = 16384;
+// A field of view as of a 50 mm lens on 35 mm film shows shapes undistorted;
+// a street seen from within needs a wider one.
+constexpr double overview_field_deg = 27, walker_field_deg = 60;
+// Elevation of the overview: roofs and walls are both well seen.
+constexpr double overview_elevation_deg = 35;
+// The afternoon side of the sun's side: 45° west of it.
+constexpr double overview_west_deg = 45;
+// Balconies and eaves of a facade are less deep than this; what stands farther in front hides it.
+constexpr double facade_front_m = 2;
+// Fast enough for motion, slow enough to read the hour.
+constexpr int milliseconds_per_picture = 250;
+
+/// Azimuth, clockwise from true north, of the scene's +y axis: the turn between
+/// the sun's azimuth and its direction in the scene, at the lowest sun.
+double scene_north_deg(const ResultReader& result) {
+  const auto direction = result.doubles("sun_direction"), azimuth = result.doubles("sun_azimuth");
+  std::size_t lowest = 0;
+  for (std::size_t i = 0; i < azimuth.size(); ++i)
+    if (std::abs(direction[3 * i + 2]) < std::abs(direction[3 * lowest + 2])) lowest = i;
+  const Vec3 sun{direction.at(3 * lowest), direction.at(3 * lowest + 1), 0};
+  return norm(sun) == 0 ? 0 : azimuth[lowest] - horizontal(sun).azimuth_deg;
+}
+
+/// Unit vector of the scene towards a compass direction.
+Vec3 scene_direction(Horizontal compass, double north_deg) {
+  return enu_direction({compass.azimuth_deg - north_deg, compass.elevation_deg});
+}
+
+Vec3 overview_direction(const ResultReader& result, double north_deg) {
+  const auto azimuth = result.doubles("sun_azimuth"), ghi = result.doubles("ghi");
+  double northward = 0;
+  for (std::size_t i = 0; i < azimuth.size(); ++i)
+    northward += ghi[i] * std::cos(radians(azimuth[i]));
+  constexpr double north_deg_of_compass = 0, south_deg_of_compass = 180;
+  const double azimuth_deg = northward > 0 ? north_deg_of_compass - overview_west_deg
+                                           : south_deg_of_compass + overview_west_deg;
+  return scene_direction({azimuth_deg, overview_elevation_deg}, north_deg);
+}
+
+Vec3 sun_at(const ResultReader& result, std::size_t interval) {
+  const auto sun = result.row("sun_direction", interval);
+  return {sun.at(0), sun.at(1), sun.at(2)};
+}
+
+void expect_sense(const RenderRules& rules) {
+  Problems problems;
+  for (const int pixels : {rules.width, rules.height})
+    if (pixels < least_pixels || pixels > most_pixels)
+      problems.add({}, fmt::format("--size {}x{}", rules.width, rules.height),
+                   fmt::format("width and height must lie in [{}, {}]", least_pixels, most_pixels));
+  if (rules.eye.has_value() != rules.look.has_value())
+    problems.add({}, "a free camera needs both --eye and --look", "one is missing");
+  if (!rules.facade.empty() && (rules.eye || rules.view != View::overview))
+    problems.add({}, "--facade with another camera", "it is a camera of its own",
+                 "leave out --eye, --look and --camera");
+  const bool is_free = rules.eye || (rules.view == View::overview && rules.facade.empty());
+  if (rules.projection == Projection::parallel && !is_free)
+    problems.add({}, "--projection with this camera", "it is always parallel", "leave it out");
+  if (rules.crease_angle_deg && !rules.interpolate)
+    problems.add({}, "--crease-angle without --interpolate",
+                 "patches of one colour have no creases", "add --interpolate");
+  if (rules.crease_angle_deg && !(*rules.crease_angle_deg >= 0 && *rules.crease_angle_deg <= 180))
+    problems.add({}, fmt::format("--crease-angle {}", *rules.crease_angle_deg),
+                 "must lie in [0, 180] degrees");
+  if (rules.largest && !rules.same_scale.empty())
+    problems.add({}, "--max with --same-scale", "both set the end of the scale", "leave out one");
+  if (rules.colours == PictureColours::of_bands && (rules.interpolate || !rules.same_scale.empty()))
+    problems.add({}, "--colour rgb with --interpolate or --same-scale",
+                 "these are of values, not of bands", "leave them out; --max sets what is white");
+  problems.throw_if_any();
+}
+
+std::string title(const ResultReader& result) {
+  const auto study = result.text_attribute("study");
+  return fmt::format("{} — {}", study.empty() ? result.text_attribute("title") : study,
+                     result.text_attribute("variant"));
+}
+
+/// A result being drawn: what all pictures of it share.
+class Renderer {
+ public:
+  Renderer(const ResultReader& result, const RenderRules& rules)
+      : result_(result),
+        rules_(rules),
+        scene_(result),
+        caster_(scene_.mesh()),
+        north_deg_(scene_north_deg(result)) {
+    if (rules.interpolate) patches_ = std::make_unique<ResultPatches>(result);
+  }
+
+  /// End of the scale for values of this result and of those that are compared with it.
+  double largest(const ShownQuantity& shown) const {
+    double end = scale_end(rules_.largest, shown.values, scene_.area());
+    for (const auto& path : rules_.same_scale) {
+      const ResultReader other(path, result_.band());
+      const auto theirs = shown_quantity(other, shown.dataset, rules_.time);
+      if (theirs.units != shown.units)
+        throw InputError({path}, shown.dataset + " is in " + theirs.units,
+                         "the result drawn has it in " + shown.units);
+      end = std::max(end, scale_end({}, theirs.values, other.doubles("patch_area")));
+    }
+    return end;
+  }
+
+  const PatchScene& scene() const { return scene_; }
+
+  /// The whole picture with its frame.
+  std::unique_ptr<Picture> picture(const ShownQuantity& shown, double largest) {
+    auto picture = std::make_unique<Picture>(rules_.width, rules_.height);
+    const PictureArea area = scene_area(*picture);
+    // A camera that follows the sun sees something else each time.
+    if (!traced_ || (rules_.view == View::sun && !rules_.eye)) {
+      camera_ = std::make_unique<Camera>(camera(shown.interval, area));
+      traced_ = std::make_unique<TracedPicture>(scene_, caster_, *camera_, area.width, area.height,
+                                                rules_.mesh);
+    }
+    PatchColours colours{shown.values, largest, rules_.palette, rules_.mesh, {}, {}};
+    const bool in_rgb = rules_.colours == PictureColours::of_bands;
+    if (in_rgb) {
+      auto bands =
+          colours_of_bands(result_, shown.dataset, rules_.time, rules_.largest, scene_.area());
+      colours.own = std::move(bands.of_patches);
+      largest = bands.white;
+    }
+    if (patches_)
+      colours.corner_values = corner_values(*patches_, shown.values,
+                                            rules_.crease_angle_deg.value_or(default_crease_deg));
+    const auto kind =
+        rules_.sky.value_or(shown.is_series ? SkyBackground::second : SkyBackground::plain);
+    picture->paint(area.x, area.y, area.width,
+                   traced_->pixels(colours, {kind, sun_at(result_, shown.interval)}));
+    draw_title(
+        *picture, title(result_) + band_title(result_),
+        shown.name + ", " + shown.when +
+            (rules_.facade.empty() ? "" : "; facade " + rules_.facade) +
+            (in_rgb ? fmt::format(", in colour, white: {:.4g} {}", largest, shown.units) : ""));
+    const bool is_exceeded = std::any_of(shown.values.begin(), shown.values.end(),
+                                         [&](double value) { return value > largest; });
+    if (!in_rgb)
+      draw_legend(*picture, {shown.units, largest, rules_.palette,
+                             is_exceeded ? Legend::Above::marked : Legend::Above::nothing});
+    draw_north(*picture, camera_->image_direction(scene_direction({0, 0}, north_deg_)));
+    return picture;
+  }
+
+ private:
+  Camera camera(std::size_t interval, PictureArea area) const {
+    if (rules_.eye) return free_camera(area);
+    if (!rules_.facade.empty()) {
+      const auto shape = scene_.facade_shape(result_, rules_.facade);
+      return Camera::parallel(shape.points, shape.normal, {0, 0, 1}, area.width, area.height,
+                              facade_front_m);
+    }
+    switch (rules_.view) {
+      case View::sun:
+        return sun_camera(interval, area);
+      case View::top:
+        return Camera::parallel(scene_.focus_points(), {0, 0, 1},
+                                scene_direction({0, 0}, north_deg_), area.width, area.height);
+      case View::overview:
+        break;
+    }
+    const Vec3 from = overview_direction(result_, north_deg_);
+    return rules_.projection == Projection::parallel
+               ? Camera::parallel(scene_.focus_points(), from, {0, 0, 1}, area.width, area.height)
+               : Camera::fitted(scene_.focus_points(), from, overview_field_deg, area.width,
+                                area.height);
+  }
+
+  Camera free_camera(PictureArea area) const {
+    const Vec3 origin = scene_origin(result_);
+    const Vec3 eye = *rules_.eye - origin, look = *rules_.look - origin;
+    if (!(norm(eye - look) > 0))
+      throw InputError({}, "--eye and --look are the same point",
+                       "there is no direction to look in");
+    return rules_.projection == Projection::parallel
+               ? Camera::parallel(scene_.focus_points(), eye - look, {0, 0, 1}, area.width,
+                                  area.height)
+               : Camera::perspective(eye, look, walker_field_deg, area.width, area.height);
+  }
+
+  Camera sun_camera(std::size_t interval, PictureArea area) const {
+    const Vec3 sun = sun_at(result_, interval);
+    if (sun.z <= 0)
+      throw InputError({}, "the sun is below the horizon", interval_in_words(result_, interval),
+                       "choose another --time");
+    return Camera::parallel(scene_.focus_points(), sun, {0, 0, 1}, area.width, area.height);
+  }
+
+  const ResultReader& result_;
+  const RenderRules& rules_;
+  PatchScene scene_;
+  RayCaster caster_;
+  double north_deg_;
+  std::unique_ptr<ResultPatches> patches_;
+  std::unique_ptr<Camera> camera_;
+  std::unique_ptr<TracedPicture> traced_;
+};
+
+/// Intervals of a day, or all, with the sun above the horizon.
+std::vector<std::size_t> sunny_intervals(const ResultReader& result, const std::string& day) {
+  const auto elevation = result.doubles("sun_elevation"), time = result.doubles("time");
+  const auto zone = result_zone(result);
+  std::vector<std::size_t> sunny;
+  for (std::size_t k = 0; k < elevation.size(); ++k)
+    if (elevation[k] > 0 && (day.empty() || iso_local(time[k], zone).starts_with(day)))
+      sunny.push_back(k);
+  if (sunny.empty())
+    throw InputError({result.path()}, day.empty() ? "the sun is never up" : "--day " + day,
+                     "no interval has the sun above the horizon",
+                     day.empty() ? "" : "write a day of the period, e.g. 2026-06-21");
+  return sunny;
+}
+
+ShownQuantity shown_at(const ResultReader& result, const std::string& dataset,
+                       std::size_t interval) {
+  return shown_quantity(result, dataset, iso_utc(result.doubles("time").at(interval)));
+}
+
+}  // namespace
+
+void render_png(const ResultReader& result, const RenderRules& rules, const std::string& path) {
+  expect_sense(rules);
+  const std::string usual = rules.colours == PictureColours::of_bands ? "power_load" : "light_load";
+  const auto shown =
+      shown_quantity(result, rules.quantity.empty() ? usual : rules.quantity, rules.time);
+  Renderer renderer(result, rules);
+  renderer.picture(shown, renderer.largest(shown))->save(path);
+}
+
+void render_animation(const ResultReader& result, const RenderRules& rules, const std::string& day,
+                      const std::string& path) {
+  expect_sense(rules);
+  if (!rules.time.empty())
+    throw InputError({}, "--time with --animate", "it shows all times", "use --day");
+  if (rules.colours == PictureColours::of_bands)
+    throw InputError({}, "--colour rgb with --animate",
+                     "each picture would have a white of its own",
+                     "draw single pictures with --time and --max");
+  const std::string dataset =
+      rules.quantity.empty() ? dataset_name("irradiance", result.quantity()) : rules.quantity;
+  const auto intervals = sunny_intervals(result, day);
+  Renderer renderer(result, rules);
+  double largest = 0;
+  for (const auto k : intervals)
+    largest = std::max(largest, renderer.largest(shown_at(result, dataset, k)));
+  const std::filesystem::path whole(path);
+  const std::string stem = (whole.parent_path() / whole.stem()).string();
+  AnimatedPng animation(path, intervals.size(), milliseconds_per_picture);
+  for (const auto k : intervals) {
+    const auto png = renderer.picture(shown_at(result, dataset, k), largest)->png();
+    write_file(fmt::format("{}-{:04}.png", stem, k + 1), png);
+    animation.add(png);
+  }
+  animation.finish();
+}
+
+}  // namespace sunload

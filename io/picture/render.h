@@ -1,0 +1,70 @@
+/// Pictures of a result: what falls on every patch in false colour, with legend.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geo/base/vec.h"
+#include "io/base/colour_map.h"
+#include "io/result/reader.h"
+
+namespace sunload {
+
+enum class View {
+  overview,  ///< from above, from the sun's side and its afternoon
+  sun,       ///< parallel, as the sun sees the scene at `time`
+  top        ///< parallel, from above, north up
+};
+
+enum class Projection { perspective, parallel };
+
+enum class MeshLines { none, patches };
+
+/// of_values: by a palette; of_bands: red, green and blue light as what they are.
+enum class PictureColours { of_values, of_bands };
+/// What is behind the scene: one light colour, or the clear sky with the sun of the interval by one
+/// of the two models of geo/sky/sky_colour.h.
+enum class SkyBackground { plain, first, second };
+
+struct RenderRules {
+  /// A dataset [patch] or [time, patch]; empty: the light load, animated the irradiance.
+  std::string quantity;
+  std::string time;  ///< as in a study; empty: the brightest interval
+  View view = View::overview;
+  /// Parallel, from before the facade of that name; what stands farther in front is cut away.
+  std::string facade;
+  /// From a point to a point of the scene, in the coordinates of the study (absolute). Both or
+  /// none.
+  std::optional<Vec3> eye, look;
+  /// Of the overview and of eye and look; parallel pictures hold the whole scene.
+  Projection projection = Projection::perspective;
+  int width = 1600, height = 1000;  ///< of the whole picture [pixels], 320 … 16384
+  std::optional<double> largest;    ///< value of the last colour, in units of the quantity
+  PictureColours colours = PictureColours::of_values;
+  std::vector<std::string> same_scale;  ///< results that the last colour must do for, too
+  Palette palette = Palette::false_colour;
+  std::optional<SkyBackground> sky;  ///< plain for totals, `second` for series
+  MeshLines mesh = MeshLines::none;
+  /// Colours run between corners; these have the means of the patches around them that turn by
+  /// no more than the crease angle (20° where left out).
+  bool interpolate = false;
+  std::optional<double> crease_angle_deg;
+};
+
+/// Draws and writes a PNG. Colours of bands show white where all bands reach `largest`, of
+/// `power_load` as an eye would see the surfaces. Rays are cast at 2 × 2 points of a pixel; colours
+/// are not shaded, so that every colour is one of the legend's; thin lines part
+/// objects, materials and folds. Backs of one-sided surfaces are grey.
+/// Throws InputError for a quantity, time, camera or size that the result does
+/// not have, MachineError where the picture cannot be written.
+void render_png(const ResultReader& result, const RenderRules& rules, const std::string& path);
+
+/// A picture for every interval of `day` (year-month-day; empty: of the period) with the sun above
+/// the horizon: `NAME-0001.png` … by the interval's place in the result (from 1), and `NAME.png`
+/// with all of them as an animation (APNG). One scale does for all. Throws as above, and where no
+/// sun is up.
+void render_animation(const ResultReader& result, const RenderRules& rules, const std::string& day,
+                      const std::string& path);
+
+}  // namespace sunload

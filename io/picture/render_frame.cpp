@@ -1,0 +1,106 @@
+#include "io/picture/render_frame.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sunload {
+namespace {
+
+constexpr Colour ink{0.13, 0.13, 0.15};
+constexpr int most_ticks = 6;
+
+/// Lengths grow with the picture: one unit is the height of small text.
+double unit(const Picture& picture) {
+  constexpr double texts_per_height = 64, texts_per_width = 92, least = 9;
+  return std::max(least,
+                  std::min(picture.height() / texts_per_height, picture.width() / texts_per_width));
+}
+
+// In units of the above: the strips that title and legend take, and their parts.
+constexpr double title_strip = 4.4, legend_strip = 8, margin = 1.2;
+constexpr double title_size = 1.5, title_line = 1.9, subtitle_line = 3.5;
+constexpr double bar_width = 1.8, tick_length = 0.5, line_width = 0.09;
+constexpr double arrow_radius = 3;
+
+}  // namespace
+
+PictureArea scene_area(const Picture& picture) {
+  const int top = static_cast<int>(unit(picture) * title_strip);
+  const int right = static_cast<int>(unit(picture) * legend_strip);
+  return {0, top, picture.width() - right, picture.height() - top};
+}
+
+void draw_title(Picture& picture, const std::string& title, const std::string& subtitle) {
+  const double u = unit(picture);
+  picture.write({margin * u, title_line * u}, title,
+                {title_size * u, Align::left, Weight::bold, ink});
+  TextStyle style{u, Align::left, Weight::normal, ink};
+  const double room = picture.width() - 2 * margin * u;
+  const double width = picture.text_width(subtitle, style);
+  if (width > room) style.size *= room / width;
+  picture.write({margin * u, subtitle_line * u}, subtitle, style);
+}
+
+void draw_legend(Picture& picture, const Legend& legend) {
+  const double u = unit(picture);
+  // Whole pixels: the rows of the bar would blend with what is below them.
+  const double x = std::round(picture.width() - (legend_strip - margin) * u);
+  const double top = std::round((title_strip + 3 * margin) * u);
+  const double bottom = std::round(picture.height() - 2 * margin * u);
+  picture.write({x, top - 2 * margin * u}, legend.units, {u, Align::left, Weight::bold, ink});
+  const int rows = static_cast<int>(bottom - top);
+  for (int row = 0; row < rows; ++row)
+    picture.fill_rectangle({x, bottom - row - 1}, bar_width * u, 1,
+                           map_colour(legend.palette, (row + 0.5) / rows));
+  const double bar_top = bottom - rows;
+  const std::vector<PicturePoint> tip{
+      {x, bar_top}, {x + bar_width * u / 2, bar_top - u}, {x + bar_width * u, bar_top}};
+  if (legend.above == Legend::Above::marked) {
+    picture.fill_polygon(tip, map_colour(legend.palette, 1));
+    picture.draw_lines(tip, line_width * u, ink);
+  }
+  picture.draw_lines({{x, bar_top},
+                      {x, bottom},
+                      {x + bar_width * u, bottom},
+                      {x + bar_width * u, bar_top},
+                      {x, bar_top}},
+                     line_width * u, ink);
+  const auto ticks = round_ticks(legend.largest, most_ticks);
+  for (const double value : ticks.values) {
+    const double y = bottom - rows * value / legend.largest;
+    const double end = x + (bar_width + tick_length) * u;
+    picture.draw_lines({{x + bar_width * u, y}, {end, y}}, line_width * u, ink);
+    constexpr double half_digit = 0.36;  // digits are some 0.72 of the font's height
+    picture.write({end + tick_length * u, y + half_digit * u},
+                  fmt::format("{:.{}f}", value, ticks.decimals),
+                  {u, Align::left, Weight::normal, ink});
+  }
+}
+
+void draw_north(Picture& picture, PicturePoint north) {
+  const double u = unit(picture), radius = arrow_radius * u;
+  const PicturePoint centre{margin * u + radius, picture.height() - margin * u - radius};
+  const double length = std::hypot(north.x, north.y);
+  constexpr double along_the_view = 0.05;
+  if (length < along_the_view) return;
+  picture.fill_circle(centre, radius, {1, 1, 1});
+  picture.draw_circle(centre, radius, line_width * u, ink);
+  const PicturePoint along{north.x / length, north.y / length};
+  const auto at = [&](double forward, double aside) {
+    return PicturePoint{centre.x + radius * (along.x * forward - along.y * aside),
+                        centre.y + radius * (along.y * forward + along.x * aside)};
+  };
+  // In radii; foreshortened with the view, but never so short that it cannot be read.
+  constexpr double shortest = 0.5, tip = 0.42, tail = -0.75, notch = -0.5, half_width = 0.3;
+  const double reach = std::max(shortest, length);
+  picture.fill_polygon({at(tip * reach, 0), at(tail * reach, half_width), at(notch * reach, 0),
+                        at(tail * reach, -half_width)},
+                       ink);
+  constexpr double letter = 0.72, half_letter = 0.36;
+  const auto place = at(letter, 0);
+  picture.write({place.x, place.y + half_letter * u}, "N", {u, Align::centre, Weight::bold, ink});
+}
+
+}  // namespace sunload

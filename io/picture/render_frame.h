@@ -1,0 +1,33 @@
+/// What stands around a picture of a scene: title, legend and north arrow.
+#pragma once
+
+#include <string>
+
+#include "io/base/colour_map.h"
+#include "io/picture/picture.h"
+
+namespace sunload {
+
+/// Rectangle of pixels.
+struct PictureArea {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// The part of a picture that the scene fills: below the title, left of the legend.
+PictureArea scene_area(const Picture& picture);
+
+void draw_title(Picture& picture, const std::string& title, const std::string& subtitle);
+
+struct Legend {
+  std::string units;
+  double largest = 1;  ///< value of the last colour; the first is 0
+  Palette palette = Palette::false_colour;
+  enum class Above { nothing, marked } above = Above::nothing;  ///< larger values occur
+};
+void draw_legend(Picture& picture, const Legend& legend);
+
+/// Arrow in the lower left corner; `north` in the image, length 1 where it is
+/// not foreshortened; none where one looks along it.
+void draw_north(Picture& picture, PicturePoint north);
+
+}  // namespace sunload

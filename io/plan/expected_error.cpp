@@ -1,0 +1,77 @@
+#include "io/plan/expected_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sunload {
+
+namespace {
+
+/// Worth a word: errors above this share.
+constexpr double tolerable_of_lines = 0.1, tolerable_of_samples = 0.25, tolerable_of_shots = 0.25;
+/// Of patches sorted by area, so many may be noisier.
+constexpr double smallest_share = 0.1;
+
+/// The next power of two: what the random sequences are best at.
+int round_up(double count) {
+  int rounded = 1;
+  while (rounded < count) rounded *= 2;
+  return rounded;
+}
+
+/// Counts whose error factor / √n falls below `tolerable`.
+int count_for(double factor, double tolerable) {
+  return round_up(factor * factor / (tolerable * tolerable));
+}
+
+/// An area that nine tenths of the patches exceed.
+double small_area(const Hierarchy& mesh) {
+  std::vector<double> area = mesh.area();
+  if (area.empty()) return 0;
+  const auto at =
+      area.begin() + static_cast<std::ptrdiff_t>(smallest_share * static_cast<double>(area.size()));
+  std::nth_element(area.begin(), at, area.end());
+  return *at;
+}
+
+}  // namespace
+
+std::vector<std::string> expected_error_warnings(const VariantPlan& plan, const Hierarchy& mesh) {
+  const SolverStudy& s = plan.study.solver;
+  std::vector<std::string> warnings;
+  if (s.accuracy) return warnings;  // its pilot decides the counts
+  constexpr double of_lines = 0.6, of_samples = 0.5;
+  if (const double error = of_lines / std::sqrt(s.lines_per_patch); error > tolerable_of_lines)
+    warnings.push_back(fmt::format(
+        "solver.lines_per_patch {} lets expect a standard error of some {:.0f} % in the light of "
+        "sky and surroundings on a patch (facades and totals are better); {} would give less "
+        "than {:.0f} %",
+        s.lines_per_patch, 100 * error, count_for(of_lines, tolerable_of_lines),
+        100 * tolerable_of_lines));
+  if (const double error = of_samples / std::sqrt(s.direct_samples); error > tolerable_of_samples)
+    warnings.push_back(fmt::format(
+        "solver.direct_samples {} lets expect a standard error of up to {:.0f} % of the sun on "
+        "patches that a shadow's edge crosses; {} would give at most {:.0f} %",
+        s.direct_samples, 100 * error, count_for(of_samples, tolerable_of_samples),
+        100 * tolerable_of_samples));
+  if (s.transport != Transport::shoot) return warnings;
+  double area = 0;
+  for (const double a : mesh.area()) area += a;
+  const double small = small_area(mesh);
+  const auto samples = static_cast<double>(estimate_work(plan, mesh.patch_count()).samples);
+  const double blocks = std::max(1.0, std::ceil(static_cast<double>(plan.intervals()) / 16));
+  const double each = samples / blocks / std::max(1, s.bounces);
+  if (const double error = std::sqrt(area / (std::max(each, 1.0) * small));
+      error > tolerable_of_shots)
+    warnings.push_back(fmt::format(
+        "{:.3g} samples for {} patches let expect a standard error of {:.0f} % or more in the "
+        "reflected light on a tenth of the patches (those below {:.2g} m2); use a smaller "
+        "solver.power_per_sample_w or lines_per_patch {} or a larger mesh.min_area_m2",
+        each, mesh.patch_count(), 100 * error, small,
+        round_up(s.lines_per_patch * error * error / (tolerable_of_shots * tolerable_of_shots))));
+  return warnings;
+}
+
+}  // namespace sunload

@@ -1,0 +1,290 @@
+#include "io/plan/light_series.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "io/base/hash.h"
+#include "io/plan/light_colour.h"
+#include "io/plan/period.h"
+#include "io/plan/weather_light.h"
+#include "solver/base/threads.h"
+
+namespace sunload {
+
+namespace {
+
+/// Intervals up to this length take the clear sky of their representative sun.
+constexpr double one_sun_is_enough_s = 15 * seconds_per_minute;
+/// Longer ones are integrated in panels of at most this length …
+constexpr double panel_s = seconds_per_hour;
+/// … by the three-point Gauss–Legendre rule (Abramowitz & Stegun 1964, table 25.4).
+struct GaussPoint {
+  double at, weight;
+};
+const std::array<GaussPoint, 3> gauss{
+    {{0.5 - std::sqrt(0.15), 5.0 / 18}, {0.5, 8.0 / 18}, {0.5 + std::sqrt(0.15), 5.0 / 18}}};
+
+Irradiance scaled(const Irradiance& i, double factor) {
+  return {i.dni * factor, i.dhi * factor, i.ghi * factor};
+}
+
+/// Clear sky of one site and model at any instant.
+class ClearSky {
+ public:
+  ClearSky(const LightStudy& light, const Site& site, const SunEphemeris& sun)
+      : light_(light), site_(site), sun_(sun) {}
+
+  Irradiance at(UnixTime utc, const SunPosition& sun) const {
+    return clear_sky(light_.model,
+                     {.elevation_deg = sun.elevation_deg,
+                      .elevation_m = site_.elevation_m,
+                      .linke_turbidity = light_.linke_turbidity.at(calendar_from_utc(utc)),
+                      .extraterrestrial_normal = extraterrestrial(sun.distance_au)});
+  }
+
+  /// Mean while the sun is up, hills or not.
+  Irradiance mean_while_up(const SunInterval& when) const {
+    return mean(when, when.up_begin, when.up_end, Horizon());
+  }
+
+  /// Mean while no hill hides the sun.
+  Irradiance mean_while_sunlit(const SunInterval& when) const {
+    return mean(when, when.sunlit_begin, when.sunlit_end, site_.horizon);
+  }
+
+ private:
+  Irradiance mean(const SunInterval& when, UnixTime begin, UnixTime end,
+                  const Horizon& hills) const {
+    if (when.length_s() <= one_sun_is_enough_s) return at(when.sun_time, when.sun);
+    const double hull = end - begin;
+    const auto panels = static_cast<int>(std::ceil(hull / panel_s));
+    Irradiance sum;
+    double lit = 0;
+    for (int p = 0; p < panels; ++p)
+      for (const auto& g : gauss) {
+        const UnixTime t = begin + hull * (p + g.at) / panels;
+        const SunPosition sun = sun_(t);
+        if (!hills.is_above({sun.azimuth_deg, sun.elevation_deg})) continue;
+        const Irradiance now = at(t, sun);
+        sum = {sum.dni + g.weight * now.dni, sum.dhi + g.weight * now.dhi,
+               sum.ghi + g.weight * now.ghi};
+        lit += g.weight;
+      }
+    return lit > 0 ? scaled(sum, 1 / lit) : Irradiance{};
+  }
+
+  const LightStudy& light_;
+  const Site& site_;
+  const SunEphemeris& sun_;
+};
+
+/// Means over the interval of light that is `lit` while the sun is up; what of it is direct
+/// arrives only as long as no hill hides the sun, with the values of `direct`.
+Irradiance over_interval(const SunInterval& when, const Irradiance& lit, const Irradiance& direct) {
+  const Irradiance open = scaled(lit, when.up_s / when.length_s());
+  if (when.sunlit_s == when.up_s) return open;
+  const double share = when.sunlit_s / when.length_s();
+  return {direct.dni * share, open.dhi, open.dhi + (direct.ghi - direct.dhi) * share};
+}
+
+LitInterval fixed_light(const SunInterval& when, const LightStudy& light) {
+  const double sin_elevation = std::max(0.0, std::sin(radians(when.sun.elevation_deg)));
+  const Irradiance lit{light.dni_w_m2, light.dhi_w_m2,
+                       light.dni_w_m2 * sin_elevation + light.dhi_w_m2};
+  return {when, over_interval(when, lit, lit), lit};
+}
+
+/// Without sun above the horizon: the sky of a sun that stands on it.
+double sky_zenith_deg(const SunInterval& when) {
+  return std::clamp(90 - when.sun.elevation_deg, 0.0, 90.0);
+}
+
+/// What to say where noon by the site's clocks is hours from noon by the sun: a zone or longitude
+/// of somewhere else. Empty for UTC, which is asked for everywhere.
+std::string clock_warning(const std::string& timezone, const Site& site, UnixTime when) {
+  if (timezone == "UTC" || timezone == "Z" || timezone.ends_with("/UTC")) return {};
+  // The widest true gap is 3.1 h: China keeps the time of Beijing as far as 73.5 degrees east.
+  constexpr double widest_gap_h = 3.5, hours_per_day = 24, deg_per_hour = 15;
+  const TimeZone zone(timezone);
+  const double clock_h = zone.standard_offset_s(zone.civil_from_utc(when).year) / seconds_per_hour;
+  const double gap_h = std::remainder(clock_h - site.longitude_deg / deg_per_hour, hours_per_day);
+  if (std::abs(gap_h) <= widest_gap_h) return {};
+  return fmt::format(
+      "clocks of {} are {:.1f} h {} the sun at longitude {:.2f}; are site.timezone and longitude "
+      "right (east is positive)?",
+      timezone, std::abs(gap_h), gap_h > 0 ? "ahead of" : "behind", site.longitude_deg);
+}
+
+/// Puts the model's own luminance in place of the diffuse light while the sun is up, at the
+/// representative sun.
+void make_sky_absolute(LitInterval& interval, const LightStudy& light) {
+  constexpr double lux_per_kilolux = 1000;
+  interval.lm_per_w = efficacy_of(interval);
+  Irradiance& sky = interval.of_the_sky;
+  const double dhi = preetham_illuminance_klx(light.turbidity, sky_zenith_deg(interval.when)) *
+                     lux_per_kilolux / interval.lm_per_w->diffuse;
+  sky.ghi += dhi - sky.dhi;
+  sky.dhi = dhi;
+}
+
+SunPath path_of(const std::vector<PeriodStep>& steps, const Study& study, const Site& site,
+                LightSeries& series) {
+  if (steps.empty()) throw InputError(study.period.where, "period has no intervals");
+  if (study.sun.ut1_utc == Ut1::table &&
+      !(ut1_table_covers(steps.front().begin) && ut1_table_covers(steps.back().end)))
+    series.notes.push_back(
+        "part of the period lies outside of the table of UT1-UTC, which ends at " +
+        iso_utc(ut1_table_end()) +
+        "; UT1 = UTC is taken there (moves the sun's azimuth by at most 0.004 degrees)");
+  if (const auto note = clock_warning(study.site.timezone, site, steps.front().begin);
+      !note.empty())
+    series.notes.push_back(note);
+  return sun_path(steps, site, study.sun.refraction, study.sun.ut1_utc);
+}
+
+SunPath dated_path(const Study& study, const Site& site, LightSeries& series) {
+  const auto steps = period_steps(study.period, TimeZone(study.site.timezone));
+  series.notes.insert(series.notes.end(), steps.notes.begin(), steps.notes.end());
+  return path_of(steps.steps, study, site, series);
+}
+
+/// Light as the weather says it under an open horizon; hills take their share of the beam. The
+/// sky's shape follows from DNI while the sun is up, which cannot exceed the sun's own.
+LitInterval measured_light(const SunInterval& when, const Irradiance& open) {
+  LitInterval interval{when, open, {0, open.dhi, open.ghi}};
+  if (when.up_s <= 0) return interval;
+  interval.of_the_sky.dni =
+      std::min(open.dni * when.length_s() / when.up_s, extraterrestrial(when.sun.distance_au));
+  if (when.sunlit_s == when.up_s) return interval;
+  const double free = when.sunlit_s / when.up_s;
+  interval.mean = {open.dni * free, open.dhi, open.dhi + (open.ghi - open.dhi) * free};
+  return interval;
+}
+
+void add_weather(const Study& study, const Site& site, LightSeries& series) {
+  StudyWeather weather(study, site);
+  const SunPath path = std::holds_alternative<WeatherPeriod>(study.period.kind)
+                           ? path_of(weather.own_steps(), study, site, series)
+                           : dated_path(study, site, series);
+  const auto means = weather.means(path);
+  for (std::size_t i = 0; i < path.size(); ++i)
+    series.intervals.push_back(measured_light(path[i], means[i]));
+  series.weather = weather.words();
+  series.notes.insert(series.notes.end(), weather.warnings().begin(), weather.warnings().end());
+  series.weather_sha256 = sha256_of_file(study.light.weather);
+}
+
+}  // namespace
+
+std::size_t LightSeries::lit_count() const {
+  return static_cast<std::size_t>(
+      std::count_if(intervals.begin(), intervals.end(),
+                    [](const LitInterval& i) { return i.when.sunlit_s > 0; }));
+}
+
+LightSeries light_series(const Study& study, const Site& site) {
+  LightSeries series;
+  if (study.light.source == LightSource::weather) {
+    add_weather(study, site, series);
+    return series;
+  }
+  const auto* positions = std::get_if<PositionsPeriod>(&study.period.kind);
+  series.times_are_synthetic = positions != nullptr;
+  const SunPath path =
+      positions ? positions_path(*positions, site) : dated_path(study, site, series);
+  if (path.empty()) throw InputError(study.period.where, "period has no intervals");
+  if (study.light.source == LightSource::fixed || positions) {
+    for (const auto& when : path) series.intervals.push_back(fixed_light(when, study.light));
+    return series;
+  }
+  const SunEphemeris sun(path.front().begin, path.back().end, site, study.sun.refraction,
+                         study.sun.ut1_utc, Air{standard_pressure(site.elevation_m)});
+  const ClearSky sky(study.light, site, sun);
+  for (const auto& when : path) {
+    LitInterval interval{when, {}, {}};
+    if (when.up_s > 0) {
+      interval.of_the_sky = sky.mean_while_up(when);
+      if (study.light.sky_scale == SkyScale::absolute) make_sky_absolute(interval, study.light);
+      interval.mean = over_interval(when, interval.of_the_sky,
+                                    when.sunlit_s == when.up_s ? interval.of_the_sky
+                                    : when.sunlit_s > 0        ? sky.mean_while_sunlit(when)
+                                                               : Irradiance{});
+    }
+    series.intervals.push_back(interval);
+  }
+  return series;
+}
+
+LuminousEfficacy efficacy_of(const LitInterval& interval) {
+  // Water vapour changes the efficacy by some per cent; 2 cm is a usual value in temperate
+  // summers, and what Radiance's gendaylit assumes.
+  constexpr double water_cm = 2;
+  if (interval.lm_per_w) return *interval.lm_per_w;
+  const Irradiance& sky = interval.of_the_sky;
+  const double zenith_deg = sky_zenith_deg(interval.when);
+  return luminous_efficacy(
+      sky_condition(sky.dni, sky.dhi, zenith_deg, extraterrestrial(interval.when.sun.distance_au)),
+      zenith_deg, water_cm);
+}
+
+Irradiance source_means(const LitInterval& interval, Quantity quantity) {
+  const Irradiance& mean = interval.mean;
+  const bool is_dark = mean.dni <= 0 && mean.dhi <= 0;
+  if (quantity == Quantity::irradiance || is_dark) return mean;
+  const LuminousEfficacy lm_per_w = efficacy_of(interval);
+  const double diffuse = mean.dhi * lm_per_w.diffuse;
+  // Weather whose GHI is below its DHI has no beam.
+  return {mean.dni * lm_per_w.beam, diffuse,
+          std::max(0.0, mean.ghi - mean.dhi) * lm_per_w.beam + diffuse};
+}
+
+Sky sky_of(const LitInterval& interval, const LightStudy& light) {
+  const SunInterval& when = interval.when;
+  const double zenith_deg = sky_zenith_deg(when);
+  return Sky({.model = light.sky,
+              .dhi = interval.of_the_sky.dhi,
+              .dni = interval.of_the_sky.dni,
+              .extraterrestrial_normal = extraterrestrial(when.sun.distance_au),
+              .sun_zenith_deg = zenith_deg,
+              .sun_direction = when.direction,
+              .cie_type = light.sky_type,
+              .turbidity = light.turbidity});
+}
+
+namespace {
+
+/// Cells of the sky behind hills, which shine as the far ground does.
+void put_hills(std::vector<double>& sky, double ground_exitance,
+               const std::vector<double>& open_share) {
+  sky.resize(open_share.size(), 0);
+  for (std::size_t cell = 0; cell < open_share.size(); ++cell)
+    sky[cell] = open_share[cell] * sky[cell] + (1 - open_share[cell]) * ground_exitance / pi;
+}
+
+}  // namespace
+
+SunLight sun_light(const LitInterval& interval, std::uint32_t number, const LightStudy& light,
+                   const SkyGrid& grid, const std::vector<double>& open_share, Bands bands) {
+  const SunInterval& when = interval.when;
+  SunLight sun;
+  sun.number = number;
+  sun.direction = when.direction;
+  const Irradiance source = source_means(interval, light.quantity);
+  sun.dni = source.dni;
+  sun.dhi = source.dhi;
+  sun.ground_exitance = light.far_ground_albedo * source.ghi;
+  sun.length_s = when.length_s();
+  sun.sunlit_s = when.sunlit_s;
+  if (source.dhi > 0) sun.sky = grid.mean_radiance(sky_of(interval, light), source.dhi);
+  if (bands == Bands::rgb) sun.bands = light_in_bands(sun, source, interval, light, grid);
+  if (!open_share.empty() && sun.ground_exitance + source.dhi > 0) {
+    put_hills(sun.sky, sun.ground_exitance, open_share);
+    for (auto& band : sun.bands) put_hills(band.sky, band.ground_exitance, open_share);
+  }
+  return sun;
+}
+
+}  // namespace sunload

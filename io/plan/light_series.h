@@ -1,0 +1,61 @@
+/// Period, sun path and irradiance of a study: the light of every interval.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "geo/sky/irradiance.h"
+#include "geo/sun/site.h"
+#include "geo/sun/sun.h"
+#include "io/study/study.h"
+#include "solver/light/sun_block.h"
+
+namespace sunload {
+
+/// One interval of the period with its light; irradiances are means over it.
+struct LitInterval {
+  SunInterval when;
+  Irradiance mean;        ///< over the whole interval
+  Irradiance of_the_sky;  ///< what the sky's shape follows from: DNI while the sun is up
+  /// Given where a model's luminance was made into irradiance by it.
+  std::optional<LuminousEfficacy> lm_per_w{};
+};
+
+struct LightSeries {
+  std::vector<LitInterval> intervals;
+  bool times_are_synthetic = false;  ///< `positions`: time counts from 2000-01-01T12:00Z
+  std::vector<std::string> weather;  ///< the weather file in words; empty without one
+  std::string weather_sha256;        ///< of its bytes
+  std::vector<std::string> notes;    ///< what happened at clock changes, table ends, …
+  std::size_t lit_count() const;
+};
+
+/// Sun path and irradiance of every interval (DESIGN 4).
+/// Throws InputError for times that do not exist or do not increase.
+LightSeries light_series(const Study& study, const Site& site);
+
+/// Lumens per watt of an interval's light (Perez et al. 1990) under the sky that it has while the
+/// sun is up, unless it has its own; with 2 cm of precipitable water, which most sources of light
+/// do not tell.
+LuminousEfficacy efficacy_of(const LitInterval& interval);
+
+/// Means over the interval in the study's quantity: W m-2 as they are, or lx: DNI and DHI by their
+/// own efficacy, the global value by that of its parts.
+Irradiance source_means(const LitInterval& interval, Quantity quantity);
+
+/// The open sky of an interval, in scene axes; its DHI is that while the sun is up.
+Sky sky_of(const LitInterval& interval, const LightStudy& light);
+
+/// Light for the solver, with the sky's radiance on `grid`, of interval `number`.
+///
+/// `open_share` (`open_shares` of geo/sky/horizon.h) says what of each cell hills leave free. DHI
+/// is that of the open sky: its part behind the hills is lost, and they shine as the far ground
+/// does, unshaded by themselves; results count that as sky light. With the sun behind the hills
+/// the far ground has the sky's light only.
+///
+/// With rgb, `SunLight::bands` hold the light in bands (io/plan/light_colour.h).
+SunLight sun_light(const LitInterval& interval, std::uint32_t number, const LightStudy& light,
+                   const SkyGrid& grid, const std::vector<double>& open_share = {},
+                   Bands bands = Bands::broadband);
+
+}  // namespace sunload

@@ -1,0 +1,326 @@
+#include "io/plan/material_assign.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "io/base/key_names.h"
+#include "io/study/material_table.h"
+#include "solver/surface/clear_glass.h"
+
+namespace sunload {
+
+namespace {
+
+/// Whether a study's material leaves reflection to what the file or the table says of its name.
+bool says_nothing(const MaterialStudy& m) {
+  return !m.diffuse && !m.mirror && !m.refractive_index && !m.normal_transmittance &&
+         m.glossy == 0 && m.transmittance == 0;
+}
+
+bool says_nothing(const FileMaterial& m) { return !m.diffuse && !m.mirror; }
+
+class MaterialAssigner {
+ public:
+  MaterialAssigner(const Study& study, Scene& scene, std::vector<std::string>& warnings)
+      : study_(study),
+        scene_(scene),
+        warnings_(warnings),
+        emission_(emission_per_area(study.scene, scene.mesh)) {
+    for (const auto& m : scene.mesh.file_materials)
+      if (!m.name.empty() && !m.is_reference) of_files_.insert({m.name, of_file(m)});
+    for (const auto& m : study.scene.materials) by_name_[m.name] = completed(m);
+    for (const auto& rule : study.scene.assign) expect_known(rule.material, rule.where);
+    if (study.scene.ground && !study.scene.ground->material.empty())
+      expect_known(study.scene.ground->material, study.scene.where);
+    for (const auto& m : scene.mesh.file_materials)
+      if (m.is_reference) expect_known(m.name, study.scene.where);
+    problems_.throw_if_any();
+  }
+
+  void run() {
+    const Mesh& mesh = scene_.mesh;
+    std::vector<bool> rule_used(study_.scene.assign.size(), false);
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+      scene_.material.push_back(id_of(material_of(t, rule_used), t));
+    problems_.throw_if_any();
+    for (std::size_t r = 0; r < rule_used.size(); ++r)
+      if (!rule_used[r])
+        warnings_.push_back(
+            message(study_.scene.assign[r].where,
+                    "this assignment of '" + study_.scene.assign[r].material + "' matches nothing",
+                    "no surface gets its material from it"));
+    warn_of_defaults();
+    warn_of_dark_lamps();
+  }
+
+ private:
+  static MaterialStudy of_file(const FileMaterial& file) {
+    MaterialStudy study;
+    study.name = file.name;
+    study.diffuse = file.diffuse;
+    study.diffuse_rgb = file.diffuse_rgb;
+    study.mirror = file.mirror;
+    return study;
+  }
+
+  static std::vector<double> emission_per_area(const SceneStudy& study, const Mesh& mesh) {
+    std::vector<double> area(mesh.file_materials.size(), 0), emission(area);
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+      if (mesh.triangle_material[t].exists() && mesh.triangle_surface[t] != Surface::floor &&
+          mesh.file_materials[mesh.triangle_material[t].index()].emitted_power_w > 0) {
+        // The two patches of a two-sided triangle emit both.
+        const auto m = mesh.triangle_material[t].index();
+        Sides sides = mesh.triangle_sides[t];
+        for (const auto& named : study.materials)
+          if (named.name == mesh.file_materials[m].name) sides = named.sides.value_or(sides);
+        area[m] += (sides == Sides::two ? 2 : 1) * norm(mesh.area_vector2(t)) / 2;
+      }
+    for (std::size_t m = 0; m < area.size(); ++m)
+      if (area[m] > 0) emission[m] = mesh.file_materials[m].emitted_power_w / area[m];
+    return emission;
+  }
+
+  /// What a material of the study leaves to the table: all of its reflection, where neither it nor
+  /// a file's material of its name says anything of it.
+  MaterialStudy completed(const MaterialStudy& m) const {
+    const auto of_table = tabled_material(m.name);
+    const auto of_file = of_files_.find(m.name);
+    const bool file_knows = of_file != of_files_.end() && !says_nothing(of_file->second);
+    if (!says_nothing(m) || file_knows || !of_table) return m;
+    MaterialStudy all = *of_table;
+    all.where = m.where;
+    all.emission_w_m2 = m.emission_w_m2;
+    if (m.sides) all.sides = m.sides;
+    return all;
+  }
+
+  /// Makes sure that the name stands for something, from the table if need be.
+  void expect_known(const std::string& name, const Where& where) {
+    if (by_name_.contains(name)) return;
+    const auto of_file = of_files_.find(name);
+    if (of_file != of_files_.end() && !says_nothing(of_file->second)) return;
+    if (const auto of_table = tabled_material(name)) {
+      of_table_[name] = *of_table;
+      return;
+    }
+    if (of_file != of_files_.end()) return;
+    std::vector<std::string> known = tabled_names();
+    for (const auto& [other, m] : by_name_) known.push_back(other);
+    for (const auto& [other, m] : of_files_) known.push_back(other);
+    const std::string hint = key_hint(name, known);
+    problems_.add(
+        where, "material '" + name + "' is not known",
+        "neither scene.materials nor the scene files define it, and the table has no such row",
+        hint.starts_with("did you mean")
+            ? hint
+            : "define it under scene.materials, or take one that `sunload materials` lists");
+  }
+
+  const MaterialStudy& named(const std::string& name) const {
+    for (const auto* source : {&by_name_, &of_table_})
+      if (const auto found = source->find(name); found != source->end()) return found->second;
+    return of_files_.at(name);
+  }
+
+  Material material_of(std::size_t t, std::vector<bool>& rule_used) {
+    const Mesh& mesh = scene_.mesh;
+    const auto file_id = mesh.triangle_material[t];
+    const FileMaterial* file = file_id.exists() ? &mesh.file_materials[file_id.index()] : nullptr;
+    const MaterialStudy* chosen = nullptr;
+    const auto& object = mesh.object_names[mesh.triangle_object[t].index()];
+    const auto& kind = mesh.object_kinds[mesh.triangle_object[t].index()];
+    const std::string surface = surface_names[static_cast<std::size_t>(mesh.triangle_surface[t])];
+    for (std::size_t r = 0; r < study_.scene.assign.size(); ++r) {
+      const auto& rule = study_.scene.assign[r];
+      if (!matches(rule.object, object) || !matches(rule.surface, surface) ||
+          !matches(rule.kind, kind) || !matches(rule.material_was, file ? file->name : ""))
+        continue;
+      rule_used[r] = true;
+      chosen = &named(rule.material);
+    }
+    const auto& ground = study_.scene.ground;
+    if (!chosen && ground && !ground->material.empty() && file && file->name == "ground")
+      chosen = &named(ground->material);
+    if (!chosen && file && (file->is_reference || by_name_.contains(file->name)))
+      chosen = &named(file->name);
+    if (chosen) return from_study(*chosen, file_id, t);
+    return from_file(file, file_id, t);
+  }
+
+  Material from_study(const MaterialStudy& study, MaterialId file_id, std::size_t t) {
+    if (study.sides) scene_.mesh.triangle_sides[t] = *study.sides;
+    const FileMaterial* file =
+        file_id.exists() && scene_.mesh.file_materials[file_id.index()].name == study.name
+            ? &scene_.mesh.file_materials[file_id.index()]
+            : nullptr;
+    Material m;
+    m.name = study.name;
+    m.diffuse = study.diffuse.value_or(file ? file->diffuse.value_or(0) : 0);
+    // Nobody says what it reflects; lamps without reflectance are black.
+    if (says_nothing(study) && study.emission_w_m2 == 0 && !(file && !says_nothing(*file)))
+      m.diffuse = default_of(t);
+    m.emission_w_m2 = study.emission_w_m2;
+    // A reflectance of the study's does not put out the file's lamps.
+    if (m.emission_w_m2 == 0 && file) m.emission_w_m2 = emission_[file_id.index()];
+    if (study.refractive_index) {  // decides about the mirror, too
+      m.refractive_index = *study.refractive_index;
+      m.extinction_coefficient = study.extinction_coefficient.value_or(0);
+      m.thickness_m = study.thickness_m;
+      m.absorption_per_m = study.absorption_per_m;
+      m.panes = study.panes;
+      return m;
+    }
+    m.mirror = study.mirror.value_or(file ? file->mirror.value_or(0) : 0);
+    if (study.normal_transmittance) {
+      m.normal_transmittance = *study.normal_transmittance;
+      return m;
+    }
+    m.glossy = study.glossy;
+    m.glossy_exponent = study.glossy_exponent;
+    m.transmittance = study.transmittance;
+    set_colour(m, study.diffuse ? study.diffuse_rgb : file ? file->diffuse_rgb : std::nullopt);
+    return m;
+  }
+
+  Material from_file(const FileMaterial* file, MaterialId id, std::size_t t) {
+    Material m;
+    m.name = file && !file->name.empty() ? file->name : "default";
+    if (file && (file->diffuse || file->mirror)) {
+      m.diffuse = file->diffuse.value_or(0);
+      m.mirror = file->mirror.value_or(0);
+      set_colour(m, file->diffuse_rgb);
+    } else {
+      m.diffuse = default_of(t);
+    }
+    if (id.exists()) m.emission_w_m2 = emission_[id.index()];
+    return m;
+  }
+
+  /// Gloss, whose shares depend on the angle, stands on grey.
+  void set_colour(Material& m, const std::optional<BandShares>& rgb) const {
+    if (study_.solver.bands == Bands::rgb && m.glossy == 0) m.diffuse_in_band = rgb;
+  }
+
+  double default_of(std::size_t t) {
+    defaulted_m2_[static_cast<std::size_t>(scene_.mesh.triangle_surface[t])] +=
+        norm(scene_.mesh.area_vector2(t)) / 2;
+    return default_reflectance;
+  }
+
+  /// Floors are no patches, and their reflectance is never asked for.
+  void warn_of_defaults() {
+    double defaulted = 0, all = 0;
+    std::string kinds;
+    for (std::size_t s = 0; s < surface_names.size(); ++s) {
+      if (static_cast<Surface>(s) == Surface::floor || defaulted_m2_[s] == 0) continue;
+      defaulted += defaulted_m2_[s];
+      kinds += fmt::format("{}{} {:.0f} m2", kinds.empty() ? "" : ", ", surface_names[s],
+                           defaulted_m2_[s]);
+    }
+    if (defaulted == 0) return;
+    for (std::size_t t = 0; t < scene_.mesh.triangle_count(); ++t)
+      if (scene_.mesh.triangle_surface[t] != Surface::floor)
+        all += norm(scene_.mesh.area_vector2(t)) / 2;
+    warnings_.push_back(fmt::format(
+        "{:.0f} m2, {:.3g} % of the surface, have no material in file or study ({}); diffuse "
+        "reflectance {} is taken for them; scene.assign and scene.ground give materials, `sunload "
+        "materials` lists names",
+        defaulted, 100 * defaulted / all, kinds, default_reflectance));
+  }
+
+  /// Materials that glow by their file, and nobody says how much: METHOD 7 has a power for VRML's
+  /// colours alone.
+  void warn_of_dark_lamps() {
+    const Mesh& mesh = scene_.mesh;
+    std::map<std::string, double> dark_m2;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+      const auto id = mesh.triangle_material[t];
+      if (id.exists() && mesh.file_materials[id.index()].glows &&
+          !by_name_.contains(mesh.file_materials[id.index()].name) &&
+          scene_.materials[scene_.material[t].index()].emission_w_m2 == 0)
+        dark_m2[mesh.file_materials[id.index()].name] += norm(mesh.area_vector2(t)) / 2;
+    }
+    for (const auto& [name, area] : dark_m2)
+      warnings_.push_back(fmt::format(
+          "material '{}' glows by its file, which tells no power: its {:.4g} m2 emit nothing; "
+          "write scene.materials: {{{}: {{emission_w_m2: …}}}}, 0 if that is meant",
+          name, area, name));
+  }
+
+  static std::string other_shares(const Material& m) {
+    std::string text;
+    if (m.glossy > 0) text += fmt::format(" + glossy {}", m.glossy);
+    if (m.transmittance > 0) text += fmt::format(" + transmittance {}", m.transmittance);
+    if (m.normal_transmittance > 0)
+      text +=
+          fmt::format(" + {} normal_transmittance {}", clear_glass_factor, m.normal_transmittance);
+    return text;
+  }
+
+  MaterialId id_of(const Material& m, std::size_t t) {
+    const auto known = ids_.find(m.name);
+    if (known != ids_.end() && scene_.materials[known->second.index()] == m) return known->second;
+    const double diffuse = m.diffuse_in_band ? std::ranges::max(*m.diffuse_in_band) : m.diffuse;
+    const double sum = diffuse + m.mirror + m.glossy + m.transmittance +
+                       clear_glass_factor * m.normal_transmittance;
+    if (sum > 1 + 1e-9 && refused_.insert(m.name).second)
+      problems_.add({},
+                    fmt::format("material '{}': diffuse {} + mirror {}{} exceeds 1", m.name,
+                                diffuse, m.mirror, other_shares(m)),
+                    "more light would leave than arrives (triangle " + std::to_string(t) + ")",
+                    m.normal_transmittance > 0
+                        ? "diffuse and mirror under scene.materials go before those of the file"
+                        : "override it in scene.materials");
+    const auto same = std::find(scene_.materials.begin(), scene_.materials.end(), m);
+    const auto id = make_id<MaterialId>(static_cast<std::size_t>(same - scene_.materials.begin()));
+    if (same == scene_.materials.end()) scene_.materials.push_back(m);
+    ids_[m.name] = id;
+    return id;
+  }
+
+  const Study& study_;
+  Scene& scene_;
+  std::vector<std::string>& warnings_;
+  std::vector<double> emission_;
+  std::map<std::string, MaterialStudy> by_name_;   ///< of the study
+  std::map<std::string, MaterialStudy> of_files_;  ///< of the scene files
+  std::map<std::string, MaterialStudy> of_table_;  ///< rows that the study names
+  std::map<std::string, MaterialId> ids_;
+  std::set<std::string> refused_;
+  Problems problems_;
+  std::array<double, surface_names.size()> defaulted_m2_{};
+};
+
+}  // namespace
+
+bool matches(const std::string& pattern, const std::string& text) {
+  if (pattern.empty()) return true;
+  // Greedy matching with one backtracking point: the last `*` seen.
+  std::size_t p = 0, t = 0, star = std::string::npos, resume = 0;
+  while (t < text.size()) {
+    if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t]) && pattern[p] != '*') {
+      ++p;
+      ++t;
+    } else if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      resume = t;
+    } else if (star != std::string::npos) {
+      p = star + 1;
+      t = ++resume;
+    } else {
+      return false;
+    }
+  }
+  while (p < pattern.size() && pattern[p] == '*') ++p;
+  return p == pattern.size();
+}
+
+void assign_materials(const Study& study, Scene& scene, std::vector<std::string>& warnings) {
+  MaterialAssigner(study, scene, warnings).run();
+}
+
+}  // namespace sunload

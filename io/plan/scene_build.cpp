@@ -1,0 +1,184 @@
+#include "io/plan/scene_build.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "geo/sun/weather.h"
+#include "io/plan/material_assign.h"
+#include "io/plan/scene_models.h"
+#include "io/plan/weather_light.h"
+#include "io/scene/file.h"
+
+namespace sunload {
+
+namespace {
+
+/// Sensors in the mesh's frame; a warning where they stand far from the scene.
+std::vector<Sensor> place_sensors(const SensorsStudy& study, const Mesh& mesh, const Box& bounds,
+                                  std::vector<std::string>& warnings) {
+  std::vector<Sensor> sensors;
+  sensors.reserve(study.points.size());
+  const double diagonal = norm(bounds.high - bounds.low);
+  std::size_t far = 0, first_far = 0;
+  for (const auto& point : study.points) {
+    const Vec3 at = point.position - mesh.origin;
+    sensors.push_back({at, normalized(point.normal), sensor_key(point.position, point.normal)});
+    const double beyond =
+        std::max({bounds.low.x - at.x, at.x - bounds.high.x, bounds.low.y - at.y,
+                  at.y - bounds.high.y, bounds.low.z - at.z, at.z - bounds.high.z});
+    if (beyond > diagonal && far++ == 0) first_far = sensors.size() - 1;
+  }
+  if (far > 0) {
+    const Vec3 p = study.points[first_far].position;
+    warnings.push_back(message(
+        study.where,
+        fmt::format("{} of {} sensors stand farther from the scene than it is wide, the first of "
+                    "them sensor {} at ({:.10g}, {:.10g}, {:.10g})",
+                    far, sensors.size(), first_far, p.x, p.y, p.z),
+        "they see little of it",
+        "positions are metres in the scene's frame, z up, not relative to its local origin"));
+  }
+  return sensors;
+}
+
+PrepareRules prepare_rules(const Study& study, const PolygonModel& model, const Site& site) {
+  PrepareRules rules;
+  rules.north_deg = site.north_deg;
+  rules.repair = study.scene.repair;
+  rules.orientation = study.scene.orient;
+  const auto& ground = study.scene.ground;
+  if (ground ? ground->wanted : model.is_city_format)
+    rules.ground = GroundPlate{ground ? ground->margin_m : GroundPlate{}.margin_m};
+  return rules;
+}
+
+/// Site of the scene's middle on its map; `built` gets where it comes from and what is doubtful.
+/// Where the study gives a position a map of no use is only warned about.
+Site site_on_map(const SiteStudy& given, const std::string& crs, const PolygonModel& model,
+                 BuiltScene& built) {
+  constexpr double far_m = 10000;  // moves the sun by up to 0.1 degrees
+  const Box box = bounding_box(model.vertices);
+  Vec3 middle = (box.low + box.high) / 2;
+  middle.z = box.low.z;
+  Site site;
+  try {
+    site = site_from_crs(crs, middle);
+  } catch (const InputError& error) {
+    if (!given.latitude_deg) throw;
+    built.warnings.push_back(std::string(error.problems().front()) +
+                             "; north and elevation are not taken from it");
+    built.site_source = "position from the study";
+    return site;
+  }
+  built.site_source = given.latitude_deg ? "position from the study, north from " + crs
+                                         : "position and north from " + crs;
+  if (const auto warning = area_of_use_warning(crs, middle); !warning.empty())
+    built.warnings.push_back(warning);
+  if (!given.latitude_deg) return site;
+  const double away_m = distance_m(site, {.latitude_deg = *given.latitude_deg,
+                                          .longitude_deg = given.longitude_deg.value_or(0)});
+  if (away_m > far_m)
+    built.warnings.push_back(fmt::format(
+        "the position of the study is {:.0f} km from where {} puts the scene (latitude {:.4f}, "
+        "longitude {:.4f}); the sun is that of the study's position",
+        away_m / 1000, crs, site.latitude_deg, site.longitude_deg));
+  return site;
+}
+
+Site resolve_site(const Study& study, const PolygonModel& model, BuiltScene& built) {
+  const SiteStudy& given = study.site;
+  const std::string crs = given.crs.empty() ? model.crs : given.crs;
+  std::string& source = built.site_source;
+  Site site;
+  if (!crs.empty() && !model.vertices.empty()) {
+    site = site_on_map(given, crs, model, built);
+  } else if (const auto station = given.latitude_deg ? std::nullopt : weather_place(study)) {
+    site.latitude_deg = station->latitude_deg;
+    site.longitude_deg = station->longitude_deg;
+    site.elevation_m = station->elevation_m;
+    source = "position and elevation of the weather station " + station->name;
+  } else if (!given.latitude_deg && !std::holds_alternative<PositionsPeriod>(study.period.kind)) {
+    throw InputError(given.where, "site has no position",
+                     "neither latitude_deg and longitude_deg nor a CRS is known",
+                     "write site.latitude_deg and site.longitude_deg, or site.crs");
+  }
+  if (given.latitude_deg) {
+    site.latitude_deg = *given.latitude_deg;
+    site.longitude_deg = given.longitude_deg.value_or(0);
+    if (source.empty()) source = "position from the study";
+  }
+  if (given.elevation_m) site.elevation_m = *given.elevation_m;
+  if (given.north_deg) {
+    site.north_deg = *given.north_deg;
+    source += "; north_deg from the study";
+  }
+  site.timezone = given.timezone;
+  site.horizon = given.horizon;
+  return site;
+}
+
+/// Parallel emitters: of the file's materials only what they emit is read.
+ParallelSources read_parallel_sources(const Study& study, Vec3 origin, BuiltScene& built) {
+  const SceneStudy& scene = study.scene;
+  if (scene.parallel_sources.empty()) return {};
+  const PolygonModel model = read_scene_file(
+      scene.parallel_sources,
+      {scene.up, scene.unit_m, scene.lod, scene.vrml_colour, scene.emission_scale_w});
+  const Mesh mesh =
+      prepare(model,
+              {.repair = scene.repair, .ground = {}, .orientation = scene.orient, .north_deg = 0})
+          .mesh;
+  std::vector<double> area(mesh.file_materials.size(), 0);
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.triangle_material[t].exists())
+      area[mesh.triangle_material[t].index()] += norm(mesh.area_vector2(t)) / 2;
+  const auto exitance = [&](MaterialId id) {
+    if (!id.exists()) return 0.0;
+    const FileMaterial& file = mesh.file_materials[id.index()];
+    const auto named = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                    [&](const MaterialStudy& m) { return m.name == file.name; });
+    return named != scene.materials.end() ? named->emission_w_m2
+                                          : file.emitted_power_w / area[id.index()];
+  };
+  ParallelSources sources;
+  for (const Vec3 p : mesh.vertices) sources.mesh.vertices.push_back(p + mesh.origin - origin);
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const double M = exitance(mesh.triangle_material[t]);
+    if (M <= 0) continue;
+    sources.mesh.triangles.push_back(mesh.triangles[t]);
+    sources.exitance.push_back(M);
+  }
+  if (sources.exitance.empty())
+    throw InputError(
+        scene.parallel_sources_where,
+        "scene.parallel_sources: nothing in " + scene.parallel_sources + " emits",
+        "no material of it has an emission",
+        "write scene.materials: {NAME: {emission_w_m2: …}} for a material of that file");
+  if (const std::size_t dark = mesh.triangle_count() - sources.exitance.size(); dark > 0)
+    built.notes.push_back(fmt::format("{}: {} triangles that emit nothing are left out",
+                                      scene.parallel_sources, dark));
+  return sources;
+}
+
+}  // namespace
+
+BuiltScene build_scene(const Study& study) {
+  BuiltScene built;
+  const PolygonModel model = read_models(study);
+  built.notes = model.notes;
+  built.site = resolve_site(study, model, built);
+  built.crs = study.site.crs.empty() ? model.crs : study.site.crs;
+  PreparedMesh prepared = prepare(model, prepare_rules(study, model, built.site));
+  built.report = std::move(prepared.report);
+  built.warnings.insert(built.warnings.end(), built.report.warnings.begin(),
+                        built.report.warnings.end());
+  built.scene.mesh = std::move(prepared.mesh);
+  assign_materials(study, built.scene, built.warnings);
+  built.scene.parallel_sources = read_parallel_sources(study, built.scene.mesh.origin, built);
+  built.scene.sensors =
+      place_sensors(study.sensors, built.scene.mesh, built.report.bounds, built.warnings);
+  return built;
+}
+
+}  // namespace sunload

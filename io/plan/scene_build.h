@@ -1,0 +1,27 @@
+/// Study → scene: files read and put together, prepared, materials assigned.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geo/mesh/mesh_prepare.h"
+#include "geo/sun/site.h"
+#include "io/study/study.h"
+#include "solver/surface/material.h"
+
+namespace sunload {
+
+struct BuiltScene {
+  Scene scene;
+  PrepareReport report;
+  Site site;                          ///< position and north, from study or CRS
+  std::string site_source;            ///< in words: where position and north come from
+  std::string crs;                    ///< of the scene's coordinates; empty: none is known
+  std::vector<std::string> notes;     ///< what readers counted
+  std::vector<std::string> warnings;  ///< each states its consequence
+};
+
+/// Throws InputError with every problem found.
+BuiltScene build_scene(const Study& study);
+
+}  // namespace sunload

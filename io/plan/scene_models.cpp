@@ -1,0 +1,184 @@
+#include "io/plan/scene_models.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <set>
+
+#include "geo/sun/site.h"
+#include "io/scene/blocks.h"
+#include "io/scene/builtin.h"
+#include "io/scene/file.h"
+
+namespace sunload {
+
+namespace {
+
+std::string short_name(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+/// Names that the scene has already get a number; they are noted.
+void add_object_names(PolygonModel& into, const PolygonModel& from) {
+  std::set<std::string> taken(into.object_names.begin(), into.object_names.end());
+  std::size_t renamed = 0;
+  std::string first;
+  for (const auto& base : from.object_names) {
+    std::string name = base;
+    for (int n = 2; taken.contains(name); ++n) name = base + "_" + std::to_string(n);
+    if (name != base && renamed++ == 0) first = "'" + base + "' is '" + name + "'";
+    taken.insert(name);
+    into.object_names.push_back(name);
+  }
+  if (renamed > 0)
+    into.notes.push_back(fmt::format(
+        "{}: {} object{} named as in an earlier file, kept apart: {}{}", short_name(from.source),
+        renamed, renamed == 1 ? " is" : "s are", first, renamed == 1 ? "" : ", …"));
+}
+
+void append(PolygonModel& into, const PolygonModel& from) {
+  const auto vertex_base = static_cast<std::int32_t>(into.vertices.size());
+  const auto ring_base = static_cast<std::int64_t>(into.ring_begin.size()) - 1;
+  const auto corner_base = static_cast<std::int64_t>(into.ring_vertex.size());
+  const auto object_base = static_cast<std::int32_t>(into.object_names.size());
+  const auto material_base = static_cast<std::int32_t>(into.materials.size());
+  into.vertices.insert(into.vertices.end(), from.vertices.begin(), from.vertices.end());
+  for (const auto v : from.ring_vertex) into.ring_vertex.push_back(v + vertex_base);
+  for (std::size_t r = 1; r < from.ring_begin.size(); ++r)
+    into.ring_begin.push_back(from.ring_begin[r] + corner_base);
+  for (std::size_t p = 1; p < from.polygon_ring.size(); ++p)
+    into.polygon_ring.push_back(from.polygon_ring[p] + ring_base);
+  for (auto facts : from.facts) {
+    facts.object.value += object_base;
+    if (facts.material.exists()) facts.material.value += material_base;
+    into.facts.push_back(facts);
+  }
+  add_object_names(into, from);
+  into.object_kinds.resize(into.object_names.size() - from.object_names.size());
+  into.object_kinds.insert(into.object_kinds.end(), from.object_kinds.begin(),
+                           from.object_kinds.end());
+  into.object_kinds.resize(into.object_names.size());
+  into.materials.insert(into.materials.end(), from.materials.begin(), from.materials.end());
+  into.notes.insert(into.notes.end(), from.notes.begin(), from.notes.end());
+  into.is_city_format = into.is_city_format || from.is_city_format;
+  if (into.crs.empty()) into.crs = from.crs;
+  into.source += (into.source.empty() ? "" : ", ") + from.source;
+}
+
+PolygonModel built_in(const BuiltinStudy& builtin) {
+  try {
+    return builtin_scene({builtin.name, builtin.parameters});
+  } catch (const InputError& error) {
+    Problems problems;
+    for (const auto& problem : error.problems()) problems.add(builtin.where, problem);
+    problems.throw_if_any();
+    throw;
+  }
+}
+
+SceneFileRules rules_of(const SceneFileStudy& file, const SceneStudy& scene) {
+  return {file.up == 0 ? scene.up : file.up, file.unit_m.value_or(scene.unit_m),
+          file.lod.empty() ? scene.lod : file.lod, scene.vrml_colour, scene.emission_scale_w};
+}
+
+/// All faces get one material, which the study or the table defines; crowns keep theirs.
+void give_material(PolygonModel& model, const std::string& name) {
+  FileMaterial material;
+  material.name = name;
+  material.is_reference = true;
+  const auto given = make_id<MaterialId>(model.materials.size());
+  model.materials.push_back(material);
+  for (auto& facts : model.facts)
+    if (!facts.material.exists() || !model.materials[facts.material.index()].is_reference)
+      facts.material = given;
+}
+
+PolygonModel read_part(const SceneFileStudy& file, const SceneStudy& scene) {
+  const auto rules = rules_of(file, scene);
+  PolygonModel part = file.terrain.empty()
+                          ? read_scene_file(file.path, rules)
+                          : read_scene_blocks({.surface = file.path,
+                                               .terrain = file.terrain,
+                                               .canopy = file.canopy,
+                                               .least_height_m = file.least_height_m,
+                                               .trunk_share = file.trunk_share},
+                                              rules);
+  if (!file.material.empty()) give_material(part, file.material);
+  return part;
+}
+
+/// Where the file's origin stands in the scene.
+Vec3 position_in(const SceneFileStudy& file, const std::string& crs) {
+  if (!file.earth_position) return file.position.value_or(Vec3{});
+  if (crs.empty())
+    throw InputError(file.where, "scene.files: a position in degrees needs the scene's CRS",
+                     "neither site.crs nor a file of the scene names one",
+                     "write site.crs, or position_m in the scene's own metres");
+  const auto& earth = *file.earth_position;
+  return map_position(crs, earth.latitude_deg, earth.longitude_deg, earth.height_m);
+}
+
+/// Reads, places and appends file by file; the CRS is that of the first file that stays in place.
+class SceneJoin {
+ public:
+  explicit SceneJoin(const Study& study) : study_(study) {}
+
+  PolygonModel run() {
+    std::vector<const SceneFileStudy*> later;  // placed by a CRS that is not known yet
+    for (const auto& file : study_.scene.files) {
+      if (file.earth_position && crs().empty())
+        later.push_back(&file);
+      else
+        add(file);
+    }
+    for (const auto* file : later) add(*file);
+    problems_.throw_if_any();
+    return std::move(model_);
+  }
+
+ private:
+  const std::string& crs() const { return study_.site.crs.empty() ? model_.crs : study_.site.crs; }
+
+  void add(const SceneFileStudy& file) {
+    try {
+      auto part = read_part(file, study_.scene);
+      if (file.is_placed()) {
+        if (!part.crs.empty())
+          part.notes.push_back(short_name(file.path) +
+                               ": is placed by the study, so its own CRS is not used");
+        place(part, position_in(file, crs()), file.turn_deg);
+      }
+      if (!model_.crs.empty() && !part.crs.empty() && model_.crs != part.crs)
+        problems_.add({file.path}, "coordinates in " + part.crs,
+                      "an earlier file of the scene has " + model_.crs,
+                      "bring all files of a scene into one CRS");
+      // Tens of millions of faces are not copied.
+      if (model_.source.empty())
+        model_ = std::move(part);
+      else
+        append(model_, part);
+    } catch (const InputError& error) {
+      problems_.add(error);
+    }
+  }
+
+  const Study& study_;
+  PolygonModel model_;
+  Problems problems_;
+};
+
+}  // namespace
+
+PolygonModel read_models(const Study& study) {
+  if (study.scene.builtin) return built_in(*study.scene.builtin);
+  return SceneJoin(study).run();
+}
+
+void place(PolygonModel& model, Vec3 position, double turn_deg) {
+  // As north by east, so the file's +y axis by its turn.
+  const Rotation scene_from_file = scene_from_enu({.north_deg = -turn_deg});
+  for (Vec3& p : model.vertices) p = position + scene_from_file(p);
+  model.crs.clear();
+}
+
+}  // namespace sunload

@@ -1,0 +1,22 @@
+/// The files of a scene, or a built-in scene, put together into one model.
+#pragma once
+
+#include <string>
+
+#include "geo/mesh/mesh.h"
+#include "io/study/study.h"
+
+namespace sunload {
+
+/// Reads what `study.scene` names and puts every file in its place.
+///
+/// Objects of one name in several files are kept apart, the later ones as `name_2`, and noted; so
+/// are materials, which keep their names. A file that is placed no longer lies in its own CRS.
+/// Throws InputError with the problems of all files.
+PolygonModel read_models(const Study& study);
+
+/// Turns and moves the model of a file, without the CRS that it had:
+/// position + turn (clockwise seen from above) · place.
+void place(PolygonModel& model, Vec3 position, double turn_deg);
+
+}  // namespace sunload

@@ -1,0 +1,147 @@
+#include "io/plan/sky_dome.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/plan/period.h"
+#include "io/plan/scene_build.h"
+
+namespace sunload {
+
+namespace {
+
+/// The interval of a study of positions that covers an instant.
+LitInterval position_at(const Study& study, const Site& site, UnixTime utc) {
+  const LightSeries light = light_series(study, site);
+  for (const auto& interval : light.intervals)
+    if (utc >= interval.when.begin && utc < interval.when.end) return interval;
+  throw InputError({}, "--time " + iso_utc(utc) + " is none of the study's positions",
+                   "their time counts from " + iso_utc(light.intervals.front().when.begin) +
+                       " to " + iso_utc(light.intervals.back().when.end),
+                   "choose a time in between");
+}
+
+LitInterval light_at(const Study& study, const Site& site, UnixTime utc,
+                     std::vector<std::string>& notes) {
+  if (std::holds_alternative<PositionsPeriod>(study.period.kind))
+    return position_at(study, site, utc);
+  constexpr double moment_min = 1 / seconds_per_minute;  // short: the value of the instant
+  Study moment = study;
+  moment.period.kind = InstantsPeriod{{{calendar_from_utc(utc), true, true, 0}}, moment_min};
+  const LightSeries light = light_series(moment, site);
+  notes.insert(notes.end(), light.notes.begin(), light.notes.end());
+  return light.intervals.front();
+}
+
+UnixTime instant(const std::string& text, const TimeZone& zone, std::vector<std::string>& notes) {
+  ParsedTime time;
+  try {
+    time = parse_time(text);
+  } catch (const InputError& error) {
+    throw InputError({}, "--time: " + error.problems().front());
+  }
+  if (!time.has_time)
+    throw InputError({}, "--time " + text + " has no time of day", "the sky of an instant is asked",
+                     "write for example --time " + text + "T12:00");
+  return utc_of(time, zone, notes);
+}
+
+std::string sky_words(const LightStudy& light) {
+  switch (light.sky) {
+    case SkyModel::uniform:
+      return "uniform sky";
+    case SkyModel::cie_overcast:
+      return "CIE overcast sky";
+    case SkyModel::cie_clear:
+      return "CIE clear sky";
+    case SkyModel::cie_general:
+      return fmt::format("CIE general sky {}", light.sky_type);
+    case SkyModel::perez:
+      return "Perez all-weather sky";
+    case SkyModel::preetham:
+      return fmt::format("Preetham sky, turbidity {:g}", light.turbidity);
+  }
+  return {};
+}
+
+/// What of a patch hills leave free, counted on points of equal solid angle.
+double open_share(const SkyPatch& patch, const Horizon& hills) {
+  if (hills.is_open()) return 1;
+  constexpr int points = 8;
+  const double low = std::sin(radians(patch.elevation_low_deg));
+  const double high = std::sin(radians(patch.elevation_high_deg));
+  int open = 0;
+  for (int i = 0; i < points; ++i)
+    for (int j = 0; j < points; ++j) {
+      const double sine = low + (high - low) * (i + 0.5) / points;
+      const double turn = (patch.azimuth_high_deg - patch.azimuth_low_deg) * (j + 0.5) / points;
+      if (hills.is_above({patch.azimuth_low_deg + turn, degrees(std::asin(sine))})) ++open;
+    }
+  return static_cast<double>(open) / (points * points);
+}
+
+}  // namespace
+
+double SkyDome::radiance(Horizontal w) const {
+  return hills.is_above(w) ? sky.radiance(enu_direction(w)) : ground_radiance;
+}
+
+SkyDome sky_dome(const Study& study, const std::string& time) {
+  const TimeZone zone(study.site.timezone);
+  std::vector<std::string> notes;
+  const UnixTime utc = instant(time, zone, notes);
+  // The site may come from the scene's CRS, which only its reader knows.
+  Site site = build_scene(study).site;
+  site.north_deg = 0;  // axes of the dome: x east, y north
+  const LitInterval light = light_at(study, site, utc, notes);
+  const bool has_place = !std::holds_alternative<PositionsPeriod>(study.period.kind);
+  return {light,
+          sky_of(light, study.light),
+          site.horizon,
+          study.light.far_ground_albedo * light.mean.ghi / pi,
+          study.name + (has_place ? ", " + position_text(site) : ""),
+          sky_words(study.light),
+          iso_local(utc, zone),
+          notes};
+}
+
+std::vector<SkyRow> sky_rows(const SkyDome& dome, std::optional<Subdivision> subdivision) {
+  std::vector<SkyRow> rows;
+  if (!subdivision) {
+    const SkyGrid grid;
+    const auto open = open_shares(grid, dome.hills, Rotation());
+    const auto radiance = grid.mean_radiance(dome.sky, dome.light.mean.dhi);
+    for (int cell = 0; cell < grid.cell_count(); ++cell) {
+      const auto c = static_cast<std::size_t>(cell);
+      const Horizontal middle = horizontal(grid.direction(cell, 0.5, 0.5));
+      const double share = open.empty() ? 1 : open[c];
+      rows.push_back({middle.azimuth_deg, middle.elevation_deg,
+                      share * radiance[c] + (1 - share) * dome.ground_radiance, grid.solid_angle(),
+                      grid.projected()[c]});
+    }
+    return rows;
+  }
+  const auto patches = sky_patches(*subdivision);
+  const auto radiance = mean_radiance(patches, dome.sky);
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    const Horizontal middle = horizontal(patches[p].direction);
+    const double share = open_share(patches[p], dome.hills);
+    rows.push_back({middle.azimuth_deg, middle.elevation_deg,
+                    share * radiance[p] + (1 - share) * dome.ground_radiance,
+                    patches[p].solid_angle, patches[p].projected});
+  }
+  return rows;
+}
+
+std::string sky_csv(const std::vector<SkyRow>& rows) {
+  std::string text =
+      "azimuth_deg,elevation_deg,radiance_w_m2_sr,solid_angle_sr,projected_solid_angle_sr\n";
+  for (const auto& row : rows)
+    text += fmt::format("{:.6f},{:.6f},{:.8g},{:.8g},{:.8g}\n", row.azimuth_deg, row.elevation_deg,
+                        row.radiance, row.solid_angle, row.projected);
+  return text;
+}
+
+}  // namespace sunload

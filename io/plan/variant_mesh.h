@@ -1,0 +1,26 @@
+/// The frozen mesh of a variant: split, refined by a pilot of the study's own suns.
+#pragma once
+
+#include <memory>
+
+#include "io/plan/variant_plan.h"
+#include "solver/mesh/refine.h"
+
+namespace sunload {
+
+/// The light of a period in short: all its suns where they are few, else two samples of them.
+PilotLight pilot_light(const VariantPlan& plan);
+
+struct VariantMesh {
+  std::shared_ptr<const Hierarchy> mesh;
+  RefineReport report;
+};
+
+/// Splits and refines. Depends on the plan's content alone, hence is the same for every shard.
+/// Throws InputError beyond the largest number of patches, MachineError, Interrupted.
+VariantMesh make_mesh(const VariantPlan& plan, Watch& watch);
+
+/// What refinement did, in words; empty where none was asked for.
+std::string refine_text(const RefineReport& report, const Study& study);
+
+}  // namespace sunload

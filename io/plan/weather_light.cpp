@@ -1,0 +1,260 @@
+#include "io/plan/weather_light.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geo/base/units.h"
+
+namespace sunload {
+
+namespace {
+
+/// Weather changes over some tens of kilometres; beyond, the sun's times do too.
+constexpr double far_from_station_m = 50e3;
+/// Below this the closure is as good as instruments are (BSRN: 2 % or 5 W/m² for GHI).
+constexpr double good_closure_w_m2 = 10;
+/// A shift that leaves less than half of the residual is no chance.
+constexpr double telling_share = 0.5;
+
+std::string offset_words(double offset_s) {
+  const auto minutes = static_cast<int>(std::lround(std::abs(offset_s) / seconds_per_minute));
+  return fmt::format("{}{:02}:{:02}", offset_s < 0 ? '-' : '+', minutes / 60, minutes % 60);
+}
+
+const char* source_words(WeatherSource source, Decomposition decomposition) {
+  switch (source) {
+    case WeatherSource::dni_and_dhi:
+      return "DNI and DHI as they are";
+    case WeatherSource::ghi_and_dhi:
+      return "DHI as it is, DNI = (GHI - DHI) / sin(elevation)";
+    case WeatherSource::ghi_and_dni:
+      return "DNI as it is, DHI = GHI - DNI sin(elevation)";
+    case WeatherSource::ghi_alone:
+      return decomposition == Decomposition::erbs
+                 ? "GHI divided into DNI and DHI after Erbs, Klein & Duffie (1982)"
+                 : "GHI divided into DNI and DHI by DISC, Maxwell (1987)";
+    case WeatherSource::none:
+      break;
+  }
+  return "nothing";
+}
+
+/// The records that overlap [begin, end].
+std::vector<DatedWeather> overlapping(const std::vector<DatedWeather>& all, UnixTime begin,
+                                      UnixTime end) {
+  std::vector<DatedWeather> some;
+  for (const auto& w : all)
+    if (w.end > begin && w.begin < end) some.push_back(w);
+  return some;
+}
+
+/// Stations have an open horizon.
+Site open(Site site) {
+  site.horizon = Horizon();
+  return site;
+}
+
+/// Same stretches, so that nothing is to be divided.
+bool are_same(const std::vector<DatedWeather>& weather, const SunPath& path) {
+  return std::equal(weather.begin(), weather.end(), path.begin(), path.end(),
+                    [](const DatedWeather& w, const SunInterval& i) {
+                      return w.begin == i.begin && w.end == i.end;
+                    });
+}
+
+std::vector<PeriodStep> steps_of(const std::vector<DatedWeather>& weather) {
+  std::vector<PeriodStep> steps;
+  steps.reserve(weather.size());
+  for (const auto& w : weather)
+    steps.push_back({w.begin, w.end, (w.begin + w.end) / 2, SunInstant::middle_of_sunlit_part});
+  return steps;
+}
+
+}  // namespace
+
+StudyWeather::StudyWeather(const Study& study, const Site& site)
+    : study_(study),
+      site_(open(site)),
+      file_(read_weather_file(study.light.weather, study.light.stamp)),
+      years_(years_of(file_.records)) {
+  if (std::holds_alternative<WeatherPeriod>(study.period.kind)) date_own_year();
+  say_file();
+}
+
+int StudyWeather::first_year() const {
+  const auto* own = std::get_if<WeatherPeriod>(&study_.period.kind);
+  if (own && own->as_year) return *own->as_year;
+  return years_ == WeatherYears::actual ? file_.records.front().year : typical_year;
+}
+
+double StudyWeather::offset_s(int year) const {
+  return file_.offset_s.value_or(TimeZone(study_.site.timezone).standard_offset_s(year));
+}
+
+void StudyWeather::date_own_year() {
+  const int year = first_year();
+  dated_ = dated(file_.records, year, offset_s(year));
+  if (dated_.size() < file_.records.size()) {
+    const auto leap_day =
+        std::find_if(file_.records.begin(), file_.records.end(),
+                     [](const WeatherRecord& r) { return r.month == 2 && r.day == 29; });
+    throw InputError({file_.path, leap_day->line, 0}, fmt::format("{} has no 29 February", year),
+                     "the weather is written as that year",
+                     "write period.as_year with a leap year, such as 2004");
+  }
+}
+
+std::vector<PeriodStep> StudyWeather::own_steps() const { return steps_of(dated_); }
+
+void StudyWeather::date_for(const SunPath& path) {
+  if (years_ == WeatherYears::actual) {
+    dated_ = dated(file_.records, {}, offset_s(first_year()));
+    return;
+  }
+  // A typical year is any year that the period touches.
+  dated_.clear();
+  const int first = calendar_from_utc(path.front().begin - seconds_per_day).year;
+  const int last = calendar_from_utc(path.back().end + seconds_per_day).year;
+  for (int year = first; year <= last; ++year) {
+    const auto of_year = dated(file_.records, year, offset_s(year));
+    dated_.insert(dated_.end(), of_year.begin(), of_year.end());
+  }
+}
+
+std::vector<Irradiance> StudyWeather::means(const SunPath& path) {
+  if (dated_.empty()) date_for(path);
+  source_ = source_of(dated_);
+  words_.push_back(source_words(source_, study_.light.decomposition));
+  if (source_ == WeatherSource::none)
+    throw InputError({file_.path}, "has no irradiance that light could be made from",
+                     "all values of GHI, DNI and DHI are missing");
+  const auto filled = fill_missing(dated_, source_, study_.light.missing).weather;
+  UnixTime end = path.front().end;
+  for (const auto& i : path) end = std::max(end, i.end);
+  const auto as_read = overlapping(dated_, path.front().begin, end);
+  say_filled(fill_missing(as_read, source_, Missing::refuse), as_read.size());
+  const auto used = overlapping(filled, path.front().begin, end);
+  if (used.empty()) refuse_uncovered(path.front());
+  const bool own = are_same(used, path);
+  const SunPath weather_path =
+      own && study_.site.horizon.is_open()
+          ? path
+          : sun_path(steps_of(used), site_, study_.sun.refraction, study_.sun.ut1_utc);
+  say_closure(as_read, weather_path);
+  const WeatherLight light =
+      with_sun(used, weather_path, source_, study_.light.decomposition, site_.elevation_m);
+  if (light.dark_beams > 0)
+    words_.push_back(
+        fmt::format("{} records have DNI without sun above the horizon: {:.4g} Wh/m2 "
+                    "of direct light dropped, DHI kept",
+                    light.dark_beams, light.dropped_dni_wh_m2));
+  std::vector<Irradiance> means;
+  if (own) {
+    for (const auto& interval : light.intervals) means.push_back(interval.mean);
+    return means;
+  }
+  const Resampled resampled = resample(light.intervals, path);
+  if (resampled.uncovered) refuse_uncovered(path[*resampled.uncovered]);
+  return resampled.mean;
+}
+
+void StudyWeather::say_file() {
+  const WeatherRecord& first = file_.records.front();
+  const double offset = offset_s(first_year());
+  const TimeZone zone(offset_words(offset));
+  const bool own = !dated_.empty();
+  words_.push_back(
+      fmt::format("{} {}{}: {} records of {:g} min", file_.format, file_.path,
+                  file_.place && !file_.place->name.empty() ? " (" + file_.place->name + ")" : "",
+                  file_.records.size(), (first.end_s - first.begin_s) / seconds_per_minute));
+  words_.push_back(fmt::format(
+      "{}, local standard time UTC{}{}{}",
+      years_ == WeatherYears::typical
+          ? (own ? fmt::format("typical year written as {}", first_year())
+                 : std::string("typical year, taken for the dates of the period"))
+          : fmt::format("years {} to {}{}", first.year, file_.records.back().year,
+                        own && first_year() != first.year
+                            ? fmt::format(" written as {}", first_year())
+                            : ""),
+      offset_words(offset), file_.offset_s ? "" : " (from site.timezone; the file does not say)",
+      own ? fmt::format("; first record {} to {}", iso_local(dated_.front().begin, zone),
+                        iso_local(dated_.front().end, zone))
+          : ""));
+  for (const auto& note : file_.notes) words_.push_back(note);
+  if (!file_.place) return;
+  const double away = distance_m(site_, {.latitude_deg = file_.place->latitude_deg,
+                                         .longitude_deg = file_.place->longitude_deg});
+  if (away > far_from_station_m)
+    warnings_.push_back(fmt::format(
+        "the weather station {} stands {:.0f} km from the site; its weather and its hours of "
+        "sunrise are not those of the site",
+        file_.place->name, away / 1000));
+}
+
+void StudyWeather::say_filled(const FilledWeather& gaps, std::size_t used) {
+  if (gaps.records == 0) return;
+  const std::string count =
+      fmt::format("{} of {} records lack a value, the longest gap has {:.4g} h", gaps.records, used,
+                  gaps.longest_gap_s / seconds_per_hour);
+  if (study_.light.missing == Missing::refuse) {
+    const auto first =
+        std::find_if(gaps.weather.begin(), gaps.weather.end(),
+                     [&](const DatedWeather& w) { return is_incomplete(w.values, source_); });
+    throw InputError({file_.path, first->line, 0}, "irradiance is missing here", count,
+                     "choose another file or period, or write light.missing: interpolate or zero");
+  }
+  warnings_.push_back(
+      "weather: " + count +
+      (study_.light.missing == Missing::zero ? "; 0 is taken" : "; filled by interpolation"));
+}
+
+void StudyWeather::say_closure(const std::vector<DatedWeather>& used, const SunPath& path) {
+  UnixTime begin = path.front().begin - seconds_per_day, end = path.back().end + seconds_per_day;
+  const SunEphemeris sun(begin, end, site_, study_.sun.refraction, study_.sun.ut1_utc,
+                         standard_air(site_.elevation_m));
+  const Closure c = closure(used, path, sun);
+  if (c.intervals == 0) return;
+  words_.push_back(fmt::format(
+      "closure DNI sin(elevation) + DHI - GHI over {} sunlit records: mean {:+.2f} W/m2 "
+      "({:+.2f} % of GHI), root mean square {:.2f}, worst {:+.0f} at {}",
+      c.intervals, c.bias, c.mean_ghi > 0 ? 100 * c.bias / c.mean_ghi : 0.0, c.rms, c.worst,
+      iso_utc(c.worst_at)));
+  if (c.rms > good_closure_w_m2 && c.best_shift_s != 0 && c.best_rms < telling_share * c.rms)
+    warnings_.push_back(fmt::format(
+        "the sun {:g} min {} fits GHI, DNI and DHI better (root mean square {:.1f} instead of "
+        "{:.1f} W/m2); are stamp and time zone of the weather right?",
+        std::abs(c.best_shift_s) / seconds_per_minute, c.best_shift_s > 0 ? "later" : "earlier",
+        c.best_rms, c.rms));
+}
+
+void StudyWeather::refuse_uncovered(const SunInterval& when) const {
+  const int year = calendar_from_utc(when.begin).year;
+  const CivilTime date = calendar_from_utc(when.begin + offset_s(year));
+  const bool is_leap_day = date.month == 2 && date.day == 29;
+  const std::string why =
+      years_ == WeatherYears::typical && is_leap_day
+          ? std::string("typical years have no 29 February")
+      : dated_.empty()
+          ? std::string("it has no date in that year")
+          : fmt::format("it reaches from {} to {}{}", iso_utc(dated_.front().begin),
+                        iso_utc(dated_.back().end),
+                        when.begin >= dated_.front().begin && when.end <= dated_.back().end
+                            ? ", with gaps"
+                            : "");
+  throw InputError(
+      study_.period.where,
+      fmt::format("the weather does not cover {} to {}", iso_utc(when.begin), iso_utc(when.end)),
+      why,
+      years_ == WeatherYears::actual
+          ? fmt::format("choose dates from {} on, or year_of: weather", file_.records.front().year)
+          : "choose other dates, or year_of: weather");
+}
+
+std::optional<WeatherPlace> weather_place(const Study& study) {
+  if (study.light.source != LightSource::weather) return {};
+  return read_weather_file(study.light.weather, study.light.stamp).place;
+}
+
+}  // namespace sunload

@@ -1,0 +1,55 @@
+/// The weather file of a study as light on its intervals.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geo/sun/site.h"
+#include "geo/sun/weather.h"
+#include "io/study/study.h"
+#include "io/weather/file.h"
+
+namespace sunload {
+
+/// Year that typical weather is written as where the study does not choose one.
+inline constexpr int typical_year = 2001;
+
+/// Weather for one study: read, dated, filled, with its sun. Throws InputError for what the
+/// file lacks; everything that was done to the data is said in `words`.
+class StudyWeather {
+ public:
+  StudyWeather(const Study& study, const Site& site);
+
+  /// One step per record: the period `year_of: weather`.
+  std::vector<PeriodStep> own_steps() const;
+  /// Means over the intervals of `path`, which are the own steps or any others. InputError
+  /// where the weather does not reach.
+  std::vector<Irradiance> means(const SunPath& path);
+
+  const std::vector<std::string>& words() const { return words_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  void date_own_year();
+  void date_for(const SunPath& path);
+  double offset_s(int year) const;
+  int first_year() const;
+  WeatherLight sunny(std::vector<DatedWeather> used, const SunPath& path);
+  void say_file();
+  void say_closure(const std::vector<DatedWeather>& used, const SunPath& path);
+  void say_filled(const FilledWeather& gaps, std::size_t used);
+  void refuse_uncovered(const SunInterval& when) const;
+
+  const Study& study_;
+  Site site_;
+  WeatherFile file_;
+  WeatherYears years_;
+  std::vector<DatedWeather> dated_;  ///< as read
+  WeatherSource source_ = WeatherSource::none;
+  std::vector<std::string> words_, warnings_;
+};
+
+/// The station's place, where the study has a weather file whose header says it.
+std::optional<WeatherPlace> weather_place(const Study& study);
+
+}  // namespace sunload

@@ -1,0 +1,65 @@
+/// What changes between two results: differences of the light load with their
+/// significance, per facade, object, surface and on the whole.
+///
+/// Groups are matched by name and compared by the area-weighted mean light load
+/// of their patches. Where both results carry the same `pairing_id` and number
+/// of realizations, realization r of both used the same random numbers: the
+/// standard error is that of the per-realization differences of the group
+/// means, with R − 1 degrees of freedom (patches need not match one to one, so
+/// that variants may differ in geometry). Otherwise both errors add up (Welch).
+/// p-values are corrected by Holm within each kind of group.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/result/reader.h"
+
+namespace sunload {
+
+/// One group; loads are area-weighted means [kWh m-2, or klx h], NaN where not known.
+struct ComparisonRow {
+  std::string kind;  ///< whole | surface | object | facade
+  std::string name;
+  double area_m2 = 0;  ///< in the base; in the variant where the base lacks the group
+  std::optional<double> base_kwh_m2, variant_kwh_m2;  ///< absent: the result lacks the group
+  double difference_kwh_m2 = 0;                       ///< variant − base
+  double difference_percent = 0;                      ///< of the base
+  double se_kwh_m2 = 0;                               ///< standard error of the difference
+  double p_value = 0;                                 ///< two-sided, of no difference
+  double p_corrected = 0;                             ///< for the number of groups of the same kind
+  bool significant = false;                           ///< p_corrected < significance_level
+  /// Area of either result without a counterpart in the other: sum over the
+  /// group's objects, by name, of the differences in area.
+  double unmatched_area_m2 = 0;
+};
+
+struct Comparison {
+  std::string base, variant;  ///< names of the variants
+  std::string units;          ///< of the light load, as the files state it
+  Quantity quantity = Quantity::irradiance;
+  std::size_t base_realizations = 0, variant_realizations = 0;
+  enum class Errors { paired, independent, unknown } errors = Errors::unknown;
+  std::vector<std::string> notes;  ///< what a reader must know, e.g. that the periods differ
+  std::vector<ComparisonRow> rows;
+};
+
+/// Throws InputError where a result has no light load or the units differ.
+Comparison compare_results(const ResultReader& base, const ResultReader& variant);
+
+/// Table for people: significant differences first within each kind.
+std::string comparison_table(const Comparison& comparison);
+/// Header and rows for machines (DESIGN 1; of illuminance `klx_h` instead of `kwh_m2`); fields
+/// without a value are empty.
+std::string comparison_csv(const Comparison& comparison);
+/// The same as JSON: one object per row, null where a value is not known.
+std::string comparison_json(const Comparison& comparison);
+
+/// The groups, the facades and, on the base's mesh, the patches that both results have, with their
+/// differences and the standard errors of these (docs/comparison-file.md). The file appears when it
+/// is complete. Throws MachineError where it cannot be written.
+void write_comparison_hdf5(const Comparison& comparison, const ResultReader& base,
+                           const ResultReader& variant, const std::string& path);
+
+}  // namespace sunload

@@ -1,0 +1,287 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "geo/base/check.h"
+#include "io/base/file_aside.h"
+#include "io/base/light_quantity.h"
+#include "io/base/statistics.h"
+#include "io/report/compare.h"
+#include "io/result/h5.h"
+#include "io/result/schema.h"
+
+namespace sunload {
+namespace {
+
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+/// Patches are the same where middle, normal and area are, to the tenth of a millimetre.
+using PatchKey = std::array<std::int64_t, 7>;
+
+std::vector<PatchKey> patch_keys(const ResultReader& result) {
+  constexpr double steps_per_m = 1e4;
+  const auto centroid = result.doubles("patch_centroid"), normal = result.doubles("patch_normal"),
+             area = result.doubles("patch_area");
+  const auto origin = h5::File::open(result.path()).numbers("origin");
+  std::vector<PatchKey> keys(area.size());
+  for (std::size_t p = 0; p < keys.size(); ++p) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double at = centroid[3 * p + k] + (origin && origin->size() == 3 ? (*origin)[k] : 0);
+      keys[p][k] = std::llround(at * steps_per_m);
+      keys[p][3 + k] = std::llround(normal[3 * p + k] * steps_per_m);
+    }
+    keys[p][6] = std::llround(area[p] * steps_per_m);
+  }
+  return keys;
+}
+
+/// For every patch of the base that of the variant in its place, -1: none.
+std::vector<std::int32_t> matched_patches(const ResultReader& base, const ResultReader& variant) {
+  const auto own = patch_keys(base), theirs = patch_keys(variant);
+  std::vector<std::int32_t> match(own.size(), -1);
+  std::map<PatchKey, std::int32_t> places;
+  if (own != theirs)
+    for (std::size_t q = 0; q < theirs.size(); ++q)
+      places.emplace(theirs[q], static_cast<std::int32_t>(q));
+  for (std::size_t p = 0; p < own.size(); ++p) {
+    if (places.empty())
+      match[p] = static_cast<std::int32_t>(p);
+    else if (const auto found = places.find(own[p]); found != places.end())
+      match[p] = found->second;
+  }
+  return match;
+}
+
+std::vector<std::vector<double>> realizations(const ResultReader& result) {
+  std::vector<std::vector<double>> rows;
+  if (!result.has("light_load_realization")) return rows;
+  for (std::size_t r = 0; r < result.shape("light_load_realization").front(); ++r)
+    rows.push_back(result.row("light_load_realization", r));
+  return rows;
+}
+
+std::vector<double> column(const std::vector<std::vector<double>>& rows, std::size_t place) {
+  std::vector<double> values;
+  for (const auto& row : rows) values.push_back(row[place]);
+  return values;
+}
+
+class ComparisonFile {
+ public:
+  explicit ComparisonFile(const std::string& path) : file_(h5::File::create(path)) {}
+
+  void dimension(const std::string& name, std::size_t size) {
+    // The words by which netCDF-4 knows a dimension without a variable.
+    constexpr const char* no_variable = "This is a netCDF dimension but not a netCDF variable. ";
+    constexpr std::size_t digits = 10;
+    const auto number = std::to_string(size);
+    sizes_[name] = size;
+    auto scale = file_.create_dataset(name, {h5::Type::float32, {size}, {}, 0});
+    scale.make_scale(no_variable + std::string(digits - std::min(digits, number.size()), ' ') +
+                     number);
+    scales_.emplace(name, scale);
+  }
+
+  template <class Value>
+  h5::Dataset put(const std::string& name, const std::vector<std::string>& dims, h5::Type type,
+                  const std::string& units, const std::string& long_name,
+                  const std::vector<Value>& values) {
+    h5::DatasetSpec spec{type, {}, {}, 0};
+    for (const auto& dim : dims) spec.shape.push_back(sizes_.at(dim));
+    auto dataset = file_.create_dataset(name, spec);
+    for (std::size_t i = 0; i < dims.size(); ++i) dataset.attach_scale(i, scales_.at(dims[i]));
+    if (type == h5::Type::float64) dataset.set("_FillValue", {not_known}, type);
+    dataset.set("long_name", long_name);
+    if (!units.empty()) dataset.set("units", units);
+    dataset.write(values);
+    return dataset;
+  }
+
+  h5::File& file() { return file_; }
+  void close() {
+    scales_.clear();
+    file_.close();
+  }
+
+ private:
+  h5::File file_;
+  std::map<std::string, std::size_t> sizes_;
+  std::map<std::string, h5::Dataset> scales_;
+};
+
+/// A column of the groups' table.
+template <class Get>
+std::vector<double> numbers_of(const std::vector<ComparisonRow>& rows, const Get& get) {
+  std::vector<double> values;
+  for (const auto& row : rows) values.push_back(get(row));
+  return values;
+}
+
+void put_groups(ComparisonFile& file, const Comparison& comparison) {
+  const auto& rows = comparison.rows;
+  const std::vector<std::string> dims{"group"};
+  std::vector<std::string> kinds, names;
+  std::vector<std::int32_t> significant;
+  for (const auto& row : rows) {
+    kinds.push_back(row.kind);
+    names.push_back(row.name);
+    significant.push_back(row.significant ? 1 : 0);
+  }
+  file.dimension("group", rows.size());
+  file.put("group_kind", dims, h5::Type::text, "", "whole, surface, object or facade", kinds);
+  file.put("group_name", dims, h5::Type::text, "", "name of the group", names);
+  const auto put = [&](const std::string& name, const std::string& units, const std::string& what,
+                       const auto& get) {
+    file.put(name, dims, h5::Type::float64, units, what, numbers_of(rows, get));
+  };
+  const auto& load = comparison.units;
+  put("group_area", "m2", "area in the base (in the variant where the base lacks the group)",
+      [](const ComparisonRow& r) { return r.area_m2; });
+  put("group_base_light_load", load, "area-weighted mean light load of the base",
+      [](const ComparisonRow& r) { return r.base_kwh_m2.value_or(not_known); });
+  put("group_variant_light_load", load, "area-weighted mean light load of the variant",
+      [](const ComparisonRow& r) { return r.variant_kwh_m2.value_or(not_known); });
+  put("group_difference", load, "variant minus base",
+      [](const ComparisonRow& r) { return r.difference_kwh_m2; });
+  put("group_difference_percent", "percent", "difference as a share of the base",
+      [](const ComparisonRow& r) { return r.difference_percent; });
+  put("group_difference_se", load, "standard error of the difference",
+      [](const ComparisonRow& r) { return r.se_kwh_m2; });
+  put("group_p_value", "1", "two-sided p-value of no difference",
+      [](const ComparisonRow& r) { return r.p_value; });
+  put("group_p_corrected", "1", "p-value corrected for the number of groups of the kind (Holm)",
+      [](const ComparisonRow& r) { return r.p_corrected; });
+  file.put("group_significant", dims, h5::Type::int8, "", "1: the corrected p-value is below 0.05",
+           significant);
+  put("group_unmatched_area", "m2", "area without a counterpart in the other result",
+      [](const ComparisonRow& r) { return r.unmatched_area_m2; });
+}
+
+/// Rows of the facades of the base, in its order.
+void put_facades(ComparisonFile& file, const Comparison& comparison, const ResultReader& base) {
+  const auto names = base.strings("facade_name");
+  if (names.empty()) return;
+  std::map<std::string, const ComparisonRow*> rows;
+  for (const auto& row : comparison.rows)
+    if (row.kind == "facade") rows[row.name] = &row;
+  const auto values = [&](const auto& get) {
+    std::vector<double> list;
+    for (const auto& name : names)
+      list.push_back(rows.contains(name) ? get(*rows[name]) : not_known);
+    return list;
+  };
+  const std::vector<std::string> dims{"facade"};
+  file.dimension("facade", names.size());
+  file.put("facade_name", dims, h5::Type::text, "", "name of the facade", names);
+  file.put("facade_light_load_difference", dims, h5::Type::float64, comparison.units,
+           "variant minus base, area-weighted means",
+           values([](const ComparisonRow& r) { return r.difference_kwh_m2; }));
+  file.put("facade_light_load_difference_se", dims, h5::Type::float64, comparison.units,
+           "standard error of the difference",
+           values([](const ComparisonRow& r) { return r.se_kwh_m2; }));
+}
+
+void put_mesh(ComparisonFile& file, const ResultReader& base) {
+  constexpr std::size_t axes = 3;
+  file.dimension("xyz", axes);
+  file.dimension("corner", axes);
+  file.dimension("vertex", base.shape("vertex_position").front());
+  file.dimension("patch", base.shape("patch_area").front());
+  file.dimension("object", base.strings("object_name").size());
+  for (const char* name : {"object_name", "vertex_position", "vertex_x", "vertex_y", "vertex_z",
+                           "patch_vertices", "patch_area", "patch_centroid", "patch_normal",
+                           "patch_object", "patch_facade", "patch_surface", "patch_side"}) {
+    const auto* of = find_result_variable(name);
+    const auto dims = dimension_names(*of);
+    const std::string units(of->units), what(of->long_name);
+    if (of->type == h5::Type::text)
+      file.put(name, dims, of->type, units, what, base.strings(name));
+    else if (of->type == h5::Type::float64)
+      file.put(name, dims, of->type, units, what, base.doubles(name));
+    else
+      file.put(name, dims, of->type, units, what, base.integers(name));
+  }
+  auto mesh = file.put("mesh", {}, h5::Type::int32, "", "topology of the patches",
+                       std::vector<std::int32_t>{0});
+  mesh.set("cf_role", "mesh_topology");
+  mesh.set("topology_dimension", 2.0, h5::Type::int32);
+  mesh.set("node_coordinates", "vertex_x vertex_y vertex_z");
+  mesh.set("face_node_connectivity", "patch_vertices");
+}
+
+void put_patches(ComparisonFile& file, const Comparison& comparison, const ResultReader& base,
+                 const ResultReader& variant) {
+  const auto match = matched_patches(base, variant);
+  const auto own = base.doubles("light_load"), theirs = variant.doubles("light_load");
+  const auto own_rows = realizations(base), their_rows = realizations(variant);
+  std::vector<double> of_variant(own.size(), not_known), difference(own.size(), not_known),
+      se(own.size(), not_known);
+  for (std::size_t p = 0; p < own.size(); ++p) {
+    if (match[p] < 0) continue;
+    const auto q = static_cast<std::size_t>(match[p]);
+    of_variant[p] = theirs[q];
+    difference[p] = theirs[q] - own[p];
+    if (comparison.errors == Comparison::Errors::unknown) continue;
+    const auto a = column(own_rows, p), b = column(their_rows, q);
+    se[p] =
+        (comparison.errors == Comparison::Errors::paired ? paired_error(a, b) : welch_error(a, b))
+            .se;
+  }
+  const std::vector<std::string> dims{"patch"};
+  file.put("variant_patch", dims, h5::Type::int32, "",
+           "index of the same patch in the variant, -1: none", match);
+  const auto put = [&](const std::string& name, const std::string& what,
+                       const std::vector<double>& values) {
+    auto dataset = file.put(name, dims, h5::Type::float64, comparison.units, what, values);
+    dataset.set("mesh", "mesh");
+    dataset.set("location", "face");
+  };
+  put("base_light_load", "light load of the base", own);
+  put("variant_light_load", "light load of the variant", of_variant);
+  put("light_load_difference", "variant minus base", difference);
+  put("light_load_difference_se", "standard error of the difference", se);
+}
+
+void put_attributes(h5::File& file, const Comparison& comparison, const ResultReader& base,
+                    const ResultReader& variant) {
+  constexpr std::array errors{"paired", "independent", "unknown"};
+  std::string notes;
+  for (const auto& note : comparison.notes) notes += note + "\n";
+  const auto origin = h5::File::open(base.path()).numbers("origin");
+  file.set("title", "Light load: variant " + comparison.variant + " minus base " + comparison.base);
+  file.set("Conventions", std::string(result_conventions));
+  file.set("sunload_format", "sunload-comparison-1");
+  file.set("base", comparison.base);
+  file.set("variant", comparison.variant);
+  file.set("base_study_sha256", base.text_attribute("study_sha256"));
+  file.set("variant_study_sha256", variant.text_attribute("study_sha256"));
+  file.set("errors", errors[static_cast<std::size_t>(comparison.errors)]);
+  file.set("base_realizations", static_cast<std::int64_t>(comparison.base_realizations));
+  file.set("variant_realizations", static_cast<std::int64_t>(comparison.variant_realizations));
+  if (comparison.quantity == Quantity::illuminance) file.set("quantity", "illuminance");
+  if (origin) file.set("origin", *origin, h5::Type::float64);
+  if (!notes.empty()) file.set("notes", notes);
+}
+
+}  // namespace
+
+void write_comparison_hdf5(const Comparison& comparison, const ResultReader& base,
+                           const ResultReader& variant, const std::string& path) {
+  FileAside target(path);
+  try {
+    ComparisonFile file(target.aside());
+    put_groups(file, comparison);
+    put_facades(file, comparison, base);
+    put_mesh(file, base);
+    put_patches(file, comparison, base, variant);
+    put_attributes(file.file(), comparison, base, variant);
+    file.close();
+  } catch (const h5::Error& error) {
+    throw MachineError("cannot write " + path + ": " + error.what());
+  }
+  target.publish();
+}
+
+}  // namespace sunload

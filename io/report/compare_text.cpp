@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "io/base/statistics.h"
+#include "io/base/text.h"
+#include "io/report/compare.h"
+
+namespace sunload {
+namespace {
+
+double or_nan(const std::optional<double>& value) {
+  return value.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+bool is_paired(const Comparison& comparison, const ComparisonRow& row) {
+  return comparison.errors == Comparison::Errors::paired && row.base_kwh_m2 && row.variant_kwh_m2;
+}
+
+std::string cell(double value, const char* format) {
+  return std::isnan(value) ? std::string("-") : fmt::format(fmt::runtime(format), value);
+}
+
+std::string p_in_words(double p) {
+  constexpr double least_shown = 0.001;
+  return p < least_shown ? fmt::format("<{}", least_shown) : cell(p, "{:.3f}");
+}
+
+std::string errors_in_words(const Comparison& c) {
+  switch (c.errors) {
+    case Comparison::Errors::paired:
+      return fmt::format(
+          "standard errors of paired differences of the group means, {} realizations with common "
+          "random numbers (Student t)",
+          c.base_realizations);
+    case Comparison::Errors::independent:
+      return fmt::format(
+          "standard errors of both results added, {} and {} independent realizations (Welch t)",
+          c.base_realizations, c.variant_realizations);
+    case Comparison::Errors::unknown:
+      break;
+  }
+  return "no standard errors: a result has fewer than 2 realizations";
+}
+
+std::string table_row(const ComparisonRow& row, std::size_t width) {
+  const char* state = row.significant ? "*" : "";
+  if (!row.base_kwh_m2) state = "only in the variant";
+  if (!row.variant_kwh_m2) state = "only in the base";
+  auto text =
+      fmt::format("  {:<{}} {:>10} {:>9} {:>9} {:>11} {:>9} {:>9} {:>7}  {}", row.name, width,
+                  cell(row.area_m2, "{:.1f}"), cell(or_nan(row.base_kwh_m2), "{:.4g}"),
+                  cell(or_nan(row.variant_kwh_m2), "{:.4g}"),
+                  cell(row.difference_kwh_m2, "{:+.4g}"), cell(row.difference_percent, "{:+.2f}%"),
+                  cell(row.se_kwh_m2, "{:.2g}"), p_in_words(row.p_corrected), state);
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text + '\n';
+}
+
+std::string table_head(const std::string& kind, std::size_t width) {
+  return fmt::format("{:<{}} {:>10} {:>9} {:>9} {:>11} {:>9} {:>9} {:>7}\n", kind, width + 2,
+                     "area/m²", "base", "variant", "difference", "percent", "std.err.", "p");
+}
+
+/// Rows of one kind, largest difference first; groups of one side only at the end.
+std::vector<ComparisonRow> rows_of_kind(const Comparison& comparison, const std::string& kind) {
+  std::vector<ComparisonRow> rows;
+  for (const auto& row : comparison.rows)
+    if (row.kind == kind) rows.push_back(row);
+  const auto size = [](const ComparisonRow& row) {
+    return std::isnan(row.difference_kwh_m2) ? -1 : std::abs(row.difference_kwh_m2);
+  };
+  std::stable_sort(rows.begin(), rows.end(), [&](const ComparisonRow& a, const ComparisonRow& b) {
+    return size(a) > size(b);
+  });
+  return rows;
+}
+
+// A screen holds about so many rows of a kind; machines read the CSV.
+constexpr std::size_t rows_shown = 16;
+
+nlohmann::ordered_json json_number(double value) {
+  return std::isnan(value) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(value);
+}
+
+}  // namespace
+
+std::string comparison_table(const Comparison& comparison) {
+  std::string text = fmt::format(
+      "Light load of {} (variant) against {} (base) [{}]\n{};\n* p, corrected for the number of "
+      "groups of a kind (Holm), is below {}\n",
+      comparison.variant, comparison.base, display_units(comparison.units),
+      errors_in_words(comparison), significance_level);
+  for (const auto& note : comparison.notes) text += "note: " + note + "\n";
+  std::size_t width = 0;
+  for (const auto& row : comparison.rows) width = std::max(width, row.name.size());
+  for (const char* kind : {"whole", "surface", "object", "facade"}) {
+    const auto rows = rows_of_kind(comparison, kind);
+    if (rows.empty()) continue;
+    text += "\n" + table_head(kind, width);
+    for (std::size_t i = 0; i < std::min(rows.size(), rows_shown); ++i)
+      text += table_row(rows[i], width);
+    if (rows.size() > rows_shown)
+      text += fmt::format("  … and {} more: see --csv\n", rows.size() - rows_shown);
+  }
+  const auto& whole = comparison.rows.front();
+  if (whole.unmatched_area_m2 > 0)
+    text += fmt::format("\n{:.1f} m² have no counterpart in the other result\n",
+                        whole.unmatched_area_m2);
+  return text;
+}
+
+std::string comparison_csv(const Comparison& comparison) {
+  std::string text = unit_names(
+      "group,name,area_m2,base_kwh_m2,variant_kwh_m2,difference_kwh_m2,difference_percent,"
+      "se_kwh_m2,paired,p_value,p_corrected,significant,unmatched_area_m2\n",
+      comparison.quantity);
+  for (const auto& row : comparison.rows)
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.kind, csv_text(row.name),
+                        csv_number(row.area_m2), csv_number(or_nan(row.base_kwh_m2)),
+                        csv_number(or_nan(row.variant_kwh_m2)), csv_number(row.difference_kwh_m2),
+                        csv_number(row.difference_percent), csv_number(row.se_kwh_m2),
+                        is_paired(comparison, row), csv_number(row.p_value),
+                        csv_number(row.p_corrected), row.significant,
+                        csv_number(row.unmatched_area_m2));
+  return text;
+}
+
+std::string comparison_json(const Comparison& comparison) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  const auto key = [&](const char* name) { return unit_names(name, comparison.quantity); };
+  for (const auto& row : comparison.rows)
+    rows.push_back({{"group", row.kind},
+                    {"name", row.name},
+                    {"area_m2", json_number(row.area_m2)},
+                    {key("base_kwh_m2"), json_number(or_nan(row.base_kwh_m2))},
+                    {key("variant_kwh_m2"), json_number(or_nan(row.variant_kwh_m2))},
+                    {key("difference_kwh_m2"), json_number(row.difference_kwh_m2)},
+                    {"difference_percent", json_number(row.difference_percent)},
+                    {key("se_kwh_m2"), json_number(row.se_kwh_m2)},
+                    {"paired", is_paired(comparison, row)},
+                    {"p_value", json_number(row.p_value)},
+                    {"p_corrected", json_number(row.p_corrected)},
+                    {"significant", row.significant},
+                    {"unmatched_area_m2", json_number(row.unmatched_area_m2)}});
+  const nlohmann::ordered_json document = {{"base", comparison.base},
+                                           {"variant", comparison.variant},
+                                           {"units", comparison.units},
+                                           {"notes", comparison.notes},
+                                           {"rows", rows}};
+  return document.dump(2) + "\n";
+}
+
+}  // namespace sunload

@@ -1,0 +1,231 @@
+#include "io/report/info.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "geo/base/units.h"
+#include "io/base/statistics.h"
+#include "io/base/text.h"
+#include "io/plan/time_words.h"
+#include "io/result/energy_text.h"
+#include "io/result/patch_groups.h"
+#include "io/result/time.h"
+
+namespace sunload {
+namespace {
+
+// Patches below this share of the largest load say nothing of the accuracy:
+// their relative error is large and their light does not matter (DESIGN 4).
+constexpr double share_that_counts = 0.01;
+constexpr double median = 0.5;
+constexpr double upper_quantile = 0.95;
+constexpr std::size_t facades_shown = 3;
+
+std::string heading(const ResultReader& result) {
+  const auto study = result.text_attribute("study");
+  return fmt::format("{}, variant {}\n", study.empty() ? result.text_attribute("title") : study,
+                     result.text_attribute("variant"));
+}
+
+std::string period(const ResultReader& result) {
+  const auto lengths = interval_lengths(result);
+  if (lengths.empty()) return info_line("period", "no intervals");
+  const double hours = std::accumulate(lengths.begin(), lengths.end(), 0.0) / seconds_per_hour;
+  auto text = info_line("period", fmt::format("{} interval{}, {:.5g} h in all", lengths.size(),
+                                              lengths.size() == 1 ? "" : "s", hours));
+  if (result.number_attribute("time_is_synthetic") > 0)
+    return text + info_line("", "sun positions without a date");
+  text += info_line("  first sun", interval_in_words(result, 0));
+  if (lengths.size() > 1)
+    text += info_line("  last sun", interval_in_words(result, lengths.size() - 1));
+  return text;
+}
+
+/// Where north is, and a shadow that anybody can check with a stick.
+std::string orientation(const ResultReader& result) {
+  const double north = result.number_attribute("north_deg");
+  const double latitude = result.number_attribute("latitude_deg");
+  if (std::isnan(north)) return {};
+  std::string text = info_line("north", north_words(north));
+  if (std::isnan(latitude) || result.number_attribute("time_is_synthetic") > 0) return text;
+  Site site;
+  site.latitude_deg = latitude;
+  site.longitude_deg = result.number_attribute("longitude_deg");
+  site.elevation_m = result.number_attribute("elevation_m");
+  return text +
+         info_line("pole test", pole_words(site, result.doubles("time"), result_zone(result)));
+}
+
+std::string size(const ResultReader& result, const PatchGroups& groups) {
+  return info_line(
+      "scene", fmt::format("{} patches, {:.1f} m², {} objects, {} facades", groups.patch_count(),
+                           groups.groups().front().area_m2, result.strings("object_name").size(),
+                           result.strings("facade_name").size()));
+}
+
+/// The goals of the study and what came of them.
+std::string asked_for(const ResultReader& result) {
+  std::string text;
+  const auto add = [&](const char* goal_name, const char* share_name, const char* when) {
+    const double goal = result.number_attribute(goal_name);
+    if (std::isnan(goal)) return;
+    const double share = result.number_attribute(share_name);
+    text += info_line(
+        "", fmt::format("asked for: below {:.3g} %{} on 95 % of the area", 100 * goal, when) +
+                (std::isnan(share) ? std::string()
+                                   : fmt::format("; reached on {:.3g} %", 100 * share)));
+  };
+  add("accuracy_light_load_relative", "accuracy_area_share", "");
+  add("accuracy_irradiance_relative", "accuracy_irradiance_share", " at every instant");
+  return text;
+}
+
+std::string accuracy(const ResultReader& result, const PatchGroups& groups,
+                     const std::vector<double>& load) {
+  const auto realizations =
+      result.has("light_load_realization") ? result.shape("light_load_realization").front() : 0;
+  if (!result.has("light_load_se") || realizations < 2)
+    return info_line("accuracy", "not known: the result has no standard errors");
+  const auto se = result.doubles("light_load_se");
+  const double largest = *std::max_element(load.begin(), load.end());
+  if (largest <= 0) return info_line("accuracy", "no patch receives light");
+  std::vector<double> relative, area;
+  for (std::size_t i = 0; i < load.size(); ++i) {
+    if (load[i] <= 0 || load[i] < share_that_counts * largest) continue;
+    relative.push_back(se[i] / load[i] * 100);
+    area.push_back(groups.patch_area()[i]);
+  }
+  return info_line(
+             "accuracy",
+             fmt::format("standard error of a patch's light load: {:.2g} % (median by area), below "
+                         "{:.2g} % on 95 %; {} realizations",
+                         weighted_quantile(relative, area, median),
+                         weighted_quantile(relative, area, upper_quantile), realizations)) +
+         asked_for(result);
+}
+
+/// Least, mean and largest value of a quantity over the patches.
+std::string analysis(const std::string& name, const std::vector<double>& values,
+                     const PatchGroups& groups) {
+  if (values.empty()) return {};
+  const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+  const double mean = groups.means(values.data()).front();
+  const auto ratio = [](double a, double b) {
+    return b == 0 ? std::string("-") : fmt::format("{:.3f}", a / b);
+  };
+  return fmt::format("  {:<24}{:>10.4g} {:>10.4g} {:>10.4g} {:>10} {:>10}\n", name, *least, mean,
+                     *largest, ratio(*least, mean), ratio(*least, *largest));
+}
+
+std::string lighting_analysis(const ResultReader& result, const PatchGroups& groups,
+                              const std::vector<double>& load) {
+  std::string text = fmt::format("{:<26}{:>10} {:>10} {:>10} {:>10} {:>10}\n", "lighting analysis",
+                                 "min", "mean", "max", "min/mean", "min/max");
+  const std::string series = dataset_name("irradiance", result.quantity());
+  const auto with_units = [&](const std::string& name, const std::string& dataset) {
+    return name + ", " + display_units(result.units(dataset));
+  };
+  text += analysis(with_units("light load", "light_load"), load, groups);
+  if (result.has(series) && result.shape(series).front() > 0) {
+    const auto brightest = brightest_interval(result);
+    text += analysis(with_units(series, series) + " (1)", result.row(series, brightest), groups);
+    if (result.has("sun_hours"))
+      text += analysis("sun hours, h", result.doubles("sun_hours"), groups);
+    text += "  (1) brightest interval: sun of " + interval_in_words(result, brightest) + "\n";
+  } else if (result.has("sun_hours")) {
+    text += analysis("sun hours, h", result.doubles("sun_hours"), groups);
+  }
+  return text;
+}
+
+/// How many sensors, what falls on them, and how well it is known.
+std::string sensors(const ResultReader& result) {
+  if (!result.has("sensor_light_load")) return {};
+  const auto load = result.doubles("sensor_light_load");
+  const auto [least, largest] = std::minmax_element(load.begin(), load.end());
+  const double mean =
+      std::accumulate(load.begin(), load.end(), 0.0) / static_cast<double>(load.size());
+  auto text = info_line("sensors", fmt::format("{}: light load {:.4g} … {:.4g} kWh/m², mean {:.4g}",
+                                               load.size(), *least, *largest, mean));
+  if (!result.has("sensor_light_load_se")) return text;
+  const auto se = result.doubles("sensor_light_load_se");
+  std::vector<double> relative, weight;
+  for (std::size_t s = 0; s < load.size(); ++s) {
+    if (load[s] <= 0 || load[s] < share_that_counts * *largest) continue;
+    relative.push_back(se[s] / load[s] * 100);
+    weight.push_back(1);
+  }
+  if (relative.empty()) return text;
+  return text +
+         info_line("", fmt::format("standard error {:.2g} % (median), below {:.2g} % for 95 %",
+                                   weighted_quantile(relative, weight, median),
+                                   weighted_quantile(relative, weight, upper_quantile)));
+}
+
+std::string facades(const ResultReader& result, const PatchGroups& groups,
+                    const std::vector<double>& load) {
+  const auto mean = groups.means(load.data());
+  const auto realizations = group_realizations(result, groups);
+  std::vector<std::size_t> order;
+  for (std::size_t g = 0; g < groups.groups().size(); ++g)
+    if (groups.groups()[g].kind == "facade") order.push_back(g);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return mean[a] > mean[b]; });
+  const auto words = [&](std::size_t g) {
+    const double se = sample_mean(realizations[g]).se;
+    return fmt::format("{} {:.4g}{}", groups.groups()[g].name, mean[g],
+                       std::isnan(se) ? std::string() : fmt::format(" ± {:.2g}", se));
+  };
+  std::string best, worst;
+  const std::size_t shown = std::min(facades_shown, order.size());
+  for (std::size_t k = 0; k < shown; ++k) {
+    best += (k ? ", " : "") + words(order[k]);
+    worst += (k ? ", " : "") + words(order[order.size() - 1 - k]);
+  }
+  if (shown == 0) return {};
+  return info_line("facades", "mean light load ± standard error, " +
+                                  display_units(result.units("light_load"))) +
+         info_line("  most", best) + info_line("  least", worst);
+}
+
+std::string runtime(const ResultReader& result) {
+  std::string words;
+  for (const char* stage :
+       {"lines", "direct", "mirror", "solve", "realizations", "shoot", "sensors"}) {
+    const double seconds = result.number_attribute(fmt::format("runtime_{}_s", stage));
+    if (!std::isnan(seconds))
+      words += fmt::format("{}{} {:.3g} s", words.empty() ? "" : ", ", stage, seconds);
+  }
+  return info_line("run time", words);
+}
+
+std::string band_words(const ResultReader& result) {
+  if (result.bands() == Bands::broadband) return {};
+  return result.band() ? fmt::format("{} of red, green, blue", band_names[*result.band()])
+                       : "red, green, blue; shown is their mean, or one with --band";
+}
+
+}  // namespace
+
+std::string info_text(const ResultReader& result) {
+  const PatchGroups groups(result);
+  const auto load = result.doubles("light_load");
+  std::string text = heading(result);
+  text += period(result);
+  text += orientation(result);
+  text += size(result, groups);
+  text += info_line("bands", band_words(result));
+  text += accuracy(result, groups, load);
+  text += lighting_analysis(result, groups, load);
+  text += facades(result, groups, load);
+  text += sensors(result);
+  text += energy_text(result);
+  text += runtime(result);
+  text += info_line("made by", result.text_attribute("source"));
+  return text;
+}
+
+}  // namespace sunload

@@ -1,0 +1,79 @@
+#include "io/result/energy_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geo/base/units.h"
+#include "io/result/time.h"
+
+namespace sunload {
+namespace {
+
+/// Time sum of one term of the ledger [kWh, klm h]; 0 where the result lacks it.
+double ledger_kwh(const ResultReader& result, const std::string& term) {
+  if (!result.has("power_" + term)) return 0;
+  const auto power = result.doubles("power_" + term);
+  const auto lengths = interval_lengths(result);
+  double energy = 0;
+  for (std::size_t i = 0; i < std::min(power.size(), lengths.size()); ++i)
+    energy += power[i] * lengths[i];
+  return energy / joules_per_kwh;
+}
+
+/// The ledger of what the reader shows; `label` names its first line.
+std::string ledger_lines(const ResultReader& result, const std::string& label) {
+  const Quantity quantity = result.quantity();
+  double in = 0, out = 0;
+  std::string in_words, out_words;
+  for (const char* term : {"sun", "sky", "ground", "emitted"}) {
+    const double energy = ledger_kwh(result, term);
+    in += energy;
+    if (energy != 0)
+      in_words += fmt::format("{}{} {:.5g}", in_words.empty() ? "" : " + ", term, energy);
+  }
+  for (const char* term : {"absorbed", "transmitted", "escaped", "unshot"}) {
+    const double energy = ledger_kwh(result, term);
+    out += energy;
+    if (energy != 0)
+      out_words += fmt::format("{}{} {:.5g}", out_words.empty() ? "" : " + ", term, energy);
+  }
+  if (in == 0 && out == 0) return info_line(label.c_str(), "none");
+  const double residual = ledger_kwh(result, "residual");
+  // An attribute of the term: the dataset of errors may hold those of the instants.
+  const double error_kwh =
+      result.has("power_residual")
+          ? result.number_attribute("power_residual", unit_names("time_sum_se_kwh", quantity))
+          : std::nan("");
+  const std::string error =
+      std::isnan(error_kwh) ? std::string() : fmt::format(" ± {:.2g}", error_kwh);
+  // Of the mean of bands.
+  const double bias =
+      result.band() ? std::nan("")
+                    : result.number_attribute(unit_names("residual_reuse_bias_kwh", quantity));
+  const std::string reuse =
+      std::isnan(bias) ? std::string() : fmt::format(", of which {:.2g} by reuse of lines", bias);
+  return info_line(label.c_str(), fmt::format("in {:.6g} = {}", in, in_words)) +
+         info_line("", fmt::format("out {:.6g} = {}", out, out_words)) +
+         info_line("", fmt::format("residual {:.3g}{} ({:.2g} % of in){}", residual, error,
+                                   in == 0 ? 0 : residual / in * 100, reuse));
+}
+
+}  // namespace
+
+std::string energy_text(const ResultReader& result) {
+  if (!result.has("power_sun")) return {};
+  std::string text = ledger_lines(
+      result, result.quantity() == Quantity::illuminance ? "light, klm h" : "energy, kWh");
+  if (result.bands() == Bands::broadband || result.band()) return text;
+  for (std::size_t b = 0; b < band_count; ++b)
+    text += ledger_lines(ResultReader(result.path(), b), std::string("  ") + band_names[b]);
+  return text;
+}
+
+std::string info_line(const char* name, const std::string& text) {
+  return text.empty() ? text : fmt::format("{:<13}{}\n", name, text);
+}
+
+}  // namespace sunload

@@ -1,0 +1,85 @@
+#include "io/result/patches_csv.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "geo/mesh/mesh.h"
+#include "io/base/text.h"
+
+namespace sunload {
+namespace {
+
+/// A dataset [patch], or nothing where the result lacks it.
+struct Column {
+  const char* dataset;
+  const char* header;
+  std::vector<double> values;
+};
+
+std::vector<Column> value_columns(const ResultReader& result) {
+  std::vector<Column> columns{{"light_load", "light_load_kwh_m2", {}},
+                              {"light_load_se", "light_load_se_kwh_m2", {}},
+                              {"light_load_direct", "light_load_direct_kwh_m2", {}},
+                              {"light_load_sky", "light_load_sky_kwh_m2", {}},
+                              {"light_load_mirror", "light_load_mirror_kwh_m2", {}},
+                              {"light_load_lamps", "light_load_lamps_kwh_m2", {}},
+                              {"light_load_reflected", "light_load_reflected_kwh_m2", {}},
+                              {"sun_hours", "sun_hours_h", {}},
+                              {"power_load", "power_load_kwh_m2", {}}};
+  for (auto& column : columns)
+    if (result.has(column.dataset)) column.values = result.doubles(column.dataset);
+  return columns;
+}
+
+/// Names of a table as fields of CSV; the entry -1 is empty.
+class Names {
+ public:
+  explicit Names(const std::vector<std::string>& names) {
+    for (const auto& name : names) fields_.push_back(csv_text(name));
+  }
+  const std::string& operator[](std::int32_t entry) const {
+    return entry < 0 ? none_ : fields_.at(static_cast<std::size_t>(entry));
+  }
+
+ private:
+  std::vector<std::string> fields_;
+  std::string none_;
+};
+
+}  // namespace
+
+std::string patches_csv(const ResultReader& result) {
+  const Names objects(result.strings("object_name")), facades(result.strings("facade_name")),
+      materials(result.strings("material_name")),
+      surfaces({surface_names.begin(), surface_names.end()});
+  const auto object = result.integers("patch_object"), facade = result.integers("patch_facade"),
+             surface = result.integers("patch_surface"),
+             material = result.integers("patch_material"), side = result.integers("patch_side");
+  const auto area = result.doubles("patch_area"), centroid = result.doubles("patch_centroid"),
+             normal = result.doubles("patch_normal");
+  const auto columns = value_columns(result);
+
+  fmt::memory_buffer text;
+  auto out = std::back_inserter(text);
+  fmt::format_to(out,
+                 "index,object,facade,surface,material,side,area_m2,centroid_x_m,centroid_y_m,"
+                 "centroid_z_m,normal_x,normal_y,normal_z");
+  for (const auto& column : columns)
+    fmt::format_to(out, ",{}", unit_names(column.header, result.quantity()));
+  fmt::format_to(out, "\n");
+  for (std::size_t i = 0; i < area.size(); ++i) {
+    fmt::format_to(out, "{},{},{},{},{},{},{}", i, objects[object[i]], facades[facade[i]],
+                   surfaces[surface[i]], materials[material[i]], side[i], csv_number(area[i]));
+    for (const auto* vectors : {&centroid, &normal})
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        fmt::format_to(out, ",{}", csv_number((*vectors)[3 * i + axis]));
+    for (const auto& column : columns)
+      fmt::format_to(out, ",{}",
+                     column.values.empty() ? std::string() : csv_number(column.values[i]));
+    fmt::format_to(out, "\n");
+  }
+  return fmt::to_string(text);
+}
+
+}  // namespace sunload

@@ -1,0 +1,16 @@
+/// Patches of a result as a table.
+#pragma once
+
+#include <string>
+
+#include "io/result/reader.h"
+
+namespace sunload {
+
+/// One line per patch, header first: index, object, facade, surface, material,
+/// side, area, centroid and normal in the scene frame (add the attribute
+/// `origin` for absolute coordinates), light load with its standard error and
+/// parts, sun hours, power load. Empty where the result lacks a value.
+std::string patches_csv(const ResultReader& result);
+
+}  // namespace sunload

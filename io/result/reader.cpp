@@ -1,0 +1,198 @@
+#include "io/result/reader.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <new>
+
+#include "geo/base/check.h"
+#include "io/result/h5.h"
+#include "io/result/schema.h"
+#include "io/result/seal.h"
+
+namespace sunload {
+
+struct ResultReader::File {
+  std::string path;
+  h5::File file;
+  Bands bands = Bands::broadband;
+  std::optional<std::size_t> band = {};
+
+  bool is_banded(const std::string& dataset) const {
+    if (bands == Bands::broadband) return false;
+    const ResultVariable* variable = find_result_variable(dataset);
+    return variable != nullptr && has_bands(*variable);
+  }
+
+  /// Where the dimension of bands stands: last in the ledger, else before the last.
+  std::size_t band_axis(const std::string& dataset, const std::vector<std::size_t>& shape) const {
+    const bool is_last = find_result_variable(dataset)->part == ResultPart::ledger;
+    const std::size_t behind = is_last ? 1 : 2;
+    if (shape.size() < behind || shape[shape.size() - behind] != band_count)
+      refuse("dataset " + dataset + " cannot be read", "it has no dimension of bands");
+    return shape.size() - behind;
+  }
+
+  std::vector<std::size_t> without_bands(const std::string& dataset,
+                                         std::vector<std::size_t> shape) const {
+    if (is_banded(dataset))
+      shape.erase(shape.begin() + static_cast<std::ptrdiff_t>(band_axis(dataset, shape)));
+    return shape;
+  }
+
+  /// Values of rows of a dataset of that shape: of the chosen band, or the bands' mean.
+  std::vector<double> without_bands(const std::string& dataset, std::vector<double> values,
+                                    const std::vector<std::size_t>& shape) const {
+    if (!is_banded(dataset)) return values;
+    const std::size_t axis = band_axis(dataset, shape);
+    const std::size_t n = axis + 1 < shape.size() ? shape.back() : 1;
+    const std::size_t rows = n > 0 ? values.size() / (band_count * n) : 0;
+    std::vector<double> chosen(rows * n);
+    for (std::size_t row = 0; row < rows; ++row)
+      for (std::size_t i = 0; i < n; ++i) {
+        const auto at = [&](std::size_t b) { return values[(row * band_count + b) * n + i]; };
+        chosen[row * n + i] = band ? at(*band) : mean_of({at(0), at(1), at(2)});
+      }
+    return chosen;
+  }
+
+  [[noreturn]] void refuse(const std::string& what, const std::string& why) const {
+    throw InputError({path}, what, why);
+  }
+
+  /// Does something with a dataset; every error names file and dataset.
+  template <class Action>
+  auto with(const std::string& dataset, const Action& action) const {
+    try {
+      if (!file.has(dataset)) refuse("there is no dataset " + dataset, "");
+      return action(file.dataset(dataset));
+    } catch (const h5::Error& error) {
+      refuse("dataset " + dataset + " cannot be read", error.what());
+    } catch (const std::bad_alloc&) {
+      refuse("dataset " + dataset + " cannot be read", "it does not fit into memory");
+    }
+  }
+};
+
+namespace {
+
+double one_number(const h5::Object& object, const std::string& attribute) {
+  const auto values = object.numbers(attribute);
+  return values && values->size() == 1 ? values->front() : std::numeric_limits<double>::quiet_NaN();
+}
+
+h5::File opened(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) throw InputError({path}, "there is no such file");
+  const auto refuse_damage = [&](const std::string& problem) {
+    if (!problem.empty())
+      throw InputError({path}, "is damaged", problem, "run the study again with --overwrite");
+  };
+  try {
+    refuse_damage(seal_problem(path));
+    h5::File file = h5::File::open(path);
+    refuse_damage(end_problem(path, file));
+    const auto format = file.text("sunload_format");
+    if (!format) throw InputError({path}, "is not a result of sunload", "no sunload_format");
+    if (*format != result_format) {
+      throw InputError({path}, "has the format " + *format,
+                       "this program reads " + std::string(result_format));
+    }
+    return file;
+  } catch (const h5::Error& problem) {
+    throw InputError({path}, "is not a readable HDF5 file", problem.what());
+  }
+}
+
+}  // namespace
+
+ResultReader::ResultReader(const std::string& path, std::optional<std::size_t> band)
+    : file_(std::make_unique<File>(File{path, opened(path)})) {
+  file_->bands = has("band") ? Bands::rgb : Bands::broadband;
+  file_->band = band;
+  if (band && file_->bands == Bands::broadband)
+    file_->refuse("has no bands", "its study was computed without solver.bands: rgb");
+}
+
+ResultReader::~ResultReader() = default;
+
+const std::string& ResultReader::path() const { return file_->path; }
+
+bool ResultReader::has(const std::string& dataset) const {
+  try {
+    return file_->file.has(dataset);
+  } catch (const h5::Error& error) {
+    file_->refuse("cannot be read", error.what());
+  }
+}
+
+std::vector<std::size_t> ResultReader::shape(const std::string& dataset) const {
+  return file_->with(dataset, [&](const h5::Dataset& data) {
+    return file_->without_bands(dataset, data.shape());
+  });
+}
+
+std::vector<double> ResultReader::doubles(const std::string& dataset) const {
+  return file_->with(dataset, [&](const h5::Dataset& data) {
+    return file_->without_bands(dataset, data.doubles(), data.shape());
+  });
+}
+
+std::vector<std::int32_t> ResultReader::integers(const std::string& dataset) const {
+  return file_->with(dataset, [](const h5::Dataset& data) { return data.integers(); });
+}
+
+std::vector<std::string> ResultReader::strings(const std::string& dataset) const {
+  return file_->with(dataset, [](const h5::Dataset& data) { return data.strings(); });
+}
+
+std::vector<double> ResultReader::row(const std::string& dataset, std::size_t time) const {
+  return rows(dataset, time, 1);
+}
+
+std::vector<double> ResultReader::rows(const std::string& dataset, std::size_t first,
+                                       std::size_t count) const {
+  return file_->with(dataset, [&](const h5::Dataset& data) {
+    return file_->without_bands(dataset, data.rows(first, count), data.shape());
+  });
+}
+
+std::string ResultReader::units(const std::string& dataset) const {
+  return file_->with(dataset,
+                     [](const h5::Dataset& data) { return data.text("units").value_or(""); });
+}
+
+std::string ResultReader::text_attribute(const std::string& name) const {
+  try {
+    return file_->file.text(name).value_or("");
+  } catch (const h5::Error& error) {
+    file_->refuse("attribute " + name + " cannot be read", error.what());
+  }
+}
+
+double ResultReader::number_attribute(const std::string& dataset, const std::string& name) const {
+  return file_->with(dataset, [&](const h5::Dataset& data) {
+    const auto values = data.numbers(name);
+    if (!file_->is_banded(dataset) || !values || values->size() != band_count)
+      return one_number(data, name);
+    return file_->band ? (*values)[*file_->band]
+                       : mean_of({(*values)[0], (*values)[1], (*values)[2]});
+  });
+}
+
+Bands ResultReader::bands() const { return file_->bands; }
+std::optional<std::size_t> ResultReader::band() const { return file_->band; }
+
+Quantity ResultReader::quantity() const {
+  return text_attribute("quantity") == "illuminance" ? Quantity::illuminance : Quantity::irradiance;
+}
+
+double ResultReader::number_attribute(const std::string& name) const {
+  try {
+    return one_number(file_->file, name);
+  } catch (const h5::Error& error) {
+    file_->refuse("attribute " + name + " cannot be read", error.what());
+  }
+}
+
+}  // namespace sunload

@@ -1,0 +1,48 @@
+/// Reads the result file (docs/result-file.md): HDF5 that netCDF-4 tools read.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/base/light_quantity.h"
+#include "solver/light/band.h"
+
+namespace sunload {
+
+/// Reads a result of ours; throws InputError naming file and dataset.
+///
+/// A result of light in bands reads as one without: `band` chooses one of them, without it values
+/// are the means of the bands, which is broadband light. (Of standard errors and of largest values
+/// these means are upper bounds: bands share their lines.) Shapes have no dimension `band` then.
+class ResultReader {
+ public:
+  explicit ResultReader(const std::string& path, std::optional<std::size_t> band = {});
+  ~ResultReader();
+  const std::string& path() const;
+  bool has(const std::string& dataset) const;
+  std::vector<std::size_t> shape(const std::string& dataset) const;
+  std::vector<double> doubles(const std::string& dataset) const;  ///< whole, converted
+  std::vector<std::int32_t> integers(const std::string& dataset) const;
+  std::vector<std::string> strings(const std::string& dataset) const;
+  /// One row of a [time, n] dataset.
+  std::vector<double> row(const std::string& dataset, std::size_t time) const;
+  /// `count` ≥ 1 rows from row `first` on, one after the other.
+  std::vector<double> rows(const std::string& dataset, std::size_t first, std::size_t count) const;
+  std::string units(const std::string& dataset) const;
+  std::string text_attribute(const std::string& name) const;  ///< of the root; empty if absent
+  double number_attribute(const std::string& name) const;     ///< of the root; NaN if absent
+  Quantity quantity() const;
+  Bands bands() const;
+  std::optional<std::size_t> band() const;  ///< that was chosen
+  /// Of a dataset; NaN if absent.
+  double number_attribute(const std::string& dataset, const std::string& name) const;
+
+ private:
+  struct File;
+  std::unique_ptr<File> file_;
+};
+
+}  // namespace sunload

@@ -1,0 +1,196 @@
+#include "io/result/schema.h"
+
+#include <algorithm>
+#include <array>
+#include <deque>
+
+namespace sunload {
+namespace {
+
+using h5::Type;
+using enum ResultPart;
+
+constexpr std::string_view w_m2 = "W m-2", kwh_m2 = "kWh m-2", interval_mean = "time: mean";
+constexpr std::string_view facade_mean = "time: mean area: mean";
+
+constexpr auto float32 = Type::float32;
+constexpr auto float64 = Type::float64;
+constexpr auto int32 = Type::int32;
+constexpr auto flags = Type::int8;
+constexpr auto text = Type::text;
+
+// clang-format off
+constexpr std::array table{
+    // Times and sun: one row per interval.
+    ResultVariable{"time", "time", float64, time_units, coordinate, "instant of the sun that stands for the interval", "time"},
+    ResultVariable{"time_bounds", "time,bounds", float64, time_units, coordinate, "begin and end of the interval"},
+    ResultVariable{"sun_azimuth", "time", float64, "degree", sun, "azimuth of the sun, clockwise from true north", "solar_azimuth_angle", "time: point"},
+    ResultVariable{"sun_elevation", "time", float64, "degree", sun, "apparent elevation of the sun above the horizon", "solar_elevation_angle", "time: point"},
+    ResultVariable{"sun_direction", "time,xyz", float64, "1", sun, "unit vector to the sun in the scene frame", "", "time: point"},
+    ResultVariable{"dni", "time", float64, w_m2, sun, "direct normal irradiance", "surface_direct_along_beam_shortwave_flux_in_air", interval_mean},
+    ResultVariable{"dhi", "time", float64, w_m2, sun, "diffuse horizontal irradiance", "surface_diffuse_downwelling_shortwave_flux_in_air", interval_mean},
+    ResultVariable{"ghi", "time", float64, w_m2, sun, "global horizontal irradiance", "surface_downwelling_shortwave_flux_in_air", interval_mean},
+    ResultVariable{"direct_normal_illuminance", "time", float64, "lx", sun, "direct normal illuminance (light.quantity: illuminance)", "", interval_mean},
+    ResultVariable{"diffuse_horizontal_illuminance", "time", float64, "lx", sun, "diffuse horizontal illuminance (light.quantity: illuminance)", "", interval_mean},
+    ResultVariable{"global_horizontal_illuminance", "time", float64, "lx", sun, "global horizontal illuminance (light.quantity: illuminance)", "", interval_mean},
+
+    ResultVariable{"band", "band", text, "", coordinate, "band of the light: red, green, blue (solver.bands: rgb)"},
+
+    // Mesh: patches are the leaves of the frozen hierarchy.
+    ResultVariable{"vertex_position", "vertex,xyz", float64, "m", coordinate, "position in the scene frame, relative to the attribute origin"},
+    ResultVariable{"vertex_x", "vertex", float64, "m", coordinate, "x of vertex_position, as UGRID wants node coordinates"},
+    ResultVariable{"vertex_y", "vertex", float64, "m", coordinate, "y of vertex_position"},
+    ResultVariable{"vertex_z", "vertex", float64, "m", coordinate, "z of vertex_position"},
+    ResultVariable{"mesh", "", int32, "", geometry, "topology of the patches"},
+    ResultVariable{"patch_vertices", "patch,corner", int32, "", geometry, "vertices of the patch, counter-clockwise seen from its front"},
+    ResultVariable{"patch_area", "patch", float64, "m2", geometry, "area"},
+    ResultVariable{"patch_centroid", "patch,xyz", float64, "m", geometry, "centroid in the scene frame"},
+    ResultVariable{"patch_normal", "patch,xyz", float64, "1", geometry, "unit normal of the side that the values belong to"},
+    ResultVariable{"patch_object", "patch", int32, "", geometry, "index into object_name"},
+    ResultVariable{"patch_facade", "patch", int32, "", geometry, "index into facade_name, -1: none"},
+    ResultVariable{"patch_material", "patch", int32, "", geometry, "index into material_name, -1: none"},
+    ResultVariable{"patch_surface", "patch", flags, "", geometry, "kind of surface"},
+    ResultVariable{"patch_side", "patch", flags, "", geometry, "side of a two-sided surface"},
+    ResultVariable{"patch_input_triangle", "patch", int32, "", geometry, "index of the input triangle that the patch is part of"},
+    ResultVariable{"input_triangle_vertices", "input_triangle,corner", int32, "", geometry, "vertices of the triangle before refinement"},
+    ResultVariable{"object_name", "object", text, "", geometry, "name of the object"},
+    ResultVariable{"facade_name", "facade", text, "", geometry, "name of the facade"},
+    ResultVariable{"material_name", "material", text, "", geometry, "name of the material"},
+    ResultVariable{"facade_area", "facade", float64, "m2", geometry, "area"},
+    ResultVariable{"facade_azimuth", "facade", float64, "degree", geometry, "azimuth of the outward normal, clockwise from true north"},
+
+    // Series: what falls on a patch, mean over the interval.
+    ResultVariable{"irradiance", "time,patch", float32, w_m2, series, "incident irradiance, all light", "", interval_mean},
+    ResultVariable{"irradiance_direct", "time,patch", float32, w_m2, series, "irradiance straight from the sun", "", interval_mean},
+    ResultVariable{"irradiance_sky", "time,patch", float32, w_m2, series, "irradiance straight from the sky", "", interval_mean},
+    ResultVariable{"irradiance_mirror", "time,patch", float32, w_m2, series, "irradiance from sun and sky by way of mirrors only", "", interval_mean},
+    ResultVariable{"irradiance_lamps", "time,patch", float32, w_m2, series, "irradiance from emitters and parallel sources, straight or by mirrors", "", interval_mean},
+    ResultVariable{"irradiance_reflected", "time,patch", float32, w_m2, series, "irradiance after a diffuse reflection, and from the far ground", "", interval_mean},
+    ResultVariable{"irradiance_se", "time,patch", float32, w_m2, series, "standard error of irradiance", "", interval_mean},
+    ResultVariable{"facade_irradiance", "time,facade", float32, w_m2, series, "incident irradiance, mean over the facade", "", facade_mean},
+
+    // Totals of the whole period.
+    ResultVariable{"light_load", "patch", float64, kwh_m2, total, "incident energy per area over the period"},
+    ResultVariable{"light_load_direct", "patch", float64, kwh_m2, total, "light load straight from the sun"},
+    ResultVariable{"light_load_sky", "patch", float64, kwh_m2, total, "light load straight from the sky"},
+    ResultVariable{"light_load_mirror", "patch", float64, kwh_m2, total, "light load from sun and sky by way of mirrors only"},
+    ResultVariable{"light_load_lamps", "patch", float64, kwh_m2, total, "light load from emitters and parallel sources"},
+    ResultVariable{"light_load_reflected", "patch", float64, kwh_m2, total, "light load after a diffuse reflection, and from the far ground"},
+    ResultVariable{"light_load_se", "patch", float64, kwh_m2, total, "standard error of light_load"},
+    ResultVariable{"light_load_realization", "realization,patch", float64, kwh_m2, total, "light load of each realization"},
+    ResultVariable{"sun_hours", "patch", float64, "h", total, "time in the sun, regardless of weather"},
+    ResultVariable{"irradiance_max", "patch", float64, w_m2, total, "largest irradiance of the series", "", "time: maximum"},
+    ResultVariable{"sky_view_factor", "patch", float64, "1", total, "cosine-weighted share of the hemisphere that is sky"},
+    ResultVariable{"patch_lines", "patch", float64, "1", total, "lines that the patch cast, over all realizations"},
+    ResultVariable{"power_load", "patch", float64, kwh_m2, total, "outgoing diffuse energy per area: reflected and emitted"},
+    ResultVariable{"facade_light_load", "facade", float64, kwh_m2, total, "light load, mean over the facade", "", "area: mean"},
+    ResultVariable{"facade_light_load_se", "facade", float64, kwh_m2, total, "standard error of facade_light_load"},
+    ResultVariable{"facade_light_load_realization", "realization,facade", float64, kwh_m2, total, "light load of the facade in each realization", "", "area: mean"},
+
+    // Sensors: points that receive, where the study has any.
+    ResultVariable{"sensor_position", "sensor,xyz", float64, "m", geometry, "position of the sensor in the scene frame, relative to the attribute origin"},
+    ResultVariable{"sensor_normal", "sensor,xyz", float64, "1", geometry, "unit normal of the sensor: it receives from the hemisphere about it"},
+    ResultVariable{"sensor_irradiance", "time,sensor", float32, w_m2, series, "incident irradiance of the sensor, all light", "", interval_mean},
+    ResultVariable{"sensor_irradiance_direct", "time,sensor", float32, w_m2, series, "irradiance of the sensor straight from the sun", "", interval_mean},
+    ResultVariable{"sensor_irradiance_sky", "time,sensor", float32, w_m2, series, "irradiance of the sensor straight from the sky", "", interval_mean},
+    ResultVariable{"sensor_irradiance_mirror", "time,sensor", float32, w_m2, series, "irradiance of the sensor from sun and sky by way of mirrors only", "", interval_mean},
+    ResultVariable{"sensor_irradiance_lamps", "time,sensor", float32, w_m2, series, "irradiance of the sensor from emitters and parallel sources, straight or by mirrors", "", interval_mean},
+    ResultVariable{"sensor_irradiance_reflected", "time,sensor", float32, w_m2, series, "irradiance of the sensor after a diffuse reflection, and from the far ground", "", interval_mean},
+    ResultVariable{"sensor_irradiance_se", "time,sensor", float32, w_m2, series, "standard error of sensor_irradiance", "", interval_mean},
+    ResultVariable{"sensor_light_load", "sensor", float64, kwh_m2, total, "incident energy per area of the sensor over the period"},
+    ResultVariable{"sensor_light_load_direct", "sensor", float64, kwh_m2, total, "light load of the sensor straight from the sun"},
+    ResultVariable{"sensor_light_load_sky", "sensor", float64, kwh_m2, total, "light load of the sensor straight from the sky"},
+    ResultVariable{"sensor_light_load_mirror", "sensor", float64, kwh_m2, total, "light load of the sensor from sun and sky by way of mirrors only"},
+    ResultVariable{"sensor_light_load_lamps", "sensor", float64, kwh_m2, total, "light load of the sensor from emitters and parallel sources"},
+    ResultVariable{"sensor_light_load_reflected", "sensor", float64, kwh_m2, total, "light load of the sensor after a diffuse reflection, and from the far ground"},
+    ResultVariable{"sensor_light_load_se", "sensor", float64, kwh_m2, total, "standard error of sensor_light_load"},
+    ResultVariable{"sensor_light_load_realization", "realization,sensor", float64, kwh_m2, total, "light load of the sensor in each realization"},
+    ResultVariable{"sensor_sun_hours", "sensor", float64, "h", total, "time of the sensor in the sun, regardless of weather"},
+    ResultVariable{"sensor_irradiance_max", "sensor", float64, w_m2, total, "largest irradiance of the sensor's series", "", "time: maximum"},
+    ResultVariable{"sensor_sky_view_factor", "sensor", float64, "1", total, "cosine-weighted share of the sensor's hemisphere that is sky"},
+
+    // Energy ledger.
+    ResultVariable{"power_sun", "time", float64, "W", ledger, "sun's power that meets fronts for the first time", "", interval_mean},
+    ResultVariable{"power_sky", "time", float64, "W", ledger, "sky's power that meets fronts for the first time", "", interval_mean},
+    ResultVariable{"power_ground", "time", float64, "W", ledger, "far ground's power that meets fronts for the first time", "", interval_mean},
+    ResultVariable{"power_emitted", "time", float64, "W", ledger, "power of emitters and lamps", "", interval_mean},
+    ResultVariable{"power_absorbed", "time", float64, "W", ledger, "power absorbed", "", interval_mean},
+    ResultVariable{"power_transmitted", "time", float64, "W", ledger, "power that leaves through panes", "", interval_mean},
+    ResultVariable{"power_escaped", "time", float64, "W", ledger, "power that leaves the scene", "", interval_mean},
+    ResultVariable{"power_unshot", "time", float64, "W", ledger, "power not followed further", "", interval_mean},
+    ResultVariable{"power_residual", "time", float64, "W", ledger, "power in minus power out", "", interval_mean},
+    ResultVariable{"power_sun_se", "", float64, "kWh", ledger, "standard error of the time sum of power_sun"},
+    ResultVariable{"power_sky_se", "", float64, "kWh", ledger, "standard error of the time sum of power_sky"},
+    ResultVariable{"power_ground_se", "", float64, "kWh", ledger, "standard error of the time sum of power_ground"},
+    ResultVariable{"power_emitted_se", "", float64, "kWh", ledger, "standard error of the time sum of power_emitted"},
+    ResultVariable{"power_absorbed_se", "", float64, "kWh", ledger, "standard error of the time sum of power_absorbed"},
+    ResultVariable{"power_transmitted_se", "", float64, "kWh", ledger, "standard error of the time sum of power_transmitted"},
+    ResultVariable{"power_escaped_se", "", float64, "kWh", ledger, "standard error of the time sum of power_escaped"},
+    ResultVariable{"power_unshot_se", "", float64, "kWh", ledger, "standard error of the time sum of power_unshot"},
+    ResultVariable{"power_residual_se", "", float64, "kWh", ledger, "standard error of the time sum of power_residual"},
+
+    ResultVariable{"study_yaml", "", text, "", study, "the study, verbatim"},
+};
+// clang-format on
+
+/// The table for illuminance, which owns its texts.
+class IlluminanceTable {
+ public:
+  IlluminanceTable() {
+    for (ResultVariable row : table) {
+      if (row.part != sun) {
+        row.name = kept(dataset_name(std::string(row.name), Quantity::illuminance));
+        row.units = kept(light_units(row.units, Quantity::illuminance));
+        row.long_name = kept(light_words(std::string(row.long_name), Quantity::illuminance));
+      }
+      rows_.push_back(row);
+    }
+  }
+  std::span<const ResultVariable> rows() const { return rows_; }
+
+ private:
+  std::string_view kept(std::string words) { return texts_.emplace_back(std::move(words)); }
+  std::deque<std::string> texts_;
+  std::vector<ResultVariable> rows_;
+};
+
+}  // namespace
+
+std::span<const ResultVariable> result_schema(Quantity quantity) {
+  static const IlluminanceTable illuminance;
+  return quantity == Quantity::illuminance ? illuminance.rows() : table;
+}
+
+const ResultVariable* find_result_variable(std::string_view name, Quantity quantity) {
+  for (const auto& variable : result_schema(quantity)) {
+    if (variable.name == name) return &variable;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> dimension_names(const ResultVariable& variable) {
+  std::vector<std::string> names;
+  std::string_view rest = variable.dims;
+  while (!rest.empty()) {
+    const auto end = std::min(rest.find(','), rest.size());
+    names.emplace_back(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return names;
+}
+
+bool has_bands(const ResultVariable& variable) {
+  const std::string_view name = variable.name;
+  if (name.ends_with("sun_hours") || name.ends_with("sky_view_factor") || name == "patch_lines")
+    return false;
+  return variable.part == ResultPart::series || variable.part == ResultPart::ledger ||
+         variable.part == ResultPart::total;
+}
+
+std::vector<std::string> with_band(std::vector<std::string> dimensions) {
+  const bool in_space = !dimensions.empty() && dimensions.back() != "time";
+  dimensions.insert(in_space ? dimensions.end() - 1 : dimensions.end(), "band");
+  return dimensions;
+}
+
+}  // namespace sunload

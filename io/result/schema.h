@@ -1,0 +1,55 @@
+/// The table of all datasets of a result file, top-down (docs/result-file.md).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/base/light_quantity.h"
+#include "io/result/h5.h"
+
+namespace sunload {
+
+/// Who fills a dataset, and with that what it may lack.
+enum class ResultPart : std::uint8_t {
+  coordinate,  ///< of times and vertices: complete, no _FillValue
+  geometry,    ///< patches, facades and their names
+  sun,         ///< one row per interval, complete
+  series,      ///< rows come with the batches; float32, chunked
+  ledger,      ///< power terms: rows come with the batches
+  total,       ///< after the last batch
+  study
+};
+
+struct ResultVariable {
+  std::string_view name;
+  std::string_view dims;  ///< names with commas; empty: a scalar
+  h5::Type type = h5::Type::float64;
+  std::string_view units;  ///< UDUNITS; empty: text, indices and flags
+  ResultPart part = ResultPart::geometry;
+  std::string_view long_name;
+  std::string_view standard_name = {};  ///< only where CF has the very quantity
+  std::string_view cell_methods = {};   ///< how it stands for its interval (CF 7.3)
+};
+
+/// The datasets of a result of that quantity. Illuminance has the rows of irradiance in its own
+/// names and units, but for `dni`, `dhi` and `ghi`, which stay what the study says.
+std::span<const ResultVariable> result_schema(Quantity quantity = Quantity::irradiance);
+/// Null where the schema has no such dataset.
+const ResultVariable* find_result_variable(std::string_view name,
+                                           Quantity quantity = Quantity::irradiance);
+/// "time,patch" → {"time", "patch"}.
+std::vector<std::string> dimension_names(const ResultVariable& variable);
+/// Whether there is a value per band in a result of light in bands: series, totals and the ledger,
+/// but for what is geometry (sun hours, sky view factors).
+bool has_bands(const ResultVariable& variable);
+/// The same dimensions with `band` put in: before those of patches, facades and sensors, else last.
+std::vector<std::string> with_band(std::vector<std::string> dimensions);
+
+inline constexpr std::string_view result_format = "sunload-result-1";
+inline constexpr std::string_view result_conventions = "CF-1.10 UGRID-1.0";
+inline constexpr std::string_view time_units = "seconds since 1970-01-01T00:00:00Z";
+
+}  // namespace sunload

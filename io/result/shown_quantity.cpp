@@ -1,0 +1,86 @@
+#include "io/result/shown_quantity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geo/base/check.h"
+#include "io/base/colour_map.h"
+#include "io/base/statistics.h"
+#include "io/base/text.h"
+#include "io/result/h5.h"
+#include "io/result/schema.h"
+#include "io/result/time.h"
+
+namespace sunload {
+namespace {
+
+constexpr double scale_share = 0.995;  // of the area, below the end of the scale
+
+InputError unknown_quantity(const ResultReader& result, const std::string& quantity) {
+  std::string known;
+  for (const auto which : {PatchDatasets::totals, PatchDatasets::series})
+    for (const auto& name : patch_datasets(result, which))
+      known += (known.empty() ? "" : ", ") + name;
+  return {{result.path()}, "no quantity " + quantity + " per patch", "", "choose one of " + known};
+}
+
+bool is_one_of(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string whole_period(const ResultReader& result) {
+  const auto bounds = result.doubles("time_bounds");
+  if (bounds.empty()) return "no intervals";
+  const auto zone = result_zone(result);
+  return fmt::format("{} … {}", iso_local(bounds.front(), zone), iso_local(bounds.back(), zone));
+}
+
+}  // namespace
+
+std::vector<std::string> patch_datasets(const ResultReader& result, PatchDatasets which) {
+  const std::string_view dims = which == PatchDatasets::totals ? "patch" : "time,patch";
+  const auto patches = result.shape("patch_area").front();
+  std::vector<std::string> names;
+  for (const auto& variable : result_schema(result.quantity())) {
+    const std::string name(variable.name);
+    if (variable.dims == dims && !variable.units.empty() && result.has(name) &&
+        result.shape(name).back() == patches)
+      names.push_back(name);
+  }
+  return names;
+}
+
+ShownQuantity shown_quantity(const ResultReader& result, const std::string& dataset,
+                             const std::string& time) {
+  ShownQuantity s;
+  s.is_series = is_one_of(patch_datasets(result, PatchDatasets::series), dataset);
+  if (!s.is_series && !is_one_of(patch_datasets(result, PatchDatasets::totals), dataset))
+    throw unknown_quantity(result, dataset);
+  s.dataset = s.name = dataset;
+  std::replace(s.name.begin(), s.name.end(), '_', ' ');
+  s.units = display_units(result.units(dataset));
+  s.interval = time.empty() ? brightest_interval(result) : interval_at(result, time);
+  s.values = s.is_series ? result.row(dataset, s.interval) : result.doubles(dataset);
+  s.when = s.is_series ? "sun of " + interval_in_words(result, s.interval) : whole_period(result);
+  return s;
+}
+
+double scale_end(const std::optional<double>& largest, const std::vector<double>& values,
+                 const std::vector<double>& area) {
+  if (largest) {
+    if (!(*largest > 0) || !std::isfinite(*largest))
+      throw InputError({}, fmt::format("--max {}", *largest), "must be above 0");
+    return *largest;
+  }
+  const double quantile = weighted_quantile(values, area, scale_share);
+  return quantile > 0 ? rounded_up(quantile) : 1;
+}
+
+Vec3 scene_origin(const ResultReader& result) {
+  const auto origin = h5::File::open(result.path()).numbers("origin");
+  return origin && origin->size() == 3 ? Vec3{(*origin)[0], (*origin)[1], (*origin)[2]} : Vec3{};
+}
+
+}  // namespace sunload

@@ -1,0 +1,42 @@
+/// One value per patch of a result, chosen by name and time, and the end of its colour scale.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geo/base/vec.h"
+#include "io/result/reader.h"
+
+namespace sunload {
+
+/// Values per patch and how to name them.
+struct ShownQuantity {
+  std::vector<double> values;
+  std::string dataset;
+  std::string name;          ///< words: "light load"
+  std::string units;         ///< as people write them
+  std::string when;          ///< the whole period, or the interval in words
+  std::size_t interval = 0;  ///< of the time asked for, or the brightest one
+  bool is_series = false;    ///< values are those of `interval`
+};
+
+/// A dataset [patch] as it is, or the interval of a dataset [time, patch] that holds `time`
+/// (as in a study; empty: the brightest). Throws InputError that lists what there is.
+ShownQuantity shown_quantity(const ResultReader& result, const std::string& dataset,
+                             const std::string& time);
+
+/// Datasets of numbers per patch that the result has, as the schema orders them:
+/// those of the whole period, or the series.
+enum class PatchDatasets { totals, series };
+std::vector<std::string> patch_datasets(const ResultReader& result, PatchDatasets which);
+
+/// Value of the last colour: `largest` where given (InputError unless above 0), else a round
+/// number above which at most 0.5 % of the area lie, so that a few glints do not darken the rest.
+double scale_end(const std::optional<double>& largest, const std::vector<double>& values,
+                 const std::vector<double>& area);
+
+/// Absolute position of the scene frame's origin [m].
+Vec3 scene_origin(const ResultReader& result);
+
+}  // namespace sunload

@@ -1,0 +1,77 @@
+#include "io/result/time.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "geo/base/check.h"
+
+namespace sunload {
+namespace {
+
+UnixTime utc_of(const std::string& time, const TimeZone& zone) {
+  const auto parsed = parse_time(time);
+  if (parsed.has_offset) return utc_from_calendar(parsed.civil) - parsed.offset_s;
+  return zone.utc_from_civil(parsed.civil).utc;
+}
+
+/// Only the time of day of an ISO time that shares the date of another.
+std::string clock(const std::string& time, const std::string& other) {
+  constexpr std::size_t date_letters = 10, clock_begin = 11;
+  if (time.substr(0, date_letters) != other.substr(0, date_letters)) return time;
+  auto text = time.substr(clock_begin);
+  text = text.substr(0, text.find_first_of(" Z"));
+  constexpr std::size_t minutes_end = 5;
+  return text.substr(minutes_end) == ":00" ? text.substr(0, minutes_end) : text;
+}
+
+}  // namespace
+
+TimeZone result_zone(const ResultReader& result) {
+  const auto name = result.text_attribute("timezone");
+  return TimeZone(name.empty() ? "UTC" : name);
+}
+
+std::size_t brightest_interval(const ResultReader& result) {
+  const auto ghi = result.doubles("ghi");
+  const auto brightest = std::max_element(ghi.begin(), ghi.end());
+  if (brightest != ghi.end() && *brightest > 0)
+    return static_cast<std::size_t>(brightest - ghi.begin());
+  const auto elevation = result.doubles("sun_elevation");
+  return static_cast<std::size_t>(std::max_element(elevation.begin(), elevation.end()) -
+                                  elevation.begin());
+}
+
+std::size_t interval_at(const ResultReader& result, const std::string& time) {
+  const auto zone = result_zone(result);
+  const auto utc = utc_of(time, zone);
+  const auto bounds = result.doubles("time_bounds");
+  for (std::size_t i = 0; 2 * i + 1 < bounds.size(); ++i)
+    if (bounds[2 * i] <= utc && utc < bounds[2 * i + 1]) return i;
+  if (!bounds.empty() && utc == bounds.back()) return bounds.size() / 2 - 1;
+  const auto covered =
+      bounds.empty() ? std::string("no time at all")
+                     : iso_local(bounds.front(), zone) + " … " + iso_local(bounds.back(), zone);
+  throw InputError({result.path()}, "no interval holds " + time,
+                   "the result covers " + covered + ", with its gaps", "choose a time within");
+}
+
+std::string interval_in_words(const ResultReader& result, std::size_t interval) {
+  const auto zone = result_zone(result);
+  const auto sun = result.doubles("time").at(interval);
+  const auto bounds = result.row("time_bounds", interval);
+  const auto local_sun = iso_local(sun, zone);
+  return fmt::format(
+      "{} for {} … {} ({} for {} … {})", local_sun, clock(iso_local(bounds.at(0), zone), local_sun),
+      clock(iso_local(bounds.at(1), zone), local_sun), iso_utc(sun),
+      clock(iso_utc(bounds[0]), iso_utc(sun)), clock(iso_utc(bounds[1]), iso_utc(sun)));
+}
+
+std::vector<double> interval_lengths(const ResultReader& result) {
+  const auto bounds = result.doubles("time_bounds");
+  std::vector<double> lengths(bounds.size() / 2);
+  for (std::size_t i = 0; i < lengths.size(); ++i) lengths[i] = bounds[2 * i + 1] - bounds[2 * i];
+  return lengths;
+}
+
+}  // namespace sunload

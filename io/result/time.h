@@ -1,0 +1,32 @@
+/// Intervals of a result: which one is meant, and how to say it.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "geo/time/time.h"
+#include "io/result/reader.h"
+
+namespace sunload {
+
+/// The civil time zone of the result (UTC where it names none).
+TimeZone result_zone(const ResultReader& result);
+
+/// Interval with the largest global horizontal irradiance; where there is none
+/// at all, with the highest sun. 0 for a result without intervals.
+std::size_t brightest_interval(const ResultReader& result);
+
+/// The interval whose bounds hold a time as written in a study
+/// (`2026-06-21T12:00`: civil time of the site, unless an offset or Z is
+/// written). Throws InputError where the period does not cover it.
+std::size_t interval_at(const ResultReader& result, const std::string& time);
+
+/// The sun's instant and the interval it stands for, in civil time and in UTC:
+/// "2026-06-21 12:30 +02:00 for 12:00 … 13:00 (2026-06-21T10:30:00Z for 10:00 … 11:00)".
+std::string interval_in_words(const ResultReader& result, std::size_t interval);
+
+/// Lengths of the intervals [s].
+std::vector<double> interval_lengths(const ResultReader& result);
+
+}  // namespace sunload

@@ -1,0 +1,211 @@
+#include "io/result/writer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geo/base/units.h"
+#include "io/base/bands.h"
+#include "io/result/datasets.h"
+
+namespace sunload {
+namespace {
+
+/// One number, or one per band.
+void set_values(h5::Dataset& dataset, const std::string& attribute,
+                const std::vector<double>& values) {
+  if (values.size() == 1)
+    dataset.set(attribute, values.front(), h5::Type::float64);
+  else
+    dataset.set(attribute, values, h5::Type::float64);
+}
+
+/// Ledger terms end without it, their standard errors with it.
+bool is_standard_error(std::string_view name) { return name.ends_with("_se"); }
+
+}  // namespace
+
+/// The dataset that arrays of the batches go to, made when first met.
+h5::Dataset ResultWriter::File::series_dataset(const std::string& name) {
+  if (file->has(stored(name))) return file->dataset(stored(name));
+  ResultVariable of = variable(name);
+  SUNLOAD_EXPECT(of.part == ResultPart::series || of.part == ResultPart::ledger,
+                 "batches do not bring " + name);
+  if (of.part == ResultPart::series) return create(name);
+  if (!is_standard_error(name)) return create(name);
+  const std::string long_name = "standard error of " + name.substr(0, name.rfind("_se"));
+  // Per instant; the scalar of the schema is of the time sum.
+  const std::string units = light_units("W", options.quantity);
+  of.units = units;
+  of.long_name = long_name;
+  return create(of, is_rgb() ? with_band({"time"}) : std::vector<std::string>{"time"});
+}
+
+/// A [time, n] array: one row of chunks, copied where the batch has them.
+void ResultWriter::File::append_series(const BatchReader& batch, const ArraySpec& spec) {
+  const BandArray array = band_array(spec.name);
+  h5::Dataset dataset = series_dataset(array.name);
+  SUNLOAD_EXPECT(spec.dims.size() == 2 && spec.dims[1] == dataset.shape().back(),
+                 "size of series " + spec.name);
+  const std::size_t columns = spec.dims[1];
+  if (columns == 0) return;
+  const ChunkShape shape = chunk_shape(columns);
+  const auto put_chunk = [&](std::size_t c, std::span<const unsigned char> bytes) {
+    const bool is_plain = bytes.size() == shape.bytes();
+    std::vector<std::size_t> offset{batch.header().first_interval};
+    if (array.band) offset.push_back(*array.band);
+    offset.push_back(c * shape.columns);
+    dataset.write_chunk(offset, bytes,
+                        is_plain ? h5::ChunkCoding::plain : h5::ChunkCoding::deflated);
+  };
+  if (batch.chunk_count(spec.name) > 0) {
+    SUNLOAD_EXPECT(batch.chunk_count(spec.name) == shape.count(columns), "chunks of " + spec.name);
+    for (std::size_t c = 0; c < shape.count(columns); ++c) {
+      const auto chunk = batch.chunk(spec.name, c);
+      put_chunk(c, {chunk.data, chunk.bytes});
+    }
+  } else {
+    const auto values = batch.doubles(spec.name);
+    const std::vector<float> narrowed(values.begin(), values.end());
+    const auto chunks =
+        encoded_chunks(narrowed.data(), spec.dims[0], columns, shape, options.compression);
+    for (std::size_t c = 0; c < chunks.size(); ++c) put_chunk(c, chunks[c]);
+  }
+}
+
+/// A [time] array: ledger terms, or their standard errors per instant. Those of all bands come
+/// with the first of them.
+void ResultWriter::File::append_ledger(const BatchReader& batch, const ArraySpec& spec) {
+  SUNLOAD_EXPECT(spec.dims.size() == 1, "ledger term " + spec.name + " has one value per interval");
+  const BandArray array = band_array(spec.name);
+  if (array.band.value_or(0) != 0) return;
+  std::vector<std::vector<double>> bands;
+  for (const auto& prefix : band_prefixes(options.bands))
+    bands.push_back(batch.doubles(prefix + array.name));
+  series_dataset(array.name)
+      .write_rows(batch.header().first_interval, spec.dims[0],
+                  side_by_side(std::move(bands), spec.dims[0]).data());
+}
+
+/// Sums of the ledger's rows that are there, and their standard errors.
+void ResultWriter::File::put_time_sums() {
+  for (const auto& term : result_schema()) {
+    const std::string name(term.name), se_name = name + "_se";
+    if (term.part != ResultPart::ledger || is_standard_error(name)) continue;
+    const auto se = time_sum_se_kwh.find(se_name);
+    if (se != time_sum_se_kwh.end() && !file->has(se_name)) put(se_name, se->second);
+    if (!file->has(name)) continue;
+    h5::Dataset dataset = file->dataset(name);
+    const std::vector<double> power = dataset.doubles();
+    std::vector<double> energy(is_rgb() ? band_count : 1, 0);  // kWh; of all bands
+    for (std::size_t i = 0; i < power.size(); ++i) {
+      const std::size_t t = i / energy.size();
+      // lm s in klm h is what J is in kWh.
+      if (!std::isnan(power[i]))
+        energy[i % energy.size()] += power[i] * (bounds[t][1] - bounds[t][0]);
+    }
+    for (auto& of_band : energy) of_band /= joules_per_kwh;
+    set_values(dataset, unit_names("time_sum_kwh", options.quantity), energy);
+    if (se != time_sum_se_kwh.end()) {
+      set_values(dataset, unit_names("time_sum_se_kwh", options.quantity), se->second);
+    }
+  }
+}
+
+void ResultWriter::File::put_attributes(const ResultAttributes& attributes) {
+  for (const auto& [name, value] : attributes.text) file->set(name, value);
+  for (const auto& [name, value] : attributes.numbers) file->set(name, value, h5::Type::float64);
+  for (const auto& [name, value] : attributes.integers) file->set(name, value);
+  file->set("Conventions", std::string(result_conventions));
+  file->set("sunload_format", std::string(result_format));
+  if (options.quantity == Quantity::illuminance) file->set("quantity", "illuminance");
+  if (options.times_are_synthetic) file->set("time_is_synthetic", std::int64_t{1});
+  const auto id = std::find_if(attributes.text.begin(), attributes.text.end(),
+                               [](const auto& text) { return text.first == "pairing_id"; });
+  if (id == attributes.text.end()) return;
+  for (const char* name : {"light_load_realization", "facade_light_load_realization",
+                           "sensor_light_load_realization"}) {
+    if (file->has(name)) file->dataset(name).set("pairing_id", id->second);
+  }
+}
+
+ResultWriter::ResultWriter(const std::string& path, const ResultGeometry& geometry,
+                           const ResultTimes& times, const Options& options)
+    : file_(std::make_unique<File>(path, options)) {
+  SUNLOAD_EXPECT(options.chunk_intervals > 0 && !times.time.empty(), "intervals of a result");
+  SUNLOAD_EXPECT(times.bounds.size() == times.time.size(), "bounds of the intervals");
+  file_->writing([&] {
+    file_->file.emplace(h5::File::create(file_->target.aside()));
+    file_->put_dimensions(geometry);
+    file_->put_times(times);
+    file_->put_bands();
+    file_->put_mesh_topology();
+    file_->put_vertices(geometry);
+    file_->put_patches(geometry);
+    file_->put_groups(geometry);
+    file_->put_sensors(geometry);
+  });
+}
+
+ResultWriter::~ResultWriter() = default;
+
+void ResultWriter::append(const BatchReader& batch) {
+  const BatchHeader& header = batch.header();
+  const std::size_t intervals = file_->bounds.size();
+  SUNLOAD_EXPECT(header.chunk_intervals == file_->options.chunk_intervals &&
+                     header.batch < file_->appended.size() &&
+                     header.first_interval == header.batch * header.chunk_intervals &&
+                     header.interval_count ==
+                         std::min(header.chunk_intervals, intervals - header.first_interval),
+                 "rows of batch " + std::to_string(header.batch));
+  SUNLOAD_EXPECT(!file_->appended[header.batch], "each batch is appended once");
+  file_->appended[header.batch] = 1;
+  std::vector<ArraySpec> specs;
+  for (const ArraySpec& spec : batch.arrays()) {
+    const auto& left_out = file_->options.left_out;
+    const bool is_wanted =
+        std::find(left_out.begin(), left_out.end(), band_array(spec.name).name) == left_out.end();
+    // Sums and maxima are put together by the caller.
+    if (spec.rule == MergeRule::append && is_wanted) specs.push_back(spec);
+  }
+  file_->writing([&] {
+    // All datasets before all data: their text is then outside of the series' bytes.
+    for (const ArraySpec& spec : specs) file_->series_dataset(band_array(spec.name).name);
+    if (file_->series.begin == 0) file_->series.begin = file_->file->end();
+    for (const ArraySpec& spec : specs) {
+      if (file_->variable(band_array(spec.name).name).part == ResultPart::series) {
+        file_->append_series(batch, spec);
+      } else {
+        file_->append_ledger(batch, spec);
+      }
+    }
+    file_->series.end = file_->file->end();
+    file_->target.start_flushing();
+  });
+}
+
+void ResultWriter::write(const ResultArray& array) {
+  const ResultVariable& variable = file_->variable(array.name);
+  if (variable.part == ResultPart::ledger && is_standard_error(array.name)) {
+    SUNLOAD_EXPECT(array.values.size() == (file_->is_rgb() ? band_count : 1),
+                   array.name + " is one value, or one of each band");
+    file_->time_sum_se_kwh[array.name] = array.values;
+    return;
+  }
+  SUNLOAD_EXPECT(variable.part == ResultPart::total, array.name + " is no total");
+  file_->writing([&] { file_->put(array.name, array.values); });
+}
+
+void ResultWriter::finish(const ResultAttributes& attributes, const std::string& study_yaml) {
+  file_->writing([&] {
+    file_->put_time_sums();
+    file_->put("study_yaml", std::vector{study_yaml});
+    file_->put_attributes(attributes);
+    file_->scales.clear();
+    file_->file->close();
+    file_->file.reset();
+    seal_result(file_->target.aside(), file_->series);
+  });
+  file_->target.publish();
+}
+
+}  // namespace sunload

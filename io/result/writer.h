@@ -1,0 +1,91 @@
+/// Writes the result file (docs/result-file.md): HDF5 that netCDF-4 tools read.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geo/base/vec.h"
+#include "geo/mesh/mesh.h"
+#include "io/base/light_quantity.h"
+#include "io/batch/file.h"
+#include "solver/light/band.h"
+
+namespace sunload {
+
+/// Everything of a result that does not depend on time. Sizes: patches N,
+/// vertices, input triangles, objects, facades, materials.
+struct ResultGeometry {
+  std::vector<Vec3> vertices;  ///< scene frame, relative to origin
+  std::vector<std::array<std::int32_t, 3>> patch_vertices;
+  std::vector<double> patch_area;
+  std::vector<Vec3> patch_centroid, patch_normal;
+  std::vector<std::int32_t> patch_object, patch_facade, patch_material, patch_input_triangle;
+  std::vector<std::uint8_t> patch_surface, patch_side;
+  std::vector<std::array<std::int32_t, 3>> input_triangle_vertices;
+  std::vector<std::string> object_name, facade_name, material_name;
+  std::vector<double> facade_area, facade_azimuth_deg;  ///< azimuth from true north
+  std::vector<Vec3> sensor_position, sensor_normal;     ///< empty: a study without sensors
+  Vec3 origin;
+};
+
+/// One row per interval.
+struct ResultTimes {
+  std::vector<double> time;  ///< UTC s since 1970, the sun's instant
+  std::vector<std::array<double, 2>> bounds;
+  std::vector<double> sun_azimuth_deg, sun_elevation_deg;
+  std::vector<Vec3> sun_direction;
+  std::vector<double> dni, dhi, ghi;
+  /// [lx]; empty unless the result is of illuminance.
+  std::vector<double> direct_illuminance, diffuse_illuminance, global_illuminance;
+};
+
+/// Root attributes: text and numbers by name.
+struct ResultAttributes {
+  std::vector<std::pair<std::string, std::string>> text;
+  std::vector<std::pair<std::string, double>> numbers;
+  std::vector<std::pair<std::string, std::int64_t>> integers;
+};
+
+/// A finished array per patch, facade, realization × patch, or scalar.
+struct ResultArray {
+  std::string name;            ///< must be in the table of result_schema.cpp for irradiance
+  std::vector<double> values;  ///< row-major, stored in the type of the schema
+};
+
+/// Writes `<path>` aside and renames it at `finish`; nothing is left behind if
+/// the writer is destroyed before. Memory stays bounded by one batch.
+class ResultWriter {
+ public:
+  struct Options {
+    std::size_t chunk_intervals = 64;
+    int compression = 4;
+    std::size_t realizations = 8;
+    bool times_are_synthetic = false;
+    std::vector<std::string> left_out;  ///< arrays of the batches that the result does not get
+    /// Batches and totals come with the names of irradiance, and are stored as this.
+    Quantity quantity = Quantity::irradiance;
+    /// With rgb, batches bring the arrays of each band, and totals those of all bands side by side.
+    Bands bands = Bands::broadband;
+  };
+  ResultWriter(const std::string& path, const ResultGeometry& geometry, const ResultTimes& times,
+               const Options& options);
+  ~ResultWriter();
+  /// Series of one batch at its rows; compressed chunks are copied as they are.
+  /// An array "irradiance_direct" of the batch becomes the dataset of that name, or
+  /// "illuminance_direct".
+  void append(const BatchReader& batch);
+  /// Time integrals and other arrays without time: name must be in the schema.
+  void write(const ResultArray& array);
+  /// One value per interval: ledger terms (power_sun …), facade series come by `append`.
+  void finish(const ResultAttributes& attributes, const std::string& study_yaml);
+
+ private:
+  struct File;
+  std::unique_ptr<File> file_;
+};
+
+}  // namespace sunload

@@ -1,0 +1,65 @@
+/// Progress on stderr, signals and time limits: how long work is watched.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <string>
+
+#include "solver/base/watch.h"
+
+namespace sunload {
+
+enum class ProgressStyle { automatic, bar, lines, json, none };
+
+/// Ends parallel work on a signal or at the time limit while it lives, and tells of the work on
+/// stderr: stage, sun positions done and all, rays per second, time left, memory. On a terminal a
+/// bar; otherwise a line at most every 10 s, or one JSON object per line (docs/cluster.md).
+class Progress : public Watch {
+ public:
+  explicit Progress(ProgressStyle style, double time_limit_min = 0);
+  ~Progress() override;
+
+  /// A variant of so many sun positions; rays are not counted until `count_rays` is called.
+  void begin_variant(const std::string& name, std::size_t suns);
+  /// Rays of a stage that were cast when so much of it [0, 1] is done; called from any thread.
+  using RayCount = std::function<double(Stage stage, double share)>;
+  void count_rays(RayCount rays);
+  /// The next batch: its sun positions, and those that are finished before it.
+  void begin_batch(std::size_t finished, std::size_t suns);
+  void advance(Stage stage, double share) override;
+  /// A line of its own; as JSON {"message"}; without progress nothing.
+  void say(const std::string& text);
+  /// A signal came, or the time is up.
+  bool stop_requested() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct State;
+  void begin_stage(Stage stage);
+  State state(Stage stage, double share) const;
+  void print(const State& state);
+  void end_bar();
+
+  ProgressStyle style_;
+  double time_limit_s_;
+  std::mutex guard_;
+  std::string variant_, stage_;
+  std::size_t suns_ = 0;      ///< of the variant
+  std::size_t finished_ = 0;  ///< before the batch in hand
+  std::size_t in_batch_ = 0;  ///< of the batch in hand
+  double computed_ = 0;       ///< of `finished_`, in this stage
+  RayCount rays_;
+  double rays_before_ = 0;  ///< the stage
+  Clock::time_point start_ = Clock::now(), stage_start_ = start_, last_ = start_;
+  bool bar_is_open_ = false;
+};
+
+/// From here on SIGTERM, SIGINT and SIGUSR1 ask the work to stop; where it has not
+/// within 4 s, the process ends with exit code 75 all the same: files appear under
+/// their names only when complete, so nothing finished is lost.
+void install_stop_signals();
+/// Name of the signal that asked to stop, empty if none did.
+std::string stop_signal();
+
+}  // namespace sunload

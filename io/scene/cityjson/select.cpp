@@ -1,0 +1,181 @@
+#include "io/scene/cityjson/select.h"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <unordered_set>
+
+#include "io/scene/base/words.h"
+#include "io/scene/cityjson/geometry.h"
+
+namespace sunload {
+
+namespace {
+
+using nlohmann::json;
+using Choices = std::map<std::string, GeometryChoice>;
+using TypeSet = std::unordered_set<std::string_view>;
+
+const TypeSet& terrain_types() {
+  static const TypeSet types{"LandUse",  "Road",      "Railway",   "TransportSquare",
+                             "Waterway", "TINRelief", "WaterBody", "PlantCover"};
+  return types;
+}
+
+const TypeSet& interior_types() {
+  static const TypeSet types{"BuildingRoom",      "BuildingStorey", "BuildingUnit",
+                             "BuildingFurniture", "BridgeRoom",     "BridgeFurniture",
+                             "TunnelHollowSpace", "TunnelFurniture"};
+  return types;
+}
+
+const TypeSet& other_types() {
+  static const TypeSet types{"Building",
+                             "BuildingPart",
+                             "BuildingInstallation",
+                             "BuildingConstructiveElement",
+                             "Bridge",
+                             "BridgePart",
+                             "BridgeInstallation",
+                             "BridgeConstructionElement",
+                             "BridgeConstructiveElement",
+                             "CityFurniture",
+                             "CityObjectGroup",
+                             "GenericCityObject",
+                             "OtherConstruction",
+                             "SolitaryVegetationObject",
+                             "Tunnel",
+                             "TunnelPart",
+                             "TunnelInstallation",
+                             "TunnelConstructiveElement"};
+  return types;
+}
+
+std::string text_member(const json& object, const char* name) {
+  const auto* member = find_member(object, name);
+  return member != nullptr && member->is_string() ? member->get<std::string>() : std::string();
+}
+
+/// Rank of one geometry, or nothing where it has no surfaces that could be read.
+std::optional<LodRank> geometry_rank(const json& geometry, const std::string& object,
+                                     std::size_t place, const LodWish& wish,
+                                     const TemplateOf& template_of, NoteCounter& notes) {
+  const bool is_instance = text_member(geometry, "type") == "GeometryInstance";
+  const auto& shape = is_instance ? template_of(geometry, object, place) : geometry;
+  const auto type = text_member(shape, "type");
+  if (!has_surfaces(type)) {
+    notes.count(type == "MultiPoint" || type == "MultiLineString"
+                    ? "geometries of points or lines ignored"
+                    : "geometries of unknown type '" + shortened(type) + "' ignored");
+    return std::nullopt;
+  }
+  return wish.rank(lod_of(find_member(shape, "lod")));
+}
+
+GeometryChoice choose_of_object(const std::string& id, const json& object, const LodWish& wish,
+                                const TemplateOf& template_of, const Where& where,
+                                NoteCounter& notes) {
+  GeometryChoice choice{&object, text_member(object, "type"), {}, {}};
+  if (choice.type.empty()) {
+    throw InputError(where, "CityObject '" + id + "' has no type", "every CityObject has one");
+  }
+  if (interior_types().contains(choice.type)) {
+    notes.count("interior objects (" + choice.type + ") left out");
+    return choice;
+  }
+  if (!terrain_types().contains(choice.type) && !other_types().contains(choice.type)) {
+    notes.count("objects of unknown type '" + shortened(choice.type) + "' read like any other");
+  }
+  const auto* list = find_member(object, "geometry");
+  if (list == nullptr) return choice;
+  if (!list->is_array()) {
+    throw InputError(where, "CityObject '" + id + "': geometry is no list");
+  }
+  std::size_t not_chosen = 0;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const auto rank = geometry_rank((*list)[i], id, i, wish, template_of, notes);
+    if (!rank) continue;
+    if (choice.geometries.empty() || *rank > choice.rank) {
+      not_chosen += choice.geometries.size();
+      choice.geometries.clear();
+      choice.rank = *rank;
+    }
+    if (*rank == choice.rank) {
+      choice.geometries.push_back(i);
+    } else {
+      ++not_chosen;
+    }
+  }
+  if (not_chosen > 0) notes.count("geometries of other levels of detail left out", not_chosen);
+  return choice;
+}
+
+/// The choices of the objects that a list of ids names.
+std::vector<GeometryChoice*> listed(Choices& choices, const json* ids) {
+  std::vector<GeometryChoice*> found;
+  if (ids == nullptr || !ids->is_array()) return found;
+  for (const auto& id : *ids) {
+    if (!id.is_string()) continue;
+    const auto choice = choices.find(id.get_ref<const std::string&>());
+    if (choice != choices.end() && !choice->second.geometries.empty()) {
+      found.push_back(&choice->second);
+    }
+  }
+  return found;
+}
+
+/// A whole and its parts at different levels would lie inside each other.
+void unstack_whole_and_parts(Choices& choices, NoteCounter& notes) {
+  for (auto& [id, whole] : choices) {
+    if (whole.geometries.empty() || whole.type == "CityObjectGroup") continue;
+    auto parts = listed(choices, find_member(*whole.object, "children"));
+    std::erase_if(parts, [](const auto* part) { return !part->type.ends_with("Part"); });
+    if (parts.empty()) continue;
+    const auto best = (*std::max_element(parts.begin(), parts.end(), [](auto* a, auto* b) {
+                        return a->rank < b->rank;
+                      }))->rank;
+    if (whole.rank < best) {
+      notes.count("objects whose parts have a better level of detail: their own geometry left out");
+      whole.geometries.clear();
+    } else if (whole.rank > best) {
+      for (auto* part : parts) part->geometries.clear();
+      notes.count("parts of objects with a better level of detail left out", parts.size());
+    }
+  }
+}
+
+/// The geometry of a group is a generalisation of its members.
+void unstack_groups(Choices& choices, NoteCounter& notes) {
+  for (auto& [id, group] : choices) {
+    if (group.geometries.empty() || group.type != "CityObjectGroup") continue;
+    const auto* members = find_member(*group.object, "children");
+    if (members == nullptr) members = find_member(*group.object, "members");  // CityJSON 1.0
+    if (listed(choices, members).empty()) continue;
+    notes.count("geometries of groups left out: they repeat their members",
+                group.geometries.size());
+    group.geometries.clear();
+  }
+}
+
+}  // namespace
+
+bool is_terrain(const std::string& object_type) { return terrain_types().contains(object_type); }
+
+Choices choose_geometries(const json& city_objects, const LodWish& wish,
+                          const TemplateOf& template_of, const Where& where, NoteCounter& notes) {
+  if (!city_objects.is_object()) throw InputError(where, "CityObjects is no object of ids");
+  Choices choices;
+  for (const auto& [id, object] : city_objects.items()) {
+    choices.emplace(id, choose_of_object(id, object, wish, template_of, where, notes));
+  }
+  unstack_whole_and_parts(choices, notes);
+  unstack_groups(choices, notes);
+  for (const auto& [id, choice] : choices) {
+    if (!choice.geometries.empty() && !wish.is_met_by(choice.rank)) {
+      notes.count("objects without LoD " + wish.text() + ": the nearest one read");
+    }
+  }
+  return choices;
+}
+
+}  // namespace sunload

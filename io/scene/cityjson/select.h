@@ -1,0 +1,37 @@
+/// Which geometries of which city objects are read.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "io/scene/base/from_file.h"
+#include "io/scene/cityjson/lod.h"
+
+namespace sunload {
+
+/// The geometries of one object that are read: all of one level of detail.
+struct GeometryChoice {
+  const nlohmann::json* object = nullptr;
+  std::string type;
+  std::vector<std::size_t> geometries;  ///< places in the list `geometry` of the object
+  LodRank rank{};
+};
+
+/// The template that a GeometryInstance shows; throws InputError if there is none.
+using TemplateOf = std::function<const nlohmann::json&(
+    const nlohmann::json& instance, const std::string& object, std::size_t geometry)>;
+
+/// Choice per object id, by the rules of `read_scene_cityjson`; `where` is the document.
+std::map<std::string, GeometryChoice> choose_geometries(const nlohmann::json& city_objects,
+                                                        const LodWish& wish,
+                                                        const TemplateOf& template_of,
+                                                        const Where& where, NoteCounter& notes);
+
+/// Land use, roads, water and their like: surfaces that are the ground.
+bool is_terrain(const std::string& object_type);
+
+}  // namespace sunload

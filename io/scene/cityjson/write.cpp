@@ -1,0 +1,189 @@
+#include "io/scene/cityjson/write.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "io/base/file_aside.h"
+
+namespace sunload {
+namespace {
+
+constexpr double step_m = 1e-6;  // of the coordinates in the file
+
+std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
+
+/// Type of semantic surface, null where CityJSON 2.0 has none that is read back as this kind.
+const char* semantic_of(Surface surface) {
+  switch (surface) {
+    case Surface::wall:
+      return "WallSurface";
+    case Surface::roof:
+      return "RoofSurface";
+    case Surface::window:
+      return "Window";
+    case Surface::floor:
+      return "GroundSurface";
+    case Surface::ground:
+      return "TrafficArea";
+    case Surface::other:
+      return nullptr;
+  }
+  return nullptr;
+}
+
+class CityText {
+ public:
+  explicit CityText(const PolygonModel& model)
+      : model_(model), polygons_(model.object_names.size()) {
+    for (std::size_t p = 0; p < model.polygon_count(); ++p)
+      polygons_[model.facts[p].object.index()].push_back(p);
+  }
+
+  std::string text() {
+    text_ = R"({"type":"CityJSON","version":"2.0")";
+    add(R"(,"transform":{{"scale":[{0},{0},{0}],"translate":[0,0,0]}})", step_m);
+    if (!model_.crs.empty()) add(R"(,"metadata":{{"referenceSystem":{}}})", quoted(model_.crs));
+    add_materials();
+    text_ += ",\n\"CityObjects\":{";
+    const char* between = "\n";
+    for (std::size_t object = 0; object < polygons_.size(); ++object) {
+      text_ += std::exchange(between, ",\n");
+      add_object(object);
+    }
+    text_ += "},\n\"vertices\":[";
+    between = "";
+    for (const Vec3 p : model_.vertices) {
+      add("{}[{},{},{}]", std::exchange(between, ","), steps(p.x), steps(p.y), steps(p.z));
+    }
+    text_ += "]}\n";
+    return std::move(text_);
+  }
+
+ private:
+  template <class... Values>
+  void add(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
+  }
+
+  static long long steps(double metres) { return std::llround(metres / step_m); }
+
+  void add_materials() {
+    if (model_.materials.empty()) return;
+    text_ += R"(,"appearance":{"materials":[)";
+    const char* between = "";
+    for (const auto& material : model_.materials) {
+      add(R"({}{{"name":{})", std::exchange(between, ","), quoted(material.name));
+      if (material.diffuse) add(R"(,"diffuseColor":[{0},{0},{0}])", *material.diffuse);
+      text_ += '}';
+    }
+    text_ += "]}";
+  }
+
+  /// Corners of ring r.
+  std::pair<std::size_t, std::size_t> corners(std::int64_t r) const {
+    const auto ring = static_cast<std::size_t>(r);
+    return {static_cast<std::size_t>(model_.ring_begin[ring]),
+            static_cast<std::size_t>(model_.ring_begin[ring + 1])};
+  }
+
+  /// Every edge is walked once each way.
+  bool is_closed(const std::vector<std::size_t>& polygons) {
+    edges_.clear();
+    for (const auto p : polygons) {
+      for (auto r = model_.polygon_ring[p]; r < model_.polygon_ring[p + 1]; ++r) {
+        const auto [begin, end] = corners(r);
+        for (auto i = begin; i < end; ++i) {
+          const auto a = model_.ring_vertex[i], b = model_.ring_vertex[i + 1 < end ? i + 1 : begin];
+          edges_.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1});
+        }
+      }
+    }
+    std::sort(edges_.begin(), edges_.end());
+    if (edges_.size() % 2 != 0) return false;
+    for (std::size_t i = 0; i < edges_.size(); i += 2) {
+      const auto &first = edges_[i], &second = edges_[i + 1];
+      const bool is_pair = first[0] == second[0] && first[1] == second[1] && first[2] != second[2];
+      const bool is_last =
+          i + 2 == edges_.size() || edges_[i + 2][0] != first[0] || edges_[i + 2][1] != first[1];
+      if (!is_pair || !is_last) return false;
+    }
+    return !polygons.empty();
+  }
+
+  void add_object(std::size_t object) {
+    const auto& polygons = polygons_[object];
+    const bool is_solid = is_closed(polygons);
+    add(R"({}:{{"type":"{}","geometry":[{{"type":"{}","lod":"2","boundaries":{})",
+        quoted(model_.object_names[object]), is_solid ? "Building" : "GenericCityObject",
+        is_solid ? "Solid" : "MultiSurface", is_solid ? "[[" : "[");
+    const char* between = "";
+    for (const auto p : polygons) {
+      text_ += std::exchange(between, ",");
+      add_polygon(p);
+    }
+    const std::string open = is_solid ? "[[" : "[", close = is_solid ? "]]" : "]";
+    text_ += close;
+    add_semantics(polygons, open, close);
+    text_ += ",\"material\":{\"grey\":{\"values\":" + open;
+    between = "";
+    for (const auto p : polygons) {
+      const auto material = model_.facts[p].material;
+      text_ += std::exchange(between, ",");
+      text_ += material.exists() ? std::to_string(material.index()) : "null";
+    }
+    text_ += close + "}}}]}";
+  }
+
+  void add_polygon(std::size_t p) {
+    const char* between = "[";
+    for (auto r = model_.polygon_ring[p]; r < model_.polygon_ring[p + 1]; ++r) {
+      text_ += std::exchange(between, ",");
+      const auto [begin, end] = corners(r);
+      for (auto i = begin; i < end; ++i) add("{}{}", i == begin ? '[' : ',', model_.ring_vertex[i]);
+      text_ += ']';
+    }
+    text_ += ']';
+  }
+
+  void add_semantics(const std::vector<std::size_t>& polygons, const std::string& open,
+                     const std::string& close) {
+    std::array<int, surface_names.size()> place;
+    place.fill(-1);
+    int count = 0;
+    text_ += ",\"semantics\":{\"surfaces\":[";
+    for (const auto p : polygons) {
+      const auto surface = model_.facts[p].surface;
+      const char* type = semantic_of(surface);
+      auto& at = place[static_cast<std::size_t>(surface)];
+      if (type == nullptr || at >= 0) continue;
+      add(R"({}{{"type":"{}"}})", count == 0 ? "" : ",", type);
+      at = count++;
+    }
+    text_ += "],\"values\":" + open;
+    const char* between = "";
+    for (const auto p : polygons) {
+      const int at = place[static_cast<std::size_t>(model_.facts[p].surface)];
+      text_ += std::exchange(between, ",");
+      text_ += at < 0 ? "null" : std::to_string(at);
+    }
+    text_ += close + "}";
+  }
+
+  const PolygonModel& model_;
+  std::vector<std::vector<std::size_t>> polygons_;  ///< of each object
+  std::vector<std::array<std::int32_t, 3>> edges_;
+  std::string text_;
+};
+
+}  // namespace
+
+void write_cityjson(const PolygonModel& model, const std::string& path) {
+  write_file(path, CityText(model).text());
+}
+
+}  // namespace sunload

@@ -1,0 +1,19 @@
+/// Scenes as CityJSON 2.0.
+#pragma once
+
+#include <string>
+
+#include "geo/mesh/mesh.h"
+
+namespace sunload {
+
+/// Writes `path` aside first and then renames it.
+///
+/// One CityObject per object of the model: a Building with a Solid where its polygons close
+/// (every edge is walked once each way), else a GenericCityObject with a MultiSurface; LoD 2.
+/// Kinds of surface as semantics where CityJSON has a name for them, materials with their
+/// reflectance as grey diffuseColor. Coordinates in metres, rounded to micrometres.
+/// CityJSON has no mirrors and no emitters. Throws MachineError where the file cannot be written.
+void write_cityjson(const PolygonModel& model, const std::string& path);
+
+}  // namespace sunload

@@ -1,0 +1,111 @@
+#include "io/scene/file.h"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "io/scene/base/from_file.h"
+#include "io/scene/cityjson/reader.h"
+#include "io/scene/mesh_files/gltf.h"
+#include "io/scene/mesh_files/obj.h"
+#include "io/scene/mesh_files/off.h"
+#include "io/scene/mesh_files/ply.h"
+#include "io/scene/mesh_files/stl.h"
+#include "io/scene/raster/raster_scene.h"
+#include "io/scene/vrml/reader.h"
+
+namespace sunload {
+
+namespace {
+
+/// Enough for the header of a text file with a comment in front.
+constexpr std::size_t head_bytes = 4096;
+
+using Reader = PolygonModel (*)(const std::string& path, const SceneFileRules& rules);
+
+/// One format: told by its first bytes, where it has a mark, or by its extension.
+struct Format {
+  const char* name;
+  std::vector<std::string_view> marks;       ///< what the file may begin with
+  std::vector<std::string_view> extensions;  ///< in lower case, with the dot
+  Reader read;
+};
+
+// A format is added by its row. The mark 1F 8B is gzip's: only VRML is packed by custom.
+const std::vector<Format>& formats() {
+  static const std::vector<Format> table{
+      {"CityJSON", {"{"}, {".city.json", ".city.jsonl", ".json", ".jsonl"}, read_scene_cityjson},
+      {"OBJ", {}, {".obj"}, read_scene_obj},
+      {"VRML",
+       {"#VRML", "#Inventor", "\x1F\x8B"},
+       {".wrl", ".wrl.gz", ".vrml", ".wrz", ".iv"},
+       read_scene_vrml},
+      {"PLY", {"ply\n", "ply\r"}, {".ply"}, read_scene_ply},
+      {"OFF", {"OFF", "COFF", "NOFF", "STOFF"}, {".off"}, read_scene_off},
+      {"STL", {"solid "}, {".stl"}, read_scene_stl},
+      {"glTF", {"glTF"}, {".gltf", ".glb"}, read_scene_gltf},
+      {"GeoTIFF raster",
+       {{"II*\0", 4}, {"MM\0*", 4}, {"II+\0", 4}},
+       {".tif", ".tiff"},
+       read_scene_raster},
+      {"ESRI ASCII raster", {"ncols", "NCOLS"}, {".asc"}, read_scene_raster},
+  };
+  return table;
+}
+
+std::string_view without_leading_blanks(std::string_view head) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (head.starts_with(byte_order_mark)) head.remove_prefix(byte_order_mark.size());
+  head.remove_prefix(std::min(head.find_first_not_of(" \t\r\n"), head.size()));
+  return head;
+}
+
+const Format* format_by_mark(std::string_view head) {
+  for (const auto& format : formats()) {
+    for (const auto mark : format.marks) {
+      if (head.starts_with(mark)) return &format;
+    }
+  }
+  return nullptr;
+}
+
+const Format* format_by_extension(const std::string& path) {
+  const auto name = lower_case(path);
+  for (const auto& format : formats()) {
+    for (const auto extension : format.extensions) {
+      if (name.ends_with(extension)) return &format;
+    }
+  }
+  return nullptr;
+}
+
+/// The content is stronger than the name, but for JSON, which glTF is, too.
+const Format* format_of(const std::string& path, std::string_view head) {
+  const auto* by_mark = format_by_mark(head);
+  const bool may_be_gltf = head.starts_with('{') && lower_extension(path) == ".gltf";
+  return by_mark != nullptr && !may_be_gltf ? by_mark : format_by_extension(path);
+}
+
+std::string names_of_formats() {
+  std::string names;
+  for (const auto& format : formats()) {
+    names += (names.empty() ? "" : ", ") + std::string(format.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+PolygonModel read_scene_file(const std::string& path, const SceneFileRules& rules) {
+  const auto head = read_file_head(path, head_bytes);
+  if (head.empty()) throw InputError({path}, "is empty", "a scene file was expected");
+  const auto* format = format_of(path, without_leading_blanks(head));
+  if (format == nullptr) {
+    throw InputError({path}, "is of no known scene format",
+                     "neither its content nor its name tells",
+                     "formats that can be read: " + names_of_formats());
+  }
+  return format->read(path, rules);
+}
+
+}  // namespace sunload

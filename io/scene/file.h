@@ -1,0 +1,19 @@
+/// Scene files of every format: one entry, one table of formats.
+#pragma once
+
+#include <string>
+
+#include "geo/mesh/mesh.h"
+#include "io/scene/base/file_rules.h"
+
+namespace sunload {
+
+/// Reads a scene file; its format is told by its content, then by its extension.
+///
+/// Coordinates come out in metres with z up ('y' turns (x, y, z) → (x, −z, y),
+/// 'x' turns (x, y, z) → (y, z, x)), absolute, in double. What was counted,
+/// tolerated or left out is in `PolygonModel::notes`.
+/// Throws InputError where the file is missing, of an unknown format, or wrong.
+PolygonModel read_scene_file(const std::string& path, const SceneFileRules& rules);
+
+}  // namespace sunload

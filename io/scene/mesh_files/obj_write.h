@@ -1,0 +1,23 @@
+/// Scenes as Wavefront OBJ with a material library beside it.
+#pragma once
+
+#include <string>
+
+#include "geo/mesh/mesh.h"
+
+namespace sunload {
+
+/// Writes `path` and the library `<path without extension>.mtl`, each aside
+/// first and then renamed, the library first.
+///
+/// One `o` per object, `usemtl` per material, triangles, absolute metres, z up
+/// (so it reads back with the default axes of OBJ). Reflectances as grey Kd,
+/// mirrors as Ks with `illum 3`, emitters as Ke with the power in a comment.
+/// OBJ has no place for kinds of surface: on reading they follow from slopes.
+/// Throws MachineError where a file cannot be written.
+void write_obj(const Mesh& mesh, const std::string& path);
+
+/// The same for polygons: triangulated without any repair (OBJ has no holes).
+void write_obj(const PolygonModel& model, const std::string& path);
+
+}  // namespace sunload

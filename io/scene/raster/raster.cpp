@@ -1,0 +1,196 @@
+#include "io/scene/raster/raster.h"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <fmt/format.h>
+#include <gdal.h>
+#include <ogr_srs_api.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+
+namespace sunload {
+
+namespace {
+
+// The shore of the Dead Sea lies at −440 m, Mount Everest reaches 8849 m; with room for
+// the sea floor near coasts.
+constexpr double lowest_elevation_m = -1000, highest_elevation_m = 9000;
+// Of what stands on land; rounding leaves small negative differences.
+constexpr double lowest_height_m = -1, highest_height_m = 2000;
+
+/// GDAL's messages of one reading; they do not reach stderr.
+class GdalMessages {
+ public:
+  GdalMessages() { CPLPushErrorHandlerEx(&note, this); }
+  ~GdalMessages() { CPLPopErrorHandler(); }
+  GdalMessages(const GdalMessages&) = delete;
+  GdalMessages& operator=(const GdalMessages&) = delete;
+  const std::string& first() const { return first_; }
+
+ private:
+  static void CPL_STDCALL note(CPLErr, CPLErrorNum, const char* text) {
+    auto& self = *static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
+    if (self.first_.empty()) self.first_ = text;
+  }
+  std::string first_;
+};
+
+struct CloseDataset {
+  void operator()(void* dataset) const { GDALClose(dataset); }
+};
+
+class RasterReader {
+ public:
+  RasterReader(const std::string& path, double unit_m, RasterValues values, NoteCounter& notes)
+      : path_(path), unit_m_(unit_m), kind_(values), notes_(notes) {}
+
+  Raster read() {
+    open();
+    read_crs();
+    read_values();
+    return std::move(raster_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what, const std::string& why = {},
+                         const std::string& hint = {}) const {
+    throw InputError({path_}, what, why.empty() ? messages_.first() : why, hint);
+  }
+
+  void open() {
+    static std::once_flag registered;
+    std::call_once(registered, [] {
+      GDALAllRegister();
+      // Rows are read once; the default is 5 % of all memory.
+      constexpr GIntBig cache_bytes = 64'000'000;
+      GDALSetCacheMax64(cache_bytes);
+    });
+    // Only these two: other drivers may follow links to elsewhere.
+    const std::array<const char*, 3> drivers{"GTiff", "AAIGrid", nullptr};
+    dataset_.reset(GDALOpenEx(path_.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers.data(),
+                              nullptr, nullptr));
+    if (!dataset_) fail("cannot be read as a raster");
+    raster_.columns = static_cast<std::size_t>(GDALGetRasterXSize(dataset_.get()));
+    raster_.rows = static_cast<std::size_t>(GDALGetRasterYSize(dataset_.get()));
+    if (static_cast<double>(raster_.columns) * static_cast<double>(raster_.rows) >
+        most_raster_cells) {
+      fail(fmt::format("has {} × {} cells", raster_.columns, raster_.rows),
+           fmt::format("at most {:.0f} million can be read", most_raster_cells / 1e6),
+           "cut out the part that matters, or take wider cells");
+    }
+    if (static_cast<double>(raster_.columns) * static_cast<double>(raster_.rows) >
+        raster_cells_at_least +
+            raster_cells_per_byte * static_cast<double>(std::filesystem::file_size(path_))) {
+      fail(fmt::format("has {} × {} cells", raster_.columns, raster_.rows),
+           "they are too many for its size", "is it cut off?");
+    }
+    if (GDALGetRasterCount(dataset_.get()) < 1) fail("has no band", "heights were expected");
+    check_blocks();
+    if (GDALGetRasterCount(dataset_.get()) > 1)
+      notes_.say("the first of several bands of the raster is taken for heights");
+    if (GDALGetGeoTransform(dataset_.get(), raster_.file_from_cell.data()) != CE_None)
+      fail("does not say where it lies", "it has no georeference");
+    const auto& g = raster_.file_from_cell;
+    if (!(std::abs(g[1] * g[5] - g[2] * g[4]) > 0))
+      fail("has cells without area", "its georeference is degenerate");
+  }
+
+  /// GDAL unpacks a block of all bands at once, whatever the size that the file states for it.
+  void check_blocks() const {
+    constexpr double most_bytes = 256e6;
+    auto* band = GDALGetRasterBand(dataset_.get(), 1);
+    int width = 0, height = 0;
+    GDALGetBlockSize(band, &width, &height);
+    const int bands = GDALGetRasterCount(dataset_.get());
+    const double bytes = static_cast<double>(width) * height * bands *
+                         GDALGetDataTypeSizeBytes(GDALGetRasterDataType(band));
+    if (bytes > most_bytes) {
+      fail(fmt::format("has blocks of {} × {} cells in {} bands", width, height, bands),
+           "they do not fit into memory", "store it in smaller tiles");
+    }
+  }
+
+  void read_crs() {
+    auto* crs = GDALGetSpatialRef(dataset_.get());
+    if (crs == nullptr) return notes_.say("the raster names no CRS: site.crs may");
+    if (OSRIsGeographic(crs)) {
+      fail("has coordinates in degrees", "distances are needed in metres",
+           "project it first, for example with gdalwarp -t_srs EPSG:…");
+    }
+    const char* authority = OSRGetAuthorityName(crs, nullptr);
+    const char* code = OSRGetAuthorityCode(crs, nullptr);
+    if (authority != nullptr && code != nullptr) {
+      raster_.crs = std::string(authority) + ":" + code;
+    } else {
+      char* text = nullptr;
+      if (OSRExportToWkt(crs, &text) == OGRERR_NONE && text != nullptr) raster_.crs = text;
+      CPLFree(text);
+    }
+    char* unit = nullptr;
+    if (const double metres = OSRGetLinearUnits(crs, &unit); metres != 1 && unit_m_ == 1) {
+      notes_.say(
+          fmt::format("coordinates of the raster are in {} of {:.6g} m, taken for "
+                      "metres: scene.unit_m says otherwise",
+                      unit == nullptr ? "units" : unit, metres));
+    }
+  }
+
+  void read_values() {
+    auto* band = GDALGetRasterBand(dataset_.get(), 1);
+    auto& values = raster_.values;
+    values.resize(raster_.columns * raster_.rows);
+    const auto width = static_cast<int>(raster_.columns), height = static_cast<int>(raster_.rows);
+    if (GDALRasterIO(band, GF_Read, 0, 0, width, height, values.data(), width, height, GDT_Float64,
+                     0, 0) != CE_None)
+      fail("cannot be read to its end", {}, "is it cut off?");
+    int has_no_data = 0;
+    double no_data = GDALGetRasterNoDataValue(band, &has_no_data);
+    if (GDALGetRasterDataType(band) == GDT_Float32)
+      no_data = static_cast<double>(static_cast<float>(no_data));
+    const double scale = GDALGetRasterScale(band, nullptr);
+    const double offset = GDALGetRasterOffset(band, nullptr);
+    std::size_t missing = 0;
+    for (std::size_t cell = 0; cell < values.size(); ++cell) {
+      double& value = values[cell];
+      if (std::isnan(value) || (has_no_data != 0 && value == no_data)) {
+        value = std::nan("");
+        ++missing;
+        continue;
+      }
+      value = value * scale + offset;
+      expect_usual(value, cell);
+    }
+    notes_.count("cells of the raster have no data and are left out", missing);
+  }
+
+  void expect_usual(double value, std::size_t cell) const {
+    const bool is_land = kind_ == RasterValues::elevations;
+    const double low = is_land ? lowest_elevation_m : lowest_height_m;
+    const double high = is_land ? highest_elevation_m : highest_height_m;
+    if (value * unit_m_ >= low && value * unit_m_ <= high) return;
+    fail(fmt::format("has the height {} in row {}, column {}", value, cell / raster_.columns + 1,
+                     cell % raster_.columns + 1),
+         is_land ? "no land lies there" : "no tree is so high above the ground",
+         "is it a NODATA value that the file does not declare?");
+  }
+
+  std::string path_;
+  double unit_m_;
+  RasterValues kind_;
+  NoteCounter& notes_;
+  GdalMessages messages_;
+  std::unique_ptr<void, CloseDataset> dataset_;
+  Raster raster_;
+};
+
+}  // namespace
+
+Raster read_raster(const std::string& path, double unit_m, RasterValues values,
+                   NoteCounter& notes) {
+  return RasterReader(path, unit_m, values, notes).read();
+}
+
+}  // namespace sunload

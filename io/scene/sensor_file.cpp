@@ -1,0 +1,139 @@
+#include "io/scene/sensor_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "geo/base/check.h"
+#include "io/scene/base/from_file.h"
+
+namespace sunload {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> column_names{"x", "y", "z", "nx", "ny", "nz"};
+constexpr std::size_t most_problems = 20;  // of a file with another meaning, the first will do
+constexpr std::string_view separators = ",; \t\r";
+
+using Fields = std::vector<std::string_view>;
+using Columns = std::array<std::size_t, column_names.size()>;
+
+Fields fields_of(std::string_view line) {
+  line = line.substr(0, line.find('#'));
+  Fields fields;
+  while (true) {
+    const auto begin = line.find_first_not_of(separators);
+    if (begin == line.npos) return fields;
+    const auto end = std::min(line.find_first_of(separators, begin), line.size());
+    fields.push_back(line.substr(begin, end - begin));
+    line.remove_prefix(end);
+  }
+}
+
+std::optional<double> number_of(std::string_view field) {
+  if (field.starts_with('+')) field.remove_prefix(1);
+  double value = 0;
+  const auto result = std::from_chars(field.data(), field.data() + field.size(), value);
+  const bool is_whole = result.ec == std::errc() && result.ptr == field.data() + field.size();
+  return is_whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+/// Without quotes, in lower case.
+std::string plain(std::string_view field) {
+  if (field.size() > 1 && field.front() == '"' && field.back() == '"')
+    field = field.substr(1, field.size() - 2);
+  return lower_case(std::string(field));
+}
+
+/// The table of one file while it is read.
+class SensorTable {
+ public:
+  explicit SensorTable(const std::string& path) : path_(path) {}
+
+  void read(std::string_view text) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+    for (int line = 1; !text.empty() && problems_.list().size() < most_problems; ++line) {
+      const auto end = std::min(text.find('\n'), text.size());
+      if (const auto fields = fields_of(text.substr(0, end)); !fields.empty()) row(line, fields);
+      text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    if (points_.empty() && problems_.empty())
+      problems_.add({path_}, "holds no sensors", "a row is x y z nx ny nz");
+    problems_.throw_if_any();
+  }
+  std::vector<SensorPoint> points() && { return std::move(points_); }
+
+ private:
+  void row(int line, const Fields& fields) {
+    const bool is_first = !columns_;
+    if (is_first) columns_ = header(line, fields);
+    if (is_first && !number_of(fields[0])) return;
+    const std::size_t needed = *std::max_element(columns_->begin(), columns_->end()) + 1;
+    if (has_header_ ? fields.size() < needed : fields.size() != needed) {
+      problems_.add({path_, line},
+                    fmt::format("the row has {} fields, not {}", fields.size(), needed),
+                    "a sensor is x y z nx ny nz",
+                    fields.size() > needed ? "decimal commas are not read: write points" : "");
+      return;
+    }
+    std::array<double, column_names.size()> values{};
+    for (std::size_t c = 0; c < values.size(); ++c) {
+      const auto field = fields[(*columns_)[c]];
+      const auto value = number_of(field);
+      if (!value) {
+        problems_.add({path_, line}, fmt::format("{}: '{}' is no number", column_names[c], field));
+        return;
+      }
+      values[c] = *value;
+    }
+    add(line, {{values[0], values[1], values[2]}, {values[3], values[4], values[5]}});
+  }
+
+  /// Columns of a first row; without a header they follow one another.
+  Columns header(int line, const Fields& fields) {
+    Columns columns{0, 1, 2, 3, 4, 5};
+    if (number_of(fields[0])) return columns;
+    has_header_ = true;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const auto found = std::find_if(fields.begin(), fields.end(),
+                                      [&](auto f) { return plain(f) == column_names[c]; });
+      if (found == fields.end())
+        throw InputError({path_, line},
+                         fmt::format("the header names no column {}", column_names[c]),
+                         "sensors are x, y, z, nx, ny, nz");
+      columns[c] = static_cast<std::size_t>(found - fields.begin());
+    }
+    return columns;
+  }
+
+  void add(int line, const SensorPoint& point) {
+    if (!is_usable(point.position))
+      problems_.add({path_, line}, "the position lies beyond any map projection of the Earth");
+    else if (norm(point.normal) < shortest_normal)
+      problems_.add({path_, line}, "the normal has no length", "it tells where the sensor looks");
+    else
+      points_.push_back(point);
+  }
+
+  std::string path_;
+  std::optional<Columns> columns_;
+  bool has_header_ = false;
+  std::vector<SensorPoint> points_;
+  Problems problems_;
+};
+
+}  // namespace
+
+std::vector<SensorPoint> read_sensor_file(const std::string& path) {
+  SensorTable table(path);
+  table.read(read_whole_file(path));
+  return std::move(table).points();
+}
+
+}  // namespace sunload

@@ -1,0 +1,26 @@
+/// Sensor files: points with normals, one a row.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geo/base/vec.h"
+
+namespace sunload {
+
+/// A sensor as written: absolute, in the frame of the scene (metres, z up).
+struct SensorPoint {
+  Vec3 position, normal;  ///< the normal need not be of unit length
+};
+
+/// The least length that a normal may have: shorter ones are taken for zero.
+inline constexpr double shortest_normal = 1e-9;
+
+/// Reads a text table x y z nx ny nz. Fields are divided by commas, semicolons, tabs or
+/// blanks, so that CSV and the .pts files of Radiance (rtrace, Ladybug, Honeybee) both
+/// serve; # begins a comment, empty lines are skipped. A first row that is no numbers is a
+/// header, which names these six columns, in any order and among others; without one,
+/// every row is six numbers. Throws InputError with file:line for every row that is wrong.
+std::vector<SensorPoint> read_sensor_file(const std::string& path);
+
+}  // namespace sunload

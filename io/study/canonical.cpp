@@ -1,0 +1,255 @@
+// The canonical text of a study. Structured bindings name every member of every
+// struct: a new member does not compile until it is put in or left out on purpose.
+#include <nlohmann/json.hpp>
+
+#include "io/study/study.h"
+
+namespace sunload {
+
+namespace {
+
+using nlohmann::json;
+
+template <class T>
+json maybe(const std::optional<T>& value) {
+  return value ? json(*value) : json();
+}
+
+json canonical(const CivilTime& time) {
+  const auto& [year, month, day, hour, minute, second] = time;
+  return {year, month, day, hour, minute, second};
+}
+
+json canonical(const ParsedTime& time) {
+  // Whether a time of day was written makes no difference: midnight is 00:00.
+  const auto& [civil, has_time, has_offset, offset_s] = time;
+  return {{"civil", canonical(civil)}, {"offset_s", has_offset ? json(offset_s) : json()}};
+}
+
+json canonical(const SiteStudy& site) {
+  const auto& [latitude_deg, longitude_deg, crs, elevation_m, timezone, north_deg, horizon, where] =
+      site;
+  json all{{"latitude_deg", maybe(latitude_deg)},
+           {"longitude_deg", maybe(longitude_deg)},
+           {"crs", crs},
+           {"elevation_m", maybe(elevation_m)},
+           {"timezone", timezone},
+           {"north_deg", maybe(north_deg)}};
+  if (horizon.is_open()) return all;
+  json line = json::array();
+  for (const auto& [azimuth_deg, elevation_deg] : horizon.points())
+    line.push_back({azimuth_deg, elevation_deg});
+  all["horizon"] = line;
+  return all;
+}
+
+json canonical(const SunAt& sun);
+json canonical(const MaterialStudy& material);
+json canonical(const AssignRule& rule);
+json canonical(const SceneFileStudy& file);
+
+template <class T>
+json list_of(const std::vector<T>& values) {
+  json list = json::array();
+  for (const T& value : values) list.push_back(canonical(value));
+  return list;
+}
+
+json canonical(const DaysPeriod& period) {
+  const auto& [days, from_s, to_s, step_min] = period;
+  return {{"days", list_of(days)}, {"from_s", from_s}, {"to_s", to_s}, {"step_min", step_min}};
+}
+
+json canonical(const RangePeriod& period) {
+  const auto& [start, end, step_min] = period;
+  return {{"start", canonical(start)}, {"end", canonical(end)}, {"step_min", step_min}};
+}
+
+json canonical(const InstantsPeriod& period) {
+  const auto& [instants, interval_min] = period;
+  return {{"instants", list_of(instants)}, {"interval_min", interval_min}};
+}
+
+json canonical(const SunAt& sun) {
+  const auto& [azimuth_deg, elevation_deg, interval_min] = sun;
+  return {azimuth_deg, elevation_deg, interval_min};
+}
+
+json canonical(const PositionsPeriod& period) {
+  const auto& [positions] = period;
+  return {{"positions", list_of(positions)}};
+}
+
+json canonical(const WeatherPeriod& period) {
+  const auto& [as_year] = period;
+  return {{"as_year", maybe(as_year)}};
+}
+
+json canonical(const PeriodStudy& period) {
+  const auto& [kind, where] = period;
+  return std::visit([](const auto& value) { return canonical(value); }, kind);
+}
+
+json canonical(const SunStudy& sun) {
+  const auto& [refraction, ut1_utc, disk] = sun;
+  return {{"refraction", refraction}, {"ut1_utc", ut1_utc}, {"disk", disk}};
+}
+
+json canonical(const LightStudy& light) {
+  const auto& [source, model, linke_turbidity, dni_w_m2, dhi_w_m2, sky, sky_type, turbidity,
+               sky_scale, far_ground_albedo, quantity, weather, colour, stamp, missing,
+               decomposition] = light;
+  // The weather file is hashed by its bytes; the colour belongs to the solver's bands.
+  json canon = {{"stamp", maybe(stamp)}, {"quantity", quantity},
+                {"missing", missing},    {"decomposition", decomposition},
+                {"source", source},      {"model", model},
+                {"dni_w_m2", dni_w_m2},  {"linke_turbidity", linke_turbidity.monthly},
+                {"dhi_w_m2", dhi_w_m2},  {"sky", sky},
+                {"sky_type", sky_type},  {"far_ground_albedo", far_ground_albedo},
+                {"turbidity", turbidity}};
+  // The usual scale has no key: hashes stay those of the time before there was another.
+  if (sky_scale != SkyScale::diffuse) canon["sky_scale"] = sky_scale;
+  return canon;
+}
+
+json canonical(const MaterialStudy& material) {
+  // A colour is hashed with the scene, where bands are asked for.
+  const auto& [name, diffuse, mirror, diffuse_rgb, emission_w_m2, sides, where, refractive_index,
+               extinction_coefficient, thickness_m, absorption_per_m, panes, normal_transmittance,
+               glossy, glossy_exponent, transmittance] = material;
+  json canon = {{"name", name},
+                {"diffuse", maybe(diffuse)},
+                {"mirror", maybe(mirror)},
+                {"emission_w_m2", emission_w_m2},
+                {"sides", maybe(sides)},
+                {"refractive_index", maybe(refractive_index)},
+                {"extinction_coefficient", maybe(extinction_coefficient)},
+                {"thickness_m", thickness_m},
+                {"absorption_per_m", absorption_per_m},
+                {"panes", panes},
+                {"glossy", glossy},
+                {"glossy_exponent", glossy_exponent},
+                {"transmittance", transmittance}};
+  // Hashes of studies without such glass stay those of the time before there was any.
+  if (normal_transmittance) canon["normal_transmittance"] = *normal_transmittance;
+  return canon;
+}
+
+json canonical(const AssignRule& rule) {
+  const auto& [object, surface, material_was, kind, material, where] = rule;
+  return {{"object", object},
+          {"surface", surface},
+          {"was", material_was},
+          {"type", kind},
+          {"material", material}};
+}
+
+json canonical(const GroundStudy& ground) {
+  const auto& [wanted, margin_m, material] = ground;
+  return {{"wanted", wanted}, {"margin_m", margin_m}, {"material", material}};
+}
+
+json canonical(const BuiltinStudy& builtin) {
+  const auto& [name, parameters, where] = builtin;
+  return {{"name", name}, {"parameters", parameters}};
+}
+
+json canonical(const SceneFileStudy& file) {
+  // Files are hashed by their bytes.
+  const auto& [path, where, up, unit_m, lod, position, earth_position, turn_deg, material, terrain,
+               canopy, least_height_m, trunk_share] = file;
+  json all{{"up", up == 0 ? std::string() : std::string(1, up)},
+           {"unit_m", maybe(unit_m)},
+           {"lod", lod},
+           {"turn_deg", turn_deg},
+           {"material", material}};
+  if (position) all["position"] = {position->x, position->y, position->z};
+  if (earth_position)
+    all["earth_position"] = {earth_position->latitude_deg, earth_position->longitude_deg,
+                             earth_position->height_m};
+  if (!terrain.empty())
+    all["blocks"] = {{"least_height_m", least_height_m},
+                     {"trunk_share", trunk_share},
+                     {"has_canopy", !canopy.empty()}};
+  return all;
+}
+
+json canonical(const SceneStudy& scene) {
+  const auto& [files, builtin, parallel_sources, parallel_sources_where, up, unit_m, lod,
+               vrml_colour, emission_scale_w, repair, orient, materials, assign, ground, where] =
+      scene;
+  return {{"builtin", builtin ? canonical(*builtin) : json()},
+          {"files", list_of(files)},
+          {"up", up == 0 ? std::string() : std::string(1, up)},
+          {"unit_m", unit_m},
+          {"lod", lod},
+          {"vrml_colour", vrml_colour},
+          {"emission_scale_w", emission_scale_w},
+          {"repair", repair},
+          {"orient", orient},
+          {"materials", list_of(materials)},
+          {"assign", list_of(assign)},
+          {"ground", ground ? canonical(*ground) : json()}};
+}
+
+json canonical(const MeshStudy& mesh) {
+  const auto& [max_edge_m, min_area_m2, oracle, light_tolerance, light_threshold_m2, t_vertices,
+               link_threshold] = mesh;
+  json values{{"max_edge_m", max_edge_m},
+              {"min_area_m2", min_area_m2},
+              {"oracle", oracle},
+              {"link_threshold", link_threshold}};
+  // Thresholds of an oracle that is not asked change nothing.
+  if (oracle == Oracle::light_load) values["light_tolerance"] = light_tolerance;
+  if (oracle == Oracle::historic) values["light_threshold_m2"] = light_threshold_m2;
+  if (oracle != Oracle::none) values["t_vertices"] = t_vertices;
+  return values;
+}
+
+json canonical(const SolverStudy& solver, LightColour colour) {
+  // `isa` is left out: the instruction set in force is hashed apart, so that
+  // pinning it finds the batches that `auto` computed on such a machine.
+  const auto& [transport, jacobi, power_per_sample_w, bands, bounces, unshot, lines_per_patch,
+               direct_samples, realizations, mirror_depth, batch_suns, isa, seed, accuracy,
+               max_lines_per_patch] = solver;
+  json all{{"transport", transport},
+           {"jacobi", jacobi},
+           {"power_per_sample_w", maybe(power_per_sample_w)},
+           {"bounces", bounces},
+           {"unshot", unshot},
+           {"lines_per_patch", lines_per_patch},
+           {"direct_samples", direct_samples},
+           {"realizations", realizations},
+           {"mirror_depth", mirror_depth},
+           {"batch_suns", batch_suns},
+           {"seed", seed}};
+  if (bands == Bands::rgb) {
+    all["bands"] = "rgb";
+    all["colour"] = colour;
+  }
+  if (accuracy) {
+    const auto& [light_load_relative, irradiance_relative] = *accuracy;
+    all["accuracy"] = {{"light_load_relative", maybe(light_load_relative)},
+                       {"irradiance_relative", maybe(irradiance_relative)},
+                       {"max_lines_per_patch", max_lines_per_patch}};
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string canonical_text(const Study& study) {
+  // Sensors are hashed with the scene.
+  const auto& [name, variant, site, period, sun, light, scene, mesh, solver, sensors, output] =
+      study;
+  const json all{{"site", canonical(site)},
+                 {"period", canonical(period)},
+                 {"sun", canonical(sun)},
+                 {"light", canonical(light)},
+                 {"scene", canonical(scene)},
+                 {"mesh", canonical(mesh)},
+                 {"solver", canonical(solver, light.colour)}};
+  return all.dump();
+}
+
+}  // namespace sunload

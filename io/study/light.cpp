@@ -1,0 +1,153 @@
+// Sections `sun` and `light` of a study.
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include "io/study/sections.h"
+
+namespace sunload::study_sections {
+
+namespace {
+
+constexpr Range linke_turbidities{1, 20};   // 1: a clean, dry sky; smog reaches some 10
+constexpr Range irradiances_w_m2{0, 2000};  // above the sun outside of the atmosphere (1361)
+constexpr Range albedos{0, 1};
+constexpr Range preetham_turbidities{2, 10};  // Preetham et al. (1999), fitted to 2 … 10
+constexpr int cie_sky_types = 15;             // ISO 15469:2004, table 1
+
+Turbidity read_turbidity(YamlMap& map) {
+  const std::string key = "linke_turbidity";
+  Turbidity turbidity;
+  if (map.kind(key) != YamlNode::Kind::list) {
+    turbidity.monthly.fill(map.number(key, linke_turbidities, turbidity.monthly.front()));
+    return turbidity;
+  }
+  const auto months = map.numbers(key, linke_turbidities);
+  const std::size_t written = map.tree(key)->items.size();
+  if (written != turbidity.monthly.size()) {
+    map.problem(key, "has " + std::to_string(written) + " values",
+                "one value, or 12 from January to December");
+  } else if (months.size() == written) {
+    std::copy(months.begin(), months.end(), turbidity.monthly.begin());
+  }
+  return turbidity;
+}
+
+/// Values that the chosen source or sky does not use.
+void warn_unused(YamlMap& map, const LightStudy& light) {
+  const auto unused = [&](const char* key, const char* of) {
+    if (map.has(key)) map.warn(key, "is not used", std::string("it belongs to ") + of);
+  };
+  if (light.source != LightSource::fixed) {
+    unused("dni_w_m2", "source: fixed");
+    unused("dhi_w_m2", "source: fixed");
+  }
+  if (light.source != LightSource::clear_sky) {
+    unused("model", "source: clear_sky");
+    unused("linke_turbidity", "source: clear_sky");
+  } else if (light.model != ClearSkyModel::ineichen) {
+    unused("linke_turbidity", "model: ineichen");
+  }
+  if (light.source != LightSource::weather) {
+    for (const char* key : {"weather", "stamp", "missing", "decomposition"}) {
+      unused(key, "source: weather");
+    }
+  }
+  if (light.sky != SkyModel::cie_general) unused("sky_type", "sky: cie_general");
+  if (light.sky != SkyModel::preetham) unused("turbidity", "sky: preetham");
+}
+
+/// The weather file and how it is read.
+void read_weather(YamlMap& map, const std::string& folder, LightStudy& light) {
+  const auto file = map.text("weather");
+  if (map.has("stamp")) {
+    light.stamp = map.choice(
+        "stamp", {{"start", Stamp::start}, {"middle", Stamp::middle}, {"end", Stamp::end}},
+        Stamp::end);
+  }
+  map.tree("stamp");
+  light.missing = map.choice(
+      "missing",
+      {{"refuse", Missing::refuse}, {"interpolate", Missing::interpolate}, {"zero", Missing::zero}},
+      light.missing);
+  light.decomposition =
+      map.choice("decomposition", {{"erbs", Decomposition::erbs}, {"disc", Decomposition::disc}},
+                 light.decomposition);
+  if (light.source != LightSource::weather) return;
+  if (!file) {
+    map.problem("source", "weather needs a file", "", "write light.weather: x.epw beside `source`");
+    return;
+  }
+  const auto path = (std::filesystem::path(folder) / *file).lexically_normal();
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    map.problem("weather", "'" + *file + "' is not there", "it is sought at " + path.string(),
+                "paths are relative to the study file");
+  }
+  light.weather = path.string();
+}
+
+}  // namespace
+
+SunStudy read_sun(YamlMap& map) {
+  SunStudy sun;
+  sun.refraction = map.choice(
+      "refraction",
+      {{"none", Refraction::none}, {"spa", Refraction::spa}, {"bennett", Refraction::bennett}},
+      sun.refraction);
+  sun.ut1_utc = map.choice("ut1_utc", {{"table", Ut1::table}, {"zero", Ut1::zero}}, sun.ut1_utc);
+  sun.disk = map.choice("disk", {{"point", SunDisk::point}, {"finite", SunDisk::finite}}, sun.disk);
+  return sun;
+}
+
+LightStudy read_light(YamlMap& map, const std::string& folder) {
+  LightStudy light;
+  light.source = map.choice("source",
+                            {{"clear_sky", LightSource::clear_sky},
+                             {"weather", LightSource::weather},
+                             {"fixed", LightSource::fixed}},
+                            light.source);
+  light.model = map.choice("model",
+                           {{"ineichen", ClearSkyModel::ineichen},
+                            {"bird", ClearSkyModel::bird},
+                            {"haurwitz", ClearSkyModel::haurwitz}},
+                           light.model);
+  light.linke_turbidity = read_turbidity(map);
+  light.dni_w_m2 = map.number("dni_w_m2", irradiances_w_m2, light.dni_w_m2);
+  light.dhi_w_m2 = map.number("dhi_w_m2", irradiances_w_m2, light.dhi_w_m2);
+  light.sky = map.choice("sky",
+                         {{"uniform", SkyModel::uniform},
+                          {"cie_overcast", SkyModel::cie_overcast},
+                          {"cie_clear", SkyModel::cie_clear},
+                          {"cie_general", SkyModel::cie_general},
+                          {"perez", SkyModel::perez},
+                          {"preetham", SkyModel::preetham}},
+                         light.sky);
+  light.sky_type = map.integer("sky_type", 1, cie_sky_types, light.sky_type);
+  light.turbidity = map.number("turbidity", preetham_turbidities, light.turbidity);
+  light.sky_scale =
+      map.choice("sky_scale", {{"diffuse", SkyScale::diffuse}, {"absolute", SkyScale::absolute}},
+                 light.sky_scale);
+  if (light.sky_scale == SkyScale::absolute &&
+      (light.sky != SkyModel::preetham || light.source != LightSource::clear_sky))
+    map.problem("sky_scale", "absolute goes with sky: preetham and source: clear_sky only",
+                "no other model has a luminance of its own, and other sources say how bright the "
+                "sky is",
+                "write sky_scale: diffuse");
+  light.far_ground_albedo = map.number("far_ground_albedo", albedos, light.far_ground_albedo);
+  read_weather(map, folder, light);
+  light.quantity = map.choice(
+      "quantity", {{"irradiance", Quantity::irradiance}, {"illuminance", Quantity::illuminance}},
+      light.quantity);
+  light.colour = map.choice("colour", {{"sky", LightColour::sky}, {"white", LightColour::white}},
+                            light.colour);
+  for (const char* key : {"dni_w_m2", "dhi_w_m2"}) {
+    if (light.source == LightSource::fixed && !map.has(key)) {
+      map.problem("source", std::string("fixed needs ") + key, "", "write it beside `source`");
+    }
+  }
+  warn_unused(map, light);
+  return light;
+}
+
+}  // namespace sunload::study_sections

@@ -1,0 +1,45 @@
+/// Readers of the sections of a study, for io/study/study.cpp alone.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/study/study.h"
+#include "io/study/yaml_map.h"
+
+namespace sunload::study_sections {
+
+/// What the site says beyond its values.
+enum class ZoneWritten { no, yes };
+enum class PlaceWritten { no, yes };
+struct SiteRead {
+  SiteStudy site;
+  ZoneWritten zone_written = ZoneWritten::no;
+  PlaceWritten place_written = PlaceWritten::no;  ///< right or wrong
+};
+
+/// The horizon file is relative to `folder`.
+SiteRead read_site(YamlMap& map, const std::string& folder);
+PeriodStudy read_period(YamlMap& map, const SiteRead& site);
+SunStudy read_sun(YamlMap& map);
+/// Paths of files are relative to `folder`.
+LightStudy read_light(YamlMap& map, const std::string& folder);
+SceneStudy read_scene(YamlMap& map, const std::string& folder);
+/// A model in micrometres, one in thousands of kilometres.
+inline constexpr Range units_m{1e-6, 1e6};
+void check_lod(YamlMap& map, const std::string& lod);
+/// `scene.files`; paths are relative to `folder`.
+std::vector<SceneFileStudy> read_scene_files(YamlMap& scene, const std::string& folder);
+MeshStudy read_mesh(YamlMap& map);
+SolverStudy read_solver(YamlMap& map);
+/// The file is relative to `folder`.
+SensorsStudy read_sensors(YamlMap& map, const std::string& folder);
+OutputStudy read_output(YamlMap& map);
+
+/// Adds what a reader of the values found wrong without knowing the place.
+void add_at(YamlMap& map, const std::string& key, const Where& where, const InputError& error);
+
+/// Keys and values that DESIGN 4 has and this version does not read yet.
+std::vector<LaterKey> later_keys();
+
+}  // namespace sunload::study_sections

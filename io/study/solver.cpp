@@ -1,0 +1,141 @@
+// Sections `solver` and `output` of a study, and what later versions will read.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "io/study/sections.h"
+
+namespace sunload::study_sections {
+
+namespace {
+
+constexpr int most_bounces = 1000, most_lines = 1'000'000, most_realizations = 1024;
+constexpr int most_batch_suns = 65536;
+constexpr int fewest_realizations = 2;  // one has no spread
+constexpr int strongest_compression = 9;
+constexpr Range shares{0, 1};
+constexpr Range watts{0, 1e12, Range::Low::excluded};
+constexpr Range relative_errors{1e-4, 1};  // below, no number of lines would do
+
+/// Each realization gets its equal share.
+void check_shares(YamlMap& map, const std::string& key, int count, int realizations) {
+  if (count % realizations == 0) return;
+  const int below = count / realizations * realizations, above = below + realizations;
+  const std::string near =
+      below > 0 ? fmt::format("{} or {}", below, above) : std::to_string(above);
+  map.problem(key, fmt::format("{} cannot be shared by {} realizations", count, realizations),
+              "each gets the same number", "write " + near);
+}
+
+std::vector<std::string> read_series(YamlMap& map, std::vector<std::string> absent) {
+  const std::vector<std::string> known = absent;
+  if (!map.has("series")) {
+    map.tree("series");
+    return absent;
+  }
+  std::vector<std::string> series;
+  for (const auto& [text, where] : map.texts("series")) {
+    if (std::find(known.begin(), known.end(), text) == known.end()) {
+      map.reading().problem(where, "output.series: '" + text + "' is not known",
+                            fmt::format("{}", fmt::join(known, ", ")));
+    } else if (std::find(series.begin(), series.end(), text) != series.end()) {
+      map.reading().problem(where, "output.series: '" + text + "' is written twice");
+    } else {
+      series.push_back(text);
+    }
+  }
+  return series;
+}
+
+/// Gathering has no samples of power.
+void read_shooting(YamlMap& map, SolverStudy& solver) {
+  solver.jacobi =
+      map.choice("jacobi", {{"incremental", Jacobi::incremental}, {"regular", Jacobi::regular}},
+                 solver.jacobi);
+  const std::string key = "power_per_sample_w";
+  if (map.kind(key) != YamlNode::Kind::text || map.text(key, "") != "auto")
+    solver.power_per_sample_w = map.number(key, watts);
+  if (solver.transport == Transport::shoot) return;
+  for (const std::string& unused : {std::string("jacobi"), key})
+    if (map.has(unused)) map.warn(unused, "is not used", "it belongs to transport: shoot");
+}
+
+}  // namespace
+
+namespace {
+
+/// `accuracy` and the most that it may raise the counts to.
+void read_accuracy(YamlMap& map, SolverStudy& solver) {
+  const bool describe = map.reading().purpose == YamlReading::Purpose::describe;
+  map.tree("accuracy");
+  if (map.has("accuracy") || describe) {
+    map.section("accuracy", [&](YamlMap& section) {
+      solver.accuracy = {section.number("light_load_relative", relative_errors),
+                         section.number("irradiance_relative", relative_errors)};
+      if (!section.has("irradiance_relative"))
+        section.require("light_load_relative", "an accuracy has a goal",
+                        "write it, or irradiance_relative");
+    });
+  }
+  solver.max_lines_per_patch =
+      map.integer("max_lines_per_patch", 1, most_lines, solver.max_lines_per_patch);
+  if (map.has("max_lines_per_patch") && !solver.accuracy)
+    map.warn("max_lines_per_patch", "is not used", "it belongs to accuracy");
+  const int least = std::max(solver.lines_per_patch, solver.direct_samples);
+  if (solver.accuracy && solver.max_lines_per_patch < least)
+    map.problem("max_lines_per_patch",
+                fmt::format("{} is below the least counts", solver.max_lines_per_patch),
+                fmt::format("lines_per_patch and direct_samples ask for up to {}", least));
+}
+
+}  // namespace
+
+SolverStudy read_solver(YamlMap& map) {
+  SolverStudy solver;
+  solver.transport = map.choice(
+      "transport", {{"gather", Transport::gather}, {"shoot", Transport::shoot}}, solver.transport);
+  read_shooting(map, solver);
+  solver.bounces = map.integer("bounces", 0, most_bounces, solver.bounces);
+  solver.unshot = map.number("unshot", shares, solver.unshot);
+  solver.lines_per_patch = map.integer("lines_per_patch", 1, most_lines, solver.lines_per_patch);
+  solver.direct_samples = map.integer("direct_samples", 1, most_lines, solver.direct_samples);
+  const int unread = map.has("realizations") ? 0 : solver.realizations;
+  const int realizations =
+      map.integer("realizations", fewest_realizations, most_realizations, unread);
+  solver.mirror_depth = map.integer("mirror_depth", 0, most_bounces, solver.mirror_depth);
+  solver.bands =
+      map.choice("bands", {{"broadband", Bands::broadband}, {"rgb", Bands::rgb}}, solver.bands);
+  if (solver.bands == Bands::rgb && solver.transport == Transport::shoot)
+    map.problem("bands", "rgb cannot go with transport: shoot",
+                "bands share the lines of gathering", "write transport: gather");
+  solver.batch_suns = map.integer("batch_suns", 1, most_batch_suns, solver.batch_suns);
+  solver.isa = map.word("isa", {"auto", "sse4.2", "avx2", "avx512"}, solver.isa);
+  const auto seed = map.integer("seed", std::int64_t{0}, std::numeric_limits<std::int64_t>::max(),
+                                static_cast<std::int64_t>(solver.seed));
+  solver.seed = static_cast<std::uint64_t>(seed);
+  read_accuracy(map, solver);
+  if (realizations > 0) {
+    solver.realizations = realizations;
+    check_shares(map, "lines_per_patch", solver.lines_per_patch, realizations);
+    check_shares(map, "direct_samples", solver.direct_samples, realizations);
+  }
+  return solver;
+}
+
+OutputStudy read_output(YamlMap& map) {
+  OutputStudy output;
+  output.folder = map.text("folder", output.folder);
+  output.series = read_series(map, output.series);
+  output.standard_error = map.choice("standard_error",
+                                     {{"none", StandardErrors::none},
+                                      {"totals", StandardErrors::totals},
+                                      {"instants", StandardErrors::instants}},
+                                     output.standard_error);
+  output.compression = map.integer("compression", 0, strongest_compression, output.compression);
+  return output;
+}
+
+std::vector<LaterKey> later_keys() { return {}; }
+
+}  // namespace sunload::study_sections

@@ -1,0 +1,249 @@
+#include "io/study/study.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "io/base/key_names.h"
+#include "io/scene/base/from_file.h"
+#include "io/study/sections.h"
+#include "io/study/yaml_map.h"
+
+namespace sunload {
+
+namespace {
+
+using namespace study_sections;
+namespace fs = std::filesystem;
+
+const std::string format_name = "sunload-study-1";
+constexpr std::uintmax_t largest_study_bytes = 8'000'000;  // 400 000 instants
+constexpr std::size_t longest_name = 100;  // with suffixes below the 255 of file systems
+
+/// Sections that a variant may change, and why it may not change the others.
+const std::vector<std::string> variant_sections{"scene", "light", "mesh", "solver"};
+const std::map<std::string, std::string> common_sections{
+    {"format", "it belongs to the file"},
+    {"site", "all variants stand in the same place"},
+    {"period", "all variants have the same times, or they could not be compared"},
+    {"sun", "all variants have the same sun path, or they could not be compared"},
+    {"sensors", "all variants are measured at the same points"},
+    {"output", "all results of a study go to one place"},
+    {"variants", "a variant has no variants"}};
+const std::map<std::string, std::string> common_solver_keys{
+    {"batch_suns", "shards count the same batches in every variant"},
+    {"isa", "one run uses one instruction set"}};
+const std::vector<std::string> appended_lists{"scene.assign"};
+
+struct Variant {
+  std::string name = "baseline";
+  YamlTree over;  ///< map of sections, null without changes
+};
+
+std::string read_text_of(const std::string& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) throw InputError({path}, "the study is not there");
+  if (fs::is_directory(path, error)) throw InputError({path}, "is a folder, not a study");
+  // Pipes have no size.
+  if (fs::is_regular_file(path, error) && fs::file_size(path, error) > largest_study_bytes) {
+    throw InputError({path}, "is too large for a study",
+                     "more than " + std::to_string(largest_study_bytes) + " bytes");
+  }
+  return read_whole_file(path);
+}
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// A name that can be part of a path on every system.
+std::string read_name(YamlMap& map) {
+  map.require("name");
+  const std::string name = map.text("name", "");
+  const bool allowed = std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
+  });
+  if (!allowed || name.starts_with('.')) {
+    map.problem("name", "'" + name + "' cannot be a name",
+                "letters A to Z, digits and _ - . make names, which do not start with a dot");
+  } else if (name.size() > longest_name) {
+    map.problem("name", "is longer than " + std::to_string(longest_name) + " characters");
+  }
+  return name;
+}
+
+void refuse_common_solver_keys(YamlMap& variant) {
+  const YamlTree solver = variant.tree("solver");
+  if (!solver || solver->kind != YamlNode::Kind::map) return;
+  for (const auto& entry : solver->entries) {
+    const auto common = common_solver_keys.find(entry.key);
+    if (common == common_solver_keys.end()) continue;
+    variant.reading().problem(entry.where, "a variant cannot change solver." + entry.key,
+                              common->second, "write it in the study's own solver section");
+  }
+}
+
+Variant read_variant(YamlMap& map) {
+  Variant variant;
+  variant.name = read_name(map);
+  auto over = std::make_shared<YamlNode>();
+  over->kind = YamlNode::Kind::map;
+  over->where = map.where();
+  for (const auto& section : variant_sections) {
+    const YamlTree value = map.tree(section);
+    if (value) over->entries.push_back({section, value->where, value});
+  }
+  variant.over = std::move(over);
+  for (const auto& [section, reason] : common_sections) {
+    if (map.has(section)) {
+      map.refuse(section, "a variant cannot change this", reason, "make another study of it");
+    }
+  }
+  refuse_common_solver_keys(map);
+  return variant;
+}
+
+std::vector<Variant> read_variants(YamlMap& root) {
+  std::vector<Variant> variants;
+  std::set<std::string> names;
+  root.each("variants", [&](YamlMap& map) {
+    variants.push_back(read_variant(map));
+    const std::string& name = variants.back().name;
+    if (!names.insert(lower(name)).second) {
+      map.problem("name", "'" + name + "' is used twice", "case makes no difference",
+                  "give each variant a name of its own");
+    }
+  });
+  if (variants.empty()) variants.emplace_back();
+  return variants;
+}
+
+/// Files of these formats carry no position on Earth.
+bool is_without_crs(const std::string& path) {
+  const std::string name = lower(path);
+  constexpr std::array endings{".wrl", ".wrl.gz", ".obj", ".ply", ".stl", ".off", ".gltf", ".glb"};
+  return std::any_of(endings.begin(), endings.end(),
+                     [&](const char* ending) { return name.ends_with(ending); });
+}
+
+/// What sections have to do with each other.
+void check_together(YamlMap& root, const Study& study, PlaceWritten placed) {
+  const bool positions = std::holds_alternative<PositionsPeriod>(study.period.kind);
+  if (positions && study.light.source != LightSource::fixed) {
+    root.reading().problem(study.period.where, "positions need light.source: fixed",
+                           "they have no date to compute the sun's power from",
+                           "write light: {source: fixed, dni_w_m2: 800, dhi_w_m2: 100}");
+  }
+  const bool weather = study.light.source == LightSource::weather;
+  if (std::holds_alternative<WeatherPeriod>(study.period.kind) && !weather) {
+    root.reading().problem(study.period.where, "year_of: weather needs light.source: weather", "",
+                           "write light: {source: weather, weather: x.epw}");
+  }
+  if (study.solver.bands == Bands::rgb && study.light.quantity == Quantity::illuminance)
+    root.reading().problem(root.where("solver"), "solver.bands: rgb cannot go with illuminance",
+                           "lux are weighted by the eye's own response to the whole spectrum",
+                           "write light.quantity: irradiance, or leave solver.bands away");
+  if (study.solver.bands == Bands::broadband && study.light.colour != LightColour::sky)
+    root.reading().warn(root.where("light"), "light.colour is not used",
+                        "it belongs to solver.bands: rgb");
+  const auto& files = study.scene.files;
+  const bool no_crs = study.scene.builtin ||
+                      std::all_of(files.begin(), files.end(), [](const SceneFileStudy& file) {
+                        return is_without_crs(file.path);
+                      });
+  // The header of a weather file may say the place.
+  if (!positions && !weather && placed == PlaceWritten::no && no_crs &&
+      (study.scene.builtin || !files.empty())) {
+    root.reading().problem(root.where("site"), "site has no position",
+                           "the scene brings none, and the sun depends on it",
+                           "write latitude_deg and longitude_deg");
+  }
+}
+
+/// With `year_of: weather` the file makes the times, which all variants share.
+void expect_same_weather_years(const std::vector<Study>& variants, YamlReading& reading) {
+  const Study& first = variants.front();
+  if (!std::holds_alternative<WeatherPeriod>(first.period.kind)) return;
+  for (const auto& variant : variants) {
+    if (variant.light.weather == first.light.weather && variant.light.stamp == first.light.stamp)
+      continue;
+    reading.problem(
+        variant.period.where,
+        "variant " + variant.variant + " has another weather file than " + first.variant,
+        "with year_of: weather the file makes the times, which all variants share",
+        "make another study of it, or write days or start and end");
+  }
+}
+
+Study read_values(YamlMap& root, const std::string& folder) {
+  Study study;
+  root.require("format", "", "write format: " + format_name);
+  root.word("format", {format_name}, format_name);
+  study.name = read_name(root);
+  for (const char* section : {"period", "scene"}) root.require(section);
+  SiteRead site;
+  root.section("site", [&](YamlMap& map) { site = read_site(map, folder); });
+  study.site = site.site;
+  const bool describe = root.reading().purpose == YamlReading::Purpose::describe;
+  if (root.has("period") || describe) {
+    root.section("period", [&](YamlMap& map) { study.period = read_period(map, site); });
+  }
+  root.section("sun", [&](YamlMap& map) { study.sun = read_sun(map); });
+  root.section("light", [&](YamlMap& map) { study.light = read_light(map, folder); });
+  if (root.has("scene") || describe) {
+    root.section("scene", [&](YamlMap& map) { study.scene = read_scene(map, folder); });
+  }
+  root.section("mesh", [&](YamlMap& map) { study.mesh = read_mesh(map); });
+  root.section("solver", [&](YamlMap& map) { study.solver = read_solver(map); });
+  if (root.has("sensors") || describe) {
+    root.section("sensors", [&](YamlMap& map) { study.sensors = read_sensors(map, folder); });
+  }
+  root.section("output", [&](YamlMap& map) { study.output = read_output(map); });
+  check_together(root, study, site.place_written);
+  return study;
+}
+
+}  // namespace
+
+StudyFile read_study(const std::string& path) {
+  StudyFile file;
+  file.path = path;
+  file.yaml = read_text_of(path);
+  YamlReading reading(later_keys());
+  const YamlTree tree = parse_yaml(path, file.yaml, reading.parser_problems);
+  const std::string folder = fs::path(path).parent_path().string();
+  std::vector<Variant> variants;
+  YamlMap::read_all(tree, reading, [&](YamlMap& root) {
+    variants = read_variants(root);
+    root.keep_rest();  // read with each variant's changes below
+  });
+  for (const auto& variant : variants) {
+    const YamlTree merged = variant.over ? merge_yaml(tree, variant.over, appended_lists) : tree;
+    YamlMap::read_all(merged, reading, [&](YamlMap& root) {
+      root.tree("variants");
+      file.variants.push_back(read_values(root, folder));
+      file.variants.back().variant = variant.name;
+    });
+  }
+  expect_same_weather_years(file.variants, reading);
+  reading.throw_if_any();
+  file.name = file.variants.front().name;
+  file.warnings = reading.warnings;
+  return file;
+}
+
+std::vector<std::string> study_keys() {
+  YamlReading reading(later_keys(), YamlReading::Purpose::describe);
+  YamlMap::read_all(nullptr, reading, [](YamlMap& root) {
+    read_variants(root);
+    read_values(root, "");
+  });
+  return {reading.keys.begin(), reading.keys.end()};
+}
+
+}  // namespace sunload

@@ -1,0 +1,268 @@
+/// A study as the YAML file states it, with defaults filled in (DESIGN 4).
+///
+/// Reading rejects unknown keys (with the nearest name), wrong types, units and
+/// ranges, each with file:line:column, all at once. Keys of later versions are
+/// refused by name. Every variant is a complete study: the base with the
+/// variant's overrides merged in (maps merge, `scene.assign` is appended to,
+/// other lists are replaced).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "geo/base/check.h"
+#include "geo/mesh/mesh.h"
+#include "geo/mesh/mesh_prepare.h"
+#include "geo/sky/horizon.h"
+#include "geo/sky/irradiance.h"
+#include "geo/sky/sky.h"
+#include "geo/sun/sun.h"
+#include "geo/sun/weather.h"
+#include "geo/time/time.h"
+#include "io/base/light_quantity.h"
+#include "io/scene/file.h"
+#include "io/scene/sensor_file.h"
+#include "solver/light/band.h"
+#include "solver/light/transport.h"
+#include "solver/mesh/oracle.h"
+
+namespace sunload {
+
+/// Position as written; what is absent comes from the scene's CRS.
+struct SiteStudy {
+  std::optional<double> latitude_deg, longitude_deg;
+  std::string crs;  ///< of the scene's coordinates, overrides the file's own
+  std::optional<double> elevation_m;
+  /// Must be written unless the period has only `positions` or UTC times.
+  std::string timezone = "UTC";
+  std::optional<double> north_deg;
+  Horizon horizon;
+  Where where;
+};
+
+struct DaysPeriod {  ///< days × [from, to) in steps, civil time
+  std::vector<CivilTime> days;
+  double from_s = 0, to_s = 86400;  ///< seconds since midnight
+  double step_min = 60;
+};
+struct RangePeriod {  ///< [start, end) in steps
+  ParsedTime start, end;
+  double step_min = 60;
+};
+struct InstantsPeriod {
+  std::vector<ParsedTime> instants;
+  double interval_min = 60;
+};
+struct SunAt {
+  double azimuth_deg = 0, elevation_deg = 0, interval_min = 60;
+};
+struct PositionsPeriod {
+  std::vector<SunAt> positions;
+};
+struct WeatherPeriod {         ///< `year_of: weather`: one interval per record of the file
+  std::optional<int> as_year;  ///< absent: actual years as they are, typical ones as 2001
+};
+struct PeriodStudy {
+  std::variant<DaysPeriod, RangePeriod, InstantsPeriod, PositionsPeriod, WeatherPeriod> kind;
+  Where where;
+};
+
+struct SunStudy {
+  Refraction refraction = Refraction::spa;
+  Ut1 ut1_utc = Ut1::table;
+  SunDisk disk = SunDisk::point;
+};
+
+/// Of light in bands: sun and sky as METHOD 2 colours them, or white.
+enum class LightColour { sky, white };
+
+enum class LightSource { clear_sky, weather, fixed };
+/// Strength of the sky: that of the source's diffuse irradiance, or the model's own luminance.
+enum class SkyScale { diffuse, absolute };
+
+struct LightStudy {
+  LightSource source = LightSource::clear_sky;
+  ClearSkyModel model = ClearSkyModel::ineichen;
+  Turbidity linke_turbidity;
+  double dni_w_m2 = 0, dhi_w_m2 = 0;  ///< of `fixed`
+  SkyModel sky = SkyModel::perez;
+  int sky_type = 12;     ///< of cie_general
+  double turbidity = 3;  ///< of preetham
+  SkyScale sky_scale = SkyScale::diffuse;
+  double far_ground_albedo = 0.2;
+  Quantity quantity = Quantity::irradiance;
+  std::string weather;  ///< file, already resolved; the rest is of `weather` too
+  LightColour colour = LightColour::sky;
+  std::optional<Stamp> stamp;  ///< absent: the format's own
+  Missing missing = Missing::refuse;
+  Decomposition decomposition = Decomposition::erbs;
+};
+
+/// Optical properties as written; absent ones fall back as DESIGN 4 says.
+struct MaterialStudy {
+  std::string name;
+  std::optional<double> diffuse, mirror;
+  std::optional<BandShares> diffuse_rgb;  ///< where written as colour, with `diffuse` its mean
+  double emission_w_m2 = 0;               ///< diffuse exitance of an emitter
+  std::optional<Sides> sides;
+  Where where;
+  std::optional<double> refractive_index, extinction_coefficient;  ///< of panes or a metal
+  double thickness_m = 0.004, absorption_per_m = 0;                ///< of one pane
+  int panes = 1;
+  std::optional<double> normal_transmittance;  ///< of clear glass without an index
+  double glossy = 0, glossy_exponent = 0;
+  double transmittance = 0;  ///< straight through
+};
+
+/// One rule of `scene.assign`; empty pattern = any. `*` and `?` are wildcards.
+struct AssignRule {
+  std::string object, surface, material_was, kind;
+  std::string material;  ///< name to be assigned
+  Where where;
+};
+
+struct GroundStudy {
+  bool wanted = true;
+  double margin_m = 50;
+  std::string material;
+};
+
+struct BuiltinStudy {
+  std::string name;
+  std::map<std::string, std::string> parameters;
+  Where where;
+};
+
+/// One file of the scene, how it is to be understood and where it stands. Paths are absolute or
+/// relative to the working directory, already resolved.
+///
+/// A place in the scene is position + turn · unit_m · (the file's place with its `up` turned to z).
+struct SceneFileStudy {
+  std::string path;
+  Where where;
+  char up = 0;                   ///< 'x', 'y', 'z'; 0: scene.up
+  std::optional<double> unit_m;  ///< absent: scene.unit_m
+  std::string lod;               ///< empty: scene.lod
+  std::optional<Vec3> position;  ///< of the file's origin in the scene [m]
+  struct EarthPosition {
+    double latitude_deg = 0, longitude_deg = 0, height_m = 0;
+  };
+  std::optional<EarthPosition> earth_position;  ///< the same by way of the scene's CRS
+  double turn_deg = 0;   ///< about the file's origin, clockwise seen from above
+  std::string material;  ///< of all its faces; empty: as the file says
+  /// Raster of bare ground: `path` is a raster of surfaces, made into blocks.
+  std::string terrain;
+  std::string canopy;         ///< raster of heights of crowns above the ground
+  double least_height_m = 2;  ///< of buildings in rasters
+  double trunk_share = 0.25;  ///< of a crown's height, free below it
+
+  bool is_placed() const { return position || earth_position || turn_deg != 0; }
+};
+
+struct SceneStudy {
+  std::vector<SceneFileStudy> files;
+  std::optional<BuiltinStudy> builtin;
+  std::string parallel_sources;  ///< file of parallel emitters, already resolved; empty: none
+  Where parallel_sources_where;
+  char up = 0;  ///< 'x', 'y', 'z' or 0: default of the format
+  double unit_m = 1;
+  std::string lod = "highest";
+  VrmlColour vrml_colour = VrmlColour::mean;
+  double emission_scale_w = 1;  ///< power of a VRML emissiveColor of strength 1
+  Repair repair = Repair::safe;
+  Orientation orient = Orientation::outward;
+  std::vector<MaterialStudy> materials;
+  std::vector<AssignRule> assign;
+  std::optional<GroundStudy> ground;  ///< absent: the default of the format
+  Where where;
+};
+
+/// What decides how fine the mesh is beyond `max_edge_m`.
+struct MeshStudy {
+  double max_edge_m = 1e9;  ///< absent: input triangles are the roots and may stay leaves
+  double min_area_m2 = 0.01;
+  Oracle oracle = Oracle::light_load;
+  double light_tolerance = 0.05;      ///< of the default oracle
+  double light_threshold_m2 = 0.005;  ///< of the historic one
+  TVertices t_vertices = TVertices::remove;
+  double link_threshold = 0.5;  ///< of the exchange between elements
+};
+
+/// Counts per patch are raised until errors are as small as asked for: at least one of these.
+struct AccuracyStudy {
+  std::optional<double> light_load_relative = {};  ///< standard error / light load
+  std::optional<double> irradiance_relative = {};  ///< standard error / irradiance, every instant
+};
+struct SolverStudy {
+  Transport transport = Transport::gather;
+  Jacobi jacobi = Jacobi::incremental;
+  std::optional<double> power_per_sample_w;  ///< absent: auto
+  Bands bands = Bands::broadband;
+  int bounces = 5;
+  double unshot = 1e-3;
+  int lines_per_patch = 256;
+  int direct_samples = 16;
+  int realizations = 8;
+  int mirror_depth = 8;
+  int batch_suns = 64;
+  std::string isa = "auto";  ///< auto | sse4.2 | avx2 | avx512
+  std::uint64_t seed = 1;
+  std::optional<AccuracyStudy> accuracy;
+  int max_lines_per_patch = 4096;  ///< of accuracy: the most lines, and the most direct samples
+};
+
+enum class StandardErrors { none, totals, instants };
+struct OutputStudy {
+  std::string folder = "results";
+  std::vector<std::string> series{"total", "direct", "sky", "mirror", "lamps", "reflected"};
+  StandardErrors standard_error = StandardErrors::totals;
+  int compression = 4;
+};
+
+/// Points that receive without disturbing the scene, inline or from a file.
+struct SensorsStudy {
+  std::vector<SensorPoint> points;
+  Where where;
+};
+
+struct Study {
+  std::string name;
+  std::string variant = "baseline";
+  SiteStudy site;
+  PeriodStudy period;
+  SunStudy sun;
+  LightStudy light;
+  SceneStudy scene;
+  MeshStudy mesh;
+  SolverStudy solver;
+  SensorsStudy sensors;
+  OutputStudy output;
+};
+
+struct StudyFile {
+  std::string path;
+  std::string yaml;  ///< verbatim
+  std::string name;
+  std::vector<Study> variants;  ///< at least one, in the order of the file
+  std::vector<std::string> warnings;
+};
+
+/// Throws InputError with every problem of the file.
+StudyFile read_study(const std::string& path);
+
+/// Canonical text (JSON, sorted keys, numbers with all digits) of every value
+/// that can change a number of the result: not names, `output`, or paths (the
+/// bytes of the files are hashed apart, and so is the instruction set in force,
+/// which `solver.isa` only pins). Equal texts, equal results.
+std::string canonical_text(const Study& study);
+
+/// Every key that the reader knows, sorted: `scene.materials.*.diffuse`,
+/// `period.positions[].azimuth_deg`; `*` is a name of the user's choice.
+std::vector<std::string> study_keys();
+
+}  // namespace sunload

@@ -1,0 +1,198 @@
+#include "io/view/data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "geo/base/check.h"
+#include "geo/time/time.h"
+#include "io/base/deflate.h"
+#include "io/base/half_float.h"
+#include "io/base/text.h"
+#include "io/result/h5.h"
+#include "io/result/schema.h"
+#include "io/result/time.h"
+
+namespace sunload {
+namespace {
+
+using nlohmann::json;
+
+// Slower levels make the page smaller by hundredths only.
+constexpr int deflate_level = 6;
+// Rows of a series read at a time: results are chunked by 64 rows or so.
+constexpr std::size_t rows_at_a_time = 64;
+
+std::size_t add_block(ViewBlocks& blocks, const Bytes& bytes) {
+  blocks.base64.push_back(base64(zlib_deflated(bytes, deflate_level)));
+  return blocks.base64.size() - 1;
+}
+
+template <class Number>
+std::size_t add_numbers(ViewBlocks& blocks, const std::vector<Number>& numbers) {
+  Bytes bytes(numbers.size() * sizeof(Number));
+  if (!bytes.empty()) std::memcpy(bytes.data(), numbers.data(), bytes.size());
+  return add_block(blocks, bytes);
+}
+
+std::vector<float> floats(const std::vector<double>& values) {
+  return {values.begin(), values.end()};
+}
+
+/// Middle of the box around all vertices: floats near it are finer than a tenth of a millimetre.
+std::vector<double> middle(const std::vector<double>& vertices) {
+  std::vector<double> centre;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double least = std::numeric_limits<double>::infinity(), largest = -least;
+    for (std::size_t i = axis; i < vertices.size(); i += 3) {
+      least = std::min(least, vertices[i]);
+      largest = std::max(largest, vertices[i]);
+    }
+    centre.push_back((least + largest) / 2);
+  }
+  return centre;
+}
+
+json geometry(const ResultReader& result, ViewBlocks& blocks) {
+  auto vertices = result.doubles("vertex_position");
+  const auto centre = middle(vertices);
+  for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] -= centre[i % 3];
+  json j{{"centre", centre}, {"vertices", add_numbers(blocks, floats(vertices))}};
+  for (const auto* name :
+       {"patch_vertices", "patch_object", "patch_facade", "patch_material", "patch_surface",
+        "patch_side", "patch_input_triangle", "input_triangle_vertices"})
+    j[name] = add_numbers(blocks, result.integers(name));
+  for (const auto* name : {"patch_area", "patch_normal"})
+    j[name] = add_numbers(blocks, floats(result.doubles(name)));
+  for (const auto* name : {"object_name", "facade_name", "material_name"})
+    j[name] = result.has(name) ? result.strings(name) : std::vector<std::string>{};
+  return j;
+}
+
+json totals(const ResultReader& result, ViewBlocks& blocks) {
+  json list = json::array();
+  for (const auto& variable : result_schema()) {
+    const std::string name(variable.name);
+    if (variable.dims != "patch" || variable.units.empty() || !result.has(name) ||
+        variable.name == "patch_area")
+      continue;
+    list.push_back({{"name", name},
+                    {"what", variable.long_name},
+                    {"units", display_units(result.units(name))},
+                    {"values", add_numbers(blocks, floats(result.doubles(name)))}});
+  }
+  return list;
+}
+
+json times(const ResultReader& result, std::size_t step) {
+  const auto zone = result_zone(result);
+  const auto time = result.doubles("time"), bounds = result.doubles("time_bounds"),
+             direction = result.doubles("sun_direction"), azimuth = result.doubles("sun_azimuth"),
+             elevation = result.doubles("sun_elevation");
+  const bool is_synthetic = result.number_attribute("time", "time_is_synthetic") > 0;
+  json list = json::array();
+  for (std::size_t i = 0; i < time.size(); i += step)
+    list.push_back({{"begin", bounds[2 * i]},
+                    {"end", bounds[2 * i + 1]},
+                    {"local_begin", is_synthetic ? "" : iso_local(bounds[2 * i], zone)},
+                    {"local_end", is_synthetic ? "" : iso_local(bounds[2 * i + 1], zone)},
+                    {"sun", {direction[3 * i], direction[3 * i + 1], direction[3 * i + 2]}},
+                    {"azimuth", azimuth[i]},
+                    {"elevation", elevation[i]}});
+  return list;
+}
+
+double largest_value(const ResultReader& result, const std::string& name, std::size_t intervals) {
+  double largest = 0;
+  for (std::size_t first = 0; first < intervals; first += rows_at_a_time)
+    for (const double value : result.rows(name, first, std::min(rows_at_a_time, intervals - first)))
+      if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+/// Rows one after the other, each as the low bytes of all patches and then the high bytes.
+json series(const ResultReader& result, const std::string& name, std::size_t step,
+            ViewBlocks& blocks) {
+  if (name.empty()) return nullptr;
+  const auto shape = result.shape(name);
+  const std::size_t intervals = shape.at(0), patches = shape.at(1);
+  const double largest = largest_value(result, name, intervals);
+  // The largest half is just below 2^16: the largest value fills the range.
+  constexpr int half_exponent = 16;
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  const double scale = largest > 0 ? std::ldexp(1.0, half_exponent - 1 - exponent) : 1;
+  Bytes planes;
+  planes.reserve((intervals + step - 1) / step * patches * 2);
+  for (std::size_t first = 0; first < intervals; first += rows_at_a_time) {
+    const std::size_t count = std::min(rows_at_a_time, intervals - first);
+    const auto values = result.rows(name, first, count);
+    for (std::size_t r = 0; r < count; ++r) {
+      if ((first + r) % step != 0) continue;
+      const std::size_t low = planes.size(), high = low + patches;
+      planes.resize(low + 2 * patches);
+      for (std::size_t p = 0; p < patches; ++p) {
+        const auto bits = half_bits(static_cast<float>(values[r * patches + p] * scale));
+        planes[low + p] = static_cast<unsigned char>(bits & 0xffU);
+        planes[high + p] = static_cast<unsigned char>(bits >> 8);
+      }
+    }
+  }
+  return {{"name", name},
+          {"units", display_units(result.units(name))},
+          {"scale", scale},
+          {"values", add_block(blocks, planes)}};
+}
+
+/// Points of the study that receive light; names as those of patches. Null where there are none.
+json sensors(const ResultReader& result, std::size_t step, ViewBlocks& blocks) {
+  if (!result.has("sensor_position")) return nullptr;
+  const std::string prefix = "sensor_";
+  const auto centre = middle(result.doubles("vertex_position"));
+  auto position = result.doubles("sensor_position");
+  for (std::size_t i = 0; i < position.size(); ++i) position[i] -= centre[i % 3];
+  json values = json::array();
+  for (const auto& variable : result_schema(result.quantity())) {
+    const std::string name(variable.name);
+    if (variable.dims != "sensor" || variable.units.empty() || !result.has(name)) continue;
+    values.push_back({{"name", name.substr(prefix.size())},
+                      {"units", display_units(result.units(name))},
+                      {"values", add_numbers(blocks, floats(result.doubles(name)))}});
+  }
+  const auto of_patches = viewed_series(result);
+  auto own = result.has(prefix + of_patches) ? series(result, prefix + of_patches, step, blocks)
+                                             : json(nullptr);
+  if (!own.is_null()) own["name"] = of_patches;
+  return {{"position", add_numbers(blocks, floats(position))},
+          {"totals", std::move(values)},
+          {"series", std::move(own)}};
+}
+
+}  // namespace
+
+std::string viewed_series(const ResultReader& result) {
+  for (const auto* name : {"irradiance", "illuminance"})
+    if (result.has(name) && result.shape(name).size() == 2) return name;
+  return {};
+}
+
+json view_data(const ResultReader& result, std::size_t step, ViewBlocks& blocks) {
+  const auto zone = result.text_attribute("timezone");
+  return {{"study", result.text_attribute("study")},
+          {"variant", result.text_attribute("variant")},
+          {"source", result.text_attribute("source")},
+          {"timezone", zone.empty() ? "UTC" : zone},
+          {"is_synthetic", result.number_attribute("time", "time_is_synthetic") > 0},
+          {"intervals", result.shape("time").at(0)},
+          {"step", step},
+          {"times", times(result, step)},
+          {"geometry", geometry(result, blocks)},
+          {"totals", totals(result, blocks)},
+          {"sensors", sensors(result, step, blocks)},
+          {"origin",
+           h5::File::open(result.path()).numbers("origin").value_or(std::vector<double>(3, 0))},
+          {"series", series(result, viewed_series(result), step, blocks)}};
+}
+
+}  // namespace sunload

@@ -1,0 +1,34 @@
+/// Weather files: EPW, TMY3, WEA and CSV, told apart by what they begin with.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geo/base/check.h"
+#include "geo/sun/weather.h"
+
+namespace sunload {
+
+/// Where the station stands, from the file's header.
+struct WeatherPlace {
+  std::string name;
+  double latitude_deg = 0, longitude_deg = 0;  ///< longitude east positive, whatever the format
+  double elevation_m = 0;
+};
+
+struct WeatherFile {
+  std::string path;
+  std::string format;  ///< EPW, TMY3, WEA, CSV
+  std::optional<WeatherPlace> place;
+  /// Local standard time minus UTC [s]; absent where the file does not say: the study's zone.
+  std::optional<double> offset_s;
+  std::vector<WeatherRecord> records;  ///< at least one, in order
+  std::vector<std::string> notes;
+};
+
+/// `stamp`: absent is the format's own (EPW, TMY3 end; WEA middle); CSV needs one.
+/// Throws InputError with file and line for what cannot be read.
+WeatherFile read_weather_file(const std::string& path, std::optional<Stamp> stamp);
+
+}  // namespace sunload

@@ -1,0 +1,189 @@
+#include "io/weather/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+
+#include "geo/base/check.h"
+#include "geo/base/units.h"
+#include "io/base/file_text.h"
+
+namespace sunload {
+
+namespace {
+
+/// Thermal offset of pyranometers at night: the least that is physically possible in the
+/// quality tests of the Baseline Surface Radiation Network (Long & Dutton 2002).
+constexpr double least_measured_w_m2 = -4;
+/// Above the sun outside of the atmosphere (1408 at perihelion) with a bright cloud beside it.
+constexpr double most_measured_w_m2 = 2000;
+constexpr int leap_year = 2000;
+constexpr std::size_t longest_shown = 40;
+constexpr double shortest_step_s = 1;  // no file resolves less
+/// Steps that are rounded in the file (decimal hours) differ by less than this.
+constexpr double step_resolution_s = 1;
+
+bool is_printable(char c) { return c >= ' ' && c <= '~'; }
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\v\f";
+  const auto first = text.find_first_not_of(blanks);
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::vector<std::string_view> fields_of(std::string_view line, char separator) {
+  std::vector<std::string_view> fields;
+  std::size_t begin = 0;
+  bool is_quoted = false;
+  for (std::size_t i = 0; i <= line.size(); ++i) {
+    if (i < line.size() && line[i] == '"') is_quoted = !is_quoted;
+    if (i < line.size() && (line[i] != separator || is_quoted)) continue;
+    auto field = trimmed(line.substr(begin, i - begin));
+    if (field.size() > 1 && field.front() == '"' && field.back() == '"')
+      field = trimmed(field.substr(1, field.size() - 2));
+    fields.push_back(field);
+    begin = i + 1;
+  }
+  return fields;
+}
+
+std::string shown(std::string_view field) {
+  std::string text(field.substr(0, longest_shown));
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return !is_printable(c); }, '?');
+  return "'" + text + (field.size() > longest_shown ? "..." : "") + "'";
+}
+
+WeatherText::WeatherText(const std::string& path) : path_(path), text_(read_whole_file(path)) {
+  const std::size_t zero = text_.find('\0');
+  if (zero != text_.npos)
+    throw InputError(place_in_text(path, text_, zero), "is no text file", "it has a zero byte");
+  std::string_view rest = text_;
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
+  while (!rest.empty()) {
+    const auto end = std::min(rest.find('\n'), rest.size());
+    auto line = rest.substr(0, end);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    lines_.push_back(line);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+}
+
+std::string_view WeatherText::line(std::size_t number) const {
+  return number >= 1 && number <= lines_.size() ? lines_[number - 1] : std::string_view();
+}
+
+void WeatherText::fail(std::size_t line, const std::string& what, const std::string& why,
+                       const std::string& hint) const {
+  throw InputError(where(line), what, why, hint);
+}
+
+double WeatherText::number(std::string_view field, std::size_t line, const std::string& what,
+                           double low, double high) const {
+  double value = 0;
+  if (field.starts_with('+')) field.remove_prefix(1);
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value))
+    fail(line, fmt::format("{}: {} is no number", what, shown(field)));
+  if (value < low || value > high)
+    fail(line, fmt::format("{}: {} is out of range", what, value),
+         fmt::format("{} to {}", low, high));
+  return value;
+}
+
+int WeatherText::integer(std::string_view field, std::size_t line, const std::string& what, int low,
+                         int high) const {
+  const double value = number(field, line, what, low, high);
+  if (value != std::floor(value)) fail(line, fmt::format("{}: {} is no whole number", what, value));
+  return static_cast<int>(value);
+}
+
+std::optional<double> IrradianceReader::operator()(std::string_view field, std::size_t line,
+                                                   const char* column) {
+  if (field.empty()) return {};
+  const std::string word = lower_case(std::string(field.substr(0, longest_shown)));
+  if (word == "nan" || word == "na" || word == "null") return {};
+  constexpr double beyond_all_codes = 1e12;
+  const double value = text_.number(field, line, column, -beyond_all_codes, beyond_all_codes);
+  if (value >= missing_from_ || value < least_measured_w_m2) return {};
+  if (value > most_measured_w_m2)
+    text_.fail(line, fmt::format("{}: {} W/m2 is not possible", column, value),
+               fmt::format("at most {} W/m2", most_measured_w_m2));
+  if (value < 0) ++raised_;
+  return std::max(0.0, value);
+}
+
+void IrradianceReader::add_notes(std::vector<std::string>& notes) const {
+  if (raised_ > 0)
+    notes.push_back(
+        fmt::format("{} values down to {} W/m2 (the offset of instruments at night) are taken as 0",
+                    raised_, least_measured_w_m2));
+}
+
+void check_day(const WeatherText& text, std::size_t line, const RowStamp& stamp) {
+  const std::chrono::year_month_day date{
+      std::chrono::year{stamp.year == 0 ? leap_year : stamp.year},
+      std::chrono::month{static_cast<unsigned>(stamp.month)},
+      std::chrono::day{static_cast<unsigned>(stamp.day)}};
+  if (!date.ok())
+    text.fail(line,
+              stamp.year == 0
+                  ? fmt::format("month {}, day {} is no date", stamp.month, stamp.day)
+                  : fmt::format("{}-{:02}-{:02} is no date", stamp.year, stamp.month, stamp.day));
+}
+
+namespace {
+
+/// The distance that most neighbours have.
+double usual_step_s(const WeatherText& text, const std::vector<DatedWeather>& instants) {
+  std::map<double, std::size_t> counts;
+  for (std::size_t i = 1; i < instants.size(); ++i) {
+    const double apart = instants[i].begin - instants[i - 1].begin;
+    if (apart < shortest_step_s)
+      text.fail(static_cast<std::size_t>(instants[i].line),
+                "this row is not later than the row before it", "rows are in the order of time",
+                "sort the rows, each time once");
+    ++counts[std::round(apart / step_resolution_s) * step_resolution_s];
+  }
+  const auto most =
+      std::max_element(counts.begin(), counts.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == counts.end() ? seconds_per_hour : most->first;
+}
+
+}  // namespace
+
+std::vector<WeatherRecord> records_of(const WeatherText& text, const std::vector<StampedRow>& rows,
+                                      Stamp stamp) {
+  if (rows.empty()) throw InputError({text.path()}, "has no rows of weather");
+  std::vector<WeatherRecord> records;
+  records.reserve(rows.size());
+  for (const auto& row : rows)
+    records.push_back({row.stamp.year, row.stamp.month, row.stamp.day, row.stamp.second,
+                       row.stamp.second, row.values, row.line});
+  // Rows of a typical year follow each other in a year that has all days.
+  const bool is_typical = years_of(records) == WeatherYears::typical;
+  const std::optional<int> year = is_typical ? std::optional(leap_year) : std::nullopt;
+  const double step = usual_step_s(text, dated(records, year, 0));
+  const double before = stamp == Stamp::start ? 0 : stamp == Stamp::middle ? step / 2 : step;
+  for (auto& r : records) {
+    r.begin_s -= before;
+    r.end_s = r.begin_s + step;
+  }
+  const auto placed = dated(records, year, 0);
+  const auto wrong = first_out_of_order(placed);
+  if (wrong < placed.size())
+    text.fail(static_cast<std::size_t>(placed[wrong].line),
+              "this row begins before the row before it ends",
+              fmt::format("most rows are {} s apart", step), "bring all rows to one step");
+  return records;
+}
+
+}  // namespace sunload

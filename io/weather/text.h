@@ -1,0 +1,82 @@
+/// What the weather readers share: lines, fields, numbers and stamps, with their places.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/weather/file.h"
+
+namespace sunload {
+
+/// The lines of a text file; throws InputError for a file that is no text.
+class WeatherText {
+ public:
+  explicit WeatherText(const std::string& path);
+  const std::string& path() const { return path_; }
+  std::size_t line_count() const { return lines_.size(); }
+  /// Without its line break; counted from 1, empty past the end.
+  std::string_view line(std::size_t number) const;
+  Where where(std::size_t line) const { return {path_, static_cast<int>(line), 0}; }
+  [[noreturn]] void fail(std::size_t line, const std::string& what, const std::string& why = {},
+                         const std::string& hint = {}) const;
+
+  /// The number that a field holds, finite and within [low, high].
+  double number(std::string_view field, std::size_t line, const std::string& what, double low,
+                double high) const;
+  int integer(std::string_view field, std::size_t line, const std::string& what, int low,
+              int high) const;
+
+ private:
+  std::string path_, text_;
+  std::vector<std::string_view> lines_;
+};
+
+std::string_view trimmed(std::string_view text);
+/// Trimmed fields; quotes keep separators together and are taken off.
+std::vector<std::string_view> fields_of(std::string_view line, char separator);
+/// Printable and short, for messages.
+std::string shown(std::string_view field);
+
+/// Reads irradiances and counts what is not as it should be.
+class IrradianceReader {
+ public:
+  /// Values of `missing_from` and more are the format's code for missing ones.
+  IrradianceReader(const WeatherText& text, double missing_from)
+      : text_(text), missing_from_(missing_from) {}
+  /// Absent for the codes, empty fields, and what no instrument can measure below zero;
+  /// throws InputError for text and for more than any sky gives.
+  std::optional<double> operator()(std::string_view field, std::size_t line, const char* column);
+  /// One note on values that were raised to zero, if there were any.
+  void add_notes(std::vector<std::string>& notes) const;
+
+ private:
+  const WeatherText& text_;
+  double missing_from_;
+  std::size_t raised_ = 0;
+};
+
+/// Date and time of day of a row; `second` may be that of 24:00.
+struct RowStamp {
+  int year = 0, month = 1, day = 1;
+  double second = 0;
+};
+/// A row with its one stamp.
+struct StampedRow {
+  RowStamp stamp;
+  WeatherValues values;
+  int line = 0;
+};
+
+/// Throws InputError for a day that no year has.
+void check_day(const WeatherText& text, std::size_t line, const RowStamp& stamp);
+
+/// Rows as stretches of the step that most of them are apart.
+/// Throws InputError for rows that do not follow one another.
+std::vector<WeatherRecord> records_of(const WeatherText& text, const std::vector<StampedRow>& rows,
+                                      Stamp stamp);
+
+}  // namespace sunload

@@ -1,0 +1,16 @@
+/// How long work tells of itself; the solver neither prints nor exits. It is
+/// stopped by set_cancellation of solver/base/threads.
+#pragma once
+
+namespace sunload {
+
+enum class Stage { prepare, refine, lines, light };
+
+class Watch {
+ public:
+  virtual ~Watch() = default;
+  /// Share of a stage that is done, [0, 1]; called from any thread.
+  virtual void advance(Stage /*stage*/, double /*share*/) {}
+};
+
+}  // namespace sunload

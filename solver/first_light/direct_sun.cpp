@@ -1,0 +1,264 @@
+#include "solver/first_light/direct_sun.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "geo/base/check.h"
+#include "solver/base/sampling.h"
+#include "solver/base/threads.h"
+
+namespace sunload {
+
+namespace {
+
+constexpr std::size_t patches_per_task = 1024;
+constexpr std::size_t lanes = 16;
+
+/// Origins of 16 samples: the map of sample_triangle on Owen-scrambled points,
+/// without branches, in the shape that compilers turn into vector code.
+__attribute__((target_clones("default", "avx2", "avx512f"))) void place(
+    const SunSampler::Geometry& g, const std::uint32_t* point_u, const std::uint32_t* point_v,
+    const std::uint32_t* seed_u, const std::uint32_t* seed_v, Packet& out) {
+  for (std::size_t s = 0; s < packet_size; ++s) {
+    const float u = uniform(owen_scrambled(point_u[s], seed_u[s]));
+    const float v = uniform(owen_scrambled(point_v[s], seed_v[s]));
+    const float smaller = 0.5f * (u < v ? u : v);
+    const float w1 = v > u ? smaller : u - smaller;
+    const float w2 = v > u ? v - smaller : smaller;
+    out.x[s] = g.a[0] + w1 * g.ab[0] + w2 * g.ac[0];
+    out.y[s] = g.a[1] + w1 * g.ab[1] + w2 * g.ac[1];
+    out.z[s] = g.a[2] + w1 * g.ab[2] + w2 * g.ac[2];
+  }
+}
+
+__attribute__((target_clones("default", "avx2", "avx512f"))) void scramble(
+    const ScrambledPoints& seeds, ScrambledPoints& points) {
+  for (std::size_t s = 0; s < packet_size; ++s) {
+    points.u[s] = owen_scrambled(points.u[s], seeds.u[s]);
+    points.v[s] = owen_scrambled(points.v[s], seeds.v[s]);
+  }
+}
+
+void to_float(Vec3 v, float (&out)[3]) {
+  out[0] = static_cast<float>(v.x);
+  out[1] = static_cast<float>(v.y);
+  out[2] = static_cast<float>(v.z);
+}
+
+}  // namespace
+
+SunSampler::SunSampler(const Hierarchy& hierarchy, const RayCaster& caster,
+                       const DirectRules& rules)
+    : SunSampler(&hierarchy, nullptr, caster, rules) {}
+
+SunSampler::SunSampler(const std::vector<Sensor>& sensors, const RayCaster& caster,
+                       const DirectRules& rules)
+    : SunSampler(nullptr, &sensors, caster, rules) {}
+
+SunSampler::SunSampler(const Hierarchy* hierarchy, const std::vector<Sensor>* sensors,
+                       const RayCaster& caster, const DirectRules& rules)
+    : hierarchy_(hierarchy), sensors_(sensors), offset_m_(caster.offset_m()), rules_(rules) {
+  SUNLOAD_EXPECT(rules.realizations >= 1 && rules.samples >= rules.realizations &&
+                     rules.samples % rules.realizations == 0,
+                 "direct samples are shared equally by the realizations");
+  const int each = rules.samples / rules.realizations;
+  for (int s = 0; s < rules.samples; ++s) {
+    realization_.push_back(static_cast<std::uint32_t>(s / each));
+    point_u_.push_back(sobol(static_cast<std::uint32_t>(s % each), 0));
+    point_v_.push_back(sobol(static_cast<std::uint32_t>(s % each), 1));
+    disk_u_.push_back(sobol(static_cast<std::uint32_t>(s % each), 2));
+    disk_v_.push_back(sobol(static_cast<std::uint32_t>(s % each), 3));
+  }
+}
+
+std::size_t SunSampler::receivers() const {
+  return sensors_ ? sensors_->size() : hierarchy_->patch_count();
+}
+
+std::array<Vec3, 3> SunSampler::corners(std::size_t receiver) const {
+  if (sensors_) {
+    const Vec3 point = (*sensors_)[receiver].position;
+    return {point, point, point};
+  }
+  return {hierarchy_->corner(receiver, 0), hierarchy_->corner(receiver, 1),
+          hierarchy_->corner(receiver, 2)};
+}
+
+Vec3 SunSampler::normal(std::size_t receiver) const {
+  return sensors_ ? (*sensors_)[receiver].normal : hierarchy_->normal(receiver);
+}
+
+SunSampler::Geometry SunSampler::geometry(std::size_t receiver) const {
+  Geometry g;
+  auto [a, b, c] = corners(receiver);
+  g.normal = sensors_ ? normal(receiver) : normalized(cross(b - a, c - a));
+  if (sensors_) {
+    // Screens let equal rays pass or none of them: those of a sensor differ by a rounding or two.
+    const Tangents axes = tangents(g.normal);
+    a = a - (axes.tangent + axes.bitangent) * (offset_m_ / 3);
+    b = a + axes.tangent * offset_m_;
+    c = a + axes.bitangent * offset_m_;
+  }
+  const Vec3 ab = b - a, ac = c - a;
+  to_float(a + g.normal * offset_m_, g.a);
+  to_float(ab, g.ab);
+  to_float(ac, g.ac);
+  return g;
+}
+
+void SunSampler::seed(std::size_t receiver, std::uint32_t sun, Seeds& seeds,
+                      Purpose purpose) const {
+  const std::uint64_t element = sensors_ ? (*sensors_)[receiver].key : hierarchy_->key()[receiver];
+  const auto count = static_cast<std::size_t>(rules_.realizations);
+  const std::size_t groups = (count + lanes - 1) / lanes;
+  seeds.u.resize(groups * lanes);
+  seeds.v.resize(groups * lanes);
+  seeds.disk_u.resize(groups * lanes);
+  seeds.disk_v.resize(groups * lanes);
+  for (std::size_t g = 0; g < groups; ++g) {
+    const auto words = random_lanes({.seed = rules_.seed,
+                                     .purpose = purpose,
+                                     .realization = static_cast<std::uint32_t>(g * lanes),
+                                     .element = element,
+                                     .sun = sun});
+    std::copy_n(words.word[0], lanes, seeds.u.begin() + static_cast<std::ptrdiff_t>(g * lanes));
+    std::copy_n(words.word[1], lanes, seeds.v.begin() + static_cast<std::ptrdiff_t>(g * lanes));
+    std::copy_n(words.word[2], lanes,
+                seeds.disk_u.begin() + static_cast<std::ptrdiff_t>(g * lanes));
+    std::copy_n(words.word[3], lanes,
+                seeds.disk_v.begin() + static_cast<std::ptrdiff_t>(g * lanes));
+  }
+}
+
+Packet SunSampler::origins(const Geometry& g, const Seeds& seeds, std::size_t packet) const {
+  alignas(64) std::uint32_t u[packet_size], v[packet_size], seed_u[packet_size],
+      seed_v[packet_size];
+  for (std::size_t l = 0; l < packet_size; ++l) {
+    const std::size_t s = std::min(packet * packet_size + l, samples() - 1);
+    u[l] = point_u_[s];
+    v[l] = point_v_[s];
+    seed_u[l] = seeds.u[realization_[s]];
+    seed_v[l] = seeds.v[realization_[s]];
+  }
+  Packet origins;
+  place(g, u, v, seed_u, seed_v, origins);
+  return origins;
+}
+
+ScrambledPoints SunSampler::points(const Seeds& seeds, std::size_t packet) const {
+  ScrambledPoints scrambled, seed;
+  for (std::size_t l = 0; l < packet_size; ++l) {
+    const std::size_t s = std::min(packet * packet_size + l, samples() - 1);
+    scrambled.u[l] = disk_u_[s];
+    scrambled.v[l] = disk_v_[s];
+    seed.u[l] = seeds.disk_u[realization_[s]];
+    seed.v[l] = seeds.disk_v[realization_[s]];
+  }
+  scramble(seed, scrambled);
+  return scrambled;
+}
+
+PacketDirections SunSampler::directions(const SunLight& sun, const Seeds& seeds,
+                                        std::size_t packet) const {
+  const Tangents axes = tangents(sun.direction);
+  const double disk_radius = std::tan(sun.disk_half_angle);  // at distance 1
+  const ScrambledPoints on_disk = points(seeds, packet);
+  PacketDirections directions;
+  for (std::size_t l = 0; l < packet_size; ++l) {
+    const double u = uniform(on_disk.u[l]);
+    const double v = uniform(on_disk.v[l]);
+    const double radius = disk_radius * std::sqrt(u), angle = 2 * pi * v;
+    const Vec3 w = sun.direction + axes.tangent * (radius * std::cos(angle)) +
+                   axes.bitangent * (radius * std::sin(angle));
+    directions.x[l] = static_cast<float>(w.x);
+    directions.y[l] = static_cast<float>(w.y);
+    directions.z[l] = static_cast<float>(w.z);
+  }
+  return directions;
+}
+
+std::uint32_t SunSampler::active(std::size_t packet) const {
+  const std::size_t count = std::min(packet_size, samples() - packet * packet_size);
+  return static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
+}
+
+namespace {
+
+/// The work of one patch for all suns of a block.
+class PatchSuns {
+ public:
+  PatchSuns(const RayCaster& caster, const SunSampler& sampler, std::span<const SunLight> block,
+            std::size_t realizations)
+      : caster_(caster), sampler_(sampler), block_(block), seen_(realizations) {}
+
+  void run(std::size_t patch, DirectSun& out, std::vector<std::vector<double>>& exposure,
+           std::vector<Columns>* of_realizations) {
+    const auto geometry = sampler_.geometry(patch);
+    for (std::size_t k = 0; k < block_.size(); ++k) {
+      const SunLight& sun = block_[k];
+      const double cos_theta = dot(geometry.normal, sun.direction);
+      if (!sun.has_sun() || cos_theta <= 0) continue;
+      const int visible = count_visible(geometry, patch, sun);
+      if (visible == 0) continue;
+      const auto n = static_cast<double>(sampler_.samples());
+      const std::size_t at = patch * block_width + k;
+      out.sunlit[at] = static_cast<float>(visible / n);
+      out.irradiance[at] = static_cast<float>(sun.dni * cos_theta * visible / n);
+      const double n_each = n / static_cast<double>(seen_.size());
+      for (std::size_t r = 0; r < seen_.size(); ++r) {
+        const double E = sun.dni * cos_theta * seen_[r] / n_each;
+        exposure[r][patch] += E * sun.length_s;
+        if (of_realizations) (*of_realizations)[r][at] = static_cast<float>(E);
+      }
+    }
+  }
+  std::uint64_t rays = 0;
+
+ private:
+  /// Visible samples in all, and per realization in seen_.
+  int count_visible(const SunSampler::Geometry& geometry, std::size_t patch, const SunLight& sun) {
+    std::fill(seen_.begin(), seen_.end(), 0);
+    sampler_.seed(patch, sun.number, seeds_);
+    int visible = 0;
+    for (std::size_t p = 0; p < sampler_.packets(); ++p) {
+      const auto active = sampler_.active(p);
+      rays += static_cast<std::uint64_t>(std::popcount(active));
+      const Packet origins = sampler_.origins(geometry, seeds_, p);
+      auto bits =
+          sun.disk_half_angle > 0
+              ? caster_.unoccluded_each(origins, sampler_.directions(sun, seeds_, p), active)
+              : caster_.unoccluded(origins, sun.direction, active);
+      visible += std::popcount(bits);
+      for (; bits != 0; bits &= bits - 1)
+        ++seen_[sampler_.realization(p * packet_size +
+                                     static_cast<std::size_t>(std::countr_zero(bits)))];
+    }
+    return visible;
+  }
+
+  const RayCaster& caster_;
+  const SunSampler& sampler_;
+  std::span<const SunLight> block_;
+  SunSampler::Seeds seeds_;
+  std::vector<int> seen_;
+};
+
+}  // namespace
+
+DirectSun direct_sun(const RayCaster& caster, const SunSampler& sampler,
+                     std::span<const SunLight> block, std::vector<std::vector<double>>& exposure,
+                     std::vector<Columns>* of_realizations) {
+  const std::size_t receivers = sampler.receivers();
+  DirectSun out{columns(receivers), columns(receivers), 0};
+  out.rays = ordered_sum(receivers, patches_per_task, std::uint64_t{0},
+                         [&](std::size_t begin, std::size_t end) {
+                           PatchSuns suns(caster, sampler, block, exposure.size());
+                           for (std::size_t i = begin; i < end; ++i)
+                             suns.run(i, out, exposure, of_realizations);
+                           return suns.rays;
+                         });
+  return out;
+}
+
+}  // namespace sunload

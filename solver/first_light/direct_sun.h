@@ -1,0 +1,101 @@
+/// Zeroth light iteration, the sun's part: direct sun by stratified shadow rays.
+///
+///     E_0[i][k] = dni[k] * cosθ * (visible samples / samples)
+///
+/// Every realization has its own randomised points, addressed by patch and sun.
+///
+/// A sun with a disk (`SunLight::disk_half_angle`) is seen by each sample at a point of its own,
+/// uniform on the disk (no limb darkening): shadows have penumbrae. cosθ stays that of the
+/// centre, which also decides whether the sun is up and in front of a patch.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solver/base/rng.h"
+#include "solver/light/sun_block.h"
+#include "solver/mesh/hierarchy.h"
+#include "solver/surface/ray_caster.h"
+
+namespace sunload {
+
+struct DirectRules {
+  int samples = 16;  ///< per patch and sun, over all realizations together
+  int realizations = 8;
+  std::uint64_t seed = 1;
+};
+
+/// Two coordinates of the samples of a packet as binary fractions x / 2^32.
+struct ScrambledPoints {
+  alignas(64) std::uint32_t u[packet_size];
+  alignas(64) std::uint32_t v[packet_size];
+};
+
+/// Sample points of receivers (patches, or sensors, whose samples lie within the
+/// caster's offset about their point) for the sun, addressable one by one.
+class SunSampler {
+ public:
+  SunSampler(const Hierarchy& hierarchy, const RayCaster& caster, const DirectRules& rules);
+  /// `sensors` must outlive it.
+  SunSampler(const std::vector<Sensor>& sensors, const RayCaster& caster, const DirectRules& rules);
+
+  std::size_t receivers() const;
+  /// Corners of a patch; three times the point of a sensor.
+  std::array<Vec3, 3> corners(std::size_t receiver) const;
+  Vec3 normal(std::size_t receiver) const;
+
+  std::size_t samples() const { return realization_.size(); }
+  std::uint64_t study_seed() const { return rules_.seed; }
+  std::size_t packets() const { return (samples() + packet_size - 1) / packet_size; }
+  std::size_t realization(std::size_t sample) const { return realization_[sample]; }
+
+  /// What the samples of one receiver have in common.
+  struct Geometry {
+    float a[3], ab[3], ac[3];  ///< corner (lifted off the surface) and edges
+    Vec3 normal;
+  };
+  Geometry geometry(std::size_t receiver) const;
+
+  /// Scrambling seeds of one (receiver, sun) for all realizations.
+  struct Seeds {
+    std::vector<std::uint32_t> u, v;
+    std::vector<std::uint32_t> disk_u, disk_v;  ///< of points on the sun's disk, or in the sky
+  };
+  void seed(std::size_t receiver, std::uint32_t sun, Seeds& seeds,
+            Purpose purpose = Purpose::direct_sun) const;
+  /// Origins of samples [16·packet, …) of that receiver.
+  Packet origins(const Geometry& geometry, const Seeds& seeds, std::size_t packet) const;
+  /// Points of the same samples, to choose their directions by.
+  ScrambledPoints points(const Seeds& seeds, std::size_t packet) const;
+  /// Directions of the same samples to points on the sun's disk.
+  PacketDirections directions(const SunLight& sun, const Seeds& seeds, std::size_t packet) const;
+  /// Bits of the samples that packet really holds.
+  std::uint32_t active(std::size_t packet) const;
+
+ private:
+  SunSampler(const Hierarchy* hierarchy, const std::vector<Sensor>* sensors,
+             const RayCaster& caster, const DirectRules& rules);
+
+  const Hierarchy* hierarchy_;  // one of the two
+  const std::vector<Sensor>* sensors_;
+  double offset_m_;
+  DirectRules rules_;
+  std::vector<std::uint32_t> realization_, point_u_, point_v_, disk_u_, disk_v_;
+};
+
+/// Result of one block of suns. Sizes: receivers N, realizations R.
+struct DirectSun {
+  Columns irradiance;  ///< [N][block] pooled, W m-2
+  Columns sunlit;      ///< [N][block] visible share, for every sun above the horizon
+  std::uint64_t rays = 0;
+};
+
+/// Adds to `exposure` ([R][N], J m-2) the time-integrated direct irradiance of
+/// each realization. `of_realizations`, if not null, receives [R] irradiance columns.
+DirectSun direct_sun(const RayCaster& caster, const SunSampler& sampler,
+                     std::span<const SunLight> block, std::vector<std::vector<double>>& exposure,
+                     std::vector<Columns>* of_realizations);
+
+}  // namespace sunload

@@ -1,0 +1,63 @@
+/// The sun's light from mirror to mirror, followed from where it meets the first.
+///
+/// Books where it ends, and brings it to the patches that it meets wherever no
+/// beam (solver/first_light/sun_beams.h) stands for its sequence of mirrors: without bias, with
+/// the noise of samples. So curved glass of many facets is served too. What was
+/// reflected twice or more and carries less than a negligible share is cut.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solver/first_light/mirror_sun.h"
+#include "solver/mesh/hierarchy.h"
+
+namespace sunload {
+
+/// Fate of sun power that mirrors send on [W], per sun of a block.
+struct MirroredSun {
+  std::vector<double> escaped = std::vector<double>(block_width, 0);
+  std::vector<double> backs = escaped, cut = escaped;
+  /// Where that depends on the angle.
+  std::vector<double> transmitted = escaped, absorbed = escaped;
+  MirroredSun& operator+=(const MirroredSun& other);
+  /// Calls visit(fate) for each kind of fate.
+  template <class Visit>
+  static void for_each(MirroredSun& self, Visit&& visit) {
+    for (auto* fate : {&self.escaped, &self.backs, &self.cut, &self.transmitted, &self.absorbed})
+      visit(*fate);
+  }
+};
+
+struct ChainRules {
+  int mirror_depth = 8;   ///< reflections that are followed
+  double negligible = 0;  ///< share of the sun below which further reflections are cut
+};
+
+class MirrorChains {
+ public:
+  MirrorChains(const Hierarchy& hierarchy, const RayCaster& caster, const SunSampler& sampler,
+               const MirrorGroups& groups, const ChainRules& rules);
+
+  struct Followed {
+    std::vector<MirroredSun> fates;  ///< per realization, each with its own samples
+    std::uint64_t rays = 0;
+    std::uint64_t shots = 0;  ///< arrivals that no beam stands for
+  };
+  /// Follows the direct sun that mirror patches receive; adds to `into` what no
+  /// beam brings.
+  Followed follow(std::span<const SunLight> block, std::span<const SunBeams> beams,
+                  MirroredIrradiance into) const;
+
+ private:
+  class Task;
+  const Hierarchy& hierarchy_;
+  const RayCaster& caster_;
+  const SunSampler& sampler_;
+  const MirrorGroups& groups_;
+  ChainRules rules_;
+  std::vector<std::size_t> mirrors_;  ///< patches
+};
+
+}  // namespace sunload

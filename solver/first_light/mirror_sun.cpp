@@ -1,0 +1,209 @@
+#include "solver/first_light/mirror_sun.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+
+#include "solver/base/threads.h"
+
+namespace sunload {
+
+namespace {
+
+/// Consecutive receivers, which lie close together, in their common box.
+struct Cluster {
+  std::size_t begin, end;
+  std::array<Vec3, 8> corners;
+};
+
+std::vector<Cluster> clusters_of(const SunSampler& receivers) {
+  constexpr std::size_t patches_per_cluster = 64;
+  const std::size_t patches = receivers.receivers();
+  std::vector<Cluster> clusters((patches + patches_per_cluster - 1) / patches_per_cluster);
+  parallel_for(
+      clusters.size(),
+      [&](std::size_t c) {
+        clusters[c].begin = c * patches_per_cluster;
+        clusters[c].end = std::min(patches, clusters[c].begin + patches_per_cluster);
+        constexpr double infinite = std::numeric_limits<double>::infinity();
+        Vec3 low{infinite, infinite, infinite}, high{-infinite, -infinite, -infinite};
+        for (std::size_t i = clusters[c].begin; i < clusters[c].end; ++i)
+          for (const Vec3 p : receivers.corners(i)) {
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+          }
+        for (std::size_t k = 0; k < 8; ++k)
+          clusters[c].corners[k] = {k & 1 ? high.x : low.x, k & 2 ? high.y : low.y,
+                                    k & 4 ? high.z : low.z};
+      },
+      64);
+  return clusters;
+}
+
+std::vector<BeamRaster> rasters_of(const SunBeams& beams) {
+  constexpr std::size_t cells_of_all = std::size_t{1} << 23;
+  constexpr int coarsest = 16;
+  int size = BeamRaster::finest;
+  while (size > coarsest && beams.size() * static_cast<std::size_t>(size * size) > cells_of_all)
+    size /= 2;
+  std::vector<BeamRaster> rasters;
+  rasters.reserve(beams.size());
+  for (std::size_t b = 0; b < beams.size(); ++b)
+    rasters.emplace_back(beams[b].section, beams[b].image, beams.spread(), size);
+  return rasters;
+}
+
+/// Where receivers see the points of the sun that lie in these directions.
+PacketDirections seen(const SunBeam& beam, const PacketDirections& sun) {
+  float m[3][3];
+  for (std::size_t row = 0; row < 3; ++row) {
+    const Vec3 v = beam.image_of.rows[row];
+    m[row][0] = static_cast<float>(v.x);
+    m[row][1] = static_cast<float>(v.y);
+    m[row][2] = static_cast<float>(v.z);
+  }
+  PacketDirections w;
+  for (std::size_t l = 0; l < packet_size; ++l) {
+    w.x[l] = m[0][0] * sun.x[l] + m[0][1] * sun.y[l] + m[0][2] * sun.z[l];
+    w.y[l] = m[1][0] * sun.x[l] + m[1][1] * sun.y[l] + m[1][2] * sun.z[l];
+    w.z[l] = m[2][0] * sun.x[l] + m[2][1] * sun.y[l] + m[2][2] * sun.z[l];
+  }
+  return w;
+}
+
+}  // namespace
+
+PacketDirections towards(const SunLight& sun, const SunSampler& sampler,
+                         const SunSampler::Seeds& seeds, std::size_t packet) {
+  return sun.disk_half_angle > 0 ? sampler.directions(sun, seeds, packet)
+                                 : same_for_all(sun.direction);
+}
+
+MirrorSun::MirrorSun(const RayCaster& caster, const MirrorGroups& groups)
+    : caster_(caster), groups_(groups) {}
+
+/// The mirrored sun that the patches of one task receive from the beams of one sun.
+class MirrorSun::PatchWork {
+ public:
+  PatchWork(const MirrorSun& mirror, const SunSampler& sampler, const SunLight& sun, std::size_t k,
+            const SunBeams& beams, MirroredIrradiance into)
+      : m_(mirror),
+        sampler_(sampler),
+        sun_(sun),
+        k_(k),
+        beams_(beams),
+        into_(into),
+        of_realization_(into.realizations()) {}
+
+  void receive(std::size_t patch, std::span<const std::size_t> by_beams) {
+    const auto geometry = sampler_.geometry(patch);
+    sampler_.seed(patch, sun_.number, seeds_);
+    std::fill(of_realization_.begin(), of_realization_.end(), 0);
+    for (std::size_t p = 0; p < sampler_.packets(); ++p) {
+      const Packet origins = sampler_.origins(geometry, seeds_, p);
+      const PacketDirections sun = towards(sun_, sampler_, seeds_, p);
+      for (const auto b : by_beams)
+        add_reflectances(beams_[b], dot(geometry.normal, beams_[b].image), p, origins, sun);
+    }
+    const auto R = static_cast<double>(of_realization_.size());
+    const double samples_each = static_cast<double>(sampler_.samples()) / R;
+    double pooled = 0;
+    for (std::size_t r = 0; r < of_realization_.size(); ++r) {
+      const double E = sun_.dni * of_realization_[r] / samples_each;
+      pooled += E / R;
+      into_.add(r, patch, k_, E, sun_.length_s);
+    }
+    into_.irradiance[patch * block_width + k_] += static_cast<float>(pooled);
+  }
+
+  std::uint64_t rays = 0;
+
+ private:
+  /// Adds Π rho_s · cosθ of the mirrors by which each sample sees the sun: back from
+  /// the mirror that it looks at to the one that the sun shines on.
+  void add_reflectances(const SunBeam& last, double cos_theta, std::size_t packet,
+                        const Packet& origins, const PacketDirections& sun) {
+    Packet points = origins;
+    double weight[packet_size];
+    std::fill_n(weight, packet_size, cos_theta);
+    auto active = sampler_.active(packet);
+    for (const SunBeam* beam = &last; active != 0;
+         beam = &beams_[static_cast<std::size_t>(beam->before)]) {
+      active = step_back(*beam, seen(*beam, sun), active, points, weight);
+      if (beam->before < 0) break;
+    }
+    if (active == 0) return;
+    rays += static_cast<std::uint64_t>(std::popcount(active));
+    for (auto lit = m_.caster_.unoccluded_each(points, sun, active); lit != 0; lit &= lit - 1) {
+      const auto l = static_cast<std::size_t>(std::countr_zero(lit));
+      of_realization_[sampler_.realization(packet * packet_size + l)] += weight[l];
+    }
+  }
+
+  /// Moves points to the mirrors that they see along w; returns which see one of the beam.
+  std::uint32_t step_back(const SunBeam& beam, const PacketDirections& w, std::uint32_t active,
+                          Packet& points, double (&weight)[packet_size]) {
+    rays += static_cast<std::uint64_t>(std::popcount(active));
+    const auto hits = m_.caster_.first_hits(points, w, active, RayCaster::Coherence::parallel);
+    const Vec3 n = m_.groups_[beam.group].normal;
+    std::uint32_t on_mirror = 0;
+    for (; active != 0; active &= active - 1) {
+      const auto l = static_cast<std::size_t>(std::countr_zero(active));
+      const auto hit = hits[l];
+      if (hit.left_scene() ||
+          m_.groups_.of_side(hit.triangle, hit.front) != static_cast<std::int32_t>(beam.group))
+        continue;
+      on_mirror |= 1u << l;
+      const double cos_theta = -dot(n, {w.x[l], w.y[l], w.z[l]});
+      weight[l] *= m_.groups_.weight_of_hit(hit.triangle, cos_theta);
+      put(points, l, m_.groups_.above(hit.triangle, hit.u, hit.v, n, m_.caster_.offset_m()));
+    }
+    return on_mirror;
+  }
+
+  const MirrorSun& m_;
+  const SunSampler& sampler_;
+  const SunLight& sun_;
+  std::size_t k_;
+  const SunBeams& beams_;
+  MirroredIrradiance into_;
+  std::vector<double> of_realization_;
+  SunSampler::Seeds seeds_;
+};
+
+std::uint64_t MirrorSun::add_light(const SunSampler& receivers, std::span<const SunLight> block,
+                                   std::span<const SunBeams> beams, MirroredIrradiance into) const {
+  const auto clusters = clusters_of(receivers);
+  // Few receivers (sensors) are work for all threads, too.
+  const std::size_t clusters_per_task = std::clamp<std::size_t>(clusters.size() / 64, 1, 8);
+  std::uint64_t rays = 0;
+  for (std::size_t k = 0; k < block.size(); ++k) {
+    if (beams[k].size() == 0) continue;
+    const auto rasters = rasters_of(beams[k]);
+    rays += ordered_sum(clusters.size(), clusters_per_task, std::uint64_t{0},
+                        [&](std::size_t begin, std::size_t end) {
+                          PatchWork work(*this, receivers, block[k], k, beams[k], into);
+                          std::vector<std::size_t> near, by_beams;
+                          for (std::size_t c = begin; c < end; ++c) {
+                            near.clear();
+                            for (std::size_t b = 0; b < rasters.size(); ++b)
+                              if (rasters[b].may_meet(clusters[c].corners)) near.push_back(b);
+                            if (near.empty()) continue;
+                            for (std::size_t i = clusters[c].begin; i < clusters[c].end; ++i) {
+                              const Vec3 n = receivers.normal(i);
+                              const auto corners = receivers.corners(i);
+                              by_beams.clear();
+                              for (const auto b : near)
+                                if (dot(n, beams[k][b].image) > 0 && rasters[b].may_meet(corners))
+                                  by_beams.push_back(b);
+                              if (!by_beams.empty()) work.receive(i, by_beams);
+                            }
+                          }
+                          return work.rays;
+                        });
+  }
+  return rays;
+}
+
+}  // namespace sunload

@@ -1,0 +1,54 @@
+/// Direct sun by way of planar mirrors, once or several times reflected.
+///
+/// Receivers look along the image directions of the sun's beams
+/// (solver/first_light/sun_beams.h) from their sample points, back from mirror to mirror and
+/// to the sun: noise-free in power, every sample brings dni · Π rho_s · cosθ.
+/// Light of mirrors that no beam stands for arrives on patches from where it is sent on
+/// (solver/first_light/mirror_chains.h). Samples of a sun with a disk look at the images of
+/// their own points on it; cosθ stays that of its centre.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solver/first_light/direct_sun.h"
+#include "solver/first_light/sun_beams.h"
+
+namespace sunload {
+
+/// Mirrored sun of N receivers for one block of suns, R realizations.
+struct MirroredIrradiance {
+  Columns& irradiance;                         ///< [N][block] W m-2, pooled
+  std::vector<std::vector<double>>& exposure;  ///< [R][N] J m-2
+  std::vector<Columns>* of_realizations;       ///< [R] irradiance, or null
+
+  std::size_t realizations() const { return exposure.size(); }
+  /// Adds irradiance E [W m-2] by sun k of the block, as one realization has it; the
+  /// pooled one is for the caller to add.
+  void add(std::size_t realization, std::size_t patch, std::size_t k, double E, double length_s) {
+    exposure[realization][patch] += E * length_s;
+    if (of_realizations)
+      (*of_realizations)[realization][patch * block_width + k] += static_cast<float>(E);
+  }
+};
+
+class MirrorSun {
+ public:
+  MirrorSun(const RayCaster& caster, const MirrorGroups& groups);
+
+  /// Adds what the beams of each sun of the block bring to the receivers. Returns the rays cast.
+  std::uint64_t add_light(const SunSampler& receivers, std::span<const SunLight> block,
+                          std::span<const SunBeams> beams, MirroredIrradiance into) const;
+
+ private:
+  class PatchWork;
+  const RayCaster& caster_;
+  const MirrorGroups& groups_;
+};
+
+/// Sample directions to the sun, for a point or a disk.
+PacketDirections towards(const SunLight& sun, const SunSampler& sampler,
+                         const SunSampler::Seeds& seeds, std::size_t packet);
+
+}  // namespace sunload

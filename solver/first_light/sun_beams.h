@@ -1,0 +1,73 @@
+/// The ways of one sun by mirrors: sequences of mirror orientations and their
+/// image directions.
+///
+/// Mirrors of normal n send light from direction s on so that receivers see it
+/// in the image direction w = s - 2 (s·n) n. Light that was sent on by mirrors of
+/// orientation g1, then g2, … gm is seen in the direction that reflecting s in
+/// g1, then g2, … gives. A receiver whose ray along w_m first meets a mirror of
+/// gm, its mirrored ray one of g(m-1), … and the last one no more, gets
+/// dni · Π rho_s · cosθ. The sequence belongs to the way: none is counted twice.
+///
+/// The sequences make a tree; one is followed only if what its mirrors send on can
+/// meet a mirror of the next orientation (what stands between is not asked), as
+/// long as its reflectances multiply to more than a faint share, and level by
+/// level (one reflection, two, …) as long as there are not too many.
+/// Heckbert & Hanrahan (1984), Beam tracing polygonal objects.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "solver/first_light/beam_raster.h"
+#include "solver/first_light/mirror_groups.h"
+#include "solver/light/sun_block.h"
+
+namespace sunload {
+
+struct BeamRules {
+  int mirror_depth = 8;    ///< reflections, at most
+  double faint_glint = 0;  ///< share of the sun below which further reflections are no beams
+  int most_beams = 0;      ///< of one sun; a level that would exceed it is left out
+  double margin_m = 0;     ///< by which points of mirrors are known
+};
+
+/// One sun by way of mirrors of a sequence of orientations.
+struct SunBeam {
+  std::size_t group;    ///< of the last mirror: the one that receivers see
+  std::int32_t before;  ///< beam that the last mirror reflects; -1: the sun
+  int reflections;
+  Rotation image_of;                   ///< from directions on the sun to where receivers see them
+  Vec3 image;                          ///< of the sun's centre
+  double strongest;                    ///< largest product of reflectances
+  std::vector<ConvexPolygon> section;  ///< parts of mirrors
+  std::vector<std::pair<std::size_t, std::int32_t>> next;  ///< group, beam
+};
+
+class SunBeams {
+ public:
+  /// None.
+  explicit SunBeams(const MirrorGroups& groups) : groups_(&groups) {}
+  SunBeams(const MirrorGroups& groups, const SunLight& sun, const BeamRules& rules);
+  std::size_t size() const { return beams_.size(); }
+  const SunBeam& operator[](std::size_t beam) const { return beams_[beam]; }
+  double spread() const { return spread_; }
+  /// Beam that mirrors of `group` make of a beam (-1: of the sun); -1: none.
+  std::int32_t next(std::int32_t beam, std::size_t group) const;
+
+ private:
+  std::vector<SunBeam> first_level(const SunLight& sun) const;
+  std::vector<SunBeam> next_level(std::size_t begin) const;
+  void append(std::vector<SunBeam> level);
+
+  const MirrorGroups* groups_;
+  BeamRules rules_;
+  double spread_ = 0;  ///< tangent of the half angle of the sun's disk
+  std::vector<SunBeam> beams_;
+  std::vector<std::pair<std::size_t, std::int32_t>> first_;
+};
+
+/// Image direction of w in mirrors of normal n.
+constexpr Vec3 image(Vec3 w, Vec3 n) { return w - 2 * dot(w, n) * n; }
+
+}  // namespace sunload

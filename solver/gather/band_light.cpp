@@ -1,0 +1,97 @@
+#include "solver/gather/band_light.h"
+
+#include "geo/base/check.h"
+#include "geo/base/units.h"
+#include "solver/base/threads.h"
+
+namespace sunload {
+
+namespace {
+
+constexpr std::size_t patches_per_task = 1024;
+
+double ratio(double of_band, double broadband) { return broadband > 0 ? of_band / broadband : 1; }
+
+/// What a band has of the sky where its circumsolar part lies, relative to the broadband sky: of
+/// all bands 1 in the mean, so that the mean of the bands is broadband light line by line. Single
+/// cells of what is left for the lines may be below 0.
+double circumsolar_factor(const CircumsolarSky& part, const SunLight& broadband,
+                          const SunLight& of_band) {
+  if (!part.any()) return 1;
+  double band_sum = 0, sum = 0;
+  for (std::size_t c = 0; c < broadband.sky.size(); ++c) {
+    band_sum += of_band.sky[c] * part.radiance(c);
+    sum += broadband.sky[c] * part.radiance(c);
+  }
+  return ratio(band_sum, sum);
+}
+
+}  // namespace
+
+std::vector<SunLight> suns_in_band(std::span<const SunLight> suns, std::size_t band) {
+  std::vector<SunLight> of_band(suns.begin(), suns.end());
+  for (auto& sun : of_band) {
+    SUNLOAD_EXPECT(sun.bands.size() == band_count, "light of every band");
+    SunLight::Band light = std::move(sun.bands[band]);
+    sun.bands.clear();
+    sun.dni = light.dni;
+    sun.ground_exitance = light.ground_exitance;
+    sun.sky = std::move(light.sky);
+  }
+  return of_band;
+}
+
+BandFactors band_factors(const BlockSources& broadband, std::span<const SunLight> of_band) {
+  BandFactors factors;
+  factors.sun.fill(1);
+  factors.circumsolar.fill(1);
+  for (std::size_t k = 0; k < of_band.size(); ++k) {
+    factors.sun[k] = ratio(of_band[k].dni, broadband.suns[k].dni);
+    factors.circumsolar[k] =
+        circumsolar_factor(broadband.circumsolar[k], broadband.suns[k], of_band[k]);
+  }
+  return factors;
+}
+
+BlockSources sources_in_band(const BlockSources& broadband, std::span<const SunLight> of_band,
+                             const BandFactors& factors) {
+  BlockSources sources(of_band, broadband.sky.size() / block_width);
+  sources.circumsolar = broadband.circumsolar;
+  sources.circumsolar_factor = factors.circumsolar;
+  for (std::size_t k = 0; k < of_band.size(); ++k) {
+    if (!sources.circumsolar[k].any()) continue;
+    for (std::size_t c = 0; c < of_band[k].sky.size(); ++c)
+      sources.sky_of_lines[c * block_width + k] =
+          static_cast<float>(pi * (of_band[k].sky[c] - sources.circumsolar_radiance(k, c)));
+  }
+  return sources;
+}
+
+Columns scaled(Columns columns, const std::array<double, block_width>& factors) {
+  std::array<float, block_width> of_sun;
+  for (std::size_t k = 0; k < block_width; ++k) of_sun[k] = static_cast<float>(factors[k]);
+  parallel_for(
+      columns.size() / block_width,
+      [&](std::size_t i) {
+        for (std::size_t k = 0; k < block_width; ++k) columns[i * block_width + k] *= of_sun[k];
+      },
+      patches_per_task);
+  return columns;
+}
+
+void add_weighted(const std::vector<Columns>& of_realizations,
+                  const std::array<double, block_width>& weights,
+                  std::vector<std::vector<double>>& sums) {
+  for (std::size_t r = 0; r < of_realizations.size(); ++r) {
+    const Columns& irradiance = of_realizations[r];
+    parallel_for(
+        irradiance.size() / block_width,
+        [&](std::size_t i) {
+          for (std::size_t k = 0; k < block_width; ++k)
+            sums[r][i] += weights[k] * static_cast<double>(irradiance[i * block_width + k]);
+        },
+        patches_per_task);
+  }
+}
+
+}  // namespace sunload

@@ -1,0 +1,116 @@
+#include "solver/gather/block_light.h"
+
+#include <array>
+
+#include "geo/base/units.h"
+#include "solver/base/threads.h"
+
+namespace sunload {
+
+namespace {
+
+constexpr std::size_t patches_per_task = 1024;
+
+}  // namespace
+
+BlockSources::BlockSources(std::span<const SunLight> block, std::size_t sky_cells)
+    : suns(block), sky(columns(sky_cells)) {
+  circumsolar_factor.fill(1);
+  for (std::size_t k = 0; k < suns.size(); ++k) {
+    ground_exitance[k] = static_cast<float>(suns[k].ground_exitance);
+    for (std::size_t c = 0; c < suns[k].sky.size(); ++c)
+      sky[c * block_width + k] = static_cast<float>(pi * suns[k].sky[c]);
+  }
+  sky_of_lines = sky;
+}
+
+void BlockSources::split_sky(const SkyGrid& grid) {
+  for (std::size_t k = 0; k < suns.size(); ++k) {
+    circumsolar.emplace_back(grid, suns[k].sky, suns[k].direction);
+    if (!circumsolar[k].any()) continue;
+    for (std::size_t c = 0; c < suns[k].sky.size(); ++c)
+      sky_of_lines[c * block_width + k] =
+          static_cast<float>(pi * (suns[k].sky[c] - circumsolar[k].radiance(c)));
+  }
+}
+
+BlockLight first_light(const LineSet& lines, const PatchOptics& optics, const BlockSources& sources,
+                       FirstLight first) {
+  const std::size_t rows = lines.ends.size();
+  BlockLight light;
+  light.direct = std::move(first.direct);
+  light.sky = columns(rows);
+  const bool split = !first.circumsolar.empty();
+  gather(lines.sky, split ? sources.sky_of_lines : sources.sky, light.sky, Into::replace);
+  for (std::size_t at = 0; at < first.circumsolar.size(); ++at)
+    light.sky[at] += first.circumsolar[at];
+  light.mirror = std::move(first.sun_by_mirror);
+  if (optics.any_mirror) gather(lines.sky_by_mirror, sources.sky, light.mirror, Into::add);
+  light.lamps.assign(lines.lamps.begin(), lines.lamps.end());
+  light.lamps.resize(rows, 0);
+  for (std::size_t i = 0; i < first.parallel.size(); ++i)
+    light.lamps[i] += static_cast<float>(first.parallel[i]);
+  light.reflected = columns(rows);
+  parallel_for(
+      rows,
+      [&](std::size_t i) {
+        const float seen = lines.ends[i].ground + lines.ends[i].ground_by_mirror;
+        for (std::size_t k = 0; k < block_width; ++k)
+          light.reflected[i * block_width + k] = seen * sources.ground_exitance[k];
+      },
+      patches_per_task);
+  return light;
+}
+
+BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                       const BlockSources& sources, FirstLight first, int bounces) {
+  BlockLight light = first_light(lines, optics, sources, std::move(first));
+  Columns base = columns(optics.diffuse.size());
+  parallel_for(
+      optics.diffuse.size(),
+      [&](std::size_t i) {
+        for (std::size_t k = 0; k < block_width; ++k) {
+          const std::size_t at = i * block_width + k;
+          base[at] = light.direct[at] + light.sky[at] + light.mirror[at] + light.lamps[i];
+        }
+      },
+      patches_per_task);
+  Reflected reflected = reflect(mesh, lines, optics, base, light.reflected, bounces);
+  light.reflected = std::move(reflected.irradiance);
+  light.followed = std::move(reflected.followed);
+  return light;
+}
+
+std::vector<Ledger> block_ledger(const LineSet& lines, const PatchOptics& optics,
+                                 const std::vector<double>& area, const BlockSources& sources,
+                                 const BlockLight& light) {
+  using Ledgers = std::array<Ledger, block_width>;
+  const std::size_t suns = sources.suns.size();
+  const std::size_t tasks = (area.size() + patches_per_task - 1) / patches_per_task;
+  std::vector<Ledgers> parts(tasks);
+  parallel_chunks(area.size(), patches_per_task, [&](std::size_t begin, std::size_t end) {
+    Ledgers& part = parts[begin / patches_per_task];
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t k = 0; k < suns; ++k) {
+        const std::size_t at = i * block_width + k;
+        part[k] += booked(
+            {area[i], static_cast<double>(optics.diffuse[i]), optics.absorbed(i),
+             static_cast<double>(optics.passed[i]), static_cast<double>(optics.emission[i]),
+             static_cast<double>(light.direct[at]), static_cast<double>(light.sky[at]),
+             static_cast<double>(sources.ground_exitance[k]),
+             static_cast<double>(light.total(i, k)), static_cast<double>(light.followed[at])},
+            lines.ends[i]);
+      }
+  });
+  std::vector<Ledger> ledger(suns);
+  for (std::size_t k = 0; k < suns; ++k) {
+    for (const auto& part : parts) ledger[k] += part[k];
+    ledger[k] += booked(
+        lines.first_light,
+        [&](std::size_t c) { return static_cast<double>(sources.sky[c * block_width + k]); },
+        static_cast<double>(sources.ground_exitance[k]));
+  }
+  return ledger;
+}
+
+}  // namespace sunload

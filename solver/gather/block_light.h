@@ -1,0 +1,66 @@
+/// Light of one block of suns on one set of lines: light iteration and Jacobi.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "solver/first_light/circumsolar.h"
+#include "solver/gather/jacobi.h"
+#include "solver/gather/ledger.h"
+#include "solver/light/sun_block.h"
+#include "solver/lines/lines.h"
+
+namespace sunload {
+
+/// Sources of a block that do not depend on the patch.
+struct BlockSources {
+  explicit BlockSources(std::span<const SunLight> suns, std::size_t sky_cells);
+  /// From now on the lines carry the sky without its circumsolar part.
+  void split_sky(const SkyGrid& grid);
+  std::span<const SunLight> suns;
+  Columns sky;                              ///< [cells][block] π·radiance, by way of mirrors
+  Columns sky_of_lines;                     ///< the same, straight
+  std::vector<CircumsolarSky> circumsolar;  ///< per sun, after split_sky
+  /// Multiple of it that shines: 1, or of a band.
+  std::array<double, block_width> circumsolar_factor;
+  /// Radiance of a cell that the lines do not take [W m-2 sr-1].
+  double circumsolar_radiance(std::size_t k, std::size_t cell) const {
+    return circumsolar_factor[k] * circumsolar[k].radiance(cell);
+  }
+  float ground_exitance[block_width] = {};
+};
+
+/// Irradiance of a block by parts, [N][block] W m-2.
+struct BlockLight {
+  Columns direct, sky, mirror, reflected;
+  Columns followed;          ///< radiosity gathered last
+  std::vector<float> lamps;  ///< [N], the same for all suns
+
+  float total(std::size_t patch, std::size_t k) const {
+    const std::size_t at = patch * block_width + k;
+    return direct[at] + sky[at] + mirror[at] + lamps[patch] + reflected[at];
+  }
+};
+
+/// Irradiance that does not come by lines.
+struct FirstLight {
+  Columns direct, sun_by_mirror;
+  const Columns& circumsolar;           ///< of the split sky; empty: lines take the whole sky
+  const std::vector<double>& parallel;  ///< [N] of parallel sources, or empty
+};
+
+/// What arrives at the rows of `lines` without diffuse reflection by patches; `reflected`
+/// holds the far ground alone, `followed` nothing.
+BlockLight first_light(const LineSet& lines, const PatchOptics& optics, const BlockSources& sources,
+                       FirstLight first);
+
+BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                       const BlockSources& sources, FirstLight first, int bounces);
+
+/// Ledger of every sun of the block [W], but for the sun's light sent on by mirrors.
+std::vector<Ledger> block_ledger(const LineSet& lines, const PatchOptics& optics,
+                                 const std::vector<double>& area, const BlockSources& sources,
+                                 const BlockLight& light);
+
+}  // namespace sunload

@@ -1,0 +1,68 @@
+#include "solver/gather/block_tally.h"
+
+#include <algorithm>
+
+#include "solver/base/threads.h"
+
+namespace sunload {
+
+namespace {
+
+constexpr std::size_t patches_per_task = 1024;
+
+}  // namespace
+
+void store_received(const BlockLight& light, std::span<const SunLight> block, std::size_t first_row,
+                    const Columns& sunlit, ReceiverTally& tally) {
+  const std::size_t receivers = tally.sunlit_s.size();
+  const auto put = [&](Part part, std::size_t i, std::size_t k, float value) {
+    const auto p = static_cast<std::size_t>(part);
+    if (tally.irradiance[p].empty()) return;
+    tally.irradiance[p][(first_row + k) * receivers + i] = value;
+    tally.exposure[p][i] += static_cast<double>(value) * block[k].length_s;
+  };
+  parallel_for(
+      receivers,
+      [&](std::size_t i) {
+        for (std::size_t k = 0; k < block.size(); ++k) {
+          const std::size_t at = i * block_width + k;
+          const float total = light.total(i, k);
+          put(Part::total, i, k, total);
+          put(Part::direct, i, k, light.direct[at]);
+          put(Part::sky, i, k, light.sky[at]);
+          put(Part::mirror, i, k, light.mirror[at]);
+          put(Part::lamps, i, k, light.lamps[i]);
+          put(Part::reflected, i, k, light.reflected[at]);
+          tally.sunlit_s[i] += static_cast<double>(sunlit[at]) * block[k].sunlit_s;
+          tally.irradiance_max[i] = std::max(tally.irradiance_max[i], total);
+        }
+      },
+      patches_per_task);
+}
+
+void store_patches(const PatchOptics& optics, const BlockLight& light,
+                   std::span<const SunLight> block, std::size_t first_row, const Columns& sunlit,
+                   BatchTally& tally) {
+  store_received(light, block, first_row, sunlit, tally);
+  parallel_for(
+      tally.outgoing.size(),
+      [&](std::size_t i) {
+        for (std::size_t k = 0; k < block.size(); ++k)
+          tally.outgoing[i] +=
+              static_cast<double>(optics.diffuse[i] * light.total(i, k) + optics.emission[i]) *
+              block[k].length_s;
+      },
+      patches_per_task);
+}
+
+Ledger booked(const MirroredSun& fate, std::size_t k) {
+  Ledger ledger;
+  ledger[Term::escaped] = fate.escaped[k];
+  ledger[Term::absorbed] = fate.backs[k] + fate.absorbed[k];
+  ledger[Term::transmitted] = fate.transmitted[k];
+  ledger.lost_at_backs = fate.backs[k];
+  ledger[Term::unshot] = fate.cut[k];
+  return ledger;
+}
+
+}  // namespace sunload

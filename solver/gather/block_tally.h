@@ -1,0 +1,25 @@
+/// Puts the light of a block of suns into a batch's tally, from its row `first_row` on.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/first_light/mirror_chains.h"
+#include "solver/gather/block_light.h"
+#include "solver/light/tally.h"
+
+namespace sunload {
+
+/// What receivers get; `sunlit`: share of each that sees the sun ([N][block]).
+void store_received(const BlockLight& light, std::span<const SunLight> block, std::size_t first_row,
+                    const Columns& sunlit, ReceiverTally& tally);
+
+/// What patches get and what leaves them.
+void store_patches(const PatchOptics& optics, const BlockLight& light,
+                   std::span<const SunLight> block, std::size_t first_row, const Columns& sunlit,
+                   BatchTally& tally);
+
+/// Where the light of sun k ends that mirrors and gloss send on [W].
+Ledger booked(const MirroredSun& fate, std::size_t k);
+
+}  // namespace sunload

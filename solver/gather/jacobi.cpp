@@ -1,0 +1,107 @@
+#include "solver/gather/jacobi.h"
+
+#include <algorithm>
+
+#include "solver/base/threads.h"
+#include "solver/mesh/push_pull.h"
+
+namespace sunload {
+
+namespace {
+
+// Compilers turn the inner loops into one vector instruction per link where the
+// processor has 512 bits; the order of additions is the same everywhere.
+__attribute__((target_clones("default", "avx2", "avx512f"))) void gather_rows(
+    const LinkTable::Block& block, const float* source, float* out, Into into) {
+  const std::size_t rows = block.begin.size() - 1;
+  for (std::size_t row = 0; row < rows; ++row) {
+    float sum[block_width];
+    for (std::size_t k = 0; k < block_width; ++k)
+      sum[k] = into == Into::add ? out[row * block_width + k] : 0.0f;
+    for (std::uint32_t l = block.begin[row]; l < block.begin[row + 1]; ++l) {
+      const float w = block.weight[l];
+      const float* B = source + static_cast<std::size_t>(block.target[l]) * block_width;
+      for (std::size_t k = 0; k < block_width; ++k) sum[k] += w * B[k];
+    }
+    for (std::size_t k = 0; k < block_width; ++k) out[row * block_width + k] = sum[k];
+  }
+}
+
+}  // namespace
+
+void gather(const LinkTable& links, const Columns& source, Columns& out, Into into) {
+  parallel_for(links.blocks.size(), [&](std::size_t b) {
+    gather_rows(links.blocks[b], source.data(),
+                out.data() + b * LinkTable::rows_per_block * block_width, into);
+  });
+}
+
+void gather(const LinkTable& links, const std::vector<double>& source, std::vector<double>& out,
+            Into into) {
+  parallel_for(links.blocks.size(), [&](std::size_t b) {
+    const auto& block = links.blocks[b];
+    for (std::size_t row = 0; row + 1 < block.begin.size(); ++row) {
+      double& sum = out[b * LinkTable::rows_per_block + row];
+      if (into == Into::replace) sum = 0;
+      for (std::uint32_t l = block.begin[row]; l < block.begin[row + 1]; ++l)
+        sum += static_cast<double>(block.weight[l]) * source[block.target[l]];
+    }
+  });
+}
+
+Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                  const Columns& base, const Columns& ground, int bounces) {
+  Reflected out{ground, columns(mesh.element_count())};
+  for (int b = 1; b <= bounces; ++b) {
+    parallel_for(
+        optics.diffuse.size(),
+        [&](std::size_t i) {
+          for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k)
+            out.followed[k] = optics.diffuse[i] * (base[k] + out.irradiance[k]);
+        },
+        LinkTable::rows_per_block);
+    pull_up(mesh, out.followed);
+    out.irradiance = ground;
+    gather(lines.patches, out.followed, out.irradiance, Into::add);
+  }
+  return out;
+}
+
+ReflectedExposure reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                          const std::vector<double>& base, const std::vector<double>& ground,
+                          int bounces) {
+  ReflectedExposure out{ground, std::vector<double>(mesh.element_count(), 0)};
+  for (int b = 1; b <= bounces; ++b) {
+    for (std::size_t i = 0; i < base.size(); ++i)
+      out.followed[i] = static_cast<double>(optics.diffuse[i]) * (base[i] + out.irradiance[i]);
+    pull_up(mesh, out.followed);
+    out.irradiance = ground;
+    gather(lines.patches, out.followed, out.irradiance, Into::add);
+  }
+  return out;
+}
+
+int bounces_needed(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                   int bounces, double unshot) {
+  const std::vector<double>& area = mesh.area();
+  const std::size_t patches = area.size();
+  std::vector<double> received(patches), radiosity(mesh.element_count());
+  double in = 0;
+  for (std::size_t i = 0; i < patches; ++i) {
+    received[i] = static_cast<double>(lines.ends[i].escaped);
+    in += area[i] * received[i];
+  }
+  for (int b = 0; b < bounces; ++b) {
+    double left = 0;
+    for (std::size_t i = 0; i < patches; ++i) {
+      radiosity[i] = static_cast<double>(optics.diffuse[i]) * received[i];
+      left += area[i] * radiosity[i];
+    }
+    if (left <= unshot * in && !optics.any_emission) return b;
+    pull_up(mesh, radiosity);
+    gather(lines.patches, radiosity, received, Into::replace);
+  }
+  return bounces;
+}
+
+}  // namespace sunload

@@ -1,0 +1,50 @@
+/// Gathering stochastic Jacobi on lines traced once.
+///
+///     E^(0) = E_0           E^(b) = E_0 + G (rho E^(b-1)),   b = 1 … bounces
+///
+/// with G the links of the lines (an estimate of the form factors) and E_0
+/// everything that arrives without diffuse reflection. Light reflected
+/// diffusely 1 … bounces times is followed; rho (E^(n) - E^(n-1)) is left.
+/// Reusing the lines in every iteration is unbiased for two transports and
+/// biased by O(1/lines) after (Bekaert 1999, 6.3; METHOD 4).
+#pragma once
+
+#include <vector>
+
+#include "solver/light/sun_block.h"
+#include "solver/lines/lines.h"
+#include "solver/mesh/patch_optics.h"
+
+namespace sunload {
+
+/// out[i] (+)= Σ_links w · source[target], for all suns of a block.
+enum class Into { replace, add };
+void gather(const LinkTable& links, const Columns& source, Columns& out, Into into);
+/// The same for one column in double.
+void gather(const LinkTable& links, const std::vector<double>& source, std::vector<double>& out,
+            Into into);
+
+/// Diffusely reflected irradiance of a block of suns.
+struct Reflected {
+  Columns irradiance;  ///< [N][block]: everything after a diffuse reflection, and the far ground
+  Columns followed;    ///< [elements][block]: radiosity rho E^(n-1) that was gathered last
+};
+/// base: irradiance that arrives without diffuse reflection (direct, sky, mirror,
+/// lamps); ground: that of the far ground.
+Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                  const Columns& base, const Columns& ground, int bounces);
+
+struct ReflectedExposure {
+  std::vector<double> irradiance, followed;
+};
+/// The same for time-integrated irradiance of one realization [J m-2].
+ReflectedExposure reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                          const std::vector<double>& base, const std::vector<double>& ground,
+                          int bounces);
+
+/// Bounces after which less than `unshot` of the light of a uniform sky would
+/// remain unfollowed, at most `bounces`: decided once per variant.
+int bounces_needed(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                   int bounces, double unshot);
+
+}  // namespace sunload

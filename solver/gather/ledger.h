@@ -1,0 +1,60 @@
+/// Books the power of one patch, or of mirrored first light, into the ledger.
+#pragma once
+
+#include "solver/light/tally.h"
+#include "solver/lines/lines.h"
+
+namespace sunload {
+
+/// What one patch receives and sends, all W m-2 (or J m-2).
+struct PatchLight {
+  double area = 0;
+  double diffuse = 0;          ///< reflectance
+  double absorbed = 0;         ///< constant share; 0 where lines book what is absorbed
+  double passed = 0;           ///< share that goes straight through
+  double emission = 0;         ///< exitance of an emitter
+  double direct = 0, sky = 0;  ///< irradiance straight from sun and sky
+  double ground_exitance = 0;  ///< of the far ground
+  double total = 0;            ///< irradiance in all
+  double followed = 0;         ///< reflected radiosity that was gathered last
+};
+
+/// Terms of one patch; every one from its own estimate, none by difference:
+/// its lines tell where what it sends ends, and what panes transmit and absorb of it at their
+/// angles; its irradiance tells what it absorbs itself. Light that passes a patch straight
+/// is met further on, or leaves: it counts where it is stopped.
+inline Ledger booked(const PatchLight& p, const LineEnds& ends) {
+  const double sent = p.area * (p.followed + p.emission);
+  const double stopped = 1 - p.passed;
+  Ledger ledger;
+  ledger[Term::sun] = p.area * p.direct * stopped;
+  ledger[Term::sky] = p.area * p.sky * stopped;
+  ledger[Term::ground] = p.area * static_cast<double>(ends.ground) * p.ground_exitance * stopped;
+  ledger[Term::emitted] = p.area * p.emission;
+  ledger[Term::absorbed] = p.area * p.absorbed * p.total + sent * static_cast<double>(ends.backs) +
+                           sent * static_cast<double>(ends.absorbed);
+  ledger[Term::transmitted] = sent * static_cast<double>(ends.transmitted);
+  ledger.lost_at_backs = sent * static_cast<double>(ends.backs);
+  ledger[Term::escaped] = sent * static_cast<double>(ends.escaped);
+  ledger[Term::unshot] =
+      p.area * (p.diffuse * p.total - p.followed) + sent * static_cast<double>(ends.cut);
+  return ledger;
+}
+
+/// First light of sky and far ground that mirrors sent on. `sky(c)` is π times
+/// the radiance of cell c.
+template <class SkyOfCell>
+Ledger booked(const MirroredFirstLight& first, SkyOfCell&& sky, double ground_exitance) {
+  Ledger ledger;
+  for (std::size_t c = 0; c < first.escaped.size(); ++c) {
+    const double source = c + 1 < first.escaped.size() ? sky(c) : ground_exitance;
+    ledger[Term::escaped] += source * first.escaped[c];
+    ledger[Term::absorbed] += source * (first.backs[c] + first.absorbed[c]);
+    ledger[Term::transmitted] += source * first.transmitted[c];
+    ledger.lost_at_backs += source * first.backs[c];
+    ledger[Term::unshot] += source * first.cut[c];
+  }
+  return ledger;
+}
+
+}  // namespace sunload

@@ -1,0 +1,49 @@
+#include "solver/gather/time_sums.h"
+
+#include "geo/base/units.h"
+
+namespace sunload {
+
+TimeSums::TimeSums(std::size_t realizations, std::size_t patches, std::size_t sensors,
+                   std::size_t sky_cells)
+    : direct(realizations, std::vector<double>(patches, 0)),
+      by_mirror(direct),
+      circumsolar(direct),
+      sensor_direct(realizations, std::vector<double>(sensors, 0)),
+      sensor_by_mirror(sensor_direct),
+      sky(sky_cells, 0),
+      sky_of_lines(sky),
+      sent_on(realizations) {}
+
+void TimeSums::add_sources(const BlockSources& sources) {
+  for (std::size_t k = 0; k < sources.suns.size(); ++k) {
+    const SunLight& sun = sources.suns[k];
+    for (std::size_t c = 0; c < sun.sky.size(); ++c) {
+      sky[c] += pi * sun.sky[c] * sun.length_s;
+      sky_of_lines[c] += pi * (sun.sky[c] - sources.circumsolar_radiance(k, c)) * sun.length_s;
+    }
+    ground += sun.ground_exitance * sun.length_s;
+    length_s += sun.length_s;
+  }
+}
+
+FirstExposure first_exposure(const LineSet& lines, const PatchOptics& optics, const TimeSums& sums,
+                             const ExposureByRays& by_rays) {
+  const std::size_t rows = lines.ends.size();
+  const auto& [direct, by_mirror, circumsolar, parallel] = by_rays;
+  FirstExposure first{std::vector<double>(rows, 0), std::vector<double>(rows, 0),
+                      std::vector<double>(rows, 0)};
+  gather(lines.sky, circumsolar.empty() ? sums.sky : sums.sky_of_lines, first.sky, Into::replace);
+  if (optics.any_mirror) gather(lines.sky_by_mirror, sums.sky, first.base, Into::add);
+  for (const auto* lamps : {&lines.lamps, &parallel})
+    for (std::size_t i = 0; i < lamps->size(); ++i) first.base[i] += (*lamps)[i] * sums.length_s;
+  for (std::size_t i = 0; i < circumsolar.size(); ++i) first.sky[i] += circumsolar[i];
+  for (std::size_t i = 0; i < rows; ++i) {
+    first.base[i] += direct[i] + by_mirror[i] + first.sky[i];
+    first.ground[i] =
+        static_cast<double>(lines.ends[i].ground + lines.ends[i].ground_by_mirror) * sums.ground;
+  }
+  return first;
+}
+
+}  // namespace sunload

@@ -1,0 +1,45 @@
+/// Light of a batch integrated over time, from which every realization solves once more.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "solver/gather/block_light.h"
+#include "solver/light/tally.h"
+
+namespace sunload {
+
+/// Sources, and irradiance by rays, per realization where they are estimates of their own
+/// [J m-2], [J].
+struct TimeSums {
+  TimeSums(std::size_t realizations, std::size_t patches, std::size_t sensors,
+           std::size_t sky_cells);
+  /// Adds what the light of a block has of sky, far ground and time.
+  void add_sources(const BlockSources& sources);
+
+  std::vector<std::vector<double>> direct, by_mirror;  ///< [R][N]
+  std::vector<std::vector<double>> by_gloss;  ///< [R][N], by lines; empty where nothing is glossy
+  std::vector<std::vector<double>> circumsolar;                      ///< [R][N]
+  std::vector<std::vector<double>> sensor_direct, sensor_by_mirror;  ///< [R][sensors]
+  std::vector<double> sky;                                           ///< [cells] π·radiance·time
+  std::vector<double> sky_of_lines;  ///< the same without circumsolar light
+  double ground = 0;
+  double length_s = 0;          ///< for lamps
+  std::vector<Ledger> sent_on;  ///< [R] the sun's light that mirrors sent on
+};
+
+/// What the rows of one realization's lines receive otherwise than by these.
+struct ExposureByRays {
+  const std::vector<double>&direct, &by_mirror;  ///< [J m-2]
+  const std::vector<double>& circumsolar;        ///< [J m-2]; empty: the lines take the whole sky
+  const std::vector<double>& parallel;           ///< of parallel sources [W m-2], or empty
+};
+
+/// Time-integrated irradiance of one realization before any diffuse reflection [J m-2].
+struct FirstExposure {
+  std::vector<double> sky, base, ground;  ///< straight from the sky; all but ground; far ground
+};
+FirstExposure first_exposure(const LineSet& lines, const PatchOptics& optics, const TimeSums& sums,
+                             const ExposureByRays& by_rays);
+
+}  // namespace sunload

@@ -1,0 +1,86 @@
+/// Standard error of every patch or sensor and sun of a block, from the realizations.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "solver/base/threads.h"
+#include "solver/light/tally.h"
+
+namespace sunload {
+
+/// Irradiance of patch i and sun k by BlockLight, ShotLight …
+template <class Light>
+auto total_of(const Light& light) {
+  return [&light](std::size_t i, std::size_t k) { return light.total(i, k); };
+}
+
+class InstantSpread {
+ public:
+  InstantSpread(std::size_t receivers, std::size_t suns)
+      : receivers_(receivers), suns_(suns), sum_(receivers * block_width, 0), squares_(sum_) {}
+
+  /// `irradiance(i, k)`: that of the next realization.
+  template <class Irradiance>
+  void add(const Irradiance& irradiance) {
+    ++realizations_;
+    parallel_for(
+        receivers_,
+        [&](std::size_t i) {
+          for (std::size_t k = 0; k < suns_; ++k) {
+            const auto E = static_cast<double>(irradiance(i, k));
+            sum_[i * block_width + k] += E;
+            squares_[i * block_width + k] += E * E;
+          }
+        },
+        receivers_per_task);
+  }
+  /// Writes s / √R to the rows [K][N] from `first_row` on.
+  void store(std::size_t first_row, std::vector<float>& standard_error) const {
+    const auto n = static_cast<double>(realizations_);
+    parallel_for(
+        receivers_,
+        [&](std::size_t i) {
+          for (std::size_t k = 0; k < suns_; ++k) {
+            const std::size_t at = i * block_width + k;
+            const double variance = std::max(0.0, squares_[at] - sum_[at] * sum_[at] / n) / (n - 1);
+            standard_error[(first_row + k) * receivers_ + i] =
+                static_cast<float>(std::sqrt(variance / n));
+          }
+        },
+        receivers_per_task);
+  }
+
+ private:
+  static constexpr std::size_t receivers_per_task = 1024;
+  std::size_t receivers_, suns_;
+  int realizations_ = 0;
+  std::vector<double> sum_, squares_;
+};
+
+/// The same of the parts that come by direct samples, by samples shot, and by lines.
+class InstantSpreadBySource {
+ public:
+  InstantSpreadBySource(std::size_t receivers, std::size_t suns)
+      : samples_(receivers, suns), shots_(receivers, suns), lines_(receivers, suns) {}
+
+  template <class Total, class BySamples, class ByShots>
+  void add(const Total& total, const BySamples& by_samples, const ByShots& by_shots) {
+    samples_.add(by_samples);
+    shots_.add(by_shots);
+    lines_.add([&](std::size_t i, std::size_t k) {
+      return static_cast<double>(total(i, k)) - static_cast<double>(by_samples(i, k)) -
+             static_cast<double>(by_shots(i, k));
+    });
+  }
+  void store(std::size_t first_row, ErrorsBySource& errors) const {
+    samples_.store(first_row, errors.samples);
+    shots_.store(first_row, errors.shots);
+    lines_.store(first_row, errors.lines);
+  }
+
+ private:
+  InstantSpread samples_, shots_, lines_;
+};
+
+}  // namespace sunload

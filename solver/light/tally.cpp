@@ -1,0 +1,96 @@
+#include "solver/light/tally.h"
+
+#include <cmath>
+
+namespace sunload {
+
+double Ledger::in() const {
+  const Ledger& l = *this;
+  return l[Term::sun] + l[Term::sky] + l[Term::ground] + l[Term::emitted];
+}
+
+double Ledger::out() const {
+  const Ledger& l = *this;
+  return l[Term::absorbed] + l[Term::transmitted] + l[Term::escaped] + l[Term::unshot];
+}
+
+Ledger& Ledger::operator+=(const Ledger& other) {
+  for (std::size_t t = 0; t < term_count; ++t) terms[t] += other.terms[t];
+  lost_at_backs += other.lost_at_backs;
+  return *this;
+}
+
+Ledger scaled(Ledger ledger, double factor) {
+  for (auto& term : ledger.terms) term *= factor;
+  ledger.lost_at_backs *= factor;
+  return ledger;
+}
+
+namespace {
+
+void make_room(ReceiverTally& tally, std::size_t receivers, const TallyShape& shape) {
+  const std::size_t values = shape.intervals * receivers;
+  for (std::size_t p = 0; p < part_count; ++p) {
+    if (!shape.parts[p]) continue;
+    tally.irradiance[p].assign(values, 0);
+    tally.exposure[p].assign(receivers, 0);
+  }
+  tally.exposure_realization.assign(shape.realizations, std::vector<double>(receivers, 0));
+  tally.sunlit_s.assign(receivers, 0);
+  tally.irradiance_max.assign(receivers, 0);
+  if (shape.errors == Errors::instants) tally.irradiance_se.assign(values, 0);
+}
+
+}  // namespace
+
+BatchTally empty_tally(const TallyShape& shape) {
+  BatchTally tally;
+  tally.intervals = shape.intervals;
+  make_room(tally, shape.patches, shape);
+  make_room(tally.sensors, shape.sensors, shape);
+  tally.outgoing.assign(shape.patches, 0);
+  tally.ledger.resize(shape.intervals);
+  tally.ledger_realization.resize(shape.realizations);
+  if (shape.by_source && shape.transport == Transport::shoot) {
+    const std::vector<std::vector<double>> zeros(shape.realizations,
+                                                 std::vector<double>(shape.patches, 0));
+    tally.by_source = {zeros, zeros, zeros, zeros};
+  }
+  if (shape.by_source && shape.errors == Errors::instants) {
+    const std::vector<float> zeros(shape.intervals * shape.patches, 0);
+    tally.se_by_source = {zeros, zeros, zeros};
+  }
+  if (shape.errors == Errors::instants)
+    tally.ledger_instants.assign(shape.realizations, std::vector<Ledger>(shape.intervals));
+  return tally;
+}
+
+WorkDone& WorkDone::operator-=(const WorkDone& earlier) {
+  line_rays -= earlier.line_rays;
+  direct_rays -= earlier.direct_rays;
+  mirror_rays -= earlier.mirror_rays;
+  mirror_beams -= earlier.mirror_beams;
+  mirror_shots -= earlier.mirror_shots;
+  sensor_rays -= earlier.sensor_rays;
+  sensors_s -= earlier.sensors_s;
+  lines_s -= earlier.lines_s;
+  direct_s -= earlier.direct_s;
+  mirror_s -= earlier.mirror_s;
+  solve_s -= earlier.solve_s;
+  realizations_s -= earlier.realizations_s;
+  samples -= earlier.samples;
+  shot_rays -= earlier.shot_rays;
+  wanted_samples -= earlier.wanted_samples;
+  shoot_s -= earlier.shoot_s;
+  return *this;
+}
+
+MeanError mean_error(const std::vector<double>& values) {
+  const auto n = static_cast<double>(values.size());
+  double mean = 0, squares = 0;
+  for (const double v : values) mean += v / n;
+  for (const double v : values) squares += (v - mean) * (v - mean);
+  return {mean, values.size() > 1 ? std::sqrt(squares / (n - 1) / n) : 0};
+}
+
+}  // namespace sunload

@@ -1,0 +1,126 @@
+/// What a batch of suns leaves behind: series, time integrals, ledger.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "solver/light/sun_block.h"
+#include "solver/light/transport.h"
+
+namespace sunload {
+
+/// Parts of the irradiance, DESIGN 5.
+enum class Part : std::uint8_t { total, direct, sky, mirror, lamps, reflected };
+inline constexpr std::size_t part_count = 6;
+inline constexpr std::array<const char*, part_count> part_names{"total",  "direct", "sky",
+                                                                "mirror", "lamps",  "reflected"};
+
+/// Terms of the energy ledger, every one estimated on its own.
+///
+/// in = sun + sky + ground + emitted;  out = absorbed + transmitted + escaped + unshot
+enum class Term : std::uint8_t {
+  sun,
+  sky,
+  ground,
+  emitted,
+  absorbed,
+  transmitted,
+  escaped,
+  unshot
+};
+inline constexpr std::size_t term_count = 8;
+inline constexpr std::array<const char*, term_count> term_names{
+    "sun", "sky", "ground", "emitted", "absorbed", "transmitted", "escaped", "unshot"};
+
+struct Ledger {
+  std::array<double, term_count> terms{};  ///< W, or J when integrated over time
+  double lost_at_backs = 0;                ///< part of `absorbed`: met backs of one-sided surfaces
+
+  double& operator[](Term t) { return terms[static_cast<std::size_t>(t)]; }
+  double operator[](Term t) const { return terms[static_cast<std::size_t>(t)]; }
+  double in() const;
+  double out() const;
+  double residual() const { return in() - out(); }
+  Ledger& operator+=(const Ledger& other);
+};
+Ledger scaled(Ledger ledger, double factor);
+
+/// What N receivers (patches or sensors) get in K consecutive intervals, R
+/// realizations. Energies are J m-2; a part that the scene cannot have is empty.
+struct ReceiverTally {
+  std::array<std::vector<float>, part_count> irradiance;  ///< [K][N] W m-2
+  std::vector<float> irradiance_se;                       ///< [K][N], if asked for
+  std::array<std::vector<double>, part_count> exposure;   ///< [N] time sum of the series
+  std::vector<std::vector<double>> exposure_realization;  ///< [R][N]
+  std::vector<double> sunlit_s;                           ///< [N]
+  std::vector<float> irradiance_max;                      ///< [N]
+};
+
+/// Exposures of every realization by what their errors come from, [R][N] J m-2. What they leave of
+/// the whole exposure comes by lines.
+struct ExposureBySource {
+  std::vector<std::vector<double>> sun;  ///< by direct samples of every sun, mirrored included
+  // Only if asked for (SolverRules).
+  std::vector<std::vector<double>> parallel;  ///< by direct samples, the same for all suns
+  // When shooting, and only if asked for.
+  std::vector<std::vector<double>> emitted;    ///< by samples of emitters, the same for all suns
+  std::vector<std::vector<double>> reflected;  ///< by samples of every block of suns
+};
+
+/// Standard errors of irradiance by what they come from, [K][N] W m-2.
+struct ErrorsBySource {
+  std::vector<float> samples;  ///< direct ones, of suns and parallel sources
+  std::vector<float> shots;    ///< samples of power; 0 when gathering
+  std::vector<float> lines;    ///< all the rest
+};
+
+/// Standard errors of totals alone, or of every interval too.
+enum class Errors { totals, instants };
+
+/// Results of consecutive intervals: of the patches, of sensors, of the scene [J].
+struct BatchTally : ReceiverTally {
+  std::size_t intervals = 0;
+  std::vector<double> outgoing;  ///< [N] radiosity, time-integrated
+  ExposureBySource by_source;
+  ErrorsBySource se_by_source;  ///< if asked for, per instant
+  ReceiverTally sensors;
+  std::vector<Ledger> ledger;              ///< [K] W
+  std::vector<Ledger> ledger_realization;  ///< [R] J
+  Ledger energy;                           ///< J: time sum of `ledger`
+  /// [R][K] W, if errors per instant are asked for.
+  std::vector<std::vector<Ledger>> ledger_instants;
+};
+
+/// What a tally has room for.
+struct TallyShape {
+  std::size_t patches = 0, sensors = 0, intervals = 0, realizations = 0;
+  std::array<bool, part_count> parts{};  ///< that the scene can have
+  Errors errors = Errors::totals;
+  bool by_source = false;
+  Transport transport = Transport::gather;
+};
+/// All zeros; what errors per instant alone need only where they are asked for, and sources
+/// likewise. When gathering exposures by source are empty: the sun's part is put there at the end.
+BatchTally empty_tally(const TallyShape& shape);
+
+/// Work done so far and the time it took, per stage.
+struct WorkDone {
+  std::uint64_t line_rays = 0, direct_rays = 0, mirror_rays = 0, sensor_rays = 0;
+  std::uint64_t mirror_beams = 0;  ///< of all suns, by image directions
+  std::uint64_t mirror_shots = 0;  ///< arrivals of mirrored sun that no beam stands for
+  double lines_s = 0, direct_s = 0, mirror_s = 0, solve_s = 0, realizations_s = 0, sensors_s = 0;
+  std::uint64_t samples = 0, shot_rays = 0;  ///< shot; cast for them, chains included
+  double wanted_samples = 0;  ///< shot, but for those that patches get who would have none
+  double shoot_s = 0;
+  WorkDone& operator-=(const WorkDone& earlier);
+};
+
+/// Mean and standard error of independent realizations.
+struct MeanError {
+  double mean = 0, standard_error = 0;
+};
+/// s / √R of the values; standard_error is 0 for a single value.
+MeanError mean_error(const std::vector<double>& values);
+
+}  // namespace sunload

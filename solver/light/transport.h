@@ -1,0 +1,13 @@
+/// How light goes from patch to patch.
+#pragma once
+
+namespace sunload {
+
+/// gather: over lines traced once (solver/gather/jacobi); shoot: by samples of power
+/// (solver/shoot/shooting).
+enum class Transport { gather, shoot };
+
+/// When shooting. incremental: what is not yet shot; regular: all of it again in every iteration.
+enum class Jacobi { incremental, regular };
+
+}  // namespace sunload

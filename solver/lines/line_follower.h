@@ -1,0 +1,92 @@
+/// One line along its chain of mirrors, panes, metals and glossy surfaces.
+///
+/// What depends on the angle is known where a line meets it: the shares that panes transmit
+/// and that panes, metals and glossy surfaces absorb are booked here, at each meeting, for the
+/// ledger. What surfaces of constant shares absorb follows from their irradiance.
+#pragma once
+
+#include <vector>
+
+#include "geo/sky/sky.h"
+#include "solver/base/rng.h"
+#include "solver/lines/bright_view.h"
+#include "solver/lines/lines.h"
+
+namespace sunload {
+
+/// Links and ends of the lines of one patch or sensor.
+struct LineCollector {
+  std::vector<LinkTable::Link> patches, sky, sky_by_mirror;
+  std::vector<Glimpse> glimpses;  ///< receiver and realization not yet known
+  LineEnds ends;
+  double largest_link = 0;  ///< form factor that no element exceeds to which a link leads
+  double lamps = 0;         ///< exitance of emitters that was seen, summed over lines [W m-2]
+  /// Forgets the lines.
+  void clear();
+  /// Appends the glimpses as those of a receiver in one realization; none are left here.
+  void move_glimpses(std::size_t receiver, std::size_t realization, std::vector<Glimpse>& to);
+  /// Puts the lines of another realization to these.
+  LineCollector& operator+=(const LineCollector& other);
+  /// Writes the next row of its block in `set`: what `count` lines brought.
+  void store(LineSet& set, std::size_t row, std::size_t count);
+};
+
+/// Follows lines from their first hit on, by the law of reflection, until they
+/// end; const and shared by all threads.
+class LineFollower {
+ public:
+  LineFollower(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
+               const SkyGrid& grid, int mirror_depth);
+
+  /// A line that left its patch from `origin` along the unit vector `w` and met `hit`; adds
+  /// its links, its end, and the emitters that it sees. Of what it meets straight it counts
+  /// `share_of_first`; the rest is seen by points (solver/lines/bright_view.h). `line` addresses
+  /// the random numbers of glossy surfaces (its `block` is set here). Returns the rays cast.
+  std::uint64_t follow(Vec3 origin, Vec3 w, const Hit& hit, const RandomKey& line,
+                       LineCollector& into, double share_of_first = 1) const;
+  /// Adds the link to a point of a bright surface, and the emitter that it is.
+  void link(const BrightView::SeenPoint& point, LineCollector& into) const;
+
+  /// Where light ends that a surface sends on, and what becomes of it at the surfaces that
+  /// `depends_on_angle`: shares of what arrived.
+  struct Fate {
+    double escaped = 0, backs = 0, cut = 0, transmitted = 0, absorbed = 0;
+    std::uint64_t rays = 0;
+  };
+  /// Of light that arrives along -`w` at a patch that sends on, from that patch on. `met`, if not
+  /// null, receives the patches that it arrives at on its way, and its weight there.
+  Fate mirrored_on(Vec3 origin, Vec3 w, std::size_t patch, const RandomKey& line,
+                   std::vector<LinkTable::Link>* met = nullptr) const;
+  /// From the first hit of the ray on that carries `weight` along `w`. Without a key the
+  /// chain is cut at glossy surfaces.
+  Fate sent_on(Vec3 w, double weight, const Hit& first, const RandomKey* line = nullptr,
+               std::vector<LinkTable::Link>* met = nullptr) const;
+
+  /// Light that arrives at a surface along -`w` (unit, w·n > 0), and where it goes.
+  struct Onward {
+    Vec3 direction;
+    double weight = 0;                     ///< carried along `direction`
+    double transmitted = 0, absorbed = 0;  ///< of materials that depend on the angle
+  };
+  static Onward onward(const Material& material, Vec3 n, Vec3 w, const RandomKey& key);
+
+  /// Cell of a direction that left the scene upward.
+  std::uint32_t sky_cell(Vec3 w) const { return static_cast<std::uint32_t>(grid_.cell(w)); }
+  const Material& material_of_patch(std::size_t patch) const {
+    return material_of(hierarchy_.patches()[patch].triangle);
+  }
+
+ private:
+  const Material& material_of(std::int32_t triangle) const;
+  /// Of a line that arrived along -`w`.
+  Glimpse glimpse(const Hit& hit, Vec3 n, Vec3 w, double weight) const;
+  Vec3 offset_point(std::int32_t triangle, const Hit& hit, Vec3 side_normal) const;
+
+  const Scene& scene_;
+  const Hierarchy& hierarchy_;
+  const RayCaster& caster_;
+  const SkyGrid& grid_;
+  int mirror_depth_;
+};
+
+}  // namespace sunload

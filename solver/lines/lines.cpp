@@ -1,0 +1,276 @@
+#include "solver/lines/lines.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "geo/base/check.h"
+#include "solver/base/counting_sort.h"
+#include "solver/base/rng.h"
+#include "solver/base/threads.h"
+#include "solver/lines/line_bundle.h"
+#include "solver/lines/line_follower.h"
+#include "solver/lines/patch_lines.h"
+
+namespace sunload {
+
+LinkTable::LinkTable(std::size_t rows) : blocks((rows + rows_per_block - 1) / rows_per_block) {}
+
+std::size_t LinkTable::link_count() const {
+  std::size_t count = 0;
+  for (const auto& block : blocks) count += block.target.size();
+  return count;
+}
+
+std::size_t LinkTable::memory_bytes() const {
+  std::size_t bytes = 0;
+  for (const auto& b : blocks)
+    bytes += 4 * (b.begin.capacity() + b.target.capacity() + b.weight.capacity());
+  return bytes;
+}
+
+namespace {
+
+/// By target. Few links are sorted by comparison, many by a byte of the target after another.
+void sort_links(std::vector<LinkTable::Link>& links) {
+  using Link = LinkTable::Link;
+  constexpr std::size_t few = 48;
+  if (links.size() <= few) {
+    // By insertion: links with the same target keep their order, as below.
+    for (std::size_t i = 1; i < links.size(); ++i) {
+      const Link link = links[i];
+      std::size_t at = i;
+      for (; at > 0 && links[at - 1].target > link.target; --at) links[at] = links[at - 1];
+      links[at] = link;
+    }
+    return;
+  }
+  std::uint32_t all_bits = 0;
+  for (const Link& link : links) all_bits |= link.target;
+  thread_local std::vector<Link> sorted;
+  for (std::uint32_t shift = 0; shift < 32 && all_bits >> shift != 0; shift += 8) {
+    sort_by_byte(links, sorted, [shift](const Link& link) {
+      return static_cast<std::uint8_t>(link.target >> shift);
+    });
+    links.swap(sorted);
+  }
+}
+
+}  // namespace
+
+void LinkTable::append_row(Block& block, std::vector<Link>& links, float scale) {
+  sort_links(links);
+  for (std::size_t l = 0; l < links.size();) {
+    const auto target = links[l].target;
+    float weight = 0;
+    for (; l < links.size() && links[l].target == target; ++l) weight += links[l].weight;
+    block.target.push_back(target);
+    block.weight.push_back(weight * scale);
+  }
+  block.begin.push_back(static_cast<std::uint32_t>(block.target.size()));
+}
+
+LineSet empty_line_set(std::size_t rows, bool any_lamps) {
+  return {LinkTable(rows),
+          LinkTable(rows),
+          LinkTable(rows),
+          std::vector<LineEnds>(rows),
+          std::vector<double>(any_lamps ? rows : 0),
+          {}};
+}
+
+namespace {
+
+/// Lines of the patches of one block, all realizations: the unit of parallel work.
+class BlockTracer {
+ public:
+  BlockTracer(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
+              const SkyGrid& grid, const Guide& guide, const LineRules& rules)
+      : hierarchy_(hierarchy),
+        caster_(caster),
+        rules_(rules),
+        follower_(scene, hierarchy, caster, grid, rules.mirror_depth),
+        guide_(guide),
+        ground_source_(static_cast<std::size_t>(grid.cell_count())) {}
+
+  struct Output {
+    std::vector<MirroredFirstLight> first_light;  ///< per realization, empty without mirrors
+    std::vector<Glimpse> glimpses;
+    std::uint64_t rays = 0;
+  };
+
+  Output trace(std::size_t begin, std::size_t end, Lines& lines) const {
+    Output output;
+    output.first_light.resize(lines.realizations.size());
+    LineBundle bundle;
+    Row row{BrightView(guide_), {}, {}};
+    for (std::size_t first = begin, last; first < end; first = last) {
+      last = end_of_bundle(first, end);
+      cast(first, last, bundle);
+      std::size_t at = 0;
+      for (std::size_t patch = first; patch < last; at += lines_of(patch++))
+        follow_patch(patch, bundle, at, row, lines, output);
+    }
+    return output;
+  }
+
+ private:
+  /// What one patch's lines bring.
+  struct Row {
+    BrightView view;
+    LineCollector own, pooled;
+  };
+
+  std::size_t lines_of(std::size_t patch) const {
+    return static_cast<std::size_t>(rules_.lines_of(patch));
+  }
+  std::size_t lines_per_realization(std::size_t patch) const {
+    return lines_of(patch) / static_cast<std::size_t>(rules_.realizations);
+  }
+  /// Enough lines to fill packets with similar directions, few enough for the cache.
+  std::size_t end_of_bundle(std::size_t first, std::size_t end) const {
+    constexpr std::size_t lines_per_bundle = 2048;
+    std::size_t lines = lines_of(first), last = first + 1;
+    while (last < end && lines + lines_of(last) <= lines_per_bundle) lines += lines_of(last++);
+    return last;
+  }
+
+  /// The lines of patches [first, last), realization by realization.
+  void cast(std::size_t first, std::size_t last, LineBundle& bundle) const {
+    bundle.clear();
+    for (std::size_t patch = first; patch < last; ++patch)
+      for (std::size_t r = 0; r < static_cast<std::size_t>(rules_.realizations); ++r)
+        bundle.add(PatchLines(hierarchy_, patch, caster_.offset_m(),
+                              line_seeds(hierarchy_, patch, r, rules_.seed)),
+                   lines_per_realization(patch));
+    bundle.cast(caster_);
+  }
+
+  /// Its lines are those of the bundle from number `at` on.
+  void follow_patch(std::size_t patch, const LineBundle& bundle, std::size_t at, Row& row,
+                    Lines& lines, Output& output) const {
+    row.pooled.clear();
+    row.view.look_from(hierarchy_, patch);
+    row.own.largest_link = rules_.largest_link_of(patch);
+    const std::size_t lines_each = lines_per_realization(patch);
+    for (std::size_t r = 0; r < lines.realizations.size(); ++r) {
+      row.own.clear();
+      follow_realization(patch, r, bundle, at + r * lines_each, row, output);
+      row.own.move_glimpses(patch, r, output.glimpses);
+      row.pooled += row.own;
+      row.own.store(lines.realizations[r], patch, lines_each);
+    }
+    row.pooled.store(lines.pooled, patch, lines_of(patch));
+  }
+
+  void follow_realization(std::size_t patch, std::size_t realization, const LineBundle& bundle,
+                          std::size_t at, Row& row, Output& output) const {
+    RandomKey key{.seed = rules_.seed,
+                  .purpose = Purpose::glossy,
+                  .realization = static_cast<std::uint32_t>(realization),
+                  .element = hierarchy_.key()[patch]};
+    const Vec3 normal = hierarchy_.normal(patch);
+    const bool sends_light_on = sends_on(follower_.material_of_patch(patch));
+    const std::size_t count = lines_per_realization(patch);
+    output.rays += count;
+    for (std::size_t l = 0; l < count; ++l) {
+      const Hit hit = bundle.hit(at + l);
+      const auto& [origin, w] = bundle.line(at + l);
+      key.sun = static_cast<std::uint32_t>(l);
+      output.rays += follower_.follow(origin, w, hit, key, row.own,
+                                      row.view.share_of_line(hierarchy_, hit, w, dot(w, normal)));
+      if (hit.left_scene() && sends_light_on)
+        output.rays += book_mirrored(origin, w, patch, key, output.first_light[realization]);
+    }
+    if (!row.view.any()) return;
+    key.purpose = Purpose::lamps;
+    output.rays += row.view.see_points(caster_, random_words(key), count,
+                                       [&](const auto& point) { follower_.link(point, row.own); });
+  }
+
+  /// The line brings first light to a mirror: its way on is booked here, since
+  /// no patch's own lines see it leave.
+  std::uint64_t book_mirrored(Vec3 origin, Vec3 w, std::size_t patch, const RandomKey& line,
+                              MirroredFirstLight& book) const {
+    const auto fate = follower_.mirrored_on(origin, w, patch, line);
+    const auto lines_each = static_cast<double>(lines_per_realization(patch));
+    const double share = hierarchy_.area()[patch] / lines_each;
+    const std::size_t source = w.z > 0 ? follower_.sky_cell(w) : ground_source_;
+    MirroredFirstLight::for_each(book, fate, [&](std::vector<double>& power, double part) {
+      if (power.empty()) power.assign(ground_source_ + 1, 0);
+      power[source] += share * part;
+    });
+    return fate.rays;
+  }
+
+  const Hierarchy& hierarchy_;
+  const RayCaster& caster_;
+  const LineRules& rules_;
+  LineFollower follower_;
+  const Guide& guide_;
+  std::size_t ground_source_;
+};
+
+void add(std::vector<double>& to, const std::vector<double>& from, double factor) {
+  if (from.empty()) return;
+  to.resize(from.size(), 0);
+  for (std::size_t i = 0; i < from.size(); ++i) to[i] += factor * from[i];
+}
+
+void add(MirroredFirstLight& to, const MirroredFirstLight& from, double factor) {
+  MirroredFirstLight::for_each(to, from,
+                               [&](auto& sum, const auto& part) { add(sum, part, factor); });
+}
+
+void trim(LineSet& set, std::size_t block) {
+  for (auto* table : {&set.patches, &set.sky, &set.sky_by_mirror}) {
+    auto& b = table->blocks[block];
+    b.target.shrink_to_fit();
+    b.weight.shrink_to_fit();
+  }
+}
+
+void expect_shared_equally(const LineRules& rules, std::size_t patches) {
+  SUNLOAD_EXPECT(rules.realizations >= 1, "at least one realization");
+  SUNLOAD_EXPECT(rules.lines_of_patch.empty() || rules.lines_of_patch.size() == patches,
+                 "lines of every patch");
+  const auto is_shared = [&](int lines) { return lines % rules.realizations == 0; };
+  SUNLOAD_EXPECT(
+      is_shared(rules.lines_per_patch) &&
+          std::all_of(rules.lines_of_patch.begin(), rules.lines_of_patch.end(), is_shared),
+      "lines are shared equally by the realizations");
+}
+
+}  // namespace
+
+Lines trace_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
+                  const SkyGrid& grid, const Guide& guide, const LineRules& rules, Watch& watch) {
+  const std::size_t patches = hierarchy.patch_count();
+  expect_shared_equally(rules, patches);
+  const BlockTracer tracer(scene, hierarchy, caster, grid, guide, rules);
+  Lines lines;
+  lines.pooled = empty_line_set(patches, guide.any());
+  lines.realizations.assign(static_cast<std::size_t>(rules.realizations), lines.pooled);
+
+  std::vector<BlockTracer::Output> outputs(lines.pooled.patches.blocks.size());
+  std::atomic<std::size_t> done = 0;
+  parallel_chunks(patches, LinkTable::rows_per_block, [&](std::size_t begin, std::size_t end) {
+    const std::size_t block = begin / LinkTable::rows_per_block;
+    outputs[block] = tracer.trace(begin, end, lines);
+    for (auto& set : lines.realizations) trim(set, block);
+    trim(lines.pooled, block);
+    watch.advance(Stage::lines,
+                  static_cast<double>(done += end - begin) / static_cast<double>(patches));
+  });
+
+  for (const auto& output : outputs) {
+    lines.rays += output.rays;
+    lines.glimpses.insert(lines.glimpses.end(), output.glimpses.begin(), output.glimpses.end());
+    for (std::size_t r = 0; r < output.first_light.size(); ++r) {
+      add(lines.realizations[r].first_light, output.first_light[r], 1);
+      add(lines.pooled.first_light, output.first_light[r], 1.0 / rules.realizations);
+    }
+  }
+  return lines;
+}
+
+}  // namespace sunload

@@ -1,0 +1,79 @@
+/// Uniformly distributed lines of one patch: origin uniform on it, direction
+/// with density cosθ/π, both from one Owen-scrambled Sobol sequence.
+#pragma once
+
+#include <algorithm>
+
+#include "solver/base/rng.h"
+#include "solver/base/sampling.h"
+#include "solver/mesh/hierarchy.h"
+#include "solver/surface/ray_caster.h"
+
+namespace sunload {
+
+class PatchLines {
+ public:
+  /// Origins keep `offset_m` from the patch; `seeds` scramble the sequence.
+  PatchLines(const Hierarchy& h, std::size_t patch, double offset_m, const RandomWords& seeds)
+      : a_(h.corner(patch, 0)),
+        b_(h.corner(patch, 1)),
+        c_(h.corner(patch, 2)),
+        n_(h.normal(patch)),
+        axes_(tangents(n_)),
+        lift_(n_ * offset_m),
+        seeds_(seeds) {}
+
+  struct Line {
+    Vec3 origin, w;  ///< w: unit, away from the patch
+  };
+  Line operator[](std::uint32_t index) const {
+    return line(sobol(index, 0), sobol(index, 1), sobol(index, 2), sobol(index, 3));
+  }
+  /// Lines first … first + 15, the same bits, several times as fast; `first` is a multiple of 16.
+  void packet(std::size_t first, Line (&lines)[packet_size]) const;
+  /// That of a Sobol point's coordinates, which are scrambled here.
+  Line line(std::uint32_t x0, std::uint32_t x1, std::uint32_t x2, std::uint32_t x3) const {
+    const Vec3 local = sample_cosine(scrambled(x0, seeds_[0]), scrambled(x1, seeds_[1]));
+    const Barycentric at = sample_triangle(scrambled(x2, seeds_[2]), scrambled(x3, seeds_[3]));
+    return {a_ * at.w0 + b_ * at.w1 + c_ * at.w2 + lift_,
+            axes_.tangent * local.x + axes_.bitangent * local.y + n_ * local.z};
+  }
+
+ private:
+  Vec3 a_, b_, c_, n_;
+  Tangents axes_;
+  Vec3 lift_;
+  RandomWords seeds_;
+};
+
+/// Up to 16 consecutive lines of a patch, as rays.
+struct LinePacket {
+  /// Lines [first, end) or the first 16 of them; `first` is a multiple of 16.
+  LinePacket(const PatchLines& lines, std::size_t first, std::size_t end)
+      : count(std::min(packet_size, end - first)) {
+    lines.packet(first, line);
+    for (std::size_t l = 0; l < packet_size; ++l) {
+      put(origins, l, line[l].origin);
+      put(directions, l, line[l].w);
+    }
+  }
+  PacketHits first_hits(const RayCaster& caster) const {
+    return caster.first_hits(origins, directions, (1u << count) - 1u);
+  }
+
+  std::size_t count;
+  PatchLines::Line line[packet_size];
+  Packet origins{};
+  PacketDirections directions{};
+};
+
+/// Scrambling that makes them the lines that `trace_lines` casts from a patch.
+inline RandomWords line_seeds(const Hierarchy& hierarchy, std::size_t patch,
+                              std::size_t realization, std::uint64_t seed) {
+  return random_words({.seed = seed,
+                       .purpose = Purpose::lines,
+                       .realization = static_cast<std::uint32_t>(realization),
+                       .element = hierarchy.key()[patch]});
+}
+
+}  // namespace sunload

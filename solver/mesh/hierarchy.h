@@ -1,0 +1,99 @@
+/// Trees of elements: every input triangle is a root, longest edges are
+/// bisected, leaves are the patches of the result.
+///
+/// A leaf of a two-sided triangle makes two patches (side 0 the front, side 1
+/// the back). Patches are ordered by object, input triangle, tree path (depth
+/// first), side. Floors have no patches: they cast shadows only.
+/// Rivara (1984), Algorithms for refining triangular grids: longest-edge bisection.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "solver/mesh/element_forest.h"
+#include "solver/surface/material.h"
+
+namespace sunload {
+
+struct Patch {
+  std::array<std::int32_t, 3> vertices;  ///< counter-clockwise from its own side
+  std::int32_t triangle = -1;
+  std::uint8_t side = 0;
+};
+
+/// Patches that result at the least, without splitting: a triangle with edges of
+/// at most h has at most the area √3/4 h², an element that is not split for its
+/// smallness at most 2·min_area. Never more than 10^15.
+std::size_t least_patch_count(const Scene& scene, const SplitRules& rules);
+/// Throws InputError where even these are more than `max_patches`.
+void expect_splittable(const Scene& scene, const SplitRules& rules);
+
+class Hierarchy {
+ public:
+  /// Splits every triangle of the scene by `max_edge_m` alone.
+  /// Throws InputError where more than `max_patches` would result.
+  Hierarchy(const Scene& scene, const SplitRules& rules);
+  /// Freezes trees that have grown.
+  explicit Hierarchy(const ElementForest& forest);
+
+  std::size_t patch_count() const { return patches_.size(); }
+  const std::vector<Patch>& patches() const { return patches_; }
+  /// Vertices of the mesh, then midpoints of split edges [m].
+  const std::vector<Vec3>& vertices() const { return vertices_; }
+  const std::vector<double>& area() const { return area_; }
+  /// Stable random key of a patch: object name, triangle within it, path, side.
+  const std::vector<std::uint64_t>& key() const { return key_; }
+  Vec3 corner(std::size_t patch, std::size_t k) const {
+    return vertices_[static_cast<std::size_t>(patches_[patch].vertices[k])];
+  }
+  Vec3 normal(std::size_t patch) const;  ///< unit, of the patch's own side
+  Vec3 centroid(std::size_t patch) const;
+
+  /// Patch at the barycentric weights (u, v of corners 1 and 2) of an input
+  /// triangle, or -1 where that side has none.
+  std::int32_t patch_at(std::int32_t triangle, double u, double v, bool front) const;
+
+  /// Elements are numbered patches first, then inner ones, children before parents and tree by
+  /// tree. Each side of a two-sided element is one of its own.
+  std::size_t element_count() const { return patches_.size() + halves_.size(); }
+  /// Element whose half this one is; -1 for roots.
+  std::int32_t parent(std::size_t element) const { return parent_[element]; }
+  /// Elements whose union is inner element number patch_count() + i.
+  const std::array<std::uint32_t, 2>& halves_of(std::size_t i) const { return halves_[i]; }
+  std::size_t tree_count() const { return first_inner_.size() - 1; }
+  /// Inner elements of a tree are first_inner(tree) … first_inner(tree + 1) - 1.
+  std::size_t first_inner(std::size_t tree) const { return first_inner_[tree]; }
+  /// A sphere about inner element patch_count() + i.
+  struct Sphere {
+    float x, y, z, radius;
+  };
+  const Sphere& sphere(std::size_t i) const { return sphere_[i]; }
+
+ private:
+  struct Node {
+    std::int32_t first_child = -1;  ///< its sibling follows; -1 for a leaf
+    std::int32_t first_patch = -1;
+    std::uint8_t apex = 0;  ///< corner opposite of the split edge
+  };
+  /// Numbers of an element's two sides; -1 where it has but one.
+  using Sides2 = std::array<std::int32_t, 2>;
+  Sides2 add_tree(const ElementForest& forest, std::size_t element);
+  Sides2 add_leaf(const ElementForest& forest, std::size_t element);
+  std::int32_t add_inner(const ElementForest& forest, std::size_t element, std::int32_t half,
+                         std::int32_t other_half);
+
+  std::vector<Node> nodes_;
+  std::vector<std::int32_t> root_;  ///< per input triangle, -1: no patches
+  std::vector<bool> two_sided_;     ///< per input triangle
+  std::vector<Patch> patches_;
+  std::vector<Vec3> vertices_;
+  std::vector<double> area_;
+  std::vector<std::uint64_t> key_;
+  std::vector<std::int32_t> parent_;                  ///< per element
+  std::vector<std::array<std::uint32_t, 2>> halves_;  ///< per inner element
+  std::vector<Sphere> sphere_;                        ///< per inner element
+  std::vector<std::size_t> first_inner_{0};           ///< per tree
+};
+
+}  // namespace sunload

@@ -1,0 +1,15 @@
+/// The level at which light is exchanged, by lines and by samples.
+#pragma once
+
+#include "solver/mesh/hierarchy.h"
+
+namespace sunload {
+
+/// The largest element about a patch that is still small as seen from where the light comes from,
+/// `path_m` before it met the patch at `point`: of a form factor of at most `largest_link`. 0: the
+/// patch itself. The element's centre lies as far away as the light has come, give or take its
+/// distance from `point`.
+std::uint32_t linked_element(const Hierarchy& hierarchy, std::size_t patch, Vec3 point,
+                             double path_m, double largest_link);
+
+}  // namespace sunload

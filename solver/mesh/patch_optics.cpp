@@ -1,0 +1,34 @@
+#include "solver/mesh/patch_optics.h"
+
+namespace sunload {
+
+PatchOptics patch_optics(const Scene& scene, const Hierarchy& hierarchy) {
+  PatchOptics optics;
+  optics.any_emission = !scene.parallel_sources.exitance.empty();
+  for (const auto& patch : hierarchy.patches()) {
+    const auto& m =
+        scene.materials[scene.material[static_cast<std::size_t>(patch.triangle)].index()];
+    optics.diffuse.push_back(static_cast<float>(m.diffuse));
+    optics.mirror.push_back(static_cast<float>(mirror_reflectance(m, 1)));
+    optics.glossy.push_back(static_cast<float>(m.glossy));
+    optics.passed.push_back(static_cast<float>(m.transmittance));
+    optics.by_angle.push_back(depends_on_angle(m));
+    optics.emission.push_back(static_cast<float>(m.emission_w_m2));
+    optics.any_emission = optics.any_emission || m.emission_w_m2 > 0;
+    optics.any_mirror = optics.any_mirror || sends_on(m);
+    optics.any_glossy = optics.any_glossy || m.glossy > 0;
+  }
+  return optics;
+}
+
+PatchOptics patch_optics(const Scene& scene, const Hierarchy& hierarchy, std::size_t band) {
+  PatchOptics optics = patch_optics(scene, hierarchy);
+  for (std::size_t i = 0; i < optics.diffuse.size(); ++i) {
+    const auto triangle = static_cast<std::size_t>(hierarchy.patches()[i].triangle);
+    optics.diffuse[i] =
+        static_cast<float>(diffuse_in(scene.materials[scene.material[triangle].index()], band));
+  }
+  return optics;
+}
+
+}  // namespace sunload

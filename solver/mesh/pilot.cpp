@@ -1,0 +1,219 @@
+#include "solver/mesh/pilot.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "solver/base/rng.h"
+#include "solver/base/sampling.h"
+
+namespace sunload {
+
+namespace {
+
+/// Directions per half in which the surroundings are seen.
+constexpr std::size_t directions_per_half = 8;
+/// Of all surfaces: variants that differ in their reflectances get the same mesh, so that their
+/// patches pair one to one.
+constexpr double typical_reflectance = 0.3;
+/// Points of emitters per half.
+constexpr std::size_t emitter_points_per_half = 8;
+/// A packet of 16 points for every so many least areas: a point for 16 of them.
+constexpr double areas_per_packet = 256;
+constexpr std::size_t most_packets = 8;
+constexpr std::size_t halves_of_light = 2;
+
+std::size_t packets_for(double area_m2, double min_area_m2) {
+  if (min_area_m2 <= 0) return 1;
+  const double packets = std::ceil(area_m2 / (areas_per_packet * min_area_m2));
+  return static_cast<std::size_t>(std::clamp(packets, 1.0, static_cast<double>(most_packets)));
+}
+
+constexpr std::uint32_t all_rays = (1u << packet_size) - 1u;
+
+}  // namespace
+
+/// Points of an element's side that light is asked for at, and its axes.
+struct Pilot::Points {
+  Vec3 normal;
+  Tangents axes;
+  RandomWords direction_seeds[halves_of_light];
+  RandomWords emitter_seeds[halves_of_light];
+  std::vector<Packet> packets;
+
+  Points(const ElementForest& forest, std::size_t element, std::uint8_t side, double offset_m,
+         std::uint64_t seed, std::size_t packet_count) {
+    const Vec3 a = forest.corner(element, 0);
+    const Vec3 ab = forest.corner(element, 1) - a, ac = forest.corner(element, 2) - a;
+    normal = normalized(cross(ab, ac)) * (side == 0 ? 1.0 : -1.0);
+    axes = tangents(normal);
+    const std::uint64_t key = mixed(forest.key(element), side);
+    const auto words = [&](std::uint32_t realization) {
+      return random_words(
+          {.seed = seed, .purpose = Purpose::pilot, .realization = realization, .element = key});
+    };
+    for (std::uint32_t h = 0; h < halves_of_light; ++h) {
+      direction_seeds[h] = words(h);
+      emitter_seeds[h] = words(halves_of_light + h);
+    }
+    const RandomWords seeds = words(2 * halves_of_light);
+    for (std::size_t p = 0; p < packet_count; ++p) {
+      Packet packet;
+      for (std::size_t r = 0; r < packet_size; ++r) {
+        const auto index = static_cast<std::uint32_t>(p * packet_size + r);
+        const double u = scrambled_sobol(index, 0, seeds);
+        const double v = scrambled_sobol(index, 1, seeds);
+        const Barycentric at = sample_triangle(u, v);
+        const Vec3 point = a + ab * at.w1 + ac * at.w2 + normal * offset_m;
+        packet.x[r] = static_cast<float>(point.x);
+        packet.y[r] = static_cast<float>(point.y);
+        packet.z[r] = static_cast<float>(point.z);
+      }
+      packets.push_back(packet);
+    }
+  }
+};
+
+Pilot::Pilot(const ElementForest& forest, const RayCaster& caster, const PilotLight& light,
+             std::uint64_t seed)
+    : forest_(forest),
+      caster_(caster),
+      light_(light),
+      seed_(seed),
+      load_(2 * forest.elements().size(), 0.0f) {
+  const Scene& scene = forest.scene();
+  for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
+    const double exitance = scene.materials[scene.material[t].index()].emission_w_m2;
+    if (exitance <= 0 || light.lamp_time_s <= 0) continue;
+    const int sides = scene.mesh.triangle_sides[t] == Sides::two ? 2 : 1;
+    emitted_power_ += sides * exitance * norm(scene.mesh.area_vector2(t)) / 2;
+    emitters_.push_back({static_cast<std::int32_t>(t), emitted_power_});
+  }
+  for (auto& emitter : emitters_) emitter.power_share /= emitted_power_;
+}
+
+void Pilot::set_load(std::size_t element, std::uint8_t side, double load) {
+  load_[2 * element + side] = static_cast<float>(load);
+}
+
+void Pilot::add_children_of(std::size_t element) {
+  load_.resize(2 * forest_.elements().size(), 0.0f);
+  const auto child = static_cast<std::size_t>(forest_.elements()[element].first_child);
+  for (const std::size_t c : {child, child + 1})
+    for (std::size_t side = 0; side < 2; ++side) load_[2 * c + side] = load_[2 * element + side];
+}
+
+PilotLoad Pilot::load(std::size_t element, std::uint8_t side, double min_area_m2) const {
+  const std::size_t packets = packets_for(forest_.area(element), min_area_m2);
+  const Points points(forest_, element, side, caster_.offset_m(), seed_, packets);
+  PilotLoad load;
+  const std::size_t n = packets * packet_size;
+  std::vector<double> at_point[halves_of_light];
+  for (auto& sums : at_point) sums.assign(n, 0);
+  for (std::size_t p = 0; p < packets; ++p) {
+    double common[packet_size] = {};
+    add_suns(points, light_.suns, points.normal, p, common, load);
+    for (std::uint32_t h = 0; h < halves_of_light; ++h) {
+      double* sum = &at_point[h][p * packet_size];
+      std::copy_n(common, packet_size, sum);
+      add_suns(points, light_.samples[h], points.normal, p, sum, load);
+      if (!emitters_.empty()) add_emitters(points, p, h, forest_.area(element), sum, load);
+      add_surroundings(points, p, h, sum);
+    }
+  }
+  double mean[halves_of_light] = {};
+  for (std::size_t h = 0; h < halves_of_light; ++h)
+    for (const double x : at_point[h]) mean[h] += x / static_cast<double>(n);
+  // The halves are sampled independently: their covariance over the points has no part of the
+  // sampling in it.
+  for (std::size_t s = 0; s < n; ++s)
+    load.variance += (at_point[0][s] - mean[0]) * (at_point[1][s] - mean[1]);
+  load.variance /= static_cast<double>(n - 1);
+  load.mean = (mean[0] + mean[1]) / 2;
+  return load;
+}
+
+void Pilot::add_suns(const Points& points, const std::vector<PilotSun>& suns, Vec3 normal,
+                     std::size_t packet, double* sum, PilotLoad& load) const {
+  for (const auto& sun : suns) {
+    const double cos_theta = dot(normal, sun.direction);
+    if (cos_theta <= 0) continue;
+    auto lit = caster_.unoccluded(points.packets[packet], sun.direction, all_rays);
+    if (lit == 0) continue;
+    load.sees_sun = true;
+    load.largest_cosine = std::max(load.largest_cosine, cos_theta);
+    for (; lit != 0; lit &= lit - 1) sum[std::countr_zero(lit)] += sun.exposure * cos_theta;
+  }
+}
+
+void Pilot::add_surroundings(const Points& points, std::size_t packet, std::uint32_t half,
+                             double* sum) const {
+  const RandomWords& seeds = points.direction_seeds[half];
+  constexpr double share = 1.0 / directions_per_half;
+  for (std::uint32_t d = 0; d < directions_per_half; ++d) {
+    const Vec3 local = sample_cosine(scrambled_sobol(d, 0, seeds), scrambled_sobol(d, 1, seeds));
+    const Vec3 w =
+        points.axes.tangent * local.x + points.axes.bitangent * local.y + points.normal * local.z;
+    const double beyond =
+        w.z > 0 ? light_.sky[static_cast<std::size_t>(grid_.cell(w))] : light_.ground;
+    const PacketHits hits = caster_.first_hits(points.packets[packet], w, all_rays);
+    for (std::size_t r = 0; r < packet_size; ++r)
+      sum[r] += share * (hits.triangle[r] < 0 ? beyond : radiosity(hits, r));
+  }
+}
+
+/// Points y on emitters by power: E(x) = mean of Φ cosθ cosθ' V / (π r²), the same y for all x.
+void Pilot::add_emitters(const Points& points, std::size_t packet, std::uint32_t half,
+                         double area_m2, double* sum, PilotLoad& load) const {
+  const Mesh& mesh = forest_.scene().mesh;
+  const Packet& origins = points.packets[packet];
+  const RandomWords& seeds = points.emitter_seeds[half];
+  for (std::uint32_t s = 0; s < emitter_points_per_half; ++s) {
+    const auto number = [&](int d) { return scrambled_sobol(s, d, seeds); };
+    const auto emitter =
+        std::lower_bound(emitters_.begin(), emitters_.end() - 1, number(0),
+                         [](const Emitter& e, double share) { return e.power_share <= share; });
+    const auto t = static_cast<std::size_t>(emitter->triangle);
+    const Barycentric at = sample_triangle(number(1), number(2));
+    const Vec3 y =
+        mesh.corner(t, 0) * at.w0 + mesh.corner(t, 1) * at.w1 + mesh.corner(t, 2) * at.w2;
+    const Vec3 front = normalized(mesh.area_vector2(t));
+    const bool two_sided = mesh.triangle_sides[t] == Sides::two;
+    PacketDirections directions;
+    double kernel[packet_size] = {};
+    std::uint32_t facing = 0;
+    for (std::size_t r = 0; r < packet_size; ++r) {
+      const Vec3 x{static_cast<double>(origins.x[r]), static_cast<double>(origins.y[r]),
+                   static_cast<double>(origins.z[r])};
+      const Vec3 to = y - x;
+      const double r2 = dot(to, to), cos_r = dot(points.normal, to);
+      const double cos_there_r = two_sided ? std::abs(dot(front, to)) : -dot(front, to);
+      directions.x[r] = static_cast<float>(to.x);
+      directions.y[r] = static_cast<float>(to.y);
+      directions.z[r] = static_cast<float>(to.z);
+      if (cos_r <= 0 || cos_there_r <= 0) continue;
+      kernel[r] = cos_r * cos_there_r / (pi * r2 * r2);
+      facing |= 1u << r;
+    }
+    if (facing == 0) continue;
+    const PacketHits hits = caster_.first_hits(origins, directions, facing);
+    const double weight = emitted_power_ * light_.lamp_time_s / emitter_points_per_half;
+    for (std::size_t r = 0; r < packet_size; ++r) {
+      if (!(facing >> r & 1u) || hits.triangle[r] != emitter->triangle) continue;
+      sum[r] += weight * kernel[r];
+      load.lamp_form_factor = std::max(load.lamp_form_factor, kernel[r] * area_m2);
+    }
+  }
+}
+
+double Pilot::radiosity(const PacketHits& hits, std::size_t ray) const {
+  const std::int32_t triangle = hits.triangle[ray];
+  const std::int32_t leaf =
+      forest_.leaf_at(triangle, static_cast<double>(hits.u[ray]), static_cast<double>(hits.v[ray]));
+  if (leaf < 0) return 0;
+  const auto element = static_cast<std::size_t>(leaf);
+  if (!hits.front[ray] && !forest_.is_two_sided(element)) return 0;
+  return typical_reflectance * static_cast<double>(load_[2 * element + (hits.front[ray] ? 0 : 1)]);
+}
+
+}  // namespace sunload

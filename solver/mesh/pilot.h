@@ -1,0 +1,86 @@
+/// A first look at the light of the whole period: how much falls on an element, and how much that
+/// varies inside of it. Only the mesh is decided by it; no number of a result is made from it.
+///
+/// Light comes from parallel directions (suns of the period with their exposure), from emitters of
+/// the scene, from the sky and the far ground, and from surfaces after one diffuse reflection. It
+/// is seen from the same points of the element along the same directions, so that the differences
+/// between the points are those of the light and not of its sampling.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geo/sky/sky.h"
+#include "solver/mesh/element_forest.h"
+#include "solver/surface/ray_caster.h"
+
+namespace sunload {
+
+/// A sun that stands for a part of the period.
+struct PilotSun {
+  Vec3 direction;       ///< to the sun, unit
+  double exposure = 0;  ///< normal to it [J m-2]
+};
+
+/// Light of a period in short.
+struct PilotLight {
+  /// Suns that are taken as they are.
+  std::vector<PilotSun> suns;
+  /// Two samples of the suns, each standing for all of them, where there are too many.
+  std::array<std::vector<PilotSun>, 2> samples;
+  std::vector<double> sky;  ///< per cell of a SkyGrid(): π·radiance·time [J m-2]
+  double ground = 0;        ///< exitance of the far ground · time [J m-2]
+  double lamp_time_s = 0;   ///< for which emitters of the scene shine
+};
+
+/// What one side of an element receives.
+struct PilotLoad {
+  double mean = 0;        ///< light load [J m-2]
+  double variance = 0;    ///< of the light load over its points; estimated without the variance of
+                          ///< the sampling, hence below zero at times [J2 m-4]
+  bool sees_sun = false;  ///< some point sees some sun
+  double largest_cosine = 0;    ///< of the suns that it sees
+  double lamp_form_factor = 0;  ///< largest disc estimate from a point of an emitter that it sees
+};
+
+class Pilot {
+ public:
+  /// All must outlive it; the forest may grow.
+  Pilot(const ElementForest& forest, const RayCaster& caster, const PilotLight& light,
+        std::uint64_t seed);
+
+  /// Load of one side (0 front, 1 back) of an element. Cost: 16 rays for every direction and
+  /// packet of points; large elements have more packets.
+  PilotLoad load(std::size_t element, std::uint8_t side, double min_area_m2) const;
+
+  /// Light load that surfaces are taken to receive where others see them, per element and side.
+  void set_load(std::size_t element, std::uint8_t side, double load);
+  /// A new element takes the load of its parent until its own is set.
+  void add_children_of(std::size_t element);
+
+ private:
+  struct Points;
+  struct Emitter {
+    std::int32_t triangle;
+    double power_share;  ///< of this one and all before it
+  };
+  void add_suns(const Points& points, const std::vector<PilotSun>& suns, Vec3 normal,
+                std::size_t packet, double* sum, PilotLoad& load) const;
+  void add_emitters(const Points& points, std::size_t packet, std::uint32_t half, double area_m2,
+                    double* sum, PilotLoad& load) const;
+  void add_surroundings(const Points& points, std::size_t packet, std::uint32_t half,
+                        double* sum) const;
+  double radiosity(const PacketHits& hits, std::size_t ray) const;
+
+  const ElementForest& forest_;
+  const RayCaster& caster_;
+  const PilotLight& light_;
+  std::uint64_t seed_;
+  SkyGrid grid_;
+  std::vector<Emitter> emitters_;
+  double emitted_power_ = 0;  ///< of all of them [W]
+  std::vector<float> load_;   ///< [2·element + side] J m-2
+};
+
+}  // namespace sunload

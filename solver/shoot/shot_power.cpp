@@ -1,0 +1,63 @@
+#include "solver/shoot/shot_power.h"
+
+#include <cmath>
+
+#include "geo/base/check.h"
+#include "solver/base/threads.h"
+
+namespace sunload {
+
+namespace {
+
+constexpr std::size_t patches_per_task = 1024;
+
+struct Sum {
+  SunTotals of{};
+  Sum& operator+=(const Sum& other) {
+    for (std::size_t k = 0; k < block_width; ++k) of[k] += other.of[k];
+    return *this;
+  }
+};
+
+}  // namespace
+
+SunTotals total_power(const DoubleColumns& power) {
+  return ordered_sum(power.size() / block_width, patches_per_task, Sum{},
+                     [&](std::size_t begin, std::size_t end) {
+                       Sum sum;
+                       for (std::size_t i = begin; i < end; ++i)
+                         for (std::size_t k = 0; k < block_width; ++k)
+                           sum.of[k] += power[i * block_width + k];
+                       return sum;
+                     })
+      .of;
+}
+
+std::vector<std::uint32_t> sample_counts(const DoubleColumns& power, const SunTotals& total,
+                                         double samples, double offset) {
+  if (!(samples <= most_samples))
+    throw InputError("solver.power_per_sample_w asks for " + std::to_string(samples) +
+                     " samples in one shot (at most " + std::to_string(most_samples) +
+                     "); write a larger one, or auto");
+  const std::size_t patches = power.size() / block_width;
+  SunTotals share{};  // of a watt of each sun in the mixture
+  int suns = 0;
+  for (const double P_T : total) suns += P_T > 0;
+  for (std::size_t k = 0; k < block_width; ++k)
+    if (total[k] > 0) share[k] = 1 / (suns * total[k]);
+
+  std::vector<std::uint32_t> counts(patches, 0);
+  double cumulated = 0, previous = 0;
+  for (std::size_t i = 0; i < patches; ++i) {
+    double q = 0;
+    for (std::size_t k = 0; k < block_width; ++k) q += power[i * block_width + k] * share[k];
+    if (q <= 0) continue;
+    cumulated += q;
+    const double up_to_here = std::floor(samples * cumulated + offset);
+    counts[i] = static_cast<std::uint32_t>(std::max(1.0, up_to_here - previous));
+    previous = up_to_here;
+  }
+  return counts;
+}
+
+}  // namespace sunload

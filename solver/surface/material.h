@@ -1,0 +1,109 @@
+/// Optical properties of surfaces, and the scene that light is computed in.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geo/mesh/mesh.h"
+#include "solver/light/band.h"
+#include "solver/surface/sensor.h"
+
+namespace sunload {
+
+/// What a surface does with light. Four kinds exclude each other:
+///
+/// - constant shares: diffuse + mirror + glossy + transmittance ≤ 1, the rest is absorbed;
+/// - panes (refractive_index > 1 alone): what they transmit leaves the outdoor scene;
+/// - clear glass (normal_transmittance): the same of panes whose index is not known, with constant
+///   shares diffuse and mirror; diffuse + mirror + transmitted ≤ 1 at every angle;
+/// - smooth metal (refractive_index with extinction_coefficient).
+///
+/// A share `diffuse` of what has an index is a coat (frit, dust, print): that share of the
+/// light never meets the glass, whatever its angle; of the rest Fresnel's formulas decide.
+/// So diffuse + mirror + transmitted ≤ 1 holds at every angle.
+struct Material {
+  std::string name;
+  double diffuse = 0;                 ///< reflectance rho
+  double mirror = 0;                  ///< reflectance rho_s, the same at every angle
+  double emission_w_m2 = 0;           ///< diffuse exitance M of an emitter
+  double refractive_index = 0;        ///< n of panes or metal; 0: neither
+  double extinction_coefficient = 0;  ///< k of a metal; 0: panes
+  double thickness_m = 0.004;         ///< of one pane
+  double absorption_per_m = 0;        ///< K of the glass
+  int panes = 1;
+  double normal_transmittance = 0;  ///< T0 of clear glass (solver/surface/clear_glass.h); 0: none
+  /// Reflectance rho_g of light from the normal (solver/surface/lobe.h).
+  double glossy = 0;
+  double glossy_exponent = 0;  ///< n of its lobe
+  double transmittance = 0;    ///< T: light that passes straight through (crowns, screens)
+  /// The share `diffuse` in each band, of which it is the mean; absent: grey. Only of constant
+  /// shares without gloss, whose other shares do not depend on it.
+  std::optional<BandShares> diffuse_in_band = {};
+  bool operator==(const Material&) const = default;
+};
+
+/// Where light goes that arrives at some angle, as shares of its power.
+struct SmoothShares {
+  double mirror = 0;
+  double transmitted = 0;  ///< out of the outdoor scene
+};
+/// Of a material of any kind, at the angle of incidence of that cosine.
+SmoothShares smooth_shares(const Material& material, double cos_theta);
+
+/// Diffuse reflectance in a band.
+inline double diffuse_in(const Material& m, std::size_t band) {
+  return m.diffuse_in_band ? (*m.diffuse_in_band)[band] : m.diffuse;
+}
+/// Decided by Fresnel's formulas: panes and metals.
+inline bool is_fresnel(const Material& m) { return m.refractive_index > 0; }
+/// What a smooth surface does with light depends on the angle: panes of either kind, metals.
+inline bool is_pane_or_metal(const Material& m) {
+  return is_fresnel(m) || m.normal_transmittance > 0;
+}
+/// What it absorbs depends on the angle.
+inline bool depends_on_angle(const Material& m) { return is_pane_or_metal(m) || m.glossy > 0; }
+/// Reflects by the law of reflection, though clear glass may reflect a share of 0.
+inline bool is_mirror(const Material& m) { return m.mirror > 0 || is_pane_or_metal(m); }
+/// A line that meets it goes on, or ends in ways that depend on its angle.
+inline bool sends_on(const Material& m) { return is_mirror(m) || m.glossy > 0; }
+
+/// Share of power that an ideal mirror of this material returns at the angle
+/// whose cosine is `cos_theta` (of incidence). Constant for plain mirrors.
+inline double mirror_reflectance(const Material& material, double cos_theta) {
+  return is_fresnel(material) ? smooth_shares(material, cos_theta).mirror : material.mirror;
+}
+
+/// The same of a ray that was stopped: rays are stopped by 1 - T of what they meet.
+inline double mirror_weight_of_hit(const Material& material, double cos_theta) {
+  return mirror_reflectance(material, cos_theta) / (1 - material.transmittance);
+}
+
+/// Finite parallel emitters: each triangle sends light along its normal.
+struct ParallelSources {
+  Mesh mesh;                     ///< vertices and triangles alone, relative to the scene's origin
+  std::vector<double> exitance;  ///< per triangle, above 0 [W m-2]
+};
+
+/// A prepared mesh with one material per triangle.
+struct Scene {
+  Mesh mesh;
+  std::vector<Material> materials;
+  std::vector<MaterialId> material;  ///< per triangle, into `materials`
+  ParallelSources parallel_sources = {};
+  std::vector<Sensor> sensors = {};  ///< receive light without disturbing the rest
+};
+
+/// Shares of a refused or degenerate material are errors of the caller: throws
+/// std::logic_error unless sizes agree and every share lies in its range.
+void expect_valid(const Scene& scene);
+
+/// Triangles that let light pass, for the ray caster.
+struct Screens {
+  std::vector<float> transmittance;  ///< per triangle; empty where all are opaque
+  std::vector<std::uint64_t> key;    ///< stable address: object and number within it
+};
+Screens screens(const Scene& scene);
+
+}  // namespace sunload

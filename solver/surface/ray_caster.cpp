@@ -1,0 +1,288 @@
+#include "solver/surface/ray_caster.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <new>
+
+#include "geo/base/check.h"
+#include "solver/base/rng.h"
+#include "solver/base/threads.h"
+
+namespace sunload {
+
+namespace {
+
+// Rounding of a coordinate to float is half an ulp; an interpolated point sums
+// three products, and its offset adds one more rounding: below 4 ulp in each
+// axis, 7 in space. The factor 16 leaves more than twice that.
+constexpr double offset_ulps = 16;
+constexpr double float_ulp = 1.0 / (1 << 24);
+
+constexpr float no_end = std::numeric_limits<float>::infinity();
+
+std::string embree_config(const std::string& isa, int threads) {
+  return "threads=" + std::to_string(threads) + ",set_affinity=0,isa=" + isa;
+}
+
+bool processor_has(const std::string& isa) {
+  if (isa == "avx512")
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
+           __builtin_cpu_supports("avx512cd");
+  if (isa == "avx2") return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return __builtin_cpu_supports("sse4.2");
+}
+
+/// The last error of Embree; kept by its callback, thrown after the call.
+struct DeviceError {
+  RTCError code = RTC_ERROR_NONE;
+  std::string text;
+};
+
+void keep_error(void* user, RTCError code, const char* text) {
+  auto* error = static_cast<DeviceError*>(user);
+  if (error->code == RTC_ERROR_NONE) *error = {code, text ? text : ""};
+}
+
+void throw_kept(const DeviceError& error) {
+  if (error.code == RTC_ERROR_NONE) return;
+  if (error.code == RTC_ERROR_OUT_OF_MEMORY)
+    throw MachineError("out of memory for the ray caster: " + error.text);
+  throw std::logic_error("ray caster: " + error.text);
+}
+
+double largest_coordinate(const Mesh& mesh) {
+  double largest = 0;
+  for (const auto& p : mesh.vertices)
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return largest;
+}
+
+}  // namespace
+
+std::string usable_isa(const std::string& wanted) {
+  if (wanted != "auto") {
+    if (wanted != "sse4.2" && wanted != "avx2" && wanted != "avx512")
+      throw InputError({}, "solver.isa = " + wanted, "not an instruction set of the ray caster",
+                       "use auto, sse4.2, avx2 or avx512");
+    if (!processor_has(wanted))
+      throw InputError({}, "solver.isa = " + wanted, "this processor does not have it",
+                       "use auto or a smaller one");
+    return wanted;
+  }
+  for (const char* isa : {"avx512", "avx2", "sse4.2"})
+    if (processor_has(isa)) return isa;
+  throw InputError({}, "this processor is too old", "SSE4.2 is needed", "run on another machine");
+}
+
+namespace {
+
+/// Rays that met nothing: Embree marks an occluded ray by a negative end.
+std::uint32_t unoccluded_rays(const RTCRay16& ray, std::uint32_t active) {
+  std::uint32_t seen = 0;
+  for (std::size_t r = 0; r < packet_size; ++r)
+    if (ray.tfar[r] > 0) seen |= 1u << r;
+  return seen & active;
+}
+
+}  // namespace
+
+struct RayCaster::Embree {
+  Screens screens;
+  DeviceError error;
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+
+  ~Embree() {
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+};
+
+namespace {
+
+/// Uniform in [0, 1), from the coordinates of ray r of N and the key of a triangle.
+float passing_number(RTCRayN* ray, unsigned N, unsigned r, std::uint64_t key) {
+  const auto pair = [](float a, float b) {
+    return std::uint64_t{std::bit_cast<std::uint32_t>(a)} << 32 | std::bit_cast<std::uint32_t>(b);
+  };
+  std::uint64_t hash = mixed(key, pair(RTCRayN_org_x(ray, N, r), RTCRayN_org_y(ray, N, r)));
+  hash = mixed(hash, pair(RTCRayN_org_z(ray, N, r), RTCRayN_dir_x(ray, N, r)));
+  hash = mixed(hash, pair(RTCRayN_dir_y(ray, N, r), RTCRayN_dir_z(ray, N, r)));
+  return uniform(static_cast<std::uint32_t>(hash >> 32));
+}
+
+/// Embree asks it for every hit; the hits that it refuses are as if the triangle were not there.
+void let_pass(const RTCFilterFunctionNArguments* hits) {
+  const auto& screens = *static_cast<const Screens*>(hits->geometryUserPtr);
+  for (unsigned r = 0; r < hits->N; ++r) {
+    if (hits->valid[r] == 0) continue;
+    const unsigned triangle = RTCHitN_primID(hits->hit, hits->N, r);
+    const float T = screens.transmittance[triangle];
+    if (T > 0 && passing_number(hits->ray, hits->N, r, screens.key[triangle]) < T)
+      hits->valid[r] = 0;
+  }
+}
+
+}  // namespace
+
+RayCaster::RayCaster(const Mesh& mesh, const std::string& isa, Screens screens)
+    : embree_(std::make_unique<Embree>()),
+      isa_(usable_isa(isa)),
+      offset_m_(offset_ulps * float_ulp * largest_coordinate(mesh)) {
+  embree_->device = rtcNewDevice(embree_config(isa_, thread_count()).c_str());
+  // The instruction set was checked: what is left to fail is memory for threads and tables.
+  if (!embree_->device)
+    throw MachineError("the ray caster cannot start: too little memory, or too many threads");
+  rtcSetDeviceErrorFunction(embree_->device, keep_error, &embree_->error);
+  embree_->scene = rtcNewScene(embree_->device);
+  rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(embree_->scene, RTC_BUILD_QUALITY_HIGH);
+
+  RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                             RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+                                                             mesh.vertices.size()));
+  auto* corners = static_cast<unsigned*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(unsigned), mesh.triangle_count()));
+  if (points && corners) {
+    for (const auto& p : mesh.vertices)
+      for (const double coordinate : {p.x, p.y, p.z}) *points++ = static_cast<float>(coordinate);
+    for (const auto& triangle : mesh.triangles)
+      for (const auto vertex : triangle) *corners++ = static_cast<unsigned>(vertex);
+    if (!screens.transmittance.empty()) {
+      SUNLOAD_EXPECT(screens.transmittance.size() == mesh.triangle_count() &&
+                         screens.key.size() == mesh.triangle_count(),
+                     "one transmittance per triangle");
+      embree_->screens = std::move(screens);
+      rtcSetGeometryUserData(geometry, &embree_->screens);
+      rtcSetGeometryIntersectFilterFunction(geometry, let_pass);
+      rtcSetGeometryOccludedFilterFunction(geometry, let_pass);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(embree_->scene, geometry, 0);
+  }
+  rtcReleaseGeometry(geometry);
+  if (points && corners) rtcCommitScene(embree_->scene);
+  throw_kept(embree_->error);
+}
+
+RayCaster::~RayCaster() = default;
+
+PacketDirections same_for_all(Vec3 direction) {
+  PacketDirections directions;
+  for (std::size_t r = 0; r < packet_size; ++r) {
+    directions.x[r] = static_cast<float>(direction.x);
+    directions.y[r] = static_cast<float>(direction.y);
+    directions.z[r] = static_cast<float>(direction.z);
+  }
+  return directions;
+}
+
+Hit RayCaster::first_hit(Vec3 origin, Vec3 direction) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit query{};
+  query.ray.org_x = static_cast<float>(origin.x);
+  query.ray.org_y = static_cast<float>(origin.y);
+  query.ray.org_z = static_cast<float>(origin.z);
+  query.ray.dir_x = static_cast<float>(direction.x);
+  query.ray.dir_y = static_cast<float>(direction.y);
+  query.ray.dir_z = static_cast<float>(direction.z);
+  query.ray.tfar = no_end;
+  query.ray.mask = ~0u;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(embree_->scene, &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  const double facing = static_cast<double>(query.hit.Ng_x) * direction.x +
+                        static_cast<double>(query.hit.Ng_y) * direction.y +
+                        static_cast<double>(query.hit.Ng_z) * direction.z;
+  return {static_cast<std::int32_t>(query.hit.primID), static_cast<double>(query.hit.u),
+          static_cast<double>(query.hit.v), static_cast<double>(query.ray.tfar) * norm(direction),
+          facing < 0};
+}
+
+PacketHits RayCaster::first_hits(const Packet& origins, const PacketDirections& directions,
+                                 std::uint32_t active, Coherence coherence) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  if (coherence == Coherence::parallel) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCRayHit16 query;
+  alignas(64) int valid[packet_size];
+  for (std::size_t r = 0; r < packet_size; ++r) {
+    valid[r] = (active >> r & 1u) ? -1 : 0;
+    query.ray.org_x[r] = origins.x[r];
+    query.ray.org_y[r] = origins.y[r];
+    query.ray.org_z[r] = origins.z[r];
+    query.ray.dir_x[r] = directions.x[r];
+    query.ray.dir_y[r] = directions.y[r];
+    query.ray.dir_z[r] = directions.z[r];
+    query.ray.tnear[r] = 0;
+    query.ray.tfar[r] = no_end;
+    query.ray.time[r] = 0;
+    query.ray.mask[r] = ~0u;
+    query.hit.geomID[r] = RTC_INVALID_GEOMETRY_ID;
+  }
+  rtcIntersect16(valid, embree_->scene, &context, &query);
+  PacketHits hits;
+  for (std::size_t r = 0; r < packet_size; ++r) {
+    const bool hit = valid[r] != 0 && query.hit.geomID[r] != RTC_INVALID_GEOMETRY_ID;
+    hits.triangle[r] = hit ? static_cast<std::int32_t>(query.hit.primID[r]) : -1;
+    hits.u[r] = query.hit.u[r];
+    hits.v[r] = query.hit.v[r];
+    hits.distance[r] = query.ray.tfar[r];
+    hits.front[r] = query.hit.Ng_x[r] * directions.x[r] + query.hit.Ng_y[r] * directions.y[r] +
+                        query.hit.Ng_z[r] * directions.z[r] <
+                    0;
+  }
+  return hits;
+}
+
+std::uint32_t RayCaster::unoccluded(const Packet& origins, Vec3 direction,
+                                    std::uint32_t active) const {
+  return unoccluded_each(origins, same_for_all(direction), active);
+}
+
+std::uint32_t RayCaster::unoccluded_each(const Packet& origins, const PacketDirections& directions,
+                                         std::uint32_t active) const {
+  // Nearly parallel: the sun's disk is small.
+  return unoccluded(origins, directions, no_end, active, Coherence::parallel);
+}
+
+std::uint32_t RayCaster::unoccluded_up_to(const Packet& origins, const PacketDirections& ways,
+                                          std::uint32_t active) const {
+  constexpr float all_of_it = 1;
+  return unoccluded(origins, ways, all_of_it, active, Coherence::none);
+}
+
+std::uint32_t RayCaster::unoccluded(const Packet& origins, const PacketDirections& directions,
+                                    float end, std::uint32_t active, Coherence coherence) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  if (coherence == Coherence::parallel) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCRay16 ray;
+  alignas(64) int valid[packet_size];
+  for (std::size_t r = 0; r < packet_size; ++r) {
+    valid[r] = (active >> r & 1u) ? -1 : 0;
+    ray.org_x[r] = origins.x[r];
+    ray.org_y[r] = origins.y[r];
+    ray.org_z[r] = origins.z[r];
+    ray.dir_x[r] = directions.x[r];
+    ray.dir_y[r] = directions.y[r];
+    ray.dir_z[r] = directions.z[r];
+    ray.tnear[r] = 0;
+    ray.tfar[r] = end;
+    ray.time[r] = 0;
+    ray.mask[r] = ~0u;
+    ray.flags[r] = 0;
+  }
+  rtcOccluded16(valid, embree_->scene, &context, &ray);
+  return unoccluded_rays(ray, active);
+}
+
+}  // namespace sunload

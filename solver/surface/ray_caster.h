@@ -1,0 +1,113 @@
+/// First hits and shadows on the triangles of a mesh: the only file that knows
+/// Embree, and the only one that traces in single precision.
+///
+/// Coordinates are converted to float here. A float carries 24 bits: at a
+/// distance of D metres from the local origin a point is known to D·2^-24, and
+/// a ray must start `offset_m()` above its surface to be sure not to meet it.
+///
+/// A surface of transmittance T stops a ray with probability 1 - T. What decides is a hash of
+/// the ray's own coordinates and the triangle's key: the same ray meets the same
+/// triangles in packets, alone, and on any thread; different rays and triangles decide
+/// independently, so that T^k of the rays pass k layers.
+/// Reference: Wald et al. (2014), Embree: a kernel framework for efficient CPU
+/// ray tracing.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "geo/mesh/mesh.h"
+#include "solver/surface/material.h"
+
+namespace sunload {
+
+/// First hit of a ray. `u`, `v` are the barycentric weights of corners 1 and 2.
+struct Hit {
+  std::int32_t triangle = -1;  ///< -1: the ray left the scene
+  double u = 0, v = 0;
+  double distance_m = 0;
+  bool front = true;  ///< the front side was met
+  bool left_scene() const { return triangle < 0; }
+};
+
+inline constexpr std::size_t packet_size = 16;
+
+/// Up to 16 ray origins, already offset from their surfaces.
+struct Packet {
+  alignas(64) float x[packet_size];
+  alignas(64) float y[packet_size];
+  alignas(64) float z[packet_size];
+};
+inline void put(Packet& packet, std::size_t ray, Vec3 v) {
+  packet.x[ray] = static_cast<float>(v.x);
+  packet.y[ray] = static_cast<float>(v.y);
+  packet.z[ray] = static_cast<float>(v.z);
+}
+/// Up to 16 ray directions (need not be of unit length).
+using PacketDirections = Packet;
+/// Parallel rays.
+PacketDirections same_for_all(Vec3 direction);
+
+struct PacketHits {
+  std::int32_t triangle[packet_size];  ///< -1: left the scene
+  float u[packet_size], v[packet_size];
+  float distance[packet_size];  ///< in lengths of the direction
+  bool front[packet_size];
+
+  Hit operator[](std::size_t r) const {
+    return {triangle[r], static_cast<double>(u[r]), static_cast<double>(v[r]),
+            static_cast<double>(distance[r]), front[r]};
+  }
+};
+
+/// The instruction set that `wanted` (auto | sse4.2 | avx2 | avx512) means on
+/// this processor. Throws InputError where the processor lacks it.
+std::string usable_isa(const std::string& wanted);
+
+class RayCaster {
+ public:
+  /// isa: auto | sse4.2 | avx2 | avx512. Throws InputError where the processor
+  /// lacks it, MachineError where memory is short. Builds once, then const.
+  /// Without `screens` every triangle stops every ray.
+  explicit RayCaster(const Mesh& mesh, const std::string& isa = "auto", Screens screens = {});
+  ~RayCaster();
+  RayCaster(const RayCaster&) = delete;
+  RayCaster& operator=(const RayCaster&) = delete;
+
+  /// The instruction set in use, as `solver.isa` would name it.
+  const std::string& isa() const { return isa_; }
+  /// Distance along the normal that a ray origin keeps from its surface [m]:
+  /// above the rounding of coordinates and of points interpolated from them.
+  double offset_m() const { return offset_m_; }
+
+  /// First hit of one ray.
+  Hit first_hit(Vec3 origin, Vec3 direction) const;
+  /// First hits of the rays in `active` (bit r: ray r); those that are parallel, or
+  /// nearly so, go faster together.
+  enum class Coherence { none, parallel };
+  PacketHits first_hits(const Packet& origins, const PacketDirections& directions,
+                        std::uint32_t active, Coherence coherence = Coherence::none) const;
+  PacketHits first_hits(const Packet& origins, Vec3 direction, std::uint32_t active) const {
+    return first_hits(origins, same_for_all(direction), active, Coherence::parallel);
+  }
+  /// Which of the `active` origins see parallel light from `direction`?
+  std::uint32_t unoccluded(const Packet& origins, Vec3 direction, std::uint32_t active) const;
+  /// The same with a direction for each of them.
+  std::uint32_t unoccluded_each(const Packet& origins, const PacketDirections& directions,
+                                std::uint32_t active) const;
+  /// Which of them have nothing on the way from origin to origin + direction?
+  std::uint32_t unoccluded_up_to(const Packet& origins, const PacketDirections& ways,
+                                 std::uint32_t active) const;
+
+ private:
+  std::uint32_t unoccluded(const Packet& origins, const PacketDirections& directions, float end,
+                           std::uint32_t active, Coherence coherence) const;
+
+  struct Embree;
+  std::unique_ptr<Embree> embree_;
+  std::string isa_;
+  double offset_m_ = 0;
+};
+
+}  // namespace sunload

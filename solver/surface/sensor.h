@@ -1,0 +1,20 @@
+/// Sensors: points with a normal that receive light and do not disturb the scene.
+#pragma once
+
+#include <cstdint>
+
+#include "geo/base/vec.h"
+
+namespace sunload {
+
+struct Sensor {
+  Vec3 position;          ///< m, relative to the mesh's origin
+  Vec3 normal{0, 0, 1};   ///< unit: light is received from the hemisphere about it
+  std::uint64_t key = 0;  ///< stable address of its random numbers
+};
+
+/// Key of a sensor from where it stands (absolute, so that variants share it) and
+/// where it looks: other sensors of a study make no difference to it.
+std::uint64_t sensor_key(Vec3 absolute_position, Vec3 normal);
+
+}  // namespace sunload

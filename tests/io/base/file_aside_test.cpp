@@ -1,0 +1,96 @@
+#include "io/base/file_aside.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+
+#include "tests/support/program.h"
+
+namespace sunload {
+namespace {
+
+namespace fs = std::filesystem;
+using test::WorkFolder;
+using Names = std::vector<std::string>;
+
+/// A process that writes aside; killed, it cannot clean up.
+class WritingProcess {
+ public:
+  explicit WritingProcess(const std::string& path) {
+    int ready[2];
+    if (::pipe(ready) != 0) throw std::runtime_error("pipe");
+    process_ = ::fork();
+    if (process_ == 0) {
+      const FileAside file(path);
+      std::ofstream(file.aside()) << "half of it";
+      [[maybe_unused]] const auto written = ::write(ready[1], "x", 1);
+      for (;;) ::pause();
+    }
+    char byte = 0;
+    [[maybe_unused]] const auto got = ::read(ready[0], &byte, 1);
+    ::close(ready[0]);
+    ::close(ready[1]);
+  }
+  void kill() {
+    ::kill(process_, SIGKILL);
+    ::waitpid(process_, nullptr, 0);
+  }
+
+ private:
+  pid_t process_ = -1;
+};
+
+TEST(FileAside, AppearsWhenPublishedAndIsRemovedOtherwise) {
+  const WorkFolder folder;
+  {
+    FileAside file(folder / "kept");
+    std::ofstream(file.aside()) << "whole";
+    EXPECT_FALSE(fs::exists(folder / "kept"));
+    file.publish();
+    const FileAside given_up(folder / "lost");
+    std::ofstream(given_up.aside()) << "half";
+    EXPECT_EQ(folder.content().size(), 2u);
+  }
+  EXPECT_EQ(folder.content(), Names{"kept"});
+  EXPECT_EQ(folder.read("kept"), "whole");
+}
+
+TEST(FileAside, WhatTheDeadLeftIsRemovedAndWhatTheLivingWriteStays) {
+  const WorkFolder folder;
+  WritingProcess dead(folder / "a.batch"), living(folder / "b.batch");
+  dead.kill();
+  folder.write("b.batch.part-of-the-name", "");
+  folder.write("c.part-1", "");
+  ASSERT_EQ(folder.content().size(), 4u);
+  remove_left_aside(folder.path());
+  const auto content = folder.content();
+  EXPECT_EQ(content.size(), 3u);
+  EXPECT_TRUE(std::none_of(content.begin(), content.end(),
+                           [](const auto& name) { return name.starts_with("a.batch"); }));
+  living.kill();
+  remove_left_aside(folder.path());
+  EXPECT_EQ(folder.content(), (Names{"b.batch.part-of-the-name", "c.part-1"}));
+}
+
+TEST(FileAside, OfOtherMachinesOnlyWhatNobodyTouchedForADay) {
+  const WorkFolder folder;
+  const std::string fresh = "a.batch.part-0123456789ab-1-7", old = "b.batch.part-0123456789ab-1-7";
+  folder.write(fresh, "");
+  folder.write(old, "");
+  fs::last_write_time(folder / old, fs::file_time_type::clock::now() - std::chrono::hours(25));
+  remove_left_aside(folder.path());
+  EXPECT_EQ(folder.content(), Names{fresh});
+}
+
+TEST(FileAside, NoFolderNothingToRemove) {
+  const WorkFolder folder;
+  EXPECT_NO_THROW(remove_left_aside(folder / "none"));
+}
+
+}  // namespace
+}  // namespace sunload

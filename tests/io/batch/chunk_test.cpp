@@ -1,0 +1,84 @@
+#include "io/batch/chunk.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "solver/base/threads.h"
+
+namespace sunload::test {
+namespace {
+
+constexpr ChunkShape shape{64, 4096};
+
+enum class Kind { zeros, smooth, noise, half_dark };
+
+std::vector<float> values_of(Kind kind, std::size_t rows, std::size_t columns) {
+  std::mt19937 random(1);
+  std::vector<float> values;
+  for (std::size_t i = 0; i < rows * columns; ++i) {
+    const float noise = static_cast<float>(random()) * 0x1p-32F + 100.0F;
+    const bool is_dark = kind == Kind::zeros || (kind == Kind::half_dark && i < rows * columns / 2);
+    values.push_back(is_dark ? 0.0F : kind == Kind::smooth ? std::floor(noise) : noise);
+  }
+  return values;
+}
+
+TEST(Chunk, RoundTripAndPadding) {
+  constexpr std::size_t rows = 40, columns = 5000;
+  for (const Kind kind : {Kind::zeros, Kind::smooth, Kind::noise, Kind::half_dark}) {
+    const auto values = values_of(kind, rows, columns);
+    for (const int level : {0, 1, 4, 9}) {
+      const auto chunks = encoded_chunks(values.data(), rows, columns, shape, level);
+      ASSERT_EQ(chunks.size(), 2u);
+      for (std::size_t c = 0; c < 2; ++c) {
+        EXPECT_LE(chunks[c].size(), shape.bytes());
+        const auto back = decoded_chunk(chunks[c], shape);
+        for (std::size_t row = 0; row < shape.rows; ++row) {
+          for (std::size_t i = 0; i < shape.columns; ++i) {
+            const std::size_t column = c * shape.columns + i;
+            const float value = back[row * shape.columns + i];
+            if (row < rows && column < columns) {
+              ASSERT_EQ(value, values[row * columns + column]);
+            } else {
+              ASSERT_TRUE(std::isnan(value));
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Chunk, BitPatternsThatDoNotShrinkAreStored) {
+  std::mt19937 random(2);
+  std::vector<float> values(shape.rows * shape.columns);
+  for (auto& value : values) value = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+  const auto chunks = encoded_chunks(values.data(), shape.rows, shape.columns, shape, 4);
+  EXPECT_EQ(chunks.at(0).size(), shape.bytes());
+}
+
+TEST(Chunk, SameBytesForAnyNumberOfThreads) {
+  const auto values = values_of(Kind::noise, 64, 20'000);
+  const int before = thread_count();
+  set_thread_count(1);
+  const auto one = encoded_chunks(values.data(), 64, 20'000, shape, 4);
+  set_thread_count(7);
+  const auto seven = encoded_chunks(values.data(), 64, 20'000, shape, 4);
+  set_thread_count(before);
+  EXPECT_EQ(one, seven);
+}
+
+TEST(Chunk, DamageIsNoticed) {
+  const auto values = values_of(Kind::noise, 64, 4096);
+  const Bytes good = encoded_chunks(values.data(), 64, 4096, shape, 4).at(0);
+  Bytes bad = good;
+  bad[bad.size() / 2] ^= 1U;
+  EXPECT_THROW(decoded_chunk(bad, shape), std::runtime_error);
+  EXPECT_THROW(decoded_chunk({good.data(), good.size() / 2}, shape), std::runtime_error);
+  EXPECT_THROW(decoded_chunk(good, {32, 4096}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace sunload::test

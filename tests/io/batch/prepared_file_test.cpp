@@ -1,0 +1,156 @@
+/// Traced lines on the disk: the same bits back, or none.
+#include "io/batch/prepared_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+
+#include "geo/base/check.h"
+#include "tests/support/program.h"
+
+namespace sunload::test {
+namespace {
+
+const std::string hash(64, 'a');
+
+LinkTable table(std::size_t rows, std::uint32_t seed) {
+  LinkTable table(rows);
+  for (auto& block : table.blocks) {
+    std::vector<LinkTable::Link> links;
+    const std::size_t n = std::min(rows, LinkTable::rows_per_block);
+    for (std::size_t row = 0; row < n; ++row) {
+      links.clear();
+      for (std::uint32_t k = 0; k < (row + seed) % 5; ++k)
+        links.push_back({k * 7 + seed, 0.1f * static_cast<float>(k + seed)});
+      LinkTable::append_row(block, links, 1);
+    }
+  }
+  return table;
+}
+
+LineSet line_set(std::size_t rows, std::uint32_t seed) {
+  LineSet set{table(rows, seed), table(rows, seed + 1), table(rows, seed + 2), {}, {}, {}};
+  for (std::size_t i = 0; i < rows; ++i)
+    set.ends.push_back({0.1f * static_cast<float>(i), 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.8f});
+  set.lamps.assign(rows, 0.7 + seed);
+  set.first_light.escaped = {1.0 / 3, 2, static_cast<double>(seed)};
+  set.first_light.backs = {4, 5};
+  set.first_light.transmitted = {6, static_cast<double>(seed)};
+  return set;
+}
+
+Lines example() {
+  constexpr std::size_t rows = 2500;  // three blocks
+  Lines lines;
+  for (std::uint32_t r = 0; r < 3; ++r) lines.realizations.push_back(line_set(rows, r));
+  lines.pooled = line_set(rows, 9);
+  lines.rays = 12345678901;
+  for (std::uint32_t patch = 0; patch < rows; patch += 7)
+    lines.glimpses.push_back({patch, 2, 5, 1, {1.1f, 2.2f, 3.3f}, {0.6f, 0.8f, 0}, 0.3f});
+  return lines;
+}
+
+template <class T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+bool same(const LinkTable& a, const LinkTable& b) {
+  if (a.blocks.size() != b.blocks.size()) return false;
+  for (std::size_t i = 0; i < a.blocks.size(); ++i)
+    if (!same_bits(a.blocks[i].begin, b.blocks[i].begin) ||
+        !same_bits(a.blocks[i].target, b.blocks[i].target) ||
+        !same_bits(a.blocks[i].weight, b.blocks[i].weight))
+      return false;
+  return true;
+}
+
+bool same(const LineSet& a, const LineSet& b) {
+  return same(a.patches, b.patches) && same(a.sky, b.sky) &&
+         same(a.sky_by_mirror, b.sky_by_mirror) && same_bits(a.ends, b.ends) &&
+         same_bits(a.lamps, b.lamps) && same_bits(a.first_light.escaped, b.first_light.escaped) &&
+         same_bits(a.first_light.backs, b.first_light.backs) &&
+         same_bits(a.first_light.cut, b.first_light.cut) &&
+         same_bits(a.first_light.transmitted, b.first_light.transmitted) &&
+         same_bits(a.first_light.absorbed, b.first_light.absorbed);
+}
+
+void write_bytes(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+}
+
+TEST(PreparedFile, GivesTheSameBitsBack) {
+  const WorkFolder folder;
+  const Lines lines = example();
+  write_prepared(folder / "prepared", hash, lines);
+  const auto read = read_prepared(folder / "prepared", hash);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->rays, lines.rays);
+  ASSERT_EQ(read->realizations.size(), lines.realizations.size());
+  for (std::size_t r = 0; r < lines.realizations.size(); ++r)
+    EXPECT_TRUE(same(read->realizations[r], lines.realizations[r])) << r;
+  EXPECT_TRUE(same(read->pooled, lines.pooled));
+  EXPECT_TRUE(same_bits(read->glimpses, lines.glimpses));
+  EXPECT_FALSE(same(read->pooled, lines.realizations[0]));
+  EXPECT_EQ(folder.content(), std::vector<std::string>{"prepared"});
+}
+
+TEST(PreparedFile, AnotherHashIsNotBelieved) {
+  const WorkFolder folder;
+  write_prepared(folder / "prepared", hash, example());
+  EXPECT_FALSE(read_prepared(folder / "prepared", std::string(64, 'b')));
+  EXPECT_FALSE(read_prepared(folder / "prepared", ""));
+}
+
+TEST(PreparedFile, MissingEmptyOrNoFileAtAll) {
+  const WorkFolder folder;
+  EXPECT_FALSE(read_prepared(folder / "none", hash));
+  folder.write("empty", "");
+  EXPECT_FALSE(read_prepared(folder / "empty", hash));
+  EXPECT_FALSE(read_prepared(folder.path(), hash));
+}
+
+TEST(PreparedFile, AnyFlippedBitIsNoticed) {
+  const WorkFolder folder;
+  write_prepared(folder / "prepared", hash, example());
+  const std::string whole = folder.read("prepared");
+  constexpr std::size_t probes = 200;
+  for (std::size_t probe = 0; probe <= probes; ++probe) {
+    std::string damaged = whole;
+    const std::size_t at = (whole.size() - 1) * probe / probes;
+    damaged[at] = static_cast<char>(damaged[at] ^ (1 << (probe % 8)));
+    write_bytes(folder / "prepared", damaged);
+    EXPECT_FALSE(read_prepared(folder / "prepared", hash)) << "byte " << at;
+  }
+  write_bytes(folder / "prepared", whole);
+  EXPECT_TRUE(read_prepared(folder / "prepared", hash));
+}
+
+TEST(PreparedFile, CutOrLongerIsNoticed) {
+  const WorkFolder folder;
+  write_prepared(folder / "prepared", hash, example());
+  const std::string whole = folder.read("prepared");
+  for (const std::size_t length :
+       {std::size_t{1}, std::size_t{15}, std::size_t{16}, std::size_t{20}, std::size_t{100},
+        whole.size() / 2, whole.size() - 4, whole.size() - 1}) {
+    write_bytes(folder / "prepared", whole.substr(0, length));
+    EXPECT_FALSE(read_prepared(folder / "prepared", hash)) << length << " bytes";
+  }
+  write_bytes(folder / "prepared", whole + "more");
+  EXPECT_FALSE(read_prepared(folder / "prepared", hash));
+}
+
+TEST(PreparedFile, WhatCannotBeWrittenIsAnErrorOfTheMachine) {
+  const WorkFolder folder;
+  try {
+    write_prepared(folder / "none/prepared", hash, example());
+    FAIL() << "was written";
+  } catch (const MachineError& error) {
+    EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace sunload::test

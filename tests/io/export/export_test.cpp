@@ -1,0 +1,274 @@
+#include "io/export/export.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "geo/base/check.h"
+#include "io/export/format.h"
+#include "io/scene/file.h"
+#include "tests/support/small_result.h"
+
+namespace sunload {
+namespace {
+
+using test::SmallResult;
+using test::write_small_result;
+
+std::string path_of(const std::string& name) {
+  return (std::filesystem::path(testing::TempDir()) / name).string();
+}
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string exported(const std::string& result, const ExportRules& rules) {
+  const auto path = path_of("exported." + rules.format);
+  export_result(ResultReader(result), rules, path);
+  return text_of(path);
+}
+
+std::string refusal(const ExportRules& rules, const std::string& path) {
+  try {
+    export_result(ResultReader(write_small_result({}, "export_refused")), rules, path);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+Vec3 corner_read(const PolygonModel& model, std::size_t polygon, std::size_t k) {
+  const auto ring = static_cast<std::size_t>(model.polygon_ring[polygon]);
+  const auto at = static_cast<std::size_t>(model.ring_begin[ring]) + k;
+  return model.vertices[static_cast<std::size_t>(model.ring_vertex[at])];
+}
+
+/// Names that every format has its own trouble with.
+SmallResult awkward_names() {
+  SmallResult small;
+  small.houses[0].name = "a \"b\", <c> & \\d\n#e";
+  small.houses[1].name = "dům č. 2";
+  return small;
+}
+
+/// Our own readers find every patch where it is, with its front where it was.
+void expect_read_back(const std::string& format, const std::string& file, bool single_precision) {
+  const auto path = write_small_result(awkward_names(), "export_" + format);
+  const ResultReader result(path);
+  const ResultPatches patches(result);
+  ExportRules rules;
+  rules.format = format;
+  export_result(result, rules, path_of(file));
+  const auto model = read_scene_file(path_of(file), {});
+  ASSERT_EQ(model.polygon_count(), patches.corners.size()) << format;
+  const auto rounded = [&](Vec3 p) {
+    return single_precision
+               ? Vec3{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}
+               : p;
+  };
+  for (std::size_t i = 0; i < patches.corners.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(corner_read(model, i, k),
+                rounded(patches.vertices[static_cast<std::size_t>(patches.corners[i][k])]))
+          << format << " patch " << i;
+}
+
+TEST(Export, OwnReadersFindEveryPatch) {
+  expect_read_back("vrml", "read_back.wrl", true);
+  expect_read_back("glb", "read_back.glb", true);
+  expect_read_back("ply", "read_back.ply", false);
+}
+
+TEST(Export, GltfHasANodePerObject) {
+  const auto path = write_small_result(awkward_names(), "export_nodes");
+  ExportRules rules;
+  rules.format = "glb";
+  export_result(ResultReader(path), rules, path_of("nodes.glb"));
+  const auto model = read_scene_file(path_of("nodes.glb"), {});
+  EXPECT_EQ(model.object_names, ResultReader(path).strings("object_name"));
+}
+
+TEST(Export, TablesHaveARowPerPatchOrTime) {
+  const auto path = write_small_result(awkward_names(), "export_csv");
+  const ResultReader result(path);
+  const auto loads = result.doubles("light_load"), area = result.doubles("patch_area");
+  ExportRules rules;
+  rules.format = "csv";
+  // One object's name has a line end within quotes, and so have its four facades.
+  const auto patches_of_face = 2u * 2 * 2;
+  EXPECT_EQ(lines_of(exported(path, rules)).size(),
+            1 + loads.size() + 5 * patches_of_face + 4 * patches_of_face);
+  EXPECT_NE(exported(path, rules).find("\"a \"\"b\"\", <c>"), std::string::npos);
+
+  rules.quantity = "irradiance";
+  rules.time = "2026-06-21T09:30Z";
+  const auto rows = lines_of(exported(path, rules));
+  EXPECT_EQ(rows.front(), "index,object,facade,surface,side,area_m2,irradiance_w_m2,time_utc");
+  // The ground, 2 + 1 kWh/m²; a hundredfold in the first hour.
+  EXPECT_EQ(rows.at(1), "0,ground,,ground,0,12.5,300,2026-06-21T09:30:00Z");
+
+  rules.quantity = "series";
+  rules.time = "";
+  // The header's names with their line ends, then the intervals.
+  const auto series = lines_of(exported(path, rules));
+  double sum = 0, whole = 0;
+  for (std::size_t i = 0; i < area.size(); ++i) {
+    sum += area[i] * loads[i];
+    whole += area[i];
+  }
+  const auto last = series.back();
+  EXPECT_EQ(last.find("2026-06-21T11:00:00Z,2026-06-21T12:00:00Z,2026-06-21T11:30:00Z,180,60,"),
+            0u);
+  EXPECT_NE(last.find(fmt::format(",{:.9g},", 200 * sum / whole)), std::string::npos)
+      << last << " " << 200 * sum / whole;
+}
+
+TEST(Export, CornersAreMeansWithinTheCreaseAngle) {
+  const ResultReader result(write_small_result({}, "export_crease"));
+  const ResultPatches patches(result);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < patches.area.size(); ++i)
+    values.push_back(static_cast<double>(i % 7));
+  // By definition, over all pairs.
+  for (const double crease_deg : {20.0, 100.0}) {
+    const auto means = corner_values(patches, values, crease_deg);
+    const double least = std::cos(crease_deg * std::acos(-1.0) / 180);
+    for (std::size_t p = 0; p < means.size(); ++p)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto vertex = [&](std::size_t q, std::size_t j) {
+          return patches.vertices[static_cast<std::size_t>(patches.corners[q][j])];
+        };
+        double sum = 0, area = 0;
+        for (std::size_t q = 0; q < means.size(); ++q)
+          for (std::size_t j = 0; j < 3; ++j)
+            if (vertex(q, j) == vertex(p, k) && dot(patches.normal[p], patches.normal[q]) > least) {
+              sum += patches.area[q] * values[q];
+              area += patches.area[q];
+            }
+        EXPECT_NEAR(means[p][k], sum / area, 1e-12) << p << " " << crease_deg;
+      }
+  }
+  // The crease parts: a wider angle joins walls and roof, and the corners differ.
+  EXPECT_NE(corner_values(patches, values, 20), corner_values(patches, values, 100));
+}
+
+TEST(Export, WhatIsNotKnownIsLeftOutOfMeans) {
+  const ResultReader result(write_small_result({}, "export_nan"));
+  const ResultPatches patches(result);
+  std::vector<double> values(patches.area.size(), 3);
+  values[0] = std::nan("");
+  const auto means = corner_values(patches, values, 20);
+  EXPECT_EQ(means[1][0], 3) << "a corner that the unknown patch shares";
+  std::fill(values.begin(), values.end(), std::nan(""));
+  EXPECT_TRUE(std::isnan(corner_values(patches, values, 20)[0][0]));
+  EXPECT_EQ(export_colour(Palette::grey, -1).red, export_colour(Palette::false_colour, -1).red);
+}
+
+TEST(Export, ColoursFollowTheScale) {
+  const ResultReader result(write_small_result({}, "export_colours"));
+  const ResultPatches patches(result);
+  ExportRules rules;
+  rules.largest = 6;
+  const auto colours = export_colours(result, rules, patches);
+  // Ground of 3 kWh/m² is half of 6.
+  EXPECT_EQ(colours.patch_step.at(0), std::lround(0.5 * (export_palette_steps - 1)));
+  EXPECT_TRUE(colours.corner_step.empty());
+  rules.largest = 1;
+  EXPECT_EQ(export_colours(result, rules, patches).patch_step.at(0), export_palette_steps - 1);
+  rules.interpolate = true;
+  EXPECT_EQ(export_colours(result, rules, patches).corner_step.size(), patches.area.size());
+}
+
+TEST(Export, VrmlSaysWhereItsColoursBelong) {
+  const auto path = write_small_result({}, "export_vrml_colours");
+  ExportRules rules;
+  rules.format = "vrml";
+  const auto constant = exported(path, rules);
+  EXPECT_EQ(count_of(constant, "colorPerVertex FALSE"), 1u);
+  EXPECT_EQ(count_of(constant, "IndexedFaceSet"), 1u);
+  rules.interpolate = true;
+  const auto smooth = exported(path, rules);
+  EXPECT_EQ(count_of(smooth, "colorPerVertex TRUE"), 1u);
+  EXPECT_EQ(count_of(smooth, ", -1,"), 2 * count_of(constant, ", -1,"));
+}
+
+TEST(Export, XdmfPointsIntoTheResult) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "export & xdmf";
+  std::filesystem::create_directories(folder);
+  ExportRules rules;
+  rules.format = "xdmf";
+  const auto path = write_small_result({}, "export_xdmf");
+  export_result(ResultReader(path), rules, (folder / "a.xdmf").string());
+  const auto text = text_of((folder / "a.xdmf").string());
+  EXPECT_EQ(count_of(text, "<Time Value="), 3u);
+  EXPECT_EQ(count_of(text, ">../export_xdmf.h5:/light_load<"), 3u);
+  EXPECT_EQ(count_of(text, ">2 0 1 1 1 "), 1u);
+  // From above, the folder's own name needs escaping.
+  std::filesystem::copy_file(path, folder / "b.h5",
+                             std::filesystem::copy_options::overwrite_existing);
+  export_result(ResultReader((folder / "b.h5").string()), rules, path_of("above.xdmf"));
+  EXPECT_GT(count_of(text_of(path_of("above.xdmf")), ">export &amp; xdmf/b.h5:/"), 0u);
+}
+
+TEST(Export, RefusesWhatItWouldNotHeed) {
+  ExportRules rules;
+  const auto with = [&](const char* format, auto change) {
+    ExportRules changed;
+    changed.format = format;
+    change(changed);
+    return refusal(changed, path_of("refused"));
+  };
+  const auto nothing = [](ExportRules&) {};
+  EXPECT_NE(with("obj", nothing).find("one of: csv, vtk, xdmf, glb, vrml, ply"), std::string::npos);
+  EXPECT_NE(with("vtk", [](auto& r) { r.palette = Palette::grey; }).find("no colours"),
+            std::string::npos);
+  EXPECT_NE(with("ply", [](auto& r) { r.interpolate = true; }).find("one value per patch"),
+            std::string::npos);
+  EXPECT_NE(with("glb", [](auto& r) { r.crease_angle_deg = 20; }).find("add --interpolate"),
+            std::string::npos);
+  EXPECT_NE(
+      with("glb", [](auto& r) { r.interpolate = true, r.crease_angle_deg = 181; }).find("[0, 180]"),
+      std::string::npos);
+  EXPECT_NE(with("glb", [](auto& r) { r.quantity = "patch_object"; }).find("choose one of"),
+            std::string::npos);
+  EXPECT_NE(
+      with("vtk", [](auto& r) { r.time = "2026-06-21T09:30Z"; }).find("--quantity irradiance"),
+      std::string::npos);
+  EXPECT_NE(with("xdmf", [](auto& r) { r.time = "2026-06-21T09:30Z"; }).find("all intervals"),
+            std::string::npos);
+  EXPECT_NE(with("csv",
+                 [](auto& r) {
+                   r.time = "2025-01-01T00:00Z";
+                   r.quantity = "irradiance";
+                 }),
+            "");
+  rules.format = "glb";
+  EXPECT_NE(refusal(rules, "").find("add -o FILE.glb"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(path_of("refused"))) << "nothing is left behind";
+  EXPECT_THROW(export_result(ResultReader(write_small_result({}, "export_no_folder")), rules,
+                             path_of("no_such_folder/a.glb")),
+               MachineError);
+}
+
+}  // namespace
+}  // namespace sunload

@@ -1,0 +1,427 @@
+#include "io/picture/render.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "geo/base/check.h"
+#include "geo/base/units.h"
+#include "geo/sky/sky_colour.h"
+#include "io/batch/chunk.h"
+#include "io/picture/camera.h"
+#include "io/picture/render_scene.h"
+#include "solver/base/threads.h"
+#include "tests/support/small_result.h"
+
+namespace sunload {
+namespace {
+
+using test::SmallResult;
+using test::write_small_result;
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string picture_path(const std::string& name) {
+  return (std::filesystem::path(testing::TempDir()) / (name + ".png")).string();
+}
+
+double colour_difference(Colour a, Colour b) {
+  const Lab p = lab_from_srgb(a), q = lab_from_srgb(b);
+  return std::hypot(p.lightness - q.lightness, p.a - q.a, p.b - q.b);
+}
+
+TEST(ColourMap, LabAndSrgbAreInverse) {
+  for (const Colour c : {Colour{0, 0, 0}, Colour{1, 1, 1}, Colour{0.2, 0.7, 0.4}}) {
+    const Colour back = srgb_from_lab(lab_from_srgb(c));
+    // The two matrices of the standard are inverse to seven digits.
+    EXPECT_NEAR(back.red, c.red, 1e-5);
+    EXPECT_NEAR(back.green, c.green, 1e-5);
+    EXPECT_NEAR(back.blue, c.blue, 1e-5);
+  }
+  EXPECT_NEAR(lab_from_srgb({1, 1, 1}).lightness, 100, 1e-4);
+  // Red of sRGB in CIELAB, as tabulated for D65: L* 53.24, a* 80.09, b* 67.20.
+  const Lab red = lab_from_srgb({1, 0, 0});
+  EXPECT_NEAR(red.lightness, 53.24, 0.005);
+  EXPECT_NEAR(red.a, 80.09, 0.01);
+  EXPECT_NEAR(red.b, 67.20, 0.01);
+}
+
+TEST(ColourMap, EqualStepsLookEqual) {
+  constexpr int steps = 64;
+  for (const auto palette : {Palette::false_colour, Palette::grey}) {
+    double least = 1e300, largest = 0;
+    for (int k = 0; k < steps; ++k) {
+      const double step = colour_difference(map_colour(palette, 1.0 * k / steps),
+                                            map_colour(palette, (k + 1.0) / steps));
+      least = std::min(least, step);
+      largest = std::max(largest, step);
+    }
+    // A helix is uniform but for clipping at the gamut, of which there is none.
+    EXPECT_LT(largest / least, 1.001);
+  }
+}
+
+/// Lightness as dichromats see it: Viénot, Brettel & Mollon (1999), Digital
+/// Video Colourmaps for Checking the Legibility of Displays by Dichromats.
+double lightness_without_red_cones(Colour c) {
+  const double r = linear_from_srgb(c.red), g = linear_from_srgb(c.green),
+               b = linear_from_srgb(c.blue);
+  const double mixed = 0.11238 * r + 0.88762 * g;
+  return lab_from_srgb({srgb_from_linear(mixed), srgb_from_linear(mixed),
+                        srgb_from_linear(std::max(0.0, 0.00401 * (r - g) + b))})
+      .lightness;
+}
+double lightness_without_green_cones(Colour c) {
+  const double r = linear_from_srgb(c.red), g = linear_from_srgb(c.green),
+               b = linear_from_srgb(c.blue);
+  const double mixed = 0.29275 * r + 0.70725 * g;
+  return lab_from_srgb({srgb_from_linear(mixed), srgb_from_linear(mixed),
+                        srgb_from_linear(std::max(0.0, -0.02234 * (r - g) + b))})
+      .lightness;
+}
+
+TEST(ColourMap, LightnessGrowsForEveryColourVision) {
+  constexpr int steps = 64;
+  for (int k = 0; k < steps; ++k) {
+    const Colour a = map_colour(Palette::false_colour, 1.0 * k / steps),
+                 b = map_colour(Palette::false_colour, (k + 1.0) / steps);
+    EXPECT_LT(lab_from_srgb(a).lightness, lab_from_srgb(b).lightness) << k;
+    EXPECT_LT(lightness_without_red_cones(a), lightness_without_red_cones(b)) << k;
+    EXPECT_LT(lightness_without_green_cones(a), lightness_without_green_cones(b)) << k;
+  }
+}
+
+TEST(ColourMap, TicksAreRound) {
+  const auto ticks = round_ticks(3, 6);
+  EXPECT_EQ(ticks.step, 0.5);
+  EXPECT_EQ(ticks.values.size(), 7u);
+  EXPECT_EQ(ticks.decimals, 1);
+  EXPECT_EQ(round_ticks(800, 6).step, 200);
+  EXPECT_EQ(round_ticks(800, 6).decimals, 0);
+  EXPECT_EQ(round_ticks(0.3, 3).values.size(), 4u);  // 3 · 0.1 is not lost
+  EXPECT_EQ(rounded_up(3.2), 4);
+  EXPECT_EQ(rounded_up(900), 1000);
+  EXPECT_NEAR(rounded_up(0.012), 0.012, 1e-12);
+}
+
+TEST(Camera, FittedCameraHoldsItsPoints) {
+  const std::vector<Vec3> points{{0, 0, 0}, {30, 0, 0}, {0, 10, 0}, {5, 5, 20}};
+  constexpr int width = 600, height = 400;
+  const auto camera = Camera::fitted(points, {-1, -1, 1}, 30, width, height);
+  const auto centre = camera.ray(width / 2.0, height / 2.0);
+  double widest = 0;
+  for (const Vec3 p : points) {
+    const Vec3 way = normalized(p - centre.origin);
+    const auto at = camera.image_direction(way / dot(way, centre.direction));
+    const double half_height = std::tan(radians(15));
+    const double x = at.x / (half_height * width / height), y = at.y / half_height;
+    EXPECT_LT(std::max(std::abs(x), std::abs(y)), 0.9401);
+    widest = std::max({widest, std::abs(x), std::abs(y)});
+  }
+  EXPECT_GT(widest, 0.9399);  // tight: what touches the margin, touches it exactly
+}
+
+TEST(Render, SeenFromAboveEveryRoofHasItsColour) {
+  const ResultReader result(write_small_result(SmallResult{}, "render_top"));
+  const PatchScene scene(result);
+  PatchColours colours;
+  colours.largest = 4;
+  for (std::size_t i = 0; i < scene.patch_count(); ++i) colours.values.push_back(1);
+  const auto object = result.integers("patch_object");
+  for (std::size_t i = 0; i < object.size(); ++i)
+    if (object[i] == 1) colours.values[i] = 3;  // house_1
+  constexpr int width = 400, height = 400;
+  const auto camera =
+      Camera::parallel({{-20, -20, 0}, {20, 20, 0}}, {0, 0, 1}, {0, 1, 0}, width, height);
+  const RayCaster caster(scene.mesh());
+  const auto pixels = drawn_pixels(scene, caster, camera, width, height, colours);
+  const Colour bright = map_colour(Palette::false_colour, 0.75);
+  std::size_t count = 0;
+  double x_sum = 0;
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    if (colour_difference(pixels[i], bright) < 1) {
+      ++count;
+      x_sum += static_cast<double>(i % width);
+    }
+  // The plate of 40 m fills 94 % of the picture; the roof is 10 m × 8 m, less
+  // the line about it, which is at most one pixel wide on its side.
+  const double metre = 0.94 * width / 40;
+  EXPECT_LE(static_cast<double>(count), 80 * metre * metre + 2 * 18 * metre);
+  EXPECT_GE(static_cast<double>(count), (10 * metre - 2) * (8 * metre - 2) - 2 * 18 * metre);
+  EXPECT_NEAR(x_sum / static_cast<double>(count), width / 2.0 - 7 * metre, 1);  // in the west
+}
+
+TEST(Render, BacksOfTwoSidedPatchesHaveTheirOwnValue) {
+  const ResultReader result(write_small_result(SmallResult{}, "render_sides"));
+  const PatchScene scene(result);
+  const auto awning = result.strings("object_name").size() - 1;
+  const auto object = result.integers("patch_object"), side = result.integers("patch_side");
+  std::size_t twins = 0;
+  for (std::size_t t = 0; t < scene.mesh().triangle_count(); ++t) {
+    const auto triangle = static_cast<std::int32_t>(t);
+    const auto front = scene.patch_met(triangle, true), back = scene.patch_met(triangle, false);
+    const bool is_awning =
+        object[static_cast<std::size_t>(front)] == static_cast<std::int32_t>(awning);
+    EXPECT_EQ(back >= 0, is_awning);
+    if (back < 0) continue;
+    EXPECT_EQ(back, front + 1);
+    EXPECT_EQ(side[static_cast<std::size_t>(back)], 1);
+    ++twins;
+  }
+  EXPECT_EQ(twins, 8u);
+}
+
+TEST(Render, WritesTheSamePngForAnyNumberOfThreads) {
+  const ResultReader result(write_small_result(SmallResult{}, "render_threads"));
+  RenderRules rules;
+  rules.width = 640;
+  rules.height = 400;
+  rules.mesh = MeshLines::patches;
+  const int threads = thread_count();
+  std::vector<std::string> files;
+  for (const int n : {1, 2, 7}) {
+    set_thread_count(n);
+    render_png(result, rules, picture_path("render_threads"));
+    files.push_back(bytes_of(picture_path("render_threads")));
+  }
+  set_thread_count(threads);
+  EXPECT_EQ(files[0], files[1]);
+  EXPECT_EQ(files[0], files[2]);
+  // PNG's signature, then width and height as 32-bit numbers in its first chunk.
+  EXPECT_EQ(files[0].substr(0, 8), "\x89PNG\r\n\x1a\n");
+  EXPECT_EQ(files[0].substr(16, 8), std::string("\0\0\x02\x80\0\0\x01\x90", 8));
+}
+
+TEST(Render, EveryViewAndQuantityWorks) {
+  const ResultReader result(write_small_result(SmallResult{}, "render_views"));
+  RenderRules rules;
+  rules.width = 480;
+  rules.height = 320;
+  for (const auto view : {View::overview, View::sun, View::top})
+    for (const char* quantity : {"light_load", "irradiance", "sun_hours"}) {
+      rules.view = view;
+      rules.quantity = quantity;
+      EXPECT_NO_THROW(render_png(result, rules, picture_path("render_views")));
+    }
+  // In absolute coordinates: the origin of the result lies at (1000, 2000, 0).
+  rules.eye = {1000, 1985, 2};
+  rules.look = {1000, 2000, 4};
+  EXPECT_NO_THROW(render_png(result, rules, picture_path("render_views")));
+}
+
+TEST(ColourMap, HueRunsFromBlueToRed) {
+  const auto expect = [](double share, double red, double green, double blue) {
+    const Colour c = map_colour(Palette::hue, share);
+    EXPECT_NEAR(c.red, red, 1e-12) << share;
+    EXPECT_NEAR(c.green, green, 1e-12) << share;
+    EXPECT_NEAR(c.blue, blue, 1e-12) << share;
+  };
+  // Lightness and saturation 1/2: the largest channel is 3/4, the smallest 1/4.
+  expect(0, 0.25, 0.25, 0.75);
+  expect(0.25, 0.25, 0.75, 0.75);
+  expect(0.5, 0.25, 0.75, 0.25);
+  expect(0.75, 0.75, 0.75, 0.25);
+  expect(1, 0.75, 0.25, 0.25);
+}
+
+/// Pixels of a result seen from above, one colour for every patch but by `values`.
+std::vector<Colour> seen_from_above(const ResultReader& result, const PatchColours& colours,
+                                    int size) {
+  const PatchScene scene(result);
+  const auto camera =
+      Camera::parallel({{-20, -20, 0}, {20, 20, 0}}, {0, 0, 1}, {0, 1, 0}, size, size);
+  const RayCaster caster(scene.mesh());
+  return drawn_pixels(scene, caster, camera, size, size, colours);
+}
+
+TEST(Render, InterpolatedColoursRunBetweenCorners) {
+  const ResultReader result(write_small_result(SmallResult{}, "render_smooth"));
+  constexpr int size = 200;
+  // The load grows with x as corners have it: colours of the ground are those of the place.
+  PatchColours colours;
+  colours.largest = 40;
+  const auto vertices = result.doubles("vertex_position");
+  const auto corners = result.integers("patch_vertices"), side = result.integers("patch_side");
+  for (std::size_t p = 0; p < side.size(); ++p) {
+    colours.values.push_back(0);
+    auto& values = colours.corner_values.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k)
+      values[k] = 20 + vertices[3 * static_cast<std::size_t>(corners[3 * p + k])];
+  }
+  const auto pixels = seen_from_above(result, colours, size);
+  const double metre = 0.94 * size / 40;
+  std::size_t wrong = 0, count = 0;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const double east = (x + 0.5 - size / 2.0) / metre, north = (size / 2.0 - y - 0.5) / metre;
+      // The open ground south of the houses and of the awning.
+      if (std::abs(east) > 19 || north < -19 || north > -12) continue;
+      ++count;
+      wrong += colour_difference(pixels[static_cast<std::size_t>(y * size + x)],
+                                 map_colour(Palette::false_colour, (20 + east) / 40)) > 1;
+    }
+  EXPECT_GT(count, 1000u);
+  EXPECT_EQ(wrong, 0u);
+  // Constant patches are another picture.
+  colours.corner_values.clear();
+  EXPECT_GT(colour_difference(pixels[180 * size + 150],
+                              seen_from_above(result, colours, size)[180 * size + 150]),
+            10);
+}
+
+TEST(Render, ThePlaneBehindIsTheSkysColour) {
+  const ResultReader result(write_small_result(SmallResult{}, "render_sky"));
+  const PatchScene scene(result);
+  const RayCaster caster(scene.mesh());
+  constexpr int size = 64;
+  // From the ground straight up between the houses, past the awning.
+  const auto camera = Camera::perspective({0, -15, 1}, {0, -15.1, 20}, 20, size, size);
+  const TracedPicture traced(scene, caster, camera, size, size, MeshLines::none);
+  PatchColours colours;
+  colours.values.assign(scene.patch_count(), 1);
+  const Vec3 sun = normalized({0, -1, 1});
+  for (const auto& [kind, model] : {std::pair{SkyBackground::first, SkyColourModel::first},
+                                    std::pair{SkyBackground::second, SkyColourModel::second}}) {
+    const auto pixels = traced.pixels(colours, {kind, sun});
+    const auto expected =
+        sky_colour(model, camera.ray(size / 2.0, size / 2.0).direction, sun, picture_gain);
+    const Colour encoded{expected.red, expected.green, expected.blue};  // values of a display
+    EXPECT_LT(colour_difference(pixels[size / 2 * size + size / 2], encoded), 0.5);
+    EXPECT_GT(colour_difference(plain_sky, encoded), 5);
+  }
+  // A sun below the horizon paints no sky.
+  EXPECT_LT(colour_difference(
+                traced.pixels(colours, {SkyBackground::second, {0, -1, -0.1}}).front(), plain_sky),
+            0.1);
+}
+
+TEST(Render, AFacadeIsSeenFromBeforeIt) {
+  const ResultReader result(write_small_result(SmallResult{}, "render_facade"));
+  const PatchScene scene(result);
+  const auto shape = scene.facade_shape(result, "house_1/south_1");
+  EXPECT_NEAR(shape.normal.y, -1, 1e-9);
+  constexpr int size = 100;
+  const auto camera = Camera::parallel(shape.points, shape.normal, {0, 0, 1}, size, size, 2);
+  const RayCaster caster(scene.mesh());
+  PatchColours colours;
+  colours.largest = 4;
+  const auto facade = result.integers("patch_facade");
+  const auto names = result.strings("facade_name");
+  for (const auto f : facade)
+    colours.values.push_back(f >= 0 && names[static_cast<std::size_t>(f)] == "house_1/south_1" ? 3
+                                                                                               : 0);
+  const auto pixels = drawn_pixels(scene, caster, camera, size, size, colours);
+  EXPECT_LT(colour_difference(pixels[50 * size + 50], map_colour(Palette::false_colour, 0.75)), 1);
+  EXPECT_THROW(scene.facade_shape(result, "house_9/south_1"), InputError);
+}
+
+std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
+  std::uint32_t number = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    number = number << 8 | static_cast<unsigned char>(bytes.at(at + k));
+  return number;
+}
+
+/// Names of the chunks of a PNG with the check of each.
+std::vector<std::string> chunks_of(const std::string& png) {
+  std::vector<std::string> names;
+  for (std::size_t at = 8; at < png.size();) {
+    const std::size_t length = big_endian(png, at);
+    names.push_back(png.substr(at + 4, 4));
+    EXPECT_EQ(big_endian(png, at + 8 + length), crc32(png.data() + at + 4, length + 4))
+        << names.back();
+    at += length + 12;
+  }
+  return names;
+}
+
+TEST(Render, AnAnimationHasAPictureForEverySun) {
+  const ResultReader result(write_small_result(SmallResult{}, "render_animation"));
+  RenderRules rules;
+  rules.width = 480;
+  rules.height = 320;
+  const auto path = picture_path("animation");
+  render_animation(result, rules, {}, path);
+  const auto png = bytes_of(path);
+  const auto chunks = chunks_of(png);
+  // Three hours of sun: the first picture is the one that all readers know.
+  EXPECT_EQ(std::count(chunks.begin(), chunks.end(), "fcTL"), 3);
+  EXPECT_EQ(chunks[1], "acTL");
+  EXPECT_EQ(big_endian(png, 8 + 25 + 8), 3u);
+  EXPECT_EQ(chunks.back(), "IEND");
+  const auto before_data = [&](const char* name) {
+    return std::find(chunks.begin(), chunks.end(), name);
+  };
+  EXPECT_LT(before_data("fcTL"), before_data("IDAT"));
+  EXPECT_LT(before_data("IDAT"), before_data("fdAT"));
+  // One scale for all: the second hour by itself, with the animation's limit, is its second
+  // picture.
+  std::vector<std::string> single;
+  for (const char* name : {"animation-0001", "animation-0002", "animation-0003"})
+    single.push_back(bytes_of(picture_path(name)));
+  EXPECT_NE(single[0], single[1]);
+  rules.quantity = "irradiance";
+  render_png(result, rules, picture_path("animation_second"));  // the brightest
+  EXPECT_EQ(bytes_of(picture_path("animation_second")), single[1]);
+  EXPECT_THROW(render_animation(result, rules, "2031-01-01", path), InputError);
+}
+
+TEST(Render, PicturesThatAreComparedShareTheirScale) {
+  SmallResult brighter;
+  brighter.load = [](const std::string&, Vec3, std::size_t) { return 30; };
+  const auto other = write_small_result(brighter, "render_brighter");
+  const ResultReader result(write_small_result(SmallResult{}, "render_scale"));
+  RenderRules rules;
+  rules.width = 480;
+  rules.height = 320;
+  rules.same_scale = {other};
+  render_png(result, rules, picture_path("shared"));
+  rules.same_scale = {};
+  rules.largest = 30;
+  render_png(result, rules, picture_path("limit"));
+  EXPECT_EQ(bytes_of(picture_path("shared")), bytes_of(picture_path("limit")));
+}
+
+TEST(Render, RefusesWhatTheResultDoesNotHave) {
+  const ResultReader result(write_small_result(SmallResult{}, "render_refuses"));
+  const auto path = picture_path("render_refuses");
+  std::filesystem::remove(path);
+  const auto with = [](auto change) {
+    RenderRules rules;
+    change(rules);
+    return rules;
+  };
+  const std::vector<RenderRules> wrong{with([](RenderRules& r) { r.quantity = "glare"; }),
+                                       with([](RenderRules& r) { r.quantity = "patch_object"; }),
+                                       with([](RenderRules& r) { r.quantity = "time"; }),
+                                       with([](RenderRules& r) { r.time = "2027-01-01"; }),
+                                       with([](RenderRules& r) {
+                                         r.eye = Vec3{1, 2, 3};
+                                       }),
+                                       with([](RenderRules& r) {
+                                         r.eye = r.look = Vec3{1, 2, 3};
+                                       }),
+                                       with([](RenderRules& r) { r.largest = 0.0; }),
+                                       with([](RenderRules& r) { r.facade = "no_facade"; }),
+                                       with([](RenderRules& r) { r.crease_angle_deg = 10; }),
+                                       with([](RenderRules& r) {
+                                         r.view = View::top;
+                                         r.projection = Projection::parallel;
+                                       }),
+                                       with([](RenderRules& r) { r.width = 10; })};
+  for (const auto& rules : wrong) EXPECT_THROW(render_png(result, rules, path), InputError);
+  EXPECT_FALSE(std::filesystem::exists(path));
+  EXPECT_THROW(render_png(result, with([](RenderRules& r) { r.width = r.height = 400; }),
+                          picture_path("no_such_folder/x")),
+               MachineError);
+}
+
+}  // namespace
+}  // namespace sunload

@@ -1,0 +1,200 @@
+/// The sky command's table and pictures, and the sun-path diagram's geometry.
+#include "io/plan/sky_dome.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "geo/base/check.h"
+#include "io/picture/dome_chart.h"
+#include "io/picture/sun_diagram.h"
+
+namespace sunload {
+namespace {
+
+Study study_at_prague() {
+  Study study;
+  study.name = "test";
+  study.site.latitude_deg = 50;
+  study.site.longitude_deg = 14;
+  study.site.timezone = "Europe/Prague";
+  study.scene.builtin = BuiltinStudy{"box_on_plane", {}, {}};
+  study.period.kind = DaysPeriod{{{2026, 3, 21, 0, 0, 0}}, 0, seconds_per_day, 60};
+  return study;
+}
+
+double horizontal_irradiance(const std::vector<SkyRow>& rows) {
+  double sum = 0;
+  for (const auto& row : rows)
+    sum += row.radiance * row.solid_angle * std::sin(radians(row.elevation_deg));
+  return sum;
+}
+
+TEST(SkyDome, TableHoldsTheDiffuseLight) {
+  const SkyDome dome = sky_dome(study_at_prague(), "2026-06-21T12:00");
+  EXPECT_GT(dome.light.mean.dhi, 50);
+  const std::optional<Subdivision> subdivisions[] = {
+      {}, Subdivision::tregenza, Subdivision::reinhart_mf2, Subdivision::reinhart_mf4};
+  const std::size_t counts[] = {4096, 145, 577, 2305};
+  const double tolerances[] = {0.02 / 16, 0.02, 0.02 / 4, 0.02 / 16};
+  for (std::size_t n = 0; n < 4; ++n) {
+    const auto rows = sky_rows(dome, subdivisions[n]);
+    ASSERT_EQ(rows.size(), counts[n]);
+    double solid_angle = 0;
+    for (const auto& row : rows) {
+      solid_angle += row.solid_angle;
+      EXPECT_GE(row.radiance, 0);
+    }
+    EXPECT_NEAR(solid_angle, 2 * pi, 1e-9);
+    // Radiance times the cosine of a patch's middle is a midpoint rule: its error falls with the
+    // square of the patches' size, from some 2 % for those of 12 degrees (the cells are of 1.4).
+    EXPECT_NEAR(horizontal_irradiance(rows), dome.light.mean.dhi,
+                tolerances[n] * dome.light.mean.dhi);
+  }
+  const std::string csv = sky_csv(sky_rows(dome, Subdivision::tregenza));
+  EXPECT_TRUE(
+      csv.starts_with("azimuth_deg,elevation_deg,radiance_w_m2_sr,solid_angle_sr,"
+                      "projected_solid_angle_sr\n0.0"));
+}
+
+// By the exact projection no light is lost or won at the horizon, of a low sun either; what is
+// left is that radiance and cosine vary together inside of a patch.
+TEST(SkyDome, ProjectionsOfPatchesKeepTheDiffuseLight) {
+  const SkyDome dome = sky_dome(study_at_prague(), "2026-06-21T05:30");
+  const auto error = [&](std::optional<Subdivision> subdivision, auto cosine_weight) {
+    double sum = 0;
+    for (const auto& row : sky_rows(dome, subdivision)) sum += row.radiance * cosine_weight(row);
+    return std::abs(sum / dome.light.mean.dhi - 1);
+  };
+  const auto exact = [](const SkyRow& row) { return row.projected; };
+  const auto middle = [](const SkyRow& row) {
+    return row.solid_angle * std::sin(radians(row.elevation_deg));
+  };
+  EXPECT_LT(error({}, exact), 1e-9);
+  for (const auto kind : {Subdivision::reinhart_mf2, Subdivision::reinhart_mf4})
+    EXPECT_LT(error(kind, exact), error(kind, middle));
+  double projected = 0;
+  for (const auto& row : sky_rows(dome, Subdivision::tregenza)) projected += row.projected;
+  EXPECT_NEAR(projected, pi, 1e-9);
+}
+
+TEST(SkyDome, SaysWhatHappensToItsTime) {
+  const SkyDome skipped = sky_dome(study_at_prague(), "2024-03-31T02:30");
+  ASSERT_FALSE(skipped.notes.empty());
+  EXPECT_NE(skipped.notes.front().find("02:30 is skipped"), std::string::npos);
+  EXPECT_TRUE(sky_dome(study_at_prague(), "2024-03-31T12:30").notes.empty());
+  EXPECT_EQ(skipped.model, "Perez all-weather sky");
+}
+
+TEST(SkyDome, BrightestPatchIsAtTheSun) {
+  Study study = study_at_prague();
+  study.site.north_deg = 70;  // turns the scene, not the sky
+  const SkyDome dome = sky_dome(study, "2026-06-21T09:00");
+  SkyRow brightest;
+  for (const auto& row : sky_rows(dome, {}))
+    if (row.radiance > brightest.radiance) brightest = row;
+  const Vec3 sun =
+      enu_direction({dome.light.when.sun.azimuth_deg, dome.light.when.sun.elevation_deg});
+  const Vec3 found = enu_direction({brightest.azimuth_deg, brightest.elevation_deg});
+  constexpr double cell_deg = 2;  // cells are 90°/64 wide, and the gradation shifts the maximum
+  EXPECT_LT(degrees(std::acos(dot(sun, found))), cell_deg);
+}
+
+TEST(SkyDome, HillsShineAsTheGround) {
+  Study study = study_at_prague();
+  study.site.horizon = Horizon({{0, 30}});
+  const SkyDome dome = sky_dome(study, "2026-06-21T12:00");
+  EXPECT_EQ(dome.radiance({10, 29}), dome.ground_radiance);
+  EXPECT_NE(dome.radiance({10, 31}), dome.ground_radiance);
+  for (const auto& row : sky_rows(dome, Subdivision::reinhart_mf4)) {
+    if (row.elevation_deg >= 25) continue;
+    EXPECT_EQ(row.radiance, dome.ground_radiance);
+  }
+}
+
+TEST(SkyDome, TimesAreThoseOfAStudy) {
+  const Study study = study_at_prague();
+  const auto sun_time = [&](const std::string& time) {
+    return sky_dome(study, time).light.when.sun_time;
+  };
+  EXPECT_EQ(iso_utc(sun_time("2026-06-21T12:00")), "2026-06-21T10:00:00Z");
+  EXPECT_EQ(sun_time("2026-06-21T12:00"), sun_time("2026-06-21T10:00Z"));
+  EXPECT_EQ(sun_time("2026-06-21 12:00"), sun_time("2026-06-21T11:00+01:00"));
+  EXPECT_THROW(sun_time("2026-06-21"), InputError);
+  EXPECT_THROW(sun_time("noon"), InputError);
+  Study positions = study;
+  positions.period.kind = PositionsPeriod{{{90, 20, 60}, {180, 50, 60}}};
+  positions.light.source = LightSource::fixed;
+  positions.light.dhi_w_m2 = 100;
+  EXPECT_EQ(sky_dome(positions, "2000-01-01T13:30Z").light.when.sun.azimuth_deg, 180);
+  EXPECT_THROW(sky_dome(positions, "2026-01-01T12:00Z"), InputError);
+}
+
+TEST(DomeChart, IsAMapWithNorthUpAndEastRight) {
+  const Picture picture(400, 400);
+  for (const auto projection : {DomeProjection::stereographic, DomeProjection::equidistant}) {
+    const DomeChart chart(picture, projection, 0);
+    const auto [cx, cy] = chart.centre();
+    const double R = chart.radius();
+    const auto expect_at = [&](Horizontal place, double x, double y) {
+      const PicturePoint p = chart.at(place);
+      EXPECT_NEAR(p.x, cx + x * R, 1e-9);
+      EXPECT_NEAR(p.y, cy + y * R, 1e-9);
+    };
+    expect_at({0, 90}, 0, 0);
+    expect_at({0, 0}, 0, -1);
+    expect_at({90, 0}, 1, 0);
+    expect_at({180, 0}, 0, 1);
+    expect_at({270, 0}, -1, 0);
+    const bool is_stereographic = projection == DomeProjection::stereographic;
+    expect_at({90, 45}, is_stereographic ? std::tan(pi / 8) : 0.5, 0);
+    const auto back = chart.place(chart.at({123, 34}));
+    ASSERT_TRUE(back);
+    EXPECT_NEAR(back->azimuth_deg, 123, 1e-9);
+    EXPECT_NEAR(back->elevation_deg, 34, 1e-9);
+    EXPECT_FALSE(chart.place({cx + R * 1.001, cy}));
+  }
+}
+
+/// A PNG of some kilobytes was written.
+void expect_picture(const std::function<void(const std::string&)>& draw) {
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("sunload_dome_" + std::to_string(getpid()) + ".png");
+  draw(path.string());
+  std::string head(4, ' ');
+  std::ifstream(path, std::ios::binary).read(head.data(), 4);
+  EXPECT_EQ(head, "\x89PNG");
+  EXPECT_GT(std::filesystem::file_size(path), 10000u);
+  std::filesystem::remove(path);
+}
+
+TEST(SkyPicture, IsDrawnByDayAndNight) {
+  for (const char* time : {"2026-06-21T12:00", "2026-06-21T20:30", "2026-06-21T01:00"}) {
+    const SkyDome dome = sky_dome(study_at_prague(), time);
+    for (const SkyPicture kind : {SkyPicture::luminance, SkyPicture::colour})
+      expect_picture([&](const std::string& path) { draw_sky(dome, {.kind = kind}, path); });
+  }
+}
+
+TEST(SunDiagram, IsDrawnFromPoleToPole) {
+  for (const double latitude_deg : {90.0, 78.0, 50.0, 0.0, -34.0, -90.0}) {
+    Study study = study_at_prague();
+    study.site.latitude_deg = latitude_deg;
+    study.site.horizon = Horizon({{0, 5}, {90, 20}});
+    const Site site{.latitude_deg = latitude_deg,
+                    .longitude_deg = 14,
+                    .north_deg = 20,
+                    .timezone = "Europe/Prague",
+                    .horizon = study.site.horizon};
+    expect_picture([&](const std::string& path) {
+      draw_sun_diagram(study, site, light_series(study, site), path);
+    });
+  }
+}
+
+}  // namespace
+}  // namespace sunload

@@ -1,0 +1,276 @@
+// Weather of a study: its own steps and others, years, missing values, site, hash, time it takes.
+#include "io/plan/weather_light.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <iostream>
+
+#include "io/plan/light_series.h"
+#include "io/plan/scene_build.h"
+#include "io/plan/variant_plan.h"
+#include "tests/support/reference.h"
+#include "tests/support/scene_text.h"
+
+namespace sunload {
+namespace {
+
+using test::shared_missing;
+using test::write_text;
+
+const std::string weather_folder = "data/weather/";
+
+Study study_of(const std::string& site, const std::string& period, const std::string& light) {
+  write_text("flat.obj", "v 0 0 0\nv 10 0 0\nv 0 10 0\nf 1 2 3\n");
+  const std::string text = fmt::format(
+      "format: sunload-study-1\nname: w\n{}period: {{{}}}\nlight: {{source: weather, {}}}\n"
+      "scene: {{files: [flat.obj]}}\n",
+      site.empty() ? "" : "site: {" + site + "}\n", period, light);
+  return read_study(write_text("w.yaml", text)).variants.front();
+}
+
+std::string shared(const std::string& name) {
+  return "weather: " + test::shared_path(weather_folder + name);
+}
+
+LightSeries series_of(const Study& study) { return light_series(study, build_scene(study).site); }
+
+std::string refused(const Study& study) {
+  try {
+    series_of(study);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+bool says(const std::vector<std::string>& lines, const std::string& part) {
+  for (const auto& line : lines)
+    if (line.find(part) != line.npos) return true;
+  return false;
+}
+
+/// A day of hours that ends at midnight, with an offset from UTC of `offset_h`.
+std::string csv_day(const std::string& date, const std::string& row_values,
+                    const std::string& columns, const std::string& head) {
+  std::string text = head + "time," + columns + "\n";
+  for (int hour = 1; hour <= 24; ++hour)
+    text += fmt::format("{}T{:02}:00,{}\n", date, hour, row_values);
+  return text;
+}
+
+const std::string roof =
+    "# place: Roof\n# latitude_deg: 50\n# longitude_deg: 14\n# elevation_m: 250\n"
+    "# utc_offset: +01:00\n";
+
+TEST(WeatherLight, YearOfAnEpwIsItsRecordsAndFast) {
+  if (shared_missing(weather_folder + "WD100_denver.epw")) return;
+  const Study study = study_of("", "year_of: weather", shared("WD100_denver.epw"));
+  const auto built = build_scene(study);
+  EXPECT_NE(built.site_source.find("weather station Denver"), std::string::npos);
+  EXPECT_EQ(built.site.latitude_deg, 39.833);
+  EXPECT_EQ(built.site.elevation_m, 1650);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto series = light_series(study, built.site);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+  std::cout << series.intervals.size() << " intervals: " << taken.count() * 1000 << " ms\n";
+  EXPECT_LT(taken.count(), 1);  // some 60 ms; ten times and more for a busy machine
+  ASSERT_EQ(series.intervals.size(), 8760u);
+  const auto file = read_weather_file(study.light.weather, {});
+  double dropped = 0, ghi = 0;
+  for (std::size_t i = 0; i < series.intervals.size(); ++i) {
+    const LitInterval& lit = series.intervals[i];
+    const WeatherValues& values = file.records[i].values;
+    EXPECT_EQ(lit.mean.dhi, *values.dhi);
+    EXPECT_EQ(lit.mean.ghi, *values.ghi);
+    ghi += lit.mean.ghi / 1000;
+    if (lit.when.sunlit_s > 0) {
+      EXPECT_EQ(lit.mean.dni, *values.dni);
+    } else {
+      EXPECT_EQ(lit.mean.dni, 0);
+      dropped += *values.dni;
+    }
+  }
+  EXPECT_NEAR(ghi, 1670, 0.5);  // README of the weather files, whole kWh
+  EXPECT_EQ(says(series.weather, "of direct light dropped"), dropped > 0);
+  EXPECT_TRUE(says(series.weather, "typical year written as 2001"));
+  EXPECT_TRUE(says(series.weather, "closure DNI sin(elevation) + DHI - GHI"));
+  EXPECT_EQ(iso_utc(series.intervals.front().when.begin), "2001-01-01T07:00:00Z");
+  EXPECT_TRUE(series.notes.empty());
+}
+
+TEST(WeatherLight, TypicalYearsSayThatTheyHaveNoLeapDay) {
+  if (shared_missing(weather_folder + "chicago_tmy3.epw")) return;
+  const auto why = [](const std::string& day) {
+    return refused(
+        study_of("timezone: America/Chicago", "days: [" + day + "]", shared("chicago_tmy3.epw")));
+  };
+  EXPECT_NE(why("2024-02-29").find("have no 29 February"), std::string::npos) << why("2024-02-29");
+  EXPECT_EQ(why("2024-02-28"), "");
+}
+
+TEST(WeatherLight, SolverGetsDiffuseLightInTheDark) {
+  const auto file =
+      write_text("day.csv", csv_day("2026-06-21", "100,40", "dni_w_m2,dhi_w_m2", roof));
+  const Study study = study_of("", "year_of: weather", "weather: day.csv, stamp: end");
+  const auto series = series_of(study);
+  ASSERT_EQ(series.intervals.size(), 24u);
+  const SkyGrid grid;
+  std::size_t dark = 0;
+  for (const auto& interval : series.intervals) {
+    const SunLight light = sun_light(interval, 0, study.light, grid);
+    EXPECT_FALSE(light.is_dark());
+    double horizontal = 0;
+    for (std::size_t c = 0; c < light.sky.size(); ++c) {
+      EXPECT_TRUE(std::isfinite(light.sky[c]) && light.sky[c] >= 0);
+      horizontal += light.sky[c] * grid.projected()[c];
+    }
+    EXPECT_NEAR(horizontal, 40, 1e-9);
+    if (interval.when.sunlit_s > 0) continue;
+    ++dark;
+    EXPECT_EQ(light.dni, 0);
+    EXPECT_FALSE(light.has_sun());
+  }
+  EXPECT_EQ(dark, 6u);  // the whole hours between sunset at 20:14 and sunrise at 03:53
+}
+
+TEST(WeatherLight, TypicalYearsServeForTheDatesOfThePeriod) {
+  if (shared_missing(weather_folder + "munich_iwec.epw")) return;
+  const auto own = series_of(study_of("", "year_of: weather", shared("munich_iwec.epw")));
+  const auto day =
+      series_of(study_of("latitude_deg: 48.13, longitude_deg: 11.7, elevation_m: 529, "
+                         "timezone: Europe/Berlin",
+                         "days: [2028-06-21]", shared("munich_iwec.epw")));
+  ASSERT_EQ(day.intervals.size(), 24u);
+  EXPECT_EQ(iso_utc(day.intervals.front().when.begin), "2028-06-20T22:00:00Z");
+  // 00:00 of summer time is 23:00 of 20 June in standard time: the 24th hour of the 171st day.
+  for (std::size_t i = 0; i < 24; ++i) {
+    EXPECT_EQ(day.intervals[i].mean.dhi, own.intervals[170 * 24 + 23 + i].mean.dhi) << i;
+    EXPECT_NEAR(day.intervals[i].mean.dni, own.intervals[170 * 24 + 23 + i].mean.dni, 1e-9) << i;
+  }
+  EXPECT_TRUE(says(day.weather, "taken for the dates of the period"));
+  const auto leap =
+      refused(study_of("timezone: UTC", "days: [2028-02-29]", shared("munich_iwec.epw")));
+  EXPECT_NE(leap.find("the weather does not cover"), std::string::npos) << leap;
+  const auto across = series_of(
+      study_of("timezone: UTC", "start: 2026-12-31, end: 2027-01-02", shared("munich_iwec.epw")));
+  EXPECT_EQ(across.intervals.size(), 48u);
+}
+
+TEST(WeatherLight, ActualYearsKeepTheirDates) {
+  if (shared_missing(weather_folder + "zurich_sma_2016_leap.epw")) return;
+  const std::string zurich = shared("zurich_sma_2016_leap.epw");
+  const auto missing = refused(study_of("", "year_of: weather", zurich));
+  EXPECT_NE(missing.find("epw:7201: irradiance is missing here (120 of 8784 records"),
+            std::string::npos)
+      << missing;
+  const auto leap_day = series_of(study_of("timezone: UTC", "days: [2016-02-29]", zurich));
+  EXPECT_EQ(leap_day.intervals.size(), 24u);
+  EXPECT_NE(refused(study_of("timezone: UTC", "days: [2026-06-21]", zurich))
+                .find("does not cover 2026-06-21T00:00:00Z"),
+            std::string::npos);
+  for (const char* how : {"interpolate", "zero"}) {
+    const auto filled = series_of(study_of("", "year_of: weather", zurich + ", missing: " + how));
+    EXPECT_EQ(filled.intervals.size(), 8784u);
+    EXPECT_TRUE(says(filled.notes, "120 of 8784 records lack a value, the longest gap has 120 h"));
+    double light = 0;
+    for (std::size_t i = 7200; i < 7312; ++i) light += filled.intervals[i].mean.dhi;
+    EXPECT_EQ(light > 0, std::string(how) == "interpolate");
+  }
+  EXPECT_NE(refused(study_of("", "year_of: weather, as_year: 2001", zurich + ", missing: zero"))
+                .find("2001 has no 29 February"),
+            std::string::npos);
+  EXPECT_EQ(
+      iso_utc(series_of(study_of("", "year_of: weather, as_year: 2004", zurich + ", missing: zero"))
+                  .intervals.back()
+                  .when.end),
+      "2004-12-31T23:00:00Z");
+}
+
+TEST(WeatherLight, GlobalIrradianceNamesItsDecomposition) {
+  const auto file = write_text("day.csv", csv_day("2026-06-21", "400", "ghi_w_m2", roof));
+  const auto erbs = series_of(study_of("", "year_of: weather", "weather: day.csv, stamp: end"));
+  const auto disc = series_of(
+      study_of("", "year_of: weather", "weather: day.csv, stamp: end, decomposition: disc"));
+  EXPECT_TRUE(says(erbs.weather, "after Erbs, Klein & Duffie (1982)"));
+  EXPECT_TRUE(says(disc.weather, "by DISC, Maxwell (1987)"));
+  EXPECT_GT(erbs.intervals[12].mean.dni, 0);
+  EXPECT_NE(erbs.intervals[12].mean.dni, disc.intervals[12].mean.dni);
+  EXPECT_EQ(erbs.intervals[12].mean.ghi, 400);
+}
+
+TEST(WeatherLight, TimesOfACsvWithoutZoneAreStandardTimeOfTheSite) {
+  write_text("day.csv", csv_day("2026-06-21", "100,40", "dni,dhi", ""));
+  const auto series =
+      series_of(study_of("latitude_deg: 50, longitude_deg: 14, timezone: Europe/Prague",
+                         "year_of: weather", "weather: day.csv, stamp: end"));
+  EXPECT_EQ(iso_utc(series.intervals.front().when.begin), "2026-06-20T23:00:00Z");
+  EXPECT_TRUE(says(series.weather, "from site.timezone"));
+}
+
+TEST(WeatherLight, FarStationsAndShiftedStampsAreWarnedAbout) {
+  if (shared_missing(weather_folder + "gothenburg_tmyx.epw")) return;
+  const auto far = series_of(study_of("latitude_deg: 59.33, longitude_deg: 18.07",
+                                      "year_of: weather", shared("gothenburg_tmyx.epw")));
+  EXPECT_TRUE(says(far.notes, "km from the site"));
+  // Its radiation belongs to the sun at the end of the hours (reanalysis at full hours).
+  const auto near = series_of(study_of("", "year_of: weather", shared("gothenburg_tmyx.epw")));
+  ASSERT_EQ(near.notes.size(), 1u);
+  EXPECT_TRUE(says(near.notes, "the sun 30 min later fits")) << near.notes[0];
+}
+
+TEST(WeatherLight, HashKnowsTheBytesAndTheRulesOfTheFile) {
+  const auto hash = [](const std::string& values, const std::string& rules) {
+    write_text("day.csv", csv_day("2026-06-21", values, "dni,dhi", roof));
+    return make_plan(study_of("", "year_of: weather", "weather: day.csv, stamp: end" + rules))
+        .content_hash;
+  };
+  const auto base = hash("100,40", "");
+  EXPECT_EQ(hash("100,40", ""), base);
+  EXPECT_NE(hash("100,41", ""), base);
+  EXPECT_NE(hash("100,40", ", missing: zero"), base);
+  EXPECT_NE(hash("100,40", ", decomposition: disc"), base);
+}
+
+TEST(WeatherLight, VariantsShareTheTimesOfTheFile) {
+  write_text("flat.obj", "v 0 0 0\nv 10 0 0\nv 0 10 0\nf 1 2 3\n");
+  write_text("a.csv", csv_day("2026-06-21", "100,40", "dni,dhi", roof));
+  write_text("b.csv", csv_day("2026-06-22", "100,40", "dni,dhi", roof));
+  const auto path = write_text(
+      "w.yaml",
+      "format: sunload-study-1\nname: w\nperiod: {year_of: weather}\n"
+      "light: {source: weather, weather: a.csv, stamp: end}\nscene: {files: [flat.obj]}\n"
+      "variants: [{name: one}, {name: two, light: {weather: b.csv}}]\n");
+  try {
+    read_study(path);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("variant two has another weather file than one"),
+              std::string::npos);
+  }
+}
+
+// 12 Linke values are mid-month, linear between: the middle of June has June's value.
+TEST(ClearSky, MonthlyTurbidityIsThatOfTheMonthsMiddle) {
+  const auto mean = [](const std::string& turbidity) {
+    write_text("flat.obj", "v 0 0 0\nv 10 0 0\nv 0 10 0\nf 1 2 3\n");
+    const auto study = read_study(
+        write_text("c.yaml",
+                   "format: sunload-study-1\nname: c\nsite: {latitude_deg: 50, longitude_deg: 14, "
+                   "timezone: UTC}\nperiod: {instants: [2026-06-16T00:00, 2026-07-01T06:00, "
+                   "2026-07-16T12:00], interval_min: 10}\nlight: {linke_turbidity: " +
+                       turbidity + "}\nscene: {files: [flat.obj]}\n"));
+    std::vector<double> dni;
+    for (const auto& i : series_of(study.variants.front()).intervals) dni.push_back(i.mean.dni);
+    return dni;
+  };
+  const auto monthly = mean("[2, 2, 2, 2, 2, 3, 5, 2, 2, 2, 2, 2]");
+  EXPECT_EQ(monthly[2], mean("5")[2]);
+  // Half way between the middles of June (16th, 0 h) and July (16th, 12 h).
+  EXPECT_NEAR(monthly[1], mean("4")[1], 1e-9);
+}
+
+}  // namespace
+}  // namespace sunload

@@ -1,0 +1,353 @@
+#include "io/result/reader.h"
+#include "io/result/writer.h"
+
+#include <sys/resource.h>
+
+#include <cmath>
+#include <csignal>
+#include <fstream>
+#include <random>
+#include <set>
+#include <sstream>
+
+#include "geo/base/check.h"
+#include "io/result/schema.h"
+#include "tests/io/result/result_example.h"
+#include "tests/support/paths.h"
+#include "tests/support/small_result.h"
+
+namespace sunload::test {
+namespace {
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << file.rdbuf();
+  return bytes.str();
+}
+
+void write_bytes(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// Files may not grow beyond so many bytes, as on a full disk.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~SmallDisk() { ::setrlimit(RLIMIT_FSIZE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST(ResultFile, RoundTrip) {
+  const Folder folder;
+  const Example example;
+  const std::string path = folder.file("a.h5");
+  example.write_result(folder, path, {"irradiance", "irradiance_direct"});
+  const ResultReader reader(path);
+  EXPECT_EQ(reader.shape("irradiance"), (std::vector<std::size_t>{84, 5000}));
+  const auto all = example.series(0, example.intervals, example.patches);
+  EXPECT_EQ(reader.doubles("irradiance_direct"), std::vector<double>(all.begin(), all.end()));
+  const auto row = reader.row("irradiance", 70);
+  EXPECT_EQ(row[4999], static_cast<double>(example.irradiance(70, 4999)));
+  EXPECT_EQ(reader.doubles("power_sun")[83], example.power(83));
+  EXPECT_EQ(reader.doubles("power_sun_se"), std::vector<double>{0.25});
+  EXPECT_EQ(reader.units("power_sun_se"), "kWh");
+  EXPECT_EQ(reader.strings("object_name"), std::vector<std::string>{"Škola č. 3"});
+  EXPECT_EQ(reader.integers("patch_facade")[4], 1);
+  EXPECT_EQ(reader.integers("patch_surface")[5], 5);
+  EXPECT_EQ(reader.text_attribute("title"), "Test");
+  EXPECT_EQ(reader.number_attribute("seed"), 7);
+  EXPECT_TRUE(std::isnan(reader.number_attribute("absent")));
+  EXPECT_FALSE(reader.has("irradiance_sky"));
+  EXPECT_EQ(folder.entries(), 3u) << "two batches and the result";
+}
+
+TEST(ResultFile, MissingRowsAreNaN) {
+  const Folder folder;
+  const Example example;
+  const std::string batch = folder.file("1.batch"), path = folder.file("partial.h5");
+  example.write_batch(batch, 1);
+  {
+    ResultWriter writer(path, example.geometry(), example.times(), example.options());
+    writer.append(BatchReader(batch));
+    writer.finish({}, "");
+  }
+  const ResultReader reader(path);
+  EXPECT_TRUE(std::isnan(reader.row("irradiance", 0)[1]));
+  EXPECT_TRUE(std::isnan(reader.doubles("power_sun")[63]));
+  EXPECT_EQ(reader.row("irradiance", 64)[1], static_cast<double>(example.irradiance(64, 1)));
+}
+
+TEST(ResultFile, BatchesOfAnotherCompressionAndPlainFacadesFit) {
+  const Folder folder;
+  Example plain;
+  plain.compression = 0;
+  const Example deflated;
+  plain.write_batch(folder.file("0"), 0);
+  deflated.write_batch(folder.file("1"), 1);
+  const std::string path = folder.file("a.h5");
+  {
+    ResultWriter writer(path, deflated.geometry(), deflated.times(), deflated.options());
+    writer.append(BatchReader(folder.file("0")));
+    writer.append(BatchReader(folder.file("1")));
+    writer.finish({}, "");
+  }
+  const auto all = deflated.series(0, deflated.intervals, deflated.patches);
+  EXPECT_EQ(ResultReader(path).doubles("irradiance"), std::vector<double>(all.begin(), all.end()));
+}
+
+TEST(ResultFile, WhatIsLeftOutIsNotThere) {
+  const Folder folder;
+  const Example example;
+  auto options = example.options();
+  options.left_out = {"irradiance_direct"};
+  example.write_batch(folder.file("0"), 0, {"irradiance", "irradiance_direct"});
+  {
+    ResultWriter writer(folder.file("a.h5"), example.geometry(), example.times(), options);
+    writer.append(BatchReader(folder.file("0")));
+    writer.finish({}, "");
+  }
+  EXPECT_TRUE(ResultReader(folder.file("a.h5")).has("irradiance"));
+  EXPECT_FALSE(ResultReader(folder.file("a.h5")).has("irradiance_direct"));
+}
+
+TEST(ResultFile, SeriesOfDoublesBecomeChunks) {
+  const Folder folder;
+  Example example;
+  example.intervals = 10;
+  BatchWriter batch({"hash", "baseline", "avx2", 0, 0, 10, 64, 4});
+  const auto series = example.series(0, 10, example.facades);
+  const std::vector<double> values(series.begin(), series.end());
+  batch.add({"facade_irradiance", MergeRule::append, ArrayType::float64, {10, 3}}, values.data());
+  const std::vector<double> errors(10, 0.5);
+  batch.add({"power_sun_se", MergeRule::append, ArrayType::float64, {10}}, errors.data());
+  batch.write(folder.file("0"));
+  const std::string path = folder.file("a.h5");
+  {
+    ResultWriter writer(path, example.geometry(), example.times(), example.options());
+    writer.append(BatchReader(folder.file("0")));
+    writer.write({"power_sun_se", {2}});
+    writer.finish({}, "");
+  }
+  const ResultReader reader(path);
+  EXPECT_EQ(reader.doubles("facade_irradiance"), values);
+  EXPECT_EQ(reader.doubles("power_sun_se"), errors);  // per instant, in W
+  EXPECT_EQ(reader.units("power_sun_se"), "W");
+}
+
+TEST(ResultFile, BrokenPromisesAreOurBugs) {
+  const Folder folder;
+  const Example example;
+  example.write_batch(folder.file("0"), 0);
+  ResultWriter writer(folder.file("a.h5"), example.geometry(), example.times(), example.options());
+  EXPECT_THROW(writer.write({"no_such", {1}}), std::logic_error);
+  EXPECT_THROW(writer.write({"light_load", {1}}), std::logic_error);
+  EXPECT_THROW(writer.write({"irradiance", {1}}), std::logic_error);
+  writer.append(BatchReader(folder.file("0")));
+  EXPECT_THROW(writer.append(BatchReader(folder.file("0"))), std::logic_error);
+}
+
+TEST(ResultFile, UnfinishedLeavesNothing) {
+  const Folder folder;
+  const Example example;
+  {
+    ResultWriter writer(folder.file("a.h5"), example.geometry(), example.times(),
+                        example.options());
+  }
+  EXPECT_EQ(folder.entries(), 0u);
+}
+
+TEST(ResultFile, UnwritableFolderIsTheMachines) {
+  const Example example;
+  try {
+    ResultWriter writer("/no/such/folder/a.h5", example.geometry(), example.times(),
+                        example.options());
+    FAIL() << "nothing was thrown";
+  } catch (const MachineError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("/no/such/folder/a.h5"), std::string::npos) << text;
+    EXPECT_NE(text.find("No such file or directory"), std::string::npos) << text;
+  }
+}
+
+TEST(ResultFile, FullDiskAtAnyPointIsTheMachinesAndLeavesNothing) {
+  const Folder folder;
+  const Example example;
+  for (std::size_t b = 0; b < example.batches(); ++b) {
+    example.write_batch(folder.file(std::to_string(b)), b);
+  }
+  const auto write = [&] {
+    ResultWriter writer(folder.file("a.h5"), example.geometry(), example.times(),
+                        example.options());
+    for (std::size_t b = 0; b < example.batches(); ++b) {
+      writer.append(BatchReader(folder.file(std::to_string(b))));
+    }
+    example.write_totals(writer);
+    writer.finish({{{"title", std::string(100'000, 'x')}}, {}, {}}, std::string(100'000, 'y'));
+  };
+  write();
+  const auto size = std::filesystem::file_size(folder.file("a.h5"));
+  std::filesystem::remove(folder.file("a.h5"));
+  constexpr std::size_t steps = 20;
+  for (std::size_t i = 0; i < steps; ++i) {
+    const SmallDisk disk(size * i / steps);
+    try {
+      write();
+      FAIL() << "nothing was thrown at " << i << " of " << steps;
+    } catch (const MachineError& error) {
+      EXPECT_NE(std::string(error.what()).find("File too large"), std::string::npos)
+          << error.what();
+    }
+    EXPECT_EQ(folder.entries(), example.batches());
+  }
+  write();
+  EXPECT_EQ(std::filesystem::file_size(folder.file("a.h5")), size);
+}
+
+TEST(ResultReader, ForeignFilesAreTheUsers) {
+  const Folder folder;
+  EXPECT_THROW(ResultReader(folder.file("absent.h5")), InputError);
+  write_bytes(folder.file("text.h5"), "not HDF5");
+  write_bytes(folder.file("empty.h5"), "");
+  EXPECT_THROW(ResultReader(folder.file("text.h5")), InputError);
+  EXPECT_THROW(ResultReader(folder.file("empty.h5")), InputError);
+  EXPECT_THROW(ResultReader(folder.file(".")), InputError);
+  Example example;
+  example.patches = 10;
+  example.intervals = 3;
+  example.write_result(folder, folder.file("a.h5"));
+  const ResultReader reader(folder.file("a.h5"));
+  EXPECT_THROW(reader.doubles("absent"), InputError);
+  EXPECT_THROW(reader.row("irradiance", 3), InputError);
+  EXPECT_THROW(reader.row("power_sun_se", 0), InputError);
+  EXPECT_THROW(reader.strings("irradiance"), InputError);
+  EXPECT_THROW(reader.doubles("object_name"), InputError);
+}
+
+// HDF5 gives back what it reserved: the end of a small file may lie before its series began.
+TEST(ResultReader, TheSmallestResultsAreReadable) {
+  const Folder folder;
+  for (std::size_t patches = 1; patches <= 12; ++patches) {
+    Example example;
+    example.patches = patches;
+    example.intervals = 1 + patches % 3;
+    const auto path = folder.file("small_" + std::to_string(patches) + ".h5");
+    example.write_result(folder, path);
+    EXPECT_NO_THROW(ResultReader{path}) << patches << " patches";
+  }
+  SmallResult house;
+  house.cells = 1;
+  house.houses.resize(1);
+  house.realizations = 2;
+  EXPECT_NO_THROW(ResultReader{write_small_result(house, "smallest")});
+}
+
+/// Reads all there is; InputError is a good end, and so is success (where only a value changed).
+bool reads(const std::string& path) {
+  try {
+    const ResultReader reader(path);
+    for (const auto& variable : result_schema()) {
+      const std::string name(variable.name);
+      if (!reader.has(name)) continue;
+      if (variable.type == h5::Type::text) {
+        reader.strings(name);
+      } else {
+        reader.doubles(name);
+      }
+      reader.units(name);
+    }
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+TEST(ResultReader, DamagedFilesDoNotCrash) {
+  const Folder folder;
+  Example example;
+  example.patches = 50;
+  example.intervals = 10;
+  example.write_result(folder, folder.file("a.h5"));
+  const std::string whole = bytes_of(folder.file("a.h5"));
+  ASSERT_TRUE(reads(folder.file("a.h5")));
+  std::mt19937 random(1);
+  constexpr int cuts = 60, flips = 600;
+  for (int i = 0; i < cuts; ++i) {
+    write_bytes(folder.file("cut.h5"), whole.substr(0, random() % whole.size()));
+    EXPECT_FALSE(reads(folder.file("cut.h5")));
+  }
+  int noticed = 0;
+  for (int i = 0; i < flips; ++i) {
+    std::string damaged = whole;
+    for (int k = 0; k < 4; ++k) damaged[random() % damaged.size()] = static_cast<char>(random());
+    write_bytes(folder.file("bad.h5"), damaged);
+    noticed += reads(folder.file("bad.h5")) ? 0 : 1;
+  }
+  EXPECT_GT(noticed, flips * 9 / 10) << "only chunks that happen to be plain may change unnoticed";
+}
+
+/// Rows of the first table of the format's page.
+std::vector<std::array<std::string, 4>> documented() {
+  std::ifstream page(test::source_folder() + "/docs/result-file.md");
+  std::vector<std::array<std::string, 4>> rows;
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with("| ") || line.starts_with("| name")) continue;
+    std::array<std::string, 4> row;
+    std::istringstream cells(line.substr(1));
+    for (auto& cell : row) {
+      std::getline(cells, cell, '|');
+      cell = cell.size() > 2 ? cell.substr(1, cell.size() - 2) : "";
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+TEST(ResultFile, PageAndSchemaAndFileAgree) {
+  constexpr std::array<const char*, 6> type_names{"int8",    "int32",   "int64",
+                                                  "float32", "float64", "text"};
+  const auto rows = documented();
+  ASSERT_EQ(rows.size(), result_schema().size());
+  const Folder folder;
+  Example example;
+  example.patches = 10;
+  example.intervals = 3;
+  example.write_result(folder, folder.file("a.h5"));
+  const ResultReader reader(folder.file("a.h5"));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const ResultVariable& variable = result_schema()[i];
+    EXPECT_EQ(rows[i][0], variable.name);
+    EXPECT_EQ(rows[i][1], variable.dims) << variable.name;
+    EXPECT_EQ(rows[i][2], type_names[static_cast<std::size_t>(variable.type)]) << variable.name;
+    EXPECT_EQ(rows[i][3], variable.units) << variable.name;
+    if (!reader.has(rows[i][0])) continue;
+    EXPECT_EQ(reader.shape(rows[i][0]).size(), dimension_names(variable).size()) << variable.name;
+    EXPECT_EQ(reader.units(rows[i][0]), rows[i][3]);
+  }
+}
+
+TEST(ResultFile, NothingIsWrittenThatThePageDoesNotName) {
+  std::set<std::string> names;
+  for (const auto& row : documented()) names.insert(row[0]);
+  for (const auto& variable : result_schema()) {
+    for (const auto& dim : dimension_names(variable)) names.insert(dim);
+  }
+  const Folder folder;
+  Example example;
+  example.patches = 10;
+  example.intervals = 3;
+  example.write_result(folder, folder.file("a.h5"));
+  for (const auto& name : h5::File::open(folder.file("a.h5")).names()) {
+    EXPECT_TRUE(names.contains(name)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace sunload::test

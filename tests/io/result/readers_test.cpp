@@ -1,0 +1,107 @@
+// The result as others see it: h5py, xarray, netCDF and the tools of HDF5.
+#include <chrono>
+#include <thread>
+
+#include "tests/io/result/result_example.h"
+#include "tests/support/paths.h"
+
+namespace sunload::test {
+namespace {
+
+// Debian's own interpreter, for which its packages are installed.
+constexpr const char* python = "/usr/bin/python3";
+
+bool python_missing() {
+  return program_missing("python3 with h5py, xarray and h5netcdf",
+                         std::string(python) + " -c 'import h5py, xarray, h5netcdf'");
+}
+
+void expect_python_reads(const std::string& path, const Example& example) {
+  const Output output = run_program(
+      std::string(python) + " " + test::source_folder() + "/tests/io/result/read_result.py " +
+      path + " " + std::to_string(example.intervals) + " " + std::to_string(example.patches));
+  EXPECT_EQ(output.status, 0) << output.text;
+}
+
+TEST(ResultReaders, PythonReadsSeveralBatchesAndChunks) {
+  if (python_missing()) return;
+  const Folder folder;
+  const Example example;
+  example.write_result(folder, folder.file("a.h5"));
+  expect_python_reads(folder.file("a.h5"), example);
+}
+
+TEST(ResultReaders, PythonReadsOneShortBatch) {
+  if (python_missing()) return;
+  const Folder folder;
+  Example example;
+  example.patches = 7;
+  example.intervals = 5;
+  example.write_result(folder, folder.file("a.h5"));
+  expect_python_reads(folder.file("a.h5"), example);
+}
+
+TEST(ResultReaders, PythonReadsWithoutFacadesAndMaterials) {
+  if (python_missing()) return;
+  const Folder folder;
+  Example example;
+  example.facades = example.materials = 0;
+  example.write_result(folder, folder.file("a.h5"));
+  expect_python_reads(folder.file("a.h5"), example);
+}
+
+TEST(ResultReaders, PythonReadsStoredSeries) {
+  if (python_missing()) return;
+  const Folder folder;
+  Example example;
+  example.compression = 0;
+  example.write_result(folder, folder.file("a.h5"));
+  expect_python_reads(folder.file("a.h5"), example);
+}
+
+TEST(ResultReaders, NetcdfListsDimensionsAndUnits) {
+  if (program_missing("ncdump", "command -v ncdump")) return;
+  const Folder folder;
+  for (const std::size_t facades : {std::size_t{3}, std::size_t{0}}) {
+    Example example;
+    example.facades = facades;
+    const std::string path = folder.file(std::to_string(facades) + ".h5");
+    example.write_result(folder, path);
+    const Output output = run_program("ncdump -h " + path);
+    EXPECT_EQ(output.status, 0) << output.text;
+    for (const char* line :
+         {"time = 84 ;", "patch = 5000 ;", "float irradiance(time, patch) ;",
+          "time:units = \"seconds since 1970-01-01T00:00:00Z\"", "irradiance:_FillValue = NaNf ;",
+          "int patch_vertices(patch, corner) ;", "string object_name(object) ;",
+          "mesh:topology_dimension = 2 ;", "double vertex_position(vertex, xyz) ;"}) {
+      EXPECT_NE(output.text.find(line), std::string::npos) << line << "\n" << output.text;
+    }
+    EXPECT_EQ(run_program("ncdump -v irradiance,patch_surface,light_load " + path).status, 0);
+  }
+}
+
+TEST(ResultReaders, EqualWritesAreEqual) {
+  const Folder folder;
+  const Example example;
+  example.write_result(folder, folder.file("a.h5"));
+  // HDF5's times of objects count seconds: a later second would show them.
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  example.write_result(folder, folder.file("b.h5"));
+  const std::string both = folder.file("a.h5") + " " + folder.file("b.h5");
+  EXPECT_EQ(run_program("cmp " + both).status, 0);
+  if (program_missing("h5diff", "command -v h5diff")) return;
+  EXPECT_EQ(run_program("h5diff " + both).status, 0);
+}
+
+TEST(ResultReaders, HdfToolSeesAnotherValue) {  // the twin: h5diff can tell files apart
+  if (program_missing("h5diff", "command -v h5diff")) return;
+  const Folder folder;
+  Example example;
+  example.write_result(folder, folder.file("a.h5"));
+  example.patches += 1;
+  example.write_result(folder, folder.file("b.h5"));
+  EXPECT_NE(run_program("h5diff " + folder.file("a.h5") + " " + folder.file("b.h5")).status, 0);
+}
+
+}  // namespace
+}  // namespace sunload::test

@@ -1,0 +1,14 @@
+/// The page about the study file says what the schema says.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "tests/support/paths.h"
+
+TEST(StudyDocs, PageIsWrittenFromTheSchema) {
+  const std::string command =
+      "/usr/bin/python3 " + test::source_folder() + "/scripts/study-docs --check";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+}

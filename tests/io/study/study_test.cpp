@@ -1,0 +1,857 @@
+// Studies: every rule of their keys, the schema, variants, and the canonical text.
+#include "io/study/study.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "tests/support/paths.h"
+#include "tests/support/reference.h"
+
+namespace sunload {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using Strings = std::vector<std::string>;
+
+/// A folder of its own, removed at the end.
+class Folder {
+ public:
+  Folder() : path_(fs::temp_directory_path() / ("sunload_study_" + std::to_string(getpid()))) {
+    fs::create_directories(path_);
+  }
+  ~Folder() { fs::remove_all(path_); }
+  std::string write(const std::string& name, const std::string& text) const {
+    const fs::path file = path_ / name;
+    fs::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+    return file.string();
+  }
+  std::string path() const { return path_.string(); }
+
+ private:
+  fs::path path_;
+};
+
+StudyFile read_text(const std::string& yaml) {
+  static const Folder folder;
+  return read_study(folder.write("study.yaml", yaml));
+}
+
+/// Problems without the folder's name; a study that is right has none.
+Strings problems_of(const std::string& yaml) {
+  try {
+    read_text(yaml);
+  } catch (const InputError& error) {
+    Strings problems = error.problems();
+    for (auto& problem : problems) {
+      const auto name = problem.find("study.yaml:");
+      if (name != problem.npos) problem.erase(0, name);
+    }
+    return problems;
+  }
+  return {};
+}
+
+bool has(const Strings& problems, const std::string& part) {
+  return std::any_of(problems.begin(), problems.end(),
+                     [&](const std::string& text) { return text.find(part) != text.npos; });
+}
+
+std::string joined(const Strings& problems) {
+  std::string text;
+  for (const auto& problem : problems) text += problem + "\n";
+  return text;
+}
+
+/// A study from its lines; what a test is about replaces or joins the sections.
+std::string with(const std::map<std::string, std::string>& sections) {
+  std::map<std::string, std::string> all{
+      {"format", "sunload-study-1"},
+      {"name", "test"},
+      {"site", "{latitude_deg: 50, longitude_deg: 14, timezone: Europe/Prague}"},
+      {"period", "{days: [2026-03-21]}"},
+      {"scene", "{builtin: {name: street}}"}};
+  for (const auto& [key, value] : sections) all[key] = value;
+  std::string text;
+  for (const auto& [key, value] : all) {
+    if (!value.empty()) text += key + ": " + value + "\n";
+  }
+  return text;
+}
+
+void expect_problem(const std::map<std::string, std::string>& sections, const std::string& part) {
+  const auto problems = problems_of(with(sections));
+  EXPECT_TRUE(has(problems, part)) << "wanted: " << part << "\ngot:\n" << joined(problems);
+}
+
+void expect_right(const std::map<std::string, std::string>& sections) {
+  const auto problems = problems_of(with(sections));
+  EXPECT_TRUE(problems.empty()) << joined(problems);
+}
+
+TEST(Study, FillsInDefaults) {
+  const auto file = read_text(with({}));
+  ASSERT_EQ(file.variants.size(), 1u);
+  const Study& study = file.variants[0];
+  EXPECT_EQ(file.name, "test");
+  EXPECT_EQ(study.name, "test");
+  EXPECT_EQ(study.variant, "baseline");
+  EXPECT_EQ(study.site.latitude_deg, 50);
+  EXPECT_FALSE(study.site.north_deg);
+  EXPECT_EQ(std::get<DaysPeriod>(study.period.kind).days.size(), 1u);
+  EXPECT_EQ(study.solver.batch_suns, 64);
+  EXPECT_EQ(study.output.series.size(), 6u);
+  EXPECT_TRUE(file.warnings.empty());
+  EXPECT_EQ(file.yaml, with({}));
+}
+
+/// Section `scene` with one material.
+std::string scene_of(const std::string& material) {
+  return "{builtin: {name: street}, materials: {a: {" + material + "}}}";
+}
+
+TEST(StudyMaterials, KindsExcludeEachOther) {
+  for (const char* right :
+       {"refractive_index: 1.52",
+        "diffuse: 0.1, refractive_index: 1.52, panes: 3, thickness_m: 0.006",
+        "refractive_index: 1.52, absorption_per_m: 30",
+        "refractive_index: 0.05, extinction_coefficient: 4",
+        "diffuse: 0.2, mirror: 0.1, glossy: 0.4, glossy_exponent: 30, transmittance: 0.3",
+        "diffuse: 0.2, transmittance: 0.8, sides: two", "normal_transmittance: 0.88, sides: two",
+        "normal_transmittance: 0.9823", "diffuse: 0.02, mirror: 0.08, normal_transmittance: 0.884"})
+    expect_right({{"scene", scene_of(right)}});
+  const std::pair<const char*, const char*> wrong[] = {
+      {"refractive_index: 0.9", "0.9 is not above 1"},
+      {"refractive_index: 1.5, mirror: 0.1", "a.mirror: cannot stand with refractive_index"},
+      {"refractive_index: 1.5, transmittance: 0.1", "a.transmittance: cannot stand with"},
+      {"refractive_index: 1.5, glossy: 0.1, glossy_exponent: 2", "a.glossy: cannot stand with"},
+      {"extinction_coefficient: 3", "stands without refractive_index"},
+      {"refractive_index: 1.5, extinction_coefficient: 3, panes: 2", "a.panes: cannot stand with"},
+      {"refractive_index: 1.5, normal_transmittance: 0.8",
+       "a.refractive_index: cannot stand with normal_transmittance"},
+      {"normal_transmittance: 0.8, panes: 2", "a.panes: cannot stand with normal_transmittance"},
+      {"normal_transmittance: 0.8, thickness_m: 0.01", "a.thickness_m: cannot stand with"},
+      {"normal_transmittance: 0.8, extinction_coefficient: 3",
+       "a.extinction_coefficient: cannot stand with"},
+      {"normal_transmittance: 0.5, transmittance: 0.2",
+       "a.transmittance: cannot stand with normal_transmittance"},
+      {"normal_transmittance: 0.5, glossy: 0.2, glossy_exponent: 9", "a.glossy: cannot stand with"},
+      {"normal_transmittance: 0", "a.normal_transmittance"},
+      {"normal_transmittance: 0.9824", "a.normal_transmittance: 0.9824 is above 0.9823 ("},
+      {"normal_transmittance: 1.1", "a.normal_transmittance"},
+      {"normal_transmittance: 0.885, mirror: 0.08, diffuse: 0.02", "0.885 is above 0.884 ("},
+      {"normal_transmittance: 0.3, mirror: 1", "0.3 is above 0 ("},
+      {"glossy: 0.3", "stands without glossy_exponent"},
+      {"diffuse: 0.5, transmittance: 0.6", "diffuse + transmittance = 1.1 is above 1"},
+      {"diffuse: 0.4, mirror: 0.3, glossy: 0.2, glossy_exponent: 3, transmittance: 0.2",
+       "diffuse + mirror + glossy + transmittance = 1."}};
+  for (const auto& [material, part] : wrong) expect_problem({{"scene", scene_of(material)}}, part);
+  for (const char* unused : {"panes: 2", "glossy_exponent: 30", "absorption_per_m: 3"})
+    EXPECT_EQ(read_text(with({{"scene", scene_of(unused)}})).warnings.size(), 1u) << unused;
+}
+
+TEST(Study, ReadsEverySection) {
+  const Study study = read_text(R"(
+format: sunload-study-1
+name: all
+site: {crs: "EPSG:28992", elevation_m: 3, timezone: Europe/Amsterdam, north_deg: -1.5}
+period: {start: 2026-06-21T00:00, end: 2026-06-22T00:00, step_min: 15}
+sun: {refraction: bennett, disk: point, ut1_utc: zero}
+light: {source: clear_sky, model: bird, linke_turbidity: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12],
+        sky: cie_general, sky_type: 5, far_ground_albedo: 0.3, quantity: irradiance}
+scene:
+  builtin: {name: canyon, height: 20}
+  repair: all
+  materials: {glass: {diffuse: 0.05, mirror: 0.95, emission_w_m2: 10, sides: two}, red: {diffuse: 0.3}}
+  assign: [{object: "a*", surface: wall, was: x, type: Building, material: glass}]
+  ground: {margin_m: 10, material: red}
+mesh: {max_edge_m: 0.5, min_area_m2: 0.1}
+solver: {transport: gather, bounces: 3, unshot: 0.01, lines_per_patch: 128, direct_samples: 32,
+         realizations: 16, mirror_depth: 2, batch_suns: 32, isa: avx2, seed: 7, power_per_sample_w: auto}
+output: {folder: out, series: [total, sky], standard_error: instants, compression: 9}
+)")
+                          .variants[0];
+  EXPECT_EQ(study.site.crs, "EPSG:28992");
+  EXPECT_EQ(study.site.north_deg, -1.5);
+  const auto& period = std::get<RangePeriod>(study.period.kind);
+  EXPECT_EQ(period.end.civil.day, 22);
+  EXPECT_EQ(period.step_min, 15);
+  EXPECT_EQ(study.sun.refraction, Refraction::bennett);
+  EXPECT_EQ(study.sun.ut1_utc, Ut1::zero);
+  EXPECT_EQ(study.light.model, ClearSkyModel::bird);
+  EXPECT_EQ(study.light.linke_turbidity.monthly[11], 12);
+  EXPECT_EQ(study.light.sky, SkyModel::cie_general);
+  EXPECT_EQ(study.light.sky_type, 5);
+  EXPECT_EQ(study.scene.builtin->parameters.at("height"), "20");
+  EXPECT_EQ(study.scene.repair, Repair::all);
+  ASSERT_EQ(study.scene.materials.size(), 2u);
+  EXPECT_EQ(study.scene.materials[0].sides, Sides::two);
+  EXPECT_FALSE(study.scene.materials[1].mirror);
+  EXPECT_EQ(study.scene.assign[0].kind, "Building");
+  EXPECT_EQ(study.scene.assign[0].material_was, "x");
+  EXPECT_EQ(study.scene.ground->margin_m, 10);
+  EXPECT_EQ(study.mesh.max_edge_m, 0.5);
+  EXPECT_EQ(study.solver.realizations, 16);
+  EXPECT_EQ(study.solver.isa, "avx2");
+  EXPECT_EQ(study.output.series, (Strings{"total", "sky"}));
+  EXPECT_EQ(study.output.standard_error, StandardErrors::instants);
+}
+
+TEST(Study, ReadsTheShootingTransport) {
+  const auto solver = [](const std::string& keys) {
+    return read_text(with({{"solver", "{" + keys + "}"}}));
+  };
+  const Study study =
+      solver("transport: shoot, jacobi: regular, power_per_sample_w: 0.25").variants[0];
+  EXPECT_EQ(study.solver.transport, Transport::shoot);
+  EXPECT_EQ(study.solver.jacobi, Jacobi::regular);
+  EXPECT_EQ(study.solver.power_per_sample_w, 0.25);
+  const auto by_default = solver("power_per_sample_w: auto, transport: shoot");
+  EXPECT_EQ(by_default.variants[0].solver.jacobi, Jacobi::incremental);
+  EXPECT_FALSE(by_default.variants[0].solver.power_per_sample_w);
+  EXPECT_TRUE(by_default.warnings.empty());
+  // Gathering has no samples of power.
+  EXPECT_EQ(solver("jacobi: regular, power_per_sample_w: 2").warnings.size(), 2u);
+  for (const char* wrong : {"power_per_sample_w: 0", "power_per_sample_w: -1",
+                            "power_per_sample_w: some", "jacobi: gauss", "transport: throw"})
+    EXPECT_FALSE(problems_of(with({{"solver", std::string("{") + wrong + "}"}})).empty()) << wrong;
+}
+
+TEST(Study, FilesHaveUnitsAndPlacesOfTheirOwn) {
+  const Folder folder;
+  folder.write("a.obj", "v 0 0 0\n");
+  const auto read = [&](const std::string& files) {
+    return read_study(folder.write("s.yaml", with({{"scene", "{files: [" + files + "]}"}})));
+  };
+  const auto files =
+      read(
+          "a.obj, {file: a.obj, up: y, unit_m: 0.001, position_m: [1, 2, 3], turn_deg: 30, "
+          "material: brick}, {file: a.obj, position: \"50 14\", height_m: 200}")
+          .variants[0]
+          .scene.files;
+  ASSERT_EQ(files.size(), 3u);
+  EXPECT_FALSE(files[0].is_placed());
+  EXPECT_EQ(files[1].up, 'y');
+  EXPECT_EQ(files[1].unit_m, 0.001);
+  EXPECT_EQ(files[1].position, (Vec3{1, 2, 3}));
+  EXPECT_EQ(files[1].turn_deg, 30);
+  EXPECT_EQ(files[1].material, "brick");
+  EXPECT_EQ(files[2].earth_position->latitude_deg, 50);
+  EXPECT_EQ(files[2].earth_position->longitude_deg, 14);
+  EXPECT_EQ(files[2].earth_position->height_m, 200);
+  const auto wrong = [&](const std::string& list, const std::string& part) {
+    try {
+      read(list);
+      ADD_FAILURE() << list;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  };
+  wrong("a.obj, a.obj", "'a.obj' is written twice in the same place");
+  wrong("{up: y}", "scene.files[1].file is missing");
+  wrong("{file: a.obj, position_m: [1, 2]}", "must be three numbers");
+  wrong("{file: a.obj, position_m: [1, 2, 3], position: \"50 14\"}", "remove one");
+  wrong("{file: a.obj, position: here}", "scene.files[1].position");
+  wrong("{file: a.obj, canopy: a.obj}", "canopy: stands without terrain");
+  wrong("{file: a.obj, terrain: b.tif}", "scene.files[1].terrain: 'b.tif' is not there");
+  wrong("{file: a.obj, trun_deg: 3}", "did you mean 'turn_deg'");
+  EXPECT_EQ(read("{file: a.obj, height_m: 3, least_height_m: 3, trunk_share: 0}").warnings.size(),
+            3u);
+}
+
+TEST(Study, ResolvesPathsFromTheStudysFolder) {
+  const Folder folder;
+  folder.write("models/a.obj", "v 0 0 0\n");
+  const auto text = with({{"scene", "{files: [../models/a.obj], up: y, unit_m: 0.001}"}});
+  const Study study = read_study(folder.write("studies/s.yaml", text)).variants[0];
+  ASSERT_EQ(study.scene.files.size(), 1u);
+  EXPECT_EQ(study.scene.files[0].path, folder.path() + "/models/a.obj");
+  EXPECT_EQ(study.scene.up, 'y');
+  expect_problem({{"scene", "{files: [../models/b.obj]}"}},
+                 "study.yaml:4:17: scene.files: '../models/b.obj' is not there");
+  EXPECT_THROW(read_study(folder.path() + "/nothing.yaml"), InputError);
+  EXPECT_THROW(read_study(folder.path()), InputError);
+}
+
+TEST(Study, ReportsAllProblemsAtOnceFromTopToBottom) {
+  EXPECT_EQ(
+      problems_of("format: sunload-study-1\nname: a b\nsite: {latitude: 5, longitude_deg: 200}\n"
+                  "period: {days: [2026-03-21]}\nscene: {builtin: {name: stret}}\n"
+                  "mesh: {max_edge_m: 0}\n"),
+      (Strings{
+          "study.yaml:2:7: name: 'a b' cannot be a name (letters A to Z, digits and _ - . make "
+          "names, which do not start with a dot)",
+          "study.yaml:3:7: site.latitude_deg is missing",
+          "study.yaml:3:7: site.timezone is missing (times without offset are civil time of "
+          "the site); write for example timezone: Europe/Prague, or timezone: UTC",
+          "study.yaml:3:8: unknown key 'latitude' in site; did you mean 'latitude_deg'? Its "
+          "unit is degrees",
+          "study.yaml:3:36: site.longitude_deg: 200 is out of range (must be from -180 up to "
+          "180 degrees)",
+          "study.yaml:5:25: scene.builtin.name: 'stret' is no built-in scene; did you mean "
+          "'street'?",
+          "study.yaml:6:20: mesh.max_edge_m: 0 is out of range (must be from 0.001 up to "
+          "1000000000 metres)"}));
+}
+
+TEST(Study, ChecksTheSite) {
+  expect_problem({{"site", "{latitude_deg: 113, longitude_deg: 49, timezone: UTC}"}},
+                 "are latitude and longitude swapped?");
+  expect_problem({{"site", "{latitude_deg: 50, timezone: UTC}"}}, "site.longitude_deg is missing");
+  expect_problem({{"site", "{timezone: UTC}"}}, "site has no position");
+  expect_problem({{"site", "{latitude_deg: 50, longitude_deg: 14, timezone: Europe/Prag}"}},
+                 "study.yaml:5:55: site.timezone: ");
+  expect_problem({{"site", "{latitude_deg: 50, longitude_deg: 14}"}}, "site.timezone is missing");
+  expect_right({{"site", "{latitude_deg: 50, longitude_deg: 14}"},
+                {"period", "{instants: [2026-03-21T12:00Z, 2026-03-21T15:00+01:00]}"}});
+}
+
+TEST(Study, ReadsPositionsAsPeopleWriteThem) {
+  const auto site = [](const std::string& position) {
+    return read_text(with({{"site", "{position: " + position + ", timezone: UTC}"}}))
+        .variants[0]
+        .site;
+  };
+  const auto dms = site("\"49d44'51\\\"N 13d22'39\\\"E\"");
+  EXPECT_NEAR(*dms.latitude_deg, 49.7475, 1e-12);
+  EXPECT_NEAR(*dms.longitude_deg, 13.3775, 1e-12);
+}
+
+TEST(Study, ChecksPositions) {
+  expect_problem({{"site", "{position: 33x, timezone: UTC}"}},
+                 "study.yaml:5:18: site.position: '33x' is no position on Earth");
+  expect_problem(
+      {{"site", "{position: 50 14, latitude_deg: 50, longitude_deg: 14, timezone: UTC}"}},
+      "site.position: stands beside latitude_deg and longitude_deg");
+}
+
+TEST(Study, KnowsDaysByName) {
+  const auto days = [](const std::string& site, const std::string& list) {
+    const auto file = read_text(with({{"site", site}, {"period", "{days: [" + list + "]}"}}));
+    std::string text;
+    for (const auto& day : std::get<DaysPeriod>(file.variants[0].period.kind).days)
+      text += fmt::format("{}-{}-{} ", day.year, day.month, day.day);
+    return text;
+  };
+  const std::string prague = "{latitude_deg: 50, longitude_deg: 14, timezone: Europe/Prague}";
+  const std::string cape = "{latitude_deg: -34, longitude_deg: 18, timezone: Africa/Johannesburg}";
+  EXPECT_EQ(days(prague,
+                 "march_equinox 2026, 2026-05-01, summer_solstice 2026, "
+                 "september_equinox 2026, winter_solstice 2026"),
+            "2026-3-20 2026-5-1 2026-6-21 2026-9-23 2026-12-21 ");
+  EXPECT_EQ(days(cape, "winter_solstice 2026, summer_solstice 2026"), "2026-6-21 2026-12-21 ");
+}
+
+TEST(Study, ChecksDaysByName) {
+  expect_problem({{"period", "{days: [june_solstice]}"}},
+                 "study.yaml:3:17: period.days: 'june_solstice' has no year");
+  expect_problem({{"period", "{days: [midsummer 2026]}"}}, "names: march_equinox, june_solstice");
+  expect_problem({{"period", "{days: [june_solstice 2026, march_equinox 2026]}"}},
+                 "march_equinox 2026 is not after the day before it");
+  expect_problem(
+      {{"site", "{crs: EPSG:28992, timezone: UTC}"}, {"period", "{days: [summer_solstice 2026]}"}},
+      "depends on the hemisphere");
+}
+
+TEST(Study, ChecksTheTimes) {
+  const auto wrong = [](const std::string& period, const std::string& part) {
+    expect_problem({{"period", period}}, part);
+  };
+  wrong("{step_min: 5}", "period has no times");
+  wrong("{days: [2026-03-21], instants: [2026-03-21]}", "period has days and instants at once");
+  wrong("{days: [2026-06-21, 2026-03-21]}", "2026-03-21 is not after the day before it");
+  wrong("{days: [2026-06-21, 2026-06-21]}", "is not after the day before it");
+  wrong("{days: [2026-06-21T12:00]}", "has a time of day");
+  wrong("{days: [2026-02-29]}", "is no date of the calendar");
+  wrong("{days: 2026-06-21}", "write [2026-06-21]");
+  wrong("{days: []}", "the list is empty");
+  wrong("{days: [2026-06-21], from: '20:00', to: '06:00'}", "is not after `from`");
+  wrong("{days: [2026-06-21], from: '6 h'}", "'6 h' is no time of day");
+  wrong("{days: [2026-06-21], step_min: 7}", "no whole number of steps of 7 minutes");
+  wrong("{days: [2026-06-21], step_min: 0}", "out of range (must be above 0");
+  wrong("{days: [2026-06-21], step_min: 1e-5}", "144000000 intervals are too many");
+  wrong("{days: [2026-06-21], end: 2026-06-22}", "period.end: does not go with `days`");
+  wrong("{start: 2026-06-21}", "period.end is missing");
+  wrong("{start: 2026-06-21, end: 2026-06-21}", "is not after `start`");
+  wrong("{start: 2026-03-28, end: 2026-03-30, step_min: 1440}", "23 or 25 hours");
+  wrong("{instants: [2026-06-21T12:00, 2026-06-21T11:00]}", "is not after the one before it");
+  wrong("{instants: [2026-06-21T12:00+02:00, 2026-06-21T10:00Z]}", "is not after the one before");
+  wrong("{positions: [{azimuth_deg: 90, elevation_deg: 30}]}",
+        "positions need light.source: fixed");
+  wrong("{year_of: weather}", "year_of: weather needs light.source: weather");
+  wrong("{year_of: weather, step_min: 10}", "period.step_min: does not go with `year_of`");
+  wrong("{days: [2026-06-21], as_year: 2004}", "period.as_year: does not go with `days`");
+  expect_right({{"period", "{days: [2026-06-20, 2026-06-21], from: 05:00, to: '24:00'}"}});
+  expect_right({{"period", "{start: 2026-03-28, end: 2026-03-30, step_min: 60}"}});
+  expect_right({{"site", ""},
+                {"period", "{positions: [{azimuth_deg: 90, elevation_deg: 30}]}"},
+                {"light", "{source: fixed, dni_w_m2: 800, dhi_w_m2: 100}"}});
+}
+
+TEST(Study, ChecksLightSceneAndSolver) {
+  expect_problem({{"light", "{source: fixed, dni_w_m2: 800}"}}, "fixed needs dhi_w_m2");
+  expect_problem({{"light", "{source: weather, weather: x.epw}"}},
+                 "light.weather: 'x.epw' is not there");
+  expect_problem({{"light", "{source: weather}"}}, "light.source: weather needs a file");
+  expect_problem({{"light", "{source: weather, weather: x.epw, stamp: begin}"}}, "light.stamp");
+  expect_problem({{"light", "{linke_turbidity: [3, 3]}"}}, "has 2 values");
+  expect_problem({{"light", "{sky: prez}"}}, "did you mean 'perez'?");
+  expect_problem({{"scene", "{up: z}"}}, "scene has neither files nor builtin");
+  expect_problem({{"scene", "{builtin: {name: street, house_4: brick}}"}},
+                 "did you mean 'house_3'?");
+  expect_problem({{"scene", "{builtin: {name: street}, lod: best}"}}, "is no level of detail");
+  expect_problem({{"scene", "{builtin: {name: street}, ground: some}"}}, "must be one of none");
+  expect_problem({{"scene", "{builtin: {name: street}, assign: [{object: x}]}"}},
+                 "scene.assign[1].material is missing");
+  expect_problem(
+      {{"scene", "{builtin: {name: street}, materials: {a: {diffuse: 0.6, mirror: 0.5}}}"}},
+      "diffuse + mirror = 1.1 is above 1");
+  expect_right(
+      {{"scene", "{builtin: {name: street}, materials: {a: {diffuse: 0.7, mirror: 0.3}}}"}});
+  expect_problem({{"solver", "{lines_per_patch: 100}"}}, "write 96 or 104");
+  expect_problem({{"solver", "{direct_samples: 4}"}}, "write 8");
+  expect_problem({{"solver", "{realizations: 1}"}}, "out of range");
+  expect_problem({{"solver", "{accuracy: {light_load_relative: 0}}"}}, "out of range");
+  expect_problem({{"solver", "{accuracy: {}}"}}, "light_load_relative is missing");
+  expect_problem({{"solver", "{accuracy: {light_load_relative: 0.01}, max_lines_per_patch: 128}"}},
+                 "is below the least counts");
+  expect_problem({{"solver", "{bands: rgb, transport: shoot}"}}, "cannot go with transport: shoot");
+  expect_problem({{"output", "{series: [total, totl]}"}}, "'totl' is not known");
+  expect_problem({{"output", "{series: [sky, sky]}"}}, "is written twice");
+  expect_problem({{"sensors", "{points: []}"}}, "the list is empty");
+  expect_problem({{"light", "{sky: perez, sky_scale: absolute}"}}, "goes with sky: preetham");
+  expect_problem({{"light",
+                   "{sky: preetham, sky_scale: absolute, source: fixed, dni_w_m2: 1, "
+                   "dhi_w_m2: 1}"}},
+                 "and source: clear_sky only");
+  expect_problem({{"format", "sunload-study-9"}}, "must be one of sunload-study-1");
+  expect_problem({{"period", ""}}, "period is missing");
+  expect_problem({{"name", ".hidden"}}, "cannot be a name");
+}
+
+TEST(Study, WarnsOfValuesWithoutEffect) {
+  const auto warnings = read_text(with({{"light", "{turbidity: 4, dni_w_m2: 3}"}})).warnings;
+  EXPECT_EQ(warnings.size(), 2u);
+  EXPECT_TRUE(has(warnings, "light.turbidity: is not used")) << joined(warnings);
+  const auto bird = read_text(with({{"light", "{model: bird, linke_turbidity: 3}"}})).warnings;
+  EXPECT_TRUE(has(bird, "light.linke_turbidity: is not used")) << joined(bird);
+  EXPECT_TRUE(has(
+      read_text(with({{"period", "{instants: [2026-06-21T12:00, 2026-06-21T12:10]}"}})).warnings,
+      "intervals overlap"));
+}
+
+TEST(Study, MergesVariants) {
+  const auto file = read_text(with(
+      {{"scene", "{builtin: {name: street, house_3: brick}, assign: [{material: a}]}"},
+       {"light", "{sky: cie_general, sky_type: 3}"},
+       {"variants",
+        "[{name: baseline}, {name: glazed, scene: {builtin: {house_3: glazed}, assign: [{material: "
+        "b}]}, light: {sky: uniform, sky_type: ~}, solver: {bounces: 2}}]"}}));
+  ASSERT_EQ(file.variants.size(), 2u);
+  const Study &base = file.variants[0], &glazed = file.variants[1];
+  EXPECT_EQ(base.variant, "baseline");
+  EXPECT_EQ(glazed.variant, "glazed");
+  EXPECT_EQ(glazed.scene.builtin->name, "street");
+  EXPECT_EQ(base.scene.builtin->parameters.at("house_3"), "brick");
+  EXPECT_EQ(glazed.scene.builtin->parameters.at("house_3"), "glazed");
+  EXPECT_EQ(base.scene.assign.size(), 1u);
+  ASSERT_EQ(glazed.scene.assign.size(), 2u);
+  EXPECT_EQ(glazed.scene.assign[1].material, "b");
+  EXPECT_EQ(glazed.light.sky, SkyModel::uniform);
+  EXPECT_EQ(base.solver.bounces, 5);
+  EXPECT_EQ(glazed.solver.bounces, 2);
+  EXPECT_EQ(glazed.site.latitude_deg, 50);
+  EXPECT_TRUE(file.warnings.empty()) << joined(file.warnings);
+}
+
+TEST(Study, ChecksVariants) {
+  const auto wrong = [](const std::string& variants, const std::string& part) {
+    expect_problem({{"variants", variants}}, part);
+  };
+  wrong("[{name: A}, {name: a}]", "'a' is used twice (case makes no difference)");
+  wrong("[{name: x/y}]", "'x/y' cannot be a name");
+  wrong("[{scene: {}}]", "variants[1].name is missing");
+  wrong("[]", "the list is empty");
+  wrong("[{name: a, period: {}}]", "a variant cannot change this");
+  wrong("[{name: a, solver: {batch_suns: 3}}]", "a variant cannot change solver.batch_suns");
+  wrong("[{name: a, solver: {isa: avx2}}]", "a variant cannot change solver.isa");
+  wrong("[{name: a, secne: {}}]", "did you mean 'scene'?");
+  // Each problem once, and at the variant's own line.
+  EXPECT_EQ(problems_of(with({{"mesh", "{max_edge_m: -1}"}}) +
+                        "variants:\n  - {name: a}\n  - {name: b, mesh: {min_area_m2: -1}}\n"),
+            (Strings{"study.yaml:2:20: mesh.max_edge_m: -1 is out of range (must be from 0.001 up "
+                     "to 1000000000 metres)",
+                     "study.yaml:9:35: mesh.min_area_m2: -1 is out of range (must be from 0 up to "
+                     "1000000 square metres)"}));
+}
+
+// --- the schema ---------------------------------------------------------------------------
+
+json read_schema() {
+  std::ifstream file(test::source_folder() + "/configs/study.schema.json");
+  return json::parse(file);
+}
+
+/// Calls `visit(path, schema)` for every key, `scene.materials.*.diffuse`.
+void walk(const json& schema, const std::string& path,
+          const std::function<void(const std::string&, const json&)>& visit) {
+  const std::string dot = path.empty() ? "" : path + ".";
+  const json properties = schema.value("properties", json::object());
+  for (const auto& [key, value] : properties.items()) {
+    visit(dot + key, value);
+    walk(value, dot + key, visit);
+  }
+  if (schema.contains("items")) walk(schema["items"], path + "[]", visit);
+  const auto others = schema.find("additionalProperties");
+  if (others != schema.end() && others->is_object()) {
+    if (!others->contains("properties")) visit(dot + "*", *others);
+    walk(*others, dot + "*", visit);
+  }
+  for (const auto& choice : schema.value("anyOf", json::array())) walk(choice, path, visit);
+}
+
+TEST(StudySchema, ListsTheKeysThatTheReaderKnows) {
+  std::set<std::string> in_schema;
+  walk(read_schema(), "", [&](const std::string& path, const json& schema) {
+    in_schema.insert(path);
+    const bool told = schema.contains("description") || schema.contains("const");
+    EXPECT_TRUE(told) << path << " has no description";
+  });
+  const Strings known = study_keys();
+  EXPECT_EQ(Strings(in_schema.begin(), in_schema.end()), known);
+}
+
+/// A study in which the key can stand.
+json study_around(const std::string& path) {
+  json study = json::parse(R"({"format": "sunload-study-1", "name": "test",
+    "site": {"latitude_deg": 50, "longitude_deg": 14, "timezone": "UTC"},
+    "period": {"days": ["2026-03-21"]}, "scene": {"builtin": {"name": "street"},
+    "materials": {"m": {}}, "assign": [{"material": "m"}], "ground": {"material": "m"}}})");
+  const json fixed = {{"source", "fixed"}, {"dni_w_m2", 800}, {"dhi_w_m2", 100}};
+  const json sun = {{"azimuth_deg", 90}, {"elevation_deg", 30}};
+  if (path == "period.interval_min") {
+    study["period"] = {{"instants", {"2026-03-21T12:00"}}};
+  } else if (path == "period.as_year" || path == "period.year_of") {
+    study["period"] = {{"year_of", "weather"}};
+  } else if (path.starts_with("period.positions") || path == "site.timezone") {
+    study["period"] = {{"positions", json::array({sun})}};
+    study["light"] = fixed;
+  }
+  if (path == "site.timezone") study["site"].erase("timezone");
+  if (path.starts_with("scene.files")) {
+    study["scene"].erase("builtin");
+    study["scene"]["files"] = json::array({{{"file", test::source_folder() + "/LICENSE"}}});
+  }
+  return study;
+}
+
+json& place_in(json& study, const std::string& path) {
+  json* place = &study;
+  std::stringstream parts(path);
+  for (std::string part; std::getline(parts, part, '.');) {
+    const bool list = part.ends_with("[]");
+    if (list) part.resize(part.size() - 2);
+    place = &(*place)[part == "*" ? "m" : part];
+    if (list) place = &(*place)[0];
+  }
+  return *place;
+}
+
+Strings problems_with(const std::string& path, const json& value) {
+  json study = study_around(path);
+  place_in(study, path) = value;
+  return problems_of(study.dump());
+}
+
+// JSON is YAML: the schema's own limits, words and defaults are tried on the reader.
+TEST(StudySchema, HasTheRangesAndWordsOfTheReader) {
+  int limits = 0, words = 0;
+  walk(read_schema(), "", [&](const std::string& path, const json& schema) {
+    const auto refused = [&](const json& value) {
+      return has(problems_with(path, value), "is out of range");
+    };
+    const bool is_integer = schema.contains("type") && schema["type"] == "integer";
+    const bool is_number = schema.contains("type") && schema["type"] == "number";
+    const auto beyond = [&](const json& bound, int way) -> json {
+      if (is_integer) return bound.get<std::int64_t>() + way;
+      return std::nextafter(bound.get<double>(), way * std::numeric_limits<double>::max());
+    };
+    if (schema.contains("minimum")) {
+      ++limits;
+      EXPECT_FALSE(refused(schema["minimum"])) << path;
+      EXPECT_TRUE(refused(beyond(schema["minimum"], -1))) << path;
+    }
+    if (schema.contains("exclusiveMinimum")) {
+      ++limits;
+      EXPECT_TRUE(refused(schema["exclusiveMinimum"])) << path;
+      EXPECT_FALSE(refused(beyond(schema["exclusiveMinimum"], 1))) << path;
+    }
+    // Beyond the largest seed there is no number to try.
+    if (schema.contains("maximum") && path != "solver.seed") {
+      ++limits;
+      EXPECT_FALSE(refused(schema["maximum"])) << path;
+      EXPECT_TRUE(refused(beyond(schema["maximum"], 1))) << path;
+    }
+    if (is_number || is_integer) {
+      EXPECT_TRUE(has(problems_with(path, "much"), "is no number")) << path;
+    }
+    std::string list;
+    for (const auto& word : schema.value("enum", json::array())) {
+      ++words;
+      list += (list.empty() ? "" : ", ") + word.get<std::string>();
+      const auto problems = problems_with(path, word);
+      EXPECT_FALSE(has(problems, "is not known") || has(problems, "supported")) << path << word;
+    }
+    // The refusal lists all words that the reader knows.
+    if (!list.empty()) {
+      EXPECT_TRUE(has(problems_with(path, "nonsense"), list + ")")) << path;
+    }
+  });
+  EXPECT_GT(limits, 40);
+  EXPECT_GT(words, 25);
+}
+
+TEST(StudySchema, HasTheDefaultsOfTheReader) {
+  int defaults = 0;
+  walk(read_schema(), "", [&](const std::string& path, const json& schema) {
+    if (!schema.contains("default")) return;
+    ++defaults;
+    json study = study_around(path);
+    const Study absent = read_text(study.dump()).variants[0];
+    place_in(study, path) = schema["default"];
+    const Study written = read_text(study.dump()).variants[0];
+    EXPECT_EQ(canonical_text(absent), canonical_text(written)) << path;
+    EXPECT_EQ(absent.solver.isa, written.solver.isa);
+    EXPECT_EQ(absent.output.folder, written.output.folder);
+    EXPECT_EQ(absent.output.series, written.output.series);
+    EXPECT_EQ(absent.output.standard_error, written.output.standard_error);
+    EXPECT_EQ(absent.output.compression, written.output.compression);
+  });
+  EXPECT_GT(defaults, 30);
+}
+
+TEST(StudyConfigs, AreRead) {
+  int read = 0;
+  for (const auto& entry : fs::directory_iterator(test::source_folder() + "/configs")) {
+    if (entry.path().extension() != ".yaml") continue;
+    std::stringstream text;
+    text << std::ifstream(entry.path()).rdbuf();
+    const bool needs_shared = text.str().find("shared/data") != std::string::npos;
+    if (needs_shared && test::shared_missing("data")) continue;
+    ++read;
+    try {
+      const auto file = read_study(entry.path().string());
+      EXPECT_EQ(file.name, entry.path().stem().string());
+      EXPECT_TRUE(file.warnings.empty()) << joined(file.warnings);
+    } catch (const InputError& error) {
+      ADD_FAILURE() << error.what();
+    }
+  }
+  EXPECT_GE(read, 4);
+}
+
+// --- the canonical text -------------------------------------------------------------------
+
+struct Change {
+  const char* name;
+  std::function<void(Study&)> apply;
+};
+
+Study rich_study() {
+  Study study =
+      read_text(with({{"scene",
+                       "{builtin: {name: street}, materials: {a: {}, b: {}}, assign: [{material: "
+                       "a}], ground: {}}"}}))
+          .variants[0];
+  SceneFileStudy file;
+  file.path = "x";
+  file.position = Vec3{1, 2, 3};
+  file.earth_position = {50, 14, 0};
+  file.terrain = "y";
+  study.scene.files = {file};
+  return study;
+}
+
+template <class Kind>
+Change with_period(const char* name, std::function<void(Kind&)> apply) {
+  return {name, [apply](Study& study) { apply(std::get<Kind>(study.period.kind)); }};
+}
+
+void expect_seen(const Study& study, const std::vector<Change>& changes) {
+  for (const auto& change : changes) {
+    Study changed = study;
+    change.apply(changed);
+    EXPECT_NE(canonical_text(study), canonical_text(changed)) << change.name;
+  }
+}
+
+TEST(CanonicalText, SeesEveryValueThatCanChangeANumber) {
+  expect_seen(
+      rich_study(),
+      {{"latitude", [](Study& s) { *s.site.latitude_deg += 1e-13; }},
+       {"longitude", [](Study& s) { *s.site.longitude_deg += 1e-13; }},
+       {"crs", [](Study& s) { s.site.crs = "x"; }},
+       {"elevation", [](Study& s) { s.site.elevation_m = 0; }},
+       {"timezone", [](Study& s) { s.site.timezone = "UTC"; }},
+       {"north", [](Study& s) { s.site.north_deg = 0; }},
+       {"refraction", [](Study& s) { s.sun.refraction = Refraction::none; }},
+       {"ut1", [](Study& s) { s.sun.ut1_utc = Ut1::zero; }},
+       {"disk", [](Study& s) { s.sun.disk = SunDisk::finite; }},
+       {"horizon",
+        [](Study& s) {
+          s.site.horizon = Horizon({{0, 5}});
+        }},
+       {"source", [](Study& s) { s.light.source = LightSource::fixed; }},
+       {"model", [](Study& s) { s.light.model = ClearSkyModel::bird; }},
+       {"linke", [](Study& s) { s.light.linke_turbidity.monthly[7] += 1; }},
+       {"dni", [](Study& s) { s.light.dni_w_m2 = 1; }},
+       {"dhi", [](Study& s) { s.light.dhi_w_m2 = 1; }},
+       {"sky", [](Study& s) { s.light.sky = SkyModel::uniform; }},
+       {"sky_type", [](Study& s) { s.light.sky_type = 1; }},
+       {"turbidity", [](Study& s) { s.light.turbidity = 4; }},
+       {"sky scale", [](Study& s) { s.light.sky_scale = SkyScale::absolute; }},
+       {"bands", [](Study& s) { s.solver.bands = Bands::rgb; }},
+       {"far ground", [](Study& s) { s.light.far_ground_albedo = 0; }},
+       {"builtin", [](Study& s) { s.scene.builtin->name = "x"; }},
+       {"builtin parameter", [](Study& s) { s.scene.builtin->parameters["a"] = "b"; }},
+       {"no builtin", [](Study& s) { s.scene.builtin.reset(); }},
+       {"up", [](Study& s) { s.scene.up = 'y'; }},
+       {"unit", [](Study& s) { s.scene.unit_m = 2; }},
+       {"lod", [](Study& s) { s.scene.lod = "1"; }},
+       {"repair", [](Study& s) { s.scene.repair = Repair::all; }},
+       {"orient", [](Study& s) { s.scene.orient = Orientation::keep; }},
+       {"up of a file", [](Study& s) { s.scene.files[0].up = 'y'; }},
+       {"unit of a file", [](Study& s) { s.scene.files[0].unit_m = 1; }},
+       {"lod of a file", [](Study& s) { s.scene.files[0].lod = "1"; }},
+       {"position", [](Study& s) { s.scene.files[0].position->z = 4; }},
+       {"no position", [](Study& s) { s.scene.files[0].position.reset(); }},
+       {"position on Earth", [](Study& s) { s.scene.files[0].earth_position->height_m = 4; }},
+       {"turn", [](Study& s) { s.scene.files[0].turn_deg = 4; }},
+       {"material of a file", [](Study& s) { s.scene.files[0].material = "x"; }},
+       {"blocks", [](Study& s) { s.scene.files[0].terrain.clear(); }},
+       {"canopy", [](Study& s) { s.scene.files[0].canopy = "x"; }},
+       {"least height", [](Study& s) { s.scene.files[0].least_height_m = 1; }},
+       {"trunk", [](Study& s) { s.scene.files[0].trunk_share = 0; }},
+       {"material name", [](Study& s) { s.scene.materials[0].name = "c"; }},
+       {"diffuse", [](Study& s) { s.scene.materials[0].diffuse = 0; }},
+       {"mirror", [](Study& s) { s.scene.materials[0].mirror = 0; }},
+       {"index", [](Study& s) { s.scene.materials[0].refractive_index = 1.5; }},
+       {"extinction", [](Study& s) { s.scene.materials[0].extinction_coefficient = 3; }},
+       {"thickness", [](Study& s) { s.scene.materials[0].thickness_m = 0.01; }},
+       {"absorption", [](Study& s) { s.scene.materials[0].absorption_per_m = 10; }},
+       {"panes", [](Study& s) { s.scene.materials[0].panes = 2; }},
+       {"clear glass", [](Study& s) { s.scene.materials[0].normal_transmittance = 0.8; }},
+       {"clearer glass", [](Study& s) { s.scene.materials[0].normal_transmittance = 0.9; }},
+       {"glossy", [](Study& s) { s.scene.materials[0].glossy = 0.1; }},
+       {"exponent", [](Study& s) { s.scene.materials[0].glossy_exponent = 10; }},
+       {"transmittance", [](Study& s) { s.scene.materials[0].transmittance = 0.1; }},
+       {"emission", [](Study& s) { s.scene.materials[1].emission_w_m2 = 1; }},
+       {"sides", [](Study& s) { s.scene.materials[1].sides = Sides::one; }},
+       {"fewer materials", [](Study& s) { s.scene.materials.pop_back(); }},
+       {"assign object", [](Study& s) { s.scene.assign[0].object = "x"; }},
+       {"assign surface", [](Study& s) { s.scene.assign[0].surface = "wall"; }},
+       {"assign was", [](Study& s) { s.scene.assign[0].material_was = "x"; }},
+       {"assign type", [](Study& s) { s.scene.assign[0].kind = "x"; }},
+       {"assign material", [](Study& s) { s.scene.assign[0].material = "b"; }},
+       {"no rules", [](Study& s) { s.scene.assign.clear(); }},
+       {"ground wanted", [](Study& s) { s.scene.ground->wanted = false; }},
+       {"ground margin", [](Study& s) { s.scene.ground->margin_m = 1; }},
+       {"ground material", [](Study& s) { s.scene.ground->material = "b"; }},
+       {"ground by default", [](Study& s) { s.scene.ground.reset(); }},
+       {"max edge", [](Study& s) { s.mesh.max_edge_m = 1; }},
+       {"min area", [](Study& s) { s.mesh.min_area_m2 = 1; }},
+       {"transport", [](Study& s) { s.solver.transport = Transport::shoot; }},
+       {"jacobi", [](Study& s) { s.solver.jacobi = Jacobi::regular; }},
+       {"power per sample", [](Study& s) { s.solver.power_per_sample_w = 0.5; }},
+       {"bounces", [](Study& s) { s.solver.bounces = 1; }},
+       {"unshot", [](Study& s) { s.solver.unshot = 0; }},
+       {"lines", [](Study& s) { s.solver.lines_per_patch = 8; }},
+       {"samples", [](Study& s) { s.solver.direct_samples = 8; }},
+       {"realizations", [](Study& s) { s.solver.realizations = 4; }},
+       {"mirror depth", [](Study& s) { s.solver.mirror_depth = 1; }},
+       {"batch suns", [](Study& s) { s.solver.batch_suns = 1; }},
+       {"accuracy", [](Study& s) { s.solver.accuracy = AccuracyStudy{0.02}; }},
+       {"another accuracy", [](Study& s) { s.solver.accuracy = AccuracyStudy{0.03}; }},
+       {"accuracy of instants",
+        [](Study& s) {
+          s.solver.accuracy = AccuracyStudy{{}, 0.02};
+        }},
+       {"most lines",
+        [](Study& s) {
+          s.solver.accuracy = AccuracyStudy{0.02};
+          s.solver.max_lines_per_patch = 512;
+        }},
+       {"seed", [](Study& s) { s.solver.seed = 9007199254740993; }},
+       with_period<DaysPeriod>("day", [](DaysPeriod& p) { p.days[0].day = 2; }),
+       with_period<DaysPeriod>("from", [](DaysPeriod& p) { p.from_s = 1; }),
+       with_period<DaysPeriod>("to", [](DaysPeriod& p) { p.to_s = 1; }),
+       with_period<DaysPeriod>("step", [](DaysPeriod& p) { p.step_min = 1; })});
+}
+
+TEST(CanonicalText, SeesEveryKindOfPeriod) {
+  Study study = rich_study();
+  const std::string days = canonical_text(study);
+  study.period.kind = RangePeriod{};
+  EXPECT_NE(canonical_text(study), days);
+  expect_seen(
+      study,
+      {with_period<RangePeriod>("start", [](RangePeriod& p) { p.start.civil.second = 1e-3; }),
+       with_period<RangePeriod>("end", [](RangePeriod& p) { p.end.civil.minute = 1; }),
+       with_period<RangePeriod>("zone", [](RangePeriod& p) { p.end.has_offset = true; }),
+       with_period<RangePeriod>("step", [](RangePeriod& p) { p.step_min = 1; })});
+  study.period.kind = InstantsPeriod{{ParsedTime{{}, true, true, 0}}, 60};
+  expect_seen(study, {with_period<InstantsPeriod>(
+                          "offset", [](InstantsPeriod& p) { p.instants[0].offset_s = 3600; }),
+                      with_period<InstantsPeriod>("interval",
+                                                  [](InstantsPeriod& p) { p.interval_min = 1; })});
+  study.period.kind = PositionsPeriod{{SunAt{}}};
+  expect_seen(study,
+              {with_period<PositionsPeriod>(
+                   "azimuth", [](PositionsPeriod& p) { p.positions[0].azimuth_deg = 1; }),
+               with_period<PositionsPeriod>(
+                   "elevation", [](PositionsPeriod& p) { p.positions[0].elevation_deg = 1; }),
+               with_period<PositionsPeriod>(
+                   "interval", [](PositionsPeriod& p) { p.positions[0].interval_min = 1; })});
+}
+
+TEST(CanonicalText, DoesNotSeeNamesPlacesAndOutput) {
+  const Study study = rich_study();
+  const Where elsewhere{"other.yaml", 3, 4};
+  const std::vector<Change> changes{
+      {"name", [](Study& s) { s.name = "x"; }},
+      {"variant", [](Study& s) { s.variant = "x"; }},
+      {"isa", [](Study& s) { s.solver.isa = "avx2"; }},  // the one in force is hashed apart
+      {"files", [](Study& s) { s.scene.files[0].path = "/elsewhere/x"; }},
+      {"parallel sources", [](Study& s) { s.scene.parallel_sources = "/elsewhere/x"; }},
+      {"output",
+       [](Study& s) {
+         s.output = {"x", {"total"}, StandardErrors::instants, 0};
+       }},
+      {"time of day written",
+       [](Study& s) {
+         s.period.where = {"y", 1, 1};
+       }},
+      {"places", [&](Study& s) {
+         s.site.where = s.period.where = s.scene.where = elsewhere;
+         s.scene.files[0].where = s.scene.builtin->where = elsewhere;
+         s.scene.materials[0].where = s.scene.assign[0].where = elsewhere;
+       }}};
+  for (const auto& change : changes) {
+    Study changed = study;
+    change.apply(changed);
+    EXPECT_EQ(canonical_text(study), canonical_text(changed)) << change.name;
+  }
+}
+
+}  // namespace
+}  // namespace sunload

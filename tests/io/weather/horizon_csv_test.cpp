@@ -1,0 +1,96 @@
+/// Horizon files: both kinds, and what is wrong with others.
+#include "io/weather/horizon_csv.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+
+#include "geo/base/check.h"
+
+namespace sunload {
+namespace {
+
+Horizon read(const std::string& text) {
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("sunload_horizon_" + std::to_string(getpid()) + ".csv");
+  std::ofstream(path, std::ios::binary) << text;
+  try {
+    const Horizon horizon = read_horizon_csv(path.string());
+    std::filesystem::remove(path);
+    return horizon;
+  } catch (...) {
+    std::filesystem::remove(path);
+    throw;
+  }
+}
+
+TEST(HorizonCsv, ReadsNamedColumns) {
+  for (const char* text :
+       {"azimuth_deg,elevation_deg\n90,10\n270,20\n",
+        "# hills\nelevation_deg; azimuth_deg; note\r\n10; 90; east\r\n\r\n20; 270; west\r\n",
+        "\xEF\xBB\xBF"
+        "azimuth_deg elevation_deg\n+90 10 # east\n270 20"}) {
+    const Horizon horizon = read(text);
+    ASSERT_EQ(horizon.points().size(), 2u) << text;
+    EXPECT_EQ(horizon.elevation_deg(90), 10);
+    EXPECT_EQ(horizon.elevation_deg(270), 20);
+  }
+}
+
+// The layout of PVGIS's horizon table; west is +90 there, and 270 here.
+TEST(HorizonCsv, ReadsPvgisTables) {
+  const Horizon horizon = read(
+      "Latitude (decimal degrees):\t45.815\nLongitude (decimal degrees):\t8.611\n\n"
+      "A\t\tH_hor\tA_sun(w)\tH_sun(w)\tA_sun(s)\tH_sun(s)\n"
+      "-180.0\t3.0\t-180.0\t-67.6\t-180.0\t-20.7\n-90.0\t10.0\t0\t0\t0\t0\n"
+      "0.0\t1.5\t0\t0\t0\t0\n90.0\t20.0\t0\t0\t0\t0\n180.0\t3.0\t0\t0\t0\t0\n\n"
+      "A: Azimuth (0 = S, 90 = W, -90 = E) (degree)\nH_hor: Horizon height (degree)\n");
+  ASSERT_EQ(horizon.points().size(), 4u);
+  EXPECT_EQ(horizon.elevation_deg(0), 3);
+  EXPECT_EQ(horizon.elevation_deg(90), 10);
+  EXPECT_EQ(horizon.elevation_deg(180), 1.5);
+  EXPECT_EQ(horizon.elevation_deg(270), 20);
+}
+
+void expect_refused(const std::string& text, const std::string& part) {
+  try {
+    read(text);
+    ADD_FAILURE() << text << " was read";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+}
+
+TEST(HorizonCsv, TellsWhatIsWrong) {
+  expect_refused("", "no horizon file");
+  expect_refused("0,1\n90,2\n", "azimuth_deg and elevation_deg, or A and H_hor");
+  expect_refused("azimuth_deg,elevation_deg\n0,1\n90,x\n", ".csv:3: 'x' is no number");
+  expect_refused("azimuth_deg,elevation_deg\n0,1\n90\n", ".csv:3: the row is too short");
+  expect_refused("azimuth_deg,elevation_deg\n0,1\n90,nan\n", "'nan' is no number");
+  expect_refused("azimuth_deg,elevation_deg\n0,1\n", "too few points");
+  expect_refused("azimuth_deg,elevation_deg\n0,1\n10,-2\n", "below the horizon");
+  expect_refused("azimuth_deg,elevation_deg\n0,1\n360,2\n", "another elevation");
+  EXPECT_THROW(read_horizon_csv("/nowhere/horizon.csv"), InputError);
+}
+
+TEST(HorizonCsv, SurvivesGarbage) {
+  std::mt19937 random(1);
+  const std::string good = "azimuth_deg,elevation_deg\n0,1\n90,2\n180,3\n";
+  for (int n = 0; n < 2000; ++n) {
+    std::string text = good;
+    text.resize(random() % (good.size() + 1));
+    for (unsigned k = random() % 4; k > 0 && !text.empty(); --k)
+      text[random() % text.size()] = static_cast<char>(random());
+    try {
+      read(text);
+    } catch (const InputError&) {
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sunload

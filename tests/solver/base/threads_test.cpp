@@ -1,0 +1,94 @@
+/// Fixed chunks, ordered sums, exceptions of parallel loops.
+
+#include "solver/base/threads.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <stdexcept>
+
+#include "geo/base/check.h"
+
+namespace sunload::test {
+namespace {
+
+/// Sets the number of threads and puts the old one back.
+class Threads {
+ public:
+  explicit Threads(int count) : before_(thread_count()) { set_thread_count(count); }
+  ~Threads() { set_thread_count(before_); }
+
+ private:
+  int before_;
+};
+
+TEST(ParallelChunks, CoverTheRangeOnce) {
+  for (const int threads : {1, 2, 3, 7})
+    for (const std::size_t count : {0u, 1u, 9u, 10u, 11u, 1000u})
+      for (const std::size_t chunk : {1u, 10u, 64u, 5000u}) {
+        const Threads set(threads);
+        std::vector<std::atomic<int>> visits(count);
+        parallel_chunks(count, chunk, [&](std::size_t begin, std::size_t end) {
+          EXPECT_EQ(begin % chunk, 0u);
+          EXPECT_EQ(end, std::min(count, begin + chunk));
+          for (std::size_t i = begin; i < end; ++i) ++visits[i];
+        });
+        for (const auto& v : visits) ASSERT_EQ(v, 1);
+      }
+}
+
+TEST(ParallelChunks, RethrowTheExceptionOfTheFirstChunk) {
+  for (const int threads : {1, 2, 7}) {
+    const Threads set(threads);
+    std::atomic<int> done = 0;
+    try {
+      parallel_chunks(100, 1, [&](std::size_t i, std::size_t) {
+        ++done;
+        if (i == 17 || i == 18 || i == 93) throw std::runtime_error(std::to_string(i));
+      });
+      ADD_FAILURE() << "nothing thrown";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "17");
+    }
+    EXPECT_EQ(done, 100);
+  }
+}
+
+TEST(ParallelChunks, EndWhereTheyAreCancelled) {
+  int asked = 0;
+  set_cancellation([&] { return ++asked > 3; });
+  const Threads set(1);
+  std::atomic<int> done = 0;
+  EXPECT_THROW(parallel_chunks(10, 1, [&](std::size_t, std::size_t) { ++done; }), Interrupted);
+  EXPECT_EQ(done, 3);
+  set_cancellation({});
+  parallel_chunks(10, 1, [&](std::size_t, std::size_t) { ++done; });
+  EXPECT_EQ(done, 13);
+}
+
+TEST(OrderedSum, HasTheSameBitsForAnyNumberOfThreads) {
+  constexpr std::size_t count = 100'003, chunk = 128;
+  const auto sum = [&](int threads) {
+    const Threads set(threads);
+    return ordered_sum(count, chunk, 0.0, [](std::size_t begin, std::size_t end) {
+      double part = 0;
+      for (std::size_t i = begin; i < end; ++i) part += std::sin(static_cast<double>(i)) * 1e6;
+      return part;
+    });
+  };
+  const double one = sum(1);
+  for (const int threads : {2, 3, 7}) EXPECT_EQ(sum(threads), one) << threads;
+  // The order does matter for these numbers: backwards the bits differ.
+  double backwards = 0;
+  for (std::size_t i = count; i-- > 0;) backwards += std::sin(static_cast<double>(i)) * 1e6;
+  EXPECT_NE(backwards, one);
+}
+
+TEST(ThreadCount, IsAtLeastOne) {
+  const Threads set(0);
+  EXPECT_EQ(thread_count(), 1);
+}
+
+}  // namespace
+}  // namespace sunload::test

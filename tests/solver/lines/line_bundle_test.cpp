@@ -1,0 +1,118 @@
+/// Lines in packets are those of their numbers, and casting them together changes no hit.
+
+#include "solver/lines/line_bundle.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "solver/lines/lines.h"
+#include "tests/support/scenes.h"
+
+namespace sunload::test {
+namespace {
+
+using Facing = SceneBuilder::Facing;
+
+/// Blocks on a plane, some of them two-sided sheets.
+const Scene& blocks() {
+  static SceneBuilder builder = [] {
+    SceneBuilder b;
+    const int m = b.material({"m", 0.3, 0, 0});
+    b.object("ground").quad({-60, -60, 0}, {60, -60, 0}, {60, 60, 0}, {-60, 60, 0}, m);
+    for (int i = 0; i < 16; ++i) {
+      const double x = -50 + 25.0 * (i % 4), y = -50 + 25.0 * (i / 4);
+      b.object("block " + std::to_string(i));
+      b.box({x, y, 0.01}, {x + 12, y + 9, 6.0 + i}, m, Facing::outward);
+    }
+    b.object("sheet").sides(Sides::two);
+    b.triangle({-8, -60, 1}, {-8, 60, 1}, {-8, 0, 12}, m);
+    return b;
+  }();
+  return builder.scene();
+}
+
+TEST(PatchLines, PacketsAreTheLinesOfTheirNumbers) {
+  const Hierarchy mesh(blocks(), {.max_edge_m = 20});
+  for (const std::size_t patch : {std::size_t{0}, mesh.patch_count() / 2, mesh.patch_count() - 1}) {
+    const PatchLines lines(mesh, patch, 1e-3, line_seeds(mesh, patch, 3, 7));
+    for (const std::size_t first : {0u, 16u, 48u, 1024u, 4080u}) {
+      PatchLines::Line packet[packet_size];
+      lines.packet(first, packet);
+      for (std::size_t l = 0; l < packet_size; ++l) {
+        const auto alone = lines[static_cast<std::uint32_t>(first + l)];
+        EXPECT_EQ(packet[l].origin, alone.origin) << first + l;
+        EXPECT_EQ(packet[l].w, alone.w) << first + l;
+        EXPECT_GT(dot(packet[l].w, mesh.normal(patch)), 0);
+      }
+    }
+  }
+}
+
+TEST(LineBundle, HitsAreThoseOfEachLineAlone) {
+  const Scene& scene = blocks();
+  const Hierarchy mesh(scene, {.max_edge_m = 6});
+  constexpr std::size_t count = 40, patches = 7;  // packets that are not full, too
+  for (const char* isa : {"sse4.2", "auto"}) {
+    const RayCaster caster(scene.mesh, isa);
+    std::size_t compared = 0, left = 0;
+    LineBundle bundle;
+    for (std::size_t first = 0; first + patches <= mesh.patch_count(); first += patches) {
+      bundle.clear();
+      const auto lines_of = [&](std::size_t patch) {
+        return PatchLines(mesh, patch, caster.offset_m(), line_seeds(mesh, patch, 0, 1));
+      };
+      for (std::size_t p = 0; p < patches; ++p) bundle.add(lines_of(first + p), count);
+      bundle.cast(caster);
+      for (std::size_t p = 0; p < patches; ++p) {
+        const PatchLines lines = lines_of(first + p);
+        for (std::size_t at = 0; at < count; at += packet_size) {
+          const LinePacket packet(lines, at, count);
+          const PacketHits hits = packet.first_hits(caster);
+          for (std::size_t l = 0; l < packet.count; ++l, ++compared) {
+            const Hit alone = hits[l], together = bundle.hit(p * count + at + l);
+            ASSERT_EQ(bundle.line(p * count + at + l).w, packet.line[l].w);
+            ASSERT_EQ(together.triangle, alone.triangle);
+            left += alone.left_scene();
+            if (alone.left_scene()) continue;
+            ASSERT_EQ(together.u, alone.u);
+            ASSERT_EQ(together.v, alone.v);
+            ASSERT_EQ(together.distance_m, alone.distance_m);
+            ASSERT_EQ(together.front, alone.front);
+          }
+        }
+      }
+    }
+    EXPECT_GT(compared, 100'000u);
+    EXPECT_GT(left, compared / 10);
+    EXPECT_LT(left, compared * 9 / 10);
+  }
+}
+
+/// Links of one row, sorted and merged: the same for short rows and long ones.
+TEST(LinkTable, MergesLinksToTheSameTarget) {
+  for (const std::uint32_t count : {0u, 1u, 30u, 48u, 49u, 3000u}) {
+    std::vector<LinkTable::Link> links;
+    std::map<std::uint32_t, double> expected;
+    for (std::uint32_t l = 0; l < count; ++l) {
+      const std::uint32_t target = l * 2654435761u % (count + 1) * 70'001u;
+      const float weight = 1 + static_cast<float>(l % 4);
+      links.push_back({target / 2, weight});
+      expected[target / 2] += static_cast<double>(weight) / 8;
+    }
+    LinkTable::Block block;
+    LinkTable::append_row(block, links, 0.125f);
+    ASSERT_EQ(block.target.size(), expected.size());
+    const auto row_end = static_cast<std::uint32_t>(expected.size());
+    ASSERT_EQ(block.begin, (std::vector<std::uint32_t>{0, row_end}));
+    std::size_t at = 0;
+    for (const auto& [target, weight] : expected) {
+      EXPECT_EQ(block.target[at], target);
+      EXPECT_EQ(static_cast<double>(block.weight[at++]), weight);  // eighths: exact
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sunload::test
