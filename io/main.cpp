@@ -1,4 +1,7 @@
-/// Runs a command; what it throws becomes a message and an exit code of DESIGN 1.
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Runs a command; what it throws becomes a message and an exit code (docs/developer/design.md,
+/// Commands and exit codes).
 
 #include <fmt/format.h>
 

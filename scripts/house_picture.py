@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The picture of the house: rooms in rows, what includes above what it includes; for scripts/house.
 
 Sugiyama, Tagawa & Toda (1981), Methods for visual understanding of hierarchical system structures: rows by height,

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Rooms of the house and what they include, read from the sources; for scripts/house."""
 
 import collections

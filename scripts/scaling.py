@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What a study costs: fits the cost model of docs/scaling.md to measured runs.
 
 scaling.py measure SUNLOAD -o RUNS.json    runs the studies, one thread each (some minutes)

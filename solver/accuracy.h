@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How many lines, direct samples and, when shooting, samples of power a study needs for the
 /// accuracy it asks for, by what a pilot found out.
 ///
@@ -25,7 +27,8 @@ struct AccuracyGoal {
 };
 
 /// Of the leaf area (with irradiance: of that of all suns) whose value is at least
-/// `share_that_counts` of the largest, `share_to_be_met` shall meet the goal (DESIGN 4).
+/// `share_that_counts` of the largest, `share_to_be_met` shall meet the goal
+/// (docs/developer/design.md, Study).
 inline constexpr double share_that_counts = 0.01, share_to_be_met = 0.95;
 
 /// Over all realizations together.

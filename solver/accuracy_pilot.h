@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What errors the light of a study will have: a pilot, with random numbers of its own, solves some
 /// of the study's suns and tells for every patch the variance that one line (a), one direct sample
 /// (b) and one sample shot per patch (c) bring. With L lines, D and S samples the standard error is

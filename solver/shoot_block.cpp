@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A block of suns by shooting: every realization for itself, series and totals from their mean.
 #include "solver/base/stopwatch.h"
 #include "solver/base/threads.h"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a block of suns brings by rays: shadow rays, image directions, chains of mirrors.
 #include <algorithm>
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Errors for the user, errors of the machine, and contracts.
 ///
 /// Every message for the user reads `file:line:column: what (why); what to try`.

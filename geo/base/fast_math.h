@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Exponential, sine, cosine, arcsine and arctangent that a compiler can vectorise.
 ///
 /// Straight-line arithmetic, no branches, no tables, no calls: loops over them become

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Strong indices: an ObjectId cannot be passed where a MaterialId is meant.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Numbers with a unit: angles are radians unless a name ends in `_deg`.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Parts of ordinary Central European street houses, and whole houses.
 ///
 /// House frame: the front faces −y at y = 0, x runs along the street, z = 0 is

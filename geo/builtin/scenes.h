@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The built-in scenes, one function each; `scene_builtin.h` is the entry for users.
 #pragma once
 

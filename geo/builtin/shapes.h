@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Building blocks of the built-in scenes: closed bodies with openings.
 ///
 /// A body is made of planar faces. Whatever a face carries (a window, a door, a

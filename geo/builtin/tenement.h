@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Whole houses of a closed row, from the parts in `builtin_houses.h`.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Placements of shapes within shapes: transformations of VRML and glTF files.
 #pragma once
 

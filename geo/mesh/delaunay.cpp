@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The program is built with NDEBUG, which would switch off CGAL's own checks; with them a polygon
 // that CGAL cannot handle raises an exception and is counted, not undefined.
 #define CGAL_DEBUG 1

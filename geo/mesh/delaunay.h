@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One polygon with holes → triangles, by CGAL's constrained Delaunay triangulation.
 #pragma once
 

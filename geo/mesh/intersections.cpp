@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geo/mesh/intersections.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What scene readers deliver, and the triangle mesh that light is computed on.
 #pragma once
 

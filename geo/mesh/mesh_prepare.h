@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Polygons as read → triangles fit for ray casting.
 ///
 /// Steps, in this order (each in a file of its own):

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Fronts and backs: closed bodies turned outward, sheets made consistent.
 #pragma once
 

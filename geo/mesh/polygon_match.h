@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Which of an object's polygons a point lies on: finds the surface that a patch was cut from.
 #pragma once
 

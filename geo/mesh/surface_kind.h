@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Wall, roof, ground, floor: decided from the slope where the file is silent.
 #pragma once
 

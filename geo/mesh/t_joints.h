@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Corners that lie on a neighbour's edge become corners of the neighbour.
 #pragma once
 

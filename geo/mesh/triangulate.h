@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Polygons with holes → triangles.
 ///
 /// A polygon is seen along the axis nearest to its Newell normal (Sutherland,

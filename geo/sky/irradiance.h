@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Broadband sun and sky irradiance: air mass, clear-sky models, decomposition of
 /// global irradiance, luminous efficacy.
 ///

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Coefficients of the sky models. Notation of the papers: a … e, theta, gamma, epsilon,
 // Delta, T (turbidity).
 #include "geo/sky/sky.h"
@@ -113,7 +115,7 @@ SkyShape cie_general(int type) {
   return shape;
 }
 
-// Kittler (1967), as METHOD 2.
+// Kittler (1967).
 SkyShape cie_clear() {
   SkyShape shape;
   shape.v = -1;

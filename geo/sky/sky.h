@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Radiance of the sky by direction.
 #pragma once
 
@@ -19,7 +21,7 @@ struct SkyInput {
   double dhi = 0;  ///< horizontal diffuse irradiance to be met [W m-2]
   double dni = 0;  ///< for the clearness of perez
   double extraterrestrial_normal = 1361;
-  double sun_zenith_deg = 90;   ///< at most 90 (DESIGN 4: without sun above the horizon, 90)
+  double sun_zenith_deg = 90;   ///< at most 90; without sun above the horizon, 90
   Vec3 sun_direction{0, 1, 0};  ///< unit, the frame of the queries
   int cie_type = 12;            ///< 1…15, of cie_general
   double turbidity = 3;         ///< of preetham, [1, 20]; fitted for 2…10

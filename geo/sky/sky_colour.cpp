@@ -1,4 +1,7 @@
-// Notation of METHOD 2: I relative brightness, k share of day, h height on the unit dome.
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Notation of docs/developer/method.md, Sources of light: I relative brightness, k share of day, h
+// height on the unit dome.
 #include "geo/sky/sky_colour.h"
 
 #include <algorithm>

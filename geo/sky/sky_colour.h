@@ -1,4 +1,6 @@
-/// Colour of the clear sky for pictures: the two models of METHOD 2 (Holubář 2007).
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Colour of the clear sky for pictures: the two models of Holubář (2007), 4.3–5.4.
 #pragma once
 
 #include "geo/base/vec.h"

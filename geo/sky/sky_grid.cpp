@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The square [-1, 1]² is made of rings of squares about its centre. A point at (a, b) with
 // r = max(|a|, |b|) stands at cosθ = 1 - r², and runs along its ring in proportion to the
 // azimuth (Shirley & Chiu 1997). Hence everything that depends on the zenith angle alone

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Horizontal irradiance of a relative sky.
 //
 // In rings about the sun the cusp exp(dγ) falls on the pole of the coordinates and

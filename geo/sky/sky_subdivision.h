@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The sky dome in patches of daylighting practice: Tregenza's 145 and Reinhart's finer ones.
 ///
 /// Rows of equal height about the zenith cap; patches count clockwise from north, the first

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Air and its refraction of sunlight.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Frames by GeographicLib, map projections by PROJ.
 #include "geo/sun/site.h"
 

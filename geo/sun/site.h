@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Where the scene stands on Earth, and how its axes lie (GeographicLib, PROJ).
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Positions as people write them, by GeographicLib.
 #include <GeographicLib/DMS.hpp>
 #include <GeographicLib/GeoCoords.hpp>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The sun at an instant: directly, and fast.
 #include "geo/sun/sun.h"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Apparent sun over a site, and the sun path of a study (ERFA ephemeris).
 ///
 /// Azimuth is clockwise from true north, elevation above the horizon; a sun
@@ -120,7 +122,8 @@ SunEvents sun_events(const SunEphemeris& sun, UnixTime day_begin,
 ///
 /// The representative sun stands at the middle of the sunlit part (apparent
 /// elevation of the centre above 0), of the longest one if the sun sets and rises
-/// within; a dark interval has `sunlit_s` = 0 and the sun of its middle. DESIGN 4.
+/// within; a dark interval has `sunlit_s` = 0 and the sun of its middle (docs/developer/design.md,
+/// Study).
 ///
 /// Where the site has hills, sunlit is what the sun's centre spends above their line
 /// (passages found on steps of a minute); the representative sun of an interval that

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sunrise and sunset, and the representative suns of a period.
 #include <algorithm>
 #include <cmath>

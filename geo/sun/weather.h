@@ -1,8 +1,10 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Measured and typical weather: sun and sky power in stretches of time.
 ///
 /// Irradiances are means over the whole stretch [W m-2]. Direct light comes only while
 /// the sun is up, so a stretch that is divided gives its beam to the sunlit part of each
-/// piece, and its diffuse light to the whole of it (DESIGN 4).
+/// piece, and its diffuse light to the whole of it (docs/developer/design.md, Study).
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Earth and sun in inertial space: the slow terms of the sun's place (ERFA).
 ///
 /// Internal to geo/: time.h and sun.h are what callers use. IAU 2006/2000A

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// UT1−TAI at 0h UTC of 1 January and 1 July, 1972 … 2026.
 ///
 /// International Earth Rotation and Reference Systems Service (IERS): EOP 14 C04

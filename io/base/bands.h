@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Bands in batch files and results: names of arrays, and which band a reader is shown.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Numbers as the bytes that binary files hold, whatever the order of the machine's own bytes.
 #pragma once
 

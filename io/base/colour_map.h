@@ -1,12 +1,15 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Colours that stand for numbers: perceptually uniform, safe for colour-blind eyes.
 ///
 /// `false_colour` is a helix in CIELAB: lightness and hue grow linearly from a
 /// dark blue by way of purple and orange to a light yellow, chroma is constant,
 /// so that equal steps of the value are equal steps of CIE 1976 colour
 /// difference; lightness alone orders the colours for any colour vision.
-/// `grey` is the neutral axis. `hue` is the scale of the historic system (METHOD 7): HLS hue from
-/// cold (blue) to warm (red), lightness and saturation ½; neither uniform nor safe, it is for
-/// pictures that are compared with old ones. CIE 15:2004, Colorimetry; sRGB: IEC 61966-2-1.
+/// `grey` is the neutral axis. `hue` is the scale of the historic system (docs/developer/method.md,
+/// The historic system): HLS hue from cold (blue) to warm (red), lightness and saturation ½;
+/// neither uniform nor safe, it is for pictures that are compared with old ones. CIE 15:2004,
+/// Colorimetry; sRGB: IEC 61966-2-1.
 #pragma once
 
 #include <array>

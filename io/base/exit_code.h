@@ -1,4 +1,6 @@
-/// Exit codes of the program (DESIGN 1).
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Exit codes of the program (docs/developer/design.md, Commands and exit codes).
 #pragma once
 
 namespace sunload::exit_code {

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Text of files as readers need it: bytes, places in them, counted notes.
 #pragma once
 

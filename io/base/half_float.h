@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Half-precision floats (IEEE 754-2019 binary16) and base64 (RFC 4648): how
 /// series travel in a page.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// SHA-256 (OpenSSL) of texts and files.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// JSON texts of users: parsed with the place of an error, guarded against bombs.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Hints for misspelt words: nearest name, and units at the end of a key.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Light by its energy or by what the eye makes of it: names and units of both.
 #pragma once
 

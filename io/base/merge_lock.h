@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One merge at a time: a lock that the system lets go when its holder dies.
 #pragma once
 

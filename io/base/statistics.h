@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Small-sample statistics of realizations (Boost.Math for Student's t).
 #pragma once
 

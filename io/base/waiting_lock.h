@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A lock that processes wait for: one does what all need, the others then find it done.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A batch's tally as the arrays of a batch file, and back.
 #pragma once
 

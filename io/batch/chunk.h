@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Chunks of float series as HDF5 stores them: byte shuffle, then zlib deflate.
 ///
 /// A chunk always has its full shape: past the edges of an array it is padded

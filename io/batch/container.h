@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The container of batch files: a verified JSON header and blocks of bytes.
 ///
 ///     0  magic         8 bytes  89 53 4C 42 0D 0A 1A 0A

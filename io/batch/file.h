@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Batch files: a finished unit of work (variant, batch) as one valid file.
 ///
 /// A batch is a set of named arrays, each with the rule by which merge puts

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What does not depend on the batch, kept beside the batches: the traced lines.
 ///
 /// Shards and ranks read them instead of tracing again. The file is checked by

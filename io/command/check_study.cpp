@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// `sunload check` and `sunload sun`: everything that is known before computing.
 
 #include <fmt/format.h>

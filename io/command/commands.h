@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What commands on results and scenes do, and what they are asked for in words. The commands on
 /// studies are in io/run/run.h.
 #pragma once

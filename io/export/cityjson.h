@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The two ways of CityJSON export: the patches, or the study's own model with values.
 #pragma once
 

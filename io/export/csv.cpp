@@ -1,12 +1,14 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
 
 #include "geo/base/check.h"
+#include "geo/mesh/mesh.h"
 #include "geo/time/time.h"
 #include "io/base/light_quantity.h"
-#include "geo/mesh/mesh.h"
 #include "io/base/text.h"
 #include "io/export/format.h"
 #include "io/result/patch_groups.h"

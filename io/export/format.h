@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What all formats of `sunload export` draw from, and one function for each.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_vsi.h>

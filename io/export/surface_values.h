@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a set of patches receives, as named numbers: for the surfaces and objects of city models.
 #pragma once
 

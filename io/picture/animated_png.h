@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Animated PNG from PNG pictures of one size.
 /// W3C (2025), Portable Network Graphics, third edition, 11.3.6 and 4.9.
 #pragma once

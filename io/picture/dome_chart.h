@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The dome of the sky on a disc of paper.
 ///
 /// A map: north up, east right, azimuth clockwise from true north, the zenith in the centre,

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Pictures with lines and text, stored as PNG: the only file that knows cairo.
 ///
 /// Coordinates are pixels, x to the right, y down, (0, 0) the upper left corner

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Pictures of a result: what falls on every patch in false colour, with legend.
 #pragma once
 

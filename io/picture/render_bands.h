@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Patches in the colours of their light: red, green and blue as what they are.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What stands around a picture of a scene: title, legend and north arrow.
 #pragma once
 

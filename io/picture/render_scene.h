@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The patches of a result as a camera sees them: geometry, hits and pixels.
 #pragma once
 

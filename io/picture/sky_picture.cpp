@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pictures of the sky dome.
 #include <fmt/format.h>
 
@@ -72,7 +74,7 @@ void paint_colour(Picture& picture, const DomeChart& chart, const SkyDome& dome,
 
 void mark_sun(Picture& picture, const DomeChart& chart, const SunPosition& sun) {
   if (sun.elevation_deg < 0) return;
-  constexpr double beyond_disc_deg = 6;  // the disc of METHOD 2 ends at 4
+  constexpr double beyond_disc_deg = 6;  // the disc of sky_colour ends at 4
   const PicturePoint p = chart.at({sun.azimuth_deg, sun.elevation_deg});
   const double radius = beyond_disc_deg / 90 * chart.radius();
   picture.draw_circle(p, radius, 3, {1, 1, 1});

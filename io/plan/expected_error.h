@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What error a study's counts of samples let expect, before anything is computed.
 #pragma once
 
@@ -16,7 +18,7 @@ namespace sunload {
 ///   a clear sky, where 256 lines leave 3 … 5 %);
 /// - the sun on a patch that a shadow's edge crosses by n samples: at most 0.5 / √n;
 /// - reflected light when shooting N samples over the area A on a patch of area a: √(A / (N a)),
-///   the variance of eq. 4.5 of METHOD 4 with a reflectance of 1.
+///   the variance of equation 13 of docs/developer/method.md, Shooting, with a reflectance of 1.
 std::vector<std::string> expected_error_warnings(const VariantPlan& plan, const Hierarchy& mesh);
 
 }  // namespace sunload

@@ -1,9 +1,11 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Colour of sun and sky: the light of an interval in three bands.
 ///
-/// Colours are those of METHOD 2 (geo/sky/sky_colour.h), divided by their mean over the bands: in
-/// every direction the mean of the bands is the broadband radiance. The sunlight has the colour of
-/// the disc at its elevation, a cell of the sky that of the second model at its middle, as far as
-/// the sky is clear: the rest of its light is white, as clouds are.
+/// Colours are those of Holubář (2007; geo/sky/sky_colour.h), divided by their mean over the bands:
+/// in every direction the mean of the bands is the broadband radiance. The sunlight has the colour
+/// of the disc at its elevation, a cell of the sky that of the second model at its middle, as far
+/// as the sky is clear: the rest of its light is white, as clouds are.
 #pragma once
 
 #include <vector>

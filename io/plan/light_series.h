@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Period, sun path and irradiance of a study: the light of every interval.
 #pragma once
 
@@ -30,7 +32,7 @@ struct LightSeries {
   std::size_t lit_count() const;
 };
 
-/// Sun path and irradiance of every interval (DESIGN 4).
+/// Sun path and irradiance of every interval (docs/developer/design.md, Study).
 /// Throws InputError for times that do not exist or do not increase.
 LightSeries light_series(const Study& study, const Site& site);
 

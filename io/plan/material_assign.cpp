@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/plan/material_assign.h"
 
 #include <fmt/format.h>
@@ -232,8 +234,8 @@ class MaterialAssigner {
         defaulted, 100 * defaulted / all, kinds, default_reflectance));
   }
 
-  /// Materials that glow by their file, and nobody says how much: METHOD 7 has a power for VRML's
-  /// colours alone.
+  /// Materials that glow by their file, and nobody says how much: colours of VRML alone have a
+  /// power (docs/developer/method.md, The historic system).
   void warn_of_dark_lamps() {
     const Mesh& mesh = scene_.mesh;
     std::map<std::string, double> dark_m2;

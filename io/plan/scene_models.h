@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The files of a scene, or a built-in scene, put together into one model.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The sky over a study at one instant, as a table or as a picture (`sunload sky`).
 #pragma once
 
@@ -44,7 +46,7 @@ std::vector<SkyRow> sky_rows(const SkyDome& dome, std::optional<Subdivision> sub
 std::string sky_csv(const std::vector<SkyRow>& rows);
 
 /// luminance: false colour [kcd m-2], by Perez's luminous efficacy of the diffuse light.
-/// colour: as the eye sees it, by the models of METHOD 2, for clear skies.
+/// colour: as the eye sees it, by the models of Holubář (2007), for clear skies.
 enum class SkyPicture { luminance, colour };
 struct SkyPictureRules {
   SkyPicture kind = SkyPicture::luminance;

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The frozen mesh of a variant: split, refined by a pilot of the study's own suns.
 #pragma once
 

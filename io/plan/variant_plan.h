@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What one variant of a study will compute, and the hash that names it.
 #pragma once
 
@@ -47,7 +49,7 @@ double pilot_memory_bytes(const VariantPlan& plan, std::size_t patches);
 /// "1 %", "5 % at every instant" or both.
 std::string goal_words(const AccuracyStudy& accuracy);
 
-/// Paths of DESIGN 2.
+/// Paths (docs/developer/design.md, Batches).
 std::string result_path(const std::string& folder, const Study& study);
 std::string work_folder(const std::string& folder, const VariantPlan& plan);
 std::string prepared_path(const std::string& folder, const VariantPlan& plan);

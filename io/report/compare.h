@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What changes between two results: differences of the light load with their
 /// significance, per facade, object, surface and on the whole.
 ///
@@ -50,8 +52,8 @@ Comparison compare_results(const ResultReader& base, const ResultReader& variant
 
 /// Table for people: significant differences first within each kind.
 std::string comparison_table(const Comparison& comparison);
-/// Header and rows for machines (DESIGN 1; of illuminance `klx_h` instead of `kwh_m2`); fields
-/// without a value are empty.
+/// Header and rows for machines (docs/developer/design.md, Commands and exit codes; of illuminance
+/// `klx_h` instead of `kwh_m2`); fields without a value are empty.
 std::string comparison_csv(const Comparison& comparison);
 /// The same as JSON: one object per row, null where a value is not known.
 std::string comparison_json(const Comparison& comparison);

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/report/info.h"
 
 #include <fmt/format.h>
@@ -18,7 +20,7 @@ namespace sunload {
 namespace {
 
 // Patches below this share of the largest load say nothing of the accuracy:
-// their relative error is large and their light does not matter (DESIGN 4).
+// their relative error is large and their light does not matter (docs/developer/design.md, Study).
 constexpr double share_that_counts = 0.01;
 constexpr double median = 0.5;
 constexpr double upper_quantile = 0.95;

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A result file while it is being written: dimensions and datasets. For result_file.cpp alone.
 #pragma once
 

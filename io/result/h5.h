@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// HDF5 behind values and exceptions: the only file that knows the library.
 ///
 /// One flat group of datasets with attributes and dimension scales, as netCDF-4

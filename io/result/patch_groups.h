@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Patches of a result by facade, object, surface and as a whole: area-weighted
 /// means of what they receive.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The table of all datasets of a result file, top-down (docs/result-file.md).
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The seal of a result: a checksum behind the end of the HDF5 data.
 ///
 /// HDF5 checks most of its structures itself, but not the heaps where text

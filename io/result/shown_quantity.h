@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One value per patch of a result, chosen by name and time, and the end of its colour scale.
 #pragma once
 

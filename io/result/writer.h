@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Writes the result file (docs/result-file.md): HDF5 that netCDF-4 tools read.
 #pragma once
 

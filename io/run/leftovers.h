@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Removal of work: after its merge, and what killed processes left in a study's folder.
 #pragma once
 

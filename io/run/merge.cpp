@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/run/merge.h"
 
 #include <fmt/format.h>
@@ -180,7 +182,8 @@ void write_ledger_errors(BandWriter& writer, const Totals& totals) {
 }
 
 /// Largest relative difference that the lines' reuse makes, as a share of the
-/// scene's energy: (mean over realizations - pooled) / (R - 1), DESIGN 2.
+/// scene's energy: (mean over realizations - pooled) / (R - 1) (docs/developer/method.md,
+/// Gathering).
 double reuse_bias(const Totals& totals, const ResultGeometry& geometry, std::size_t realizations) {
   const auto& pooled = totals[sum_name(Part::total)];
   const auto& rows = totals[batch_array::exposure];
@@ -227,7 +230,7 @@ std::string buried_sensors(const Totals& totals, const ResultGeometry& geometry)
 
 /// Faults of the model that only the light brings out.
 std::vector<std::string> result_warnings(const Totals& totals, const ResultGeometry& geometry) {
-  // DESIGN 4: light lost at backs is worth a warning above this share.
+  // Light lost at backs is worth a warning above this share (docs/developer/design.md, Study).
   constexpr double tolerable = 1e-3;
   std::vector<std::string> warnings;
   const auto& energy = totals[batch_array::energy];

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Ranks of an MPI program: the only file that knows MPI, which is optional.
 #pragma once
 

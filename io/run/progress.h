@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Progress on stderr, signals and time limits: how long work is watched.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The driver: `sunload run`, `merge`, `check` on a study.
 #pragma once
 
@@ -42,7 +44,8 @@ enum class SearchIntersections { no, yes };
 int check_study(const std::string& study, const RunOptions& options, CheckFormat format,
                 SearchIntersections search = SearchIntersections::no);
 
-/// The sun path as CSV on stdout (DESIGN 1), or as a sun-path diagram where `picture` names one.
+/// The sun path as CSV on stdout (docs/developer/design.md, Commands and exit codes), or as a
+/// sun-path diagram where `picture` names one.
 int print_sun(const std::string& study, const std::string& picture = {});
 
 struct SkyOptions {

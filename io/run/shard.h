@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Which units of work are a process' own: shards of a job array, ranks of MPI.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Hands out the batches of a variant that are a process' own to compute.
 #pragma once
 

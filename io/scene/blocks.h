@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Rasters that belong together as a model of blocks: land, buildings and crowns of trees.
 #pragma once
 

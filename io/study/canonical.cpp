@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The canonical text of a study. Structured bindings name every member of every
 // struct: a new member does not compile until it is put in or left out on purpose.
 #include <nlohmann/json.hpp>

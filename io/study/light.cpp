@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sections `sun` and `light` of a study.
 #include <algorithm>
 #include <filesystem>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Materials that studies may name without defining them: reflectances from the literature.
 ///
 /// Values are shares of sunlight, broadband over the solar spectrum (0.3 … 3 µm). Where a source

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Readers of the sections of a study, for io/study/study.cpp alone.
 #pragma once
 
@@ -39,7 +41,7 @@ OutputStudy read_output(YamlMap& map);
 /// Adds what a reader of the values found wrong without knowing the place.
 void add_at(YamlMap& map, const std::string& key, const Where& where, const InputError& error);
 
-/// Keys and values that DESIGN 4 has and this version does not read yet.
+/// Keys and values that are decided on, and that this version does not read yet.
 std::vector<LaterKey> later_keys();
 
 }  // namespace sunload::study_sections

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sections `solver` and `output` of a study, and what later versions will read.
 #include <fmt/format.h>
 

@@ -1,4 +1,6 @@
-/// A study as the YAML file states it, with defaults filled in (DESIGN 4).
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// A study as the YAML file states it, with defaults filled in (docs/developer/design.md, Study).
 ///
 /// Reading rejects unknown keys (with the nearest name), wrong types, units and
 /// ranges, each with file:line:column, all at once. Keys of later versions are
@@ -78,7 +80,7 @@ struct SunStudy {
   SunDisk disk = SunDisk::point;
 };
 
-/// Of light in bands: sun and sky as METHOD 2 colours them, or white.
+/// Of light in bands: sun and sky as Holubář (2007) colours them, or white.
 enum class LightColour { sky, white };
 
 enum class LightSource { clear_sky, weather, fixed };
@@ -103,7 +105,7 @@ struct LightStudy {
   Decomposition decomposition = Decomposition::erbs;
 };
 
-/// Optical properties as written; absent ones fall back as DESIGN 4 says.
+/// Optical properties as written; absent ones fall back as docs/developer/design.md, Study, says.
 struct MaterialStudy {
   std::string name;
   std::optional<double> diffuse, mirror;

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Typed, ranged access to the maps of a YAML file, with places.
 ///
 /// A reader asks for every key that it knows; what is left is an unknown key.

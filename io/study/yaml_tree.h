@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// YAML text → plain tree with places; the only file that knows yaml-cpp.
 ///
 /// Anchors, aliases and merge keys (`<<`) are resolved here. Duplicate keys,

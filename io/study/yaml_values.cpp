@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Values of a YamlMap: numbers, texts, words, and lists of them.
 #include <fmt/format.h>
 

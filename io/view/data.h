@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One result as the viewer's page reads it (scripts/viewer/data.js): a JSON
 /// head and blocks of deflated bytes in base64.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The viewer's page as it was built from scripts/viewer: markup, style and
 /// programs, in pieces, without data.
 #pragma once

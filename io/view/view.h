@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// `sunload view`: results as one page of HTML that needs neither network nor server.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Plain CSV with named columns, separated by comma, semicolon or tab.
 ///
 ///     # latitude_deg: 49.75        (optional comments: also longitude_deg, elevation_m,

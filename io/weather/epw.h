@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// EnergyPlus weather (EPW).
 ///
 /// U.S. Department of Energy, EnergyPlus Auxiliary Programs, "EnergyPlus Weather File (EPW)

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Weather files: EPW, TMY3, WEA and CSV, told apart by what they begin with.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the weather readers share: lines, fields, numbers and stamps, with their places.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// TMY3 and files in its style: a line of the station, a line of column names.
 ///
 /// Wilcox & Marion (2008), Users Manual for TMY3 Data Sets, NREL/TP-581-43156: local standard

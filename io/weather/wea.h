@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Weather of Daysim and Radiance (WEA).
 ///
 /// A header of place, latitude, longitude and time_zone (degrees, both positive WEST),

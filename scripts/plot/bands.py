@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Results of light in bands (solver.bands: rgb), shown as their mean: broadband light."""
 
 import h5py

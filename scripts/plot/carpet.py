@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Carpets: a series by day (across) and hour of the civil day (up) in false colour.
 
 One carpet for each facade, patch or sensor; a facade is the area-weighted mean

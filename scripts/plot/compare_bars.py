@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Bars of the light load of variants and of their differences to the first result.
 
 Whiskers are 95 % confidence intervals from the realizations (Student's t).

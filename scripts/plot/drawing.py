@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What the pictures share: colours, command line, saving, the listing of what is drawn."""
 
 import argparse
@@ -155,7 +157,7 @@ def default_output(result, name):
 
 
 def run(main):
-    """Exit codes of DESIGN 1: 2 where the input is wrong, 3 where a file cannot be written."""
+    """Exit codes as the program's: 2 where the input is wrong, 3 where a file cannot be written."""
     try:
         main(sys.argv[1:])
     except InputError as error:

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Facades of a result as unrolled pictures in false colour.
 
 Every facade is drawn as seen from outside, upright and to scale, those of one

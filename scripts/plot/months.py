@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Monthly light load of facades, patches or sensors as bars, divided into its parts.
 
 Months are those of civil time. Bars are sums of the series over the intervals

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reads result files of sunload (docs/result-file.md): quantities, facades, civil time."""
 
 import datetime

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """One PDF or HTML page about a study: what was computed, how sure it is, and the pictures.
 
 STUDY is the study's folder of results, or its result files; the result named

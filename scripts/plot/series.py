@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Time series of facades, patches or sensors in the civil time of the site.
 
 A facade is the area-weighted mean of its patches. Steps are the study's

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Sun-path diagram with the hours at which a patch or facade is lit.
 
 Plan of the sky: north is up, east is right, the horizon is the circle, the

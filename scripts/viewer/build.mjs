@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bundles the viewer and writes it as a C++ source (io/view/page.h):
 //   node build.mjs NPM WORK_FOLDER VIEWER_PAGE.cpp
 // Packages are installed from the lock file into the work folder. Where npm

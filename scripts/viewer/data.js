@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads what io/view/data.cpp has put into the page.
 
 /** Value of every half-precision float (IEEE 754 binary16) by its bits. */

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The page of `sunload view`: state, what it draws, and what the user does to it.
 import * as THREE from "three";
 import { CameraMan } from "./camera.js";

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The patches of a result as triangles that know a value at every corner.
 import * as THREE from "three";
 import { SensorPoints } from "./sensors.js";

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the page says beside the picture: legend, time and the values of a patch.
 import { matchedMean } from "./data.js";
 import { drawSeries } from "./plot.js";

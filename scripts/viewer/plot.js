@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The time series of a patch.
 import { roundedUp, shown } from "./scale.js";
 

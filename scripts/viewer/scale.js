@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Ends and ticks of the legend.
 
 // A few glints must not darken everything else: as in `sunload render`.

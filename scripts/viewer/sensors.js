@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sensors: points that receive light, in the colour of their value.
 import * as THREE from "three";
 

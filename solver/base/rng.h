@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Random numbers by address: a key names every number, no state is shared, any
 /// sample can be replayed alone. Philox 4×32 with 10 rounds (Salmon et al. 2011,
 /// Parallel Random Numbers: As Easy as 1, 2, 3), from the Random123 library.

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Low-discrepancy points and the maps from the unit square to triangles and
 /// directions, each as sample, pdf and inverse.
 ///

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How long work tells of itself; the solver neither prints nor exits. It is
 /// stopped by set_cancellation of solver/base/threads.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Which receivers can lie in the beam that parts of mirrors send along a
 /// direction: a conservative raster of these parts seen along it.
 #pragma once

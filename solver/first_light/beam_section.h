@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The parts of mirrors that a beam can reach: its section by their planes.
 #pragma once
 

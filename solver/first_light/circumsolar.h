@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The bright part of a clear sky about the sun, sampled on its own.
 ///
 /// A clear sky holds up to a third of its light within some degrees of the sun, where few of a

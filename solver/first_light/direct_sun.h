@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Zeroth light iteration, the sun's part: direct sun by stratified shadow rays.
 ///
 ///     E_0[i][k] = dni[k] * cosθ * (visible samples / samples)

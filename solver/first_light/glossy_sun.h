@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Direct sun by way of glossy surfaces: next-event estimation at the lines' meetings.
 ///
 /// A glossy lobe has no image direction. But where a line of receiver i (a patch or a sensor)
@@ -19,8 +21,8 @@
 
 #include "solver/first_light/lobe_images.h"
 #include "solver/first_light/mirror_chains.h"
-#include "solver/mesh/patch_optics.h"
 #include "solver/lines/line_follower.h"
+#include "solver/mesh/patch_optics.h"
 
 namespace sunload {
 

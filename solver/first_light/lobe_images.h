@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The sun's images in glossy surfaces of narrow lobes, looked for from sensors: in place of what
 /// their lines bring (solver/first_light/glossy_sun.h), few of which meet such lobes.
 ///

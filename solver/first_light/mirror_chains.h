@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The sun's light from mirror to mirror, followed from where it meets the first.
 ///
 /// Books where it ends, and brings it to the patches that it meets wherever no

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Mirrors by orientation: those of one orientation send the sun on in one direction.
 #pragma once
 

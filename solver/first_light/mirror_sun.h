@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Direct sun by way of planar mirrors, once or several times reflected.
 ///
 /// Receivers look along the image directions of the sun's beams

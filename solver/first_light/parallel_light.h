@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Light of finite parallel emitters: each triangle of them sends light along its normal.
 ///
 ///     E_i = Σ_sources M / A_i ∫ cosθ V dA,    V: the ray from x against the light passes

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The ways of one sun by mirrors: sequences of mirror orientations and their
 /// image directions.
 ///

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The light of a block in one band (solver/light/band.h), from broadband light that was traced.
 ///
 /// Lines and shadow rays are geometry and serve all bands; what differs is the light that they

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Light of one block of suns on one set of lines: light iteration and Jacobi.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Puts the light of a block of suns into a batch's tally, from its row `first_row` on.
 #pragma once
 

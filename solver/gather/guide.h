@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Which surfaces are bright by the light of emitters: a first look, by which no number of a
 /// result is made, only where points are drawn (solver/lines/bright_view.h).
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Gathering stochastic Jacobi on lines traced once.
 ///
 ///     E^(0) = E_0           E^(b) = E_0 + G (rho E^(b-1)),   b = 1 … bounces
@@ -6,7 +8,7 @@
 /// everything that arrives without diffuse reflection. Light reflected
 /// diffusely 1 … bounces times is followed; rho (E^(n) - E^(n-1)) is left.
 /// Reusing the lines in every iteration is unbiased for two transports and
-/// biased by O(1/lines) after (Bekaert 1999, 6.3; METHOD 4).
+/// biased by O(1/lines) after (Bekaert 1999; docs/developer/method.md, Gathering).
 #pragma once
 
 #include <vector>

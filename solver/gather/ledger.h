@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Books the power of one patch, or of mirrored first light, into the ledger.
 #pragma once
 

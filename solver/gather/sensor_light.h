@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Light on sensors: lines and shadow rays of points, on the light of a solved scene.
 ///
 /// A sensor is a row of lines like a patch, but all of its lines start at one point

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Light of a batch integrated over time, from which every realization solves once more.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a block of suns brings to patches and sensors by rays, before any diffuse reflection.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Bands of light: red, green and blue.
 ///
 /// A band is the broadband quantity as if the whole spectrum behaved as that band does: irradiances

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Standard error of every patch or sensor and sun of a block, from the realizations.
 #pragma once
 

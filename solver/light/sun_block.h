@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Suns that are computed side by side, and per-patch columns for them.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a batch of suns leaves behind: series, time integrals, ledger.
 #pragma once
 
@@ -10,7 +12,7 @@
 
 namespace sunload {
 
-/// Parts of the irradiance, DESIGN 5.
+/// Parts of the irradiance (docs/developer/design.md, Result and ledger).
 enum class Part : std::uint8_t { total, direct, sky, mirror, lamps, reflected };
 inline constexpr std::size_t part_count = 6;
 inline constexpr std::array<const char*, part_count> part_names{"total",  "direct", "sky",

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Surfaces that are worth sampling directly: diffuse emitters, and what their light makes bright.
 /// How they are sampled is told in solver/lines/bright_view.h.
 #pragma once

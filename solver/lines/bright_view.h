@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Bright surfaces sampled directly (next event), so that no small one is missed.
 ///
 /// Irradiance of patch i by surfaces of radiosity B (their exitance M included),

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Which clusters of bright surfaces neighbouring patches see, from pairs of points.
 #pragma once
 

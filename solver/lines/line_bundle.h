@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Lines of neighbouring patches that are cast together, each packet in one narrow range of
 /// directions: rays that go the same way meet the same boxes of the scene.
 #pragma once

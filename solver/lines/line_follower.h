@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One line along its chain of mirrors, panes, metals and glossy surfaces.
 ///
 /// What depends on the angle is known where a line meets it: the shares that panes transmit

@@ -1,8 +1,10 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Uniformly distributed lines: traced once, they carry the light of every sun
 /// position and of every Jacobi iteration.
 ///
 /// A line leaves patch i at a uniform point in a cosine-distributed direction,
-/// hence first meets patch j with probability F_ij (Bekaert 1999, 4.2). What is
+/// hence first meets patch j with probability F_ij (Sbert 1997; Bekaert 1999). What is
 /// kept of a line are its links: where it takes radiosity from, and with which
 /// weight. Along a chain of mirrors a line takes ρ_s-weighted radiosity from
 /// every surface it meets; where it leaves the scene it sees a cell of the sky

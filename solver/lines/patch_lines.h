@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Uniformly distributed lines of one patch: origin uniform on it, direction
 /// with density cosθ/π, both from one Owen-scrambled Sobol sequence.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Longest-edge bisection of triangles, decided by geometry alone.
 /// Rivara (1984), Algorithms for refining triangular grids.
 #pragma once

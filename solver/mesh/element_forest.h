@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Trees of elements while they grow: every input triangle is a root, leaves are bisected at
 /// their longest edges, neighbours follow where no vertex may be left in the middle of an edge.
 ///

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Trees of elements: every input triangle is a root, longest edges are
 /// bisected, leaves are the patches of the result.
 ///

@@ -1,7 +1,10 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What decides whether an element is fine enough: pure functions.
 ///
 /// Of the two ways to refine, the default bounds the error that constant light on leaves makes in
-/// the light load; the historic one is the disc estimate of the form factor alone (METHOD 3, 4).
+/// the light load; the historic one is the disc estimate of the form factor alone
+/// (docs/developer/method.md, The historic system).
 #pragma once
 
 #include <cstdint>
@@ -31,7 +34,8 @@ constexpr double historic_light_estimate_m2(double cos_theta, double area_m2) {
 /// Largest form factor that an element inside of a sphere can have as seen from a point at the
 /// distance of its centre: that of the sphere's disc at its nearest, (r / (d - r))², whatever the
 /// angles; 1 where that is no bound. The historic oracle's disc estimate without its cosine, which
-/// at the centre loses elements that lie partly in front (METHOD 4). Visibility is ignored.
+/// at the centre loses elements that lie partly in front (docs/developer/method.md, Mesh).
+/// Visibility is ignored.
 constexpr double largest_form_factor(double radius_m, double distance_m) {
   const double nearest = distance_m - radius_m;
   return nearest > radius_m ? (radius_m / nearest) * (radius_m / nearest) : 1;

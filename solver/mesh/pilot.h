@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A first look at the light of the whole period: how much falls on an element, and how much that
 /// varies inside of it. Only the mesh is decided by it; no number of a result is made from it.
 ///

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Pairs of points on surfaces: which of them see each other, 16 at a time.
 #pragma once
 

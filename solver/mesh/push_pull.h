@@ -1,5 +1,7 @@
-/// Light of elements above the leaves: radiosity goes up the trees, irradiance down (METHOD 4;
-/// Bekaert 1999, 4.3).
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Light of elements above the leaves: radiosity goes up the trees, irradiance down (Hanrahan,
+/// Salzman & Aupperle 1991; docs/developer/method.md, Mesh).
 #pragma once
 
 #include <vector>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Refinement by the light load of the whole period, before anything is tallied.
 ///
 /// The default oracle asks how far the light load on leaves of constant light is from the true one:

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Power that samples bring to patches, kept until a shot is complete and then
 /// added in an order that does not depend on threads.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Light of sun, sky and far ground that meets mirrors first, sent forward.
 ///
 /// The samples that say what a mirror patch receives (its direct samples that

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/shoot/light_chain.h"
 
 #include "solver/lines/line_follower.h"

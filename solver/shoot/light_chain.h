@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One sample of light on its way forward, along its chain of mirrors, panes, metals and
 /// glossy surfaces.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Shooting stochastic Jacobi: samples of light carry power from patch to patch.
 ///
 /// An iteration carries the power P_i of every patch one reflection further,
@@ -16,7 +18,7 @@
 /// realization: unbiased but for the light that is not followed. All suns of a
 /// block share them (shot_power). Same key, same bits, for any number of threads.
 /// Bekaert (1999), Hierarchical and stochastic algorithms for radiosity, PhD
-/// thesis, K.U. Leuven, ch. 6; METHOD 4, algorithm 4.3.
+/// thesis, K.U. Leuven; docs/developer/method.md, Shooting.
 #pragma once
 
 #include <optional>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Clear glass of which no more is known than its transmittance at normal incidence.
 #pragma once
 

@@ -1,7 +1,9 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Reflection and transmission of smooth surfaces by Fresnel's formulas, for unpolarised light.
 ///
-/// Light is taken as unpolarised at every surface that it meets (METHOD 5): both
-/// polarisations are followed through a stack of panes, then averaged.
+/// Light is taken as unpolarised at every surface that it meets (docs/developer/method.md,
+/// Surfaces): both polarisations are followed through a stack of panes, then averaged.
 /// References: Born & Wolf (1999), Principles of Optics, 1.5 and 14.2; Duffie & Beckman (2013),
 /// Solar Engineering of Thermal Processes, 5.1–5.3.
 #pragma once

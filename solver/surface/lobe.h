@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Glossy reflection: a lobe of power cosine about the direction of mirror reflection.
 ///
 ///     f_r(w_in, w_out) = ρ_g (n + 2) / (2π) · max(0, r·w_out)^n,   r = w_in mirrored

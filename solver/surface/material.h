@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Optical properties of surfaces, and the scene that light is computed in.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// First hits and shadows on the triangles of a mesh: the only file that knows
 /// Embree, and the only one that traces in single precision.
 ///

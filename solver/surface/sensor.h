@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Sensors: points with a normal that receive light and do not disturb the scene.
 #pragma once
 

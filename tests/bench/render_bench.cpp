@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Time of a picture after loading, by stage:   render_bench RESULT.h5 [WIDTH HEIGHT]
 #include <fmt/format.h>
 

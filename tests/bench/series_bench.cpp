@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How fast series become chunks, batch files and a result; processor time, as others may use the
 // machine:
 //   series_bench RESULT.h5 [FOLDER] [BATCHES]

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Adaptive meshes pay: equal error of the light load with a fraction of the leaves.
 
 #include <gtest/gtest.h>

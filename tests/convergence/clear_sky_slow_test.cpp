@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A clear day in a street: what each patch receives at every instant, to 5 %.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Errors fall as they should: with lines, and with the size of patches.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Studies that ask for an accuracy: counts are decided once, told, stored, and the same for
 /// every shard.
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// ASHRAE 140 weather drivers: real weather on ten small open surfaces, run by the program,
 /// against published values and a quadrature of our own sky.
 ///

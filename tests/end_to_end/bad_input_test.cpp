@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What is wrong is said in one line each, all at once, and nothing is left behind.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A study in bands as its users meet it: runs, shards, result, listings, pictures.
 #include <gtest/gtest.h>
 

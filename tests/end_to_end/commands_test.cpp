@@ -1,4 +1,7 @@
-/// Listings with fixed headers, exit codes, and what running again does (DESIGN 1).
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Listings with fixed headers, exit codes, and what running again does (docs/developer/design.md,
+/// Commands and exit codes).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What everybody knows about sun and shadow holds in whole runs.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -163,7 +165,7 @@ TEST(CommonSense, EnergyOfTheStreetDemonstration) {
     const Energy energy = energy_of(path);
     std::printf("%s: in %.6g kWh, residual %.3g +- %.2g kWh (%.2g %%)\n", variant, energy.in,
                 energy.residual, energy.residual_se, 100 * energy.residual / energy.in);
-    constexpr double largest_share = 0.002;  // DESIGN 5: for 60 000 leaves at 256 lines
+    constexpr double largest_share = 0.002;  // promised for 60 000 leaves at 256 lines
     EXPECT_LE(std::abs(energy.residual), largest_share * energy.in);
   }
 }

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`sunload compare --hdf5`: the differences are those of the two results, and the page about the file is right.
 
 compare_test.py SUNLOAD SOURCE_FOLDER

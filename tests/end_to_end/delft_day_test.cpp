@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A day of a real quarter: the study that is shipped, on coarser patches.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Exports of a small study, read by the programs that they are for: the numbers are those of the result.
 
 export_test.py SUNLOAD

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every write fails once, a kill comes before every one, and a disk becomes full: exit code 3, a message,
 nothing lost, nothing left over.
 

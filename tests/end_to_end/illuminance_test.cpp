@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A study in lux from its file to its pictures, beside the same one in watts.
 #include <gtest/gtest.h>
 

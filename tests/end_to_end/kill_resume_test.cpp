@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Killed at any moment: nothing finished is lost, nothing half-written is read,
 /// and the result is that of a run that nobody disturbed.
 #include <fmt/format.h>

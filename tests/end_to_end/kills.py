@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """kill -9 at random moments: the result of the resumed run is that of an undisturbed one.
 
 kills.py SUNLOAD [--count N] [--seed S]     N kills (default 10), a new study after each finished run

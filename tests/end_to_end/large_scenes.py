@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Large scenes load and are prepared within bounds of memory: a city of a million triangles as OBJ
 and as CityJSON, terrain of ten million as PLY. Times are printed, not judged.
 

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """scripts/not-run: tests that could not run are named, and those that are on no list fail.
 
 not_run_test.py SOURCE_FOLDER

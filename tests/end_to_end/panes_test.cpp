@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Materials of all kinds in whole runs: panes, metal, glossy surfaces, crowns.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The plot scripts on a small study: pictures that are not blank, data that are those of the file.
 
 plots_test.py SUNLOAD SOURCE_FOLDER

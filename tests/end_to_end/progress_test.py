@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What --progress tells: a bar on a terminal, JSON as docs/cluster.md says, few lines for logs.
 
 progress_test.py SUNLOAD SOURCE_FOLDER

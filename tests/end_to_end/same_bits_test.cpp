@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The same bits for any number of threads.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

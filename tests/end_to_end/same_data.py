@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Whether two results hold the same datasets, bit for bit; attributes (times, history) may differ."""
 
 import sys

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Sensors as users meet them: studies, result files, shards, hours of sun of the references.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One process, shards, ranks of MPI: the same bits; and who finishes what.
 #include <gtest/gtest.h>
 #include <sys/wait.h>

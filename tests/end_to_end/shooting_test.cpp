@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Studies with `transport: shoot`, from the file to the result.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,7 +17,7 @@
 namespace sunload::test {
 namespace {
 
-constexpr double closes = 1e-6;  // DESIGN 5: share of in, when shooting
+constexpr double closes = 1e-6;  // share of in, promised for shooting
 
 std::string run(const WorkFolder& folder, const std::string& output, const std::string& study,
                 std::vector<std::string> more = {}) {

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A real Slurm array of 4 tasks, one killed and one out of time, against a run in one process.
 
 slurm_test.py SUNLOAD SOURCE_FOLDER

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A whole Slurm cluster on this one machine: munge, slurmctld and slurmd as child processes."""
 
 import os

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Opens a page of `sunload view` in a real browser, uses it, and tells what it saw as JSON:
 //   node view_probe.mjs FOLDER_OF_PLAYWRIGHT CHROMIUM PAGE FOLDER_OF_PICTURES [match|one]
 // one: a page of one result, only looked at.

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`sunload view` in headless Chromium: colours, clicks and times are those of the result file.
 
 view_test.py SUNLOAD SOURCE_FOLDER PACKAGES_OF_THE_VIEWER

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Results are read by the tools of their users without help.
 #include <gtest/gtest.h>
 
@@ -10,7 +12,7 @@
 namespace sunload::test {
 namespace {
 
-/// Dimensions and units of DESIGN 5; empty units: an index, a flag or a text.
+/// Dimensions and units of docs/result-file.md; empty units: an index, a flag or a text.
 const nlohmann::json promised = {
     {"time", {"time", "seconds since 1970-01-01T00:00:00Z"}},
     {"time_bounds", {"time bounds", ""}},

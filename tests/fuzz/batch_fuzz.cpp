@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Batch files: as they come, and, where the first byte is odd, with checksums that are right, so
 // that what lies behind them is read: a byte with the number of blocks, the header's JSON, a
 // zero byte, the blocks' bytes in equal parts.

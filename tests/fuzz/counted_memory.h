@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Every `new` of an executable that links counted_memory.cpp: none may be for more than a file
 /// of less than 1 MB may make a reader ask for.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The entry of libFuzzer: runs the one target that is linked in.
 #include <cstddef>
 #include <cstdint>

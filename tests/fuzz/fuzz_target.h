@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Readers under hostile input: what the fuzzers (scripts/fuzz) and the replay of their
 /// findings (replay_test.cpp) share.
 ///

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // glTF as one binary file.
 #include "io/scene/mesh_files/gltf.h"
 #include "tests/fuzz/fuzz_target.h"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // glTF as JSON, its buffers in data URIs.
 #include "io/scene/mesh_files/gltf.h"
 #include "tests/fuzz/fuzz_target.h"

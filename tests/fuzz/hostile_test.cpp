@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files of less than 1 MB that ask for all memory or all time: refused, or read in moderation.
 // They are too long to be kept among the regressions, and made here.
 #include <gtest/gtest.h>

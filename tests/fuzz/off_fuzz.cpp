@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // OFF.
 #include "io/scene/mesh_files/off.h"
 #include "tests/fuzz/fuzz_target.h"

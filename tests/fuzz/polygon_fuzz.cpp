@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Hostile polygons: rings on a coarse grid cross, touch, repeat and enclose one another.
 //
 // Bytes: scale, plane, then corners (two bytes, in the free plane three); 128 ends a ring,

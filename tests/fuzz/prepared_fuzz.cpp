@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Prepared files: as they come, and, where the first byte is odd, with checksums that are right:
 // a byte with the number of counts, the counts, and all that follows them.
 #include "io/batch/prepared_file.h"

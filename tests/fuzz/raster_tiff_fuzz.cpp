@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // GeoTIFF rasters, through GDAL.
 #include "io/scene/raster/raster_scene.h"
 #include "tests/fuzz/fuzz_target.h"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every input that once broke a reader, and every seed of the fuzzers, read with the ordinary
 // build: nothing but InputError may come of them.
 #include <gtest/gtest.h>

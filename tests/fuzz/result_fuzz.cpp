@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Result files, through HDF5: every dataset of the schema that is there.
 #include "io/result/reader.h"
 #include "io/result/schema.h"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sensor points.
 #include "io/scene/sensor_file.h"
 #include "tests/fuzz/fuzz_target.h"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // STL, text and binary.
 #include "io/scene/mesh_files/stl.h"
 #include "tests/fuzz/fuzz_target.h"

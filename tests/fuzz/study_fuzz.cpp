@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Studies: YAML, all sections, canonical text. The files that a study names are there.
 #include "io/study/study.h"
 #include "tests/fuzz/fuzz_target.h"

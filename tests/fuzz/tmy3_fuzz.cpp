@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // TMY3 weather.
 #include "io/weather/tmy3.h"
 #include "tests/fuzz/fuzz_target.h"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // VRML97, VRML 1.0 and Inventor, also packed by gzip, through Coin.
 #include "io/scene/vrml/reader.h"
 #include "tests/fuzz/fuzz_target.h"

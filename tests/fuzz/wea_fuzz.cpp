@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Weather of Daysim and Radiance.
 #include "io/weather/wea.h"
 #include "tests/fuzz/fuzz_target.h"

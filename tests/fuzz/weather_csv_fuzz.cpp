@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Weather as plain CSV; what the other formats are told by, too.
 #include "io/weather/csv.h"
 #include "io/weather/file.h"

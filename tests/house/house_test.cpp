@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The house stands: dependencies run one way, and one file knows each foreign library.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Light in three bands: each of them is a broadband solution with its own light and reflectances.
 
 #include <gtest/gtest.h>

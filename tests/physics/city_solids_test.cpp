@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Closed solids of real city models: volume and areas of the prepared mesh beside a computation
 // on the polygons of the raw JSON that shares no code with readers or preparation.
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Clear glass known by its normal transmittance, in all kinds of light and by both transports.
 
 #include "solver/surface/clear_glass.h"
@@ -14,7 +16,8 @@
 namespace sunload::test {
 namespace {
 
-/// The ledger of shooting closes to this share of what comes in (DESIGN 5).
+/// The ledger of shooting closes to this share of what comes in (docs/developer/design.md, Result
+/// and ledger).
 constexpr double closes = 1e-6;
 
 constexpr double T0 = 0.85, diffuse = 0.02, mirror = 0.1;

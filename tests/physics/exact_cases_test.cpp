@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Cases with a known answer: cavity, two surfaces, tilted plane, sun, canyon, furnace.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The sun by way of several mirrors: image directions and shooting are two estimates of the
 /// same, in streets of glass and in curved glass.
 

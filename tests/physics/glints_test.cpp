@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The sun by way of several planar mirrors: where its light falls by the law of
 /// reflection, and how much of it.
 
@@ -17,7 +19,7 @@ using nlohmann::json;
 constexpr const char* mirrors = "05_radiosity/mirrors.json";
 
 // Two perpendicular mirrors on a floor: near the corner every point sees the sun in
-// each of them and once in both (METHOD: the double image is one, not two).
+// each of them and once in both (the double image is one, not two).
 TEST(Corner, EveryDepthAddsItsImages) {
   constexpr double rho = 0.9, wall = 6, floor = 1;
   SceneBuilder builder;

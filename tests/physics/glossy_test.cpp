@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Glossy surfaces in the light of sun, sky and other surfaces.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The emitter that is hidden, by gathering: lines alone find it in mirrors, and need several times
 /// as long as samples of the lamp (references_08_test) for the same error.
 #include "tests/support/hidden_emitter.h"

@@ -1,4 +1,7 @@
-/// The historic system's scenes (METHOD 9) with what was published about each.
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The historic system's scenes (docs/developer/method.md, The historic system) with what was
+/// published about each.
 
 #include <gtest/gtest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Energy: every term of the ledger on its own, and their balance.
 
 #include <gtest/gtest.h>

@@ -1,4 +1,6 @@
-/// The five Global Illumination Test Scenes after Smits & Jensen (2000), as METHOD 9 has them, and
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The five Global Illumination Test Scenes after Smits & Jensen (2000), and
 /// where the historic oracle fails on them.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Mirrors against the method of images: lamps seen in mirrors, the sun reflected to the
 /// ground, chains cut at their depth. The sun by way of several mirrors: glints_test.
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Panes and metals in the light of sun and sky: what passes, what is reflected, what is kept.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Parallel emitters: beams of known cross-section on plates, boxes and mirrors.
 
 #include "solver/first_light/parallel_light.h"

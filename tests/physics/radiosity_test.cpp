@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Diffuse light of both transports against exact systems: rooms of twelve triangles,
 /// plates, furnaces, truncated bounces, street canyons.
 
@@ -56,7 +58,8 @@ TEST_P(Radiosity, RoomOfTwelveTrianglesHasTheExactRadiosity) {
     }
     constexpr int lines = 4096, bounces = 30;
     const auto solved = solve(builder.scene(), {night}, rules_of(lines, bounces));
-    // Left unfollowed: rho^(n+1) of the light; reused lines: O(1/lines) (METHOD 4).
+    // Left unfollowed: rho^(n+1) of the light; reused lines: O(1/lines) (docs/developer/method.md,
+    // Gathering).
     const double left = std::pow(rho_most, bounces + 1) / (1 - rho_most), reuse = 1.0 / lines;
     for (std::size_t t = 0; t < 12; ++t) {
       const double rho = number(c["reflectance"][t]), M = number(c["emission"][t]);

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Form factors of reference 04 where other tests do not have them: disks, spheres,
 /// cylinders and closed rooms, at a standard error of 0.2 %.
 ///

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Reference 05 where other tests do not have it: boxes of six unknowns and of converged
 /// meshes, bodies within bodies, an integrating cube, tilted planes over ground.
 
@@ -113,7 +115,7 @@ TEST(BoxOfSixUnknowns, HasTheReferenceIrradiance) {
     }
     for (std::size_t f = 0; f < faces; ++f)
       check(c["id"].get<std::string>() + " " + std::to_string(f), H[f], number(c["irradiance"][f]),
-            number(c["irradiance"][f]) / lines);  // reuse: METHOD 4
+            number(c["irradiance"][f]) / lines);  // reuse of lines
   }
 }
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Days of sun on a plane against reference 06: energies and hours of a clear day by the
 /// ephemeris, energies of a day of fixed declination in closed form.
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Glass of reference 07 in the light of the sun: what a pane transmits, reflects and keeps.
 
 #include <gtest/gtest.h>

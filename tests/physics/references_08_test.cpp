@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Reference 08 where other tests do not have it: faint and far points of emitters, the balance
 /// of what is emitted, scale, large extent, slivers, an emitter that is hidden.
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Surfaces that let a share of the light pass: crowns, screens.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Sensors in the sun by curved mirrors, for which no beams stand, and by glossy surfaces:
 /// against closed forms and against patches of the same place.
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Sensors against point receivers of the references: lamps, shadows, mirrors, skies seen
 /// through openings, one diffuse reflection; and what sensors must not change.
 

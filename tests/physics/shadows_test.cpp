@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Direct sun against closed forms: shadows of boxes and a sphere, courtyards, overhangs,
 /// facing walls, angles of incidence. Penumbrae have no counterpart: the sun is a point here.
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The two transports check each other; the ledger of shooting closes to rounding.
 
 #include <gtest/gtest.h>
@@ -18,7 +20,8 @@ namespace {
 
 using Facing = SceneBuilder::Facing;
 
-/// The ledger of shooting closes to this share of what comes in (DESIGN 5).
+/// The ledger of shooting closes to this share of what comes in (docs/developer/design.md, Result
+/// and ledger).
 constexpr double closes = 1e-6;
 
 constexpr int realizations = 16;

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The finite sun: penumbra of a straight edge, by its visible fractions and its width.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Counts that a goal of accuracy asks for: chosen as they should be, and met by the real
 /// spread of independent runs.
 #include "solver/accuracy.h"

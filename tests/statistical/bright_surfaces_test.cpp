@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Emitters sampled directly: exact where the answer is known, quiet where lines are not.
 
 #include "solver/lines/bright_view.h"

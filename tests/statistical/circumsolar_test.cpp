@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The circumsolar part of a clear sky: exact, drawn as it should be, and worth its samples.
 
 #include "solver/first_light/circumsolar.h"

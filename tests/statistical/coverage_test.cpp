@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Are the error bars right? Over many independent runs the share of 95 % intervals that
 /// hold the truth must itself lie in its binomial interval.
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Form factors by lines against closed forms: polygons, points, infinite strips.
 ///
 /// A receiver sees an emitter of exitance 1: its irradiance is the form factor.

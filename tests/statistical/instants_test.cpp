@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Standard errors per instant against the spread of independent seeds.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Owen-scrambled Sobol lines against independent random ones: what they are for.
 
 #include <gtest/gtest.h>

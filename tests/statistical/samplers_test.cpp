@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Samplers against their densities by chi-squared, on independent uniform numbers.
 
 #include <gtest/gtest.h>

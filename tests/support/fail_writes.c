@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /* Makes the k-th call that changes a file fail, as a full or broken disk would, or the last one.
  *
  *   LD_PRELOAD=fail_writes.so FAIL_AT=k FAIL_WITH=errno FAIL_BELOW=path FAIL_COUNT=file FAIL_ON=1

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Reference 08: light of a lamp behind a baffle, which reaches a point by one reflection.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Cases of which the truth is known: how they are built and solved, and what is demanded of them.
 #pragma once
 

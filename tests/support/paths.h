@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Where the project and its program are. One source knows these paths, so that all others compile
 /// to the same objects in every checkout.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The program as its users meet it: a process with files, output and an exit code.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What every result must hold, and whether two results are the same.
 #pragma once
 
@@ -20,13 +22,13 @@ struct Energy {
 Energy energy_of(const std::string& result);
 
 /// Empty, or why the energy of a result does not add up: in = out within t
-/// standard errors of the residual (DESIGN 5 and 8). `lost_share` of what is
-/// absorbed can be left out, to see that the check would notice.
+/// standard errors of the residual (docs/developer/design.md, Result and ledger). `lost_share` of
+/// what is absorbed can be left out, to see that the check would notice.
 std::string ledger_problem(const std::string& result, double lost_share = 0);
 
-/// Empty, or which of the promises of DESIGN 5 that tie datasets together are
-/// broken: light_load = Σ irradiance · length = Σ of its parts; largest value of
-/// the series; sun hours within the daylight; facades = area-weighted patches.
+/// Empty, or which of the promises of docs/developer/design.md, Result and ledger, that tie
+/// datasets together are broken: light_load = Σ irradiance · length = Σ of its parts; largest value
+/// of the series; sun hours within the daylight; facades = area-weighted patches.
 std::string sums_problem(const std::string& result);
 
 }  // namespace sunload::test

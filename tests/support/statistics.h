@@ -1,4 +1,6 @@
-/// Statistical acceptance (DESIGN 8): no tolerance is typed in.
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Statistical acceptance (docs/developer/design.md, Tests): no tolerance is typed in.
 #pragma once
 
 #include <string>
@@ -40,7 +42,7 @@ struct CountInterval {
 };
 CountInterval accepted_counts(double n, double p, double tests = 1);
 
-/// Float series carry about this relative rounding (DESIGN 8).
+/// Float series carry about this relative rounding (docs/developer/design.md, Tests).
 inline constexpr double float_rounding = 1e-5;
 
 }  // namespace sunload::test

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Faces by index into a table of vertices: what PLY, OFF and the like hold.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Levels of detail: which geometries of an object are read, so that none are stacked.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// CityJSON 1.0, 1.1, 2.0 and CityJSONSeq.
 #pragma once
 

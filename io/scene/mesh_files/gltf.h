@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// glTF 2.0 scenes, as .gltf with its buffers or as .glb.
 #pragma once
 

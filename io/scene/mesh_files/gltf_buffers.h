@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The numbers of a glTF file: containers, buffers, views, accessors.
 #pragma once
 

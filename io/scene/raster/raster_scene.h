@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One height raster as a terrain; io/scene/blocks has buildings and crowns.
 #pragma once
 

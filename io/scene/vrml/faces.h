@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Faces of VRML97's geometries and of Inventor's shapes.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The scene that a walk through a VRML file builds: placed shapes, objects, materials.
 #pragma once
 

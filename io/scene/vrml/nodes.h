@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// VRML files as the nodes that Coin makes of them. With vrml_faces and scene_vrml.cpp all that
 /// knows Coin.
 #pragma once

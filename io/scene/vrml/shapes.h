@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The curved and simple shapes of VRML as polygons, in the shape's own frame (y up).
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The text of VRML and Inventor files, before a parser sees it: limits, and repairs that
 /// leave every line where it was.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Triangles that cut through others are found, neighbours are not.
 
 #include "geo/mesh/intersections.h"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Corners on open edges: the search finds all of them, and does not look at all points to do so.
 #include <gtest/gtest.h>
 

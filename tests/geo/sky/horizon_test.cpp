@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The horizon line: interpolation, and what stands above it.
 #include "geo/sky/horizon.h"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Slow and sure integrals over the sky dome, independent of those of the library: zenith
 /// angle and azimuth, panels graded towards the sun, the horizon and other given places.
 #pragma once

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Weather in time: years, gaps, sun, other steps, closure.
 #include "geo/sun/weather.h"
 

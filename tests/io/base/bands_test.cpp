@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Light in bands as studies ask for it: keys, colours of materials and of light, what is refused.
 #include "io/base/bands.h"
 
@@ -164,7 +166,7 @@ TEST(BandLight, LowSunIsRedHighSunWhiteAndTheSkyBlue) {
   EXPECT_NEAR(redness(Sky30(45).light()), 1, 1e-12);
   EXPECT_GT(redness(Sky30(20).light()), 1.1);
   EXPECT_GT(redness(Sky30(5).light()), redness(Sky30(20).light()));
-  EXPECT_NEAR(redness(Sky30(0.001).light()), 1 / 0.5, 1e-3);  // reddening 1 of METHOD 2
+  EXPECT_NEAR(redness(Sky30(0.001).light()), 1 / 0.5, 1e-3);  // reddening 1 of sky_colour
   for (const double elevation : {60.0, 20.0}) {
     const Sky30 clear(elevation);
     const SunLight light = clear.light();

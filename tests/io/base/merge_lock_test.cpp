@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One merge at a time, and none that waits for the dead.
 #include "io/base/merge_lock.h"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One traces, the others wait, and nobody waits for the dead.
 #include "io/base/waiting_lock.h"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Traced lines on the disk: the same bits back, or none.
 #include "io/batch/prepared_file.h"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Hills in the light of a study: the beam goes, the sky's light stays, the low sky is ground.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Light as the eye sees it: sources by their own efficacies, names and units, what is refused.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Several files in one scene, each with its own units and place.
 
 #include "io/plan/scene_models.h"

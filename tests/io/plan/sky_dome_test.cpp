@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The sky command's table and pictures, and the sun-path diagram's geometry.
 #include "io/plan/sky_dome.h"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What `check` and `info` say of time and north, and the warnings about clocks and places.
 #include "io/plan/time_words.h"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Weather of a study: its own steps and others, years, missing values, site, hash, time it takes.
 #include "io/plan/weather_light.h"
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reads a result as its users do; exits 0 where all is as promised."""
 import sys
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The result as others see it: h5py, xarray, netCDF and the tools of HDF5.
 #include <chrono>
 #include <thread>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Which units are a process' own, by every scheduler's words for it.
 #include "io/run/shard.h"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Rasters of surface, terrain and canopy as blocks: volumes, areas, places.
 
 #include "io/scene/blocks.h"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/builtin.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +25,7 @@
 namespace sunload {
 namespace {
 
-constexpr double historic_street = 12424, historic_towers = 4500;  // METHOD 9
+constexpr double historic_street = 12424, historic_towers = 4500;  // as published
 constexpr double count_tolerance = 0.02;
 
 PreparedMesh prepared(const BuiltinRules& rules) { return prepare(builtin_scene(rules), {}); }

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Real files: every one of the shared folders is read with the counts that its README
 // states, or refused where it must be.
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // PLY, OFF, STL and glTF: small files of every kind, and what must be refused.
 #include <gtest/gtest.h>
 

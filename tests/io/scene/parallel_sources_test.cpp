@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Study key `scene.parallel_sources`: from the file to the emitters of the scene.
 
 #include <gtest/gtest.h>

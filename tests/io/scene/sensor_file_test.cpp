@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Sensor files: CSV and .pts, and what is wrong with them.
 #include "io/scene/sensor_file.h"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Materials that studies name without defining them: the table, its page, and what a name means.
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The page about the study file says what the schema says.
 
 #include <gtest/gtest.h>

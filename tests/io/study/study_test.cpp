@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Studies: every rule of their keys, the schema, variants, and the canonical text.
 #include "io/study/study.h"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Trees from YAML text, typed access, places and hints.
 #include "io/study/yaml_map.h"
 

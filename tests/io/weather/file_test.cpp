@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Readers of weather: formats, conventions, missing values, broken files.
 #include "io/weather/file.h"
 

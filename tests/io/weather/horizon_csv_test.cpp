@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Horizon files: both kinds, and what is wrong with others.
 #include "io/weather/horizon_csv.h"
 

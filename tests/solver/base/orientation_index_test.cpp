@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Orientations that are nearly the same are found, as by looking at all of them.
 #include "solver/base/orientation_index.h"
 

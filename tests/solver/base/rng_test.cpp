@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Random numbers by address: published vectors, lanes, independence of keys.
 
 #include "solver/base/rng.h"

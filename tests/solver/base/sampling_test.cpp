@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Low-discrepancy points: first points, nets, scrambling; maps and their inverses.
 
 #include "solver/base/sampling.h"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Fixed chunks, ordered sums, exceptions of parallel loops.
 
 #include "solver/base/threads.h"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Means with their errors, and sums of the ledger.
 
 #include "solver/light/tally.h"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Lines in packets are those of their numbers, and casting them together changes no hit.
 
 #include "solver/lines/line_bundle.h"

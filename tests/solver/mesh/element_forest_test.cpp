@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Growing trees: what splits leave behind, with neighbours and without.
 
 #include "solver/mesh/element_forest.h"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Trees of elements: tiling, limits, search, keys and order of patches.
 
 #include "solver/mesh/hierarchy.h"

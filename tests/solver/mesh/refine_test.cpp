@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Refinement by the light load: where it splits, what it promises, when it stops.
 
 #include "solver/mesh/refine.h"

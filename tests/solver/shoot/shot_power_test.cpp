@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Samples of a shot: their shares, their number, and who must have one.
 #include "solver/shoot/shot_power.h"
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Clear glass known by its normal transmittance: the formula against published rows and itself.
 
 #include "solver/surface/clear_glass.h"

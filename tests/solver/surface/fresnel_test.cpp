@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Fresnel's formulas against published cases and against each other.
 
 #include "solver/surface/fresnel.h"
@@ -27,7 +29,7 @@ TEST(Pane, ReferenceCases) {
   }
 }
 
-// METHOD 5: a pane reflects twice what one face does, and a little less: 8.2 %, not 4.3 %.
+// A pane reflects twice what one face does, and a little less: 8.2 %, not 4.3 %.
 TEST(Pane, BothFacesReflect) {
   const double r = std::pow(0.52 / 2.52, 2);
   EXPECT_NEAR(pane_shares({1.52, 0, 1}, 1).reflected, 2 * r / (1 + r), 1e-15);

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Nothing leaks out of closed buildings that touch each other, far from the origin of their
 /// coordinates: a hundred million rays from inside.
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The glossy lobe: reciprocity, energy, sampling.
 
 #include "solver/surface/lobe.h"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// First hits on known geometry, packets against single rays, leaks as a rate.
 
 #include "solver/surface/ray_caster.h"
