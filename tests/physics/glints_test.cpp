@@ -44,13 +44,13 @@ TEST(Corner, EveryDepthAddsItsImages) {
             << name;
       }
     check_ledger(name, seen);
-    EXPECT_EQ(seen.work.mirror_shots, 0u);
+    EXPECT_EQ(seen.work[Work::mirror_shots], 0u);
     const auto shot = solve_sun(builder.scene(), sun, glint_rules(By::shooting, depth), 0.5);
     // Planted fault: the double image counted in both orders.
     check_glint(name + " by shooting", shot.means(on_floor(shot)), once * (1 + images),
                 once * (1 + 2 * rho + 2 * rho * rho));
     check_ledger(name + " by shooting", shot);
-    EXPECT_EQ(shot.work.mirror_beams, 0u);
+    EXPECT_EQ(shot.work[Work::mirror_beams], 0u);
   }
 }
 
@@ -84,11 +84,12 @@ TEST(Periscope, BringsItsBeamToTheScreen) {
   // By images every patch within the beam has it exactly.
   const auto solved = solve_sun(builder.scene(), above, glint_rules(By::images), edge);
   Watch watch;
-  const LightSolver mesh(builder.scene(), {.max_edge_m = edge}, glint_rules(By::images), watch);
+  const auto mesh =
+      trace_scene(builder.scene(), {.max_edge_m = edge}, glint_rules(By::images), watch);
   int inside = 0;
   for (std::size_t i = 0; i < solved.area.size(); ++i) {
     if (solved.patches[i].triangle >= 2) continue;
-    const Vec3 p = mesh.hierarchy().centroid(i);
+    const Vec3 p = mesh->hierarchy().centroid(i);
     const double depth = std::min(std::min(p.x - 4, 5 - p.x), std::min(p.y, 1 - p.y));
     if (depth > edge) {
       ++inside;
@@ -142,19 +143,21 @@ TEST(CornerCube, SendsBackAntiparallel) {
   auto rules = glint_rules(By::images);
   rules.direct_samples = 32 * 4;
   const Scene& scene = builder.scene();
-  LightSolver solver(scene, {.max_edge_m = edge}, rules, watch);
-  const auto tally = solver.solve(std::vector{one_second(sun, dni)}, watch);
+  const auto traced = trace_scene(scene, {.max_edge_m = edge}, rules, watch);
+  const auto tally =
+      sunload::solve(*transport_of(*traced), std::vector{one_second(sun, dni)}, watch)
+          .bands.front();
   std::vector<double> power;
   Vec3 centre;
   for (const auto& exposure : tally.exposure_realization) {
     double of_realization = 0;
-    for (std::size_t i = 0; i < solver.hierarchy().patch_count(); ++i) {
-      const auto& patch = solver.hierarchy().patches()[i];
+    for (std::size_t i = 0; i < traced->hierarchy().patch_count(); ++i) {
+      const auto& patch = traced->hierarchy().patches()[i];
       // Sides that look away from the sun.
-      if (patch.triangle >= 8 || dot(solver.hierarchy().normal(i), sun) > 0) continue;
-      const double P = solver.hierarchy().area()[i] * exposure[i];
+      if (patch.triangle >= 8 || dot(traced->hierarchy().normal(i), sun) > 0) continue;
+      const double P = traced->hierarchy().area()[i] * exposure[i];
       of_realization += P;
-      centre += solver.hierarchy().centroid(i) * P;
+      centre += traced->hierarchy().centroid(i) * P;
     }
     power.push_back(of_realization);
   }
@@ -192,7 +195,7 @@ TEST(LightPipe, TransmitsWhatItsReflectionsLeave) {
                   E * transmitted, E * std::pow(rho, number(c["n"])));
       check_ledger(name, solved);
       if (by == By::images) {
-        EXPECT_EQ(solved.work.mirror_shots, 0u);
+        EXPECT_EQ(solved.work[Work::mirror_shots], 0u);
       }
     }
 }
@@ -206,8 +209,10 @@ TEST(Street, SecondGlintLandsWhereTheLawOfReflectionSays) {
   ASSERT_GT(low.x, 1);
   ASSERT_LT(low.x, street.width);
   Watch watch;
-  LightSolver solver(scene, {.max_edge_m = edge}, glint_rules(By::images), watch);
-  const auto tally = solver.solve(std::vector{one_second(street.sun, dni)}, watch);
+  const auto traced = trace_scene(scene, {.max_edge_m = edge}, glint_rules(By::images), watch);
+  const auto tally =
+      sunload::solve(*transport_of(*traced), std::vector{one_second(street.sun, dni)}, watch)
+          .bands.front();
   const auto& glint = tally.irradiance[static_cast<std::size_t>(Part::mirror)];
   const double E = dni * street.sun.z * rho_window * rho_wall;
   // The image of the upright rectangle on level ground is a parallelogram: x from z, y from both.
@@ -222,9 +227,9 @@ TEST(Street, SecondGlintLandsWhereTheLawOfReflectionSays) {
   double power = 0;
   Vec3 centre;
   int within = 0, without = 0;
-  for (std::size_t i = 0; i < solver.hierarchy().patch_count(); ++i) {
-    if (solver.hierarchy().patches()[i].triangle >= 2) continue;
-    const Vec3 p = solver.hierarchy().centroid(i);
+  for (std::size_t i = 0; i < traced->hierarchy().patch_count(); ++i) {
+    if (traced->hierarchy().patches()[i].triangle >= 2) continue;
+    const Vec3 p = traced->hierarchy().centroid(i);
     const double value = static_cast<double>(glint[i]);
     if (inside(p) > edge) {
       ++within;
@@ -233,8 +238,8 @@ TEST(Street, SecondGlintLandsWhereTheLawOfReflectionSays) {
       ++without;
       EXPECT_EQ(value, 0);
     }
-    power += solver.hierarchy().area()[i] * value;
-    centre += p * (solver.hierarchy().area()[i] * value);
+    power += traced->hierarchy().area()[i] * value;
+    centre += p * (traced->hierarchy().area()[i] * value);
   }
   EXPECT_GT(within, 10);
   EXPECT_GT(without, 1000);

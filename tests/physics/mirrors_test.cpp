@@ -199,15 +199,15 @@ TEST(SunInAMirror, LandsWhereTheLawOfReflectionSays) {
     constexpr double edge = 0.2;
     Watch watch;
     const Scene scene = glint.builder.scene();
-    LightSolver solver(scene, {.max_edge_m = edge}, rules_of(1), watch);
+    const auto traced = trace_scene(scene, {.max_edge_m = edge}, rules_of(1), watch);
     const std::vector<SunLight> light{one_second(glint.sun, glint.dni)};
-    const auto tally = solver.solve(light, watch);
+    const auto tally = sunload::solve(*transport_of(*traced), light, watch).bands.front();
     const auto& by_mirror = tally.irradiance[static_cast<std::size_t>(Part::mirror)];
     const double E = number(c["extra_horizontal_irradiance"]);
     int inside = 0, outside = 0;
-    for (std::size_t i = 0; i < solver.hierarchy().patch_count(); ++i) {
-      if (solver.hierarchy().patches()[i].triangle >= 2) continue;
-      const double depth = glint.depth(solver.hierarchy().centroid(i));
+    for (std::size_t i = 0; i < traced->hierarchy().patch_count(); ++i) {
+      if (traced->hierarchy().patches()[i].triangle >= 2) continue;
+      const double depth = glint.depth(traced->hierarchy().centroid(i));
       // A patch lies wholly on one side where its centroid is an edge away.
       if (depth > edge) {
         ++inside;

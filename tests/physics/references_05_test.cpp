@@ -107,10 +107,10 @@ TEST(BoxOfSixUnknowns, HasTheReferenceIrradiance) {
     const Scene scene = builder.scene();
     constexpr int lines = 1 << 12;
     Watch watch;
-    const LightSolver solver(scene, SplitRules{}, diffuse_rules(lines, 0), watch);
+    const auto traced = trace_scene(scene, SplitRules{}, diffuse_rules(lines, 0), watch);
     std::array<std::vector<double>, faces> H;
-    for (const auto& set : solver.lines().realizations) {
-      const auto solution = lumped_irradiance(face_factors(set, solver.hierarchy()), c);
+    for (const auto& set : traced->patches.lines.realizations) {
+      const auto solution = lumped_irradiance(face_factors(set, traced->hierarchy()), c);
       for (std::size_t f = 0; f < faces; ++f) H[f].push_back(solution[f]);
     }
     for (std::size_t f = 0; f < faces; ++f)

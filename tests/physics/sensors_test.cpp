@@ -447,9 +447,10 @@ TEST(Sensors, OpenFieldIsGlobalHorizontalIrradiance) {
   Scene scene = stage.builder.scene();
   scene.sensors = stage.sensors;
   Watch watch;
-  LightSolver solver(scene, SplitRules{}, rules, watch);
-  const auto tally = solver.solve(std::vector{light}, watch);
-  const auto& ends = solver.sensor_lines().pooled.ends;
+  const auto traced = trace_scene(scene, SplitRules{}, rules, watch);
+  const auto tally =
+      sunload::solve(*transport_of(*traced), std::vector{light}, watch).bands.front();
+  const auto& ends = traced->sensors.lines.pooled.ends;
   EXPECT_EQ(ends[0].sky, 1.0f);
   EXPECT_EQ(ends[2].sky, 0.0f);
   for (const double E : of_sensor(tally, 0)) EXPECT_NEAR(E, ghi, float_rounding * ghi);
@@ -499,8 +500,8 @@ TEST(Sensors, OnASurfaceSeeItsHemisphereAndWithinABodyItsBacks) {
   Scene scene = stage.builder.scene();
   scene.sensors = stage.sensors;
   Watch watch;
-  LightSolver solver(scene, SplitRules{}, rules_of(64), watch);
-  const auto& ends = solver.sensor_lines().pooled.ends;
+  const auto traced = trace_scene(scene, SplitRules{}, rules_of(64), watch);
+  const auto& ends = traced->sensors.lines.pooled.ends;
   EXPECT_EQ(ends[0].sky, 1.0f);
   EXPECT_EQ(ends[0].backs, 0.0f);
   EXPECT_EQ(ends[1].sky, 0.0f);

@@ -395,22 +395,23 @@ TEST(Shooting, NumberOfSamplesIsPowerByPowerPerSample) {
   rules.power_per_sample_w = per_sample;
   // The two patches of the lamp shoot, in every realization.
   const Solved lamp_only = solve(scene, {night}, rules);
-  EXPECT_NEAR(static_cast<double>(lamp_only.work.samples), lamp_w / per_sample, realizations);
+  EXPECT_NEAR(static_cast<double>(lamp_only.work[Work::samples]), lamp_w / per_sample,
+              realizations);
   // A reflection more: what its patches have received, times their reflectance.
   rules.bounces = 1;
   const Solved one = solve(scene, {night}, rules);
   const double reflected_w = lamp_only.tally.ledger[0][Term::unshot];
-  EXPECT_NEAR(static_cast<double>(one.work.samples), (lamp_w + reflected_w) / per_sample,
+  EXPECT_NEAR(static_cast<double>(one.work[Work::samples]), (lamp_w + reflected_w) / per_sample,
               realizations * (2.0 + static_cast<double>(one.area.size())));
-  EXPECT_GT(one.work.samples, lamp_only.work.samples);
+  EXPECT_GT(one.work[Work::samples], lamp_only.work[Work::samples]);
   // One sample of each patch with power is the least.
   rules.bounces = 0;
   rules.power_per_sample_w = 1e9;
-  EXPECT_EQ(solve(scene, {night}, rules).work.samples, 2u * realizations);
+  EXPECT_EQ(solve(scene, {night}, rules).work[Work::samples], 2u * realizations);
   // auto: as many as there are lines.
   rules.power_per_sample_w = {};
   const Solved by_auto = solve(scene, {night}, rules);
-  EXPECT_NEAR(static_cast<double>(by_auto.work.samples),
+  EXPECT_NEAR(static_cast<double>(by_auto.work[Work::samples]),
               static_cast<double>(by_auto.area.size()) * rules.lines_per_patch, realizations);
 }
 
