@@ -11,7 +11,7 @@
 #include "io/result/reader.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
-#include "tests/support/reference.h"
+#include "tests/support/real_models.h"
 #include "tests/support/result_check.h"
 
 namespace sunload::test {
@@ -35,7 +35,7 @@ std::string coarser_study(const std::string& city, const std::string& max_edge_m
 
 TEST(DelftDay, RunsInQuartersOfAnHour) {
   const std::string city = "data/city/delft_lod1_v20.city.json";
-  if (shared_missing(city)) return;
+  SUNLOAD_NEEDS_MODEL(city);
   const WorkFolder folder;
   folder.write("delft_day.yaml", coarser_study(shared_path(city), "12"));
   const Ran ran = program(folder, {"run", "delft_day.yaml"});

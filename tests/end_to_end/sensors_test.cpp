@@ -206,7 +206,6 @@ double largest_difference(const std::vector<std::pair<double, double>>& found,
 }
 
 TEST(SensorSunHours, OfCourtyardsStreetsAndWalls) {
-  if (shared_missing("reference")) return;
   constexpr double step_min = 1, hour_min = 60;
   for (const auto& c : reference_cases("06_direct_sun/sun_hours.json")) {
     const std::string id = c["id"];

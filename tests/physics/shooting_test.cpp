@@ -416,7 +416,6 @@ TEST(Shooting, NumberOfSamplesIsPowerByPowerPerSample) {
 
 // One sample of every patch is enough for an unbiased result: only its error is large.
 TEST(Shooting, IsUnbiasedForTheFewestSamples) {
-  if (shared_missing("reference")) return;
   const auto c = reference_cases("05_radiosity/box_12_triangles.json", "box12_").front();
   SceneBuilder builder;
   double rho_most = 0;
@@ -482,7 +481,6 @@ TEST(Shooting, VarianceFallsWithTheNumberOfSamples) {
 
 // Chains of mirrors: a floor sees the ceiling in the walls, by light sent forward.
 TEST(Shooting, FloorSeesTheCeilingInMirrorWalls) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases("05_radiosity/mirrors.json", "mirror_box")) {
     const double reflectance = number(c["wall_mirror_reflectance"]);
     const double x = number(c["size"][0]), y = number(c["size"][1]), h = number(c["size"][2]);

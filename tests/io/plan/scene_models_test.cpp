@@ -13,7 +13,7 @@
 #include "geo/sun/site.h"
 #include "io/plan/scene_build.h"
 #include "tests/support/program.h"
-#include "tests/support/reference.h"
+#include "tests/support/real_models.h"
 
 namespace sunload::test {
 namespace {
@@ -110,7 +110,7 @@ TEST_F(Files, StandAtALatitudeAndLongitudeOfTheScenesCrs) {
 }
 
 TEST_F(Files, WaitForTheCrsOfAnotherFile) {
-  if (shared_missing("data/city")) return;
+  SUNLOAD_NEEDS_MODEL("data/city");
   const auto city = shared_path("data/city/delft_one_building_v11.city.json");
   const auto built = build_scene(study("{file: a.obj, position: \"52.0080 4.3600\"}, " + city));
   EXPECT_NE(built.site_source.find("7415"), std::string::npos) << built.site_source;

@@ -13,13 +13,12 @@
 #include "io/plan/light_series.h"
 #include "io/plan/scene_build.h"
 #include "io/plan/variant_plan.h"
-#include "tests/support/reference.h"
+#include "tests/support/real_models.h"
 #include "tests/support/scene_text.h"
 
 namespace sunload {
 namespace {
 
-using test::shared_missing;
 using test::write_text;
 
 const std::string weather_folder = "data/weather/";
@@ -68,7 +67,7 @@ const std::string roof =
     "# utc_offset: +01:00\n";
 
 TEST(WeatherLight, YearOfAnEpwIsItsRecordsAndFast) {
-  if (shared_missing(weather_folder + "WD100_denver.epw")) return;
+  SUNLOAD_NEEDS_MODEL(weather_folder + "WD100_denver.epw");
   const Study study = study_of("", "year_of: weather", shared("WD100_denver.epw"));
   const auto built = build_scene(study);
   EXPECT_NE(built.site_source.find("weather station Denver"), std::string::npos);
@@ -104,7 +103,7 @@ TEST(WeatherLight, YearOfAnEpwIsItsRecordsAndFast) {
 }
 
 TEST(WeatherLight, TypicalYearsSayThatTheyHaveNoLeapDay) {
-  if (shared_missing(weather_folder + "chicago_tmy3.epw")) return;
+  SUNLOAD_NEEDS_MODEL(weather_folder + "chicago_tmy3.epw");
   const auto why = [](const std::string& day) {
     return refused(
         study_of("timezone: America/Chicago", "days: [" + day + "]", shared("chicago_tmy3.epw")));
@@ -139,7 +138,7 @@ TEST(WeatherLight, SolverGetsDiffuseLightInTheDark) {
 }
 
 TEST(WeatherLight, TypicalYearsServeForTheDatesOfThePeriod) {
-  if (shared_missing(weather_folder + "munich_iwec.epw")) return;
+  SUNLOAD_NEEDS_MODEL(weather_folder + "munich_iwec.epw");
   const auto own = series_of(study_of("", "year_of: weather", shared("munich_iwec.epw")));
   const auto day =
       series_of(study_of("latitude_deg: 48.13, longitude_deg: 11.7, elevation_m: 529, "
@@ -162,7 +161,7 @@ TEST(WeatherLight, TypicalYearsServeForTheDatesOfThePeriod) {
 }
 
 TEST(WeatherLight, ActualYearsKeepTheirDates) {
-  if (shared_missing(weather_folder + "zurich_sma_2016_leap.epw")) return;
+  SUNLOAD_NEEDS_MODEL(weather_folder + "zurich_sma_2016_leap.epw");
   const std::string zurich = shared("zurich_sma_2016_leap.epw");
   const auto missing = refused(study_of("", "year_of: weather", zurich));
   EXPECT_NE(missing.find("epw:7201: irradiance is missing here (120 of 8784 records"),
@@ -213,7 +212,7 @@ TEST(WeatherLight, TimesOfACsvWithoutZoneAreStandardTimeOfTheSite) {
 }
 
 TEST(WeatherLight, FarStationsAndShiftedStampsAreWarnedAbout) {
-  if (shared_missing(weather_folder + "gothenburg_tmyx.epw")) return;
+  SUNLOAD_NEEDS_MODEL(weather_folder + "gothenburg_tmyx.epw");
   const auto far = series_of(study_of("latitude_deg: 59.33, longitude_deg: 18.07",
                                       "year_of: weather", shared("gothenburg_tmyx.epw")));
   EXPECT_TRUE(says(far.notes, "km from the site"));

@@ -16,7 +16,6 @@
 #include <sstream>
 
 #include "tests/support/paths.h"
-#include "tests/support/reference.h"
 
 namespace sunload {
 namespace {

@@ -12,7 +12,7 @@
 #include <random>
 #include <sstream>
 
-#include "tests/support/reference.h"
+#include "tests/support/real_models.h"
 #include "tests/support/scene_text.h"
 
 namespace sunload {
@@ -91,7 +91,7 @@ TEST(WeatherFiles, HaveTheFactsOfTheirReadme) {
       {"best_field_15min.csv", "DENVER/CENTENNIAL [GOLDEN - NREL]", 39.742, -105.179, -7, 1829,
        5857, 0, actual, 15}};
   for (const auto& fact : facts) {
-    if (test::shared_missing(folder + fact.file)) return;
+    SUNLOAD_NEEDS_MODEL(folder + fact.file);
     const WeatherFile file = read_shared(fact.file);
     ASSERT_TRUE(file.place) << fact.file;
     EXPECT_EQ(file.place->name, fact.place);
@@ -111,7 +111,7 @@ TEST(WeatherFiles, HaveTheFactsOfTheirReadme) {
 
 TEST(WeatherFiles, ThatAreNoneAreRefusedByReason) {
   for (const char* name : {"sunpath_kiruna.csv", "README.md"}) {
-    if (test::shared_missing(folder + name)) return;
+    SUNLOAD_NEEDS_MODEL(folder + name);
     try {
       read_shared(name);
       FAIL() << name;
@@ -123,7 +123,7 @@ TEST(WeatherFiles, ThatAreNoneAreRefusedByReason) {
 }
 
 TEST(WeatherFiles, OneHourInEpwAndWeaIsTheSameStretch) {
-  if (test::shared_missing(folder + "chicago_tmy3.epw")) return;
+  SUNLOAD_NEEDS_MODEL(folder + "chicago_tmy3.epw");
   const auto epw = dated(read_shared("chicago_tmy3.epw").records, 2001, 0);
   const auto wea = dated(read_shared("chicago_filtered.wea").records, 2001, 0);
   std::size_t at = 0;
@@ -138,7 +138,7 @@ TEST(WeatherFiles, OneHourInEpwAndWeaIsTheSameStretch) {
 }
 
 TEST(WeatherFiles, ZurichLacksFiveDaysAndHasItsLeapDay) {
-  if (test::shared_missing(folder + "zurich_sma_2016_leap.epw")) return;
+  SUNLOAD_NEEDS_MODEL(folder + "zurich_sma_2016_leap.epw");
   const auto file = read_shared("zurich_sma_2016_leap.epw");
   const auto weather = dated(file.records, {}, *file.offset_s);
   const auto gaps = fill_missing(weather, source_of(weather), Missing::refuse);
@@ -398,7 +398,7 @@ TEST(BrokenWeather, IsRefusedAndNeverCrashes) {
   int refusals = 0, read_anyway = 0;
   for (const char* name : {"chicago_filtered.wea", "chicago_tmy3.epw", "best_field_15min.csv",
                            "zurich_sma_2016_leap.epw"}) {
-    if (test::shared_missing(folder + name)) return;
+    SUNLOAD_NEEDS_MODEL(folder + name);
     std::string text = text_of(name);
     // Enough of the file: header and some days.
     text.resize(std::min<std::size_t>(text.size(), 60'000));
