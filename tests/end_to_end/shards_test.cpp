@@ -212,6 +212,9 @@ TEST(Shards, ADamagedPreparedFileIsMadeAgain) {
 }
 
 /// mpirun, or empty where it is not installed.
+constexpr const char* no_mpirun = "NOT RUN: no mpirun (package openmpi-bin)";
+constexpr const char* no_mpi = "NOT RUN: this build has no MPI (package libopenmpi-dev)";
+
 std::string mpirun() {
   for (const char* path : {"/usr/bin/mpirun", "/usr/local/bin/mpirun"})
     if (::access(path, X_OK) == 0) return path;
@@ -227,19 +230,13 @@ std::vector<std::string> rank_words(int ranks, std::vector<std::string> argument
 }
 
 TEST(Shards, RanksOfMpiGiveTheSameBits) {
-  if (mpirun().empty()) {
-    std::printf("NOT RUN: ranks of MPI: no mpirun (package openmpi-bin)\n");
-    return;
-  }
+  if (mpirun().empty()) GTEST_SKIP() << no_mpirun;
   for (const int ranks : {2, 3}) {
     const WorkFolder folder;
     folder.write("street.yaml", street_study());
     Process process(rank_words(ranks, {"run", "street.yaml", "--threads", "1"}), folder.path());
     const Ran ran = process.wait();
-    if (ran.err.find("this build has no MPI") != std::string::npos) {
-      std::printf("NOT RUN: ranks of MPI: this build has none (package libopenmpi-dev)\n");
-      return;
-    }
+    if (ran.err.find("this build has no MPI") != std::string::npos) GTEST_SKIP() << no_mpi;
     EXPECT_EQ(ran.code, 0) << ran.err;
     expect_same_result(folder);
     EXPECT_EQ(folder.content("results"),
@@ -248,10 +245,7 @@ TEST(Shards, RanksOfMpiGiveTheSameBits) {
 }
 
 TEST(Shards, RanksThatAreStoppedGoOn) {
-  if (mpirun().empty()) {
-    std::printf("NOT RUN: ranks of MPI that are stopped: no mpirun (package openmpi-bin)\n");
-    return;
-  }
+  if (mpirun().empty()) GTEST_SKIP() << no_mpirun;
   const WorkFolder folder;
   // Four times the patches, so that mpirun has the time to pass the signal on.
   folder.write("street.yaml",
@@ -260,7 +254,7 @@ TEST(Shards, RanksThatAreStoppedGoOn) {
   while (process.is_running() && files(folder, ".batch").empty()) std::this_thread::sleep_for(1ms);
   process.send(SIGTERM);
   const Ran ran = process.wait();
-  if (ran.err.find("this build has no MPI") != std::string::npos) return;
+  if (ran.err.find("this build has no MPI") != std::string::npos) GTEST_SKIP() << no_mpi;
   EXPECT_NE(ran.code, 0) << ran.err;
   // What was finished is kept: batches, or all of them merged where the ranks were faster.
   EXPECT_GE(files(folder, ".batch").size() + files(folder, ".h5").size(), 1u) << ran.err;

@@ -22,6 +22,6 @@ inline std::string shared_path(const std::string& relative_path) {
 
 /// The running test is skipped where that file or folder of real models is not there; stands in
 /// functions that return nothing.
-#define SUNLOAD_NEEDS_MODEL(relative_path)                                         \
-  if (!std::filesystem::exists(::sunload::test::shared_path(relative_path)))       \
+#define SUNLOAD_NEEDS_MODEL(relative_path)                                   \
+  if (!std::filesystem::exists(::sunload::test::shared_path(relative_path))) \
   GTEST_SKIP() << "NOT RUN: " << (relative_path) << " of the real models is not here"

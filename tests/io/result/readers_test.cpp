@@ -13,10 +13,7 @@ namespace {
 // Debian's own interpreter, for which its packages are installed.
 constexpr const char* python = "/usr/bin/python3";
 
-bool python_missing() {
-  return program_missing("python3 with h5py, xarray and h5netcdf",
-                         std::string(python) + " -c 'import h5py, xarray, h5netcdf'");
-}
+const std::string packages = std::string(python) + " -c 'import h5py, xarray, h5netcdf'";
 
 void expect_python_reads(const std::string& path, const Example& example) {
   const Output output = run_program(
@@ -26,7 +23,7 @@ void expect_python_reads(const std::string& path, const Example& example) {
 }
 
 TEST(ResultReaders, PythonReadsSeveralBatchesAndChunks) {
-  if (python_missing()) return;
+  SUNLOAD_NEEDS_PROGRAM("python3 with h5py, xarray and h5netcdf", packages);
   const Folder folder;
   const Example example;
   example.write_result(folder, folder.file("a.h5"));
@@ -34,7 +31,7 @@ TEST(ResultReaders, PythonReadsSeveralBatchesAndChunks) {
 }
 
 TEST(ResultReaders, PythonReadsOneShortBatch) {
-  if (python_missing()) return;
+  SUNLOAD_NEEDS_PROGRAM("python3 with h5py, xarray and h5netcdf", packages);
   const Folder folder;
   Example example;
   example.patches = 7;
@@ -44,7 +41,7 @@ TEST(ResultReaders, PythonReadsOneShortBatch) {
 }
 
 TEST(ResultReaders, PythonReadsWithoutFacadesAndMaterials) {
-  if (python_missing()) return;
+  SUNLOAD_NEEDS_PROGRAM("python3 with h5py, xarray and h5netcdf", packages);
   const Folder folder;
   Example example;
   example.facades = example.materials = 0;
@@ -53,7 +50,7 @@ TEST(ResultReaders, PythonReadsWithoutFacadesAndMaterials) {
 }
 
 TEST(ResultReaders, PythonReadsStoredSeries) {
-  if (python_missing()) return;
+  SUNLOAD_NEEDS_PROGRAM("python3 with h5py, xarray and h5netcdf", packages);
   const Folder folder;
   Example example;
   example.compression = 0;
@@ -62,7 +59,7 @@ TEST(ResultReaders, PythonReadsStoredSeries) {
 }
 
 TEST(ResultReaders, NetcdfListsDimensionsAndUnits) {
-  if (program_missing("ncdump", "command -v ncdump")) return;
+  SUNLOAD_NEEDS_PROGRAM("ncdump", "command -v ncdump");
   const Folder folder;
   for (const std::size_t facades : {std::size_t{3}, std::size_t{0}}) {
     Example example;
@@ -91,15 +88,15 @@ TEST(ResultReaders, EqualWritesAreEqual) {
   example.write_result(folder, folder.file("b.h5"));
   const std::string both = folder.file("a.h5") + " " + folder.file("b.h5");
   EXPECT_EQ(run_program("cmp " + both).status, 0);
-  if (program_missing("h5diff", "command -v h5diff")) return;
-  EXPECT_EQ(run_program("h5diff " + both).status, 0);
 }
 
-TEST(ResultReaders, HdfToolSeesAnotherValue) {  // the twin: h5diff can tell files apart
-  if (program_missing("h5diff", "command -v h5diff")) return;
+TEST(ResultReaders, HdfToolSeesAnotherValueAndNoOther) {
+  SUNLOAD_NEEDS_PROGRAM("h5diff", "command -v h5diff");
   const Folder folder;
   Example example;
   example.write_result(folder, folder.file("a.h5"));
+  example.write_result(folder, folder.file("same.h5"));
+  EXPECT_EQ(run_program("h5diff " + folder.file("a.h5") + " " + folder.file("same.h5")).status, 0);
   example.patches += 1;
   example.write_result(folder, folder.file("b.h5"));
   EXPECT_NE(run_program("h5diff " + folder.file("a.h5") + " " + folder.file("b.h5")).status, 0);

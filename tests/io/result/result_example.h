@@ -56,13 +56,10 @@ inline Output run_program(const std::string& command) {
   return output;
 }
 
-/// True where `command` does not run here; names it in the output of the test.
-inline bool program_missing(const std::string& name, const std::string& command) {
-  if (run_program(command).status == 0) return false;
-  std::printf("NOT RUN: %s: %s is missing\n",
-              ::testing::UnitTest::GetInstance()->current_test_info()->name(), name.c_str());
-  return true;
-}
+/// The running test is skipped where `command` does not run.
+#define SUNLOAD_NEEDS_PROGRAM(name, command)             \
+  if (::sunload::test::run_program(command).status != 0) \
+  GTEST_SKIP() << "NOT RUN: " << (name) << " is not installed"
 
 struct Example {
   std::size_t patches = 5000, intervals = 84, facades = 3, materials = 2, realizations = 4;
