@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "io/base/waiting_lock.h"
+#include "tests/support/child_process.h"
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"
@@ -106,33 +107,12 @@ TEST(Shards, AtTheSameTimeGiveTheSameBits) {
 }
 
 /// Lives with the lock of a prepared file until it is killed.
-class Tracer {
- public:
-  explicit Tracer(const std::string& lock_path) {
-    int told[2];
-    if (::pipe(told) != 0) throw std::runtime_error("pipe failed");
-    process_ = ::fork();
-    if (process_ == 0) {
-      const WaitingLock lock(lock_path, {});
-      const char held = lock.is_held() ? 'y' : 'n';
-      if (::write(told[1], &held, 1) == 1)
-        for (;;) ::pause();
-      ::_exit(1);
-    }
-    char held = 0;
-    if (::read(told[0], &held, 1) != 1 || held != 'y') throw std::runtime_error("no lock");
-  }
-  ~Tracer() { kill(); }
-  void kill() {
-    if (process_ < 0) return;
-    ::kill(process_, SIGKILL);
-    ::waitpid(process_, nullptr, 0);
-    process_ = -1;
-  }
-
- private:
-  pid_t process_ = -1;
-};
+ChildProcess tracer_with(const std::string& lock_path) {
+  return ChildProcess([&](const ChildProcess::Hold& hold) {
+    const WaitingLock lock(lock_path, {});
+    hold(lock.is_held());
+  });
+}
 
 void until_it_waits(Process& process) {
   while (process.is_running() && process.err_so_far().find("waiting for it") == std::string::npos)
@@ -145,7 +125,8 @@ TEST(Shards, WaitingForLinesEndsWithTimeSignalsAndTheTracer) {
   EXPECT_EQ(shard(folder, 0, 3).code, 0);
   const std::string prepared = folder / ("results/" + files(folder, "/prepared").front());
   std::filesystem::remove(prepared);
-  Tracer tracer(prepared + ".lock");
+  ChildProcess tracer = tracer_with(prepared + ".lock");
+  ASSERT_TRUE(tracer.is_well());
   const Ran limited =
       program(folder, {"run", "street.yaml", "--shard", "1/3", "--time-limit", "0.01"});
   EXPECT_EQ(limited.code, 75) << limited.err;
