@@ -13,7 +13,7 @@
 #include "solver/base/threads.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
-#include "tests/support/reference.h"
+#include "tests/support/real_models.h"
 
 namespace sunload::test {
 namespace {
@@ -119,7 +119,7 @@ TEST(Adaptivity, PaysOnTheStreet) {
 }
 
 TEST(Adaptivity, PaysOnACityModel) {
-  if (shared_missing("data")) return;
+  SUNLOAD_NEEDS_MODEL("data");
   const Comparison c = compare(
       "format: sunload-study-1\nname: city\nsite: {timezone: Europe/Berlin}\n"
       "period: {days: [2026-06-21], from: \"06:00\", to: \"20:00\", step_min: 60}\n"

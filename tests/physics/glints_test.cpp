@@ -64,7 +64,6 @@ TEST(Periscope, BringsItsBeamToTheScreen) {
   builder.quad({2, -1, -4}, {6, -1, -4}, {6, 2, -4}, {2, 2, -4}, black);
   builder.quad({0, 0, 0}, {1, 0, -1}, {1, 1, -1}, {0, 1, 0}, first);
   builder.quad({3, -1, 1}, {3, 2, 1}, {5, 2, -1}, {5, -1, -1}, second);
-  if (shared_missing("reference")) return;
   const double H = number(reference_cases(mirrors, "periscope").front()["H"]);
   const Vec3 above{0, 0, 1};
   constexpr double edge = 0.2;
@@ -113,7 +112,6 @@ TEST(Periscope, BringsItsBeamToTheScreen) {
 // Light that enters through a hole above three perpendicular mirrors comes back
 // antiparallel, to the point symmetric about the corner.
 TEST(CornerCube, SendsBackAntiparallel) {
-  if (shared_missing("reference")) return;
   const double factor = number(reference_cases(mirrors, "corner_cube").front()["factor"]);
   constexpr double rho = 0.95, size = 4, half_hole = 0.2, half_screen = 4;
   SceneBuilder builder;
@@ -172,7 +170,6 @@ TEST(CornerCube, SendsBackAntiparallel) {
 
 // Two facing mirrors above a floor, open at the top.
 TEST(LightPipe, TransmitsWhatItsReflectionsLeave) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(mirrors, "light_pipe"))
     for (const By by : {By::images, By::shooting}) {
       const double gap = number(c["gap"]), length = number(c["length"]), rho = number(c["rm"]);

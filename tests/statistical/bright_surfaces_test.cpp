@@ -161,7 +161,6 @@ void check(const std::string& what, const std::vector<double>& E, double truth, 
 // Unit squares, one over the other at distance 1, lit by each other; and at a right angle,
 // where both touch (reference 04).
 TEST(Lamps, LightEachOtherThoughTheyTouch) {
-  if (shared_missing("reference")) return;
   int cases = 0;
   for (const auto& c : reference_cases("04_form_factors/closed_forms.json")) {
     const auto& g = c["geometry"];

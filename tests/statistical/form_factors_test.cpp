@@ -113,7 +113,6 @@ int lines_for(double truth) {
 }
 
 TEST(FormFactors, OfPolygonPairs) {
-  if (shared_missing("reference")) return;
   int cases = 0;
   for (const auto& c : reference_cases(closed_forms)) {
     const auto& g = c["geometry"];
@@ -127,7 +126,6 @@ TEST(FormFactors, OfPolygonPairs) {
 }
 
 TEST(FormFactors, OfTrianglePairs) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(triangle_pairs)) {
     // The smaller triangle receives: of its lines more arrive (reciprocity has its own test).
     const bool forth = number(c["A1"]) <= number(c["A2"]);
@@ -149,7 +147,6 @@ Polygon small_square(Vec3 p, Vec3 n, double edge) {
 // A point stands for a square of 1 % of its distance d to the emitter: the mean over the
 // square is off by at most the form factor's second derivative (of order 1/d²) times edge².
 TEST(FormFactors, OfPointsToPolygons) {
-  if (shared_missing("reference")) return;
   constexpr double edge_by_distance = 0.01;
   int cases = 0;
   for (const auto& c : reference_cases(closed_forms)) {
@@ -202,7 +199,6 @@ void check_strips(const json& c, const Polygon& from, const Polygon& to) {
 }
 
 TEST(FormFactors, OfInfiniteStrips) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(closed_forms)) {
     const auto& g = c["geometry"];
     if (c["kind"] == "infinite_parallel_strips") {
@@ -220,7 +216,6 @@ TEST(FormFactors, OfInfiniteStrips) {
 
 // Sky view of street canyons, mean over the floor, at its centre and at a point.
 TEST(FormFactors, OfTheSkyFromCanyonFloors) {
-  if (shared_missing("reference")) return;
   int cases = 0;
   for (const auto& c : reference_cases(closed_forms)) {
     const auto kind = c["kind"].get<std::string>();
