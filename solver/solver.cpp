@@ -51,12 +51,15 @@ Solved solve(const LightTransport& transport, std::span<const SunLight> batch, W
   for (std::size_t b = 0; b < traced.optics_of_band.size(); ++b)
     solved.bands.push_back(tally_of(traced, batch.size()));
   const auto in_batch = transport.begin(solved.bands, solved.work);
+  std::size_t done = 0;
   for (const Block& block : lit_blocks(traced, batch)) {
+    const double rays_before = solved.work.rays();
     in_batch->light(block);  // E = E_0 + G rho E
-    watch.advance(Stage::light, static_cast<double>(block.first_row + block.suns.size()) /
-                                    static_cast<double>(batch.size()));
+    done = block.first_row + block.suns.size();
+    watch.cast(solved.work.rays() - rays_before);
+    watch.advance(Stage::light, static_cast<double>(done) / static_cast<double>(batch.size()));
   }
-  watch.advance(Stage::light, 1);
+  if (done < batch.size()) watch.advance(Stage::light, 1);  // the rest is dark
   for (BatchTally& tally : solved.bands) add_energy(batch, tally);
   in_batch->finish();
   return solved;

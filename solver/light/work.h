@@ -36,6 +36,11 @@ class WorkDone {
   double& operator[](Work kind) { return done_[static_cast<std::size_t>(kind)]; }
   double operator[](Work kind) const { return done_[static_cast<std::size_t>(kind)]; }
   void add(Work kind, std::uint64_t count) { (*this)[kind] += static_cast<double>(count); }
+  /// Cast for the light of suns.
+  double rays() const {
+    return (*this)[Work::direct_rays] + (*this)[Work::mirror_rays] + (*this)[Work::shot_rays] +
+           (*this)[Work::sensor_rays];
+  }
   WorkDone& operator+=(const WorkDone& more) {
     for (std::size_t i = 0; i < work_count; ++i) done_[i] += more.done_[i];
     return *this;
