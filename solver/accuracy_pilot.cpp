@@ -39,7 +39,7 @@ class PilotWatch : public Watch {
 
 }  // namespace
 
-SolverRules pilot_rules(SolverRules rules, bool of_instants) {
+SolverRules rules_of_pilot(SolverRules rules, bool of_instants) {
   int lines = rules.lines_per_patch / rules.realizations;
   const int samples = rules.direct_samples / rules.realizations;
   const double of_study = static_cast<double>(rules.realizations) * lines;
@@ -284,7 +284,7 @@ PatchSpread pilot_spread(const Scene& scene, std::shared_ptr<const Hierarchy> me
     without_sensors->sensors.clear();
   }
   const auto traced = trace_scene(without_sensors ? *without_sensors : scene, std::move(mesh),
-                                  pilot_rules(rules, pilot.of_instants), pilot_watch);
+                                  rules_of_pilot(rules, pilot.of_instants), pilot_watch);
   const auto transport = transport_of(*traced);
   PatchSpread spread = rules.transport == Transport::gather
                            ? gathered_spread(*transport, suns, pilot, pilot_watch)
