@@ -5,6 +5,7 @@
 #include <array>
 #include <numeric>
 
+#include "geo/base/check.h"
 #include "io/base/bands.h"
 #include "solver/accuracy.h"
 
@@ -105,10 +106,10 @@ void add_sunlit(BatchWriter& writer, const ReceiverTally& tally, const std::stri
 }
 
 /// What sensors have that is the same in all bands.
-void add_sensors(BatchWriter& writer, const BatchTally& tally, const LightSolver& solver) {
+void add_sensors(BatchWriter& writer, const BatchTally& tally, const TracedScene& traced) {
   add_sunlit(writer, tally.sensors, sensor_prefix);
   std::vector<double> sky, backs;
-  for (const auto& ends : solver.sensor_lines().pooled.ends) {
+  for (const auto& ends : traced.sensors.lines.pooled.ends) {
     sky.push_back(static_cast<double>(ends.sky));
     backs.push_back(static_cast<double>(ends.backs));
   }
@@ -131,48 +132,23 @@ std::string sum_name(Part part) {
   return std::string("sum_") + part_names[static_cast<std::size_t>(part)];
 }
 
-std::vector<double> work_values(const WorkDone& w) {
-  return {static_cast<double>(w.line_rays),
-          static_cast<double>(w.direct_rays),
-          static_cast<double>(w.mirror_rays),
-          w.lines_s,
-          w.direct_s,
-          w.mirror_s,
-          w.solve_s,
-          w.realizations_s,
-          static_cast<double>(w.mirror_beams),
-          static_cast<double>(w.mirror_shots),
-          static_cast<double>(w.samples),
-          static_cast<double>(w.shot_rays),
-          w.shoot_s,
-          static_cast<double>(w.sensor_rays),
-          w.sensors_s};
+std::vector<double> work_values(const WorkDone& work) {
+  return {work.values().begin(), work.values().end()};
 }
 
-WorkDone work_from(const std::vector<double>& v) {
-  return {.line_rays = static_cast<std::uint64_t>(v.at(0)),
-          .direct_rays = static_cast<std::uint64_t>(v.at(1)),
-          .mirror_rays = static_cast<std::uint64_t>(v.at(2)),
-          .sensor_rays = static_cast<std::uint64_t>(v.at(13)),
-          .mirror_beams = static_cast<std::uint64_t>(v.at(8)),
-          .mirror_shots = static_cast<std::uint64_t>(v.at(9)),
-          .lines_s = v.at(3),
-          .direct_s = v.at(4),
-          .mirror_s = v.at(5),
-          .solve_s = v.at(6),
-          .realizations_s = v.at(7),
-          .sensors_s = v.at(14),
-          .samples = static_cast<std::uint64_t>(v.at(10)),
-          .shot_rays = static_cast<std::uint64_t>(v.at(11)),
-          .shoot_s = v.at(12)};
+WorkDone work_from(const std::vector<double>& values) {
+  SUNLOAD_EXPECT(values.size() == work_count, "kinds of work");
+  WorkDone work;
+  std::copy(values.begin(), values.end(), work.values().begin());
+  return work;
 }
 
 void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
-                 const LightSolver& solver, const Mesh& mesh, const WorkDone& work,
+                 const TracedScene& traced, const Mesh& mesh, const WorkDone& work,
                  std::optional<double> irradiance_relative) {
-  const Hierarchy& hierarchy = solver.hierarchy();
+  const Hierarchy& hierarchy = traced.hierarchy();
   const std::size_t N = hierarchy.patch_count();
-  const auto prefixes = band_prefixes(solver.rules().bands);
+  const auto prefixes = band_prefixes(traced.rules.bands);
   for (std::size_t b = 0; b < bands.size(); ++b) {
     const BatchTally& tally = bands[b];
     const std::size_t K = tally.intervals;
@@ -191,12 +167,12 @@ void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
                tally.outgoing.data());
   }
   add_sunlit(writer, bands.front(), "");
-  if (!bands.front().sensors.sunlit_s.empty()) add_sensors(writer, bands.front(), solver);
+  if (!bands.front().sensors.sunlit_s.empty()) add_sensors(writer, bands.front(), traced);
   writer.add({batch_array::sky_view, MergeRule::maximum, ArrayType::float64, {N}},
-             solver.sky_view_factor().data());
-  const double bounces = solver.bounces();
+             traced.sky_view_factor().data());
+  const double bounces = traced.bounces;
   writer.add({batch_array::bounces, MergeRule::maximum, ArrayType::float64, {1}}, &bounces);
-  const SolverRules& rules = solver.rules();
+  const SolverRules& rules = traced.rules;
   const std::vector<double> lines(rules.lines_of_patch.begin(), rules.lines_of_patch.end());
   const double mean_lines = lines.empty() ? rules.lines_per_patch
                                           : std::accumulate(lines.begin(), lines.end(), 0.0) /

@@ -310,28 +310,28 @@ ResultAttributes result_attributes(const VariantPlan& plan, const StudyFile& fil
                {"reuse_bias_share", reuse_bias(totals, geometry, R)},
                {unit_names("residual_reuse_bias_kwh", study.light.quantity),
                 residual_reuse_bias_kwh(totals, R)},
-               {"runtime_lines_s", work.lines_s},
-               {"runtime_direct_s", work.direct_s},
-               {"runtime_mirror_s", work.mirror_s},
-               {"runtime_solve_s", work.solve_s},
-               {"runtime_realizations_s", work.realizations_s},
-               {"runtime_sensors_s", work.sensors_s}};
+               {"runtime_lines_s", work[Work::lines_s]},
+               {"runtime_direct_s", work[Work::direct_s]},
+               {"runtime_mirror_s", work[Work::mirror_s]},
+               {"runtime_solve_s", work[Work::solve_s]},
+               {"runtime_realizations_s", work[Work::realizations_s]},
+               {"runtime_sensors_s", work[Work::sensors_s]}};
   a.integers = {{"seed", static_cast<std::int64_t>(study.solver.seed)},
                 {"realizations", study.solver.realizations},
                 {"lines_per_patch", lines},
                 {"direct_samples", samples},
                 {"bounces", static_cast<std::int64_t>(totals[batch_array::bounces][0])},
                 {"numerics_version", numerics_version},
-                {"line_rays", static_cast<std::int64_t>(work.line_rays)},
-                {"direct_rays", static_cast<std::int64_t>(work.direct_rays)},
-                {"mirror_rays", static_cast<std::int64_t>(work.mirror_rays)},
-                {"mirror_beams", static_cast<std::int64_t>(work.mirror_beams)},
-                {"mirror_shots", static_cast<std::int64_t>(work.mirror_shots)},
-                {"sensor_rays", static_cast<std::int64_t>(work.sensor_rays)}};
+                {"line_rays", static_cast<std::int64_t>(work[Work::line_rays])},
+                {"direct_rays", static_cast<std::int64_t>(work[Work::direct_rays])},
+                {"mirror_rays", static_cast<std::int64_t>(work[Work::mirror_rays])},
+                {"mirror_beams", static_cast<std::int64_t>(work[Work::mirror_beams])},
+                {"mirror_shots", static_cast<std::int64_t>(work[Work::mirror_shots])},
+                {"sensor_rays", static_cast<std::int64_t>(work[Work::sensor_rays])}};
   if (study.solver.transport == Transport::shoot) {
-    a.numbers.emplace_back("runtime_shoot_s", work.shoot_s);
-    a.integers.emplace_back("samples_shot", static_cast<std::int64_t>(work.samples));
-    a.integers.emplace_back("shot_rays", static_cast<std::int64_t>(work.shot_rays));
+    a.numbers.emplace_back("runtime_shoot_s", work[Work::shoot_s]);
+    a.integers.emplace_back("samples_shot", static_cast<std::int64_t>(work[Work::samples]));
+    a.integers.emplace_back("shot_rays", static_cast<std::int64_t>(work[Work::shot_rays]));
   }
   if (study.solver.accuracy) {
     if (const auto relative = study.solver.accuracy->light_load_relative) {

@@ -20,10 +20,10 @@ namespace sunload {
 
 namespace {
 
-std::string rays_text(const char* what, std::uint64_t rays, double seconds) {
+std::string rays_text(const char* what, double rays, double seconds) {
   if (rays == 0 || seconds <= 0) return {};
   return fmt::format("  {:<14} {:8.2f} s  {:9.3g} rays  {:7.1f} million rays/s\n", what, seconds,
-                     static_cast<double>(rays), static_cast<double>(rays) / seconds / 1e6);
+                     rays, rays / seconds / 1e6);
 }
 
 std::size_t suns_before(const VariantPlan& plan, std::size_t batch) {
@@ -83,14 +83,14 @@ void VariantRun::compute(UnitQueue& units, MpiWorld* world) {
   for (auto batch = units.next(); batch; batch = units.next()) {
     const std::size_t suns = sun_count(plan_, *batch);
     if (!is_finished(*batch)) {
-      if (!solver_) make_solver(world);
+      if (!transport_) make_solver(world);
       if (world) suns_behind = suns_before(plan_, *batch);
       progress_.begin_batch(suns_behind, suns);
       compute_batch(*batch);
     }
     suns_behind += suns;
   }
-  if (solver_) report_work();
+  if (transport_) report_work();
 }
 
 bool VariantRun::is_finished(std::size_t batch) {
@@ -123,7 +123,7 @@ void VariantRun::read_or_trace() {
     progress_.say("warning: cannot lock " + path + ".lock (" + lock.problem() +
                   "); processes that start together each trace the lines");
   build(read_prepared(path, plan_.content_hash));
-  if (solver_->work().line_rays > 0) keep_lines(path);
+  if (traced_->work[Work::line_rays] > 0) keep_lines(path);
 }
 
 void VariantRun::build(std::optional<Lines> ready) {
@@ -131,19 +131,20 @@ void VariantRun::build(std::optional<Lines> ready) {
       [rays = static_cast<double>(estimate_work(plan_, mesh_->patch_count()).line_rays)](
           Stage, double share) { return rays * share; });
   if (!ready) progress_.advance(Stage::lines, 0);
-  solver_ =
-      std::make_unique<LightSolver>(plan_.built.scene, mesh_, rules_, progress_, std::move(ready));
+  traced_ = trace_scene(plan_.built.scene, mesh_, rules_, progress_, std::move(ready));
+  transport_ = transport_of(*traced_);
+  unwritten_ = traced_->work;
+  unwritten_ += transport_->work();
+  done_ = unwritten_;
   warn_of_sensors();
-  progress_.count_rays([this](Stage, double) {
-    const WorkDone& work = solver_->work();
-    return static_cast<double>(work.direct_rays + work.mirror_rays);
-  });
+  progress_.count_rays(
+      [this](Stage, double) { return done_[Work::direct_rays] + done_[Work::mirror_rays]; });
   open_share_ =
-      open_shares(solver_->sky_grid(), plan_.built.site.horizon, scene_from_enu(plan_.built.site));
+      open_shares(traced_->grid, plan_.built.site.horizon, scene_from_enu(plan_.built.site));
 }
 
 void VariantRun::warn_of_sensors() {
-  const std::size_t orientations = solver_->mirror_orientations();
+  const std::size_t orientations = traced_->mirror_orientations();
   const auto most = static_cast<std::size_t>(rules_.most_sensor_beams);
   if (plan_.built.scene.sensors.empty() || orientations <= most) return;
   progress_.say(fmt::format(
@@ -156,7 +157,7 @@ void VariantRun::warn_of_sensors() {
 void VariantRun::keep_lines(const std::string& path) {
   try {
     make_writable_folder(work_folder(folder_, plan_));
-    write_prepared(path, plan_.content_hash, solver_->lines());
+    write_prepared(path, plan_.content_hash, traced_->patches.lines);
   } catch (const MachineError& error) {
     progress_.say(plan_.study.variant + ": warning: the traced lines are not kept (" +
                   error.what() + "); who goes on with this work traces them again");
@@ -211,12 +212,11 @@ void VariantRun::compute_batch(std::size_t batch) {
   const std::size_t first = batch * plan_.batch_suns();
   const std::size_t count = std::min(plan_.batch_suns(), plan_.intervals() - first);
   std::vector<SunLight> light(count);
-  parallel_for(count, [&](std::size_t k) {
-    light[k] = light_of(first + k, solver_->sky_grid(), open_share_);
-  });
-  const std::vector<BatchTally> tallies = solver_->solve_bands(light, progress_);
-  WorkDone work = solver_->work();
-  work -= written_;
+  parallel_for(count,
+               [&](std::size_t k) { light[k] = light_of(first + k, traced_->grid, open_share_); });
+  const Solved solved = solve(*transport_, light, progress_);
+  unwritten_ += solved.work;
+  done_ += solved.work;
   BatchWriter writer({.content_hash = plan_.content_hash,
                       .variant = plan_.study.variant,
                       .isa = plan_.isa,
@@ -226,29 +226,29 @@ void VariantRun::compute_batch(std::size_t batch) {
                       .chunk_intervals = plan_.batch_suns(),
                       .compression = plan_.study.output.compression});
   const auto& accuracy = plan_.study.solver.accuracy;
-  add_tallies(writer, tallies, *solver_, plan_.built.scene.mesh, work,
+  add_tallies(writer, solved.bands, *traced_, plan_.built.scene.mesh, unwritten_,
               accuracy ? accuracy->irradiance_relative : std::nullopt);
   // Another process that failed may have removed the folder, which was empty until now.
   make_writable_folder(work_folder(folder_, plan_));
   writer.write(batch_path(folder_, plan_, batch));
-  written_ = solver_->work();
+  unwritten_ = {};
 }
 
 void VariantRun::report_work() const {
   constexpr double mib = 1024.0 * 1024;
-  const WorkDone& w = solver_->work();
+  const WorkDone& w = done_;
   std::string text =
-      fmt::format("{}: {} patches\n", plan_.study.variant, solver_->hierarchy().patch_count());
-  text += rays_text("lines", w.line_rays, w.lines_s);
-  text += rays_text("direct sun", w.direct_rays, w.direct_s);
-  text += rays_text("mirrored sun", w.mirror_rays, w.mirror_s);
-  if (w.mirror_beams + w.mirror_shots > 0)
+      fmt::format("{}: {} patches\n", plan_.study.variant, traced_->hierarchy().patch_count());
+  text += rays_text("lines", w[Work::line_rays], w[Work::lines_s]);
+  text += rays_text("direct sun", w[Work::direct_rays], w[Work::direct_s]);
+  text += rays_text("mirrored sun", w[Work::mirror_rays], w[Work::mirror_s]);
+  if (w[Work::mirror_beams] + w[Work::mirror_shots] > 0)
     text += fmt::format("  {:<14} {} beams by image directions, {} arrivals by shooting\n", "",
-                        w.mirror_beams, w.mirror_shots);
-  text += rays_text("shooting", w.shot_rays, w.shoot_s);
-  text += rays_text("sensors", w.sensor_rays, w.sensors_s);
+                        w[Work::mirror_beams], w[Work::mirror_shots]);
+  text += rays_text("shooting", w[Work::shot_rays], w[Work::shoot_s]);
+  text += rays_text("sensors", w[Work::sensor_rays], w[Work::sensors_s]);
   text += fmt::format("  {:<14} {:8.2f} s\n  {:<14} {:8.2f} s  peak memory {:.0f} MiB",
-                      "sky and Jacobi", w.solve_s, "realizations", w.realizations_s,
+                      "sky and Jacobi", w[Work::solve_s], "realizations", w[Work::realizations_s],
                       peak_memory_bytes() / mib);
   progress_.say(text);
 }

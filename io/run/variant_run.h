@@ -46,9 +46,11 @@ class VariantRun {
   std::shared_ptr<const Hierarchy> mesh_;
   Progress& progress_;
   SolverRules rules_;  ///< of the solver, counts decided
-  std::unique_ptr<LightSolver> solver_;
-  std::vector<double> open_share_;  ///< of the solver's sky cells: what hills leave free
-  WorkDone written_;                ///< work that finished batches carry already
+  std::unique_ptr<const TracedScene> traced_;
+  std::unique_ptr<const LightTransport> transport_;
+  std::vector<double> open_share_;  ///< of the sky cells: what hills leave free
+  WorkDone unwritten_;              ///< work that no batch carries yet
+  WorkDone done_;                   ///< all of it
 };
 
 }  // namespace sunload

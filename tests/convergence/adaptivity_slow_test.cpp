@@ -13,7 +13,7 @@
 #include "solver/base/threads.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
-#include "tests/support/reference.h"
+#include "tests/support/real_models.h"
 
 namespace sunload::test {
 namespace {
@@ -26,14 +26,14 @@ struct Loaded {
 
 Loaded loaded(const VariantPlan& plan, std::shared_ptr<const Hierarchy> mesh) {
   Watch watch;
-  LightSolver solver(plan.built.scene, mesh, solver_rules(plan), watch);
+  const auto traced = trace_scene(plan.built.scene, mesh, solver_rules(plan), watch);
   const auto open =
-      open_shares(solver.sky_grid(), plan.built.site.horizon, scene_from_enu(plan.built.site));
+      open_shares(traced->grid, plan.built.site.horizon, scene_from_enu(plan.built.site));
   std::vector<SunLight> suns;
   for (std::size_t k = 0; k < plan.intervals(); ++k)
     suns.push_back(sun_light(plan.light.intervals[k], static_cast<std::uint32_t>(k),
-                             plan.study.light, solver.sky_grid(), open));
-  const BatchTally tally = solver.solve(suns, watch);
+                             plan.study.light, traced->grid, open));
+  const BatchTally tally = sunload::solve(*transport_of(*traced), suns, watch).bands.front();
   Loaded result{mesh, std::vector<double>(mesh->patch_count()), {}};
   for (std::size_t i = 0; i < mesh->patch_count(); ++i) {
     std::vector<double> values;
@@ -119,7 +119,7 @@ TEST(Adaptivity, PaysOnTheStreet) {
 }
 
 TEST(Adaptivity, PaysOnACityModel) {
-  if (shared_missing("data")) return;
+  SUNLOAD_NEEDS_MODEL("data");
   const Comparison c = compare(
       "format: sunload-study-1\nname: city\nsite: {timezone: Europe/Berlin}\n"
       "period: {days: [2026-06-21], from: \"06:00\", to: \"20:00\", step_min: 60}\n"

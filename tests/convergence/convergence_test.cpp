@@ -76,7 +76,6 @@ TEST(Convergence, ErrorFallsWithLinesAtLeastAsTheirRoot) {
 
 // Canyon of the reference with the steepest light: constant radiosity per patch errs most.
 TEST(Convergence, ErrorFallsWithTheSizeOfPatches) {
-  if (shared_missing("reference")) return;
   const auto c = reference_cases("05_radiosity/street_canyon_2d.json", "canyon_7").at(0);
   const double W = number(c["W"]), H = number(c["H"]), y = H;
   const auto& rho = c["rho_floor_wallSunlit_wallOther"];

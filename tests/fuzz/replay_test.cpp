@@ -30,11 +30,6 @@ std::vector<fs::path> files_of(const fs::path& place) {
   return files;
 }
 
-std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 class Replay : public testing::TestWithParam<std::string> {};
 
 TEST_P(Replay, InputsAreReadOrRefused) {

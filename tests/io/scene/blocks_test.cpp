@@ -15,6 +15,7 @@
 #include "io/plan/scene_build.h"
 #include "io/scene/raster/raster.h"
 #include "tests/support/program.h"
+#include "tests/support/real_models.h"
 #include "tests/support/reference.h"
 #include "tests/support/scene_text.h"
 
@@ -268,7 +269,7 @@ void expect_site(const std::string& folder, const RasterFiles& files) {
 }
 
 TEST(SceneBlocks, GothenburgsSites) {
-  if (shared_missing("data/studies")) return;
+  SUNLOAD_NEEDS_MODEL("data/studies");
   const std::string ga = shared_path("data/studies/gothenburg_gustav_adolfs/");
   expect_site(
       "gothenburg_gustav_adolfs",
