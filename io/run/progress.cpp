@@ -234,8 +234,11 @@ void Progress::end_bar() {
 }
 
 void Progress::say(const std::string& text) {
+  if (style_ != ProgressStyle::none) warn(text);
+}
+
+void Progress::warn(const std::string& text) {
   const std::lock_guard lock(guard_);
-  if (style_ == ProgressStyle::none) return;
   end_bar();
   fmt::print(stderr, "{}\n", style_ == ProgressStyle::json ? message_json(text) : text);
   std::fflush(stderr);

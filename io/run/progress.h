@@ -32,6 +32,8 @@ class Progress : public Watch {
   void advance(Stage stage, double share) override;
   /// A line of its own; as JSON {"message"}; without progress nothing.
   void say(const std::string& text);
+  /// The same for what has gone wrong or may have: also without progress.
+  void warn(const std::string& text);
   /// A signal came, or the time is up.
   bool stop_requested() const;
 
