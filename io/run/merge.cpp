@@ -7,6 +7,7 @@
 #include "geo/base/units.h"
 #include "io/base/bands.h"
 #include "io/batch/batch_tally.h"
+#include "io/batch/facade_means.h"
 #include "io/run/result_attributes.h"
 #include "io/run/result_geometry.h"
 #include "io/run/totals.h"
@@ -18,22 +19,6 @@ namespace {
 std::vector<double> scaled(std::vector<double> values, double factor) {
   for (auto& v : values) v *= factor;
   return values;
-}
-
-/// Area-weighted mean over the patches of every facade, for each row of [rows, N].
-std::vector<double> facade_means(const std::vector<double>& rows, const ResultGeometry& geometry) {
-  const std::size_t N = geometry.patch_area.size(), F = geometry.facade_name.size();
-  const std::size_t count = N > 0 ? rows.size() / N : 0;
-  std::vector<double> area(F, 0), means(count * F, 0);
-  for (std::size_t i = 0; i < N; ++i)
-    if (geometry.patch_facade[i] >= 0)
-      area[static_cast<std::size_t>(geometry.patch_facade[i])] += geometry.patch_area[i];
-  for (std::size_t row = 0; row < count; ++row)
-    for (std::size_t i = 0; i < N; ++i)
-      if (const auto f = geometry.patch_facade[i]; f >= 0)
-        means[row * F + static_cast<std::size_t>(f)] +=
-            geometry.patch_area[i] * rows[row * N + i] / area[static_cast<std::size_t>(f)];
-  return means;
 }
 
 /// Writes what follows from the totals of every band, side by side.
@@ -99,14 +84,15 @@ void write_loads(BandWriter& writer, const Totals& totals, const ResultGeometry&
   if (const std::size_t S = geometry.sensor_position.size(); S > 0)
     write_received(writer, totals, sensor_prefix, S, realizations);
   if (F == 0) return;
+  const FacadeMeans means(geometry.patch_facade, geometry.patch_area, F);
   const auto of_facades = [&](const std::string& band) {
-    return facade_means(scaled(totals[band + batch_array::exposure], kwh_per_joule), geometry);
+    return means.of(scaled(totals[band + batch_array::exposure], kwh_per_joule));
   };
   writer.write("facade_light_load_realization", realizations, of_facades);
   writer.write("facade_light_load_se", 1,
                [&](const std::string& band) { return errors_of(of_facades(band), F); });
   writer.write("facade_light_load", 1, [&](const std::string& band) {
-    return facade_means(scaled(totals[band + sum_name(Part::total)], kwh_per_joule), geometry);
+    return means.of(scaled(totals[band + sum_name(Part::total)], kwh_per_joule));
   });
 }
 
