@@ -49,12 +49,6 @@ double pilot_memory_bytes(const VariantPlan& plan, std::size_t patches);
 /// "1 %", "5 % at every instant" or both.
 std::string goal_words(const AccuracyStudy& accuracy);
 
-/// Paths (docs/developer/design.md, Batches).
-std::string result_path(const std::string& folder, const Study& study);
-std::string work_folder(const std::string& folder, const VariantPlan& plan);
-std::string prepared_path(const std::string& folder, const VariantPlan& plan);
-std::string batch_path(const std::string& folder, const VariantPlan& plan, std::size_t batch);
-
 /// Whether something in the scene shines by itself: then dark intervals are computed too.
 bool has_lamps(const VariantPlan& plan);
 /// Sun positions of a batch that cost work: intervals with light.

@@ -12,8 +12,8 @@
 #include "io/plan/variant_mesh.h"
 #include "solver/base/threads.h"
 #include "tests/support/paths.h"
-#include "tests/support/program.h"
 #include "tests/support/real_models.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload::test {
 namespace {

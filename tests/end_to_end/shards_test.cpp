@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// One process, shards, ranks of MPI: the same bits; and who finishes what.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>

@@ -8,7 +8,6 @@
 #include <csignal>
 #include <fstream>
 #include <random>
-#include <sstream>
 
 #include "geo/base/check.h"
 #include "tests/io/result/result_example.h"

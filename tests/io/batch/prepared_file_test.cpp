@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "geo/base/check.h"
-#include "tests/support/program.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload::test {
 namespace {

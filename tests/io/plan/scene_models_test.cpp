@@ -13,8 +13,8 @@
 #include "geo/sun/site.h"
 #include "io/plan/scene_build.h"
 #include "tests/support/paths.h"
-#include "tests/support/program.h"
 #include "tests/support/refusal_of.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload::test {
 namespace {

@@ -252,7 +252,7 @@ TEST(SunDiagram, HasHillsAndSunsFromPoleToPole) {
       if (interval.when.sunlit_s <= 0 || interval.when.sun.elevation_deg < 0) continue;
       const auto p = chart.at({interval.when.sun.azimuth_deg, interval.when.sun.elevation_deg});
       ++dots;
-      seen += test::difference(png.at(p.x, p.y), dot) <= of_bytes ? 1 : 0;
+      seen += test::difference(png.at(p.x, p.y), dot) <= of_bytes ? 1U : 0U;
     }
     // Labels of hours lie over some.
     EXPECT_GE(2 * seen, dots) << latitude_deg;

@@ -14,10 +14,9 @@
 #include "geo/mesh/mesh_prepare.h"
 #include "io/plan/scene_build.h"
 #include "io/scene/raster/raster.h"
-#include "tests/support/program.h"
 #include "tests/support/real_models.h"
-#include "tests/support/reference.h"
 #include "tests/support/scene_text.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload::test {
 namespace {

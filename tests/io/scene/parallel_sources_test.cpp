@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "io/plan/variant_plan.h"
-#include "tests/support/program.h"
 #include "tests/support/refusal_of.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload::test {
 namespace {

@@ -145,8 +145,8 @@ class RayCasterOn : public testing::TestWithParam<const char*> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Every, RayCasterOn, testing::ValuesIn(instruction_sets),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& isa) {
+                           std::string name = isa.param;
                            std::erase(name, '.');
                            return name;
                          });
