@@ -85,8 +85,9 @@ PolygonModel city(double triangles) {
                         {land, Surface::ground},
                         {land, Surface::floor}};
   for (std::size_t h = 0; h < houses; ++h) {
-    const Placement place{{plot_width * static_cast<double>(h % columns),
-                           plot_depth * static_cast<double>(h / columns), 0}};
+    const std::size_t column = h % columns, row = h / columns;
+    const Placement place{
+        {plot_width * static_cast<double>(column), plot_depth * static_cast<double>(row), 0}};
     Sizes size(h);
     const Point2 half{size.next(4, 30), size.next(4, 20)};
     const double eaves = size.next(3, 120), ridge = eaves + size.next(2, 20);

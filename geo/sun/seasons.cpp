@@ -5,9 +5,9 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <regex>
 
 #include "geo/base/check.h"
+#include "geo/base/pattern.h"
 #include "geo/base/units.h"
 #include "geo/sun/sun.h"
 
@@ -101,16 +101,16 @@ bool is_day_name(const std::string& text) {
 }
 
 NamedDay parse_named_day(const std::string& text) {
-  static const std::regex pattern(R"(([a-z_]+)(?: +(\d{4}))?)");
-  std::smatch part;
-  if (std::regex_match(text, part, pattern)) {
+  static const Pattern pattern(R"(([a-z_]+)(?: +(\d{4}))?)");
+  if (const auto found = pattern.whole(text)) {
+    const auto& part = *found;
     for (const auto& known : names) {
-      if (part[1].str() != known.word) continue;
+      if (part[1].text != known.word) continue;
       if (!part[2].matched) {
         throw InputError({}, "'" + text + "' has no year", "the date differs between years",
                          "write for example " + text + " 2026");
       }
-      return {known.name, std::stoi(part[2].str())};
+      return {known.name, std::stoi(part[2].text)};
     }
   }
   std::string words;

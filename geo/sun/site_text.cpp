@@ -5,10 +5,10 @@
 #include <GeographicLib/GeoCoords.hpp>
 #include <cctype>
 #include <cmath>
-#include <regex>
 #include <string>
 
 #include "geo/base/check.h"
+#include "geo/base/pattern.h"
 #include "geo/sun/site.h"
 
 namespace sunload {
@@ -38,17 +38,19 @@ struct Banded {
 };
 
 Banded without_band(const std::string& text) {
-  static const std::regex pattern(R"(\s*(\d{1,2})\s*([A-Za-z])[\s,]+(\S+)[\s,]+(\S+)\s*)");
-  std::smatch part;
-  if (!std::regex_match(text, part, pattern)) return {text};
-  const char band = static_cast<char>(std::toupper(static_cast<unsigned char>(*part[2].first)));
+  static const Pattern pattern(R"(\s*(\d{1,2})\s*([A-Za-z])[\s,]+(\S+)[\s,]+(\S+)\s*)");
+  const auto found = pattern.whole(text);
+  if (!found) return {text};
+  const auto& part = *found;
+  const char band =
+      static_cast<char>(std::toupper(static_cast<unsigned char>(part[2].text.front())));
   if (band == 'S') {
     refuse(text, "S is the southern hemisphere to some, a band of the northern one to others",
-           "write the zone as " + part[1].str() + "south or " + part[1].str() + "north");
+           "write the zone as " + part[1].text + "south or " + part[1].text + "north");
   }
   if (bands.find(band) == bands.npos) refuse(text, std::string("UTM has no band ") + band);
   const bool is_north = band >= 'N';
-  return {part[1].str() + (is_north ? "north " : "south ") + part[3].str() + " " + part[4].str(),
+  return {part[1].text + (is_north ? "north " : "south ") + part[3].text + " " + part[4].text,
           band == 'N' ? '\0' : band};  // the hemisphere as well, of which nothing more is known
 }
 
@@ -65,10 +67,9 @@ void expect_in_band(const std::string& text, char band, double latitude_deg) {
 // The middle of an MGRS square stands for it: a square of 1 km leaves 0.006° to the sun.
 void expect_fine_square(const std::string& text) {
   constexpr std::size_t fewest_digits = 4;
-  static const std::regex pattern(R"(\s*\d{0,2}[A-Za-z]{1,3}(\d*)\s*)");
-  std::smatch part;
-  if (std::regex_match(text, part, pattern) &&
-      static_cast<std::size_t>(part[1].length()) < fewest_digits) {
+  static const Pattern pattern(R"(\s*\d{0,2}[A-Za-z]{1,3}(\d*)\s*)");
+  const auto part = pattern.whole(text);
+  if (part && (*part)[1].text.size() < fewest_digits) {
     refuse(text, "a square of 10 km or more does not say where the sun stands",
            "write at least two digits each for east and north");
   }

@@ -11,10 +11,10 @@
 #include <cstdint>
 #include <exception>
 #include <optional>
-#include <regex>
 #include <string>
 
 #include "geo/base/check.h"
+#include "geo/base/pattern.h"
 #include "geo/base/units.h"
 
 namespace sunload {
@@ -38,15 +38,16 @@ double seconds_since_midnight(const CivilTime& t) {
 
 // `+hh:mm`, `+hhmm` or `+hh`: seconds east of UTC.
 std::optional<double> parsed_offset_s(const std::string& text) {
-  static const std::regex pattern(R"(([+-])(\d{2})(?::?(\d{2}))?)");
+  static const Pattern pattern(R"(([+-])(\d{2})(?::?(\d{2}))?)");
   constexpr int largest_offset_h = 14;  // Kiritimati
-  std::smatch part;
-  if (!std::regex_match(text, part, pattern)) return std::nullopt;
-  const int hours = std::stoi(part[2]);
-  const int minutes = part[3].matched ? std::stoi(part[3]) : 0;
+  const auto found = pattern.whole(text);
+  if (!found) return std::nullopt;
+  const auto& part = *found;
+  const int hours = std::stoi(part[2].text);
+  const int minutes = part[3].matched ? std::stoi(part[3].text) : 0;
   if (minutes >= 60 || hours * 60 + minutes > largest_offset_h * 60) return std::nullopt;
   const double offset = hours * seconds_per_hour + minutes * seconds_per_minute;
-  return part[1] == "-" ? -offset : offset;
+  return part[1].text == "-" ? -offset : offset;
 }
 
 const date::time_zone& as_zone(const void* zone) {

@@ -5,10 +5,10 @@
 
 #include <chrono>
 #include <cmath>
-#include <regex>
 #include <string>
 
 #include "geo/base/check.h"
+#include "geo/base/pattern.h"
 #include "geo/base/units.h"
 #include "geo/time/time.h"
 
@@ -45,8 +45,8 @@ double checked_offset(const std::string& zone, const std::string& text) {
   }
 }
 
-double number(const std::ssub_match& part) { return part.matched ? std::stod(part.str()) : 0; }
-int integer(const std::ssub_match& part) { return part.matched ? std::stoi(part.str()) : 0; }
+double number(const Pattern::Part& part) { return part.matched ? std::stod(part.text) : 0; }
+int integer(const Pattern::Part& part) { return part.matched ? std::stoi(part.text) : 0; }
 
 }  // namespace
 
@@ -72,16 +72,17 @@ std::string iso_local(UnixTime utc, const TimeZone& zone) {
 }
 
 ParsedTime parse_time(const std::string& text) {
-  static const std::regex pattern(R"((\d{4})-(\d{2})-(\d{2}))"                        // date
-                                  R"((?:[T ](\d{2}):(\d{2})(?::(\d{2}(?:\.\d+)?))?)"  // time
-                                  R"( ?(Z|[+-]\d{2}(?::?\d{2})?)?)?)");               // zone
+  static const Pattern pattern(R"((\d{4})-(\d{2})-(\d{2}))"                        // date
+                               R"((?:[T ](\d{2}):(\d{2})(?::(\d{2}(?:\.\d+)?))?)"  // time
+                               R"( ?(Z|[+-]\d{2}(?::?\d{2})?)?)?)");               // zone
   enum { year_part = 1, month_part, day_part, hour_part, minute_part, second_part, zone_part };
-  std::smatch part;
-  if (!std::regex_match(text, part, pattern)) {
+  const auto found = pattern.whole(text);
+  if (!found) {
     throw InputError({}, "'" + text + "' is no time",
                      "YYYY-MM-DD, YYYY-MM-DDTHH:MM[:SS], then Z, +HH:MM or nothing, is read",
                      "write for example 2026-06-21T12:00");
   }
+  const auto& part = *found;
   const int year = integer(part[year_part]), month = integer(part[month_part]),
             day = integer(part[day_part]);
   if (!is_date(year, month, day)) {
@@ -96,18 +97,18 @@ ParsedTime parse_time(const std::string& text) {
       calendar_from_utc(utc_from_calendar({.year = year, .month = month, .day = day}) + of_day);
   result.has_time = part[hour_part].matched;
   result.has_offset = part[zone_part].matched;
-  if (result.has_offset) result.offset_s = checked_offset(part[zone_part].str(), text);
+  if (result.has_offset) result.offset_s = checked_offset(part[zone_part].text, text);
   return result;
 }
 
 double parse_time_of_day(const std::string& text) {
-  static const std::regex pattern(R"((\d{1,2}):(\d{2})(?::(\d{2}(?:\.\d+)?))?)");
-  std::smatch part;
-  if (!std::regex_match(text, part, pattern)) {
+  static const Pattern pattern(R"((\d{1,2}):(\d{2})(?::(\d{2}(?:\.\d+)?))?)");
+  const auto found = pattern.whole(text);
+  if (!found) {
     throw InputError({}, "'" + text + "' is no time of day", "HH:MM or HH:MM:SS is read",
                      "write for example \"05:00\"");
   }
-  return checked_seconds(integer(part[1]), integer(part[2]), number(part[3]), text);
+  return checked_seconds(integer((*found)[1]), integer((*found)[2]), number((*found)[3]), text);
 }
 
 }  // namespace sunload

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <set>
 
 #include "geo/base/check.h"
+#include "geo/base/pattern.h"
 #include "geo/mesh/mesh.h"
 #include "io/base/version.h"
 #include "io/export/cityjson.h"
@@ -190,11 +190,9 @@ std::string surface_type(Surface kind, Vec3 normal) {
 }
 
 std::string reference_system(const std::string& crs) {
-  static const std::regex epsg(".*EPSG.*?([0-9]+)", std::regex::icase);
-  std::smatch found;
-  return std::regex_match(crs, found, epsg)
-             ? "https://www.opengis.net/def/crs/EPSG/0/" + found[1].str()
-             : std::string();
+  static const Pattern epsg(".*EPSG.*?([0-9]+)", Pattern::Letters::of_any_case);
+  const auto found = epsg.whole(crs);
+  return found ? "https://www.opengis.net/def/crs/EPSG/0/" + (*found)[1].text : std::string();
 }
 
 void export_cityjson(const ResultReader& result, const ExportRules& rules,

@@ -3,9 +3,9 @@
 // List `files` of section `scene` of a study.
 #include <algorithm>
 #include <filesystem>
-#include <regex>
 #include <system_error>
 
+#include "geo/base/pattern.h"
 #include "geo/sun/site.h"
 #include "io/study/sections.h"
 
@@ -108,8 +108,8 @@ bool is_same_place(const SceneFileStudy& a, const SceneFileStudy& b) {
 }  // namespace
 
 void check_lod(YamlMap& map, const std::string& lod) {
-  static const std::regex level(R"(\d(\.\d)?)");
-  if (lod == "highest" || std::regex_match(lod, level)) return;
+  static const Pattern level(R"(\d(\.\d)?)");
+  if (lod == "highest" || level.whole(lod)) return;
   map.problem("lod", "'" + lod + "' is no level of detail", "highest, or a level such as 2 or 2.2");
 }
 

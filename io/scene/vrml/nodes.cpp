@@ -14,8 +14,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <regex>
 #include <utility>
+
+#include "geo/base/pattern.h"
 
 namespace sunload {
 
@@ -173,21 +174,21 @@ void VrmlFiles::refuse(const VrmlText& text) const {
 
 /// Takes away what Coin does not know. False where that is not the trouble.
 bool VrmlFiles::repair(VrmlText& text, const CoinError& error) {
-  static const std::regex field(R"re(Unknown field "([^"]*)" in "(?:VRML)?([^"]*)")re");
-  static const std::regex node(R"re(Node type ``([^']*)'' not recognized)re");
-  std::smatch found;
+  static const Pattern field(R"re(Unknown field "([^"]*)" in "(?:VRML)?([^"]*)")re");
+  static const Pattern node(R"re(Node type ``([^']*)'' not recognized)re");
   VrmlDropped dropped;
-  if (std::regex_search(error.text, found, field)) {
-    const std::string name = found[1].str();
+  if (const auto of_field = field.first(error.text)) {
+    const std::string name = (*of_field)[1].text;
     // Coin calls all instances of PROTOs by one name.
-    const auto type = found[2].str() == "ProtoInstance"
+    const auto type = (*of_field)[2].text == "ProtoInstance"
                           ? node_with_field(text, name, error.line).value_or("")
-                          : found[2].str();
+                          : (*of_field)[2].text;
     dropped = drop_vrml_fields(text, type, name);
     note(dropped, fmt::format("fields '{}' of {} are unknown and left out", name, type));
-  } else if (std::regex_search(error.text, found, node)) {
-    dropped = drop_vrml_nodes(text, found[1].str());
-    note(dropped, fmt::format("nodes '{}' are unknown and left out", found[1].str()));
+  } else if (const auto of_node = node.first(error.text)) {
+    const std::string name = (*of_node)[1].text;
+    dropped = drop_vrml_nodes(text, name);
+    note(dropped, fmt::format("nodes '{}' are unknown and left out", name));
   }
   return dropped.count > 0;
 }
