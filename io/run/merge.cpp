@@ -14,6 +14,9 @@
 #include "io/base/version.h"
 #include "io/batch/batch_tally.h"
 #include "io/batch/file.h"
+#include "io/plan/content_hash.h"
+#include "io/plan/variant_mesh.h"
+#include "solver/accuracy.h"
 
 namespace sunload {
 

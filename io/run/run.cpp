@@ -12,8 +12,10 @@
 #include "io/base/machine.h"
 #include "io/base/merge_lock.h"
 #include "io/plan/expected_error.h"
+#include "io/plan/rules_of_study.h"
 #include "io/plan/variant_mesh.h"
 #include "io/plan/variant_plan.h"
+#include "io/plan/work_estimate.h"
 #include "io/result/energy_text.h"
 #include "io/result/reader.h"
 #include "io/run/leftovers.h"
@@ -66,7 +68,6 @@ double bytes_there(const std::string& folder, const VariantPlan& plan) {
 
 /// Refuses work that cannot fit before it starts; `there`: bytes of finished work.
 void check_limits(const std::string& folder, const WorkEstimate& work, double there) {
-  constexpr double gib = 1024.0 * 1024 * 1024;
   if (const double left = available_memory_bytes(); work.memory_bytes > left)
     throw MachineError(fmt::format(
         "too little memory: about {:.1f} GiB are needed for {} patches, {:.1f} GiB are available; "

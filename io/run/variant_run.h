@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "io/plan/interval_lights.h"
 #include "io/plan/variant_plan.h"
 #include "io/run/progress.h"
 #include "io/run/unit_queue.h"
@@ -36,8 +37,6 @@ class VariantRun {
   void warn_of_sensors();
   void keep_lines(const std::string& path);
   SolverRules decided_rules();
-  SunLight light_of(std::size_t interval, const SkyGrid& grid,
-                    const std::vector<double>& open_share) const;
   void compute_batch(std::size_t batch);
   void report_work() const;
 
@@ -47,8 +46,8 @@ class VariantRun {
   Progress& progress_;
   SolverRules rules_;  ///< of the solver, counts decided
   std::unique_ptr<LightSolver> solver_;
-  std::vector<double> open_share_;  ///< of the solver's sky cells: what hills leave free
-  WorkDone written_;                ///< work that finished batches carry already
+  std::optional<IntervalLights> lights_;  ///< on the solver's sky grid
+  WorkDone written_;                      ///< work that finished batches carry already
 };
 
 }  // namespace sunload

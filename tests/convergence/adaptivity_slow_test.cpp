@@ -8,12 +8,13 @@
 #include <iostream>
 #include <memory>
 
-#include "io/plan/light_series.h"
+#include "io/plan/rules_of_study.h"
 #include "io/plan/variant_mesh.h"
 #include "solver/base/threads.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/reference.h"
+#include "tests/support/study_plan.h"
 
 namespace sunload::test {
 namespace {
@@ -27,13 +28,7 @@ struct Loaded {
 Loaded loaded(const VariantPlan& plan, std::shared_ptr<const Hierarchy> mesh) {
   Watch watch;
   LightSolver solver(plan.built.scene, mesh, solver_rules(plan), watch);
-  const auto open =
-      open_shares(solver.sky_grid(), plan.built.site.horizon, scene_from_enu(plan.built.site));
-  std::vector<SunLight> suns;
-  for (std::size_t k = 0; k < plan.intervals(); ++k)
-    suns.push_back(sun_light(plan.light.intervals[k], static_cast<std::uint32_t>(k),
-                             plan.study.light, solver.sky_grid(), open));
-  const BatchTally tally = solver.solve(suns, watch);
+  const BatchTally tally = solver.solve(suns_of(plan, solver.sky_grid()), watch);
   Loaded result{mesh, std::vector<double>(mesh->patch_count()), {}};
   for (std::size_t i = 0; i < mesh->patch_count(); ++i) {
     std::vector<double> values;
