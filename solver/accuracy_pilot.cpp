@@ -39,7 +39,7 @@ class PilotWatch : public Watch {
 
 }  // namespace
 
-SolverRules pilot_rules(SolverRules rules, bool of_instants) {
+SolverRules rules_of_pilot(SolverRules rules, bool of_instants) {
   int lines = rules.lines_per_patch / rules.realizations;
   const int samples = rules.direct_samples / rules.realizations;
   const double of_study = static_cast<double>(rules.realizations) * lines;
@@ -89,11 +89,11 @@ struct OfRealization {
 
 /// Lines are shared by all suns, so that their errors add up; samples are each sun's own, so that
 /// their variances do.
-Spread gathered_load(const LightSolver& solver, const BatchTally& tally, double weight) {
-  const OfRealization count(solver.rules());
+Spread gathered_load(const TracedScene& traced, const BatchTally& tally, double weight) {
+  const OfRealization count(traced.rules);
   const auto R = tally.exposure_realization.size();
   Spread spread;
-  for (std::size_t i = 0; i < solver.hierarchy().patch_count(); ++i) {
+  for (std::size_t i = 0; i < traced.hierarchy().patch_count(); ++i) {
     const auto total = [&](std::size_t r) { return tally.exposure_realization[r][i]; };
     const auto sun = [&](std::size_t r) { return tally.by_source.sun[r][i]; };
     spread.value.push_back(weight * mean(R, total));
@@ -120,15 +120,18 @@ void append(std::vector<float>& to, const std::vector<float>& from) {
 }
 
 /// Exposures of all suns, and what is told of every one; so many at a time share their samples.
-BatchTally solved_in_blocks(LightSolver& solver, std::span<const SunLight> suns, std::size_t block,
-                            PilotWatch& watch) {
-  BatchTally sum = solver.solve({}, watch);
+Solved solved_in_blocks(const LightTransport& transport, std::span<const SunLight> suns,
+                        std::size_t block, PilotWatch& watch) {
+  Solved all_blocks = solve(transport, {}, watch);
+  BatchTally& sum = all_blocks.bands.front();
   constexpr auto total = static_cast<std::size_t>(Part::total);
   for (std::size_t begin = 0; begin < suns.size(); begin += block) {
     const auto part = suns.subspan(begin, std::min(block, suns.size() - begin));
     const auto all = static_cast<double>(suns.size());
     watch.begin_part(static_cast<double>(begin) / all, static_cast<double>(part.size()) / all);
-    const BatchTally of_part = solver.solve(part, watch);
+    const Solved solved = solve(transport, part, watch);
+    const BatchTally& of_part = solved.bands.front();
+    all_blocks.work += solved.work;
     add(sum.exposure_realization, of_part.exposure_realization);
     add(sum.by_source.sun, of_part.by_source.sun);
     add(sum.by_source.parallel, of_part.by_source.parallel);
@@ -139,12 +142,12 @@ BatchTally solved_in_blocks(LightSolver& solver, std::span<const SunLight> suns,
     append(sum.se_by_source.shots, of_part.se_by_source.shots);
     append(sum.se_by_source.lines, of_part.se_by_source.lines);
   }
-  return sum;
+  return all_blocks;
 }
 
 /// So many samples of a pilot came for every one that its power asked for.
 double excess(const WorkDone& work) {
-  return work.wanted_samples > 0 ? static_cast<double>(work.samples) / work.wanted_samples : 1;
+  return work[Work::wanted_samples] > 0 ? work[Work::samples] / work[Work::wanted_samples] : 1;
 }
 
 /// What shots were done for: emitters once, patches for every block of suns.
@@ -155,13 +158,13 @@ struct Excess {
 /// Every block of suns has samples of its own, which its suns share. Where patches got a sample
 /// that they would not have had by their power, more samples than those must be asked for before
 /// errors fall.
-Spread shot_load(const LightSolver& solver, const BatchTally& tally, double weight,
+Spread shot_load(const TracedScene& traced, const BatchTally& tally, double weight,
                  const Excess& excess) {
-  const OfRealization count(solver.rules());
+  const OfRealization count(traced.rules);
   const auto R = tally.exposure_realization.size();
   const ExposureBySource& by = tally.by_source;
   Spread spread;
-  for (std::size_t i = 0; i < solver.hierarchy().patch_count(); ++i) {
+  for (std::size_t i = 0; i < traced.hierarchy().patch_count(); ++i) {
     const auto of = [i](const std::vector<std::vector<double>>& exposure) {
       return [&exposure, i](std::size_t r) { return exposure[r][i]; };
     };
@@ -182,11 +185,11 @@ Spread shot_load(const LightSolver& solver, const BatchTally& tally, double weig
 }
 
 /// Of every sun; `excess`: of all that is shot, 0 where nothing is.
-std::vector<Spread> spread_of_instants(const LightSolver& solver, const BatchTally& tally,
+std::vector<Spread> spread_of_instants(const TracedScene& traced, const BatchTally& tally,
                                        double excess) {
-  const OfRealization count(solver.rules());
-  const std::size_t patches = solver.hierarchy().patch_count();
-  const double R = solver.rules().realizations;
+  const OfRealization count(traced.rules);
+  const std::size_t patches = traced.hierarchy().patch_count();
+  const double R = traced.rules.realizations;
   const auto variances = [&](const std::vector<float>& se, std::size_t begin, double factor) {
     std::vector<double> of_patches(patches);
     for (std::size_t i = 0; i < patches; ++i) {
@@ -239,32 +242,33 @@ void share_with_neighbours(const Hierarchy& hierarchy, std::vector<double>& of_l
   }
 }
 
-PatchSpread gathered_spread(LightSolver& solver, std::span<const SunLight> suns,
+PatchSpread gathered_spread(const LightTransport& transport, std::span<const SunLight> suns,
                             const PilotRules& pilot, PilotWatch& watch) {
-  const BatchTally tally = solver.solve(suns, watch);
+  const TracedScene& traced = transport.traced();
+  const Solved solved = solve(transport, suns, watch);
   PatchSpread spread;
-  spread.load = gathered_load(solver, tally, pilot.weight);
-  if (pilot.of_instants) spread.irradiance = spread_of_instants(solver, tally, 0);
+  spread.load = gathered_load(traced, solved.bands.front(), pilot.weight);
+  if (pilot.of_instants) spread.irradiance = spread_of_instants(traced, solved.bands.front(), 0);
   return spread;
 }
 
-PatchSpread shot_spread(LightSolver& solver, std::span<const SunLight> suns,
+PatchSpread shot_spread(const LightTransport& transport, std::span<const SunLight> suns,
                         const PilotRules& pilot, PilotWatch& watch) {
-  const WorkDone by_emitters = solver.work();
+  const TracedScene& traced = transport.traced();
   const std::size_t block = std::min(pilot.batch_suns, block_width);
-  const BatchTally tally = solved_in_blocks(solver, suns, block, watch);
-  WorkDone by_patches = solver.work();
-  by_patches -= by_emitters;
-  const Excess excess_of{excess(by_emitters), excess(by_patches)};
+  const Solved solved = solved_in_blocks(transport, suns, block, watch);
+  const BatchTally& tally = solved.bands.front();
+  const Excess excess_of{excess(transport.work()), excess(solved.work)};
   PatchSpread spread;
-  spread.load = shot_load(solver, tally, pilot.weight, excess_of);
+  spread.load = shot_load(traced, tally, pilot.weight, excess_of);
   if (pilot.of_instants)
     spread.irradiance =
-        spread_of_instants(solver, tally, std::max(excess_of.of_emitters, excess_of.of_patches));
-  const double first = static_cast<double>(solver.rules().lines_per_patch) *
-                       static_cast<double>(solver.hierarchy().patch_count());
+        spread_of_instants(traced, tally, std::max(excess_of.of_emitters, excess_of.of_patches));
+  const double first = static_cast<double>(traced.rules.lines_per_patch) *
+                       static_cast<double>(traced.patches.count());
   const double blocks = std::ceil(static_cast<double>(suns.size()) / static_cast<double>(block));
-  if (blocks > 0 && first > 0) spread.shots_per_block = by_patches.wanted_samples / first / blocks;
+  if (blocks > 0 && first > 0)
+    spread.shots_per_block = solved.work[Work::wanted_samples] / first / blocks;
   return spread;
 }
 
@@ -279,15 +283,16 @@ PatchSpread pilot_spread(const Scene& scene, std::shared_ptr<const Hierarchy> me
     without_sensors = scene;
     without_sensors->sensors.clear();
   }
-  LightSolver solver(without_sensors ? *without_sensors : scene, std::move(mesh),
-                     pilot_rules(rules, pilot.of_instants), pilot_watch);
+  const auto traced = trace_scene(without_sensors ? *without_sensors : scene, std::move(mesh),
+                                  rules_of_pilot(rules, pilot.of_instants), pilot_watch);
+  const auto transport = transport_of(*traced);
   PatchSpread spread = rules.transport == Transport::gather
-                           ? gathered_spread(solver, suns, pilot, pilot_watch)
-                           : shot_spread(solver, suns, pilot, pilot_watch);
-  spread.area = solver.hierarchy().area();
-  share_with_neighbours(solver.hierarchy(), spread.load.of_line);
+                           ? gathered_spread(*transport, suns, pilot, pilot_watch)
+                           : shot_spread(*transport, suns, pilot, pilot_watch);
+  spread.area = traced->hierarchy().area();
+  share_with_neighbours(traced->hierarchy(), spread.load.of_line);
   for (Spread& of_sun : spread.irradiance)
-    share_with_neighbours(solver.hierarchy(), of_sun.of_line);
+    share_with_neighbours(traced->hierarchy(), of_sun.of_line);
   return spread;
 }
 

@@ -43,7 +43,7 @@ inline constexpr std::size_t pilot_suns = 32;
 /// The rules that a pilot of a study solves by. Its realizations are like the study's own (the
 /// errors of few scrambled points are not those of many), only more, or with more lines where they
 /// may not be as many as that takes.
-SolverRules pilot_rules(SolverRules of_study, bool of_instants);
+SolverRules rules_of_pilot(SolverRules of_study, bool of_instants);
 
 struct PilotRules {
   double weight = 1;  ///< suns of the period for which each of the pilot's stands

@@ -5,38 +5,26 @@
 #include <array>
 #include <numeric>
 
+#include "geo/base/check.h"
 #include "io/base/bands.h"
+#include "io/batch/facade_means.h"
 #include "solver/accuracy.h"
 
 namespace sunload {
 
 namespace {
 
-/// Area-weighted mean irradiance of every facade, [K][facade].
+/// Mean irradiance of every facade, [K][facade].
 std::vector<float> facade_series(const BatchTally& tally, const Hierarchy& hierarchy,
                                  const Mesh& mesh) {
-  const std::size_t patches = hierarchy.patch_count(), facades = mesh.facades.size();
-  const auto& total = tally.irradiance[static_cast<std::size_t>(Part::total)];
-  std::vector<double> area(facades, 0);
-  std::vector<std::int32_t> facade_of(patches, -1);
-  for (std::size_t i = 0; i < patches; ++i) {
-    const auto& patch = hierarchy.patches()[i];
-    if (patch.side != 0) continue;
-    facade_of[i] = mesh.triangle_facade[static_cast<std::size_t>(patch.triangle)].value;
-    if (facade_of[i] >= 0) area[static_cast<std::size_t>(facade_of[i])] += hierarchy.area()[i];
-  }
-  std::vector<float> series(tally.intervals * facades, 0);
-  std::vector<double> power(facades);
-  for (std::size_t k = 0; k < tally.intervals; ++k) {
-    std::fill(power.begin(), power.end(), 0);
-    for (std::size_t i = 0; i < patches; ++i)
-      if (facade_of[i] >= 0)
-        power[static_cast<std::size_t>(facade_of[i])] +=
-            hierarchy.area()[i] * static_cast<double>(total[k * patches + i]);
-    for (std::size_t f = 0; f < facades; ++f)
-      if (area[f] > 0) series[k * facades + f] = static_cast<float>(power[f] / area[f]);
-  }
-  return series;
+  std::vector<std::int32_t> facade;
+  for (const auto& patch : hierarchy.patches())
+    facade.push_back(patch.side == 0
+                         ? mesh.triangle_facade[static_cast<std::size_t>(patch.triangle)].value
+                         : -1);
+  const FacadeMeans means(std::move(facade), hierarchy.area(), mesh.facades.size());
+  const auto series = means.of(tally.irradiance[static_cast<std::size_t>(Part::total)]);
+  return {series.begin(), series.end()};
 }
 
 template <class Row>
@@ -105,10 +93,10 @@ void add_sunlit(BatchWriter& writer, const ReceiverTally& tally, const std::stri
 }
 
 /// What sensors have that is the same in all bands.
-void add_sensors(BatchWriter& writer, const BatchTally& tally, const LightSolver& solver) {
+void add_sensors(BatchWriter& writer, const BatchTally& tally, const TracedScene& traced) {
   add_sunlit(writer, tally.sensors, sensor_prefix);
   std::vector<double> sky, backs;
-  for (const auto& ends : solver.sensor_lines().pooled.ends) {
+  for (const auto& ends : traced.sensors.lines.pooled.ends) {
     sky.push_back(static_cast<double>(ends.sky));
     backs.push_back(static_cast<double>(ends.backs));
   }
@@ -117,6 +105,42 @@ void add_sensors(BatchWriter& writer, const BatchTally& tally, const LightSolver
       sky.data());
   writer.add({batch_array::sensor_backs, MergeRule::maximum, ArrayType::float64, {backs.size()}},
              backs.data());
+}
+
+/// What every band has of its own.
+void add_band(BatchWriter& writer, const BatchTally& tally, const Hierarchy& hierarchy,
+              const Mesh& mesh, const std::string& prefix) {
+  const std::size_t K = tally.intervals;
+  add_received(writer, tally, K, prefix);
+  if (!tally.sensors.sunlit_s.empty())
+    add_received(writer, tally.sensors, K, prefix + sensor_prefix);
+  if (!mesh.facades.empty())
+    writer.add({prefix + "facade_irradiance",
+                MergeRule::append,
+                ArrayType::float32,
+                {K, mesh.facades.size()}},
+               facade_series(tally, hierarchy, mesh).data());
+  add_ledger(writer, tally, prefix);
+  writer.add({prefix + batch_array::outgoing,
+              MergeRule::sum,
+              ArrayType::float64,
+              {hierarchy.patch_count()}},
+             tally.outgoing.data());
+}
+
+/// Lines and samples per patch that were taken.
+void add_counts(BatchWriter& writer, const SolverRules& rules) {
+  const std::vector<double> lines(rules.lines_of_patch.begin(), rules.lines_of_patch.end());
+  const double mean_lines = lines.empty() ? rules.lines_per_patch
+                                          : std::accumulate(lines.begin(), lines.end(), 0.0) /
+                                                static_cast<double>(lines.size());
+  if (!lines.empty())
+    writer.add({batch_array::patch_lines, MergeRule::maximum, ArrayType::float64, {lines.size()}},
+               lines.data());
+  std::vector<double> counts{mean_lines, static_cast<double>(rules.direct_samples)};
+  if (rules.samples_per_patch) counts.push_back(*rules.samples_per_patch);
+  writer.add({batch_array::counts, MergeRule::maximum, ArrayType::float64, {counts.size()}},
+             counts.data());
 }
 
 }  // namespace
@@ -131,83 +155,32 @@ std::string sum_name(Part part) {
   return std::string("sum_") + part_names[static_cast<std::size_t>(part)];
 }
 
-std::vector<double> work_values(const WorkDone& w) {
-  return {static_cast<double>(w.line_rays),
-          static_cast<double>(w.direct_rays),
-          static_cast<double>(w.mirror_rays),
-          w.lines_s,
-          w.direct_s,
-          w.mirror_s,
-          w.solve_s,
-          w.realizations_s,
-          static_cast<double>(w.mirror_beams),
-          static_cast<double>(w.mirror_shots),
-          static_cast<double>(w.samples),
-          static_cast<double>(w.shot_rays),
-          w.shoot_s,
-          static_cast<double>(w.sensor_rays),
-          w.sensors_s};
+std::vector<double> work_values(const WorkDone& work) {
+  return {work.values().begin(), work.values().end()};
 }
 
-WorkDone work_from(const std::vector<double>& v) {
-  return {.line_rays = static_cast<std::uint64_t>(v.at(0)),
-          .direct_rays = static_cast<std::uint64_t>(v.at(1)),
-          .mirror_rays = static_cast<std::uint64_t>(v.at(2)),
-          .sensor_rays = static_cast<std::uint64_t>(v.at(13)),
-          .mirror_beams = static_cast<std::uint64_t>(v.at(8)),
-          .mirror_shots = static_cast<std::uint64_t>(v.at(9)),
-          .lines_s = v.at(3),
-          .direct_s = v.at(4),
-          .mirror_s = v.at(5),
-          .solve_s = v.at(6),
-          .realizations_s = v.at(7),
-          .sensors_s = v.at(14),
-          .samples = static_cast<std::uint64_t>(v.at(10)),
-          .shot_rays = static_cast<std::uint64_t>(v.at(11)),
-          .shoot_s = v.at(12)};
+WorkDone work_from(const std::vector<double>& values) {
+  SUNLOAD_EXPECT(values.size() == work_count, "kinds of work");
+  WorkDone work;
+  std::copy(values.begin(), values.end(), work.values().begin());
+  return work;
 }
 
 void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
-                 const LightSolver& solver, const Mesh& mesh, const WorkDone& work,
+                 const TracedScene& traced, const Mesh& mesh, const WorkDone& work,
                  std::optional<double> irradiance_relative) {
-  const Hierarchy& hierarchy = solver.hierarchy();
+  const Hierarchy& hierarchy = traced.hierarchy();
   const std::size_t N = hierarchy.patch_count();
-  const auto prefixes = band_prefixes(solver.rules().bands);
-  for (std::size_t b = 0; b < bands.size(); ++b) {
-    const BatchTally& tally = bands[b];
-    const std::size_t K = tally.intervals;
-    const std::string& prefix = prefixes[b];
-    add_received(writer, tally, K, prefix);
-    if (!tally.sensors.sunlit_s.empty())
-      add_received(writer, tally.sensors, K, prefix + sensor_prefix);
-    if (!mesh.facades.empty())
-      writer.add({prefix + "facade_irradiance",
-                  MergeRule::append,
-                  ArrayType::float32,
-                  {K, mesh.facades.size()}},
-                 facade_series(tally, hierarchy, mesh).data());
-    add_ledger(writer, tally, prefix);
-    writer.add({prefix + batch_array::outgoing, MergeRule::sum, ArrayType::float64, {N}},
-               tally.outgoing.data());
-  }
+  const auto prefixes = band_prefixes(traced.rules.bands);
+  for (std::size_t b = 0; b < bands.size(); ++b)
+    add_band(writer, bands[b], hierarchy, mesh, prefixes[b]);
   add_sunlit(writer, bands.front(), "");
-  if (!bands.front().sensors.sunlit_s.empty()) add_sensors(writer, bands.front(), solver);
+  if (!bands.front().sensors.sunlit_s.empty()) add_sensors(writer, bands.front(), traced);
   writer.add({batch_array::sky_view, MergeRule::maximum, ArrayType::float64, {N}},
-             solver.sky_view_factor().data());
-  const double bounces = solver.bounces();
+             traced.sky_view_factor().data());
+  const double bounces = traced.bounces;
   writer.add({batch_array::bounces, MergeRule::maximum, ArrayType::float64, {1}}, &bounces);
-  const SolverRules& rules = solver.rules();
-  const std::vector<double> lines(rules.lines_of_patch.begin(), rules.lines_of_patch.end());
-  const double mean_lines = lines.empty() ? rules.lines_per_patch
-                                          : std::accumulate(lines.begin(), lines.end(), 0.0) /
-                                                static_cast<double>(lines.size());
-  if (!lines.empty())
-    writer.add({batch_array::patch_lines, MergeRule::maximum, ArrayType::float64, {N}},
-               lines.data());
-  std::vector<double> counts{mean_lines, static_cast<double>(rules.direct_samples)};
-  if (rules.samples_per_patch) counts.push_back(*rules.samples_per_patch);
-  writer.add({batch_array::counts, MergeRule::maximum, ArrayType::float64, {counts.size()}},
-             counts.data());
+  add_counts(writer, traced.rules);
   if (irradiance_relative && bands.size() == 1 && !bands.front().irradiance_se.empty()) {
     const auto [all, kept] = kept_area(bands.front(), hierarchy.area(), *irradiance_relative);
     const std::array area{all, kept};

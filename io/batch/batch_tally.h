@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/batch/file.h"
-#include "solver/solver.h"
+#include "solver/traced/traced_scene.h"
 
 namespace sunload {
 
@@ -48,7 +48,7 @@ WorkDone work_from(const std::vector<double>& values);
 /// Arrays of three bands have the prefixes of `band_prefixes`, but for those that are the
 /// same in all of them.
 void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
-                 const LightSolver& solver, const Mesh& mesh, const WorkDone& work,
+                 const TracedScene& traced, const Mesh& mesh, const WorkDone& work,
                  std::optional<double> irradiance_relative);
 
 }  // namespace sunload

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// `sunload check` and `sunload sun`: everything that is known before computing.
+#include "io/command/check_study.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geo/mesh/intersections.h"
-#include "io/base/machine.h"
+#include "io/base/exit_code.h"
 #include "io/picture/sun_diagram.h"
 #include "io/plan/expected_error.h"
 #include "io/plan/rules_of_study.h"
@@ -17,7 +17,6 @@
 #include "io/plan/time_words.h"
 #include "io/plan/variant_mesh.h"
 #include "io/plan/variant_plan.h"
-#include "io/run/run.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
@@ -192,7 +191,7 @@ void print_warnings(const std::vector<std::string>& warnings) {
 
 int check_study(const std::string& path, const RunOptions& options, CheckFormat format,
                 SearchIntersections search) {
-  set_thread_count(options.threads > 0 ? options.threads : permitted_processors());
+  use_threads(options);
   const StudyFile file = read_study(path);
   print_warnings(file.warnings);
   nlohmann::ordered_json json;

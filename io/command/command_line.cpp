@@ -13,6 +13,7 @@
 #include "io/base/exit_code.h"
 #include "io/base/key_names.h"
 #include "io/base/version.h"
+#include "io/command/check_study.h"
 #include "io/command/commands.h"
 #include "io/export/export.h"
 #include "io/run/progress.h"

@@ -12,7 +12,8 @@
 #include "io/report/compare.h"
 #include "io/report/info.h"
 #include "io/result/patches_csv.h"
-#include "io/run/run.h"
+#include "io/run/options.h"
+#include "io/run/work_folder.h"
 #include "io/scene/builtin.h"
 #include "io/scene/cityjson/write.h"
 #include "io/scene/mesh_files/obj_write.h"
@@ -36,9 +37,8 @@ std::string result_named(const CompareOptions& options, const std::string& varia
   RunOptions chosen;
   chosen.output = options.output;
   chosen.variants = {variant};
-  const Study study = chosen_variants(read_study(options.base), chosen).front();
-  const std::string folder = options.output.empty() ? study.output.folder : options.output;
-  return folder + "/" + study.name + "/" + study.variant + ".h5";
+  const StudyFile file = read_study(options.base);
+  return result_path(results_folder(file, chosen), chosen_variants(file, chosen).front());
 }
 
 /// With the files of a study's variants in place of their names.

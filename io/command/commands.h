@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// What commands on results and scenes do, and what they are asked for in words. The commands on
-/// studies are in io/run/run.h.
+/// studies are in io/run/run.h and io/command/check_study.h.
 #pragma once
 
 #include <optional>

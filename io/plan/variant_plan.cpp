@@ -51,22 +51,4 @@ std::size_t sun_count(const VariantPlan& plan, std::size_t batch) {
   return plan.light.lit_count(begin, end);
 }
 
-std::string result_path(const std::string& folder, const Study& study) {
-  return folder + "/" + study.name + "/" + study.variant + ".h5";
-}
-
-std::string work_folder(const std::string& folder, const VariantPlan& plan) {
-  return folder + "/" + plan.study.name + "/.work/" + plan.study.variant + "-" + plan.content_hash;
-}
-
-std::string prepared_path(const std::string& folder, const VariantPlan& plan) {
-  return work_folder(folder, plan) + "/prepared";
-}
-
-std::string batch_path(const std::string& folder, const VariantPlan& plan, std::size_t batch) {
-  std::string number = std::to_string(batch);
-  number.insert(0, number.size() < 6 ? 6 - number.size() : 0, '0');
-  return work_folder(folder, plan) + "/" + number + ".batch";
-}
-
 }  // namespace sunload

@@ -38,10 +38,4 @@ bool has_lamps(const VariantPlan& plan);
 /// Sun positions of a batch that cost work: intervals that are not dark, all of them with lamps.
 std::size_t sun_count(const VariantPlan& plan, std::size_t batch);
 
-/// Paths (docs/developer/design.md, Batches).
-std::string result_path(const std::string& folder, const Study& study);
-std::string work_folder(const std::string& folder, const VariantPlan& plan);
-std::string prepared_path(const std::string& folder, const VariantPlan& plan);
-std::string batch_path(const std::string& folder, const VariantPlan& plan, std::size_t batch);
-
 }  // namespace sunload

@@ -74,7 +74,7 @@ double line_seconds(const Scene& scene, int mirror_depth) {
 
 double pilot_memory_bytes(const VariantPlan& plan, std::size_t patches) {
   const bool of_instants = plan.study.solver.accuracy->irradiance_relative.has_value();
-  const SolverRules rules = pilot_rules(solver_rules(plan), of_instants);
+  const SolverRules rules = rules_of_pilot(solver_rules(plan), of_instants);
   const double R = rules.realizations, block = block_width * float_bytes;
   constexpr double sun_columns = 4;      // straight, circumsolar, by mirrors, all of them
   constexpr double spread_columns = 16;  // sums, squares, variances of three sources, in doubles

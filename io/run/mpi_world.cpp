@@ -107,18 +107,29 @@ std::size_t MpiWorld::size() const { return static_cast<std::size_t>(ranks_->siz
 
 std::size_t MpiWorld::next_of(std::size_t variant) { return ranks_->next_of(variant); }
 
-void MpiWorld::wait_for_all() {
-  // A barrier of MPI spins: the processor is for those who still compute.
-  MPI_Request request{};
-  MPI_Ibarrier(MPI_COMM_WORLD, &request);
+namespace {
+
+/// MPI itself spins where it waits: the processor is for those who still compute or merge.
+void wait_for(MPI_Request& request) {
   int all_are_here = 0;
   while (MPI_Test(&request, &all_are_here, MPI_STATUS_IGNORE), all_are_here == 0)
     std::this_thread::sleep_for(pause);
 }
 
+}  // namespace
+
+void MpiWorld::wait_for_all() {
+  MPI_Request request{};
+  MPI_Ibarrier(MPI_COMM_WORLD, &request);
+  wait_for(request);
+}
+
 bool MpiWorld::any(bool here) {
-  int mine = here ? 1 : 0, all = 0;
-  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  const int mine = here ? 1 : 0;
+  int all = 0;
+  MPI_Request request{};
+  MPI_Iallreduce(&mine, &all, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD, &request);
+  wait_for(request);
   return all != 0;
 }
 

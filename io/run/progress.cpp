@@ -141,12 +141,11 @@ void Progress::begin_variant(const std::string& name, std::size_t suns) {
   stage_.clear();
   suns_ = suns;
   finished_ = in_batch_ = 0;
-  rays_ = {};
 }
 
-void Progress::count_rays(RayCount rays) {
+void Progress::cast(double rays) {
   const std::lock_guard lock(guard_);
-  rays_ = std::move(rays);
+  rays_ += rays;
 }
 
 void Progress::begin_stage(Stage stage) {
@@ -155,7 +154,7 @@ void Progress::begin_stage(Stage stage) {
   stage_start_ = Clock::now();
   computed_ = 0;
   in_batch_ = 0;
-  rays_before_ = rays_ ? rays_(stage, 0) : 0;
+  rays_ = 0;
   if (style_ == ProgressStyle::bar || style_ == ProgressStyle::json) last_ = {};
 }
 
@@ -176,8 +175,7 @@ Progress::State Progress::state(Stage stage, double share) const {
   now.suns = suns_;
   now.elapsed_s = std::chrono::duration<double>(Clock::now() - stage_start_).count();
   now.memory_bytes = peak_memory_bytes();
-  if (rays_ && now.elapsed_s > 0)
-    now.rays_per_s = (rays_(stage, share) - rays_before_) / now.elapsed_s;
+  if (now.elapsed_s > 0) now.rays_per_s = rays_ / now.elapsed_s;
   if (stage == Stage::light && suns_ > 0) {
     const double of_batch = share * static_cast<double>(in_batch_);
     const double done = static_cast<double>(finished_) + of_batch;
@@ -234,8 +232,11 @@ void Progress::end_bar() {
 }
 
 void Progress::say(const std::string& text) {
+  if (style_ != ProgressStyle::none) warn(text);
+}
+
+void Progress::warn(const std::string& text) {
   const std::lock_guard lock(guard_);
-  if (style_ == ProgressStyle::none) return;
   end_bar();
   fmt::print(stderr, "{}\n", style_ == ProgressStyle::json ? message_json(text) : text);
   std::fflush(stderr);

@@ -22,16 +22,16 @@ class Progress : public Watch {
   explicit Progress(ProgressStyle style, double time_limit_min = 0);
   ~Progress() override;
 
-  /// A variant of so many sun positions; rays are not counted until `count_rays` is called.
+  /// A variant of so many sun positions.
   void begin_variant(const std::string& name, std::size_t suns);
-  /// Rays of a stage that were cast when so much of it [0, 1] is done; called from any thread.
-  using RayCount = std::function<double(Stage stage, double share)>;
-  void count_rays(RayCount rays);
   /// The next batch: its sun positions, and those that are finished before it.
   void begin_batch(std::size_t finished, std::size_t suns);
   void advance(Stage stage, double share) override;
+  void cast(double rays) override;
   /// A line of its own; as JSON {"message"}; without progress nothing.
   void say(const std::string& text);
+  /// The same for what has gone wrong or may have: also without progress.
+  void warn(const std::string& text);
   /// A signal came, or the time is up.
   bool stop_requested() const;
 
@@ -51,8 +51,7 @@ class Progress : public Watch {
   std::size_t finished_ = 0;  ///< before the batch in hand
   std::size_t in_batch_ = 0;  ///< of the batch in hand
   double computed_ = 0;       ///< of `finished_`, in this stage
-  RayCount rays_;
-  double rays_before_ = 0;  ///< the stage
+  double rays_ = 0;           ///< cast in the stage
   Clock::time_point start_ = Clock::now(), stage_start_ = start_, last_ = start_;
   bool bar_is_open_ = false;
 };

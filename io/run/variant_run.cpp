@@ -14,7 +14,6 @@
 #include "io/batch/prepared_file.h"
 #include "io/plan/rules_of_study.h"
 #include "io/plan/work_estimate.h"
-#include "io/run/merge.h"
 #include "io/run/mpi_world.h"
 #include "solver/base/threads.h"
 
@@ -22,16 +21,10 @@ namespace sunload {
 
 namespace {
 
-std::string rays_text(const char* what, std::uint64_t rays, double seconds) {
+std::string rays_text(const char* what, double rays, double seconds) {
   if (rays == 0 || seconds <= 0) return {};
   return fmt::format("  {:<14} {:8.2f} s  {:9.3g} rays  {:7.1f} million rays/s\n", what, seconds,
-                     static_cast<double>(rays), static_cast<double>(rays) / seconds / 1e6);
-}
-
-std::size_t suns_before(const VariantPlan& plan, std::size_t batch) {
-  std::size_t suns = 0;
-  for (std::size_t b = 0; b < batch; ++b) suns += sun_count(plan, b);
-  return suns;
+                     rays, rays / seconds / 1e6);
 }
 
 /// What the pilot decided.
@@ -70,50 +63,23 @@ void refuse_too_much(double memory_bytes) {
 
 }  // namespace
 
-VariantRun::VariantRun(const std::string& folder, const VariantPlan& plan,
+VariantRun::VariantRun(const WorkFolder& folder, const VariantPlan& plan,
                        std::shared_ptr<const Hierarchy> mesh, Progress& progress)
     : folder_(folder), plan_(plan), mesh_(std::move(mesh)), progress_(progress) {}
 
-VariantRun::~VariantRun() { progress_.count_rays({}); }
-
-void VariantRun::compute(UnitQueue& units, MpiWorld* world) {
-  make_writable_folder(work_folder(folder_, plan_));
-  // Ranks meet where the first of them traces the lines, before any takes a batch.
-  if (world && world->any(!batches_not_there(folder_, plan_).empty())) make_solver(world);
-  std::size_t suns_behind = 0;
-  for (auto batch = units.next(); batch; batch = units.next()) {
-    const std::size_t suns = sun_count(plan_, *batch);
-    if (!is_finished(*batch)) {
-      if (!solver_) make_solver(world);
-      if (world) suns_behind = suns_before(plan_, *batch);
-      progress_.begin_batch(suns_behind, suns);
-      compute_batch(*batch);
-    }
-    suns_behind += suns;
-  }
-  if (solver_) report_work();
-}
-
-bool VariantRun::is_finished(std::size_t batch) {
-  const auto check = check_batch(batch_path(folder_, plan_, batch), plan_.content_hash, batch);
-  if (check.exists && !check.valid)
-    progress_.say("warning: " + check.reason + "; it is computed again");
-  return check.valid;
-}
-
-void VariantRun::make_solver(MpiWorld* world) {
+void VariantRun::prepare(MpiWorld* world) {
   rules_ = decided_rules();
   if (!world) return read_or_trace();
   if (world->is_first()) read_or_trace();
   world->wait_for_all();
-  if (!world->is_first()) build(read_prepared(prepared_path(folder_, plan_), plan_.content_hash));
+  if (!world->is_first()) build(read_prepared(folder_.prepared(), plan_.content_hash));
 }
 
 void VariantRun::read_or_trace() {
-  const std::string path = prepared_path(folder_, plan_);
+  const std::string path = folder_.prepared(), lock_path = folder_.prepared_lock();
   if (auto ready = read_prepared(path, plan_.content_hash)) return build(std::move(ready));
-  if (batches_not_there(folder_, plan_).size() < 2) return build({});
-  const WaitingLock lock(path + ".lock",
+  if (folder_.batches_not_there().size() < 2) return build({});
+  const WaitingLock lock(lock_path,
                          {.is_cancelled = [this] { return progress_.stop_requested(); },
                           .waiting =
                               [this] {
@@ -121,46 +87,46 @@ void VariantRun::read_or_trace() {
                                               ": another process traces the lines; waiting for it");
                               }});
   if (!lock.is_held())
-    progress_.say("warning: cannot lock " + path + ".lock (" + lock.problem() +
-                  "); processes that start together each trace the lines");
+    progress_.warn("warning: cannot lock " + lock_path + " (" + lock.problem() +
+                   "); processes that start together each trace the lines");
   build(read_prepared(path, plan_.content_hash));
-  if (solver_->work().line_rays > 0) keep_lines(path);
+  if (traced_->work[Work::line_rays] > 0) keep_lines(path);
 }
 
 void VariantRun::build(std::optional<Lines> ready) {
-  progress_.count_rays(
-      [rays = static_cast<double>(estimate_work(plan_, mesh_->patch_count()).line_rays)](
-          Stage, double share) { return rays * share; });
   if (!ready) progress_.advance(Stage::lines, 0);
-  solver_ =
-      std::make_unique<LightSolver>(plan_.built.scene, mesh_, rules_, progress_, std::move(ready));
+  traced_ = trace_scene(plan_.built.scene, mesh_, rules_, progress_, std::move(ready));
+  transport_ = transport_of(*traced_);
+  unwritten_ = traced_->work;
+  unwritten_ += transport_->work();
+  done_ = unwritten_;
   warn_of_sensors();
-  progress_.count_rays([this](Stage, double) {
-    const WorkDone& work = solver_->work();
-    return static_cast<double>(work.direct_rays + work.mirror_rays);
-  });
-  lights_.emplace(plan_.study, plan_.built.site, solver_->sky_grid());
+  lights_.emplace(plan_.study, plan_.built.site, traced_->grid);
 }
 
 void VariantRun::warn_of_sensors() {
-  const std::size_t orientations = solver_->mirror_orientations();
+  const std::size_t orientations = traced_->mirror_orientations();
   const auto most = static_cast<std::size_t>(rules_.most_sensor_beams);
   if (plan_.built.scene.sensors.empty() || orientations <= most) return;
-  progress_.say(fmt::format(
-      "{}: warning: mirrors face in {} directions; sensors do not see the sun by way of mirrors "
-      "while more than {} face it (patches do)",
-      plan_.study.variant, orientations, most));
+  warn(fmt::format(
+      "mirrors face in {} directions; sensors do not see the sun by way of mirrors while more than "
+      "{} face it (patches do)",
+      orientations, most));
 }
 
 /// Only a help for later: where it cannot be written, the work goes on.
 void VariantRun::keep_lines(const std::string& path) {
   try {
-    make_writable_folder(work_folder(folder_, plan_));
-    write_prepared(path, plan_.content_hash, solver_->lines());
+    folder_.make();
+    write_prepared(path, plan_.content_hash, traced_->patches.lines);
   } catch (const MachineError& error) {
-    progress_.say(plan_.study.variant + ": warning: the traced lines are not kept (" +
-                  error.what() + "); who goes on with this work traces them again");
+    warn(std::string("the traced lines are not kept (") + error.what() +
+         "); who goes on with this work traces them again");
   }
+}
+
+void VariantRun::warn(const std::string& text) const {
+  progress_.warn(plan_.study.variant + ": warning: " + text);
 }
 
 /// The study's rules, with counts raised by a pilot where it asks for an accuracy. Every
@@ -196,13 +162,12 @@ SolverRules VariantRun::decided_rules() {
   return with_counts(rules, counts);
 }
 
-void VariantRun::compute_batch(std::size_t batch) {
+void VariantRun::compute(std::size_t batch) {
   const std::size_t first = batch * plan_.batch_suns();
   const std::size_t count = std::min(plan_.batch_suns(), plan_.intervals() - first);
-  const std::vector<SunLight> light = lights_->of(plan_.light, first, count);
-  const std::vector<BatchTally> tallies = solver_->solve_bands(light, progress_);
-  WorkDone work = solver_->work();
-  work -= written_;
+  const Solved solved = solve(*transport_, lights_->of(plan_.light, first, count), progress_);
+  unwritten_ += solved.work;
+  done_ += solved.work;
   BatchWriter writer({.content_hash = plan_.content_hash,
                       .variant = plan_.study.variant,
                       .isa = plan_.isa,
@@ -212,28 +177,28 @@ void VariantRun::compute_batch(std::size_t batch) {
                       .chunk_intervals = plan_.batch_suns(),
                       .compression = plan_.study.output.compression});
   const auto& accuracy = plan_.study.solver.accuracy;
-  add_tallies(writer, tallies, *solver_, plan_.built.scene.mesh, work,
+  add_tallies(writer, solved.bands, *traced_, plan_.built.scene.mesh, unwritten_,
               accuracy ? accuracy->irradiance_relative : std::nullopt);
   // Another process that failed may have removed the folder, which was empty until now.
-  make_writable_folder(work_folder(folder_, plan_));
-  writer.write(batch_path(folder_, plan_, batch));
-  written_ = solver_->work();
+  folder_.make();
+  writer.write(folder_.batch(batch));
+  unwritten_ = {};
 }
 
 void VariantRun::report_work() const {
-  const WorkDone& w = solver_->work();
+  const WorkDone& w = done_;
   std::string text =
-      fmt::format("{}: {} patches\n", plan_.study.variant, solver_->hierarchy().patch_count());
-  text += rays_text("lines", w.line_rays, w.lines_s);
-  text += rays_text("direct sun", w.direct_rays, w.direct_s);
-  text += rays_text("mirrored sun", w.mirror_rays, w.mirror_s);
-  if (w.mirror_beams + w.mirror_shots > 0)
+      fmt::format("{}: {} patches\n", plan_.study.variant, traced_->hierarchy().patch_count());
+  text += rays_text("lines", w[Work::line_rays], w[Work::lines_s]);
+  text += rays_text("direct sun", w[Work::direct_rays], w[Work::direct_s]);
+  text += rays_text("mirrored sun", w[Work::mirror_rays], w[Work::mirror_s]);
+  if (w[Work::mirror_beams] + w[Work::mirror_shots] > 0)
     text += fmt::format("  {:<14} {} beams by image directions, {} arrivals by shooting\n", "",
-                        w.mirror_beams, w.mirror_shots);
-  text += rays_text("shooting", w.shot_rays, w.shoot_s);
-  text += rays_text("sensors", w.sensor_rays, w.sensors_s);
+                        w[Work::mirror_beams], w[Work::mirror_shots]);
+  text += rays_text("shooting", w[Work::shot_rays], w[Work::shoot_s]);
+  text += rays_text("sensors", w[Work::sensor_rays], w[Work::sensors_s]);
   text += fmt::format("  {:<14} {:8.2f} s\n  {:<14} {:8.2f} s  peak memory {:.0f} MiB",
-                      "sky and Jacobi", w.solve_s, "realizations", w.realizations_s,
+                      "sky and Jacobi", w[Work::solve_s], "realizations", w[Work::realizations_s],
                       peak_memory_bytes() / mib);
   progress_.say(text);
 }

@@ -21,7 +21,9 @@ constexpr Range heights_m{-1e4, 1e5};
 constexpr Range least_heights_m{0, 1000};
 constexpr Range trunk_shares{0, 0.99};  // crowns have a height
 
-std::string read_path(YamlMap& map, const std::string& key, const std::string& folder) {
+/// `source`: where the file can be had.
+std::string read_path(YamlMap& map, const std::string& key, const std::string& folder,
+                      const std::string& source = "paths are relative to the study file") {
   const auto text = map.text(key);
   if (!text) return {};
   const fs::path path = (fs::path(folder) / *text).lexically_normal();
@@ -33,7 +35,7 @@ std::string read_path(YamlMap& map, const std::string& key, const std::string& f
                           "it is sought at " + path.string(), hint);
   };
   if (!fs::exists(path, error)) {
-    refuse("is not there", "paths are relative to the study file");
+    refuse("is not there", source);
   } else if (!fs::is_regular_file(path, error)) {
     refuse("is no file", "");
   }
@@ -81,7 +83,8 @@ SceneFileStudy read_scene_file_entry(YamlMap& map, const std::string& folder) {
   SceneFileStudy file;
   file.where = map.where();
   map.require("file");
-  file.path = read_path(map, "file", folder);
+  const auto source = map.text("source");
+  file.path = source ? read_path(map, "file", folder, *source) : read_path(map, "file", folder);
   file.up = map.choice<char>("up", {{"x", 'x'}, {"y", 'y'}, {"z", 'z'}}, file.up);
   file.unit_m = map.number("unit_m", units_m);
   file.lod = map.text("lod", file.lod);

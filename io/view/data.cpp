@@ -10,6 +10,7 @@
 #include "geo/base/check.h"
 #include "geo/time/time.h"
 #include "io/base/deflate.h"
+#include "io/base/base64.h"
 #include "io/base/half_float.h"
 #include "io/base/text.h"
 #include "io/result/schema.h"

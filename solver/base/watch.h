@@ -13,6 +13,8 @@ class Watch {
   virtual ~Watch() = default;
   /// Share of a stage that is done, [0, 1]; called from any thread.
   virtual void advance(Stage /*stage*/, double /*share*/) {}
+  /// So many rays were cast since the last call; called from any thread, before `advance`.
+  virtual void cast(double /*rays*/) {}
 };
 
 }  // namespace sunload

@@ -36,22 +36,23 @@ void BlockSources::split_sky(const SkyGrid& grid) {
   }
 }
 
-BlockLight first_light(const LineSet& lines, const PatchOptics& optics, const BlockSources& sources,
-                       FirstLight first) {
+BlockLight unreflected_light(const LineSet& lines, const PatchOptics& optics,
+                             const BlockSources& sources, RayColumns rays,
+                             const std::vector<double>& parallel) {
   const std::size_t rows = lines.ends.size();
   BlockLight light;
-  light.direct = std::move(first.direct);
+  light.direct = std::move(rays.direct);
   light.sky = columns(rows);
-  const bool split = !first.circumsolar.empty();
+  const bool split = !rays.circumsolar.empty();
   gather(lines.sky, split ? sources.sky_of_lines : sources.sky, light.sky, Into::replace);
-  for (std::size_t at = 0; at < first.circumsolar.size(); ++at)
-    light.sky[at] += first.circumsolar[at];
-  light.mirror = std::move(first.sun_by_mirror);
+  for (std::size_t at = 0; at < rays.circumsolar.size(); ++at)
+    light.sky[at] += rays.circumsolar[at];
+  light.mirror = std::move(rays.mirror);
   if (optics.any_mirror) gather(lines.sky_by_mirror, sources.sky, light.mirror, Into::add);
   light.lamps.assign(lines.lamps.begin(), lines.lamps.end());
   light.lamps.resize(rows, 0);
-  for (std::size_t i = 0; i < first.parallel.size(); ++i)
-    light.lamps[i] += static_cast<float>(first.parallel[i]);
+  for (std::size_t i = 0; i < parallel.size(); ++i)
+    light.lamps[i] += static_cast<float>(parallel[i]);
   light.reflected = columns(rows);
   parallel_for(
       rows,
@@ -65,8 +66,9 @@ BlockLight first_light(const LineSet& lines, const PatchOptics& optics, const Bl
 }
 
 BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
-                       const BlockSources& sources, FirstLight first, int bounces) {
-  BlockLight light = first_light(lines, optics, sources, std::move(first));
+                       const BlockSources& sources, RayColumns rays,
+                       const std::vector<double>& parallel, int bounces) {
+  BlockLight light = unreflected_light(lines, optics, sources, std::move(rays), parallel);
   Columns base = columns(optics.diffuse.size());
   parallel_for(
       optics.diffuse.size(),

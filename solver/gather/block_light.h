@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/first_light/circumsolar.h"
+#include "solver/first_light/ray_light.h"
 #include "solver/gather/jacobi.h"
 #include "solver/gather/ledger.h"
 #include "solver/light/sun_block.h"
@@ -45,20 +46,17 @@ struct BlockLight {
   }
 };
 
-/// Irradiance that does not come by lines.
-struct FirstLight {
-  Columns direct, sun_by_mirror;
-  const Columns& circumsolar;           ///< of the split sky; empty: lines take the whole sky
-  const std::vector<double>& parallel;  ///< [N] of parallel sources, or empty
-};
+/// What arrives at the rows of `lines` without diffuse reflection by patches: by these lines, by
+/// `rays`, and of parallel sources ([N], or empty). `reflected` holds the far ground alone,
+/// `followed` nothing.
+BlockLight unreflected_light(const LineSet& lines, const PatchOptics& optics,
+                             const BlockSources& sources, RayColumns rays,
+                             const std::vector<double>& parallel);
 
-/// What arrives at the rows of `lines` without diffuse reflection by patches; `reflected`
-/// holds the far ground alone, `followed` nothing.
-BlockLight first_light(const LineSet& lines, const PatchOptics& optics, const BlockSources& sources,
-                       FirstLight first);
-
+/// The same, and what patches reflect 1 … bounces times.
 BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
-                       const BlockSources& sources, FirstLight first, int bounces);
+                       const BlockSources& sources, RayColumns rays,
+                       const std::vector<double>& parallel, int bounces);
 
 /// Ledger of every sun of the block [W], but for the sun's light sent on by mirrors.
 std::vector<Ledger> block_ledger(const LineSet& lines, const PatchOptics& optics,

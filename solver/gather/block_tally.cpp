@@ -3,7 +3,9 @@
 #include "solver/gather/block_tally.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "geo/base/check.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
@@ -29,6 +31,7 @@ void store_received(const BlockLight& light, std::span<const SunLight> block, st
         for (std::size_t k = 0; k < block.size(); ++k) {
           const std::size_t at = i * block_width + k;
           const float total = light.total(i, k);
+          SUNLOAD_EXPECT(std::isfinite(total), "light that is a number");
           put(Part::total, i, k, total);
           put(Part::direct, i, k, light.direct[at]);
           put(Part::sky, i, k, light.sky[at]);

@@ -8,26 +8,18 @@
 ///     E = E_direct + E_sky + E_mirror + E_lamps + Σ_links w B_target + w_ground B_ground
 ///
 /// follows the light exactly as far as the patches' own reflected part does. E_mirror is the sun's
-/// by mirrors and gloss (LightSolver::trace_sensors) and the sky's by the lines.
+/// by mirrors and gloss (light_iteration) and the sky's by the lines.
 #pragma once
 
-#include "solver/first_light/direct_sun.h"
 #include "solver/gather/block_light.h"
 #include "solver/lines/lines.h"
 
 namespace sunload {
 
-/// Traces the lines of the scene's sensors: `lines_per_patch` from each point, cosine
-/// distributed about its normal. A point is lifted by the caster's offset along its
-/// normal, so that one on a surface sees the hemisphere above it. Of bright surfaces it takes
-/// those that face it, seen or not.
-Lines trace_sensor_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
-                         const SkyGrid& grid, const Guide& guide, const LineRules& rules);
-
 /// Light of a block on the rows of `lines`, whose targets are patches of which
 /// `followed` is the radiosity gathered last.
 BlockLight sensor_light(const LineSet& lines, const PatchOptics& optics,
-                        const BlockSources& sources, Columns direct, Columns sun_by_mirror,
+                        const BlockSources& sources, RayColumns rays,
                         const std::vector<double>& parallel, const Columns& followed);
 
 }  // namespace sunload

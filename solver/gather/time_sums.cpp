@@ -8,11 +8,8 @@ namespace sunload {
 
 TimeSums::TimeSums(std::size_t realizations, std::size_t patches, std::size_t sensors,
                    std::size_t sky_cells)
-    : direct(realizations, std::vector<double>(patches, 0)),
-      by_mirror(direct),
-      circumsolar(direct),
-      sensor_direct(realizations, std::vector<double>(sensors, 0)),
-      sensor_by_mirror(sensor_direct),
+    : on_patches(realizations, patches),
+      on_sensors(realizations, sensors),
       sky(sky_cells, 0),
       sky_of_lines(sky),
       sent_on(realizations) {}

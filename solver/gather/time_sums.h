@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "solver/first_light/ray_light.h"
 #include "solver/gather/block_light.h"
 #include "solver/light/tally.h"
 
@@ -19,11 +20,8 @@ struct TimeSums {
   /// Adds what the light of a block has of sky, far ground and time.
   void add_sources(const BlockSources& sources);
 
-  std::vector<std::vector<double>> direct, by_mirror;  ///< [R][N]
-  std::vector<std::vector<double>> by_gloss;  ///< [R][N], by lines; empty where nothing is glossy
-  std::vector<std::vector<double>> circumsolar;                      ///< [R][N]
-  std::vector<std::vector<double>> sensor_direct, sensor_by_mirror;  ///< [R][sensors]
-  std::vector<double> sky;                                           ///< [cells] π·radiance·time
+  RaySums on_patches, on_sensors;
+  std::vector<double> sky;           ///< [cells] π·radiance·time
   std::vector<double> sky_of_lines;  ///< the same without circumsolar light
   double ground = 0;
   double length_s = 0;          ///< for lamps

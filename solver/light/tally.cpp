@@ -67,26 +67,6 @@ BatchTally empty_tally(const TallyShape& shape) {
   return tally;
 }
 
-WorkDone& WorkDone::operator-=(const WorkDone& earlier) {
-  line_rays -= earlier.line_rays;
-  direct_rays -= earlier.direct_rays;
-  mirror_rays -= earlier.mirror_rays;
-  mirror_beams -= earlier.mirror_beams;
-  mirror_shots -= earlier.mirror_shots;
-  sensor_rays -= earlier.sensor_rays;
-  sensors_s -= earlier.sensors_s;
-  lines_s -= earlier.lines_s;
-  direct_s -= earlier.direct_s;
-  mirror_s -= earlier.mirror_s;
-  solve_s -= earlier.solve_s;
-  realizations_s -= earlier.realizations_s;
-  samples -= earlier.samples;
-  shot_rays -= earlier.shot_rays;
-  wanted_samples -= earlier.wanted_samples;
-  shoot_s -= earlier.shoot_s;
-  return *this;
-}
-
 MeanError mean_error(const std::vector<double>& values) {
   const auto n = static_cast<double>(values.size());
   double mean = 0, squares = 0;

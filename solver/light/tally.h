@@ -106,18 +106,6 @@ struct TallyShape {
 /// likewise. When gathering exposures by source are empty: the sun's part is put there at the end.
 BatchTally empty_tally(const TallyShape& shape);
 
-/// Work done so far and the time it took, per stage.
-struct WorkDone {
-  std::uint64_t line_rays = 0, direct_rays = 0, mirror_rays = 0, sensor_rays = 0;
-  std::uint64_t mirror_beams = 0;  ///< of all suns, by image directions
-  std::uint64_t mirror_shots = 0;  ///< arrivals of mirrored sun that no beam stands for
-  double lines_s = 0, direct_s = 0, mirror_s = 0, solve_s = 0, realizations_s = 0, sensors_s = 0;
-  std::uint64_t samples = 0, shot_rays = 0;  ///< shot; cast for them, chains included
-  double wanted_samples = 0;  ///< shot, but for those that patches get who would have none
-  double shoot_s = 0;
-  WorkDone& operator-=(const WorkDone& earlier);
-};
-
 /// Mean and standard error of independent realizations.
 struct MeanError {
   double mean = 0, standard_error = 0;

@@ -260,6 +260,7 @@ Lines trace_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaste
     outputs[block] = tracer.trace(begin, end, lines);
     for (auto& set : lines.realizations) trim(set, block);
     trim(lines.pooled, block);
+    watch.cast(static_cast<double>(outputs[block].rays));
     watch.advance(Stage::lines,
                   static_cast<double>(done += end - begin) / static_cast<double>(patches));
   });

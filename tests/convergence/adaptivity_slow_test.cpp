@@ -12,9 +12,8 @@
 #include "io/plan/variant_mesh.h"
 #include "solver/base/threads.h"
 #include "tests/support/paths.h"
-#include "tests/support/program.h"
-#include "tests/support/reference.h"
-#include "tests/support/study_plan.h"
+#include "tests/support/real_models.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload::test {
 namespace {
@@ -27,8 +26,9 @@ struct Loaded {
 
 Loaded loaded(const VariantPlan& plan, std::shared_ptr<const Hierarchy> mesh) {
   Watch watch;
-  LightSolver solver(plan.built.scene, mesh, solver_rules(plan), watch);
-  const BatchTally tally = solver.solve(suns_of(plan, solver.sky_grid()), watch);
+  const auto traced = trace_scene(plan.built.scene, mesh, solver_rules(plan), watch);
+  const auto suns = suns_of(plan, traced->grid);
+  const BatchTally tally = sunload::solve(*transport_of(*traced), suns, watch).bands.front();
   Loaded result{mesh, std::vector<double>(mesh->patch_count()), {}};
   for (std::size_t i = 0; i < mesh->patch_count(); ++i) {
     std::vector<double> values;
@@ -114,7 +114,7 @@ TEST(Adaptivity, PaysOnTheStreet) {
 }
 
 TEST(Adaptivity, PaysOnACityModel) {
-  if (shared_missing("data")) return;
+  SUNLOAD_NEEDS_MODEL("data");
   const Comparison c = compare(
       "format: sunload-study-1\nname: city\nsite: {timezone: Europe/Berlin}\n"
       "period: {days: [2026-06-21], from: \"06:00\", to: \"20:00\", step_min: 60}\n"

@@ -69,14 +69,15 @@ TEST(Convergence, ErrorFallsWithLinesAtLeastAsTheirRoot) {
   const double t = accepted_t(1000);  // errors of the points are known, not estimated
   std::cout << "slope " << slope.value << " +- " << slope.error << ", with a bias of 2 % "
             << faulty.value << "\n";
-  EXPECT_LE(slope.value - t * slope.error, -0.5);
-  EXPECT_LE(slope.value, -0.5 + t * slope.error);
+  EXPECT_LE(slope.value + t * slope.error, -0.5) << "lines that are no better than random ones";
+  // Of one sample in each of n cells the error falls with n^-(1/2 + 1/d), where the integrand is
+  // smooth in its d dimensions, here 4. Faster, and realizations would not be independent.
+  EXPECT_GE(slope.value + t * slope.error, -0.75);
   EXPECT_GT(faulty.value - t * faulty.error, -0.5) << "planted fault: a bias of 2 %";
 }
 
 // Canyon of the reference with the steepest light: constant radiosity per patch errs most.
 TEST(Convergence, ErrorFallsWithTheSizeOfPatches) {
-  if (shared_missing("reference")) return;
   const auto c = reference_cases("05_radiosity/street_canyon_2d.json", "canyon_7").at(0);
   const double W = number(c["W"]), H = number(c["H"]), y = H;
   const auto& rho = c["rho_floor_wallSunlit_wallOther"];
@@ -114,7 +115,9 @@ TEST(Convergence, ErrorFallsWithTheSizeOfPatches) {
   // Planted fault of the other cases: a mesh that does not matter would not fall at all.
   EXPECT_GT(coarse.mean - middle.mean,
             t * std::hypot(coarse.standard_error, middle.standard_error));
-  EXPECT_GT(middle.mean + t * middle.standard_error, fine.mean);
+  // At least in proportion to the edge, a quarter of the middle one.
+  EXPECT_LE(fine.mean,
+            middle.mean / 4 + t * std::hypot(fine.standard_error, middle.standard_error / 4));
   EXPECT_GT(coarse.mean - fine.mean, t * std::hypot(coarse.standard_error, fine.standard_error));
 }
 

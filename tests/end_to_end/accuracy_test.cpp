@@ -12,23 +12,14 @@
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"
+#include "tests/support/square_folder.h"
 
 namespace sunload::test {
 namespace {
 
-struct Square {
-  WorkFolder folder;
-  explicit Square(const std::string& solver, const std::string& max_edge_m = "1.5") {
-    folder.write("square.obj", square_obj);
-    folder.write("square.yaml", square_study("totals", solver, max_edge_m));
-  }
-  Ran run(const std::string& output, std::vector<std::string> more = {}) const {
-    more.insert(more.begin(), {"run", "square.yaml", "--output", output});
-    return program(folder, more);
-  }
-  std::string result(const std::string& output) const {
-    return folder / (output + "/square/baseline.h5");
-  }
+struct Square : SquareFolder {
+  explicit Square(const std::string& solver, const std::string& max_edge_m = "1.5")
+      : SquareFolder(square_study("totals", solver, max_edge_m)) {}
 };
 
 TEST(AccuracyStudy, DecidesCountsOnceForThreadsAndShards) {

@@ -24,7 +24,7 @@
 #include "io/plan/scene_build.h"
 #include "io/result/reader.h"
 #include "tests/support/program.h"
-#include "tests/support/reference.h"
+#include "tests/support/real_models.h"
 
 namespace sunload::test {
 namespace {
@@ -163,7 +163,8 @@ double percent(double value, double reference) { return 100 * (value / reference
 void expect_published(const std::string& id, double far_ground) {
   const std::string table_path = "data/studies/ashrae140_weather/" + id + "_results.json";
   const std::string weather = "WD100_denver.epw";
-  if (shared_missing(table_path) || shared_missing("data/weather/" + weather)) return;
+  SUNLOAD_NEEDS_MODEL(table_path);
+  SUNLOAD_NEEDS_MODEL("data/weather/" + weather);
   const auto table = nlohmann::json::parse(std::ifstream(shared_path(table_path)));
   const WorkFolder folder;
   const auto result = run(folder, study_text(weather, "year_of: weather",
@@ -210,7 +211,8 @@ std::map<std::string, std::vector<double>> trajectories(const std::string& path)
 TEST(Ashrae140Weather, SantiagoInTheSouth) {
   const std::string path = "data/studies/ashrae140_weather/WD300_dymola_reference.txt";
   const std::string weather = "WD300_santiago.epw";
-  if (shared_missing(path) || shared_missing("data/weather/" + weather)) return;
+  SUNLOAD_NEEDS_MODEL(path);
+  SUNLOAD_NEEDS_MODEL("data/weather/" + weather);
   constexpr double year_s = 365 * seconds_per_day, offset_s = -4 * seconds_per_hour;
   constexpr int samples = 101;
   std::string instants;

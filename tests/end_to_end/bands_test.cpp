@@ -10,6 +10,7 @@
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"
+#include "tests/support/square_folder.h"
 #include "tests/support/statistics.h"
 
 namespace sunload::test {
@@ -17,9 +18,7 @@ namespace {
 
 const std::string sensors = "sensors: {points: [{position_m: [0, -5, 1.5], normal: [0, -1, 0]}]}\n";
 
-struct Square {
-  WorkFolder folder;
-  Square() { folder.write("square.obj", square_obj); }
+struct Square : SquareFolder {
   enum class Walls { by_light, grey };
   /// Walls are grey under white light, else as asked for.
   void write(const std::string& solver, const std::string& errors = "totals",
@@ -31,14 +30,7 @@ struct Square {
     put("source: clear_sky", "source: clear_sky, colour: " + colour);
     if (colour == "sky" && walls == Walls::by_light)
       put("{diffuse: 0.6}", "{diffuse: [0.8, 0.6, 0.4]}");
-    folder.write("square.yaml", text);
-  }
-  Ran run(const std::string& output, std::vector<std::string> more = {}) const {
-    more.insert(more.begin(), {"run", "square.yaml", "--output", output});
-    return program(folder, more);
-  }
-  std::string result(const std::string& output) const {
-    return folder / (output + "/square/baseline.h5");
+    write_study(text);
   }
 };
 

@@ -14,6 +14,7 @@
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"
+#include "tests/support/square_folder.h"
 
 namespace sunload::test {
 namespace {
@@ -27,18 +28,14 @@ Lines lines_of(const std::string& text) {
   return lines;
 }
 
-struct Square {
-  WorkFolder folder;
-  explicit Square(const std::string& more = "") {
-    folder.write("square.obj", square_obj);
-    folder.write("square.yaml", square_study() + more);
-  }
+struct Square : SquareFolder {
+  explicit Square(const std::string& more = "") : SquareFolder(square_study() + more) {}
   Ran run(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin() + 1, "square.yaml");
     return program(folder, arguments);
   }
   std::string result(const std::string& variant = "baseline") const {
-    return folder / ("results/square/" + variant + ".h5");
+    return SquareFolder::result("results", variant);
   }
   /// Path of a batch, from its number.
   std::string batch(int number) const {

@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 
+from skip import skip
 from small_study import write_study
 
 VARIANTS = """variants:
@@ -101,11 +102,7 @@ def test(sunload, source, folder):
         assert np.allclose(file["patch_centroid"][()][found], coarse["patch_centroid"][()][match[found]], atol=1e-4)
     run([sunload, "compare", *results.values(), "--hdf5", target], 2)
     run([sunload, "compare", results["baseline"], results["dark"], "--hdf5", os.path.join(folder, "no/such.h5")], 3)
-    try:
-        import xarray
-    except ImportError:
-        print("NOT RUN: end_to_end/compare xarray: python3-xarray is not installed")
-        return
+    import xarray
     for engine in ("h5netcdf", "netcdf4"):
         with xarray.open_dataset(target, engine=engine) as data:
             assert data["light_load_difference"].dims == ("patch",)
@@ -114,8 +111,7 @@ def test(sunload, source, folder):
 def main():
     sunload, source = (os.path.abspath(word) for word in sys.argv[1:3])
     if lacking:
-        print(f"NOT RUN: end_to_end/compare: {lacking}")
-        return
+        skip(lacking)
     with tempfile.TemporaryDirectory(prefix="sunload-compare-") as folder:
         test(sunload, source, folder)
 
@@ -123,9 +119,10 @@ def main():
 try:
     import h5py
     import numpy as np
+    import xarray  # noqa: F401
     lacking = ""
 except ImportError as error:
-    lacking = f"{error.name} is not installed (python3-h5py)"
+    lacking = f"{error.name} is not installed (python3-h5py, python3-xarray)"
 
 if __name__ == "__main__":
     main()

@@ -10,6 +10,7 @@
 
 #include "io/result/reader.h"
 #include "tests/support/program.h"
+#include "tests/support/real_models.h"
 #include "tests/support/reference.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"
@@ -104,7 +105,7 @@ TEST(Materials, EveryPropertyIsInTheHash) {
 TEST(Materials, WindowsOfDenverTransmitAsPublished) {
   const std::string table = "07_cie171_bestest/ashrae140_solar_annual.csv";
   const std::string weather = "data/weather/WD100_denver.epw";
-  if (shared_missing("reference/" + table) || shared_missing(weather)) return;
+  SUNLOAD_NEEDS_MODEL(weather);
   const auto row = [&](const std::string& quantity, const std::string& name) {
     for (const auto& r : read_csv(table))
       if (r.at("quantity").find(quantity) != std::string::npos && r.at("case") == name) return r;

@@ -15,6 +15,7 @@ import subprocess
 import sys
 import tempfile
 
+from skip import skip
 from small_study import SQUARE
 
 STUDY = """format: sunload-study-1
@@ -280,8 +281,7 @@ def test(sunload, source, folder):
 
 def main():
     if missing:
-        print(f"NOT RUN: end_to_end/plots: {missing}")
-        return
+        skip(missing)
     with tempfile.TemporaryDirectory(prefix="sunload-plots-") as folder:
         test(os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), folder)
 

@@ -14,6 +14,7 @@
 #include "tests/support/reference.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"
+#include "tests/support/square_folder.h"
 
 namespace sunload::test {
 namespace {
@@ -25,21 +26,11 @@ const std::string three_sensors =
     "    - {position_m: [-12, -12, 0], normal: [0, 0, 1]}\n"
     "    - {position_m: [0, 6, 3], normal: [0, 0, 2]}\n";
 
-struct Square {
-  WorkFolder folder;
-  explicit Square(const std::string& more = three_sensors, const std::string& errors = "totals") {
-    folder.write("square.obj", square_obj);
-    write(more, errors);
-  }
+struct Square : SquareFolder {
+  explicit Square(const std::string& more = three_sensors, const std::string& errors = "totals")
+      : SquareFolder(square_study(errors) + more) {}
   void write(const std::string& more, const std::string& errors = "totals") const {
-    folder.write("square.yaml", square_study(errors) + more);
-  }
-  Ran run(const std::string& output, std::vector<std::string> more = {}) const {
-    more.insert(more.begin(), {"run", "square.yaml", "--output", output});
-    return program(folder, more);
-  }
-  std::string result(const std::string& output) const {
-    return folder / (output + "/square/baseline.h5");
+    write_study(square_study(errors) + more);
   }
 };
 
@@ -206,7 +197,6 @@ double largest_difference(const std::vector<std::pair<double, double>>& found,
 }
 
 TEST(SensorSunHours, OfCourtyardsStreetsAndWalls) {
-  if (shared_missing("reference")) return;
   constexpr double step_min = 1, hour_min = 60;
   for (const auto& c : reference_cases("06_direct_sun/sun_hours.json")) {
     const std::string id = c["id"];

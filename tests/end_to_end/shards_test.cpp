@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// One process, shards, ranks of MPI: the same bits; and who finishes what.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include <thread>
 
 #include "io/base/waiting_lock.h"
+#include "tests/support/child_process.h"
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"
@@ -106,33 +106,12 @@ TEST(Shards, AtTheSameTimeGiveTheSameBits) {
 }
 
 /// Lives with the lock of a prepared file until it is killed.
-class Tracer {
- public:
-  explicit Tracer(const std::string& lock_path) {
-    int told[2];
-    if (::pipe(told) != 0) throw std::runtime_error("pipe failed");
-    process_ = ::fork();
-    if (process_ == 0) {
-      const WaitingLock lock(lock_path, {});
-      const char held = lock.is_held() ? 'y' : 'n';
-      if (::write(told[1], &held, 1) == 1)
-        for (;;) ::pause();
-      ::_exit(1);
-    }
-    char held = 0;
-    if (::read(told[0], &held, 1) != 1 || held != 'y') throw std::runtime_error("no lock");
-  }
-  ~Tracer() { kill(); }
-  void kill() {
-    if (process_ < 0) return;
-    ::kill(process_, SIGKILL);
-    ::waitpid(process_, nullptr, 0);
-    process_ = -1;
-  }
-
- private:
-  pid_t process_ = -1;
-};
+ChildProcess tracer_with(const std::string& lock_path) {
+  return ChildProcess([&](const ChildProcess::Hold& hold) {
+    const WaitingLock lock(lock_path, {});
+    hold(lock.is_held());
+  });
+}
 
 void until_it_waits(Process& process) {
   while (process.is_running() && process.err_so_far().find("waiting for it") == std::string::npos)
@@ -145,7 +124,8 @@ TEST(Shards, WaitingForLinesEndsWithTimeSignalsAndTheTracer) {
   EXPECT_EQ(shard(folder, 0, 3).code, 0);
   const std::string prepared = folder / ("results/" + files(folder, "/prepared").front());
   std::filesystem::remove(prepared);
-  Tracer tracer(prepared + ".lock");
+  ChildProcess tracer = tracer_with(prepared + ".lock");
+  ASSERT_TRUE(tracer.is_well());
   const Ran limited =
       program(folder, {"run", "street.yaml", "--shard", "1/3", "--time-limit", "0.01"});
   EXPECT_EQ(limited.code, 75) << limited.err;
@@ -212,6 +192,9 @@ TEST(Shards, ADamagedPreparedFileIsMadeAgain) {
 }
 
 /// mpirun, or empty where it is not installed.
+constexpr const char* no_mpirun = "NOT RUN: no mpirun (package openmpi-bin)";
+constexpr const char* no_mpi = "NOT RUN: this build has no MPI (package libopenmpi-dev)";
+
 std::string mpirun() {
   for (const char* path : {"/usr/bin/mpirun", "/usr/local/bin/mpirun"})
     if (::access(path, X_OK) == 0) return path;
@@ -227,19 +210,13 @@ std::vector<std::string> rank_words(int ranks, std::vector<std::string> argument
 }
 
 TEST(Shards, RanksOfMpiGiveTheSameBits) {
-  if (mpirun().empty()) {
-    std::printf("NOT RUN: ranks of MPI: no mpirun (package openmpi-bin)\n");
-    return;
-  }
+  if (mpirun().empty()) GTEST_SKIP() << no_mpirun;
   for (const int ranks : {2, 3}) {
     const WorkFolder folder;
     folder.write("street.yaml", street_study());
     Process process(rank_words(ranks, {"run", "street.yaml", "--threads", "1"}), folder.path());
     const Ran ran = process.wait();
-    if (ran.err.find("this build has no MPI") != std::string::npos) {
-      std::printf("NOT RUN: ranks of MPI: this build has none (package libopenmpi-dev)\n");
-      return;
-    }
+    if (ran.err.find("this build has no MPI") != std::string::npos) GTEST_SKIP() << no_mpi;
     EXPECT_EQ(ran.code, 0) << ran.err;
     expect_same_result(folder);
     EXPECT_EQ(folder.content("results"),
@@ -248,10 +225,7 @@ TEST(Shards, RanksOfMpiGiveTheSameBits) {
 }
 
 TEST(Shards, RanksThatAreStoppedGoOn) {
-  if (mpirun().empty()) {
-    std::printf("NOT RUN: ranks of MPI that are stopped: no mpirun (package openmpi-bin)\n");
-    return;
-  }
+  if (mpirun().empty()) GTEST_SKIP() << no_mpirun;
   const WorkFolder folder;
   // Four times the patches, so that mpirun has the time to pass the signal on.
   folder.write("street.yaml",
@@ -260,7 +234,7 @@ TEST(Shards, RanksThatAreStoppedGoOn) {
   while (process.is_running() && files(folder, ".batch").empty()) std::this_thread::sleep_for(1ms);
   process.send(SIGTERM);
   const Ran ran = process.wait();
-  if (ran.err.find("this build has no MPI") != std::string::npos) return;
+  if (ran.err.find("this build has no MPI") != std::string::npos) GTEST_SKIP() << no_mpi;
   EXPECT_NE(ran.code, 0) << ran.err;
   // What was finished is kept: batches, or all of them merged where the ranks were faster.
   EXPECT_GE(files(folder, ".batch").size() + files(folder, ".h5").size(), 1u) << ran.err;

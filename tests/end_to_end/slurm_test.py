@@ -13,6 +13,7 @@ import sys
 import tempfile
 
 from same_data import different_data
+from skip import skip
 from small_slurm import SmallSlurm, missing
 
 STUDY = """format: sunload-study-1
@@ -113,8 +114,7 @@ def main():
         except ImportError:
             why = "python3-h5py is not installed"
     if why:
-        print(f"NOT RUN: end_to_end/slurm: {why}")
-        return
+        skip(why)
     # Sockets have short names: no deep folder of the build.
     with tempfile.TemporaryDirectory(prefix="sunload-slurm-") as folder:
         os.makedirs(os.path.join(folder, "slurm"))

@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 
+from skip import skip
 from small_study import SQUARE
 
 # A name that would be a program, were it not escaped.
@@ -236,8 +237,7 @@ def main():
     sunload, source, packages = (os.path.abspath(word) for word in sys.argv[1:4])
     why = lacking or missing(packages)
     if why:
-        print(f"NOT RUN: end_to_end/view: {why}")
-        return
+        skip(why)
     with tempfile.TemporaryDirectory(prefix="sunload-view-") as folder:
         test(sunload, source, packages, folder)
 

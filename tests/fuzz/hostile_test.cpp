@@ -11,6 +11,7 @@
 #include "geo/mesh/mesh_prepare.h"
 #include "io/scene/file.h"
 #include "tests/fuzz/fuzz_target.h"
+#include "tests/support/refusal_of.h"
 
 namespace sunload::fuzz {
 namespace {
@@ -21,12 +22,7 @@ constexpr std::size_t largest_file = 1'000'000;
 std::string refusal(const std::string& name, const std::string& text,
                     const PrepareRules& rules = {}) {
   EXPECT_LT(text.size(), largest_file);
-  try {
-    prepare(read_scene_file(file_of(text, name), {}), rules);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+  return test::refusal_of([&] { prepare(read_scene_file(file_of(text, name), {}), rules); });
 }
 
 void expect_refused(const std::string& name, const std::string& text, const std::string& why) {

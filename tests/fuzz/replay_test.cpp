@@ -5,8 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <new>
 #include <stdexcept>
 #include <vector>
@@ -28,11 +26,6 @@ std::vector<fs::path> files_of(const fs::path& place) {
   for (const auto& entry : fs::directory_iterator(place, absent)) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
-}
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 class Replay : public testing::TestWithParam<std::string> {};

@@ -268,9 +268,9 @@ TEST(Bands, CostNoFurtherRays) {
   const auto light = suns(red_sun, blue_sky);
   const auto broadband = solve(scene, light, court_rules(), split);
   const auto bands = solve_bands(scene, light, court_rules(), split);
-  EXPECT_EQ(bands[0].work.direct_rays, broadband.work.direct_rays);
-  EXPECT_EQ(bands[0].work.mirror_rays, broadband.work.mirror_rays);
-  EXPECT_EQ(bands[0].work.line_rays, broadband.work.line_rays);
+  EXPECT_EQ(bands[0].work[Work::direct_rays], broadband.work[Work::direct_rays]);
+  EXPECT_EQ(bands[0].work[Work::mirror_rays], broadband.work[Work::mirror_rays]);
+  EXPECT_EQ(bands[0].work[Work::line_rays], broadband.work[Work::line_rays]);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 
 #include "geo/mesh/mesh_prepare.h"
 #include "io/scene/file.h"
-#include "tests/support/reference.h"
+#include "tests/support/real_models.h"
 
 namespace sunload {
 namespace {
@@ -261,7 +261,7 @@ std::vector<std::filesystem::path> city_files() {
 }
 
 TEST(CitySolids, VolumesAndAreasAreThoseOfThePolygons) {
-  if (test::shared_missing("data/city")) return;
+  SUNLOAD_NEEDS_MODEL("data/city");
   std::size_t bodies = 0;
   for (const auto& file : city_files()) {
     const auto raw = bodies_of_file(file);
@@ -281,7 +281,7 @@ TEST(CitySolids, VolumesAndAreasAreThoseOfThePolygons) {
 
 // The twin: a triangle less, or one that is turned over, does not pass.
 TEST(CitySolids, APlantedFaultIsRefused) {
-  if (test::shared_missing("data/city")) return;
+  SUNLOAD_NEEDS_MODEL("data/city");
   const auto file = test::shared_path("data/city/lod2_100_buildings_v11_epsg3068.city.json");
   const auto raw = bodies_of_file(file);
   auto mesh = prepare(read_scene_file(file, {}), {}).mesh;

@@ -61,8 +61,9 @@ TEST(Street, OfGlassOnBothSidesKeepsItsEnergy) {
   rules.faint_glint = SolverRules{}.faint_glint;
   const auto seen = solve_sun(scene, sun, rules, 4);
   check_ledger("street", seen);
-  std::cout << seen.work.mirror_beams << " beams, " << seen.work.mirror_shots << " arrivals\n";
-  EXPECT_EQ(seen.work.mirror_shots, 0u);
+  std::cout << seen.work[Work::mirror_beams] << " beams, " << seen.work[Work::mirror_shots]
+            << " arrivals\n";
+  EXPECT_EQ(seen.work[Work::mirror_shots], 0u);
   rules.most_sun_beams = 0;
   const auto shot = solve_sun(scene, sun, rules, 4);
   check_ledger("street by shooting", shot);
@@ -102,12 +103,13 @@ TEST(CurvedGlass, IsShotAndAgreesWithItsImages) {
   auto rules = glint_rules(By::images, 2);
   rules.most_sun_beams = 128;
   const auto shot = solve_sun(scene, sun, rules, 1);
-  EXPECT_EQ(shot.work.mirror_beams, 0u);  // more orientations face the sun
-  EXPECT_GT(shot.work.mirror_shots, 0u);
+  EXPECT_EQ(shot.work[Work::mirror_beams], 0u);  // more orientations face the sun
+  EXPECT_GT(shot.work[Work::mirror_shots], 0u);
   rules.most_sun_beams = 100'000;
   const auto seen = solve_sun(scene, sun, rules, 1);
-  EXPECT_EQ(seen.work.mirror_shots, 0u);
-  std::cout << seen.work.mirror_beams << " beams, " << shot.work.mirror_shots << " arrivals\n";
+  EXPECT_EQ(seen.work[Work::mirror_shots], 0u);
+  std::cout << seen.work[Work::mirror_beams] << " beams, " << shot.work[Work::mirror_shots]
+            << " arrivals\n";
   check_ledger("images", seen);
   check_ledger("shooting", shot);
   const auto on_ground = [&](std::size_t i) { return seen.patches[i].triangle < 2; };

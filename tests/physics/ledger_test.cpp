@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "tests/support/court.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 
@@ -13,25 +14,6 @@ namespace sunload::test {
 namespace {
 
 using Facing = SceneBuilder::Facing;
-
-/// A court with a mirror wall, a lamp, and a two-sided screen.
-Scene court() {
-  SceneBuilder builder;
-  const int ground = builder.material({"ground", 0.25, 0, 0});
-  const int wall = builder.material({"wall", 0.45, 0, 0});
-  const int glass = builder.material({"glass", 0.1, 0.7, 0});
-  const int lamp = builder.material({"lamp", 0.3, 0, 25});
-  builder.object("ground").quad({-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}, ground);
-  builder.object("house").box({-6, 3, 0.01}, {6, 6, 5}, wall, Facing::outward);
-  builder.object("glass").quad({-5, 2.99, 0.5}, {5, 2.99, 0.5}, {5, 2.99, 4.5}, {-5, 2.99, 4.5},
-                               glass);
-  builder.object("tower").box({-6, -5, 0.01}, {-3, -2, 8}, wall, Facing::outward);
-  builder.object("lamp").quad({3, -4, 3}, {3, -3, 3}, {4, -3, 3}, {4, -4, 3}, lamp);
-  builder.sides(Sides::two)
-      .object("screen")
-      .quad({5, -8, 0.2}, {8, -8, 0.2}, {8, -8, 3}, {5, -8, 3}, wall);
-  return builder.scene();
-}
 
 TEST(Ledger, ResidualIsZeroWithinItsError) {
   const auto solved = solve(court(), three_suns(), test_rules(), {.max_edge_m = 1.5});

@@ -83,7 +83,6 @@ struct Seen {
 constexpr double enough = 20;  // [m] of mirror that holds every image in it
 
 TEST(LampInMirrors, OneInfiniteMirrorAndTwoInACorner) {
-  if (shared_missing("reference")) return;
   for (const char* kind : {"one_infinite_mirror", "corner_two_mirrors"})
     for (const auto& c : reference_cases(mirrors, kind)) {
       Seen seen(c);
@@ -96,7 +95,6 @@ TEST(LampInMirrors, OneInfiniteMirrorAndTwoInACorner) {
 }
 
 TEST(LampInMirrors, ParallelMirrorsAtAnyDepth) {
-  if (shared_missing("reference")) return;
   const auto cases = reference_cases(mirrors, "parallel_mirrors");
   for (const auto& c : cases) {
     Seen seen(c);
@@ -114,7 +112,6 @@ TEST(LampInMirrors, ParallelMirrorsAtAnyDepth) {
 }
 
 TEST(LampInMirrors, FiniteMirrorIsAWindow) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(mirrors, "finite_mirror")) {
     Seen seen(c);
     seen.mirror_x(0, +1, {0, number(c["mirror_rect_y"][0]), number(c["mirror_rect_z"][0])},
@@ -143,7 +140,6 @@ Scene mirror_room(const json& size, double reflectance, double rho, double M) {
 }
 
 TEST(MirrorRoom, FloorSeesTheCeilingInItsWalls) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(mirrors, "mirror_box")) {
     const double reflectance = number(c["wall_mirror_reflectance"]);
     const auto solved = solve(mirror_room(c["size"], reflectance, 0, 0), {night}, rules_of(2048));
@@ -193,21 +189,20 @@ struct Glint {
 };
 
 TEST(SunInAMirror, LandsWhereTheLawOfReflectionSays) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(mirrors, "sun_on_mirror")) {
     const Glint glint(c);
     constexpr double edge = 0.2;
     Watch watch;
     const Scene scene = glint.builder.scene();
-    LightSolver solver(scene, {.max_edge_m = edge}, rules_of(1), watch);
+    const auto traced = trace_scene(scene, {.max_edge_m = edge}, rules_of(1), watch);
     const std::vector<SunLight> light{one_second(glint.sun, glint.dni)};
-    const auto tally = solver.solve(light, watch);
+    const auto tally = sunload::solve(*transport_of(*traced), light, watch).bands.front();
     const auto& by_mirror = tally.irradiance[static_cast<std::size_t>(Part::mirror)];
     const double E = number(c["extra_horizontal_irradiance"]);
     int inside = 0, outside = 0;
-    for (std::size_t i = 0; i < solver.hierarchy().patch_count(); ++i) {
-      if (solver.hierarchy().patches()[i].triangle >= 2) continue;
-      const double depth = glint.depth(solver.hierarchy().centroid(i));
+    for (std::size_t i = 0; i < traced->hierarchy().patch_count(); ++i) {
+      if (traced->hierarchy().patches()[i].triangle >= 2) continue;
+      const double depth = glint.depth(traced->hierarchy().centroid(i));
       // A patch lies wholly on one side where its centroid is an edge away.
       if (depth > edge) {
         ++inside;
@@ -223,7 +218,6 @@ TEST(SunInAMirror, LandsWhereTheLawOfReflectionSays) {
 }
 
 TEST(SunInAMirror, CarriesItsPower) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(mirrors, "sun_on_mirror")) {
     const Glint glint(c);
     const auto solved = solve(glint.builder.scene(), {one_second(glint.sun, glint.dni)},
@@ -251,7 +245,6 @@ TEST(SunInAMirror, CarriesItsPower) {
 // Of one reflection: what the first of two mirrors sends on is received by the second, and
 // what the second would send on is cut: 0.9 · 0.8 of the beam, with the rest of it absorbed.
 TEST(SunInAMirror, ReflectionBeyondTheDepthIsBookedAsUnshot) {
-  if (shared_missing("reference")) return;
   SceneBuilder builder;
   const int first = builder.material({"first", 0, 0.9, 0}),
             second = builder.material({"second", 0, 0.8, 0});
@@ -268,7 +261,6 @@ TEST(SunInAMirror, ReflectionBeyondTheDepthIsBookedAsUnshot) {
   const Verdict closed = expect_mean(residual, 0, float_rounding * ledger.in());
   EXPECT_TRUE(closed) << closed.text;
   EXPECT_LE(closed.standard_error, 1e-3 * ledger.in());
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(mirrors, "periscope"))
     EXPECT_NEAR(ledger[Term::unshot], number(c["H"]), number(c["H"]) * float_rounding);
 }

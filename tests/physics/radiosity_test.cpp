@@ -42,7 +42,6 @@ void check(const std::string& id, const std::vector<double>& values, double trut
 
 // One unknown per triangle with exact form factors: B = E + rho H.
 TEST_P(Radiosity, RoomOfTwelveTrianglesHasTheExactRadiosity) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases("05_radiosity/box_12_triangles.json", "box12_")) {
     SceneBuilder builder;
     double rho_most = 0;
@@ -81,7 +80,6 @@ Scene cavity(double rho, double M) {
 }
 
 TEST_P(Radiosity, ClosedCavityUniformWallsAndTruncatedBounces) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(exact_systems, "uniform_closed_")) {
     const double rho = number(c["rho"]), M = number(c["E"]);
     constexpr double negligible = 1e-6;
@@ -119,7 +117,6 @@ Scene plates(const json& rho, const json& M) {
 
 // B1 = M1 + rho1 B2, B2 = M2 + rho2 B1. Mirrors are taken as perfect and as many.
 TEST_P(Radiosity, InfinitePlatesBetweenMirrors) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(exact_systems, "infinite_parallel_plates_")) {
     const Scene scene = plates(c["rho"], c["E"]);
     constexpr int bounces = 200;
@@ -137,7 +134,6 @@ TEST_P(Radiosity, InfinitePlatesBetweenMirrors) {
 // as uniform in the reference, hence by the solver only where one patch is one rectangle.
 // Two triangles per rectangle differ from that by what halving the mesh changes.
 TEST_P(Radiosity, OpenRectanglesSeeEachOther) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(exact_systems, "two_open_rectangles_")) {
     const double x = number(c["size"][0]), y = number(c["size"][1]), d = number(c["distance"]);
     const auto solved_with = [&](double max_edge) {
@@ -165,7 +161,6 @@ TEST_P(Radiosity, OpenRectanglesSeeEachOther) {
 
 // Radiance L from everywhere, every surface sending (1 - rho) pi L of its own: B = pi L.
 TEST_P(Radiosity, FurnaceOfAnOpenScene) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(exact_systems, "furnace_open_")) {
     const double rho = number(c["rho"]), glow = pi * number(c["L"]);
     SceneBuilder builder;
@@ -207,7 +202,6 @@ struct Canyon {
 };
 
 TEST_P(Radiosity, StreetCanyonWithSunAndSky) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases("05_radiosity/street_canyon_2d.json", "canyon_")) {
     const Canyon canyon(c);
     // Every reflection is shot anew: as exact as demanded with fewer samples than lines.

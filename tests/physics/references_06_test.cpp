@@ -76,7 +76,6 @@ std::string day_study(const Row& row, double step_min) {
 }
 
 TEST(ClearDay, EnergyAndHoursOnAPlane) {
-  if (shared_missing("reference")) return;
   constexpr double step_min = 10;
   const auto rows = read_csv("06_direct_sun/clear_day_energy.csv");
   ASSERT_GE(rows.size(), 9u);
@@ -126,7 +125,6 @@ std::vector<SunLight> day_of(double latitude, double declination, int steps) {
 }
 
 TEST(FixedDeclination, EnergyIsTheClosedForm) {
-  if (shared_missing("reference")) return;
   const auto rows = read_csv("06_direct_sun/fixed_declination_day.csv");
   ASSERT_GE(rows.size(), 6u);
   for (const auto& row : rows) {

@@ -85,12 +85,12 @@ TEST(SensorsByCurvedMirrors, CollectWhatATroughConcentrates) {
       const double x0 = Trough::x_of(a0, h), x1 = Trough::x_of(a1, h);
       add_row(scene, std::min(x0, x1), std::max(x0, x1), y, h, sensors);
       const auto solved = solve(scene, {disk_sun({0, 0, 1})}, rules_by(transport));
-      EXPECT_EQ(solved.work.mirror_beams, 0u);  // more orientations face the sun
+      EXPECT_EQ(solved.work[Work::mirror_beams], 0u);  // more orientations face the sun
       const double truth =
           rho * dni * Trough::R * (std::sin(a1) - std::sin(a0)) / std::abs(x1 - x0);
       // Facets at either end of the part belong to it by some share between 0 and 1.
       const double bias = truth * Trough::step() / (a1 - a0);
-      std::cout << solved.work.sensor_rays << " rays for " << sensors << " sensors\n";
+      std::cout << solved.work[Work::sensor_rays] << " rays for " << sensors << " sensors\n";
       check_glint("trough, " + std::to_string(h) + " m", mean_of_sensors(solved.tally, 0, sensors),
                   truth, 1.02 * truth, bias);
     }
@@ -111,8 +111,8 @@ TEST(SensorsByCurvedMirrors, AgreeWithAPatchOfTheSamePlace) {
   SolverRules rules = rules_by(Transport::gather);
   rules.direct_samples *= 4;  // little of the light that mirrors send meets the patch
   const auto solved = solve(scene, {disk_sun({0, 0.6, 0.8})}, rules);
-  EXPECT_EQ(solved.work.mirror_beams, 0u);
-  EXPECT_GT(solved.work.mirror_shots, 0u);
+  EXPECT_EQ(solved.work[Work::mirror_beams], 0u);
+  EXPECT_GT(solved.work[Work::mirror_shots], 0u);
   const auto patch =
       solved.means([&](std::size_t i) { return solved.patches[i].triangle >= receiver; });
   const auto rough = mean_of_sensors(solved.tally, 0, coarse);
@@ -163,10 +163,10 @@ TEST(SensorsByCurvedMirrors, GetNothingTwice) {
   rules.mirror_depth = 1;
   rules.most_sun_beams = 1000;
   const auto by_beams = solve(scene, {light}, rules);
-  EXPECT_GT(by_beams.work.mirror_beams, 128u);
+  EXPECT_GT(by_beams.work[Work::mirror_beams], 128u);
   rules.most_sun_beams = 0;
   const auto without = solve(scene, {light}, rules);
-  EXPECT_EQ(without.work.mirror_beams, 0u);
+  EXPECT_EQ(without.work[Work::mirror_beams], 0u);
   EXPECT_EQ(by_beams.tally.sensors.exposure_realization,
             without.tally.sensors.exposure_realization);
   EXPECT_EQ(by_beams.tally.sensors.irradiance, without.tally.sensors.irradiance);

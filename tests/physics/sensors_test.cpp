@@ -62,7 +62,6 @@ int lines_for(double truth) {
 // ---- form factors ----------------------------------------------------------------------
 
 TEST(SensorFormFactors, ToPolygons) {
-  if (shared_missing("reference")) return;
   int cases = 0;
   for (const auto& c : reference_cases("04_form_factors/closed_forms.json")) {
     const auto& g = c["geometry"];
@@ -96,7 +95,6 @@ Polygon disk(Vec3 centre, double radius, int corners) {
 }
 
 TEST(SensorFormFactors, ToDisks) {
-  if (shared_missing("reference")) return;
   constexpr int corners = 64;
   int cases = 0;
   for (const auto& c : reference_cases("04_form_factors/closed_forms.json", "dA_to_parallel_")) {
@@ -115,7 +113,6 @@ TEST(SensorFormFactors, ToDisks) {
 }
 
 TEST(SensorFormFactors, SkyFromCanyonFloors) {
-  if (shared_missing("reference")) return;
   int cases = 0;
   for (const auto& c : reference_cases("04_form_factors/closed_forms.json", "canyon_svf_floor_")) {
     const auto kind = c["kind"].get<std::string>();
@@ -152,7 +149,6 @@ void add_square(Stage& stage, double s, double h, int material, Vec3 centre = {}
 }
 
 TEST(SensorLamps, SquareEmitters) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases("08_smits_jensen_style/cases.json", "emission_square"))
     for (std::size_t p = 0; p < c["points"].size(); ++p) {
       const double truth = number(c["irradiance"][p]), h = number(c["h"]);
@@ -168,7 +164,6 @@ TEST(SensorLamps, SquareEmitters) {
 }
 
 TEST(SensorLamps, TilingMakesNoDifference) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases("08_smits_jensen_style/cases.json", "emission_tiling")) {
     Stage stage;
     add_square(stage, number(c["s"]), number(c["h"]), stage.lamp, {}, c["n"].get<int>());
@@ -180,7 +175,6 @@ TEST(SensorLamps, TilingMakesNoDifference) {
 }
 
 TEST(SensorLamps, ShadowsOfSquares) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases("08_smits_jensen_style/cases.json", "shadow_square")) {
     Stage stage;
     add_square(stage, number(c["s"]), number(c["h"]), stage.lamp);
@@ -203,7 +197,6 @@ TEST(SensorLamps, ShadowsOfSquares) {
 }
 
 TEST(SensorLamps, InMirrors) {
-  if (shared_missing("reference")) return;
   for (const char* kind : {"one_infinite_mirror", "corner_two_mirrors", "finite_mirror"})
     for (const auto& c : reference_cases("05_radiosity/mirrors.json", kind)) {
       Stage stage;
@@ -230,7 +223,6 @@ TEST(SensorLamps, InMirrors) {
 // ---- the sun by mirrors, reflected light -------------------------------------------------
 
 TEST(SensorSun, MirroredOntoTheGround) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases("05_radiosity/mirrors.json", "sun_on_mirror")) {
     Stage stage;
     const double w = number(c["w"]), z0 = number(c["z0"]), z1 = z0 + number(c["h"]);
@@ -257,7 +249,6 @@ TEST(SensorSun, MirroredOntoTheGround) {
 }
 
 TEST(SensorReflection, FromALitRectangle) {
-  if (shared_missing("reference")) return;
   const auto name = "07_cie171_bestest/cie171_style.json";
   for (const auto& c : reference_cases(name, "diffuse_reflection")) {
     const auto& r = c["rectangle"];
@@ -363,7 +354,6 @@ void check_percent(const std::string& id, const std::vector<double>& values, dou
 }
 
 TEST(SensorSky, ThroughARoofOpening) {
-  if (shared_missing("reference")) return;
   const auto name = "07_cie171_bestest/cie171_style.json";
   int cases = 0;
   for (const auto& c : reference_cases(name, "roof_")) {
@@ -381,7 +371,6 @@ TEST(SensorSky, ThroughARoofOpening) {
 }
 
 TEST(SensorSky, ThroughAFacadeOpeningUnderOverhangAndBehindMask) {
-  if (shared_missing("reference")) return;
   const auto name = "07_cie171_bestest/cie171_style.json";
   int cases = 0;
   for (const char* kind : {"facade", "overhang", "vertical_mask"})
@@ -407,7 +396,6 @@ TEST(SensorSky, ThroughAFacadeOpeningUnderOverhangAndBehindMask) {
 }
 
 TEST(SensorSky, FarGroundThroughAFacadeOpening) {
-  if (shared_missing("reference")) return;
   const auto name = "07_cie171_bestest/cie171_style.json";
   for (const auto& c : reference_cases(name, "ground_reflected")) {
     Stage stage;
@@ -447,9 +435,10 @@ TEST(Sensors, OpenFieldIsGlobalHorizontalIrradiance) {
   Scene scene = stage.builder.scene();
   scene.sensors = stage.sensors;
   Watch watch;
-  LightSolver solver(scene, SplitRules{}, rules, watch);
-  const auto tally = solver.solve(std::vector{light}, watch);
-  const auto& ends = solver.sensor_lines().pooled.ends;
+  const auto traced = trace_scene(scene, SplitRules{}, rules, watch);
+  const auto tally =
+      sunload::solve(*transport_of(*traced), std::vector{light}, watch).bands.front();
+  const auto& ends = traced->sensors.lines.pooled.ends;
   EXPECT_EQ(ends[0].sky, 1.0f);
   EXPECT_EQ(ends[2].sky, 0.0f);
   for (const double E : of_sensor(tally, 0)) EXPECT_NEAR(E, ghi, float_rounding * ghi);
@@ -499,8 +488,8 @@ TEST(Sensors, OnASurfaceSeeItsHemisphereAndWithinABodyItsBacks) {
   Scene scene = stage.builder.scene();
   scene.sensors = stage.sensors;
   Watch watch;
-  LightSolver solver(scene, SplitRules{}, rules_of(64), watch);
-  const auto& ends = solver.sensor_lines().pooled.ends;
+  const auto traced = trace_scene(scene, SplitRules{}, rules_of(64), watch);
+  const auto& ends = traced->sensors.lines.pooled.ends;
   EXPECT_EQ(ends[0].sky, 1.0f);
   EXPECT_EQ(ends[0].backs, 0.0f);
   EXPECT_EQ(ends[1].sky, 0.0f);

@@ -69,7 +69,6 @@ double edge_shift(double coordinate, Vec3 sun) {
 }
 
 TEST(Shadows, OfABoxOnTheGround) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(shadows, "box_shadow_")) {
     const Vec3 sun = sun_of(c), size{number(c["box"][0]), number(c["box"][1]), number(c["box"][2])};
     double x0 = 0, x1 = size.x, y0 = 0, y1 = size.y;
@@ -92,7 +91,6 @@ TEST(Shadows, OfABoxOnTheGround) {
 }
 
 TEST(Shadows, OnOnePatchByBoxes) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(shadows, "sunlit_patch_")) {
     Ground g;
     std::vector<Vec3> p;
@@ -117,7 +115,6 @@ TEST(Shadows, OnOnePatchByBoxes) {
 }
 
 TEST(Shadows, InACourtyard) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(shadows, "courtyard_floor_")) {
     const double W = number(c["W"]), D = number(c["D"]), H = number(c["H"]);
     Ground g;
@@ -136,7 +133,6 @@ TEST(Shadows, InACourtyard) {
 
 // Facade to the south, the overhang wide enough that its ends' shadows miss the window.
 TEST(Shadows, UnderAnOverhang) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(shadows, "overhang_infinite_")) {
     ASSERT_EQ(number(c["facade_azimuth_deg"]), 180);
     const double h = number(c["h"]), out = number(c["overhang"]), top = h + number(c["offset"]);
@@ -155,7 +151,6 @@ TEST(Shadows, UnderAnOverhang) {
 }
 
 TEST(Shadows, OnAWallAcrossTheStreet) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(shadows, "street_facing_wall_")) {
     const double H1 = number(c["H1"]), W = number(c["W"]), H2 = number(c["H2"]);
     const double angle = radians(number(c["profile_angle_deg"]));
@@ -172,7 +167,6 @@ TEST(Shadows, OnAWallAcrossTheStreet) {
 }
 
 TEST(Shadows, OfASphere) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(shadows, "sphere_shadow_")) {
     const double R = number(c["R"]);
     const Vec3 sun = enu_direction({180, number(c["sun_elevation_deg"])});
@@ -211,7 +205,6 @@ TEST(Shadows, OfASphere) {
 }
 
 TEST(Shadows, IncidenceIsTheCosine) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(shadows, "incidence_")) {
     Ground g;
     std::vector<Vec3> p;

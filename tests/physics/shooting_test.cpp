@@ -11,6 +11,7 @@
 
 #include "geo/base/units.h"
 #include "solver/base/threads.h"
+#include "tests/support/court.h"
 #include "tests/support/reference.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
@@ -57,25 +58,6 @@ struct Case {
   int bounces;
   Scene (*scene)(Change);
 };
-
-/// A court with a mirror wall, a lamp, and a two-sided screen.
-Scene court(Change change) {
-  SceneBuilder builder;
-  const int ground = builder.material({"ground", change(0.25), 0, 0});
-  const int wall = builder.material({"wall", change(0.45), 0, 0});
-  const int glass = builder.material({"glass", change(0.1), 0.7, 0});
-  const int lamp = builder.material({"lamp", change(0.3), 0, 25});
-  builder.object("ground").quad({-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}, ground);
-  builder.object("house").box({-6, 3, 0.01}, {6, 6, 5}, wall, Facing::outward);
-  builder.object("glass").quad({-5, 2.99, 0.5}, {5, 2.99, 0.5}, {5, 2.99, 4.5}, {-5, 2.99, 4.5},
-                               glass);
-  builder.object("tower").box({-6, -5, 0.01}, {-3, -2, 8}, wall, Facing::outward);
-  builder.object("lamp").quad({3, -4, 3}, {3, -3, 3}, {4, -3, 3}, {4, -4, 3}, lamp);
-  builder.sides(Sides::two)
-      .object("screen")
-      .quad({5, -8, 0.2}, {8, -8, 0.2}, {8, -8, 3}, {5, -8, 3}, wall);
-  return builder.scene();
-}
 
 /// Two rows of houses along a street.
 Scene street(Change change) {
@@ -395,28 +377,28 @@ TEST(Shooting, NumberOfSamplesIsPowerByPowerPerSample) {
   rules.power_per_sample_w = per_sample;
   // The two patches of the lamp shoot, in every realization.
   const Solved lamp_only = solve(scene, {night}, rules);
-  EXPECT_NEAR(static_cast<double>(lamp_only.work.samples), lamp_w / per_sample, realizations);
+  EXPECT_NEAR(static_cast<double>(lamp_only.work[Work::samples]), lamp_w / per_sample,
+              realizations);
   // A reflection more: what its patches have received, times their reflectance.
   rules.bounces = 1;
   const Solved one = solve(scene, {night}, rules);
   const double reflected_w = lamp_only.tally.ledger[0][Term::unshot];
-  EXPECT_NEAR(static_cast<double>(one.work.samples), (lamp_w + reflected_w) / per_sample,
+  EXPECT_NEAR(static_cast<double>(one.work[Work::samples]), (lamp_w + reflected_w) / per_sample,
               realizations * (2.0 + static_cast<double>(one.area.size())));
-  EXPECT_GT(one.work.samples, lamp_only.work.samples);
+  EXPECT_GT(one.work[Work::samples], lamp_only.work[Work::samples]);
   // One sample of each patch with power is the least.
   rules.bounces = 0;
   rules.power_per_sample_w = 1e9;
-  EXPECT_EQ(solve(scene, {night}, rules).work.samples, 2u * realizations);
+  EXPECT_EQ(solve(scene, {night}, rules).work[Work::samples], 2u * realizations);
   // auto: as many as there are lines.
   rules.power_per_sample_w = {};
   const Solved by_auto = solve(scene, {night}, rules);
-  EXPECT_NEAR(static_cast<double>(by_auto.work.samples),
+  EXPECT_NEAR(static_cast<double>(by_auto.work[Work::samples]),
               static_cast<double>(by_auto.area.size()) * rules.lines_per_patch, realizations);
 }
 
 // One sample of every patch is enough for an unbiased result: only its error is large.
 TEST(Shooting, IsUnbiasedForTheFewestSamples) {
-  if (shared_missing("reference")) return;
   const auto c = reference_cases("05_radiosity/box_12_triangles.json", "box12_").front();
   SceneBuilder builder;
   double rho_most = 0;
@@ -482,7 +464,6 @@ TEST(Shooting, VarianceFallsWithTheNumberOfSamples) {
 
 // Chains of mirrors: a floor sees the ceiling in the walls, by light sent forward.
 TEST(Shooting, FloorSeesTheCeilingInMirrorWalls) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases("05_radiosity/mirrors.json", "mirror_box")) {
     const double reflectance = number(c["wall_mirror_reflectance"]);
     const double x = number(c["size"][0]), y = number(c["size"][1]), h = number(c["size"][2]);

@@ -66,7 +66,6 @@ TEST(SunDisk, HalfAngle) {
 }
 
 TEST(SunDisk, VisibleFractionsOfTheReference) {
-  if (shared_missing("reference/06_direct_sun/shadows.json")) return;
   const Edge edge;
   // Of the penumbra's width one per cent: the fraction's curvature (at most 1 per radius squared)
   // changes the mean over a strip by its width squared / 24.
@@ -126,7 +125,7 @@ TEST(SunDisk, PenumbraIsTwiceDistanceTimesTangentWide) {
     // Strips cut the width to one on each side; at its ends the disk's rim is a sliver that
     // samples may miss in one strip more.
     EXPECT_NEAR(partly * strip_m, expected_m, 3 * strip_m);
-    if (height_m == 50 && !shared_missing("reference/06_direct_sun/shadows.json")) {
+    if (height_m == 50) {
       const auto reference = read_json("06_direct_sun/shadows.json");
       for (const auto& row : reference.at("cases")) {
         if (row.at("id") != "penumbra_width_1") continue;

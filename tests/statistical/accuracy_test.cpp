@@ -6,9 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <iostream>
+#include <numeric>
 
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
@@ -35,6 +37,20 @@ PatchSpread spread_of(std::vector<double> of_line, std::vector<double> of_sample
   return spread;
 }
 
+/// Every count does, and half of it would not: `needed` are what the errors ask for, never fewer
+/// than the rules' own 64.
+void expect_enough(const std::vector<int>& counts, const std::vector<double>& needed) {
+  ASSERT_EQ(counts.size(), needed.size());
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const double least = std::max(64.0, needed[i]);
+    EXPECT_GE(counts[i], least) << i;
+    EXPECT_LT(counts[i], 2 * least) << i;
+  }
+}
+
+/// Errors of 8 realizations are known to 27 %: the variance that a goal of 10 % of 100 leaves.
+constexpr double allowed = 10 / 1.27 * (10 / 1.27);
+
 TEST(NeededCounts, AreTheLeastWhereTheGoalIsMetAlready) {
   const auto counts = needed_counts(spread_of({16 * 100}, {0}), rules_of(64, 8), {0.1, 4096}, 10);
   EXPECT_EQ(counts.lines_per_patch, 64);
@@ -43,14 +59,13 @@ TEST(NeededCounts, AreTheLeastWhereTheGoalIsMetAlready) {
 }
 
 TEST(NeededCounts, AreRaisedWhereTheErrorComesFrom) {
-  // One line: 300 %; for 10 % / 1.27 (errors of 8 realizations are known to 27 %) it takes 1440 of
-  // them, the next doubling of 64 is 2048.
+  // One line: 300 %.
   auto counts = needed_counts(spread_of({300 * 300}, {0}), rules_of(64, 8), {0.1, 4096}, 10);
-  EXPECT_EQ(counts.lines_per_patch, 2048);
+  expect_enough({counts.lines_per_patch}, {9e4 / allowed});
   EXPECT_EQ(counts.direct_samples, 8);
   counts = needed_counts(spread_of({0}, {300 * 300}), rules_of(64, 8), {0.1, 4096}, 10);
   EXPECT_EQ(counts.lines_per_patch, 64);
-  EXPECT_EQ(counts.direct_samples, 2048);
+  expect_enough({counts.direct_samples}, {9e4 / allowed});
   // Both: each must leave room for the other.
   counts = needed_counts(spread_of({300 * 300}, {300 * 300}), rules_of(64, 8), {0.1, 65536}, 10);
   EXPECT_LE(9e4 / counts.lines_per_patch + 9e4 / counts.direct_samples, 100.0);
@@ -95,13 +110,14 @@ TEST(NeededCounts, LeaveOutWhatReceivesNextToNothing) {
 }
 
 TEST(NeededCounts, GiveEveryPatchTheLinesThatItNeeds) {
-  // 10 % / 1.27 of 100: a variance of 62.
+  // A variance of 62.
   const auto rules = rules_of(64, 8);
   const auto counts =
       needed_counts(spread_of({100, 64 * 61, 64 * 63, 9e4}, {0, 0, 0, 0}), rules, {0.1, 4096}, 10);
-  EXPECT_EQ(counts.lines_of_patch, (std::vector{64, 64, 128, 2048}));
-  EXPECT_EQ(counts.mean_lines(), 576);
-  EXPECT_EQ(counts.lines_per_patch, 1024);  // of sensors
+  expect_enough(counts.lines_of_patch, {1, 64 * 61 / allowed, 64 * 63 / allowed, 9e4 / allowed});
+  const auto all = std::accumulate(counts.lines_of_patch.begin(), counts.lines_of_patch.end(), 0);
+  EXPECT_EQ(counts.mean_lines(), all / 4.0);
+  EXPECT_GE(counts.lines_per_patch, counts.mean_lines());  // of sensors
   EXPECT_EQ(counts.direct_samples, 8);
   EXPECT_EQ(counts.share, 1);
   // Those of the mean would do for no more than three of them.
@@ -128,9 +144,11 @@ TEST(NeededCounts, MeetTheGoalOfEveryInstant) {
   const auto counts = needed_counts(spread, rules, goal, 10);
   EXPECT_EQ(counts.lines_of_patch, (std::vector{4096, 64}));
   goal.irradiance_relative = 0.3;  // a variance of 5.6 and 560
-  EXPECT_EQ(needed_counts(spread, rules, goal, 10).lines_of_patch, (std::vector{1024, 64}));
+  expect_enough(needed_counts(spread, rules, goal, 10).lines_of_patch,
+                {64 * 6 * 9 / (0.09 * allowed), 64 * 60 / (9 * allowed)});
   goal.light_load_relative = 0.003;  // 0.056 of the load
-  EXPECT_EQ(needed_counts(spread, rules, goal, 10).lines_of_patch, (std::vector{2048, 2048}));
+  const double of_load = 100 / (0.03 * 0.03 * allowed);
+  expect_enough(needed_counts(spread, rules, goal, 10).lines_of_patch, {of_load, of_load});
   // What is dark for an instant does not count then.
   for (auto& of_sun : spread.irradiance) of_sun.value[0] = 0.99;
   goal.light_load_relative.reset();
@@ -142,13 +160,13 @@ TEST(NeededCounts, TellSamplesThatAreShotFromLines) {
   spread.load.of_shot = {0};
   spread.shots_per_block = 2;
   auto counts = needed_counts(spread, rules_of(64, 8), {0.1, 4096}, 10);
-  EXPECT_EQ(counts.lines_per_patch, 2048);
+  expect_enough({counts.lines_per_patch}, {9e4 / allowed});
   EXPECT_EQ(counts.samples_per_patch, 64);
   std::swap(spread.load.of_line, spread.load.of_shot);
   counts = needed_counts(spread, rules_of(64, 8), {0.1, 4096}, 10);
   EXPECT_EQ(counts.lines_per_patch, 64);
   EXPECT_EQ(counts.direct_samples, 8);
-  EXPECT_EQ(counts.samples_per_patch, 2048);
+  expect_enough({counts.samples_per_patch}, {9e4 / allowed});
   EXPECT_EQ(counts.share, 1);
   // With many suns shots are dear, which lines are not.
   spread.load.of_line = {300 * 300};

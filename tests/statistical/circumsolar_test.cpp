@@ -143,13 +143,13 @@ TEST(Circumsolar, OnOpenPlatesIsExact) {
     rules.lines_per_patch = rules.realizations * 16;
     rules.direct_samples = rules.realizations * 256;
     Watch watch;
-    const LightSolver solver(builder.scene(), SplitRules{}, rules, watch);
-    const SunSampler sampler(solver.hierarchy(), solver.caster(),
+    const auto traced = trace_scene(builder.scene(), SplitRules{}, rules, watch);
+    const SunSampler sampler(traced->hierarchy(), traced->caster,
                              {rules.direct_samples, rules.realizations, 1});
     std::vector<std::vector<double>> direct(64, std::vector<double>(2, 0)), exposure(direct);
     const std::vector<SunLight> block{light};
-    const DirectSun sun = direct_sun(solver.caster(), sampler, block, direct, nullptr);
-    circumsolar_light(solver.hierarchy(), solver.caster(), sampler, block, {sky}, sun.sunlit,
+    const DirectSun sun = direct_sun(traced->caster, sampler, block, direct, nullptr);
+    circumsolar_light(traced->hierarchy(), traced->caster, sampler, block, {sky}, sun.sunlit,
                       exposure, nullptr);
     std::vector<double> means;
     for (const auto& E : exposure) means.push_back((E[0] + E[1]) / 2);
@@ -221,27 +221,27 @@ TEST(Circumsolar, LowersTheErrorOfTheStreet) {
   rules.lines_per_patch = realizations * 32;
   rules.direct_samples = realizations * 2;
   Watch watch;
-  const LightSolver solver(plan.built.scene, split_rules(plan.study), rules, watch);
-  const Hierarchy& h = solver.hierarchy();
+  const auto traced = trace_scene(plan.built.scene, split_rules(plan.study), rules, watch);
+  const Hierarchy& h = traced->hierarchy();
   const std::size_t patches = h.patch_count();
-  const SunSampler sampler(h, solver.caster(), {rules.direct_samples, rules.realizations, 1});
-  const auto sky_view = solver.sky_view_factor();
+  const SunSampler sampler(h, traced->caster, {rules.direct_samples, rules.realizations, 1});
+  const auto sky_view = traced->sky_view_factor();
 
   for (const std::size_t hour : {1u, 3u, 6u}) {
     const auto block =
-        IntervalLights(plan.study, plan.built.site, solver.sky_grid()).of(plan.light, hour, 1);
+        IntervalLights(plan.study, plan.built.site, traced->grid).of(plan.light, hour, 1);
     BlockSources sources(block, static_cast<std::size_t>(grid.cell_count()));
     sources.split_sky(grid);
     std::vector<std::vector<double>> exposure(realizations, std::vector<double>(patches, 0));
     std::vector<Columns> circumsolar(realizations, columns(patches));
     const auto start = std::clock();
-    const DirectSun sun = direct_sun(solver.caster(), sampler, block, exposure, nullptr);
+    const DirectSun sun = direct_sun(traced->caster, sampler, block, exposure, nullptr);
     const auto middle = std::clock();
-    const auto rays = circumsolar_light(h, solver.caster(), sampler, block, sources.circumsolar,
+    const auto rays = circumsolar_light(h, traced->caster, sampler, block, sources.circumsolar,
                                         sun.sunlit, exposure, nullptr)
                           .rays;
     const auto end = std::clock();
-    circumsolar_light(h, solver.caster(), sampler, block, sources.circumsolar, sun.sunlit, exposure,
+    circumsolar_light(h, traced->caster, sampler, block, sources.circumsolar, sun.sunlit, exposure,
                       &circumsolar);
     std::cout << "processor time circumsolar / direct sun: "
               << static_cast<double>(end - middle) / static_cast<double>(middle - start)
@@ -250,8 +250,8 @@ TEST(Circumsolar, LowersTheErrorOfTheStreet) {
     std::vector<double> difference(realizations, 0), extra(realizations, 0);
     for (std::size_t r = 0; r < realizations; ++r) {
       Columns whole = columns(patches), rest = columns(patches);
-      gather(solver.lines().realizations[r].sky, sources.sky, whole, Into::replace);
-      gather(solver.lines().realizations[r].sky, sources.sky_of_lines, rest, Into::replace);
+      gather(traced->patches.lines.realizations[r].sky, sources.sky, whole, Into::replace);
+      gather(traced->patches.lines.realizations[r].sky, sources.sky_of_lines, rest, Into::replace);
       for (std::size_t i = 0; i < patches; ++i) {
         const std::size_t at = i * block_width;
         before[i].push_back(static_cast<double>(whole[at]));

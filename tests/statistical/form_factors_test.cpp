@@ -113,7 +113,6 @@ int lines_for(double truth) {
 }
 
 TEST(FormFactors, OfPolygonPairs) {
-  if (shared_missing("reference")) return;
   int cases = 0;
   for (const auto& c : reference_cases(closed_forms)) {
     const auto& g = c["geometry"];
@@ -127,7 +126,6 @@ TEST(FormFactors, OfPolygonPairs) {
 }
 
 TEST(FormFactors, OfTrianglePairs) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(triangle_pairs)) {
     // The smaller triangle receives: of its lines more arrive (reciprocity has its own test).
     const bool forth = number(c["A1"]) <= number(c["A2"]);
@@ -149,7 +147,6 @@ Polygon small_square(Vec3 p, Vec3 n, double edge) {
 // A point stands for a square of 1 % of its distance d to the emitter: the mean over the
 // square is off by at most the form factor's second derivative (of order 1/d²) times edge².
 TEST(FormFactors, OfPointsToPolygons) {
-  if (shared_missing("reference")) return;
   constexpr double edge_by_distance = 0.01;
   int cases = 0;
   for (const auto& c : reference_cases(closed_forms)) {
@@ -202,7 +199,6 @@ void check_strips(const json& c, const Polygon& from, const Polygon& to) {
 }
 
 TEST(FormFactors, OfInfiniteStrips) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases(closed_forms)) {
     const auto& g = c["geometry"];
     if (c["kind"] == "infinite_parallel_strips") {
@@ -220,7 +216,6 @@ TEST(FormFactors, OfInfiniteStrips) {
 
 // Sky view of street canyons, mean over the floor, at its centre and at a point.
 TEST(FormFactors, OfTheSkyFromCanyonFloors) {
-  if (shared_missing("reference")) return;
   int cases = 0;
   for (const auto& c : reference_cases(closed_forms)) {
     const auto kind = c["kind"].get<std::string>();
@@ -269,20 +264,20 @@ Scene room() {
 TEST(FormFactors, AreReciprocal) {
   const Scene scene = room();
   Watch watch;
-  const LightSolver solver(scene, SplitRules{}, rules_of(4096), watch);
-  const auto& area = solver.hierarchy().area();
+  const auto traced = trace_scene(scene, SplitRules{}, rules_of(4096), watch);
+  const auto& area = traced->hierarchy().area();
   int pairs = 0, wrong_found = 0;
   for (std::size_t i = 0; i < area.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       std::vector<double> difference, faulty;
-      for (const auto& lines : solver.lines().realizations) {
+      for (const auto& lines : traced->patches.lines.realizations) {
         difference.push_back(area[i] * share(lines, i, j) - area[j] * share(lines, j, i));
         faulty.push_back(area[j] * share(lines, i, j) - area[i] * share(lines, j, i));
       }
       const Verdict verdict = expect_mean(difference, 0);
       EXPECT_TRUE(verdict) << i << " " << j << ": " << verdict.text;
-      const bool differ =
-          std::abs(area[i] - area[j]) > 0.1 * area[i] && share(solver.lines().pooled, i, j) > 0;
+      const bool differ = std::abs(area[i] - area[j]) > 0.1 * area[i] &&
+                          share(traced->patches.lines.pooled, i, j) > 0;
       pairs += differ;
       wrong_found += differ && !expect_mean(faulty, 0);  // planted: the area of the wrong patch
     }
@@ -294,10 +289,11 @@ TEST(FormFactors, AreReciprocal) {
 TEST(FormFactors, RowsOfAClosedRoomSumToOneExactly) {
   const Scene scene = room();
   Watch watch;
-  const LightSolver solver(scene, {.max_edge_m = 0.3}, rules_of(64), watch);
-  ASSERT_GT(solver.hierarchy().patch_count(), LinkTable::rows_per_block / 2);
-  for (const LineSet* lines : {&solver.lines().pooled, &solver.lines().realizations[5]})
-    for (std::size_t i = 0; i < solver.hierarchy().patch_count(); ++i) {
+  const auto traced = trace_scene(scene, {.max_edge_m = 0.3}, rules_of(64), watch);
+  ASSERT_GT(traced->hierarchy().patch_count(), LinkTable::rows_per_block / 2);
+  for (const LineSet* lines :
+       {&traced->patches.lines.pooled, &traced->patches.lines.realizations[5]})
+    for (std::size_t i = 0; i < traced->hierarchy().patch_count(); ++i) {
       const auto& block = lines->patches.blocks[i / LinkTable::rows_per_block];
       const std::size_t row = i % LinkTable::rows_per_block;
       double sum = 0;

@@ -32,14 +32,14 @@ struct Variances {
 
 Variances variances(const Scene& scene, const SplitRules& split) {
   Watch watch;
-  const LightSolver solver(scene, split, line_rules(), watch);
-  const Hierarchy& h = solver.hierarchy();
+  const auto traced = trace_scene(scene, split, line_rules(), watch);
+  const Hierarchy& h = traced->hierarchy();
   Variances sum;
   for (std::size_t i = 0; i < h.patch_count(); ++i) {
     std::vector<double> by_lines, by_random;
     const Tangents axes = tangents(h.normal(i));
     for (std::uint32_t r = 0; r < realizations; ++r) {
-      by_lines.push_back(static_cast<double>(solver.lines().realizations[r].ends[i].sky));
+      by_lines.push_back(static_cast<double>(traced->patches.lines.realizations[r].ends[i].sky));
       int sky = 0;
       for (std::uint32_t l = 0; l < lines_each; ++l) {
         const RandomWords x =
@@ -50,7 +50,7 @@ Variances variances(const Scene& scene, const SplitRules& split) {
         const Vec3 p = h.corner(i, 0) * b.w0 + h.corner(i, 1) * b.w1 + h.corner(i, 2) * b.w2;
         sky +=
             w.z > 0 &&
-            solver.caster().first_hit(p + h.normal(i) * solver.caster().offset_m(), w).left_scene();
+            traced->caster.first_hit(p + h.normal(i) * traced->caster.offset_m(), w).left_scene();
       }
       by_random.push_back(static_cast<double>(sky) / lines_each);
     }

@@ -10,10 +10,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
@@ -25,12 +23,6 @@ namespace {
 
 double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-std::string text_of(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
 }
 
 void limit(int resource, const std::optional<std::uint64_t>& value) {
@@ -45,44 +37,6 @@ int opened_for_writing(const std::string& path) {
 }
 
 }  // namespace
-
-WorkFolder::WorkFolder() {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  static int count = 0;
-  path_ =
-      fs::path(testing::TempDir()) / fmt::format("sunload_{}_{}_{}_{}", ::getpid(),
-                                                 test->test_suite_name(), test->name(), count++);
-  fs::remove_all(path_);
-  fs::create_directories(path_);
-}
-
-WorkFolder::~WorkFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
-std::string WorkFolder::write(const std::string& name, const std::string& text) const {
-  const fs::path path = path_ / name;
-  fs::create_directories(path.parent_path());
-  std::ofstream(path, std::ios::binary) << text;
-  return path.string();
-}
-
-std::string WorkFolder::read(const std::string& name) const { return text_of(path_ / name); }
-
-std::vector<std::string> WorkFolder::content(const std::string& below) const {
-  std::vector<std::string> names;
-  const fs::path root = path_ / below;
-  if (!fs::exists(root)) return names;
-  // A program at work may remove what is listed: nothing here looks at a file twice or throws.
-  std::error_code gone;
-  fs::recursive_directory_iterator entry(root, gone);
-  for (; entry != fs::recursive_directory_iterator(); entry.increment(gone))
-    names.push_back(entry->path().lexically_relative(root).string() +
-                    (entry->is_directory(gone) ? "/" : ""));
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 std::vector<std::string> Ran::lines() const {
   std::vector<std::string> list;
@@ -138,15 +92,15 @@ bool Process::collect(int options) {
 
 bool Process::is_running() { return !status_ && !collect(WNOHANG); }
 
-std::string Process::err_so_far() const { return text_of(err_); }
+std::string Process::err_so_far() const { return bytes_of(err_); }
 
 Ran Process::wait() {
   if (!status_) collect(0);
   Ran ran;
   if (WIFEXITED(*status_)) ran.code = WEXITSTATUS(*status_);
   if (WIFSIGNALED(*status_)) ran.signal = WTERMSIG(*status_);
-  ran.out = text_of(out_);
-  ran.err = text_of(err_);
+  ran.out = bytes_of(out_);
+  ran.err = bytes_of(err_);
   ran.seconds = now_s() - start_;
   return ran;
 }

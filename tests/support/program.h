@@ -6,32 +6,13 @@
 #include <sys/types.h>
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tests/support/work_folder.h"
+
 namespace sunload::test {
-
-/// A folder of the running test, empty at the beginning and removed at the end.
-class WorkFolder {
- public:
-  WorkFolder();
-  ~WorkFolder();
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
-
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  std::string path() const { return path_.string(); }
-  /// Writes a file and returns its path.
-  std::string write(const std::string& name, const std::string& text) const;
-  std::string read(const std::string& name) const;
-  /// All that lies below, relative and sorted; folders end with a slash.
-  std::vector<std::string> content(const std::string& below = "") const;
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Limits of a process, as of `ulimit`.
 struct Limits {

@@ -5,10 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
-#include <iostream>
-#include <sstream>
 #include <stdexcept>
 
 namespace sunload::test {
@@ -34,16 +31,12 @@ std::vector<std::string> split_line(const std::string& line) {
 }
 
 std::ifstream open_reference(const std::string& name) {
-  std::ifstream file(shared_path("reference/" + name));
-  if (!file) throw std::runtime_error("cannot read reference/" + name);
+  std::ifstream file(source_folder() + "/tests/reference/" + name);
+  if (!file) throw std::runtime_error("cannot read tests/reference/" + name);
   return file;
 }
 
 }  // namespace
-
-std::string shared_path(const std::string& relative_path) {
-  return test::shared_folder() + "/" + relative_path;
-}
 
 std::vector<Row> read_csv(const std::string& name) {
   auto file = open_reference(name);
@@ -73,7 +66,7 @@ std::vector<nlohmann::json> reference_cases(const std::string& name, const std::
   std::vector<nlohmann::json> chosen;
   for (const auto& c : file.at("cases"))
     if (c.at("id").get<std::string>().starts_with(prefix)) chosen.push_back(c);
-  EXPECT_FALSE(chosen.empty()) << "no case " << prefix << " in reference/" << name;
+  EXPECT_FALSE(chosen.empty()) << "no case " << prefix << " in tests/reference/" << name;
   return chosen;
 }
 
@@ -82,14 +75,6 @@ double number(const nlohmann::json& value) {
 }
 
 double number(const Row& row, const std::string& column) { return std::stod(row.at(column)); }
-
-bool shared_missing(const std::string& relative_path) {
-  if (std::filesystem::exists(shared_path(relative_path))) return false;
-  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  std::cout << "NOT RUN: " << (info ? info->test_suite_name() : "?") << "."
-            << (info ? info->name() : "?") << ": " << relative_path << " is missing" << std::endl;
-  return true;
-}
 
 Vec3 point(const nlohmann::json& value) {
   return {number(value[0]), number(value[1]), number(value[2])};

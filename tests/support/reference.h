@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Reference values, read in place from the folder beside the project.
+/// Reference values of tests/reference, whose README.md says where they are from.
 #pragma once
 
 #include <map>
@@ -15,10 +15,10 @@ namespace sunload::test {
 /// One row of a CSV table by column name.
 using Row = std::map<std::string, std::string>;
 
-/// Rows of `reference/<name>`; lines that begin with # are comments.
+/// Rows of `tests/reference/<name>`; lines that begin with # are comments.
 std::vector<Row> read_csv(const std::string& name);
 
-/// A whole `reference/<name>` JSON file.
+/// A whole `tests/reference/<name>` JSON file.
 nlohmann::json read_json(const std::string& name);
 
 /// Its `cases` whose `id` begins with `prefix`; a failure where there are none.
@@ -31,12 +31,5 @@ double number(const Row& row, const std::string& column);
 /// A list of three numbers, and one of points.
 Vec3 point(const nlohmann::json& value);
 std::vector<Vec3> polygon(const nlohmann::json& points);
-
-/// True where the file or folder (relative to the shared folder) is not there; prints
-/// `NOT RUN: <test>: <path> is missing` so that the test's output names it.
-bool shared_missing(const std::string& relative_path);
-
-/// Absolute path of something in the shared folder.
-std::string shared_path(const std::string& relative_path);
 
 }  // namespace sunload::test

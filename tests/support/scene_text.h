@@ -3,26 +3,17 @@
 /// Small scene files for the tests of readers.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
 #include <string>
 
-#include "geo/base/check.h"
 #include "io/scene/file.h"
+#include "tests/support/refusal_of.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload::test {
 
-/// Writes a file into a folder of the running test and returns its path.
+/// Writes a file into the folder of the running test and returns its path.
 inline std::string write_text(const std::string& name, const std::string& text) {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const auto folder = std::filesystem::path(testing::TempDir()) /
-                      (std::string("sunload_") + test->test_suite_name() + "_" + test->name());
-  std::filesystem::create_directories(folder);
-  const auto path = (folder / name).string();
-  std::ofstream(path, std::ios::binary) << text;
-  return path;
+  return folder_of_test().write(name, text);
 }
 
 inline PolygonModel read_text(const std::string& name, const std::string& text,
@@ -34,14 +25,7 @@ inline PolygonModel read_text(const std::string& name, const std::string& text,
 inline std::string refusal(const std::string& name, const std::string& text,
                            const SceneFileRules& rules = {}) {
   const auto path = write_text(name, text);
-  try {
-    read_scene_file(path, rules);
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    const auto at = message.find(name);
-    return at == std::string::npos ? message : message.substr(at);
-  }
-  return {};
+  return from_name_on(refusal_of([&] { read_scene_file(path, rules); }), name);
 }
 
 inline bool has_note(const PolygonModel& model, const std::string& part) {

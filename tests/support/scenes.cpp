@@ -170,16 +170,21 @@ namespace {
 std::vector<Solved> solved_bands(const Scene& scene, const std::vector<SunLight>& light,
                                  const SolverRules& rules, const SplitRules& split) {
   Watch watch;
-  LightSolver solver(scene, split, rules, watch);
+  const auto traced = trace_scene(scene, split, rules, watch);
+  const auto transport = transport_of(*traced);
+  sunload::Solved batch = sunload::solve(*transport, light, watch);
+  WorkDone work = traced->work;
+  work += transport->work();
+  work += batch.work;
   std::vector<Solved> bands;
-  for (auto& tally : solver.solve_bands(light, watch)) {
+  for (auto& tally : batch.bands) {
     Solved solved;
-    solved.area = solver.hierarchy().area();
-    solved.patches = solver.hierarchy().patches();
+    solved.area = traced->hierarchy().area();
+    solved.patches = traced->hierarchy().patches();
     solved.tally = std::move(tally);
-    solved.sky_view = solver.sky_view_factor();
-    solved.bounces = solver.bounces();
-    solved.work = solver.work();
+    solved.sky_view = traced->sky_view_factor();
+    solved.bounces = traced->bounces;
+    solved.work = work;
     bands.push_back(std::move(solved));
   }
   return bands;

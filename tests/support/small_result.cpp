@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/small_result.h"
 
-#include <gtest/gtest.h>
-
 #include <filesystem>
 
 #include "geo/base/units.h"
 #include "geo/mesh/mesh.h"
 #include "io/base/statistics.h"
 #include "io/result/writer.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload::test {
 namespace {
@@ -145,7 +144,7 @@ void append_series(ResultWriter& writer, const std::vector<double>& load, const 
 
 std::string write_small_result(const SmallResult& result, const std::string& name) {
   const auto geometry = geometry_of(result);
-  const auto path = std::filesystem::path(testing::TempDir()) / (name + ".h5");
+  const std::filesystem::path path(folder_of_test() / (name + ".h5"));
   ResultWriter::Options options;
   options.realizations = result.realizations;
   ResultWriter writer(path.string(), geometry, times(), options);

@@ -35,7 +35,7 @@ struct SmallResult {
       [](const std::string&, Vec3 normal, std::size_t) { return 2 + normal.z - normal.y; };
 };
 
-/// Writes the file and returns its path: `<temporary folder>/<name>.h5`. The
+/// Writes the file and returns its path: `<folder of the test>/<name>.h5`. The
 /// light load is the mean of the realizations; the irradiance of interval k
 /// (k = 0, 1, 2) is (100, 300, 200) times the light load.
 std::string write_small_result(const SmallResult& result, const std::string& name);

@@ -3,12 +3,16 @@
 #include "tests/support/statistics.h"
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
 #include <stdexcept>
 
 #include "solver/light/tally.h"
@@ -22,7 +26,35 @@ double shared(double alpha, double tests) { return 1 - std::pow(1 - alpha, 1 / t
 
 }  // namespace
 
-double false_alarm_share() { return shared(suite_false_alarms, declared_statistical_tests); }
+namespace {
+
+/// Counts the tests of this process; at its end they are added to those of the others, which
+/// tests/statistical/budget.py holds against the declared number.
+class Budget : public testing::Environment {
+ public:
+  static Budget& of_process() {
+    static auto* budget = new Budget;  // googletest deletes it
+    return *budget;
+  }
+  void count_one() { ++count_; }
+  void TearDown() override {
+    const char* folder = std::getenv("SUNLOAD_STATISTICAL_TESTS");
+    if (folder == nullptr || count_ == 0) return;
+    std::ofstream(fmt::format("{}/{}", folder, ::getpid())) << count_ << "\n";
+  }
+
+ private:
+  int count_ = 0;
+};
+
+const auto* const registered = testing::AddGlobalTestEnvironment(&Budget::of_process());
+
+}  // namespace
+
+double false_alarm_share() {
+  Budget::of_process().count_one();
+  return shared(suite_false_alarms, declared_statistical_tests);
+}
 
 double accepted_t(std::size_t realizations) {
   const boost::math::students_t student(static_cast<double>(realizations) - 1);

@@ -11,9 +11,10 @@ namespace sunload::test {
 /// False alarms of the whole suite that are accepted per run, shared by its
 /// statistical tests (Šidák).
 inline constexpr double suite_false_alarms = 1e-3;
+/// At most: counted when tests run (tests/statistical/budget.py).
 inline constexpr int declared_statistical_tests = 1000;
 
-/// This test's share α' of the budget.
+/// One test's share α' of the budget: every call is counted as a test.
 double false_alarm_share();
 
 /// Quantile 1 - α'/2 of Student's t.

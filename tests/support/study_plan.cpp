@@ -42,8 +42,11 @@ SolvedPlan solve_study(const std::string& yaml) {
   Watch watch;
   SolvedPlan solved{plan_of(yaml), {}, {}};
   solved.made = make_mesh(solved.plan, watch);
-  LightSolver solver(solved.plan.built.scene, solved.made.mesh, solver_rules(solved.plan), watch);
-  solved.tally = solver.solve(suns_of(solved.plan, solver.sky_grid()), watch);
+  const auto traced =
+      trace_scene(solved.plan.built.scene, solved.made.mesh, solver_rules(solved.plan), watch);
+  const auto transport = transport_of(*traced);
+  solved.tally =
+      std::move(solve(*transport, suns_of(solved.plan, traced->grid), watch).bands.front());
   return solved;
 }
 

@@ -18,7 +18,6 @@ namespace {
 using test::number;
 using test::read_csv;
 using test::Row;
-using test::shared_missing;
 
 constexpr double day_s = seconds_per_day;
 // Instants are found to the resolution of a double [s].
@@ -54,7 +53,6 @@ SunPath path_of(const Site& site, UnixTime begin, UnixTime end, double step_s,
 }
 
 TEST(SunEvents, ReferenceRiseTransitSet) {
-  if (shared_missing("reference/01_solar_position/rise_transit_set.csv")) return;
   for (const auto& row : read_csv("01_solar_position/rise_transit_set.csv")) {
     SCOPED_TRACE(row.at("id"));
     const UnixTime midnight = instant(row.at("local_date"));
@@ -83,7 +81,6 @@ TEST(SunEvents, ReferenceRiseTransitSet) {
 }
 
 TEST(SunEvents, ReferencePolarAndExtremes) {
-  if (shared_missing("reference/01_solar_position/polar_and_extremes.csv")) return;
   for (const auto& row : read_csv("01_solar_position/polar_and_extremes.csv")) {
     SCOPED_TRACE(row.at("id"));
     const UnixTime begin = instant(row.at("utc_date"));

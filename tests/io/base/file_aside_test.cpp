@@ -3,49 +3,30 @@
 #include "io/base/file_aside.h"
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <fstream>
 
-#include "tests/support/program.h"
+#include "tests/support/child_process.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload {
 namespace {
 
 namespace fs = std::filesystem;
+using test::ChildProcess;
 using test::WorkFolder;
 using Names = std::vector<std::string>;
 
 /// A process that writes aside; killed, it cannot clean up.
-class WritingProcess {
- public:
-  explicit WritingProcess(const std::string& path) {
-    int ready[2];
-    if (::pipe(ready) != 0) throw std::runtime_error("pipe");
-    process_ = ::fork();
-    if (process_ == 0) {
-      const FileAside file(path);
-      std::ofstream(file.aside()) << "half of it";
-      [[maybe_unused]] const auto written = ::write(ready[1], "x", 1);
-      for (;;) ::pause();
-    }
-    char byte = 0;
-    [[maybe_unused]] const auto got = ::read(ready[0], &byte, 1);
-    ::close(ready[0]);
-    ::close(ready[1]);
-  }
-  void kill() {
-    ::kill(process_, SIGKILL);
-    ::waitpid(process_, nullptr, 0);
-  }
-
- private:
-  pid_t process_ = -1;
-};
+ChildProcess writing_process(const std::string& path) {
+  return ChildProcess([&](const ChildProcess::Hold& hold) {
+    const FileAside file(path);
+    std::ofstream(file.aside()) << "half of it";
+    hold(true);
+  });
+}
 
 TEST(FileAside, AppearsWhenPublishedAndIsRemovedOtherwise) {
   const WorkFolder folder;
@@ -64,7 +45,8 @@ TEST(FileAside, AppearsWhenPublishedAndIsRemovedOtherwise) {
 
 TEST(FileAside, WhatTheDeadLeftIsRemovedAndWhatTheLivingWriteStays) {
   const WorkFolder folder;
-  WritingProcess dead(folder / "a.batch"), living(folder / "b.batch");
+  ChildProcess dead = writing_process(folder / "a.batch");
+  ChildProcess living = writing_process(folder / "b.batch");
   dead.kill();
   folder.write("b.batch.part-of-the-name", "");
   folder.write("c.part-1", "");

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "io/base/base64.h"
+
 #include <cmath>
 #include <limits>
 #include <string>

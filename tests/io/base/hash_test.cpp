@@ -29,20 +29,20 @@ TEST(Hash, PublishedValues) {
 }
 
 TEST(Hash, OfFilesShorterAndLongerThanOneRead) {
-  const Folder folder;
-  std::ofstream(folder.file("abc")) << "abc";
-  std::ofstream(folder.file("empty")) << "";
+  const WorkFolder folder;
+  std::ofstream(folder / "abc") << "abc";
+  std::ofstream(folder / "empty") << "";
   const std::string large(3'000'000, 'b');
-  std::ofstream(folder.file("large")) << large;
-  EXPECT_EQ(sha256_of_file(folder.file("abc")), of_abc);
-  EXPECT_EQ(sha256_of_file(folder.file("empty")), of_nothing);
-  EXPECT_EQ(sha256_of_file(folder.file("large")), sha256(large));
+  std::ofstream(folder / "large") << large;
+  EXPECT_EQ(sha256_of_file(folder / "abc"), of_abc);
+  EXPECT_EQ(sha256_of_file(folder / "empty"), of_nothing);
+  EXPECT_EQ(sha256_of_file(folder / "large"), sha256(large));
 }
 
 TEST(Hash, UnreadableFilesAreTheUsers) {
-  const Folder folder;
-  EXPECT_THROW(sha256_of_file(folder.file("absent")), InputError);
-  EXPECT_THROW(sha256_of_file(folder.file(".")), InputError);
+  const WorkFolder folder;
+  EXPECT_THROW(sha256_of_file(folder / "absent"), InputError);
+  EXPECT_THROW(sha256_of_file(folder / "."), InputError);
 }
 
 // What is added in pieces, across the borders of what waits to be hashed, is one text.

@@ -3,74 +3,46 @@
 /// One merge at a time, and none that waits for the dead.
 #include "io/base/merge_lock.h"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <csignal>
+#include <filesystem>
 
 #include "geo/base/check.h"
-#include "tests/support/program.h"
+#include "tests/support/child_process.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload::test {
 namespace {
 
 /// A child process that takes the lock, says so, and lives until it is killed.
-class Holder {
- public:
-  explicit Holder(const std::string& path) {
-    int told[2];
-    if (::pipe(told) != 0) throw std::runtime_error("pipe failed");
-    process_ = ::fork();
-    if (process_ == 0) {
-      const MergeLock lock(path);
-      const char held = lock.is_held() ? 'y' : 'n';
-      if (::write(told[1], &held, 1) != 1) _exit(1);
-      for (;;) ::pause();
-    }
-    ::close(told[1]);
-    char held = 'n';
-    is_held_ = ::read(told[0], &held, 1) == 1 && held == 'y';
-    ::close(told[0]);
-  }
-  ~Holder() { die(); }
-  Holder(const Holder&) = delete;
-  Holder& operator=(const Holder&) = delete;
-  bool is_held() const { return is_held_; }
-  void die() {
-    if (process_ <= 0) return;
-    ::kill(process_, SIGKILL);
-    ::waitpid(process_, nullptr, 0);
-    process_ = 0;
-  }
-
- private:
-  pid_t process_ = 0;
-  bool is_held_ = false;
-};
+ChildProcess holder(const std::string& path) {
+  return ChildProcess([&](const ChildProcess::Hold& hold) {
+    const MergeLock lock(path);
+    hold(lock.is_held());
+  });
+}
 
 TEST(MergeLock, OneHolderAtATime) {
   const WorkFolder folder;
-  Holder first(folder / "lock");
-  EXPECT_TRUE(first.is_held());
+  ChildProcess first = holder(folder / "lock");
+  EXPECT_TRUE(first.is_well());
   EXPECT_FALSE(MergeLock(folder / "lock").is_held());
-  EXPECT_FALSE(Holder(folder / "lock").is_held());
+  EXPECT_FALSE(holder(folder / "lock").is_well());
   EXPECT_TRUE(MergeLock(folder / "another").is_held());
 }
 
 TEST(MergeLock, EndsWithItsHolderHoweverItDies) {
   const WorkFolder folder;
-  Holder first(folder / "lock");
-  ASSERT_TRUE(first.is_held());
-  first.die();
+  ChildProcess first = holder(folder / "lock");
+  ASSERT_TRUE(first.is_well());
+  first.kill();
   EXPECT_TRUE(MergeLock(folder / "lock").is_held());
 }
 
 TEST(MergeLock, IsLetGoAtTheEndOfItsScope) {
   const WorkFolder folder;
   { EXPECT_TRUE(MergeLock(folder / "lock").is_held()); }
-  EXPECT_TRUE(Holder(folder / "lock").is_held());
+  EXPECT_TRUE(holder(folder / "lock").is_well());
 }
 
 TEST(MergeLock, LeavesNoFile) {
@@ -84,7 +56,7 @@ TEST(MergeLock, LeavesNoFile) {
 
 TEST(MergeLock, OfAFileThatWasRemovedMeanwhileIsWorthNothing) {
   const WorkFolder folder;
-  const Holder first(folder / "lock");
+  const ChildProcess first = holder(folder / "lock");
   std::filesystem::remove(folder / "lock");
   // The next one is of a new file, and is the one that counts.
   EXPECT_TRUE(MergeLock(folder / "lock").is_held());

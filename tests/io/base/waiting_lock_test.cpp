@@ -4,16 +4,14 @@
 #include "io/base/waiting_lock.h"
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <thread>
 
 #include "geo/base/check.h"
-#include "tests/support/program.h"
+#include "tests/support/child_process.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload::test {
 namespace {
@@ -21,45 +19,12 @@ namespace {
 using namespace std::chrono_literals;
 
 /// A child process that takes the lock, says so, and lives until it is killed or told to go on.
-class Holder {
- public:
-  explicit Holder(const std::string& path) {
-    int told[2], tell[2];
-    if (::pipe(told) != 0 || ::pipe(tell) != 0) throw std::runtime_error("pipe failed");
-    process_ = ::fork();
-    if (process_ == 0) {
-      {
-        const WaitingLock lock(path, {});
-        const char held = lock.is_held() ? 'y' : 'n';
-        char go_on = 0;
-        if (::write(told[1], &held, 1) != 1 || ::read(tell[0], &go_on, 1) != 1) ::_exit(1);
-      }
-      ::_exit(0);
-    }
-    char held = 0;
-    if (::read(told[0], &held, 1) != 1) throw std::runtime_error("no word from the child");
-    EXPECT_EQ(held, 'y');
-    tell_ = tell[1];
-  }
-  void kill() {
-    end([&] { ::kill(process_, SIGKILL); });
-  }
-  void go_on() {
-    end([&] { EXPECT_EQ(::write(tell_, "x", 1), 1); });
-  }
-  ~Holder() { kill(); }
-
- private:
-  template <class How>
-  void end(const How& how) {
-    if (process_ < 0) return;
-    how();
-    ::waitpid(process_, nullptr, 0);
-    process_ = -1;
-  }
-  pid_t process_ = -1;
-  int tell_ = -1;
-};
+ChildProcess holder_of(const std::string& path) {
+  return ChildProcess([&](const ChildProcess::Hold& hold) {
+    const WaitingLock lock(path, {});
+    hold(lock.is_held());
+  });
+}
 
 TEST(WaitingLock, IsTakenAtOnceWhereNobodyHasItAndItsFileGoesWithIt) {
   const WorkFolder folder;
@@ -78,7 +43,8 @@ TEST(WaitingLock, IsTakenAtOnceWhereNobodyHasItAndItsFileGoesWithIt) {
 TEST(WaitingLock, WaitsForItsHolderAliveOrKilled) {
   for (const bool is_killed : {false, true}) {
     const WorkFolder folder;
-    Holder holder(folder / "x.lock");
+    ChildProcess holder = holder_of(folder / "x.lock");
+    ASSERT_TRUE(holder.is_well());
     std::thread ending;
     const auto end_holder = [&] {
       // Not before the wait has begun.
@@ -98,7 +64,7 @@ TEST(WaitingLock, WaitsForItsHolderAliveOrKilled) {
 
 TEST(WaitingLock, AWaitCanBeLeft) {
   const WorkFolder folder;
-  const Holder holder(folder / "x.lock");
+  const ChildProcess holder = holder_of(folder / "x.lock");
   int asked = 0;
   EXPECT_THROW(WaitingLock(folder / "x.lock", {.is_cancelled = [&] { return ++asked > 2; }}),
                Interrupted);

@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "geo/base/check.h"
-#include "tests/support/program.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload::test {
 namespace {
@@ -38,7 +38,9 @@ LineSet line_set(std::size_t rows, std::uint32_t seed) {
   set.lamps.assign(rows, 0.7 + seed);
   set.first_light.escaped = {1.0 / 3, 2, static_cast<double>(seed)};
   set.first_light.backs = {4, 5};
+  set.first_light.cut = {7, 8, 9, static_cast<double>(seed)};
   set.first_light.transmitted = {6, static_cast<double>(seed)};
+  set.first_light.absorbed = {10, static_cast<double>(seed), 11};
   return set;
 }
 

@@ -7,43 +7,33 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "geo/base/check.h"
 #include "io/export/format.h"
 #include "io/scene/file.h"
+#include "tests/support/refusal_of.h"
 #include "tests/support/small_result.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload {
 namespace {
 
+using test::bytes_of;
 using test::SmallResult;
 using test::write_small_result;
 
-std::string path_of(const std::string& name) {
-  return (std::filesystem::path(testing::TempDir()) / name).string();
-}
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+std::string path_of(const std::string& name) { return test::folder_of_test() / name; }
 
 std::string exported(const std::string& result, const ExportRules& rules) {
   const auto path = path_of("exported." + rules.format);
   export_result(ResultReader(result), rules, path);
-  return text_of(path);
+  return bytes_of(path);
 }
 
 std::string refusal(const ExportRules& rules, const std::string& path) {
-  try {
-    export_result(ResultReader(write_small_result({}, "export_refused")), rules, path);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+  return test::refusal_of(
+      [&] { export_result(ResultReader(write_small_result({}, "export_refused")), rules, path); });
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -215,13 +205,13 @@ TEST(Export, VrmlSaysWhereItsColoursBelong) {
 }
 
 TEST(Export, XdmfPointsIntoTheResult) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "export & xdmf";
+  const auto folder = std::filesystem::path(path_of("export & xdmf"));
   std::filesystem::create_directories(folder);
   ExportRules rules;
   rules.format = "xdmf";
   const auto path = write_small_result({}, "export_xdmf");
   export_result(ResultReader(path), rules, (folder / "a.xdmf").string());
-  const auto text = text_of((folder / "a.xdmf").string());
+  const auto text = bytes_of((folder / "a.xdmf").string());
   EXPECT_EQ(count_of(text, "<Time Value="), 3u);
   EXPECT_EQ(count_of(text, ">../export_xdmf.h5:/light_load<"), 3u);
   EXPECT_EQ(count_of(text, ">2 0 1 1 1 "), 1u);
@@ -229,7 +219,7 @@ TEST(Export, XdmfPointsIntoTheResult) {
   std::filesystem::copy_file(path, folder / "b.h5",
                              std::filesystem::copy_options::overwrite_existing);
   export_result(ResultReader((folder / "b.h5").string()), rules, path_of("above.xdmf"));
-  EXPECT_GT(count_of(text_of(path_of("above.xdmf")), ">export &amp; xdmf/b.h5:/"), 0u);
+  EXPECT_GT(count_of(bytes_of(path_of("above.xdmf")), ">export &amp; xdmf/b.h5:/"), 0u);
 }
 
 TEST(Export, RefusesWhatItWouldNotHeed) {

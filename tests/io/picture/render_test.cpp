@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
@@ -17,21 +15,19 @@
 #include "io/picture/camera.h"
 #include "io/picture/render_scene.h"
 #include "solver/base/threads.h"
+#include "tests/support/png.h"
 #include "tests/support/small_result.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload {
 namespace {
 
+using test::bytes_of;
 using test::SmallResult;
 using test::write_small_result;
 
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 std::string picture_path(const std::string& name) {
-  return (std::filesystem::path(testing::TempDir()) / (name + ".png")).string();
+  return test::folder_of_test() / (name + ".png");
 }
 
 double colour_difference(Colour a, Colour b) {
@@ -201,21 +197,43 @@ TEST(Render, WritesTheSamePngForAnyNumberOfThreads) {
   EXPECT_EQ(files[0].substr(16, 8), std::string("\0\0\x02\x80\0\0\x01\x90", 8));
 }
 
-TEST(Render, EveryViewAndQuantityWorks) {
-  const ResultReader result(write_small_result(SmallResult{}, "render_views"));
+// Ground and houses have the colours of their values, in every view.
+TEST(Render, EveryViewAndQuantityHasItsColours) {
+  SmallResult small;
+  small.load = [](const std::string& object, Vec3, std::size_t) {
+    return object == "ground" ? 1 : 3;
+  };
+  const ResultReader result(write_small_result(small, "render_views"));
   RenderRules rules;
   rules.width = 480;
   rules.height = 320;
+  const Colour of_ground = map_colour(Palette::false_colour, 0.25),
+               of_houses = map_colour(Palette::false_colour, 0.75);
+  const auto expect_colours = [&](double ground_share, double house_share) {
+    const auto path = picture_path("render_views");
+    render_png(result, rules, path);
+    const auto png = test::read_png(path);
+    ASSERT_EQ(png.pixels.size(), 480u * 320);
+    const double pixels = static_cast<double>(png.pixels.size());
+    EXPECT_GE(static_cast<double>(test::count_of(png, of_ground)), ground_share * pixels);
+    EXPECT_GE(static_cast<double>(test::count_of(png, of_houses)), house_share * pixels);
+  };
   for (const auto view : {View::overview, View::sun, View::top})
     for (const char* quantity : {"light_load", "irradiance", "sun_hours"}) {
+      SCOPED_TRACE(quantity);
       rules.view = view;
       rules.quantity = quantity;
-      EXPECT_NO_THROW(render_png(result, rules, picture_path("render_views")));
+      // The brightest interval has 300 times the load; hours of sun are 3 everywhere.
+      rules.largest = rules.quantity == "irradiance" ? 1200 : 4;
+      const bool has_ground = rules.quantity != "sun_hours";
+      expect_colours(has_ground ? 0.05 : 0, 0.03);
     }
   // In absolute coordinates: the origin of the result lies at (1000, 2000, 0).
+  rules.quantity = "light_load";
+  rules.largest = 4;
   rules.eye = {1000, 1985, 2};
   rules.look = {1000, 2000, 4};
-  EXPECT_NO_THROW(render_png(result, rules, picture_path("render_views")));
+  expect_colours(0.05, 0.03);
 }
 
 TEST(ColourMap, HueRunsFromBlueToRed) {

@@ -12,8 +12,9 @@
 #include "geo/base/units.h"
 #include "geo/sun/site.h"
 #include "io/plan/scene_build.h"
-#include "tests/support/program.h"
-#include "tests/support/reference.h"
+#include "tests/support/paths.h"
+#include "tests/support/refusal_of.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload::test {
 namespace {
@@ -38,12 +39,7 @@ class Files : public testing::Test {
   }
   PolygonModel model(const std::string& files) const { return read_models(study(files)); }
   std::string refusal(const std::string& files, const std::string& site) const {
-    try {
-      read_models(study(files, site));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return {};
+    return refusal_of([&] { read_models(study(files, site)); });
   }
   WorkFolder folder_;
 };
@@ -110,12 +106,11 @@ TEST_F(Files, StandAtALatitudeAndLongitudeOfTheScenesCrs) {
 }
 
 TEST_F(Files, WaitForTheCrsOfAnotherFile) {
-  if (shared_missing("data/city")) return;
-  const auto city = shared_path("data/city/delft_one_building_v11.city.json");
-  const auto built = build_scene(study("{file: a.obj, position: \"52.0080 4.3600\"}, " + city));
-  EXPECT_NE(built.site_source.find("7415"), std::string::npos) << built.site_source;
+  const auto city = source_folder() + "/configs/models/town.city.json";
+  const auto built = build_scene(study("{file: a.obj, position: \"49.7480 13.3770\"}, " + city));
+  EXPECT_NE(built.site_source.find("25833"), std::string::npos) << built.site_source;
   const Vec3 size = built.report.bounds.high - built.report.bounds.low;
-  EXPECT_LT(size.x, 5000);  // both in Delft
+  EXPECT_LT(size.x, 5000);  // both in the town
   EXPECT_LT(size.y, 5000);
   const auto moved = build_scene(study("{file: " + city + ", position_m: [0, 0, 0]}"));
   EXPECT_EQ(moved.site_source, "position from the study");

@@ -3,17 +3,20 @@
 /// The sky command's table and pictures, and the sun-path diagram's geometry.
 #include "io/plan/sky_dome.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
+#include <functional>
 #include <string>
 
 #include "geo/base/check.h"
 #include "io/picture/dome_chart.h"
 #include "io/picture/sun_diagram.h"
+#include "tests/support/png.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload {
 namespace {
@@ -162,27 +165,69 @@ TEST(DomeChart, IsAMapWithNorthUpAndEastRight) {
   }
 }
 
-/// A PNG of some kilobytes was written.
-void expect_picture(const std::function<void(const std::string&)>& draw) {
-  const auto path = std::filesystem::temp_directory_path() /
-                    ("sunload_dome_" + std::to_string(getpid()) + ".png");
-  draw(path.string());
-  std::string head(4, ' ');
-  std::ifstream(path, std::ios::binary).read(head.data(), 4);
-  EXPECT_EQ(head, "\x89PNG");
-  EXPECT_GT(std::filesystem::file_size(path), 10000u);
-  std::filesystem::remove(path);
+test::Png drawn(const std::function<void(const std::string&)>& draw) {
+  const auto path = test::folder_of_test() / "dome.png";
+  draw(path);
+  return test::read_png(path);
 }
 
-TEST(SkyPicture, IsDrawnByDayAndNight) {
+// Between the grid's circles (every 10 degrees) and rays (every 30), and away from the sun.
+constexpr std::array<Horizontal, 5> beside_lines{
+    {{15, 45}, {75, 15}, {75, 75}, {255, 35}, {315, 5}}};
+constexpr double of_bytes = 1.01 / 255;
+
+/// Share of the scale that a colour of the palette stands for: its lightness grows evenly.
+double share_of(Colour colour) {
+  const double dark = lab_from_srgb(map_colour(Palette::false_colour, 0)).lightness,
+               light = lab_from_srgb(map_colour(Palette::false_colour, 1)).lightness;
+  return (lab_from_srgb(colour).lightness - dark) / (light - dark);
+}
+
+TEST(SkyPicture, LuminancesAreThoseOfTheDome) {
   for (const char* time : {"2026-06-21T12:00", "2026-06-21T20:30", "2026-06-21T01:00"}) {
     const SkyDome dome = sky_dome(study_at_prague(), time);
-    for (const SkyPicture kind : {SkyPicture::luminance, SkyPicture::colour})
-      expect_picture([&](const std::string& path) { draw_sky(dome, {.kind = kind}, path); });
+    const auto png = drawn(
+        [&](const std::string& path) { draw_sky(dome, {.kind = SkyPicture::luminance}, path); });
+    constexpr double legend_width = 150;
+    const Picture paper(png.width, png.height);
+    const DomeChart chart(paper, DomeProjection::equidistant, legend_width);
+    // One scale: shares are radiances times one factor.
+    double factor = 0;
+    for (const Horizontal place : beside_lines) {
+      const auto p = chart.at(place);
+      const double share = share_of(png.at(p.x, p.y)), radiance = dome.radiance(place);
+      SCOPED_TRACE(fmt::format("{}: {} {}", time, place.azimuth_deg, place.elevation_deg));
+      if (radiance == 0) {
+        EXPECT_NEAR(share, 0, 0.01);
+        continue;
+      }
+      if (factor == 0) factor = share / radiance;
+      EXPECT_NEAR(share, std::min(1.0, factor * radiance), 0.03);
+    }
+    EXPECT_EQ(factor > 0, dome.light.mean.dhi > 0);
   }
 }
 
-TEST(SunDiagram, IsDrawnFromPoleToPole) {
+TEST(SkyPicture, ColoursAreThoseOfTheModel) {
+  const SkyDome dome = sky_dome(study_at_prague(), "2026-06-21T12:00");
+  const auto png =
+      drawn([&](const std::string& path) { draw_sky(dome, {.kind = SkyPicture::colour}, path); });
+  const Picture paper(png.width, png.height);
+  const DomeChart chart(paper, DomeProjection::equidistant, 0);
+  for (const Horizontal place : beside_lines) {
+    const auto p = chart.at(place);
+    const Rgb model = sky_colour(SkyColourModel::second, enu_direction(place),
+                                 dome.light.when.direction, picture_gain);
+    // Half a pixel is a twentieth of a degree.
+    EXPECT_LT(test::difference(png.at(p.x, p.y), {model.red, model.green, model.blue}),
+              0.01 + of_bytes)
+        << place.azimuth_deg;
+  }
+}
+
+TEST(SunDiagram, HasHillsAndSunsFromPoleToPole) {
+  constexpr Colour hills{0.87, 0.85, 0.80}, dot{0.95, 0.62, 0.05};
+  std::size_t all_dots = 0;
   for (const double latitude_deg : {90.0, 78.0, 50.0, 0.0, -34.0, -90.0}) {
     Study study = study_at_prague();
     study.site.latitude_deg = latitude_deg;
@@ -192,10 +237,28 @@ TEST(SunDiagram, IsDrawnFromPoleToPole) {
                     .north_deg = 20,
                     .timezone = "Europe/Prague",
                     .horizon = study.site.horizon};
-    expect_picture([&](const std::string& path) {
-      draw_sun_diagram(study, site, light_series(study, site), path);
-    });
+    const auto light = light_series(study, site);
+    const auto png =
+        drawn([&](const std::string& path) { draw_sun_diagram(study, site, light, path); });
+    const Picture paper(png.width, png.height);
+    constexpr double room_for_days = 0.11;
+    const DomeChart chart(paper, DomeProjection::stereographic, 0, room_for_days);
+    // Hills of 5 to 20 degrees fill a tenth of the disc and more; lines and dots are thin.
+    EXPECT_GT(static_cast<double>(test::count_of(png, hills)),
+              0.1 * pi * chart.radius() * chart.radius())
+        << latitude_deg;
+    std::size_t dots = 0, seen = 0;
+    for (const auto& interval : light.intervals) {
+      if (interval.when.sunlit_s <= 0 || interval.when.sun.elevation_deg < 0) continue;
+      const auto p = chart.at({interval.when.sun.azimuth_deg, interval.when.sun.elevation_deg});
+      ++dots;
+      seen += test::difference(png.at(p.x, p.y), dot) <= of_bytes ? 1U : 0U;
+    }
+    // Labels of hours lie over some.
+    EXPECT_GE(2 * seen, dots) << latitude_deg;
+    all_dots += dots;
   }
+  EXPECT_GT(all_dots, 20u);
 }
 
 }  // namespace

@@ -14,13 +14,14 @@
 #include "io/plan/light_series.h"
 #include "io/plan/scene_build.h"
 #include "io/plan/variant_plan.h"
-#include "tests/support/reference.h"
+#include "tests/support/real_models.h"
+#include "tests/support/refusal_of.h"
 #include "tests/support/scene_text.h"
+#include "tests/support/small_weather.h"
 
 namespace sunload {
 namespace {
 
-using test::shared_missing;
 using test::write_text;
 
 const std::string weather_folder = "data/weather/";
@@ -41,12 +42,7 @@ std::string shared(const std::string& name) {
 LightSeries series_of(const Study& study) { return light_series(study, build_scene(study).site); }
 
 std::string refused(const Study& study) {
-  try {
-    series_of(study);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+  return test::refusal_of([&] { series_of(study); });
 }
 
 bool says(const std::vector<std::string>& lines, const std::string& part) {
@@ -69,7 +65,7 @@ const std::string roof =
     "# utc_offset: +01:00\n";
 
 TEST(WeatherLight, YearOfAnEpwIsItsRecordsAndFast) {
-  if (shared_missing(weather_folder + "WD100_denver.epw")) return;
+  SUNLOAD_NEEDS_MODEL(weather_folder + "WD100_denver.epw");
   const Study study = study_of("", "year_of: weather", shared("WD100_denver.epw"));
   const auto built = build_scene(study);
   EXPECT_NE(built.site_source.find("weather station Denver"), std::string::npos);
@@ -105,10 +101,10 @@ TEST(WeatherLight, YearOfAnEpwIsItsRecordsAndFast) {
 }
 
 TEST(WeatherLight, TypicalYearsSayThatTheyHaveNoLeapDay) {
-  if (shared_missing(weather_folder + "chicago_tmy3.epw")) return;
+  write_text("typical.epw", test::small_epw());
   const auto why = [](const std::string& day) {
     return refused(
-        study_of("timezone: America/Chicago", "days: [" + day + "]", shared("chicago_tmy3.epw")));
+        study_of("timezone: Europe/Berlin", "days: [" + day + "]", "weather: typical.epw"));
   };
   EXPECT_NE(why("2024-02-29").find("have no 29 February"), std::string::npos) << why("2024-02-29");
   EXPECT_EQ(why("2024-02-28"), "");
@@ -141,12 +137,12 @@ TEST(WeatherLight, SolverGetsDiffuseLightInTheDark) {
 }
 
 TEST(WeatherLight, TypicalYearsServeForTheDatesOfThePeriod) {
-  if (shared_missing(weather_folder + "munich_iwec.epw")) return;
-  const auto own = series_of(study_of("", "year_of: weather", shared("munich_iwec.epw")));
+  write_text("typical.epw", test::small_epw());
+  const auto own = series_of(study_of("", "year_of: weather", "weather: typical.epw"));
   const auto day =
       series_of(study_of("latitude_deg: 48.13, longitude_deg: 11.7, elevation_m: 529, "
                          "timezone: Europe/Berlin",
-                         "days: [2028-06-21]", shared("munich_iwec.epw")));
+                         "days: [2028-06-21]", "weather: typical.epw"));
   ASSERT_EQ(day.intervals.size(), 24u);
   EXPECT_EQ(iso_utc(day.intervals.front().when.begin), "2028-06-20T22:00:00Z");
   // 00:00 of summer time is 23:00 of 20 June in standard time: the 24th hour of the 171st day.
@@ -156,15 +152,15 @@ TEST(WeatherLight, TypicalYearsServeForTheDatesOfThePeriod) {
   }
   EXPECT_TRUE(says(day.weather, "taken for the dates of the period"));
   const auto leap =
-      refused(study_of("timezone: UTC", "days: [2028-02-29]", shared("munich_iwec.epw")));
+      refused(study_of("timezone: UTC", "days: [2028-02-29]", "weather: typical.epw"));
   EXPECT_NE(leap.find("the weather does not cover"), std::string::npos) << leap;
   const auto across = series_of(
-      study_of("timezone: UTC", "start: 2026-12-31, end: 2027-01-02", shared("munich_iwec.epw")));
+      study_of("timezone: UTC", "start: 2026-12-31, end: 2027-01-02", "weather: typical.epw"));
   EXPECT_EQ(across.intervals.size(), 48u);
 }
 
 TEST(WeatherLight, ActualYearsKeepTheirDates) {
-  if (shared_missing(weather_folder + "zurich_sma_2016_leap.epw")) return;
+  SUNLOAD_NEEDS_MODEL(weather_folder + "zurich_sma_2016_leap.epw");
   const std::string zurich = shared("zurich_sma_2016_leap.epw");
   const auto missing = refused(study_of("", "year_of: weather", zurich));
   EXPECT_NE(missing.find("epw:7201: irradiance is missing here (120 of 8784 records"),
@@ -214,11 +210,16 @@ TEST(WeatherLight, TimesOfACsvWithoutZoneAreStandardTimeOfTheSite) {
   EXPECT_TRUE(says(series.weather, "from site.timezone"));
 }
 
-TEST(WeatherLight, FarStationsAndShiftedStampsAreWarnedAbout) {
-  if (shared_missing(weather_folder + "gothenburg_tmyx.epw")) return;
+TEST(WeatherLight, FarStationsAreWarnedAbout) {
+  write_text("typical.epw", test::small_epw());
   const auto far = series_of(study_of("latitude_deg: 59.33, longitude_deg: 18.07",
-                                      "year_of: weather", shared("gothenburg_tmyx.epw")));
+                                      "year_of: weather", "weather: typical.epw"));
   EXPECT_TRUE(says(far.notes, "km from the site"));
+  EXPECT_TRUE(series_of(study_of("", "year_of: weather", "weather: typical.epw")).notes.empty());
+}
+
+TEST(WeatherLight, ShiftedStampsAreWarnedAbout) {
+  SUNLOAD_NEEDS_MODEL(weather_folder + "gothenburg_tmyx.epw");
   // Its radiation belongs to the sun at the end of the hours (reanalysis at full hours).
   const auto near = series_of(study_of("", "year_of: weather", shared("gothenburg_tmyx.epw")));
   ASSERT_EQ(near.notes.size(), 1u);

@@ -21,13 +21,6 @@
 namespace sunload::test {
 namespace {
 
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
-  return bytes.str();
-}
-
 void write_bytes(const std::string& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
@@ -48,9 +41,9 @@ class SmallDisk {
 };
 
 TEST(ResultFile, RoundTrip) {
-  const Folder folder;
+  const WorkFolder folder;
   const Example example;
-  const std::string path = folder.file("a.h5");
+  const std::string path = folder / "a.h5";
   example.write_result(folder, path, {"irradiance", "irradiance_direct"});
   const ResultReader reader(path);
   EXPECT_EQ(reader.shape("irradiance"), (std::vector<std::size_t>{84, 5000}));
@@ -68,13 +61,13 @@ TEST(ResultFile, RoundTrip) {
   EXPECT_EQ(reader.number_attribute("seed"), 7);
   EXPECT_TRUE(std::isnan(reader.number_attribute("absent")));
   EXPECT_FALSE(reader.has("irradiance_sky"));
-  EXPECT_EQ(folder.entries(), 3u) << "two batches and the result";
+  EXPECT_EQ(folder.content().size(), 3u) << "two batches and the result";
 }
 
 TEST(ResultFile, MissingRowsAreNaN) {
-  const Folder folder;
+  const WorkFolder folder;
   const Example example;
-  const std::string batch = folder.file("1.batch"), path = folder.file("partial.h5");
+  const std::string batch = folder / "1.batch", path = folder / "partial.h5";
   example.write_batch(batch, 1);
   {
     ResultWriter writer(path, example.geometry(), example.times(), example.options());
@@ -88,17 +81,17 @@ TEST(ResultFile, MissingRowsAreNaN) {
 }
 
 TEST(ResultFile, BatchesOfAnotherCompressionAndPlainFacadesFit) {
-  const Folder folder;
+  const WorkFolder folder;
   Example plain;
   plain.compression = 0;
   const Example deflated;
-  plain.write_batch(folder.file("0"), 0);
-  deflated.write_batch(folder.file("1"), 1);
-  const std::string path = folder.file("a.h5");
+  plain.write_batch(folder / "0", 0);
+  deflated.write_batch(folder / "1", 1);
+  const std::string path = folder / "a.h5";
   {
     ResultWriter writer(path, deflated.geometry(), deflated.times(), deflated.options());
-    writer.append(BatchReader(folder.file("0")));
-    writer.append(BatchReader(folder.file("1")));
+    writer.append(BatchReader(folder / "0"));
+    writer.append(BatchReader(folder / "1"));
     writer.finish({}, "");
   }
   const auto all = deflated.series(0, deflated.intervals, deflated.patches);
@@ -106,22 +99,22 @@ TEST(ResultFile, BatchesOfAnotherCompressionAndPlainFacadesFit) {
 }
 
 TEST(ResultFile, WhatIsLeftOutIsNotThere) {
-  const Folder folder;
+  const WorkFolder folder;
   const Example example;
   auto options = example.options();
   options.left_out = {"irradiance_direct"};
-  example.write_batch(folder.file("0"), 0, {"irradiance", "irradiance_direct"});
+  example.write_batch(folder / "0", 0, {"irradiance", "irradiance_direct"});
   {
-    ResultWriter writer(folder.file("a.h5"), example.geometry(), example.times(), options);
-    writer.append(BatchReader(folder.file("0")));
+    ResultWriter writer(folder / "a.h5", example.geometry(), example.times(), options);
+    writer.append(BatchReader(folder / "0"));
     writer.finish({}, "");
   }
-  EXPECT_TRUE(ResultReader(folder.file("a.h5")).has("irradiance"));
-  EXPECT_FALSE(ResultReader(folder.file("a.h5")).has("irradiance_direct"));
+  EXPECT_TRUE(ResultReader(folder / "a.h5").has("irradiance"));
+  EXPECT_FALSE(ResultReader(folder / "a.h5").has("irradiance_direct"));
 }
 
 TEST(ResultFile, SeriesOfDoublesBecomeChunks) {
-  const Folder folder;
+  const WorkFolder folder;
   Example example;
   example.intervals = 10;
   BatchWriter batch({"hash", "baseline", "avx2", 0, 0, 10, 64, 4});
@@ -130,11 +123,11 @@ TEST(ResultFile, SeriesOfDoublesBecomeChunks) {
   batch.add({"facade_irradiance", MergeRule::append, ArrayType::float64, {10, 3}}, values.data());
   const std::vector<double> errors(10, 0.5);
   batch.add({"power_sun_se", MergeRule::append, ArrayType::float64, {10}}, errors.data());
-  batch.write(folder.file("0"));
-  const std::string path = folder.file("a.h5");
+  batch.write(folder / "0");
+  const std::string path = folder / "a.h5";
   {
     ResultWriter writer(path, example.geometry(), example.times(), example.options());
-    writer.append(BatchReader(folder.file("0")));
+    writer.append(BatchReader(folder / "0"));
     writer.write({"power_sun_se", {2}});
     writer.finish({}, "");
   }
@@ -145,25 +138,22 @@ TEST(ResultFile, SeriesOfDoublesBecomeChunks) {
 }
 
 TEST(ResultFile, BrokenPromisesAreOurBugs) {
-  const Folder folder;
+  const WorkFolder folder;
   const Example example;
-  example.write_batch(folder.file("0"), 0);
-  ResultWriter writer(folder.file("a.h5"), example.geometry(), example.times(), example.options());
+  example.write_batch(folder / "0", 0);
+  ResultWriter writer(folder / "a.h5", example.geometry(), example.times(), example.options());
   EXPECT_THROW(writer.write({"no_such", {1}}), std::logic_error);
   EXPECT_THROW(writer.write({"light_load", {1}}), std::logic_error);
   EXPECT_THROW(writer.write({"irradiance", {1}}), std::logic_error);
-  writer.append(BatchReader(folder.file("0")));
-  EXPECT_THROW(writer.append(BatchReader(folder.file("0"))), std::logic_error);
+  writer.append(BatchReader(folder / "0"));
+  EXPECT_THROW(writer.append(BatchReader(folder / "0")), std::logic_error);
 }
 
 TEST(ResultFile, UnfinishedLeavesNothing) {
-  const Folder folder;
+  const WorkFolder folder;
   const Example example;
-  {
-    ResultWriter writer(folder.file("a.h5"), example.geometry(), example.times(),
-                        example.options());
-  }
-  EXPECT_EQ(folder.entries(), 0u);
+  { ResultWriter writer(folder / "a.h5", example.geometry(), example.times(), example.options()); }
+  EXPECT_EQ(folder.content().size(), 0u);
 }
 
 TEST(ResultFile, UnwritableFolderIsTheMachines) {
@@ -180,23 +170,22 @@ TEST(ResultFile, UnwritableFolderIsTheMachines) {
 }
 
 TEST(ResultFile, FullDiskAtAnyPointIsTheMachinesAndLeavesNothing) {
-  const Folder folder;
+  const WorkFolder folder;
   const Example example;
   for (std::size_t b = 0; b < example.batches(); ++b) {
-    example.write_batch(folder.file(std::to_string(b)), b);
+    example.write_batch(folder / std::to_string(b), b);
   }
   const auto write = [&] {
-    ResultWriter writer(folder.file("a.h5"), example.geometry(), example.times(),
-                        example.options());
+    ResultWriter writer(folder / "a.h5", example.geometry(), example.times(), example.options());
     for (std::size_t b = 0; b < example.batches(); ++b) {
-      writer.append(BatchReader(folder.file(std::to_string(b))));
+      writer.append(BatchReader(folder / std::to_string(b)));
     }
     example.write_totals(writer);
     writer.finish({{{"title", std::string(100'000, 'x')}}, {}, {}}, std::string(100'000, 'y'));
   };
   write();
-  const auto size = std::filesystem::file_size(folder.file("a.h5"));
-  std::filesystem::remove(folder.file("a.h5"));
+  const auto size = std::filesystem::file_size(folder / "a.h5");
+  std::filesystem::remove(folder / "a.h5");
   constexpr std::size_t steps = 20;
   for (std::size_t i = 0; i < steps; ++i) {
     const SmallDisk disk(size * i / steps);
@@ -207,25 +196,25 @@ TEST(ResultFile, FullDiskAtAnyPointIsTheMachinesAndLeavesNothing) {
       EXPECT_NE(std::string(error.what()).find("File too large"), std::string::npos)
           << error.what();
     }
-    EXPECT_EQ(folder.entries(), example.batches());
+    EXPECT_EQ(folder.content().size(), example.batches());
   }
   write();
-  EXPECT_EQ(std::filesystem::file_size(folder.file("a.h5")), size);
+  EXPECT_EQ(std::filesystem::file_size(folder / "a.h5"), size);
 }
 
 TEST(ResultReader, ForeignFilesAreTheUsers) {
-  const Folder folder;
-  EXPECT_THROW(ResultReader(folder.file("absent.h5")), InputError);
-  write_bytes(folder.file("text.h5"), "not HDF5");
-  write_bytes(folder.file("empty.h5"), "");
-  EXPECT_THROW(ResultReader(folder.file("text.h5")), InputError);
-  EXPECT_THROW(ResultReader(folder.file("empty.h5")), InputError);
-  EXPECT_THROW(ResultReader(folder.file(".")), InputError);
+  const WorkFolder folder;
+  EXPECT_THROW(ResultReader(folder / "absent.h5"), InputError);
+  write_bytes(folder / "text.h5", "not HDF5");
+  write_bytes(folder / "empty.h5", "");
+  EXPECT_THROW(ResultReader(folder / "text.h5"), InputError);
+  EXPECT_THROW(ResultReader(folder / "empty.h5"), InputError);
+  EXPECT_THROW(ResultReader(folder / "."), InputError);
   Example example;
   example.patches = 10;
   example.intervals = 3;
-  example.write_result(folder, folder.file("a.h5"));
-  const ResultReader reader(folder.file("a.h5"));
+  example.write_result(folder, folder / "a.h5");
+  const ResultReader reader(folder / "a.h5");
   EXPECT_THROW(reader.doubles("absent"), InputError);
   EXPECT_THROW(reader.row("irradiance", 3), InputError);
   EXPECT_THROW(reader.row("power_sun_se", 0), InputError);
@@ -235,12 +224,12 @@ TEST(ResultReader, ForeignFilesAreTheUsers) {
 
 // HDF5 gives back what it reserved: the end of a small file may lie before its series began.
 TEST(ResultReader, TheSmallestResultsAreReadable) {
-  const Folder folder;
+  const WorkFolder folder;
   for (std::size_t patches = 1; patches <= 12; ++patches) {
     Example example;
     example.patches = patches;
     example.intervals = 1 + patches % 3;
-    const auto path = folder.file("small_" + std::to_string(patches) + ".h5");
+    const auto path = folder / ("small_" + std::to_string(patches) + ".h5");
     example.write_result(folder, path);
     EXPECT_NO_THROW(ResultReader{path}) << patches << " patches";
   }
@@ -272,25 +261,25 @@ bool reads(const std::string& path) {
 }
 
 TEST(ResultReader, DamagedFilesDoNotCrash) {
-  const Folder folder;
+  const WorkFolder folder;
   Example example;
   example.patches = 50;
   example.intervals = 10;
-  example.write_result(folder, folder.file("a.h5"));
-  const std::string whole = bytes_of(folder.file("a.h5"));
-  ASSERT_TRUE(reads(folder.file("a.h5")));
+  example.write_result(folder, folder / "a.h5");
+  const std::string whole = bytes_of(folder / "a.h5");
+  ASSERT_TRUE(reads(folder / "a.h5"));
   std::mt19937 random(1);
   constexpr int cuts = 60, flips = 600;
   for (int i = 0; i < cuts; ++i) {
-    write_bytes(folder.file("cut.h5"), whole.substr(0, random() % whole.size()));
-    EXPECT_FALSE(reads(folder.file("cut.h5")));
+    write_bytes(folder / "cut.h5", whole.substr(0, random() % whole.size()));
+    EXPECT_FALSE(reads(folder / "cut.h5"));
   }
   int noticed = 0;
   for (int i = 0; i < flips; ++i) {
     std::string damaged = whole;
     for (int k = 0; k < 4; ++k) damaged[random() % damaged.size()] = static_cast<char>(random());
-    write_bytes(folder.file("bad.h5"), damaged);
-    noticed += reads(folder.file("bad.h5")) ? 0 : 1;
+    write_bytes(folder / "bad.h5", damaged);
+    noticed += reads(folder / "bad.h5") ? 0 : 1;
   }
   EXPECT_GT(noticed, flips * 9 / 10) << "only chunks that happen to be plain may change unnoticed";
 }
@@ -317,12 +306,12 @@ TEST(ResultFile, PageAndSchemaAndFileAgree) {
                                                   "float32", "float64", "text"};
   const auto rows = documented();
   ASSERT_EQ(rows.size(), result_schema().size());
-  const Folder folder;
+  const WorkFolder folder;
   Example example;
   example.patches = 10;
   example.intervals = 3;
-  example.write_result(folder, folder.file("a.h5"));
-  const ResultReader reader(folder.file("a.h5"));
+  example.write_result(folder, folder / "a.h5");
+  const ResultReader reader(folder / "a.h5");
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const ResultVariable& variable = result_schema()[i];
     EXPECT_EQ(rows[i][0], variable.name);
@@ -341,12 +330,12 @@ TEST(ResultFile, NothingIsWrittenThatThePageDoesNotName) {
   for (const auto& variable : result_schema()) {
     for (const auto& dim : dimension_names(variable)) names.insert(dim);
   }
-  const Folder folder;
+  const WorkFolder folder;
   Example example;
   example.patches = 10;
   example.intervals = 3;
-  example.write_result(folder, folder.file("a.h5"));
-  for (const auto& name : h5::File::open(folder.file("a.h5")).names()) {
+  example.write_result(folder, folder / "a.h5");
+  for (const auto& name : h5::File::open(folder / "a.h5").names()) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
 }

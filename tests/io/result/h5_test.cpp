@@ -12,8 +12,8 @@ namespace sunload::test {
 namespace {
 
 TEST(H5, AttributesAndDatasetsRoundTrip) {
-  const Folder folder;
-  const std::string path = folder.file("a.h5");
+  const WorkFolder folder;
+  const std::string path = folder / "a.h5";
   {
     h5::File file = h5::File::create(path);
     file.set("text", "ž");
@@ -46,8 +46,8 @@ TEST(H5, AttributesAndDatasetsRoundTrip) {
 }
 
 TEST(H5, ChunksOfBothCodingsAreReadBack) {
-  const Folder folder;
-  const std::string path = folder.file("a.h5");
+  const WorkFolder folder;
+  const std::string path = folder / "a.h5";
   const ChunkShape shape{4, 1000};
   const std::vector<float> values(4 * 1000, 2.5F);
   {

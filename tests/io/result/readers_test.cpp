@@ -13,10 +13,7 @@ namespace {
 // Debian's own interpreter, for which its packages are installed.
 constexpr const char* python = "/usr/bin/python3";
 
-bool python_missing() {
-  return program_missing("python3 with h5py, xarray and h5netcdf",
-                         std::string(python) + " -c 'import h5py, xarray, h5netcdf'");
-}
+const std::string packages = std::string(python) + " -c 'import h5py, xarray, h5netcdf'";
 
 void expect_python_reads(const std::string& path, const Example& example) {
   const Output output = run_program(
@@ -26,48 +23,48 @@ void expect_python_reads(const std::string& path, const Example& example) {
 }
 
 TEST(ResultReaders, PythonReadsSeveralBatchesAndChunks) {
-  if (python_missing()) return;
-  const Folder folder;
+  SUNLOAD_NEEDS_PROGRAM("python3 with h5py, xarray and h5netcdf", packages);
+  const WorkFolder folder;
   const Example example;
-  example.write_result(folder, folder.file("a.h5"));
-  expect_python_reads(folder.file("a.h5"), example);
+  example.write_result(folder, folder / "a.h5");
+  expect_python_reads(folder / "a.h5", example);
 }
 
 TEST(ResultReaders, PythonReadsOneShortBatch) {
-  if (python_missing()) return;
-  const Folder folder;
+  SUNLOAD_NEEDS_PROGRAM("python3 with h5py, xarray and h5netcdf", packages);
+  const WorkFolder folder;
   Example example;
   example.patches = 7;
   example.intervals = 5;
-  example.write_result(folder, folder.file("a.h5"));
-  expect_python_reads(folder.file("a.h5"), example);
+  example.write_result(folder, folder / "a.h5");
+  expect_python_reads(folder / "a.h5", example);
 }
 
 TEST(ResultReaders, PythonReadsWithoutFacadesAndMaterials) {
-  if (python_missing()) return;
-  const Folder folder;
+  SUNLOAD_NEEDS_PROGRAM("python3 with h5py, xarray and h5netcdf", packages);
+  const WorkFolder folder;
   Example example;
   example.facades = example.materials = 0;
-  example.write_result(folder, folder.file("a.h5"));
-  expect_python_reads(folder.file("a.h5"), example);
+  example.write_result(folder, folder / "a.h5");
+  expect_python_reads(folder / "a.h5", example);
 }
 
 TEST(ResultReaders, PythonReadsStoredSeries) {
-  if (python_missing()) return;
-  const Folder folder;
+  SUNLOAD_NEEDS_PROGRAM("python3 with h5py, xarray and h5netcdf", packages);
+  const WorkFolder folder;
   Example example;
   example.compression = 0;
-  example.write_result(folder, folder.file("a.h5"));
-  expect_python_reads(folder.file("a.h5"), example);
+  example.write_result(folder, folder / "a.h5");
+  expect_python_reads(folder / "a.h5", example);
 }
 
 TEST(ResultReaders, NetcdfListsDimensionsAndUnits) {
-  if (program_missing("ncdump", "command -v ncdump")) return;
-  const Folder folder;
+  SUNLOAD_NEEDS_PROGRAM("ncdump", "command -v ncdump");
+  const WorkFolder folder;
   for (const std::size_t facades : {std::size_t{3}, std::size_t{0}}) {
     Example example;
     example.facades = facades;
-    const std::string path = folder.file(std::to_string(facades) + ".h5");
+    const std::string path = folder / (std::to_string(facades) + ".h5");
     example.write_result(folder, path);
     const Output output = run_program("ncdump -h " + path);
     EXPECT_EQ(output.status, 0) << output.text;
@@ -83,26 +80,26 @@ TEST(ResultReaders, NetcdfListsDimensionsAndUnits) {
 }
 
 TEST(ResultReaders, EqualWritesAreEqual) {
-  const Folder folder;
+  const WorkFolder folder;
   const Example example;
-  example.write_result(folder, folder.file("a.h5"));
+  example.write_result(folder, folder / "a.h5");
   // HDF5's times of objects count seconds: a later second would show them.
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));
-  example.write_result(folder, folder.file("b.h5"));
-  const std::string both = folder.file("a.h5") + " " + folder.file("b.h5");
+  example.write_result(folder, folder / "b.h5");
+  const std::string both = (folder / "a.h5") + " " + (folder / "b.h5");
   EXPECT_EQ(run_program("cmp " + both).status, 0);
-  if (program_missing("h5diff", "command -v h5diff")) return;
-  EXPECT_EQ(run_program("h5diff " + both).status, 0);
 }
 
-TEST(ResultReaders, HdfToolSeesAnotherValue) {  // the twin: h5diff can tell files apart
-  if (program_missing("h5diff", "command -v h5diff")) return;
-  const Folder folder;
+TEST(ResultReaders, HdfToolSeesAnotherValueAndNoOther) {
+  SUNLOAD_NEEDS_PROGRAM("h5diff", "command -v h5diff");
+  const WorkFolder folder;
   Example example;
-  example.write_result(folder, folder.file("a.h5"));
+  example.write_result(folder, folder / "a.h5");
+  example.write_result(folder, folder / "same.h5");
+  EXPECT_EQ(run_program("h5diff " + (folder / "a.h5") + " " + (folder / "same.h5")).status, 0);
   example.patches += 1;
-  example.write_result(folder, folder.file("b.h5"));
-  EXPECT_NE(run_program("h5diff " + folder.file("a.h5") + " " + folder.file("b.h5")).status, 0);
+  example.write_result(folder, folder / "b.h5");
+  EXPECT_NE(run_program("h5diff " + (folder / "a.h5") + " " + (folder / "b.h5")).status, 0);
 }
 
 }  // namespace

@@ -9,34 +9,15 @@
 
 #include <array>
 #include <cstdio>
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "io/batch/file.h"
 #include "io/result/writer.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload::test {
-
-/// An empty folder of this test, removed at its end.
-class Folder {
- public:
-  Folder()
-      : path_(std::filesystem::temp_directory_path() /
-              ("sunload-test-" + std::to_string(::getpid()) + "-" +
-               ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-  std::size_t entries() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 struct Output {
   int status = -1;
@@ -56,13 +37,10 @@ inline Output run_program(const std::string& command) {
   return output;
 }
 
-/// True where `command` does not run here; names it in the output of the test.
-inline bool program_missing(const std::string& name, const std::string& command) {
-  if (run_program(command).status == 0) return false;
-  std::printf("NOT RUN: %s: %s is missing\n",
-              ::testing::UnitTest::GetInstance()->current_test_info()->name(), name.c_str());
-  return true;
-}
+/// The running test is skipped where `command` does not run.
+#define SUNLOAD_NEEDS_PROGRAM(name, command)             \
+  if (::sunload::test::run_program(command).status != 0) \
+  GTEST_SKIP() << "NOT RUN: " << (name) << " is not installed"
 
 struct Example {
   std::size_t patches = 5000, intervals = 84, facades = 3, materials = 2, realizations = 4;
@@ -176,11 +154,11 @@ struct Example {
   }
 
   /// The whole way: batches in `folder`, then the result.
-  void write_result(const Folder& folder, const std::string& path,
+  void write_result(const WorkFolder& folder, const std::string& path,
                     const std::vector<std::string>& names = {"irradiance"}) const {
     ResultWriter writer(path, geometry(), times(), options());
     for (std::size_t b = 0; b < batches(); ++b) {
-      const std::string batch = folder.file(std::to_string(b) + ".batch");
+      const std::string batch = folder / (std::to_string(b) + ".batch");
       write_batch(batch, b, names);
       writer.append(BatchReader(batch));
     }

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "geo/base/check.h"
+#include "tests/support/refusal_of.h"
 
 namespace sunload {
 namespace {
@@ -24,12 +25,7 @@ Shard shard(const std::string& text, const Variables& variables = {}) {
 
 /// The message with which a shard is refused, empty if it is not.
 std::string refusal(const std::string& text, const Variables& variables = {}) {
-  try {
-    shard(text, variables);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+  return test::refusal_of([&] { shard(text, variables); });
 }
 
 void expect_shard(const Shard& is, std::size_t index, std::size_t count) {

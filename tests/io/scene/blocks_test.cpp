@@ -14,9 +14,9 @@
 #include "geo/mesh/mesh_prepare.h"
 #include "io/plan/scene_build.h"
 #include "io/scene/raster/raster.h"
-#include "tests/support/program.h"
-#include "tests/support/reference.h"
+#include "tests/support/real_models.h"
 #include "tests/support/scene_text.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload::test {
 namespace {
@@ -268,7 +268,7 @@ void expect_site(const std::string& folder, const RasterFiles& files) {
 }
 
 TEST(SceneBlocks, GothenburgsSites) {
-  if (shared_missing("data/studies")) return;
+  SUNLOAD_NEEDS_MODEL("data/studies");
   const std::string ga = shared_path("data/studies/gothenburg_gustav_adolfs/");
   expect_site(
       "gothenburg_gustav_adolfs",

@@ -21,6 +21,8 @@
 #include "io/scene/cityjson/write.h"
 #include "io/scene/file.h"
 #include "io/scene/mesh_files/obj_write.h"
+#include "tests/support/refusal_of.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload {
 namespace {
@@ -379,12 +381,7 @@ TEST(SceneBuiltin, ParametersChangeTheScene) {
 }
 
 std::string refusal(const BuiltinRules& rules) {
-  try {
-    builtin_scene(rules);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+  return test::refusal_of([&] { builtin_scene(rules); });
 }
 
 TEST(SceneBuiltin, CityHasTheTrianglesAskedFor) {
@@ -398,9 +395,8 @@ TEST(SceneBuiltin, CityHasTheTrianglesAskedFor) {
 }
 
 TEST(SceneBuiltin, CityJsonReadsBackAsTheSameScene) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "sunload_builtin_cityjson";
-  std::filesystem::create_directories(folder);
-  const auto path = (folder / "city.city.json").string();
+  const test::WorkFolder folder;
+  const auto path = folder / "city.city.json";
   for (const char* name : {"city", "canyon", "windows"}) {
     const auto model = builtin_scene({name, {}});
     write_cityjson(model, path);
@@ -420,9 +416,8 @@ TEST(SceneBuiltin, CityJsonReadsBackAsTheSameScene) {
     for (const auto& material : again.mesh.file_materials) materials.insert(material.name);
     for (const auto& material : model.materials) EXPECT_TRUE(materials.contains(material.name));
   }
-  EXPECT_THROW(
-      write_cityjson(builtin_scene({"room", {}}), (folder / "missing" / "a.json").string()),
-      MachineError);
+  EXPECT_THROW(write_cityjson(builtin_scene({"room", {}}), folder / "missing/a.json"),
+               MachineError);
 }
 
 TEST(SceneBuiltin, RefusesWithTheNearestName) {
@@ -439,9 +434,8 @@ TEST(SceneBuiltin, RefusesWithTheNearestName) {
 }
 
 TEST(SceneBuiltin, ObjReadsBackAsTheSameScene) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "sunload_builtin_obj";
-  std::filesystem::create_directories(folder);
-  const auto path = (folder / "street.obj").string();
+  const test::WorkFolder folder;
+  const auto path = folder / "street.obj";
   const auto model = builtin_scene({"street", {{"house_3", "glazed"}}});
   write_obj(model, path);
   const auto again = prepare(read_scene_file(path, {}), {});
@@ -459,9 +453,10 @@ TEST(SceneBuiltin, ObjReadsBackAsTheSameScene) {
         EXPECT_DOUBLE_EQ(material.mirror.value_or(0), known.mirror.value_or(0)) << material.name;
       }
   std::size_t files = 0;
-  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder)) ++files;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    ++files;
   EXPECT_EQ(files, 2u) << "nothing is left aside";
-  EXPECT_THROW(write_obj(model, (folder / "missing" / "a.obj").string()), MachineError);
+  EXPECT_THROW(write_obj(model, folder / "missing/a.obj"), MachineError);
 }
 
 }  // namespace

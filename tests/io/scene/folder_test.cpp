@@ -17,6 +17,7 @@
 #include <set>
 #include <sstream>
 
+#include "tests/support/real_models.h"
 #include "tests/support/reference.h"
 #include "tests/support/scene_text.h"
 
@@ -347,22 +348,22 @@ void walk(const std::string& folder) {
 }
 
 TEST(SceneFolder, City) {
-  if (shared_missing("data/city")) return;
+  SUNLOAD_NEEDS_MODEL("data/city");
   walk("data/city");
 }
 
 TEST(SceneFolder, Meshes) {
-  if (shared_missing("data/meshes")) return;
+  SUNLOAD_NEEDS_MODEL("data/meshes");
   walk("data/meshes");
 }
 
 TEST(SceneFolder, Vrml) {
-  if (shared_missing("data/vrml")) return;
+  SUNLOAD_NEEDS_MODEL("data/vrml");
   walk("data/vrml");
 }
 
 TEST(SceneFolder, InstancesOfTreesAreRead) {
-  if (shared_missing("data/city")) return;
+  SUNLOAD_NEEDS_MODEL("data/city");
   const auto model =
       read_scene_file(shared_path("data/city/geometry_templates_v20.city.jsonl"), {});
   // 15 trees, each one of the three templates, beside two objects of their own.

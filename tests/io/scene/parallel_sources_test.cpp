@@ -5,7 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "io/plan/variant_plan.h"
-#include "tests/support/program.h"
+#include "tests/support/refusal_of.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload::test {
 namespace {
@@ -34,12 +35,7 @@ VariantPlan plan_of(const WorkFolder& folder, const std::string& scene) {
 }
 
 std::string refusal(const WorkFolder& folder, const std::string& scene) {
-  try {
-    plan_of(folder, scene);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+  return refusal_of([&] { plan_of(folder, scene); });
 }
 
 TEST(ParallelSources, StandInTheFrameOfTheScene) {

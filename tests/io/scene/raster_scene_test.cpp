@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tests/support/reference.h"
+#include "tests/support/real_models.h"
 #include "tests/support/scene_text.h"
 
 namespace sunload {
@@ -153,7 +153,7 @@ TEST(SceneRaster, CellsWithoutAreaAreRefused) {
 }
 
 TEST(SceneRaster, GothenburgsModels) {
-  if (shared_missing("data/studies")) return;
+  SUNLOAD_NEEDS_MODEL("data/studies");
   const std::string folder = shared_path("data/studies/");
   const auto ga = read_scene_file(folder + "gothenburg_gustav_adolfs/DSM_GA.tif", {});
   // 116 × 104 cells of 2 m whose north-west corner is (319134, 6400206).

@@ -11,6 +11,6 @@
 
 TEST(StudyDocs, PageIsWrittenFromTheSchema) {
   const std::string command =
-      "/usr/bin/python3 " + test::source_folder() + "/scripts/study-docs --check";
+      "/usr/bin/python3 " + sunload::test::source_folder() + "/scripts/study-docs --check";
   EXPECT_EQ(std::system(command.c_str()), 0);
 }

@@ -26,7 +26,6 @@ Material clear_glass(double normal_transmittance, double diffuse = 0, double mir
 }
 
 TEST(ClearGlass, ReferenceCases) {
-  if (shared_missing("reference")) return;
   const auto cases = reference_cases("07_cie171_bestest/cie171_style.json", "glass_rivero");
   ASSERT_EQ(cases.size(), 4u);
   int square_refused = 0;

@@ -18,7 +18,6 @@ namespace {
 double cosine(double angle_deg) { return std::cos(angle_deg * radians_per_degree); }
 
 TEST(Pane, ReferenceCases) {
-  if (shared_missing("reference")) return;
   for (const auto& c : reference_cases("07_cie171_bestest/cie171_style.json", "glass_fresnel")) {
     const PaneShares glass =
         pane_shares({1.526, number(c["KL"]), 1}, cosine(number(c["angle_deg"])));

@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
 #include "geo/base/check.h"
 #include "solver/base/rng.h"
@@ -122,40 +125,57 @@ Leaks leaks(const Scene& scene, const RayCaster& caster, Vec3 centre, double hal
   return count;
 }
 
-std::vector<std::string> usable() {
-  std::vector<std::string> list;
-  for (const char* isa : {"sse4.2", "avx2", "avx512"}) {
-    try {
-      list.push_back(usable_isa(isa));
-    } catch (const InputError&) {
-      std::cout << "NOT RUN: " << isa << " is missing on this processor\n";
-    }
+constexpr std::array instruction_sets{"sse4.2", "avx2", "avx512"};
+
+bool is_usable(const std::string& isa) {
+  try {
+    return usable_isa(isa) == isa;
+  } catch (const InputError&) {
+    return false;
   }
-  return list;
 }
 
+/// On every instruction set that the processor has.
+class RayCasterOn : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    if (!is_usable(isa())) GTEST_SKIP() << "NOT RUN: " << isa() << " is missing on this processor";
+  }
+  static std::string isa() { return GetParam(); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Every, RayCasterOn, testing::ValuesIn(instruction_sets),
+                         [](const auto& isa) {
+                           std::string name = isa.param;
+                           std::erase(name, '.');
+                           return name;
+                         });
+
 // 0 of 1e6 rays on every instruction set. 5 km is what a district may have to its local origin.
-TEST(RayCaster, NothingLeaksOutOfClosedBodies) {
-  constexpr int packets = 1'000'000 / packet_size + 1;
-  for (const auto& isa : usable())
-    for (const Vec3 centre : {Vec3{0, 0, 0}, Vec3{5000, -5000, 300}}) {
-      const double half = 10;
-      const Scene box = box_at(centre, half), sphere = sphere_at(centre, half);
-      for (const Scene* scene : {&box, &sphere}) {
-        const RayCaster caster(scene->mesh, isa);
-        EXPECT_EQ(caster.isa(), isa);
-        const Leaks count = leaks(*scene, caster, centre, half, packets);
-        EXPECT_GE(count.rays, 1'000'000u);
-        EXPECT_EQ(count.left, 0u) << isa;
-        EXPECT_EQ(count.backs, 0u) << isa;
-        EXPECT_EQ(count.seen_light, 0u) << isa;
-      }
+constexpr int leak_packets = 1'000'000 / packet_size + 1;
+
+TEST_P(RayCasterOn, NothingLeaksOutOfClosedBodies) {
+  for (const Vec3 centre : {Vec3{0, 0, 0}, Vec3{5000, -5000, 300}}) {
+    const double half = 10;
+    const Scene box = box_at(centre, half), sphere = sphere_at(centre, half);
+    for (const Scene* scene : {&box, &sphere}) {
+      const RayCaster caster(scene->mesh, isa());
+      EXPECT_EQ(caster.isa(), isa());
+      const Leaks count = leaks(*scene, caster, centre, half, leak_packets);
+      EXPECT_GE(count.rays, 1'000'000u);
+      EXPECT_EQ(count.left, 0u);
+      EXPECT_EQ(count.backs, 0u);
+      EXPECT_EQ(count.seen_light, 0u);
     }
-  // Planted fault: one triangle of the sphere is missing.
+  }
+}
+
+// Planted fault: one triangle of the sphere is missing.
+TEST(RayCaster, LeaksOfAHoleAreSeen) {
   Scene holed = sphere_at({0, 0, 0}, 10);
   holed.mesh.triangles.pop_back();
   const RayCaster caster(holed.mesh);
-  EXPECT_GT(leaks(holed, caster, {0, 0, 0}, 10, packets / 100).left, 0u);
+  EXPECT_GT(leaks(holed, caster, {0, 0, 0}, 10, leak_packets / 100).left, 0u);
 }
 
 // Where all spokes of a vertex pass within rounding of a ray, their signs may agree on no
@@ -170,55 +190,53 @@ TEST(RayCaster, RaysExactlyAtVerticesHardlyLeak) {
   EXPECT_LE(static_cast<double>(count.left), allowed_rate * static_cast<double>(count.rays));
 }
 
-TEST(RayCaster, PacketsAreSingleRays) {
+TEST_P(RayCasterOn, PacketsAreSingleRays) {
   const Scene scene = sphere_at({30, 20, 10}, 10);
-  for (const auto& isa : usable()) {
-    const RayCaster caster(scene.mesh, isa);
-    int other = 0;
-    constexpr int packets = 2000;
-    for (int p = 0; p < packets; ++p) {
-      Packet origins, directions;
-      for (std::size_t r = 0; r < packet_size; ++r) {
-        const Draw draw(static_cast<std::uint64_t>(p) * packet_size + r, 1);
-        put(origins, r,
-            Vec3{30, 20, 10} + Vec3{draw.x[2] - 0.5, draw.x[3] - 0.5, draw.x[4] - 0.5} * 30);
-        put(directions, r, draw.w);
-      }
-      constexpr std::uint32_t active = 0x7ffb;  // two lanes are off
-      const auto hits = caster.first_hits(origins, directions, active);
-      const auto at = [](const Packet& q, std::size_t r) {
-        return Vec3{static_cast<double>(q.x[r]), static_cast<double>(q.y[r]),
-                    static_cast<double>(q.z[r])};
-      };
-      for (std::size_t r = 0; r < packet_size; ++r) {
-        if (!(active >> r & 1u)) {
-          EXPECT_EQ(hits.triangle[r], -1);
-          continue;
-        }
-        const Hit one = caster.first_hit(at(origins, r), at(directions, r));
-        if (one.triangle != hits.triangle[r]) {
-          ++other;
-          continue;
-        }
-        if (one.left_scene()) continue;
-        EXPECT_EQ(one.front, hits.front[r]);
-        // Both are ratios of products of coordinates relative to the ray, some 40 m long,
-        // on triangles of about 3 m: 16 roundings of 2^-24.
-        constexpr double rounding = 16 * (40.0 / 3) / (1 << 24);
-        EXPECT_NEAR(one.u, static_cast<double>(hits.u[r]), rounding);
-        EXPECT_NEAR(one.v, static_cast<double>(hits.v[r]), rounding);
-        const Packet single = [&] {
-          Packet q;
-          for (std::size_t l = 0; l < packet_size; ++l) put(q, l, at(origins, r));
-          return q;
-        }();
-        EXPECT_EQ(caster.unoccluded(single, at(directions, r), 1u), 0u);
-      }
+  const RayCaster caster(scene.mesh, isa());
+  int other = 0;
+  constexpr int packets = 2000;
+  for (int p = 0; p < packets; ++p) {
+    Packet origins, directions;
+    for (std::size_t r = 0; r < packet_size; ++r) {
+      const Draw draw(static_cast<std::uint64_t>(p) * packet_size + r, 1);
+      put(origins, r,
+          Vec3{30, 20, 10} + Vec3{draw.x[2] - 0.5, draw.x[3] - 0.5, draw.x[4] - 0.5} * 30);
+      put(directions, r, draw.w);
     }
-    // A ray within rounding of an edge may meet either neighbour: a strip of some 1e-6 of
-    // the triangles' width.
-    EXPECT_LE(other, 2) << isa << " of " << packets * 16;
+    constexpr std::uint32_t active = 0x7ffb;  // two lanes are off
+    const auto hits = caster.first_hits(origins, directions, active);
+    const auto at = [](const Packet& q, std::size_t r) {
+      return Vec3{static_cast<double>(q.x[r]), static_cast<double>(q.y[r]),
+                  static_cast<double>(q.z[r])};
+    };
+    for (std::size_t r = 0; r < packet_size; ++r) {
+      if (!(active >> r & 1u)) {
+        EXPECT_EQ(hits.triangle[r], -1);
+        continue;
+      }
+      const Hit one = caster.first_hit(at(origins, r), at(directions, r));
+      if (one.triangle != hits.triangle[r]) {
+        ++other;
+        continue;
+      }
+      if (one.left_scene()) continue;
+      EXPECT_EQ(one.front, hits.front[r]);
+      // Both are ratios of products of coordinates relative to the ray, some 40 m long,
+      // on triangles of about 3 m: 16 roundings of 2^-24.
+      constexpr double rounding = 16 * (40.0 / 3) / (1 << 24);
+      EXPECT_NEAR(one.u, static_cast<double>(hits.u[r]), rounding);
+      EXPECT_NEAR(one.v, static_cast<double>(hits.v[r]), rounding);
+      const Packet single = [&] {
+        Packet q;
+        for (std::size_t l = 0; l < packet_size; ++l) put(q, l, at(origins, r));
+        return q;
+      }();
+      EXPECT_EQ(caster.unoccluded(single, at(directions, r), 1u), 0u);
+    }
   }
+  // A ray within rounding of an edge may meet either neighbour: a strip of some 1e-6 of
+  // the triangles' width.
+  EXPECT_LE(other, 2) << isa() << " of " << packets * 16;
 }
 
 // Rays that start offset_m() above a surface never meet that surface again.
@@ -261,9 +279,9 @@ TEST(RayCaster, WrongInstructionSetIsRefused) {
 }
 
 TEST(RayCaster, AutoMeansTheLargestThatIsThere) {
-  const auto list = usable();
-  ASSERT_FALSE(list.empty());
-  EXPECT_EQ(usable_isa("auto"), list.back());
+  const auto largest = std::find_if(instruction_sets.rbegin(), instruction_sets.rend(), is_usable);
+  ASSERT_NE(largest, instruction_sets.rend());
+  EXPECT_EQ(usable_isa("auto"), *largest);
 }
 
 }  // namespace

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Means over facades, of series in batches and of totals in results.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace sunload {
+
+/// Area-weighted means over the patches of every facade.
+class FacadeMeans {
+ public:
+  /// Per patch its facade (-1: none) and its area; `count`: of facades.
+  FacadeMeans(std::vector<std::int32_t> facade, std::vector<double> patch_area, std::size_t count)
+      : facade_(std::move(facade)), patch_area_(std::move(patch_area)), area_(count, 0) {
+    for (std::size_t i = 0; i < facade_.size(); ++i)
+      if (facade_[i] >= 0) area_[static_cast<std::size_t>(facade_[i])] += patch_area_[i];
+  }
+  /// [rows, patch] → [rows, facade]; 0 for a facade without patches.
+  template <class Value>
+  std::vector<double> of(const std::vector<Value>& values) const {
+    const std::size_t N = facade_.size(), F = area_.size();
+    const std::size_t rows = N > 0 ? values.size() / N : 0;
+    std::vector<double> means(rows * F, 0);
+    for (std::size_t row = 0; row < rows; ++row)
+      for (std::size_t i = 0; i < N; ++i)
+        if (facade_[i] >= 0) {
+          const auto f = static_cast<std::size_t>(facade_[i]);
+          means[row * F + f] +=
+              patch_area_[i] * static_cast<double>(values[row * N + i]) / area_[f];
+        }
+    return means;
+  }
+
+ private:
+  std::vector<std::int32_t> facade_;
+  std::vector<double> patch_area_, area_;
+};
+
+}  // namespace sunload

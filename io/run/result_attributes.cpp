@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/run/result_attributes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <initializer_list>
+#include <variant>
+
+#include "io/base/version.h"
+#include "io/batch/batch_tally.h"
+#include "io/plan/content_hash.h"
+#include "solver/accuracy.h"
+
+namespace sunload {
+
+namespace {
+
+/// Largest relative difference that the lines' reuse makes, as a share of the
+/// scene's energy: (mean over realizations - pooled) / (R - 1) (docs/developer/method.md,
+/// Gathering).
+double reuse_bias(const Totals& totals, const ResultGeometry& geometry, std::size_t realizations) {
+  const auto& pooled = totals[sum_name(Part::total)];
+  const auto& rows = totals[batch_array::exposure];
+  const std::size_t N = pooled.size();
+  double of_pooled = 0, of_rows = 0;
+  for (std::size_t i = 0; i < N; ++i) {
+    of_pooled += geometry.patch_area[i] * pooled[i];
+    for (std::size_t r = 0; r < realizations; ++r)
+      of_rows += geometry.patch_area[i] * rows[r * N + i] / static_cast<double>(realizations);
+  }
+  if (of_pooled <= 0 || realizations < 2) return 0;
+  return (of_rows - of_pooled) / of_pooled / static_cast<double>(realizations - 1);
+}
+
+/// The part of the pooled ledger's residual that the lines' reuse makes [kWh]:
+/// a patch that sees more sky sends more, and by the same lines more of it is
+/// seen to escape. It falls as 1/lines, so that realizations show R times of it.
+double residual_reuse_bias_kwh(const Totals& totals, std::size_t realizations) {
+  const auto& rows = totals[batch_array::ledger];
+  double of_rows = 0;
+  for (std::size_t r = 0; r < realizations; ++r)
+    of_rows += rows[r * (term_count + 1) + term_count] / static_cast<double>(realizations);
+  const double of_pooled = totals[batch_array::energy][1];
+  return (of_rows - of_pooled) / static_cast<double>(realizations - 1) * kwh_per_joule;
+}
+
+/// Sensors of which more than half the lines meet backs see a body from within.
+std::string buried_sensors(const Totals& totals, const ResultGeometry& geometry) {
+  if (!totals.has(batch_array::sensor_backs)) return {};
+  const auto& backs = totals[batch_array::sensor_backs];
+  std::size_t count = 0, first = 0;
+  for (std::size_t s = backs.size(); s-- > 0;)
+    if (backs[s] > 0.5) {
+      ++count;
+      first = s;
+    }
+  if (count == 0) return {};
+  const Vec3 at = geometry.sensor_position[first] + geometry.origin;
+  return fmt::format(
+      "{} of {} sensors see mostly backs of surfaces, from where no light comes, the first of them "
+      "sensor {} at ({:.10g}, {:.10g}, {:.10g}); they lie within bodies or look into them",
+      count, backs.size(), first, at.x, at.y, at.z);
+}
+
+/// Share of the leaf area that counts whose error is as small as the study asks for.
+double accuracy_share(const Totals& totals, const ResultGeometry& geometry, double relative) {
+  const auto& load = totals[sum_name(Part::total)];
+  const auto se = errors_of(totals[batch_array::exposure], load.size());
+  const double largest = load.empty() ? 0 : *std::max_element(load.begin(), load.end());
+  double counts = 0, met = 0;
+  for (std::size_t i = 0; i < load.size(); ++i) {
+    if (load[i] <= 0 || load[i] < share_that_counts * largest) continue;
+    counts += geometry.patch_area[i];
+    if (se[i] <= relative * load[i]) met += geometry.patch_area[i];
+  }
+  return counts > 0 ? met / counts : 1;
+}
+
+/// Attributes are added to these lists in the order of the functions below.
+using Attributes = ResultAttributes;
+
+/// What was computed, by what, and when.
+void add_identity(Attributes& a, const MergedResult& result) {
+  const VariantPlan& plan = result.plan;
+  const Study& study = plan.study;
+  const std::string command =
+      "sunload run " + std::filesystem::path(result.file.path).filename().string();
+  a.text = {{"title", "Light load: " + study.name + ", variant " + study.variant},
+            {"source", std::string("sunload ") + version + " (" + commit + ")"},
+            {"history", iso_utc(now()) + " " + command},
+            {"study", study.name},
+            {"variant", study.variant},
+            {"study_sha256", plan.content_hash},
+            {"pairing_id", plan.pairing_id},
+            {"isa", plan.isa},
+            {"transport", study.solver.transport == Transport::shoot ? "shoot" : "gather"}};
+  if (study.solver.bands == Bands::rgb) {
+    a.text.emplace_back("bands", "rgb");
+    a.text.emplace_back("light_colour", study.light.colour == LightColour::white ? "white" : "sky");
+  }
+  a.integers = {{"seed", static_cast<std::int64_t>(study.solver.seed)},
+                {"realizations", study.solver.realizations},
+                {"numerics_version", numerics_version}};
+}
+
+/// Where and when the sun stands.
+void add_place(Attributes& a, const MergedResult& result) {
+  const BuiltScene& built = result.plan.built;
+  const bool has_instants = std::holds_alternative<InstantsPeriod>(result.plan.study.period.kind);
+  a.text.insert(
+      a.text.end(),
+      {{"timezone", result.plan.study.site.timezone},
+       {"site_source", built.site_source},
+       {"sun_sampling", has_instants ? "sun at the given instant"
+                                     : "sun at the middle of the sunlit part of the interval"}});
+  if (!built.crs.empty()) a.text.emplace_back("crs", built.crs);
+  a.numbers.insert(a.numbers.end(), {{"latitude_deg", built.site.latitude_deg},
+                                     {"longitude_deg", built.site.longitude_deg},
+                                     {"elevation_m", built.site.elevation_m},
+                                     {"north_deg", built.site.north_deg}});
+}
+
+/// Rays and seconds.
+void add_work(Attributes& a, const MergedResult& result) {
+  const WorkDone work = work_from(result.totals[batch_array::work]);
+  a.numbers.insert(a.numbers.end(), {{"runtime_lines_s", work[Work::lines_s]},
+                                     {"runtime_direct_s", work[Work::direct_s]},
+                                     {"runtime_mirror_s", work[Work::mirror_s]},
+                                     {"runtime_solve_s", work[Work::solve_s]},
+                                     {"runtime_realizations_s", work[Work::realizations_s]},
+                                     {"runtime_sensors_s", work[Work::sensors_s]}});
+  a.integers.insert(a.integers.end(),
+                    {{"line_rays", static_cast<std::int64_t>(work[Work::line_rays])},
+                     {"direct_rays", static_cast<std::int64_t>(work[Work::direct_rays])},
+                     {"mirror_rays", static_cast<std::int64_t>(work[Work::mirror_rays])},
+                     {"mirror_beams", static_cast<std::int64_t>(work[Work::mirror_beams])},
+                     {"mirror_shots", static_cast<std::int64_t>(work[Work::mirror_shots])},
+                     {"sensor_rays", static_cast<std::int64_t>(work[Work::sensor_rays])}});
+  if (result.plan.study.solver.transport != Transport::shoot) return;
+  a.numbers.emplace_back("runtime_shoot_s", work[Work::shoot_s]);
+  a.integers.emplace_back("samples_shot", static_cast<std::int64_t>(work[Work::samples]));
+  a.integers.emplace_back("shot_rays", static_cast<std::int64_t>(work[Work::shot_rays]));
+}
+
+/// How far the numbers can be trusted: counts, biases, the accuracy asked for and reached.
+void add_accuracy(Attributes& a, const MergedResult& result) {
+  const Totals& totals = result.totals;
+  const Study& study = result.plan.study;
+  const auto R = static_cast<std::size_t>(study.solver.realizations);
+  const auto& counts = totals[batch_array::counts];
+  a.integers.insert(a.integers.end(),
+                    {{"lines_per_patch", std::llround(counts[0])},
+                     {"direct_samples", static_cast<std::int64_t>(counts[1])},
+                     {"bounces", static_cast<std::int64_t>(totals[batch_array::bounces][0])}});
+  a.numbers.emplace_back("reuse_bias_share", reuse_bias(totals, result.geometry, R));
+  a.numbers.emplace_back(unit_names("residual_reuse_bias_kwh", study.light.quantity),
+                         residual_reuse_bias_kwh(totals, R));
+  if (!study.solver.accuracy) return;
+  if (const auto relative = study.solver.accuracy->light_load_relative) {
+    a.numbers.emplace_back("accuracy_light_load_relative", *relative);
+    a.numbers.emplace_back("accuracy_area_share",
+                           accuracy_share(totals, result.geometry, *relative));
+  }
+  if (const auto relative = study.solver.accuracy->irradiance_relative)
+    a.numbers.emplace_back("accuracy_irradiance_relative", *relative);
+  if (totals.has(batch_array::kept_area)) {
+    const auto& area = totals[batch_array::kept_area];
+    a.numbers.emplace_back("accuracy_irradiance_share", area[0] > 0 ? area[1] / area[0] : 1);
+  }
+  if (counts.size() > 2) a.numbers.emplace_back("samples_per_patch", counts[2]);
+}
+
+/// What the weather file says of itself, and all warnings.
+void add_notes(Attributes& a, const MergedResult& result) {
+  const auto add = [&](const char* name, std::initializer_list<std::vector<std::string>> lists) {
+    std::string text;
+    for (const auto& list : lists)
+      for (const auto& line : list) text += line + "\n";
+    if (!text.empty()) a.text.emplace_back(name, text);
+  };
+  add("weather", {result.plan.light.weather});
+  add("warnings", {result.file.warnings, result.plan.built.warnings, result.plan.light.notes,
+                   result_warnings(result.totals, result.geometry)});
+}
+
+}  // namespace
+
+std::vector<std::string> result_warnings(const Totals& totals, const ResultGeometry& geometry) {
+  // Light lost at backs is worth a warning above this share (docs/developer/design.md, Study).
+  constexpr double tolerable = 1e-3;
+  std::vector<std::string> warnings;
+  const auto& energy = totals[batch_array::energy];
+  const double share = energy[0] > 0 ? energy[2] / energy[0] : 0;
+  if (share > tolerable)
+    warnings.push_back(fmt::format(
+        "{:.2g} % of the energy is lost at backs of one-sided surfaces; turn or close these "
+        "surfaces, or make them two-sided (sides: two)",
+        100 * share));
+  if (auto buried = buried_sensors(totals, geometry); !buried.empty())
+    warnings.push_back(std::move(buried));
+  return warnings;
+}
+
+ResultAttributes result_attributes(const MergedResult& result) {
+  ResultAttributes attributes;
+  for (const auto add : {add_identity, add_place, add_work, add_accuracy, add_notes})
+    add(attributes, result);
+  return attributes;
+}
+
+}  // namespace sunload

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What a result says of itself besides its datasets.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/plan/variant_plan.h"
+#include "io/result/writer.h"
+#include "io/run/totals.h"
+
+namespace sunload {
+
+/// What a merged result is of.
+struct MergedResult {
+  const VariantPlan& plan;
+  const StudyFile& file;
+  const Totals& totals;
+  const ResultGeometry& geometry;
+};
+
+/// Root attributes (docs/result-file.md).
+ResultAttributes result_attributes(const MergedResult& result);
+/// Faults of the model that only the light brings out.
+std::vector<std::string> result_warnings(const Totals& totals, const ResultGeometry& geometry);
+
+}  // namespace sunload

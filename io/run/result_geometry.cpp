@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/run/result_geometry.h"
+
+#include "geo/base/units.h"
+#include "io/plan/variant_mesh.h"
+
+namespace sunload {
+
+ResultGeometry result_geometry(const VariantPlan& plan, const Hierarchy& hierarchy) {
+  const Scene& scene = plan.built.scene;
+  const Mesh& mesh = scene.mesh;
+  ResultGeometry g;
+  g.vertices = hierarchy.vertices();
+  for (std::size_t i = 0; i < hierarchy.patch_count(); ++i) {
+    const Patch& patch = hierarchy.patches()[i];
+    const auto t = static_cast<std::size_t>(patch.triangle);
+    g.patch_vertices.push_back(patch.vertices);
+    g.patch_area.push_back(hierarchy.area()[i]);
+    g.patch_centroid.push_back(hierarchy.centroid(i));
+    g.patch_normal.push_back(hierarchy.normal(i));
+    g.patch_object.push_back(mesh.triangle_object[t].value);
+    g.patch_facade.push_back(patch.side == 0 ? mesh.triangle_facade[t].value : -1);
+    g.patch_material.push_back(scene.material[t].value);
+    g.patch_input_triangle.push_back(patch.triangle);
+    g.patch_surface.push_back(static_cast<std::uint8_t>(mesh.triangle_surface[t]));
+    g.patch_side.push_back(patch.side);
+  }
+  g.input_triangle_vertices = mesh.triangles;
+  g.object_name = mesh.object_names;
+  for (const auto& m : scene.materials) g.material_name.push_back(m.name);
+  for (const auto& f : mesh.facades) {
+    g.facade_name.push_back(f.name);
+    g.facade_area.push_back(f.area_m2);
+    g.facade_azimuth_deg.push_back(wrapped_deg(f.azimuth_deg + plan.built.site.north_deg));
+  }
+  for (const auto& sensor : scene.sensors) {
+    g.sensor_position.push_back(sensor.position);
+    g.sensor_normal.push_back(sensor.normal);
+  }
+  g.origin = mesh.origin;
+  return g;
+}
+
+ResultTimes result_times(const VariantPlan& plan) {
+  const Quantity quantity = plan.study.light.quantity;
+  ResultTimes times;
+  for (const auto& i : plan.light.intervals) {
+    times.time.push_back(i.when.sun_time);
+    times.bounds.push_back({i.when.begin, i.when.end});
+    times.sun_azimuth_deg.push_back(i.when.sun.azimuth_deg);
+    times.sun_elevation_deg.push_back(i.when.sun.elevation_deg);
+    times.sun_direction.push_back(i.when.direction);
+    times.dni.push_back(i.mean.dni);
+    times.dhi.push_back(i.mean.dhi);
+    times.ghi.push_back(i.mean.ghi);
+    if (quantity == Quantity::irradiance) continue;
+    const Irradiance lux = source_means(i, quantity);
+    times.direct_illuminance.push_back(lux.dni);
+    times.diffuse_illuminance.push_back(lux.dhi);
+    times.global_illuminance.push_back(lux.ghi);
+  }
+  return times;
+}
+
+}  // namespace sunload

@@ -1,0 +1,300 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/run/variant_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/base/exit_code.h"
+#include "io/base/machine.h"
+#include "io/base/merge_lock.h"
+#include "io/plan/expected_error.h"
+#include "io/plan/rules_of_study.h"
+#include "io/plan/work_estimate.h"
+#include "io/result/energy_text.h"
+#include "io/result/reader.h"
+#include "io/run/merge.h"
+#include "io/run/mpi_world.h"
+#include "io/run/variant_run.h"
+
+namespace sunload {
+
+namespace {
+
+/// Refuses work that cannot fit; `there`: bytes of finished work.
+void expect_room_for(const WorkEstimate& work, const std::string& folder, double there) {
+  if (const double left = available_memory_bytes(); work.memory_bytes > left)
+    throw MachineError(fmt::format(
+        "too little memory: about {:.1f} GiB are needed for {} patches, {:.1f} GiB are available; "
+        "use a larger mesh.max_edge_m, fewer lines_per_patch or a smaller batch_suns{}",
+        work.memory_bytes / gib, work.patches, left / gib,
+        work.samples > 0 ? ", and a larger power_per_sample_w or auto" : ""));
+  if (const double left = free_disk_bytes(folder); work.disk_bytes - there > left)
+    throw MachineError(fmt::format(
+        "too little disk space for {}: about {:.1f} GiB are needed, {:.1f} GiB are free; "
+        "choose another folder with --output, or fewer output.series",
+        folder, (work.disk_bytes - there) / gib, left / gib));
+}
+
+InputError of_another_state(const std::string& result, const char* hint) {
+  return {
+      {result}, "is the result of another state of the study", "its content hash differs", hint};
+}
+
+std::string list_text(const std::vector<std::size_t>& numbers) {
+  std::string text;
+  for (const auto n : numbers) text += " " + std::to_string(n);
+  return text;
+}
+
+/// Place of a variant in the study, which decides the numbers of its units.
+std::size_t place_of(const std::string& variant, const StudyFile& file) {
+  const auto found = std::find_if(file.variants.begin(), file.variants.end(),
+                                  [&](const Study& s) { return s.variant == variant; });
+  return static_cast<std::size_t>(found - file.variants.begin());
+}
+
+std::size_t suns_before(const VariantPlan& plan, std::size_t batch) {
+  std::size_t suns = 0;
+  for (std::size_t b = 0; b < batch; ++b) suns += sun_count(plan, b);
+  return suns;
+}
+
+}  // namespace
+
+VariantJob::VariantJob(const StudyWork& work, const Study& study)
+    : work_(work),
+      name_(study.variant),
+      plan_(make_plan(study)),
+      folder_(work.folder, study, plan_.content_hash, plan_.batches()) {}
+
+VariantJob::~VariantJob() = default;
+
+void VariantJob::expect_may_run() const {
+  refuse_other_isa();
+  if (is_overwritten()) return;
+  const auto hash = folder_.result_hash();
+  if (!hash) return;
+  if (hash != folder_.content_hash())
+    throw of_another_state(folder_.result(), "use --overwrite to replace it, or --output");
+  if (work_.options.existing == Existing::refuse)
+    throw InputError({folder_.result()}, "is there already, of this very study",
+                     "nothing is left to compute",
+                     "use --resume to accept it, or --overwrite to compute it again");
+}
+
+void VariantJob::expect_may_merge() const {
+  if (is_overwritten()) return;
+  const auto hash = folder_.result_hash();
+  if (hash && hash != folder_.content_hash() && folder_.batches_not_there().empty())
+    throw of_another_state(folder_.result(), "use --overwrite to replace it");
+}
+
+/// Shards on machines of different instruction sets would not fit together.
+void VariantJob::refuse_other_isa() const {
+  if (work_.options.shard.is_whole()) return;
+  // From small to large: both processors have what comes first.
+  bool is_smaller = true;
+  for (const std::string isa : {"sse4.2", "avx2", "avx512"}) {
+    if (isa == plan_.isa) {
+      is_smaller = false;
+      continue;
+    }
+    if (const WorkFolder other = folder_.with_hash(hash_with_isa(plan_, isa)); other.is_there())
+      throw InputError({other.path()}, "holds batches of this study computed with " + isa,
+                       "this processor would use " + plan_.isa + ", and bits would differ",
+                       "write solver: {isa: " + (is_smaller ? isa : plan_.isa) +
+                           "} into the study, or run on equal processors");
+  }
+}
+
+/// A result that cannot be read is no obstacle to --overwrite.
+bool VariantJob::is_merged() const {
+  try {
+    return folder_.result_hash() == folder_.content_hash();
+  } catch (const InputError&) {
+    if (is_overwritten()) return false;
+    throw;
+  }
+}
+
+bool VariantJob::is_finished() const { return !is_overwritten() && is_merged(); }
+
+void VariantJob::leave_finished() const {
+  say("finished already, nothing to do");
+  folder_.remove_finished_work();
+}
+
+void VariantJob::expect_room() const {
+  const std::size_t patches = mesh_.mesh
+                                  ? mesh_.mesh->patch_count()
+                                  : least_patch_count(plan_.built.scene, split_rules(plan_.study));
+  expect_room_for(estimate_work(plan_, patches), work_.folder, folder_.bytes_there());
+}
+
+UnitQueue VariantJob::own_units(MpiWorld* world) const {
+  return {place_of(name_, work_.file), plan_.batches(), work_.options.shard, world};
+}
+
+void VariantJob::begin(const UnitQueue& units) {
+  std::size_t suns = 0;
+  for (std::size_t b = 0; b < plan_.batches(); ++b)
+    if (units.may_give(b)) suns += sun_count(plan_, b);
+  work_.progress.begin_variant(name_, suns);
+  for (const auto& list : {plan_.built.warnings, plan_.light.notes})
+    for (const auto& line : list) warn(line);
+}
+
+void VariantJob::make_mesh() {
+  if (!mesh_.mesh) mesh_ = sunload::make_mesh(plan_, work_.progress);
+}
+
+/// Mesh and lines; what cannot fit is refused before anything is written.
+std::unique_ptr<VariantRun> VariantJob::start(MpiWorld* world) {
+  make_mesh();
+  if (const auto text = refine_text(mesh_.report, plan_.study); !text.empty()) say(text);
+  expect_room();
+  for (const auto& line : expected_error_warnings(plan_, *mesh_.mesh)) warn(line);
+  folder_.make();
+  auto run = std::make_unique<VariantRun>(folder_, plan_, mesh_.mesh, work_.progress);
+  run->prepare(world);
+  return run;
+}
+
+bool VariantJob::is_there(std::size_t batch) const {
+  const BatchCheck found = folder_.check(batch);
+  if (found.exists && !found.valid)
+    work_.progress.warn("warning: " + found.reason + "; it is computed again");
+  return found.valid;
+}
+
+void VariantJob::compute(MpiWorld* world) {
+  UnitQueue units = own_units(world);
+  begin(units);
+  try {
+    compute_missing(units, world);
+  } catch (...) {
+    folder_.remove_empty_folders();
+    throw;
+  }
+}
+
+void VariantJob::compute_missing(UnitQueue& units, MpiWorld* world) {
+  std::unique_ptr<VariantRun> run;
+  // Ranks meet where the first of them traces the lines, before any takes a batch.
+  if (world && world->any(!folder_.batches_not_there().empty())) run = start(world);
+  std::size_t suns_behind = 0;
+  for (auto batch = units.next(); batch; batch = units.next()) {
+    const std::size_t suns = sun_count(plan_, *batch);
+    if (!is_there(*batch)) {
+      // Of ranks that have not met only this one found its batch damaged.
+      if (!run) run = start(nullptr);
+      if (world) suns_behind = suns_before(plan_, *batch);
+      work_.progress.begin_batch(suns_behind, suns);
+      run->compute(*batch);
+    }
+    suns_behind += suns;
+  }
+  if (run) run->report_work();
+}
+
+void VariantJob::merge_if_complete() {
+  const auto missing = folder_.batches_not_there();
+  if (missing.empty()) return merge();
+  // Another process merged it; what this one computed besides is not wanted.
+  if (is_finished()) return folder_.remove_finished_work();
+  say(fmt::format("{} of {} batches are still owed by other shards:{}", missing.size(),
+                  plan_.batches(), list_text(missing)));
+}
+
+int VariantJob::merge_what_is_there(Merge merge) {
+  if (is_merged()) {
+    say("merged already, nothing to do");
+    if (!is_overwritten()) folder_.remove_finished_work();
+    return exit_code::done;
+  }
+  work_.progress.begin_variant(name_, 0);
+  const MissingBatches missing = folder_.missing_batches();
+  for (const auto& reason : missing.reasons) work_.progress.warn("warning: " + reason);
+  if (missing.numbers.empty()) {
+    this->merge();
+    remove_merged();
+    return exit_code::done;
+  }
+  if (merge == Merge::partial && missing.numbers.size() < plan_.batches()) {
+    merge_without(missing);
+    return exit_code::done;
+  }
+  say(fmt::format("{} of {} batches are missing:{}; run the study again with --resume",
+                  missing.numbers.size(), plan_.batches(), list_text(missing.numbers)));
+  return exit_code::unfinished;
+}
+
+/// Says what came of it. Batches of other shards may turn out to be damaged.
+void VariantJob::merge() {
+  try {
+    switch (merge_once()) {
+      case Merging::done:
+        say("wrote " + folder_.result() + "\n" + energy_text(ResultReader(folder_.result())));
+        break;
+      case Merging::by_another:
+        say("another process is merging");
+        break;
+      case Merging::was_done:
+        break;
+    }
+  } catch (const InputError&) {
+    const MissingBatches damaged = folder_.missing_batches();
+    if (damaged.numbers.empty()) throw;
+    for (const auto& reason : damaged.reasons) work_.progress.warn("warning: " + reason);
+    work_.progress.warn(
+        fmt::format("{}: batches{} must be computed again: run the study with --resume", name_,
+                    list_text(damaged.numbers)));
+  }
+}
+
+/// Merges unless another process does or did meanwhile.
+VariantJob::Merging VariantJob::merge_once() {
+  {
+    const MergeLock lock(folder_.merge_lock());
+    if (!lock.is_held()) return Merging::by_another;
+    if (!folder_.batches_not_there().empty()) return Merging::was_done;
+    make_mesh();
+    if (work_.options.batches == Batches::keep) folder_.keep_work();
+    for (const auto& warning :
+         merge_variant(folder_, plan_, work_.file, *mesh_.mesh, folder_.result()))
+      warn(warning);
+    was_merged_ = true;
+    if (work_.options.batches == Batches::remove && !is_overwritten()) folder_.remove_work();
+  }
+  folder_.remove_empty_folders();
+  return Merging::done;
+}
+
+void VariantJob::merge_without(const MissingBatches& missing) {
+  make_mesh();
+  for (const auto& warning :
+       merge_variant(folder_, plan_, work_.file, *mesh_.mesh, folder_.partial(), missing.numbers))
+    warn(warning);
+  say(fmt::format("wrote {} of {} batches to {}", plan_.batches() - missing.numbers.size(),
+                  plan_.batches(), folder_.partial()));
+}
+
+void VariantJob::remove_merged() const {
+  if (was_merged_ && work_.options.batches == Batches::remove) folder_.remove_finished_work();
+}
+
+void VariantJob::release() {
+  mesh_ = {};
+  plan_.built = {};
+  plan_.light = {};
+}
+
+void VariantJob::say(const std::string& text) const { work_.progress.say(name_ + ": " + text); }
+
+void VariantJob::warn(const std::string& text) const {
+  work_.progress.warn(name_ + ": warning: " + text);
+}
+
+}  // namespace sunload

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The work on one variant: mesh, batches, merge.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "io/plan/variant_mesh.h"
+#include "io/plan/variant_plan.h"
+#include "io/run/options.h"
+#include "io/run/progress.h"
+#include "io/run/unit_queue.h"
+#include "io/run/work_folder.h"
+
+namespace sunload {
+
+class VariantRun;
+
+/// What the jobs of a study have in common; must outlive them.
+struct StudyWork {
+  const StudyFile& file;
+  const RunOptions& options;
+  std::string folder;  ///< of all results
+  Progress& progress;
+};
+
+enum class Merge { complete, partial };
+
+/// One variant on behalf of one process: a whole run, a shard or a rank. The mesh is made when it
+/// is first needed, so that memory holds the mesh and the lines of one variant at a time.
+class VariantJob {
+ public:
+  /// Reads the scene, makes light and content hash. Throws InputError.
+  VariantJob(const StudyWork& work, const Study& study);
+  ~VariantJob();
+  VariantJob(const VariantJob&) = delete;
+  VariantJob& operator=(const VariantJob&) = delete;
+
+  /// Throws InputError where a result is there that the options do not let replace or accept, or
+  /// where other shards compute with another instruction set.
+  void expect_may_run() const;
+  /// Throws InputError where merging would replace a result without --overwrite.
+  void expect_may_merge() const;
+  /// Whether nothing is to be done: the result of this very state is there and need not be
+  /// replaced.
+  bool is_finished() const;
+  /// Says so, and removes work that a process left which was killed at the very end.
+  void leave_finished() const;
+
+  /// Throws MachineError where memory or disk are too little: for the mesh, or before it is made
+  /// for the fewest patches that it can have.
+  void expect_room() const;
+  /// Computes what is missing of this process' own batches. Throws Interrupted, MachineError.
+  void compute(MpiWorld* world);
+  /// Merges where all batches are there; otherwise lists those that others owe.
+  void merge_if_complete();
+  /// Merges, or says why not; returns the exit code.
+  int merge_what_is_there(Merge merge);
+  /// Removes the batches of what was merged here, where --overwrite has kept them: until all
+  /// variants are merged, the same command may come again and shall find them.
+  void remove_merged() const;
+  /// Gives the memory back; the job can do no more but `remove_merged`.
+  void release();
+
+ private:
+  enum class Merging { done, was_done, by_another };
+
+  bool is_overwritten() const { return work_.options.existing == Existing::overwrite; }
+  bool is_merged() const;
+  void refuse_other_isa() const;
+  UnitQueue own_units(MpiWorld* world) const;
+  void begin(const UnitQueue& units);
+  void make_mesh();
+  std::unique_ptr<VariantRun> start(MpiWorld* world);
+  void compute_missing(UnitQueue& units, MpiWorld* world);
+  bool is_there(std::size_t batch) const;
+  void merge();
+  Merging merge_once();
+  void merge_without(const MissingBatches& missing);
+  void say(const std::string& text) const;
+  void warn(const std::string& text) const;
+
+  const StudyWork& work_;
+  std::string name_;
+  VariantPlan plan_;
+  WorkFolder folder_;
+  VariantMesh mesh_;  ///< empty until it is needed
+  bool was_merged_ = false;
+};
+
+}  // namespace sunload

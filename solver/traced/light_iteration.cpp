@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/traced/light_iteration.h"
+
+#include <algorithm>
+
+#include "solver/base/stopwatch.h"
+#include "solver/base/threads.h"
+
+namespace sunload {
+
+namespace {
+
+using Suns = std::span<const SunLight>;
+
+/// The beams of each sun by way of mirrors; none where the scene has no mirrors.
+std::vector<SunBeams> beams_of(const TracedScene& traced, Suns block) {
+  if (traced.mirrors.size() == 0) return {};
+  const BeamRules rules{traced.rules.mirror_depth, traced.rules.faint_glint,
+                        traced.rules.most_sun_beams, traced.caster.offset_m()};
+  std::vector<SunBeams> beams(block.size(), SunBeams(traced.mirrors));
+  parallel_for(block.size(),
+               [&](std::size_t k) { beams[k] = SunBeams(traced.mirrors, block[k], rules); });
+  return beams;
+}
+
+/// Suns of too many mirrors for beams (curved glass) get those of the first reflection: sensors are
+/// few, and no chain of mirrors ends on them.
+std::vector<SunBeams> with_first_reflections(const TracedScene& traced, std::vector<SunBeams> beams,
+                                             Suns block) {
+  const BeamRules of_first{.mirror_depth = std::min(traced.rules.mirror_depth, 1),
+                           .most_beams = traced.rules.most_sensor_beams};
+  parallel_for(beams.size(), [&](std::size_t k) {
+    if (beams[k].size() == 0) beams[k] = SunBeams(traced.mirrors, block[k], of_first);
+  });
+  return beams;
+}
+
+RayLight empty_rays(const TracedScene& traced, std::size_t receivers, bool keep_columns) {
+  RayLight rays;
+  rays.pooled.mirror = columns(receivers);
+  if (keep_columns)
+    rays.of_realizations = {static_cast<std::size_t>(traced.rules.realizations), receivers};
+  return rays;
+}
+
+std::uint64_t add_sun(const TracedScene& traced, const Receivers& receivers, Suns block,
+                      RayLight& rays, RaySums& sums) {
+  DirectSun sun = direct_sun(traced.caster, receivers.sampler, block, sums.direct,
+                             or_none(rays.of_realizations.direct));
+  rays.pooled.direct = std::move(sun.irradiance);
+  rays.sunlit = std::move(sun.sunlit);
+  return sun.rays;
+}
+
+std::uint64_t add_circumsolar(const TracedScene& traced, const BlockSources& sources,
+                              RayLight& rays, RaySums& sums) {
+  CircumsolarLight sky = circumsolar_light(
+      *traced.mesh, traced.caster, traced.patches.sampler, sources.suns, sources.circumsolar,
+      rays.sunlit, sums.circumsolar, or_none(rays.of_realizations.circumsolar));
+  rays.pooled.circumsolar = std::move(sky.irradiance);
+  return sky.rays;
+}
+
+MirroredIrradiance mirrored(RayLight& rays, std::vector<std::vector<double>>& exposure) {
+  return {rays.pooled.mirror, exposure, or_none(rays.of_realizations.mirror)};
+}
+
+void add_mirrors(const TracedScene& traced, Suns block, const std::vector<SunBeams>& beams,
+                 BlockRays& rays, RaySums& sums, WorkDone& work) {
+  if (beams.empty()) return;
+  const MirroredIrradiance into = mirrored(rays.on_patches, sums.mirror);
+  work.add(Work::mirror_rays,
+           traced.mirror_sun.add_light(traced.patches.sampler, block, beams, into));
+  auto chains = traced.mirror_chains.follow(block, beams, into);
+  work.add(Work::mirror_rays, chains.rays);
+  work.add(Work::mirror_shots, chains.shots);
+  for (const auto& of_sun : beams) work.add(Work::mirror_beams, of_sun.size());
+  rays.sent_on = std::move(chains.fates);
+}
+
+void add_gloss(const TracedScene& traced, Suns block, BlockRays& rays, RaySums& sums,
+               WorkDone& work) {
+  if (!traced.optics.any_glossy) return;
+  const Stopwatch time(work[Work::mirror_s]);
+  work.add(Work::mirror_rays, traced.glossy_sun.add_light(traced.patches.lines, block,
+                                                          mirrored(rays.on_patches, sums.gloss)));
+  rays.sent_on.resize(static_cast<std::size_t>(traced.rules.realizations));
+  traced.glossy_sun.follow_light(block, rays.sent_on);
+}
+
+/// Returns the rays cast.
+std::uint64_t light_sensors(const TracedScene& traced, Suns block, std::vector<SunBeams> beams,
+                            RayLight& rays, RaySums& sums) {
+  const Receivers& sensors = traced.sensors;
+  std::uint64_t cast = add_sun(traced, sensors, block, rays, sums);
+  const MirroredIrradiance into = mirrored(rays, sums.mirror);
+  if (!beams.empty())
+    cast += traced.mirror_sun.add_light(
+        sensors.sampler, block, with_first_reflections(traced, std::move(beams), block), into);
+  if (!traced.optics.any_glossy) return cast;
+  cast += traced.glossy_sun.add_light_on_sensors(sensors.lines, traced.lobe_images, block, into);
+  return cast + traced.lobe_images.add_light(block, into);
+}
+
+}  // namespace
+
+BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources, const Kept& kept,
+                          TimeSums& sums, WorkDone& work) {
+  const Suns block = sources.suns;
+  BlockRays rays;
+  rays.on_patches = empty_rays(traced, traced.patches.count(), kept.columns);
+  // Nothing comes by mirrors that are not there.
+  if (!kept.all_parts && traced.mirrors.size() == 0 && !traced.optics.any_glossy)
+    rays.on_patches.of_realizations.mirror.clear();
+  {
+    const Stopwatch time(work[Work::direct_s]);
+    work.add(Work::direct_rays,
+             add_sun(traced, traced.patches, block, rays.on_patches, sums.on_patches));
+    work.add(Work::direct_rays, add_circumsolar(traced, sources, rays.on_patches, sums.on_patches));
+  }
+  std::vector<SunBeams> beams;
+  {
+    const Stopwatch time(work[Work::mirror_s]);
+    beams = beams_of(traced, block);
+    add_mirrors(traced, block, beams, rays, sums.on_patches, work);
+  }
+  if (kept.by_samples) rays.on_patches.by_samples = summed(rays.on_patches.of_realizations);
+  add_gloss(traced, block, rays, sums.on_patches, work);
+  if (traced.sensors.count() == 0) return rays;
+  const Stopwatch time(work[Work::sensors_s]);
+  rays.on_sensors = empty_rays(traced, traced.sensors.count(), kept.columns);
+  work.add(Work::sensor_rays,
+           light_sensors(traced, block, std::move(beams), rays.on_sensors, sums.on_sensors));
+  return rays;
+}
+
+RayLight direct_on_patches(const TracedScene& traced, const BlockSources& sources, WorkDone& work) {
+  const Stopwatch time(work[Work::direct_s]);
+  const auto realizations = static_cast<std::size_t>(traced.rules.realizations);
+  RayLight rays;
+  rays.of_realizations.direct.assign(realizations, columns(traced.patches.count()));
+  RaySums unused(realizations, traced.patches.count());
+  work.add(Work::direct_rays, add_sun(traced, traced.patches, sources.suns, rays, unused));
+  return rays;
+}
+
+RayLight rays_on_sensors(const TracedScene& traced, const BlockSources& sources, WorkDone& work) {
+  const Stopwatch time(work[Work::sensors_s]);
+  RayLight rays = empty_rays(traced, traced.sensors.count(), true);
+  RaySums unused(static_cast<std::size_t>(traced.rules.realizations), traced.sensors.count());
+  work.add(Work::sensor_rays,
+           light_sensors(traced, sources.suns, beams_of(traced, sources.suns), rays, unused));
+  return rays;
+}
+
+}  // namespace sunload

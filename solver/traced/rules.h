@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What a study decides of the solution: counts, bounces, transport.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solver/light/band.h"
+#include "solver/light/tally.h"
+#include "solver/light/transport.h"
+
+namespace sunload {
+
+struct SolverRules {
+  int bounces = 5;  ///< light reflected diffusely 1 … bounces times is followed
+  /// Fewer bounces (and mirrors of the sun) where less than this is left.
+  double unshot = 1e-3;
+  int lines_per_patch = 256;             ///< over all realizations
+  std::vector<int> lines_of_patch = {};  ///< if they differ; sensors have lines_per_patch
+  int direct_samples = 16;               ///< per patch and sun, over all realizations
+  int realizations = 8;
+  int mirror_depth = 8;
+  double faint_glint = 0.02;  ///< share of the sun below which light reflected again is no beam
+  int most_sun_beams = 128;   ///< sequences of mirror orientations per sun that are beams
+  /// Orientations that face a sun of which sensors get the first reflection, where no beams stand;
+  /// of more they get none.
+  int most_sensor_beams = 1 << 16;
+  /// A link leads to an element above the leaves where no more than so many of a
+  /// patch's lines can be expected to meet it; 0: to leaves only.
+  double link_threshold = 0;
+  std::uint64_t seed = 1;
+  std::string isa = "auto";
+  Errors errors = Errors::totals;
+  Bands bands = Bands::broadband;  ///< rgb when gathering only
+  Transport transport = Transport::gather;
+  Jacobi jacobi = Jacobi::incremental;       ///< when shooting
+  std::optional<double> power_per_sample_w;  ///< when shooting, ShootingRules
+  std::optional<int> samples_per_patch;      ///< when shooting, ShootingRules
+  /// BatchTally::by_source and, with errors per instant, se_by_source.
+  bool by_source = false;
+};
+
+}  // namespace sunload

@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/traced/traced_scene.h"
+
+#include <algorithm>
+
+#include "geo/base/check.h"
+#include "solver/base/stopwatch.h"
+#include "solver/gather/guide.h"
+#include "solver/gather/jacobi.h"
+#include "solver/lines/sensor_lines.h"
+
+namespace sunload {
+
+namespace {
+
+std::vector<PatchOptics> optics_of_bands(const Scene& scene, const Hierarchy& hierarchy,
+                                         const PatchOptics& broadband, Bands bands) {
+  if (bands == Bands::broadband) return {broadband};
+  std::vector<PatchOptics> optics;
+  for (std::size_t b = 0; b < band_count; ++b) optics.push_back(patch_optics(scene, hierarchy, b));
+  return optics;
+}
+
+Lines lines_of_patches(TracedScene& traced, Watch& watch) {
+  const Stopwatch time(traced.work[Work::lines_s]);
+  const LineRules rules = line_rules(traced.rules);
+  Guide guide;  // shooting samples emitters in its own way
+  if (traced.rules.transport == Transport::gather)
+    guide = lit_surfaces(traced.scene, *traced.mesh, traced.caster, traced.grid, traced.optics,
+                         rules, traced.rules.bounces);
+  Lines lines =
+      trace_lines(traced.scene, *traced.mesh, traced.caster, traced.grid, guide, rules, watch);
+  traced.work.add(Work::line_rays, lines.rays);
+  return lines;
+}
+
+Lines lines_of_sensors(TracedScene& traced) {
+  const Stopwatch time(traced.work[Work::sensors_s]);
+  Guide guide;
+  if (traced.sensors.count() > 0)
+    guide = emitting_surfaces(traced.scene, *traced.mesh, traced.optics);
+  Lines lines = trace_sensor_lines(traced.scene, *traced.mesh, traced.caster, traced.grid, guide,
+                                   line_rules(traced.rules));
+  traced.work.add(Work::sensor_rays, lines.rays);
+  return lines;
+}
+
+void add_parallel_light(TracedScene& traced) {
+  const auto realizations = static_cast<std::size_t>(traced.rules.realizations);
+  traced.patches.lamps =
+      parallel_light(traced.scene, *traced.mesh, traced.caster, traced.patches.sampler,
+                     traced.optics, realizations, traced.rules.mirror_depth);
+  traced.sensors.lamps =
+      parallel_light_on_sensors(traced.scene, traced.caster, traced.sensors.sampler, realizations);
+  traced.work.add(Work::direct_rays, traced.patches.lamps.rays);
+}
+
+/// As many as the brightest band needs.
+int bounces_of_bands(const TracedScene& traced) {
+  int bounces = 0;
+  for (const auto& optics : traced.optics_of_band)
+    bounces = std::max(bounces, bounces_needed(*traced.mesh, traced.patches.lines.pooled, optics,
+                                               traced.rules.bounces, traced.rules.unshot));
+  return bounces;
+}
+
+DirectRules direct_rules(const SolverRules& rules) {
+  return {rules.direct_samples, rules.realizations, rules.seed};
+}
+
+}  // namespace
+
+// Members are made in the order in which the header has them: each needs those before it.
+TracedScene::TracedScene(const Scene& whole, std::shared_ptr<const Hierarchy> frozen,
+                         const SolverRules& of_study)
+    : scene(whole),
+      rules(of_study),
+      mesh(std::move(frozen)),
+      caster(whole.mesh, of_study.isa, screens(whole)),
+      optics(patch_optics(whole, *mesh)),
+      optics_of_band(optics_of_bands(whole, *mesh, optics, of_study.bands)),
+      patches(SunSampler(*mesh, caster, direct_rules(of_study))),
+      sensors(SunSampler(whole.sensors, caster, direct_rules(of_study))),
+      mirrors(whole),
+      mirror_sun(caster, mirrors),
+      mirror_chains(*mesh, caster, patches.sampler, mirrors,
+                    {of_study.mirror_depth, of_study.unshot}),
+      glossy_sun(whole, *mesh, caster, patches.sampler, optics, line_rules(of_study)),
+      lobe_images(whole, caster, sensors.sampler, line_rules(of_study)) {
+  SUNLOAD_EXPECT(!is_rgb() || rules.transport == Transport::gather, "bands are gathered");
+}
+
+bool TracedScene::has_part(Part part) const {
+  if (part == Part::mirror) return optics.any_mirror;
+  if (part == Part::lamps) return optics.any_emission;
+  return true;
+}
+
+std::vector<double> TracedScene::sky_view_factor() const {
+  std::vector<double> share;
+  for (const auto& ends : patches.lines.pooled.ends) share.push_back(static_cast<double>(ends.sky));
+  return share;
+}
+
+LineRules line_rules(const SolverRules& rules) {
+  return {
+      rules.lines_per_patch, rules.lines_of_patch, rules.realizations,
+      rules.mirror_depth,    rules.seed,           rules.link_threshold / rules.lines_per_patch};
+}
+
+std::unique_ptr<const TracedScene> trace_scene(const Scene& scene,
+                                               std::shared_ptr<const Hierarchy> mesh,
+                                               const SolverRules& rules, Watch& watch,
+                                               std::optional<Lines> ready) {
+  auto traced = std::make_unique<TracedScene>(scene, std::move(mesh), rules);
+  traced->patches.lines = ready ? std::move(*ready) : lines_of_patches(*traced, watch);
+  traced->sensors.lines = lines_of_sensors(*traced);
+  add_parallel_light(*traced);
+  traced->bounces = bounces_of_bands(*traced);
+  return traced;
+}
+
+std::unique_ptr<const TracedScene> trace_scene(const Scene& scene, const SplitRules& split,
+                                               const SolverRules& rules, Watch& watch,
+                                               std::optional<Lines> ready) {
+  return trace_scene(scene, std::make_shared<const Hierarchy>(scene, split), rules, watch,
+                     std::move(ready));
+}
+
+}  // namespace sunload

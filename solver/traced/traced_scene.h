@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Trace once: a scene on its frozen mesh with all that serves every sun position.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "solver/base/watch.h"
+#include "solver/first_light/glossy_sun.h"
+#include "solver/first_light/mirror_chains.h"
+#include "solver/first_light/mirror_sun.h"
+#include "solver/first_light/parallel_light.h"
+#include "solver/light/work.h"
+#include "solver/lines/lines.h"
+#include "solver/mesh/hierarchy.h"
+#include "solver/mesh/patch_optics.h"
+#include "solver/traced/rules.h"
+
+namespace sunload {
+
+/// What receives light: the patches, or the sensors.
+struct Receivers {
+  explicit Receivers(SunSampler points) : sampler(std::move(points)) {}
+  SunSampler sampler;   ///< points from which the sun is looked for
+  Lines lines;          ///< no rows where there are no receivers
+  ParallelLight lamps;  ///< by parallel sources, constant in time
+
+  std::size_t count() const { return sampler.receivers(); }
+};
+
+/// Immutable once it is traced; immovable, as its parts refer to each other. All of it is the same
+/// bits for any number of threads.
+struct TracedScene {
+  /// All but what rays tell: see `trace_scene`.
+  TracedScene(const Scene& scene, std::shared_ptr<const Hierarchy> mesh, const SolverRules& rules);
+  TracedScene(const TracedScene&) = delete;
+  TracedScene& operator=(const TracedScene&) = delete;
+
+  const Hierarchy& hierarchy() const { return *mesh; }
+  bool is_rgb() const { return rules.bands == Bands::rgb; }
+  /// Parts of the irradiance that the scene can have.
+  bool has_part(Part part) const;
+  /// Directions in which the scene's mirrors face.
+  std::size_t mirror_orientations() const { return mirrors.reflecting(); }
+  /// Cosine-weighted share of the hemisphere above each patch that is sky.
+  std::vector<double> sky_view_factor() const;
+
+  const Scene& scene;
+  SolverRules rules;
+  std::shared_ptr<const Hierarchy> mesh;
+  RayCaster caster;
+  SkyGrid grid;
+  PatchOptics optics;                       ///< broadband
+  std::vector<PatchOptics> optics_of_band;  ///< one where light is broadband
+  Receivers patches, sensors;
+  MirrorGroups mirrors;
+  MirrorSun mirror_sun;
+  MirrorChains mirror_chains;
+  GlossySun glossy_sun;
+  LobeImages lobe_images;  ///< for sensors
+  int bounces = 0;         ///< that are followed: `rules.bounces`, or fewer for `rules.unshot`
+  WorkDone work;           ///< that tracing took
+};
+
+/// Rules for lines that follow from a study's.
+LineRules line_rules(const SolverRules& rules);
+
+/// Builds the ray caster and traces all lines, unless those of an equal scene are handed over
+/// (`ready`). `scene` must outlive the result. Cost: a ray for each line of every patch. Throws
+/// Interrupted.
+std::unique_ptr<const TracedScene> trace_scene(const Scene& scene,
+                                               std::shared_ptr<const Hierarchy> mesh,
+                                               const SolverRules& rules, Watch& watch,
+                                               std::optional<Lines> ready = {});
+/// On a mesh that is split by edge length alone.
+std::unique_ptr<const TracedScene> trace_scene(const Scene& scene, const SplitRules& split,
+                                               const SolverRules& rules, Watch& watch,
+                                               std::optional<Lines> ready = {});
+
+}  // namespace sunload

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/transport/gathering.h"
+
+#include <algorithm>
+
+#include "solver/base/stopwatch.h"
+#include "solver/gather/block_tally.h"
+#include "solver/gather/sensor_light.h"
+#include "solver/light/instant_spread.h"
+#include "solver/transport/band_rays.h"
+#include "solver/transport/realizations.h"
+
+namespace sunload {
+
+namespace {
+
+TimeSums empty_sums(const TracedScene& traced) {
+  TimeSums sums(static_cast<std::size_t>(traced.rules.realizations), traced.patches.count(),
+                traced.sensors.count(), static_cast<std::size_t>(traced.grid.cell_count()));
+  if (traced.optics.any_glossy) sums.on_patches.gloss = sums.on_patches.mirror;
+  return sums;
+}
+
+/// The columns of realization r, which are not needed afterwards.
+RayColumns taken(SunColumns& columns, std::size_t r) {
+  return {std::move(columns.direct[r]), std::move(columns.mirror[r]),
+          std::move(columns.circumsolar[r])};
+}
+
+/// One batch.
+class GatheredBatch : public BatchTransport {
+ public:
+  GatheredBatch(const TracedScene& traced, std::vector<BatchTally>& tallies, WorkDone& work)
+      : traced_(traced), tallies_(tallies), work_(work) {
+    for (std::size_t b = 0; b < tallies.size(); ++b) sums_.push_back(empty_sums(traced));
+  }
+
+  void light(const Block& block) override {
+    BlockSources sources(block.suns, static_cast<std::size_t>(traced_.grid.cell_count()));
+    sources.split_sky(traced_.grid);
+    if (traced_.is_rgb()) return light_in_bands(block, sources);
+    light_band(0, block, sources, light_iteration(traced_, sources, kept(), sums_.front(), work_));
+  }
+
+  void finish() override {
+    const Stopwatch time(work_[Work::realizations_s]);
+    for (std::size_t b = 0; b < tallies_.size(); ++b)
+      solve_realizations(traced_, traced_.optics_of_band[b], sums_[b], tallies_[b]);
+  }
+
+ private:
+  bool of_instants() const { return traced_.rules.errors == Errors::instants; }
+  Kept kept() const {
+    return {.columns = of_instants() || traced_.is_rgb(),
+            .all_parts = of_instants(),
+            .by_samples = traced_.rules.by_source};
+  }
+
+  /// Rays are traced once, for the mean of the bands.
+  void light_in_bands(const Block& block, const BlockSources& sources) {
+    TimeSums of_broadband = empty_sums(traced_);
+    const BlockRays rays = light_iteration(traced_, sources, kept(), of_broadband, work_);
+    for (std::size_t b = 0; b < sums_.size(); ++b) {
+      const auto suns = suns_in_band(block.suns, b);
+      const BandFactors factors = band_factors(sources, suns);
+      add_exposures(rays, factors, suns, sums_[b]);
+      light_band(b, {suns, block.first_row}, sources_in_band(sources, suns, factors),
+                 in_band(rays, factors, traced_.rules.errors));
+    }
+  }
+
+  void light_band(std::size_t band, const Block& block, const BlockSources& sources,
+                  BlockRays rays) {
+    const PatchOptics& optics = traced_.optics_of_band[band];
+    BatchTally& tally = tallies_[band];
+    const Columns followed = light_patches(optics, block, sources, rays.on_patches, tally);
+    if (traced_.sensors.count() > 0)
+      light_sensors(optics, block, sources, rays.on_sensors, followed, tally.sensors);
+    book_sent_on(block, rays.sent_on, sums_[band], tally);
+    sums_[band].add_sources(sources);
+    if (of_instants()) errors_of_instants(optics, block, sources, std::move(rays), tally);
+  }
+
+  /// Returns the radiosity that was gathered last.
+  Columns light_patches(const PatchOptics& optics, const Block& block, const BlockSources& sources,
+                        RayLight& rays, BatchTally& tally) {
+    const Stopwatch time(work_[Work::solve_s]);
+    const LineSet& lines = traced_.patches.lines.pooled;
+    BlockLight light =
+        block_light(traced_.hierarchy(), lines, optics, sources, std::move(rays.pooled),
+                    traced_.patches.lamps.pooled, traced_.bounces);
+    const auto ledger = block_ledger(lines, optics, traced_.hierarchy().area(), sources, light);
+    std::copy(ledger.begin(), ledger.end(), row(tally.ledger, block));
+    store_patches(optics, light, block.suns, block.first_row, rays.sunlit, tally);
+    return std::move(light.followed);
+  }
+
+  void light_sensors(const PatchOptics& optics, const Block& block, const BlockSources& sources,
+                     RayLight& rays, const Columns& followed, ReceiverTally& tally) {
+    const Stopwatch time(work_[Work::sensors_s]);
+    const BlockLight light =
+        sensor_light(traced_.sensors.lines.pooled, optics, sources, std::move(rays.pooled),
+                     traced_.sensors.lamps.pooled, followed);
+    store_received(light, block.suns, block.first_row, rays.sunlit, tally);
+  }
+
+  /// The sun's light that mirrors sent on, and that of parallel sources.
+  void book_sent_on(const Block& block, const std::vector<MirroredSun>& sent_on, TimeSums& sums,
+                    BatchTally& tally) const {
+    const double of_one = 1.0 / static_cast<double>(traced_.rules.realizations);
+    for (std::size_t r = 0; r < sent_on.size(); ++r)
+      for (std::size_t k = 0; k < block.suns.size(); ++k) {
+        const Ledger fate = booked(sent_on[r], k);
+        tally.ledger[block.first_row + k] += scaled(fate, of_one);
+        sums.sent_on[r] += scaled(fate, block.suns[k].length_s);
+      }
+    for (const Ledger& of_realization : traced_.patches.lamps.ledger)
+      for (std::size_t k = 0; k < block.suns.size(); ++k)
+        tally.ledger[block.first_row + k] += scaled(of_realization, of_one);
+  }
+
+  /// Every realization of the block for itself.
+  void errors_of_instants(const PatchOptics& optics, const Block& block,
+                          const BlockSources& sources, BlockRays rays, BatchTally& tally) const {
+    const std::size_t suns = block.suns.size();
+    InstantSpread patches(traced_.patches.count(), suns), sensors(traced_.sensors.count(), suns);
+    InstantSpreadBySource by_source(traced_.rules.by_source ? traced_.patches.count() : 0, suns);
+    for (std::size_t r = 0; r < tally.ledger_instants.size(); ++r) {
+      const LineSet& lines = traced_.patches.lines.realizations[r];
+      const std::vector<double>& parallel = traced_.patches.lamps.of(r);
+      const BlockLight light =
+          block_light(traced_.hierarchy(), lines, optics, sources,
+                      taken(rays.on_patches.of_realizations, r), parallel, traced_.bounces);
+      const auto ledger = block_ledger(lines, optics, traced_.hierarchy().area(), sources, light);
+      std::copy(ledger.begin(), ledger.end(), row(tally.ledger_instants[r], block));
+      patches.add(total_of(light));
+      sensors.add(total_of(sensors_of(r, optics, sources, rays.on_sensors, light.followed)));
+      by_source.add(
+          total_of(light),
+          [&](std::size_t i, std::size_t k) {
+            return static_cast<double>(rays.on_patches.by_samples[r][i * block_width + k]) +
+                   (parallel.empty() ? 0 : parallel[i]);
+          },
+          [](std::size_t, std::size_t) { return 0; });
+    }
+    patches.store(block.first_row, tally.irradiance_se);
+    sensors.store(block.first_row, tally.sensors.irradiance_se);
+    by_source.store(block.first_row, tally.se_by_source);
+    book_instants(block, rays.sent_on, tally);
+  }
+
+  BlockLight sensors_of(std::size_t r, const PatchOptics& optics, const BlockSources& sources,
+                        RayLight& rays, const Columns& followed) const {
+    if (traced_.sensors.count() == 0) return {};
+    RayColumns columns = taken(rays.of_realizations, r);
+    columns.circumsolar.clear();  // sensors see all of the sky by their lines
+    return sensor_light(traced_.sensors.lines.realizations[r], optics, sources, std::move(columns),
+                        traced_.sensors.lamps.of(r), followed);
+  }
+
+  void book_instants(const Block& block, const std::vector<MirroredSun>& sent_on,
+                     BatchTally& tally) const {
+    for (std::size_t r = 0; r < sent_on.size(); ++r)
+      for (std::size_t k = 0; k < block.suns.size(); ++k)
+        tally.ledger_instants[r][block.first_row + k] += booked(sent_on[r], k);
+    const auto& of_lamps = traced_.patches.lamps.ledger;
+    for (std::size_t r = 0; r < of_lamps.size(); ++r)
+      for (std::size_t k = 0; k < block.suns.size(); ++k)
+        tally.ledger_instants[r][block.first_row + k] += of_lamps[r];
+  }
+
+  /// Where the block's rows begin.
+  static std::vector<Ledger>::iterator row(std::vector<Ledger>& ledger, const Block& block) {
+    return ledger.begin() + static_cast<std::ptrdiff_t>(block.first_row);
+  }
+
+  const TracedScene& traced_;
+  std::vector<BatchTally>& tallies_;
+  WorkDone& work_;
+  std::vector<TimeSums> sums_;  ///< of each band
+};
+
+}  // namespace
+
+std::unique_ptr<BatchTransport> Gathering::begin(std::vector<BatchTally>& tallies,
+                                                 WorkDone& work) const {
+  return std::make_unique<GatheredBatch>(traced_, tallies, work);
+}
+
+}  // namespace sunload

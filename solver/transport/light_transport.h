@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// How light goes from patch to patch: what every transport does, and the choice among them.
+///
+/// A new one implements `LightTransport`, and has its line in `transport_of`.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "solver/light/work.h"
+#include "solver/traced/traced_scene.h"
+
+namespace sunload {
+
+/// Consecutive intervals with light that are solved side by side, at most `block_width`.
+struct Block {
+  std::span<const SunLight> suns;
+  std::size_t first_row = 0;  ///< of them in the batch
+};
+
+/// Light of one batch of suns: its blocks in order, then the end.
+class BatchTransport {
+ public:
+  virtual ~BatchTransport() = default;
+  /// E = E_0 + G rho E of a block, put into the tallies.
+  virtual void light(const Block& block) = 0;
+  /// After the last block: what needs the whole batch.
+  virtual void finish() = 0;
+};
+
+class LightTransport {
+ public:
+  explicit LightTransport(const TracedScene& traced) : traced_(traced) {}
+  virtual ~LightTransport() = default;
+  LightTransport(const LightTransport&) = delete;
+  LightTransport& operator=(const LightTransport&) = delete;
+
+  const TracedScene& traced() const { return traced_; }
+  /// Begins a batch. `tallies`: one per band; they and `work` must outlive what is returned.
+  virtual std::unique_ptr<BatchTransport> begin(std::vector<BatchTally>& tallies,
+                                                WorkDone& work) const = 0;
+  /// Work done before any batch, beside `TracedScene::work`.
+  const WorkDone& work() const { return work_; }
+
+ protected:
+  const TracedScene& traced_;
+  WorkDone work_;
+};
+
+/// The one that the rules of the scene ask for; `traced` must outlive it.
+std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced);
+
+}  // namespace sunload

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Several variants, one after another: each result as soon as its last batch is there, and what
+/// comes of a run that ends between two of them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <regex>
+#include <thread>
+
+#include "io/result/reader.h"
+#include "tests/support/program.h"
+#include "tests/support/result_check.h"
+#include "tests/support/small_study.h"
+
+namespace sunload::test {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using Names = std::vector<std::string>;
+
+const Names variants{"first", "second", "third"};
+constexpr std::ptrdiff_t batches_of_a_variant = 6;
+const Names only_results{"square/", "square/first.h5", "square/second.h5", "square/third.h5"};
+
+std::string study(const std::string& plaster = "0.6") {
+  return std::regex_replace(square_study(), std::regex("plaster: \\{diffuse: 0.6\\}"),
+                            "plaster: {diffuse: " + plaster + "}") +
+         "variants:\n"
+         "  - {name: first}\n"
+         "  - {name: second, scene: {materials: {glass: {diffuse: 0.3, mirror: 0}}}}\n"
+         "  - {name: third, scene: {materials: {paving: {diffuse: 0.2}}}}\n";
+}
+
+struct Three {
+  WorkFolder folder;
+  Three() {
+    folder.write("square.obj", square_obj);
+    folder.write("square.yaml", study());
+  }
+  Ran run(const Names& options = {}) const {
+    Names words{"run", "square.yaml"};
+    words.insert(words.end(), options.begin(), options.end());
+    return program(folder, words);
+  }
+  std::string result(const std::string& variant) const {
+    return folder / ("results/square/" + variant + ".h5");
+  }
+  std::ptrdiff_t batches(const std::string& variant) const {
+    const Names names = folder.content("results");
+    return std::count_if(names.begin(), names.end(), [&](const std::string& name) {
+      return name.ends_with(".batch") && name.find("/" + variant + "-") != std::string::npos;
+    });
+  }
+  /// Runs, and kills when `seen()` first holds.
+  template <class Seen>
+  Ran killed_when(const Names& options, Seen&& seen) const {
+    Names words{"run", "square.yaml"};
+    words.insert(words.end(), options.begin(), options.end());
+    Process process(program_words(words), folder.path());
+    while (process.is_running() && !seen()) std::this_thread::sleep_for(100us);
+    process.send(SIGKILL);
+    return process.wait();
+  }
+  Ran killed_at_the_first_result() const {
+    return killed_when({}, [&] { return fs::exists(result("first")); });
+  }
+  /// Whether the first result was there before the last variant was computed.
+  bool first_is_early() const {
+    return fs::exists(result("first")) && !fs::exists(result("third")) &&
+           batches("third") < batches_of_a_variant;
+  }
+};
+
+/// The results of a run that nobody disturbed.
+const Three& undisturbed() {
+  static const Three three;
+  static const Ran ran = three.run();
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  return three;
+}
+
+void expect_same_results(const Three& three) {
+  for (const auto& variant : variants)
+    EXPECT_EQ(different_data(three.result(variant), undisturbed().result(variant)), Names{})
+        << variant;
+  EXPECT_EQ(three.folder.content("results"), only_results);
+}
+
+/// Whether a run has said what a variant's work cost: where all batches were there it does not.
+bool was_computed(const Ran& ran, const std::string& variant) {
+  return std::regex_search(ran.err, std::regex(variant + ": [0-9]+ patches\n"));
+}
+
+TEST(Variants, TheFirstResultIsThereWhileOthersAreComputed) {
+  const Three three;
+  const Ran killed = three.killed_at_the_first_result();
+  ASSERT_EQ(killed.signal, SIGKILL) << killed.err;
+  EXPECT_TRUE(three.first_is_early());
+  const std::string first = three.folder.read("results/square/first.h5");
+
+  const Ran plain = three.run();
+  EXPECT_EQ(plain.code, 2) << plain.err;
+  EXPECT_NE(plain.err.find("use --resume to accept it"), std::string::npos) << plain.err;
+  const Ran resumed = three.run({"--resume"});
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_FALSE(was_computed(resumed, "first")) << resumed.err;
+  EXPECT_EQ(three.folder.read("results/square/first.h5"), first);
+  expect_same_results(three);
+}
+
+// The twin: all variants computed before the first is merged.
+TEST(Variants, ResultsAfterAllBatchesAreNotEarly) {
+  const Three three;
+  ASSERT_EQ(three.run({"--keep-batches"}).code, 0);
+  for (const char* later : {"second", "third"}) fs::remove(three.result(later));
+  EXPECT_EQ(three.batches("third"), batches_of_a_variant);
+  EXPECT_FALSE(three.first_is_early());
+}
+
+TEST(Variants, OverwritingComesAgainWithoutComputingTwice) {
+  const Three three;
+  three.folder.write("square.yaml", study("0.5"));
+  ASSERT_EQ(three.run().code, 0);
+  three.folder.write("square.yaml", study());
+  const auto before = fs::last_write_time(three.result("first"));
+  const Ran killed = three.killed_when(
+      {"--overwrite"}, [&] { return fs::last_write_time(three.result("first")) != before; });
+  ASSERT_EQ(killed.signal, SIGKILL) << killed.err;
+  EXPECT_LT(three.batches("third"), batches_of_a_variant);
+  // What a scheduler does: the same line again.
+  const Ran again = three.run({"--overwrite"});
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_FALSE(was_computed(again, "first")) << again.err;
+  EXPECT_TRUE(was_computed(again, "third")) << again.err;
+  expect_same_results(three);
+}
+
+TEST(Variants, ADamagedResultIsReplacedByShardsThatOverwrite) {
+  const Three three;
+  ASSERT_EQ(three.run().code, 0);
+  fs::resize_file(three.result("first"), 5000);
+  for (const char* shard : {"0/2", "1/2"}) {
+    const Ran ran = three.run({"--overwrite", "--shard", shard});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+  }
+  expect_same_results(three);
+}
+
+TEST(Variants, ShardsOneAfterAnotherGiveTheSameBits) {
+  const Three three;
+  for (const char* shard : {"0/3", "1/3", "2/3"}) {
+    const Ran ran = three.run({"--resume", "--shard", shard});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+  }
+  expect_same_results(three);
+}
+
+TEST(Variants, AllThatIsWrongIsSaidBeforeAnythingIsComputed) {
+  const Three three;
+  three.folder.write("cut.obj", "v 0 0 0\nf 1 2");
+  three.folder.write("nan.obj", "v 0 0 nan\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+  three.folder.write("square.yaml", square_study() +
+                                        "variants:\n"
+                                        "  - {name: first}\n"
+                                        "  - {name: second, scene: {files: [cut.obj]}}\n"
+                                        "  - {name: third, scene: {files: [nan.obj]}}\n");
+  const Ran ran = three.run();
+  EXPECT_EQ(ran.code, 2) << ran.err;
+  for (const char* file : {"cut.obj", "nan.obj"})
+    EXPECT_NE(ran.err.find(file), std::string::npos) << ran.err;
+  EXPECT_FALSE(fs::exists(three.folder / "results"));
+}
+
+}  // namespace
+}  // namespace sunload::test
