@@ -7,17 +7,14 @@
 #include <numeric>
 #include <span>
 
+#include "solver/base/cost.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
 
 namespace {
 
-// Costs of one core [s], docs/scaling.md; here only their ratios matter.
-constexpr double s_per_line = 2.3e-7, s_per_link_sun = 2.0e-10, s_per_direct_ray = 3.5e-8;
-constexpr double s_per_sample = 6e-7;  // shot
-constexpr double facing_share = 0.62;  // of a sun's rays that need be cast
-
+/// Only ratios matter.
 struct Cost {
   double per_line, per_direct_sample, per_shot_sample;
   double of(const SampleCounts& counts) const {
@@ -27,11 +24,12 @@ struct Cost {
 };
 
 Cost cost_of(const PatchSpread& spread, const SolverRules& rules, double suns) {
-  const double samples = facing_share * suns * s_per_direct_ray;
+  const double samples = cost::facing_share * suns * cost::s_per_direct_ray;
   if (spread.load.of_shot.empty())
-    return {s_per_line + rules.bounces * suns * s_per_link_sun, samples, 0};
+    return {cost::s_per_line_of_street + rules.bounces * suns * cost::s_per_link_sun, samples, 0};
   const double blocks = std::ceil(suns / static_cast<double>(block_width));
-  return {s_per_line, samples, blocks * spread.shots_per_block * s_per_sample};
+  return {cost::s_per_line_of_street, samples,
+          blocks * spread.shots_per_block * cost::s_per_sample};
 }
 
 /// A quantity of the patches and how exact it shall be.

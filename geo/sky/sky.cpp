@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "geo/base/check.h"
+#include "geo/sky/kittler.h"
 
 namespace sunload {
 
@@ -115,18 +116,6 @@ SkyShape cie_general(int type) {
   return shape;
 }
 
-// Kittler (1967).
-SkyShape cie_clear() {
-  SkyShape shape;
-  shape.v = -1;
-  shape.b = -0.32;
-  shape.f = 0.91;
-  shape.c = 10;
-  shape.d = -3;
-  shape.e = 0.45;
-  return shape;
-}
-
 // Moon & Spencer (1942).
 SkyShape cie_overcast() {
   SkyShape shape;
@@ -151,7 +140,7 @@ SkyShape shape_of(const SkyInput& input) {
     case SkyModel::cie_overcast:
       return cie_overcast();
     case SkyModel::cie_clear:
-      return cie_clear();
+      return kittler_clear_sky();
     case SkyModel::cie_general:
       return cie_general(input.cie_type);
     case SkyModel::perez: {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geo/sky/sky.h"
+#include "geo/sky/kittler.h"
 
 namespace sunload {
 
@@ -34,15 +34,9 @@ double smoothstep(double low, double high, double x) {
   return t * t * (3 - 2 * t);
 }
 
-// Clear sky, Kittler (1967), at the direction relative to the sun, in [0, 1].
+// Kittler's clear sky at the direction relative to the sun, in [0, 1].
 double brightness(double cos_zenith, double sun_cos_zenith, double chord_squared) {
-  SkyShape clear;
-  clear.v = -1;
-  clear.b = -0.32;
-  clear.f = 0.91;
-  clear.c = 10;
-  clear.d = -3;
-  clear.e = 0.45;
+  const SkyShape clear = kittler_clear_sky();
   const double at_sun = clear.gradation(sun_cos_zenith) * clear.indicatrix(0);
   return std::min(1.0, clear.gradation(cos_zenith) * clear.indicatrix(chord_squared) / at_sun);
 }

@@ -17,34 +17,55 @@ namespace {
 
 constexpr std::size_t read_bytes = 1 << 20;  // per read: large against the cost of a call
 
-class Sha256 {
- public:
-  Sha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
-    SUNLOAD_EXPECT(context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1,
-                   "SHA-256 of OpenSSL");
-  }
-  void add(const void* bytes, std::size_t count) {
-    SUNLOAD_EXPECT(EVP_DigestUpdate(context_.get(), bytes, count) == 1, "SHA-256 of OpenSSL");
-  }
-  std::string hexadecimal() {
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-    unsigned int length = 0;
-    SUNLOAD_EXPECT(EVP_DigestFinal_ex(context_.get(), digest.data(), &length) == 1,
-                   "SHA-256 of OpenSSL");
-    constexpr const char* digits = "0123456789abcdef";
-    std::string text;
-    for (unsigned int i = 0; i < length; ++i) {
-      text += digits[digest[i] / 16];
-      text += digits[digest[i] % 16];
-    }
-    return text;
-  }
+}  // namespace
 
- private:
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+struct Sha256::State {
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context{EVP_MD_CTX_new(),
+                                                                  &EVP_MD_CTX_free};
+  // Numbers come one by one: they are handed on together.
+  std::array<unsigned char, 4096> waiting{};
+  std::size_t waiting_count = 0;
+
+  void update(const void* bytes, std::size_t count) {
+    SUNLOAD_EXPECT(EVP_DigestUpdate(context.get(), bytes, count) == 1, "SHA-256 of OpenSSL");
+  }
+  void flush() {
+    update(waiting.data(), waiting_count);
+    waiting_count = 0;
+  }
 };
 
-}  // namespace
+Sha256::Sha256() : state_(std::make_unique<State>()) {
+  SUNLOAD_EXPECT(
+      state_->context && EVP_DigestInit_ex(state_->context.get(), EVP_sha256(), nullptr) == 1,
+      "SHA-256 of OpenSSL");
+}
+
+Sha256::~Sha256() = default;
+
+void Sha256::add(const void* bytes, std::size_t count) {
+  State& state = *state_;
+  if (count > state.waiting.size() - state.waiting_count) state.flush();
+  if (count > state.waiting.size()) return state.update(bytes, count);
+  if (count == 0) return;
+  std::memcpy(state.waiting.data() + state.waiting_count, bytes, count);
+  state.waiting_count += count;
+}
+
+std::string Sha256::hexadecimal() {
+  state_->flush();
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int length = 0;
+  SUNLOAD_EXPECT(EVP_DigestFinal_ex(state_->context.get(), digest.data(), &length) == 1,
+                 "SHA-256 of OpenSSL");
+  constexpr const char* digits = "0123456789abcdef";
+  std::string text;
+  for (unsigned int i = 0; i < length; ++i) {
+    text += digits[digest[i] / 16];
+    text += digits[digest[i] % 16];
+  }
+  return text;
+}
 
 std::string sha256(const std::string& bytes) {
   Sha256 hash;

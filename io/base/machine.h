@@ -8,6 +8,8 @@
 
 namespace sunload {
 
+inline constexpr double mib = 1024.0 * 1024, gib = 1024 * mib;  ///< [bytes]
+
 /// Memory this process may still take [bytes]: the smallest of what the system
 /// has available, what the control group leaves, and what `ulimit -v` leaves.
 double available_memory_bytes();

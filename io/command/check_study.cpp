@@ -12,6 +12,8 @@
 #include "io/base/exit_code.h"
 #include "io/picture/sun_diagram.h"
 #include "io/plan/expected_error.h"
+#include "io/plan/rules_of_study.h"
+#include "io/plan/work_estimate.h"
 #include "io/plan/time_words.h"
 #include "io/plan/variant_mesh.h"
 #include "io/plan/variant_plan.h"
@@ -21,7 +23,6 @@ namespace sunload {
 
 namespace {
 
-constexpr double mib = 1024.0 * 1024;
 
 std::string counts_text(const PrepareReport& r) {
   std::string text = fmt::format(
@@ -136,7 +137,7 @@ std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
       work.samples > 0 ? fmt::format(", {:.3g} samples shot", static_cast<double>(work.samples))
                        : "";
   return text + fmt::format(
-                    "  {} patches, {} intervals ({} with sun) in {} batches\n"
+                    "  {} patches, {} intervals ({} with light) in {} batches\n"
                     "  {:.3g} lines, about {:.3g} shadow rays{}; estimated {:.0f} MiB memory, "
                     "{:.0f} MiB disk, "
                     "{:.0f} s on {} threads\n",

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "geo/base/check.h"
@@ -17,7 +19,7 @@
 #include "io/scene/cityjson/geometry.h"
 #include "io/scene/cityjson/select.h"
 #include "io/scene/cityjson/templates.h"
-#include "io/study/yaml_tree.h"
+#include "io/study/file_place.h"
 
 namespace sunload {
 namespace {
@@ -25,30 +27,33 @@ namespace {
 using nlohmann::json;
 using Numbers = std::vector<std::size_t>;
 
-/// How the study of a result reads its files: `scene` of the study and of the variant.
-SceneFileRules rules_of_study(const ResultReader& result) {
-  const auto text = result.strings("study_yaml");
-  Problems problems;
-  const YamlTree study = parse_yaml(result.path(), text.empty() ? "" : text.front(), problems);
-  std::map<std::string, std::string> words;
-  const auto take = [&](const YamlTree& tree) {
-    const YamlEntry* scene = tree->find("scene");
-    if (scene == nullptr || !scene->value) return;
-    for (const auto& entry : scene->value->entries)
-      if (entry.value && entry.value->kind == YamlNode::Kind::text)
-        words[entry.key] = entry.value->text;
+/// The file of a study's scene that `path` most likely is: the one of its name, whatever the folder
+/// it has been moved to, else the only one. Null where that is open.
+const SceneFileStudy* file_in(const SceneStudy& scene, const std::string& path) {
+  const auto name = std::filesystem::path(path).filename();
+  const auto is_named = [&](const SceneFileStudy& file) {
+    return std::filesystem::path(file.path).filename() == name;
   };
-  take(study);
-  if (const auto* variants = study->find("variants"); variants != nullptr && variants->value)
-    for (const auto& variant : variants->value->items)
-      if (const auto* name = variant->find("name");
-          name != nullptr && name->value && name->value->text == result.text_attribute("variant"))
-        take(variant);
+  const auto found = std::find_if(scene.files.begin(), scene.files.end(), is_named);
+  if (found != scene.files.end()) return &*found;
+  return scene.files.size() == 1 ? &scene.files.front() : nullptr;
+}
+
+/// How the study of a result reads the file, and where it puts it.
+struct FileInScene {
   SceneFileRules rules;
-  if (words.contains("lod")) rules.lod = words["lod"];
-  if (words.contains("unit_m")) rules.unit_m = std::stod(words["unit_m"]);
-  if (words.contains("up")) rules.up = words["up"].front();
-  return rules;
+  std::optional<FilePlace> place;  ///< absent: where it is
+};
+
+FileInScene file_in_scene(const ResultReader& result, const std::string& path) {
+  const auto text = result.strings("study_yaml");
+  const SceneStudy scene =
+      scene_of_text(text.empty() ? "" : text.front(), result.text_attribute("variant"));
+  const SceneFileStudy* file = file_in(scene, path);
+  if (file == nullptr) return {rules_of({}, scene), {}};
+  FileInScene in_scene{rules_of(*file, scene), {}};
+  if (file->is_placed()) in_scene.place = place_of(*file, result.text_attribute("crs"));
+  return in_scene;
 }
 
 /// One surface of the model that patches were cut from.
@@ -132,9 +137,9 @@ class ModelWriter {
  public:
   ModelWriter(const ResultReader& result, const ExportRules& rules)
       : path_(rules.model),
-        scene_rules_(rules_of_study(result)),
-        scene_from_file_(scene_rules_, 'z', path_),
-        wish_(scene_rules_.lod, path_),
+        in_scene_(file_in_scene(result, path_)),
+        scene_from_file_(in_scene_.rules, 'z', path_),
+        wish_(in_scene_.rules.lod, path_),
         patches_(result),
         values_(result, rules) {}
 
@@ -263,15 +268,16 @@ class ModelWriter {
       add_semantics(object["geometry"][g], choice.type, surfaces);
   }
 
-  static PolygonRings rings(const json& surface, const CityVertices& vertices,
-                            const GeometryPlace& where) {
+  PolygonRings rings(const json& surface, const CityVertices& vertices,
+                     const GeometryPlace& where) const {
     PolygonRings all;
     for (const auto& ring : surface) {
       std::vector<Vec3> points;
       for (const auto& index : ring) {
         const auto k = index.get<std::size_t>();
         if (k >= vertices.size()) where.fail("names a vertex that is not there");
-        points.push_back(vertices.position(k, where));
+        const Vec3 p = vertices.position(k, where);
+        points.push_back(in_scene_.place ? (*in_scene_.place)(p) : p);
       }
       constexpr std::size_t smallest_ring = 3;
       if (points.size() >= smallest_ring) all.push_back(std::move(points));
@@ -318,7 +324,7 @@ class ModelWriter {
   }
 
   std::string path_;
-  SceneFileRules scene_rules_;
+  FileInScene in_scene_;
   SceneFromFile scene_from_file_;
   LodWish wish_;
   PatchPolygons patches_;

@@ -120,7 +120,7 @@ void export_xdmf(const ResultReader& result, const ExportRules& rules, const Exp
                      "export to vtk, ply or csv, with --band for one of them");
   const Grid grid(result, reference(result, target.path), chosen_series(result, rules));
   const auto time = result.doubles("time");
-  const Vec3 origin = scene_origin(result);
+  const Vec3 origin = result.origin();
   auto& out = target.stream;
   out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n"
       << fmt::format("    <Information Name=\"origin\" Value=\"{} {} {}\"/>\n", origin.x, origin.y,

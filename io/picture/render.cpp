@@ -194,7 +194,7 @@ class Renderer {
   }
 
   Camera free_camera(PictureArea area) const {
-    const Vec3 origin = scene_origin(result_);
+    const Vec3 origin = result_.origin();
     const Vec3 eye = *rules_.eye - origin, look = *rules_.look - origin;
     if (!(norm(eye - look) > 0))
       throw InputError({}, "--eye and --look are the same point",

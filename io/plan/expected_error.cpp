@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/plan/work_estimate.h"
+
 namespace sunload {
 
 namespace {

@@ -9,10 +9,8 @@
 #include <cmath>
 
 #include "io/base/hash.h"
-#include "io/plan/light_colour.h"
 #include "io/plan/period.h"
 #include "io/plan/weather_light.h"
-#include "solver/base/threads.h"
 
 namespace sunload {
 
@@ -181,10 +179,16 @@ void add_weather(const Study& study, const Site& site, LightSeries& series) {
 
 }  // namespace
 
-std::size_t LightSeries::lit_count() const {
+bool is_dark(const LitInterval& interval) {
+  const bool has_sun = interval.when.sunlit_s > 0 && interval.when.direction.z > 0;
+  return !has_sun && interval.mean.dhi <= 0;
+}
+
+std::size_t LightSeries::lit_count(std::size_t begin, std::size_t end) const {
   return static_cast<std::size_t>(
-      std::count_if(intervals.begin(), intervals.end(),
-                    [](const LitInterval& i) { return i.when.sunlit_s > 0; }));
+      std::count_if(intervals.begin() + static_cast<std::ptrdiff_t>(begin),
+                    intervals.begin() + static_cast<std::ptrdiff_t>(end),
+                    [](const LitInterval& interval) { return !is_dark(interval); }));
 }
 
 LightSeries light_series(const Study& study, const Site& site) {
@@ -234,8 +238,8 @@ LuminousEfficacy efficacy_of(const LitInterval& interval) {
 
 Irradiance source_means(const LitInterval& interval, Quantity quantity) {
   const Irradiance& mean = interval.mean;
-  const bool is_dark = mean.dni <= 0 && mean.dhi <= 0;
-  if (quantity == Quantity::irradiance || is_dark) return mean;
+  const bool is_nothing = mean.dni <= 0 && mean.dhi <= 0;
+  if (quantity == Quantity::irradiance || is_nothing) return mean;
   const LuminousEfficacy lm_per_w = efficacy_of(interval);
   const double diffuse = mean.dhi * lm_per_w.diffuse;
   // Weather whose GHI is below its DHI has no beam.
@@ -254,39 +258,6 @@ Sky sky_of(const LitInterval& interval, const LightStudy& light) {
               .sun_direction = when.direction,
               .cie_type = light.sky_type,
               .turbidity = light.turbidity});
-}
-
-namespace {
-
-/// Cells of the sky behind hills, which shine as the far ground does.
-void put_hills(std::vector<double>& sky, double ground_exitance,
-               const std::vector<double>& open_share) {
-  sky.resize(open_share.size(), 0);
-  for (std::size_t cell = 0; cell < open_share.size(); ++cell)
-    sky[cell] = open_share[cell] * sky[cell] + (1 - open_share[cell]) * ground_exitance / pi;
-}
-
-}  // namespace
-
-SunLight sun_light(const LitInterval& interval, std::uint32_t number, const LightStudy& light,
-                   const SkyGrid& grid, const std::vector<double>& open_share, Bands bands) {
-  const SunInterval& when = interval.when;
-  SunLight sun;
-  sun.number = number;
-  sun.direction = when.direction;
-  const Irradiance source = source_means(interval, light.quantity);
-  sun.dni = source.dni;
-  sun.dhi = source.dhi;
-  sun.ground_exitance = light.far_ground_albedo * source.ghi;
-  sun.length_s = when.length_s();
-  sun.sunlit_s = when.sunlit_s;
-  if (source.dhi > 0) sun.sky = grid.mean_radiance(sky_of(interval, light), source.dhi);
-  if (bands == Bands::rgb) sun.bands = light_in_bands(sun, source, interval, light, grid);
-  if (!open_share.empty() && sun.ground_exitance + source.dhi > 0) {
-    put_hills(sun.sky, sun.ground_exitance, open_share);
-    for (auto& band : sun.bands) put_hills(band.sky, band.ground_exitance, open_share);
-  }
-  return sun;
 }
 
 }  // namespace sunload

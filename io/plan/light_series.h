@@ -23,13 +23,20 @@ struct LitInterval {
   std::optional<LuminousEfficacy> lm_per_w{};
 };
 
+/// Whether neither sun nor sky shines: the solver passes such intervals over unless something in
+/// the scene shines by itself (SunLight::is_dark of the same interval). Twilight with diffuse light
+/// is not dark, nor is a sun above the horizon of whatever strength: its hours are counted.
+bool is_dark(const LitInterval& interval);
+
 struct LightSeries {
   std::vector<LitInterval> intervals;
   bool times_are_synthetic = false;  ///< `positions`: time counts from 2000-01-01T12:00Z
   std::vector<std::string> weather;  ///< the weather file in words; empty without one
   std::string weather_sha256;        ///< of its bytes
   std::vector<std::string> notes;    ///< what happened at clock changes, table ends, …
-  std::size_t lit_count() const;
+  /// Intervals in [begin, end) that are not dark.
+  std::size_t lit_count(std::size_t begin, std::size_t end) const;
+  std::size_t lit_count() const { return lit_count(0, intervals.size()); }
 };
 
 /// Sun path and irradiance of every interval (docs/developer/design.md, Study).
@@ -47,17 +54,5 @@ Irradiance source_means(const LitInterval& interval, Quantity quantity);
 
 /// The open sky of an interval, in scene axes; its DHI is that while the sun is up.
 Sky sky_of(const LitInterval& interval, const LightStudy& light);
-
-/// Light for the solver, with the sky's radiance on `grid`, of interval `number`.
-///
-/// `open_share` (`open_shares` of geo/sky/horizon.h) says what of each cell hills leave free. DHI
-/// is that of the open sky: its part behind the hills is lost, and they shine as the far ground
-/// does, unshaded by themselves; results count that as sky light. With the sun behind the hills
-/// the far ground has the sky's light only.
-///
-/// With rgb, `SunLight::bands` hold the light in bands (io/plan/light_colour.h).
-SunLight sun_light(const LitInterval& interval, std::uint32_t number, const LightStudy& light,
-                   const SkyGrid& grid, const std::vector<double>& open_share = {},
-                   Bands bands = Bands::broadband);
 
 }  // namespace sunload

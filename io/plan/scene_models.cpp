@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <set>
 
-#include "geo/sun/site.h"
 #include "io/scene/blocks.h"
 #include "io/scene/builtin.h"
 #include "io/scene/file.h"
@@ -78,11 +77,6 @@ PolygonModel built_in(const BuiltinStudy& builtin) {
   }
 }
 
-SceneFileRules rules_of(const SceneFileStudy& file, const SceneStudy& scene) {
-  return {file.up == 0 ? scene.up : file.up, file.unit_m.value_or(scene.unit_m),
-          file.lod.empty() ? scene.lod : file.lod, scene.vrml_colour, scene.emission_scale_w};
-}
-
 /// All faces get one material, which the study or the table defines; crowns keep theirs.
 void give_material(PolygonModel& model, const std::string& name) {
   FileMaterial material;
@@ -107,17 +101,6 @@ PolygonModel read_part(const SceneFileStudy& file, const SceneStudy& scene) {
                                               rules);
   if (!file.material.empty()) give_material(part, file.material);
   return part;
-}
-
-/// Where the file's origin stands in the scene.
-Vec3 position_in(const SceneFileStudy& file, const std::string& crs) {
-  if (!file.earth_position) return file.position.value_or(Vec3{});
-  if (crs.empty())
-    throw InputError(file.where, "scene.files: a position in degrees needs the scene's CRS",
-                     "neither site.crs nor a file of the scene names one",
-                     "write site.crs, or position_m in the scene's own metres");
-  const auto& earth = *file.earth_position;
-  return map_position(crs, earth.latitude_deg, earth.longitude_deg, earth.height_m);
 }
 
 /// Reads, places and appends file by file; the CRS is that of the first file that stays in place.
@@ -148,7 +131,7 @@ class SceneJoin {
         if (!part.crs.empty())
           part.notes.push_back(short_name(file.path) +
                                ": is placed by the study, so its own CRS is not used");
-        place(part, position_in(file, crs()), file.turn_deg);
+        place(part, place_of(file, crs()));
       }
       if (!model_.crs.empty() && !part.crs.empty() && model_.crs != part.crs)
         problems_.add({file.path}, "coordinates in " + part.crs,
@@ -176,10 +159,8 @@ PolygonModel read_models(const Study& study) {
   return SceneJoin(study).run();
 }
 
-void place(PolygonModel& model, Vec3 position, double turn_deg) {
-  // As north by east, so the file's +y axis by its turn.
-  const Rotation scene_from_file = scene_from_enu({.north_deg = -turn_deg});
-  for (Vec3& p : model.vertices) p = position + scene_from_file(p);
+void place(PolygonModel& model, const FilePlace& place) {
+  for (Vec3& p : model.vertices) p = place(p);
   model.crs.clear();
 }
 

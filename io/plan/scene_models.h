@@ -6,6 +6,7 @@
 #include <string>
 
 #include "geo/mesh/mesh.h"
+#include "io/study/file_place.h"
 #include "io/study/study.h"
 
 namespace sunload {
@@ -17,8 +18,7 @@ namespace sunload {
 /// Throws InputError with the problems of all files.
 PolygonModel read_models(const Study& study);
 
-/// Turns and moves the model of a file, without the CRS that it had:
-/// position + turn (clockwise seen from above) · place.
-void place(PolygonModel& model, Vec3 position, double turn_deg);
+/// Turns and moves the model of a file, without the CRS that it had.
+void place(PolygonModel& model, const FilePlace& place);
 
 }  // namespace sunload

@@ -7,31 +7,27 @@
 #include <algorithm>
 #include <vector>
 
+#include "io/plan/interval_lights.h"
+#include "io/plan/rules_of_study.h"
 #include "solver/base/rng.h"
 
 namespace sunload {
 
 namespace {
 
-/// Up to so many suns are taken as they are; of more, two samples of half as many.
-constexpr std::size_t most_suns = 32;
-constexpr std::size_t suns_per_sample = most_suns / 2;
+constexpr std::size_t suns_per_sample = most_pilot_suns / 2;
 
 /// Adds the light of intervals to a pilot's, each with a weight.
 class PilotSum {
  public:
   PilotSum(const VariantPlan& plan, PilotLight& light)
-      : plan_(plan),
-        light_(light),
-        open_share_(open_shares(grid_, plan.built.site.horizon, scene_from_enu(plan.built.site))) {
+      : plan_(plan), light_(light), lights_(plan.study, plan.built.site, grid_) {
     light_.sky.assign(static_cast<std::size_t>(grid_.cell_count()), 0);
   }
 
   void add(std::size_t interval, double sun_weight, double sky_weight,
            std::vector<PilotSun>& suns) {
-    const SunLight sun =
-        sun_light(plan_.light.intervals[interval], static_cast<std::uint32_t>(interval),
-                  plan_.study.light, grid_, open_share_);
+    const SunLight sun = lights_.of(plan_.light.intervals[interval], interval);
     if (sun.has_sun() && sun.dni > 0)
       suns.push_back({sun.direction, sun_weight * sun.dni * sun.length_s});
     const double time = sky_weight * sun.length_s;
@@ -43,14 +39,17 @@ class PilotSum {
   const VariantPlan& plan_;
   PilotLight& light_;
   SkyGrid grid_;
-  std::vector<double> open_share_;
+  IntervalLights lights_;
 };
 
+/// Of the intervals that are not dark those that add light: a sun without power would take the
+/// place of one that has some.
 std::vector<std::size_t> intervals_with_light(const LightSeries& series) {
   std::vector<std::size_t> lit;
   for (std::size_t i = 0; i < series.intervals.size(); ++i) {
-    const auto& mean = series.intervals[i].mean;
-    if (mean.dni > 0 || mean.dhi > 0) lit.push_back(i);
+    const LitInterval& interval = series.intervals[i];
+    const bool has_power = interval.mean.dni > 0 || interval.mean.dhi > 0;
+    if (has_power && !is_dark(interval)) lit.push_back(i);
   }
   return lit;
 }
@@ -62,7 +61,7 @@ PilotLight pilot_light(const VariantPlan& plan) {
   PilotSum sum(plan, light);
   for (const auto& interval : plan.light.intervals) light.lamp_time_s += interval.when.length_s();
   const auto lit = intervals_with_light(plan.light);
-  if (lit.size() <= most_suns) {
+  if (lit.size() <= most_pilot_suns) {
     for (const auto i : lit) sum.add(i, 1, 1, light.suns);
     return light;
   }

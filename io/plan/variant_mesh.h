@@ -10,7 +10,10 @@
 
 namespace sunload {
 
-/// The light of a period in short: all its suns where they are few, else two samples of them.
+/// Up to so many suns a pilot takes as they are; of more, two samples of half as many.
+inline constexpr std::size_t most_pilot_suns = 32;
+
+/// The light of a period in short, of its intervals that are not dark.
 PilotLight pilot_light(const VariantPlan& plan);
 
 struct VariantMesh {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What one variant of a study will compute, and the hash that names it.
+/// What one variant of a study will compute.
 #pragma once
 
 #include <string>
@@ -9,13 +9,8 @@
 #include "io/plan/light_series.h"
 #include "io/plan/scene_build.h"
 #include "io/study/study.h"
-#include "solver/accuracy.h"
-#include "solver/solver.h"
 
 namespace sunload {
-
-/// Raised when results change, not at every commit: part of the content hash.
-inline constexpr int numerics_version = 6;
 
 struct VariantPlan {
   Study study;
@@ -38,32 +33,9 @@ VariantPlan make_plan(const Study& study);
 /// Content hash that the plan would have with another instruction set.
 std::string hash_with_isa(const VariantPlan& plan, const std::string& isa);
 
-SplitRules split_rules(const Study& study);
-RefineRules refine_rules(const Study& study);
-/// With the study's own counts, which `accuracy` makes the least ones.
-SolverRules solver_rules(const VariantPlan& plan);
-/// The study's goal; only of a study that has one.
-AccuracyGoal accuracy_goal(const Study& study);
-/// Memory of the pilot that an accuracy asks for.
-double pilot_memory_bytes(const VariantPlan& plan, std::size_t patches);
-/// "1 %", "5 % at every instant" or both.
-std::string goal_words(const AccuracyStudy& accuracy);
-
 /// Whether something in the scene shines by itself: then dark intervals are computed too.
 bool has_lamps(const VariantPlan& plan);
-/// Sun positions of a batch that cost work: intervals with light.
+/// Sun positions of a batch that cost work: intervals that are not dark, all of them with lamps.
 std::size_t sun_count(const VariantPlan& plan, std::size_t batch);
-
-/// Work, memory, disk and time of a variant, estimated before it starts.
-struct WorkEstimate {
-  std::size_t patches = 0;
-  std::uint64_t line_rays = 0, direct_rays = 0;
-  std::uint64_t samples = 0;  ///< that are shot
-  double memory_bytes = 0, disk_bytes = 0, seconds = 0;
-};
-WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches);
-/// The same with other counts than the study's own.
-WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
-                           const SampleCounts& counts);
 
 }  // namespace sunload

@@ -26,11 +26,12 @@ std::vector<PatchKey> patch_keys(const ResultReader& result) {
   constexpr double steps_per_m = 1e4;
   const auto centroid = result.doubles("patch_centroid"), normal = result.doubles("patch_normal"),
              area = result.doubles("patch_area");
-  const auto origin = h5::File::open(result.path()).numbers("origin");
+  const Vec3 origin = result.origin();
+  const std::array<double, 3> shift{origin.x, origin.y, origin.z};
   std::vector<PatchKey> keys(area.size());
   for (std::size_t p = 0; p < keys.size(); ++p) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const double at = centroid[3 * p + k] + (origin && origin->size() == 3 ? (*origin)[k] : 0);
+      const double at = centroid[3 * p + k] + shift[k];
       keys[p][k] = std::llround(at * steps_per_m);
       keys[p][3 + k] = std::llround(normal[3 * p + k] * steps_per_m);
     }
@@ -251,7 +252,7 @@ void put_attributes(h5::File& file, const Comparison& comparison, const ResultRe
   constexpr std::array errors{"paired", "independent", "unknown"};
   std::string notes;
   for (const auto& note : comparison.notes) notes += note + "\n";
-  const auto origin = h5::File::open(base.path()).numbers("origin");
+  const Vec3 origin = base.origin();
   file.set("title", "Light load: variant " + comparison.variant + " minus base " + comparison.base);
   file.set("Conventions", std::string(result_conventions));
   file.set("sunload_format", "sunload-comparison-1");
@@ -263,7 +264,7 @@ void put_attributes(h5::File& file, const Comparison& comparison, const ResultRe
   file.set("base_realizations", static_cast<std::int64_t>(comparison.base_realizations));
   file.set("variant_realizations", static_cast<std::int64_t>(comparison.variant_realizations));
   if (comparison.quantity == Quantity::illuminance) file.set("quantity", "illuminance");
-  if (origin) file.set("origin", *origin, h5::Type::float64);
+  file.set("origin", {origin.x, origin.y, origin.z}, h5::Type::float64);
   if (!notes.empty()) file.set("notes", notes);
 }
 

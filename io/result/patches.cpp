@@ -47,7 +47,7 @@ ResultPatches::ResultPatches(const ResultReader& result)
       area(result.doubles("patch_area")),
       object(result.integers("patch_object")),
       object_names(result.strings("object_name")),
-      origin(scene_origin(result)) {
+      origin(result.origin()) {
   if (area.empty()) throw InputError({result.path()}, "no patches", "there is nothing to export");
   const auto flat = result.integers("patch_vertices");
   corners.resize(area.size());

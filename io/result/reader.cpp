@@ -189,6 +189,15 @@ Quantity ResultReader::quantity() const {
   return text_attribute("quantity") == "illuminance" ? Quantity::illuminance : Quantity::irradiance;
 }
 
+Vec3 ResultReader::origin() const {
+  try {
+    const auto origin = file_->file.numbers("origin");
+    return origin && origin->size() == 3 ? Vec3{(*origin)[0], (*origin)[1], (*origin)[2]} : Vec3{};
+  } catch (const h5::Error& error) {
+    file_->refuse("attribute origin cannot be read", error.what());
+  }
+}
+
 double ResultReader::number_attribute(const std::string& name) const {
   try {
     return one_number(file_->file, name);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "geo/base/vec.h"
 #include "io/base/light_quantity.h"
 #include "solver/light/band.h"
 
@@ -38,6 +39,8 @@ class ResultReader {
   double number_attribute(const std::string& name) const;     ///< of the root; NaN if absent
   Quantity quantity() const;
   Bands bands() const;
+  /// Absolute position that positions in the file are relative to [m]; zero if absent.
+  Vec3 origin() const;
   std::optional<std::size_t> band() const;  ///< that was chosen
   /// Of a dataset; NaN if absent.
   double number_attribute(const std::string& dataset, const std::string& name) const;

@@ -11,7 +11,6 @@
 #include "io/base/colour_map.h"
 #include "io/base/statistics.h"
 #include "io/base/text.h"
-#include "io/result/h5.h"
 #include "io/result/schema.h"
 #include "io/result/time.h"
 
@@ -78,11 +77,6 @@ double scale_end(const std::optional<double>& largest, const std::vector<double>
   }
   const double quantile = weighted_quantile(values, area, scale_share);
   return quantile > 0 ? rounded_up(quantile) : 1;
-}
-
-Vec3 scene_origin(const ResultReader& result) {
-  const auto origin = h5::File::open(result.path()).numbers("origin");
-  return origin && origin->size() == 3 ? Vec3{(*origin)[0], (*origin)[1], (*origin)[2]} : Vec3{};
 }
 
 }  // namespace sunload

@@ -38,7 +38,4 @@ std::vector<std::string> patch_datasets(const ResultReader& result, PatchDataset
 double scale_end(const std::optional<double>& largest, const std::vector<double>& values,
                  const std::vector<double>& area);
 
-/// Absolute position of the scene frame's origin [m].
-Vec3 scene_origin(const ResultReader& result);
-
 }  // namespace sunload

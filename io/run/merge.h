@@ -11,6 +11,8 @@
 
 namespace sunload {
 
+class Hierarchy;
+
 /// Puts all batches together in batch order, into the result file `path`: first the sums of every
 /// realization, then means and errors. Memory does not grow with the period.
 /// Throws InputError where a batch is missing or not valid (check first), but

@@ -39,7 +39,7 @@ void end_at_once(int) {
 /// Least time between two lines, objects, drawings of the bar.
 constexpr std::chrono::seconds line_pause{10}, json_pause{1};
 constexpr std::chrono::milliseconds bar_pause{200};
-constexpr double mib = 1024.0 * 1024, million = 1e6;
+constexpr double million = 1e6;
 
 const char* stage_name(Stage stage) {
   switch (stage) {

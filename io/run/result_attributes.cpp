@@ -12,6 +12,8 @@
 
 #include "io/base/version.h"
 #include "io/batch/batch_tally.h"
+#include "io/plan/content_hash.h"
+#include "solver/accuracy.h"
 
 namespace sunload {
 

@@ -3,6 +3,7 @@
 #include "io/run/result_geometry.h"
 
 #include "geo/base/units.h"
+#include "io/plan/variant_mesh.h"
 
 namespace sunload {
 

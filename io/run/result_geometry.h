@@ -8,6 +8,8 @@
 
 namespace sunload {
 
+class Hierarchy;
+
 /// Geometry of the result: the frozen mesh with its tables.
 ResultGeometry result_geometry(const VariantPlan& plan, const Hierarchy& hierarchy);
 /// Its rows; with illuminances where the study asks for them.

@@ -10,6 +10,8 @@
 #include "io/base/machine.h"
 #include "io/base/merge_lock.h"
 #include "io/plan/expected_error.h"
+#include "io/plan/rules_of_study.h"
+#include "io/plan/work_estimate.h"
 #include "io/result/energy_text.h"
 #include "io/result/reader.h"
 #include "io/run/merge.h"
@@ -22,7 +24,6 @@ namespace {
 
 /// Refuses work that cannot fit; `there`: bytes of finished work.
 void expect_room_for(const WorkEstimate& work, const std::string& folder, double there) {
-  constexpr double gib = 1024.0 * 1024 * 1024;
   if (const double left = available_memory_bytes(); work.memory_bytes > left)
     throw MachineError(fmt::format(
         "too little memory: about {:.1f} GiB are needed for {} patches, {:.1f} GiB are available; "

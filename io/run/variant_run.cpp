@@ -12,6 +12,8 @@
 #include "io/batch/batch_tally.h"
 #include "io/batch/file.h"
 #include "io/batch/prepared_file.h"
+#include "io/plan/rules_of_study.h"
+#include "io/plan/work_estimate.h"
 #include "io/run/mpi_world.h"
 #include "solver/base/threads.h"
 
@@ -52,7 +54,6 @@ std::string counts_text(const VariantPlan& plan, const SampleCounts& counts) {
 
 /// The pilot, or counts that it chose, may need more than the least counts that `check` knows.
 void refuse_too_much(double memory_bytes) {
-  constexpr double gib = 1024.0 * 1024 * 1024;
   if (const double left = available_memory_bytes(); memory_bytes > left)
     throw MachineError(fmt::format(
         "too little memory for the accuracy asked for: about {:.1f} GiB are needed, {:.1f} GiB are "
@@ -100,8 +101,7 @@ void VariantRun::build(std::optional<Lines> ready) {
   unwritten_ += transport_->work();
   done_ = unwritten_;
   warn_of_sensors();
-  open_share_ =
-      open_shares(traced_->grid, plan_.built.site.horizon, scene_from_enu(plan_.built.site));
+  lights_.emplace(plan_.study, plan_.built.site, traced_->grid);
 }
 
 void VariantRun::warn_of_sensors() {
@@ -129,15 +129,6 @@ void VariantRun::warn(const std::string& text) const {
   progress_.warn(plan_.study.variant + ": warning: " + text);
 }
 
-SunLight VariantRun::light_of(std::size_t interval, const SkyGrid& grid,
-                              const std::vector<double>& open_share) const {
-  const LitInterval& lit = plan_.light.intervals[interval];
-  SunLight light = sun_light(lit, static_cast<std::uint32_t>(interval), plan_.study.light, grid,
-                             open_share, plan_.study.solver.bands);
-  light.disk_half_angle = disk_half_angle(plan_.study.sun.disk, lit.when.sun.distance_au);
-  return light;
-}
-
 /// The study's rules, with counts raised by a pilot where it asks for an accuracy. Every
 /// process of a study comes to the same counts.
 SolverRules VariantRun::decided_rules() {
@@ -147,16 +138,14 @@ SolverRules VariantRun::decided_rules() {
   const bool lamps = has_lamps(plan_);
   std::vector<std::size_t> lit;
   for (std::size_t k = 0; k < plan_.intervals(); ++k)
-    if (const LitInterval& i = plan_.light.intervals[k];
-        lamps || i.when.sunlit_s > 0 || i.mean.dhi > 0)
-      lit.push_back(k);
+    if (lamps || !is_dark(plan_.light.intervals[k])) lit.push_back(k);
   const std::size_t count = std::min(pilot_suns, lit.size());
   const SkyGrid grid;
-  const auto open_share =
-      open_shares(grid, plan_.built.site.horizon, scene_from_enu(plan_.built.site));
+  const IntervalLights lights(plan_.study, plan_.built.site, grid);
   std::vector<SunLight> suns(count);
   parallel_for(count, [&](std::size_t p) {
-    suns[p] = light_of(lit[(2 * p + 1) * lit.size() / (2 * count)], grid, open_share);
+    const std::size_t k = lit[(2 * p + 1) * lit.size() / (2 * count)];
+    suns[p] = lights.of(plan_.light.intervals[k], k);
   });
   const double weight =
       count > 0 ? static_cast<double>(lit.size()) / static_cast<double>(count) : 1;
@@ -176,10 +165,7 @@ SolverRules VariantRun::decided_rules() {
 void VariantRun::compute(std::size_t batch) {
   const std::size_t first = batch * plan_.batch_suns();
   const std::size_t count = std::min(plan_.batch_suns(), plan_.intervals() - first);
-  std::vector<SunLight> light(count);
-  parallel_for(count,
-               [&](std::size_t k) { light[k] = light_of(first + k, traced_->grid, open_share_); });
-  const Solved solved = solve(*transport_, light, progress_);
+  const Solved solved = solve(*transport_, lights_->of(plan_.light, first, count), progress_);
   unwritten_ += solved.work;
   done_ += solved.work;
   BatchWriter writer({.content_hash = plan_.content_hash,
@@ -200,7 +186,6 @@ void VariantRun::compute(std::size_t batch) {
 }
 
 void VariantRun::report_work() const {
-  constexpr double mib = 1024.0 * 1024;
   const WorkDone& w = done_;
   std::string text =
       fmt::format("{}: {} patches\n", plan_.study.variant, traced_->hierarchy().patch_count());

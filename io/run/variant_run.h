@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "io/plan/interval_lights.h"
 #include "io/plan/variant_plan.h"
 #include "io/run/progress.h"
 #include "io/run/work_folder.h"
@@ -40,8 +41,6 @@ class VariantRun {
   void warn_of_sensors();
   void keep_lines(const std::string& path);
   SolverRules decided_rules();
-  SunLight light_of(std::size_t interval, const SkyGrid& grid,
-                    const std::vector<double>& open_share) const;
   void warn(const std::string& text) const;
 
   const WorkFolder& folder_;
@@ -51,9 +50,9 @@ class VariantRun {
   SolverRules rules_;  ///< of the solver, counts decided
   std::unique_ptr<const TracedScene> traced_;
   std::unique_ptr<const LightTransport> transport_;
-  std::vector<double> open_share_;  ///< of the sky cells: what hills leave free
-  WorkDone unwritten_;              ///< work that no batch carries yet
-  WorkDone done_;                   ///< all of it
+  std::optional<IntervalLights> lights_;  ///< on the sky grid of the traced scene
+  WorkDone unwritten_;                    ///< work that no batch carries yet
+  WorkDone done_;                         ///< all of it
 };
 
 }  // namespace sunload

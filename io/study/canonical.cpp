@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The canonical text of a study. Structured bindings name every member of every
 // struct: a new member does not compile until it is put in or left out on purpose.
+#define JSON_DISABLE_ENUM_SERIALIZATION 1  // choices are words, not numbers
 #include <nlohmann/json.hpp>
 
 #include "io/study/study.h"
+#include "io/study/words.h"
 
 namespace sunload {
 
@@ -14,7 +16,11 @@ using nlohmann::json;
 
 template <class T>
 json maybe(const std::optional<T>& value) {
-  return value ? json(*value) : json();
+  if (!value) return {};
+  if constexpr (std::is_enum_v<T>)
+    return word_of(*value);
+  else
+    return *value;
 }
 
 json canonical(const CivilTime& time) {
@@ -94,7 +100,8 @@ json canonical(const PeriodStudy& period) {
 
 json canonical(const SunStudy& sun) {
   const auto& [refraction, ut1_utc, disk] = sun;
-  return {{"refraction", refraction}, {"ut1_utc", ut1_utc}, {"disk", disk}};
+  return {
+      {"refraction", word_of(refraction)}, {"ut1_utc", word_of(ut1_utc)}, {"disk", word_of(disk)}};
 }
 
 json canonical(const LightStudy& light) {
@@ -102,15 +109,15 @@ json canonical(const LightStudy& light) {
                sky_scale, far_ground_albedo, quantity, weather, colour, stamp, missing,
                decomposition] = light;
   // The weather file is hashed by its bytes; the colour belongs to the solver's bands.
-  json canon = {{"stamp", maybe(stamp)}, {"quantity", quantity},
-                {"missing", missing},    {"decomposition", decomposition},
-                {"source", source},      {"model", model},
-                {"dni_w_m2", dni_w_m2},  {"linke_turbidity", linke_turbidity.monthly},
-                {"dhi_w_m2", dhi_w_m2},  {"sky", sky},
-                {"sky_type", sky_type},  {"far_ground_albedo", far_ground_albedo},
+  json canon = {{"stamp", maybe(stamp)},       {"quantity", word_of(quantity)},
+                {"missing", word_of(missing)}, {"decomposition", word_of(decomposition)},
+                {"source", word_of(source)},   {"model", word_of(model)},
+                {"dni_w_m2", dni_w_m2},        {"linke_turbidity", linke_turbidity.monthly},
+                {"dhi_w_m2", dhi_w_m2},        {"sky", word_of(sky)},
+                {"sky_type", sky_type},        {"far_ground_albedo", far_ground_albedo},
                 {"turbidity", turbidity}};
   // The usual scale has no key: hashes stay those of the time before there was another.
-  if (sky_scale != SkyScale::diffuse) canon["sky_scale"] = sky_scale;
+  if (sky_scale != SkyScale::diffuse) canon["sky_scale"] = word_of(sky_scale);
   return canon;
 }
 
@@ -185,10 +192,10 @@ json canonical(const SceneStudy& scene) {
           {"up", up == 0 ? std::string() : std::string(1, up)},
           {"unit_m", unit_m},
           {"lod", lod},
-          {"vrml_colour", vrml_colour},
+          {"vrml_colour", word_of(vrml_colour)},
           {"emission_scale_w", emission_scale_w},
-          {"repair", repair},
-          {"orient", orient},
+          {"repair", word_of(repair)},
+          {"orient", word_of(orient)},
           {"materials", list_of(materials)},
           {"assign", list_of(assign)},
           {"ground", ground ? canonical(*ground) : json()}};
@@ -199,12 +206,12 @@ json canonical(const MeshStudy& mesh) {
                link_threshold] = mesh;
   json values{{"max_edge_m", max_edge_m},
               {"min_area_m2", min_area_m2},
-              {"oracle", oracle},
+              {"oracle", word_of(oracle)},
               {"link_threshold", link_threshold}};
   // Thresholds of an oracle that is not asked change nothing.
   if (oracle == Oracle::light_load) values["light_tolerance"] = light_tolerance;
   if (oracle == Oracle::historic) values["light_threshold_m2"] = light_threshold_m2;
-  if (oracle != Oracle::none) values["t_vertices"] = t_vertices;
+  if (oracle != Oracle::none) values["t_vertices"] = word_of(t_vertices);
   return values;
 }
 
@@ -214,8 +221,8 @@ json canonical(const SolverStudy& solver, LightColour colour) {
   const auto& [transport, jacobi, power_per_sample_w, bands, bounces, unshot, lines_per_patch,
                direct_samples, realizations, mirror_depth, batch_suns, isa, seed, accuracy,
                max_lines_per_patch] = solver;
-  json all{{"transport", transport},
-           {"jacobi", jacobi},
+  json all{{"transport", word_of(transport)},
+           {"jacobi", word_of(jacobi)},
            {"power_per_sample_w", maybe(power_per_sample_w)},
            {"bounces", bounces},
            {"unshot", unshot},
@@ -226,8 +233,8 @@ json canonical(const SolverStudy& solver, LightColour colour) {
            {"batch_suns", batch_suns},
            {"seed", seed}};
   if (bands == Bands::rgb) {
-    all["bands"] = "rgb";
-    all["colour"] = colour;
+    all["bands"] = word_of(bands);
+    all["colour"] = word_of(colour);
   }
   if (accuracy) {
     const auto& [light_load_relative, irradiance_relative] = *accuracy;

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "io/study/sections.h"
+#include "io/study/words.h"
 
 namespace sunload::study_sections {
 
@@ -63,18 +64,11 @@ void warn_unused(YamlMap& map, const LightStudy& light) {
 void read_weather(YamlMap& map, const std::string& folder, LightStudy& light) {
   const auto file = map.text("weather");
   if (map.has("stamp")) {
-    light.stamp = map.choice(
-        "stamp", {{"start", Stamp::start}, {"middle", Stamp::middle}, {"end", Stamp::end}},
-        Stamp::end);
+    light.stamp = map.choice("stamp", Stamp::end);
   }
   map.tree("stamp");
-  light.missing = map.choice(
-      "missing",
-      {{"refuse", Missing::refuse}, {"interpolate", Missing::interpolate}, {"zero", Missing::zero}},
-      light.missing);
-  light.decomposition =
-      map.choice("decomposition", {{"erbs", Decomposition::erbs}, {"disc", Decomposition::disc}},
-                 light.decomposition);
+  light.missing = map.choice("missing", light.missing);
+  light.decomposition = map.choice("decomposition", light.decomposition);
   if (light.source != LightSource::weather) return;
   if (!file) {
     map.problem("source", "weather needs a file", "", "write light.weather: x.epw beside `source`");
@@ -93,43 +87,23 @@ void read_weather(YamlMap& map, const std::string& folder, LightStudy& light) {
 
 SunStudy read_sun(YamlMap& map) {
   SunStudy sun;
-  sun.refraction = map.choice(
-      "refraction",
-      {{"none", Refraction::none}, {"spa", Refraction::spa}, {"bennett", Refraction::bennett}},
-      sun.refraction);
-  sun.ut1_utc = map.choice("ut1_utc", {{"table", Ut1::table}, {"zero", Ut1::zero}}, sun.ut1_utc);
-  sun.disk = map.choice("disk", {{"point", SunDisk::point}, {"finite", SunDisk::finite}}, sun.disk);
+  sun.refraction = map.choice("refraction", sun.refraction);
+  sun.ut1_utc = map.choice("ut1_utc", sun.ut1_utc);
+  sun.disk = map.choice("disk", sun.disk);
   return sun;
 }
 
 LightStudy read_light(YamlMap& map, const std::string& folder) {
   LightStudy light;
-  light.source = map.choice("source",
-                            {{"clear_sky", LightSource::clear_sky},
-                             {"weather", LightSource::weather},
-                             {"fixed", LightSource::fixed}},
-                            light.source);
-  light.model = map.choice("model",
-                           {{"ineichen", ClearSkyModel::ineichen},
-                            {"bird", ClearSkyModel::bird},
-                            {"haurwitz", ClearSkyModel::haurwitz}},
-                           light.model);
+  light.source = map.choice("source", light.source);
+  light.model = map.choice("model", light.model);
   light.linke_turbidity = read_turbidity(map);
   light.dni_w_m2 = map.number("dni_w_m2", irradiances_w_m2, light.dni_w_m2);
   light.dhi_w_m2 = map.number("dhi_w_m2", irradiances_w_m2, light.dhi_w_m2);
-  light.sky = map.choice("sky",
-                         {{"uniform", SkyModel::uniform},
-                          {"cie_overcast", SkyModel::cie_overcast},
-                          {"cie_clear", SkyModel::cie_clear},
-                          {"cie_general", SkyModel::cie_general},
-                          {"perez", SkyModel::perez},
-                          {"preetham", SkyModel::preetham}},
-                         light.sky);
+  light.sky = map.choice("sky", light.sky);
   light.sky_type = map.integer("sky_type", 1, cie_sky_types, light.sky_type);
   light.turbidity = map.number("turbidity", preetham_turbidities, light.turbidity);
-  light.sky_scale =
-      map.choice("sky_scale", {{"diffuse", SkyScale::diffuse}, {"absolute", SkyScale::absolute}},
-                 light.sky_scale);
+  light.sky_scale = map.choice("sky_scale", light.sky_scale);
   if (light.sky_scale == SkyScale::absolute &&
       (light.sky != SkyModel::preetham || light.source != LightSource::clear_sky))
     map.problem("sky_scale", "absolute goes with sky: preetham and source: clear_sky only",
@@ -138,11 +112,8 @@ LightStudy read_light(YamlMap& map, const std::string& folder) {
                 "write sky_scale: diffuse");
   light.far_ground_albedo = map.number("far_ground_albedo", albedos, light.far_ground_albedo);
   read_weather(map, folder, light);
-  light.quantity = map.choice(
-      "quantity", {{"irradiance", Quantity::irradiance}, {"illuminance", Quantity::illuminance}},
-      light.quantity);
-  light.colour = map.choice("colour", {{"sky", LightColour::sky}, {"white", LightColour::white}},
-                            light.colour);
+  light.quantity = map.choice("quantity", light.quantity);
+  light.colour = map.choice("colour", light.colour);
   for (const char* key : {"dni_w_m2", "dhi_w_m2"}) {
     if (light.source == LightSource::fixed && !map.has(key)) {
       map.problem("source", std::string("fixed needs ") + key, "", "write it beside `source`");

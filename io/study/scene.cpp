@@ -10,6 +10,7 @@
 #include "io/base/key_names.h"
 #include "io/scene/builtin.h"
 #include "io/study/sections.h"
+#include "io/study/words.h"
 #include "solver/surface/clear_glass.h"
 
 namespace sunload::study_sections {
@@ -185,7 +186,7 @@ MaterialStudy read_material(const std::string& name, YamlMap& map) {
   material.glossy_exponent = map.number("glossy_exponent", exponents, material.glossy_exponent);
   material.transmittance = map.number("transmittance", shares, material.transmittance);
   if (map.has("sides")) {
-    material.sides = map.choice("sides", {{"one", Sides::one}, {"two", Sides::two}}, Sides::one);
+    material.sides = map.choice("sides", Sides::one);
   }
   map.tree("sides");
   check_kind(map, material);
@@ -251,14 +252,10 @@ SceneStudy read_scene(YamlMap& map, const std::string& folder) {
   scene.unit_m = map.number("unit_m", units_m, scene.unit_m);
   scene.lod = map.text("lod", scene.lod);
   check_lod(map, scene.lod);
-  scene.vrml_colour = map.choice(
-      "vrml_colour", {{"mean", VrmlColour::mean}, {"norm", VrmlColour::norm}}, scene.vrml_colour);
+  scene.vrml_colour = map.choice("vrml_colour", scene.vrml_colour);
   scene.emission_scale_w = map.number("emission_scale_w", powers_w, scene.emission_scale_w);
-  scene.repair =
-      map.choice("repair", {{"none", Repair::none}, {"safe", Repair::safe}, {"all", Repair::all}},
-                 scene.repair);
-  scene.orient = map.choice(
-      "orient", {{"outward", Orientation::outward}, {"keep", Orientation::keep}}, scene.orient);
+  scene.repair = map.choice("repair", scene.repair);
+  scene.orient = map.choice("orient", scene.orient);
   map.named("materials", [&](const std::string& name, YamlMap& material) {
     scene.materials.push_back(read_material(name, material));
   });
@@ -283,14 +280,10 @@ MeshStudy read_mesh(YamlMap& map) {
   MeshStudy mesh;
   mesh.max_edge_m = map.number("max_edge_m", edges_m, mesh.max_edge_m);
   mesh.min_area_m2 = map.number("min_area_m2", areas_m2, mesh.min_area_m2);
-  mesh.oracle = map.choice(
-      "oracle",
-      {{"default", Oracle::light_load}, {"historic", Oracle::historic}, {"none", Oracle::none}},
-      mesh.oracle);
+  mesh.oracle = map.choice("oracle", mesh.oracle);
   mesh.light_tolerance = map.number("light_tolerance", tolerances, mesh.light_tolerance);
   mesh.light_threshold_m2 = map.number("light_threshold_m2", areas_m2, mesh.light_threshold_m2);
-  mesh.t_vertices = map.choice(
-      "t_vertices", {{"remove", TVertices::remove}, {"keep", TVertices::keep}}, mesh.t_vertices);
+  mesh.t_vertices = map.choice("t_vertices", mesh.t_vertices);
   mesh.link_threshold = map.number("link_threshold", link_thresholds, mesh.link_threshold);
   check_oracle_keys(map, mesh.oracle);
   return mesh;

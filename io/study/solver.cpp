@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "io/study/sections.h"
+#include "io/study/words.h"
 
 namespace sunload::study_sections {
 
@@ -52,9 +53,7 @@ std::vector<std::string> read_series(YamlMap& map, std::vector<std::string> abse
 
 /// Gathering has no samples of power.
 void read_shooting(YamlMap& map, SolverStudy& solver) {
-  solver.jacobi =
-      map.choice("jacobi", {{"incremental", Jacobi::incremental}, {"regular", Jacobi::regular}},
-                 solver.jacobi);
+  solver.jacobi = map.choice("jacobi", solver.jacobi);
   const std::string key = "power_per_sample_w";
   if (map.kind(key) != YamlNode::Kind::text || map.text(key, "") != "auto")
     solver.power_per_sample_w = map.number(key, watts);
@@ -95,8 +94,7 @@ void read_accuracy(YamlMap& map, SolverStudy& solver) {
 
 SolverStudy read_solver(YamlMap& map) {
   SolverStudy solver;
-  solver.transport = map.choice(
-      "transport", {{"gather", Transport::gather}, {"shoot", Transport::shoot}}, solver.transport);
+  solver.transport = map.choice("transport", solver.transport);
   read_shooting(map, solver);
   solver.bounces = map.integer("bounces", 0, most_bounces, solver.bounces);
   solver.unshot = map.number("unshot", shares, solver.unshot);
@@ -106,8 +104,7 @@ SolverStudy read_solver(YamlMap& map) {
   const int realizations =
       map.integer("realizations", fewest_realizations, most_realizations, unread);
   solver.mirror_depth = map.integer("mirror_depth", 0, most_bounces, solver.mirror_depth);
-  solver.bands =
-      map.choice("bands", {{"broadband", Bands::broadband}, {"rgb", Bands::rgb}}, solver.bands);
+  solver.bands = map.choice("bands", solver.bands);
   if (solver.bands == Bands::rgb && solver.transport == Transport::shoot)
     map.problem("bands", "rgb cannot go with transport: shoot",
                 "bands share the lines of gathering", "write transport: gather");
@@ -129,11 +126,7 @@ OutputStudy read_output(YamlMap& map) {
   OutputStudy output;
   output.folder = map.text("folder", output.folder);
   output.series = read_series(map, output.series);
-  output.standard_error = map.choice("standard_error",
-                                     {{"none", StandardErrors::none},
-                                      {"totals", StandardErrors::totals},
-                                      {"instants", StandardErrors::instants}},
-                                     output.standard_error);
+  output.standard_error = map.choice("standard_error", output.standard_error);
   output.compression = map.integer("compression", 0, strongest_compression, output.compression);
   return output;
 }

@@ -239,6 +239,26 @@ StudyFile read_study(const std::string& path) {
   return file;
 }
 
+SceneStudy scene_of_text(const std::string& yaml, const std::string& variant) {
+  YamlReading reading(later_keys());
+  const YamlTree tree = parse_yaml("", yaml, reading.parser_problems);
+  std::vector<Variant> variants;
+  YamlMap::read_all(tree, reading, [&](YamlMap& root) {
+    variants = read_variants(root);
+    root.keep_rest();
+  });
+  SceneStudy scene;
+  for (const auto& [name, over] : variants) {
+    if (name != variant) continue;
+    YamlMap::read_all(over ? merge_yaml(tree, over, appended_lists) : tree, reading,
+                      [&](YamlMap& root) {
+                        root.section("scene", [&](YamlMap& map) { scene = read_scene(map, ""); });
+                        root.keep_rest();
+                      });
+  }
+  return scene;
+}
+
 std::vector<std::string> study_keys() {
   YamlReading reading(later_keys(), YamlReading::Purpose::describe);
   YamlMap::read_all(nullptr, reading, [](YamlMap& root) {

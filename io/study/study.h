@@ -257,6 +257,11 @@ struct StudyFile {
 /// Throws InputError with every problem of the file.
 StudyFile read_study(const std::string& path);
 
+/// Section `scene` of a study that was run once, with what the variant changes, from the text that
+/// its result keeps: nothing is refused, and files need not be there any more. Their paths are
+/// relative to the study's folder.
+SceneStudy scene_of_text(const std::string& yaml, const std::string& variant);
+
 /// Canonical text (JSON, sorted keys, numbers with all digits) of every value
 /// that can change a number of the result: not names, `output`, or paths (the
 /// bytes of the files are hashed apart, and so is the instruction set in force,

@@ -107,6 +107,11 @@ class YamlMap {
   std::string text(const std::string& key, const std::string& absent);
   template <class E>
   E choice(const std::string& key, const std::vector<std::pair<std::string, E>>& names, E absent);
+  /// The same, with the words of io/study/words.h.
+  template <class E>
+  E choice(const std::string& key, E absent) {
+    return choice(key, words_of(absent), absent);
+  }
   /// One of `names`.
   std::string word(const std::string& key, const std::vector<std::string>& names,
                    const std::string& absent);

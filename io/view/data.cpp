@@ -13,7 +13,6 @@
 #include "io/base/deflate.h"
 #include "io/base/half_float.h"
 #include "io/base/text.h"
-#include "io/result/h5.h"
 #include "io/result/schema.h"
 #include "io/result/time.h"
 
@@ -182,6 +181,7 @@ std::string viewed_series(const ResultReader& result) {
 
 json view_data(const ResultReader& result, std::size_t step, ViewBlocks& blocks) {
   const auto zone = result.text_attribute("timezone");
+  const Vec3 origin = result.origin();
   return {{"study", result.text_attribute("study")},
           {"variant", result.text_attribute("variant")},
           {"source", result.text_attribute("source")},
@@ -193,8 +193,7 @@ json view_data(const ResultReader& result, std::size_t step, ViewBlocks& blocks)
           {"geometry", geometry(result, blocks)},
           {"totals", totals(result, blocks)},
           {"sensors", sensors(result, step, blocks)},
-          {"origin",
-           h5::File::open(result.path()).numbers("origin").value_or(std::vector<double>(3, 0))},
+          {"origin", {origin.x, origin.y, origin.z}},
           {"series", series(result, viewed_series(result), step, blocks)}};
 }
 

@@ -10,8 +10,8 @@
 ///
 /// L_rest stays with the lines, and L_circ is sampled per patch and sun like the sun itself, with
 /// density p = L_circ / T, T = ∫ L_circ dω. What it would bring unshaded is known, n·∫ L_circ w dω,
-/// and serves as control variate, by the share β of the patch that the sun itself was seen to
-/// light (with random numbers of its own, hence without bias):
+/// and serves as control variate: β is 1 where all of the patch's samples saw the sun itself (with
+/// random numbers of their own, hence without bias), else 0:
 ///
 ///     E_circ = β n·∫ L_circ w dω + T/n Σ_samples (max(0, n·w) V - β n·w)
 ///
@@ -33,7 +33,7 @@ namespace sunload {
 class CircumsolarSky {
  public:
   /// `radiance`: per cell of the grid [W m-2 sr-1]. There is no L_circ where it would be less
-  /// than a twentieth of the sky: overcast and uniform skies cost nothing.
+  /// than 0.02 of the sky: overcast and uniform skies cost nothing.
   CircumsolarSky(const SkyGrid& grid, const std::vector<double>& radiance, Vec3 to_sun);
 
   bool any() const { return !slot_a_.empty(); }

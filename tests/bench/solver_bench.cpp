@@ -11,6 +11,8 @@
 
 #include "geo/base/check.h"
 #include "io/base/version.h"
+#include "io/plan/interval_lights.h"
+#include "io/plan/rules_of_study.h"
 #include "io/plan/variant_mesh.h"
 #include "io/plan/variant_plan.h"
 #include "solver/base/threads.h"
@@ -37,14 +39,11 @@ void bench(const std::string& path, std::size_t batches) {
   WorkDone work = traced->work;
   work += transport->work();
   std::size_t suns = 0;
-  const auto open =
-      open_shares(traced->grid, plan.built.site.horizon, scene_from_enu(plan.built.site));
+  const IntervalLights lights(plan.study, plan.built.site, traced->grid);
   for (std::size_t first = 0; first < std::min(plan.intervals(), batches * plan.batch_suns());
        first += plan.batch_suns()) {
-    std::vector<SunLight> light;
-    for (std::size_t k = first; k < std::min(plan.intervals(), first + plan.batch_suns()); ++k)
-      light.push_back(sun_light(plan.light.intervals[k], static_cast<std::uint32_t>(k),
-                                plan.study.light, traced->grid, open, plan.study.solver.bands));
+    const auto light =
+        lights.of(plan.light, first, std::min(plan.intervals() - first, plan.batch_suns()));
     for (const auto& sun : light) suns += !sun.is_dark();
     work += solve(*transport, light, watch).work;
   }

@@ -8,7 +8,7 @@
 #include <iostream>
 #include <memory>
 
-#include "io/plan/light_series.h"
+#include "io/plan/rules_of_study.h"
 #include "io/plan/variant_mesh.h"
 #include "solver/base/threads.h"
 #include "tests/support/paths.h"
@@ -27,12 +27,7 @@ struct Loaded {
 Loaded loaded(const VariantPlan& plan, std::shared_ptr<const Hierarchy> mesh) {
   Watch watch;
   const auto traced = trace_scene(plan.built.scene, mesh, solver_rules(plan), watch);
-  const auto open =
-      open_shares(traced->grid, plan.built.site.horizon, scene_from_enu(plan.built.site));
-  std::vector<SunLight> suns;
-  for (std::size_t k = 0; k < plan.intervals(); ++k)
-    suns.push_back(sun_light(plan.light.intervals[k], static_cast<std::uint32_t>(k),
-                             plan.study.light, traced->grid, open));
+  const auto suns = suns_of(plan, traced->grid);
   const BatchTally tally = sunload::solve(*transport_of(*traced), suns, watch).bands.front();
   Loaded result{mesh, std::vector<double>(mesh->patch_count()), {}};
   for (std::size_t i = 0; i < mesh->patch_count(); ++i) {

@@ -354,6 +354,56 @@ def test_cityjson(exports):
     assert ran.returncode == WRONG_INPUT and "their ids differ" in ran.stderr, ran.stderr
 
 
+MOVED_STUDY = """format: sunload-study-1
+name: moved
+site: {crs: "EPSG:7415", timezone: Europe/Amsterdam}
+period: {days: [2026-06-21], from: "10:00", to: "14:00", step_min: 120}
+light: {source: clear_sky}
+scene: {files: [neighbour.json], ground: none}
+mesh: {max_edge_m: 8, oracle: none}
+solver: {lines_per_patch: 64}
+variants:
+  - {name: turned, scene: {files: [neighbour.json, {file: parts/city.json, unit_m: 0.1, lod: "1.2", turn_deg: 30, position_m: [84000, 446000, 3]}]}}
+  - {name: on_earth, scene: {files: [neighbour.json, {file: parts/city.json, unit_m: 0.1, lod: "1.2", position: 52d0'0"N 4d21'0"E}]}}
+"""
+
+
+def face_area(corners):
+    return np.linalg.norm(sum(np.cross(corners[k] - corners[0], corners[k + 1] - corners[0]) for k in range(1, len(corners) - 1))) / 2
+
+
+def test_moved_model(exports):
+    """A file with a unit, a level of detail and a place of its own, beside another one, gets its model back."""
+    unit = 0.1  # m in the file's unit
+    model = city_model()
+    del model["metadata"]
+    model["transform"] = {"scale": [0.001 / unit] * 3, "translate": [0, 0, 0]}
+    neighbour = json.loads(json.dumps(city_model()).replace("part_", "piece_").replace("square", "place").replace("house", "home"))
+    os.makedirs(os.path.join(exports.folder, "parts"), exist_ok=True)
+    for name, one in (("parts/city.json", model), ("neighbour.json", neighbour)):
+        with open(os.path.join(exports.folder, name), "w", encoding="utf-8") as file:
+            json.dump(one, file)
+    with open(os.path.join(exports.folder, "moved.yaml"), "w", encoding="utf-8") as file:
+        file.write(MOVED_STUDY)
+    ran = exports.run("run", "moved.yaml", "--progress", "none")
+    assert ran.returncode == 0, ran.stderr
+    # The result tells how the file was read even when the folder of the study is gone.
+    os.rename(os.path.join(exports.folder, "parts"), os.path.join(exports.folder, "elsewhere"))
+    for variant in ("turned", "on_earth"):
+        for name, parts in (("elsewhere/city.json", ("part_1", "part_2")), ("neighbour.json", ("piece_1", "piece_2"))):
+            ran = exports.run("export", f"results/moved/{variant}.h5", "--to", "cityjson", "--model", name)
+            assert ran.returncode == 0 and not ran.stderr, ran.stderr
+            city = json.loads(ran.stdout)
+            read, metres = (0, unit) if "part_1" in parts else (1, 1)
+            for part in parts:
+                valued = [(corners, semantic) for corners, semantic in surfaces_of(city, part, read)
+                          if semantic and "sunload_area_m2" in semantic]
+                assert len(valued) == 5, f"{variant} {name}: {len(valued)} surfaces of {part} have values"
+                for corners, semantic in valued:
+                    assert np.isclose(semantic["sunload_area_m2"], face_area(corners) * metres ** 2, 1e-6)
+                assert "semantics" not in city["CityObjects"][part]["geometry"][0] or read == 0
+
+
 def test_model(result, model, city, place):
     """The user's model is as it was, but for what was added."""
     for key in ("type", "version", "vertices", "transform", "metadata"):
@@ -480,6 +530,7 @@ def main():
         if len(sys.argv) > 2:
             return
         test_cityjson(exports)
+        test_moved_model(exports)
         print("test_cityjson passed")
         test_geopackage(exports)
         print("test_geopackage passed")

@@ -11,6 +11,8 @@
 #include <ctime>
 #include <iostream>
 
+#include "io/plan/interval_lights.h"
+#include "io/plan/rules_of_study.h"
 #include "io/plan/variant_plan.h"
 #include "tests/support/program.h"
 #include "tests/support/scenes.h"
@@ -226,9 +228,8 @@ TEST(Circumsolar, LowersTheErrorOfTheStreet) {
   const auto sky_view = traced->sky_view_factor();
 
   for (const std::size_t hour : {1u, 3u, 6u}) {
-    const std::vector<SunLight> block{sun_light(plan.light.intervals[hour],
-                                                static_cast<std::uint32_t>(hour), plan.study.light,
-                                                traced->grid)};
+    const auto block =
+        IntervalLights(plan.study, plan.built.site, traced->grid).of(plan.light, hour, 1);
     BlockSources sources(block, static_cast<std::size_t>(grid.cell_count()));
     sources.split_sky(grid);
     std::vector<std::vector<double>> exposure(realizations, std::vector<double>(patches, 0));

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/study_plan.h"
 
+#include "io/plan/interval_lights.h"
+#include "io/plan/rules_of_study.h"
+#include "solver/solver.h"
 #include "tests/support/program.h"
 
 namespace sunload::test {
@@ -20,12 +23,7 @@ std::string night_study(const std::string& builtin, const std::string& sections)
 }
 
 std::vector<SunLight> suns_of(const VariantPlan& plan, const SkyGrid& grid) {
-  const auto open = open_shares(grid, plan.built.site.horizon, scene_from_enu(plan.built.site));
-  std::vector<SunLight> suns;
-  for (std::size_t k = 0; k < plan.intervals(); ++k)
-    suns.push_back(sun_light(plan.light.intervals[k], static_cast<std::uint32_t>(k),
-                             plan.study.light, grid, open));
-  return suns;
+  return IntervalLights(plan.study, plan.built.site, grid).of(plan.light);
 }
 
 const std::string& SolvedPlan::object(std::size_t patch) const {

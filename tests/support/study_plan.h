@@ -7,6 +7,8 @@
 #include <string>
 
 #include "io/plan/variant_mesh.h"
+#include "solver/light/sun_block.h"
+#include "solver/light/tally.h"
 
 namespace sunload::test {
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/plan/interval_lights.h"
 #include "io/plan/light_colour.h"
 #include "io/plan/variant_plan.h"
 #include "tests/support/program.h"
@@ -128,8 +129,11 @@ struct Sky30 {
     interval.mean = interval.of_the_sky = {700, 100, 700 * std::sin(radians(elevation_deg)) + 100};
     study.sky = sky;
   }
-  SunLight light(const std::vector<double>& open_share = {}) const {
-    return sun_light(interval, 0, study, grid, open_share, Bands::rgb);
+  SunLight light(const Horizon& hills = {}) const {
+    Study in_bands;
+    in_bands.light = study;
+    in_bands.solver.bands = Bands::rgb;
+    return IntervalLights(in_bands, {.horizon = hills}, grid).of(interval, 0);
   }
 };
 
@@ -140,13 +144,12 @@ double diffuse(const std::vector<double>& radiance, const SkyGrid& grid) {
 }
 
 TEST(BandLight, MeanOfTheBandsIsTheBroadbandLightOfEverySource) {
-  const Sky30 any(30);
-  const std::vector<double> hills(static_cast<std::size_t>(any.grid.cell_count()), 0.6);
+  const Horizon hills({{0, 25}});
   for (const auto sky : {SkyModel::cie_clear, SkyModel::perez, SkyModel::uniform,
                          SkyModel::preetham, SkyModel::cie_overcast})
     for (const double elevation : {2.0, 20.0, 60.0})
-      for (const auto& open : {std::vector<double>{}, hills}) {
-        const SunLight light = Sky30(elevation, sky).light(open);
+      for (const auto& horizon : {Horizon(), hills}) {
+        const SunLight light = Sky30(elevation, sky).light(horizon);
         ASSERT_EQ(light.bands.size(), band_count);
         const auto mean = [&](auto&& of) {
           return (of(light.bands[0]) + of(light.bands[1]) + of(light.bands[2])) / 3;

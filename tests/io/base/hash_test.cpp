@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "geo/base/check.h"
 #include "tests/io/result/result_example.h"
@@ -40,6 +43,31 @@ TEST(Hash, UnreadableFilesAreTheUsers) {
   const WorkFolder folder;
   EXPECT_THROW(sha256_of_file(folder / "absent"), InputError);
   EXPECT_THROW(sha256_of_file(folder / "."), InputError);
+}
+
+// What is added in pieces, across the borders of what waits to be hashed, is one text.
+TEST(Sha256, IsTheSameInPieces) {
+  std::string all;
+  for (int i = 0; i < 30000; ++i) all += static_cast<char>(i * i % 251);
+  for (const std::size_t piece : {1u, 7u, 4095u, 4096u, 4097u, 29999u}) {
+    Sha256 hash;
+    for (std::size_t at = 0; at < all.size(); at += piece)
+      hash.add(all.data() + at, std::min(piece, all.size() - at));
+    EXPECT_EQ(hash.hexadecimal(), sha256(all)) << piece;
+  }
+}
+
+TEST(Digest, TellsListsAndTextsApart) {
+  const auto of = [](const auto&... values) {
+    Digest digest;
+    (digest.add(values), ...);
+    return digest.hex();
+  };
+  const std::string ab = "ab", a = "a", b = "b", c = "c", bc = "bc";
+  EXPECT_NE(of(ab, c), of(a, bc));
+  EXPECT_NE(of(std::vector{1.0, 2.0}, std::vector{3.0}),
+            of(std::vector{1.0}, std::vector{2.0, 3.0}));
+  EXPECT_EQ(of(std::vector{1.0, 2.0}), of(std::size_t{2}, 1.0, 2.0));
 }
 
 }  // namespace

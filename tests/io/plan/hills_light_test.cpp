@@ -7,6 +7,7 @@
 
 #include "geo/sky/horizon.h"
 #include "geo/sky/sky.h"
+#include "io/plan/interval_lights.h"
 #include "io/plan/light_series.h"
 
 namespace sunload {
@@ -99,7 +100,7 @@ TEST(HillsLight, LowSkyIsFarGround) {
   const Site site = prague(hills);
   const auto open = open_shares(grid, hills, scene_from_enu(site));
   const auto& noon = light_series(s, site).intervals[12];
-  const SunLight light = sun_light(noon, 12, s.light, grid, open);
+  const SunLight light = IntervalLights(s, site, grid).of(noon, 12);
   ASSERT_EQ(light.sky.size(), static_cast<std::size_t>(grid.cell_count()));
   double sky = 0, ground = 0;
   for (std::size_t c = 0; c < open.size(); ++c) {
@@ -117,8 +118,8 @@ TEST(HillsLight, LowSkyIsFarGround) {
   EXPECT_NEAR(sky / pi, 0.75, 150.0 / 4096 / 64);
   EXPECT_NEAR(sky + ground, pi, 1e-9);
   // Without hills the same as ever.
-  const SunLight before = sun_light(noon, 12, s.light, grid);
-  EXPECT_EQ(before.sky, sun_light(noon, 12, s.light, grid, open_shares(grid, {}, {})).sky);
+  const SunLight before = IntervalLights(s, prague({}), grid).of(noon, 12);
+  EXPECT_EQ(before.sky, grid.mean_radiance(sky_of(noon, s.light), noon.mean.dhi));
 }
 
 TEST(HillsLight, AzimuthsOfHillsAreTrue) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "geo/sky/sky.h"
+#include "io/plan/interval_lights.h"
 #include "io/plan/light_series.h"
 #include "io/plan/variant_plan.h"
 #include "io/result/schema.h"
@@ -37,8 +38,8 @@ TEST(Illuminance, BeamAndSkyAreConvertedByTheirOwnEfficacies) {
     int lit = 0;
     for (std::uint32_t k = 0; k < series.intervals.size(); ++k) {
       const LitInterval& interval = series.intervals[k];
-      const SunLight watts = sun_light(interval, k, power.light, grid);
-      const SunLight lux = sun_light(interval, k, light.light, grid);
+      const SunLight watts = IntervalLights(power, site, grid).of(interval, k);
+      const SunLight lux = IntervalLights(light, site, grid).of(interval, k);
       EXPECT_EQ(lux.sunlit_s, watts.sunlit_s);
       if (watts.dni <= 0) {
         EXPECT_EQ(lux.dni, 0);

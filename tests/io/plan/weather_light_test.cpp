@@ -10,6 +10,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "io/plan/interval_lights.h"
 #include "io/plan/light_series.h"
 #include "io/plan/scene_build.h"
 #include "io/plan/variant_plan.h"
@@ -116,9 +117,10 @@ TEST(WeatherLight, SolverGetsDiffuseLightInTheDark) {
   const auto series = series_of(study);
   ASSERT_EQ(series.intervals.size(), 24u);
   const SkyGrid grid;
+  const IntervalLights lights(study, Site{}, grid);
   std::size_t dark = 0;
   for (const auto& interval : series.intervals) {
-    const SunLight light = sun_light(interval, 0, study.light, grid);
+    const SunLight light = lights.of(interval, 0);
     EXPECT_FALSE(light.is_dark());
     double horizontal = 0;
     for (std::size_t c = 0; c < light.sky.size(); ++c) {

@@ -802,6 +802,130 @@ TEST(CanonicalText, SeesEveryValueThatCanChangeANumber) {
        with_period<DaysPeriod>("step", [](DaysPeriod& p) { p.step_min = 1; })});
 }
 
+/// A study in which the key has an effect.
+json study_to_see(const std::string& path) {
+  json study = study_around(path);
+  const auto starts = [&](const char* with) { return path.starts_with(with); };
+  if (starts("period.start") || starts("period.end"))
+    study["period"] = {{"start", "2026-03-21"}, {"end", "2026-03-23"}};
+  if (path == "period.instants") study["period"] = {{"instants", {"2026-03-21T12:00"}}};
+  if (path == "period.as_year")
+    study["light"] = {{"source", "weather"}, {"weather", test::source_folder() + "/LICENSE"}};
+  if (path == "light.source") study["light"] = {{"dni_w_m2", 800}, {"dhi_w_m2", 100}};
+  if (path == "light.sky_scale") study["light"]["sky"] = "preetham";
+  if (path == "light.colour") study["solver"]["bands"] = "rgb";
+  if (path == "site.position" || path == "site.latitude_deg" || path == "site.longitude_deg")
+    study["site"] = {{"timezone", "UTC"}, {"position", "49d44'51\"N 13d22'39\"E"}};
+  if (path == "site.latitude_deg" || path == "site.longitude_deg")
+    study["site"] = {{"timezone", "UTC"}, {"latitude_deg", 49}, {"longitude_deg", 14}};
+  if (starts("scene.files")) study["scene"]["files"][0]["position"] = "49d44'51\"N 13d22'39\"E";
+  if (path == "scene.files[].position_m") study["scene"]["files"][0].erase("position");
+  for (const char* of_rasters : {"canopy", "least_height_m", "trunk_share"})
+    if (path.ends_with(of_rasters))
+      study["scene"]["files"][0]["terrain"] = test::source_folder() + "/LICENSE";
+  auto& material = study["scene"]["materials"]["m"];
+  if (path.ends_with("extinction_coefficient")) material["refractive_index"] = 1.5;
+  if (path.ends_with(".glossy")) material["glossy_exponent"] = 10;
+  if (path == "mesh.light_threshold_m2") study["mesh"]["oracle"] = "historic";
+  if (path == "solver.max_lines_per_patch")
+    study["solver"]["accuracy"]["light_load_relative"] = 0.02;
+  if (path == "solver.power_per_sample_w") study["solver"]["transport"] = "shoot";
+  return study;
+}
+
+/// Values that the schema lets stand under a key, some of them.
+std::vector<json> values_of(const std::string& path, const json& schema) {
+  const std::string file = test::source_folder() + "/LICENSE";
+  const std::map<std::string, std::vector<json>> texts{
+      {"site.position", {"50d00'00\"N 14d00'00\"E"}},
+      {"site.crs", {"EPSG:28992", "EPSG:32633"}},
+      {"site.timezone", {"UTC", "Europe/Prague"}},
+      {"site.horizon", {test::source_folder() + "/tests/fuzz/corpus/horizon/pvgis.csv"}},
+      {"period.days", {{"2026-03-22"}}},
+      {"period.from", {"06:00", "07:00"}},
+      {"period.to", {"17:00", "18:00"}},
+      {"period.start", {"2026-03-20"}},
+      {"period.end", {"2026-03-24"}},
+      {"period.instants", {{"2026-03-21T13:00"}}},
+      {"scene.files[].lod", {"1", "2.2"}},
+      {"scene.files[].position", {"50d00'00\"N 14d00'00\"E"}},
+      {"scene.files[].material", {"m"}},
+      {"scene.files[].terrain", {file}},
+      {"scene.files[].canopy", {file}},
+      {"scene.files[].file", {file, test::source_folder() + "/README.md"}},
+      {"scene.parallel_sources", {file}},
+      {"sensors.file", {file}},
+      {"scene.builtin.name", {"street", "court"}},
+      {"scene.lod", {"1", "2.2"}},
+      {"scene.assign[].object", {"a"}},
+      {"scene.assign[].was", {"a"}},
+      {"scene.assign[].type", {"a"}},
+      {"scene.assign[].material", {"m", "n"}},
+      {"scene.ground.material", {"m"}},
+      {"name", {"one", "other"}},
+      {"variants[].name", {"one", "other"}},
+      {"output.folder", {"a", "b"}},
+      {"output.series", {{"total"}, {"sky"}}}};
+  if (const auto known = texts.find(path); known != texts.end()) return known->second;
+  std::vector<json> values = schema.value("enum", std::vector<json>{});
+  if (schema.contains("const")) values.push_back(schema["const"]);
+  for (const auto& choice : schema.value("anyOf", json::array()))
+    for (const json& value : values_of(path, choice)) values.push_back(value);
+  const std::string type =
+      schema.contains("type") && schema["type"].is_string() ? schema["type"] : "";
+  if (type == "number" || type == "integer") values = {0.25, 1, 3, 2005};
+  if (type == "array" && schema["items"].value("type", "") == "number")
+    for (const double value : {1.0, 0.25})
+      values.push_back(std::vector<double>(schema.value("minItems", 1), value));
+  return values;
+}
+
+/// Texts of the studies that differ in nothing but this key; those that are refused left out.
+std::set<std::string> texts_by(const std::string& path, const json& schema) {
+  std::vector<json> studies{study_to_see(path)};
+  for (const json& value : values_of(path, schema)) {
+    studies.push_back(study_to_see(path));
+    place_in(studies.back(), path) = value;
+  }
+  std::set<std::string> texts;
+  for (const json& study : studies)
+    if (problems_of(study.dump()).empty())
+      texts.insert(canonical_text(read_text(study.dump()).variants.back()));
+  return texts;
+}
+
+// Keys are walked through, so that a new one is seen or named here.
+TEST(CanonicalText, SeesEveryKeyOfTheSchemaButThese) {
+  const std::set<std::string> others{
+      // Names and what is shown or stored.
+      "name", "variants[].name", "format", "output.folder", "output.series", "output.compression",
+      // Hashed apart: bytes of files, points of sensors, the instruction set in force, the standard
+      // errors of instants, which are more datasets.
+      "scene.files[].file", "scene.parallel_sources", "light.weather", "sensors.file",
+      "sensors.points[].position_m", "sensors.points[].normal", "scene.materials.*.diffuse",
+      "solver.isa", "output.standard_error",
+      // One word only, beside which no other period can stand; any parameter of built-in scenes.
+      "period.year_of", "scene.builtin.*"};
+  std::set<std::string> unseen;
+  walk(read_schema(), "", [&](const std::string& path, const json& schema) {
+    const bool has_keys =
+        schema.contains("properties") ||
+        schema.value("items", json::object()).contains("properties") ||
+        (schema.contains("additionalProperties") && schema["additionalProperties"].is_object()) ||
+        path.starts_with("variants[].") || path == "scene.files" || path == "scene.ground";
+    if (path == "variants[].name" || !has_keys)
+      if (texts_by(path, schema).size() < 2) unseen.insert(path);
+  });
+  EXPECT_EQ(unseen, others);
+}
+
+TEST(CanonicalText, HasWordsForChoices) {
+  const json text = json::parse(canonical_text(read_text(with({})).variants[0]));
+  EXPECT_EQ(text["mesh"]["oracle"], "default");
+  EXPECT_EQ(text["sun"]["disk"], "point");
+  EXPECT_EQ(text["solver"]["transport"], "gather");
+}
+
 TEST(CanonicalText, SeesEveryKindOfPeriod) {
   Study study = rich_study();
   const std::string days = canonical_text(study);

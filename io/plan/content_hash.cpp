@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Structured bindings name every member of what is hashed: a new member does not compile until it
+// is put in or left out on purpose.
+#include "io/plan/content_hash.h"
+
+#include "io/base/hash.h"
+
+namespace sunload {
+
+template <>
+inline constexpr bool is_plain<Vec3> = sizeof(Vec3) == 3 * sizeof(double);
+template <>
+inline constexpr bool is_plain<BandShares> = sizeof(BandShares) == band_count * sizeof(double);
+
+namespace {
+
+void add_mesh(Digest& digest, const Mesh& mesh) {
+  // What files say of materials, and kinds of objects, have become materials of the scene by now.
+  const auto& [vertices, triangles, triangle_object, triangle_material, triangle_facade,
+               triangle_surface, triangle_sides, object_names, object_kinds, file_materials,
+               facades, origin] = mesh;
+  digest.add(origin);
+  digest.add(vertices);
+  digest.add(triangles);
+  digest.add(triangle_object);
+  digest.add(triangle_facade);
+  // Numbers of surfaces and sides mean what their lists say, in that order.
+  for (const char* name : surface_names) digest.add(std::string(name));
+  static_assert(static_cast<int>(Sides::one) == 0 && static_cast<int>(Sides::two) == 1);
+  digest.add(triangle_surface);
+  digest.add(triangle_sides);
+  digest.add(object_names);
+  digest.add(facades.size());
+  for (const Facade& facade : facades) {
+    const auto& [name, object, area_m2, azimuth_deg] = facade;  // the rest follows from triangles
+    digest.add(name);
+  }
+}
+
+void add_material(Digest& digest, const Material& material) {
+  const auto& [name, diffuse, mirror, emission_w_m2, refractive_index, extinction_coefficient,
+               thickness_m, absorption_per_m, panes, normal_transmittance, glossy, glossy_exponent,
+               transmittance, diffuse_in_band] = material;
+  digest.add(name);
+  for (const double property :
+       {diffuse, mirror, emission_w_m2, refractive_index, extinction_coefficient, thickness_m,
+        absorption_per_m, normal_transmittance, glossy, glossy_exponent, transmittance})
+    digest.add(property);
+  digest.add(panes);
+  digest.add(diffuse_in_band.has_value());
+  if (diffuse_in_band) digest.add(*diffuse_in_band);
+}
+
+void add_sensor(Digest& digest, const Sensor& sensor) {
+  const auto& [position, normal, key] = sensor;
+  digest.add(position);
+  digest.add(normal);
+  digest.add(key);
+}
+
+void add_scene(Digest& digest, const Scene& scene) {
+  const auto& [mesh, materials, material, parallel_sources, sensors] = scene;
+  add_mesh(digest, mesh);
+  digest.add(materials.size());
+  for (const Material& each : materials) add_material(digest, each);
+  digest.add(material);
+  const auto& [sources, exitance] = parallel_sources;
+  digest.add(sources.vertices);  // the rest of their mesh is empty
+  digest.add(sources.triangles);
+  digest.add(exitance);
+  digest.add(sensors.size());
+  for (const Sensor& each : sensors) add_sensor(digest, each);
+}
+
+void add_site(Digest& digest, const Site& site) {
+  // Times are hashed as instants; the horizon is part of the study's text.
+  const auto& [latitude_deg, longitude_deg, elevation_m, north_deg, timezone, horizon] = site;
+  for (const double value : {latitude_deg, longitude_deg, elevation_m, north_deg})
+    digest.add(value);
+}
+
+std::string times_text(const LightSeries& light) {
+  Digest digest;
+  for (const auto& i : light.intervals) {
+    digest.add(i.when.begin);
+    digest.add(i.when.end);
+    digest.add(i.when.sun_time);
+  }
+  return digest.hex();
+}
+
+}  // namespace
+
+std::string content_hash(const Study& study, const BuiltScene& built, const LightSeries& light,
+                         const std::string& isa) {
+  Digest digest;
+  digest.add(numerics_version);
+  digest.add(canonical_text(study));
+  digest.add(study.output.standard_error == StandardErrors::instants);
+  digest.add(isa);
+  digest.add(times_text(light));
+  digest.add(light.weather_sha256);
+  add_site(digest, built.site);
+  add_scene(digest, built.scene);
+  return digest.hex();
+}
+
+/// Its bytes stay what they were: by them results pair with those of earlier versions.
+std::string pairing_id(const Study& study, const LightSeries& light) {
+  constexpr std::size_t letters = 16;
+  const auto& s = study.solver;
+  Digest digest;
+  digest.add(times_text(light));
+  digest.add(s.seed);
+  for (const int n : {s.realizations, s.lines_per_patch, s.direct_samples}) digest.add(n);
+  digest.add(s.transport);
+  return digest.hex().substr(0, letters);
+}
+
+}  // namespace sunload

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/plan/rules_of_study.h"
+
+#include <fmt/format.h>
+
+namespace sunload {
+
+namespace {
+
+/// The historic threshold F_eps is a form factor, the default one a number of lines.
+double link_threshold(const Study& study) {
+  const double threshold = study.mesh.link_threshold;
+  return study.mesh.oracle == Oracle::historic ? threshold * study.solver.lines_per_patch
+                                               : threshold;
+}
+
+}  // namespace
+
+SplitRules split_rules(const Study& study) {
+  return {.max_edge_m = study.mesh.max_edge_m, .min_area_m2 = study.mesh.min_area_m2};
+}
+
+RefineRules refine_rules(const Study& study) {
+  return {.oracle = study.mesh.oracle,
+          .light_tolerance = study.mesh.light_tolerance,
+          .light_threshold_m2 = study.mesh.light_threshold_m2,
+          .form_factor_threshold = study.mesh.link_threshold,
+          .t_vertices = study.mesh.t_vertices,
+          .seed = study.solver.seed};
+}
+
+SolverRules solver_rules(const VariantPlan& plan) {
+  const Study& study = plan.study;
+  const SolverStudy& s = study.solver;
+  return {.bounces = s.bounces,
+          .unshot = s.unshot,
+          .lines_per_patch = s.lines_per_patch,
+          .lines_of_patch = {},
+          .direct_samples = s.direct_samples,
+          .realizations = s.realizations,
+          .mirror_depth = s.mirror_depth,
+          .link_threshold = link_threshold(study),
+          .seed = s.seed,
+          .isa = plan.isa,
+          .errors = study.output.standard_error == StandardErrors::instants ? Errors::instants
+                                                                            : Errors::totals,
+          .bands = s.bands,
+          .transport = s.transport,
+          .jacobi = s.jacobi,
+          .power_per_sample_w = s.power_per_sample_w,
+          .samples_per_patch = {},
+          .by_source = false};
+}
+
+AccuracyGoal accuracy_goal(const Study& study) {
+  const AccuracyStudy& accuracy = *study.solver.accuracy;
+  return {accuracy.light_load_relative, study.solver.max_lines_per_patch,
+          accuracy.irradiance_relative};
+}
+
+std::string goal_words(const AccuracyStudy& accuracy) {
+  const auto load = accuracy.light_load_relative, irradiance = accuracy.irradiance_relative;
+  std::string words = load ? fmt::format("{:.3g} %", 100 * *load) : "";
+  if (load && irradiance) words += " and ";
+  if (irradiance) words += fmt::format("{:.3g} % at every instant", 100 * *irradiance);
+  return words;
+}
+
+}  // namespace sunload

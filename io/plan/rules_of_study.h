@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The rules of splitting, refining and solving that a study asks for.
+#pragma once
+
+#include <string>
+
+#include "io/plan/variant_plan.h"
+#include "solver/accuracy.h"
+#include "solver/mesh/refine.h"
+#include "solver/solver.h"
+
+namespace sunload {
+
+SplitRules split_rules(const Study& study);
+RefineRules refine_rules(const Study& study);
+/// With the study's own counts, which `accuracy` makes the least ones.
+SolverRules solver_rules(const VariantPlan& plan);
+/// The study's goal; only of a study that has one.
+AccuracyGoal accuracy_goal(const Study& study);
+/// "1 %", "5 % at every instant" or both.
+std::string goal_words(const AccuracyStudy& accuracy);
+
+}  // namespace sunload

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/plan/work_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/plan/rules_of_study.h"
+#include "io/plan/variant_mesh.h"
+#include "solver/base/cost.h"
+#include "solver/base/threads.h"
+
+namespace sunload {
+
+namespace {
+
+using namespace cost;
+
+/// Samples of all shots: those of the first reflection, then (incremental) less by what is
+/// absorbed, one at least of every patch. The light on a patch is taken as that on a sphere.
+double estimated_samples(const VariantPlan& plan, double patches, double blocks,
+                         int samples_per_patch) {
+  const SolverStudy& s = plan.study.solver;
+  const Scene& scene = plan.built.scene;
+  double area = 0, reflecting = 0, emitted_w = 0, brightest_w_m2 = 0;
+  for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
+    const Material& m = scene.materials[scene.material[t].index()];
+    const double a = norm(scene.mesh.area_vector2(t)) / 2;
+    area += a;
+    reflecting += a * m.diffuse;
+    emitted_w += a * m.emission_w_m2;
+  }
+  for (const auto& i : plan.light.intervals)
+    brightest_w_m2 = std::max(brightest_w_m2, i.mean.dni / 4 + i.mean.dhi / 2);
+  const double by_auto = patches * samples_per_patch, least = patches * s.realizations;
+  const double raised = static_cast<double>(samples_per_patch) / s.lines_per_patch;
+  const auto samples_of = [&](double power_w) {
+    return s.power_per_sample_w ? raised * power_w / *s.power_per_sample_w : by_auto;
+  };
+  const double first = samples_of(reflecting * brightest_w_m2 + emitted_w);
+  const double left = s.jacobi == Jacobi::regular ? 1 : reflecting / area;  // after a reflection
+  double samples = 0, share = 1;
+  for (int b = 0; b < s.bounces; ++b, share *= left) samples += std::max(least, first * share);
+  return blocks * samples + (emitted_w > 0 ? samples_of(emitted_w) : 0);
+}
+
+/// Rays that a line is made of where mirrors send it on: of what it meets, as much as there is
+/// mirror among the surfaces.
+double rays_per_line(const Scene& scene, int mirror_depth) {
+  double area = 0, mirrors = 0;
+  for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
+    const double of_triangle = norm(scene.mesh.area_vector2(t));
+    area += of_triangle;
+    if (scene.materials[scene.material[t].index()].mirror > 0) mirrors += of_triangle;
+  }
+  const double again = area > 0 ? share_that_meets * mirrors / area : 0;
+  double rays = 1, of_depth = 1;
+  for (int depth = 0; depth < mirror_depth; ++depth) rays += of_depth *= again;
+  return rays;
+}
+
+/// Rays of the pilot that refines the mesh.
+double refinement_rays(double patches, double lit) {
+  return patches * elements_per_leaf * points_per_element *
+         (std::min(lit, static_cast<double>(most_pilot_suns)) + other_directions);
+}
+
+double line_seconds(const Scene& scene, int mirror_depth) {
+  const auto triangles = static_cast<double>(std::max<std::size_t>(scene.mesh.triangle_count(), 1));
+  return rays_per_line(scene, mirror_depth) * s_per_line_ray(triangles);
+}
+
+}  // namespace
+
+double pilot_memory_bytes(const VariantPlan& plan, std::size_t patches) {
+  const bool of_instants = plan.study.solver.accuracy->irradiance_relative.has_value();
+  const SolverRules rules = rules_of_pilot(solver_rules(plan), of_instants);
+  const double R = rules.realizations, block = block_width * float_bytes;
+  constexpr double sun_columns = 4;      // straight, circumsolar, by mirrors, all of them
+  constexpr double spread_columns = 16;  // sums, squares, variances of three sources, in doubles
+  double per_patch = rules.lines_per_patch * bytes_per_line + bytes_per_patch +
+                     arrays_of_realizations * double_bytes * R;
+  if (of_instants) per_patch += (sun_columns * R + spread_columns) * block;
+  if (rules.transport == Transport::shoot)
+    per_patch += shooting_bytes_per_patch + columns_of_a_realization * double_bytes * R;
+  return program_bytes + static_cast<double>(patches) * per_patch;
+}
+
+WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
+  const SolverStudy& s = plan.study.solver;
+  return estimate_work(plan, patches, {s.lines_per_patch, s.direct_samples, s.lines_per_patch});
+}
+
+WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
+                           const SampleCounts& counts) {
+  const SolverStudy& s = plan.study.solver;
+  const auto& materials = plan.built.scene.materials;
+  const auto has = [&](auto property) {
+    return std::any_of(materials.begin(), materials.end(), property);
+  };
+  const bool mirrors = has([](const Material& m) { return sends_on(m); });
+  const bool lamps = has_lamps(plan);
+  const bool guided = s.transport == Transport::gather &&
+                      has([](const Material& m) { return m.emission_w_m2 > 0; });
+  // Total, direct, sky, reflected, and what the scene has besides.
+  const double parts = 4.0 + (mirrors ? 1 : 0) + (lamps ? 1 : 0);
+  const auto n = static_cast<double>(patches + plan.built.scene.sensors.size());
+  const auto lit = static_cast<double>(lamps ? plan.intervals() : plan.light.lit_count());
+  const auto batch = static_cast<double>(std::min(plan.batch_suns(), plan.intervals()));
+  const auto batches = static_cast<double>(plan.batches());
+  const double lines = n * counts.mean_lines(), links = lines * s.bounces;
+  const double of_realizations = double_bytes * s.realizations;
+  const bool is_rgb = s.bands == Bands::rgb;
+  const double bands = is_rgb ? static_cast<double>(band_count) : 1;
+
+  WorkEstimate work;
+  work.patches = patches;
+  work.line_rays = static_cast<std::uint64_t>(lines);
+  const double rays = n * facing_share * lit * counts.direct_samples;
+  work.direct_rays = static_cast<std::uint64_t>(rays);
+  work.memory_bytes =
+      program_bytes + lines * bytes_per_line +
+      n * (bands * (batch * parts * float_bytes + arrays_of_realizations * of_realizations) +
+           bytes_per_patch);
+  // The sun's light of each realization, straight and circumsolar, and by mirrors.
+  if (is_rgb)
+    work.memory_bytes += n * s.realizations * block_width * float_bytes * (mirrors ? 3.0 : 2.0);
+  if (s.transport == Transport::shoot) {
+    const double blocks = batches * std::ceil(batch / static_cast<double>(block_width));
+    work.samples =
+        static_cast<std::uint64_t>(estimated_samples(plan, n, blocks, counts.samples_per_patch));
+    const double per_shot = static_cast<double>(work.samples) / (blocks * std::max(1, s.bounces));
+    work.memory_bytes +=
+        n * (shooting_bytes_per_patch + of_realizations * columns_of_a_realization) +
+        per_shot / s.realizations * bytes_per_sample;
+  }
+  work.disk_bytes = bands * n * lit * stored_bytes_per_value *
+                        (parts + static_cast<double>(plan.study.output.series.size())) +
+                    bands * n * batches * (of_realizations + batch_bytes_per_patch) +
+                    bands * n * (of_realizations + result_bytes_per_patch) +
+                    (plan.batches() > 1 ? lines * kept_bytes_per_line : 0);
+  work.seconds =
+      (s_to_start + n * s_per_patch +
+       lines * (guided ? 1 + rays_by_guide : 1) * line_seconds(plan.built.scene, s.mirror_depth) +
+       rays * s_per_direct_ray +
+       (mirrors ? n * mirrored_share * lit * counts.direct_samples * s_per_mirror_ray : 0) +
+       (s.transport == Transport::gather
+            ? bands * (links * lit * s_per_link_sun + links * batches * s_per_link_batch)
+            : static_cast<double>(work.samples) * s_per_sample) +
+       (plan.study.mesh.oracle == Oracle::none ? 0 : refinement_rays(n, lit) * s_per_direct_ray) +
+       bands *
+           (n * lit * s_per_patch_sun + n * static_cast<double>(plan.intervals()) * s_per_value)) /
+      thread_count();
+  return work;
+}
+
+}  // namespace sunload

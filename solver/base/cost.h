@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What work costs: the one place of all measured constants of time, memory and disk.
+///
+/// Times are those of one core [s], sizes are bytes, both fitted by scripts/scaling.py to the
+/// built-in street with 20 000 … 260 000 patches (AVX-512): docs/scaling.md, which a test compares
+/// with these. Estimates are made of them, and the choice of counts for an accuracy.
+#pragma once
+
+#include <cmath>
+
+namespace sunload::cost {
+
+// Start, and what every patch takes.
+inline constexpr double s_to_start = 0.1;
+inline constexpr double s_per_patch = 2e-7;
+
+// Lines.
+inline constexpr double s_per_line = 1.0e-7;   ///< through an empty scene …
+inline constexpr double s_per_level = 8.3e-9;  ///< … and more for each doubling of its triangles
+/// A ray of a line through so many input triangles: from a box on a plane to a city.
+inline double s_per_line_ray(double triangles) {
+  return s_per_line + s_per_level * std::log2(triangles);
+}
+/// The same on the street, as a constant of its own: by it, in whatever scene, counts for an
+/// accuracy are chosen, and another value would choose others, which changes results.
+inline constexpr double s_per_line_of_street = 2.3e-7;
+inline constexpr double share_that_meets = 0.6;  ///< of the lines; the others leave the scene
+/// Where surfaces emit, a line has a point on a bright surface beside it, three eighths of both go
+/// before, and three times an eighth is spent on what sees what (solver/gather/guide.cpp).
+inline constexpr double rays_by_guide = 1 + 3 * 2 * 0.125 + 3 * 0.125;
+
+// Rays to the sun.
+inline constexpr double s_per_direct_ray = 3.5e-8;
+inline constexpr double facing_share = 0.62;  ///< of a sun's rays that need be cast
+inline constexpr double s_per_mirror_ray = 1.3e-7;
+inline constexpr double mirrored_share = 0.11;  ///< of them again, where there are mirrors
+
+// The light's way on.
+inline constexpr double s_per_link_sun = 2.0e-10;    ///< one link of one sun and one bounce
+inline constexpr double s_per_link_batch = 6.6e-10;  ///< one link of one batch's realizations
+inline constexpr double s_per_patch_sun = 2.5e-7;
+inline constexpr double s_per_sample = 6e-7;   ///< shot, with its deposit
+inline constexpr double s_per_value = 1.2e-8;  ///< one patch of one interval, stored
+
+// The pilot that refines the mesh: for every element that it ever looks at, 16 points look along
+// its suns and its other directions.
+inline constexpr double elements_per_leaf = 2, points_per_element = 16;
+inline constexpr double other_directions = 16;
+
+// Memory.
+inline constexpr double double_bytes = 8, float_bytes = 4;
+inline constexpr double program_bytes = 3.6e7, bytes_per_line = 12.2, bytes_per_patch = 1400;
+inline constexpr double bytes_per_sample = 40;            ///< of one realization and iteration
+inline constexpr double shooting_bytes_per_patch = 2700;  ///< columns in double
+inline constexpr double columns_of_a_realization = 8;     ///< direct sun, in doubles
+inline constexpr double arrays_of_realizations = 4;       ///< doubles of a patch and realization
+
+// Disk.
+inline constexpr double stored_bytes_per_value = 2.5;
+inline constexpr double kept_bytes_per_line = 12.5;  ///< in the prepared file
+inline constexpr double batch_bytes_per_patch = 80, result_bytes_per_patch = 175;
+
+}  // namespace sunload::cost

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What work costs: the page about it has the program's own numbers.
+#include "io/plan/work_estimate.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "io/plan/variant_mesh.h"
+#include "solver/base/cost.h"
+#include "tests/support/paths.h"
+#include "tests/support/study_plan.h"
+
+namespace sunload {
+namespace {
+
+using namespace cost;
+
+std::string scaling_page() {
+  std::ifstream file(test::source_folder() + "/docs/scaling.md");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string micro_s(double seconds) { return fmt::format("{:.4g} µs", 1e6 * seconds); }
+std::string nano_s(double seconds) { return fmt::format("{:.4g} ns", 1e9 * seconds); }
+
+TEST(CostModel, PageHasTheTimesOfTheProgram) {
+  const std::string page = scaling_page();
+  for (const std::string& row :
+       {fmt::format("| patches + 1 | {} + {} s |", micro_s(s_per_patch), s_to_start),
+        fmt::format("| patches · {} · {} · ({} + suns of the pilot, {} at most) | {} |",
+                    elements_per_leaf, points_per_element, other_directions, most_pilot_suns,
+                    micro_s(s_per_direct_ray)),
+        fmt::format("| {} + {} · log2(input triangles) |", micro_s(s_per_line),
+                    micro_s(s_per_level)),
+        fmt::format("| patches · lit · direct_samples · {} (share that faces the sun) | {} |",
+                    facing_share, micro_s(s_per_direct_ray)),
+        fmt::format("| {} of these (a street with glass) | {} |", mirrored_share,
+                    micro_s(s_per_mirror_ray)),
+        fmt::format("| lines · bounces · lit | {} |", nano_s(s_per_link_sun)),
+        fmt::format("| patches · lit | {} |", micro_s(s_per_patch_sun)),
+        fmt::format("| lines · bounces · batches | {} |", nano_s(s_per_link_batch)),
+        fmt::format("| samples | {} |", micro_s(s_per_sample)),
+        fmt::format("| patches · intervals | {} |", micro_s(s_per_value)),
+        fmt::format("({} of the lines meet something", share_that_meets),
+        fmt::format("lines cost {} times as", 1 + rays_by_guide)})
+    EXPECT_NE(page.find(row), std::string::npos) << row;
+}
+
+TEST(CostModel, PageHasTheSizesOfTheProgram) {
+  const std::string page = scaling_page();
+  for (const std::string& row :
+       {fmt::format("{} MB + {} · lines + patches · ({} · parts · min(batch_suns, intervals) + {} "
+                    "· realizations + {})",
+                    program_bytes / 1e6, bytes_per_line, float_bytes,
+                    arrays_of_realizations * double_bytes, bytes_per_patch),
+        fmt::format("{} · patches · lit · (parts + output.series)", stored_bytes_per_value),
+        fmt::format("patches · batches · ({} · realizations + {})", double_bytes,
+                    batch_bytes_per_patch),
+        fmt::format("patches · ({} · realizations + {})", double_bytes, result_bytes_per_patch),
+        fmt::format("{} · lines for the prepared file", kept_bytes_per_line)})
+    EXPECT_NE(page.find(row), std::string::npos) << row;
+}
+
+// Counts for an accuracy are chosen by the cost of a line on the street.
+TEST(CostModel, LineOfTheStreetCostsWhatLinesThereDo) {
+  const VariantPlan plan = test::plan_of(
+      "format: sunload-study-1\nname: t\nscene: {builtin: {name: street}}\n"
+      "period: {positions: [{azimuth_deg: 180, elevation_deg: 45}]}\n"
+      "light: {source: fixed, dni_w_m2: 800, dhi_w_m2: 100}\n");
+  const auto triangles = static_cast<double>(plan.built.scene.mesh.triangle_count());
+  // The error of the fit.
+  EXPECT_NEAR(s_per_line_ray(triangles) / s_per_line_of_street, 1, 0.13);
+}
+
+}  // namespace
+}  // namespace sunload
