@@ -39,6 +39,14 @@ class PilotWatch : public Watch {
 
 }  // namespace
 
+PilotChoice pilot_choice(std::size_t lit) {
+  PilotChoice choice;
+  const std::size_t count = std::min(pilot_suns, lit);
+  for (std::size_t p = 0; p < count; ++p) choice.places.push_back((2 * p + 1) * lit / (2 * count));
+  if (count > 0) choice.weight = static_cast<double>(lit) / static_cast<double>(count);
+  return choice;
+}
+
 SolverRules rules_of_pilot(SolverRules rules, bool of_instants) {
   int lines = rules.lines_per_patch / rules.realizations;
   const int samples = rules.direct_samples / rules.realizations;
@@ -54,6 +62,7 @@ SolverRules rules_of_pilot(SolverRules rules, bool of_instants) {
   rules.direct_samples = samples * rules.realizations;
   rules.seed = mixed(rules.seed, static_cast<std::uint64_t>(Purpose::pilot));
   rules.errors = of_instants ? Errors::instants : Errors::totals;
+  rules.bands = Bands::broadband;  // goals are for the mean of the bands
   rules.by_source = true;
   return rules;
 }

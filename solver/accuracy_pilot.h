@@ -40,6 +40,13 @@ struct PatchSpread {
 /// Suns of a pilot, at most.
 inline constexpr std::size_t pilot_suns = 32;
 
+/// Which of a period's intervals with light a pilot solves: `pilot_suns` of them, evenly spread.
+struct PilotChoice {
+  std::vector<std::size_t> places;  ///< in the list of these intervals
+  double weight = 1;                ///< of them for which each stands
+};
+PilotChoice pilot_choice(std::size_t lit);
+
 /// The rules that a pilot of a study solves by. Its realizations are like the study's own (the
 /// errors of few scrambled points are not those of many), only more, or with more lines where they
 /// may not be as many as that takes.

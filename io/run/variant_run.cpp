@@ -134,28 +134,23 @@ void VariantRun::warn(const std::string& text) const {
 SolverRules VariantRun::decided_rules() {
   SolverRules rules = solver_rules(plan_);
   if (!plan_.study.solver.accuracy) return rules;
-  const Scene& scene = plan_.built.scene;
   const bool lamps = has_lamps(plan_);
   std::vector<std::size_t> lit;
   for (std::size_t k = 0; k < plan_.intervals(); ++k)
     if (lamps || !is_dark(plan_.light.intervals[k])) lit.push_back(k);
-  const std::size_t count = std::min(pilot_suns, lit.size());
+  const PilotChoice choice = pilot_choice(lit.size());
   const SkyGrid grid;
   const IntervalLights lights(plan_.study, plan_.built.site, grid);
-  std::vector<SunLight> suns(count);
-  parallel_for(count, [&](std::size_t p) {
-    const std::size_t k = lit[(2 * p + 1) * lit.size() / (2 * count)];
+  std::vector<SunLight> suns(choice.places.size());
+  parallel_for(suns.size(), [&](std::size_t p) {
+    const std::size_t k = lit[choice.places[p]];
     suns[p] = lights.of(plan_.light.intervals[k], k);
   });
-  const double weight =
-      count > 0 ? static_cast<double>(lit.size()) / static_cast<double>(count) : 1;
-  SolverRules of_pilot = rules;
-  of_pilot.bands = Bands::broadband;  // the goal is for the mean of the bands
   const AccuracyGoal goal = accuracy_goal(plan_.study);
   refuse_too_much(pilot_memory_bytes(plan_, mesh_->patch_count()));
-  const PatchSpread spread =
-      pilot_spread(scene, mesh_, of_pilot, suns,
-                   {weight, plan_.batch_suns(), goal.irradiance_relative.has_value()}, progress_);
+  const PatchSpread spread = pilot_spread(
+      plan_.built.scene, mesh_, rules, suns,
+      {choice.weight, plan_.batch_suns(), goal.irradiance_relative.has_value()}, progress_);
   const SampleCounts counts = needed_counts(spread, rules, goal, lit.size());
   refuse_too_much(estimate_work(plan_, spread.area.size(), counts).memory_bytes);
   progress_.say(counts_text(plan_, counts));
