@@ -110,7 +110,7 @@ void add_sensors(BatchWriter& writer, const BatchTally& tally, const LightSolver
   std::vector<double> sky, backs;
   for (const auto& ends : solver.sensor_lines().pooled.ends) {
     sky.push_back(static_cast<double>(ends.sky));
-    backs.push_back(static_cast<double>(ends.backs));
+    backs.push_back(static_cast<double>(ends.fate.backs));
   }
   writer.add(
       {sensor_prefix + batch_array::sky_view, MergeRule::maximum, ArrayType::float64, {sky.size()}},
