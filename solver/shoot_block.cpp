@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A block of suns by shooting: every realization for itself, series and totals from their mean.
+#include "solver/base/chunks.h"
 #include "solver/base/stopwatch.h"
 #include "solver/base/threads.h"
 #include "solver/gather/block_tally.h"
@@ -13,8 +14,6 @@
 namespace sunload {
 
 namespace {
-
-constexpr std::size_t patches_per_task = 1024;
 
 /// Mean over realizations, of patches or sensors.
 class MeanLight {
@@ -50,7 +49,7 @@ class MeanLight {
               parts_[p][k] += of_one_ * static_cast<double>((*from[p])[k]);
           lamps_[i] += of_one_ * static_cast<double>(lamps[i]);
         },
-        patches_per_task);
+        receivers_per_chunk);
   }
 
   double of_one_;
@@ -68,7 +67,7 @@ void add_exposure(const Light& light, std::span<const SunLight> block,
         for (std::size_t k = 0; k < block.size(); ++k)
           exposure[i] += static_cast<double>(light.total(i, k)) * block[k].length_s;
       },
-      patches_per_task);
+      receivers_per_chunk);
 }
 
 /// `parallel`: irradiance by parallel sources, or empty.
@@ -162,7 +161,7 @@ void LightSolver::add_by_source(std::size_t r, const ShotLight& light,
           to.reflected[r][i] += s * light.by_source->shot[at];
         }
       },
-      patches_per_task);
+      receivers_per_chunk);
 }
 
 FirstMirrored::SentSuns LightSolver::send_sun(std::span<const SunLight> block) {

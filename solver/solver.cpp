@@ -250,7 +250,7 @@ void LightSolver::book_sun_sent_on(const TracedLight& traced, std::span<const Su
                                    std::size_t first_row, TimeSums& sums, BatchTally& tally) const {
   for (std::size_t r = 0; r < traced.sent_on.size(); ++r)
     for (std::size_t k = 0; k < block.size(); ++k) {
-      const Ledger fate = booked(traced.sent_on[r], k);
+      const Ledger fate = booked(traced.sent_on[r][k]);
       tally.ledger[first_row + k] += scaled(fate, 1.0 / static_cast<double>(rules_.realizations));
       sums.sent_on[r] += scaled(fate, block[k].length_s);
     }
@@ -300,7 +300,7 @@ void LightSolver::errors_per_instant(const PatchOptics& optics, const BlockSourc
   by_source.store(first_row, tally.se_by_source);
   for (std::size_t r = 0; r < traced.sent_on.size(); ++r)
     for (std::size_t k = 0; k < suns; ++k)
-      tally.ledger_instants[r][first_row + k] += booked(traced.sent_on[r], k);
+      tally.ledger_instants[r][first_row + k] += booked(traced.sent_on[r][k]);
   for (std::size_t r = 0; r < parallel_.ledger.size(); ++r)
     for (std::size_t k = 0; k < suns; ++k)
       tally.ledger_instants[r][first_row + k] += parallel_.ledger[r];

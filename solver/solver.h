@@ -109,10 +109,10 @@ class LightSolver {
   void make_columns(TracedLight& traced) const;
   void trace_sun(const BlockSources& sources, TimeSums& sums, TracedLight& traced);
   std::vector<SunBeams> trace_mirrors(std::span<const SunLight> block, MirroredIrradiance into,
-                                      std::vector<MirroredSun>& sent_on);
+                                      std::vector<SunFates>& sent_on);
   std::vector<SunBeams> beams_of(std::span<const SunLight> block) const;
   void trace_gloss(std::span<const SunLight> block, MirroredIrradiance into,
-                   std::vector<MirroredSun>& sent_on);
+                   std::vector<SunFates>& sent_on);
   void trace_sensors(std::span<const SunLight> block, std::vector<SunBeams> beams, TimeSums& sums,
                      TracedLight& traced);
   std::vector<SunBeams> with_first_reflections(std::vector<SunBeams> beams,

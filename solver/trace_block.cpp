@@ -48,7 +48,7 @@ void LightSolver::trace_sun(const BlockSources& sources, TimeSums& sums, TracedL
 
 std::vector<SunBeams> LightSolver::trace_mirrors(std::span<const SunLight> block,
                                                  MirroredIrradiance into,
-                                                 std::vector<MirroredSun>& sent_on) {
+                                                 std::vector<SunFates>& sent_on) {
   if (mirrors_.size() == 0) return {};
   const Stopwatch time(work_.mirror_s);
   std::vector<SunBeams> beams = beams_of(block);
@@ -71,7 +71,7 @@ std::vector<SunBeams> LightSolver::beams_of(std::span<const SunLight> block) con
 }
 
 void LightSolver::trace_gloss(std::span<const SunLight> block, MirroredIrradiance into,
-                              std::vector<MirroredSun>& sent_on) {
+                              std::vector<SunFates>& sent_on) {
   if (!optics_.any_glossy) return;
   const Stopwatch time(work_.mirror_s);
   work_.mirror_rays += glossy_sun_.add_light(lines_, block, into);

@@ -16,10 +16,8 @@ void scale(SunColumns& of_realizations, const BandFactors& factors) {
   for (auto& one : of_realizations.circumsolar) scale(one, factors.circumsolar);
 }
 
-void scale(MirroredSun& fates, const std::array<double, block_width>& factors) {
-  MirroredSun::for_each(fates, [&](std::vector<double>& of_sun) {
-    for (std::size_t k = 0; k < of_sun.size(); ++k) of_sun[k] *= factors[k];
-  });
+void scale(SunFates& fates, const std::array<double, block_width>& factors) {
+  for (std::size_t k = 0; k < block_width; ++k) fates[k] = scaled(fates[k], factors[k]);
 }
 
 }  // namespace

@@ -35,8 +35,8 @@ struct TracedLight {
   CircumsolarLight circumsolar;
   Columns by_mirror, on_sensors_by_mirror;
   SunColumns of_patches, of_sensors;
-  std::vector<Columns> by_samples;   ///< [R] of patches, all but gloss; if asked for
-  std::vector<MirroredSun> sent_on;  ///< [R] by mirrors and gloss, where the scene has any
+  std::vector<Columns> by_samples;  ///< [R] of patches, all but gloss; if asked for
+  std::vector<SunFates> sent_on;    ///< [R] by mirrors and gloss, where the scene has any
 };
 
 /// Adds the time integrals of a band: `suns` have its light, relative to the traced one `factors`.
