@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "solver/base/rng.h"
+#include "solver/base/spread.h"
 
 namespace sunload {
 
@@ -69,25 +70,6 @@ SolverRules rules_of_pilot(SolverRules rules, bool of_instants) {
 
 namespace {
 
-/// Mean of the values [r].
-template <class Value>
-double mean(std::size_t realizations, Value&& value) {
-  const auto n = static_cast<double>(realizations);
-  double mean = 0;
-  for (std::size_t r = 0; r < realizations; ++r) mean += value(r) / n;
-  return mean;
-}
-
-/// Variance of the values [r].
-template <class Value>
-double variance(std::size_t realizations, Value&& value) {
-  const double middle = mean(realizations, value);
-  double squares = 0;
-  for (std::size_t r = 0; r < realizations; ++r)
-    squares += (value(r) - middle) * (value(r) - middle);
-  return squares / (static_cast<double>(realizations) - 1);
-}
-
 /// Counts of one realization, which variances are told of.
 struct OfRealization {
   double lines, samples;
@@ -105,15 +87,16 @@ Spread gathered_load(const TracedScene& traced, const BatchTally& tally, double 
   for (std::size_t i = 0; i < traced.hierarchy().patch_count(); ++i) {
     const auto total = [&](std::size_t r) { return tally.exposure_realization[r][i]; };
     const auto sun = [&](std::size_t r) { return tally.by_source.sun[r][i]; };
-    spread.value.push_back(weight * mean(R, total));
+    spread.value.push_back(weight * mean_of(R, total));
     const auto parallel = [&](std::size_t r) {
       const auto& exposure = tally.by_source.parallel[r];
       return exposure.empty() ? 0 : exposure[i];
     };
     const double by_lines =
-        variance(R, [&](std::size_t r) { return total(r) - sun(r) - parallel(r); });
+        variance_of(R, [&](std::size_t r) { return total(r) - sun(r) - parallel(r); });
     spread.of_line.push_back(weight * weight * by_lines * count.lines);
-    const double by_samples = weight * variance(R, sun) + weight * weight * variance(R, parallel);
+    const double by_samples =
+        weight * variance_of(R, sun) + weight * weight * variance_of(R, parallel);
     spread.of_sample.push_back(by_samples * count.samples);
   }
   return spread;
@@ -181,13 +164,14 @@ Spread shot_load(const TracedScene& traced, const BatchTally& tally, double weig
     const auto by_lines = [&](std::size_t r) {
       return total(r) - by.sun[r][i] - by.parallel[r][i] - by.emitted[r][i] - by.reflected[r][i];
     };
-    spread.value.push_back(weight * mean(R, total));
-    spread.of_line.push_back(weight * weight * variance(R, by_lines) * count.lines);
-    const double of_suns = weight * variance(R, of(by.sun));
-    const double of_parallel = weight * weight * variance(R, of(by.parallel));
+    spread.value.push_back(weight * mean_of(R, total));
+    spread.of_line.push_back(weight * weight * variance_of(R, by_lines) * count.lines);
+    const double of_suns = weight * variance_of(R, of(by.sun));
+    const double of_parallel = weight * weight * variance_of(R, of(by.parallel));
     spread.of_sample.push_back((of_suns + of_parallel) * count.samples);
-    const double of_blocks = weight * variance(R, of(by.reflected)) * excess.of_patches;
-    const double of_emitters = weight * weight * variance(R, of(by.emitted)) * excess.of_emitters;
+    const double of_blocks = weight * variance_of(R, of(by.reflected)) * excess.of_patches;
+    const double of_emitters =
+        weight * weight * variance_of(R, of(by.emitted)) * excess.of_emitters;
     spread.of_shot.push_back((of_blocks + of_emitters) * count.lines);
   }
   return spread;

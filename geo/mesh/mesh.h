@@ -109,6 +109,15 @@ struct Mesh {
     const Vec3 a = corner(triangle, 0);
     return cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
   }
+  /// Unit normal of a side.
+  Vec3 normal(std::size_t triangle, bool front = true) const {
+    const Vec3 n = normalized(area_vector2(triangle));
+    return front ? n : -n;
+  }
+  /// The point whose barycentric weights of corners 1 and 2 are u and v.
+  Vec3 point(std::size_t triangle, double u, double v) const {
+    return corner(triangle, 0) * (1 - u - v) + corner(triangle, 1) * u + corner(triangle, 2) * v;
+  }
 };
 
 struct Box {

@@ -98,7 +98,7 @@ void add_sensors(BatchWriter& writer, const BatchTally& tally, const TracedScene
   std::vector<double> sky, backs;
   for (const auto& ends : traced.sensors.lines.pooled.ends) {
     sky.push_back(static_cast<double>(ends.sky));
-    backs.push_back(static_cast<double>(ends.backs));
+    backs.push_back(static_cast<double>(ends.fate.backs));
   }
   writer.add(
       {sensor_prefix + batch_array::sky_view, MergeRule::maximum, ArrayType::float64, {sky.size()}},

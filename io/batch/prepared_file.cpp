@@ -17,7 +17,7 @@ namespace {
 // Layout, in the byte order of the machine: magic, content hash and counts, CRC-32
 // of these, the arrays of `visit_set`, CRC-32 of all before. An array is its
 // length and its bytes.
-constexpr char magic[16] = "sunload-lines-3";
+constexpr char magic[16] = "sunload-lines-4";
 
 /// Calls `array` for every array of the lines, in the order of the file.
 template <class Set, class Array>
@@ -30,8 +30,7 @@ void visit_set(Set& set, Array&& array) {
     }
   array(set.ends);
   array(set.lamps);
-  MirroredFirstLight::for_each(set.first_light, set.first_light,
-                               [&](auto& power, auto&) { array(power); });
+  array(set.first_light);
 }
 
 class Output {

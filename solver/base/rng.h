@@ -23,6 +23,7 @@ enum class Purpose : std::uint32_t {
   circumsolar = 9,
   parallel_light = 10,
   bright_surfaces = 11,
+  sun_disk = 12,  ///< points of it that glossy surfaces ask
   shooting = 16,
 };
 

@@ -8,13 +8,12 @@
 #include <numeric>
 #include <utility>
 
+#include "solver/base/chunks.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
 
 namespace {
-
-constexpr std::size_t patches_per_task = 1024;
 
 // Measured on the built-in street under clear skies, suns from 12° to 40°: with less the samples
 // of half-hidden skies have the larger part of the error, with more the lines.
@@ -213,7 +212,7 @@ CircumsolarLight circumsolar_light(const Hierarchy& hierarchy, const RayCaster& 
     return out;
   const std::size_t patches = hierarchy.patch_count();
   out.irradiance = columns(patches);
-  out.rays = ordered_sum(patches, patches_per_task, std::uint64_t{0},
+  out.rays = ordered_sum(patches, receivers_per_chunk, std::uint64_t{0},
                          [&](std::size_t begin, std::size_t end) {
                            PatchSkies work(caster, sampler, block, skies, sunlit, exposure.size());
                            for (std::size_t i = begin; i < end; ++i)

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "geo/base/check.h"
+#include "solver/base/chunks.h"
 #include "solver/base/sampling.h"
 #include "solver/base/threads.h"
 
@@ -14,7 +14,6 @@ namespace sunload {
 
 namespace {
 
-constexpr std::size_t patches_per_task = 1024;
 constexpr std::size_t lanes = 16;
 
 /// Origins of 16 samples: the map of sample_triangle on Owen-scrambled points,
@@ -161,28 +160,57 @@ ScrambledPoints SunSampler::points(const Seeds& seeds, std::size_t packet) const
   return scrambled;
 }
 
+ScrambledPoints SunSampler::origin_points(const Seeds& seeds, std::size_t packet) const {
+  ScrambledPoints scrambled, seed;
+  for (std::size_t l = 0; l < packet_size; ++l) {
+    const std::size_t s = std::min(packet * packet_size + l, samples() - 1);
+    scrambled.u[l] = point_u_[s];
+    scrambled.v[l] = point_v_[s];
+    seed.u[l] = seeds.u[realization_[s]];
+    seed.v[l] = seeds.v[realization_[s]];
+  }
+  scramble(seed, scrambled);
+  return scrambled;
+}
+
+namespace {
+
+PacketDirections to_points(const SunLight& sun, const ScrambledPoints& on_disk) {
+  const SunPoints points(sun);
+  PacketDirections directions;
+  for (std::size_t l = 0; l < packet_size; ++l)
+    put(directions, l,
+        points.at(static_cast<double>(uniform(on_disk.u[l])),
+                  static_cast<double>(uniform(on_disk.v[l]))));
+  return directions;
+}
+
+}  // namespace
+
 PacketDirections SunSampler::directions(const SunLight& sun, const Seeds& seeds,
                                         std::size_t packet) const {
-  const Tangents axes = tangents(sun.direction);
-  const double disk_radius = std::tan(sun.disk_half_angle);  // at distance 1
-  const ScrambledPoints on_disk = points(seeds, packet);
-  PacketDirections directions;
-  for (std::size_t l = 0; l < packet_size; ++l) {
-    const double u = uniform(on_disk.u[l]);
-    const double v = uniform(on_disk.v[l]);
-    const double radius = disk_radius * std::sqrt(u), angle = 2 * pi * v;
-    const Vec3 w = sun.direction + axes.tangent * (radius * std::cos(angle)) +
-                   axes.bitangent * (radius * std::sin(angle));
-    directions.x[l] = static_cast<float>(w.x);
-    directions.y[l] = static_cast<float>(w.y);
-    directions.z[l] = static_cast<float>(w.z);
-  }
-  return directions;
+  if (sun.disk_half_angle <= 0) return same_for_all(sun.direction);
+  return to_points(sun, points(seeds, packet));
+}
+
+PacketDirections SunSampler::directions_by_origins(const SunLight& sun, const Seeds& seeds,
+                                                   std::size_t packet) const {
+  if (sun.disk_half_angle <= 0) return same_for_all(sun.direction);
+  return to_points(sun, origin_points(seeds, packet));
 }
 
 std::uint32_t SunSampler::active(std::size_t packet) const {
   const std::size_t count = std::min(packet_size, samples() - packet * packet_size);
   return static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
+}
+
+LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const SunLight& sun,
+                       const SunSampler::Geometry& geometry, const SunSampler::Seeds& seeds,
+                       std::size_t packet) {
+  LitSamples samples{sampler.origins(geometry, seeds, packet),
+                     sampler.directions(sun, seeds, packet), sampler.active(packet), 0};
+  samples.lit = caster.unoccluded_each(samples.origins, samples.to_sun, samples.active);
+  return samples;
 }
 
 namespace {
@@ -224,15 +252,10 @@ class PatchSuns {
     sampler_.seed(patch, sun.number, seeds_);
     int visible = 0;
     for (std::size_t p = 0; p < sampler_.packets(); ++p) {
-      const auto active = sampler_.active(p);
-      rays += static_cast<std::uint64_t>(std::popcount(active));
-      const Packet origins = sampler_.origins(geometry, seeds_, p);
-      auto bits =
-          sun.disk_half_angle > 0
-              ? caster_.unoccluded_each(origins, sampler_.directions(sun, seeds_, p), active)
-              : caster_.unoccluded(origins, sun.direction, active);
-      visible += std::popcount(bits);
-      for (; bits != 0; bits &= bits - 1)
+      const LitSamples samples = lit_samples(sampler_, caster_, sun, geometry, seeds_, p);
+      rays += static_cast<std::uint64_t>(std::popcount(samples.active));
+      visible += std::popcount(samples.lit);
+      for (auto bits = samples.lit; bits != 0; bits &= bits - 1)
         ++seen_[sampler_.realization(p * packet_size +
                                      static_cast<std::size_t>(std::countr_zero(bits)))];
     }
@@ -253,7 +276,7 @@ DirectSun direct_sun(const RayCaster& caster, const SunSampler& sampler,
                      std::vector<Columns>* of_realizations) {
   const std::size_t receivers = sampler.receivers();
   DirectSun out{columns(receivers), columns(receivers), 0};
-  out.rays = ordered_sum(receivers, patches_per_task, std::uint64_t{0},
+  out.rays = ordered_sum(receivers, receivers_per_chunk, std::uint64_t{0},
                          [&](std::size_t begin, std::size_t end) {
                            PatchSuns suns(caster, sampler, block, exposure.size());
                            for (std::size_t i = begin; i < end; ++i)

@@ -12,10 +12,12 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "geo/base/units.h"
 #include "solver/base/rng.h"
 #include "solver/light/sun_block.h"
 #include "solver/mesh/hierarchy.h"
@@ -71,12 +73,17 @@ class SunSampler {
   Packet origins(const Geometry& geometry, const Seeds& seeds, std::size_t packet) const;
   /// Points of the same samples, to choose their directions by.
   ScrambledPoints points(const Seeds& seeds, std::size_t packet) const;
-  /// Directions of the same samples to points on the sun's disk.
+  /// Directions of the same samples to points on the sun's disk, or to the sun that is a point.
   PacketDirections directions(const SunLight& sun, const Seeds& seeds, std::size_t packet) const;
+  /// The same by the coordinates that choose origins: for samples of sensors, all but points, that
+  /// need `points` for something else.
+  PacketDirections directions_by_origins(const SunLight& sun, const Seeds& seeds,
+                                         std::size_t packet) const;
   /// Bits of the samples that packet really holds.
   std::uint32_t active(std::size_t packet) const;
 
  private:
+  ScrambledPoints origin_points(const Seeds& seeds, std::size_t packet) const;
   SunSampler(const Hierarchy* hierarchy, const std::vector<Sensor>* sensors,
              const RayCaster& caster, const DirectRules& rules);
 
@@ -85,6 +92,48 @@ class SunSampler {
   double offset_m_;
   DirectRules rules_;
   std::vector<std::uint32_t> realization_, point_u_, point_v_, disk_u_, disk_v_;
+};
+
+/// Samples of one packet of a receiver, and which of them see the sun.
+struct LitSamples {
+  Packet origins;
+  PacketDirections to_sun;  ///< each to its own point on the disk
+  std::uint32_t active,
+      lit;  ///< bits: that the packet really holds, and of these what sees the sun
+};
+/// All that asks for the direct sun of a receiver asks here, so that what surfaces receive and what
+/// they send on rests on the same rays. `seeds`: of this receiver and sun.
+LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const SunLight& sun,
+                       const SunSampler::Geometry& geometry, const SunSampler::Seeds& seeds,
+                       std::size_t packet);
+
+/// Unit direction to the point on the sun's disk that lies along `to_sun`, of any length, as a
+/// surface of that normal sees it: to the centre where the disk has half set behind the surface,
+/// or is a point.
+inline Vec3 sun_before(Vec3 normal, const SunLight& sun, Vec3 to_sun) {
+  if (sun.disk_half_angle <= 0) return sun.direction;
+  const Vec3 w = normalized(to_sun);
+  return dot(w, normal) > 0 ? w : sun.direction;
+}
+
+/// Points of the sun's disk, uniform on it.
+class SunPoints {
+ public:
+  explicit SunPoints(const SunLight& sun)
+      : centre_(sun.direction),
+        axes_(tangents(sun.direction)),
+        radius_(std::tan(sun.disk_half_angle)) {}
+  /// Direction to that of (u, v) in the unit square, of length 1 along the centre.
+  Vec3 at(double u, double v) const {
+    const double radius = radius_ * std::sqrt(u), angle = 2 * pi * v;
+    return centre_ + axes_.tangent * (radius * std::cos(angle)) +
+           axes_.bitangent * (radius * std::sin(angle));
+  }
+
+ private:
+  Vec3 centre_;
+  Tangents axes_;
+  double radius_;  ///< at distance 1
 };
 
 /// Result of one block of suns. Sizes: receivers N, realizations R.

@@ -7,14 +7,14 @@
 #include <cmath>
 
 #include "geo/base/units.h"
+#include "solver/base/chunks.h"
+#include "solver/base/sampling.h"
 #include "solver/base/threads.h"
 #include "solver/surface/lobe.h"
 
 namespace sunload {
 
 namespace {
-
-constexpr std::size_t receivers_per_task = 1024;
 
 // Glimpses so far out in the lobe are not asked: what they would bring, relative to one in
 // the lobe's middle, is below the rounding of the float series.
@@ -39,23 +39,29 @@ class GlossySun::Chunk {
       : g_(glossy),
         images_(images),
         sun_(sun),
+        points_(sun),
         first_(first),
         realizations_(static_cast<std::size_t>(glossy.rules_.realizations)),
         sum_(receivers * realizations_, 0) {}
 
   void ask(const Glimpse& glimpse) {
     if (images_ && images_->stand_for(glimpse)) return;
-    const Vec3 s = sun_.direction;
-    const double cos_s = dot(normal_of(glimpse), s);
+    const Vec3 normal =
+        g_.scene_.mesh.normal(static_cast<std::size_t>(glimpse.triangle), glimpse.front != 0);
+    const double cos_s = dot(normal, sun_.direction);
+    if (cos_s <= 0) return;
+    const Vec3 s =
+        sun_.disk_half_angle > 0 ? sun_before(normal, sun_, point_for(glimpse)) : sun_.direction;
     const double cos_a = glimpse.axis[0] * s.x + glimpse.axis[1] * s.y + glimpse.axis[2] * s.z;
-    if (cos_s <= 0 || cos_a <= 0) return;
-    const double n = g_.material_of(glimpse.triangle).glossy_exponent;
+    if (cos_a <= 0) return;
+    const double n = g_.scene_.material_of(glimpse.triangle).glossy_exponent;
     const double lobe = lobe_value(cos_a, n);
     if (lobe < least_lobe * lobe_value(1, n)) return;
     origins_.x[waiting_] = glimpse.at[0];
     origins_.y[waiting_] = glimpse.at[1];
     origins_.z[waiting_] = glimpse.at[2];
-    slot_[waiting_] = (glimpse.receiver - first_) * realizations_ + glimpse.realization;
+    put(to_sun_, waiting_, s);
+    slot_[waiting_] = slot_of(glimpse);
     brings_[waiting_] = pi * static_cast<double>(glimpse.weight) * lobe * cos_s * sun_.dni;
     if (++waiting_ == packet_size) cast();
   }
@@ -64,7 +70,7 @@ class GlossySun::Chunk {
   void cast() {
     if (waiting_ == 0) return;
     const auto active = static_cast<std::uint32_t>((std::uint64_t{1} << waiting_) - 1);
-    auto seen = g_.caster_.unoccluded(origins_, sun_.direction, active);
+    auto seen = g_.caster_.unoccluded_each(origins_, to_sun_, active);
     for (; seen != 0; seen &= seen - 1) {
       const auto l = static_cast<std::size_t>(std::countr_zero(seen));
       sum_[slot_[l]] += brings_[l];
@@ -80,18 +86,37 @@ class GlossySun::Chunk {
   std::uint64_t rays = 0;
 
  private:
-  Vec3 normal_of(const Glimpse& glimpse) const {
-    const auto n =
-        normalized(g_.scene_.mesh.area_vector2(static_cast<std::size_t>(glimpse.triangle)));
-    return glimpse.front != 0 ? n : -n;
+  /// Glimpses of a receiver in one realization take the points of the disk in their order.
+  Vec3 point_for(const Glimpse& glimpse) {
+    const std::size_t slot = slot_of(glimpse);
+    if (taken_ == 0 || slot != slot_of_points_) {
+      slot_of_points_ = slot;
+      taken_ = 0;
+      seeds_ = random_words({.seed = g_.rules_.seed,
+                             .purpose = Purpose::sun_disk,
+                             .realization = glimpse.realization,
+                             .element = images_ ? g_.scene_.sensors[glimpse.receiver].key
+                                                : g_.hierarchy_.key()[glimpse.receiver],
+                             .sun = sun_.number});
+    }
+    const std::uint32_t point = taken_++;
+    return points_.at(scrambled_sobol(point, 0, seeds_), scrambled_sobol(point, 1, seeds_));
+  }
+  std::size_t slot_of(const Glimpse& glimpse) const {
+    return (glimpse.receiver - first_) * realizations_ + glimpse.realization;
   }
 
   const GlossySun& g_;
   const LobeImages* images_;
   const SunLight& sun_;
+  SunPoints points_;
+  RandomWords seeds_{};  ///< of the points for the glimpses of one slot
+  std::size_t slot_of_points_ = 0;
+  std::uint32_t taken_ = 0;
   std::size_t first_, realizations_;
   std::vector<double> sum_;
   Packet origins_{};
+  PacketDirections to_sun_{};
   std::size_t slot_[packet_size];
   double brings_[packet_size];
   std::size_t waiting_ = 0;
@@ -105,7 +130,7 @@ std::uint64_t GlossySun::add_light(const Lines& lines, const LobeImages* of_sens
                                 [&](const Glimpse& g) { return g.receiver < receiver; });
   };
   const double R = rules_.realizations;
-  return ordered_sum(lines.pooled.ends.size(), receivers_per_task, std::uint64_t{0},
+  return ordered_sum(lines.pooled.ends.size(), receivers_per_chunk, std::uint64_t{0},
                      [&](std::size_t begin, std::size_t end) {
                        std::uint64_t rays = 0;
                        const auto first = first_of(begin), last = first_of(end);
@@ -135,7 +160,7 @@ std::uint64_t GlossySun::add_light(const Lines& lines, const LobeImages* of_sens
 }
 
 void GlossySun::send_on(const LineFollower& follower, const SunLight& sun, std::size_t k,
-                        std::size_t patch, std::vector<MirroredSun>& fates) const {
+                        std::size_t patch, std::vector<SunFates>& fates) const {
   const auto geometry = sampler_.geometry(patch);
   const double cos_theta = dot(geometry.normal, sun.direction);
   if (cos_theta <= 0) return;
@@ -152,42 +177,35 @@ void GlossySun::send_on(const LineFollower& follower, const SunLight& sun, std::
                 .purpose = Purpose::glossy_sun,
                 .element = mixed(hierarchy_.key()[patch], sun.number)};
   for (std::size_t p = 0; p < sampler_.packets(); ++p) {
-    const Packet origins = sampler_.origins(geometry, seeds, p);
-    const auto lit = caster_.unoccluded(origins, sun.direction, sampler_.active(p));
-    LineFollower::Onward on[packet_size];
+    const LitSamples samples = lit_samples(sampler_, caster_, sun, geometry, seeds, p);
+    Onward on[packet_size];
     PacketDirections away{};
     std::uint32_t sent = 0;
-    for (auto bits = lit; bits != 0; bits &= bits - 1) {
+    for (auto bits = samples.lit; bits != 0; bits &= bits - 1) {
       const auto l = static_cast<std::size_t>(std::countr_zero(bits));
       key.realization = static_cast<std::uint32_t>(sampler_.realization(p * packet_size + l));
       key.sun = static_cast<std::uint32_t>(p * packet_size + l);
       key.block = 0;
-      on[l] = LineFollower::onward(lobe, geometry.normal, sun.direction, key);
+      const Vec3 w = sun_before(geometry.normal, sun, at(samples.to_sun, l));
+      on[l] = onward(lobe, geometry.normal, w, key);
       if (on[l].weight > 0) sent |= 1u << l;
-      away.x[l] = static_cast<float>(on[l].direction.x);
-      away.y[l] = static_cast<float>(on[l].direction.y);
-      away.z[l] = static_cast<float>(on[l].direction.z);
+      put(away, l, on[l].direction);
     }
-    const auto hits = caster_.first_hits(origins, away, sent);
-    for (auto bits = lit; bits != 0; bits &= bits - 1) {
+    const auto hits = caster_.first_hits(samples.origins, away, sent);
+    for (auto bits = samples.lit; bits != 0; bits &= bits - 1) {
       const auto l = static_cast<std::size_t>(std::countr_zero(bits));
-      LineFollower::Fate fate;
       key.realization = static_cast<std::uint32_t>(sampler_.realization(p * packet_size + l));
       key.sun = static_cast<std::uint32_t>(p * packet_size + l);
       key.block = 0;
-      if (sent >> l & 1u) fate = follower.sent_on(on[l].direction, on[l].weight, hits[l], &key);
-      auto& book = fates[key.realization];
-      book.escaped[k] += power_per_sample * fate.escaped;
-      book.backs[k] += power_per_sample * fate.backs;
-      book.cut[k] += power_per_sample * fate.cut;
-      book.transmitted[k] += power_per_sample * fate.transmitted;
-      book.absorbed[k] += power_per_sample * (on[l].absorbed - mirror + fate.absorbed);
+      Fate<double> fate;
+      if (sent >> l & 1u) fate = follower.sent_on(on[l].direction, on[l].weight, hits[l], key).fate;
+      fate.absorbed += on[l].absorbed - mirror;
+      fates[key.realization][k] += scaled(fate, power_per_sample);
     }
   }
 }
 
-void GlossySun::follow_light(std::span<const SunLight> block,
-                             std::vector<MirroredSun>& fates) const {
+void GlossySun::follow_light(std::span<const SunLight> block, std::vector<SunFates>& fates) const {
   const SkyGrid smallest_grid(2);  // where the light leaves is not asked
   const LineFollower follower(scene_, hierarchy_, caster_, smallest_grid, rules_.mirror_depth);
   std::vector<std::size_t> glossy;
@@ -195,8 +213,8 @@ void GlossySun::follow_light(std::span<const SunLight> block,
     if (optics_.glossy[i] > 0) glossy.push_back(i);
 
   constexpr std::size_t patches_each = 64;
-  std::vector<std::vector<MirroredSun>> parts((glossy.size() + patches_each - 1) / patches_each,
-                                              std::vector<MirroredSun>(fates.size()));
+  std::vector<std::vector<SunFates>> parts(chunk_count(glossy.size(), patches_each),
+                                           std::vector<SunFates>(fates.size()));
   parallel_chunks(glossy.size(), patches_each, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       for (std::size_t k = 0; k < block.size(); ++k)

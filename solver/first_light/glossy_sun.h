@@ -12,7 +12,7 @@
 /// Exact but for noise, also by way of mirrors between receiver and glossy surface, and of further
 /// lobes. Narrow lobes are noisy, as few glimpses lie in them; sensors have
 /// solver/first_light/lobe_images.h instead. Sun that a mirror sends to a glossy surface is cut
-/// there. The sun is a point.
+/// there. Of a sun with a disk each glimpse asks a point of its own; s·n stays that of its centre.
 #pragma once
 
 #include <cstdint>
@@ -46,17 +46,14 @@ class GlossySun {
 
   /// Adds to `fates` ([realizations]) where the direct sun ends that glossy patches receive:
   /// each visible sample goes on in a direction of the lobe.
-  void follow_light(std::span<const SunLight> block, std::vector<MirroredSun>& fates) const;
+  void follow_light(std::span<const SunLight> block, std::vector<SunFates>& fates) const;
 
  private:
   class Chunk;
   std::uint64_t add_light(const Lines& lines, const LobeImages* of_sensors,
                           std::span<const SunLight> block, MirroredIrradiance into) const;
   void send_on(const LineFollower& follower, const SunLight& sun, std::size_t k, std::size_t patch,
-               std::vector<MirroredSun>& fates) const;
-  const Material& material_of(std::int32_t triangle) const {
-    return scene_.materials[scene_.material[static_cast<std::size_t>(triangle)].index()];
-  }
+               std::vector<SunFates>& fates) const;
 
   const Scene& scene_;
   const Hierarchy& hierarchy_;

@@ -29,11 +29,6 @@ constexpr double least_lobe = 1e-8;
 // Each costs every sensor and sun.
 constexpr std::size_t most_orientations = 4096;
 
-Vec3 normal_of_side(const Mesh& mesh, std::size_t triangle, bool front) {
-  const Vec3 n = normalized(mesh.area_vector2(triangle));
-  return front ? n : -n;
-}
-
 }  // namespace
 
 LobeImages::LobeImages(const Scene& scene, const RayCaster& caster, const SunSampler& receivers,
@@ -48,7 +43,7 @@ LobeImages::LobeImages(const Scene& scene, const RayCaster& caster, const SunSam
   of_side_.assign(2 * scene.mesh.triangle_count(), -1);
   std::map<std::size_t, OrientationIndex> of_material;
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
-    if (!is_narrow(material_of(t))) continue;
+    if (!is_narrow(scene_.material_of(t))) continue;
     add_side(t, true, of_material);
     if (scene.mesh.triangle_sides[t] == Sides::two) add_side(t, false, of_material);
     if (orientations_.size() <= most_orientations) continue;
@@ -60,9 +55,9 @@ LobeImages::LobeImages(const Scene& scene, const RayCaster& caster, const SunSam
 
 void LobeImages::add_side(std::size_t triangle, bool front,
                           std::map<std::size_t, OrientationIndex>& of_material) {
-  const Vec3 n = normal_of_side(scene_.mesh, triangle, front);
+  const Vec3 n = scene_.mesh.normal(triangle, front);
   const MaterialId material = scene_.material[triangle];
-  const double exponent = material_of(triangle).glossy_exponent;
+  const double exponent = scene_.material_of(triangle).glossy_exponent;
   OrientationIndex& known =
       of_material.try_emplace(material.index(), shared_width / std::sqrt(exponent)).first->second;
   std::int32_t number = known.find(n);
@@ -86,8 +81,7 @@ void LobeImages::add_side(std::size_t triangle, bool front,
 }
 
 bool LobeImages::stand_for(const Glimpse& glimpse) const {
-  return glimpse.reflections == 0 &&
-         is_narrow(material_of(static_cast<std::size_t>(glimpse.triangle)));
+  return glimpse.reflections == 0 && is_narrow(scene_.material_of(glimpse.triangle));
 }
 
 /// What one receiver gets of one sun.
@@ -108,22 +102,24 @@ class LobeImages::Receiver {
     if (distance <= radius) return true;
     const double off_axis =
         std::acos(std::clamp(dot(to, image(sun_.direction, o.normal)) / distance, -1.0, 1.0));
-    return off_axis <= o.reach + std::asin(radius / distance);
+    return off_axis <= o.reach + std::asin(radius / distance) + sun_.disk_half_angle;
   }
 
   /// Adds the orientation's light to that of each realization.
   void look_for(std::size_t orientation, std::vector<double>& of_realization) {
     const Orientation& o = i_.orientations_[orientation];
-    const Vec3 middle = image(sun_.direction, o.normal);
-    const Tangents axes = tangents(middle);
     for (std::size_t p = 0; p < i_.receivers_.packets(); ++p) {
       const ScrambledPoints points = i_.receivers_.points(seeds_, p);
+      to_sun_ = i_.receivers_.directions_by_origins(sun_, seeds_, p);
       PacketDirections directions{};
       std::uint32_t ahead = 0;
       for (auto bits = i_.receivers_.active(p); bits != 0; bits &= bits - 1) {
         const auto l = static_cast<std::size_t>(std::countr_zero(bits));
         const Vec3 local =
             sample_power_cosine(uniform(points.u[l]), uniform(points.v[l]), o.exponent);
+        s_[l] = sun_.disk_half_angle > 0 ? normalized(at(to_sun_, l)) : sun_.direction;
+        const Vec3 middle = image(s_[l], o.normal);
+        const Tangents axes = tangents(middle);
         w_[l] = axes.tangent * local.x + axes.bitangent * local.y + middle * local.z;
         if (dot(w_[l], geometry_.normal) > 0) ahead |= 1u << l;
         put(directions, l, w_[l]);
@@ -153,28 +149,26 @@ class LobeImages::Receiver {
       const auto t = static_cast<std::size_t>(hit.triangle);
       if (i_.of_side_[2 * t + (hit.front ? 0u : 1u)] != static_cast<std::int32_t>(orientation))
         continue;
-      const Vec3 n = normal_of_side(i_.scene_.mesh, t, hit.front);
-      brings_[l] = brought(i_.orientations_[orientation], n, w_[l]);
+      const Mesh& mesh = i_.scene_.mesh;
+      const Vec3 n = met_normal(mesh, hit);
+      brings_[l] = brought(i_.orientations_[orientation], n, w_[l], s_[l]);
       if (brings_[l] <= 0) continue;
       on_it |= 1u << l;
-      const Mesh& mesh = i_.scene_.mesh;
-      put(points, l,
-          mesh.corner(t, 0) * (1 - hit.u - hit.v) + mesh.corner(t, 1) * hit.u +
-              mesh.corner(t, 2) * hit.v + n * i_.caster_.offset_m());
+      put(points, l, lifted_point(mesh, hit, n, i_.caster_.offset_m()));
     }
     if (on_it == 0) return 0;
     rays += static_cast<std::uint64_t>(std::popcount(on_it));
-    return i_.caster_.unoccluded(points, sun_.direction, on_it);
+    return i_.caster_.unoccluded_each(points, to_sun_, on_it);
   }
 
-  double brought(const Orientation& o, Vec3 n, Vec3 w) const {
+  /// `w`: the way to the surface; `s`: from there to the point of the sun.
+  double brought(const Orientation& o, Vec3 n, Vec3 w, Vec3 s) const {
     const Material& m = i_.scene_.materials[o.material.index()];
     const double cos_s = dot(n, sun_.direction), cos_theta = dot(w, geometry_.normal);
     if (cos_s <= 0) return 0;
     // Rays are stopped by 1 - T of what they meet.
-    const double f =
-        m.glossy / (1 - m.transmittance) * lobe_value(dot(image(w, n), sun_.direction), o.exponent);
-    const double p = power_cosine_pdf(dot(w, image(sun_.direction, o.normal)), o.exponent);
+    const double f = m.glossy / (1 - m.transmittance) * lobe_value(dot(image(w, n), s), o.exponent);
+    const double p = power_cosine_pdf(dot(w, image(s, o.normal)), o.exponent);
     return p > 0 ? f * cos_s * cos_theta * sun_.dni / (p * i_.samples_each_) : 0;
   }
 
@@ -182,7 +176,8 @@ class LobeImages::Receiver {
   const SunLight& sun_;
   SunSampler::Geometry geometry_;
   SunSampler::Seeds seeds_;
-  Vec3 w_[packet_size];
+  PacketDirections to_sun_;
+  Vec3 s_[packet_size], w_[packet_size];
   double brings_[packet_size];
 };
 

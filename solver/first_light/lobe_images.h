@@ -13,7 +13,8 @@
 /// which is the same for all of them but for cosθ and (s·n). Lobes are narrow where such directions
 /// are denser about m than the L lines can be: M (e+1)/(2π) > L/π. Light that reaches a sensor by
 /// way of another mirror or lobe is the lines', as is all of it where narrow lobes face in more
-/// than 4096 directions. Cost: up to 2 M rays for each sensor, sun and orientation in sight.
+/// than 4096 directions. Each sample of a sun with a disk has an s of its own; (s·n) stays that of
+/// the centre. Cost: up to 2 M rays for each sensor, sun and orientation in sight.
 #pragma once
 
 #include <cstdint>
@@ -52,9 +53,6 @@ class LobeImages {
   /// `of_material`: the orientations of each material that has any.
   void add_side(std::size_t triangle, bool front,
                 std::map<std::size_t, OrientationIndex>& of_material);
-  const Material& material_of(std::size_t triangle) const {
-    return scene_.materials[scene_.material[triangle].index()];
-  }
   bool is_narrow(const Material& m) const {
     return m.glossy > 0 && m.glossy_exponent >= least_exponent_;
   }

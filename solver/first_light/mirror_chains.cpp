@@ -9,21 +9,15 @@
 
 namespace sunload {
 
-MirroredSun& MirroredSun::operator+=(const MirroredSun& other) {
-  for (std::size_t k = 0; k < block_width; ++k) {
-    escaped[k] += other.escaped[k];
-    backs[k] += other.backs[k];
-    cut[k] += other.cut[k];
-    transmitted[k] += other.transmitted[k];
-    absorbed[k] += other.absorbed[k];
-  }
-  return *this;
-}
-
 MirrorChains::MirrorChains(const Hierarchy& hierarchy, const RayCaster& caster,
                            const SunSampler& sampler, const MirrorGroups& groups,
                            const ChainRules& rules)
-    : hierarchy_(hierarchy), caster_(caster), sampler_(sampler), groups_(groups), rules_(rules) {
+    : hierarchy_(hierarchy),
+      caster_(caster),
+      sampler_(sampler),
+      groups_(groups),
+      rules_(rules),
+      walk_(groups.scene(), hierarchy, caster, rules.mirror_depth) {
   for (std::size_t i = 0; i < hierarchy.patch_count(); ++i) {
     const Patch& patch = hierarchy.patches()[i];
     if (groups.of_side(patch.triangle, patch.side == 0) >= 0) mirrors_.push_back(i);
@@ -46,7 +40,7 @@ class MirrorChains::Task {
     const double cos_theta = dot(geometry.normal, sun.direction);
     if (cos_theta <= 0) return;
     const Patch& mirror = c_.hierarchy_.patches()[patch];
-    const Material& material = c_.groups_.material(mirror.triangle);
+    const Material& material = c_.walk_.material_of_patch(patch);
     const auto group =
         static_cast<std::size_t>(c_.groups_.of_side(mirror.triangle, mirror.side == 0));
     const double samples_each =
@@ -56,14 +50,11 @@ class MirrorChains::Task {
     const double sent = power_per_sample * c_.groups_.reflectance(mirror.triangle, cos_theta);
     c_.sampler_.seed(patch, sun.number, seeds_);
     for (std::size_t p = 0; p < c_.sampler_.packets(); ++p) {
-      Packet points = c_.sampler_.origins(geometry, seeds_, p);
-      const PacketDirections to_sun = towards(sun, c_.sampler_, seeds_, p);
-      const auto active = c_.sampler_.active(p);
-      const auto lit = c_.caster_.unoccluded_each(points, to_sun, active);
-      rays += count(active);
-      for (auto bits = lit; bits != 0; bits &= bits - 1) {
+      LitSamples samples = lit_samples(c_.sampler_, c_.caster_, sun, geometry, seeds_, p);
+      rays += count(samples.active);
+      for (auto bits = samples.lit; bits != 0; bits &= bits - 1) {
         const auto l = static_cast<std::size_t>(std::countr_zero(bits));
-        chains_[l] = {{to_sun.x[l], to_sun.y[l], to_sun.z[l]},
+        chains_[l] = {at(samples.to_sun, l),
                       group,
                       beams.next(-1, group),
                       sent,
@@ -71,14 +62,14 @@ class MirrorChains::Task {
                       static_cast<std::uint16_t>(c_.sampler_.realization(p * packet_size + l))};
         // The glossy part of the sun's light is GlossySun's.
         if (is_pane_or_metal(material))
-          keep(material, power_per_sample, cos_theta, k, fates[chains_[l].realization]);
+          keep(material, power_per_sample, cos_theta, fates[chains_[l].realization][k]);
       }
-      if (sent > 0) follow(k, beams, points, lit);
+      if (sent > 0) follow(k, beams, samples.origins, samples.lit);
     }
   }
 
   const MirrorChains& c_;
-  std::vector<MirroredSun> fates;
+  std::vector<SunFates> fates;
   std::vector<Arrival> arrivals;
   std::uint64_t rays = 0;
 
@@ -117,9 +108,7 @@ class MirrorChains::Task {
         if (!arrive(k, beams, hits[l], chains_[l])) continue;
         further |= 1u << l;
         const Hit hit = hits[l];
-        put(points, l,
-            c_.groups_.above(hit.triangle, hit.u, hit.v, c_.groups_[chains_[l].group].normal,
-                             c_.caster_.offset_m()));
+        put(points, l, c_.walk_.point(hit, c_.groups_[chains_[l].group].normal));
       }
       active = further;
     }
@@ -127,41 +116,32 @@ class MirrorChains::Task {
 
   /// Books what a surface that depends on the angle does with light that arrives at it,
   /// but for what it reflects as a mirror. Its lobe is not followed.
-  static void keep(const Material& m, double power, double cos_theta, std::size_t k,
-                   MirroredSun& fate) {
+  static void keep(const Material& m, double power, double cos_theta, Fate<double>& fate) {
     if (!depends_on_angle(m)) return;
     const SmoothShares shares = smooth_shares(m, cos_theta);
-    fate.transmitted[k] += power * shares.transmitted;
-    fate.cut[k] += power * m.glossy;
-    fate.absorbed[k] +=
+    fate.transmitted += power * shares.transmitted;
+    fate.cut += power * m.glossy;
+    fate.absorbed +=
         power * (1 - m.diffuse - shares.mirror - shares.transmitted - m.glossy - m.transmittance);
   }
 
   /// Books what a chain meets; false where it ends there.
   bool arrive(std::size_t k, const SunBeams& beams, const Hit& hit, Chain& chain) {
-    MirroredSun& fate = fates[chain.realization];
-    if (hit.left_scene()) {
-      fate.escaped[k] += chain.power;
-      return false;
-    }
-    const auto patch = c_.hierarchy_.patch_at(hit.triangle, hit.u, hit.v, hit.front);
-    if (patch < 0) {
-      fate.backs[k] += chain.power;
-      return false;
-    }
-    const Material& material = c_.groups_.material(hit.triangle);
-    chain.power /= 1 - material.transmittance;  // rays are stopped by that share
+    Fate<double>& fate = fates[chain.realization][k];
+    const auto met = c_.walk_.meet(hit, chain.power, fate);
+    if (!met) return false;
+    const auto& [patch, material] = *met;
     if (chain.beam < 0)
       arrivals.push_back({static_cast<std::uint32_t>(patch), chain.realization,
                           static_cast<std::uint16_t>(k), chain.power});
     const auto group = c_.groups_.of_side(hit.triangle, hit.front);
     if (group < 0) {
-      keep(material, chain.power, 1, k, fate);
+      keep(material, chain.power, 1, fate);
       return false;
     }
     chain.group = static_cast<std::size_t>(group);
     const double cos_theta = dot(chain.from, c_.groups_[chain.group].normal);
-    keep(material, chain.power, cos_theta, k, fate);
+    keep(material, chain.power, cos_theta, fate);
     chain.power *= c_.groups_.reflectance(hit.triangle, cos_theta);
     if (chain.power <= 0) return false;
     chain.beam = chain.beam < 0 ? -1 : beams.next(chain.beam, chain.group);
@@ -172,7 +152,7 @@ class MirrorChains::Task {
     return true;
   }
 
-  void cut(std::size_t k, const Chain& chain) { fates[chain.realization].cut[k] += chain.power; }
+  void cut(std::size_t k, const Chain& chain) { fates[chain.realization][k].cut += chain.power; }
 
   SunSampler::Seeds seeds_;
   Chain chains_[packet_size];

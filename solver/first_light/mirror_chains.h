@@ -13,24 +13,11 @@
 #include <vector>
 
 #include "solver/first_light/mirror_sun.h"
+#include "solver/light/fate.h"
+#include "solver/lines/surface_walk.h"
 #include "solver/mesh/hierarchy.h"
 
 namespace sunload {
-
-/// Fate of sun power that mirrors send on [W], per sun of a block.
-struct MirroredSun {
-  std::vector<double> escaped = std::vector<double>(block_width, 0);
-  std::vector<double> backs = escaped, cut = escaped;
-  /// Where that depends on the angle.
-  std::vector<double> transmitted = escaped, absorbed = escaped;
-  MirroredSun& operator+=(const MirroredSun& other);
-  /// Calls visit(fate) for each kind of fate.
-  template <class Visit>
-  static void for_each(MirroredSun& self, Visit&& visit) {
-    for (auto* fate : {&self.escaped, &self.backs, &self.cut, &self.transmitted, &self.absorbed})
-      visit(*fate);
-  }
-};
 
 struct ChainRules {
   int mirror_depth = 8;   ///< reflections that are followed
@@ -43,7 +30,7 @@ class MirrorChains {
                const MirrorGroups& groups, const ChainRules& rules);
 
   struct Followed {
-    std::vector<MirroredSun> fates;  ///< per realization, each with its own samples
+    std::vector<SunFates> fates;  ///< per realization, each with its own samples
     std::uint64_t rays = 0;
     std::uint64_t shots = 0;  ///< arrivals that no beam stands for
   };
@@ -59,6 +46,7 @@ class MirrorChains {
   const SunSampler& sampler_;
   const MirrorGroups& groups_;
   ChainRules rules_;
+  SurfaceWalk walk_;
   std::vector<std::size_t> mirrors_;  ///< patches
 };
 

@@ -24,11 +24,10 @@ MirrorGroups::MirrorGroups(const Scene& scene)
   OrientationIndex orientations(same_orientation);
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
     const MaterialId material = scene.material[t];
-    if (!is_mirror(scene.materials[material.index()])) continue;
-    const Vec3 front = normalized(scene.mesh.area_vector2(t));
+    if (!is_mirror(scene.material_of(t))) continue;
     for (std::size_t side = 0; side < (scene.mesh.triangle_sides[t] == Sides::two ? 2 : 1);
          ++side) {
-      const Vec3 n = side == 0 ? front : -front;
+      const Vec3 n = scene.mesh.normal(t, side == 0);
       std::int32_t number = orientations.find(n);
       if (number < 0) {
         number = static_cast<std::int32_t>(groups_.size());
@@ -52,16 +51,12 @@ std::size_t MirrorGroups::reflecting() const {
   return count;
 }
 
-const Material& MirrorGroups::material(std::int32_t triangle) const {
-  return scene_.materials[scene_.material[static_cast<std::size_t>(triangle)].index()];
-}
-
 double MirrorGroups::reflectance(std::int32_t triangle, double cos_theta) const {
-  return mirror_reflectance(material(triangle), cos_theta);
+  return mirror_reflectance(scene_.material_of(triangle), cos_theta);
 }
 
 double MirrorGroups::weight_of_hit(std::int32_t triangle, double cos_theta) const {
-  return mirror_weight_of_hit(material(triangle), cos_theta);
+  return mirror_weight_of_hit(scene_.material_of(triangle), cos_theta);
 }
 
 double MirrorGroups::strongest(std::size_t group, double cos_theta) const {
@@ -69,13 +64,6 @@ double MirrorGroups::strongest(std::size_t group, double cos_theta) const {
   for (const auto id : groups_[group].materials)
     strongest = std::max(strongest, mirror_reflectance(scene_.materials[id.index()], cos_theta));
   return strongest;
-}
-
-Vec3 MirrorGroups::above(std::int32_t triangle, double u, double v, Vec3 normal,
-                         double offset_m) const {
-  const auto t = static_cast<std::size_t>(triangle);
-  return scene_.mesh.corner(t, 0) * (1 - u - v) + scene_.mesh.corner(t, 1) * u +
-         scene_.mesh.corner(t, 2) * v + normal * offset_m;
 }
 
 }  // namespace sunload

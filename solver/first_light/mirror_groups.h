@@ -31,15 +31,12 @@ class MirrorGroups {
   std::int32_t of_side(std::int32_t triangle, bool front) const {
     return group_of_side_[2 * static_cast<std::size_t>(triangle) + (front ? 0u : 1u)];
   }
-  const Material& material(std::int32_t triangle) const;
   /// Share that a mirror returns at that cosine of incidence.
   double reflectance(std::int32_t triangle, double cos_theta) const;
   /// The same of a ray that it has stopped.
   double weight_of_hit(std::int32_t triangle, double cos_theta) const;
   /// The largest share that a mirror of the group returns.
   double strongest(std::size_t group, double cos_theta) const;
-  /// The point (u, v) of a triangle, lifted along `normal` by `offset_m`.
-  Vec3 above(std::int32_t triangle, double u, double v, Vec3 normal, double offset_m) const;
 
  private:
   const Scene& scene_;

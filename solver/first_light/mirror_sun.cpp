@@ -76,12 +76,6 @@ PacketDirections seen(const SunBeam& beam, const PacketDirections& sun) {
 
 }  // namespace
 
-PacketDirections towards(const SunLight& sun, const SunSampler& sampler,
-                         const SunSampler::Seeds& seeds, std::size_t packet) {
-  return sun.disk_half_angle > 0 ? sampler.directions(sun, seeds, packet)
-                                 : same_for_all(sun.direction);
-}
-
 MirrorSun::MirrorSun(const RayCaster& caster, const MirrorGroups& groups)
     : caster_(caster), groups_(groups) {}
 
@@ -104,7 +98,7 @@ class MirrorSun::PatchWork {
     std::fill(of_realization_.begin(), of_realization_.end(), 0);
     for (std::size_t p = 0; p < sampler_.packets(); ++p) {
       const Packet origins = sampler_.origins(geometry, seeds_, p);
-      const PacketDirections sun = towards(sun_, sampler_, seeds_, p);
+      const PacketDirections sun = sampler_.directions(sun_, seeds_, p);
       for (const auto b : by_beams)
         add_reflectances(beams_[b], dot(geometry.normal, beams_[b].image), p, origins, sun);
     }
@@ -159,7 +153,7 @@ class MirrorSun::PatchWork {
       on_mirror |= 1u << l;
       const double cos_theta = -dot(n, {w.x[l], w.y[l], w.z[l]});
       weight[l] *= m_.groups_.weight_of_hit(hit.triangle, cos_theta);
-      put(points, l, m_.groups_.above(hit.triangle, hit.u, hit.v, n, m_.caster_.offset_m()));
+      put(points, l, lifted_point(m_.groups_.scene().mesh, hit, n, m_.caster_.offset_m()));
     }
     return on_mirror;
   }

@@ -49,8 +49,4 @@ class MirrorSun {
   const MirrorGroups& groups_;
 };
 
-/// Sample directions to the sun, for a point or a disk.
-PacketDirections towards(const SunLight& sun, const SunSampler& sampler,
-                         const SunSampler::Seeds& seeds, std::size_t packet);
-
 }  // namespace sunload

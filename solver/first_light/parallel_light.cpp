@@ -6,14 +6,13 @@
 #include <array>
 #include <bit>
 
+#include "solver/base/chunks.h"
 #include "solver/base/threads.h"
 #include "solver/lines/line_follower.h"
 
 namespace sunload {
 
 namespace {
-
-constexpr std::size_t patches_per_task = 1024;
 
 // Triangles whose normals differ by less than this make one beam: what rounding does to the
 // normals of a flat sheet.
@@ -158,7 +157,7 @@ class PatchBeams {
     std::uint32_t active = 0;
     for (std::size_t l = 0; l < packet_size; ++l) {
       if ((sampler_.active(packet) >> l & 1u) == 0) continue;
-      const double way = beam.way(source, point(origins, l));
+      const double way = beam.way(source, at(origins, l));
       if (way <= 0) continue;
       active |= 1u << l;
       // The lamp that bears the source may lie in its plane.
@@ -181,7 +180,7 @@ class PatchBeams {
           E * hierarchy.area()[patch] * (1 - static_cast<double>(optics.passed[patch]));
       found_.ledger[r][Term::emitted] += power;
       if (sends_on(follower.material_of_patch(patch)))
-        send_on(patch, r, packet * packet_size + l, beam.to_source(), point(origins, l),
+        send_on(patch, r, packet * packet_size + l, beam.to_source(), at(origins, l),
                 E * hierarchy.area()[patch]);
     }
   }
@@ -195,21 +194,11 @@ class PatchBeams {
                         .realization = static_cast<std::uint32_t>(r),
                         .element = surfaces_->hierarchy.key()[patch],
                         .sun = static_cast<std::uint32_t>(sample)};
-    const auto fate = surfaces_->follower.mirrored_on(origin, w, patch, key, &met_);
-    found_.rays += fate.rays;
-    Ledger& ledger = found_.ledger[r];
-    ledger[Term::escaped] += power * fate.escaped;
-    ledger[Term::absorbed] += power * (fate.backs + fate.absorbed);
-    ledger[Term::transmitted] += power * fate.transmitted;
-    ledger.lost_at_backs += power * fate.backs;
-    ledger[Term::unshot] += power * fate.cut;
+    const auto sent = surfaces_->follower.mirrored_on(origin, w, patch, key, &met_);
+    found_.rays += sent.rays;
+    found_.ledger[r] += scaled(booked(sent.fate), power);
     for (const auto& met : met_)
       found_.left.push_back({r, met.target, power * static_cast<double>(met.weight)});
-  }
-
-  static Vec3 point(const Packet& packet, std::size_t l) {
-    return {static_cast<double>(packet.x[l]), static_cast<double>(packet.y[l]),
-            static_cast<double>(packet.z[l])};
   }
 
   const RayCaster& caster_;
@@ -246,11 +235,11 @@ ParallelLight parallel_light(const Scene& scene, const Hierarchy& hierarchy,
   const LineFollower follower(scene, hierarchy, caster, smallest_grid, mirror_depth);
   const PatchBeams::Surfaces surfaces{hierarchy, optics, follower};
 
-  std::vector<Found> parts((patches + patches_per_task - 1) / patches_per_task);
-  parallel_chunks(patches, patches_per_task, [&](std::size_t begin, std::size_t end) {
+  std::vector<Found> parts(chunk_count(patches, receivers_per_chunk));
+  parallel_chunks(patches, receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
     PatchBeams work(caster, sampler, &surfaces, light.irradiance);
     for (std::size_t i = begin; i < end; ++i) work.receive(beams, i);
-    parts[begin / patches_per_task] = std::move(work.found());
+    parts[begin / receivers_per_chunk] = std::move(work.found());
   });
   // After the loop: patches of other tasks are met.
   for (const auto& part : parts) {

@@ -4,13 +4,12 @@
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
+#include "solver/base/chunks.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
 
 namespace {
-
-constexpr std::size_t patches_per_task = 1024;
 
 double ratio(double of_band, double broadband) { return broadband > 0 ? of_band / broadband : 1; }
 
@@ -77,7 +76,7 @@ Columns scaled(Columns columns, const std::array<double, block_width>& factors) 
       [&](std::size_t i) {
         for (std::size_t k = 0; k < block_width; ++k) columns[i * block_width + k] *= of_sun[k];
       },
-      patches_per_task);
+      receivers_per_chunk);
   return columns;
 }
 
@@ -92,7 +91,7 @@ void add_weighted(const std::vector<Columns>& of_realizations,
           for (std::size_t k = 0; k < block_width; ++k)
             sums[r][i] += weights[k] * static_cast<double>(irradiance[i * block_width + k]);
         },
-        patches_per_task);
+        receivers_per_chunk);
   }
 }
 

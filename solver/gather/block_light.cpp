@@ -5,15 +5,10 @@
 #include <array>
 
 #include "geo/base/units.h"
+#include "solver/base/chunks.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
-
-namespace {
-
-constexpr std::size_t patches_per_task = 1024;
-
-}  // namespace
 
 BlockSources::BlockSources(std::span<const SunLight> block, std::size_t sky_cells)
     : suns(block), sky(columns(sky_cells)) {
@@ -61,7 +56,7 @@ BlockLight unreflected_light(const LineSet& lines, const PatchOptics& optics,
         for (std::size_t k = 0; k < block_width; ++k)
           light.reflected[i * block_width + k] = seen * sources.ground_exitance[k];
       },
-      patches_per_task);
+      receivers_per_chunk);
   return light;
 }
 
@@ -78,7 +73,7 @@ BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchO
           base[at] = light.direct[at] + light.sky[at] + light.mirror[at] + light.lamps[i];
         }
       },
-      patches_per_task);
+      receivers_per_chunk);
   Reflected reflected = reflect(mesh, lines, optics, base, light.reflected, bounces);
   light.reflected = std::move(reflected.irradiance);
   light.followed = std::move(reflected.followed);
@@ -90,10 +85,10 @@ std::vector<Ledger> block_ledger(const LineSet& lines, const PatchOptics& optics
                                  const BlockLight& light) {
   using Ledgers = std::array<Ledger, block_width>;
   const std::size_t suns = sources.suns.size();
-  const std::size_t tasks = (area.size() + patches_per_task - 1) / patches_per_task;
+  const std::size_t tasks = chunk_count(area.size(), receivers_per_chunk);
   std::vector<Ledgers> parts(tasks);
-  parallel_chunks(area.size(), patches_per_task, [&](std::size_t begin, std::size_t end) {
-    Ledgers& part = parts[begin / patches_per_task];
+  parallel_chunks(area.size(), receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
+    Ledgers& part = parts[begin / receivers_per_chunk];
     for (std::size_t i = begin; i < end; ++i)
       for (std::size_t k = 0; k < suns; ++k) {
         const std::size_t at = i * block_width + k;

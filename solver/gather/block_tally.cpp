@@ -6,15 +6,10 @@
 #include <cmath>
 
 #include "geo/base/check.h"
+#include "solver/base/chunks.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
-
-namespace {
-
-constexpr std::size_t patches_per_task = 1024;
-
-}  // namespace
 
 void store_received(const BlockLight& light, std::span<const SunLight> block, std::size_t first_row,
                     const Columns& sunlit, ReceiverTally& tally) {
@@ -42,7 +37,7 @@ void store_received(const BlockLight& light, std::span<const SunLight> block, st
           tally.irradiance_max[i] = std::max(tally.irradiance_max[i], total);
         }
       },
-      patches_per_task);
+      receivers_per_chunk);
 }
 
 void store_patches(const PatchOptics& optics, const BlockLight& light,
@@ -57,17 +52,7 @@ void store_patches(const PatchOptics& optics, const BlockLight& light,
               static_cast<double>(optics.diffuse[i] * light.total(i, k) + optics.emission[i]) *
               block[k].length_s;
       },
-      patches_per_task);
-}
-
-Ledger booked(const MirroredSun& fate, std::size_t k) {
-  Ledger ledger;
-  ledger[Term::escaped] = fate.escaped[k];
-  ledger[Term::absorbed] = fate.backs[k] + fate.absorbed[k];
-  ledger[Term::transmitted] = fate.transmitted[k];
-  ledger.lost_at_backs = fate.backs[k];
-  ledger[Term::unshot] = fate.cut[k];
-  return ledger;
+      receivers_per_chunk);
 }
 
 }  // namespace sunload

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "solver/first_light/mirror_chains.h"
 #include "solver/gather/block_light.h"
 #include "solver/light/tally.h"
 
@@ -20,8 +19,5 @@ void store_received(const BlockLight& light, std::span<const SunLight> block, st
 void store_patches(const PatchOptics& optics, const BlockLight& light,
                    std::span<const SunLight> block, std::size_t first_row, const Columns& sunlit,
                    BatchTally& tally);
-
-/// Where the light of sun k ends that mirrors and gloss send on [W].
-Ledger booked(const MirroredSun& fate, std::size_t k);
 
 }  // namespace sunload

@@ -90,7 +90,7 @@ int bounces_needed(const Hierarchy& mesh, const LineSet& lines, const PatchOptic
   std::vector<double> received(patches), radiosity(mesh.element_count());
   double in = 0;
   for (std::size_t i = 0; i < patches; ++i) {
-    received[i] = static_cast<double>(lines.ends[i].escaped);
+    received[i] = static_cast<double>(lines.ends[i].fate.escaped);
     in += area[i] * received[i];
   }
   for (int b = 0; b < bounces; ++b) {

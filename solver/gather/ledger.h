@@ -33,14 +33,9 @@ inline Ledger booked(const PatchLight& p, const LineEnds& ends) {
   ledger[Term::sky] = p.area * p.sky * stopped;
   ledger[Term::ground] = p.area * static_cast<double>(ends.ground) * p.ground_exitance * stopped;
   ledger[Term::emitted] = p.area * p.emission;
-  ledger[Term::absorbed] = p.area * p.absorbed * p.total + sent * static_cast<double>(ends.backs) +
-                           sent * static_cast<double>(ends.absorbed);
-  ledger[Term::transmitted] = sent * static_cast<double>(ends.transmitted);
-  ledger.lost_at_backs = sent * static_cast<double>(ends.backs);
-  ledger[Term::escaped] = sent * static_cast<double>(ends.escaped);
-  ledger[Term::unshot] =
-      p.area * (p.diffuse * p.total - p.followed) + sent * static_cast<double>(ends.cut);
-  return ledger;
+  ledger[Term::absorbed] = p.area * p.absorbed * p.total;
+  ledger[Term::unshot] = p.area * (p.diffuse * p.total - p.followed);
+  return booked(scaled(in_double(ends.fate), sent), ledger);
 }
 
 /// First light of sky and far ground that mirrors sent on. `sky(c)` is π times
@@ -48,14 +43,8 @@ inline Ledger booked(const PatchLight& p, const LineEnds& ends) {
 template <class SkyOfCell>
 Ledger booked(const MirroredFirstLight& first, SkyOfCell&& sky, double ground_exitance) {
   Ledger ledger;
-  for (std::size_t c = 0; c < first.escaped.size(); ++c) {
-    const double source = c + 1 < first.escaped.size() ? sky(c) : ground_exitance;
-    ledger[Term::escaped] += source * first.escaped[c];
-    ledger[Term::absorbed] += source * (first.backs[c] + first.absorbed[c]);
-    ledger[Term::transmitted] += source * first.transmitted[c];
-    ledger.lost_at_backs += source * first.backs[c];
-    ledger[Term::unshot] += source * first.cut[c];
-  }
+  for (std::size_t c = 0; c < first.size(); ++c)
+    ledger += scaled(booked(first[c]), c + 1 < first.size() ? sky(c) : ground_exitance);
   return ledger;
 }
 

@@ -3,9 +3,10 @@
 /// Standard error of every patch or sensor and sun of a block, from the realizations.
 #pragma once
 
-#include <cmath>
 #include <vector>
 
+#include "solver/base/chunks.h"
+#include "solver/base/spread.h"
 #include "solver/base/threads.h"
 #include "solver/light/tally.h"
 
@@ -35,28 +36,25 @@ class InstantSpread {
             squares_[i * block_width + k] += E * E;
           }
         },
-        receivers_per_task);
+        receivers_per_chunk);
   }
   /// Writes s / √R to the rows [K][N] from `first_row` on.
-  void store(std::size_t first_row, std::vector<float>& standard_error) const {
-    const auto n = static_cast<double>(realizations_);
+  void store(std::size_t first_row, std::vector<float>& errors) const {
     parallel_for(
         receivers_,
         [&](std::size_t i) {
           for (std::size_t k = 0; k < suns_; ++k) {
             const std::size_t at = i * block_width + k;
-            const double variance = std::max(0.0, squares_[at] - sum_[at] * sum_[at] / n) / (n - 1);
-            standard_error[(first_row + k) * receivers_ + i] =
-                static_cast<float>(std::sqrt(variance / n));
+            errors[(first_row + k) * receivers_ + i] = static_cast<float>(standard_error(
+                variance_by_sums(realizations_, sum_[at], squares_[at]), realizations_));
           }
         },
-        receivers_per_task);
+        receivers_per_chunk);
   }
 
  private:
-  static constexpr std::size_t receivers_per_task = 1024;
   std::size_t receivers_, suns_;
-  int realizations_ = 0;
+  std::size_t realizations_ = 0;
   std::vector<double> sum_, squares_;
 };
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/light/tally.h"
 
-#include <cmath>
+#include "solver/base/spread.h"
 
 namespace sunload {
 
@@ -25,6 +25,16 @@ Ledger& Ledger::operator+=(const Ledger& other) {
 Ledger scaled(Ledger ledger, double factor) {
   for (auto& term : ledger.terms) term *= factor;
   ledger.lost_at_backs *= factor;
+  return ledger;
+}
+
+Ledger booked(const Fate<double>& fate, Ledger ledger) {
+  ledger[Term::absorbed] += fate.backs;
+  ledger[Term::absorbed] += fate.absorbed;
+  ledger[Term::transmitted] += fate.transmitted;
+  ledger[Term::escaped] += fate.escaped;
+  ledger[Term::unshot] += fate.cut;
+  ledger.lost_at_backs += fate.backs;
   return ledger;
 }
 
@@ -68,11 +78,10 @@ BatchTally empty_tally(const TallyShape& shape) {
 }
 
 MeanError mean_error(const std::vector<double>& values) {
-  const auto n = static_cast<double>(values.size());
-  double mean = 0, squares = 0;
-  for (const double v : values) mean += v / n;
-  for (const double v : values) squares += (v - mean) * (v - mean);
-  return {mean, values.size() > 1 ? std::sqrt(squares / (n - 1) / n) : 0};
+  const std::size_t n = values.size();
+  const auto value = [&](std::size_t r) { return values[r]; };
+  const double mean = mean_of(n, value);
+  return {mean, standard_error(variance_about(mean, n, value), n)};
 }
 
 }  // namespace sunload

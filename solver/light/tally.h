@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/light/fate.h"
 #include "solver/light/sun_block.h"
 #include "solver/light/transport.h"
 
@@ -47,6 +48,8 @@ struct Ledger {
   Ledger& operator+=(const Ledger& other);
 };
 Ledger scaled(Ledger ledger, double factor);
+/// `ledger` with power [W] that ended so: what met backs is absorbed, what was cut is unshot.
+Ledger booked(const Fate<double>& fate, Ledger ledger = {});
 
 /// What N receivers (patches or sensors) get in K consecutive intervals, R
 /// realizations. Energies are J m-2; a part that the scene cannot have is empty.

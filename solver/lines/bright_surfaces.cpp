@@ -80,7 +80,7 @@ void BrightSurfaces::add_sources(const Scene& scene, const Hierarchy& hierarchy,
     const auto t = static_cast<std::size_t>(hierarchy.patches()[i].triangle);
     sources_.push_back({a, hierarchy.corner(i, 1) - a, hierarchy.corner(i, 2) - a,
                         hierarchy.normal(i), radiosity[i], hierarchy.area()[i],
-                        scene.materials[scene.material[t].index()].emission_w_m2, i});
+                        scene.material_of(t).emission_w_m2, i});
   }
 }
 

@@ -13,6 +13,7 @@
 #include "solver/base/rng.h"
 #include "solver/lines/bright_view.h"
 #include "solver/lines/lines.h"
+#include "solver/lines/surface_walk.h"
 
 namespace sunload {
 
@@ -49,46 +50,29 @@ class LineFollower {
   /// Adds the link to a point of a bright surface, and the emitter that it is.
   void link(const BrightView::SeenPoint& point, LineCollector& into) const;
 
-  /// Where light ends that a surface sends on, and what becomes of it at the surfaces that
-  /// `depends_on_angle`: shares of what arrived.
-  struct Fate {
-    double escaped = 0, backs = 0, cut = 0, transmitted = 0, absorbed = 0;
-    std::uint64_t rays = 0;
-  };
-  /// Of light that arrives along -`w` at a patch that sends on, from that patch on. `met`, if not
-  /// null, receives the patches that it arrives at on its way, and its weight there.
-  Fate mirrored_on(Vec3 origin, Vec3 w, std::size_t patch, const RandomKey& line,
+  /// Where light ends that arrives along -`w` at a patch that sends on, from that patch on;
+  /// `absorbed` is what surfaces absorb that `depends_on_angle`. `met`, if not null, receives the
+  /// patches that it arrives at on its way, and its weight there.
+  Followed mirrored_on(Vec3 origin, Vec3 w, std::size_t patch, const RandomKey& line,
+                       std::vector<LinkTable::Link>* met = nullptr) const;
+  /// The same from the first hit of the ray on that carries `weight` along `w`.
+  Followed sent_on(Vec3 w, double weight, const Hit& first, RandomKey key,
                    std::vector<LinkTable::Link>* met = nullptr) const;
-  /// From the first hit of the ray on that carries `weight` along `w`. Without a key the
-  /// chain is cut at glossy surfaces.
-  Fate sent_on(Vec3 w, double weight, const Hit& first, const RandomKey* line = nullptr,
-               std::vector<LinkTable::Link>* met = nullptr) const;
-
-  /// Light that arrives at a surface along -`w` (unit, w·n > 0), and where it goes.
-  struct Onward {
-    Vec3 direction;
-    double weight = 0;                     ///< carried along `direction`
-    double transmitted = 0, absorbed = 0;  ///< of materials that depend on the angle
-  };
-  static Onward onward(const Material& material, Vec3 n, Vec3 w, const RandomKey& key);
 
   /// Cell of a direction that left the scene upward.
   std::uint32_t sky_cell(Vec3 w) const { return static_cast<std::uint32_t>(grid_.cell(w)); }
   const Material& material_of_patch(std::size_t patch) const {
-    return material_of(hierarchy_.patches()[patch].triangle);
+    return walk_.material_of_patch(patch);
   }
 
  private:
-  const Material& material_of(std::int32_t triangle) const;
   /// Of a line that arrived along -`w`.
   Glimpse glimpse(const Hit& hit, Vec3 n, Vec3 w, double weight) const;
-  Vec3 offset_point(std::int32_t triangle, const Hit& hit, Vec3 side_normal) const;
+  void link_outside(Vec3 w, double weight, int reflections, LineCollector& into) const;
 
-  const Scene& scene_;
+  SurfaceWalk walk_;
   const Hierarchy& hierarchy_;
-  const RayCaster& caster_;
   const SkyGrid& grid_;
-  int mirror_depth_;
 };
 
 }  // namespace sunload

@@ -193,15 +193,13 @@ class BlockTracer {
   /// no patch's own lines see it leave.
   std::uint64_t book_mirrored(Vec3 origin, Vec3 w, std::size_t patch, const RandomKey& line,
                               MirroredFirstLight& book) const {
-    const auto fate = follower_.mirrored_on(origin, w, patch, line);
+    const auto sent = follower_.mirrored_on(origin, w, patch, line);
     const auto lines_each = static_cast<double>(lines_per_realization(patch));
     const double share = hierarchy_.area()[patch] / lines_each;
     const std::size_t source = w.z > 0 ? follower_.sky_cell(w) : ground_source_;
-    MirroredFirstLight::for_each(book, fate, [&](std::vector<double>& power, double part) {
-      if (power.empty()) power.assign(ground_source_ + 1, 0);
-      power[source] += share * part;
-    });
-    return fate.rays;
+    book.resize(ground_source_ + 1);
+    book[source] += scaled(sent.fate, share);
+    return sent.rays;
   }
 
   const Hierarchy& hierarchy_;
@@ -212,15 +210,10 @@ class BlockTracer {
   std::size_t ground_source_;
 };
 
-void add(std::vector<double>& to, const std::vector<double>& from, double factor) {
-  if (from.empty()) return;
-  to.resize(from.size(), 0);
-  for (std::size_t i = 0; i < from.size(); ++i) to[i] += factor * from[i];
-}
-
 void add(MirroredFirstLight& to, const MirroredFirstLight& from, double factor) {
-  MirroredFirstLight::for_each(to, from,
-                               [&](auto& sum, const auto& part) { add(sum, part, factor); });
+  if (from.empty()) return;
+  to.resize(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i) to[i] += scaled(from[i], factor);
 }
 
 void trim(LineSet& set, std::size_t block) {

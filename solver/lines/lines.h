@@ -22,6 +22,7 @@
 
 #include "geo/sky/sky.h"
 #include "solver/base/watch.h"
+#include "solver/light/fate.h"
 #include "solver/lines/bright_view.h"
 #include "solver/mesh/hierarchy.h"
 #include "solver/surface/ray_caster.h"
@@ -55,29 +56,13 @@ struct LineEnds {
   float sky = 0;               ///< straight to the sky: the sky view factor
   float ground = 0;            ///< straight to the far ground
   float ground_by_mirror = 0;  ///< to the far ground after mirrors
-  float escaped = 0;           ///< left the scene, straight or by mirrors
-  float backs = 0;             ///< met the back of a one-sided surface
-  float cut = 0;               ///< chain cut at the mirror depth
-  float transmitted = 0;       ///< left through panes
-  float absorbed = 0;          ///< by surfaces whose reflectance depends on the angle
+  Fate<float> fate;  ///< straight or by mirrors; absorbed: where that depends on the angle
 };
 
 /// Fate of first light (sky, ground) after it was mirrored by the patch that it
-/// met first: power per π·radiance of its source [m2].
-struct MirroredFirstLight {
-  std::vector<double> escaped, backs, cut, transmitted,
-      absorbed;  ///< per sky cell, then the far ground; empty without mirrors
-
-  /// Calls visit(fate, of_other) for each kind of fate and the same of another one.
-  template <class Self, class Other, class Visit>
-  static void for_each(Self& self, Other& other, Visit&& visit) {
-    visit(self.escaped, other.escaped);
-    visit(self.backs, other.backs);
-    visit(self.cut, other.cut);
-    visit(self.transmitted, other.transmitted);
-    visit(self.absorbed, other.absorbed);
-  }
-};
+/// met first: power per π·radiance of its source [m2], per sky cell, then of the far ground;
+/// empty without mirrors. Absorbed: where that depends on the angle.
+using MirroredFirstLight = std::vector<Fate<double>>;
 
 /// The lines of one realization, or of all of them pooled.
 struct LineSet {

@@ -8,8 +8,7 @@ PatchOptics patch_optics(const Scene& scene, const Hierarchy& hierarchy) {
   PatchOptics optics;
   optics.any_emission = !scene.parallel_sources.exitance.empty();
   for (const auto& patch : hierarchy.patches()) {
-    const auto& m =
-        scene.materials[scene.material[static_cast<std::size_t>(patch.triangle)].index()];
+    const Material& m = scene.material_of(patch.triangle);
     optics.diffuse.push_back(static_cast<float>(m.diffuse));
     optics.mirror.push_back(static_cast<float>(mirror_reflectance(m, 1)));
     optics.glossy.push_back(static_cast<float>(m.glossy));
@@ -26,9 +25,8 @@ PatchOptics patch_optics(const Scene& scene, const Hierarchy& hierarchy) {
 PatchOptics patch_optics(const Scene& scene, const Hierarchy& hierarchy, std::size_t band) {
   PatchOptics optics = patch_optics(scene, hierarchy);
   for (std::size_t i = 0; i < optics.diffuse.size(); ++i) {
-    const auto triangle = static_cast<std::size_t>(hierarchy.patches()[i].triangle);
-    optics.diffuse[i] =
-        static_cast<float>(diffuse_in(scene.materials[scene.material[triangle].index()], band));
+    const Material& m = scene.material_of(hierarchy.patches()[i].triangle);
+    optics.diffuse[i] = static_cast<float>(diffuse_in(m, band));
   }
   return optics;
 }

@@ -85,7 +85,7 @@ Pilot::Pilot(const ElementForest& forest, const RayCaster& caster, const PilotLi
       load_(2 * forest.elements().size(), 0.0f) {
   const Scene& scene = forest.scene();
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
-    const double exitance = scene.materials[scene.material[t].index()].emission_w_m2;
+    const double exitance = scene.material_of(t).emission_w_m2;
     if (exitance <= 0 || light.lamp_time_s <= 0) continue;
     const int sides = scene.mesh.triangle_sides[t] == Sides::two ? 2 : 1;
     emitted_power_ += sides * exitance * norm(scene.mesh.area_vector2(t)) / 2;

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <tuple>
 
+#include "solver/base/chunks.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
 
 namespace {
-
-constexpr std::size_t targets_per_task = 1024;
 
 // One vector instruction or two per deposit; the order of additions is the same everywhere.
 __attribute__((target_clones("default", "avx2", "avx512f"))) void add(const Deposit* begin,
@@ -51,7 +50,7 @@ void Deposits::add_to(DoubleColumns& irradiance, const DoubleColumns& power,
     return std::lower_bound(chunk.begin(), chunk.end(), target,
                             [](const Deposit& d, std::size_t t) { return d.target < t; });
   };
-  parallel_chunks(area.size(), targets_per_task, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(area.size(), receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
     for (const auto& chunk : chunks_) {
       const auto from = first_of(chunk, begin), to = first_of(chunk, end);
       if (from != to)

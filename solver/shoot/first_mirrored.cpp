@@ -20,11 +20,6 @@ std::size_t tasks(std::size_t mirrors) {
   return (mirrors + mirrors_per_task - 1) / mirrors_per_task;
 }
 
-Vec3 at(const Packet& packet, std::size_t l) {
-  return {static_cast<double>(packet.x[l]), static_cast<double>(packet.y[l]),
-          static_cast<double>(packet.z[l])};
-}
-
 }  // namespace
 
 /// The lines of mirror patches in one task and realization.
@@ -46,8 +41,8 @@ class FirstMirrored::LineTask {
   }
 
   std::vector<Deposit> sky, ground;
-  std::vector<Fate> sky_fates;
-  Fate ground_fate;
+  std::vector<Fate<double>> sky_fates;
+  Fate<double> ground_fate;
   std::uint64_t rays = 0;
 
  private:
@@ -59,10 +54,10 @@ class FirstMirrored::LineTask {
       const auto& [origin, w] = lines.line[l];
       const bool up = w.z > 0;
       const auto source = up ? static_cast<std::uint32_t>(m_.grid_.cell(w)) : 0u;
-      const Fate fate = m_.chain_.mirror_on(origin, w, patch, source, share, key(patch, first + l),
-                                            up ? sky : ground);
-      (up ? sky_fates[source] : ground_fate) += fate;
-      rays += fate.rays;
+      const Followed sent = m_.chain_.mirror_on(origin, w, patch, source, share,
+                                                key(patch, first + l), up ? sky : ground);
+      (up ? sky_fates[source] : ground_fate) += sent.fate;
+      rays += sent.rays;
     }
   }
 
@@ -88,17 +83,15 @@ FirstMirrored::FirstMirrored(const Scene& scene, const Hierarchy& hierarchy,
       grid_(grid),
       chain_(scene, hierarchy, caster, rules.mirror_depth, 0),
       rules_(rules) {
-  for (std::size_t i = 0; i < hierarchy.patch_count(); ++i) {
-    const auto triangle = static_cast<std::size_t>(hierarchy.patches()[i].triangle);
-    if (sends_on(scene.materials[scene.material[triangle].index()])) mirrors_.push_back(i);
-  }
+  for (std::size_t i = 0; i < hierarchy.patch_count(); ++i)
+    if (sends_on(scene.material_of(hierarchy.patches()[i].triangle))) mirrors_.push_back(i);
   if (!any()) return;
   const auto cells = static_cast<std::size_t>(grid.cell_count());
   const std::size_t chunks = tasks(mirrors_.size());
   for (std::size_t r = 0; r < static_cast<std::size_t>(rules.realizations); ++r) {
     OfRealization& light = of_realization_.emplace_back();
-    light.sky = {Deposits(chunks), std::vector<Fate>(cells)};
-    light.ground = {Deposits(chunks), std::vector<Fate>(1)};
+    light.sky = {Deposits(chunks), std::vector<Fate<double>>(cells)};
+    light.ground = {Deposits(chunks), std::vector<Fate<double>>(1)};
     std::vector<LineTask> traced(chunks, LineTask(*this, r));
     parallel_chunks(mirrors_.size(), mirrors_per_task, [&](std::size_t begin, std::size_t end) {
       const std::size_t chunk = begin / mirrors_per_task;
@@ -138,7 +131,7 @@ class FirstMirrored::SunTask {
  public:
   SunTask(const FirstMirrored& mirrored, std::span<const SunLight> block)
       : deposits(static_cast<std::size_t>(mirrored.rules_.realizations)),
-        fates(deposits.size(), std::vector<Fate>(block_width)),
+        fates(deposits.size()),
         m_(mirrored),
         block_(block) {}
 
@@ -153,43 +146,35 @@ class FirstMirrored::SunTask {
       const double power = m_.hierarchy_.area()[patch] * sun.dni * cos_theta / samples_each;
       m_.sampler_.seed(patch, sun.number, seeds_);
       for (std::size_t p = 0; p < m_.sampler_.packets(); ++p)
-        send_packet(m_.sampler_.origins(geometry, seeds_, p), p, patch, k, power);
+        send_packet(lit_samples(m_.sampler_, m_.caster_, sun, geometry, seeds_, p), p, patch, k,
+                    power);
     }
   }
 
   std::vector<std::vector<Deposit>> deposits;  ///< per realization [W]
-  std::vector<std::vector<Fate>> fates;        ///< per realization and sun [W]
+  std::vector<SunFates> fates;                 ///< per realization [W]
   std::uint64_t rays = 0;
 
  private:
-  void send_packet(const Packet& origins, std::size_t packet, std::size_t patch, std::size_t k,
+  void send_packet(const LitSamples& samples, std::size_t packet, std::size_t patch, std::size_t k,
                    double power) {
     const SunLight& sun = block_[k];
-    // The rays of the direct sun once more, so that the same ones are found to be lit.
-    const auto active = m_.sampler_.active(packet);
-    const bool disk = sun.disk_half_angle > 0;
-    const PacketDirections directions =
-        disk ? m_.sampler_.directions(sun, seeds_, packet) : PacketDirections{};
-    auto lit = disk ? m_.caster_.unoccluded_each(origins, directions, active)
-                    : m_.caster_.unoccluded(origins, sun.direction, active);
     const Vec3 n = m_.hierarchy_.normal(patch);
-    rays += static_cast<std::uint64_t>(std::popcount(active));
-    for (; lit != 0; lit &= lit - 1) {
+    rays += static_cast<std::uint64_t>(std::popcount(samples.active));
+    for (auto lit = samples.lit; lit != 0; lit &= lit - 1) {
       const auto l = static_cast<std::size_t>(std::countr_zero(lit));
       const std::size_t sample = packet * packet_size + l, r = m_.sampler_.realization(sample);
-      Vec3 towards = disk ? normalized(at(directions, l)) : sun.direction;
-      // A disk that is half set behind the mirror.
-      if (dot(towards, n) <= 0) towards = sun.direction;
       const RandomKey key{.seed = m_.rules_.seed,
                           .purpose = Purpose::shooting,
                           .realization = static_cast<std::uint32_t>(r),
                           .element = mixed(m_.hierarchy_.key()[patch], sample),
                           .sun = sun.number,
                           .block = blocks_of_sun};
-      const Fate fate = m_.chain_.mirror_on(at(origins, l), towards, patch,
-                                            static_cast<std::uint32_t>(k), power, key, deposits[r]);
-      fates[r][k] += fate;
-      rays += fate.rays;
+      const Followed sent =
+          m_.chain_.mirror_on(at(samples.origins, l), sun_before(n, sun, at(samples.to_sun, l)),
+                              patch, static_cast<std::uint32_t>(k), power, key, deposits[r]);
+      fates[r][k] += sent.fate;
+      rays += sent.rays;
     }
   }
 
@@ -221,12 +206,10 @@ FirstMirrored::SentSuns FirstMirrored::send(std::span<const SunLight> block) con
     for (std::size_t r = 0; r < sent.of_realization.size(); ++r)
       sent.of_realization[r].deposits.put(chunk, std::move(parts[chunk].deposits[r]));
   });
-  const DoubleColumns one_watt = one_watt_per_sun();
   for (const SunTask& part : parts) {
     sent.rays += part.rays;
     for (std::size_t r = 0; r < sent.of_realization.size(); ++r)
-      for (std::size_t k = 0; k < block_width; ++k)
-        sent.of_realization[r].fates.add(part.fates[r][k], &one_watt[k * block_width]);
+      sent.of_realization[r].fates += part.fates[r];
   }
   return sent;
 }

@@ -32,7 +32,7 @@ class FirstMirrored {
   /// Power of the sun that one realization sends on from mirrors.
   struct SentSun {
     Deposits deposits;  ///< [W], the source is the number of the sun in the block
-    Fates fates;
+    SunFates fates;
   };
   struct SentSuns {
     std::vector<SentSun> of_realization;  ///< empty without mirrors
@@ -43,7 +43,7 @@ class FirstMirrored {
   /// Irradiance of a block by way of mirrors [N][block] W m-2, and where the rest ended.
   struct Light {
     DoubleColumns irradiance;
-    Fates fates;
+    SunFates fates;
   };
   Light sun(const SentSun& sent) const;
   /// Of the sky in one realization; `sky` is π·radiance, [cells][block].
@@ -57,7 +57,7 @@ class FirstMirrored {
   /// Deposits and fates [m2] of sources that are given by their exitance.
   struct OfSource {
     Deposits deposits;
-    std::vector<Fate> fates;  ///< per row of the source
+    std::vector<Fate<double>> fates;  ///< per row of the source
   };
   struct OfRealization {
     OfSource sky, ground;

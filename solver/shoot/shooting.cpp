@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "solver/base/chunks.h"
 #include "solver/base/threads.h"
 #include "solver/lines/patch_lines.h"
 #include "solver/mesh/push_pull.h"
@@ -13,7 +14,6 @@ namespace sunload {
 
 namespace {
 
-constexpr std::size_t patches_per_task = 1024;
 constexpr std::uint32_t shot_of_emitters = 0;  // iterations of reflection follow
 
 /// Random offset of the stratified rounding; no patch has this key.
@@ -30,7 +30,7 @@ void add(DoubleColumns& to, const DoubleColumns& from) {
       [&](std::size_t i) {
         for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k) to[k] += from[k];
       },
-      patches_per_task);
+      receivers_per_chunk);
 }
 
 void gather(const LinkTable& links, const DoubleColumns& source, DoubleColumns& out) {
@@ -74,8 +74,7 @@ Shooter::Shooter(const Scene& scene, const Hierarchy& hierarchy, const RayCaster
       receiver_area_.push_back(receiver_area_[a] + receiver_area_[b]);
     }
   for (const Patch& patch : hierarchy.patches()) {
-    const auto& m =
-        scene.materials[scene.material[static_cast<std::size_t>(patch.triangle)].index()];
+    const Material& m = scene.material_of(patch.triangle);
     diffuse_.push_back(m.diffuse);
     emission_.push_back(m.emission_w_m2);
     passed_.push_back(m.transmittance);
@@ -116,16 +115,16 @@ class Shooter::Task {
     rays += waiting_;
     for (std::size_t l = 0; l < waiting_; ++l) {
       const std::uint64_t sample = mixed(s_.hierarchy_.key()[patch_[l]], line_[l]);
-      const Fate fate =
+      const Followed sent =
           s_.chain_.follow(w_[l], hits[l], patch_[l], share_[l],
                            key(sample, blocks_of_glossy(address_.iteration)), deposits);
-      rays += fate.rays;
-      fates_[patch_[l] - begin_] += fate;
+      rays += sent.rays;
+      fates_[patch_[l] - begin_] += sent.fate;
     }
     waiting_ = 0;
   }
-  Fates fates(const DoubleColumns& power) const {
-    Fates sum;
+  SunFates fates(const DoubleColumns& power) const {
+    SunFates sum;
     for (std::size_t i = 0; i < fates_.size(); ++i)
       sum.add(fates_[i], &power[(begin_ + i) * block_width]);
     return sum;
@@ -146,7 +145,7 @@ class Shooter::Task {
   const Shooter& s_;
   Address address_;
   std::size_t begin_;
-  std::vector<Fate> fates_;  ///< per patch of the chunk
+  std::vector<Fate<double>> fates_;  ///< per patch of the chunk
   Packet origins_{}, directions_{};
   Vec3 w_[packet_size];
   std::uint32_t patch_[packet_size];
@@ -166,12 +165,12 @@ Shooter::Shot Shooter::shoot(const DoubleColumns& power, double samples,
                                    .block = address.iteration});
   const auto counts = sample_counts(power, total_power(power), samples, words[0] * 0x1p-32);
 
-  const std::size_t chunks = (patches + patches_per_task - 1) / patches_per_task;
+  const std::size_t chunks = chunk_count(patches, receivers_per_chunk);
   Deposits deposits(chunks);
-  std::vector<Fates> fates(chunks);
+  std::vector<SunFates> fates(chunks);
   std::vector<std::uint64_t> rays(chunks, 0);
-  parallel_chunks(patches, patches_per_task, [&](std::size_t begin, std::size_t end) {
-    const std::size_t chunk = begin / patches_per_task;
+  parallel_chunks(patches, receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
+    const std::size_t chunk = begin / receivers_per_chunk;
     Task task(*this, address, begin, end);
     for (std::size_t i = begin; i < end; ++i) task.shoot(i, counts[i]);
     task.flush();
@@ -183,7 +182,7 @@ Shooter::Shot Shooter::shoot(const DoubleColumns& power, double samples,
   Shot shot{double_columns(receiver_area_.size()), {}};
   deposits.add_to(shot.irradiance, power, receiver_area_);
   push_down(hierarchy_, shot.irradiance);
-  for (const Fates& of_chunk : fates) shot.fates += of_chunk;
+  for (const SunFates& of_chunk : fates) shot.fates += of_chunk;
   shot.samples = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
   shot.rays = std::accumulate(rays.begin(), rays.end(), std::uint64_t{0});
   return shot;
@@ -214,8 +213,7 @@ void Shooter::shoot_emitters() {
     const double wanted = wanted_samples(total, total);
     const Shot shot = shoot(power, wanted, {r, 0, shot_of_emitters});
     for (std::size_t i = 0; i < patches; ++i) of.irradiance[i] = shot.irradiance[i * block_width];
-    of.fate = {shot.fates.absorbed[0], shot.fates.backs[0],       shot.fates.escaped[0],
-               shot.fates.cut[0],      shot.fates.transmitted[0], 0};
+    of.fate = shot.fates[0];
     samples_ += shot.samples;
     wanted_ += wanted;
     rays_ += shot.rays;
@@ -243,7 +241,7 @@ DoubleColumns Shooter::reflected_power(const DoubleColumns& received) const {
         for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k)
           power[k] = hierarchy_.area()[i] * diffuse_[i] * received[k];
       },
-      patches_per_task);
+      receivers_per_chunk);
   return power;
 }
 
@@ -286,9 +284,9 @@ Shooter::Reflected Shooter::reflect(const DoubleColumns& first, std::size_t real
   return out;
 }
 
-Fates Shooter::add_first_light(ShotLight& light, DoubleColumns& ground, std::size_t realization,
-                               const BlockSources& sources,
-                               const FirstMirrored::SentSuns& sent) const {
+SunFates Shooter::add_first_light(ShotLight& light, DoubleColumns& ground, std::size_t realization,
+                                  const BlockSources& sources,
+                                  const FirstMirrored::SentSuns& sent) const {
   const LineSet& lines = lines_.realizations[realization];
   const DoubleColumns sky = in_double(sources.sky), exitance = ground_exitance(sources);
   gather(lines.sky, sky, light.sky);
@@ -298,8 +296,8 @@ Fates Shooter::add_first_light(ShotLight& light, DoubleColumns& ground, std::siz
         for (std::size_t k = 0; k < block_width; ++k)
           ground[i * block_width + k] = static_cast<double>(lines.ends[i].ground) * exitance[k];
       },
-      patches_per_task);
-  Fates fates;
+      receivers_per_chunk);
+  SunFates fates;
   if (!first_mirrored_.any()) return fates;
   const auto take = [&](const FirstMirrored::Light& from, DoubleColumns& to) {
     add(to, from.irradiance);
@@ -324,7 +322,7 @@ void Shooter::book_first_light(ShotLight& light, std::size_t realization,
   const auto& ends = lines_.realizations[realization].ends;
   const std::vector<double>& area = hierarchy_.area();
   light.ledger =
-      ordered_sum(area.size(), patches_per_task, Ledgers{},
+      ordered_sum(area.size(), receivers_per_chunk, Ledgers{},
                   [&](std::size_t begin, std::size_t end) {
                     Ledgers sum;
                     for (std::size_t i = begin; i < end; ++i)
@@ -358,7 +356,7 @@ ShotLight Shooter::light(std::size_t realization, const BlockSources& sources,
   light.lamps = &emitters.irradiance;
   if (rules_.by_source) light.by_source = {light.direct, {}};
   DoubleColumns ground = double_columns(patches);
-  Fates fates = add_first_light(light, ground, realization, sources, sent);
+  SunFates fates = add_first_light(light, ground, realization, sources, sent);
 
   DoubleColumns first = ground;
   for (const auto* part : {&light.direct, &light.sky, &light.mirror}) add(first, *part);
@@ -368,7 +366,7 @@ ShotLight Shooter::light(std::size_t realization, const BlockSources& sources,
         for (std::size_t k = 0; k < sources.suns.size(); ++k)
           first[i * block_width + k] += emitters.irradiance[i];
       },
-      patches_per_task);
+      receivers_per_chunk);
   Reflected reflected = reflect(first, realization, sources.suns.front().number);
   light.reflected = std::move(reflected.irradiance);
   light.followed = std::move(reflected.followed);
@@ -382,14 +380,11 @@ ShotLight Shooter::light(std::size_t realization, const BlockSources& sources,
   book_first_light(light, realization, sources);
   for (std::size_t k = 0; k < sources.suns.size(); ++k) {
     Ledger& ledger = light.ledger[k];
-    const Fate& lamps = emitters.fate;
     ledger += emitters.parallel;
-    const double backs = fates.backs[k] + lamps.backs;
-    ledger.lost_at_backs += backs;
-    ledger[Term::absorbed] += fates.absorbed[k] + lamps.absorbed + backs;
-    ledger[Term::transmitted] += fates.transmitted[k] + lamps.transmitted;
-    ledger[Term::escaped] += fates.escaped[k] + lamps.escaped;
-    ledger[Term::unshot] += reflected.unshot[k] + fates.cut[k] + lamps.cut;
+    Fate<double> fate = fates[k];
+    fate.cut += reflected.unshot[k];
+    fate += emitters.fate;
+    ledger += booked(fate);
   }
   return light;
 }

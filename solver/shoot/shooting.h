@@ -92,18 +92,18 @@ class Shooter {
   };
   struct Shot {
     DoubleColumns irradiance;
-    Fates fates;
+    SunFates fates;
     std::uint64_t samples = 0, rays = 0;
   };
   struct OfEmitters {
     std::vector<double> irradiance;  ///< parallel sources included
-    Fate fate;                       ///< of diffuse emitters' power [W]
+    Fate<double> fate;               ///< of diffuse emitters' power [W]
     Ledger parallel;                 ///< [W]
   };
   struct Reflected {
     DoubleColumns irradiance;
     DoubleColumns followed;  ///< radiosity that was shot
-    Fates fates;
+    SunFates fates;
     SunTotals unshot{};
     std::uint64_t samples = 0, rays = 0;
     double wanted = 0;
@@ -115,8 +115,8 @@ class Shooter {
   Reflected reflect(const DoubleColumns& first, std::size_t realization, std::uint32_t sun) const;
   DoubleColumns reflected_power(const DoubleColumns& received) const;
   double wanted_samples(const SunTotals& power, const SunTotals& first) const;
-  Fates add_first_light(ShotLight& light, DoubleColumns& ground, std::size_t realization,
-                        const BlockSources& sources, const FirstMirrored::SentSuns& sent) const;
+  SunFates add_first_light(ShotLight& light, DoubleColumns& ground, std::size_t realization,
+                           const BlockSources& sources, const FirstMirrored::SentSuns& sent) const;
   void book_first_light(ShotLight& light, std::size_t realization,
                         const BlockSources& sources) const;
 

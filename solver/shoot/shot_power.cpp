@@ -5,13 +5,12 @@
 #include <cmath>
 
 #include "geo/base/check.h"
+#include "solver/base/chunks.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
 
 namespace {
-
-constexpr std::size_t patches_per_task = 1024;
 
 struct Sum {
   SunTotals of{};
@@ -24,7 +23,7 @@ struct Sum {
 }  // namespace
 
 SunTotals total_power(const DoubleColumns& power) {
-  return ordered_sum(power.size() / block_width, patches_per_task, Sum{},
+  return ordered_sum(power.size() / block_width, receivers_per_chunk, Sum{},
                      [&](std::size_t begin, std::size_t end) {
                        Sum sum;
                        for (std::size_t i = begin; i < end; ++i)

@@ -75,8 +75,7 @@ Screens screens(const Scene& scene) {
   std::vector<std::uint64_t> number_in_object(mesh.object_names.size(), 0);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const auto object = mesh.triangle_object[t].index();
-    screens.transmittance.push_back(
-        static_cast<float>(scene.materials[scene.material[t].index()].transmittance));
+    screens.transmittance.push_back(static_cast<float>(scene.material_of(t).transmittance));
     screens.key.push_back(mixed(text_key(mesh.object_names[object]), number_in_object[object]++));
   }
   return screens;

@@ -95,6 +95,13 @@ struct Scene {
   std::vector<MaterialId> material;  ///< per triangle, into `materials`
   ParallelSources parallel_sources = {};
   std::vector<Sensor> sensors = {};  ///< receive light without disturbing the rest
+
+  const Material& material_of(std::size_t triangle) const {
+    return materials[material[triangle].index()];
+  }
+  const Material& material_of(std::int32_t triangle) const {
+    return material_of(static_cast<std::size_t>(triangle));
+  }
 };
 
 /// Shares of a refused or degenerate material are errors of the caller: throws

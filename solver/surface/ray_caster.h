@@ -32,6 +32,15 @@ struct Hit {
   bool front = true;  ///< the front side was met
   bool left_scene() const { return triangle < 0; }
 };
+/// Unit normal of the side that was met.
+inline Vec3 met_normal(const Mesh& mesh, const Hit& hit) {
+  return mesh.normal(static_cast<std::size_t>(hit.triangle), hit.front);
+}
+/// Where a ray has met a surface, lifted off it by `offset_m` along `normal`: rays go on from
+/// there.
+inline Vec3 lifted_point(const Mesh& mesh, const Hit& hit, Vec3 normal, double offset_m) {
+  return mesh.point(static_cast<std::size_t>(hit.triangle), hit.u, hit.v) + normal * offset_m;
+}
 
 inline constexpr std::size_t packet_size = 16;
 
@@ -45,6 +54,10 @@ inline void put(Packet& packet, std::size_t ray, Vec3 v) {
   packet.x[ray] = static_cast<float>(v.x);
   packet.y[ray] = static_cast<float>(v.y);
   packet.z[ray] = static_cast<float>(v.z);
+}
+inline Vec3 at(const Packet& packet, std::size_t ray) {
+  return {static_cast<double>(packet.x[ray]), static_cast<double>(packet.y[ray]),
+          static_cast<double>(packet.z[ray])};
 }
 /// Up to 16 ray directions (need not be of unit length).
 using PacketDirections = Packet;

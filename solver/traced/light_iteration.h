@@ -24,7 +24,7 @@ struct Kept {
 
 struct BlockRays {
   RayLight on_patches, on_sensors;
-  std::vector<MirroredSun> sent_on;  ///< [R] by mirrors and gloss, where the scene has any
+  std::vector<SunFates> sent_on;  ///< [R] by mirrors and gloss, where the scene has any
 };
 
 /// Traces a block whose sky is split; adds its time integrals to `sums`.

@@ -17,10 +17,8 @@ void scale(std::vector<Columns>& of_realizations, const Factors& factors) {
   for (auto& one : of_realizations) one = scaled(std::move(one), factors);
 }
 
-void scale(MirroredSun& fates, const Factors& factors) {
-  MirroredSun::for_each(fates, [&](std::vector<double>& of_sun) {
-    for (std::size_t k = 0; k < of_sun.size(); ++k) of_sun[k] *= factors[k];
-  });
+void scale(SunFates& fates, const Factors& factors) {
+  for (std::size_t k = 0; k < block_width; ++k) fates[k] = scaled(fates[k], factors[k]);
 }
 
 RayLight in_band(const RayLight& rays, const BandFactors& factors, Errors errors) {

@@ -106,12 +106,12 @@ class GatheredBatch : public BatchTransport {
   }
 
   /// The sun's light that mirrors sent on, and that of parallel sources.
-  void book_sent_on(const Block& block, const std::vector<MirroredSun>& sent_on, TimeSums& sums,
+  void book_sent_on(const Block& block, const std::vector<SunFates>& sent_on, TimeSums& sums,
                     BatchTally& tally) const {
     const double of_one = 1.0 / static_cast<double>(traced_.rules.realizations);
     for (std::size_t r = 0; r < sent_on.size(); ++r)
       for (std::size_t k = 0; k < block.suns.size(); ++k) {
-        const Ledger fate = booked(sent_on[r], k);
+        const Ledger fate = booked(sent_on[r][k]);
         tally.ledger[block.first_row + k] += scaled(fate, of_one);
         sums.sent_on[r] += scaled(fate, block.suns[k].length_s);
       }
@@ -159,11 +159,11 @@ class GatheredBatch : public BatchTransport {
                         traced_.sensors.lamps.of(r), followed);
   }
 
-  void book_instants(const Block& block, const std::vector<MirroredSun>& sent_on,
+  void book_instants(const Block& block, const std::vector<SunFates>& sent_on,
                      BatchTally& tally) const {
     for (std::size_t r = 0; r < sent_on.size(); ++r)
       for (std::size_t k = 0; k < block.suns.size(); ++k)
-        tally.ledger_instants[r][block.first_row + k] += booked(sent_on[r], k);
+        tally.ledger_instants[r][block.first_row + k] += booked(sent_on[r][k]);
     const auto& of_lamps = traced_.patches.lamps.ledger;
     for (std::size_t r = 0; r < of_lamps.size(); ++r)
       for (std::size_t k = 0; k < block.suns.size(); ++k)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "solver/base/chunks.h"
 #include "solver/base/stopwatch.h"
 #include "solver/base/threads.h"
 #include "solver/gather/block_tally.h"
@@ -14,8 +15,6 @@
 namespace sunload {
 
 namespace {
-
-constexpr std::size_t patches_per_task = 1024;
 
 /// Mean over realizations, of patches or sensors.
 class MeanLight {
@@ -51,7 +50,7 @@ class MeanLight {
               parts_[p][k] += of_one_ * static_cast<double>((*from[p])[k]);
           lamps_[i] += of_one_ * static_cast<double>(lamps[i]);
         },
-        patches_per_task);
+        receivers_per_chunk);
   }
 
   double of_one_;
@@ -69,7 +68,7 @@ void add_exposure(const Light& light, std::span<const SunLight> block,
         for (std::size_t k = 0; k < block.size(); ++k)
           exposure[i] += static_cast<double>(light.total(i, k)) * block[k].length_s;
       },
-      patches_per_task);
+      receivers_per_chunk);
 }
 
 /// `parallel`: irradiance by parallel sources, or empty.
@@ -102,7 +101,7 @@ void add_by_source(std::size_t r, const ShotLight& light, const std::vector<doub
           to.reflected[r][i] += s * light.by_source->shot[at];
         }
       },
-      patches_per_task);
+      receivers_per_chunk);
 }
 
 ShootingRules shooting_rules(const TracedScene& traced) {

@@ -14,7 +14,7 @@ namespace sunload::fuzz {
 
 namespace {
 
-constexpr std::string_view magic{"sunload-lines-3\0", 16};
+constexpr std::string_view magic{"sunload-lines-4\0", 16};
 constexpr std::string_view hash = "hash";
 
 std::string with_checksums(std::string_view bytes) {

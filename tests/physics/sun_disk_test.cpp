@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The finite sun: penumbra of a straight edge, by its visible fractions and its width.
+/// The finite sun: penumbra of a straight edge, by its visible fractions and its width, straight
+/// and by way of glossy surfaces.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iostream>
 
 #include "geo/sun/sun.h"
 #include "solver/first_light/direct_sun.h"
@@ -133,6 +135,92 @@ TEST(SunDisk, PenumbraIsTwiceDistanceTimesTangentWide) {
         EXPECT_NEAR(expected_m, number(row.at("width")), 1e-4 * expected_m);
       }
     }
+  }
+}
+
+/// A glossy strip where a fifth of the disk is seen above such an edge, and its centre is hidden.
+struct GlossyStrip {
+  static constexpr double radii = -0.5, width_radii = 0.04;
+  /// Share of a disk beyond a chord at half of its radius.
+  static inline const double visible = (std::acos(0.5) - 0.5 * std::sqrt(0.75)) / pi;
+  const Edge edge{};
+  const double y = edge.ground_y(radii);
+  const double width_m = width_radii * (edge.ground_y(1) - edge.ground_y(-1)) / 2;
+  SceneBuilder builder;
+
+  GlossyStrip() {
+    Material satin{"satin"};
+    satin.glossy = 0.7;
+    satin.glossy_exponent = 20;
+    const double low = y - width_m / 2, high = y + width_m / 2;
+    builder.object("strip").quad({-0.5, low, 0}, {0.5, low, 0}, {0.5, high, 0}, {-0.5, high, 0},
+                                 builder.material(satin));
+  }
+  /// Its patches face down, away from the sun.
+  void add_edge() {
+    const double h = edge.height_m;
+    builder.object("roof").quad({-20, -50, h}, {-20, 0, h}, {20, 0, h}, {20, -50, h},
+                                builder.material({"black"}));
+  }
+  /// Where the strip mirrors the sun to.
+  Vec3 glint() const { return Vec3{0, y, 0} + 0.08 * Vec3{0, -edge.sun().y, edge.sun().z}; }
+  Solved solve_with(double sun_half_angle, const std::vector<Sensor>& sensors = {}) const {
+    SunLight light = one_second(edge.sun(), 900);
+    light.disk_half_angle = sun_half_angle;
+    auto rules = test_rules();
+    rules.lines_per_patch = rules.realizations * 16384;
+    rules.direct_samples = rules.realizations * 2048;  // so many that images stand for the lobe
+    Scene scene = builder.scene();
+    scene.sensors = sensors;
+    return solve(scene, {light}, rules);
+  }
+};
+
+// What the strip receives and what it sends on rest on the same rays.
+TEST(SunDisk, GlossSendsOnWhatItReceivesInThePenumbra) {
+  GlossyStrip strip;
+  strip.add_edge();
+  const Solved solved = strip.solve_with(half_angle);
+  const auto in = solved.ledger([](const Ledger& l) { return l[Term::sun]; });
+  const double truth = GlossyStrip::visible * 900 * strip.edge.sun().z * strip.width_m;
+  const Verdict verdict = expect_mean(in, truth, 0.01 * truth);
+  EXPECT_TRUE(verdict) << verdict.text;
+  // No patch faces the sun but the strip's: the fate of every sample is booked.
+  const auto residual = solved.ledger([](const Ledger& l) { return l.residual(); });
+  for (std::size_t r = 0; r < in.size(); ++r) EXPECT_NEAR(residual[r], 0, float_rounding * in[r]);
+  for (const double of_point : strip.solve_with(0).ledger([](const Ledger& l) { return l.in(); }))
+    EXPECT_EQ(of_point, 0);
+}
+
+/// Irradiance of a sensor, or of a small patch, that looks down on the strip from its glint.
+std::vector<double> over_strip(GlossyStrip strip, bool on_sensor) {
+  const Vec3 at = strip.glint();
+  constexpr double edge_m = 0.01;
+  if (on_sensor)
+    return of_sensor(strip.solve_with(half_angle, {sensor_at(at, {0, 0, -1})}).tally, 0);
+  strip.builder.object("receiver")
+      .quad(at, at + Vec3{0, edge_m, 0}, at + Vec3{edge_m, edge_m, 0}, at + Vec3{edge_m, 0, 0},
+            strip.builder.material({"black"}));
+  const Solved solved = strip.solve_with(half_angle);
+  const auto end = static_cast<std::int32_t>(strip.builder.scene().mesh.triangle_count());
+  return solved.means([&](std::size_t i) { return solved.patches[i].triangle >= end - 2; });
+}
+
+TEST(SunDisk, GlossIsSeenInThePenumbra) {
+  const GlossyStrip lit;
+  GlossyStrip below_edge;
+  below_edge.add_edge();
+  for (const bool on_sensor : {false, true}) {
+    SCOPED_TRACE(on_sensor ? "sensor" : "patch");
+    const double truth = GlossyStrip::visible * mean_error(over_strip(lit, on_sensor)).mean;
+    // Of the strip's width, and of the noise of `truth`.
+    const double bias = 0.02 * truth;
+    const auto seen = over_strip(below_edge, on_sensor);
+    const Verdict verdict = expect_mean(seen, truth, bias);
+    std::cout << verdict.text << "\n";
+    EXPECT_TRUE(verdict) << verdict.text;
+    EXPECT_FALSE(expect_mean(seen, 0, bias));  // the centre alone is asked
+    EXPECT_FALSE(expect_mean(seen, 1.2 * truth, bias));
   }
 }
 

@@ -300,7 +300,7 @@ TEST(FormFactors, RowsOfAClosedRoomSumToOneExactly) {
       for (auto l = block.begin[row]; l < block.begin[row + 1]; ++l)
         sum += static_cast<double>(block.weight[l]);
       ASSERT_EQ(sum, 1.0) << i;
-      ASSERT_EQ(lines->ends[i].escaped, 0.0f);
+      ASSERT_EQ(lines->ends[i].fate.escaped, 0.0f);
       ASSERT_EQ(lines->ends[i].backs, 0.0f);
     }
 }

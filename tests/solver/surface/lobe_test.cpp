@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "solver/lines/line_follower.h"
+#include "solver/surface/onward.h"
 #include "tests/support/quadrature.h"
 #include "tests/support/statistics.h"
 
@@ -92,9 +92,8 @@ TEST(Lobe, SurfaceSendsOnItsAlbedo) {
       double weight = 0, absorbed = 0;
       constexpr std::uint32_t each = 2000;
       for (std::uint32_t i = 0; i < each; ++i) {
-        const auto on = LineFollower::onward(
-            m, up, towards(c, 1),
-            {.seed = 3, .purpose = Purpose::glossy, .realization = r, .sun = i});
+        const auto on = onward(m, up, towards(c, 1),
+                               {.seed = 3, .purpose = Purpose::glossy, .realization = r, .sun = i});
         weight += on.weight / each;
         absorbed += on.absorbed / each;
         EXPECT_TRUE(on.weight == 0 || on.direction.z > 0);

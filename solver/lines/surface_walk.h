@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// One step of light from surface to surface: what a ray has met, and what goes on from there.
+///
+/// All that follow light by rays share it: lines back to where it comes from, samples on to where
+/// it goes, the sun from mirror to mirror. They differ in what they leave at the surfaces on the
+/// way.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "solver/light/fate.h"
+#include "solver/mesh/hierarchy.h"
+#include "solver/surface/onward.h"
+#include "solver/surface/ray_caster.h"
+
+namespace sunload {
+
+/// Where light went, and the rays cast to follow it.
+struct Followed {
+  Fate<double> fate;
+  std::uint64_t rays = 0;
+  Followed& operator+=(const Followed& other) {
+    fate += other.fate;
+    rays += other.rays;
+    return *this;
+  }
+};
+
+class SurfaceWalk {
+ public:
+  /// Everything must outlive it. What was sent on `mirror_depth` times is cut.
+  SurfaceWalk(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
+              int mirror_depth)
+      : scene_(scene), hierarchy_(hierarchy), caster_(caster), mirror_depth_(mirror_depth) {}
+
+  struct Meeting {
+    std::size_t patch;
+    const Material& material;
+  };
+  /// What a ray has met that carries `weight`, which becomes that of the light that arrives: rays
+  /// are stopped by 1 - T of it. None where the light has left the scene or met a back, which
+  /// `fate` books.
+  template <class T>
+  std::optional<Meeting> meet(const Hit& hit, double& weight, Fate<T>& fate) const {
+    if (hit.left_scene()) {
+      fate.escaped += static_cast<T>(weight);
+      return {};
+    }
+    const auto patch = hierarchy_.patch_at(hit.triangle, hit.u, hit.v, hit.front);
+    if (patch < 0) {
+      fate.backs += static_cast<T>(weight);
+      return {};
+    }
+    const Material& material = scene_.material_of(hit.triangle);
+    weight /= 1 - material.transmittance;
+    return Meeting{static_cast<std::size_t>(patch), material};
+  }
+
+  /// Books what a surface keeps of `weight`, which becomes what it sends on; false where none of it
+  /// is followed. `reflections`: before this one.
+  template <class T>
+  bool goes_on(const Onward& on, int reflections, double& weight, Fate<T>& fate) const {
+    fate.transmitted += static_cast<T>(weight * on.transmitted);
+    fate.absorbed += static_cast<T>(weight * on.absorbed);
+    weight *= on.weight;
+    if (weight <= 0) return false;
+    if (reflections < mirror_depth_) return true;
+    fate.cut += static_cast<T>(weight);
+    return false;
+  }
+
+  /// Unit normal of the side that was met.
+  Vec3 normal(const Hit& hit) const { return met_normal(scene_.mesh, hit); }
+  /// Where the next ray starts that leaves the side of that normal.
+  Vec3 point(const Hit& hit, Vec3 normal) const {
+    return lifted_point(scene_.mesh, hit, normal, caster_.offset_m());
+  }
+  Hit first_hit(Vec3 origin, Vec3 w) const { return caster_.first_hit(origin, w); }
+  const Material& material_of_patch(std::size_t patch) const {
+    return scene_.material_of(hierarchy_.patches()[patch].triangle);
+  }
+  int mirror_depth() const { return mirror_depth_; }
+
+ private:
+  const Scene& scene_;
+  const Hierarchy& hierarchy_;
+  const RayCaster& caster_;
+  int mirror_depth_;
+};
+
+}  // namespace sunload
