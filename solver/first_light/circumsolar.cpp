@@ -140,26 +140,18 @@ class PatchSkies {
         sunlit_(sunlit),
         sum_(realizations) {}
 
-  void run(std::size_t patch, Columns& irradiance, std::vector<std::vector<double>>& exposure,
-           std::vector<Columns>* of_realizations) {
+  void run(std::size_t patch, const RaySink& into) {
     const auto geometry = sampler_.geometry(patch);
     const auto R = static_cast<double>(sum_.size());
     const double each = static_cast<double>(sampler_.samples()) / R;
     for (std::size_t k = 0; k < block_.size(); ++k) {
       const CircumsolarSky& sky = skies_[k];
       if (!sky.any() || !sky.may_light(geometry.normal)) continue;
-      const std::size_t at = patch * block_width + k;
-      const double lit = sunlit_[at] >= 1 ? 1 : 0;
+      const double lit = sunlit_[patch * block_width + k] >= 1 ? 1 : 0;
       sum_cosines(geometry, patch, block_[k].number, sky, lit);
       const double unshaded = dot(geometry.normal, sky.flux());
-      double pooled = 0;
-      for (std::size_t r = 0; r < sum_.size(); ++r) {
-        const double E = lit * unshaded + sky.strength() * sum_[r] / each;
-        pooled += E / R;
-        exposure[r][patch] += E * block_[k].length_s;
-        if (of_realizations) (*of_realizations)[r][at] = static_cast<float>(E);
-      }
-      irradiance[at] = static_cast<float>(pooled);
+      into.add_all(patch, k, block_[k].length_s,
+                   [&](std::size_t r) { return lit * unshaded + sky.strength() * sum_[r] / each; });
     }
   }
   std::uint64_t rays = 0;
@@ -202,24 +194,20 @@ class PatchSkies {
 
 }  // namespace
 
-CircumsolarLight circumsolar_light(const Hierarchy& hierarchy, const RayCaster& caster,
-                                   const SunSampler& sampler, std::span<const SunLight> block,
-                                   const std::vector<CircumsolarSky>& skies, const Columns& sunlit,
-                                   std::vector<std::vector<double>>& exposure,
-                                   std::vector<Columns>* of_realizations) {
-  CircumsolarLight out;
-  if (std::none_of(skies.begin(), skies.end(), [](const CircumsolarSky& s) { return s.any(); }))
-    return out;
-  const std::size_t patches = hierarchy.patch_count();
-  out.irradiance = columns(patches);
-  out.rays = ordered_sum(patches, receivers_per_chunk, std::uint64_t{0},
-                         [&](std::size_t begin, std::size_t end) {
-                           PatchSkies work(caster, sampler, block, skies, sunlit, exposure.size());
-                           for (std::size_t i = begin; i < end; ++i)
-                             work.run(i, out.irradiance, exposure, of_realizations);
-                           return work.rays;
-                         });
-  return out;
+bool any_circumsolar(const std::vector<CircumsolarSky>& skies) {
+  return std::any_of(skies.begin(), skies.end(), [](const CircumsolarSky& s) { return s.any(); });
+}
+
+std::uint64_t circumsolar_light(const RayCaster& caster, const SunSampler& sampler,
+                                std::span<const SunLight> block,
+                                const std::vector<CircumsolarSky>& skies, const Columns& sunlit,
+                                const RaySink& into) {
+  return ordered_sum(sampler.receivers(), receivers_per_chunk, std::uint64_t{0},
+                     [&](std::size_t begin, std::size_t end) {
+                       PatchSkies work(caster, sampler, block, skies, sunlit, into.realizations());
+                       for (std::size_t i = begin; i < end; ++i) work.run(i, into);
+                       return work.rays;
+                     });
 }
 
 }  // namespace sunload

@@ -64,20 +64,15 @@ class CircumsolarSky {
   double sine_ = 1;  ///< of the half-angle of a cone about axis_ that holds L_circ; 1: no such cone
 };
 
-/// Result of one block of suns.
-struct CircumsolarLight {
-  Columns irradiance;  ///< [N][block] pooled, W m-2; empty where no sky of the block has L_circ
-  std::uint64_t rays = 0;
-};
+/// Whether a sky of the block has L_circ.
+bool any_circumsolar(const std::vector<CircumsolarSky>& skies);
 
-/// Irradiance by L_circ of the block, with as many samples as the sun gets. `sunlit`: share of
-/// each patch that sees the sun ([N][block]). Adds its time integrals to `exposure` ([R][N],
-/// J m-2); `of_realizations`, if not null, receives [R] columns. Single values may be below 0 by
-/// their error where the sky about a sun that is seen is all but hidden.
-CircumsolarLight circumsolar_light(const Hierarchy& hierarchy, const RayCaster& caster,
-                                   const SunSampler& sampler, std::span<const SunLight> block,
-                                   const std::vector<CircumsolarSky>& skies, const Columns& sunlit,
-                                   std::vector<std::vector<double>>& exposure,
-                                   std::vector<Columns>* of_realizations);
+/// Adds the irradiance by L_circ of the block to `into`, with as many samples as the sun gets.
+/// `sunlit`: share of each patch that sees the sun ([N][block]). Returns the rays cast. Single
+/// values may be below 0 by their error where the sky about a sun that is seen is all but hidden.
+std::uint64_t circumsolar_light(const RayCaster& caster, const SunSampler& sampler,
+                                std::span<const SunLight> block,
+                                const std::vector<CircumsolarSky>& skies, const Columns& sunlit,
+                                const RaySink& into);
 
 }  // namespace sunload

@@ -222,8 +222,7 @@ class PatchSuns {
             std::size_t realizations)
       : caster_(caster), sampler_(sampler), block_(block), seen_(realizations) {}
 
-  void run(std::size_t patch, DirectSun& out, std::vector<std::vector<double>>& exposure,
-           std::vector<Columns>* of_realizations) {
+  void run(std::size_t patch, const RaySink& into, Columns& sunlit) {
     const auto geometry = sampler_.geometry(patch);
     for (std::size_t k = 0; k < block_.size(); ++k) {
       const SunLight& sun = block_[k];
@@ -232,15 +231,11 @@ class PatchSuns {
       const int visible = count_visible(geometry, patch, sun);
       if (visible == 0) continue;
       const auto n = static_cast<double>(sampler_.samples());
-      const std::size_t at = patch * block_width + k;
-      out.sunlit[at] = static_cast<float>(visible / n);
-      out.irradiance[at] = static_cast<float>(sun.dni * cos_theta * visible / n);
+      sunlit[patch * block_width + k] = static_cast<float>(visible / n);
+      into.add_pooled(patch, k, sun.dni * cos_theta * visible / n);
       const double n_each = n / static_cast<double>(seen_.size());
-      for (std::size_t r = 0; r < seen_.size(); ++r) {
-        const double E = sun.dni * cos_theta * seen_[r] / n_each;
-        exposure[r][patch] += E * sun.length_s;
-        if (of_realizations) (*of_realizations)[r][at] = static_cast<float>(E);
-      }
+      for (std::size_t r = 0; r < seen_.size(); ++r)
+        into.add(r, patch, k, sun.dni * cos_theta * seen_[r] / n_each, sun.length_s);
     }
   }
   std::uint64_t rays = 0;
@@ -271,19 +266,14 @@ class PatchSuns {
 
 }  // namespace
 
-DirectSun direct_sun(const RayCaster& caster, const SunSampler& sampler,
-                     std::span<const SunLight> block, std::vector<std::vector<double>>& exposure,
-                     std::vector<Columns>* of_realizations) {
-  const std::size_t receivers = sampler.receivers();
-  DirectSun out{columns(receivers), columns(receivers), 0};
-  out.rays = ordered_sum(receivers, receivers_per_chunk, std::uint64_t{0},
-                         [&](std::size_t begin, std::size_t end) {
-                           PatchSuns suns(caster, sampler, block, exposure.size());
-                           for (std::size_t i = begin; i < end; ++i)
-                             suns.run(i, out, exposure, of_realizations);
-                           return suns.rays;
-                         });
-  return out;
+std::uint64_t direct_sun(const RayCaster& caster, const SunSampler& sampler,
+                         std::span<const SunLight> block, const RaySink& into, Columns& sunlit) {
+  return ordered_sum(sampler.receivers(), receivers_per_chunk, std::uint64_t{0},
+                     [&](std::size_t begin, std::size_t end) {
+                       PatchSuns suns(caster, sampler, block, into.realizations());
+                       for (std::size_t i = begin; i < end; ++i) suns.run(i, into, sunlit);
+                       return suns.rays;
+                     });
 }
 
 }  // namespace sunload

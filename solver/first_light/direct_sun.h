@@ -19,6 +19,7 @@
 
 #include "geo/base/units.h"
 #include "solver/base/rng.h"
+#include "solver/first_light/ray_light.h"
 #include "solver/light/sun_block.h"
 #include "solver/mesh/hierarchy.h"
 #include "solver/surface/ray_caster.h"
@@ -136,17 +137,9 @@ class SunPoints {
   double radius_;  ///< at distance 1
 };
 
-/// Result of one block of suns. Sizes: receivers N, realizations R.
-struct DirectSun {
-  Columns irradiance;  ///< [N][block] pooled, W m-2
-  Columns sunlit;      ///< [N][block] visible share, for every sun above the horizon
-  std::uint64_t rays = 0;
-};
-
-/// Adds to `exposure` ([R][N], J m-2) the time-integrated direct irradiance of
-/// each realization. `of_realizations`, if not null, receives [R] irradiance columns.
-DirectSun direct_sun(const RayCaster& caster, const SunSampler& sampler,
-                     std::span<const SunLight> block, std::vector<std::vector<double>>& exposure,
-                     std::vector<Columns>* of_realizations);
+/// Adds the direct sun of a block to `into`, and to `sunlit` ([N][block]) the share of each
+/// receiver that sees the sun, for every sun above the horizon. Returns the rays cast.
+std::uint64_t direct_sun(const RayCaster& caster, const SunSampler& sampler,
+                         std::span<const SunLight> block, const RaySink& into, Columns& sunlit);
 
 }  // namespace sunload

@@ -123,40 +123,35 @@ class GlossySun::Chunk {
 };
 
 std::uint64_t GlossySun::add_light(const Lines& lines, const LobeImages* of_sensors,
-                                   std::span<const SunLight> block, MirroredIrradiance into) const {
+                                   std::span<const SunLight> block, const RaySink& into) const {
   const auto& glimpses = lines.glimpses;
   const auto first_of = [&](std::size_t receiver) {
     return std::partition_point(glimpses.begin(), glimpses.end(),
                                 [&](const Glimpse& g) { return g.receiver < receiver; });
   };
   const double R = rules_.realizations;
-  return ordered_sum(lines.pooled.ends.size(), receivers_per_chunk, std::uint64_t{0},
-                     [&](std::size_t begin, std::size_t end) {
-                       std::uint64_t rays = 0;
-                       const auto first = first_of(begin), last = first_of(end);
-                       if (first == last) return rays;
-                       for (std::size_t k = 0; k < block.size(); ++k) {
-                         const SunLight& sun = block[k];
-                         if (!sun.has_sun() || sun.dni <= 0) continue;
-                         Chunk chunk(*this, of_sensors, sun, begin, end - begin);
-                         for (auto glimpse = first; glimpse != last; ++glimpse) chunk.ask(*glimpse);
-                         chunk.cast();
-                         rays += chunk.rays;
-                         for (std::size_t i = begin; i < end; ++i) {
-                           const int lines_of =
-                               of_sensors ? rules_.lines_per_patch : rules_.lines_of(i);
-                           const double lines_each = lines_of / R;
-                           double pooled = 0;
-                           for (std::size_t r = 0; r < into.realizations(); ++r) {
-                             const double E = chunk.sum(i, r) / lines_each;
-                             pooled += E / R;
-                             into.add(r, i, k, E, sun.length_s);
-                           }
-                           into.irradiance[i * block_width + k] += static_cast<float>(pooled);
-                         }
-                       }
-                       return rays;
-                     });
+  return ordered_sum(
+      lines.pooled.ends.size(), receivers_per_chunk, std::uint64_t{0},
+      [&](std::size_t begin, std::size_t end) {
+        std::uint64_t rays = 0;
+        const auto first = first_of(begin), last = first_of(end);
+        if (first == last) return rays;
+        for (std::size_t k = 0; k < block.size(); ++k) {
+          const SunLight& sun = block[k];
+          if (!sun.has_sun() || sun.dni <= 0) continue;
+          Chunk chunk(*this, of_sensors, sun, begin, end - begin);
+          for (auto glimpse = first; glimpse != last; ++glimpse) chunk.ask(*glimpse);
+          chunk.cast();
+          rays += chunk.rays;
+          for (std::size_t i = begin; i < end; ++i) {
+            const int lines_of = of_sensors ? rules_.lines_per_patch : rules_.lines_of(i);
+            const double lines_each = lines_of / R;
+            into.add_all(i, k, sun.length_s,
+                         [&](std::size_t r) { return chunk.sum(i, r) / lines_each; });
+          }
+        }
+        return rays;
+      });
 }
 
 void GlossySun::send_on(const LineFollower& follower, const SunLight& sun, std::size_t k,

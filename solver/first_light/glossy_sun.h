@@ -34,13 +34,12 @@ class GlossySun {
 
   /// As MirrorSun::add_light, on the patches whose lines these are.
   std::uint64_t add_light(const Lines& lines, std::span<const SunLight> block,
-                          MirroredIrradiance into) const {
+                          const RaySink& into) const {
     return add_light(lines, nullptr, block, into);
   }
   /// The same on sensors, but for what `images` stand for.
   std::uint64_t add_light_on_sensors(const Lines& lines, const LobeImages& images,
-                                     std::span<const SunLight> block,
-                                     MirroredIrradiance into) const {
+                                     std::span<const SunLight> block, const RaySink& into) const {
     return add_light(lines, &images, block, into);
   }
 
@@ -51,7 +50,7 @@ class GlossySun {
  private:
   class Chunk;
   std::uint64_t add_light(const Lines& lines, const LobeImages* of_sensors,
-                          std::span<const SunLight> block, MirroredIrradiance into) const;
+                          std::span<const SunLight> block, const RaySink& into) const;
   void send_on(const LineFollower& follower, const SunLight& sun, std::size_t k, std::size_t patch,
                std::vector<SunFates>& fates) const;
 

@@ -181,8 +181,7 @@ class LobeImages::Receiver {
   double brings_[packet_size];
 };
 
-std::uint64_t LobeImages::add_light(std::span<const SunLight> block,
-                                    MirroredIrradiance into) const {
+std::uint64_t LobeImages::add_light(std::span<const SunLight> block, const RaySink& into) const {
   constexpr std::size_t receivers_per_task = 16;
   if (orientations_.empty()) return 0;
   return ordered_sum(
@@ -201,12 +200,7 @@ std::uint64_t LobeImages::add_light(std::span<const SunLight> block,
                 receiver.look_for(o, of_realization);
             rays += receiver.rays;
             if (receiver.rays == 0) continue;
-            double pooled = 0;
-            for (std::size_t r = 0; r < of_realization.size(); ++r) {
-              pooled += of_realization[r] / static_cast<double>(of_realization.size());
-              into.add(r, i, k, of_realization[r], block[k].length_s);
-            }
-            into.irradiance[i * block_width + k] += static_cast<float>(pooled);
+            into.add_all(i, k, block[k].length_s, [&](std::size_t r) { return of_realization[r]; });
           }
         return rays;
       });

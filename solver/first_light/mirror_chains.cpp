@@ -160,7 +160,7 @@ class MirrorChains::Task {
 
 MirrorChains::Followed MirrorChains::follow(std::span<const SunLight> block,
                                             std::span<const SunBeams> beams,
-                                            MirroredIrradiance into) const {
+                                            const RaySink& into) const {
   // Arrivals are added in rounds, so that no more of them wait than these mirrors make.
   constexpr std::size_t mirrors_per_task = 64, mirrors_per_round = 256 * mirrors_per_task;
   const std::size_t realizations = into.realizations();
@@ -183,8 +183,7 @@ MirrorChains::Followed MirrorChains::follow(std::span<const SunLight> block,
       for (const auto& [patch, realization, k, power] : task.arrivals) {
         const double E = power / hierarchy_.area()[patch];
         into.add(realization, patch, k, E, block[k].length_s);
-        into.irradiance[std::size_t{patch} * block_width + k] +=
-            static_cast<float>(E / static_cast<double>(realizations));
+        into.add_pooled(patch, k, E / static_cast<double>(realizations));
       }
     }
   }

@@ -37,7 +37,7 @@ class MirrorChains {
   /// Follows the direct sun that mirror patches receive; adds to `into` what no
   /// beam brings.
   Followed follow(std::span<const SunLight> block, std::span<const SunBeams> beams,
-                  MirroredIrradiance into) const;
+                  const RaySink& into) const;
 
  private:
   class Task;

@@ -83,7 +83,7 @@ MirrorSun::MirrorSun(const RayCaster& caster, const MirrorGroups& groups)
 class MirrorSun::PatchWork {
  public:
   PatchWork(const MirrorSun& mirror, const SunSampler& sampler, const SunLight& sun, std::size_t k,
-            const SunBeams& beams, MirroredIrradiance into)
+            const SunBeams& beams, const RaySink& into)
       : m_(mirror),
         sampler_(sampler),
         sun_(sun),
@@ -104,13 +104,8 @@ class MirrorSun::PatchWork {
     }
     const auto R = static_cast<double>(of_realization_.size());
     const double samples_each = static_cast<double>(sampler_.samples()) / R;
-    double pooled = 0;
-    for (std::size_t r = 0; r < of_realization_.size(); ++r) {
-      const double E = sun_.dni * of_realization_[r] / samples_each;
-      pooled += E / R;
-      into_.add(r, patch, k_, E, sun_.length_s);
-    }
-    into_.irradiance[patch * block_width + k_] += static_cast<float>(pooled);
+    into_.add_all(patch, k_, sun_.length_s,
+                  [&](std::size_t r) { return sun_.dni * of_realization_[r] / samples_each; });
   }
 
   std::uint64_t rays = 0;
@@ -163,13 +158,13 @@ class MirrorSun::PatchWork {
   const SunLight& sun_;
   std::size_t k_;
   const SunBeams& beams_;
-  MirroredIrradiance into_;
+  const RaySink& into_;
   std::vector<double> of_realization_;
   SunSampler::Seeds seeds_;
 };
 
 std::uint64_t MirrorSun::add_light(const SunSampler& receivers, std::span<const SunLight> block,
-                                   std::span<const SunBeams> beams, MirroredIrradiance into) const {
+                                   std::span<const SunBeams> beams, const RaySink& into) const {
   const auto clusters = clusters_of(receivers);
   // Few receivers (sensors) are work for all threads, too.
   const std::size_t clusters_per_task = std::clamp<std::size_t>(clusters.size() / 64, 1, 8);

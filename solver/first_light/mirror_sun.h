@@ -19,29 +19,13 @@
 
 namespace sunload {
 
-/// Mirrored sun of N receivers for one block of suns, R realizations.
-struct MirroredIrradiance {
-  Columns& irradiance;                         ///< [N][block] W m-2, pooled
-  std::vector<std::vector<double>>& exposure;  ///< [R][N] J m-2
-  std::vector<Columns>* of_realizations;       ///< [R] irradiance, or null
-
-  std::size_t realizations() const { return exposure.size(); }
-  /// Adds irradiance E [W m-2] by sun k of the block, as one realization has it; the
-  /// pooled one is for the caller to add.
-  void add(std::size_t realization, std::size_t patch, std::size_t k, double E, double length_s) {
-    exposure[realization][patch] += E * length_s;
-    if (of_realizations)
-      (*of_realizations)[realization][patch * block_width + k] += static_cast<float>(E);
-  }
-};
-
 class MirrorSun {
  public:
   MirrorSun(const RayCaster& caster, const MirrorGroups& groups);
 
   /// Adds what the beams of each sun of the block bring to the receivers. Returns the rays cast.
   std::uint64_t add_light(const SunSampler& receivers, std::span<const SunLight> block,
-                          std::span<const SunBeams> beams, MirroredIrradiance into) const;
+                          std::span<const SunBeams> beams, const RaySink& into) const;
 
  private:
   class PatchWork;

@@ -44,32 +44,40 @@ RayLight empty_rays(const TracedScene& traced, std::size_t receivers, bool keep_
   return rays;
 }
 
+RaySink sink(const TracedScene& traced, Columns& pooled, std::vector<std::vector<double>>* exposure,
+             std::vector<Columns>& of_realizations) {
+  return {pooled, static_cast<std::size_t>(traced.rules.realizations), exposure, &of_realizations};
+}
+
+/// `sums`: null where nobody wants time integrals, here and below.
 std::uint64_t add_sun(const TracedScene& traced, const Receivers& receivers, Suns block,
-                      RayLight& rays, RaySums& sums) {
-  DirectSun sun = direct_sun(traced.caster, receivers.sampler, block, sums.direct,
-                             or_none(rays.of_realizations.direct));
-  rays.pooled.direct = std::move(sun.irradiance);
-  rays.sunlit = std::move(sun.sunlit);
-  return sun.rays;
+                      RayLight& rays, RaySums* sums) {
+  rays.pooled.direct = columns(receivers.count());
+  rays.sunlit = columns(receivers.count());
+  return direct_sun(
+      traced.caster, receivers.sampler, block,
+      sink(traced, rays.pooled.direct, sums ? &sums->direct : nullptr, rays.of_realizations.direct),
+      rays.sunlit);
 }
 
 std::uint64_t add_circumsolar(const TracedScene& traced, const BlockSources& sources,
                               RayLight& rays, RaySums& sums) {
-  CircumsolarLight sky = circumsolar_light(
-      *traced.mesh, traced.caster, traced.patches.sampler, sources.suns, sources.circumsolar,
-      rays.sunlit, sums.circumsolar, or_none(rays.of_realizations.circumsolar));
-  rays.pooled.circumsolar = std::move(sky.irradiance);
-  return sky.rays;
+  if (!any_circumsolar(sources.circumsolar)) return 0;
+  rays.pooled.circumsolar = columns(traced.patches.count());
+  return circumsolar_light(
+      traced.caster, traced.patches.sampler, sources.suns, sources.circumsolar, rays.sunlit,
+      sink(traced, rays.pooled.circumsolar, &sums.circumsolar, rays.of_realizations.circumsolar));
 }
 
-MirroredIrradiance mirrored(RayLight& rays, std::vector<std::vector<double>>& exposure) {
-  return {rays.pooled.mirror, exposure, or_none(rays.of_realizations.mirror)};
+RaySink mirrored(const TracedScene& traced, RayLight& rays,
+                 std::vector<std::vector<double>>* exposure) {
+  return sink(traced, rays.pooled.mirror, exposure, rays.of_realizations.mirror);
 }
 
 void add_mirrors(const TracedScene& traced, Suns block, const std::vector<SunBeams>& beams,
                  BlockRays& rays, RaySums& sums, WorkDone& work) {
   if (beams.empty()) return;
-  const MirroredIrradiance into = mirrored(rays.on_patches, sums.mirror);
+  const RaySink into = mirrored(traced, rays.on_patches, &sums.mirror);
   work.add(Work::mirror_rays,
            traced.mirror_sun.add_light(traced.patches.sampler, block, beams, into));
   auto chains = traced.mirror_chains.follow(block, beams, into);
@@ -83,18 +91,19 @@ void add_gloss(const TracedScene& traced, Suns block, BlockRays& rays, RaySums& 
                WorkDone& work) {
   if (!traced.optics.any_glossy) return;
   const Stopwatch time(work[Work::mirror_s]);
-  work.add(Work::mirror_rays, traced.glossy_sun.add_light(traced.patches.lines, block,
-                                                          mirrored(rays.on_patches, sums.gloss)));
+  work.add(Work::mirror_rays,
+           traced.glossy_sun.add_light(traced.patches.lines, block,
+                                       mirrored(traced, rays.on_patches, &sums.gloss)));
   rays.sent_on.resize(static_cast<std::size_t>(traced.rules.realizations));
   traced.glossy_sun.follow_light(block, rays.sent_on);
 }
 
 /// Returns the rays cast.
 std::uint64_t light_sensors(const TracedScene& traced, Suns block, std::vector<SunBeams> beams,
-                            RayLight& rays, RaySums& sums) {
+                            RayLight& rays, RaySums* sums) {
   const Receivers& sensors = traced.sensors;
   std::uint64_t cast = add_sun(traced, sensors, block, rays, sums);
-  const MirroredIrradiance into = mirrored(rays, sums.mirror);
+  const RaySink into = mirrored(traced, rays, sums ? &sums->mirror : nullptr);
   if (!beams.empty())
     cast += traced.mirror_sun.add_light(
         sensors.sampler, block, with_first_reflections(traced, std::move(beams), block), into);
@@ -116,7 +125,7 @@ BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources
   {
     const Stopwatch time(work[Work::direct_s]);
     work.add(Work::direct_rays,
-             add_sun(traced, traced.patches, block, rays.on_patches, sums.on_patches));
+             add_sun(traced, traced.patches, block, rays.on_patches, &sums.on_patches));
     work.add(Work::direct_rays, add_circumsolar(traced, sources, rays.on_patches, sums.on_patches));
   }
   std::vector<SunBeams> beams;
@@ -131,7 +140,7 @@ BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources
   const Stopwatch time(work[Work::sensors_s]);
   rays.on_sensors = empty_rays(traced, traced.sensors.count(), kept.columns);
   work.add(Work::sensor_rays,
-           light_sensors(traced, block, std::move(beams), rays.on_sensors, sums.on_sensors));
+           light_sensors(traced, block, std::move(beams), rays.on_sensors, &sums.on_sensors));
   return rays;
 }
 
@@ -140,17 +149,15 @@ RayLight direct_on_patches(const TracedScene& traced, const BlockSources& source
   const auto realizations = static_cast<std::size_t>(traced.rules.realizations);
   RayLight rays;
   rays.of_realizations.direct.assign(realizations, columns(traced.patches.count()));
-  RaySums unused(realizations, traced.patches.count());
-  work.add(Work::direct_rays, add_sun(traced, traced.patches, sources.suns, rays, unused));
+  work.add(Work::direct_rays, add_sun(traced, traced.patches, sources.suns, rays, nullptr));
   return rays;
 }
 
 RayLight rays_on_sensors(const TracedScene& traced, const BlockSources& sources, WorkDone& work) {
   const Stopwatch time(work[Work::sensors_s]);
   RayLight rays = empty_rays(traced, traced.sensors.count(), true);
-  RaySums unused(static_cast<std::size_t>(traced.rules.realizations), traced.sensors.count());
   work.add(Work::sensor_rays,
-           light_sensors(traced, sources.suns, beams_of(traced, sources.suns), rays, unused));
+           light_sensors(traced, sources.suns, beams_of(traced, sources.suns), rays, nullptr));
   return rays;
 }
 

@@ -53,7 +53,9 @@ std::vector<std::vector<double>> sunlit(const Edge& edge, const std::vector<doub
   SunLight light = one_second(edge.sun(), 1);
   light.disk_half_angle = sun_half_angle;
   std::vector<std::vector<double>> exposure(realizations, std::vector<double>(patches, 0));
-  direct_sun(caster, sampler, std::vector<SunLight>{light}, exposure, nullptr);
+  Columns pooled = columns(patches), sunlit = columns(patches);
+  direct_sun(caster, sampler, std::vector<SunLight>{light},
+             {pooled, realizations, &exposure, nullptr}, sunlit);
   std::vector<std::vector<double>> share(middles_y.size(), std::vector<double>(realizations));
   for (std::size_t strip = 0; strip < middles_y.size(); ++strip)
     for (std::size_t r = 0; r < realizations; ++r)

@@ -146,11 +146,12 @@ TEST(Circumsolar, OnOpenPlatesIsExact) {
     const auto traced = trace_scene(builder.scene(), SplitRules{}, rules, watch);
     const SunSampler sampler(traced->hierarchy(), traced->caster,
                              {rules.direct_samples, rules.realizations, 1});
-    std::vector<std::vector<double>> direct(64, std::vector<double>(2, 0)), exposure(direct);
+    std::vector<std::vector<double>> exposure(64, std::vector<double>(2, 0));
+    Columns direct = columns(2), circumsolar_sum = columns(2), sunlit = columns(2);
     const std::vector<SunLight> block{light};
-    const DirectSun sun = direct_sun(traced->caster, sampler, block, direct, nullptr);
-    circumsolar_light(traced->hierarchy(), traced->caster, sampler, block, {sky}, sun.sunlit,
-                      exposure, nullptr);
+    direct_sun(traced->caster, sampler, block, {direct, 64, nullptr, nullptr}, sunlit);
+    circumsolar_light(traced->caster, sampler, block, {sky}, sunlit,
+                      {circumsolar_sum, 64, &exposure, nullptr});
     std::vector<double> means;
     for (const auto& E : exposure) means.push_back((E[0] + E[1]) / 2);
     const double truth = unshaded(circumsolar, n);
@@ -232,20 +233,18 @@ TEST(Circumsolar, LowersTheErrorOfTheStreet) {
         IntervalLights(plan.study, plan.built.site, traced->grid).of(plan.light, hour, 1);
     BlockSources sources(block, static_cast<std::size_t>(grid.cell_count()));
     sources.split_sky(grid);
-    std::vector<std::vector<double>> exposure(realizations, std::vector<double>(patches, 0));
     std::vector<Columns> circumsolar(realizations, columns(patches));
+    Columns pooled = columns(patches), sunlit = columns(patches);
     const auto start = std::clock();
-    const DirectSun sun = direct_sun(traced->caster, sampler, block, exposure, nullptr);
+    const auto direct_rays = direct_sun(traced->caster, sampler, block,
+                                        {pooled, realizations, nullptr, nullptr}, sunlit);
     const auto middle = std::clock();
-    const auto rays = circumsolar_light(h, traced->caster, sampler, block, sources.circumsolar,
-                                        sun.sunlit, exposure, nullptr)
-                          .rays;
+    const auto rays = circumsolar_light(traced->caster, sampler, block, sources.circumsolar, sunlit,
+                                        {pooled, realizations, nullptr, &circumsolar});
     const auto end = std::clock();
-    circumsolar_light(h, traced->caster, sampler, block, sources.circumsolar, sun.sunlit, exposure,
-                      &circumsolar);
     std::cout << "processor time circumsolar / direct sun: "
               << static_cast<double>(end - middle) / static_cast<double>(middle - start)
-              << ", rays " << static_cast<double>(rays) / static_cast<double>(sun.rays) << "\n";
+              << ", rays " << static_cast<double>(rays) / static_cast<double>(direct_rays) << "\n";
     std::vector<std::vector<double>> before(patches), after(patches);
     std::vector<double> difference(realizations, 0), extra(realizations, 0);
     for (std::size_t r = 0; r < realizations; ++r) {
