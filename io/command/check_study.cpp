@@ -13,16 +13,15 @@
 #include "io/picture/sun_diagram.h"
 #include "io/plan/expected_error.h"
 #include "io/plan/rules_of_study.h"
-#include "io/plan/work_estimate.h"
 #include "io/plan/time_words.h"
 #include "io/plan/variant_mesh.h"
 #include "io/plan/variant_plan.h"
+#include "io/plan/work_estimate.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
 
 namespace {
-
 
 std::string counts_text(const PrepareReport& r) {
   std::string text = fmt::format(
