@@ -244,6 +244,30 @@ TEST(Shards, RanksThatAreStoppedGoOn) {
             std::vector<std::string>{});
 }
 
+TEST(Shards, RanksComputeADamagedBatchAgain) {
+  if (mpirun().empty()) {
+    std::printf("NOT RUN: ranks of MPI and a damaged batch: no mpirun (package openmpi-bin)\n");
+    return;
+  }
+  const WorkFolder folder;
+  folder.write("street.yaml", street_study());
+  ASSERT_EQ(program(folder, {"run", "street.yaml", "--keep-batches"}).code, 0);
+  std::filesystem::remove(folder / result);
+  const std::string batch = folder / ("results/" + files(folder, "000002.batch").front());
+  std::filesystem::resize_file(batch, std::filesystem::file_size(batch) / 2);
+  // Only one of them finds out: they must not wait for each other.
+  Process process(rank_words(2, {"run", "street.yaml", "--threads", "1"}), folder.path());
+  const auto begin = std::chrono::steady_clock::now();
+  while (process.is_running() && std::chrono::steady_clock::now() - begin < 60s)
+    std::this_thread::sleep_for(10ms);
+  ASSERT_FALSE(process.is_running()) << process.err_so_far();
+  const Ran ran = process.wait();
+  if (ran.err.find("this build has no MPI") != std::string::npos) return;
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_NE(ran.err.find("000002.batch"), std::string::npos) << ran.err;
+  expect_same_result(folder);
+}
+
 TEST(Shards, ADamagedBatchOfAnotherShardIsNamedAndComputedAgain) {
   const WorkFolder folder;
   folder.write("street.yaml", street_study());
