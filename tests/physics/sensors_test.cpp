@@ -502,9 +502,9 @@ TEST(Sensors, OnASurfaceSeeItsHemisphereAndWithinABodyItsBacks) {
   LightSolver solver(scene, SplitRules{}, rules_of(64), watch);
   const auto& ends = solver.sensor_lines().pooled.ends;
   EXPECT_EQ(ends[0].sky, 1.0f);
-  EXPECT_EQ(ends[0].backs, 0.0f);
+  EXPECT_EQ(ends[0].fate.backs, 0.0f);
   EXPECT_EQ(ends[1].sky, 0.0f);
-  EXPECT_EQ(ends[1].backs, 1.0f);
+  EXPECT_EQ(ends[1].fate.backs, 1.0f);
 }
 
 // Where a large receiver is lit alike everywhere, a sensor on it gets what its patches get, part
