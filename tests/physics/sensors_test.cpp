@@ -491,9 +491,9 @@ TEST(Sensors, OnASurfaceSeeItsHemisphereAndWithinABodyItsBacks) {
   const auto traced = trace_scene(scene, SplitRules{}, rules_of(64), watch);
   const auto& ends = traced->sensors.lines.pooled.ends;
   EXPECT_EQ(ends[0].sky, 1.0f);
-  EXPECT_EQ(ends[0].backs, 0.0f);
+  EXPECT_EQ(ends[0].fate.backs, 0.0f);
   EXPECT_EQ(ends[1].sky, 0.0f);
-  EXPECT_EQ(ends[1].backs, 1.0f);
+  EXPECT_EQ(ends[1].fate.backs, 1.0f);
 }
 
 // Where a large receiver is lit alike everywhere, a sensor on it gets what its patches get, part

@@ -301,7 +301,7 @@ TEST(FormFactors, RowsOfAClosedRoomSumToOneExactly) {
         sum += static_cast<double>(block.weight[l]);
       ASSERT_EQ(sum, 1.0) << i;
       ASSERT_EQ(lines->ends[i].fate.escaped, 0.0f);
-      ASSERT_EQ(lines->ends[i].backs, 0.0f);
+      ASSERT_EQ(lines->ends[i].fate.backs, 0.0f);
     }
 }
 
