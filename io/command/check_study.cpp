@@ -10,6 +10,7 @@
 
 #include "geo/mesh/intersections.h"
 #include "io/base/exit_code.h"
+#include "io/base/machine.h"
 #include "io/picture/sun_diagram.h"
 #include "io/plan/expected_error.h"
 #include "io/plan/rules_of_study.h"

@@ -132,7 +132,7 @@ void correct_within_kinds(std::vector<ComparisonRow>& rows) {
 std::vector<std::string> notes_on(const Side& base, const Side& variant) {
   std::vector<std::string> notes;
   if (base.result.doubles("time_bounds") != variant.result.doubles("time_bounds"))
-    notes.push_back("the two results cover different intervals of time");
+    notes.emplace_back("the two results cover different intervals of time");
   const auto version = [](const Side& s) { return s.result.text_attribute("source"); };
   if (version(base) != version(variant))
     notes.push_back("the two results come from different versions: " + version(base) + " and " +
