@@ -13,6 +13,7 @@
 #include "solver/base/threads.h"
 #include "tests/support/paths.h"
 #include "tests/support/real_models.h"
+#include "tests/support/study_plan.h"
 #include "tests/support/work_folder.h"
 
 namespace sunload::test {
