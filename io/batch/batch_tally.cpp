@@ -23,7 +23,8 @@ std::vector<float> facade_series(const BatchTally& tally, const Hierarchy& hiera
                          ? mesh.triangle_facade[static_cast<std::size_t>(patch.triangle)].value
                          : -1);
   const FacadeMeans means(std::move(facade), hierarchy.area(), mesh.facades.size());
-  const auto series = means.of(tally.irradiance[static_cast<std::size_t>(Part::total)]);
+  const auto series =
+      means.of(tally.irradiance[static_cast<std::size_t>(Part::total)], Divided::sums);
   return {series.begin(), series.end()};
 }
 

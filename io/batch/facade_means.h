@@ -10,6 +10,10 @@
 
 namespace sunload {
 
+/// What the area of a facade divides: every patch's term, or their sum. The two differ by a
+/// rounding; each array keeps the one that it has always had, so that results keep their bits.
+enum class Divided { terms, sums };
+
 /// Area-weighted means over the patches of every facade.
 class FacadeMeans {
  public:
@@ -21,7 +25,7 @@ class FacadeMeans {
   }
   /// [rows, patch] → [rows, facade]; 0 for a facade without patches.
   template <class Value>
-  std::vector<double> of(const std::vector<Value>& values) const {
+  std::vector<double> of(const std::vector<Value>& values, Divided divided) const {
     const std::size_t N = facade_.size(), F = area_.size();
     const std::size_t rows = N > 0 ? values.size() / N : 0;
     std::vector<double> means(rows * F, 0);
@@ -29,9 +33,12 @@ class FacadeMeans {
       for (std::size_t i = 0; i < N; ++i)
         if (facade_[i] >= 0) {
           const auto f = static_cast<std::size_t>(facade_[i]);
-          means[row * F + f] +=
-              patch_area_[i] * static_cast<double>(values[row * N + i]) / area_[f];
+          const double term = patch_area_[i] * static_cast<double>(values[row * N + i]);
+          means[row * F + f] += divided == Divided::terms ? term / area_[f] : term;
         }
+    if (divided == Divided::sums)
+      for (std::size_t at = 0; at < means.size(); ++at)
+        if (area_[at % F] > 0) means[at] /= area_[at % F];
     return means;
   }
 

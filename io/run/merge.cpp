@@ -86,13 +86,13 @@ void write_loads(BandWriter& writer, const Totals& totals, const ResultGeometry&
   if (F == 0) return;
   const FacadeMeans means(geometry.patch_facade, geometry.patch_area, F);
   const auto of_facades = [&](const std::string& band) {
-    return means.of(scaled(totals[band + batch_array::exposure], kwh_per_joule));
+    return means.of(scaled(totals[band + batch_array::exposure], kwh_per_joule), Divided::terms);
   };
   writer.write("facade_light_load_realization", realizations, of_facades);
   writer.write("facade_light_load_se", 1,
                [&](const std::string& band) { return errors_of(of_facades(band), F); });
   writer.write("facade_light_load", 1, [&](const std::string& band) {
-    return means.of(scaled(totals[band + sum_name(Part::total)], kwh_per_joule));
+    return means.of(scaled(totals[band + sum_name(Part::total)], kwh_per_joule), Divided::terms);
   });
 }
 

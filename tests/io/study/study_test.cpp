@@ -876,7 +876,7 @@ std::vector<json> values_of(const std::string& path, const json& schema) {
   if (type == "number" || type == "integer") values = {0.25, 1, 2.5, 3, 16, 64, 1024, 2005};
   if (type == "array" && schema["items"].value("type", "") == "number")
     for (const double value : {1.0, 0.25})
-      values.push_back(std::vector<double>(schema.value("minItems", 1), value));
+      values.push_back(std::vector<double>(schema.value("minItems", std::size_t{1}), value));
   return values;
 }
 
@@ -901,8 +901,8 @@ TEST(CanonicalText, SeesEveryKeyOfTheSchemaButThese) {
       "name", "variants[].name", "format", "output.folder", "output.series", "output.compression",
       // Hashed apart: bytes of files, points of sensors, the instruction set in force, the standard
       // errors of instants, which are more datasets.
-      "scene.files[].file", "scene.parallel_sources", "light.weather", "sensors.file",
-      "sensors.points[].position_m", "sensors.points[].normal", "solver.isa",
+      "scene.files[].file", "scene.files[].source", "scene.parallel_sources", "light.weather",
+      "sensors.file", "sensors.points[].position_m", "sensors.points[].normal", "solver.isa",
       "output.standard_error",
       // One word only, beside which no other period can stand; any parameter of built-in scenes.
       "period.year_of", "scene.builtin.*"};
