@@ -4,6 +4,7 @@
 // build: nothing but InputError may come of them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <new>
 #include <stdexcept>
@@ -12,6 +13,7 @@
 #include "tests/fuzz/counted_memory.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/support/paths.h"
+#include "tests/support/work_folder.h"
 
 namespace sunload::fuzz {
 namespace {
@@ -38,7 +40,7 @@ TEST_P(Replay, InputsAreReadOrRefused) {
   inputs.insert(inputs.end(), seeds.begin(), seeds.end());
   for (const auto& input : inputs) {
     SCOPED_TRACE(input.string());
-    EXPECT_NO_THROW(run(target, bytes_of(input)));
+    EXPECT_NO_THROW(run(target, test::bytes_of(input)));
   }
 }
 
@@ -46,7 +48,7 @@ TEST_P(Replay, HalfFilesAreReadOrRefused) {
   const auto& target = targets().at(GetParam());
   for (const auto& seed : files_of(folder / "corpus" / GetParam())) {
     SCOPED_TRACE(seed.string());
-    const auto bytes = bytes_of(seed);
+    const auto bytes = test::bytes_of(seed);
     EXPECT_NO_THROW(run(target, std::string_view(bytes).substr(0, bytes.size() / 2)));
   }
 }

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <iostream>
 
+#include "solver/gather/block_light.h"
+#include "solver/gather/jacobi.h"
 #include "solver/mesh/push_pull.h"
 #include "tests/support/known_truth.h"
 #include "tests/support/reference.h"

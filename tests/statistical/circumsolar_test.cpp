@@ -14,6 +14,8 @@
 #include "io/plan/interval_lights.h"
 #include "io/plan/rules_of_study.h"
 #include "io/plan/variant_plan.h"
+#include "solver/gather/block_light.h"
+#include "solver/gather/jacobi.h"
 #include "tests/support/program.h"
 #include "tests/support/scenes.h"
 #include "tests/support/small_study.h"
