@@ -99,7 +99,7 @@ TEST(HillsLight, LowSkyIsFarGround) {
   const Horizon hills({{0, 30}});
   const Site site = prague(hills);
   const auto open = open_shares(grid, hills, scene_from_enu(site));
-  const auto& noon = light_series(s, site).intervals[12];
+  const LitInterval noon = light_series(s, site).intervals[12];
   const SunLight light = IntervalLights(s, site, grid).of(noon, 12);
   ASSERT_EQ(light.sky.size(), static_cast<std::size_t>(grid.cell_count()));
   double sky = 0, ground = 0;

@@ -873,7 +873,7 @@ std::vector<json> values_of(const std::string& path, const json& schema) {
     for (const json& value : values_of(path, choice)) values.push_back(value);
   const std::string type =
       schema.contains("type") && schema["type"].is_string() ? schema["type"] : "";
-  if (type == "number" || type == "integer") values = {0.25, 1, 2.5, 3, 16, 64, 1024, 2005};
+  if (type == "number" || type == "integer") values = {0.25, 0.5, 1, 2.5, 3, 16, 64, 1024, 2005};
   if (type == "array" && schema["items"].value("type", "") == "number")
     for (const double value : {1.0, 0.25})
       values.push_back(std::vector<double>(schema.value("minItems", std::size_t{1}), value));
