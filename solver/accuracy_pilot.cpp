@@ -112,7 +112,7 @@ void append(std::vector<float>& to, const std::vector<float>& from) {
 }
 
 /// Exposures of all suns, and what is told of every one; so many at a time share their samples.
-Solved solved_in_blocks(const LightTransport& transport, std::span<const SunLight> suns,
+Solved solved_in_blocks(const LightTransport& transport, std::span<const IntervalLight> suns,
                         std::size_t block, PilotWatch& watch) {
   Solved all_blocks = solve(transport, {}, watch);
   BatchTally& sum = all_blocks.bands.front();
@@ -235,7 +235,7 @@ void share_with_neighbours(const Hierarchy& hierarchy, std::vector<double>& of_l
   }
 }
 
-PatchSpread gathered_spread(const LightTransport& transport, std::span<const SunLight> suns,
+PatchSpread gathered_spread(const LightTransport& transport, std::span<const IntervalLight> suns,
                             const PilotRules& pilot, PilotWatch& watch) {
   const TracedScene& traced = transport.traced();
   const Solved solved = solve(transport, suns, watch);
@@ -245,7 +245,7 @@ PatchSpread gathered_spread(const LightTransport& transport, std::span<const Sun
   return spread;
 }
 
-PatchSpread shot_spread(const LightTransport& transport, std::span<const SunLight> suns,
+PatchSpread shot_spread(const LightTransport& transport, std::span<const IntervalLight> suns,
                         const PilotRules& pilot, PilotWatch& watch) {
   const TracedScene& traced = transport.traced();
   const std::size_t block = std::min(pilot.batch_suns, block_width);
@@ -268,7 +268,7 @@ PatchSpread shot_spread(const LightTransport& transport, std::span<const SunLigh
 }  // namespace
 
 PatchSpread pilot_spread(const Scene& scene, std::shared_ptr<const Hierarchy> mesh,
-                         const SolverRules& rules, std::span<const SunLight> suns,
+                         const SolverRules& rules, std::span<const IntervalLight> suns,
                          const PilotRules& pilot, Watch& watch) {
   PilotWatch pilot_watch(watch);
   std::optional<Scene> without_sensors;

@@ -61,7 +61,7 @@ struct PilotRules {
 /// Solves `suns` with more realizations of the study's own kind. Deterministic. Variances of lines
 /// are means over a patch and its nearest neighbours on the input triangle. Throws Interrupted.
 PatchSpread pilot_spread(const Scene& scene, std::shared_ptr<const Hierarchy> mesh,
-                         const SolverRules& rules, std::span<const SunLight> suns,
+                         const SolverRules& rules, std::span<const IntervalLight> suns,
                          const PilotRules& pilot, Watch& watch);
 
 }  // namespace sunload

@@ -23,8 +23,8 @@ BatchTally tally_of(const TracedScene& traced, std::size_t intervals) {
 }
 
 /// Consecutive intervals with light, up to `block_width` side by side. Emitters shine always.
-std::vector<Block> lit_blocks(const TracedScene& traced, std::span<const SunLight> batch) {
-  const auto is_lit = [&](const SunLight& sun) {
+std::vector<Block> lit_blocks(const TracedScene& traced, std::span<const IntervalLight> batch) {
+  const auto is_lit = [&](const IntervalLight& sun) {
     return traced.optics.any_emission || !sun.is_dark();
   };
   std::vector<Block> blocks;
@@ -38,14 +38,14 @@ std::vector<Block> lit_blocks(const TracedScene& traced, std::span<const SunLigh
 }
 
 /// Time sums of the ledger's series.
-void add_energy(std::span<const SunLight> batch, BatchTally& tally) {
+void add_energy(std::span<const IntervalLight> batch, BatchTally& tally) {
   for (std::size_t k = 0; k < batch.size(); ++k)
     tally.energy += scaled(tally.ledger[k], batch[k].length_s);
 }
 
 }  // namespace
 
-Solved solve(const LightTransport& transport, std::span<const SunLight> batch, Watch& watch) {
+Solved solve(const LightTransport& transport, std::span<const IntervalLight> batch, Watch& watch) {
   const TracedScene& traced = transport.traced();
   Solved solved;
   for (std::size_t b = 0; b < traced.optics_of_band.size(); ++b)

@@ -22,6 +22,6 @@ struct Solved {
 };
 
 /// Light of consecutive intervals. With rgb every sun has its light in `bands`. Throws Interrupted.
-Solved solve(const LightTransport& transport, std::span<const SunLight> batch, Watch& watch);
+Solved solve(const LightTransport& transport, std::span<const IntervalLight> batch, Watch& watch);
 
 }  // namespace sunload

@@ -22,9 +22,9 @@ void IntervalLights::put_hills(std::vector<double>& sky, double ground_exitance)
     sky[cell] = open_share_[cell] * sky[cell] + (1 - open_share_[cell]) * ground_exitance / pi;
 }
 
-SunLight IntervalLights::of(const LitInterval& interval, std::size_t number) const {
+IntervalLight IntervalLights::of(const LitInterval& interval, std::size_t number) const {
   const SunInterval& when = interval.when;
-  SunLight sun;
+  IntervalLight sun;
   sun.number = static_cast<std::uint32_t>(number);
   sun.direction = when.direction;
   const Irradiance source = source_means(interval, light_.quantity);
@@ -43,14 +43,14 @@ SunLight IntervalLights::of(const LitInterval& interval, std::size_t number) con
   return sun;
 }
 
-std::vector<SunLight> IntervalLights::of(const LightSeries& series, std::size_t first,
-                                         std::size_t count) const {
-  std::vector<SunLight> suns(count);
+std::vector<IntervalLight> IntervalLights::of(const LightSeries& series, std::size_t first,
+                                              std::size_t count) const {
+  std::vector<IntervalLight> suns(count);
   parallel_for(count, [&](std::size_t k) { suns[k] = of(series.intervals[first + k], first + k); });
   return suns;
 }
 
-std::vector<SunLight> IntervalLights::of(const LightSeries& series) const {
+std::vector<IntervalLight> IntervalLights::of(const LightSeries& series) const {
   return of(series, 0, series.intervals.size());
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The light of intervals as the solver takes it: the one maker of `SunLight`.
+/// The light of intervals as the solver takes it: the one maker of `IntervalLight`.
 #pragma once
 
 #include <cstdint>
@@ -27,11 +27,12 @@ class IntervalLights {
   IntervalLights(const Study&, const Site&, const SkyGrid&&) = delete;
 
   /// Of the interval with that number in the period.
-  SunLight of(const LitInterval& interval, std::size_t number) const;
+  IntervalLight of(const LitInterval& interval, std::size_t number) const;
   /// Of `count` intervals from `first` on.
-  std::vector<SunLight> of(const LightSeries& series, std::size_t first, std::size_t count) const;
+  std::vector<IntervalLight> of(const LightSeries& series, std::size_t first,
+                                std::size_t count) const;
   /// Of all intervals.
-  std::vector<SunLight> of(const LightSeries& series) const;
+  std::vector<IntervalLight> of(const LightSeries& series) const;
 
  private:
   void put_hills(std::vector<double>& sky, double ground_exitance) const;

@@ -56,14 +56,14 @@ double blue_share(const LitInterval& interval, const LightStudy& light) {
   return std::clamp((clearness - 1) / (brightest_bin - 1), 0.0, 1.0);
 }
 
-std::vector<SunLight::Band> light_in_bands(const SunLight& sun, const Irradiance& source,
-                                           const LitInterval& interval, const LightStudy& light,
-                                           const SkyGrid& grid) {
+std::vector<IntervalLight::Band> light_in_bands(const IntervalLight& sun, const Irradiance& source,
+                                                const LitInterval& interval,
+                                                const LightStudy& light, const SkyGrid& grid) {
   const bool is_coloured = light.colour == LightColour::sky;
   const double blue = is_coloured ? blue_share(interval, light) : 0;
   const BandShares sunlight =
       balanced(sunlight_colour(interval.when.sun.elevation_deg), is_coloured ? 1 : 0);
-  std::vector<SunLight::Band> bands(band_count);
+  std::vector<IntervalLight::Band> bands(band_count);
   for (std::size_t b = 0; b < band_count; ++b) bands[b] = {sun.dni * sunlight[b], 0, sun.sky};
   for (std::size_t c = 0; blue > 0 && c < sun.sky.size(); ++c) {
     const Vec3 w = grid.direction(static_cast<int>(c), 0.5, 0.5);

@@ -22,8 +22,8 @@ double blue_share(const LitInterval& interval, const LightStudy& light);
 
 /// Red, green and blue of `sun`, which is the broadband light of `interval` under an open horizon
 /// with the means `source`. The far ground is grey and has the colours of what lights it.
-std::vector<SunLight::Band> light_in_bands(const SunLight& sun, const Irradiance& source,
-                                           const LitInterval& interval, const LightStudy& light,
-                                           const SkyGrid& grid);
+std::vector<IntervalLight::Band> light_in_bands(const IntervalLight& sun, const Irradiance& source,
+                                                const LitInterval& interval,
+                                                const LightStudy& light, const SkyGrid& grid);
 
 }  // namespace sunload

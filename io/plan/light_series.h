@@ -24,8 +24,8 @@ struct LitInterval {
 };
 
 /// Whether neither sun nor sky shines: the solver passes such intervals over unless something in
-/// the scene shines by itself (SunLight::is_dark of the same interval). Twilight with diffuse light
-/// is not dark, nor is a sun above the horizon of whatever strength: its hours are counted.
+/// the scene shines by itself (IntervalLight::is_dark of the same interval). Twilight with diffuse
+/// light is not dark, nor is a sun above the horizon of whatever strength: its hours are counted.
 bool is_dark(const LitInterval& interval);
 
 struct LightSeries {

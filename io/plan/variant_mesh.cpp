@@ -27,7 +27,7 @@ class PilotSum {
 
   void add(std::size_t interval, double sun_weight, double sky_weight,
            std::vector<PilotSun>& suns) {
-    const SunLight sun = lights_.of(plan_.light.intervals[interval], interval);
+    const IntervalLight sun = lights_.of(plan_.light.intervals[interval], interval);
     if (sun.has_sun() && sun.dni > 0)
       suns.push_back({sun.direction, sun_weight * sun.dni * sun.length_s});
     const double time = sky_weight * sun.length_s;

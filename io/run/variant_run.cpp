@@ -141,7 +141,7 @@ SolverRules VariantRun::decided_rules() {
   const PilotChoice choice = pilot_choice(lit.size());
   const SkyGrid grid;
   const IntervalLights lights(plan_.study, plan_.built.site, grid);
-  std::vector<SunLight> suns(choice.places.size());
+  std::vector<IntervalLight> suns(choice.places.size());
   parallel_for(suns.size(), [&](std::size_t p) {
     const std::size_t k = lit[choice.places[p]];
     suns[p] = lights.of(plan_.light.intervals[k], k);

@@ -130,9 +130,9 @@ namespace {
 /// The work of one patch for all suns of a block.
 class PatchSkies {
  public:
-  PatchSkies(const RayCaster& caster, const SunSampler& sampler, std::span<const SunLight> block,
-             const std::vector<CircumsolarSky>& skies, const Columns& sunlit,
-             std::size_t realizations)
+  PatchSkies(const RayCaster& caster, const SunSampler& sampler,
+             std::span<const IntervalLight> block, const std::vector<CircumsolarSky>& skies,
+             const Columns& sunlit, std::size_t realizations)
       : caster_(caster),
         sampler_(sampler),
         block_(block),
@@ -184,7 +184,7 @@ class PatchSkies {
 
   const RayCaster& caster_;
   const SunSampler& sampler_;
-  std::span<const SunLight> block_;
+  std::span<const IntervalLight> block_;
   const std::vector<CircumsolarSky>& skies_;
   const Columns& sunlit_;
   SunSampler::Seeds seeds_;
@@ -199,7 +199,7 @@ bool any_circumsolar(const std::vector<CircumsolarSky>& skies) {
 }
 
 std::uint64_t circumsolar_light(const RayCaster& caster, const SunSampler& sampler,
-                                std::span<const SunLight> block,
+                                std::span<const IntervalLight> block,
                                 const std::vector<CircumsolarSky>& skies, const Columns& sunlit,
                                 const RaySink& into) {
   return ordered_sum(sampler.receivers(), receivers_per_chunk, std::uint64_t{0},

@@ -71,7 +71,7 @@ bool any_circumsolar(const std::vector<CircumsolarSky>& skies);
 /// `sunlit`: share of each patch that sees the sun ([N][block]). Returns the rays cast. Single
 /// values may be below 0 by their error where the sky about a sun that is seen is all but hidden.
 std::uint64_t circumsolar_light(const RayCaster& caster, const SunSampler& sampler,
-                                std::span<const SunLight> block,
+                                std::span<const IntervalLight> block,
                                 const std::vector<CircumsolarSky>& skies, const Columns& sunlit,
                                 const RaySink& into);
 

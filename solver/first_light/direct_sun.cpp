@@ -175,7 +175,7 @@ ScrambledPoints SunSampler::origin_points(const Seeds& seeds, std::size_t packet
 
 namespace {
 
-PacketDirections to_points(const SunLight& sun, const ScrambledPoints& on_disk) {
+PacketDirections to_points(const IntervalLight& sun, const ScrambledPoints& on_disk) {
   const SunPoints points(sun);
   PacketDirections directions;
   for (std::size_t l = 0; l < packet_size; ++l)
@@ -187,13 +187,13 @@ PacketDirections to_points(const SunLight& sun, const ScrambledPoints& on_disk) 
 
 }  // namespace
 
-PacketDirections SunSampler::directions(const SunLight& sun, const Seeds& seeds,
+PacketDirections SunSampler::directions(const IntervalLight& sun, const Seeds& seeds,
                                         std::size_t packet) const {
   if (sun.disk_half_angle <= 0) return same_for_all(sun.direction);
   return to_points(sun, points(seeds, packet));
 }
 
-PacketDirections SunSampler::directions_by_origins(const SunLight& sun, const Seeds& seeds,
+PacketDirections SunSampler::directions_by_origins(const IntervalLight& sun, const Seeds& seeds,
                                                    std::size_t packet) const {
   if (sun.disk_half_angle <= 0) return same_for_all(sun.direction);
   return to_points(sun, origin_points(seeds, packet));
@@ -204,7 +204,7 @@ std::uint32_t SunSampler::active(std::size_t packet) const {
   return static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
 }
 
-LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const SunLight& sun,
+LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const IntervalLight& sun,
                        const SunSampler::Geometry& geometry, const SunSampler::Seeds& seeds,
                        std::size_t packet) {
   LitSamples samples{sampler.origins(geometry, seeds, packet),
@@ -218,14 +218,14 @@ namespace {
 /// The work of one patch for all suns of a block.
 class PatchSuns {
  public:
-  PatchSuns(const RayCaster& caster, const SunSampler& sampler, std::span<const SunLight> block,
-            std::size_t realizations)
+  PatchSuns(const RayCaster& caster, const SunSampler& sampler,
+            std::span<const IntervalLight> block, std::size_t realizations)
       : caster_(caster), sampler_(sampler), block_(block), seen_(realizations) {}
 
   void run(std::size_t patch, const RaySink& into, Columns& sunlit) {
     const auto geometry = sampler_.geometry(patch);
     for (std::size_t k = 0; k < block_.size(); ++k) {
-      const SunLight& sun = block_[k];
+      const IntervalLight& sun = block_[k];
       const double cos_theta = dot(geometry.normal, sun.direction);
       if (!sun.has_sun() || cos_theta <= 0) continue;
       const int visible = count_visible(geometry, patch, sun);
@@ -242,7 +242,8 @@ class PatchSuns {
 
  private:
   /// Visible samples in all, and per realization in seen_.
-  int count_visible(const SunSampler::Geometry& geometry, std::size_t patch, const SunLight& sun) {
+  int count_visible(const SunSampler::Geometry& geometry, std::size_t patch,
+                    const IntervalLight& sun) {
     std::fill(seen_.begin(), seen_.end(), 0);
     sampler_.seed(patch, sun.number, seeds_);
     int visible = 0;
@@ -259,7 +260,7 @@ class PatchSuns {
 
   const RayCaster& caster_;
   const SunSampler& sampler_;
-  std::span<const SunLight> block_;
+  std::span<const IntervalLight> block_;
   SunSampler::Seeds seeds_;
   std::vector<int> seen_;
 };
@@ -267,7 +268,8 @@ class PatchSuns {
 }  // namespace
 
 std::uint64_t direct_sun(const RayCaster& caster, const SunSampler& sampler,
-                         std::span<const SunLight> block, const RaySink& into, Columns& sunlit) {
+                         std::span<const IntervalLight> block, const RaySink& into,
+                         Columns& sunlit) {
   return ordered_sum(sampler.receivers(), receivers_per_chunk, std::uint64_t{0},
                      [&](std::size_t begin, std::size_t end) {
                        PatchSuns suns(caster, sampler, block, into.realizations());

@@ -6,8 +6,8 @@
 ///
 /// Every realization has its own randomised points, addressed by patch and sun.
 ///
-/// A sun with a disk (`SunLight::disk_half_angle`) is seen by each sample at a point of its own,
-/// uniform on the disk (no limb darkening): shadows have penumbrae. cosθ stays that of the
+/// A sun with a disk (`IntervalLight::disk_half_angle`) is seen by each sample at a point of its
+/// own, uniform on the disk (no limb darkening): shadows have penumbrae. cosθ stays that of the
 /// centre, which also decides whether the sun is up and in front of a patch.
 #pragma once
 
@@ -75,10 +75,11 @@ class SunSampler {
   /// Points of the same samples, to choose their directions by.
   ScrambledPoints points(const Seeds& seeds, std::size_t packet) const;
   /// Directions of the same samples to points on the sun's disk, or to the sun that is a point.
-  PacketDirections directions(const SunLight& sun, const Seeds& seeds, std::size_t packet) const;
+  PacketDirections directions(const IntervalLight& sun, const Seeds& seeds,
+                              std::size_t packet) const;
   /// The same by the coordinates that choose origins: for samples of sensors, all but points, that
   /// need `points` for something else.
-  PacketDirections directions_by_origins(const SunLight& sun, const Seeds& seeds,
+  PacketDirections directions_by_origins(const IntervalLight& sun, const Seeds& seeds,
                                          std::size_t packet) const;
   /// Bits of the samples that packet really holds.
   std::uint32_t active(std::size_t packet) const;
@@ -104,14 +105,14 @@ struct LitSamples {
 };
 /// All that asks for the direct sun of a receiver asks here, so that what surfaces receive and what
 /// they send on rests on the same rays. `seeds`: of this receiver and sun.
-LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const SunLight& sun,
+LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const IntervalLight& sun,
                        const SunSampler::Geometry& geometry, const SunSampler::Seeds& seeds,
                        std::size_t packet);
 
 /// Unit direction to the point on the sun's disk that lies along `to_sun`, of any length, as a
 /// surface of that normal sees it: to the centre where the disk has half set behind the surface,
 /// or is a point.
-inline Vec3 sun_before(Vec3 normal, const SunLight& sun, Vec3 to_sun) {
+inline Vec3 sun_before(Vec3 normal, const IntervalLight& sun, Vec3 to_sun) {
   if (sun.disk_half_angle <= 0) return sun.direction;
   const Vec3 w = normalized(to_sun);
   return dot(w, normal) > 0 ? w : sun.direction;
@@ -120,7 +121,7 @@ inline Vec3 sun_before(Vec3 normal, const SunLight& sun, Vec3 to_sun) {
 /// Points of the sun's disk, uniform on it.
 class SunPoints {
  public:
-  explicit SunPoints(const SunLight& sun)
+  explicit SunPoints(const IntervalLight& sun)
       : centre_(sun.direction),
         axes_(tangents(sun.direction)),
         radius_(std::tan(sun.disk_half_angle)) {}
@@ -140,6 +141,7 @@ class SunPoints {
 /// Adds the direct sun of a block to `into`, and to `sunlit` ([N][block]) the share of each
 /// receiver that sees the sun, for every sun above the horizon. Returns the rays cast.
 std::uint64_t direct_sun(const RayCaster& caster, const SunSampler& sampler,
-                         std::span<const SunLight> block, const RaySink& into, Columns& sunlit);
+                         std::span<const IntervalLight> block, const RaySink& into,
+                         Columns& sunlit);
 
 }  // namespace sunload

@@ -34,8 +34,8 @@ GlossySun::GlossySun(const Scene& scene, const Hierarchy& hierarchy, const RayCa
 /// Irradiance of the receivers of one task by one sun.
 class GlossySun::Chunk {
  public:
-  Chunk(const GlossySun& glossy, const LobeImages* images, const SunLight& sun, std::size_t first,
-        std::size_t receivers)
+  Chunk(const GlossySun& glossy, const LobeImages* images, const IntervalLight& sun,
+        std::size_t first, std::size_t receivers)
       : g_(glossy),
         images_(images),
         sun_(sun),
@@ -108,7 +108,7 @@ class GlossySun::Chunk {
 
   const GlossySun& g_;
   const LobeImages* images_;
-  const SunLight& sun_;
+  const IntervalLight& sun_;
   SunPoints points_;
   RandomWords seeds_{};  ///< of the points for the glimpses of one slot
   std::size_t slot_of_points_ = 0;
@@ -123,7 +123,8 @@ class GlossySun::Chunk {
 };
 
 std::uint64_t GlossySun::add_light(const Lines& lines, const LobeImages* of_sensors,
-                                   std::span<const SunLight> block, const RaySink& into) const {
+                                   std::span<const IntervalLight> block,
+                                   const RaySink& into) const {
   const auto& glimpses = lines.glimpses;
   const auto first_of = [&](std::size_t receiver) {
     return std::partition_point(glimpses.begin(), glimpses.end(),
@@ -137,7 +138,7 @@ std::uint64_t GlossySun::add_light(const Lines& lines, const LobeImages* of_sens
         const auto first = first_of(begin), last = first_of(end);
         if (first == last) return rays;
         for (std::size_t k = 0; k < block.size(); ++k) {
-          const SunLight& sun = block[k];
+          const IntervalLight& sun = block[k];
           if (!sun.has_sun() || sun.dni <= 0) continue;
           Chunk chunk(*this, of_sensors, sun, begin, end - begin);
           for (auto glimpse = first; glimpse != last; ++glimpse) chunk.ask(*glimpse);
@@ -154,7 +155,7 @@ std::uint64_t GlossySun::add_light(const Lines& lines, const LobeImages* of_sens
       });
 }
 
-void GlossySun::send_on(const LineFollower& follower, const SunLight& sun, std::size_t k,
+void GlossySun::send_on(const LineFollower& follower, const IntervalLight& sun, std::size_t k,
                         std::size_t patch, std::vector<SunFates>& fates) const {
   const auto geometry = sampler_.geometry(patch);
   const double cos_theta = dot(geometry.normal, sun.direction);
@@ -200,7 +201,8 @@ void GlossySun::send_on(const LineFollower& follower, const SunLight& sun, std::
   }
 }
 
-void GlossySun::follow_light(std::span<const SunLight> block, std::vector<SunFates>& fates) const {
+void GlossySun::follow_light(std::span<const IntervalLight> block,
+                             std::vector<SunFates>& fates) const {
   const SkyGrid smallest_grid(2);  // where the light leaves is not asked
   const LineFollower follower(scene_, hierarchy_, caster_, smallest_grid, rules_.mirror_depth);
   std::vector<std::size_t> glossy;

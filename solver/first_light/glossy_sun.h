@@ -33,26 +33,27 @@ class GlossySun {
             const SunSampler& sampler, const PatchOptics& optics, const LineRules& rules);
 
   /// As MirrorSun::add_light, on the patches whose lines these are.
-  std::uint64_t add_light(const Lines& lines, std::span<const SunLight> block,
+  std::uint64_t add_light(const Lines& lines, std::span<const IntervalLight> block,
                           const RaySink& into) const {
     return add_light(lines, nullptr, block, into);
   }
   /// The same on sensors, but for what `images` stand for.
   std::uint64_t add_light_on_sensors(const Lines& lines, const LobeImages& images,
-                                     std::span<const SunLight> block, const RaySink& into) const {
+                                     std::span<const IntervalLight> block,
+                                     const RaySink& into) const {
     return add_light(lines, &images, block, into);
   }
 
   /// Adds to `fates` ([realizations]) where the direct sun ends that glossy patches receive:
   /// each visible sample goes on in a direction of the lobe.
-  void follow_light(std::span<const SunLight> block, std::vector<SunFates>& fates) const;
+  void follow_light(std::span<const IntervalLight> block, std::vector<SunFates>& fates) const;
 
  private:
   class Chunk;
   std::uint64_t add_light(const Lines& lines, const LobeImages* of_sensors,
-                          std::span<const SunLight> block, const RaySink& into) const;
-  void send_on(const LineFollower& follower, const SunLight& sun, std::size_t k, std::size_t patch,
-               std::vector<SunFates>& fates) const;
+                          std::span<const IntervalLight> block, const RaySink& into) const;
+  void send_on(const LineFollower& follower, const IntervalLight& sun, std::size_t k,
+               std::size_t patch, std::vector<SunFates>& fates) const;
 
   const Scene& scene_;
   const Hierarchy& hierarchy_;

@@ -87,7 +87,7 @@ bool LobeImages::stand_for(const Glimpse& glimpse) const {
 /// What one receiver gets of one sun.
 class LobeImages::Receiver {
  public:
-  Receiver(const LobeImages& images, std::size_t receiver, const SunLight& sun)
+  Receiver(const LobeImages& images, std::size_t receiver, const IntervalLight& sun)
       : i_(images), sun_(sun), geometry_(images.receivers_.geometry(receiver)) {
     i_.receivers_.seed(receiver, sun.number, seeds_, Purpose::glossy_sun);
   }
@@ -173,7 +173,7 @@ class LobeImages::Receiver {
   }
 
   const LobeImages& i_;
-  const SunLight& sun_;
+  const IntervalLight& sun_;
   SunSampler::Geometry geometry_;
   SunSampler::Seeds seeds_;
   PacketDirections to_sun_;
@@ -181,7 +181,8 @@ class LobeImages::Receiver {
   double brings_[packet_size];
 };
 
-std::uint64_t LobeImages::add_light(std::span<const SunLight> block, const RaySink& into) const {
+std::uint64_t LobeImages::add_light(std::span<const IntervalLight> block,
+                                    const RaySink& into) const {
   constexpr std::size_t receivers_per_task = 16;
   if (orientations_.empty()) return 0;
   return ordered_sum(

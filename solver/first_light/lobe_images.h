@@ -37,7 +37,7 @@ class LobeImages {
   /// Whether images bring what the glimpse would.
   bool stand_for(const Glimpse& glimpse) const;
   /// As MirrorSun::add_light.
-  std::uint64_t add_light(std::span<const SunLight> block, const RaySink& into) const;
+  std::uint64_t add_light(std::span<const IntervalLight> block, const RaySink& into) const;
 
  private:
   class Receiver;

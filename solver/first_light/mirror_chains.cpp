@@ -35,7 +35,7 @@ class MirrorChains::Task {
     double power;  ///< [W]
   };
 
-  void send_on(const SunLight& sun, std::size_t k, const SunBeams& beams, std::size_t patch) {
+  void send_on(const IntervalLight& sun, std::size_t k, const SunBeams& beams, std::size_t patch) {
     const auto geometry = c_.sampler_.geometry(patch);
     const double cos_theta = dot(geometry.normal, sun.direction);
     if (cos_theta <= 0) return;
@@ -158,7 +158,7 @@ class MirrorChains::Task {
   Chain chains_[packet_size];
 };
 
-MirrorChains::Followed MirrorChains::follow(std::span<const SunLight> block,
+MirrorChains::Followed MirrorChains::follow(std::span<const IntervalLight> block,
                                             std::span<const SunBeams> beams,
                                             const RaySink& into) const {
   // Arrivals are added in rounds, so that no more of them wait than these mirrors make.

@@ -36,7 +36,7 @@ class MirrorChains {
   };
   /// Follows the direct sun that mirror patches receive; adds to `into` what no
   /// beam brings.
-  Followed follow(std::span<const SunLight> block, std::span<const SunBeams> beams,
+  Followed follow(std::span<const IntervalLight> block, std::span<const SunBeams> beams,
                   const RaySink& into) const;
 
  private:

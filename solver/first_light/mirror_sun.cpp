@@ -82,8 +82,8 @@ MirrorSun::MirrorSun(const RayCaster& caster, const MirrorGroups& groups)
 /// The mirrored sun that the patches of one task receive from the beams of one sun.
 class MirrorSun::PatchWork {
  public:
-  PatchWork(const MirrorSun& mirror, const SunSampler& sampler, const SunLight& sun, std::size_t k,
-            const SunBeams& beams, const RaySink& into)
+  PatchWork(const MirrorSun& mirror, const SunSampler& sampler, const IntervalLight& sun,
+            std::size_t k, const SunBeams& beams, const RaySink& into)
       : m_(mirror),
         sampler_(sampler),
         sun_(sun),
@@ -155,7 +155,7 @@ class MirrorSun::PatchWork {
 
   const MirrorSun& m_;
   const SunSampler& sampler_;
-  const SunLight& sun_;
+  const IntervalLight& sun_;
   std::size_t k_;
   const SunBeams& beams_;
   const RaySink& into_;
@@ -163,7 +163,8 @@ class MirrorSun::PatchWork {
   SunSampler::Seeds seeds_;
 };
 
-std::uint64_t MirrorSun::add_light(const SunSampler& receivers, std::span<const SunLight> block,
+std::uint64_t MirrorSun::add_light(const SunSampler& receivers,
+                                   std::span<const IntervalLight> block,
                                    std::span<const SunBeams> beams, const RaySink& into) const {
   const auto clusters = clusters_of(receivers);
   // Few receivers (sensors) are work for all threads, too.

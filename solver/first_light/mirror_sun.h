@@ -24,7 +24,7 @@ class MirrorSun {
   MirrorSun(const RayCaster& caster, const MirrorGroups& groups);
 
   /// Adds what the beams of each sun of the block bring to the receivers. Returns the rays cast.
-  std::uint64_t add_light(const SunSampler& receivers, std::span<const SunLight> block,
+  std::uint64_t add_light(const SunSampler& receivers, std::span<const IntervalLight> block,
                           std::span<const SunBeams> beams, const RaySink& into) const;
 
  private:

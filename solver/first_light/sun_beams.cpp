@@ -25,7 +25,7 @@ Rotation followed_by_image(const Rotation& before, Vec3 n) {
 
 }  // namespace
 
-SunBeams::SunBeams(const MirrorGroups& groups, const SunLight& sun, const BeamRules& rules)
+SunBeams::SunBeams(const MirrorGroups& groups, const IntervalLight& sun, const BeamRules& rules)
     : groups_(&groups), rules_(rules), spread_(std::tan(sun.disk_half_angle)) {
   if (!sun.has_sun() || sun.dni <= 0 || rules.mirror_depth < 1) return;
   std::vector<SunBeam> level = first_level(sun);
@@ -45,7 +45,7 @@ std::int32_t SunBeams::next(std::int32_t beam, std::size_t group) const {
   return -1;
 }
 
-std::vector<SunBeam> SunBeams::first_level(const SunLight& sun) const {
+std::vector<SunBeam> SunBeams::first_level(const IntervalLight& sun) const {
   std::vector<SunBeam> level;
   // Of mirrors; clear glass may reflect nothing.
   const auto strongest = [&](std::size_t g) {

@@ -50,7 +50,7 @@ class SunBeams {
  public:
   /// None.
   explicit SunBeams(const MirrorGroups& groups) : groups_(&groups) {}
-  SunBeams(const MirrorGroups& groups, const SunLight& sun, const BeamRules& rules);
+  SunBeams(const MirrorGroups& groups, const IntervalLight& sun, const BeamRules& rules);
   std::size_t size() const { return beams_.size(); }
   const SunBeam& operator[](std::size_t beam) const { return beams_[beam]; }
   double spread() const { return spread_; }
@@ -58,7 +58,7 @@ class SunBeams {
   std::int32_t next(std::int32_t beam, std::size_t group) const;
 
  private:
-  std::vector<SunBeam> first_level(const SunLight& sun) const;
+  std::vector<SunBeam> first_level(const IntervalLight& sun) const;
   std::vector<SunBeam> next_level(std::size_t begin) const;
   void append(std::vector<SunBeam> level);
 

@@ -16,8 +16,8 @@ double ratio(double of_band, double broadband) { return broadband > 0 ? of_band 
 /// What a band has of the sky where its circumsolar part lies, relative to the broadband sky: of
 /// all bands 1 in the mean, so that the mean of the bands is broadband light line by line. Single
 /// cells of what is left for the lines may be below 0.
-double circumsolar_factor(const CircumsolarSky& part, const SunLight& broadband,
-                          const SunLight& of_band) {
+double circumsolar_factor(const CircumsolarSky& part, const IntervalLight& broadband,
+                          const IntervalLight& of_band) {
   if (!part.any()) return 1;
   double band_sum = 0, sum = 0;
   for (std::size_t c = 0; c < broadband.sky.size(); ++c) {
@@ -29,11 +29,11 @@ double circumsolar_factor(const CircumsolarSky& part, const SunLight& broadband,
 
 }  // namespace
 
-std::vector<SunLight> suns_in_band(std::span<const SunLight> suns, std::size_t band) {
-  std::vector<SunLight> of_band(suns.begin(), suns.end());
+std::vector<IntervalLight> suns_in_band(std::span<const IntervalLight> suns, std::size_t band) {
+  std::vector<IntervalLight> of_band(suns.begin(), suns.end());
   for (auto& sun : of_band) {
     SUNLOAD_EXPECT(sun.bands.size() == band_count, "light of every band");
-    SunLight::Band light = std::move(sun.bands[band]);
+    IntervalLight::Band light = std::move(sun.bands[band]);
     sun.bands.clear();
     sun.dni = light.dni;
     sun.ground_exitance = light.ground_exitance;
@@ -42,7 +42,7 @@ std::vector<SunLight> suns_in_band(std::span<const SunLight> suns, std::size_t b
   return of_band;
 }
 
-BandFactors band_factors(const BlockSources& broadband, std::span<const SunLight> of_band) {
+BandFactors band_factors(const BlockSources& broadband, std::span<const IntervalLight> of_band) {
   BandFactors factors;
   factors.sun.fill(1);
   factors.circumsolar.fill(1);
@@ -54,7 +54,7 @@ BandFactors band_factors(const BlockSources& broadband, std::span<const SunLight
   return factors;
 }
 
-BlockSources sources_in_band(const BlockSources& broadband, std::span<const SunLight> of_band,
+BlockSources sources_in_band(const BlockSources& broadband, std::span<const IntervalLight> of_band,
                              const BandFactors& factors) {
   BlockSources sources(of_band, broadband.sky.size() / block_width);
   sources.circumsolar = broadband.circumsolar;

@@ -17,17 +17,17 @@
 namespace sunload {
 
 /// The suns of a block with the light of one band in place of the broadband one.
-std::vector<SunLight> suns_in_band(std::span<const SunLight> suns, std::size_t band);
+std::vector<IntervalLight> suns_in_band(std::span<const IntervalLight> suns, std::size_t band);
 
 /// Light of a block in one band relative to the broadband light that was traced.
 struct BandFactors {
   std::array<double, block_width> sun, circumsolar;
 };
-BandFactors band_factors(const BlockSources& broadband, std::span<const SunLight> of_band);
+BandFactors band_factors(const BlockSources& broadband, std::span<const IntervalLight> of_band);
 
 /// Sources of a block in one band; `of_band` must outlive them. The circumsolar part is the
 /// broadband one in one colour; what is left of the band's sky there stays with the lines.
-BlockSources sources_in_band(const BlockSources& broadband, std::span<const SunLight> of_band,
+BlockSources sources_in_band(const BlockSources& broadband, std::span<const IntervalLight> of_band,
                              const BandFactors& factors);
 
 /// Every row times the factor of its sun. No rows stay no rows.

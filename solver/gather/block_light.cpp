@@ -10,7 +10,7 @@
 
 namespace sunload {
 
-BlockSources::BlockSources(std::span<const SunLight> block, std::size_t sky_cells)
+BlockSources::BlockSources(std::span<const IntervalLight> block, std::size_t sky_cells)
     : suns(block), sky(columns(sky_cells)) {
   circumsolar_factor.fill(1);
   for (std::size_t k = 0; k < suns.size(); ++k) {

@@ -18,10 +18,10 @@ namespace sunload {
 
 /// Sources of a block that do not depend on the patch.
 struct BlockSources {
-  explicit BlockSources(std::span<const SunLight> suns, std::size_t sky_cells);
+  explicit BlockSources(std::span<const IntervalLight> suns, std::size_t sky_cells);
   /// From now on the lines carry the sky without its circumsolar part.
   void split_sky(const SkyGrid& grid);
-  std::span<const SunLight> suns;
+  std::span<const IntervalLight> suns;
   Columns sky;                              ///< [cells][block] π·radiance, by way of mirrors
   Columns sky_of_lines;                     ///< the same, straight
   std::vector<CircumsolarSky> circumsolar;  ///< per sun, after split_sky

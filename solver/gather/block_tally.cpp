@@ -11,8 +11,8 @@
 
 namespace sunload {
 
-void store_received(const BlockLight& light, std::span<const SunLight> block, std::size_t first_row,
-                    const Columns& sunlit, ReceiverTally& tally) {
+void store_received(const BlockLight& light, std::span<const IntervalLight> block,
+                    std::size_t first_row, const Columns& sunlit, ReceiverTally& tally) {
   const std::size_t receivers = tally.sunlit_s.size();
   const auto put = [&](Part part, std::size_t i, std::size_t k, float value) {
     const auto p = static_cast<std::size_t>(part);
@@ -41,8 +41,8 @@ void store_received(const BlockLight& light, std::span<const SunLight> block, st
 }
 
 void store_patches(const PatchOptics& optics, const BlockLight& light,
-                   std::span<const SunLight> block, std::size_t first_row, const Columns& sunlit,
-                   BatchTally& tally) {
+                   std::span<const IntervalLight> block, std::size_t first_row,
+                   const Columns& sunlit, BatchTally& tally) {
   store_received(light, block, first_row, sunlit, tally);
   parallel_for(
       tally.outgoing.size(),

@@ -12,12 +12,12 @@
 namespace sunload {
 
 /// What receivers get; `sunlit`: share of each that sees the sun ([N][block]).
-void store_received(const BlockLight& light, std::span<const SunLight> block, std::size_t first_row,
-                    const Columns& sunlit, ReceiverTally& tally);
+void store_received(const BlockLight& light, std::span<const IntervalLight> block,
+                    std::size_t first_row, const Columns& sunlit, ReceiverTally& tally);
 
 /// What patches get and what leaves them.
 void store_patches(const PatchOptics& optics, const BlockLight& light,
-                   std::span<const SunLight> block, std::size_t first_row, const Columns& sunlit,
-                   BatchTally& tally);
+                   std::span<const IntervalLight> block, std::size_t first_row,
+                   const Columns& sunlit, BatchTally& tally);
 
 }  // namespace sunload

@@ -16,7 +16,7 @@ TimeSums::TimeSums(std::size_t realizations, std::size_t patches, std::size_t se
 
 void TimeSums::add_sources(const BlockSources& sources) {
   for (std::size_t k = 0; k < sources.suns.size(); ++k) {
-    const SunLight& sun = sources.suns[k];
+    const IntervalLight& sun = sources.suns[k];
     for (std::size_t c = 0; c < sun.sky.size(); ++c) {
       sky[c] += pi * sun.sky[c] * sun.length_s;
       sky_of_lines[c] += pi * (sun.sky[c] - sources.circumsolar_radiance(k, c)) * sun.length_s;

@@ -18,7 +18,7 @@ namespace sunload {
 inline constexpr std::size_t block_width = 16;
 
 /// Light of one interval, as means over the interval [W m-2].
-struct SunLight {
+struct IntervalLight {
   std::uint32_t number = 0;  ///< of the interval in the period: address of random numbers
   Vec3 direction{0, 0, 1};   ///< to the sun, scene frame, unit
   double dni = 0;

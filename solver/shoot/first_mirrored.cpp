@@ -129,7 +129,7 @@ FirstMirrored::Light FirstMirrored::ground(std::size_t realization,
 /// The sun on mirror patches in one task; its sources are the suns of the block.
 class FirstMirrored::SunTask {
  public:
-  SunTask(const FirstMirrored& mirrored, std::span<const SunLight> block)
+  SunTask(const FirstMirrored& mirrored, std::span<const IntervalLight> block)
       : deposits(static_cast<std::size_t>(mirrored.rules_.realizations)),
         fates(deposits.size()),
         m_(mirrored),
@@ -140,7 +140,7 @@ class FirstMirrored::SunTask {
     const double samples_each =
         static_cast<double>(m_.sampler_.samples()) / static_cast<double>(deposits.size());
     for (std::size_t k = 0; k < block_.size(); ++k) {
-      const SunLight& sun = block_[k];
+      const IntervalLight& sun = block_[k];
       const double cos_theta = dot(geometry.normal, sun.direction);
       if (!sun.has_sun() || sun.dni <= 0 || cos_theta <= 0) continue;
       const double power = m_.hierarchy_.area()[patch] * sun.dni * cos_theta / samples_each;
@@ -158,7 +158,7 @@ class FirstMirrored::SunTask {
  private:
   void send_packet(const LitSamples& samples, std::size_t packet, std::size_t patch, std::size_t k,
                    double power) {
-    const SunLight& sun = block_[k];
+    const IntervalLight& sun = block_[k];
     const Vec3 n = m_.hierarchy_.normal(patch);
     rays += static_cast<std::uint64_t>(std::popcount(samples.active));
     for (auto lit = samples.lit; lit != 0; lit &= lit - 1) {
@@ -179,7 +179,7 @@ class FirstMirrored::SunTask {
   }
 
   const FirstMirrored& m_;
-  std::span<const SunLight> block_;
+  std::span<const IntervalLight> block_;
   SunSampler::Seeds seeds_;
 };
 
@@ -194,7 +194,7 @@ DoubleColumns one_watt_per_sun() {
 
 }  // namespace
 
-FirstMirrored::SentSuns FirstMirrored::send(std::span<const SunLight> block) const {
+FirstMirrored::SentSuns FirstMirrored::send(std::span<const IntervalLight> block) const {
   SentSuns sent;
   if (!any()) return sent;
   const std::size_t chunks = tasks(mirrors_.size());

@@ -38,7 +38,7 @@ class FirstMirrored {
     std::vector<SentSun> of_realization;  ///< empty without mirrors
     std::uint64_t rays = 0;
   };
-  SentSuns send(std::span<const SunLight> block) const;
+  SentSuns send(std::span<const IntervalLight> block) const;
 
   /// Irradiance of a block by way of mirrors [N][block] W m-2, and where the rest ended.
   struct Light {

@@ -84,7 +84,7 @@ Shooter::Shooter(const Scene& scene, const Hierarchy& hierarchy, const RayCaster
   if (!parallel.ledger.empty()) add_parallel(parallel, optics);
 }
 
-FirstMirrored::SentSuns Shooter::send_sun(std::span<const SunLight> block) const {
+FirstMirrored::SentSuns Shooter::send_sun(std::span<const IntervalLight> block) const {
   return first_mirrored_.send(block);
 }
 

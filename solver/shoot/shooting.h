@@ -75,7 +75,7 @@ class Shooter {
           const ShootingRules& rules);
 
   /// The sun's light that mirrors send on, for all realizations of a block at once.
-  FirstMirrored::SentSuns send_sun(std::span<const SunLight> block) const;
+  FirstMirrored::SentSuns send_sun(std::span<const IntervalLight> block) const;
 
   /// Solves one realization; `direct` is its direct sun.
   ShotLight light(std::size_t realization, const BlockSources& sources, const Columns& direct,

@@ -11,7 +11,7 @@ namespace sunload {
 
 namespace {
 
-using Suns = std::span<const SunLight>;
+using Suns = std::span<const IntervalLight>;
 
 /// The beams of each sun by way of mirrors; none where the scene has no mirrors.
 std::vector<SunBeams> beams_of(const TracedScene& traced, Suns block) {

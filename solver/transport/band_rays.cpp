@@ -37,7 +37,7 @@ RayLight in_band(const RayLight& rays, const BandFactors& factors, Errors errors
 }  // namespace
 
 void add_exposures(const BlockRays& rays, const BandFactors& factors,
-                   std::span<const SunLight> suns, TimeSums& sums) {
+                   std::span<const IntervalLight> suns, TimeSums& sums) {
   Factors sun_s{}, sky_s{};
   for (std::size_t k = 0; k < suns.size(); ++k) {
     sun_s[k] = factors.sun[k] * suns[k].length_s;

@@ -13,7 +13,7 @@ namespace sunload {
 
 /// Adds the time integrals of a band: `suns` have its light, relative to the traced one `factors`.
 void add_exposures(const BlockRays& rays, const BandFactors& factors,
-                   std::span<const SunLight> suns, TimeSums& sums);
+                   std::span<const IntervalLight> suns, TimeSums& sums);
 
 /// The light of a band: all of it is proportional to the sun, or to the circumsolar sky. Columns
 /// of realizations come along for errors per instant alone.

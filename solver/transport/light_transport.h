@@ -16,7 +16,7 @@ namespace sunload {
 
 /// Consecutive intervals with light that are solved side by side, at most `block_width`.
 struct Block {
-  std::span<const SunLight> suns;
+  std::span<const IntervalLight> suns;
   std::size_t first_row = 0;  ///< of them in the batch
 };
 

@@ -60,7 +60,7 @@ class MeanLight {
 
 /// Adds the time sums of one realization to its exposures.
 template <class Light>
-void add_exposure(const Light& light, std::span<const SunLight> block,
+void add_exposure(const Light& light, std::span<const IntervalLight> block,
                   std::vector<double>& exposure) {
   parallel_for(
       exposure.size(),
@@ -87,7 +87,7 @@ void add_spread(const ShotLight& light, const std::vector<double>& parallel,
 
 /// What came by which samples, for pilots. `parallel`: irradiance by parallel sources, or empty.
 void add_by_source(std::size_t r, const ShotLight& light, const std::vector<double>& parallel,
-                   std::span<const SunLight> block, ExposureBySource& to) {
+                   std::span<const IntervalLight> block, ExposureBySource& to) {
   parallel_for(
       light.lamps->size(),
       [&](std::size_t i) {

@@ -43,11 +43,11 @@ Scene court(const Material& wall_material, double exitance = 25) {
 }
 
 /// Clear skies, bright about the sun.
-std::vector<SunLight> suns(BandShares sun_colour, BandShares sky_colour) {
+std::vector<IntervalLight> suns(BandShares sun_colour, BandShares sky_colour) {
   const SkyGrid grid;
-  std::vector<SunLight> light;
+  std::vector<IntervalLight> light;
   for (const Vec3 w : {Vec3{0.5, -0.7, 0.4}, Vec3{0, -0.6, 0.8}, Vec3{-0.8, -0.3, 0.3}}) {
-    SunLight sun = one_second(w, 700);
+    IntervalLight sun = one_second(w, 700);
     sun.number = static_cast<std::uint32_t>(light.size());
     sun.dhi = 90;
     sun.sky = grid.mean_radiance(Sky({.model = SkyModel::perez,

@@ -31,7 +31,7 @@ struct OverPlate {
     builder.object("plate").quad({-half, -half, 0}, {half, -half, 0}, {half, half, 0},
                                  {-half, half, 0}, builder.material(plate));
   }
-  Solved solve_with(const SunLight& light) const {
+  Solved solve_with(const IntervalLight& light) const {
     auto rules = test_rules();
     rules.realizations = 32;
     rules.lines_per_patch = 32 * 2048;

@@ -195,7 +195,7 @@ TEST(SunInAMirror, LandsWhereTheLawOfReflectionSays) {
     Watch watch;
     const Scene scene = glint.builder.scene();
     const auto traced = trace_scene(scene, {.max_edge_m = edge}, rules_of(1), watch);
-    const std::vector<SunLight> light{one_second(glint.sun, glint.dni)};
+    const std::vector<IntervalLight> light{one_second(glint.sun, glint.dni)};
     const auto tally = sunload::solve(*transport_of(*traced), light, watch).bands.front();
     const auto& by_mirror = tally.irradiance[static_cast<std::size_t>(Part::mirror)];
     const double E = number(c["extra_horizontal_irradiance"]);

@@ -31,7 +31,7 @@ Vec3 sun_at(double zenith_deg) {
 }
 
 /// A horizontal pane of 4 m² alone in the light.
-Solved alone(const Material& material, const SunLight& light) {
+Solved alone(const Material& material, const IntervalLight& light) {
   SceneBuilder builder;
   builder.quad({0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, builder.material(material));
   return solve(builder.scene(), {light}, test_rules());

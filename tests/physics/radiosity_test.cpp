@@ -198,7 +198,7 @@ struct Canyon {
     if (L > 0) light = with_uniform_sky(light, pi * L);
   }
   SceneBuilder builder;
-  SunLight light;
+  IntervalLight light;
 };
 
 TEST_P(Radiosity, StreetCanyonWithSunAndSky) {

@@ -270,7 +270,7 @@ TEST(TiltedPlane, OverInfiniteGroundUnderAUniformSky) {
     const Vec3 up_slope{0, std::cos(tilt), std::sin(tilt)}, east{1, 0, 0};
     SceneBuilder builder;
     builder.quad({0, 0, 0}, east, east + up_slope, up_slope, builder.material({"black", 0, 0, 0}));
-    SunLight light = with_uniform_sky(night, 1);
+    IntervalLight light = with_uniform_sky(night, 1);
     light.ground_exitance = rho;
     const Solved solved = solve(builder.scene(), {light}, diffuse_rules(4096, 0));
     check(c["id"], solved.means(everywhere), number(c["H"]), 0);

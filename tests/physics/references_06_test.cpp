@@ -46,7 +46,7 @@ struct Day {
   std::vector<double> energy;
   double hours_in_front = 0;
 };
-Day day_on(const Scene& scene, const std::vector<SunLight>& suns) {
+Day day_on(const Scene& scene, const std::vector<IntervalLight>& suns) {
   const Solved solved = solve(scene, suns, sun_rules());
   Day day{solved.means([](std::size_t) { return true; }), solved.tally.sunlit_s[0] / hour_s};
   for (auto& e : day.energy) e /= hour_s;
@@ -107,16 +107,16 @@ Vec3 sun_at(double latitude, double declination, double hour_angle) {
 }
 
 /// A day in steps; of a step at sunrise or sunset the sun's part counts, at its own middle.
-std::vector<SunLight> day_of(double latitude, double declination, int steps) {
+std::vector<IntervalLight> day_of(double latitude, double declination, int steps) {
   const double cosine = -std::tan(latitude) * std::tan(declination);
   const double sunset = std::acos(std::clamp(cosine, -1.0, 1.0));
-  std::vector<SunLight> suns;
+  std::vector<IntervalLight> suns;
   for (int k = 0; k < steps; ++k) {
     const double step = 2 * pi / steps;
     const double begin = std::max(k * step - pi, -sunset);
     const double end = std::min((k + 1) * step - pi, sunset);
     if (end <= begin) continue;
-    SunLight light = one_second(sun_at(latitude, declination, (begin + end) / 2), 1);
+    IntervalLight light = one_second(sun_at(latitude, declination, (begin + end) / 2), 1);
     light.number = static_cast<std::uint32_t>(k);
     light.length_s = light.sunlit_s = 24 * hour_s * (end - begin) / (2 * pi);
     suns.push_back(light);

@@ -23,7 +23,7 @@ Material crown(double T, double diffuse = 0, double mirror = 0) {
 }
 
 /// A black receiver of 1 m² under k screens that are large beside their distance.
-Solved under(int layers, double T, Sides sides, const SunLight& light) {
+Solved under(int layers, double T, Sides sides, const IntervalLight& light) {
   SceneBuilder builder;
   const int black = builder.material({"black"}), screen = builder.material(crown(T));
   builder.object("receiver").quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, black);

@@ -42,8 +42,8 @@ struct Trough {
   }
 };
 
-SunLight disk_sun(Vec3 direction) {
-  SunLight light = one_second(direction, dni);
+IntervalLight disk_sun(Vec3 direction) {
+  IntervalLight light = one_second(direction, dni);
   light.disk_half_angle = disk_half_angle(SunDisk::finite, 1);
   return light;
 }

@@ -38,7 +38,7 @@ struct Stage : LampStage {
     sensors.push_back(sensor_at(position, normal));
     return *this;
   }
-  BatchTally light(const SunLight& light, const SolverRules& rules) const {
+  BatchTally light(const IntervalLight& light, const SolverRules& rules) const {
     Scene scene = builder.scene();
     scene.sensors = sensors;
     return solve(scene, {light}, rules).tally;
@@ -289,7 +289,7 @@ TEST(SensorReflection, CountsTheSameBouncesAsPatches) {
 // ---- skies through openings (after CIE 171) ----------------------------------------------
 
 /// The sky of a case, by a horizontal irradiance of 100: values are then per cent.
-SunLight percent_sky(const json& c) {
+IntervalLight percent_sky(const json& c) {
   const std::string word = c["sky"];
   const double azimuth = radians(number(c["sun_azimuth_deg"]));
   const double zenith = radians(number(c["sun_zenith_deg"]));
@@ -303,7 +303,7 @@ SunLight percent_sky(const json& c) {
                 : word == "kittler"  ? SkyModel::cie_clear
                                      : SkyModel::cie_general;
   if (input.model == SkyModel::cie_general) input.cie_type = std::stoi(word.substr(3));
-  SunLight light = night;
+  IntervalLight light = night;
   light.dhi = input.dhi;
   light.sky = SkyGrid().mean_radiance(Sky(input), input.dhi);
   return light;
@@ -401,7 +401,7 @@ TEST(SensorSky, FarGroundThroughAFacadeOpening) {
     Stage stage;
     add_room(stage, false, 0);
     stage.at(point(c["points"][0]), point(c["normals"][0]));
-    SunLight light = night;
+    IntervalLight light = night;
     light.dhi = 100;  // not dark
     light.ground_exitance = number(c["ground_reflectance"]) * 100;
     const auto E = of_sensor(stage.light(light, rules_of(1 << 12)), 0);
@@ -422,13 +422,13 @@ Stage yard() {
   return stage;
 }
 
-SunLight noon() { return with_uniform_sky(one_second({0.3, -0.6, 0.7}, 800), 100); }
+IntervalLight noon() { return with_uniform_sky(one_second({0.3, -0.6, 0.7}, 800), 100); }
 
 TEST(Sensors, OpenFieldIsGlobalHorizontalIrradiance) {
   Stage stage;
   stage.builder.triangle({1000, 1000, -1}, {1001, 1000, -1}, {1000, 1001, -1}, stage.black);
   stage.at({0, 0, 1}, {0, 0, 1}).at({0, 0, 1}, {0, -1, 0}).at({0, 0, 1}, {0, 0, -2});
-  SunLight light = noon();
+  IntervalLight light = noon();
   const double ghi = light.dni * light.direction.z + light.dhi;
   light.ground_exitance = 0.2 * ghi;
   const SolverRules rules = rules_of(256);
@@ -533,7 +533,7 @@ TEST(Sensors, SeeAPartOfTheSunsDisk) {
   stage.builder.sides(Sides::two);
   stage.builder.quad({0, -50, 10}, {50, -50, 10}, {50, 50, 10}, {0, 50, 10}, stage.black);
   stage.at({0, 0, 0}, {0, 0, 1}).at({-1, 0, 0}, {0, 0, 1}).at({1, 0, 0}, {0, 0, 1});
-  SunLight light = one_second({0, 0, 1}, 1000);
+  IntervalLight light = one_second({0, 0, 1}, 1000);
   light.disk_half_angle = radians(0.2666);
   SolverRules rules = rules_of(1);
   rules.direct_samples = rules.realizations * 64;

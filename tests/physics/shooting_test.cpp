@@ -40,7 +40,7 @@ SolverRules rules_of(Transport transport, int bounces = 5, Jacobi jacobi = Jacob
 }
 
 /// Each with random numbers of its own.
-std::vector<SunLight> numbered_suns() {
+std::vector<IntervalLight> numbered_suns() {
   auto light = three_suns();
   for (std::size_t k = 0; k < light.size(); ++k) light[k].number = static_cast<std::uint32_t>(k);
   return light;
@@ -53,7 +53,7 @@ double squared(double rho) { return rho * rho; }
 
 struct Case {
   const char* name;
-  std::vector<SunLight> light;
+  std::vector<IntervalLight> light;
   SplitRules split;
   int bounces;
   Scene (*scene)(Change);
@@ -115,7 +115,7 @@ Scene court_under_a_beam(Change change) {
 }
 
 /// Sky and far ground only: each transport cuts the sun's chains in its own place.
-std::vector<SunLight> overcast() {
+std::vector<IntervalLight> overcast() {
   auto light = with_uniform_sky(night, 100);
   light.ground_exitance = 50;
   return {light};

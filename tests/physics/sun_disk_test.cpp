@@ -50,11 +50,11 @@ std::vector<std::vector<double>> sunlit(const Edge& edge, const std::vector<doub
   const SunSampler sampler(hierarchy, caster, rules);
   const std::size_t patches = hierarchy.patch_count();
   const auto realizations = static_cast<std::size_t>(rules.realizations);
-  SunLight light = one_second(edge.sun(), 1);
+  IntervalLight light = one_second(edge.sun(), 1);
   light.disk_half_angle = sun_half_angle;
   std::vector<std::vector<double>> exposure(realizations, std::vector<double>(patches, 0));
   Columns pooled = columns(patches), sunlit = columns(patches);
-  direct_sun(caster, sampler, std::vector<SunLight>{light},
+  direct_sun(caster, sampler, std::vector<IntervalLight>{light},
              {pooled, realizations, &exposure, nullptr}, sunlit);
   std::vector<std::vector<double>> share(middles_y.size(), std::vector<double>(realizations));
   for (std::size_t strip = 0; strip < middles_y.size(); ++strip)
@@ -167,7 +167,7 @@ struct GlossyStrip {
   /// Where the strip mirrors the sun to.
   Vec3 glint() const { return Vec3{0, y, 0} + 0.08 * Vec3{0, -edge.sun().y, edge.sun().z}; }
   Solved solve_with(double sun_half_angle, const std::vector<Sensor>& sensors = {}) const {
-    SunLight light = one_second(edge.sun(), 900);
+    IntervalLight light = one_second(edge.sun(), 900);
     light.disk_half_angle = sun_half_angle;
     auto rules = test_rules();
     rules.lines_per_patch = rules.realizations * 16384;

@@ -204,8 +204,8 @@ Scene courtyard() {
   return builder.scene();
 }
 
-std::vector<SunLight> day() {
-  std::vector<SunLight> suns;
+std::vector<IntervalLight> day() {
+  std::vector<IntervalLight> suns;
   for (int k = 0; k < 8; ++k) {
     const double a = 0.35 * (k - 3.5);
     suns.push_back(with_uniform_sky(one_second({std::sin(a), -0.6, std::cos(a)}, 700), 120));
@@ -348,13 +348,14 @@ struct SpreadSums {
 };
 
 /// Every second of the suns.
-std::vector<SunLight> half_of(const std::vector<SunLight>& suns) {
-  std::vector<SunLight> some;
+std::vector<IntervalLight> half_of(const std::vector<IntervalLight>& suns) {
+  std::vector<IntervalLight> some;
   for (std::size_t k = 0; k < suns.size(); k += 2) some.push_back(suns[k]);
   return some;
 }
 
-SpreadSums spread_sums(const SolverRules& rules, const std::vector<SunLight>& suns, double weight) {
+SpreadSums spread_sums(const SolverRules& rules, const std::vector<IntervalLight>& suns,
+                       double weight) {
   Watch watch;
   const Scene scene = courtyard();
   const auto mesh = std::make_shared<const Hierarchy>(scene, SplitRules{.max_edge_m = 2});
@@ -376,9 +377,9 @@ TEST(Accuracy, PilotOfSomeSunsStandsForAll) {
 TEST(Accuracy, PilotOfSomeBlocksStandsForAllThatAreShot) {
   SolverRules rules = rules_of(2048, 512);
   rules.transport = Transport::shoot;
-  std::vector<SunLight> suns;
+  std::vector<IntervalLight> suns;
   for (int d = 0; d < 4; ++d)
-    for (SunLight sun : day()) {
+    for (IntervalLight sun : day()) {
       sun.number = static_cast<std::uint32_t>(suns.size());
       suns.push_back(sun);
     }
@@ -409,7 +410,7 @@ TEST(Accuracy, PilotOfMoreLinesKeepsThePowerOfASample) {
 
 /// A pilot of one sun in the south, without sky.
 PatchSpread pilot_of_one_sun(const SceneBuilder& builder) {
-  SunLight sun = one_second(normalized(Vec3{0, -1, 1}), 800);
+  IntervalLight sun = one_second(normalized(Vec3{0, -1, 1}), 800);
   Watch watch;
   const Scene scene = builder.scene();
   const auto mesh = std::make_shared<const Hierarchy>(scene, SplitRules{.max_edge_m = 1});

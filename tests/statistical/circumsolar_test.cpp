@@ -30,8 +30,8 @@ const SkyGrid grid;
 const Vec3 low_sun = normalized({0.6, -0.75, 0.3});
 
 /// A second of sky light without sun: 90 W/m2 on open ground.
-SunLight sky_light(SkyModel model, double dni, Vec3 to_sun = low_sun) {
-  SunLight light = one_second(to_sun, 0);
+IntervalLight sky_light(SkyModel model, double dni, Vec3 to_sun = low_sun) {
+  IntervalLight light = one_second(to_sun, 0);
   light.dhi = 90;
   const double zenith_deg = std::acos(light.direction.z) / radians_per_degree;
   light.sky = grid.mean_radiance(Sky({.model = model,
@@ -42,15 +42,15 @@ SunLight sky_light(SkyModel model, double dni, Vec3 to_sun = low_sun) {
                                  light.dhi);
   return light;
 }
-SunLight clear_sky() { return sky_light(SkyModel::perez, 700); }
+IntervalLight clear_sky() { return sky_light(SkyModel::perez, 700); }
 
 TEST(Circumsolar, IsTakenFromClearSkiesOnly) {
-  for (const SunLight& light :
+  for (const IntervalLight& light :
        {sky_light(SkyModel::uniform, 0), sky_light(SkyModel::cie_overcast, 0),
         sky_light(SkyModel::perez, 0)})
     EXPECT_FALSE(CircumsolarSky(grid, light.sky, light.direction).any());
   EXPECT_FALSE(CircumsolarSky(grid, {}, low_sun).any());
-  const SunLight clear = clear_sky();
+  const IntervalLight clear = clear_sky();
   const CircumsolarSky sky(grid, clear.sky, clear.direction);
   ASSERT_TRUE(sky.any());
   double sum = 0, all = 0;
@@ -66,7 +66,7 @@ TEST(Circumsolar, IsTakenFromClearSkiesOnly) {
 }
 
 TEST(Circumsolar, IsDrawnByItsRadiance) {
-  const SunLight clear = clear_sky();
+  const IntervalLight clear = clear_sky();
   const CircumsolarSky sky(grid, clear.sky, clear.direction);
   constexpr std::uint32_t packets = 40000;
   std::vector<double> counted(clear.sky.size(), 0), expected(counted), uniform_cells(counted);
@@ -128,7 +128,7 @@ double unshaded(const std::vector<double>& radiance, Vec3 normal) {
 // Open plates of all tilts, towards the sun and away, with the sun in their plane: half of the
 // circumsolar light is behind them then.
 TEST(Circumsolar, OnOpenPlatesIsExact) {
-  const SunLight light = clear_sky();
+  const IntervalLight light = clear_sky();
   const CircumsolarSky sky(grid, light.sky, light.direction);
   std::vector<double> circumsolar(light.sky.size());
   for (std::size_t c = 0; c < circumsolar.size(); ++c) circumsolar[c] = sky.radiance(c);
@@ -150,7 +150,7 @@ TEST(Circumsolar, OnOpenPlatesIsExact) {
                              {rules.direct_samples, rules.realizations, 1});
     std::vector<std::vector<double>> exposure(64, std::vector<double>(2, 0));
     Columns direct = columns(2), circumsolar_sum = columns(2), sunlit = columns(2);
-    const std::vector<SunLight> block{light};
+    const std::vector<IntervalLight> block{light};
     direct_sun(traced->caster, sampler, block, {direct, 64, nullptr, nullptr}, sunlit);
     circumsolar_light(traced->caster, sampler, block, {sky}, sunlit,
                       {circumsolar_sum, 64, &exposure, nullptr});

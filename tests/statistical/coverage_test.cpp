@@ -63,7 +63,7 @@ void check(const std::string& name, const std::vector<std::vector<double>>& all,
   })));
 }
 
-std::vector<std::vector<double>> repeated(const Scene& scene, const SunLight& light,
+std::vector<std::vector<double>> repeated(const Scene& scene, const IntervalLight& light,
                                           const SplitRules& split, const Run& of) {
   std::vector<std::vector<double>> all;
   for (int run = 0; run < runs; ++run)

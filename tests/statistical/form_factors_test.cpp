@@ -50,7 +50,7 @@ struct Stage : LampStage {
 
 /// Mean irradiance per realization of the triangles of the first `triangles`.
 std::vector<double> received(const Stage& stage, int lines, std::size_t triangles,
-                             const SunLight& light = night) {
+                             const IntervalLight& light = night) {
   const auto solved = solve(stage.builder.scene(), {light}, rules_of(lines));
   return solved.means([&](std::size_t i) {
     return static_cast<std::size_t>(solved.patches[i].triangle) < triangles;

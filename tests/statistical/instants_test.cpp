@@ -32,7 +32,7 @@ struct Spread {
   std::vector<double> variance, squared_error;
 };
 
-Spread spread(const Scene& scene, const std::vector<SunLight>& light) {
+Spread spread(const Scene& scene, const std::vector<IntervalLight>& light) {
   std::vector<std::vector<double>> values;
   Spread result;
   for (int s = 0; s < seeds; ++s) {

@@ -101,8 +101,8 @@ Sensor sensor_at(Vec3 position, Vec3 normal) {
   return {position, normalized(normal), sensor_key(position, normal)};
 }
 
-SunLight one_second(Vec3 sun_direction, double dni) {
-  SunLight light;
+IntervalLight one_second(Vec3 sun_direction, double dni) {
+  IntervalLight light;
   light.direction = normalized(sun_direction);
   light.dni = dni;
   light.length_s = 1;
@@ -110,14 +110,14 @@ SunLight one_second(Vec3 sun_direction, double dni) {
   return light;
 }
 
-SunLight with_uniform_sky(SunLight light, double dhi, const SkyGrid& grid) {
+IntervalLight with_uniform_sky(IntervalLight light, double dhi, const SkyGrid& grid) {
   light.dhi = dhi;
   light.sky.assign(static_cast<std::size_t>(grid.cell_count()), dhi / pi);
   return light;
 }
 
-std::vector<SunLight> three_suns() {
-  std::vector<SunLight> light;
+std::vector<IntervalLight> three_suns() {
+  std::vector<IntervalLight> light;
   for (const Vec3 w : {Vec3{0.5, -0.7, 0.4}, Vec3{0, -0.6, 0.8}, Vec3{-0.8, -0.3, 0.3}}) {
     auto sun = with_uniform_sky(one_second(w, 700), 90);
     sun.ground_exitance = 0.2 * (700 * sun.direction.z + 90);
@@ -167,7 +167,7 @@ SolverRules test_rules() {
 
 namespace {
 
-std::vector<Solved> solved_bands(const Scene& scene, const std::vector<SunLight>& light,
+std::vector<Solved> solved_bands(const Scene& scene, const std::vector<IntervalLight>& light,
                                  const SolverRules& rules, const SplitRules& split) {
   Watch watch;
   const auto traced = trace_scene(scene, split, rules, watch);
@@ -192,18 +192,18 @@ std::vector<Solved> solved_bands(const Scene& scene, const std::vector<SunLight>
 
 }  // namespace
 
-Solved solve(const Scene& scene, const std::vector<SunLight>& light, const SolverRules& rules,
+Solved solve(const Scene& scene, const std::vector<IntervalLight>& light, const SolverRules& rules,
              const SplitRules& split) {
   return solved_bands(scene, light, rules, split).front();
 }
 
-std::vector<Solved> solve_bands(const Scene& scene, const std::vector<SunLight>& light,
+std::vector<Solved> solve_bands(const Scene& scene, const std::vector<IntervalLight>& light,
                                 SolverRules rules, const SplitRules& split) {
   rules.bands = Bands::rgb;
   return solved_bands(scene, light, rules, split);
 }
 
-SunLight in_bands(SunLight light, BandShares sun, BandShares sky) {
+IntervalLight in_bands(IntervalLight light, BandShares sun, BandShares sky) {
   light.bands.clear();
   for (std::size_t b = 0; b < band_count; ++b) {
     light.bands.push_back({light.dni * sun[b], light.ground_exitance * sky[b], light.sky});

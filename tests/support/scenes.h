@@ -44,14 +44,14 @@ void add_parallel_source(Scene& scene, Vec3 p, Vec3 x, Vec3 y, double exitance);
 Sensor sensor_at(Vec3 position, Vec3 normal);
 
 /// One second of light, so that exposures are irradiances.
-SunLight one_second(Vec3 sun_direction, double dni);
+IntervalLight one_second(Vec3 sun_direction, double dni);
 /// Adds a uniform sky of that horizontal irradiance.
-SunLight with_uniform_sky(SunLight light, double dhi, const SkyGrid& grid = SkyGrid());
+IntervalLight with_uniform_sky(IntervalLight light, double dhi, const SkyGrid& grid = SkyGrid());
 
 /// Suns of different heights, each under a uniform sky and over a far ground of albedo 0.2.
-std::vector<SunLight> three_suns();
+std::vector<IntervalLight> three_suns();
 /// Neither sun nor sky.
-inline const SunLight night = one_second({0, 0, -1}, 0);
+inline const IntervalLight night = one_second({0, 0, -1}, 0);
 
 struct Solved {
   std::vector<double> area;
@@ -75,12 +75,12 @@ inline bool everywhere(std::size_t /*patch*/) { return true; }
 
 /// Solves one batch; the defaults suit tests: 16 realizations, errors of totals.
 SolverRules test_rules();
-Solved solve(const Scene& scene, const std::vector<SunLight>& light, const SolverRules& rules,
+Solved solve(const Scene& scene, const std::vector<IntervalLight>& light, const SolverRules& rules,
              const SplitRules& split = {});
 /// The same in red, green and blue; every sun has its light in bands.
-std::vector<Solved> solve_bands(const Scene& scene, const std::vector<SunLight>& light,
+std::vector<Solved> solve_bands(const Scene& scene, const std::vector<IntervalLight>& light,
                                 SolverRules rules, const SplitRules& split = {});
 /// The same light in every band, but for the sun's and the sky's colour (of mean 1).
-SunLight in_bands(SunLight light, BandShares sun = {1, 1, 1}, BandShares sky = {1, 1, 1});
+IntervalLight in_bands(IntervalLight light, BandShares sun = {1, 1, 1}, BandShares sky = {1, 1, 1});
 
 }  // namespace sunload::test

@@ -22,7 +22,7 @@ std::string night_study(const std::string& builtin, const std::string& sections)
          builtin + "}}\n" + sections;
 }
 
-std::vector<SunLight> suns_of(const VariantPlan& plan, const SkyGrid& grid) {
+std::vector<IntervalLight> suns_of(const VariantPlan& plan, const SkyGrid& grid) {
   return IntervalLights(plan.study, plan.built.site, grid).of(plan.light);
 }
 

@@ -19,7 +19,7 @@ VariantPlan plan_of(const std::string& yaml);
 std::string night_study(const std::string& builtin, const std::string& sections);
 
 /// All intervals of a plan as the solver takes them.
-std::vector<SunLight> suns_of(const VariantPlan& plan, const SkyGrid& grid);
+std::vector<IntervalLight> suns_of(const VariantPlan& plan, const SkyGrid& grid);
 
 struct SolvedPlan {
   VariantPlan plan;

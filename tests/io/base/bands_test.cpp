@@ -129,7 +129,7 @@ struct Sky30 {
     interval.mean = interval.of_the_sky = {700, 100, 700 * std::sin(radians(elevation_deg)) + 100};
     study.sky = sky;
   }
-  SunLight light(const Horizon& hills = {}) const {
+  IntervalLight light(const Horizon& hills = {}) const {
     Study in_bands;
     in_bands.light = study;
     in_bands.solver.bands = Bands::rgb;
@@ -149,7 +149,7 @@ TEST(BandLight, MeanOfTheBandsIsTheBroadbandLightOfEverySource) {
                          SkyModel::preetham, SkyModel::cie_overcast})
     for (const double elevation : {2.0, 20.0, 60.0})
       for (const auto& horizon : {Horizon(), hills}) {
-        const SunLight light = Sky30(elevation, sky).light(horizon);
+        const IntervalLight light = Sky30(elevation, sky).light(horizon);
         ASSERT_EQ(light.bands.size(), band_count);
         const auto mean = [&](auto&& of) {
           return (of(light.bands[0]) + of(light.bands[1]) + of(light.bands[2])) / 3;
@@ -163,7 +163,7 @@ TEST(BandLight, MeanOfTheBandsIsTheBroadbandLightOfEverySource) {
 }
 
 TEST(BandLight, LowSunIsRedHighSunWhiteAndTheSkyBlue) {
-  const auto redness = [](const SunLight& light) {
+  const auto redness = [](const IntervalLight& light) {
     return light.bands[0].dni / light.bands[2].dni;
   };
   EXPECT_NEAR(redness(Sky30(45).light()), 1, 1e-12);
@@ -172,7 +172,7 @@ TEST(BandLight, LowSunIsRedHighSunWhiteAndTheSkyBlue) {
   EXPECT_NEAR(redness(Sky30(0.001).light()), 1 / 0.5, 1e-3);  // reddening 1 of sky_colour
   for (const double elevation : {60.0, 20.0}) {
     const Sky30 clear(elevation);
-    const SunLight light = clear.light();
+    const IntervalLight light = clear.light();
     EXPECT_GT(diffuse(light.bands[2].sky, clear.grid),
               1.2 * diffuse(light.bands[0].sky, clear.grid));
     EXPECT_GT(redness(light),
@@ -182,13 +182,13 @@ TEST(BandLight, LowSunIsRedHighSunWhiteAndTheSkyBlue) {
 
 TEST(BandLight, CloudsAreWhiteAndWhiteLightIsTheSameInEveryBand) {
   for (const auto sky : {SkyModel::cie_overcast, SkyModel::uniform}) {
-    const SunLight light = Sky30(30, sky).light();
+    const IntervalLight light = Sky30(30, sky).light();
     EXPECT_EQ(light.bands[0].sky, light.sky);
     EXPECT_EQ(light.bands[2].sky, light.sky);
   }
   Sky30 white(10);
   white.study.colour = LightColour::white;
-  for (const SunLight light = white.light(); const auto& band : light.bands) {
+  for (const IntervalLight light = white.light(); const auto& band : light.bands) {
     EXPECT_EQ(band.dni, light.dni);
     EXPECT_EQ(band.sky, light.sky);
     EXPECT_EQ(band.ground_exitance, light.ground_exitance);

@@ -100,7 +100,7 @@ TEST(HillsLight, LowSkyIsFarGround) {
   const Site site = prague(hills);
   const auto open = open_shares(grid, hills, scene_from_enu(site));
   const LitInterval noon = light_series(s, site).intervals[12];
-  const SunLight light = IntervalLights(s, site, grid).of(noon, 12);
+  const IntervalLight light = IntervalLights(s, site, grid).of(noon, 12);
   ASSERT_EQ(light.sky.size(), static_cast<std::size_t>(grid.cell_count()));
   double sky = 0, ground = 0;
   for (std::size_t c = 0; c < open.size(); ++c) {
@@ -118,7 +118,7 @@ TEST(HillsLight, LowSkyIsFarGround) {
   EXPECT_NEAR(sky / pi, 0.75, 150.0 / 4096 / 64);
   EXPECT_NEAR(sky + ground, pi, 1e-9);
   // Without hills the same as ever.
-  const SunLight before = IntervalLights(s, prague({}), grid).of(noon, 12);
+  const IntervalLight before = IntervalLights(s, prague({}), grid).of(noon, 12);
   EXPECT_EQ(before.sky, grid.mean_radiance(sky_of(noon, s.light), noon.mean.dhi));
 }
 

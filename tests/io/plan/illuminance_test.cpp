@@ -38,8 +38,8 @@ TEST(Illuminance, BeamAndSkyAreConvertedByTheirOwnEfficacies) {
     int lit = 0;
     for (std::uint32_t k = 0; k < series.intervals.size(); ++k) {
       const LitInterval& interval = series.intervals[k];
-      const SunLight watts = IntervalLights(power, site, grid).of(interval, k);
-      const SunLight lux = IntervalLights(light, site, grid).of(interval, k);
+      const IntervalLight watts = IntervalLights(power, site, grid).of(interval, k);
+      const IntervalLight lux = IntervalLights(light, site, grid).of(interval, k);
       EXPECT_EQ(lux.sunlit_s, watts.sunlit_s);
       if (watts.dni <= 0) {
         EXPECT_EQ(lux.dni, 0);

@@ -90,7 +90,7 @@ TEST(LitIntervals, WithoutPowerAreNoneOfThePilots) {
 // Tests of physics take their suns from here, as runs do.
 TEST(IntervalLights, HaveTheSunsDisk) {
   const SkyGrid grid;
-  for (const SunLight& sun : test::suns_of(day_with_twilight(), grid))
+  for (const IntervalLight& sun : test::suns_of(day_with_twilight(), grid))
     EXPECT_EQ(sun.disk_half_angle, 0);
   const VariantPlan plan = day_with_twilight("sun: {disk: finite}\n");
   const auto suns = test::suns_of(plan, grid);

@@ -120,7 +120,7 @@ TEST(WeatherLight, SolverGetsDiffuseLightInTheDark) {
   const IntervalLights lights(study, Site{}, grid);
   std::size_t dark = 0;
   for (const auto& interval : series.intervals) {
-    const SunLight light = lights.of(interval, 0);
+    const IntervalLight light = lights.of(interval, 0);
     EXPECT_FALSE(light.is_dark());
     double horizontal = 0;
     for (std::size_t c = 0; c < light.sky.size(); ++c) {
