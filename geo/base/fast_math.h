@@ -4,7 +4,7 @@
 ///
 /// Straight-line arithmetic, no branches, no tables, no calls: loops over them become
 /// vector code on every instruction set, and the same bits on each of them (no fused
-/// multiply-add). Errors are measured in tests/geo/fast_math_test.cpp.
+/// multiply-add). Errors are measured in tests/geo/base/fast_math_test.cpp.
 #pragma once
 
 #include <array>
