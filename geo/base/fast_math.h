@@ -39,7 +39,7 @@ inline constexpr std::array<double, 10> sine_series{1,
                                                     1.0 / 6227020800,
                                                     -1.0 / 1307674368000,
                                                     1.0 / 355687428096000,
-                                                    -1.0 / 121645100408832000};
+                                                    -1.0 / 121645100408832000.0};
 
 // cos(x) in powers of x², so that the remainder for x ≤ pi/4 is 2e-18.
 inline constexpr std::array<double, 9> cosine_series{1,

@@ -276,6 +276,7 @@ void Dataset::write(const std::vector<std::string>& values) {
   SUNLOAD_EXPECT(values.size() == element_count(shape()), "size of a dataset");
   if (values.empty()) return;
   std::vector<const char*> begins;
+  begins.reserve(values.size());
   for (const auto& value : values) begins.push_back(value.c_str());
   checked(H5Dwrite(id(), *text_type(), H5S_ALL, H5S_ALL, H5P_DEFAULT, begins.data()), "writing");
 }
@@ -309,6 +310,7 @@ std::vector<std::string> Dataset::strings() const {
   const auto type = text_type();
   const auto begins = read_all<char*>(id(), size, *type);
   std::vector<std::string> values;
+  values.reserve(begins.size());
   for (const char* begin : begins) values.emplace_back(begin != nullptr ? begin : "");
   auto* reclaimed = const_cast<char**>(begins.data());
   H5Dvlen_reclaim(*type, *space_of(size), H5P_DEFAULT, reclaimed);

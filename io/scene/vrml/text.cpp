@@ -282,7 +282,7 @@ struct Span {
 /// Blanks out the spans and puts `word` at their begin; lines stay where they are.
 VrmlDropped replace_all(VrmlText& file, const std::vector<Span>& spans, std::string_view word) {
   if (spans.empty()) return {};
-  const VrmlDropped dropped{spans.size(), place_in_text(file.path, file.text, spans.front().begin)};
+  VrmlDropped dropped{spans.size(), place_in_text(file.path, file.text, spans.front().begin)};
   for (auto span = spans.rbegin(); span != spans.rend(); ++span) {
     for (auto at = span->begin; at < span->end; ++at) {
       if (file.text[at] != '\n' && file.text[at] != '\r') file.text[at] = ' ';
