@@ -18,11 +18,13 @@ namespace {
 constexpr int fewest_realizations = 8, most_realizations = 256, most_realizations_of_instants = 16;
 // None of so many lines meets what sends a patch 1 % of the largest load: 0.6 % of patches.
 constexpr int fewest_lines = 512;
+/// Makes the pilot's random numbers others than the study's.
+constexpr std::uint64_t mixed_into_the_seed = 4;
 
 /// A pilot is part of the preparation.
-class PilotWatch : public Watch {
+class PreparationWatch : public Watch {
  public:
-  explicit PilotWatch(Watch& watch) : watch_(watch) {}
+  explicit PreparationWatch(Watch& watch) : watch_(watch) {}
   void advance(Stage stage, double share) override {
     watch_.advance(Stage::prepare,
                    stage == Stage::lines ? share / 2 : (1 + begin_ + share * length_) / 2);
@@ -40,15 +42,15 @@ class PilotWatch : public Watch {
 
 }  // namespace
 
-PilotChoice pilot_choice(std::size_t lit) {
-  PilotChoice choice;
-  const std::size_t count = std::min(pilot_suns, lit);
-  for (std::size_t p = 0; p < count; ++p) choice.places.push_back((2 * p + 1) * lit / (2 * count));
-  if (count > 0) choice.weight = static_cast<double>(lit) / static_cast<double>(count);
-  return choice;
+AccuracyPilotSuns accuracy_pilot_suns(std::size_t lit) {
+  AccuracyPilotSuns suns;
+  const std::size_t count = std::min(most_accuracy_pilot_suns, lit);
+  for (std::size_t p = 0; p < count; ++p) suns.places.push_back((2 * p + 1) * lit / (2 * count));
+  if (count > 0) suns.weight = static_cast<double>(lit) / static_cast<double>(count);
+  return suns;
 }
 
-SolverRules rules_of_pilot(SolverRules rules, bool of_instants) {
+SolverRules rules_of_accuracy_pilot(SolverRules rules, bool of_instants) {
   int lines = rules.lines_per_patch / rules.realizations;
   const int samples = rules.direct_samples / rules.realizations;
   const double of_study = static_cast<double>(rules.realizations) * lines;
@@ -61,7 +63,7 @@ SolverRules rules_of_pilot(SolverRules rules, bool of_instants) {
     *rules.power_per_sample_w *= of_study / (static_cast<double>(rules.realizations) * lines);
   rules.lines_per_patch = lines * rules.realizations;
   rules.direct_samples = samples * rules.realizations;
-  rules.seed = mixed(rules.seed, static_cast<std::uint64_t>(Purpose::pilot));
+  rules.seed = mixed(rules.seed, mixed_into_the_seed);
   rules.errors = of_instants ? Errors::instants : Errors::totals;
   rules.bands = Bands::broadband;  // goals are for the mean of the bands
   rules.by_source = true;
@@ -113,7 +115,7 @@ void append(std::vector<float>& to, const std::vector<float>& from) {
 
 /// Exposures of all suns, and what is told of every one; so many at a time share their samples.
 Solved solved_in_blocks(const LightTransport& transport, std::span<const IntervalLight> suns,
-                        std::size_t block, PilotWatch& watch) {
+                        std::size_t block, PreparationWatch& watch) {
   Solved all_blocks = solve(transport, {}, watch);
   BatchTally& sum = all_blocks.bands.front();
   constexpr auto total = static_cast<std::size_t>(Part::total);
@@ -236,7 +238,7 @@ void share_with_neighbours(const Hierarchy& hierarchy, std::vector<double>& of_l
 }
 
 PatchSpread gathered_spread(const LightTransport& transport, std::span<const IntervalLight> suns,
-                            const PilotRules& pilot, PilotWatch& watch) {
+                            const AccuracyPilotRules& pilot, PreparationWatch& watch) {
   const TracedScene& traced = transport.traced();
   const Solved solved = solve(transport, suns, watch);
   PatchSpread spread;
@@ -246,7 +248,7 @@ PatchSpread gathered_spread(const LightTransport& transport, std::span<const Int
 }
 
 PatchSpread shot_spread(const LightTransport& transport, std::span<const IntervalLight> suns,
-                        const PilotRules& pilot, PilotWatch& watch) {
+                        const AccuracyPilotRules& pilot, PreparationWatch& watch) {
   const TracedScene& traced = transport.traced();
   const std::size_t block = std::min(pilot.batch_suns, block_width);
   const Solved solved = solved_in_blocks(transport, suns, block, watch);
@@ -267,17 +269,17 @@ PatchSpread shot_spread(const LightTransport& transport, std::span<const Interva
 
 }  // namespace
 
-PatchSpread pilot_spread(const Scene& scene, std::shared_ptr<const Hierarchy> mesh,
-                         const SolverRules& rules, std::span<const IntervalLight> suns,
-                         const PilotRules& pilot, Watch& watch) {
-  PilotWatch pilot_watch(watch);
+PatchSpread accuracy_pilot_spread(const Scene& scene, std::shared_ptr<const Hierarchy> mesh,
+                                  const SolverRules& rules, std::span<const IntervalLight> suns,
+                                  const AccuracyPilotRules& pilot, Watch& watch) {
+  PreparationWatch pilot_watch(watch);
   std::optional<Scene> without_sensors;
   if (!scene.sensors.empty()) {
     without_sensors = scene;
     without_sensors->sensors.clear();
   }
   const auto traced = trace_scene(without_sensors ? *without_sensors : scene, std::move(mesh),
-                                  rules_of_pilot(rules, pilot.of_instants), pilot_watch);
+                                  rules_of_accuracy_pilot(rules, pilot.of_instants), pilot_watch);
   const auto transport = transport_of(*traced);
   PatchSpread spread = rules.transport == Transport::gather
                            ? gathered_spread(*transport, suns, pilot, pilot_watch)

@@ -37,22 +37,23 @@ struct PatchSpread {
   double shots_per_block = 0;
 };
 
-/// Suns of a pilot, at most.
-inline constexpr std::size_t pilot_suns = 32;
+/// Suns of the pilot, at most.
+inline constexpr std::size_t most_accuracy_pilot_suns = 32;
 
-/// Which of a period's intervals with light a pilot solves: `pilot_suns` of them, evenly spread.
-struct PilotChoice {
+/// Which of a period's intervals with light the pilot solves: `most_accuracy_pilot_suns` of them,
+/// evenly spread.
+struct AccuracyPilotSuns {
   std::vector<std::size_t> places;  ///< in the list of these intervals
   double weight = 1;                ///< of them for which each stands
 };
-PilotChoice pilot_choice(std::size_t lit);
+AccuracyPilotSuns accuracy_pilot_suns(std::size_t lit);
 
-/// The rules that a pilot of a study solves by. Its realizations are like the study's own (the
+/// The rules that the pilot of a study solves by. Its realizations are like the study's own (the
 /// errors of few scrambled points are not those of many), only more, or with more lines where they
 /// may not be as many as that takes.
-SolverRules rules_of_pilot(SolverRules of_study, bool of_instants);
+SolverRules rules_of_accuracy_pilot(SolverRules of_study, bool of_instants);
 
-struct PilotRules {
+struct AccuracyPilotRules {
   double weight = 1;  ///< suns of the period for which each of the pilot's stands
   std::size_t batch_suns = block_width;  ///< of the period, which share samples when shooting
   bool of_instants = false;              ///< PatchSpread::irradiance
@@ -60,8 +61,8 @@ struct PilotRules {
 
 /// Solves `suns` with more realizations of the study's own kind. Deterministic. Variances of lines
 /// are means over a patch and its nearest neighbours on the input triangle. Throws Interrupted.
-PatchSpread pilot_spread(const Scene& scene, std::shared_ptr<const Hierarchy> mesh,
-                         const SolverRules& rules, std::span<const IntervalLight> suns,
-                         const PilotRules& pilot, Watch& watch);
+PatchSpread accuracy_pilot_spread(const Scene& scene, std::shared_ptr<const Hierarchy> mesh,
+                                  const SolverRules& rules, std::span<const IntervalLight> suns,
+                                  const AccuracyPilotRules& pilot, Watch& watch);
 
 }  // namespace sunload

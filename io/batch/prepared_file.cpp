@@ -30,7 +30,7 @@ void visit_set(Set& set, Array&& array) {
     }
   array(set.ends);
   array(set.lamps);
-  array(set.first_light);
+  array(set.mirrored_fates);
 }
 
 class Output {

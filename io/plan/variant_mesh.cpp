@@ -15,18 +15,18 @@ namespace sunload {
 
 namespace {
 
-constexpr std::size_t suns_per_sample = most_pilot_suns / 2;
+constexpr std::size_t suns_per_sample = most_mesh_pilot_suns / 2;
 
-/// Adds the light of intervals to a pilot's, each with a weight.
-class PilotSum {
+/// Adds up the light of intervals, each with a weight.
+class PeriodSum {
  public:
-  PilotSum(const VariantPlan& plan, PilotLight& light)
+  PeriodSum(const VariantPlan& plan, PeriodLight& light)
       : plan_(plan), light_(light), lights_(plan.study, plan.built.site, grid_) {
     light_.sky.assign(static_cast<std::size_t>(grid_.cell_count()), 0);
   }
 
   void add(std::size_t interval, double sun_weight, double sky_weight,
-           std::vector<PilotSun>& suns) {
+           std::vector<PeriodSun>& suns) {
     const IntervalLight sun = lights_.of(plan_.light.intervals[interval], interval);
     if (sun.has_sun() && sun.dni > 0)
       suns.push_back({sun.direction, sun_weight * sun.dni * sun.length_s});
@@ -37,7 +37,7 @@ class PilotSum {
 
  private:
   const VariantPlan& plan_;
-  PilotLight& light_;
+  PeriodLight& light_;
   SkyGrid grid_;
   IntervalLights lights_;
 };
@@ -56,19 +56,19 @@ std::vector<std::size_t> intervals_with_light(const LightSeries& series) {
 
 }  // namespace
 
-PilotLight pilot_light(const VariantPlan& plan) {
-  PilotLight light;
-  PilotSum sum(plan, light);
+PeriodLight period_light(const VariantPlan& plan) {
+  PeriodLight light;
+  PeriodSum sum(plan, light);
   for (const auto& interval : plan.light.intervals) light.lamp_time_s += interval.when.length_s();
   const auto lit = intervals_with_light(plan.light);
-  if (lit.size() <= most_pilot_suns) {
+  if (lit.size() <= most_mesh_pilot_suns) {
     for (const auto i : lit) sum.add(i, 1, 1, light.suns);
     return light;
   }
   // One interval at random of every stretch of the period: all hours and seasons come in.
   const auto words = [&](std::size_t sample, std::size_t stretch) {
     return random_words({.seed = plan.study.solver.seed,
-                         .purpose = Purpose::pilot,
+                         .purpose = Purpose::mesh_pilot,
                          .realization = static_cast<std::uint32_t>(sample),
                          .element = stretch});
   };
@@ -95,7 +95,7 @@ VariantMesh make_mesh(const VariantPlan& plan, Watch& watch) {
   expect_splittable(scene, split);
   const RayCaster caster(scene.mesh, plan.isa, screens(scene));
   made.mesh = std::make_shared<const Hierarchy>(refined_mesh(
-      scene, caster, split, refine_rules(plan.study), pilot_light(plan), watch, &made.report));
+      scene, caster, split, refine_rules(plan.study), period_light(plan), watch, &made.report));
   return made;
 }
 

@@ -10,11 +10,11 @@
 
 namespace sunload {
 
-/// Up to so many suns a pilot takes as they are; of more, two samples of half as many.
-inline constexpr std::size_t most_pilot_suns = 32;
+/// Up to so many suns the mesh pilot takes as they are; of more, two samples of half as many.
+inline constexpr std::size_t most_mesh_pilot_suns = 32;
 
 /// The light of a period in short, of its intervals that are not dark.
-PilotLight pilot_light(const VariantPlan& plan);
+PeriodLight period_light(const VariantPlan& plan);
 
 struct VariantMesh {
   std::shared_ptr<const Hierarchy> mesh;

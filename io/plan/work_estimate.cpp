@@ -59,10 +59,10 @@ double rays_per_line(const Scene& scene, int mirror_depth) {
   return rays;
 }
 
-/// Rays of the pilot that refines the mesh.
+/// Rays of the mesh pilot.
 double refinement_rays(double patches, double lit) {
   return patches * elements_per_leaf * points_per_element *
-         (std::min(lit, static_cast<double>(most_pilot_suns)) + other_directions);
+         (std::min(lit, static_cast<double>(most_mesh_pilot_suns)) + other_directions);
 }
 
 double line_seconds(const Scene& scene, int mirror_depth) {
@@ -72,9 +72,9 @@ double line_seconds(const Scene& scene, int mirror_depth) {
 
 }  // namespace
 
-double pilot_memory_bytes(const VariantPlan& plan, std::size_t patches) {
+double accuracy_pilot_memory_bytes(const VariantPlan& plan, std::size_t patches) {
   const bool of_instants = plan.study.solver.accuracy->irradiance_relative.has_value();
-  const SolverRules rules = rules_of_pilot(solver_rules(plan), of_instants);
+  const SolverRules rules = rules_of_accuracy_pilot(solver_rules(plan), of_instants);
   const double R = rules.realizations, block = block_width * float_bytes;
   constexpr double sun_columns = 4;      // straight, circumsolar, by mirrors, all of them
   constexpr double spread_columns = 16;  // sums, squares, variances of three sources, in doubles

@@ -22,7 +22,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches);
 WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
                            const SampleCounts& counts);
 
-/// Memory of the pilot that an accuracy asks for.
-double pilot_memory_bytes(const VariantPlan& plan, std::size_t patches);
+/// Memory of the accuracy pilot.
+double accuracy_pilot_memory_bytes(const VariantPlan& plan, std::size_t patches);
 
 }  // namespace sunload

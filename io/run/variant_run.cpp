@@ -138,7 +138,7 @@ SolverRules VariantRun::decided_rules() {
   std::vector<std::size_t> lit;
   for (std::size_t k = 0; k < plan_.intervals(); ++k)
     if (lamps || !is_dark(plan_.light.intervals[k])) lit.push_back(k);
-  const PilotChoice choice = pilot_choice(lit.size());
+  const AccuracyPilotSuns choice = accuracy_pilot_suns(lit.size());
   const SkyGrid grid;
   const IntervalLights lights(plan_.study, plan_.built.site, grid);
   std::vector<IntervalLight> suns(choice.places.size());
@@ -147,8 +147,8 @@ SolverRules VariantRun::decided_rules() {
     suns[p] = lights.of(plan_.light.intervals[k], k);
   });
   const AccuracyGoal goal = accuracy_goal(plan_.study);
-  refuse_too_much(pilot_memory_bytes(plan_, mesh_->patch_count()));
-  const PatchSpread spread = pilot_spread(
+  refuse_too_much(accuracy_pilot_memory_bytes(plan_, mesh_->patch_count()));
+  const PatchSpread spread = accuracy_pilot_spread(
       plan_.built.scene, mesh_, rules, suns,
       {choice.weight, plan_.batch_suns(), goal.irradiance_relative.has_value()}, progress_);
   const SampleCounts counts = needed_counts(spread, rules, goal, lit.size());

@@ -43,7 +43,7 @@ inline constexpr double s_per_patch_sun = 2.5e-7;
 inline constexpr double s_per_sample = 6e-7;   ///< shot, with its deposit
 inline constexpr double s_per_value = 1.2e-8;  ///< one patch of one interval, stored
 
-// The pilot that refines the mesh: for every element that it ever looks at, 16 points look along
+// The mesh pilot: for every element that it ever looks at, 16 points look along
 // its suns and its other directions.
 inline constexpr double elements_per_leaf = 2, points_per_element = 16;
 inline constexpr double other_directions = 16;

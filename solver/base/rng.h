@@ -16,7 +16,7 @@ enum class Purpose : std::uint32_t {
   lines = 1,
   direct_sun = 2,
   mirror_sun = 3,
-  pilot = 4,
+  mesh_pilot = 4,
   glossy = 5,
   glossy_sun = 6,
   lamps = 8,

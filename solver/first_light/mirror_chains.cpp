@@ -158,14 +158,14 @@ class MirrorChains::Task {
   Chain chains_[packet_size];
 };
 
-MirrorChains::Followed MirrorChains::follow(std::span<const IntervalLight> block,
-                                            std::span<const SunBeams> beams,
-                                            const RaySink& into) const {
+MirrorChains::SentOn MirrorChains::follow(std::span<const IntervalLight> block,
+                                          std::span<const SunBeams> beams,
+                                          const RaySink& into) const {
   // Arrivals are added in rounds, so that no more of them wait than these mirrors make.
   constexpr std::size_t mirrors_per_task = 64, mirrors_per_round = 256 * mirrors_per_task;
   const std::size_t realizations = into.realizations();
-  Followed followed;
-  followed.fates.resize(realizations);
+  SentOn sent;
+  sent.fates.resize(realizations);
   for (std::size_t round = 0; round < mirrors_.size(); round += mirrors_per_round) {
     const std::size_t mirrors = std::min(mirrors_per_round, mirrors_.size() - round);
     std::vector<Task> tasks((mirrors + mirrors_per_task - 1) / mirrors_per_task,
@@ -177,9 +177,9 @@ MirrorChains::Followed MirrorChains::follow(std::span<const IntervalLight> block
             tasks[begin / mirrors_per_task].send_on(block[k], k, beams[k], mirrors_[round + i]);
     });
     for (const auto& task : tasks) {
-      followed.rays += task.rays;
-      followed.shots += task.arrivals.size();
-      for (std::size_t r = 0; r < realizations; ++r) followed.fates[r] += task.fates[r];
+      sent.rays += task.rays;
+      sent.shots += task.arrivals.size();
+      for (std::size_t r = 0; r < realizations; ++r) sent.fates[r] += task.fates[r];
       for (const auto& [patch, realization, k, power] : task.arrivals) {
         const double E = power / hierarchy_.area()[patch];
         into.add(realization, patch, k, E, block[k].length_s);
@@ -187,7 +187,7 @@ MirrorChains::Followed MirrorChains::follow(std::span<const IntervalLight> block
       }
     }
   }
-  return followed;
+  return sent;
 }
 
 }  // namespace sunload

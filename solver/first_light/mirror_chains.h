@@ -29,15 +29,15 @@ class MirrorChains {
   MirrorChains(const Hierarchy& hierarchy, const RayCaster& caster, const SunSampler& sampler,
                const MirrorGroups& groups, const ChainRules& rules);
 
-  struct Followed {
+  struct SentOn {
     std::vector<SunFates> fates;  ///< per realization, each with its own samples
     std::uint64_t rays = 0;
     std::uint64_t shots = 0;  ///< arrivals that no beam stands for
   };
   /// Follows the direct sun that mirror patches receive; adds to `into` what no
   /// beam brings.
-  Followed follow(std::span<const IntervalLight> block, std::span<const SunBeams> beams,
-                  const RaySink& into) const;
+  SentOn follow(std::span<const IntervalLight> block, std::span<const SunBeams> beams,
+                const RaySink& into) const;
 
  private:
   class Task;

@@ -76,7 +76,7 @@ BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchO
       receivers_per_chunk);
   Reflected reflected = reflect(mesh, lines, optics, base, light.reflected, bounces);
   light.reflected = std::move(reflected.irradiance);
-  light.followed = std::move(reflected.followed);
+  light.gathered_radiosity = std::move(reflected.gathered_radiosity);
   return light;
 }
 
@@ -92,20 +92,25 @@ std::vector<Ledger> block_ledger(const LineSet& lines, const PatchOptics& optics
     for (std::size_t i = begin; i < end; ++i)
       for (std::size_t k = 0; k < suns; ++k) {
         const std::size_t at = i * block_width + k;
-        part[k] += booked(
-            {area[i], static_cast<double>(optics.diffuse[i]), optics.absorbed(i),
-             static_cast<double>(optics.passed[i]), static_cast<double>(optics.emission[i]),
-             static_cast<double>(light.direct[at]), static_cast<double>(light.sky[at]),
-             static_cast<double>(sources.ground_exitance[k]),
-             static_cast<double>(light.total(i, k)), static_cast<double>(light.followed[at])},
+        part[k] += ledger_of_patch(
+            {.area = area[i],
+             .diffuse = static_cast<double>(optics.diffuse[i]),
+             .absorbed = optics.absorbed(i),
+             .passed = static_cast<double>(optics.passed[i]),
+             .emission = static_cast<double>(optics.emission[i]),
+             .direct = static_cast<double>(light.direct[at]),
+             .sky = static_cast<double>(light.sky[at]),
+             .ground_exitance = static_cast<double>(sources.ground_exitance[k]),
+             .total = static_cast<double>(light.total(i, k)),
+             .gathered_radiosity = static_cast<double>(light.gathered_radiosity[at])},
             lines.ends[i]);
       }
   });
   std::vector<Ledger> ledger(suns);
   for (std::size_t k = 0; k < suns; ++k) {
     for (const auto& part : parts) ledger[k] += part[k];
-    ledger[k] += booked(
-        lines.first_light,
+    ledger[k] += ledger_of_mirrored(
+        lines.mirrored_fates,
         [&](std::size_t c) { return static_cast<double>(sources.sky[c * block_width + k]); },
         static_cast<double>(sources.ground_exitance[k]));
   }

@@ -37,8 +37,8 @@ struct BlockSources {
 /// Irradiance of a block by parts, [N][block] W m-2.
 struct BlockLight {
   Columns direct, sky, mirror, reflected;
-  Columns followed;          ///< radiosity gathered last
-  std::vector<float> lamps;  ///< [N], the same for all suns
+  Columns gathered_radiosity;  ///< what patches reflected and others gathered last
+  std::vector<float> lamps;    ///< [N], the same for all suns
 
   float total(std::size_t patch, std::size_t k) const {
     const std::size_t at = patch * block_width + k;
@@ -48,7 +48,7 @@ struct BlockLight {
 
 /// What arrives at the rows of `lines` without diffuse reflection by patches: by these lines, by
 /// `rays`, and of parallel sources ([N], or empty). `reflected` holds the far ground alone,
-/// `followed` nothing.
+/// `gathered_radiosity` nothing.
 BlockLight unreflected_light(const LineSet& lines, const PatchOptics& optics,
                              const BlockSources& sources, RayColumns rays,
                              const std::vector<double>& parallel);

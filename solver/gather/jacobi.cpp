@@ -59,12 +59,12 @@ Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics
         optics.diffuse.size(),
         [&](std::size_t i) {
           for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k)
-            out.followed[k] = optics.diffuse[i] * (base[k] + out.irradiance[k]);
+            out.gathered_radiosity[k] = optics.diffuse[i] * (base[k] + out.irradiance[k]);
         },
         LinkTable::rows_per_block);
-    pull_up(mesh, out.followed);
+    pull_up(mesh, out.gathered_radiosity);
     out.irradiance = ground;
-    gather(lines.patches, out.followed, out.irradiance, Into::add);
+    gather(lines.patches, out.gathered_radiosity, out.irradiance, Into::add);
   }
   return out;
 }
@@ -75,10 +75,11 @@ ReflectedExposure reflect(const Hierarchy& mesh, const LineSet& lines, const Pat
   ReflectedExposure out{ground, std::vector<double>(mesh.element_count(), 0)};
   for (int b = 1; b <= bounces; ++b) {
     for (std::size_t i = 0; i < base.size(); ++i)
-      out.followed[i] = static_cast<double>(optics.diffuse[i]) * (base[i] + out.irradiance[i]);
-    pull_up(mesh, out.followed);
+      out.gathered_radiosity[i] =
+          static_cast<double>(optics.diffuse[i]) * (base[i] + out.irradiance[i]);
+    pull_up(mesh, out.gathered_radiosity);
     out.irradiance = ground;
-    gather(lines.patches, out.followed, out.irradiance, Into::add);
+    gather(lines.patches, out.gathered_radiosity, out.irradiance, Into::add);
   }
   return out;
 }

@@ -29,7 +29,7 @@ void gather(const LinkTable& links, const std::vector<double>& source, std::vect
 /// Diffusely reflected irradiance of a block of suns.
 struct Reflected {
   Columns irradiance;  ///< [N][block]: everything after a diffuse reflection, and the far ground
-  Columns followed;    ///< [elements][block]: radiosity rho E^(n-1) that was gathered last
+  Columns gathered_radiosity;  ///< [elements][block]: rho E^(n-1), gathered last
 };
 /// base: irradiance that arrives without diffuse reflection (direct, sky, mirror,
 /// lamps); ground: that of the far ground.
@@ -37,7 +37,7 @@ Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics
                   const Columns& base, const Columns& ground, int bounces);
 
 struct ReflectedExposure {
-  std::vector<double> irradiance, followed;
+  std::vector<double> irradiance, gathered_radiosity;
 };
 /// The same for time-integrated irradiance of one realization [J m-2].
 ReflectedExposure reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Books the power of one patch, or of mirrored first light, into the ledger.
+/// What one patch, or first light that mirrors sent on, brings into the ledger.
 #pragma once
 
 #include "solver/light/tally.h"
@@ -11,22 +11,22 @@ namespace sunload {
 /// What one patch receives and sends, all W m-2 (or J m-2).
 struct PatchLight {
   double area = 0;
-  double diffuse = 0;          ///< reflectance
-  double absorbed = 0;         ///< constant share; 0 where lines book what is absorbed
-  double passed = 0;           ///< share that goes straight through
-  double emission = 0;         ///< exitance of an emitter
-  double direct = 0, sky = 0;  ///< irradiance straight from sun and sky
-  double ground_exitance = 0;  ///< of the far ground
-  double total = 0;            ///< irradiance in all
-  double followed = 0;         ///< reflected radiosity that was gathered last
+  double diffuse = 0;             ///< reflectance
+  double absorbed = 0;            ///< constant share; 0 where lines book what is absorbed
+  double passed = 0;              ///< share that goes straight through
+  double emission = 0;            ///< exitance of an emitter
+  double direct = 0, sky = 0;     ///< irradiance straight from sun and sky
+  double ground_exitance = 0;     ///< of the far ground
+  double total = 0;               ///< irradiance in all
+  double gathered_radiosity = 0;  ///< reflected, that others gathered last
 };
 
 /// Terms of one patch; every one from its own estimate, none by difference:
 /// its lines tell where what it sends ends, and what panes transmit and absorb of it at their
 /// angles; its irradiance tells what it absorbs itself. Light that passes a patch straight
 /// is met further on, or leaves: it counts where it is stopped.
-inline Ledger booked(const PatchLight& p, const LineEnds& ends) {
-  const double sent = p.area * (p.followed + p.emission);
+inline Ledger ledger_of_patch(const PatchLight& p, const LineEnds& ends) {
+  const double sent = p.area * (p.gathered_radiosity + p.emission);
   const double stopped = 1 - p.passed;
   Ledger ledger;
   ledger[Term::sun] = p.area * p.direct * stopped;
@@ -34,17 +34,17 @@ inline Ledger booked(const PatchLight& p, const LineEnds& ends) {
   ledger[Term::ground] = p.area * static_cast<double>(ends.ground) * p.ground_exitance * stopped;
   ledger[Term::emitted] = p.area * p.emission;
   ledger[Term::absorbed] = p.area * p.absorbed * p.total;
-  ledger[Term::unshot] = p.area * (p.diffuse * p.total - p.followed);
+  ledger[Term::unshot] = p.area * (p.diffuse * p.total - p.gathered_radiosity);
   return booked(scaled(in_double(ends.fate), sent), ledger);
 }
 
 /// First light of sky and far ground that mirrors sent on. `sky(c)` is π times
 /// the radiance of cell c.
 template <class SkyOfCell>
-Ledger booked(const MirroredFirstLight& first, SkyOfCell&& sky, double ground_exitance) {
+Ledger ledger_of_mirrored(const MirroredFates& fates, SkyOfCell&& sky, double ground_exitance) {
   Ledger ledger;
-  for (std::size_t c = 0; c < first.size(); ++c)
-    ledger += scaled(booked(first[c]), c + 1 < first.size() ? sky(c) : ground_exitance);
+  for (std::size_t c = 0; c < fates.size(); ++c)
+    ledger += scaled(booked(fates[c]), c + 1 < fates.size() ? sky(c) : ground_exitance);
   return ledger;
 }
 

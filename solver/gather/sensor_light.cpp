@@ -6,9 +6,9 @@ namespace sunload {
 
 BlockLight sensor_light(const LineSet& lines, const PatchOptics& optics,
                         const BlockSources& sources, RayColumns rays,
-                        const std::vector<double>& parallel, const Columns& followed) {
+                        const std::vector<double>& parallel, const Columns& gathered_radiosity) {
   BlockLight light = unreflected_light(lines, optics, sources, std::move(rays), parallel);
-  gather(lines.patches, followed, light.reflected, Into::add);
+  gather(lines.patches, gathered_radiosity, light.reflected, Into::add);
   return light;
 }
 

@@ -17,9 +17,9 @@
 namespace sunload {
 
 /// Light of a block on the rows of `lines`, whose targets are patches of which
-/// `followed` is the radiosity gathered last.
+/// `gathered_radiosity` was gathered last.
 BlockLight sensor_light(const LineSet& lines, const PatchOptics& optics,
                         const BlockSources& sources, RayColumns rays,
-                        const std::vector<double>& parallel, const Columns& followed);
+                        const std::vector<double>& parallel, const Columns& gathered_radiosity);
 
 }  // namespace sunload

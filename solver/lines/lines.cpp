@@ -95,14 +95,14 @@ class BlockTracer {
         ground_source_(static_cast<std::size_t>(grid.cell_count())) {}
 
   struct Output {
-    std::vector<MirroredFirstLight> first_light;  ///< per realization, empty without mirrors
+    std::vector<MirroredFates> mirrored_fates;  ///< per realization, empty without mirrors
     std::vector<Glimpse> glimpses;
     std::uint64_t rays = 0;
   };
 
   Output trace(std::size_t begin, std::size_t end, Lines& lines) const {
     Output output;
-    output.first_light.resize(lines.realizations.size());
+    output.mirrored_fates.resize(lines.realizations.size());
     LineBundle bundle;
     Row row{BrightView(guide_), {}, {}};
     for (std::size_t first = begin, last; first < end; first = last) {
@@ -181,7 +181,7 @@ class BlockTracer {
       output.rays += follower_.follow(origin, w, hit, key, row.own,
                                       row.view.share_of_line(hierarchy_, hit, w, dot(w, normal)));
       if (hit.left_scene() && sends_light_on)
-        output.rays += book_mirrored(origin, w, patch, key, output.first_light[realization]);
+        output.rays += book_mirrored(origin, w, patch, key, output.mirrored_fates[realization]);
     }
     if (!row.view.any()) return;
     key.purpose = Purpose::lamps;
@@ -192,7 +192,7 @@ class BlockTracer {
   /// The line brings first light to a mirror: its way on is booked here, since
   /// no patch's own lines see it leave.
   std::uint64_t book_mirrored(Vec3 origin, Vec3 w, std::size_t patch, const RandomKey& line,
-                              MirroredFirstLight& book) const {
+                              MirroredFates& book) const {
     const auto sent = follower_.mirrored_on(origin, w, patch, line);
     const auto lines_each = static_cast<double>(lines_per_realization(patch));
     const double share = hierarchy_.area()[patch] / lines_each;
@@ -210,7 +210,7 @@ class BlockTracer {
   std::size_t ground_source_;
 };
 
-void add(MirroredFirstLight& to, const MirroredFirstLight& from, double factor) {
+void add(MirroredFates& to, const MirroredFates& from, double factor) {
   if (from.empty()) return;
   to.resize(from.size());
   for (std::size_t i = 0; i < from.size(); ++i) to[i] += scaled(from[i], factor);
@@ -261,9 +261,9 @@ Lines trace_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaste
   for (const auto& output : outputs) {
     lines.rays += output.rays;
     lines.glimpses.insert(lines.glimpses.end(), output.glimpses.begin(), output.glimpses.end());
-    for (std::size_t r = 0; r < output.first_light.size(); ++r) {
-      add(lines.realizations[r].first_light, output.first_light[r], 1);
-      add(lines.pooled.first_light, output.first_light[r], 1.0 / rules.realizations);
+    for (std::size_t r = 0; r < output.mirrored_fates.size(); ++r) {
+      add(lines.realizations[r].mirrored_fates, output.mirrored_fates[r], 1);
+      add(lines.pooled.mirrored_fates, output.mirrored_fates[r], 1.0 / rules.realizations);
     }
   }
   return lines;

@@ -62,7 +62,7 @@ struct LineEnds {
 /// Fate of first light (sky, ground) after it was mirrored by the patch that it
 /// met first: power per π·radiance of its source [m2], per sky cell, then of the far ground;
 /// empty without mirrors. Absorbed: where that depends on the angle.
-using MirroredFirstLight = std::vector<Fate<double>>;
+using MirroredFates = std::vector<Fate<double>>;
 
 /// The lines of one realization, or of all of them pooled.
 struct LineSet {
@@ -70,7 +70,7 @@ struct LineSet {
   std::vector<LineEnds> ends;
   /// Irradiance by emitters, straight or by mirrors [W m-2]; empty: none.
   std::vector<double> lamps;
-  MirroredFirstLight first_light;
+  MirroredFates mirrored_fates;
 };
 
 /// Where a line met a glossy surface: any sun may be asked from there

@@ -40,7 +40,7 @@ struct Estimate {
 class Refinement {
  public:
   Refinement(ElementForest& forest, const RayCaster& caster, const SplitRules& split,
-             const RefineRules& rules, const PilotLight& light, Watch& watch)
+             const RefineRules& rules, const PeriodLight& light, Watch& watch)
       : forest_(forest),
         split_(split),
         rules_(rules),
@@ -80,7 +80,7 @@ class Refinement {
     Estimate e;
     const double area = forest_.area(leaf);
     for (std::uint8_t side = 0; side < (forest_.is_two_sided(leaf) ? 2 : 1); ++side) {
-      const PilotLoad load = pilot_.load(leaf, side, split_.min_area_m2);
+      const ElementLoad load = pilot_.load(leaf, side, split_.min_area_m2);
       loads[side] = load.mean;
       e.squared_error += squared_error(load.variance, area);
       e.power += load.mean * area;
@@ -224,14 +224,14 @@ class Refinement {
   const SplitRules& split_;
   const RefineRules& rules_;
   Watch& watch_;
-  Pilot pilot_;
+  MeshPilot pilot_;
   std::vector<Estimate> estimates_;  ///< per element
 };
 
 }  // namespace
 
 Hierarchy refined_mesh(const Scene& scene, const RayCaster& caster, const SplitRules& split,
-                       const RefineRules& rules, const PilotLight& light, Watch& watch,
+                       const RefineRules& rules, const PeriodLight& light, Watch& watch,
                        RefineReport* report) {
   if (rules.oracle == Oracle::none) return Hierarchy(scene, split);
   expect_splittable(scene, split);

@@ -17,8 +17,8 @@
 
 #include "solver/base/watch.h"
 #include "solver/mesh/hierarchy.h"
+#include "solver/mesh/mesh_pilot.h"
 #include "solver/mesh/oracle.h"
-#include "solver/mesh/pilot.h"
 
 namespace sunload {
 
@@ -34,7 +34,7 @@ struct RefineReport {
 /// Cost: some 16 rays per element, sun and pilot direction, for about twice the final leaves;
 /// none where `min_area_m2` lets no patch be split.
 Hierarchy refined_mesh(const Scene& scene, const RayCaster& caster, const SplitRules& split,
-                       const RefineRules& rules, const PilotLight& light, Watch& watch,
+                       const RefineRules& rules, const PeriodLight& light, Watch& watch,
                        RefineReport* report = nullptr);
 
 }  // namespace sunload

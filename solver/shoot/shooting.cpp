@@ -263,13 +263,13 @@ Shooter::Reflected Shooter::reflect(const DoubleColumns& first, std::size_t real
     out.wanted += wanted;
     out.rays += shot.rays;
     if (rules_.jacobi == Jacobi::incremental) {
-      add(out.followed, power);
+      add(out.shot_radiosity, power);
       power = reflected_power(shot.irradiance);
       add(out.irradiance, shot.irradiance);
       out.fates += shot.fates;
     } else {
       sent = total;
-      out.followed = std::move(power);
+      out.shot_radiosity = std::move(power);
       out.irradiance = std::move(shot.irradiance);
       out.fates = shot.fates;
       DoubleColumns received = first;
@@ -279,8 +279,8 @@ Shooter::Reflected Shooter::reflect(const DoubleColumns& first, std::size_t real
     total = total_power(power);
   }
   for (std::size_t k = 0; k < block_width; ++k) out.unshot[k] = total[k] - sent[k];
-  for (std::size_t i = 0; i < out.followed.size(); ++i)
-    out.followed[i] /= hierarchy_.area()[i / block_width];
+  for (std::size_t i = 0; i < out.shot_radiosity.size(); ++i)
+    out.shot_radiosity[i] /= hierarchy_.area()[i / block_width];
   return out;
 }
 
@@ -369,7 +369,7 @@ ShotLight Shooter::light(std::size_t realization, const BlockSources& sources,
       receivers_per_chunk);
   Reflected reflected = reflect(first, realization, sources.suns.front().number);
   light.reflected = std::move(reflected.irradiance);
-  light.followed = std::move(reflected.followed);
+  light.shot_radiosity = std::move(reflected.shot_radiosity);
   if (light.by_source) light.by_source->shot = light.reflected;
   add(light.reflected, ground);
   fates += reflected.fates;

@@ -49,7 +49,7 @@ struct ShootingRules {
 /// Light of one realization of a block, [N][block] W m-2.
 struct ShotLight {
   DoubleColumns direct, sky, mirror, reflected;
-  DoubleColumns followed;                      ///< radiosity that was shot
+  DoubleColumns shot_radiosity;
   const std::vector<double>* lamps = nullptr;  ///< [N], the same for all suns
   std::array<Ledger, block_width> ledger;      ///< W
   std::uint64_t samples = 0, rays = 0;         ///< shot; cast for them, chains included
@@ -102,7 +102,7 @@ class Shooter {
   };
   struct Reflected {
     DoubleColumns irradiance;
-    DoubleColumns followed;  ///< radiosity that was shot
+    DoubleColumns shot_radiosity;
     SunFates fates;
     SunTotals unshot{};
     std::uint64_t samples = 0, rays = 0;

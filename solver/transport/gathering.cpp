@@ -74,9 +74,10 @@ class GatheredBatch : public BatchTransport {
                   BlockRays rays) {
     const PatchOptics& optics = traced_.optics_of_band[band];
     BatchTally& tally = tallies_[band];
-    const Columns followed = light_patches(optics, block, sources, rays.on_patches, tally);
+    const Columns gathered_radiosity =
+        light_patches(optics, block, sources, rays.on_patches, tally);
     if (traced_.sensors.count() > 0)
-      light_sensors(optics, block, sources, rays.on_sensors, followed, tally.sensors);
+      light_sensors(optics, block, sources, rays.on_sensors, gathered_radiosity, tally.sensors);
     book_sent_on(block, rays.sent_on, sums_[band], tally);
     sums_[band].add_sources(sources);
     if (of_instants()) errors_of_instants(optics, block, sources, std::move(rays), tally);
@@ -93,15 +94,15 @@ class GatheredBatch : public BatchTransport {
     const auto ledger = block_ledger(lines, optics, traced_.hierarchy().area(), sources, light);
     std::copy(ledger.begin(), ledger.end(), row(tally.ledger, block));
     store_patches(optics, light, block.suns, block.first_row, rays.sunlit, tally);
-    return std::move(light.followed);
+    return std::move(light.gathered_radiosity);
   }
 
   void light_sensors(const PatchOptics& optics, const Block& block, const BlockSources& sources,
-                     RayLight& rays, const Columns& followed, ReceiverTally& tally) {
+                     RayLight& rays, const Columns& gathered_radiosity, ReceiverTally& tally) {
     const Stopwatch time(work_[Work::sensors_s]);
     const BlockLight light =
         sensor_light(traced_.sensors.lines.pooled, optics, sources, std::move(rays.pooled),
-                     traced_.sensors.lamps.pooled, followed);
+                     traced_.sensors.lamps.pooled, gathered_radiosity);
     store_received(light, block.suns, block.first_row, rays.sunlit, tally);
   }
 
@@ -135,7 +136,8 @@ class GatheredBatch : public BatchTransport {
       const auto ledger = block_ledger(lines, optics, traced_.hierarchy().area(), sources, light);
       std::copy(ledger.begin(), ledger.end(), row(tally.ledger_instants[r], block));
       patches.add(total_of(light));
-      sensors.add(total_of(sensors_of(r, optics, sources, rays.on_sensors, light.followed)));
+      sensors.add(
+          total_of(sensors_of(r, optics, sources, rays.on_sensors, light.gathered_radiosity)));
       by_source.add(
           total_of(light),
           [&](std::size_t i, std::size_t k) {
@@ -151,12 +153,12 @@ class GatheredBatch : public BatchTransport {
   }
 
   BlockLight sensors_of(std::size_t r, const PatchOptics& optics, const BlockSources& sources,
-                        RayLight& rays, const Columns& followed) const {
+                        RayLight& rays, const Columns& gathered_radiosity) const {
     if (traced_.sensors.count() == 0) return {};
     RayColumns columns = taken(rays.of_realizations, r);
     columns.circumsolar.clear();  // sensors see all of the sky by their lines
     return sensor_light(traced_.sensors.lines.realizations[r], optics, sources, std::move(columns),
-                        traced_.sensors.lamps.of(r), followed);
+                        traced_.sensors.lamps.of(r), gathered_radiosity);
   }
 
   void book_instants(const Block& block, const std::vector<SunFates>& sent_on,

@@ -32,27 +32,32 @@ std::vector<double> solve_patches(const TracedScene& traced, const PatchOptics& 
     const double total = base[i] + reflected.irradiance[i];
     tally.exposure_realization[r][i] = total;
     tally.ledger_realization[r] +=
-        booked({traced.hierarchy().area()[i], static_cast<double>(optics.diffuse[i]),
-                optics.absorbed(i), static_cast<double>(optics.passed[i]),
-                static_cast<double>(optics.emission[i]) * sums.length_s, rays.direct[r][i], sky[i],
-                sums.ground, total, reflected.followed[i]},
-               lines.ends[i]);
+        ledger_of_patch({.area = traced.hierarchy().area()[i],
+                         .diffuse = static_cast<double>(optics.diffuse[i]),
+                         .absorbed = optics.absorbed(i),
+                         .passed = static_cast<double>(optics.passed[i]),
+                         .emission = static_cast<double>(optics.emission[i]) * sums.length_s,
+                         .direct = rays.direct[r][i],
+                         .sky = sky[i],
+                         .ground_exitance = sums.ground,
+                         .total = total,
+                         .gathered_radiosity = reflected.gathered_radiosity[i]},
+                        lines.ends[i]);
   }
-  return std::move(reflected.followed);
+  return std::move(reflected.gathered_radiosity);
 }
 
-void book_first_light(const TracedScene& traced, std::size_t r, const TimeSums& sums,
-                      Ledger& ledger) {
-  ledger += booked(
-      traced.patches.lines.realizations[r].first_light, [&](std::size_t c) { return sums.sky[c]; },
-      sums.ground);
+void book_mirrored(const TracedScene& traced, std::size_t r, const TimeSums& sums, Ledger& ledger) {
+  ledger += ledger_of_mirrored(
+      traced.patches.lines.realizations[r].mirrored_fates,
+      [&](std::size_t c) { return sums.sky[c]; }, sums.ground);
   ledger += sums.sent_on[r];
   const auto& of_lamps = traced.patches.lamps.ledger;
   if (!of_lamps.empty()) ledger += scaled(of_lamps[r], sums.length_s);
 }
 
 void solve_sensors(const TracedScene& traced, const PatchOptics& optics, std::size_t r,
-                   const TimeSums& sums, const std::vector<double>& followed,
+                   const TimeSums& sums, const std::vector<double>& gathered_radiosity,
                    ReceiverTally& tally) {
   const LineSet& lines = traced.sensors.lines.realizations[r];
   const std::vector<double> whole_sky;  // sensors see all of it by their lines
@@ -61,7 +66,7 @@ void solve_sensors(const TracedScene& traced, const PatchOptics& optics, std::si
                      {sums.on_sensors.direct[r], sums.on_sensors.mirror[r], whole_sky,
                       traced.sensors.lamps.of(r)});
   auto& received = tally.exposure_realization[r];
-  gather(lines.patches, followed, received, Into::replace);
+  gather(lines.patches, gathered_radiosity, received, Into::replace);
   for (std::size_t s = 0; s < received.size(); ++s) received[s] += base[s] + ground[s];
 }
 
@@ -71,9 +76,9 @@ void solve_realizations(const TracedScene& traced, const PatchOptics& optics, Ti
                         BatchTally& tally) {
   for (std::size_t r = 0; r < sums.on_patches.direct.size(); ++r) {
     tally.by_source.sun.push_back(by_sun(r, sums.on_patches));
-    const auto followed = solve_patches(traced, optics, r, sums, tally);
-    book_first_light(traced, r, sums, tally.ledger_realization[r]);
-    solve_sensors(traced, optics, r, sums, followed, tally.sensors);
+    const auto gathered_radiosity = solve_patches(traced, optics, r, sums, tally);
+    book_mirrored(traced, r, sums, tally.ledger_realization[r]);
+    solve_sensors(traced, optics, r, sums, gathered_radiosity, tally.sensors);
     if (!traced.rules.by_source) continue;
     std::vector<double> parallel = traced.patches.lamps.of(r);
     for (double& E : parallel) E *= sums.length_s;

@@ -192,7 +192,7 @@ class ShotBatch : public BatchTransport {
     return sensor_light(traced_.sensors.lines.realizations[r], traced_.optics, sources,
                         {std::move(rays.direct[r]), std::move(rays.mirror[r]), {}},
                         traced_.sensors.lamps.of(r),
-                        Columns(light.followed.begin(), light.followed.end()));
+                        Columns(light.shot_radiosity.begin(), light.shot_radiosity.end()));
   }
 
   void add_realization(std::size_t r, const ShotLight& light, const Block& block) {

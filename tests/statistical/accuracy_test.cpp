@@ -279,8 +279,8 @@ void expect_kept(const SolverRules& least, const AccuracyGoal& goal, const Split
   Watch watch;
   const Scene scene = courtyard();
   const auto mesh = std::make_shared<const Hierarchy>(scene, split);
-  const auto spread = pilot_spread(scene, mesh, least, suns,
-                                   {.of_instants = goal.irradiance_relative.has_value()}, watch);
+  const auto spread = accuracy_pilot_spread(
+      scene, mesh, least, suns, {.of_instants = goal.irradiance_relative.has_value()}, watch);
   const auto counts = needed_counts(spread, least, goal, suns.size());
   SolverRules raised = with_counts(least, counts);
   constexpr int runs = 24;
@@ -359,7 +359,7 @@ SpreadSums spread_sums(const SolverRules& rules, const std::vector<IntervalLight
   Watch watch;
   const Scene scene = courtyard();
   const auto mesh = std::make_shared<const Hierarchy>(scene, SplitRules{.max_edge_m = 2});
-  return SpreadSums(pilot_spread(scene, mesh, rules, suns, {.weight = weight}, watch));
+  return SpreadSums(accuracy_pilot_spread(scene, mesh, rules, suns, {.weight = weight}, watch));
 }
 
 // Half of the suns, each for two, tell of the same errors. Sums over some hundred patches of
@@ -401,7 +401,8 @@ TEST(Accuracy, PilotOfMoreLinesKeepsThePowerOfASample) {
     Watch watch;
     const Scene scene = courtyard();
     const auto mesh = std::make_shared<const Hierarchy>(scene, SplitRules{.max_edge_m = 2});
-    const auto spread = pilot_spread(scene, mesh, rules, day(), {.of_instants = true}, watch);
+    const auto spread =
+        accuracy_pilot_spread(scene, mesh, rules, day(), {.of_instants = true}, watch);
     return SpreadSums(spread).of_shot / lines;
   };
   // 8 lines per realization are raised to 32, 64 are left.
@@ -414,8 +415,8 @@ PatchSpread pilot_of_one_sun(const SceneBuilder& builder) {
   Watch watch;
   const Scene scene = builder.scene();
   const auto mesh = std::make_shared<const Hierarchy>(scene, SplitRules{.max_edge_m = 1});
-  return pilot_spread(scene, mesh, rules_of(256, 16), std::vector{sun}, {.of_instants = true},
-                      watch);
+  return accuracy_pilot_spread(scene, mesh, rules_of(256, 16), std::vector{sun},
+                               {.of_instants = true}, watch);
 }
 
 TEST(Accuracy, PilotTakesTheSunByGlossForNoiseOfLines) {

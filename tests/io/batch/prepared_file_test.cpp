@@ -36,7 +36,7 @@ LineSet line_set(std::size_t rows, std::uint32_t seed) {
   for (std::size_t i = 0; i < rows; ++i)
     set.ends.push_back({0.1f * static_cast<float>(i), 0.2f, 0.3f, {0.4f, 0.5f, 0.6f, 0.7f, 0.8f}});
   set.lamps.assign(rows, 0.7 + seed);
-  set.first_light = {{1.0 / 3, 4, 7, 6, 10}, {2, 5, 8, static_cast<double>(seed), 11}};
+  set.mirrored_fates = {{1.0 / 3, 4, 7, 6, 10}, {2, 5, 8, static_cast<double>(seed), 11}};
   return set;
 }
 
@@ -70,7 +70,7 @@ bool same(const LinkTable& a, const LinkTable& b) {
 bool same(const LineSet& a, const LineSet& b) {
   return same(a.patches, b.patches) && same(a.sky, b.sky) &&
          same(a.sky_by_mirror, b.sky_by_mirror) && same_bits(a.ends, b.ends) &&
-         same_bits(a.lamps, b.lamps) && same_bits(a.first_light, b.first_light);
+         same_bits(a.lamps, b.lamps) && same_bits(a.mirrored_fates, b.mirrored_fates);
 }
 
 void write_bytes(const std::string& path, const std::string& bytes) {

@@ -83,8 +83,8 @@ TEST(LitIntervals, WithoutPowerAreNoneOfThePilots) {
   ASSERT_FALSE(is_dark(noon));
   intervals.assign(40, noon);
   intervals.insert(intervals.end(), 40, morning);
-  for (const auto& sample : pilot_light(plan).samples)
-    EXPECT_EQ(sample.size(), most_pilot_suns / 2);
+  for (const auto& sample : period_light(plan).samples)
+    EXPECT_EQ(sample.size(), most_mesh_pilot_suns / 2);
 }
 
 // Tests of physics take their suns from here, as runs do.

@@ -33,7 +33,7 @@ TEST(CostModel, PageHasTheTimesOfTheProgram) {
   for (const std::string& row :
        {fmt::format("| patches + 1 | {} + {} s |", micro_s(s_per_patch), s_to_start),
         fmt::format("| patches · {} · {} · ({} + suns of the pilot, {} at most) | {} |",
-                    elements_per_leaf, points_per_element, other_directions, most_pilot_suns,
+                    elements_per_leaf, points_per_element, other_directions, most_mesh_pilot_suns,
                     micro_s(s_per_direct_ray)),
         fmt::format("| {} + {} · log2(input triangles) |", micro_s(s_per_line),
                     micro_s(s_per_level)),

@@ -98,8 +98,8 @@ TEST(RandomWords, OfDifferentAddressesAreUnrelated) {
   constexpr double bits = 128.0 * elements;
   const CountInterval half = accepted_counts(bits, 0.5, 6);
   EXPECT_TRUE(half.contains(differing_bits(elements, [](RandomKey& k) { ++k.seed; })));
-  EXPECT_TRUE(
-      half.contains(differing_bits(elements, [](RandomKey& k) { k.purpose = Purpose::pilot; })));
+  EXPECT_TRUE(half.contains(
+      differing_bits(elements, [](RandomKey& k) { k.purpose = Purpose::mesh_pilot; })));
   EXPECT_TRUE(half.contains(differing_bits(elements, [](RandomKey& k) { ++k.realization; })));
   EXPECT_TRUE(half.contains(differing_bits(elements, [](RandomKey& k) { k.element += 1u << 20; })));
   EXPECT_TRUE(half.contains(differing_bits(elements, [](RandomKey& k) { ++k.sun; })));
@@ -113,7 +113,7 @@ TEST(RandomWords, NeverMeetAgain) {
   std::set<RandomWords> seen;
   std::size_t addresses = 0;
   for (const auto purpose :
-       {Purpose::lines, Purpose::direct_sun, Purpose::mirror_sun, Purpose::pilot})
+       {Purpose::lines, Purpose::direct_sun, Purpose::mirror_sun, Purpose::mesh_pilot})
     for (std::uint32_t r = 0; r < 16; ++r)
       for (std::uint64_t e = 0; e < 16; ++e)
         for (std::uint32_t sun = 0; sun < 16; ++sun, ++addresses)

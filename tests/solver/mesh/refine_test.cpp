@@ -27,8 +27,8 @@ Scene tower_on_plate() {
 }
 
 /// Suns from the south-east to the south-west, as much energy from each.
-PilotLight suns(int count) {
-  PilotLight light;
+PeriodLight suns(int count) {
+  PeriodLight light;
   light.sky.assign(static_cast<std::size_t>(SkyGrid().cell_count()), 0);
   for (int s = 0; s < count; ++s) {
     const double azimuth = count == 1 ? 3.3 : 2.2 + 1.9 * s / (count - 1);
@@ -40,7 +40,7 @@ PilotLight suns(int count) {
 
 /// Root mean square of the direct light load's variation inside of patches, as share of its mean:
 /// from 256 points per patch, without the pilot.
-double true_error(const Scene& scene, const Hierarchy& mesh, const PilotLight& light) {
+double true_error(const Scene& scene, const Hierarchy& mesh, const PeriodLight& light) {
   const RayCaster caster(scene.mesh);
   constexpr int side = 16;
   double squares = 0, power = 0, area = 0;
@@ -68,7 +68,7 @@ double true_error(const Scene& scene, const Hierarchy& mesh, const PilotLight& l
   return std::sqrt(squares * area) / power;
 }
 
-Hierarchy refined(const Scene& scene, const PilotLight& light, const RefineRules& rules,
+Hierarchy refined(const Scene& scene, const PeriodLight& light, const RefineRules& rules,
                   RefineReport& report, double min_area_m2 = 1e-3) {
   const RayCaster caster(scene.mesh);
   Watch watch;
@@ -77,7 +77,7 @@ Hierarchy refined(const Scene& scene, const PilotLight& light, const RefineRules
 
 TEST(Refine, MeetsItsToleranceByTheTrueError) {
   const Scene scene = tower_on_plate();
-  const PilotLight light = suns(5);
+  const PeriodLight light = suns(5);
   for (const double tolerance : {0.05, 0.03}) {
     RefineReport report;
     const Hierarchy mesh =
@@ -98,7 +98,7 @@ TEST(Refine, MeetsItsToleranceByTheTrueError) {
 
 TEST(Refine, NeedsAThirdOfTheLeavesOfAnEvenMesh) {
   const Scene scene = tower_on_plate();
-  const PilotLight light = suns(5);
+  const PeriodLight light = suns(5);
   RefineReport report;
   const Hierarchy mesh =
       refined(scene, light, {.oracle = Oracle::light_load, .light_tolerance = 0.05}, report);
@@ -128,7 +128,7 @@ TEST(Refine, NoiseOfTheLookItselfSplitsNothing) {
   SceneBuilder builder;
   const int m = builder.material({"m", 0.3, 0, 0});
   builder.quad({-15, -15, 0}, {15, -15, 0}, {15, 15, 0}, {-15, 15, 0}, m);
-  PilotLight light = suns(0);
+  PeriodLight light = suns(0);
   const SkyGrid grid;
   for (int c = 0; c < grid.cell_count(); ++c)
     light.sky[static_cast<std::size_t>(c)] = c % 7 == 0 ? 10.0 : 0.1;
@@ -142,7 +142,7 @@ TEST(Refine, GivesTheSameMeshToVariantsOfReflectance) {
   const Scene dark = tower_on_plate();
   Scene bright = dark;
   for (auto& m : bright.materials) m.diffuse = 0.8;
-  PilotLight light = suns(5);
+  PeriodLight light = suns(5);
   for (auto& radiance : light.sky) radiance = 0.2;
   const RefineRules rules{.oracle = Oracle::light_load, .light_tolerance = 0.04};
   RefineReport report;
@@ -181,7 +181,7 @@ TEST(Refine, LooksAtNothingWhereNothingMayBeSplit) {
 
 TEST(Refine, HistoricOracleSplitsWhatSeesTheSunAndNothingElse) {
   const Scene scene = tower_on_plate();
-  const PilotLight light = suns(1);
+  const PeriodLight light = suns(1);
   RefineReport report;
   const double threshold = 0.05, least = 0.02;
   const Hierarchy mesh = refined(

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/mesh/pilot.h"
+#include "solver/mesh/mesh_pilot.h"
 
 #include <algorithm>
 #include <bit>
@@ -36,7 +36,7 @@ constexpr std::uint32_t all_rays = (1u << packet_size) - 1u;
 }  // namespace
 
 /// Points of an element's side that light is asked for at, and its axes.
-struct Pilot::Points {
+struct MeshPilot::Points {
   Vec3 normal;
   Tangents axes;
   RandomWords direction_seeds[halves_of_light];
@@ -51,8 +51,10 @@ struct Pilot::Points {
     axes = tangents(normal);
     const std::uint64_t key = mixed(forest.key(element), side);
     const auto words = [&](std::uint32_t realization) {
-      return random_words(
-          {.seed = seed, .purpose = Purpose::pilot, .realization = realization, .element = key});
+      return random_words({.seed = seed,
+                           .purpose = Purpose::mesh_pilot,
+                           .realization = realization,
+                           .element = key});
     };
     for (std::uint32_t h = 0; h < halves_of_light; ++h) {
       direction_seeds[h] = words(h);
@@ -76,8 +78,8 @@ struct Pilot::Points {
   }
 };
 
-Pilot::Pilot(const ElementForest& forest, const RayCaster& caster, const PilotLight& light,
-             std::uint64_t seed)
+MeshPilot::MeshPilot(const ElementForest& forest, const RayCaster& caster, const PeriodLight& light,
+                     std::uint64_t seed)
     : forest_(forest),
       caster_(caster),
       light_(light),
@@ -94,21 +96,21 @@ Pilot::Pilot(const ElementForest& forest, const RayCaster& caster, const PilotLi
   for (auto& emitter : emitters_) emitter.power_share /= emitted_power_;
 }
 
-void Pilot::set_load(std::size_t element, std::uint8_t side, double load) {
+void MeshPilot::set_load(std::size_t element, std::uint8_t side, double load) {
   load_[2 * element + side] = static_cast<float>(load);
 }
 
-void Pilot::add_children_of(std::size_t element) {
+void MeshPilot::add_children_of(std::size_t element) {
   load_.resize(2 * forest_.elements().size(), 0.0f);
   const auto child = static_cast<std::size_t>(forest_.elements()[element].first_child);
   for (const std::size_t c : {child, child + 1})
     for (std::size_t side = 0; side < 2; ++side) load_[2 * c + side] = load_[2 * element + side];
 }
 
-PilotLoad Pilot::load(std::size_t element, std::uint8_t side, double min_area_m2) const {
+ElementLoad MeshPilot::load(std::size_t element, std::uint8_t side, double min_area_m2) const {
   const std::size_t packets = packets_for(forest_.area(element), min_area_m2);
   const Points points(forest_, element, side, caster_.offset_m(), seed_, packets);
-  PilotLoad load;
+  ElementLoad load;
   const std::size_t n = packets * packet_size;
   std::vector<double> at_point[halves_of_light];
   for (auto& sums : at_point) sums.assign(n, 0);
@@ -135,8 +137,8 @@ PilotLoad Pilot::load(std::size_t element, std::uint8_t side, double min_area_m2
   return load;
 }
 
-void Pilot::add_suns(const Points& points, const std::vector<PilotSun>& suns, Vec3 normal,
-                     std::size_t packet, double* sum, PilotLoad& load) const {
+void MeshPilot::add_suns(const Points& points, const std::vector<PeriodSun>& suns, Vec3 normal,
+                         std::size_t packet, double* sum, ElementLoad& load) const {
   for (const auto& sun : suns) {
     const double cos_theta = dot(normal, sun.direction);
     if (cos_theta <= 0) continue;
@@ -148,8 +150,8 @@ void Pilot::add_suns(const Points& points, const std::vector<PilotSun>& suns, Ve
   }
 }
 
-void Pilot::add_surroundings(const Points& points, std::size_t packet, std::uint32_t half,
-                             double* sum) const {
+void MeshPilot::add_surroundings(const Points& points, std::size_t packet, std::uint32_t half,
+                                 double* sum) const {
   const RandomWords& seeds = points.direction_seeds[half];
   constexpr double share = 1.0 / directions_per_half;
   for (std::uint32_t d = 0; d < directions_per_half; ++d) {
@@ -165,8 +167,8 @@ void Pilot::add_surroundings(const Points& points, std::size_t packet, std::uint
 }
 
 /// Points y on emitters by power: E(x) = mean of Φ cosθ cosθ' V / (π r²), the same y for all x.
-void Pilot::add_emitters(const Points& points, std::size_t packet, std::uint32_t half,
-                         double area_m2, double* sum, PilotLoad& load) const {
+void MeshPilot::add_emitters(const Points& points, std::size_t packet, std::uint32_t half,
+                             double area_m2, double* sum, ElementLoad& load) const {
   const Mesh& mesh = forest_.scene().mesh;
   const Packet& origins = points.packets[packet];
   const RandomWords& seeds = points.emitter_seeds[half];
@@ -208,7 +210,7 @@ void Pilot::add_emitters(const Points& points, std::size_t packet, std::uint32_t
   }
 }
 
-double Pilot::radiosity(const PacketHits& hits, std::size_t ray) const {
+double MeshPilot::radiosity(const PacketHits& hits, std::size_t ray) const {
   const std::int32_t triangle = hits.triangle[ray];
   const std::int32_t leaf =
       forest_.leaf_at(triangle, static_cast<double>(hits.u[ray]), static_cast<double>(hits.v[ray]));

@@ -20,24 +20,24 @@
 namespace sunload {
 
 /// A sun that stands for a part of the period.
-struct PilotSun {
+struct PeriodSun {
   Vec3 direction;       ///< to the sun, unit
   double exposure = 0;  ///< normal to it [J m-2]
 };
 
 /// Light of a period in short.
-struct PilotLight {
+struct PeriodLight {
   /// Suns that are taken as they are.
-  std::vector<PilotSun> suns;
+  std::vector<PeriodSun> suns;
   /// Two samples of the suns, each standing for all of them, where there are too many.
-  std::array<std::vector<PilotSun>, 2> samples;
+  std::array<std::vector<PeriodSun>, 2> samples;
   std::vector<double> sky;  ///< per cell of a SkyGrid(): π·radiance·time [J m-2]
   double ground = 0;        ///< exitance of the far ground · time [J m-2]
   double lamp_time_s = 0;   ///< for which emitters of the scene shine
 };
 
 /// What one side of an element receives.
-struct PilotLoad {
+struct ElementLoad {
   double mean = 0;        ///< light load [J m-2]
   double variance = 0;    ///< of the light load over its points; estimated without the variance of
                           ///< the sampling, hence below zero at times [J2 m-4]
@@ -46,15 +46,15 @@ struct PilotLoad {
   double lamp_form_factor = 0;  ///< largest disc estimate from a point of an emitter that it sees
 };
 
-class Pilot {
+class MeshPilot {
  public:
   /// All must outlive it; the forest may grow.
-  Pilot(const ElementForest& forest, const RayCaster& caster, const PilotLight& light,
-        std::uint64_t seed);
+  MeshPilot(const ElementForest& forest, const RayCaster& caster, const PeriodLight& light,
+            std::uint64_t seed);
 
   /// Load of one side (0 front, 1 back) of an element. Cost: 16 rays for every direction and
   /// packet of points; large elements have more packets.
-  PilotLoad load(std::size_t element, std::uint8_t side, double min_area_m2) const;
+  ElementLoad load(std::size_t element, std::uint8_t side, double min_area_m2) const;
 
   /// Light load that surfaces are taken to receive where others see them, per element and side.
   void set_load(std::size_t element, std::uint8_t side, double load);
@@ -67,17 +67,17 @@ class Pilot {
     std::int32_t triangle;
     double power_share;  ///< of this one and all before it
   };
-  void add_suns(const Points& points, const std::vector<PilotSun>& suns, Vec3 normal,
-                std::size_t packet, double* sum, PilotLoad& load) const;
+  void add_suns(const Points& points, const std::vector<PeriodSun>& suns, Vec3 normal,
+                std::size_t packet, double* sum, ElementLoad& load) const;
   void add_emitters(const Points& points, std::size_t packet, std::uint32_t half, double area_m2,
-                    double* sum, PilotLoad& load) const;
+                    double* sum, ElementLoad& load) const;
   void add_surroundings(const Points& points, std::size_t packet, std::uint32_t half,
                         double* sum) const;
   double radiosity(const PacketHits& hits, std::size_t ray) const;
 
   const ElementForest& forest_;
   const RayCaster& caster_;
-  const PilotLight& light_;
+  const PeriodLight& light_;
   std::uint64_t seed_;
   SkyGrid grid_;
   std::vector<Emitter> emitters_;
