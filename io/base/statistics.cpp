@@ -34,6 +34,7 @@ double student_t_quantile(double probability, double degrees_of_freedom) {
 }
 
 double student_t_two_sided_p(double t, double degrees_of_freedom) {
+  if (std::isnan(t) || std::isnan(degrees_of_freedom)) return not_known;
   if (std::isinf(t)) return 0;
   const boost::math::students_t distribution(degrees_of_freedom);
   return 2 * boost::math::cdf(boost::math::complement(distribution, std::abs(t)));

@@ -14,7 +14,7 @@ inline constexpr double significance_level = 0.05;
 /// Quantile of Student's t: P(T ≤ t) = `probability` in (0, 1), degrees of freedom > 0.
 double student_t_quantile(double probability, double degrees_of_freedom);
 
-/// P(|T| ≥ |t|); 1 for t = 0, 0 for an infinite t.
+/// P(|T| ≥ |t|); 1 for t = 0, 0 for an infinite t, NaN where one of both is NaN.
 double student_t_two_sided_p(double t, double degrees_of_freedom);
 
 /// Mean of independent repetitions and its standard error s/√n (NaN for n < 2).

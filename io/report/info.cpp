@@ -52,11 +52,12 @@ std::string orientation(const ResultReader& result) {
   const double latitude = result.number_attribute("latitude_deg");
   if (std::isnan(north)) return {};
   std::string text = info_line("north", north_words(north));
-  if (std::isnan(latitude) || result.number_attribute("time_is_synthetic") > 0) return text;
   Site site;
   site.latitude_deg = latitude;
   site.longitude_deg = result.number_attribute("longitude_deg");
   site.elevation_m = result.number_attribute("elevation_m");
+  const bool has_place = std::isfinite(site.latitude_deg + site.longitude_deg + site.elevation_m);
+  if (!has_place || result.number_attribute("time_is_synthetic") > 0) return text;
   return text +
          info_line("pole test", pole_words(site, result.doubles("time"), result_zone(result)));
 }

@@ -191,6 +191,20 @@ Handle access_properties() {
 
 }  // namespace
 
+std::string_view kind_words(ValueKind kind) {
+  switch (kind) {
+    case ValueKind::integer:
+      return "whole numbers";
+    case ValueKind::real:
+      return "numbers";
+    case ValueKind::text:
+      return "texts of variable length";
+    case ValueKind::other:
+      break;
+  }
+  return "values of another kind";
+}
+
 void Object::set(const std::string& attribute, const std::string& text) {
   const auto type = text_type();
   const auto target = attribute_for_writing(id(), attribute, *type, *space_of({}));
@@ -253,9 +267,13 @@ std::vector<std::size_t> Dataset::shape() const {
   return {dims.begin(), dims.end()};
 }
 
-bool Dataset::is_text() const {
+ValueKind Dataset::kind() const {
   const auto type = handle(H5Dget_type(id()), &H5Tclose, "type");
-  return H5Tis_variable_str(*type) > 0;
+  if (H5Tis_variable_str(*type) > 0) return ValueKind::text;
+  const auto kind = H5Tget_class(*type);
+  return kind == H5T_INTEGER ? ValueKind::integer
+         : kind == H5T_FLOAT ? ValueKind::real
+                             : ValueKind::other;
 }
 
 void Dataset::write(const std::vector<double>& values) {

@@ -15,6 +15,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sunload::h5 {
@@ -28,6 +29,10 @@ class Error : public std::runtime_error {
 using Handle = std::shared_ptr<const std::int64_t>;
 
 enum class Type : std::uint8_t { int8, int32, int64, float32, float64, text };
+
+/// What the values of a dataset are, whatever their width; text is of variable length.
+enum class ValueKind : std::uint8_t { integer, real, text, other };
+std::string_view kind_words(ValueKind kind);  ///< "whole numbers"
 
 /// Attributes of a dataset or of the root group.
 class Object {
@@ -52,7 +57,8 @@ enum class ChunkCoding : std::uint8_t { deflated, plain };
 class Dataset : public Object {
  public:
   std::vector<std::size_t> shape() const;
-  bool is_text() const;
+  ValueKind kind() const;
+  bool is_text() const { return kind() == ValueKind::text; }
 
   /// The whole dataset, converted to its type.
   void write(const std::vector<double>& values);

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/result/reader.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <new>
@@ -11,8 +14,16 @@
 #include "io/result/h5.h"
 #include "io/result/schema.h"
 #include "io/result/seal.h"
+#include "io/result/soundness.h"
 
 namespace sunload {
+
+namespace {
+
+// Sums over all patches and instants of values below it are numbers, and series hold it as floats.
+constexpr double largest_value = 1e30;
+
+}  // namespace
 
 struct ResultReader::File {
   std::string path;
@@ -58,6 +69,16 @@ struct ResultReader::File {
     return chosen;
   }
 
+  /// Values as they are: numbers that light can have, or NaN for what is not known.
+  std::vector<double> possible(const std::string& dataset, std::vector<double> values) const {
+    const auto wrong = std::find_if(values.begin(), values.end(),
+                                    [](double x) { return std::abs(x) > largest_value; });
+    if (wrong != values.end())
+      refuse("dataset " + dataset + " cannot be used",
+             fmt::format("it has {} among its values", *wrong));
+    return values;
+  }
+
   [[noreturn]] void refuse(const std::string& what, const std::string& why) const {
     throw InputError({path}, what, why);
   }
@@ -80,7 +101,8 @@ namespace {
 
 double one_number(const h5::Object& object, const std::string& attribute) {
   const auto values = object.numbers(attribute);
-  return values && values->size() == 1 ? values->front() : std::numeric_limits<double>::quiet_NaN();
+  const bool is_known = values && values->size() == 1 && std::abs(values->front()) <= largest_value;
+  return is_known ? values->front() : std::numeric_limits<double>::quiet_NaN();
 }
 
 h5::File opened(const std::string& path) {
@@ -100,6 +122,7 @@ h5::File opened(const std::string& path) {
       throw InputError({path}, "has the format " + *format,
                        "this program reads " + std::string(result_format));
     }
+    expect_sound(path, file);
     return file;
   } catch (const h5::Error& problem) {
     throw InputError({path}, "is not a readable HDF5 file", problem.what());
@@ -136,7 +159,7 @@ std::vector<std::size_t> ResultReader::shape(const std::string& dataset) const {
 
 std::vector<double> ResultReader::doubles(const std::string& dataset) const {
   return file_->with(dataset, [&](const h5::Dataset& data) {
-    return file_->without_bands(dataset, data.doubles(), data.shape());
+    return file_->without_bands(dataset, file_->possible(dataset, data.doubles()), data.shape());
   });
 }
 
@@ -155,7 +178,8 @@ std::vector<double> ResultReader::row(const std::string& dataset, std::size_t ti
 std::vector<double> ResultReader::rows(const std::string& dataset, std::size_t first,
                                        std::size_t count) const {
   return file_->with(dataset, [&](const h5::Dataset& data) {
-    return file_->without_bands(dataset, data.rows(first, count), data.shape());
+    return file_->without_bands(dataset, file_->possible(dataset, data.rows(first, count)),
+                                data.shape());
   });
 }
 

@@ -15,7 +15,8 @@
 
 namespace sunload {
 
-/// Reads a result of ours; throws InputError naming file and dataset.
+/// Reads a result of ours; throws InputError naming file and dataset. Of an opened file holds what
+/// io/result/soundness.h asks for; values that are read are possible ones, or NaN.
 ///
 /// A result of light in bands reads as one without: `band` chooses one of them, without it values
 /// are the means of the bands, which is broadband light. (Of standard errors and of largest values
@@ -36,7 +37,8 @@ class ResultReader {
   std::vector<double> rows(const std::string& dataset, std::size_t first, std::size_t count) const;
   std::string units(const std::string& dataset) const;
   std::string text_attribute(const std::string& name) const;  ///< of the root; empty if absent
-  double number_attribute(const std::string& name) const;     ///< of the root; NaN if absent
+  double number_attribute(
+      const std::string& name) const;  ///< of the root; NaN if absent or impossible
   Quantity quantity() const;
   Bands bands() const;
   /// Absolute position that positions in the file are relative to [m]; zero if absent.

@@ -11,7 +11,9 @@
 #include "io/result/reader.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
+#include "tests/support/result_change.h"
 #include "tests/support/result_check.h"
+#include "tests/support/small_result.h"
 #include "tests/support/small_study.h"
 #include "tests/support/square_folder.h"
 
@@ -147,6 +149,26 @@ TEST(BadInput, StudyFiles) {
   expect_refused(folder, {"run", "cut.yaml"}, {"cut.yaml:2:"});
   expect_refused(folder, {"run", "bytes.yaml"}, {"bytes.yaml:1:1: "});
   expect_refused(folder, {"run", "folder.yaml"}, {"folder.yaml: is a folder"});
+}
+
+/// HDF5 reads the file, and what it says points out of its arrays.
+TEST(BadInput, ResultsThatAreChanged) {
+  const WorkFolder folder;
+  std::filesystem::copy_file(write_small_result({}, "good"), folder / "good.h5");
+  std::filesystem::copy_file(folder / "good.h5", folder / "bad.h5");
+  change_number(folder / "bad.h5", "patch_vertices", 1, 1e6);
+  const std::vector<std::vector<std::string>> commands{
+      {"info", "bad.h5"},
+      {"info", "bad.h5", "--patches"},
+      {"compare", "bad.h5", "good.h5"},
+      {"compare", "good.h5", "bad.h5", "--csv"},
+      {"export", "bad.h5", "--to", "csv"},
+      {"export", "bad.h5", "--to", "glb", "-o", "bad.glb"},
+      {"render", "bad.h5", "-o", "bad.png"},
+      {"render", "good.h5", "--same-scale", "bad.h5", "-o", "good.png"},
+      {"view", "bad.h5", "-o", "bad.html"}};
+  for (const auto& command : commands)
+    expect_refused(folder, command, {"bad.h5: dataset patch_vertices has 1000000 at place 1"});
 }
 
 TEST(BadInput, CommandLines) {

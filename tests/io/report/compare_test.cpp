@@ -11,6 +11,7 @@
 
 #include "geo/base/units.h"
 #include "io/base/statistics.h"
+#include "tests/support/result_change.h"
 #include "tests/support/small_result.h"
 
 namespace sunload {
@@ -188,6 +189,20 @@ TEST(Compare, OneRealizationHasNoErrors) {
   const auto comparison = compare_results(base, base);
   EXPECT_EQ(comparison.errors, Comparison::Errors::unknown);
   EXPECT_NE(comparison_csv(comparison).find(",false,,,false,"), std::string::npos);
+}
+
+/// As of a partial merge: a load that is not known makes its groups unknown, and no other.
+TEST(Compare, LoadsThatAreNotKnown) {
+  const auto base_path = test::write_small_result({}, "base");
+  const auto path = test::write_small_result({}, "partial");
+  test::change_number(path, "light_load", 0, std::nan(""));
+  test::change_number(path, "light_load_realization", 0, std::nan(""));
+  const ResultReader base(base_path), partial(path);
+  const Comparison comparison = compare_results(base, partial);
+  EXPECT_TRUE(std::isnan(comparison.rows.front().p_value));
+  EXPECT_TRUE(std::isnan(comparison.rows.front().p_corrected));
+  EXPECT_FALSE(comparison.rows.front().significant);
+  EXPECT_EQ(comparison.rows.back().p_corrected, 1);
 }
 
 TEST(Compare, CsvHeaderIsTheContract) {
