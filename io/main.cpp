@@ -5,26 +5,40 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <csignal>
-#include <cstdio>
-#include <iostream>
+#include <cstring>
 #include <new>
 
 #include "geo/base/check.h"
 #include "io/base/exit_code.h"
-#include "io/base/file_aside.h"
+#include "io/base/standard_streams.h"
+#include "io/base/stop_signals.h"
 #include "io/command/command_line.h"
-#include "io/run/progress.h"
 
 namespace sunload {
 namespace {
 
+/// Work that goes on where it was stopped; other commands end by the signal, as usual.
+bool stops_cleanly(int argc, char** argv) {
+  return argc > 1 && (std::strcmp(argv[1], "run") == 0 || std::strcmp(argv[1], "merge") == 0);
+}
+
+/// What must be so before any library opens a file or takes its time. Some hundred of them are
+/// set up before `main` begins, which takes a good part of a second on a busy machine.
+void begin(int argc, char** argv, char**) {
+  open_closed_streams();
+  if (stops_cleanly(argc, argv)) install_stop_signals();
+}
+
+#ifdef __GLIBC__
+/// Called before the constructors of libraries, with the words of the command line.
+[[gnu::used, gnu::section(".preinit_array")]] void (*const before_libraries)(int, char**,
+                                                                             char**) = begin;
+#endif
+
 /// Listings count as written only once they have left the program.
 int finished_output(int code) {
-  errno = 0;
-  std::cout.flush();
-  if (std::fflush(stdout) != 0 || !std::cout) throw_cannot_write("to standard output", errno);
+  finish_listing();
   return code;
 }
 
@@ -32,21 +46,21 @@ int guarded(int argc, char** argv) {
   try {
     return finished_output(run_command(argc, argv));
   } catch (const InputError& error) {
-    for (const auto& problem : error.problems()) fmt::print(stderr, "{}\n", problem);
+    for (const auto& problem : error.problems()) tell(problem);
     return exit_code::wrong_input;
   } catch (const MachineError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    tell(error.what());
     return exit_code::machine_limit;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "out of memory; use a larger mesh.max_edge_m or fewer lines_per_patch\n");
+    tell("out of memory; use a larger mesh.max_edge_m or fewer lines_per_patch");
     return exit_code::machine_limit;
   } catch (const Interrupted& error) {
     const std::string signal = stop_signal();
-    fmt::print(stderr, "{} ({}); finished batches are kept, go on with: sunload run … --resume\n",
-               error.what(), signal.empty() ? "time limit" : signal);
+    tell(fmt::format("{} ({}); finished batches are kept, go on with: sunload run … --resume",
+                     error.what(), signal.empty() ? "time limit" : signal));
     return exit_code::unfinished;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "bug in sunload: {}\n", error.what());
+    tell(fmt::format("bug in sunload: {}", error.what()));
     return exit_code::bug;
   }
 }
@@ -55,7 +69,11 @@ int guarded(int argc, char** argv) {
 }  // namespace sunload
 
 int main(int argc, char** argv) {
-  // A file that grows beyond `ulimit -f` is an error of writing, not the end of the process.
+  sunload::begin(argc, argv, nullptr);
+  // A file that grows beyond `ulimit -f` is an error of writing, not the end of the process; so is
+  // a reader of our messages who goes away.
   std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+  sunload::open_listing();
   return sunload::guarded(argc, argv);
 }

@@ -65,6 +65,21 @@ bool is_left_over(const fs::path& file, const Writer& writer) {
   return !gone && fs::file_time_type::clock::now() - written > unwritten_for;
 }
 
+/// Beside the file, or in a new folder of this process alone where nothing can be renamed to it.
+std::string place_aside(const OutputTarget& target, const std::string& path) {
+  if (target.kind == OutputTarget::Kind::file)
+    return target.path + part_mark + this_place() + "-" + std::to_string(::getpid()) + "-" +
+           std::to_string(std::random_device{}());
+  std::error_code none;
+  std::string folder = (fs::temp_directory_path(none) / "sunload-XXXXXX").string();
+  if (none || ::mkdtemp(folder.data()) == nullptr)
+    throw MachineError("cannot write " + path + ": what is written into it is made in the folder " +
+                       "of temporary files, which cannot be written to (" +
+                       (none ? none.message() : std::strerror(errno)) +
+                       "); let TMPDIR name another");
+  return folder + "/whole";
+}
+
 /// fsync of a file or folder; the number of the error, or 0.
 int flushed_to_disk(const std::string& path, int flags) {
   const int file = ::open(path.c_str(), flags | O_CLOEXEC);
@@ -76,17 +91,16 @@ int flushed_to_disk(const std::string& path, int flags) {
 
 }  // namespace
 
-void throw_cannot_write(const std::string& path, int error_number) {
-  throw MachineError("cannot write " + path + ": " + std::strerror(error_number));
-}
-
 FileAside::FileAside(std::string path)
-    : path_(std::move(path)),
-      aside_(path_ + part_mark + this_place() + "-" + std::to_string(::getpid()) + "-" +
-             std::to_string(std::random_device{}())) {}
+    : path_(std::move(path)), target_(output_target(path_)), aside_(place_aside(target_, path_)) {}
 
 FileAside::~FileAside() {
-  if (state_ == State::writing) ::unlink(aside_.c_str());
+  if (state_ == State::writing) remove_aside();
+}
+
+void FileAside::remove_aside() const {
+  ::unlink(aside_.c_str());
+  if (target_.kind != OutputTarget::Kind::file) ::rmdir(fs::path(aside_).parent_path().c_str());
 }
 
 void FileAside::start_flushing() const {
@@ -99,16 +113,23 @@ void FileAside::start_flushing() const {
 }
 
 void FileAside::publish() {
-  if (const int error = flushed_to_disk(aside_, O_RDONLY)) throw_cannot_write(path_, error);
+  if (target_.kind == OutputTarget::Kind::file)
+    if (const int error = flushed_to_disk(aside_, O_RDONLY)) throw_cannot_write(path_, error);
   publish_unflushed();
-  const auto folder = fs::path(path_).parent_path();
+  if (target_.kind != OutputTarget::Kind::file) return;
+  const auto folder = fs::path(target_.path).parent_path();
   const int error = flushed_to_disk(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
   // Some network file systems cannot flush folders and say so: nothing more can be done there.
   if (error != 0 && error != EINVAL && error != ENOTSUP) throw_cannot_write(path_, error);
 }
 
 void FileAside::publish_unflushed() {
-  if (std::rename(aside_.c_str(), path_.c_str()) != 0) throw_cannot_write(path_, errno);
+  if (target_.kind != OutputTarget::Kind::file) {
+    write_into(target_, aside_, path_);
+    remove_aside();
+  } else if (std::rename(aside_.c_str(), target_.path.c_str()) != 0) {
+    throw_cannot_write(path_, errno);
+  }
   state_ = State::published;
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "io/base/output_target.h"
+
 namespace sunload {
 
 /// Reserves a name beside `path` (`<path>.part-<place>-<process>-<random>`, same
@@ -13,8 +15,13 @@ namespace sunload {
 /// machines may share a folder; `place` tells where the process number counts:
 /// on this machine since it was started, in this container). Unless published,
 /// the file aside is removed.
+///
+/// Links stay: the file that they lead to is the one that is replaced. What is no file (a device, a
+/// pipe, an open descriptor such as /dev/stdout) stays as well: the file aside lies in the folder
+/// of temporary files then, and its bytes are written into what is there.
 class FileAside {
  public:
+  /// Throws MachineError where `path` is a folder.
   explicit FileAside(std::string path);
   ~FileAside();
   FileAside(const FileAside&) = delete;
@@ -25,13 +32,18 @@ class FileAside {
   /// The disk may begin with what is written so far, so that `publish` waits less: a hint.
   void start_flushing() const;
   /// Flushes the finished file to the disk, renames it to `path`, and flushes
-  /// the folder. Throws MachineError.
+  /// the folder; or writes it into what `path` is. Throws MachineError.
   void publish();
   /// The same without flushing, for what is checked when read and may be lost with the power.
   void publish_unflushed();
 
  private:
-  std::string path_, aside_;
+  /// Removes the file aside, and the folder of its own where it has one.
+  void remove_aside() const;
+
+  std::string path_;
+  OutputTarget target_;
+  std::string aside_;
   enum class State { writing, published } state_ = State::writing;
 };
 
@@ -42,9 +54,6 @@ class FileAside {
 /// nobody has written to it for a day (its place cannot be looked into: another
 /// machine, or this one before it was started anew). All others stay.
 void remove_left_aside(const std::string& folder);
-
-/// MachineError "cannot write `path`: <text of the error number>".
-[[noreturn]] void throw_cannot_write(const std::string& path, int error_number);
 
 /// Writes a whole file aside and publishes it. Throws MachineError.
 void write_file(const std::string& path, std::string_view bytes);

@@ -11,6 +11,8 @@
 #include "geo/mesh/intersections.h"
 #include "io/base/exit_code.h"
 #include "io/base/machine.h"
+#include "io/base/output_target.h"
+#include "io/base/standard_streams.h"
 #include "io/picture/sun_diagram.h"
 #include "io/plan/expected_error.h"
 #include "io/plan/rules_of_study.h"
@@ -18,6 +20,7 @@
 #include "io/plan/variant_mesh.h"
 #include "io/plan/variant_plan.h"
 #include "io/plan/work_estimate.h"
+#include "io/study/named_files.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
@@ -182,9 +185,9 @@ nlohmann::ordered_json as_json(const VariantPlan& plan, const WorkEstimate& work
           {"seconds", work.seconds}};
 }
 
-/// To stderr: what was asked for goes to stdout.
+/// To the standard error: what was asked for goes to stdout.
 void print_warnings(const std::vector<std::string>& warnings) {
-  for (const auto& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+  for (const auto& warning : warnings) tell("warning: " + warning);
 }
 
 }  // namespace
@@ -220,6 +223,7 @@ int check_study(const std::string& path, const RunOptions& options, CheckFormat 
 
 int print_sun(const std::string& path, const std::string& picture) {
   const StudyFile file = read_study(path);
+  expect_not_read(picture, named_files(file));
   print_warnings(file.warnings);
   const Study& study = file.variants.front();
   // The site may come from the scene's CRS, which only its reader knows.
@@ -230,16 +234,17 @@ int print_sun(const std::string& path, const std::string& picture) {
     draw_sun_diagram(study, site, light, picture);
     return exit_code::done;
   }
-  fmt::print("time,azimuth_deg,elevation_deg,dni_w_m2,dhi_w_m2,ghi_w_m2\n");
+  std::cout << "time,azimuth_deg,elevation_deg,dni_w_m2,dhi_w_m2,ghi_w_m2\n";
   for (const auto& i : light.intervals)
-    fmt::print("{},{:.6f},{:.6f},{:.4f},{:.4f},{:.4f}\n", iso_utc(i.when.sun_time),
-               i.when.sun.azimuth_deg, i.when.sun.elevation_deg, i.mean.dni, i.mean.dhi,
-               i.mean.ghi);
+    std::cout << fmt::format("{},{:.6f},{:.6f},{:.4f},{:.4f},{:.4f}\n", iso_utc(i.when.sun_time),
+                             i.when.sun.azimuth_deg, i.when.sun.elevation_deg, i.mean.dni,
+                             i.mean.dhi, i.mean.ghi);
   return exit_code::done;
 }
 
 int print_sky(const std::string& path, const SkyOptions& options) {
   const StudyFile file = read_study(path);
+  expect_not_read(options.picture, named_files(file));
   print_warnings(file.warnings);
   const SkyDome dome = sky_dome(file.variants.front(), options.time);
   print_warnings(dome.notes);

@@ -12,6 +12,7 @@
 #include "geo/base/check.h"
 #include "io/base/exit_code.h"
 #include "io/base/key_names.h"
+#include "io/base/output_target.h"
 #include "io/base/version.h"
 #include "io/command/check_study.h"
 #include "io/command/commands.h"
@@ -107,6 +108,9 @@ class CommandLine {
     } catch (const CLI::ParseError& error) {
       refuse(error, argc > 1 ? argv[1] : "");
     }
+    for (const CLI::Option* output : outputs_)
+      for (const CLI::Option* input : inputs_)
+        for (const auto& path : output->results()) expect_not_read(path, input->results());
     return action_();
   }
 
@@ -141,8 +145,13 @@ class CommandLine {
     return sub;
   }
 
+  /// Marks files that a command reads, and those that it writes: none may be both. Only the options
+  /// of the command that was called have values.
+  CLI::Option* reads(CLI::Option* option) { return inputs_.emplace_back(option); }
+  CLI::Option* writes(CLI::Option* option) { return outputs_.emplace_back(option); }
+
   void add_study(CLI::App* sub) {
-    sub->add_option("STUDY", study_, "study file (YAML)")->required();
+    reads(sub->add_option("STUDY", study_, "study file (YAML)"))->required();
   }
 
   void add_place(CLI::App* sub) {
@@ -161,7 +170,6 @@ class CommandLine {
       if (resume_) options_.existing = Existing::resume;
       if (keep_batches_) options_.batches = Batches::keep;
       if (!shard_.empty()) options_.shard = parse_shard(shard_);
-      install_stop_signals();
       return run_study(study_, options_);
     });
     add_study(sub);
@@ -212,7 +220,7 @@ class CommandLine {
   }
 
   void add_picture(CLI::App* sub) {
-    sub->add_option("--image", picture_, "picture to write instead of CSV (.png)");
+    writes(sub->add_option("--image", picture_, "picture to write instead of CSV (.png)"));
   }
 
   void add_sky() {
@@ -262,7 +270,7 @@ class CommandLine {
   }
 
   void add_result(CLI::App* sub) {
-    sub->add_option("RESULT", results_, "result file (.h5)")->required()->expected(1);
+    reads(sub->add_option("RESULT", results_, "result file (.h5)"))->required()->expected(1);
   }
 
   void add_compare() {
@@ -273,15 +281,17 @@ class CommandLine {
           if (csv_) compare_.format = CompareOptions::Format::csv;
           return compare(compare_);
         });
-    sub->add_option("BASE", compare_.base, "result file of the base, or a study")->required();
-    sub->add_option("VARIANT", compare_.variants, "result files, or names of variants of the study")
+    reads(sub->add_option("BASE", compare_.base, "result file of the base, or a study"))
+        ->required();
+    reads(sub->add_option("VARIANT", compare_.variants,
+                          "result files, or names of variants of the study"))
         ->required();
     sub->add_option("--output", compare_.output, "folder of the study's results");
     auto* csv = sub->add_flag("--csv", csv_, "one row per group, for machines");
     sub->add_flag("--json", json_, "the same as JSON")->excludes(csv);
     add_band(sub);
-    sub->add_option("--hdf5", compare_.differences,
-                    "file of the differences of groups, facades and patches, besides");
+    writes(sub->add_option("--hdf5", compare_.differences,
+                           "file of the differences of groups, facades and patches, besides"));
   }
 
   void add_render() {
@@ -295,7 +305,7 @@ class CommandLine {
       return render(render_);
     });
     add_result(sub);
-    sub->add_option("-o,--output", render_.picture, "picture to write (.png)")->required();
+    writes(sub->add_option("-o,--output", render_.picture, "picture to write (.png)"))->required();
     sub->add_option("--quantity", render_.rules.quantity,
                     "dataset to draw (default: light_load; animated: irradiance)");
     sub->add_option("--time", render_.rules.time, "instant of a series, e.g. 2026-06-21T12:00");
@@ -312,8 +322,9 @@ class CommandLine {
     add_word(sub, "--colour", render_colours_, picture_colours,
              "colours (rgb: the bands themselves, default quantity power_load)");
     add_band(sub);
-    sub->add_option("--same-scale", render_.rules.same_scale,
-                    "results that the scale is to do for, too, so that pictures can be compared");
+    reads(sub->add_option("--same-scale", render_.rules.same_scale,
+                          "results that the scale is to do for, too, so that pictures can be "
+                          "compared"));
     add_word<std::optional<SkyBackground>>(sub, "--sky", render_.rules.sky,
                                            {{"plain", SkyBackground::plain},
                                             {"first", SkyBackground::first},
@@ -338,8 +349,9 @@ class CommandLine {
           view_html(results_, view_, picture_);
           return exit_code::done;
         });
-    sub->add_option("RESULT", results_, "one result file (.h5), or two to compare")->required();
-    sub->add_option("-o,--output", picture_, "page to write (.html)")->required();
+    reads(sub->add_option("RESULT", results_, "one result file (.h5), or two to compare"))
+        ->required();
+    writes(sub->add_option("-o,--output", picture_, "page to write (.html)"))->required();
     sub->add_option("--step", view_step_,
                     "hold every N-th interval only (default: as many as 60 MB hold)")
         ->check(CLI::Range(1, 1'000'000));
@@ -353,11 +365,13 @@ class CommandLine {
     });
     add_result(sub);
     sub->add_option("--to", export_.format, "format: " + export_formats())->required();
-    sub->add_option("-o,--output", picture_,
-                    "file to write (csv, vrml, cityjson, energyplus: default standard output)");
-    sub->add_option("--model", export_.model,
-                    "cityjson: the study's own model, whose surfaces and objects get the values as "
-                    "attributes");
+    writes(sub->add_option(
+        "-o,--output", picture_,
+        "file to write (csv, vrml, cityjson, energyplus: default standard output)"));
+    reads(sub->add_option(
+        "--model", export_.model,
+        "cityjson: the study's own model, whose surfaces and objects get the values as "
+        "attributes"));
     sub->add_option("--quantity", export_.quantity,
                     "dataset per patch (default: light_load; csv and xdmf: all); csv: series");
     sub->add_option("--time", export_.time,
@@ -378,7 +392,8 @@ class CommandLine {
     std::string names;
     for (const auto& name : builtin_scene_names()) names += (names.empty() ? "" : ", ") + name;
     sub->add_option("NAME", builtin_.name, "one of: " + names)->required();
-    sub->add_option("-o,--output", builtin_.path, "file to write (.obj, .city.json)")->required();
+    writes(sub->add_option("-o,--output", builtin_.path, "file to write (.obj, .city.json)"))
+        ->required();
     sub->add_option("--set", builtin_.parameters, "parameter of the scene, e.g. house_3=glazed")
         ->allow_extra_args(false);
   }
@@ -394,6 +409,7 @@ class CommandLine {
 
   CLI::App app_{"sunload: how much sun and sky light falls on every patch of a city"};
   std::function<int()> action_;
+  std::vector<CLI::Option*> inputs_, outputs_;
   std::string study_, picture_, shard_, band_, subdivision_ = "cells";
   std::vector<std::string> results_;
   RunOptions options_;

@@ -9,6 +9,7 @@
 #include "geo/base/check.h"
 #include "io/base/bands.h"
 #include "io/base/exit_code.h"
+#include "io/base/output_target.h"
 #include "io/report/compare.h"
 #include "io/report/info.h"
 #include "io/result/patches_csv.h"
@@ -98,6 +99,10 @@ int print_info(const NamedResult& named, InfoFormat format) {
 int compare(const CompareOptions& asked) {
   const CompareOptions options = with_files(asked);
   expect_one_variant(options);
+  // Of a study only now the names of its results are known.
+  std::vector<std::string> inputs = options.variants;
+  inputs.push_back(options.base);
+  expect_not_read(options.differences, inputs);
   const auto band = chosen_band(options.band);
   const ResultReader base(options.base, band);
   for (const auto& path : options.variants) {

@@ -13,6 +13,7 @@
 #include "geo/base/check.h"
 #include "geo/mesh/polygon_match.h"
 #include "io/base/json_text.h"
+#include "io/base/standard_streams.h"
 #include "io/export/cityjson.h"
 #include "io/export/surface_values.h"
 #include "io/scene/base/from_file.h"
@@ -168,7 +169,7 @@ class ModelWriter {
   }
 
   /// What a reader of the file must know; throws where nothing has found its place.
-  void tell() const {
+  void expect_met() const {
     std::size_t count = 0, lost = 0;
     for (const auto& [name, faces] : patches_.by_object)
       for (const auto& face : faces) {
@@ -184,8 +185,8 @@ class ModelWriter {
                        "the study has moved it, or it is another version",
                        "name the file that the study read");
     if (lost > 0)
-      fmt::print(stderr, "{}: {} of {} patches lie on no surface of the model; objects hold them\n",
-                 path_, lost, count);
+      tell(fmt::format("{}: {} of {} patches lie on no surface of the model; objects hold them",
+                       path_, lost, count));
   }
 
  private:
@@ -343,7 +344,7 @@ void write_model_with_values(const ResultReader& result, const ExportRules& rule
   try {
     ModelWriter writer(result, rules);
     writer.write(target.stream);
-    writer.tell();
+    writer.expect_met();
   } catch (const json::exception& error) {
     throw InputError({rules.model}, "is no CityJSON that can be read", error.what(),
                      "name the file that the study read");

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
 #include "geo/time/time.h"
 #include "io/base/light_quantity.h"
+#include "io/base/standard_streams.h"
 #include "io/base/text.h"
 #include "io/export/format.h"
 #include "io/result/time.h"
@@ -148,10 +148,10 @@ void export_energyplus(const ResultReader& result, const ExportRules& rules,
     out << "\n";
   }
   if (unknown > 0)
-    fmt::print(stderr,
-               "{}: {} intervals with the sun up have no direct light and the fraction 0; "
-               "light.source: clear_sky has them all\n",
-               target.path.empty() ? "energyplus" : target.path, unknown);
+    tell(
+        fmt::format("{}: {} intervals with the sun up have no direct light and the fraction 0; "
+                    "light.source: clear_sky has them all",
+                    target.path.empty() ? "energyplus" : target.path, unknown));
 }
 
 }  // namespace sunload

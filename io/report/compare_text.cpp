@@ -153,6 +153,7 @@ std::string comparison_json(const Comparison& comparison) {
                                            {"units", comparison.units},
                                            {"notes", comparison.notes},
                                            {"rows", rows}};
+  // Paths may be anything.
   return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

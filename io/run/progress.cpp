@@ -7,34 +7,18 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "geo/base/units.h"
-#include "io/base/exit_code.h"
 #include "io/base/machine.h"
+#include "io/base/names.h"
+#include "io/base/standard_streams.h"
+#include "io/base/stop_signals.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
 
 namespace {
-
-volatile std::sig_atomic_t caught_signal = 0;
-
-/// After this time without a clean end the process ends where it stands.
-constexpr unsigned grace_s = 4;
-
-void remember(int signal) {
-  if (caught_signal == 0) alarm(grace_s);
-  caught_signal = signal;
-}
-
-void end_at_once(int) {
-  constexpr char text[] = "stopped at once; finished batches are kept, go on with --resume\n";
-  [[maybe_unused]] const auto written = write(STDERR_FILENO, text, sizeof(text) - 1);
-  _exit(exit_code::unfinished);
-}
 
 /// Least time between two lines, objects, drawings of the bar.
 constexpr std::chrono::seconds line_pause{10}, json_pause{1};
@@ -210,24 +194,23 @@ void Progress::print(const State& state) {
   switch (style_) {
     case ProgressStyle::bar:
       // Back to the line's beginning; what the last drawing has more is erased.
-      fmt::print(stderr, "\r{}\033[K", state.bar(terminal_columns()));
+      tell_as_it_is("\r" + without_controls(state.bar(terminal_columns())) + "\033[K");
       bar_is_open_ = true;
       if (state.share >= 1) end_bar();
       break;
     case ProgressStyle::lines:
-      fmt::print(stderr, "{}\n", state.line());
+      tell(state.line());
       break;
     case ProgressStyle::json:
-      fmt::print(stderr, "{}\n", state.json());
+      tell(state.json());
       break;
     default:
       break;
   }
-  std::fflush(stderr);
 }
 
 void Progress::end_bar() {
-  if (bar_is_open_) fmt::print(stderr, "\n");
+  if (bar_is_open_) tell("");
   bar_is_open_ = false;
 }
 
@@ -238,35 +221,13 @@ void Progress::say(const std::string& text) {
 void Progress::warn(const std::string& text) {
   const std::lock_guard lock(guard_);
   end_bar();
-  fmt::print(stderr, "{}\n", style_ == ProgressStyle::json ? message_json(text) : text);
-  std::fflush(stderr);
+  tell(style_ == ProgressStyle::json ? message_json(text) : text);
 }
 
 bool Progress::stop_requested() const {
-  if (caught_signal != 0) return true;
+  if (stop_signal_came()) return true;
   return time_limit_s_ > 0 &&
          std::chrono::duration<double>(Clock::now() - start_).count() > time_limit_s_;
-}
-
-void install_stop_signals() {
-  struct sigaction action {};
-  action.sa_handler = remember;
-  for (const int signal : {SIGTERM, SIGINT, SIGUSR1}) sigaction(signal, &action, nullptr);
-  action.sa_handler = end_at_once;
-  sigaction(SIGALRM, &action, nullptr);
-}
-
-std::string stop_signal() {
-  switch (static_cast<int>(caught_signal)) {
-    case SIGTERM:
-      return "SIGTERM";
-    case SIGINT:
-      return "SIGINT";
-    case SIGUSR1:
-      return "SIGUSR1";
-    default:
-      return {};
-  }
 }
 
 }  // namespace sunload

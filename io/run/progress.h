@@ -56,11 +56,4 @@ class Progress : public Watch {
   bool bar_is_open_ = false;
 };
 
-/// From here on SIGTERM, SIGINT and SIGUSR1 ask the work to stop; where it has not
-/// within 4 s, the process ends with exit code 75 all the same: files appear under
-/// their names only when complete, so nothing finished is lost.
-void install_stop_signals();
-/// Name of the signal that asked to stop, empty if none did.
-std::string stop_signal();
-
 }  // namespace sunload

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <deque>
 #include <fstream>
-#include <iostream>
 
 #include "geo/base/check.h"
 #include "io/base/colour_map.h"
 #include "io/base/file_aside.h"
+#include "io/base/standard_streams.h"
 #include "io/view/data.h"
 #include "io/view/page.h"
 
@@ -76,8 +76,8 @@ void view_html(const std::vector<std::string>& paths, const ViewRules& rules,
   for (const auto& name : paths) results.emplace_back(name, rules.band);
   const std::size_t step = rules.step.value_or(chosen_step(results));
   if (step > 1)
-    fmt::print(stderr, "{}: holds every {}. interval only{}\n", path, step,
-               rules.step ? "" : ", to stay small; --step sets this");
+    tell(fmt::format("{}: holds every {}. interval only{}", path, step,
+                     rules.step ? "" : ", to stay small; --step sets this"));
 
   ViewBlocks blocks;
   nlohmann::json about{{"false", palette(Palette::false_colour)}, {"grey", palette(Palette::grey)}};

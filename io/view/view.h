@@ -17,7 +17,7 @@ struct ViewRules {
 };
 
 /// Writes the page for one result, or for two that are shown side by side or as
-/// a difference. Tells on stderr where intervals are left out. Throws InputError
+/// a difference. Tells on the standard error where intervals are left out. Throws InputError
 /// for a result without patches, MachineError where the page was not built into
 /// this program or cannot be written.
 void view_html(const std::vector<std::string>& results, const ViewRules& rules,

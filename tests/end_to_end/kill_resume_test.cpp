@@ -177,8 +177,10 @@ TEST(KillResume, KilledWhileAFileIsBeingWritten) {
 }
 
 TEST(KillResume, AskedToStopItSaysHowToGoOn) {
-  for (const auto& [signal, name] :
-       {std::pair{SIGTERM, "SIGTERM"}, {SIGINT, "SIGINT"}, {SIGUSR1, "SIGUSR1"}}) {
+  for (const auto& [signal, name] : {std::pair{SIGTERM, "SIGTERM"},
+                                     {SIGINT, "SIGINT"},
+                                     {SIGUSR1, "SIGUSR1"},
+                                     {SIGHUP, "SIGHUP"}}) {
     const WorkFolder folder;
     write_study(folder);
     const Ran ran = run_until(folder, 2, Pause(0), signal);

@@ -154,6 +154,20 @@ TEST(House, EveryRoomTellsWhatLivesInIt) {
   }
 }
 
+/// fmt and stdio throw or stop where the standard error cannot be written.
+TEST(House, MessagesGoOutByOneFile) {
+  const fs::path root(test::source_folder());
+  const std::regex stream("\\b(stderr|std::cerr|std::clog|STDERR_FILENO|fmt::print)\\b");
+  Names users;
+  for (const auto& [file, list] : all_includes()) {
+    std::ifstream source(root / file);
+    const std::string text{std::istreambuf_iterator<char>(source), {}};
+    if (std::regex_search(text, stream)) users.insert(fs::path(file).replace_extension().string());
+  }
+  // Signals can do no more than write(2); progress asks the terminal for its width.
+  EXPECT_EQ(users, (Names{"io/base/standard_streams", "io/base/stop_signals", "io/run/progress"}));
+}
+
 TEST(House, TheSolverOpensNoFileAndPrintsNothing) {
   for (const auto& [file, list] : all_includes()) {
     if (!file.starts_with("solver/")) continue;

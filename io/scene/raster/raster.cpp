@@ -23,7 +23,7 @@ constexpr double lowest_elevation_m = -1000, highest_elevation_m = 9000;
 // Of what stands on land; rounding leaves small negative differences.
 constexpr double lowest_height_m = -1, highest_height_m = 2000;
 
-/// GDAL's messages of one reading; they do not reach stderr.
+/// GDAL's messages of one reading; they do not reach the standard error.
 class GdalMessages {
  public:
   GdalMessages() { CPLPushErrorHandlerEx(&note, this); }

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Commands write what they were asked to, where they were asked to, and destroy nothing.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "tests/support/paths.h"
+#include "tests/support/program.h"
+#include "tests/support/result_check.h"
+#include "tests/support/square_folder.h"
+
+namespace sunload::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder with a result and a copy of it under another name.
+struct Results : SquareFolder {
+  Results() {
+    EXPECT_EQ(run("results").code, 0);
+    fs::copy_file(result("results"), folder / "a.h5");
+    fs::copy_file(result("results"), folder / "b.h5");
+  }
+  Ran shell(const std::string& command) const {
+    return Process({"/bin/sh", "-c", command}, folder.path()).wait();
+  }
+};
+
+const Results& results() {
+  static const Results once;
+  return once;
+}
+
+struct Call {
+  std::vector<std::string> words;
+  std::string target;
+};
+
+TEST(Outputs, NoCommandWritesOntoWhatItReads) {
+  const auto& folder = results().folder;
+  fs::create_symlink("a.h5", folder / "link.h5");
+  for (const Call& call :
+       {Call{{"export", "a.h5", "--to", "csv", "-o"}, "a.h5"},
+        {{"export", "a.h5", "--to", "vtk", "-o"}, "./a.h5"},
+        {{"export", "a.h5", "--to", "csv", "-o"}, "link.h5"},
+        {{"compare", "a.h5", "b.h5", "--hdf5"}, "a.h5"},
+        {{"compare", "a.h5", "b.h5", "--hdf5"}, "b.h5"},
+        {{"compare", "square.yaml", "baseline", "--hdf5"}, "results/square/baseline.h5"},
+        {{"render", "a.h5", "-o"}, "a.h5"},
+        {{"render", "a.h5", "--same-scale", "b.h5", "-o"}, "b.h5"},
+        {{"view", "a.h5", "b.h5", "-o"}, "b.h5"},
+        {{"sun", "square.yaml", "--image"}, "square.yaml"},
+        {{"sun", "square.yaml", "--image"}, "square.obj"},
+        {{"sky", "square.yaml", "--time", "2026-03-21T12:00", "--image"}, "square.obj"}}) {
+    auto words = call.words;
+    words.push_back(call.target);
+    const std::string before = folder.read(call.target);
+    const Ran ran = program(folder, words);
+    EXPECT_EQ(ran.code, 2) << fmt::format("{}", fmt::join(words, " ")) << "\n" << ran.err;
+    EXPECT_NE(ran.err.find("this command reads"), std::string::npos) << ran.err;
+    EXPECT_TRUE(folder.read(call.target) == before) << call.target;
+  }
+}
+
+TEST(Outputs, AResultThatIsALinkToTheScenesFileIsNotOverwritten) {
+  const SquareFolder square;
+  fs::create_directories(square.folder / "results/square");
+  fs::create_symlink("../../square.obj", square.folder / "results/square/baseline.h5");
+  EXPECT_EQ(square.run("results", {"--overwrite"}).code, 2);
+  EXPECT_EQ(square.folder.read("square.obj"), square_obj);
+}
+
+TEST(Outputs, StandardOutputByItsNameIsWrittenOn) {
+  const auto& folder = results().folder;
+  folder.write("listing", "before\n");
+  const Ran ran = results().shell(
+      program_path() + " export a.h5 --to csv --quantity series -o /dev/fd/1 >> listing");
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_TRUE(folder.read("listing").starts_with("before\nbegin_utc,"));
+}
+
+TEST(Outputs, PicturesAndBinaryFormatsGoIntoPipes) {
+  const auto& folder = results().folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  for (const auto& [command, mark] :
+       {std::pair<std::string, std::string>{"render a.h5 --size 320x320 -o pipe", "\x89PNG"},
+        {"export a.h5 --to glb -o pipe", "glTF"},
+        {"compare a.h5 b.h5 --hdf5 pipe > table", "\x89HDF"}}) {
+    const Ran ran = results().shell("cat pipe > got & " + program_path() + " " + command +
+                                    "; code=$?; wait; exit $code");
+    EXPECT_EQ(ran.code, 0) << command << "\n" << ran.err;
+    EXPECT_TRUE(folder.read("got").starts_with(mark)) << command;
+    EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
+  }
+}
+
+/// Failure to write a message is no failure of the work.
+TEST(Messages, ThatCannotBeWrittenStopNothing) {
+  const SquareFolder square;
+  for (const std::string stream : {"2>/dev/full", "2>&-", "0<&- 1>&- 2>&-"}) {
+    const std::string output = "o" + std::to_string(std::hash<std::string>{}(stream));
+    const Ran ran = Process({"/bin/sh", "-c",
+                             program_path() + " run square.yaml --output " + output + " " + stream},
+                            square.folder.path())
+                        .wait();
+    EXPECT_EQ(ran.code, 0) << stream;
+    EXPECT_EQ(different_data(square.result(output), results().result("results")),
+              std::vector<std::string>{})
+        << stream;
+  }
+}
+
+TEST(Messages, ThatNobodyReadsStopNothing) {
+  const SquareFolder square;
+  // The reader of the messages is gone before the first one comes.
+  const Ran ran = Process({"/bin/sh", "-c",
+                           "mkfifo log; (exec 3< log) & exec 4> log; wait; " + program_path() +
+                               " run square.yaml --output o 2>&4"},
+                          square.folder.path())
+                      .wait();
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_TRUE(fs::exists(square.folder / "o/square/baseline.h5"));
+}
+
+TEST(Messages, WrongInputIsWrongInputWhereNobodyCanBeTold) {
+  const SquareFolder square;
+  for (const std::string stream : {"2>/dev/full", "2>&-"})
+    EXPECT_EQ(Process({"/bin/sh", "-c", program_path() + " run none.yaml " + stream},
+                      square.folder.path())
+                  .wait()
+                  .code,
+              2);
+}
+
+TEST(Listings, OnAClosedStandardOutputAreNotSaidToBeWritten) {
+  const SquareFolder square;
+  EXPECT_EQ(
+      Process({"/bin/sh", "-c", program_path() + " sun square.yaml >&-"}, square.folder.path())
+          .wait()
+          .code,
+      3);
+}
+
+TEST(Listings, LongerThanTheDiskTellsTheError) {
+  const Ran ran = Process({"/bin/sh", "-c", program_path() + " info a.h5 --patches > /dev/full"},
+                          results().folder.path())
+                      .wait();
+  EXPECT_EQ(ran.code, 3) << ran.err;
+  EXPECT_NE(ran.err.find("No space left on device"), std::string::npos) << ran.err;
+}
+
+}  // namespace
+}  // namespace sunload::test
