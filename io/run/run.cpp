@@ -2,13 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/run/run.h"
 
+#include <filesystem>
 #include <iterator>
 #include <list>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "geo/base/check.h"
 #include "io/base/exit_code.h"
+#include "io/base/output_target.h"
 #include "io/run/mpi_world.h"
+#include "io/study/named_files.h"
 
 namespace sunload {
 
@@ -20,8 +25,10 @@ std::list<VariantJob> planned_jobs(const StudyWork& work,
                                    void (VariantJob::*expect_allowed)() const) {
   std::list<VariantJob> jobs, finished;
   Problems problems;
+  const std::vector<std::string> inputs = named_files(work.file);
   for (const auto& study : chosen_variants(work.file, work.options)) {
     try {
+      expect_not_read(result_path(work.folder, study), inputs);
       VariantJob& job = jobs.emplace_back(work, study);
       (job.*expect_allowed)();
       if (!job.is_finished()) continue;
@@ -44,12 +51,35 @@ std::unique_ptr<MpiWorld> joined_world(const StudyWork& work) {
   return world;
 }
 
-void run(VariantJob& job, MpiWorld* world) {
+OwnBatches run(VariantJob& job, MpiWorld* world) {
   // Another process may have finished it while this one had other variants in hand.
-  if (!world && job.is_finished()) return job.leave_finished();
+  if (!world && job.is_finished()) {
+    job.leave_finished();
+    return OwnBatches::done;
+  }
   job.compute(world);
   if (world) world->wait_for_all();
-  if (!world || world->is_first()) job.merge_if_complete();
+  return world && !world->is_first() ? OwnBatches::done : job.merge_if_complete(world);
+}
+
+/// What vanishes while it is worked on is computed again, but not for ever. Ranks have taken their
+/// numbers by then and leave it to the next run.
+OwnBatches run_twice_at_most(VariantJob& job, MpiWorld* world) {
+  const OwnBatches first = run(job, world);
+  if (first == OwnBatches::done || world) return first;
+  return run(job, world);
+}
+
+/// The results that a run of the whole study promises.
+std::vector<std::string> results_not_there(const StudyWork& work) {
+  std::vector<std::string> missing;
+  if (!work.options.shard.is_whole()) return missing;
+  std::error_code unreadable;
+  for (const auto& study : chosen_variants(work.file, work.options))
+    if (const auto path = result_path(work.folder, study);
+        !std::filesystem::exists(path, unreadable))
+      missing.push_back(path);
+  return missing;
 }
 
 }  // namespace
@@ -64,12 +94,18 @@ int run_study(const std::string& path, const RunOptions& options) {
   const auto world = joined_world(work);
   remove_left_over(work.folder, file.name);
   for (const auto& job : jobs) job.expect_room();
+  bool is_complete = true;
   for (auto& job : jobs) {
-    run(job, world.get());
+    if (run_twice_at_most(job, world.get()) == OwnBatches::lost) is_complete = false;
     job.release();
   }
   for (const auto& job : jobs) job.remove_merged();
-  return exit_code::done;
+  if (world && !world->is_first()) return exit_code::done;
+  for (const auto& path : results_not_there(work)) {
+    progress.warn(path + " is not there; run the study again with --resume");
+    is_complete = false;
+  }
+  return is_complete ? exit_code::done : exit_code::unfinished;
 }
 
 int merge_study(const std::string& path, const RunOptions& options, Merge merge) {

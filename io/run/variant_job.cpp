@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <thread>
 
 #include "io/base/exit_code.h"
 #include "io/base/machine.h"
@@ -67,7 +70,8 @@ VariantJob::VariantJob(const StudyWork& work, const Study& study)
     : work_(work),
       name_(study.variant),
       plan_(make_plan(study)),
-      folder_(work.folder, study, plan_.content_hash, plan_.batches()) {}
+      folder_(work.folder, study, plan_.content_hash, plan_.batches()),
+      stamp_before_(stamp()) {}
 
 VariantJob::~VariantJob() = default;
 
@@ -117,6 +121,19 @@ bool VariantJob::is_merged() const {
     if (is_overwritten()) return false;
     throw;
   }
+}
+
+/// Tells a result that is to be overwritten from the one that has replaced it.
+VariantJob::ResultStamp VariantJob::stamp() const {
+  std::error_code not_there;
+  const auto written = std::filesystem::last_write_time(folder_.result(), not_there);
+  if (not_there) return {};
+  return std::pair(written, std::filesystem::file_size(folder_.result(), not_there));
+}
+
+/// Whether the result that this run is for is there, whoever has written it.
+bool VariantJob::has_result() const {
+  return is_merged() && (!is_overwritten() || was_merged_ || stamp() != stamp_before_);
 }
 
 bool VariantJob::is_finished() const { return !is_overwritten() && is_merged(); }
@@ -199,13 +216,52 @@ void VariantJob::compute_missing(UnitQueue& units, MpiWorld* world) {
   if (run) run->report_work();
 }
 
-void VariantJob::merge_if_complete() {
-  const auto missing = folder_.batches_not_there();
-  if (missing.empty()) return merge();
+OwnBatches VariantJob::merge_if_complete(MpiWorld* world) {
+  std::vector<std::size_t> missing = folder_.batches_not_there();
+  while (missing.empty()) {
+    const Merging merging = merge();
+    if (merging == Merging::done) return OwnBatches::done;
+    if (merging == Merging::by_another) {
+      say("another process is merging");
+      if (!work_.options.shard.is_whole()) return OwnBatches::done;
+      wait_for_other_merge();
+      missing = folder_.batches_not_there();
+    } else {
+      missing = folder_.missing_batches().numbers;
+      break;
+    }
+  }
+  if (!has_result()) return tell_missing(missing, own_units(world));
   // Another process merged it; what this one computed besides is not wanted.
-  if (is_finished()) return folder_.remove_finished_work();
-  say(fmt::format("{} of {} batches are still owed by other shards:{}", missing.size(),
-                  plan_.batches(), list_text(missing)));
+  folder_.remove_finished_work();
+  return OwnBatches::done;
+}
+
+/// Somebody removes batches where they lie too long or take too much room.
+OwnBatches VariantJob::tell_missing(const std::vector<std::size_t>& missing,
+                                    const UnitQueue& own) const {
+  std::vector<std::size_t> lost;
+  std::copy_if(missing.begin(), missing.end(), std::back_inserter(lost),
+               [&](std::size_t batch) { return own.may_give(batch); });
+  if (lost.empty()) {
+    say(fmt::format("{} of {} batches are still owed by other shards:{}", missing.size(),
+                    plan_.batches(), list_text(missing)));
+    return OwnBatches::done;
+  }
+  warn(
+      fmt::format("{} of {} batches were there and are gone or damaged:{}; somebody else writes "
+                  "in {}",
+                  lost.size(), plan_.batches(), list_text(lost), folder_.path()));
+  return OwnBatches::lost;
+}
+
+/// A run of the whole study that ends well has its results: it does not leave them to another.
+void VariantJob::wait_for_other_merge() const {
+  constexpr std::chrono::milliseconds pause{100};
+  while (!MergeLock(folder_.merge_lock()).is_held()) {
+    if (work_.progress.stop_requested()) throw Interrupted("stopped while another process merges");
+    std::this_thread::sleep_for(pause);
+  }
 }
 
 int VariantJob::merge_what_is_there(Merge merge) {
@@ -218,7 +274,7 @@ int VariantJob::merge_what_is_there(Merge merge) {
   const MissingBatches missing = folder_.missing_batches();
   for (const auto& reason : missing.reasons) work_.progress.warn("warning: " + reason);
   if (missing.numbers.empty()) {
-    this->merge();
+    if (merge_if_complete(nullptr) == OwnBatches::lost) return exit_code::unfinished;
     remove_merged();
     return exit_code::done;
   }
@@ -231,26 +287,23 @@ int VariantJob::merge_what_is_there(Merge merge) {
   return exit_code::unfinished;
 }
 
-/// Says what came of it. Batches of other shards may turn out to be damaged.
-void VariantJob::merge() {
+/// Says what was written. Batches, of other shards or one's own, may turn out to be damaged, or
+/// vanish while they are read.
+VariantJob::Merging VariantJob::merge() {
   try {
-    switch (merge_once()) {
-      case Merging::done:
-        say("wrote " + folder_.result() + "\n" + energy_text(ResultReader(folder_.result())));
-        break;
-      case Merging::by_another:
-        say("another process is merging");
-        break;
-      case Merging::was_done:
-        break;
-    }
+    const Merging merging = merge_once();
+    if (merging == Merging::done)
+      say("wrote " + folder_.result() + "\n" + energy_text(ResultReader(folder_.result())));
+    return merging;
   } catch (const InputError&) {
     const MissingBatches damaged = folder_.missing_batches();
     if (damaged.numbers.empty()) throw;
     for (const auto& reason : damaged.reasons) work_.progress.warn("warning: " + reason);
-    work_.progress.warn(
-        fmt::format("{}: batches{} must be computed again: run the study with --resume", name_,
-                    list_text(damaged.numbers)));
+    if (!damaged.reasons.empty())
+      work_.progress.warn(
+          fmt::format("{}: batches{} must be computed again: run the study with --resume", name_,
+                      list_text(damaged.numbers)));
+    return Merging::incomplete;
   }
 }
 
@@ -259,7 +312,7 @@ VariantJob::Merging VariantJob::merge_once() {
   {
     const MergeLock lock(folder_.merge_lock());
     if (!lock.is_held()) return Merging::by_another;
-    if (!folder_.batches_not_there().empty()) return Merging::was_done;
+    if (!folder_.batches_not_there().empty()) return Merging::incomplete;
     make_mesh();
     if (work_.options.batches == Batches::keep) folder_.keep_work();
     for (const auto& warning :

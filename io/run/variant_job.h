@@ -3,8 +3,13 @@
 /// The work on one variant: mesh, batches, merge.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "io/plan/variant_mesh.h"
 #include "io/plan/variant_plan.h"
@@ -26,6 +31,9 @@ struct StudyWork {
 };
 
 enum class Merge { complete, partial };
+
+/// Of what a process has computed: still there when it is to be merged, or merged; or vanished.
+enum class OwnBatches { done, lost };
 
 /// One variant on behalf of one process: a whole run, a shard or a rank. The mesh is made when it
 /// is first needed, so that memory holds the mesh and the lines of one variant at a time.
@@ -53,8 +61,9 @@ class VariantJob {
   void expect_room() const;
   /// Computes what is missing of this process' own batches. Throws Interrupted, MachineError.
   void compute(MpiWorld* world);
-  /// Merges where all batches are there; otherwise lists those that others owe.
-  void merge_if_complete();
+  /// Merges where all batches are there; otherwise lists those that others owe. Batches of this
+  /// process that somebody else has removed or damaged meanwhile are lost, which is warned of.
+  OwnBatches merge_if_complete(MpiWorld* world);
   /// Merges, or says why not; returns the exit code.
   int merge_what_is_there(Merge merge);
   /// Removes the batches of what was merged here, where --overwrite has kept them: until all
@@ -64,10 +73,14 @@ class VariantJob {
   void release();
 
  private:
-  enum class Merging { done, was_done, by_another };
+  enum class Merging { done, incomplete, by_another };
+  using ResultStamp = std::optional<std::pair<std::filesystem::file_time_type, std::uintmax_t>>;
 
   bool is_overwritten() const { return work_.options.existing == Existing::overwrite; }
   bool is_merged() const;
+  ResultStamp stamp() const;
+  bool has_result() const;
+  OwnBatches tell_missing(const std::vector<std::size_t>& missing, const UnitQueue& own) const;
   void refuse_other_isa() const;
   UnitQueue own_units(MpiWorld* world) const;
   void begin(const UnitQueue& units);
@@ -75,8 +88,9 @@ class VariantJob {
   std::unique_ptr<VariantRun> start(MpiWorld* world);
   void compute_missing(UnitQueue& units, MpiWorld* world);
   bool is_there(std::size_t batch) const;
-  void merge();
+  Merging merge();
   Merging merge_once();
+  void wait_for_other_merge() const;
   void merge_without(const MissingBatches& missing);
   void say(const std::string& text) const;
   void warn(const std::string& text) const;
@@ -85,7 +99,8 @@ class VariantJob {
   std::string name_;
   VariantPlan plan_;
   WorkFolder folder_;
-  VariantMesh mesh_;  ///< empty until it is needed
+  VariantMesh mesh_;          ///< empty until it is needed
+  ResultStamp stamp_before_;  ///< of the result that was there when the work began
   bool was_merged_ = false;
 };
 
