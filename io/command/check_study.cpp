@@ -15,11 +15,13 @@
 #include "io/base/standard_streams.h"
 #include "io/picture/sun_diagram.h"
 #include "io/plan/expected_error.h"
+#include "io/plan/planner.h"
 #include "io/plan/rules_of_study.h"
 #include "io/plan/time_words.h"
 #include "io/plan/variant_mesh.h"
 #include "io/plan/variant_plan.h"
 #include "io/plan/work_estimate.h"
+#include "io/run/progress.h"
 #include "io/study/named_files.h"
 #include "solver/base/threads.h"
 
@@ -150,13 +152,17 @@ std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
                     thread_count());
 }
 
+bool is_left_unrefined(const VariantPlan& plan, CheckMesh mesh) {
+  return mesh == CheckMesh::unrefined && plan.study.mesh.oracle != Oracle::none;
+}
+
 void print_text(const VariantPlan& plan, const VariantMesh& made, const WorkEstimate& work,
-                SearchIntersections search) {
+                const CheckRules& rules) {
   std::string text = fmt::format("study {}, variant {} (content {})\n", plan.study.name,
                                  plan.study.variant, plan.content_hash.substr(0, 12));
   text += "scene\n" + counts_text(plan.built.report) +
           extent_text(plan.built.scene.mesh, plan.built.report.bounds);
-  if (search == SearchIntersections::yes) text += intersections_text(plan.built.scene.mesh);
+  if (rules.search == SearchIntersections::yes) text += intersections_text(plan.built.scene.mesh);
   for (const auto& note : plan.built.notes) text += "  note      " + note + "\n";
   text += "materials\n" + materials_text(plan.built.scene) +
           parallel_sources_text(plan.built.scene.parallel_sources);
@@ -165,6 +171,8 @@ void print_text(const VariantPlan& plan, const VariantMesh& made, const WorkEsti
   text += "sun\n" + time_words(plan.light, plan.built.site, plan.study, plan.built.site_source);
   if (const auto refined = refine_text(made.report, plan.study); !refined.empty())
     text += "mesh\n  " + refined + "\n";
+  if (is_left_unrefined(plan, rules.mesh))
+    text += "mesh\n  not refined here (--no-refine): a run has these patches or more\n";
   text += "work\n" + work_text(plan, work);
   for (const auto& list :
        {plan.built.warnings, plan.light.notes, expected_error_warnings(plan, *made.mesh)})
@@ -172,18 +180,83 @@ void print_text(const VariantPlan& plan, const VariantMesh& made, const WorkEsti
   std::cout << text;
 }
 
-nlohmann::ordered_json as_json(const VariantPlan& plan, const WorkEstimate& work) {
-  return {{"name", plan.study.variant},
-          {"hash", plan.content_hash},
-          {"patches", work.patches},
-          {"intervals", plan.intervals()},
-          {"lit", plan.light.lit_count()},
-          {"batches", plan.batches()},
-          {"lines", work.line_rays},
-          {"memory_bytes", static_cast<std::uint64_t>(work.memory_bytes)},
-          {"disk_bytes", static_cast<std::uint64_t>(work.disk_bytes)},
-          {"seconds", work.seconds}};
+nlohmann::ordered_json as_json(const VariantPlan& plan, const WorkEstimate& work, CheckMesh mesh) {
+  nlohmann::ordered_json told{{"name", plan.study.variant},
+                              {"hash", plan.content_hash},
+                              {"patches", work.patches},
+                              {"intervals", plan.intervals()},
+                              {"lit", plan.light.lit_count()},
+                              {"batches", plan.batches()},
+                              {"lines", work.line_rays},
+                              {"memory_bytes", static_cast<std::uint64_t>(work.memory_bytes)},
+                              {"disk_bytes", static_cast<std::uint64_t>(work.disk_bytes)},
+                              {"seconds", work.seconds}};
+  if (mesh == CheckMesh::unrefined) told["refined"] = !is_left_unrefined(plan, mesh);
+  return told;
 }
+
+/// Meshes of variants one after the other. Refinement is told of before it begins, and while it
+/// goes on; without it the mesh follows from triangles alone, and most variants have the same.
+class Meshes {
+ public:
+  Meshes(CheckMesh kind, ProgressStyle progress) : kind_(kind), progress_(progress) {}
+
+  const VariantMesh& of(const VariantPlan& plan) {
+    if (plan.study.mesh.oracle == Oracle::none || kind_ == CheckMesh::unrefined) {
+      if (!has_unrefined_of(plan)) keep_unrefined_of(plan);
+      return unrefined_;
+    }
+    tell_of_refinement(plan);
+    progress_.begin_variant(plan.study.variant, 0);
+    refined_ = make_mesh(plan, progress_);
+    return refined_;
+  }
+
+ private:
+  bool has_unrefined_of(const VariantPlan& plan) const {
+    const Mesh& mesh = plan.built.scene.mesh;
+    const SplitRules rules = split_rules(plan.study);
+    return unrefined_.mesh && rules.max_edge_m == rules_.max_edge_m &&
+           rules.min_area_m2 == rules_.min_area_m2 && mesh.triangles == triangles_ &&
+           mesh.vertices == vertices_ && mesh.triangle_sides == sides_ &&
+           mesh.triangle_surface == surfaces_ && mesh.triangle_object == objects_;
+  }
+
+  void keep_unrefined_of(const VariantPlan& plan) {
+    unrefined_ = unrefined_mesh(plan);
+    const Mesh& mesh = plan.built.scene.mesh;
+    rules_ = split_rules(plan.study);
+    triangles_ = mesh.triangles;
+    vertices_ = mesh.vertices;
+    sides_ = mesh.triangle_sides;
+    surfaces_ = mesh.triangle_surface;
+    objects_ = mesh.triangle_object;
+  }
+
+  /// So that nobody waits without knowing for what.
+  void tell_of_refinement(const VariantPlan& plan) {
+    constexpr double worth_telling_s = 2;
+    const std::size_t patches = least_patch_count(plan.built.scene, split_rules(plan.study));
+    const auto [least_s, most_s] = refinement_seconds(plan, patches);
+    if (most_s < worth_telling_s) return;
+    progress_.say(
+        fmt::format("{}: refines its mesh of {} patches, which takes between {:.0f} s and {:.0f} "
+                    "s; --no-refine "
+                    "leaves this out",
+                    plan.study.variant, patches, least_s, most_s));
+  }
+
+  CheckMesh kind_;
+  Progress progress_;
+  VariantMesh refined_, unrefined_;
+  // What `unrefined_` was made from.
+  SplitRules rules_;
+  decltype(Mesh::triangles) triangles_;
+  decltype(Mesh::vertices) vertices_;
+  decltype(Mesh::triangle_sides) sides_;
+  decltype(Mesh::triangle_surface) surfaces_;
+  decltype(Mesh::triangle_object) objects_;
+};
 
 /// To the standard error: what was asked for goes to stdout.
 void print_warnings(const std::vector<std::string>& warnings) {
@@ -192,8 +265,7 @@ void print_warnings(const std::vector<std::string>& warnings) {
 
 }  // namespace
 
-int check_study(const std::string& path, const RunOptions& options, CheckFormat format,
-                SearchIntersections search) {
+int check_study(const std::string& path, const RunOptions& options, const CheckRules& rules) {
   use_threads(options);
   const StudyFile file = read_study(path);
   print_warnings(file.warnings);
@@ -201,23 +273,24 @@ int check_study(const std::string& path, const RunOptions& options, CheckFormat 
   json["variants"] = nlohmann::ordered_json::array();
   std::size_t units = 0;
   Problems problems;
+  Planner planner;
+  Meshes meshes(rules.mesh, options.progress);
   for (const auto& study : chosen_variants(file, options)) {
     try {
-      const VariantPlan plan = make_plan(study);
-      Watch nobody;
-      const VariantMesh made = make_mesh(plan, nobody);
+      const VariantPlan plan = planner.plan(study);
+      const VariantMesh& made = meshes.of(plan);
       const WorkEstimate work = estimate_work(plan, made.mesh->patch_count());
       units += plan.batches();
-      json["variants"].push_back(as_json(plan, work));
+      json["variants"].push_back(as_json(plan, work, rules.mesh));
       json["batch_suns"] = plan.batch_suns();
-      if (format == CheckFormat::text) print_text(plan, made, work, search);
+      if (rules.format == CheckFormat::text) print_text(plan, made, work, rules);
     } catch (const InputError& error) {
       problems.add(error);
     }
   }
   problems.throw_if_any();
   json["units"] = units;
-  if (format == CheckFormat::json) std::cout << json.dump(2) << "\n";
+  if (rules.format == CheckFormat::json) std::cout << json.dump(2) << "\n";
   return exit_code::done;
 }
 

@@ -14,9 +14,16 @@ namespace sunload {
 enum class CheckFormat { text, json };
 /// Whether triangles that cut through others are sought: some 10 s for a million.
 enum class SearchIntersections { no, yes };
-/// Reads everything, reports scene, sun path, work, memory, disk on stdout.
-int check_study(const std::string& study, const RunOptions& options, CheckFormat format,
-                SearchIntersections search = SearchIntersections::no);
+/// Whether the mesh is refined as a run would do it, or told without: seconds, or much less.
+enum class CheckMesh { refined, unrefined };
+struct CheckRules {
+  CheckFormat format = CheckFormat::text;
+  SearchIntersections search = SearchIntersections::no;
+  CheckMesh mesh = CheckMesh::refined;
+};
+/// Reads everything, reports scene, sun path, work, memory, disk on stdout; on stderr what takes
+/// its time.
+int check_study(const std::string& study, const RunOptions& options, const CheckRules& rules = {});
 
 /// The sun path as CSV on stdout (docs/developer/design.md, Commands and exit codes), or as a
 /// sun-path diagram where `picture` names one.

@@ -203,13 +203,19 @@ class CommandLine {
   void add_check() {
     CLI::App* sub = command(
         "check", "read everything, report scene, sun path and cost; compute nothing", [this] {
-          return check_study(study_, options_, json_ ? CheckFormat::json : CheckFormat::text,
-                             intersections_ ? SearchIntersections::yes : SearchIntersections::no);
+          return check_study(
+              study_, options_,
+              {.format = json_ ? CheckFormat::json : CheckFormat::text,
+               .search = intersections_ ? SearchIntersections::yes : SearchIntersections::no,
+               .mesh = no_refine_ ? CheckMesh::unrefined : CheckMesh::refined});
         });
     add_study(sub);
     add_place(sub);
     sub->add_flag("--json", json_, "machine-readable");
     sub->add_flag("--intersections", intersections_, "look for triangles that cut or cover others");
+    sub->add_flag("--no-refine", no_refine_,
+                  "do not refine the mesh: patches, memory and time are the least");
+    add_word(sub, "--progress", options_.progress, progress_styles, "how to tell of the work");
   }
 
   void add_sun() {
@@ -425,7 +431,7 @@ class CommandLine {
   double largest_ = 0;
   bool resume_ = false, overwrite_ = false, keep_batches_ = false, json_ = false, csv_ = false,
        patches_ = false, mesh_lines_ = false, partial_ = false, markdown_ = false,
-       intersections_ = false;
+       intersections_ = false, no_refine_ = false;
 };
 
 }  // namespace

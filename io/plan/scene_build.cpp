@@ -165,7 +165,7 @@ ParallelSources read_parallel_sources(const Study& study, Vec3 origin, BuiltScen
 
 }  // namespace
 
-BuiltScene build_scene(const Study& study) {
+BuiltScene scene_before_materials(const Study& study) {
   BuiltScene built;
   const PolygonModel model = read_models(study);
   built.notes = model.notes;
@@ -176,10 +176,19 @@ BuiltScene build_scene(const Study& study) {
   built.warnings.insert(built.warnings.end(), built.report.warnings.begin(),
                         built.report.warnings.end());
   built.scene.mesh = std::move(prepared.mesh);
+  return built;
+}
+
+void give_materials(const Study& study, BuiltScene& built) {
   assign_materials(study, built.scene, built.warnings);
   built.scene.parallel_sources = read_parallel_sources(study, built.scene.mesh.origin, built);
   built.scene.sensors =
       place_sensors(study.sensors, built.scene.mesh, built.report.bounds, built.warnings);
+}
+
+BuiltScene build_scene(const Study& study) {
+  BuiltScene built = scene_before_materials(study);
+  give_materials(study, built);
   return built;
 }
 

@@ -26,4 +26,9 @@ struct BuiltScene {
 /// Throws InputError with every problem found.
 BuiltScene build_scene(const Study& study);
 
+/// Its two steps. What is read and prepared, which materials and their rules have no part in …
+BuiltScene scene_before_materials(const Study& study);
+/// … and materials, parallel sources and sensors.
+void give_materials(const Study& study, BuiltScene& built);
+
 }  // namespace sunload

@@ -83,15 +83,18 @@ PeriodLight period_light(const VariantPlan& plan) {
   return light;
 }
 
+VariantMesh unrefined_mesh(const VariantPlan& plan) {
+  VariantMesh made;
+  made.mesh = std::make_shared<const Hierarchy>(plan.built.scene, split_rules(plan.study));
+  made.report.patches = made.report.patches_before = made.mesh->patch_count();
+  return made;
+}
+
 VariantMesh make_mesh(const VariantPlan& plan, Watch& watch) {
+  if (plan.study.mesh.oracle == Oracle::none) return unrefined_mesh(plan);
   VariantMesh made;
   const Scene& scene = plan.built.scene;
   const SplitRules split = split_rules(plan.study);
-  if (plan.study.mesh.oracle == Oracle::none) {
-    made.mesh = std::make_shared<const Hierarchy>(scene, split);
-    made.report.patches = made.report.patches_before = made.mesh->patch_count();
-    return made;
-  }
   expect_splittable(scene, split);
   const RayCaster caster(scene.mesh, plan.isa, screens(scene));
   made.mesh = std::make_shared<const Hierarchy>(refined_mesh(

@@ -25,6 +25,10 @@ struct VariantMesh {
 /// Throws InputError beyond the largest number of patches, MachineError, Interrupted.
 VariantMesh make_mesh(const VariantPlan& plan, Watch& watch);
 
+/// The mesh before it is refined: the fewest patches that the variant can have. Throws InputError
+/// beyond the largest number of patches.
+VariantMesh unrefined_mesh(const VariantPlan& plan);
+
 /// What refinement did, in words; empty where none was asked for.
 std::string refine_text(const RefineReport& report, const Study& study);
 

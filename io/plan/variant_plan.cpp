@@ -3,6 +3,7 @@
 #include "io/plan/variant_plan.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "io/plan/content_hash.h"
 #include "solver/surface/ray_caster.h"
@@ -21,16 +22,22 @@ void refuse_lamps_in_lux(const VariantPlan& plan) {
 
 }  // namespace
 
-VariantPlan make_plan(const Study& study) {
+VariantPlan plan_of(const Study& study, BuiltScene built, LightSeries light) {
   VariantPlan plan;
   plan.study = study;
   plan.isa = usable_isa(study.solver.isa);
-  plan.built = build_scene(study);
-  plan.light = light_series(study, plan.built.site);
+  plan.built = std::move(built);
+  plan.light = std::move(light);
   refuse_lamps_in_lux(plan);
   plan.content_hash = hash_with_isa(plan, plan.isa);
   plan.pairing_id = pairing_id(study, plan.light);
   return plan;
+}
+
+VariantPlan make_plan(const Study& study) {
+  BuiltScene built = build_scene(study);
+  LightSeries light = light_series(study, built.site);
+  return plan_of(study, std::move(built), std::move(light));
 }
 
 std::string hash_with_isa(const VariantPlan& plan, const std::string& isa) {

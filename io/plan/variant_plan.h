@@ -29,6 +29,8 @@ struct VariantPlan {
 
 /// Reads the scene, makes sun path and light, and hashes. Throws InputError.
 VariantPlan make_plan(const Study& study);
+/// The same of what was read and computed before. Throws InputError.
+VariantPlan plan_of(const Study& study, BuiltScene built, LightSeries light);
 
 /// Content hash that the plan would have with another instruction set.
 std::string hash_with_isa(const VariantPlan& plan, const std::string& isa);

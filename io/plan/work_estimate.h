@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
 #include "io/plan/variant_plan.h"
 #include "solver/accuracy.h"
@@ -21,6 +22,10 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches);
 /// The same with other counts.
 WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
                            const SampleCounts& counts);
+
+/// Between which times refining the mesh of so many patches takes [s]: how many it makes, the light
+/// decides.
+std::pair<double, double> refinement_seconds(const VariantPlan& plan, std::size_t patches);
 
 /// Memory of the accuracy pilot.
 double accuracy_pilot_memory_bytes(const VariantPlan& plan, std::size_t patches);

@@ -72,8 +72,12 @@ struct Progress::State {
   double rays_per_s = 0, elapsed_s = 0, left_s = 0, memory_bytes = 0;
 
   std::string words() const {
-    return fmt::format("{}/{} suns, {:.1f} Mrays/s, {} left, {:.0f} MiB", suns_done, suns,
-                       rays_per_s / million, clock_text(left_s), memory_bytes / mib);
+    // `check` refines meshes and lights nothing; pilots do not count their rays.
+    const std::string done = suns > 0 ? fmt::format("{}/{} suns, ", suns_done, suns) : "";
+    const std::string speed =
+        rays_per_s > 0 ? fmt::format("{:.1f} Mrays/s, ", rays_per_s / million) : "";
+    return fmt::format("{}{}{} left, {:.0f} MiB", done, speed, clock_text(left_s),
+                       memory_bytes / mib);
   }
   std::string line() const {
     return fmt::format("{}: {} {:.1f} %, {}, {} elapsed", variant, stage, 100 * share, words(),

@@ -12,6 +12,7 @@
 #include "geo/base/check.h"
 #include "io/base/exit_code.h"
 #include "io/base/output_target.h"
+#include "io/plan/planner.h"
 #include "io/run/mpi_world.h"
 #include "io/study/named_files.h"
 
@@ -26,10 +27,11 @@ std::list<VariantJob> planned_jobs(const StudyWork& work,
   std::list<VariantJob> jobs, finished;
   Problems problems;
   const std::vector<std::string> inputs = named_files(work.file);
+  Planner planner;
   for (const auto& study : chosen_variants(work.file, work.options)) {
     try {
       expect_not_read(result_path(work.folder, study), inputs);
-      VariantJob& job = jobs.emplace_back(work, study);
+      VariantJob& job = jobs.emplace_back(work, planner.plan(study));
       (job.*expect_allowed)();
       if (!job.is_finished()) continue;
       job.release();

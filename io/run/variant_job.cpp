@@ -66,11 +66,11 @@ std::size_t suns_before(const VariantPlan& plan, std::size_t batch) {
 
 }  // namespace
 
-VariantJob::VariantJob(const StudyWork& work, const Study& study)
+VariantJob::VariantJob(const StudyWork& work, VariantPlan plan)
     : work_(work),
-      name_(study.variant),
-      plan_(make_plan(study)),
-      folder_(work.folder, study, plan_.content_hash, plan_.batches()),
+      name_(plan.study.variant),
+      plan_(std::move(plan)),
+      folder_(work.folder, plan_.study, plan_.content_hash, plan_.batches()),
       stamp_before_(stamp()) {}
 
 VariantJob::~VariantJob() = default;

@@ -39,8 +39,7 @@ enum class OwnBatches { done, lost };
 /// is first needed, so that memory holds the mesh and the lines of one variant at a time.
 class VariantJob {
  public:
-  /// Reads the scene, makes light and content hash. Throws InputError.
-  VariantJob(const StudyWork& work, const Study& study);
+  VariantJob(const StudyWork& work, VariantPlan plan);
   ~VariantJob();
   VariantJob(const VariantJob&) = delete;
   VariantJob& operator=(const VariantJob&) = delete;

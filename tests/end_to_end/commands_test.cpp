@@ -57,6 +57,34 @@ const std::string two_variants =
     "  - {name: mirror}\n"
     "  - {name: dull, scene: {materials: {glass: {diffuse: 0.3, mirror: 0}}}}\n";
 
+/// A run would refine; what is told without it are the least patches, and variants that differ in
+/// their materials alone share what is read and computed.
+TEST(Commands, CheckWithoutRefinement) {
+  const Square square(two_variants);
+  const auto refining = [&](const std::string& text) {
+    auto study = text;
+    const std::string none = "oracle: none, ";
+    return study.erase(study.find(none), none.size());
+  };
+  square.write_study(refining(square.folder.read("square.yaml")));
+  const auto checked = [&](const Lines& options) {
+    Lines words{"check", "--json", "--progress", "none"};
+    words.insert(words.end(), options.begin(), options.end());
+    const Ran ran = square.run(words);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return nlohmann::json::parse(ran.out)["variants"];
+  };
+  const auto refined = checked({}), least = checked({"--no-refine"});
+  ASSERT_EQ(least.size(), 2u);
+  for (std::size_t v = 0; v < 2; ++v) {
+    EXPECT_EQ(least[v]["hash"], refined[v]["hash"]);
+    EXPECT_EQ(least[v]["refined"], false);
+    EXPECT_LT(least[v]["patches"], refined[v]["patches"]);
+    EXPECT_EQ(least[v]["hash"], checked({"--no-refine", "--variant", least[v]["name"]})[0]["hash"]);
+  }
+  EXPECT_NE(square.run({"check", "--no-refine"}).out.find("not refined here"), std::string::npos);
+}
+
 TEST(Commands, CheckAsJson) {
   const Square square(two_variants);
   const Ran ran = square.run({"check", "--json"});
