@@ -7,7 +7,9 @@
 
 namespace sunload {
 
-/// A field of CSV, quoted where its characters need it (RFC 4180).
+/// A field of CSV, quoted where its characters need it (RFC 4180). A text, other than a number,
+/// that spreadsheets would take for a formula (it begins with = + - @, a tab or a carriage return)
+/// gets an apostrophe before it, by which they take it as text.
 std::string csv_text(const std::string& text);
 /// Nine digits: more than float values carry. Empty for NaN.
 std::string csv_number(double value);

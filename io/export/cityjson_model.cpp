@@ -13,6 +13,7 @@
 #include "geo/base/check.h"
 #include "geo/mesh/polygon_match.h"
 #include "io/base/json_text.h"
+#include "io/base/names.h"
 #include "io/base/standard_streams.h"
 #include "io/export/cityjson.h"
 #include "io/export/surface_values.h"
@@ -211,8 +212,8 @@ class ModelWriter {
     const CityVertices vertices(find_member(document, "vertices"), transform_, &scene_from_file_,
                                 {path_, line, "", 0});
     for (const auto& [id, choice] : choices)
-      if (patches_.by_object.contains(id)) {
-        seen_objects_.insert(id);
+      if (const std::string name = clean_name(id); patches_.by_object.contains(name)) {
+        seen_objects_.insert(name);
         add_to_surfaces((*found)[id], id, choice, vertices, line);
       }
     for (auto& [id, object] : found->items()) {
@@ -228,7 +229,8 @@ class ModelWriter {
   void collect(const json& objects, const std::string& id, Numbers& to,
                std::set<std::string>& seen) const {
     if (!seen.insert(id).second) return;
-    if (const auto found = patches_.by_object.find(id); found != patches_.by_object.end())
+    if (const auto found = patches_.by_object.find(clean_name(id));
+        found != patches_.by_object.end())
       for (const auto& face : found->second)
         to.insert(to.end(), face.patches.begin(), face.patches.end());
     const auto object = objects.find(id);
@@ -256,7 +258,7 @@ class ModelWriter {
     }
     const PolygonMatch match(std::move(polygons));
     std::map<std::size_t, std::map<Numbers, ValuedSurface>> valued;
-    for (const auto& face : patches_.by_object.at(id)) {
+    for (const auto& face : patches_.by_object.at(clean_name(id))) {
       const auto found = match.polygon_at(face.middle, face.normal);
       if (!found) continue;
       matched_.insert(face.triangle);

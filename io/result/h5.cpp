@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "geo/base/check.h"
+#include "io/base/names.h"
 
 namespace sunload::h5 {
 namespace {
@@ -208,7 +209,8 @@ std::string_view kind_words(ValueKind kind) {
 void Object::set(const std::string& attribute, const std::string& text) {
   const auto type = text_type();
   const auto target = attribute_for_writing(id(), attribute, *type, *space_of({}));
-  const char* begin = text.c_str();
+  const std::string utf8 = utf8_text(text);
+  const char* begin = utf8.c_str();
   checked(H5Awrite(*target, *type, &begin), "attribute " + attribute);
 }
 
@@ -238,7 +240,7 @@ std::optional<std::string> Object::text(const std::string& attribute) const {
   if (H5Tis_variable_str(*type) <= 0 || H5Sget_simple_extent_npoints(*space) != 1) return {};
   char* text = nullptr;
   checked(H5Aread(*source, *text_type(), &text), "attribute " + attribute);
-  std::string result = text != nullptr ? text : "";
+  std::string result = utf8_text(text != nullptr ? text : "");
   H5free_memory(text);
   return result;
 }
@@ -293,9 +295,10 @@ void Dataset::write(const std::vector<std::int32_t>& values) {
 void Dataset::write(const std::vector<std::string>& values) {
   SUNLOAD_EXPECT(values.size() == element_count(shape()), "size of a dataset");
   if (values.empty()) return;
+  std::vector<std::string> utf8;
   std::vector<const char*> begins;
-  begins.reserve(values.size());
-  for (const auto& value : values) begins.push_back(value.c_str());
+  for (const auto& value : values) utf8.push_back(utf8_text(value));
+  for (const auto& value : utf8) begins.push_back(value.c_str());
   checked(H5Dwrite(id(), *text_type(), H5S_ALL, H5S_ALL, H5P_DEFAULT, begins.data()), "writing");
 }
 
@@ -329,7 +332,7 @@ std::vector<std::string> Dataset::strings() const {
   const auto begins = read_all<char*>(id(), size, *type);
   std::vector<std::string> values;
   values.reserve(begins.size());
-  for (const char* begin : begins) values.emplace_back(begin != nullptr ? begin : "");
+  for (const char* begin : begins) values.push_back(clean_name(begin != nullptr ? begin : ""));
   auto* reclaimed = const_cast<char**>(begins.data());
   H5Dvlen_reclaim(*type, *space_of(size), H5P_DEFAULT, reclaimed);
   return values;

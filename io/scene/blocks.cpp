@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "io/scene/base/indexed_faces.h"
+#include "io/scene/base/plain_names.h"
 #include "io/scene/raster/raster.h"
 
 namespace sunload {
@@ -332,7 +333,9 @@ class BlockReader {
 }  // namespace
 
 PolygonModel read_scene_blocks(const RasterFiles& files, const SceneFileRules& rules) {
-  return BlockReader(files, rules).read();
+  PolygonModel model = BlockReader(files, rules).read();
+  make_names_plain(model);
+  return model;
 }
 
 }  // namespace sunload

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/scene/base/from_file.h"
+#include "io/scene/base/plain_names.h"
 #include "io/scene/cityjson/reader.h"
 #include "io/scene/mesh_files/gltf.h"
 #include "io/scene/mesh_files/obj.h"
@@ -107,7 +108,9 @@ PolygonModel read_scene_file(const std::string& path, const SceneFileRules& rule
                      "neither its content nor its name tells",
                      "formats that can be read: " + names_of_formats());
   }
-  return format->read(path, rules);
+  PolygonModel model = format->read(path, rules);
+  make_names_plain(model);
+  return model;
 }
 
 }  // namespace sunload
