@@ -8,12 +8,13 @@
 
 #include "io/study/sections.h"
 #include "io/study/words.h"
+#include "solver/base/random_blocks.h"
 
 namespace sunload::study_sections {
 
 namespace {
 
-constexpr int most_bounces = 1000, most_lines = 1'000'000, most_realizations = 1024;
+constexpr int most_lines = 1'000'000, most_realizations = 1024;
 constexpr int most_batch_suns = 65536;
 constexpr int fewest_realizations = 2;  // one has no spread
 constexpr int strongest_compression = 9;
@@ -96,14 +97,14 @@ SolverStudy read_solver(YamlMap& map) {
   SolverStudy solver;
   solver.transport = map.choice("transport", solver.transport);
   read_shooting(map, solver);
-  solver.bounces = map.integer("bounces", 0, most_bounces, solver.bounces);
+  solver.bounces = map.integer("bounces", 0, most_reflections, solver.bounces);
   solver.unshot = map.number("unshot", shares, solver.unshot);
   solver.lines_per_patch = map.integer("lines_per_patch", 1, most_lines, solver.lines_per_patch);
   solver.direct_samples = map.integer("direct_samples", 1, most_lines, solver.direct_samples);
   const int unread = map.has("realizations") ? 0 : solver.realizations;
   const int realizations =
       map.integer("realizations", fewest_realizations, most_realizations, unread);
-  solver.mirror_depth = map.integer("mirror_depth", 0, most_bounces, solver.mirror_depth);
+  solver.mirror_depth = map.integer("mirror_depth", 0, most_reflections, solver.mirror_depth);
   solver.bands = map.choice("bands", solver.bands);
   if (solver.bands == Bands::rgb && solver.transport == Transport::shoot)
     map.problem("bands", "rgb cannot go with transport: shoot",

@@ -8,6 +8,7 @@
 
 #include "geo/base/units.h"
 #include "solver/base/chunks.h"
+#include "solver/base/random_blocks.h"
 #include "solver/base/sampling.h"
 #include "solver/base/threads.h"
 #include "solver/surface/lobe.h"
@@ -181,7 +182,7 @@ void GlossySun::send_on(const LineFollower& follower, const IntervalLight& sun, 
       const auto l = static_cast<std::size_t>(std::countr_zero(bits));
       key.realization = static_cast<std::uint32_t>(sampler_.realization(p * packet_size + l));
       key.sun = static_cast<std::uint32_t>(p * packet_size + l);
-      key.block = 0;
+      key.block = line_blocks::of_line.first;
       const Vec3 w = sun_before(geometry.normal, sun, at(samples.to_sun, l));
       on[l] = onward(lobe, geometry.normal, w, key);
       if (on[l].weight > 0) sent |= 1u << l;
@@ -192,7 +193,7 @@ void GlossySun::send_on(const LineFollower& follower, const IntervalLight& sun, 
       const auto l = static_cast<std::size_t>(std::countr_zero(bits));
       key.realization = static_cast<std::uint32_t>(sampler_.realization(p * packet_size + l));
       key.sun = static_cast<std::uint32_t>(p * packet_size + l);
-      key.block = 0;
+      key.block = line_blocks::of_line.first;
       Fate<double> fate;
       if (sent >> l & 1u) fate = follower.sent_on(on[l].direction, on[l].weight, hits[l], key).fate;
       fate.absorbed += on[l].absorbed - mirror;

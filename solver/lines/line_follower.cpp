@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/lines/line_follower.h"
 
+#include "solver/base/random_blocks.h"
 #include "solver/mesh/linked_element.h"
 
 namespace sunload {
@@ -46,8 +47,10 @@ void LineCollector::store(LineSet& set, std::size_t row, std::size_t count) {
   LinkTable::append_row(set.patches.blocks[block], patches, scale);
   LinkTable::append_row(set.sky.blocks[block], sky, scale);
   LinkTable::append_row(set.sky_by_mirror.blocks[block], sky_by_mirror, scale);
-  set.ends[row] = {ends.sky * scale, ends.ground * scale, ends.ground_by_mirror * scale,
-                   scaled(ends.fate, scale)};
+  set.ends[row] = {.sky = ends.sky * scale,
+                   .ground = ends.ground * scale,
+                   .ground_by_mirror = ends.ground_by_mirror * scale,
+                   .fate = scaled(ends.fate, scale)};
   if (!set.lamps.empty()) set.lamps[row] = lamps / static_cast<double>(count);
 }
 
@@ -103,7 +106,7 @@ std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first, const 
       into.glimpses.push_back(glimpse(hit, n, -w, weight * material.glossy));
       into.glimpses.back().reflections = reflections;
     }
-    key.block = static_cast<std::uint32_t>(reflections);
+    key.block = line_blocks::of_line.first + static_cast<std::uint32_t>(reflections);
     const Onward on = onward(material, n, -w, key);
     if (!walk_.goes_on(on, reflections, weight, into.ends.fate))
       return static_cast<std::uint64_t>(reflections);
@@ -123,10 +126,8 @@ void LineFollower::link(const BrightView::SeenPoint& point, LineCollector& into)
 
 Followed LineFollower::mirrored_on(Vec3 origin, Vec3 w, std::size_t patch, const RandomKey& line,
                                    std::vector<LinkTable::Link>* met) const {
-  // The line itself has used the blocks from 0 on.
-  constexpr std::uint32_t blocks_of_first_light = 1u << 16;
   RandomKey key = line;
-  key.block = blocks_of_first_light;
+  key.block = line_blocks::of_mirrored_light.first;
   const Onward on = onward(material_of_patch(patch), hierarchy_.normal(patch), w, key);
   Followed sent;
   if (on.weight > 0) {

@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "geo/base/check.h"
+#include "solver/base/random_blocks.h"
 #include "solver/light/fate.h"
 #include "solver/mesh/hierarchy.h"
 #include "solver/surface/onward.h"
@@ -33,7 +35,9 @@ class SurfaceWalk {
   /// Everything must outlive it. What was sent on `mirror_depth` times is cut.
   SurfaceWalk(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
               int mirror_depth)
-      : scene_(scene), hierarchy_(hierarchy), caster_(caster), mirror_depth_(mirror_depth) {}
+      : scene_(scene), hierarchy_(hierarchy), caster_(caster), mirror_depth_(mirror_depth) {
+    SUNLOAD_EXPECT(mirror_depth <= most_reflections, "chains have random numbers for so many");
+  }
 
   struct Meeting {
     std::size_t patch;

@@ -4,6 +4,7 @@
 
 #include <bit>
 
+#include "solver/base/random_blocks.h"
 #include "solver/base/threads.h"
 #include "solver/lines/patch_lines.h"
 
@@ -12,9 +13,6 @@ namespace sunload {
 namespace {
 
 constexpr std::size_t mirrors_per_task = 256;
-
-// Random words of glossy surfaces, apart from those of shots (solver/shoot/shooting).
-constexpr std::uint32_t blocks_of_sky = 1u << 22, blocks_of_sun = 1u << 23;
 
 std::size_t tasks(std::size_t mirrors) {
   return (mirrors + mirrors_per_task - 1) / mirrors_per_task;
@@ -67,7 +65,7 @@ class FirstMirrored::LineTask {
             .realization = static_cast<std::uint32_t>(realization_),
             .element = m_.hierarchy_.key()[patch],
             .sun = static_cast<std::uint32_t>(line),
-            .block = blocks_of_sky};
+            .block = shot_blocks::of_mirrored_sky.first};
   }
 
   const FirstMirrored& m_;
@@ -169,7 +167,7 @@ class FirstMirrored::SunTask {
                           .realization = static_cast<std::uint32_t>(r),
                           .element = mixed(m_.hierarchy_.key()[patch], sample),
                           .sun = sun.number,
-                          .block = blocks_of_sun};
+                          .block = shot_blocks::of_mirrored_sun.first};
       const Followed sent =
           m_.chain_.mirror_on(at(samples.origins, l), sun_before(n, sun, at(samples.to_sun, l)),
                               patch, static_cast<std::uint32_t>(k), power, key, deposits[r]);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "geo/base/check.h"
 #include "solver/base/chunks.h"
+#include "solver/base/random_blocks.h"
 #include "solver/base/threads.h"
 #include "solver/lines/patch_lines.h"
 #include "solver/mesh/push_pull.h"
@@ -18,11 +20,6 @@ constexpr std::uint32_t shot_of_emitters = 0;  // iterations of reflection follo
 
 /// Random offset of the stratified rounding; no patch has this key.
 constexpr std::uint64_t rounding_key = 0;
-
-/// Words of glossy surfaces met in an iteration: as many as a chain has reflections, and more.
-constexpr std::uint32_t blocks_of_glossy(std::uint32_t iteration) {
-  return (1u << 11) + (iteration << 10);
-}
 
 void add(DoubleColumns& to, const DoubleColumns& from) {
   parallel_for(
@@ -68,6 +65,7 @@ Shooter::Shooter(const Scene& scene, const Hierarchy& hierarchy, const RayCaster
       first_mirrored_(scene, hierarchy, caster, sampler, grid, line_rules),
       receiver_area_(hierarchy.area()),
       rays_(first_mirrored_.rays()) {
+  SUNLOAD_EXPECT(rules.bounces <= most_reflections, "iterations have random numbers for so many");
   if (line_rules.largest_link > 0)
     for (std::size_t i = 0; hierarchy.patch_count() + i < hierarchy.element_count(); ++i) {
       const auto [a, b] = hierarchy.halves_of(i);
@@ -117,7 +115,7 @@ class Shooter::Task {
       const std::uint64_t sample = mixed(s_.hierarchy_.key()[patch_[l]], line_[l]);
       const Followed sent =
           s_.chain_.follow(w_[l], hits[l], patch_[l], share_[l],
-                           key(sample, blocks_of_glossy(address_.iteration)), deposits);
+                           key(sample, shot_blocks::of_chain(address_.iteration).first), deposits);
       rays += sent.rays;
       fates_[patch_[l] - begin_] += sent.fate;
     }
