@@ -127,23 +127,15 @@ void add_place(Attributes& a, const MergedResult& result) {
 /// Rays and seconds.
 void add_work(Attributes& a, const MergedResult& result) {
   const WorkDone work = work_from(result.totals[batch_array::work]);
-  a.numbers.insert(a.numbers.end(), {{"runtime_lines_s", work[Work::lines_s]},
-                                     {"runtime_direct_s", work[Work::direct_s]},
-                                     {"runtime_mirror_s", work[Work::mirror_s]},
-                                     {"runtime_solve_s", work[Work::solve_s]},
-                                     {"runtime_realizations_s", work[Work::realizations_s]},
-                                     {"runtime_sensors_s", work[Work::sensors_s]}});
-  a.integers.insert(a.integers.end(),
-                    {{"line_rays", static_cast<std::int64_t>(work[Work::line_rays])},
-                     {"direct_rays", static_cast<std::int64_t>(work[Work::direct_rays])},
-                     {"mirror_rays", static_cast<std::int64_t>(work[Work::mirror_rays])},
-                     {"mirror_beams", static_cast<std::int64_t>(work[Work::mirror_beams])},
-                     {"mirror_shots", static_cast<std::int64_t>(work[Work::mirror_shots])},
-                     {"sensor_rays", static_cast<std::int64_t>(work[Work::sensor_rays])}});
-  if (result.plan.study.solver.transport != Transport::shoot) return;
-  a.numbers.emplace_back("runtime_shoot_s", work[Work::shoot_s]);
-  a.integers.emplace_back("samples_shot", static_cast<std::int64_t>(work[Work::samples]));
-  a.integers.emplace_back("shot_rays", static_cast<std::int64_t>(work[Work::shot_rays]));
+  const bool shoots = result.plan.study.solver.transport == Transport::shoot;
+  for (const WorkKind& kind : work_kinds) {
+    if (kind.told == WorkKind::Told::never) continue;
+    if (kind.told == WorkKind::Told::when_shooting && !shoots) continue;
+    if (kind.unit == WorkKind::Unit::seconds)
+      a.numbers.emplace_back(kind.name, work[kind.work]);
+    else
+      a.integers.emplace_back(kind.name, static_cast<std::int64_t>(work[kind.work]));
+  }
 }
 
 /// How far the numbers can be trusted: counts, biases, the accuracy asked for and reached.

@@ -9,7 +9,8 @@
 
 namespace sunload {
 
-/// What is counted. New ones come last: batch files hold them in this order.
+/// What is counted. New ones come last: batch files hold them in this order. Each has its row in
+/// `work_kinds`.
 enum class Work : std::uint8_t {
   line_rays,
   direct_rays,
@@ -27,8 +28,44 @@ enum class Work : std::uint8_t {
   sensor_rays,
   sensors_s,
   wanted_samples,  ///< shot, but for those that patches get who would have none
+  end              ///< how many there are
 };
-inline constexpr std::size_t work_count = 16;
+inline constexpr auto work_count = static_cast<std::size_t>(Work::end);
+
+/// How results tell of it, among their root attributes.
+struct WorkKind {
+  enum class Unit : std::uint8_t { count, seconds };
+  enum class Told : std::uint8_t { always, when_shooting, never };
+  Work work;
+  const char* name;
+  Unit unit;
+  Told told = Told::always;
+};
+inline constexpr std::array<WorkKind, work_count> work_kinds{{
+    {Work::line_rays, "line_rays", WorkKind::Unit::count},
+    {Work::direct_rays, "direct_rays", WorkKind::Unit::count},
+    {Work::mirror_rays, "mirror_rays", WorkKind::Unit::count},
+    {Work::lines_s, "runtime_lines_s", WorkKind::Unit::seconds},
+    {Work::direct_s, "runtime_direct_s", WorkKind::Unit::seconds},
+    {Work::mirror_s, "runtime_mirror_s", WorkKind::Unit::seconds},
+    {Work::solve_s, "runtime_solve_s", WorkKind::Unit::seconds},
+    {Work::realizations_s, "runtime_realizations_s", WorkKind::Unit::seconds},
+    {Work::mirror_beams, "mirror_beams", WorkKind::Unit::count},
+    {Work::mirror_shots, "mirror_shots", WorkKind::Unit::count},
+    {Work::samples, "samples_shot", WorkKind::Unit::count, WorkKind::Told::when_shooting},
+    {Work::shot_rays, "shot_rays", WorkKind::Unit::count, WorkKind::Told::when_shooting},
+    {Work::shoot_s, "runtime_shoot_s", WorkKind::Unit::seconds, WorkKind::Told::when_shooting},
+    {Work::sensor_rays, "sensor_rays", WorkKind::Unit::count},
+    {Work::sensors_s, "runtime_sensors_s", WorkKind::Unit::seconds},
+    {Work::wanted_samples, "wanted_samples", WorkKind::Unit::count, WorkKind::Told::never},
+}};
+static_assert(
+    [] {
+      for (std::size_t i = 0; i < work_count; ++i)
+        if (work_kinds[i].work != static_cast<Work>(i) || !work_kinds[i].name) return false;
+      return true;
+    }(),
+    "every kind of work has its row, in the order of the list");
 
 /// Counts (exact up to 2^53) and seconds, by `Work`.
 class WorkDone {

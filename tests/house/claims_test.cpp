@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "solver/first_light/circumsolar.h"
+#include "solver/light/work.h"
 #include "tests/support/paths.h"
 
 namespace sunload {
@@ -36,6 +37,14 @@ TEST(Claims, HaveATestThatHoldsThem) {
     EXPECT_NE(text_of(page).find(words), std::string::npos) << page << ": " << words;
     EXPECT_NE(text_of(tests).find(test), std::string::npos) << tests << ": " << test;
   }
+}
+
+TEST(Claims, PageOfResultsNamesTheWorkThatIsTold) {
+  const std::string page = text_of("docs/result-file.md");
+  for (const WorkKind& kind : work_kinds)
+    EXPECT_EQ(page.find(std::string("`") + kind.name + "`") != std::string::npos,
+              kind.told != WorkKind::Told::never)
+        << kind.name;
 }
 
 /// Uniform but for one cell, so bright that what exceeds the cap has this share of the whole.
