@@ -90,15 +90,16 @@ std::string shares_text(const Material& m) {
   if (m.glossy > 0)
     text += fmt::format("  glossy {:.3f} (exponent {:g})", m.glossy, m.glossy_exponent);
   if (m.transmittance > 0) text += fmt::format("  passes {:.3f}", m.transmittance);
-  if (m.extinction_coefficient > 0) {
-    text += fmt::format("  metal n {:g} k {:g}", m.refractive_index, m.extinction_coefficient);
-  } else if (is_fresnel(m)) {
-    text += fmt::format("  transmits {:.3f}  {} x {:g} mm of n {:g}", smooth.transmitted, m.panes,
-                        1000 * m.thickness_m, m.refractive_index);
-    if (m.absorption_per_m > 0) text += fmt::format(", K {:g} /m", m.absorption_per_m);
-  } else if (m.normal_transmittance > 0) {
+  if (const auto* metal = std::get_if<Metal>(&m.smooth)) {
+    text += fmt::format("  metal n {:g} k {:g}", metal->refractive_index,
+                        metal->extinction_coefficient);
+  } else if (const auto* panes = std::get_if<Panes>(&m.smooth)) {
+    text += fmt::format("  transmits {:.3f}  {} x {:g} mm of n {:g}", smooth.transmitted,
+                        panes->count, 1000 * panes->thickness_m, panes->refractive_index);
+    if (panes->absorption_per_m > 0) text += fmt::format(", K {:g} /m", panes->absorption_per_m);
+  } else if (const auto* glass = std::get_if<ClearGlass>(&m.smooth)) {
     text += fmt::format("  transmits {:.3f}  clear glass of {:g}", smooth.transmitted,
-                        m.normal_transmittance);
+                        glass->normal_transmittance);
   }
   return text;
 }

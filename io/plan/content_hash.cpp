@@ -38,16 +38,38 @@ void add_mesh(Digest& digest, const Mesh& mesh) {
   }
 }
 
+// Every kind begins with its word.
+void add_smooth(Digest& digest, const ConstantShares& /*all are equal*/) {
+  digest.add(std::string("constant"));
+}
+void add_smooth(Digest& digest, const Panes& panes) {
+  const auto& [refractive_index, thickness_m, absorption_per_m, count] = panes;
+  digest.add(std::string("panes"));
+  digest.add(refractive_index);
+  digest.add(thickness_m);
+  digest.add(absorption_per_m);
+  digest.add(count);
+}
+void add_smooth(Digest& digest, const ClearGlass& glass) {
+  const auto& [normal_transmittance] = glass;
+  digest.add(std::string("clear glass"));
+  digest.add(normal_transmittance);
+}
+void add_smooth(Digest& digest, const Metal& metal) {
+  const auto& [refractive_index, extinction_coefficient] = metal;
+  digest.add(std::string("metal"));
+  digest.add(refractive_index);
+  digest.add(extinction_coefficient);
+}
+
 void add_material(Digest& digest, const Material& material) {
-  const auto& [name, diffuse, mirror, emission_w_m2, refractive_index, extinction_coefficient,
-               thickness_m, absorption_per_m, panes, normal_transmittance, glossy, glossy_exponent,
-               transmittance, diffuse_in_band] = material;
+  const auto& [name, diffuse, mirror, emission_w_m2, smooth, glossy, glossy_exponent, transmittance,
+               diffuse_in_band] = material;
   digest.add(name);
   for (const double property :
-       {diffuse, mirror, emission_w_m2, refractive_index, extinction_coefficient, thickness_m,
-        absorption_per_m, normal_transmittance, glossy, glossy_exponent, transmittance})
+       {diffuse, mirror, emission_w_m2, glossy, glossy_exponent, transmittance})
     digest.add(property);
-  digest.add(panes);
+  std::visit([&](const auto& kind) { add_smooth(digest, kind); }, smooth);
   digest.add(diffuse_in_band.has_value());
   if (diffuse_in_band) digest.add(*diffuse_in_band);
 }

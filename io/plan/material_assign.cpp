@@ -19,7 +19,7 @@ namespace {
 
 /// Whether a study's material leaves reflection to what the file or the table says of its name.
 bool says_nothing(const MaterialStudy& m) {
-  return !m.diffuse && !m.mirror && !m.refractive_index && !m.normal_transmittance &&
+  return !m.diffuse && !m.mirror && std::holds_alternative<ConstantShares>(m.smooth) &&
          m.glossy == 0 && m.transmittance == 0;
 }
 
@@ -168,19 +168,10 @@ class MaterialAssigner {
     m.emission_w_m2 = study.emission_w_m2;
     // A reflectance of the study's does not put out the file's lamps.
     if (m.emission_w_m2 == 0 && file) m.emission_w_m2 = emission_[file_id.index()];
-    if (study.refractive_index) {  // decides about the mirror, too
-      m.refractive_index = *study.refractive_index;
-      m.extinction_coefficient = study.extinction_coefficient.value_or(0);
-      m.thickness_m = study.thickness_m;
-      m.absorption_per_m = study.absorption_per_m;
-      m.panes = study.panes;
-      return m;
-    }
+    m.smooth = study.smooth;
+    if (is_fresnel(m)) return m;  // decides about the mirror, too
     m.mirror = study.mirror.value_or(file ? file->mirror.value_or(0) : 0);
-    if (study.normal_transmittance) {
-      m.normal_transmittance = *study.normal_transmittance;
-      return m;
-    }
+    if (is_pane_or_metal(m)) return m;
     m.glossy = study.glossy;
     m.glossy_exponent = study.glossy_exponent;
     m.transmittance = study.transmittance;
@@ -257,9 +248,8 @@ class MaterialAssigner {
     std::string text;
     if (m.glossy > 0) text += fmt::format(" + glossy {}", m.glossy);
     if (m.transmittance > 0) text += fmt::format(" + transmittance {}", m.transmittance);
-    if (m.normal_transmittance > 0)
-      text +=
-          fmt::format(" + {} normal_transmittance {}", clear_glass_factor, m.normal_transmittance);
+    if (const double T0 = normal_transmittance(m); T0 > 0)
+      text += fmt::format(" + {} normal_transmittance {}", clear_glass_factor, T0);
     return text;
   }
 
@@ -268,13 +258,13 @@ class MaterialAssigner {
     if (known != ids_.end() && scene_.materials[known->second.index()] == m) return known->second;
     const double diffuse = m.diffuse_in_band ? std::ranges::max(*m.diffuse_in_band) : m.diffuse;
     const double sum = diffuse + m.mirror + m.glossy + m.transmittance +
-                       clear_glass_factor * m.normal_transmittance;
+                       clear_glass_factor * normal_transmittance(m);
     if (sum > 1 + 1e-9 && refused_.insert(m.name).second)
       problems_.add({},
                     fmt::format("material '{}': diffuse {} + mirror {}{} exceeds 1", m.name,
                                 diffuse, m.mirror, other_shares(m)),
                     "more light would leave than arrives (triangle " + std::to_string(t) + ")",
-                    m.normal_transmittance > 0
+                    normal_transmittance(m) > 0
                         ? "diffuse and mirror under scene.materials go before those of the file"
                         : "override it in scene.materials");
     const auto same = std::find(scene_.materials.begin(), scene_.materials.end(), m);

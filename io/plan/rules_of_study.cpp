@@ -55,8 +55,9 @@ SolverRules solver_rules(const VariantPlan& plan) {
 
 AccuracyGoal accuracy_goal(const Study& study) {
   const AccuracyStudy& accuracy = *study.solver.accuracy;
-  return {accuracy.light_load_relative, study.solver.max_lines_per_patch,
-          accuracy.irradiance_relative};
+  return {.light_load_relative = accuracy.light_load_relative,
+          .most_per_patch = study.solver.max_lines_per_patch,
+          .irradiance_relative = accuracy.irradiance_relative};
 }
 
 std::string goal_words(const AccuracyStudy& accuracy) {

@@ -45,13 +45,13 @@ double estimated_samples(const VariantPlan& plan, double patches, double blocks,
 }
 
 /// Rays that a line is made of where mirrors send it on: of what it meets, as much as there is
-/// mirror among the surfaces.
+/// mirror, glass, metal and gloss among the surfaces.
 double rays_per_line(const Scene& scene, int mirror_depth) {
   double area = 0, mirrors = 0;
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
     const double of_triangle = norm(scene.mesh.area_vector2(t));
     area += of_triangle;
-    if (scene.materials[scene.material[t].index()].mirror > 0) mirrors += of_triangle;
+    if (sends_on(scene.material_of(t))) mirrors += of_triangle;
   }
   const double again = area > 0 ? share_that_meets * mirrors / area : 0;
   double rays = 1, of_depth = 1;

@@ -121,26 +121,37 @@ json canonical(const LightStudy& light) {
   return canon;
 }
 
+json canonical(const ConstantShares& /*all are equal*/) { return json::object(); }
+json canonical(const Panes& panes) {
+  const auto& [refractive_index, thickness_m, absorption_per_m, count] = panes;
+  return {{"refractive_index", refractive_index},
+          {"thickness_m", thickness_m},
+          {"absorption_per_m", absorption_per_m},
+          {"panes", count}};
+}
+json canonical(const ClearGlass& glass) {
+  const auto& [normal_transmittance] = glass;
+  return {{"normal_transmittance", normal_transmittance}};
+}
+json canonical(const Metal& metal) {
+  const auto& [refractive_index, extinction_coefficient] = metal;
+  return {{"refractive_index", refractive_index},
+          {"extinction_coefficient", extinction_coefficient}};
+}
+
 json canonical(const MaterialStudy& material) {
   // A colour is hashed with the scene, where bands are asked for.
-  const auto& [name, diffuse, mirror, diffuse_rgb, emission_w_m2, sides, where, refractive_index,
-               extinction_coefficient, thickness_m, absorption_per_m, panes, normal_transmittance,
-               glossy, glossy_exponent, transmittance] = material;
+  const auto& [name, diffuse, mirror, diffuse_rgb, emission_w_m2, sides, where, smooth, glossy,
+               glossy_exponent, transmittance] = material;
   json canon = {{"name", name},
                 {"diffuse", maybe(diffuse)},
                 {"mirror", maybe(mirror)},
                 {"emission_w_m2", emission_w_m2},
                 {"sides", maybe(sides)},
-                {"refractive_index", maybe(refractive_index)},
-                {"extinction_coefficient", maybe(extinction_coefficient)},
-                {"thickness_m", thickness_m},
-                {"absorption_per_m", absorption_per_m},
-                {"panes", panes},
                 {"glossy", glossy},
                 {"glossy_exponent", glossy_exponent},
                 {"transmittance", transmittance}};
-  // Hashes of studies without such glass stay those of the time before there was any.
-  if (normal_transmittance) canon["normal_transmittance"] = *normal_transmittance;
+  canon.update(std::visit([](const auto& kind) { return canonical(kind); }, smooth));
   return canon;
 }
 

@@ -124,9 +124,9 @@ std::optional<MaterialStudy> tabled_material(std::string_view name) {
   material.name = row->name;
   material.diffuse = row->diffuse();
   if (row->refractive_index > 0) {
-    material.refractive_index = row->refractive_index;
-    material.absorption_per_m = row->absorption_per_m;
-    material.panes = row->panes;
+    material.smooth = Panes{.refractive_index = row->refractive_index,
+                            .absorption_per_m = row->absorption_per_m,
+                            .count = row->panes};
   } else {
     material.mirror = row->mirror;
   }

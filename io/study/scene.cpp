@@ -97,8 +97,9 @@ void check_kind(YamlMap& map, const MaterialStudy& material) {
              "it follows from the index, at every angle");
     if (map.has("extinction_coefficient")) {
       excluded(of_panes, "cannot stand with extinction_coefficient", "no light passes a metal");
-    } else if (material.refractive_index && *material.refractive_index <= 1) {
-      map.problem("refractive_index", fmt::format("{} is not above 1", *material.refractive_index),
+    } else if (const auto* panes = std::get_if<Panes>(&material.smooth);
+               panes && panes->refractive_index <= 1) {
+      map.problem("refractive_index", fmt::format("{} is not above 1", panes->refractive_index),
                   "panes are denser than air", "metals have an extinction_coefficient, too");
     }
   }
@@ -132,14 +133,15 @@ void check_sum(YamlMap& map, const MaterialStudy& material) {
 
 /// Nor does clear glass, which passes most of light from the normal.
 void check_clear_glass(YamlMap& map, const MaterialStudy& material) {
-  if (!material.normal_transmittance) return;
+  const auto* glass = std::get_if<ClearGlass>(&material.smooth);
+  if (!glass) return;
   const double reflected = material.diffuse.value_or(0) + material.mirror.value_or(0);
   const double most = largest_normal_transmittance(reflected);
-  if (*material.normal_transmittance <= most + share_rounding) return;
+  if (glass->normal_transmittance <= most + share_rounding) return;
   constexpr double digits = 1e4;
   const double shown = std::max(0.0, std::floor(most * digits) / digits);
   map.problem(
-      "normal_transmittance", fmt::format("{} is above {}", *material.normal_transmittance, shown),
+      "normal_transmittance", fmt::format("{} is above {}", glass->normal_transmittance, shown),
       fmt::format("the angular formula transmits {} times that at normal incidence{}",
                   clear_glass_factor,
                   reflected > 0 ? fmt::format(", diffuse + mirror reflect {:.6g}", reflected) : ""),
@@ -168,6 +170,23 @@ void read_diffuse(YamlMap& map, MaterialStudy& material) {
                   "write one value");
 }
 
+/// The kind that the keys belong to; check_kind() tells of keys of several.
+Smooth read_smooth(YamlMap& map) {
+  const auto index = map.number("refractive_index", refractive_indices);
+  const auto extinction = map.number("extinction_coefficient", extinctions);
+  Panes panes;
+  panes.thickness_m = map.number("thickness_m", thicknesses_m, panes.thickness_m);
+  panes.absorption_per_m =
+      map.number("absorption_per_m", absorptions_per_m, panes.absorption_per_m);
+  panes.count = map.integer("panes", 1, most_panes, panes.count);
+  const auto normal_transmittance = map.number("normal_transmittance", normal_transmittances);
+  if (normal_transmittance) return ClearGlass{*normal_transmittance};
+  if (!index) return ConstantShares{};
+  if (extinction) return Metal{*index, *extinction};
+  panes.refractive_index = *index;
+  return panes;
+}
+
 MaterialStudy read_material(const std::string& name, YamlMap& map) {
   MaterialStudy material;
   material.name = name;
@@ -175,13 +194,7 @@ MaterialStudy read_material(const std::string& name, YamlMap& map) {
   read_diffuse(map, material);
   material.mirror = map.number("mirror", shares);
   material.emission_w_m2 = map.number("emission_w_m2", emissions_w_m2, material.emission_w_m2);
-  material.refractive_index = map.number("refractive_index", refractive_indices);
-  material.extinction_coefficient = map.number("extinction_coefficient", extinctions);
-  material.thickness_m = map.number("thickness_m", thicknesses_m, material.thickness_m);
-  material.absorption_per_m =
-      map.number("absorption_per_m", absorptions_per_m, material.absorption_per_m);
-  material.panes = map.integer("panes", 1, most_panes, material.panes);
-  material.normal_transmittance = map.number("normal_transmittance", normal_transmittances);
+  material.smooth = read_smooth(map);
   material.glossy = map.number("glossy", shares, material.glossy);
   material.glossy_exponent = map.number("glossy_exponent", exponents, material.glossy_exponent);
   material.transmittance = map.number("transmittance", shares, material.transmittance);

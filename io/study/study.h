@@ -32,6 +32,7 @@
 #include "solver/light/band.h"
 #include "solver/light/transport.h"
 #include "solver/mesh/oracle.h"
+#include "solver/surface/smooth.h"
 
 namespace sunload {
 
@@ -113,10 +114,7 @@ struct MaterialStudy {
   double emission_w_m2 = 0;               ///< diffuse exitance of an emitter
   std::optional<Sides> sides;
   Where where;
-  std::optional<double> refractive_index, extinction_coefficient;  ///< of panes or a metal
-  double thickness_m = 0.004, absorption_per_m = 0;                ///< of one pane
-  int panes = 1;
-  std::optional<double> normal_transmittance;  ///< of clear glass without an index
+  Smooth smooth;
   double glossy = 0, glossy_exponent = 0;
   double transmittance = 0;  ///< straight through
 };

@@ -37,7 +37,7 @@ PaneShares stack_of(const PaneShares& pane, int count) {
 
 }  // namespace
 
-PaneShares pane_shares(const Panes& panes, double cos_theta) {
+PaneShares pane_shares(const PaneStack& panes, double cos_theta) {
   const double c = std::clamp(cos_theta, 0.0, 1.0), n = panes.refractive_index;
   const double cos_t = std::sqrt(1 - (1 - c * c) / (n * n));  // Snell
   const double r_s = squared((c - n * cos_t) / (c + n * cos_t));

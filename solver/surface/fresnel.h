@@ -16,7 +16,7 @@ struct PaneShares {
 };
 
 /// Plane-parallel panes in air, with all reflections between their faces.
-struct Panes {
+struct PaneStack {
   double refractive_index = 1.52;  ///< n > 1
   double absorption = 0;  ///< K·L, absorption coefficient times thickness of one pane ≥ 0
   int count = 1;          ///< equal panes one behind the other
@@ -28,7 +28,7 @@ struct Panes {
 ///     R = r + r τ² (1-r)² / (1 - r² τ²)        T = τ (1-r)² / (1 - r² τ²)
 ///
 /// and a pane (2) behind panes (1):  T = T₁T₂ / (1 - R₁R₂),  R = R₁ + T₁² R₂ / (1 - R₁R₂).
-PaneShares pane_shares(const Panes& panes, double cos_theta);
+PaneShares pane_shares(const PaneStack& panes, double cos_theta);
 
 /// Reflectance of a smooth metal of complex refractive index n + i k in air (n > 0, k ≥ 0).
 double metal_reflectance(double n, double k, double cos_theta);

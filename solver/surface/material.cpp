@@ -17,7 +17,7 @@ namespace {
 constexpr double rounding = 1e-12;
 
 bool has_valid_shares(const Material& m) {
-  const double transmitted = clear_glass_factor * m.normal_transmittance;  // the most
+  const double transmitted = clear_glass_factor * normal_transmittance(m);  // the most
   return m.diffuse >= 0 && m.mirror >= 0 && m.glossy >= 0 && m.transmittance >= 0 &&
          transmitted >= 0 &&
          m.diffuse + m.mirror + m.glossy + m.transmittance + transmitted <= 1 + rounding;
@@ -31,26 +31,47 @@ bool has_valid_bands(const Material& m) {
   });
 }
 
+bool is_valid(const ConstantShares& /*any*/) { return true; }
+bool is_valid(const Panes& panes) {
+  return panes.refractive_index > 1 && panes.thickness_m > 0 && panes.absorption_per_m >= 0 &&
+         panes.count >= 1;
+}
+bool is_valid(const ClearGlass& glass) { return glass.normal_transmittance > 0; }
+bool is_valid(const Metal& metal) {
+  return metal.refractive_index > 0 && metal.extinction_coefficient > 0;
+}
+
 bool has_valid_kind(const Material& m) {
-  if (m.normal_transmittance > 0 && (is_fresnel(m) || m.glossy > 0 || m.transmittance > 0))
-    return false;
-  if (!is_fresnel(m)) return m.extinction_coefficient == 0;
-  if (m.mirror > 0 || m.glossy > 0 || m.transmittance > 0) return false;
-  return m.extinction_coefficient > 0 ||
-         (m.refractive_index > 1 && m.thickness_m > 0 && m.absorption_per_m >= 0 && m.panes >= 1);
+  if (is_fresnel(m) && m.mirror > 0) return false;
+  if (is_pane_or_metal(m) && (m.glossy > 0 || m.transmittance > 0)) return false;
+  return std::visit([](const auto& smooth) { return is_valid(smooth); }, m.smooth);
+}
+
+SmoothShares shares_of(const ConstantShares& /*any*/, const Material& m, double /*cos_theta*/) {
+  return {m.mirror, 0};
+}
+
+SmoothShares shares_of(const ClearGlass& glass, const Material& m, double cos_theta) {
+  return {m.mirror, clear_glass_transmittance(glass.normal_transmittance, cos_theta)};
+}
+
+SmoothShares shares_of(const Metal& metal, const Material& m, double cos_theta) {
+  const double bare = 1 - m.diffuse;
+  return {bare * metal_reflectance(metal.refractive_index, metal.extinction_coefficient, cos_theta),
+          0};
+}
+
+SmoothShares shares_of(const Panes& panes, const Material& m, double cos_theta) {
+  const double bare = 1 - m.diffuse;
+  const PaneShares glass = pane_shares(
+      {panes.refractive_index, panes.absorption_per_m * panes.thickness_m, panes.count}, cos_theta);
+  return {bare * glass.reflected, bare * glass.transmitted};
 }
 
 }  // namespace
 
 SmoothShares smooth_shares(const Material& m, double cos_theta) {
-  if (!is_fresnel(m))
-    return {m.mirror, clear_glass_transmittance(m.normal_transmittance, cos_theta)};
-  const double bare = 1 - m.diffuse;
-  if (m.extinction_coefficient > 0)
-    return {bare * metal_reflectance(m.refractive_index, m.extinction_coefficient, cos_theta), 0};
-  const PaneShares glass =
-      pane_shares({m.refractive_index, m.absorption_per_m * m.thickness_m, m.panes}, cos_theta);
-  return {bare * glass.reflected, bare * glass.transmitted};
+  return std::visit([&](const auto& smooth) { return shares_of(smooth, m, cos_theta); }, m.smooth);
 }
 
 void expect_valid(const Scene& scene) {

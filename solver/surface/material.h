@@ -11,31 +11,21 @@
 #include "geo/mesh/mesh.h"
 #include "solver/light/band.h"
 #include "solver/surface/sensor.h"
+#include "solver/surface/smooth.h"
 
 namespace sunload {
 
-/// What a surface does with light. Four kinds exclude each other:
+/// What a surface does with light.
 ///
-/// - constant shares: diffuse + mirror + glossy + transmittance ≤ 1, the rest is absorbed;
-/// - panes (refractive_index > 1 alone): what they transmit leaves the outdoor scene;
-/// - clear glass (normal_transmittance): the same of panes whose index is not known, with constant
-///   shares diffuse and mirror; diffuse + mirror + transmitted ≤ 1 at every angle;
-/// - smooth metal (refractive_index with extinction_coefficient).
-///
-/// A share `diffuse` of what has an index is a coat (frit, dust, print): that share of the
+/// A share `diffuse` of panes and metals is a coat (frit, dust, print): that share of the
 /// light never meets the glass, whatever its angle; of the rest Fresnel's formulas decide.
 /// So diffuse + mirror + transmitted ≤ 1 holds at every angle.
 struct Material {
   std::string name;
-  double diffuse = 0;                 ///< reflectance rho
-  double mirror = 0;                  ///< reflectance rho_s, the same at every angle
-  double emission_w_m2 = 0;           ///< diffuse exitance M of an emitter
-  double refractive_index = 0;        ///< n of panes or metal; 0: neither
-  double extinction_coefficient = 0;  ///< k of a metal; 0: panes
-  double thickness_m = 0.004;         ///< of one pane
-  double absorption_per_m = 0;        ///< K of the glass
-  int panes = 1;
-  double normal_transmittance = 0;  ///< T0 of clear glass (solver/surface/clear_glass.h); 0: none
+  double diffuse = 0;        ///< reflectance rho
+  double mirror = 0;         ///< reflectance rho_s, the same at every angle; 0 of panes and metals
+  double emission_w_m2 = 0;  ///< diffuse exitance M of an emitter
+  Smooth smooth = {};        ///< of all but constant shares the three below are 0
   /// Reflectance rho_g of light from the normal (solver/surface/lobe.h).
   double glossy = 0;
   double glossy_exponent = 0;  ///< n of its lobe
@@ -59,10 +49,17 @@ inline double diffuse_in(const Material& m, std::size_t band) {
   return m.diffuse_in_band ? (*m.diffuse_in_band)[band] : m.diffuse;
 }
 /// Decided by Fresnel's formulas: panes and metals.
-inline bool is_fresnel(const Material& m) { return m.refractive_index > 0; }
+inline bool is_fresnel(const Material& m) {
+  return std::holds_alternative<Panes>(m.smooth) || std::holds_alternative<Metal>(m.smooth);
+}
 /// What a smooth surface does with light depends on the angle: panes of either kind, metals.
 inline bool is_pane_or_metal(const Material& m) {
-  return is_fresnel(m) || m.normal_transmittance > 0;
+  return !std::holds_alternative<ConstantShares>(m.smooth);
+}
+/// T0 of clear glass, 0 of all else.
+inline double normal_transmittance(const Material& m) {
+  const auto* glass = std::get_if<ClearGlass>(&m.smooth);
+  return glass ? glass->normal_transmittance : 0;
 }
 /// What it absorbs depends on the angle.
 inline bool depends_on_angle(const Material& m) { return is_pane_or_metal(m) || m.glossy > 0; }

@@ -19,11 +19,11 @@ using Facing = SceneBuilder::Facing;
 
 Material pane(double index = 1.52, int count = 1, double absorption_per_m = 0) {
   Material m{"pane"};
-  m.refractive_index = index;
-  m.absorption_per_m = absorption_per_m;
-  m.panes = count;
+  m.smooth = Panes{.refractive_index = index, .absorption_per_m = absorption_per_m, .count = count};
   return m;
 }
+
+constexpr Metal sheet_metal{.refractive_index = 1.44, .extinction_coefficient = 5.23};
 
 Vec3 sun_at(double zenith_deg) {
   const double zenith = zenith_deg * radians_per_degree;
@@ -75,7 +75,7 @@ TEST(Pane, ReflectsTheSunToTheGround) {
   for (const bool metal : {false, true})
     for (const double zenith : {20.0, 50.0}) {
       Material glass = pane();
-      if (metal) glass.extinction_coefficient = 5.23, glass.refractive_index = 1.44;
+      if (metal) glass.smooth = sheet_metal;
       SceneBuilder builder;
       const int black = builder.material({"black"}), mirror = builder.material(glass);
       builder.object("ground").quad({0.2, -1, 0}, {1, -1, 0}, {1, 1, 0}, {0.2, 1, 0}, black);
@@ -93,15 +93,13 @@ TEST(Pane, ReflectsTheSunToTheGround) {
 /// index: a screen, and a roof light that reflects nothing.
 Scene glazed_street() {
   SceneBuilder builder;
-  Material glass = pane(1.52, 2, 15), metal = pane(1.44), frit = pane(1.52, 1, 30);
-  metal.name = "metal";
-  metal.extinction_coefficient = 5.23;
-  metal.diffuse = 0.2;
+  Material glass = pane(1.52, 2, 15), metal{"metal", 0.2}, frit = pane(1.52, 1, 30);
+  metal.smooth = sheet_metal;
   frit.name = "frit";
   frit.diffuse = 0.4;
   Material screen{"screen", 0.05, 0.1}, roof_light{"roof light"};
-  screen.normal_transmittance = 0.8;
-  roof_light.normal_transmittance = 0.6;
+  screen.smooth = ClearGlass{0.8};
+  roof_light.smooth = ClearGlass{0.6};
   const int ground = builder.material({"ground", 0.25}), wall = builder.material({"wall", 0.45}),
             lamp = builder.material({"lamp", 0.3, 0, 25}), window = builder.material(glass),
             sheet = builder.material(metal), printed = builder.material(frit),

@@ -37,8 +37,9 @@ TEST(Glass, TransmitsReflectsAndKeepsTheReferencesShares) {
   for (const auto& c : cases) {
     const double angle = radians(number(c["angle_deg"]));
     Material glass{"pane"};
-    glass.refractive_index = 1.526;
-    glass.absorption_per_m = number(c["KL"]) / glass.thickness_m;
+    Panes panes{.refractive_index = 1.526};
+    panes.absorption_per_m = number(c["KL"]) / panes.thickness_m;
+    glass.smooth = panes;
     // Planted fault: the sun 15° lower.
     const Solved solved = pane_in_the_sun(glass, angle),
                  lower = pane_in_the_sun(glass, angle + radians(15));
@@ -66,7 +67,7 @@ TEST(Glass, KnownByItsNormalTransmittanceTransmitsTheReferencesShare) {
     const auto id = c["id"].get<std::string>();
     const double angle = radians(number(c["angle_deg"])), T = number(c["T"]);
     Material glass{"pane", 0.03, 0.05};
-    glass.normal_transmittance = number(c["T0"]);
+    glass.smooth = ClearGlass{number(c["T0"])};
     const Solved solved = pane_in_the_sun(glass, angle);
     const auto transmitted = share(solved, Term::transmitted);
     const Verdict verdict = expect_mean(transmitted, T, float_rounding);

@@ -749,13 +749,7 @@ TEST(CanonicalText, SeesEveryValueThatCanChangeANumber) {
        {"material name", [](Study& s) { s.scene.materials[0].name = "c"; }},
        {"diffuse", [](Study& s) { s.scene.materials[0].diffuse = 0; }},
        {"mirror", [](Study& s) { s.scene.materials[0].mirror = 0; }},
-       {"index", [](Study& s) { s.scene.materials[0].refractive_index = 1.5; }},
-       {"extinction", [](Study& s) { s.scene.materials[0].extinction_coefficient = 3; }},
-       {"thickness", [](Study& s) { s.scene.materials[0].thickness_m = 0.01; }},
-       {"absorption", [](Study& s) { s.scene.materials[0].absorption_per_m = 10; }},
-       {"panes", [](Study& s) { s.scene.materials[0].panes = 2; }},
-       {"clear glass", [](Study& s) { s.scene.materials[0].normal_transmittance = 0.8; }},
-       {"clearer glass", [](Study& s) { s.scene.materials[0].normal_transmittance = 0.9; }},
+       {"panes", [](Study& s) { s.scene.materials[0].smooth = Panes{1.5}; }},
        {"glossy", [](Study& s) { s.scene.materials[0].glossy = 0.1; }},
        {"exponent", [](Study& s) { s.scene.materials[0].glossy_exponent = 10; }},
        {"transmittance", [](Study& s) { s.scene.materials[0].transmittance = 0.1; }},
@@ -802,6 +796,27 @@ TEST(CanonicalText, SeesEveryValueThatCanChangeANumber) {
        with_period<DaysPeriod>("step", [](DaysPeriod& p) { p.step_min = 1; })});
 }
 
+TEST(CanonicalText, TellsPanesMetalsAndClearGlassApart) {
+  const std::vector<Smooth> kinds{ConstantShares{},
+                                  Panes{1.5},
+                                  Panes{1.6},
+                                  Panes{.refractive_index = 1.5, .thickness_m = 0.01},
+                                  Panes{.refractive_index = 1.5, .absorption_per_m = 10},
+                                  Panes{.refractive_index = 1.5, .count = 2},
+                                  Metal{1.5, 3},
+                                  Metal{1.6, 3},
+                                  Metal{1.5, 4},
+                                  ClearGlass{0.8},
+                                  ClearGlass{0.9}};
+  std::set<std::string> texts;
+  for (const Smooth& kind : kinds) {
+    Study study = rich_study();
+    study.scene.materials[0].smooth = kind;
+    texts.insert(canonical_text(study));
+  }
+  EXPECT_EQ(texts.size(), kinds.size());
+}
+
 /// A study in which the key has an effect.
 json study_to_see(const std::string& path) {
   json study = study_around(path);
@@ -824,7 +839,9 @@ json study_to_see(const std::string& path) {
     if (path.ends_with(of_rasters))
       study["scene"]["files"][0]["terrain"] = test::source_folder() + "/LICENSE";
   auto& material = study["scene"]["materials"]["m"];
-  if (path.ends_with("extinction_coefficient")) material["refractive_index"] = 1.5;
+  for (const char* of_an_index :
+       {"extinction_coefficient", "thickness_m", "absorption_per_m", ".panes"})
+    if (path.ends_with(of_an_index)) material["refractive_index"] = 1.5;
   if (path.ends_with(".glossy")) material["glossy_exponent"] = 10;
   if (path == "mesh.light_threshold_m2") study["mesh"]["oracle"] = "historic";
   if (path == "solver.max_lines_per_patch")

@@ -96,8 +96,7 @@ TEST(Metal, NormalAndGrazing) {
 
 TEST(Coat, TakesItsShareAtEveryAngle) {
   Material pane{"pane", 0.3};
-  pane.refractive_index = 1.52;
-  pane.absorption_per_m = 10;
+  pane.smooth = Panes{.refractive_index = 1.52, .absorption_per_m = 10};
   for (int degree = 0; degree <= 90; ++degree) {
     const SmoothShares shares = smooth_shares(pane, cosine(degree));
     EXPECT_LE(pane.diffuse + shares.mirror + shares.transmitted, 1 + 1e-12);
