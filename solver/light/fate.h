@@ -32,14 +32,19 @@ struct Fate {
 
 template <class T>
 Fate<T> scaled(const Fate<T>& fate, T factor) {
-  return {factor * fate.escaped, factor * fate.backs, factor * fate.cut, factor * fate.transmitted,
-          factor * fate.absorbed};
+  return {.escaped = factor * fate.escaped,
+          .backs = factor * fate.backs,
+          .cut = factor * fate.cut,
+          .transmitted = factor * fate.transmitted,
+          .absorbed = factor * fate.absorbed};
 }
 
 inline Fate<double> in_double(const Fate<float>& fate) {
-  return {static_cast<double>(fate.escaped), static_cast<double>(fate.backs),
-          static_cast<double>(fate.cut), static_cast<double>(fate.transmitted),
-          static_cast<double>(fate.absorbed)};
+  return {.escaped = static_cast<double>(fate.escaped),
+          .backs = static_cast<double>(fate.backs),
+          .cut = static_cast<double>(fate.cut),
+          .transmitted = static_cast<double>(fate.transmitted),
+          .absorbed = static_cast<double>(fate.absorbed)};
 }
 
 /// Of the light of every sun of a block [W].

@@ -66,7 +66,7 @@ int bounces_of_bands(const TracedScene& traced) {
 }
 
 DirectRules direct_rules(const SolverRules& rules) {
-  return {rules.direct_samples, rules.realizations, rules.seed};
+  return {.samples = rules.direct_samples, .realizations = rules.realizations, .seed = rules.seed};
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ TracedScene::TracedScene(const Scene& whole, std::shared_ptr<const Hierarchy> fr
       mirrors(whole),
       mirror_sun(caster, mirrors),
       mirror_chains(*mesh, caster, patches.sampler, mirrors,
-                    {of_study.mirror_depth, of_study.unshot}),
+                    {.mirror_depth = of_study.mirror_depth, .negligible = of_study.unshot}),
       glossy_sun(whole, *mesh, caster, patches.sampler, optics, line_rules(of_study)),
       lobe_images(whole, caster, sensors.sampler, line_rules(of_study)) {
   SUNLOAD_EXPECT(!is_rgb() || rules.transport == Transport::gather, "bands are gathered");
@@ -104,9 +104,12 @@ std::vector<double> TracedScene::sky_view_factor() const {
 }
 
 LineRules line_rules(const SolverRules& rules) {
-  return {
-      rules.lines_per_patch, rules.lines_of_patch, rules.realizations,
-      rules.mirror_depth,    rules.seed,           rules.link_threshold / rules.lines_per_patch};
+  return {.lines_per_patch = rules.lines_per_patch,
+          .lines_of_patch = rules.lines_of_patch,
+          .realizations = rules.realizations,
+          .mirror_depth = rules.mirror_depth,
+          .seed = rules.seed,
+          .largest_link = rules.link_threshold / rules.lines_per_patch};
 }
 
 std::unique_ptr<const TracedScene> trace_scene(const Scene& scene,

@@ -8,36 +8,23 @@
 #include <cmath>
 
 #include "solver/base/threads.h"
+#include "tests/support/court.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 
 namespace sunload::test {
 namespace {
 
-using Facing = SceneBuilder::Facing;
-
 constexpr BandShares red_sun{1.4, 0.9, 0.7}, blue_sky{0.3, 0.8, 1.9};
 
-/// Ground, a house of the given wall, a mirror, panes, a crown, a lamp, a sensor.
-Scene court(const Material& wall_material, double exitance = 25) {
-  SceneBuilder builder;
-  const int ground = builder.material({"ground", 0.25, 0, 0});
-  const int wall = builder.material(wall_material);
-  const int glass = builder.material({"glass", 0.1, 0.7, 0});
-  const int lamp = builder.material({"lamp", 0.3, 0, exitance});
+/// A house of the given wall, a tower of panes, a crown in place of the screen, a sensor.
+Scene coloured_court(const Material& wall_material, double exitance = 25) {
   Material pane{"pane"}, crown{"crown", 0.2};
-  pane.refractive_index = 1.52;
+  pane.smooth = Panes{1.52};
   crown.transmittance = 0.3;
-  builder.object("ground").quad({-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}, ground);
-  builder.object("house").box({-6, 3, 0.01}, {6, 6, 5}, wall, Facing::outward);
-  builder.object("glass").quad({-5, 2.99, 0.5}, {5, 2.99, 0.5}, {5, 2.99, 4.5}, {-5, 2.99, 4.5},
-                               glass);
-  builder.object("tower").box({-6, -5, 0.01}, {-3, -2, 8}, builder.material(pane), Facing::outward);
-  builder.object("lamp").quad({3, -4, 3}, {3, -3, 3}, {4, -3, 3}, {4, -4, 3}, lamp);
-  builder.sides(Sides::two)
-      .object("crown")
-      .quad({5, -8, 0.2}, {8, -8, 0.2}, {8, -8, 3}, {5, -8, 3}, builder.material(crown));
-  Scene scene = builder.scene();
+  CourtMaterials of{.wall = wall_material, .tower = pane, .screen = crown};
+  of.lamp.emission_w_m2 = exitance;
+  Scene scene = court(of);
   scene.sensors.push_back({{0, -6, 1.5}, {0, 0, 1}, 7});
   return scene;
 }
@@ -102,7 +89,7 @@ void expect_same_series(const ReceiverTally& band, const ReceiverTally& broadban
 }
 
 TEST(Bands, GreySurfacesUnderWhiteLightAreBroadband) {
-  const Scene scene = court(grey_wall);
+  const Scene scene = coloured_court(grey_wall);
   const auto light = suns({1, 1, 1}, {1, 1, 1});
   for (const auto errors : {Errors::totals, Errors::instants}) {
     SolverRules rules = court_rules();
@@ -127,7 +114,7 @@ TEST(Bands, GreySurfacesUnderWhiteLightAreBroadband) {
 
 // Transport is linear: where surfaces are grey, the mean of the bands is the broadband light.
 TEST(Bands, MeanOfColouredLightOnGreySurfacesIsBroadband) {
-  const Scene scene = court(grey_wall);
+  const Scene scene = coloured_court(grey_wall);
   const auto light = suns(red_sun, blue_sky);
   const auto broadband = solve(scene, light, court_rules(), split);
   const auto bands = solve_bands(scene, light, court_rules(), split);
@@ -166,7 +153,8 @@ TEST(Bands, EveryBandIsASolutionOfItsOwn) {
   const BandShares rho{0.7, 0.4, 0.1};
   const auto light = suns(red_sun, blue_sky);
   constexpr double dark = 0;
-  const auto bands = solve_bands(court(coloured("wall", rho), dark), light, court_rules(), split);
+  const auto bands =
+      solve_bands(coloured_court(coloured("wall", rho), dark), light, court_rules(), split);
   for (std::size_t b = 0; b < band_count; ++b) {
     auto of_band = light;
     for (auto& sun : of_band) {
@@ -174,7 +162,8 @@ TEST(Bands, EveryBandIsASolutionOfItsOwn) {
       sun.ground_exitance = sun.bands[b].ground_exitance;
       sun.sky = sun.bands[b].sky;
     }
-    const auto alone = solve(court({"wall", rho[b], 0, 0}, dark), of_band, court_rules(), split);
+    const auto alone =
+        solve(coloured_court({"wall", rho[b], 0, 0}, dark), of_band, court_rules(), split);
     const auto total = static_cast<std::size_t>(Part::total);
     EXPECT_LT(largest_difference(bands[b].tally.irradiance[total], alone.tally.irradiance[total]),
               float_rounding);
@@ -229,8 +218,8 @@ TEST(Bands, SphereOfTwoSurfacesIsExactInEachOfThem) {
 }
 
 TEST(Bands, LedgerClosesInEachOfThem) {
-  const auto bands = solve_bands(court(coloured("wall", {0.7, 0.4, 0.1})), suns(red_sun, blue_sky),
-                                 court_rules(), split);
+  const auto bands = solve_bands(coloured_court(coloured("wall", {0.7, 0.4, 0.1})),
+                                 suns(red_sun, blue_sky), court_rules(), split);
   for (const auto& band : bands) {
     const auto in = band.ledger([](const Ledger& l) { return l.in(); });
     const double power = mean_error(in).mean;
@@ -249,7 +238,7 @@ TEST(Bands, LedgerClosesInEachOfThem) {
 }
 
 TEST(Bands, SameBitsForAnyNumberOfThreads) {
-  const Scene scene = court(coloured("wall", {0.7, 0.4, 0.1}));
+  const Scene scene = coloured_court(coloured("wall", {0.7, 0.4, 0.1}));
   const auto light = suns(red_sun, blue_sky);
   const auto run = [&](int threads) {
     set_thread_count(threads);
@@ -264,7 +253,7 @@ TEST(Bands, SameBitsForAnyNumberOfThreads) {
 
 // Rays are geometry: they are cast once for all bands.
 TEST(Bands, CostNoFurtherRays) {
-  const Scene scene = court(grey_wall);
+  const Scene scene = coloured_court(grey_wall);
   const auto light = suns(red_sun, blue_sky);
   const auto broadband = solve(scene, light, court_rules(), split);
   const auto bands = solve_bands(scene, light, court_rules(), split);

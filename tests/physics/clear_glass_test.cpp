@@ -24,7 +24,7 @@ constexpr double T0 = 0.85, diffuse = 0.02, mirror = 0.1;
 
 Material clear_glass(double mirrored = mirror) {
   Material m{"clear glass", diffuse, mirrored};
-  m.normal_transmittance = T0;
+  m.smooth = ClearGlass{T0};
   return m;
 }
 
@@ -164,7 +164,7 @@ TEST(ClearGlass, DividesParallelLightAtItsAngle) {
 }
 
 /// A court of clear glass with a lamp, a crown and a mirror: all light that there is.
-Scene court() {
+Scene court_of_clear_glass() {
   SceneBuilder builder;
   Material crown{"crown", 0.15, 0.1};
   crown.transmittance = 0.4;
@@ -190,7 +190,7 @@ TEST(ClearGlass, LedgerOfACourtCloses) {
       SolverRules rules = rules_of(transport);
       rules.bounces = 20;
       rules.mirror_depth = depth;
-      const auto solved = solve(court(), three_suns(), rules, court_mesh);
+      const auto solved = solve(court_of_clear_glass(), three_suns(), rules, court_mesh);
       const double in = mean_error(solved.ledger([](const Ledger& l) { return l.in(); })).mean;
       const auto residual = solved.ledger([](const Ledger& l) { return l.residual(); });
       const Verdict verdict = expect_mean(residual, 0, float_rounding * in);
@@ -216,7 +216,7 @@ TEST(ClearGlass, TransportsAgreeOnWhatPasses) {
     rules.bounces = 20;
     rules.seed = transport == Transport::shoot ? 2 : 1;
     of[transport == Transport::shoot] =
-        solve(court(), three_suns(), rules, court_mesh).ledger([](const Ledger& l) {
+        solve(court_of_clear_glass(), three_suns(), rules, court_mesh).ledger([](const Ledger& l) {
           return l[Term::transmitted];
         });
   }

@@ -78,11 +78,10 @@ TEST(Glossy, SunOnAPlate) {
 }
 
 /// A court of glossy, mirror and transparent surfaces.
-Scene court() {
+Scene glossy_court() {
   SceneBuilder builder;
   Material pane{"pane"};
-  pane.refractive_index = 1.52;
-  pane.absorption_per_m = 20;
+  pane.smooth = Panes{.refractive_index = 1.52, .absorption_per_m = 20};
   const int ground = builder.material({"ground", 0.25}), wall = builder.material({"wall", 0.45}),
             mirror = builder.material({"mirror", 0.1, 0.7}),
             lamp = builder.material({"lamp", 0.3, 0, 25}),
@@ -107,7 +106,7 @@ TEST(Glossy, LedgerOfACourtCloses) {
     auto rules = test_rules();
     rules.mirror_depth = depth;
     rules.bounces = 20;
-    const auto solved = solve(court(), {light}, rules, {.max_edge_m = 1.5});
+    const auto solved = solve(glossy_court(), {light}, rules, {.max_edge_m = 1.5});
     const double in = mean_error(solved.ledger([](const Ledger& l) { return l.in(); })).mean;
     const auto residual = solved.ledger([](const Ledger& l) { return l.residual(); });
     const Verdict verdict = expect_mean(residual, 0, float_rounding * in);

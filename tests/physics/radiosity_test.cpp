@@ -35,10 +35,7 @@ INSTANTIATE_TEST_SUITE_P(By, Radiosity, testing::Values(Transport::gather, Trans
                            return by.param == Transport::gather ? "gathering" : "shooting";
                          });
 
-void check(const std::string& id, const std::vector<double>& values, double truth, double bias,
-           double fault = 1.02) {
-  expect_truth(id, values, truth, bias, {.fault = truth * fault, .standard_error = 0.005});
-}
+constexpr TruthCheck check{.fault_factor = 1.02, .standard_error = 0.005};
 
 // One unknown per triangle with exact form factors: B = E + rho H.
 TEST_P(Radiosity, RoomOfTwelveTrianglesHasTheExactRadiosity) {

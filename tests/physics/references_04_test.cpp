@@ -27,10 +27,7 @@ using nlohmann::json;
 
 constexpr const char* closed_forms = "04_form_factors/closed_forms.json";
 
-/// A truth that is 2 % off is refused.
-void check(const std::string& id, const std::vector<double>& F, double truth, double bias) {
-  expect_truth(id, F, truth, bias, {.fault = 1.02 * truth, .standard_error = 0.002});
-}
+constexpr TruthCheck check{.fault_factor = 1.02, .standard_error = 0.002};
 
 /// Irradiance per realization at the origin, looking up.
 std::vector<double> at_origin(const Scene& scene, int lines) {

@@ -21,11 +21,7 @@ using nlohmann::json;
 
 constexpr const char* exact_systems = "05_radiosity/exact_systems.json";
 
-/// A truth that is off by `fault` is refused.
-void check(const std::string& id, const std::vector<double>& values, double truth, double bias,
-           double fault = 1.03) {
-  expect_truth(id, values, truth, bias, {.fault = truth * fault, .standard_error = 0.005});
-}
+constexpr TruthCheck check{.fault_factor = 1.03, .standard_error = 0.005};
 
 /// Light that is left when reflections end, as a share of all.
 double left_after(int bounces, double rho) { return std::pow(rho, bounces + 1) / (1 - rho); }

@@ -53,7 +53,8 @@ Day day_on(const Scene& scene, const std::vector<IntervalLight>& suns) {
   return day;
 }
 
-void check(const std::string& id, const Day& day, double truth, double bias, const Day& turned) {
+void expect_day(const std::string& id, const Day& day, double truth, double bias,
+                const Day& turned) {
   const Verdict verdict = expect_mean(day.energy, truth, bias);
   std::cout << id << ": " << verdict.text << "\n";
   EXPECT_TRUE(verdict) << id << ": " << verdict.text;
@@ -89,7 +90,7 @@ TEST(ClearDay, EnergyAndHoursOnAPlane) {
     // What the reference says of steps of ten minutes.
     constexpr double step_error = 1e-3;
     // Planted fault: a plane that is tilted 2° otherwise and turned by 2°.
-    check(id, day, truth, step_error * truth, day_on(plane(tilt - 2, azimuth + 2), suns));
+    expect_day(id, day, truth, step_error * truth, day_on(plane(tilt - 2, azimuth + 2), suns));
     double up_s = 0;
     for (const auto& sun : suns) up_s += sun.sunlit_s;
     // The sun's rise and set divide an interval; the front of a plane takes whole parts.
@@ -144,7 +145,7 @@ TEST(FixedDeclination, EnergyIsTheClosedForm) {
     Day other = day_on(plane(tilt, 180), wrong);
     // On the equator at equinox half a degree is of second order.
     if (declination == 0) other = day_on(plane(tilt, 180), day_of(radians(5), 0, steps));
-    check(row.at("id"), day, truth, bias, other);
+    expect_day(row.at("id"), day, truth, bias, other);
   }
 }
 

@@ -20,10 +20,7 @@ using nlohmann::json;
 
 constexpr const char* cases_file = "08_smits_jensen_style/cases.json";
 
-/// A truth that is 3 % off is refused.
-void check(const std::string& id, const std::vector<double>& values, double truth, double bias) {
-  expect_truth(id, values, truth, bias, {.fault = 1.03 * truth, .standard_error = 0.005});
-}
+constexpr TruthCheck check{.fault_factor = 1.03, .standard_error = 0.005};
 
 struct Stage : LampStage {
   /// Square of side s at height h over the origin, facing down.

@@ -45,11 +45,7 @@ struct Stage : LampStage {
   }
 };
 
-/// Accepted, and a truth that is off by `fault` refused.
-void check(const std::string& id, const std::vector<double>& values, double truth, double bias,
-           double fault = 1.02) {
-  expect_truth(id, values, truth, bias, {.fault = truth * fault, .standard_error = {}});
-}
+constexpr TruthCheck check{.fault_factor = 1.02};
 
 /// Lines of a realization by which a form factor is known to some 0.1 %. Patches have as many.
 int lines_for(double truth) {

@@ -53,8 +53,8 @@ std::vector<double> sunlit_share(const Scene& scene, Vec3 sun, double max_edge) 
 
 /// Accepted; a truth off by 2 % of `scale` refused. Points start a little above their
 /// surface, which moves a shadow's edge by at most `bias`.
-void check(const std::string& id, const std::vector<double>& values, double truth, double scale,
-           double bias) {
+void expect_share(const std::string& id, const std::vector<double>& values, double truth,
+                  double scale, double bias) {
   const Verdict verdict = expect_mean(values, truth, bias);
   EXPECT_TRUE(verdict) << id << ": " << verdict.text;
   constexpr double demanded_error = 0.005;
@@ -86,7 +86,7 @@ TEST(Shadows, OfABoxOnTheGround) {
     for (auto& s : dark) s = (1 - s) * whole;
     const double truth = number(c["shadow_plus_footprint_area"]);
     const double rim = 2 * (x1 - x0 + y1 - y0);
-    check(c["id"], dark, truth, truth, rim * edge_shift(std::max(x1 - x0, y1 - y0), sun));
+    expect_share(c["id"], dark, truth, truth, rim * edge_shift(std::max(x1 - x0, y1 - y0), sun));
   }
 }
 
@@ -110,7 +110,7 @@ TEST(Shadows, OnOnePatchByBoxes) {
     const Vec3 sun = sun_of(c);
     const auto share = sunlit_share(g.builder.scene(), sun, extent / 4);
     const double bias = edge_shift(100, sun) * 4 * extent / number(c["patch_area"]);
-    check(c["id"], share, number(c["sunlit_fraction"]), 1, bias);
+    expect_share(c["id"], share, number(c["sunlit_fraction"]), 1, bias);
   }
 }
 
@@ -127,7 +127,8 @@ TEST(Shadows, InACourtyard) {
     }
     const Vec3 sun = sun_of(c);
     const double bias = edge_shift(std::max({W, D, H}), sun) * 2 * (W + D) / (W * D);
-    check(c["id"], sunlit_share(g.builder.scene(), sun, 2), number(c["sunlit_fraction"]), 1, bias);
+    expect_share(c["id"], sunlit_share(g.builder.scene(), sun, 2), number(c["sunlit_fraction"]), 1,
+                 bias);
   }
 }
 
@@ -144,9 +145,9 @@ TEST(Shadows, UnderAnOverhang) {
     const Vec3 sun = sun_of(c);
     auto share = sunlit_share(g.builder.scene(), sun, 0.5);
     const double bias = 16 * wide / (1 << 24) * std::hypot(sun.z, sun.x) / -sun.y / h;
-    check(c["id"], share, number(c["sunlit_fraction"]), 1, bias);
+    expect_share(c["id"], share, number(c["sunlit_fraction"]), 1, bias);
     for (auto& s : share) s *= dni * -sun.y;
-    check(c["id"], share, number(c["mean_direct"]), dni, dni * bias);
+    expect_share(c["id"], share, number(c["mean_direct"]), dni, dni * bias);
   }
 }
 
@@ -162,7 +163,8 @@ TEST(Shadows, OnAWallAcrossTheStreet) {
     const Vec3 sun{std::cos(angle), 0, std::sin(angle)};
     const double bias = 16 * wide / (1 << 24) * std::tan(angle) / H2;
     // The far edge of the flat roof lies lower in the sun's view than the near one.
-    check(c["id"], sunlit_share(g.builder.scene(), sun, 2), number(c["sunlit_fraction"]), 1, bias);
+    expect_share(c["id"], sunlit_share(g.builder.scene(), sun, 2), number(c["sunlit_fraction"]), 1,
+                 bias);
   }
 }
 
@@ -200,7 +202,7 @@ TEST(Shadows, OfASphere) {
     const double truth = number(c["shadow_area"]);
     const double bias = std::abs(mean_error(coarse).mean - mean_error(fine).mean);
     EXPECT_LT(mean_error(fine).mean, truth) << "chords lie inside";
-    check(c["id"], fine, truth, truth, bias);
+    expect_share(c["id"], fine, truth, truth, bias);
   }
 }
 

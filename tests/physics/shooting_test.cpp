@@ -107,7 +107,7 @@ Scene facing_mirrors(Change change) {
 
 /// The court in the light of a parallel source, which falls on ground, glass and screen.
 Scene court_under_a_beam(Change change) {
-  Scene scene = court(change);
+  Scene scene = court_changed(change);
   add_parallel_source(scene, {-4, -7, 9}, {0, 6, -4}, {11, 0, 0}, 400);
   scene.sensors = {sensor_at({-1, 1, 0}, {0, 0, 1}), sensor_at({0, 0, 1.5}, {0, 1, 0}),
                    sensor_at({-2.99, -3.5, 4}, {1, 0, 0}), sensor_at({6.5, -7.9, 1}, {0, 1, 0.2})};
@@ -122,7 +122,7 @@ std::vector<IntervalLight> overcast() {
 }
 
 std::vector<Case> cases() {
-  return {{"court", numbered_suns(), {.max_edge_m = 3}, 3, court},
+  return {{"court", numbered_suns(), {.max_edge_m = 3}, 3, court_changed},
           {"court under a beam", numbered_suns(), {.max_edge_m = 3}, 3, court_under_a_beam},
           {"street", numbered_suns(), {.max_edge_m = 3}, 4, street},
           {"room", {night}, {.max_edge_m = 1}, 20, room},
@@ -331,7 +331,7 @@ TEST(Shooting, LedgerClosesAtEveryMirrorDepth) {
 TEST(Shooting, SeriesAreTheMeanOfRealizations) {
   auto rules = rules_of(Transport::shoot);
   rules.errors = Errors::instants;
-  const Solved solved = solve(court(as_it_is), numbered_suns(), rules, {.max_edge_m = 3});
+  const Solved solved = solve(court(), numbered_suns(), rules, {.max_edge_m = 3});
   const std::size_t patches = solved.area.size();
   for (std::size_t i = 0; i < patches; ++i) {
     std::vector<double> of;
@@ -357,7 +357,7 @@ TEST(Shooting, SameBitsForAnyNumberOfThreads) {
     set_thread_count(threads);
     auto rules = rules_of(Transport::shoot);
     rules.errors = Errors::instants;
-    tallies.push_back(solve(court(as_it_is), numbered_suns(), rules, {.max_edge_m = 1}).tally);
+    tallies.push_back(solve(court(), numbered_suns(), rules, {.max_edge_m = 1}).tally);
   }
   set_thread_count(before);
   for (const auto& tally : {tallies[1], tallies[2]}) {

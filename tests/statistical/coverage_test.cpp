@@ -48,7 +48,8 @@ double covered(const std::vector<std::vector<double>>& all, double truth, const 
 
 /// Accepted with Student's intervals; refused where the variance stands for the standard
 /// error, and where the spread of one realization does.
-void check(const std::string& name, const std::vector<std::vector<double>>& all, double truth) {
+void expect_coverage(const std::string& name, const std::vector<std::vector<double>>& all,
+                     double truth) {
   const CountInterval interval = accepted_counts(runs, level);
   const double count = covered(all, truth, student_width);
   std::cout << name << ": " << count << " of " << runs << " intervals hold the truth, accepted "
@@ -80,12 +81,13 @@ TEST(Coverage, OfAFormFactor) {
   builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, black);
   builder.quad({0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}, lamp);
   constexpr double F = 0.19982489569839;
-  check("form factor",
-        repeated(builder.scene(), one_second({0, 0, -1}, 0), {},
-                 [](const Solved& s) {
-                   return s.means([&](std::size_t i) { return s.patches[i].triangle < 2; });
-                 }),
-        F);
+  expect_coverage(
+      "form factor",
+      repeated(builder.scene(), one_second({0, 0, -1}, 0), {},
+               [](const Solved& s) {
+                 return s.means([&](std::size_t i) { return s.patches[i].triangle < 2; });
+               }),
+      F);
 }
 
 // Direct sun: a shadow line halves a square askew, so that it cuts its patches at all angles.
@@ -102,12 +104,13 @@ TEST(Coverage, OfAShadow) {
   builder.sides(Sides::two)
       .object("wall")
       .quad({-6, 0, 0}, {6, 0, 0}, {6, 0, height}, {-6, 0, height}, black);
-  check("shadow",
-        repeated(builder.scene(), one_second(sun, 1), {.max_edge_m = 3},
-                 [](const Solved& s) {
-                   return s.means([&](std::size_t i) { return s.patches[i].triangle < 2; });
-                 }),
-        sun.z / 2);
+  expect_coverage(
+      "shadow",
+      repeated(builder.scene(), one_second(sun, 1), {.max_edge_m = 3},
+               [](const Solved& s) {
+                 return s.means([&](std::size_t i) { return s.patches[i].triangle < 2; });
+               }),
+      sun.z / 2);
 }
 
 // Sun, sky, reflection and a mirror together: the ledger's residual is zero.
@@ -121,11 +124,12 @@ TEST(Coverage, OfTheLedgersResidual) {
                                {-1.5, 0.99, 1.5}, glass);
   auto light = with_uniform_sky(one_second({0.3, -0.8, 0.5}, 600), 100);
   light.ground_exitance = 60;
-  check("residual",
-        repeated(
-            builder.scene(), light, {},
-            [](const Solved& s) { return s.ledger([](const Ledger& l) { return l.residual(); }); }),
-        0);
+  expect_coverage("residual",
+                  repeated(builder.scene(), light, {},
+                           [](const Solved& s) {
+                             return s.ledger([](const Ledger& l) { return l.residual(); });
+                           }),
+                  0);
 }
 
 }  // namespace

@@ -99,10 +99,7 @@ double lift_bias(const Polygon& from, const Polygon& to) {
   return lift(largest_coordinate(from, to)) * std::min(rim / (norm(twice_area) / 2), 1 / nearest);
 }
 
-/// Accepted, precise to 0.2 %, and a truth that is 2 % off refused.
-void check(const std::string& id, const std::vector<double>& F, double truth, double bias) {
-  expect_truth(id, F, truth, bias, {.fault = 1.02 * truth, .standard_error = 0.002});
-}
+constexpr TruthCheck check{.fault_factor = 1.02, .standard_error = 0.002};
 
 /// Lines per piece and realization, enough for some 0.2 % of a form factor: about 40 hits.
 int lines_for(double truth) {

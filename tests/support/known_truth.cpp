@@ -51,4 +51,12 @@ void expect_truth(const std::string& id, const std::vector<double>& realizations
   }
 }
 
+void TruthCheck::operator()(const std::string& id, const std::vector<double>& realizations,
+                            double truth, double bias_bound,
+                            std::optional<double> own_factor) const {
+  expect_truth(
+      id, realizations, truth, bias_bound,
+      {.fault = own_factor.value_or(fault_factor) * truth, .standard_error = standard_error});
+}
+
 }  // namespace sunload::test

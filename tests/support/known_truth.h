@@ -41,4 +41,15 @@ struct Demand {
 void expect_truth(const std::string& id, const std::vector<double>& realizations, double truth,
                   double bias_bound, const Demand& demand);
 
+/// The same as a file of tests demands it of all its cases: `constexpr TruthCheck check{1.02,
+/// 0.005};`
+struct TruthCheck {
+  double fault_factor;  ///< a truth that is off by it is refused
+  std::optional<double> standard_error = {};
+
+  /// `own_factor`: that of a case of its own kind.
+  void operator()(const std::string& id, const std::vector<double>& realizations, double truth,
+                  double bias_bound, std::optional<double> own_factor = {}) const;
+};
+
 }  // namespace sunload::test
