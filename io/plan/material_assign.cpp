@@ -234,7 +234,7 @@ class MaterialAssigner {
       const auto id = mesh.triangle_material[t];
       if (id.exists() && mesh.file_materials[id.index()].glows &&
           !by_name_.contains(mesh.file_materials[id.index()].name) &&
-          scene_.materials[scene_.material[t].index()].emission_w_m2 == 0)
+          scene_.material_of(t).emission_w_m2 == 0)
         dark_m2[mesh.file_materials[id.index()].name] += norm(mesh.area_vector2(t)) / 2;
     }
     for (const auto& [name, area] : dark_m2)

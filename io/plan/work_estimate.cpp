@@ -24,7 +24,7 @@ double estimated_samples(const VariantPlan& plan, double patches, double blocks,
   const Scene& scene = plan.built.scene;
   double area = 0, reflecting = 0, emitted_w = 0, brightest_w_m2 = 0;
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
-    const Material& m = scene.materials[scene.material[t].index()];
+    const Material& m = scene.material_of(t);
     const double a = norm(scene.mesh.area_vector2(t)) / 2;
     area += a;
     reflecting += a * m.diffuse;

@@ -16,7 +16,7 @@ class Viewer {
     this.results = results;
     this.palettes = { ...palettes, materials: materialPalette() };
     this.state = { view: results.length > 1 ? "side" : "0", quantity: "light_load", k: this.brightest(results[0]), colours: "false",
-      shading: "constant", crease: 20, lines: "none", picked: null, limits: {} };
+      shading: "constant", crease: Number($("crease").value), lines: "none", picked: null, limits: {} };
     this.textures = Object.fromEntries(Object.entries(this.palettes).map(([name, colours]) => [name, paletteTexture(colours)]));
     this.buildScene();
     this.fillChoices();

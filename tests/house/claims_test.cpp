@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// What pages and headers claim is what tests see: who changes one of the two meets the other.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -10,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "io/result/patches.h"
 #include "solver/first_light/circumsolar.h"
 #include "solver/light/work.h"
 #include "tests/support/paths.h"
@@ -37,6 +39,19 @@ TEST(Claims, HaveATestThatHoldsThem) {
     EXPECT_NE(text_of(page).find(words), std::string::npos) << page << ": " << words;
     EXPECT_NE(text_of(tests).find(test), std::string::npos) << tests << ": " << test;
   }
+}
+
+TEST(Claims, ViewerBeginsWithTheCreaseAngleOfExport) {
+  EXPECT_NE(text_of("scripts/viewer/page.html")
+                .find(fmt::format("id=\"crease\" type=\"number\" min=\"0\" max=\"180\" step=\"5\" "
+                                  "value=\"{}\"",
+                                  default_crease_deg)),
+            std::string::npos);
+  for (const char* header : {"io/export/export.h", "io/picture/render.h"})
+    EXPECT_NE(
+        text_of(header).find(fmt::format("crease angle ({}° where left out)", default_crease_deg)),
+        std::string::npos)
+        << header;
 }
 
 TEST(Claims, PageOfResultsNamesTheWorkThatIsTold) {

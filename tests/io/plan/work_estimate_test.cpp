@@ -77,5 +77,27 @@ TEST(CostModel, LineOfTheStreetCostsWhatLinesThereDo) {
   EXPECT_NEAR(s_per_line_ray(triangles) / s_per_line_of_street, 1, 0.13);
 }
 
+/// Of the study whose every surface is of this material.
+double estimated_seconds(const std::string& material) {
+  const VariantPlan plan = test::plan_of(
+      "format: sunload-study-1\nname: t\n"
+      "scene: {builtin: {name: street}, materials: {all: {" +
+      material +
+      "}}, assign: [{material: all}]}\n"
+      "period: {positions: [{azimuth_deg: 180, elevation_deg: 45}]}\n"
+      "light: {source: fixed, dni_w_m2: 800, dhi_w_m2: 100}\n");
+  return estimate_work(plan, 100'000).seconds;
+}
+
+// Lines go on from whatever is smooth or has a lobe, as from mirrors.
+TEST(CostModel, LinesGoOnFromPanesMetalsAndGlossAsFromMirrors) {
+  const double wall = estimated_seconds("diffuse: 0.3"), mirror = estimated_seconds("mirror: 0.3");
+  EXPECT_GT(mirror, 1.2 * wall);
+  for (const char* material :
+       {"refractive_index: 1.5", "refractive_index: 1.4, extinction_coefficient: 5",
+        "normal_transmittance: 0.8", "glossy: 0.3, glossy_exponent: 10"})
+    EXPECT_EQ(estimated_seconds(material), mirror) << material;
+}
+
 }  // namespace
 }  // namespace sunload
