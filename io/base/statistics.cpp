@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "geo/base/check.h"
+#include "solver/base/spread.h"
 
 namespace sunload {
 namespace {
@@ -41,13 +42,12 @@ double student_t_two_sided_p(double t, double degrees_of_freedom) {
 }
 
 SampleMean sample_mean(const std::vector<double>& samples) {
-  const auto n = static_cast<double>(samples.size());
-  if (samples.empty()) return {not_known, not_known};
-  const double mean = std::accumulate(samples.begin(), samples.end(), 0.0) / n;
-  if (samples.size() < 2) return {mean, not_known};
-  double squares = 0;
-  for (const double sample : samples) squares += square(sample - mean);
-  return {mean, std::sqrt(squares / (n - 1) / n)};
+  const std::size_t n = samples.size();
+  if (n == 0) return {not_known, not_known};
+  const double mean = std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(n);
+  if (n < 2) return {mean, not_known};
+  const auto value = [&](std::size_t r) { return samples[r]; };
+  return {mean, standard_error(variance_about(mean, n, value), n)};
 }
 
 DifferenceError paired_error(const std::vector<double>& base, const std::vector<double>& variant) {

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Mean, variance and standard error of independent realizations.
 ///
-/// Of a single realization no spread is known: its variance and its error are 0.
+/// Of a single realization no spread is known: its variance and its error are 0 here, where sums
+/// are made of them, and NaN where people are told of it (io/base/statistics).
 #pragma once
 
 #include <algorithm>
