@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Mean, variance and standard error of independent realizations.
 ///
-/// Of a single realization no spread is known: its variance and its error are 0 here, where sums
-/// are made of them, and NaN where people are told of it (io/base/statistics).
+/// Of a single realization no spread is known: its variance and its error are 0.
 #pragma once
 
 #include <algorithm>
