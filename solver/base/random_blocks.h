@@ -47,8 +47,10 @@ static_assert(are_disjoint(std::array{of_line, of_mirrored_light}));
 /// Of Purpose::shooting.
 namespace shot_blocks {
 /// Points of samples: the emitters' (iteration 0), then one for every diffuse reflection.
-inline constexpr RandomBlocks of_iterations{0, most_reflections + 1};
-inline constexpr RandomBlocks of_all_chains{1u << 11, of_iterations.count* blocks_of_chain};
+inline constexpr RandomBlocks of_iterations{0, 1u << 11};
+static_assert(of_iterations.count > most_reflections);
+inline constexpr RandomBlocks of_all_chains{of_iterations.end(),
+                                            of_iterations.count* blocks_of_chain};
 /// The chain of a sample of this iteration.
 constexpr RandomBlocks of_chain(std::uint32_t iteration) {
   return {of_all_chains.first + iteration * blocks_of_chain, blocks_of_chain};
@@ -59,7 +61,7 @@ inline constexpr RandomBlocks of_mirrored_sun{1u << 23, blocks_of_chain};
 
 static_assert(are_disjoint(std::array{of_iterations, of_all_chains, of_mirrored_sky,
                                       of_mirrored_sun}));
-static_assert(of_chain(most_reflections).end() == of_all_chains.end());
+static_assert(of_chain(of_iterations.count - 1).end() == of_all_chains.end());
 }  // namespace shot_blocks
 
 }  // namespace sunload

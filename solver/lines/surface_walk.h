@@ -36,7 +36,8 @@ class SurfaceWalk {
   SurfaceWalk(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
               int mirror_depth)
       : scene_(scene), hierarchy_(hierarchy), caster_(caster), mirror_depth_(mirror_depth) {
-    SUNLOAD_EXPECT(mirror_depth <= most_reflections, "chains have random numbers for so many");
+    SUNLOAD_EXPECT(mirror_depth < static_cast<int>(blocks_of_chain),
+                   "chains have random numbers for so many");
   }
 
   struct Meeting {

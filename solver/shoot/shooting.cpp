@@ -65,7 +65,8 @@ Shooter::Shooter(const Scene& scene, const Hierarchy& hierarchy, const RayCaster
       first_mirrored_(scene, hierarchy, caster, sampler, grid, line_rules),
       receiver_area_(hierarchy.area()),
       rays_(first_mirrored_.rays()) {
-  SUNLOAD_EXPECT(rules.bounces <= most_reflections, "iterations have random numbers for so many");
+  SUNLOAD_EXPECT(static_cast<std::uint32_t>(rules.bounces) < shot_blocks::of_iterations.count,
+                 "iterations have random numbers for so many");
   if (line_rules.largest_link > 0)
     for (std::size_t i = 0; hierarchy.patch_count() + i < hierarchy.element_count(); ++i) {
       const auto [a, b] = hierarchy.halves_of(i);
