@@ -21,8 +21,8 @@ struct CheckRules {
   SearchIntersections search = SearchIntersections::no;
   CheckMesh mesh = CheckMesh::refined;
 };
-/// Reads everything, reports scene, sun path, work, memory, disk on stdout; on stderr what takes
-/// its time.
+/// Reads everything, reports scene, sun path, work, memory, disk on stdout; what takes its
+/// time on the standard error.
 int check_study(const std::string& study, const RunOptions& options, const CheckRules& rules = {});
 
 /// The sun path as CSV on stdout (docs/developer/design.md, Commands and exit codes), or as a
