@@ -2,12 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/base/machine.h"
 
+#include <fmt/format.h>
 #include <sched.h>
 #include <sys/resource.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -70,6 +75,14 @@ double address_space_left_bytes() {
   return std::max(0.0, static_cast<double>(limit.rlim_cur) - used);
 }
 
+/// The folder, or the nearest one above it that is there.
+fs::path nearest_existing(const std::string& path) {
+  fs::path at = fs::absolute(path);
+  std::error_code failed;
+  while (!fs::exists(at, failed) && at.has_relative_path()) at = at.parent_path();
+  return at;
+}
+
 }  // namespace
 
 double available_memory_bytes() {
@@ -81,11 +94,30 @@ double available_memory_bytes() {
 }
 
 double free_disk_bytes(const std::string& path) {
-  fs::path at = fs::absolute(path);
   std::error_code failed;
-  while (!fs::exists(at, failed) && at.has_relative_path()) at = at.parent_path();
-  const auto space = fs::space(at, failed);
+  const auto space = fs::space(nearest_existing(path), failed);
   return failed ? unlimited : static_cast<double>(space.available);
+}
+
+std::string folder_problem(const std::string& path) {
+  const fs::path at = nearest_existing(path);
+  if (access(at.c_str(), W_OK | X_OK) != 0) return std::strerror(errno);
+  struct statvfs files {};
+  const bool counts_files = statvfs(at.c_str(), &files) == 0 && files.f_files > 0;
+  return counts_files && files.f_favail == 0
+             ? "its file system has no inodes left, that is, no more files fit"
+             : "";
+}
+
+std::string bytes_text(double bytes) {
+  constexpr double step = 1024;
+  constexpr std::array units{"bytes", "KiB", "MiB", "GiB", "TiB"};
+  std::size_t unit = 0;
+  while (bytes >= step && unit + 1 < units.size()) {
+    bytes /= step;
+    ++unit;
+  }
+  return fmt::format("{:.{}f} {}", bytes, unit == 0 ? 0 : 1, units[unit]);
 }
 
 int permitted_processors() {
@@ -116,8 +148,8 @@ void make_writable_folder(const std::string& path) {
     throw MachineError("cannot make the folder " + path + " (" + failed.message() +
                        "); choose another with --output");
   if (access(path.c_str(), W_OK | X_OK) != 0)
-    throw MachineError("cannot write into " + path +
-                       " (permission denied); choose another folder with --output");
+    throw MachineError("cannot write into " + path + " (" + std::strerror(errno) +
+                       "); choose another folder with --output");
 }
 
 }  // namespace sunload

@@ -15,6 +15,12 @@ inline constexpr double mib = 1024.0 * 1024, gib = 1024 * mib;  ///< [bytes]
 double available_memory_bytes();
 /// Free space of the file system that `path` (or its nearest existing parent) lies on.
 double free_disk_bytes(const std::string& path);
+/// Why nothing can be written into a folder (or its nearest existing parent), other than for want
+/// of bytes: it is read-only, forbidden, or its file system has no inodes for more files. Empty
+/// where something can.
+std::string folder_problem(const std::string& path);
+/// A count of bytes in words: "512 bytes", "29.5 GiB".
+std::string bytes_text(double bytes);
 /// Processors this process may run on: affinity and the control group's quota.
 int permitted_processors();
 /// Largest resident memory of this process so far [bytes].

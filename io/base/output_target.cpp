@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "geo/base/check.h"
+#include "io/base/machine.h"
 
 namespace sunload {
 namespace {
@@ -64,7 +65,13 @@ void write_all(int to, const char* bytes, std::size_t count, const std::string& 
 }  // namespace
 
 void throw_cannot_write(const std::string& path, int error_number) {
-  throw MachineError("cannot write " + path + ": " + std::strerror(error_number));
+  std::string why = std::strerror(error_number);
+  // The same number for bytes and for inodes.
+  std::error_code missing;
+  if (const fs::path folder = fs::path(path).parent_path();
+      error_number == ENOSPC && fs::is_directory(folder, missing))
+    if (const std::string problem = folder_problem(folder); !problem.empty()) why += ": " + problem;
+  throw MachineError("cannot write " + path + ": " + why);
 }
 
 OutputTarget output_target(const std::string& path) {

@@ -16,6 +16,7 @@
 #include "io/picture/sun_diagram.h"
 #include "io/plan/expected_error.h"
 #include "io/plan/planner.h"
+#include "io/plan/room.h"
 #include "io/plan/rules_of_study.h"
 #include "io/plan/time_words.h"
 #include "io/plan/variant_mesh.h"
@@ -259,6 +260,15 @@ class Meshes {
   decltype(Mesh::triangle_object) objects_;
 };
 
+/// A mesh that is larger than any could be is refused as `run` refuses it: for want of memory,
+/// where that is too little, and otherwise when it is made.
+void expect_meshable(const VariantPlan& plan) {
+  const SplitRules rules = split_rules(plan.study);
+  const WorkEstimate least = estimate_work(plan, least_patch_count(plan.built.scene, rules));
+  if (least.patches <= rules.max_patches) return;
+  if (const auto problem = memory_problem(least); !problem.empty()) throw MachineError(problem);
+}
+
 /// To the standard error: what was asked for goes to stdout.
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const auto& warning : warnings) tell("warning: " + warning);
@@ -273,14 +283,19 @@ int check_study(const std::string& path, const RunOptions& options, const CheckR
   nlohmann::ordered_json json;
   json["variants"] = nlohmann::ordered_json::array();
   std::size_t units = 0;
+  const std::string folder = results_folder(file, options);
   Problems problems;
   Planner planner;
   Meshes meshes(rules.mesh, options.progress);
   for (const auto& study : chosen_variants(file, options)) {
     try {
       const VariantPlan plan = planner.plan(study);
+      expect_meshable(plan);
       const VariantMesh& made = meshes.of(plan);
       const WorkEstimate work = estimate_work(plan, made.mesh->patch_count());
+      // A warning: the machine that runs it may be another.
+      for (const auto& problem : {memory_problem(work), disk_problem(work, folder)})
+        if (!problem.empty()) tell("warning: " + plan.study.variant + ": " + problem);
       units += plan.batches();
       json["variants"].push_back(as_json(plan, work, rules.mesh));
       json["batch_suns"] = plan.batch_suns();

@@ -13,6 +13,10 @@
 namespace sunload {
 namespace {
 
+/// Of sums over patches and intervals, relative to the light that comes in: some 10^7 terms of
+/// double precision.
+constexpr double rounding = 1e-9;
+
 /// Time sum of one term of the ledger [kWh, klm h]; 0 where the result lacks it.
 double ledger_kwh(const ResultReader& result, const std::string& term) {
   if (!result.has("power_" + term)) return 0;
@@ -38,7 +42,8 @@ std::string ledger_lines(const ResultReader& result, const std::string& label) {
   for (const char* term : {"absorbed", "transmitted", "escaped", "unshot"}) {
     const double energy = ledger_kwh(result, term);
     out += energy;
-    if (energy != 0)
+    // What is less is what the rounding of sums leaves of a difference.
+    if (std::abs(energy) > rounding * in)
       out_words += fmt::format("{}{} {:.5g}", out_words.empty() ? "" : " + ", term, energy);
   }
   if (in == 0 && out == 0) return info_line(label.c_str(), "none");

@@ -10,9 +10,9 @@
 #include <thread>
 
 #include "io/base/exit_code.h"
-#include "io/base/machine.h"
 #include "io/base/merge_lock.h"
 #include "io/plan/expected_error.h"
+#include "io/plan/room.h"
 #include "io/plan/rules_of_study.h"
 #include "io/plan/work_estimate.h"
 #include "io/result/energy_text.h"
@@ -27,17 +27,8 @@ namespace {
 
 /// Refuses work that cannot fit; `there`: bytes of finished work.
 void expect_room_for(const WorkEstimate& work, const std::string& folder, double there) {
-  if (const double left = available_memory_bytes(); work.memory_bytes > left)
-    throw MachineError(fmt::format(
-        "too little memory: about {:.1f} GiB are needed for {} patches, {:.1f} GiB are available; "
-        "use a larger mesh.max_edge_m, fewer lines_per_patch or a smaller batch_suns{}",
-        work.memory_bytes / gib, work.patches, left / gib,
-        work.samples > 0 ? ", and a larger power_per_sample_w or auto" : ""));
-  if (const double left = free_disk_bytes(folder); work.disk_bytes - there > left)
-    throw MachineError(fmt::format(
-        "too little disk space for {}: about {:.1f} GiB are needed, {:.1f} GiB are free; "
-        "choose another folder with --output, or fewer output.series",
-        folder, (work.disk_bytes - there) / gib, left / gib));
+  for (const auto& problem : {memory_problem(work), disk_problem(work, folder, there)})
+    if (!problem.empty()) throw MachineError(problem);
 }
 
 InputError of_another_state(const std::string& result, const char* hint) {

@@ -55,10 +55,10 @@ std::string counts_text(const VariantPlan& plan, const SampleCounts& counts) {
 /// The pilot, or counts that it chose, may need more than the least counts that `check` knows.
 void refuse_too_much(double memory_bytes) {
   if (const double left = available_memory_bytes(); memory_bytes > left)
-    throw MachineError(fmt::format(
-        "too little memory for the accuracy asked for: about {:.1f} GiB are needed, {:.1f} GiB are "
-        "available; use a smaller max_lines_per_patch or a larger error in accuracy",
-        memory_bytes / gib, left / gib));
+    throw MachineError(
+        fmt::format("too little memory for the accuracy asked for: about {} are needed, {} are "
+                    "available; use a smaller max_lines_per_patch or a larger error in accuracy",
+                    bytes_text(memory_bytes), bytes_text(left)));
 }
 
 }  // namespace

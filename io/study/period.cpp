@@ -101,7 +101,7 @@ void check_steps(YamlMap& map, double span_s, double step_min, double times,
                             span_s / seconds_per_minute, step_min),
                 "the last step would be cut", hint);
   } else if (steps * times > most_intervals) {
-    map.problem("step_min", fmt::format("{:.0f} intervals are too many", steps * times),
+    map.problem("step_min", fmt::format("{:.9g} intervals are too many", steps * times),
                 fmt::format("at most {:.0f}", most_intervals), "make the steps longer");
   }
 }

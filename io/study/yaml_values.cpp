@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "io/base/key_names.h"
 #include "io/study/yaml_map.h"
@@ -94,14 +95,24 @@ std::int64_t YamlMap::integer(const std::string& key, std::int64_t low, std::int
                               std::int64_t absent) {
   const YamlNode* node = ask(key);
   if (!node) return absent;
+  bool is_too_long = false;
   if (node->kind == Kind::text && node->style == YamlNode::Style::plain) {
     std::int64_t exact = 0;
     const char* const end = node->text.data() + node->text.size();
     const auto read = std::from_chars(node->text.data(), end, exact);
     if (read.ec == std::errc() && read.ptr == end && exact >= low && exact <= high) return exact;
+    is_too_long = read.ec == std::errc::result_out_of_range && read.ptr == end;
   }
-  const auto value = to_number(*node, key, {static_cast<double>(low), static_cast<double>(high)});
+  constexpr double any = std::numeric_limits<double>::max();
+  const auto value = to_number(*node, key, {-any, any});
   if (!value) return absent;
+  // With bounds to the last digit, which double does not have.
+  if (is_too_long || !(*value >= static_cast<double>(low) && *value <= static_cast<double>(high))) {
+    const std::string unit = unit_of_key(key);
+    problem(key, node->text + " is out of range",
+            fmt::format("must be from {} up to {}{}", low, high, unit.empty() ? "" : " " + unit));
+    return absent;
+  }
   if (*value != std::round(*value) || std::abs(*value) > largest_exact_integer) {
     problem(key, node->text + " is no whole number");
     return absent;

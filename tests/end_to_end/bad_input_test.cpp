@@ -291,6 +291,43 @@ TEST(MachineLimits, MorePatchesThanAnyMachineHolds) {
   EXPECT_EQ(ran.code, 3) << ran.err;
   expect_problems(ran, {"too little memory"});
   EXPECT_EQ(small.folder.content(), before);
+  const Ran check = program(small.folder, {"check", "square.yaml"});
+  EXPECT_EQ(check.code, 3) << check.err;
+  expect_problems(check, {"too little memory"});
+}
+
+TEST(MachineLimits, CheckWarnsOfWhatRunWouldRefuse) {
+  const Small small;
+  // A square of 2 GB of address space: the mesh is small, its lines are not.
+  small.spoil("lines_per_patch: 64", "lines_per_patch: 1000000");
+  Limits limits;
+  limits.memory_bytes = 2'000'000'000;
+  EXPECT_EQ(program(small.folder, {"run", "square.yaml", "--progress", "none"}, limits).code, 3);
+  const Ran check = program(small.folder, {"check", "square.yaml"}, limits);
+  EXPECT_EQ(check.code, 0) << check.err;
+  EXPECT_NE(check.err.find("warning: baseline: too little memory: about "), std::string::npos)
+      << check.err;
+  EXPECT_EQ(check.err.find(" 0.0 "), std::string::npos) << check.err;
+}
+
+TEST(MachineLimits, FoldersThatTakeNoFilesAreToldAsWhatTheyAre) {
+  const Small small;
+  small.folder.write("results/none", "");
+  const std::string disk = small.folder / "results";
+  const auto told = [&](unsigned long flags, const char* options, int files) {
+    EXPECT_EQ(::mount("tmpfs", disk.c_str(), "tmpfs", flags, options), 0);
+    for (int k = 0; k < files; ++k) small.folder.write("results/" + std::to_string(k), "");
+    const Ran ran = program(small.folder, {"run", "square.yaml", "--progress", "none"});
+    ::umount(disk.c_str());
+    EXPECT_EQ(ran.code, 3) << ran.err;
+    return ran.err;
+  };
+  if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "") != 0)
+    GTEST_SKIP() << "NOT RUN: mounting a tmpfs needs root";
+  ::umount(disk.c_str());
+  EXPECT_NE(told(MS_RDONLY, "", 0).find("Read-only file system"), std::string::npos);
+  EXPECT_NE(told(0, "nr_inodes=3", 2).find("no inodes left"), std::string::npos);
+  EXPECT_NE(told(0, "size=64k", 0).find("64.0 KiB are free"), std::string::npos);
 }
 
 #ifndef __SANITIZE_ADDRESS__  // which needs terabytes of address space itself

@@ -369,6 +369,9 @@ TEST(Study, ChecksTheTimes) {
   wrong("{days: [2026-06-21], step_min: 7}", "no whole number of steps of 7 minutes");
   wrong("{days: [2026-06-21], step_min: 0}", "out of range (must be above 0");
   wrong("{days: [2026-06-21], step_min: 1e-5}", "144000000 intervals are too many");
+  wrong("{days: [2026-06-21], step_min: 1e-300}", ": 1.44e+303 intervals are too many");
+  wrong("{start: 2026-06-21, end: 2026-06-22, step_min: 1e-300}",
+        ": 1.44e+303 intervals are too many");
   wrong("{days: [2026-06-21], end: 2026-06-22}", "period.end: does not go with `days`");
   wrong("{start: 2026-06-21}", "period.end is missing");
   wrong("{start: 2026-06-21, end: 2026-06-21}", "is not after `start`");

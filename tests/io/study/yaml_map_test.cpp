@@ -139,6 +139,13 @@ TEST(Yaml, ReadsWholeNumbersExactly) {
   EXPECT_EQ(read("1e3"), 1000);
   EXPECT_EQ(problems_of("n: 1.5", [](YamlMap& map) { map.integer("n", 0, 9, 0); }),
             Strings{"f.yaml:1:4: n: 1.5 is no whole number"});
+  for (const std::string text : {"-1", "9223372036854775808", "99999999999999999999999", "1e300"})
+    EXPECT_EQ(problems_of("n: " + text,
+                          [&](YamlMap& map) {
+                            map.integer("n", std::int64_t{0}, largest, std::int64_t{0});
+                          }),
+              Strings{"f.yaml:1:4: n: " + text +
+                      " is out of range (must be from 0 up to 9223372036854775807)"});
 }
 
 TEST(Yaml, NamesUnknownKeysWithTheNearest) {

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/plan/room.h"
+
+#include <fmt/format.h>
+
+#include "io/base/machine.h"
+
+namespace sunload {
+
+std::string memory_problem(const WorkEstimate& work) {
+  const double left = available_memory_bytes();
+  if (work.memory_bytes <= left) return {};
+  return fmt::format(
+      "too little memory: about {} are needed for {} patches, {} are available; "
+      "use a larger mesh.max_edge_m, fewer lines_per_patch or a smaller batch_suns{}",
+      bytes_text(work.memory_bytes), work.patches, bytes_text(left),
+      work.samples > 0 ? ", and a larger power_per_sample_w or auto" : "");
+}
+
+std::string disk_problem(const WorkEstimate& work, const std::string& folder,
+                         double finished_bytes) {
+  if (const auto problem = folder_problem(folder); !problem.empty())
+    return "cannot write into " + folder + ": " + problem + "; choose another folder with --output";
+  const double left = free_disk_bytes(folder), needed = work.disk_bytes - finished_bytes;
+  if (needed <= left) return {};
+  return fmt::format(
+      "too little disk space for {}: about {} are needed, {} are free; "
+      "choose another folder with --output, or fewer output.series",
+      folder, bytes_text(needed), bytes_text(left));
+}
+
+}  // namespace sunload

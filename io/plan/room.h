@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Whether this machine has room for a variant: what `run` refuses and `check` warns of.
+#pragma once
+
+#include <string>
+
+#include "io/plan/work_estimate.h"
+
+namespace sunload {
+
+/// Why memory does not do, and what to try; empty where it does.
+std::string memory_problem(const WorkEstimate& work);
+
+/// The same of the disk that results go to, `finished_bytes` of which are there already: it may
+/// also be read-only, or have no inodes for more files.
+std::string disk_problem(const WorkEstimate& work, const std::string& folder,
+                         double finished_bytes = 0);
+
+}  // namespace sunload
