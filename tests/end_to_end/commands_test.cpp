@@ -290,5 +290,28 @@ TEST(Commands, DamagedBatchIsNamedAndComputedAgain) {
   EXPECT_EQ(different_data(square.result(), square.folder / "first.h5"), Lines{});
 }
 
+/// A difference of sums is not 0 to the last digit: "unshot -7e-09" of kilowatt-hours is nothing.
+TEST(Commands, InfoLeavesOutWhatRoundingMakesOfTheLedger) {
+  const Square square;
+  ASSERT_EQ(square.run({"run"}).code, 0);
+  const auto unshot_of = [&](const std::string& watts) {
+    const Ran set = python(square.folder,
+                           "import h5py, sys\n"
+                           "with h5py.File(sys.argv[1], 'r+') as file:\n"
+                           "    file['power_unshot'][...] = float(sys.argv[2])\n",
+                           {square.result(), watts});
+    EXPECT_EQ(set.code, 0) << set.err;
+    const Ran info = program(square.folder, {"info", square.result()});
+    EXPECT_EQ(info.code, 0) << info.err;
+    const auto at = info.out.find("unshot");
+    return at == std::string::npos ? std::string()
+                                   : info.out.substr(at, info.out.find('\n', at) - at);
+  };
+  EXPECT_EQ(unshot_of("-1e-6"), "");
+  // 12 hours of them.
+  EXPECT_EQ(unshot_of("1000"), "unshot 12");
+  EXPECT_EQ(unshot_of("-1000"), "unshot -12");
+}
+
 }  // namespace
 }  // namespace sunload::test
