@@ -37,9 +37,9 @@ std::vector<double> flattened(const std::vector<Row>& rows) {
 
 void add_ledger(BatchWriter& writer, const BatchTally& tally, const std::string& prefix) {
   const std::size_t K = tally.intervals, R = tally.ledger_realization.size();
-  for (std::size_t t = 0; t <= term_count; ++t) {
-    const auto value = [&](const Ledger& l) { return t < term_count ? l.terms[t] : l.residual(); };
-    const std::string name = prefix + "power_" + (t < term_count ? term_names[t] : "residual");
+  for (std::size_t line = 0; line < ledger_line_count; ++line) {
+    const auto value = [&](const Ledger& l) { return ledger_line(l, line); };
+    const std::string name = prefix + "power_" + ledger_line_names[line];
     std::vector<double> power, errors;
     for (const auto& ledger : tally.ledger) power.push_back(value(ledger));
     writer.add({name, MergeRule::append, ArrayType::float64, {K}}, power.data());
@@ -54,11 +54,11 @@ void add_ledger(BatchWriter& writer, const BatchTally& tally, const std::string&
   }
   std::vector<double> energies;
   for (const auto& ledger : tally.ledger_realization) {
-    energies.insert(energies.end(), ledger.terms.begin(), ledger.terms.end());
-    energies.push_back(ledger.residual());
+    for (std::size_t line = 0; line < ledger_line_count; ++line)
+      energies.push_back(ledger_line(ledger, line));
   }
   writer.add(
-      {prefix + batch_array::ledger, MergeRule::sum, ArrayType::float64, {R, term_count + 1}},
+      {prefix + batch_array::ledger, MergeRule::sum, ArrayType::float64, {R, ledger_line_count}},
       energies.data());
   const std::array energy{tally.energy.in(), tally.energy.residual(), tally.energy.lost_at_backs};
   writer.add({prefix + batch_array::energy, MergeRule::sum, ArrayType::float64, {energy.size()}},
@@ -82,6 +82,13 @@ void add_received(BatchWriter& writer, const ReceiverTally& tally, std::size_t K
                tally.irradiance_se.data());
   writer.add({prefix + batch_array::exposure, MergeRule::sum, ArrayType::float64, {R, N}},
              flattened(tally.exposure_realization).data());
+  for (std::size_t p = 0; p < part_count; ++p)
+    if (!tally.part_realization[p].empty())
+      writer.add({prefix + part_exposure_name(static_cast<Part>(p)),
+                  MergeRule::sum,
+                  ArrayType::float64,
+                  {R, N}},
+                 flattened(tally.part_realization[p]).data());
   const std::vector<double> largest(tally.irradiance_max.begin(), tally.irradiance_max.end());
   writer.add({prefix + batch_array::maximum, MergeRule::maximum, ArrayType::float64, {N}},
              largest.data());
@@ -154,6 +161,10 @@ std::string series_name(Part part) {
 
 std::string sum_name(Part part) {
   return std::string("sum_") + part_names[static_cast<std::size_t>(part)];
+}
+
+std::string part_exposure_name(Part part) {
+  return batch_array::exposure + ("_" + std::string(part_names[static_cast<std::size_t>(part)]));
 }
 
 std::vector<double> work_values(const WorkDone& work) {

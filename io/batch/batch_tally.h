@@ -38,6 +38,8 @@ inline const std::string sensor_prefix = "sensor_";
 std::string series_name(Part part);
 /// Name of its time sum within a batch file: `sum_total`, `sum_direct`, …
 std::string sum_name(Part part);
+/// Name of the time sums of every realization of a part (not of `total`): "exposure_direct", …
+std::string part_exposure_name(Part part);
 
 /// Rays and seconds as one row of a batch file, and back.
 std::vector<double> work_values(const WorkDone& work);

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "io/plan/work_estimate.h"
+#include "solver/surface/ray_caster.h"
 
 namespace sunload {
 
@@ -30,6 +31,8 @@ int count_for(double factor, double tolerable) {
   return round_up(factor * factor / (tolerable * tolerable));
 }
 
+constexpr double tolerable_offset_m = 2e-3;
+
 /// An area that nine tenths of the patches exceed.
 double small_area(const Hierarchy& mesh) {
   std::vector<double> area = mesh.area();
@@ -45,6 +48,12 @@ double small_area(const Hierarchy& mesh) {
 std::vector<std::string> expected_error_warnings(const VariantPlan& plan, const Hierarchy& mesh) {
   const SolverStudy& s = plan.study.solver;
   std::vector<std::string> warnings;
+  if (const double offset_m = ray_offset_m(plan.built.scene.mesh); offset_m > tolerable_offset_m)
+    warnings.push_back(fmt::format(
+        "the scene is so wide that rays start {:.1f} mm off its surfaces (single precision of the "
+        "ray caster): shadows of what is smaller, and light within as much of edges and feet of "
+        "walls, are wrong; cut what is far away, or make it a line of far hills (site.horizon)",
+        offset_m * 1000));
   if (s.accuracy) return warnings;  // its pilot decides the counts
   constexpr double of_lines = 0.6, of_samples = 0.5;
   if (const double error = of_lines / std::sqrt(s.lines_per_patch); error > tolerable_of_lines)

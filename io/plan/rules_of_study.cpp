@@ -35,6 +35,7 @@ SolverRules solver_rules(const VariantPlan& plan) {
   const SolverStudy& s = study.solver;
   return {.bounces = s.bounces,
           .unshot = s.unshot,
+          .unfollowed = s.unfollowed,
           .lines_per_patch = s.lines_per_patch,
           .lines_of_patch = {},
           .direct_samples = s.direct_samples,

@@ -28,6 +28,16 @@ double ledger_kwh(const ResultReader& result, const std::string& term) {
   return energy / joules_per_kwh;
 }
 
+/// What was estimated of the light that is not followed; nothing where that was left.
+std::string estimated_line(const ResultReader& result, double in) {
+  const double estimated = ledger_kwh(result, "estimated");
+  if (estimated == 0) return {};
+  return info_line("",
+                   fmt::format("estimated {:.3g} ({:.2g} % of in): what surfaces receive of unshot "
+                               "light, part of the irradiance",
+                               estimated, in == 0 ? 0 : estimated / in * 100));
+}
+
 /// The ledger of what the reader shows; `label` names its first line.
 std::string ledger_lines(const ResultReader& result, const std::string& label) {
   const Quantity quantity = result.quantity();
@@ -64,7 +74,8 @@ std::string ledger_lines(const ResultReader& result, const std::string& label) {
   return info_line(label.c_str(), fmt::format("in {:.6g} = {}", in, in_words)) +
          info_line("", fmt::format("out {:.6g} = {}", out, out_words)) +
          info_line("", fmt::format("residual {:.3g}{} ({:.2g} % of in){}", residual, error,
-                                   in == 0 ? 0 : residual / in * 100, reuse));
+                                   in == 0 ? 0 : residual / in * 100, reuse)) +
+         estimated_line(result, in);
 }
 
 }  // namespace

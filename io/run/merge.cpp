@@ -57,6 +57,11 @@ void write_received(BandWriter& writer, const Totals& totals, const std::string&
     writer.write(prefix + name, 1, [&](const std::string& band) {
       return scaled(totals[band + sum], kwh_per_joule);
     });
+    const std::string exposure = prefix + part_exposure_name(static_cast<Part>(p));
+    if (totals.has(writer.first() + exposure))
+      writer.write(prefix + name + "_se", 1, [&](const std::string& band) {
+        return errors_of(scaled(totals[band + exposure], kwh_per_joule), N);
+      });
   }
   const auto of_realizations = [&](const std::string& band) {
     return scaled(totals[band + prefix + batch_array::exposure], kwh_per_joule);
@@ -97,11 +102,11 @@ void write_loads(BandWriter& writer, const Totals& totals, const ResultGeometry&
 }
 
 void write_ledger_errors(BandWriter& writer, const Totals& totals) {
-  for (std::size_t t = 0; t <= term_count; ++t) {
-    const std::string term = t < term_count ? term_names[t] : "residual";
-    writer.write("power_" + term + "_se", 1, [&](const std::string& band) {
+  for (std::size_t line = 0; line < ledger_line_count; ++line) {
+    const std::string name = ledger_line_names[line];
+    writer.write("power_" + name + "_se", 1, [&](const std::string& band) {
       const auto rows = scaled(totals[band + batch_array::ledger], kwh_per_joule);
-      return std::vector{errors_of(rows, term_count + 1)[t]};
+      return std::vector{errors_of(rows, ledger_line_count)[line]};
     });
   }
 }

@@ -43,7 +43,7 @@ double residual_reuse_bias_kwh(const Totals& totals, std::size_t realizations) {
   const auto& rows = totals[batch_array::ledger];
   double of_rows = 0;
   for (std::size_t r = 0; r < realizations; ++r)
-    of_rows += rows[r * (term_count + 1) + term_count] / static_cast<double>(realizations);
+    of_rows += rows[r * ledger_line_count + residual_line] / static_cast<double>(realizations);
   const double of_pooled = totals[batch_array::energy][1];
   return (of_rows - of_pooled) / static_cast<double>(realizations - 1) * kwh_per_joule;
 }

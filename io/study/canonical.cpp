@@ -229,14 +229,15 @@ json canonical(const MeshStudy& mesh) {
 json canonical(const SolverStudy& solver, LightColour colour) {
   // `isa` is left out: the instruction set in force is hashed apart, so that
   // pinning it finds the batches that `auto` computed on such a machine.
-  const auto& [transport, jacobi, power_per_sample_w, bands, bounces, unshot, lines_per_patch,
-               direct_samples, realizations, mirror_depth, batch_suns, isa, seed, accuracy,
-               max_lines_per_patch] = solver;
+  const auto& [transport, jacobi, power_per_sample_w, bands, bounces, unshot, unfollowed,
+               lines_per_patch, direct_samples, realizations, mirror_depth, batch_suns, isa, seed,
+               accuracy, max_lines_per_patch] = solver;
   json all{{"transport", word_of(transport)},
            {"jacobi", word_of(jacobi)},
            {"power_per_sample_w", maybe(power_per_sample_w)},
            {"bounces", bounces},
            {"unshot", unshot},
+           {"unfollowed", word_of(unfollowed)},
            {"lines_per_patch", lines_per_patch},
            {"direct_samples", direct_samples},
            {"realizations", realizations},

@@ -99,6 +99,7 @@ SolverStudy read_solver(YamlMap& map) {
   read_shooting(map, solver);
   solver.bounces = map.integer("bounces", 0, most_reflections, solver.bounces);
   solver.unshot = map.number("unshot", shares, solver.unshot);
+  solver.unfollowed = map.choice("unfollowed", solver.unfollowed);
   solver.lines_per_patch = map.integer("lines_per_patch", 1, most_lines, solver.lines_per_patch);
   solver.direct_samples = map.integer("direct_samples", 1, most_lines, solver.direct_samples);
   const int unread = map.has("realizations") ? 0 : solver.realizations;

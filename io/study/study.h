@@ -205,6 +205,7 @@ struct SolverStudy {
   Bands bands = Bands::broadband;
   int bounces = 5;
   double unshot = 1e-3;
+  Unfollowed unfollowed = Unfollowed::estimate;
   int lines_per_patch = 256;
   int direct_samples = 16;
   int realizations = 8;

@@ -57,6 +57,9 @@ inline Words<Quantity> words_of(Quantity) {
 inline Words<LightColour> words_of(LightColour) {
   return {{"sky", LightColour::sky}, {"white", LightColour::white}};
 }
+inline Words<Unfollowed> words_of(Unfollowed) {
+  return {{"estimate", Unfollowed::estimate}, {"leave", Unfollowed::leave}};
+}
 inline Words<Jacobi> words_of(Jacobi) {
   return {{"incremental", Jacobi::incremental}, {"regular", Jacobi::regular}};
 }

@@ -13,20 +13,6 @@ namespace {
 
 double ratio(double of_band, double broadband) { return broadband > 0 ? of_band / broadband : 1; }
 
-/// What a band has of the sky where its circumsolar part lies, relative to the broadband sky: of
-/// all bands 1 in the mean, so that the mean of the bands is broadband light line by line. Single
-/// cells of what is left for the lines may be below 0.
-double circumsolar_factor(const CircumsolarSky& part, const IntervalLight& broadband,
-                          const IntervalLight& of_band) {
-  if (!part.any()) return 1;
-  double band_sum = 0, sum = 0;
-  for (std::size_t c = 0; c < broadband.sky.size(); ++c) {
-    band_sum += of_band.sky[c] * part.radiance(c);
-    sum += broadband.sky[c] * part.radiance(c);
-  }
-  return ratio(band_sum, sum);
-}
-
 }  // namespace
 
 std::vector<IntervalLight> suns_in_band(std::span<const IntervalLight> suns, std::size_t band) {
@@ -42,14 +28,14 @@ std::vector<IntervalLight> suns_in_band(std::span<const IntervalLight> suns, std
   return of_band;
 }
 
-BandFactors band_factors(const BlockSources& broadband, std::span<const IntervalLight> of_band) {
+BandFactors band_factors(const BlockSources& broadband, std::span<const IntervalLight> of_band,
+                         std::size_t band) {
   BandFactors factors;
   factors.sun.fill(1);
   factors.circumsolar.fill(1);
   for (std::size_t k = 0; k < of_band.size(); ++k) {
     factors.sun[k] = ratio(of_band[k].dni, broadband.suns[k].dni);
-    factors.circumsolar[k] =
-        circumsolar_factor(broadband.circumsolar[k], broadband.suns[k], of_band[k]);
+    factors.circumsolar[k] = broadband.circumsolar[k].band_factor(band);
   }
   return factors;
 }
@@ -63,7 +49,7 @@ BlockSources sources_in_band(const BlockSources& broadband, std::span<const Inte
     if (!sources.circumsolar[k].any()) continue;
     for (std::size_t c = 0; c < of_band[k].sky.size(); ++c)
       sources.sky_of_lines[c * block_width + k] =
-          static_cast<float>(pi * (of_band[k].sky[c] - sources.circumsolar_radiance(k, c)));
+          static_cast<float>(pi * sources.radiance_for_lines(k, c));
   }
   return sources;
 }

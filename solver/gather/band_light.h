@@ -23,7 +23,8 @@ std::vector<IntervalLight> suns_in_band(std::span<const IntervalLight> suns, std
 struct BandFactors {
   std::array<double, block_width> sun, circumsolar;
 };
-BandFactors band_factors(const BlockSources& broadband, std::span<const IntervalLight> of_band);
+BandFactors band_factors(const BlockSources& broadband, std::span<const IntervalLight> of_band,
+                         std::size_t band);
 
 /// Sources of a block in one band; `of_band` must outlive them. The circumsolar part is the
 /// broadband one in one colour; what is left of the band's sky there stays with the lines.

@@ -7,6 +7,8 @@
 #include "geo/base/units.h"
 #include "solver/base/chunks.h"
 #include "solver/base/threads.h"
+#include "solver/gather/unfollowed.h"
+#include "solver/mesh/push_pull.h"
 
 namespace sunload {
 
@@ -23,11 +25,10 @@ BlockSources::BlockSources(std::span<const IntervalLight> block, std::size_t sky
 
 void BlockSources::split_sky(const SkyGrid& grid) {
   for (std::size_t k = 0; k < suns.size(); ++k) {
-    circumsolar.emplace_back(grid, suns[k].sky, suns[k].direction);
+    circumsolar.emplace_back(grid, suns[k]);
     if (!circumsolar[k].any()) continue;
     for (std::size_t c = 0; c < suns[k].sky.size(); ++c)
-      sky_of_lines[c * block_width + k] =
-          static_cast<float>(pi * (suns[k].sky[c] - circumsolar[k].radiance(c)));
+      sky_of_lines[c * block_width + k] = static_cast<float>(pi * radiance_for_lines(k, c));
   }
 }
 
@@ -62,7 +63,7 @@ BlockLight unreflected_light(const LineSet& lines, const PatchOptics& optics,
 
 BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                        const BlockSources& sources, RayColumns rays,
-                       const std::vector<double>& parallel, int bounces) {
+                       const std::vector<double>& parallel, const BounceRules& rules) {
   BlockLight light = unreflected_light(lines, optics, sources, std::move(rays), parallel);
   Columns base = columns(optics.diffuse.size());
   parallel_for(
@@ -74,10 +75,27 @@ BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchO
         }
       },
       receivers_per_chunk);
-  Reflected reflected = reflect(mesh, lines, optics, base, light.reflected, bounces);
+  Reflected reflected = reflect(mesh, lines, optics, base, light.reflected, rules.bounces);
+  if (!rules.beyond.empty()) light.estimated = unfollowed(reflected, rules.beyond);
   light.reflected = std::move(reflected.irradiance);
   light.gathered_radiosity = std::move(reflected.gathered_radiosity);
+  for (std::size_t at = 0; at < light.estimated.size(); ++at)
+    light.reflected[at] += light.estimated[at];
   return light;
+}
+
+Columns seen_radiosity(const Hierarchy& mesh, const PatchOptics& optics, BlockLight& light) {
+  if (light.estimated.empty()) return std::move(light.gathered_radiosity);
+  Columns radiosity = columns(mesh.element_count());
+  parallel_for(
+      optics.diffuse.size(),
+      [&](std::size_t i) {
+        for (std::size_t k = 0; k < block_width; ++k)
+          radiosity[i * block_width + k] = optics.diffuse[i] * light.total(i, k);
+      },
+      receivers_per_chunk);
+  pull_up(mesh, radiosity);
+  return radiosity;
 }
 
 std::vector<Ledger> block_ledger(const LineSet& lines, const PatchOptics& optics,
@@ -92,6 +110,8 @@ std::vector<Ledger> block_ledger(const LineSet& lines, const PatchOptics& optics
     for (std::size_t i = begin; i < end; ++i)
       for (std::size_t k = 0; k < suns; ++k) {
         const std::size_t at = i * block_width + k;
+        const double estimated =
+            light.estimated.empty() ? 0 : static_cast<double>(light.estimated[at]);
         part[k] += ledger_of_patch(
             {.area = area[i],
              .diffuse = static_cast<double>(optics.diffuse[i]),
@@ -101,8 +121,9 @@ std::vector<Ledger> block_ledger(const LineSet& lines, const PatchOptics& optics
              .direct = static_cast<double>(light.direct[at]),
              .sky = static_cast<double>(light.sky[at]),
              .ground_exitance = static_cast<double>(sources.ground_exitance[k]),
-             .total = static_cast<double>(light.total(i, k)),
-             .gathered_radiosity = static_cast<double>(light.gathered_radiosity[at])},
+             .total = static_cast<double>(light.total(i, k)) - estimated,
+             .gathered_radiosity = static_cast<double>(light.gathered_radiosity[at]),
+             .estimated = estimated},
             lines.ends[i]);
       }
   });

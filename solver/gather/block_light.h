@@ -3,6 +3,7 @@
 /// Light of one block of suns on one set of lines: light iteration and Jacobi.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -27,9 +28,10 @@ struct BlockSources {
   std::vector<CircumsolarSky> circumsolar;  ///< per sun, after split_sky
   /// Multiple of it that shines: 1, or of a band.
   std::array<double, block_width> circumsolar_factor;
-  /// Radiance of a cell that the lines do not take [W m-2 sr-1].
-  double circumsolar_radiance(std::size_t k, std::size_t cell) const {
-    return circumsolar_factor[k] * circumsolar[k].radiance(cell);
+  /// Radiance of a cell that the lines take [W m-2 sr-1], after split_sky.
+  double radiance_for_lines(std::size_t k, std::size_t cell) const {
+    const double taken = circumsolar_factor[k] * circumsolar[k].radiance(cell);
+    return std::max(0.0, suns[k].sky[cell] - taken);  // below 0 by a rounding only
   }
   float ground_exitance[block_width] = {};
 };
@@ -37,7 +39,8 @@ struct BlockSources {
 /// Irradiance of a block by parts, [N][block] W m-2.
 struct BlockLight {
   Columns direct, sky, mirror, reflected;
-  Columns gathered_radiosity;  ///< what patches reflected and others gathered last
+  Columns gathered_radiosity;  ///< radiosity gathered last
+  Columns estimated;           ///< part of `reflected` that bounces do not follow; empty: none
   std::vector<float> lamps;    ///< [N], the same for all suns
 
   float total(std::size_t patch, std::size_t k) const {
@@ -53,10 +56,14 @@ BlockLight unreflected_light(const LineSet& lines, const PatchOptics& optics,
                              const BlockSources& sources, RayColumns rays,
                              const std::vector<double>& parallel);
 
-/// The same, and what patches reflect 1 … bounces times.
+/// The same, and what patches reflect.
 BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                        const BlockSources& sources, RayColumns rays,
-                       const std::vector<double>& parallel, int bounces);
+                       const std::vector<double>& parallel, const BounceRules& rules);
+
+/// Diffusely reflected radiosity of all elements as sensors see it: what was gathered last, or
+/// where the light beyond is estimated, of all light. `followed` is used up.
+Columns seen_radiosity(const Hierarchy& mesh, const PatchOptics& optics, BlockLight& light);
 
 /// Ledger of every sun of the block [W], but for the sun's light sent on by mirrors.
 std::vector<Ledger> block_ledger(const LineSet& lines, const PatchOptics& optics,

@@ -11,6 +11,13 @@
 
 namespace sunload {
 
+namespace {
+
+/// No estimator adds a term below 0.
+bool is_light(float irradiance) { return irradiance >= 0 && std::isfinite(irradiance); }
+
+}  // namespace
+
 void store_received(const BlockLight& light, std::span<const IntervalLight> block,
                     std::size_t first_row, const Columns& sunlit, ReceiverTally& tally) {
   const std::size_t receivers = tally.sunlit_s.size();
@@ -26,7 +33,10 @@ void store_received(const BlockLight& light, std::span<const IntervalLight> bloc
         for (std::size_t k = 0; k < block.size(); ++k) {
           const std::size_t at = i * block_width + k;
           const float total = light.total(i, k);
-          SUNLOAD_EXPECT(std::isfinite(total), "light that is a number");
+          SUNLOAD_EXPECT(is_light(total) && is_light(light.direct[at]) && is_light(light.sky[at]) &&
+                             is_light(light.mirror[at]) && is_light(light.lamps[i]) &&
+                             is_light(light.reflected[at]),
+                         "light that is a number and not below 0");
           put(Part::total, i, k, total);
           put(Part::direct, i, k, light.direct[at]);
           put(Part::sky, i, k, light.sky[at]);

@@ -53,7 +53,7 @@ void gather(const LinkTable& links, const std::vector<double>& source, std::vect
 
 Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                   const Columns& base, const Columns& ground, int bounces) {
-  Reflected out{ground, columns(mesh.element_count())};
+  Reflected out{ground, columns(mesh.element_count()), {}};
   for (int b = 1; b <= bounces; ++b) {
     parallel_for(
         optics.diffuse.size(),
@@ -63,6 +63,7 @@ Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics
         },
         LinkTable::rows_per_block);
     pull_up(mesh, out.gathered_radiosity);
+    out.before = std::move(out.irradiance);
     out.irradiance = ground;
     gather(lines.patches, out.gathered_radiosity, out.irradiance, Into::add);
   }
@@ -72,12 +73,13 @@ Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics
 ReflectedExposure reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                           const std::vector<double>& base, const std::vector<double>& ground,
                           int bounces) {
-  ReflectedExposure out{ground, std::vector<double>(mesh.element_count(), 0)};
+  ReflectedExposure out{ground, std::vector<double>(mesh.element_count(), 0), {}};
   for (int b = 1; b <= bounces; ++b) {
     for (std::size_t i = 0; i < base.size(); ++i)
       out.gathered_radiosity[i] =
           static_cast<double>(optics.diffuse[i]) * (base[i] + out.irradiance[i]);
     pull_up(mesh, out.gathered_radiosity);
+    out.before = std::move(out.irradiance);
     out.irradiance = ground;
     gather(lines.patches, out.gathered_radiosity, out.irradiance, Into::add);
   }

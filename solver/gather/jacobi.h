@@ -6,7 +6,8 @@
 ///
 /// with G the links of the lines (an estimate of the form factors) and E_0
 /// everything that arrives without diffuse reflection. Light reflected
-/// diffusely 1 … bounces times is followed; rho (E^(n) - E^(n-1)) is left.
+/// diffusely 1 … bounces times is followed; rho (E^(n) - E^(n-1)) is left. What that
+/// brings, E^(∞) - E^(n), can be estimated (solver/gather/unfollowed.h).
 /// Reusing the lines in every iteration is unbiased for two transports and
 /// biased by O(1/lines) after (Bekaert 1999; docs/developer/method.md, Gathering).
 #pragma once
@@ -26,10 +27,18 @@ void gather(const LinkTable& links, const Columns& source, Columns& out, Into in
 void gather(const LinkTable& links, const std::vector<double>& source, std::vector<double>& out,
             Into into);
 
+/// How far diffuse reflections are followed, and what the rest is estimated by: the light beyond
+/// the last bounce, of every patch (solver/gather/unfollowed.h); empty: it is left.
+struct BounceRules {
+  int bounces;
+  const std::vector<float>& beyond;
+};
+
 /// Diffusely reflected irradiance of a block of suns.
 struct Reflected {
   Columns irradiance;  ///< [N][block]: everything after a diffuse reflection, and the far ground
-  Columns gathered_radiosity;  ///< [elements][block]: rho E^(n-1), gathered last
+  Columns gathered_radiosity;  ///< [elements][block]: radiosity rho E^(n-1) that was gathered last
+  Columns before;              ///< `irradiance` one bounce earlier; empty without a bounce
 };
 /// base: irradiance that arrives without diffuse reflection (direct, sky, mirror,
 /// lamps); ground: that of the far ground.
@@ -38,6 +47,7 @@ Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics
 
 struct ReflectedExposure {
   std::vector<double> irradiance, gathered_radiosity;
+  std::vector<double> before;
 };
 /// The same for time-integrated irradiance of one realization [J m-2].
 ReflectedExposure reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,

@@ -17,8 +17,9 @@ struct PatchLight {
   double emission = 0;            ///< exitance of an emitter
   double direct = 0, sky = 0;     ///< irradiance straight from sun and sky
   double ground_exitance = 0;     ///< of the far ground
-  double total = 0;               ///< irradiance in all
-  double gathered_radiosity = 0;  ///< reflected, that others gathered last
+  double total = 0;               ///< irradiance in all, but for what is estimated
+  double gathered_radiosity = 0;  ///< reflected radiosity that was gathered last
+  double estimated = 0;           ///< irradiance by light that is not followed
 };
 
 /// Terms of one patch; every one from its own estimate, none by difference:
@@ -35,6 +36,7 @@ inline Ledger ledger_of_patch(const PatchLight& p, const LineEnds& ends) {
   ledger[Term::emitted] = p.area * p.emission;
   ledger[Term::absorbed] = p.area * p.absorbed * p.total;
   ledger[Term::unshot] = p.area * (p.diffuse * p.total - p.gathered_radiosity);
+  ledger.estimated = p.area * p.estimated;
   return booked(scaled(in_double(ends.fate), sent), ledger);
 }
 

@@ -6,9 +6,9 @@ namespace sunload {
 
 BlockLight sensor_light(const LineSet& lines, const PatchOptics& optics,
                         const BlockSources& sources, RayColumns rays,
-                        const std::vector<double>& parallel, const Columns& gathered_radiosity) {
+                        const std::vector<double>& parallel, const Columns& radiosity) {
   BlockLight light = unreflected_light(lines, optics, sources, std::move(rays), parallel);
-  gather(lines.patches, gathered_radiosity, light.reflected, Into::add);
+  gather(lines.patches, radiosity, light.reflected, Into::add);
   return light;
 }
 

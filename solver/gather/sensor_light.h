@@ -3,7 +3,7 @@
 /// Light on sensors: lines and shadow rays of points, on the light of a solved scene.
 ///
 /// A sensor is a row of lines like a patch, but all of its lines start at one point
-/// and none of its light goes on. With the patches' radiosity B that was gathered last,
+/// and none of its light goes on. With the patches' radiosity B (seen_radiosity),
 ///
 ///     E = E_direct + E_sky + E_mirror + E_lamps + Σ_links w B_target + w_ground B_ground
 ///
@@ -16,10 +16,9 @@
 
 namespace sunload {
 
-/// Light of a block on the rows of `lines`, whose targets are patches of which
-/// `gathered_radiosity` was gathered last.
+/// Light of a block on the rows of `lines`, whose targets are elements of that radiosity.
 BlockLight sensor_light(const LineSet& lines, const PatchOptics& optics,
                         const BlockSources& sources, RayColumns rays,
-                        const std::vector<double>& parallel, const Columns& gathered_radiosity);
+                        const std::vector<double>& parallel, const Columns& radiosity);
 
 }  // namespace sunload

@@ -19,7 +19,7 @@ void TimeSums::add_sources(const BlockSources& sources) {
     const IntervalLight& sun = sources.suns[k];
     for (std::size_t c = 0; c < sun.sky.size(); ++c) {
       sky[c] += pi * sun.sky[c] * sun.length_s;
-      sky_of_lines[c] += pi * (sun.sky[c] - sources.circumsolar_radiance(k, c)) * sun.length_s;
+      sky_of_lines[c] += pi * sources.radiance_for_lines(k, c) * sun.length_s;
     }
     ground += sun.ground_exitance * sun.length_s;
     length_s += sun.length_s;
@@ -30,15 +30,15 @@ FirstExposure first_exposure(const LineSet& lines, const PatchOptics& optics, co
                              const ExposureByRays& by_rays) {
   const std::size_t rows = lines.ends.size();
   const auto& [direct, by_mirror, circumsolar, parallel] = by_rays;
-  FirstExposure first{std::vector<double>(rows, 0), std::vector<double>(rows, 0),
-                      std::vector<double>(rows, 0)};
+  const std::vector<double> zeros(rows, 0);
+  FirstExposure first{zeros, by_mirror, zeros, zeros, zeros};
   gather(lines.sky, circumsolar.empty() ? sums.sky : sums.sky_of_lines, first.sky, Into::replace);
-  if (optics.any_mirror) gather(lines.sky_by_mirror, sums.sky, first.base, Into::add);
+  if (optics.any_mirror) gather(lines.sky_by_mirror, sums.sky, first.mirror, Into::add);
   for (const auto* lamps : {&lines.lamps, &parallel})
-    for (std::size_t i = 0; i < lamps->size(); ++i) first.base[i] += (*lamps)[i] * sums.length_s;
+    for (std::size_t i = 0; i < lamps->size(); ++i) first.lamps[i] += (*lamps)[i] * sums.length_s;
   for (std::size_t i = 0; i < circumsolar.size(); ++i) first.sky[i] += circumsolar[i];
   for (std::size_t i = 0; i < rows; ++i) {
-    first.base[i] += direct[i] + by_mirror[i] + first.sky[i];
+    first.base[i] = direct[i] + first.sky[i] + first.mirror[i] + first.lamps[i];
     first.ground[i] =
         static_cast<double>(lines.ends[i].ground + lines.ends[i].ground_by_mirror) * sums.ground;
   }

@@ -37,7 +37,8 @@ struct ExposureByRays {
 
 /// Time-integrated irradiance of one realization before any diffuse reflection [J m-2].
 struct FirstExposure {
-  std::vector<double> sky, base, ground;  ///< straight from the sky; all but ground; far ground
+  std::vector<double> sky, mirror, lamps;  ///< straight from the sky; by mirrors; of emitters
+  std::vector<double> base, ground;        ///< all but the far ground; far ground
 };
 FirstExposure first_exposure(const LineSet& lines, const PatchOptics& optics, const TimeSums& sums,
                              const ExposureByRays& by_rays);

@@ -19,12 +19,19 @@ double Ledger::out() const {
 Ledger& Ledger::operator+=(const Ledger& other) {
   for (std::size_t t = 0; t < term_count; ++t) terms[t] += other.terms[t];
   lost_at_backs += other.lost_at_backs;
+  estimated += other.estimated;
   return *this;
+}
+
+double ledger_line(const Ledger& ledger, std::size_t line) {
+  if (line < term_count) return ledger.terms[line];
+  return line == residual_line ? ledger.residual() : ledger.estimated;
 }
 
 Ledger scaled(Ledger ledger, double factor) {
   for (auto& term : ledger.terms) term *= factor;
   ledger.lost_at_backs *= factor;
+  ledger.estimated *= factor;
   return ledger;
 }
 
@@ -46,6 +53,8 @@ void make_room(ReceiverTally& tally, std::size_t receivers, const TallyShape& sh
     if (!shape.parts[p]) continue;
     tally.irradiance[p].assign(values, 0);
     tally.exposure[p].assign(receivers, 0);
+    if (static_cast<Part>(p) != Part::total)
+      tally.part_realization[p].assign(shape.realizations, std::vector<double>(receivers, 0));
   }
   tally.exposure_realization.assign(shape.realizations, std::vector<double>(receivers, 0));
   tally.sunlit_s.assign(receivers, 0);

@@ -33,12 +33,11 @@ enum class Term : std::uint8_t {
   unshot
 };
 inline constexpr std::size_t term_count = 8;
-inline constexpr std::array<const char*, term_count> term_names{
-    "sun", "sky", "ground", "emitted", "absorbed", "transmitted", "escaped", "unshot"};
 
 struct Ledger {
   std::array<double, term_count> terms{};  ///< W, or J when integrated over time
   double lost_at_backs = 0;                ///< part of `absorbed`: met backs of one-sided surfaces
+  double estimated = 0;  ///< what patches receive of light that is not followed: beside the terms
 
   double& operator[](Term t) { return terms[static_cast<std::size_t>(t)]; }
   double operator[](Term t) const { return terms[static_cast<std::size_t>(t)]; }
@@ -48,6 +47,15 @@ struct Ledger {
   Ledger& operator+=(const Ledger& other);
 };
 Ledger scaled(Ledger ledger, double factor);
+
+/// What is told of a ledger, line by line: its terms, the residual, and what is estimated.
+inline constexpr std::size_t ledger_line_count = term_count + 2;
+inline constexpr std::array<const char*, ledger_line_count> ledger_line_names{
+    "sun",         "sky",     "ground", "emitted",  "absorbed",
+    "transmitted", "escaped", "unshot", "residual", "estimated"};
+inline constexpr std::size_t residual_line = term_count;
+double ledger_line(const Ledger& ledger, std::size_t line);
+
 /// `ledger` with power [W] that ended so: what met backs is absorbed, what was cut is unshot.
 Ledger booked(const Fate<double>& fate, Ledger ledger = {});
 
@@ -58,8 +66,10 @@ struct ReceiverTally {
   std::vector<float> irradiance_se;                       ///< [K][N], if asked for
   std::array<std::vector<double>, part_count> exposure;   ///< [N] time sum of the series
   std::vector<std::vector<double>> exposure_realization;  ///< [R][N]
-  std::vector<double> sunlit_s;                           ///< [N]
-  std::vector<float> irradiance_max;                      ///< [N]
+  /// The same of the parts but `total`.
+  std::array<std::vector<std::vector<double>>, part_count> part_realization;
+  std::vector<double> sunlit_s;       ///< [N]
+  std::vector<float> irradiance_max;  ///< [N]
 };
 
 /// Exposures of every realization by what their errors come from, [R][N] J m-2. What they leave of
@@ -82,6 +92,12 @@ struct ErrorsBySource {
 
 /// Standard errors of totals alone, or of every interval too.
 enum class Errors { totals, instants };
+
+/// The time sums of one realization's parts, where the tally has them.
+inline std::vector<double>* part_of_realization(ReceiverTally& tally, Part part, std::size_t r) {
+  auto& of_part = tally.part_realization[static_cast<std::size_t>(part)];
+  return of_part.empty() ? nullptr : &of_part[r];
+}
 
 /// Results of consecutive intervals: of the patches, of sensors, of the scene [J].
 struct BatchTally : ReceiverTally {

@@ -54,11 +54,13 @@ DoubleColumns ground_exitance(const BlockSources& sources) {
 
 Shooter::Shooter(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
                  const SunSampler& sampler, const SkyGrid& grid, const PatchOptics& optics,
-                 const Lines& lines, const ParallelLight& parallel, const LineRules& line_rules,
+                 const Lines& lines, const ParallelLight& parallel,
+                 const std::vector<float>& beyond, const LineRules& line_rules,
                  const ShootingRules& rules)
     : hierarchy_(hierarchy),
       caster_(caster),
       lines_(lines),
+      beyond_(beyond),
       line_rules_(line_rules),
       rules_(rules),
       chain_(scene, hierarchy, caster, line_rules.mirror_depth, line_rules.largest_link),
@@ -232,6 +234,18 @@ void Shooter::add_parallel(const ParallelLight& parallel, const PatchOptics& opt
   }
 }
 
+DoubleColumns Shooter::light_beyond_last(const DoubleColumns& last) const {
+  DoubleColumns estimated(last.size());
+  parallel_for(
+      diffuse_.size(),
+      [&](std::size_t i) {
+        for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k)
+          estimated[k] = last[k] * static_cast<double>(beyond_[i]);
+      },
+      receivers_per_chunk);
+  return estimated;
+}
+
 DoubleColumns Shooter::reflected_power(const DoubleColumns& received) const {
   DoubleColumns power(received.size());
   parallel_for(
@@ -246,7 +260,7 @@ DoubleColumns Shooter::reflected_power(const DoubleColumns& received) const {
 
 Shooter::Reflected Shooter::reflect(const DoubleColumns& first, std::size_t realization,
                                     std::uint32_t sun) const {
-  Reflected out{double_columns(diffuse_.size()), double_columns(diffuse_.size()), {}};
+  Reflected out{double_columns(diffuse_.size()), double_columns(diffuse_.size()), {}, {}};
   DoubleColumns power = reflected_power(first);
   const SunTotals first_total = total_power(power);
   SunTotals total = first_total, sent{};
@@ -266,6 +280,7 @@ Shooter::Reflected Shooter::reflect(const DoubleColumns& first, std::size_t real
       power = reflected_power(shot.irradiance);
       add(out.irradiance, shot.irradiance);
       out.fates += shot.fates;
+      if (!beyond_.empty()) out.estimated = light_beyond_last(shot.irradiance);
     } else {
       sent = total;
       out.shot_radiosity = std::move(power);
@@ -369,6 +384,8 @@ ShotLight Shooter::light(std::size_t realization, const BlockSources& sources,
   Reflected reflected = reflect(first, realization, sources.suns.front().number);
   light.reflected = std::move(reflected.irradiance);
   light.shot_radiosity = std::move(reflected.shot_radiosity);
+  light.estimated = std::move(reflected.estimated);
+  if (!light.estimated.empty()) add(light.reflected, light.estimated);
   if (light.by_source) light.by_source->shot = light.reflected;
   add(light.reflected, ground);
   fates += reflected.fates;
@@ -384,6 +401,8 @@ ShotLight Shooter::light(std::size_t realization, const BlockSources& sources,
     fate.cut += reflected.unshot[k];
     fate += emitters.fate;
     ledger += booked(fate);
+    for (std::size_t i = 0; i < patches && !light.estimated.empty(); ++i)
+      ledger.estimated += hierarchy_.area()[i] * light.estimated[i * block_width + k];
   }
   return light;
 }

@@ -49,7 +49,8 @@ struct ShootingRules {
 /// Light of one realization of a block, [N][block] W m-2.
 struct ShotLight {
   DoubleColumns direct, sky, mirror, reflected;
-  DoubleColumns shot_radiosity;
+  DoubleColumns shot_radiosity;  ///< radiosity that was shot
+  DoubleColumns estimated;       ///< part of `reflected` that bounces do not follow; empty: none
   const std::vector<double>* lamps = nullptr;  ///< [N], the same for all suns
   std::array<Ledger, block_width> ledger;      ///< W
   std::uint64_t samples = 0, rays = 0;         ///< shot; cast for them, chains included
@@ -68,11 +69,12 @@ struct ShotLight {
 class Shooter {
  public:
   /// Sends on what mirrors receive from sky and ground, and shoots the emitters.
-  /// `lines` are those of trace_lines by `line_rules`; `parallel` is with what mirrors send on.
+  /// `lines` are those of trace_lines by `line_rules`; `parallel` is with what mirrors send on;
+  /// `beyond`: light_beyond, or empty.
   Shooter(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
           const SunSampler& sampler, const SkyGrid& grid, const PatchOptics& optics,
-          const Lines& lines, const ParallelLight& parallel, const LineRules& line_rules,
-          const ShootingRules& rules);
+          const Lines& lines, const ParallelLight& parallel, const std::vector<float>& beyond,
+          const LineRules& line_rules, const ShootingRules& rules);
 
   /// The sun's light that mirrors send on, for all realizations of a block at once.
   FirstMirrored::SentSuns send_sun(std::span<const IntervalLight> block) const;
@@ -102,7 +104,8 @@ class Shooter {
   };
   struct Reflected {
     DoubleColumns irradiance;
-    DoubleColumns shot_radiosity;
+    DoubleColumns shot_radiosity;  ///< radiosity that was shot
+    DoubleColumns estimated;       ///< irradiance beyond the last bounce; empty: none
     SunFates fates;
     SunTotals unshot{};
     std::uint64_t samples = 0, rays = 0;
@@ -113,6 +116,7 @@ class Shooter {
   void shoot_emitters();
   void add_parallel(const ParallelLight& parallel, const PatchOptics& optics);
   Reflected reflect(const DoubleColumns& first, std::size_t realization, std::uint32_t sun) const;
+  DoubleColumns light_beyond_last(const DoubleColumns& last) const;
   DoubleColumns reflected_power(const DoubleColumns& received) const;
   double wanted_samples(const SunTotals& power, const SunTotals& first) const;
   SunFates add_first_light(ShotLight& light, DoubleColumns& ground, std::size_t realization,
@@ -123,6 +127,7 @@ class Shooter {
   const Hierarchy& hierarchy_;
   const RayCaster& caster_;
   const Lines& lines_;
+  const std::vector<float>& beyond_;
   LineRules line_rules_;
   ShootingRules rules_;
   LightChain chain_;

@@ -66,6 +66,8 @@ double largest_coordinate(const Mesh& mesh) {
 
 }  // namespace
 
+double ray_offset_m(const Mesh& mesh) { return offset_ulps * float_ulp * largest_coordinate(mesh); }
+
 std::string usable_isa(const std::string& wanted) {
   if (wanted != "auto") {
     if (wanted != "sse4.2" && wanted != "avx2" && wanted != "avx512")
@@ -133,9 +135,7 @@ void let_pass(const RTCFilterFunctionNArguments* hits) {
 }  // namespace
 
 RayCaster::RayCaster(const Mesh& mesh, const std::string& isa, Screens screens)
-    : embree_(std::make_unique<Embree>()),
-      isa_(usable_isa(isa)),
-      offset_m_(offset_ulps * float_ulp * largest_coordinate(mesh)) {
+    : embree_(std::make_unique<Embree>()), isa_(usable_isa(isa)), offset_m_(ray_offset_m(mesh)) {
   embree_->device = rtcNewDevice(embree_config(isa_, thread_count()).c_str());
   // The instruction set was checked: what is left to fail is memory for threads and tables.
   if (!embree_->device)

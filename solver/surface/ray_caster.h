@@ -80,6 +80,11 @@ struct PacketHits {
 /// this processor. Throws InputError where the processor lacks it.
 std::string usable_isa(const std::string& wanted);
 
+/// Distance along the normal that ray origins in a scene keep from their surfaces [m]: above the
+/// rounding to single precision of its largest coordinate. What is closer to a surface than that,
+/// or to the foot of a wall, is not seen right.
+double ray_offset_m(const Mesh& mesh);
+
 class RayCaster {
  public:
   /// isa: auto | sse4.2 | avx2 | avx512. Throws InputError where the processor
@@ -92,8 +97,7 @@ class RayCaster {
 
   /// The instruction set in use, as `solver.isa` would name it.
   const std::string& isa() const { return isa_; }
-  /// Distance along the normal that a ray origin keeps from its surface [m]:
-  /// above the rounding of coordinates and of points interpolated from them.
+  /// `ray_offset_m` of its mesh.
   double offset_m() const { return offset_m_; }
 
   /// First hit of one ray.

@@ -65,7 +65,7 @@ std::uint64_t add_circumsolar(const TracedScene& traced, const BlockSources& sou
   if (!any_circumsolar(sources.circumsolar)) return 0;
   rays.pooled.circumsolar = columns(traced.patches.count());
   return circumsolar_light(
-      traced.caster, traced.patches.sampler, sources.suns, sources.circumsolar, rays.sunlit,
+      traced.caster, traced.patches.sampler, sources.suns, sources.circumsolar,
       sink(traced, rays.pooled.circumsolar, &sums.circumsolar, rays.of_realizations.circumsolar));
 }
 

@@ -18,6 +18,8 @@ struct SolverRules {
   int bounces = 5;  ///< light reflected diffusely 1 … bounces times is followed
   /// Fewer bounces (and mirrors of the sun) where less than this is left.
   double unshot = 1e-3;
+  /// Whether the light that bounces do not follow is estimated and added (Unfollowed).
+  Unfollowed unfollowed = Unfollowed::estimate;
   int lines_per_patch = 256;             ///< over all realizations
   std::vector<int> lines_of_patch = {};  ///< if they differ; sensors have lines_per_patch
   int direct_samples = 16;               ///< per patch and sun, over all realizations

@@ -8,6 +8,7 @@
 #include "solver/base/stopwatch.h"
 #include "solver/gather/guide.h"
 #include "solver/gather/jacobi.h"
+#include "solver/gather/unfollowed.h"
 #include "solver/lines/sensor_lines.h"
 
 namespace sunload {
@@ -63,6 +64,19 @@ int bounces_of_bands(const TracedScene& traced) {
     bounces = std::max(bounces, bounces_needed(*traced.mesh, traced.patches.lines.pooled, optics,
                                                traced.rules.bounces, traced.rules.unshot));
   return bounces;
+}
+
+/// Of every band, or nothing where that light is left out. Regular iterations are estimates anew,
+/// whose last differences are all noise.
+std::vector<std::vector<float>> beyond_of_bands(const TracedScene& traced) {
+  const SolverRules& rules = traced.rules;
+  const bool leaves = rules.unfollowed == Unfollowed::leave ||
+                      (rules.transport == Transport::shoot && rules.jacobi == Jacobi::regular);
+  std::vector<std::vector<float>> beyond(traced.optics_of_band.size());
+  for (std::size_t b = 0; b < beyond.size() && !leaves; ++b)
+    beyond[b] = light_beyond(*traced.mesh, traced.patches.lines.pooled, traced.optics_of_band[b],
+                             traced.bounces);
+  return beyond;
 }
 
 DirectRules direct_rules(const SolverRules& rules) {
@@ -121,6 +135,7 @@ std::unique_ptr<const TracedScene> trace_scene(const Scene& scene,
   traced->sensors.lines = lines_of_sensors(*traced);
   add_parallel_light(*traced);
   traced->bounces = bounces_of_bands(*traced);
+  traced->beyond_of_band = beyond_of_bands(*traced);
   return traced;
 }
 

@@ -14,6 +14,7 @@
 #include "solver/first_light/mirror_chains.h"
 #include "solver/first_light/mirror_sun.h"
 #include "solver/first_light/parallel_light.h"
+#include "solver/gather/jacobi.h"
 #include "solver/light/work.h"
 #include "solver/lines/lines.h"
 #include "solver/mesh/hierarchy.h"
@@ -63,7 +64,9 @@ struct TracedScene {
   GlossySun glossy_sun;
   LobeImages lobe_images;  ///< for sensors
   int bounces = 0;         ///< that are followed: `rules.bounces`, or fewer for `rules.unshot`
-  WorkDone work;           ///< that tracing took
+  std::vector<std::vector<float>> beyond_of_band;  ///< light_beyond; empty ones: it is left
+  BounceRules bounce_rules(std::size_t band) const { return {bounces, beyond_of_band[band]}; }
+  WorkDone work;  ///< that tracing took
 };
 
 /// Rules for lines that follow from a study's.

@@ -46,7 +46,7 @@ class GatheredBatch : public BatchTransport {
   void finish() override {
     const Stopwatch time(work_[Work::realizations_s]);
     for (std::size_t b = 0; b < tallies_.size(); ++b)
-      solve_realizations(traced_, traced_.optics_of_band[b], sums_[b], tallies_[b]);
+      solve_realizations(traced_, b, sums_[b], tallies_[b]);
   }
 
  private:
@@ -63,7 +63,7 @@ class GatheredBatch : public BatchTransport {
     const BlockRays rays = light_iteration(traced_, sources, kept(), of_broadband, work_);
     for (std::size_t b = 0; b < sums_.size(); ++b) {
       const auto suns = suns_in_band(block.suns, b);
-      const BandFactors factors = band_factors(sources, suns);
+      const BandFactors factors = band_factors(sources, suns, b);
       add_exposures(rays, factors, suns, sums_[b]);
       light_band(b, {suns, block.first_row}, sources_in_band(sources, suns, factors),
                  in_band(rays, factors, traced_.rules.errors));
@@ -74,35 +74,35 @@ class GatheredBatch : public BatchTransport {
                   BlockRays rays) {
     const PatchOptics& optics = traced_.optics_of_band[band];
     BatchTally& tally = tallies_[band];
-    const Columns gathered_radiosity =
-        light_patches(optics, block, sources, rays.on_patches, tally);
+    const Columns radiosity = light_patches(band, block, sources, rays.on_patches, tally);
     if (traced_.sensors.count() > 0)
-      light_sensors(optics, block, sources, rays.on_sensors, gathered_radiosity, tally.sensors);
+      light_sensors(optics, block, sources, rays.on_sensors, radiosity, tally.sensors);
     book_sent_on(block, rays.sent_on, sums_[band], tally);
     sums_[band].add_sources(sources);
-    if (of_instants()) errors_of_instants(optics, block, sources, std::move(rays), tally);
+    if (of_instants()) errors_of_instants(band, block, sources, std::move(rays), tally);
   }
 
-  /// Returns the radiosity that was gathered last.
-  Columns light_patches(const PatchOptics& optics, const Block& block, const BlockSources& sources,
+  /// Returns the radiosity that sensors see.
+  Columns light_patches(std::size_t band, const Block& block, const BlockSources& sources,
                         RayLight& rays, BatchTally& tally) {
     const Stopwatch time(work_[Work::solve_s]);
+    const PatchOptics& optics = traced_.optics_of_band[band];
     const LineSet& lines = traced_.patches.lines.pooled;
     BlockLight light =
         block_light(traced_.hierarchy(), lines, optics, sources, std::move(rays.pooled),
-                    traced_.patches.lamps.pooled, traced_.bounces);
+                    traced_.patches.lamps.pooled, traced_.bounce_rules(band));
     const auto ledger = block_ledger(lines, optics, traced_.hierarchy().area(), sources, light);
     std::copy(ledger.begin(), ledger.end(), row(tally.ledger, block));
     store_patches(optics, light, block.suns, block.first_row, rays.sunlit, tally);
-    return std::move(light.gathered_radiosity);
+    return seen_radiosity(traced_.hierarchy(), optics, light);
   }
 
   void light_sensors(const PatchOptics& optics, const Block& block, const BlockSources& sources,
-                     RayLight& rays, const Columns& gathered_radiosity, ReceiverTally& tally) {
+                     RayLight& rays, const Columns& radiosity, ReceiverTally& tally) {
     const Stopwatch time(work_[Work::sensors_s]);
     const BlockLight light =
         sensor_light(traced_.sensors.lines.pooled, optics, sources, std::move(rays.pooled),
-                     traced_.sensors.lamps.pooled, gathered_radiosity);
+                     traced_.sensors.lamps.pooled, radiosity);
     store_received(light, block.suns, block.first_row, rays.sunlit, tally);
   }
 
@@ -122,22 +122,21 @@ class GatheredBatch : public BatchTransport {
   }
 
   /// Every realization of the block for itself.
-  void errors_of_instants(const PatchOptics& optics, const Block& block,
-                          const BlockSources& sources, BlockRays rays, BatchTally& tally) const {
+  void errors_of_instants(std::size_t band, const Block& block, const BlockSources& sources,
+                          BlockRays rays, BatchTally& tally) const {
+    const PatchOptics& optics = traced_.optics_of_band[band];
     const std::size_t suns = block.suns.size();
     InstantSpread patches(traced_.patches.count(), suns), sensors(traced_.sensors.count(), suns);
     InstantSpreadBySource by_source(traced_.rules.by_source ? traced_.patches.count() : 0, suns);
     for (std::size_t r = 0; r < tally.ledger_instants.size(); ++r) {
       const LineSet& lines = traced_.patches.lines.realizations[r];
       const std::vector<double>& parallel = traced_.patches.lamps.of(r);
-      const BlockLight light =
-          block_light(traced_.hierarchy(), lines, optics, sources,
-                      taken(rays.on_patches.of_realizations, r), parallel, traced_.bounces);
+      BlockLight light = block_light(traced_.hierarchy(), lines, optics, sources,
+                                     taken(rays.on_patches.of_realizations, r), parallel,
+                                     traced_.bounce_rules(band));
       const auto ledger = block_ledger(lines, optics, traced_.hierarchy().area(), sources, light);
       std::copy(ledger.begin(), ledger.end(), row(tally.ledger_instants[r], block));
       patches.add(total_of(light));
-      sensors.add(
-          total_of(sensors_of(r, optics, sources, rays.on_sensors, light.gathered_radiosity)));
       by_source.add(
           total_of(light),
           [&](std::size_t i, std::size_t k) {
@@ -145,6 +144,7 @@ class GatheredBatch : public BatchTransport {
                    (parallel.empty() ? 0 : parallel[i]);
           },
           [](std::size_t, std::size_t) { return 0; });
+      sensors.add(total_of(sensors_of(r, optics, sources, rays.on_sensors, light)));
     }
     patches.store(block.first_row, tally.irradiance_se);
     sensors.store(block.first_row, tally.sensors.irradiance_se);
@@ -153,12 +153,13 @@ class GatheredBatch : public BatchTransport {
   }
 
   BlockLight sensors_of(std::size_t r, const PatchOptics& optics, const BlockSources& sources,
-                        RayLight& rays, const Columns& gathered_radiosity) const {
+                        RayLight& rays, BlockLight& of_patches) const {
     if (traced_.sensors.count() == 0) return {};
     RayColumns columns = taken(rays.of_realizations, r);
     columns.circumsolar.clear();  // sensors see all of the sky by their lines
     return sensor_light(traced_.sensors.lines.realizations[r], optics, sources, std::move(columns),
-                        traced_.sensors.lamps.of(r), gathered_radiosity);
+                        traced_.sensors.lamps.of(r),
+                        seen_radiosity(traced_.hierarchy(), optics, of_patches));
   }
 
   void book_instants(const Block& block, const std::vector<SunFates>& sent_on,

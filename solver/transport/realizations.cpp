@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/transport/realizations.h"
 
+#include "geo/base/check.h"
 #include "solver/gather/jacobi.h"
 #include "solver/gather/ledger.h"
+#include "solver/gather/unfollowed.h"
+#include "solver/mesh/push_pull.h"
 
 namespace sunload {
 
@@ -19,18 +22,36 @@ std::vector<double> by_sun(std::size_t r, RaySums& sums) {
   return sun;
 }
 
-/// Returns the radiosity that was gathered last.
-std::vector<double> solve_patches(const TracedScene& traced, const PatchOptics& optics,
-                                  std::size_t r, const TimeSums& sums, BatchTally& tally) {
+/// Keeps the parts of a realization that the tally has room for; `first` is used up.
+void keep_parts(const std::vector<double>& direct, FirstExposure& first,
+                std::vector<double> reflected, std::size_t r, ReceiverTally& tally) {
+  const auto keep = [&](Part part, std::vector<double> exposure) {
+    if (auto* to = part_of_realization(tally, part, r)) *to = std::move(exposure);
+  };
+  keep(Part::direct, direct);
+  keep(Part::sky, std::move(first.sky));
+  keep(Part::mirror, std::move(first.mirror));
+  keep(Part::lamps, std::move(first.lamps));
+  keep(Part::reflected, std::move(reflected));
+}
+
+/// Returns the radiosity that sensors see.
+std::vector<double> solve_patches(const TracedScene& traced, std::size_t band, std::size_t r,
+                                  const TimeSums& sums, BatchTally& tally) {
+  const PatchOptics& optics = traced.optics_of_band[band];
   const LineSet& lines = traced.patches.lines.realizations[r];
   const RaySums& rays = sums.on_patches;
-  const auto [sky, base, ground] = first_exposure(
+  FirstExposure first = first_exposure(
       lines, optics, sums,
       {rays.direct[r], rays.mirror[r], rays.circumsolar[r], traced.patches.lamps.of(r)});
-  auto reflected = reflect(traced.hierarchy(), lines, optics, base, ground, traced.bounces);
+  auto reflected =
+      reflect(traced.hierarchy(), lines, optics, first.base, first.ground, traced.bounces);
+  const std::vector<double> estimated = unfollowed(reflected, traced.beyond_of_band[band]);
   for (std::size_t i = 0; i < traced.patches.count(); ++i) {
-    const double total = base[i] + reflected.irradiance[i];
-    tally.exposure_realization[r][i] = total;
+    const double beyond = estimated.empty() ? 0 : estimated[i];
+    const double total = first.base[i] + reflected.irradiance[i];
+    tally.exposure_realization[r][i] = total + beyond;
+    SUNLOAD_EXPECT(total + beyond >= 0, "light that is a number and not below 0");
     tally.ledger_realization[r] +=
         ledger_of_patch({.area = traced.hierarchy().area()[i],
                          .diffuse = static_cast<double>(optics.diffuse[i]),
@@ -38,13 +59,21 @@ std::vector<double> solve_patches(const TracedScene& traced, const PatchOptics& 
                          .passed = static_cast<double>(optics.passed[i]),
                          .emission = static_cast<double>(optics.emission[i]) * sums.length_s,
                          .direct = rays.direct[r][i],
-                         .sky = sky[i],
+                         .sky = first.sky[i],
                          .ground_exitance = sums.ground,
                          .total = total,
-                         .gathered_radiosity = reflected.gathered_radiosity[i]},
+                         .gathered_radiosity = reflected.gathered_radiosity[i],
+                         .estimated = beyond},
                         lines.ends[i]);
+    reflected.irradiance[i] += beyond;
   }
-  return std::move(reflected.gathered_radiosity);
+  keep_parts(rays.direct[r], first, std::move(reflected.irradiance), r, tally);
+  if (estimated.empty()) return std::move(reflected.gathered_radiosity);
+  std::vector<double> radiosity(traced.hierarchy().element_count());
+  for (std::size_t i = 0; i < traced.patches.count(); ++i)
+    radiosity[i] = static_cast<double>(optics.diffuse[i]) * tally.exposure_realization[r][i];
+  pull_up(traced.hierarchy(), radiosity);
+  return radiosity;
 }
 
 void book_mirrored(const TracedScene& traced, std::size_t r, const TimeSums& sums, Ledger& ledger) {
@@ -57,28 +86,29 @@ void book_mirrored(const TracedScene& traced, std::size_t r, const TimeSums& sum
 }
 
 void solve_sensors(const TracedScene& traced, const PatchOptics& optics, std::size_t r,
-                   const TimeSums& sums, const std::vector<double>& gathered_radiosity,
+                   const TimeSums& sums, const std::vector<double>& radiosity,
                    ReceiverTally& tally) {
   const LineSet& lines = traced.sensors.lines.realizations[r];
   const std::vector<double> whole_sky;  // sensors see all of it by their lines
-  const auto [sky, base, ground] =
-      first_exposure(lines, optics, sums,
-                     {sums.on_sensors.direct[r], sums.on_sensors.mirror[r], whole_sky,
-                      traced.sensors.lamps.of(r)});
-  auto& received = tally.exposure_realization[r];
-  gather(lines.patches, gathered_radiosity, received, Into::replace);
-  for (std::size_t s = 0; s < received.size(); ++s) received[s] += base[s] + ground[s];
+  FirstExposure first = first_exposure(lines, optics, sums,
+                                       {sums.on_sensors.direct[r], sums.on_sensors.mirror[r],
+                                        whole_sky, traced.sensors.lamps.of(r)});
+  std::vector<double> reflected = first.ground;
+  gather(lines.patches, radiosity, reflected, Into::add);
+  for (std::size_t s = 0; s < reflected.size(); ++s)
+    tally.exposure_realization[r][s] = first.base[s] + reflected[s];
+  keep_parts(sums.on_sensors.direct[r], first, std::move(reflected), r, tally);
 }
 
 }  // namespace
 
-void solve_realizations(const TracedScene& traced, const PatchOptics& optics, TimeSums& sums,
+void solve_realizations(const TracedScene& traced, std::size_t band, TimeSums& sums,
                         BatchTally& tally) {
   for (std::size_t r = 0; r < sums.on_patches.direct.size(); ++r) {
     tally.by_source.sun.push_back(by_sun(r, sums.on_patches));
-    const auto gathered_radiosity = solve_patches(traced, optics, r, sums, tally);
+    const auto radiosity = solve_patches(traced, band, r, sums, tally);
     book_mirrored(traced, r, sums, tally.ledger_realization[r]);
-    solve_sensors(traced, optics, r, sums, gathered_radiosity, tally.sensors);
+    solve_sensors(traced, traced.optics_of_band[band], r, sums, radiosity, tally.sensors);
     if (!traced.rules.by_source) continue;
     std::vector<double> parallel = traced.patches.lamps.of(r);
     for (double& E : parallel) E *= sums.length_s;

@@ -10,8 +10,8 @@
 namespace sunload {
 
 /// Fills exposures and ledgers of all realizations, and exposures by source. `sums` are those of
-/// the whole batch in one band, of which `optics` are; afterwards they are used up.
-void solve_realizations(const TracedScene& traced, const PatchOptics& optics, TimeSums& sums,
+/// the whole batch in that band; afterwards they are used up.
+void solve_realizations(const TracedScene& traced, std::size_t band, TimeSums& sums,
                         BatchTally& tally);
 
 }  // namespace sunload

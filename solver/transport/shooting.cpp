@@ -58,17 +58,30 @@ class MeanLight {
   std::vector<double> lamps_;
 };
 
-/// Adds the time sums of one realization to its exposures.
-template <class Light>
-void add_exposure(const Light& light, std::span<const IntervalLight> block,
-                  std::vector<double>& exposure) {
-  parallel_for(
-      exposure.size(),
-      [&](std::size_t i) {
-        for (std::size_t k = 0; k < block.size(); ++k)
-          exposure[i] += static_cast<double>(light.total(i, k)) * block[k].length_s;
-      },
-      receivers_per_chunk);
+/// Adds the time sums of one realization to its exposures, in all and by parts.
+template <class Light, class Lamps>
+void add_exposure(const Light& light, const Lamps& lamps, std::span<const IntervalLight> block,
+                  std::size_t r, ReceiverTally& tally) {
+  const auto add = [&](std::vector<double>* exposure, const auto& irradiance) {
+    if (!exposure) return;
+    parallel_for(
+        exposure->size(),
+        [&](std::size_t i) {
+          for (std::size_t k = 0; k < block.size(); ++k)
+            (*exposure)[i] += static_cast<double>(irradiance(i, k)) * block[k].length_s;
+        },
+        receivers_per_chunk);
+  };
+  const auto of = [](const auto& columns) {
+    return [&columns](std::size_t i, std::size_t k) { return columns[i * block_width + k]; };
+  };
+  const auto part = [&](Part which) { return part_of_realization(tally, which, r); };
+  add(&tally.exposure_realization[r], total_of(light));
+  add(part(Part::direct), of(light.direct));
+  add(part(Part::sky), of(light.sky));
+  add(part(Part::mirror), of(light.mirror));
+  add(part(Part::lamps), [&](std::size_t i, std::size_t) { return lamps[i]; });
+  add(part(Part::reflected), of(light.reflected));
 }
 
 /// `parallel`: irradiance by parallel sources, or empty.
@@ -162,7 +175,7 @@ class ShotBatch : public BatchTransport {
       const BlockLight received = shot_to_sensors(r, sources, light, of_sensors.of_realizations);
       on_sensors.add(received);
       sensor_spread.add(total_of(received));
-      add_exposure(received, block.suns, tally_.sensors.exposure_realization[r]);
+      add_exposure(received, received.lamps, block.suns, r, tally_.sensors);
     }
     store_patches(traced_.optics, mean.in_float(), block.suns, block.first_row, sun.sunlit, tally_);
     if (sensors > 0)
@@ -186,17 +199,30 @@ class ShotBatch : public BatchTransport {
     work_[Work::wanted_samples] += light.wanted;
   }
 
-  /// Sensors gather what patches have shot.
+  /// Sensors gather what patches have shot, or would if all of their light were followed.
   BlockLight shot_to_sensors(std::size_t r, const BlockSources& sources, const ShotLight& light,
                              SunColumns& rays) const {
     return sensor_light(traced_.sensors.lines.realizations[r], traced_.optics, sources,
                         {std::move(rays.direct[r]), std::move(rays.mirror[r]), {}},
-                        traced_.sensors.lamps.of(r),
-                        Columns(light.shot_radiosity.begin(), light.shot_radiosity.end()));
+                        traced_.sensors.lamps.of(r), seen_radiosity(light));
+  }
+
+  Columns seen_radiosity(const ShotLight& light) const {
+    Columns radiosity(light.shot_radiosity.begin(), light.shot_radiosity.end());
+    if (light.estimated.empty()) return radiosity;
+    parallel_for(
+        traced_.patches.count(),
+        [&](std::size_t i) {
+          for (std::size_t k = 0; k < block_width; ++k)
+            radiosity[i * block_width + k] =
+                traced_.optics.diffuse[i] * static_cast<float>(light.total(i, k));
+        },
+        receivers_per_chunk);
+    return radiosity;
   }
 
   void add_realization(std::size_t r, const ShotLight& light, const Block& block) {
-    add_exposure(light, block.suns, tally_.exposure_realization[r]);
+    add_exposure(light, *light.lamps, block.suns, r, tally_);
     if (light.by_source)
       add_by_source(r, light, traced_.patches.lamps.of(r), block.suns, tally_.by_source);
     for (std::size_t k = 0; k < block.suns.size(); ++k) {
@@ -222,7 +248,8 @@ Shooting::Shooting(const TracedScene& traced)
         const Stopwatch time(work_[Work::shoot_s]);
         return Shooter(traced.scene, traced.hierarchy(), traced.caster, traced.patches.sampler,
                        traced.grid, traced.optics, traced.patches.lines, traced.patches.lamps,
-                       line_rules_of_shots(traced.rules), shooting_rules(traced));
+                       traced.beyond_of_band.front(), line_rules_of_shots(traced.rules),
+                       shooting_rules(traced));
       }()) {
   work_.add(Work::shot_rays, shooter_.rays());
   work_.add(Work::samples, shooter_.samples());

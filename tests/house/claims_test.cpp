@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "io/result/patches.h"
-#include "solver/first_light/circumsolar.h"
+#include "solver/first_light/circumsolar_sky.h"
 #include "solver/light/work.h"
 #include "tests/support/paths.h"
 
@@ -75,15 +75,21 @@ std::vector<double> sky_with_circumsolar(const SkyGrid& grid, std::size_t cell, 
 }
 
 TEST(Claims, CircumsolarLightIsLeftOutBelowTheShareThatItsHeaderNames) {
-  const std::string header = text_of("solver/first_light/circumsolar.h");
+  const std::string header = text_of("solver/first_light/circumsolar_sky.h");
   std::smatch number;
   ASSERT_TRUE(std::regex_search(header, number, std::regex("less than ([0-9.]+) of the sky")));
   const double share = std::stod(number[1]);
   const SkyGrid grid;
   const Vec3 sun = normalized({0.3, 0.4, 0.7});
   const auto cell = static_cast<std::size_t>(grid.cell(sun));
-  EXPECT_FALSE(CircumsolarSky(grid, sky_with_circumsolar(grid, cell, 0.99 * share), sun).any());
-  EXPECT_TRUE(CircumsolarSky(grid, sky_with_circumsolar(grid, cell, 1.01 * share), sun).any());
+  const auto circumsolar = [&](double of_share) {
+    IntervalLight light;
+    light.direction = sun;
+    light.sky = sky_with_circumsolar(grid, cell, of_share * share);
+    return CircumsolarSky(grid, light);
+  };
+  EXPECT_FALSE(circumsolar(0.99).any());
+  EXPECT_TRUE(circumsolar(1.01).any());
 }
 
 }  // namespace

@@ -161,6 +161,7 @@ TEST(Bands, EveryBandIsASolutionOfItsOwn) {
       sun.dni = sun.bands[b].dni;
       sun.ground_exitance = sun.bands[b].ground_exitance;
       sun.sky = sun.bands[b].sky;
+      sun.bands.clear();
     }
     const auto alone =
         solve(coloured_court({"wall", rho[b], 0, 0}, dark), of_band, court_rules(), split);

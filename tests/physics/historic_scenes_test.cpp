@@ -65,7 +65,8 @@ TEST(HistoricScenes, TheCeilingOfARoomGetsBrighterWithEveryReflection) {
     const SolvedPlan s = solve_study(
         night_study("room",
                     "mesh: {oracle: none, max_edge_m: 1}\nsolver: {lines_per_patch: 64, "
-                    "direct_samples: 16, realizations: 16, unshot: 0, bounces: " +
+                    "direct_samples: 16, realizations: 16, unshot: 0, "
+                    "unfollowed: leave, bounces: " +
                         std::to_string(bounces) + "}\n"));
     // Level faces of the room that look down from above: the ceiling but for the lamp itself.
     const double ceiling = mean_load(s, [&](std::size_t i) {

@@ -48,10 +48,10 @@ TEST(Circumsolar, IsTakenFromClearSkiesOnly) {
   for (const IntervalLight& light :
        {sky_light(SkyModel::uniform, 0), sky_light(SkyModel::cie_overcast, 0),
         sky_light(SkyModel::perez, 0)})
-    EXPECT_FALSE(CircumsolarSky(grid, light.sky, light.direction).any());
-  EXPECT_FALSE(CircumsolarSky(grid, {}, low_sun).any());
+    EXPECT_FALSE(CircumsolarSky(grid, light).any());
+  EXPECT_FALSE(CircumsolarSky(grid, one_second(low_sun, 0)).any());
   const IntervalLight clear = clear_sky();
-  const CircumsolarSky sky(grid, clear.sky, clear.direction);
+  const CircumsolarSky sky(grid, clear);
   ASSERT_TRUE(sky.any());
   double sum = 0, all = 0;
   for (std::size_t c = 0; c < clear.sky.size(); ++c) {
@@ -65,12 +65,28 @@ TEST(Circumsolar, IsTakenFromClearSkiesOnly) {
   EXPECT_GT(sum, 0.05 * all);
 }
 
-TEST(Circumsolar, IsDrawnByItsRadiance) {
+/// Share of a cell in ∫ L_circ cosθ dω, of 256 points.
+double cosine_share(Vec3 normal, int cell) {
+  constexpr int n = 16;
+  double sum = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      sum += std::max(0.0, dot(normal, grid.direction(cell, (i + 0.5) / n, (j + 0.5) / n)));
+  return sum / (n * n);
+}
+
+// By level ground and by a wall that has half of L_circ behind it.
+class CircumsolarOnNormal : public ::testing::TestWithParam<Vec3> {};
+
+TEST_P(CircumsolarOnNormal, IsDrawnByItsRadianceAndCosine) {
+  const Vec3 normal = GetParam();
   const IntervalLight clear = clear_sky();
-  const CircumsolarSky sky(grid, clear.sky, clear.direction);
+  const CircumsolarSky sky(grid, clear);
+  CircumsolarView view;
+  view.look(sky, normal);
   constexpr std::uint32_t packets = 40000;
-  std::vector<double> counted(clear.sky.size(), 0), expected(counted), uniform_cells(counted);
-  CircumsolarSky::Samples samples;
+  std::vector<double> counted(clear.sky.size(), 0), expected(counted), without_cosine(counted);
+  CircumsolarView::Samples samples;
   double off = 0;
   for (std::uint32_t p = 0; p < packets; ++p) {
     ScrambledPoints points;
@@ -80,24 +96,30 @@ TEST(Circumsolar, IsDrawnByItsRadiance) {
       points.u[s] = words[0];
       points.v[s] = words[1];
     }
-    sky.sample(points, {0, 0, 1}, samples);
+    view.sample(points, samples);
     for (std::size_t s = 0; s < packet_size; ++s) {
       const Vec3 w{static_cast<double>(samples.directions.x[s]),
                    static_cast<double>(samples.directions.y[s]),
                    static_cast<double>(samples.directions.z[s])};
       off = std::max(off, std::abs(norm(w) - 1));
-      EXPECT_EQ(samples.cos_theta[s], samples.directions.z[s]);
-      ++counted[static_cast<std::size_t>(grid.cell(w))];
+      EXPECT_EQ(samples.weight[s] > 0, (samples.in_front >> s & 1u) != 0);
+      EXPECT_GE(samples.weight[s], 0);
+      EXPECT_LE(samples.weight[s], 2);
+      // Weighted as light is: by cosθ / q.
+      counted[static_cast<std::size_t>(grid.cell(w))] += static_cast<double>(samples.weight[s]);
     }
   }
   EXPECT_LT(off, 1e-6);
   constexpr double draws = double{packets} * packet_size;
-  double cells = 0;
-  for (std::size_t c = 0; c < expected.size(); ++c) cells += sky.radiance(c) > 0;
+  double facing = 0;
   for (std::size_t c = 0; c < expected.size(); ++c) {
-    expected[c] = draws * sky.radiance(c) * grid.solid_angle() / sky.strength();
-    uniform_cells[c] = sky.radiance(c) > 0 ? draws / cells : 0;
+    const double brightness = sky.radiance(c) * grid.solid_angle();
+    const double share = brightness > 0 ? cosine_share(normal, static_cast<int>(c)) : 0;
+    expected[c] = draws * brightness * share / view.irradiance();
+    without_cosine[c] = share > 0 ? brightness : 0;
+    facing += without_cosine[c];
   }
+  for (double& count : without_cosine) count *= draws / facing;
   // A direction on a border may be rounded into the next cell, which may be empty.
   double strays = 0;
   for (std::size_t c = 0; c < expected.size(); ++c)
@@ -108,8 +130,11 @@ TEST(Circumsolar, IsDrawnByItsRadiance) {
   EXPECT_LE(strays, 1e-4 * draws);
   const Verdict verdict = expect_counts(counted, expected);
   EXPECT_TRUE(verdict) << verdict.text;
-  EXPECT_FALSE(expect_counts(counted, uniform_cells));  // planted: the radiance forgotten
+  EXPECT_FALSE(expect_counts(counted, without_cosine));  // planted: the cosine forgotten
 }
+
+INSTANTIATE_TEST_SUITE_P(Circumsolar, CircumsolarOnNormal,
+                         ::testing::Values(Vec3{0, 0, 1}, tangents(low_sun).bitangent));
 
 /// ∫ L cosθ dω over the front of a normal, of cells with 1024 points each.
 double unshaded(const std::vector<double>& radiance, Vec3 normal) {
@@ -129,7 +154,7 @@ double unshaded(const std::vector<double>& radiance, Vec3 normal) {
 // circumsolar light is behind them then.
 TEST(Circumsolar, OnOpenPlatesIsExact) {
   const IntervalLight light = clear_sky();
-  const CircumsolarSky sky(grid, light.sky, light.direction);
+  const CircumsolarSky sky(grid, light);
   std::vector<double> circumsolar(light.sky.size());
   for (std::size_t c = 0; c < circumsolar.size(); ++c) circumsolar[c] = sky.radiance(c);
   const Tangents axes = tangents(low_sun);
@@ -152,7 +177,7 @@ TEST(Circumsolar, OnOpenPlatesIsExact) {
     Columns direct = columns(2), circumsolar_sum = columns(2), sunlit = columns(2);
     const std::vector<IntervalLight> block{light};
     direct_sun(traced->caster, sampler, block, {direct, 64, nullptr, nullptr}, sunlit);
-    circumsolar_light(traced->caster, sampler, block, {sky}, sunlit,
+    circumsolar_light(traced->caster, sampler, block, {sky},
                       {circumsolar_sum, 64, &exposure, nullptr});
     std::vector<double> means;
     for (const auto& E : exposure) means.push_back((E[0] + E[1]) / 2);
@@ -241,7 +266,7 @@ TEST(Circumsolar, LowersTheErrorOfTheStreet) {
     const auto direct_rays = direct_sun(traced->caster, sampler, block,
                                         {pooled, realizations, nullptr, nullptr}, sunlit);
     const auto middle = std::clock();
-    const auto rays = circumsolar_light(traced->caster, sampler, block, sources.circumsolar, sunlit,
+    const auto rays = circumsolar_light(traced->caster, sampler, block, sources.circumsolar,
                                         {pooled, realizations, nullptr, &circumsolar});
     const auto end = std::clock();
     std::cout << "processor time circumsolar / direct sun: "

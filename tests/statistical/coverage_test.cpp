@@ -113,6 +113,44 @@ TEST(Coverage, OfAShadow) {
       sun.z / 2);
 }
 
+/// Area-weighted mean of one part over the chosen patches, per realization.
+std::vector<double> means_of_part(const Solved& solved, Part part,
+                                  const std::function<bool(std::size_t)>& chosen) {
+  std::vector<double> means;
+  for (const auto& of_realization : solved.tally.part_realization[static_cast<std::size_t>(part)]) {
+    double sum = 0, area = 0;
+    for (std::size_t i = 0; i < of_realization.size(); ++i) {
+      if (!chosen(i)) continue;
+      sum += solved.area[i] * of_realization[i];
+      area += solved.area[i];
+    }
+    means.push_back(sum / area);
+  }
+  return means;
+}
+
+// Glints alone: the image of an upright mirror lies across the patches of a floor, all of it.
+TEST(Coverage, OfGlints) {
+  constexpr double half = 6, width = 1, height = 1.3, rho = 0.8, turn = 0.3;
+  SceneBuilder builder;
+  const int black = builder.material({"black", 0, 0, 0}),
+            mirror = builder.material({"mirror", 0, rho, 0});
+  builder.quad({-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0}, black);
+  const Vec3 along{std::cos(turn), std::sin(turn), 0}, up{0, 0, height}, foot{0, 0, 0.5};
+  const Vec3 normal = normalized(cross(along, up));
+  builder.object("mirror").quad(foot - along * (width / 2), foot + along * (width / 2),
+                                foot + along * (width / 2) + up, foot - along * (width / 2) + up,
+                                mirror);
+  const Vec3 sun = normalized({0.2, -0.8, 0.7});
+  check("glints",
+        repeated(builder.scene(), one_second(sun, 1), {.max_edge_m = 3},
+                 [](const Solved& s) {
+                   return means_of_part(s, Part::mirror,
+                                        [&](std::size_t i) { return s.patches[i].triangle < 2; });
+                 }),
+        rho * dot(normal, sun) * width * height / (4 * half * half));
+}
+
 // Sun, sky, reflection and a mirror together: the ledger's residual is zero.
 TEST(Coverage, OfTheLedgersResidual) {
   SceneBuilder builder;

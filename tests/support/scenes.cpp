@@ -162,6 +162,7 @@ SolverRules test_rules() {
   rules.lines_per_patch = 16 * 64;
   rules.direct_samples = 64;
   rules.unshot = 0;
+  rules.unfollowed = Unfollowed::leave;  // tests say how many bounces there are
   return rules;
 }
 

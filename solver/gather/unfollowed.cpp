@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/gather/unfollowed.h"
+
+#include <algorithm>
+
+#include "solver/base/chunks.h"
+#include "solver/base/threads.h"
+#include "solver/mesh/push_pull.h"
+
+namespace sunload {
+
+namespace {
+
+/// The rest of the series is taken for geometric where so little of it is left, or after so many.
+constexpr double little = 1e-3;
+constexpr int most_bounces = 200;
+/// What is surely below 1, so that a series ends.
+constexpr double largest_ratio = 0.999;
+
+/// One column of light that goes from bounce to bounce.
+class Bouncing {
+ public:
+  /// Begins with what a uniform sky sends, and where surfaces emit with the same from all of them.
+  Bouncing(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics)
+      : mesh_(mesh), lines_(lines), optics_(optics), radiosity_(mesh.element_count(), 0) {
+    for (const LineEnds& ends : lines.ends)
+      received.push_back(static_cast<double>(ends.fate.escaped) + (optics.any_emission ? 1 : 0));
+  }
+  void bounce() {
+    for (std::size_t i = 0; i < received.size(); ++i)
+      radiosity_[i] = static_cast<double>(optics_.diffuse[i]) * received[i];
+    pull_up(mesh_, radiosity_);
+    gather(lines_.patches, radiosity_, received, Into::replace);
+  }
+  /// That all patches reflect.
+  double power() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < received.size(); ++i)
+      sum += mesh_.area()[i] * static_cast<double>(optics_.diffuse[i]) * received[i];
+    return sum;
+  }
+  std::vector<double> received;  ///< [N]
+
+ private:
+  const Hierarchy& mesh_;
+  const LineSet& lines_;
+  const PatchOptics& optics_;
+  std::vector<double> radiosity_;
+};
+
+/// Sum of q + q² + …
+double geometric(double power, double power_before) {
+  if (power <= 0 || power_before <= 0) return 0;
+  const double q = std::min(power / power_before, largest_ratio);
+  return q / (1 - q);
+}
+
+}  // namespace
+
+std::vector<float> light_beyond(const Hierarchy& mesh, const LineSet& lines,
+                                const PatchOptics& optics, int bounces) {
+  if (bounces == 0) return {};
+  Bouncing light(mesh, lines, optics);
+  for (int b = 0; b < bounces; ++b) light.bounce();
+  const std::vector<double> last = light.received;
+  const double power_of_last = light.power();
+
+  std::vector<double> sum(last.size(), 0);
+  double power_before = power_of_last, power = power_of_last, power_beyond = 0;
+  for (int b = 0; b < most_bounces; ++b) {
+    light.bounce();
+    power_before = power;
+    power = light.power();
+    power_beyond += power;
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += light.received[i];
+    if (power <= little * power_of_last) break;
+  }
+  const double rest = geometric(power, power_before);
+  power_beyond += rest * power;
+  const double of_all = power_of_last > 0 ? power_beyond / power_of_last : 0;
+  std::vector<float> beyond(last.size());
+  for (std::size_t i = 0; i < beyond.size(); ++i)
+    beyond[i] =
+        static_cast<float>(last[i] > 0 ? (sum[i] + rest * light.received[i]) / last[i] : of_all);
+  return beyond;
+}
+
+Columns unfollowed(const Reflected& reflected, const std::vector<float>& beyond) {
+  Columns out = columns(beyond.size());
+  if (reflected.before.empty()) return out;  // no bounce
+  parallel_for(
+      beyond.size(),
+      [&](std::size_t i) {
+        for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k)
+          out[k] = beyond[i] * std::max(0.0f, reflected.irradiance[k] - reflected.before[k]);
+      },
+      receivers_per_chunk);
+  return out;
+}
+
+std::vector<double> unfollowed(const ReflectedExposure& reflected,
+                               const std::vector<float>& beyond) {
+  std::vector<double> out(beyond.size(), 0);
+  if (reflected.before.empty()) return out;
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = static_cast<double>(beyond[i]) *
+             std::max(0.0, reflected.irradiance[i] - reflected.before[i]);
+  return out;
+}
+
+}  // namespace sunload
