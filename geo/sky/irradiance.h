@@ -102,8 +102,12 @@ Irradiance clear_sky(ClearSkyModel model, const ClearSkyInput& input);
 /// Divides global irradiance by the correlation of Erbs, Klein & Duffie (1982).
 Irradiance erbs(double ghi, double elevation_deg, double extraterrestrial_normal);
 
-/// The same by DISC, Maxwell (1987), SERI/TR-215-3087. The report rests on a solar
-/// constant of 1370 W m-2.
+/// Solar constant of the report that DISC was fitted in [W m-2]: extraterrestrial irradiance for it
+/// rests on this one.
+inline constexpr double disc_solar_constant = 1370;
+
+/// The same by DISC, Maxwell (1987), SERI/TR-215-3087; `extraterrestrial_normal` by the report's
+/// solar constant.
 Irradiance disc(double ghi, double elevation_deg, double extraterrestrial_normal,
                 double pressure_pa = sea_level_pressure_pa);
 

@@ -208,10 +208,18 @@ double preetham_illuminance_klx(double turbidity, double sun_zenith_deg) {
          horizontal_integral(shape, std::cos(radians(sun_zenith_deg)));
 }
 
-Sky::Sky(const SkyInput& input) : sun_(raised_to_horizon(input.sun_direction)) {
+RelativeSky relative_sky(const SkyInput& input) {
   expect_sound(input);
+  RelativeSky sky{{}, raised_to_horizon(input.sun_direction)};
+  if (input.dhi > 0) sky.shape = shape_of(input);
+  return sky;
+}
+
+Sky::Sky(const SkyInput& input) {
+  const RelativeSky sky = relative_sky(input);
+  shape_ = sky.shape;
+  sun_ = sky.sun;
   if (input.dhi <= 0) return;  // dark
-  shape_ = shape_of(input);
   scale_ = input.dhi / horizontal_integral(shape_, sun_.z);
   SUNLOAD_EXPECT(std::isfinite(scale_), "a sky without any light cannot meet its irradiance");
 }

@@ -145,7 +145,9 @@ Irradiance divided(const WeatherValues& values, const SunInterval& when, Weather
       const Irradiance parts =
           decomposition == Decomposition::erbs
               ? erbs(lit, when.sun.elevation_deg, outside)
-              : disc(lit, when.sun.elevation_deg, outside, standard_pressure(elevation_m));
+              : disc(lit, when.sun.elevation_deg,
+                     extraterrestrial(when.sun.distance_au, disc_solar_constant),
+                     standard_pressure(elevation_m));
       const double dni = std::min(parts.dni * share, strongest);
       return {dni, std::max(0.0, *values.ghi - dni * sine), 0};
     }

@@ -34,7 +34,7 @@ IntervalLight IntervalLights::of(const LitInterval& interval, std::size_t number
   sun.length_s = when.length_s();
   sun.sunlit_s = when.sunlit_s;
   sun.disk_half_angle = disk_half_angle(disk_, when.sun.distance_au);
-  if (source.dhi > 0) sun.sky = grid_.mean_radiance(sky_of(interval, light_), source.dhi);
+  if (source.dhi > 0) sun.sky = grid_.mean_radiance(relative_sky_of(interval, light_), source.dhi);
   if (bands_ == Bands::rgb) sun.bands = light_in_bands(sun, source, interval, light_, grid_);
   if (!open_share_.empty() && sun.ground_exitance + source.dhi > 0) {
     put_hills(sun.sky, sun.ground_exitance);

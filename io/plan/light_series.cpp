@@ -247,17 +247,28 @@ Irradiance source_means(const LitInterval& interval, Quantity quantity) {
           std::max(0.0, mean.ghi - mean.dhi) * lm_per_w.beam + diffuse};
 }
 
-Sky sky_of(const LitInterval& interval, const LightStudy& light) {
+namespace {
+
+SkyInput sky_input(const LitInterval& interval, const LightStudy& light) {
   const SunInterval& when = interval.when;
-  const double zenith_deg = sky_zenith_deg(when);
-  return Sky({.model = light.sky,
-              .dhi = interval.of_the_sky.dhi,
-              .dni = interval.of_the_sky.dni,
-              .extraterrestrial_normal = extraterrestrial(when.sun.distance_au),
-              .sun_zenith_deg = zenith_deg,
-              .sun_direction = when.direction,
-              .cie_type = light.sky_type,
-              .turbidity = light.turbidity});
+  return {.model = light.sky,
+          .dhi = interval.of_the_sky.dhi,
+          .dni = interval.of_the_sky.dni,
+          .extraterrestrial_normal = extraterrestrial(when.sun.distance_au),
+          .sun_zenith_deg = sky_zenith_deg(when),
+          .sun_direction = when.direction,
+          .cie_type = light.sky_type,
+          .turbidity = light.turbidity};
+}
+
+}  // namespace
+
+Sky sky_of(const LitInterval& interval, const LightStudy& light) {
+  return Sky(sky_input(interval, light));
+}
+
+RelativeSky relative_sky_of(const LitInterval& interval, const LightStudy& light) {
+  return relative_sky(sky_input(interval, light));
 }
 
 }  // namespace sunload

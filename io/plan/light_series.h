@@ -54,5 +54,7 @@ Irradiance source_means(const LitInterval& interval, Quantity quantity);
 
 /// The open sky of an interval, in scene axes; its DHI is that while the sun is up.
 Sky sky_of(const LitInterval& interval, const LightStudy& light);
+/// The same but for a factor.
+RelativeSky relative_sky_of(const LitInterval& interval, const LightStudy& light);
 
 }  // namespace sunload

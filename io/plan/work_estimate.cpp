@@ -131,6 +131,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   work.direct_rays = static_cast<std::uint64_t>(rays);
   work.memory_bytes =
       program_bytes + lines * bytes_per_line +
+      static_cast<double>(plan.intervals()) * bytes_per_interval +
       n * (bands * (batch * parts * float_bytes + arrays_of_realizations * of_realizations) +
            bytes_per_patch);
   // The sun's light of each realization, straight and circumsolar, and by mirrors.
@@ -159,8 +160,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
             ? bands * (links * lit * s_per_link_sun + links * batches * s_per_link_batch)
             : static_cast<double>(work.samples) * s_per_sample) +
        (plan.study.mesh.oracle == Oracle::none ? 0 : refinement_rays(n, lit) * s_per_direct_ray) +
-       bands *
-           (n * lit * s_per_patch_sun + n * static_cast<double>(plan.intervals()) * s_per_value)) /
+       bands * (lit * s_per_sun + n * lit * s_per_patch_sun +
+                n * static_cast<double>(plan.intervals()) * s_per_value)) /
       thread_count();
   return work;
 }

@@ -40,6 +40,7 @@ inline constexpr double mirrored_share = 0.11;  ///< of them again, where there 
 inline constexpr double s_per_link_sun = 2.0e-10;    ///< one link of one sun and one bounce
 inline constexpr double s_per_link_batch = 6.6e-10;  ///< one link of one batch's realizations
 inline constexpr double s_per_patch_sun = 2.5e-7;
+inline constexpr double s_per_sun = 4.2e-4;    ///< in a scene of any size: its sky, cell by cell
 inline constexpr double s_per_sample = 6e-7;   ///< shot, with its deposit
 inline constexpr double s_per_value = 1.2e-8;  ///< one patch of one interval, stored
 
@@ -51,6 +52,7 @@ inline constexpr double other_directions = 16;
 // Memory.
 inline constexpr double double_bytes = 8, float_bytes = 4;
 inline constexpr double program_bytes = 3.6e7, bytes_per_line = 12.2, bytes_per_patch = 1400;
+inline constexpr double bytes_per_interval = 500;
 inline constexpr double bytes_per_sample = 40;            ///< of one realization and iteration
 inline constexpr double shooting_bytes_per_patch = 2700;  ///< columns in double
 inline constexpr double columns_of_a_realization = 8;     ///< direct sun, in doubles

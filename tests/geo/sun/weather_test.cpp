@@ -158,7 +158,8 @@ TEST(SunnyWeather, GlobalIrradianceIsDividedAndKept) {
       const Irradiance wanted =
           model == Decomposition::erbs
               ? erbs(300, path[i].sun.elevation_deg, outside)
-              : disc(300, path[i].sun.elevation_deg, outside, standard_pressure(200));
+              : disc(300, path[i].sun.elevation_deg,
+                     extraterrestrial(path[i].sun.distance_au, 1370), standard_pressure(200));
       EXPECT_NEAR(dni, std::min(wanted.dni, outside), 1e-9);
     }
   }

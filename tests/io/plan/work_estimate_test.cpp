@@ -43,6 +43,7 @@ TEST(CostModel, PageHasTheTimesOfTheProgram) {
                     micro_s(s_per_mirror_ray)),
         fmt::format("| lines · bounces · lit | {} |", nano_s(s_per_link_sun)),
         fmt::format("| patches · lit | {} |", micro_s(s_per_patch_sun)),
+        fmt::format("| lit | {} |", micro_s(s_per_sun)),
         fmt::format("| lines · bounces · batches | {} |", nano_s(s_per_link_batch)),
         fmt::format("| samples | {} |", micro_s(s_per_sample)),
         fmt::format("| patches · intervals | {} |", micro_s(s_per_value)),
@@ -54,9 +55,10 @@ TEST(CostModel, PageHasTheTimesOfTheProgram) {
 TEST(CostModel, PageHasTheSizesOfTheProgram) {
   const std::string page = scaling_page();
   for (const std::string& row :
-       {fmt::format("{} MB + {} · lines + patches · ({} · parts · min(batch_suns, intervals) + {} "
+       {fmt::format("{} · intervals + {} MB + {} · lines + patches · ({} · parts · min(batch_suns, "
+                    "intervals) + {} "
                     "· realizations + {})",
-                    program_bytes / 1e6, bytes_per_line, float_bytes,
+                    bytes_per_interval, program_bytes / 1e6, bytes_per_line, float_bytes,
                     arrays_of_realizations * double_bytes, bytes_per_patch),
         fmt::format("{} · patches · lit · (parts + output.series)", stored_bytes_per_value),
         fmt::format("patches · batches · ({} · realizations + {})", double_bytes,
