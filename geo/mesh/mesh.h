@@ -31,6 +31,8 @@ struct FileMaterial {
   bool is_reference = false;      ///< just a name, which study or table of materials define
   /// `diffuse` in red, green and blue, of which it is the mean; absent: grey.
   std::optional<std::array<double, 3>> diffuse_rgb = {};
+  std::string source = {};     ///< file that it is of, for messages; empty: not told
+  bool may_be_scaled = false;  ///< shares above 1 are usual in its format
 
   /// Takes a colour as diffuse reflectance. False where its mean is no share, which leaves it open;
   /// a colour of which a component alone is no share is taken as grey.

@@ -17,6 +17,8 @@ namespace sunload {
 
 namespace {
 
+constexpr double rounding = 1e-9;  // of sums of shares
+
 /// Whether a study's material leaves reflection to what the file or the table says of its name.
 bool says_nothing(const MaterialStudy& m) {
   return !m.diffuse && !m.mirror && std::holds_alternative<ConstantShares>(m.smooth) &&
@@ -56,6 +58,7 @@ class MaterialAssigner {
                     "this assignment of '" + study_.scene.assign[r].material + "' matches nothing",
                     "no surface gets its material from it"));
     warn_of_defaults();
+    warn_of_scaled();
     warn_of_dark_lamps();
   }
 
@@ -186,11 +189,40 @@ class MaterialAssigner {
       m.diffuse = file->diffuse.value_or(0);
       m.mirror = file->mirror.value_or(0);
       set_colour(m, file->diffuse_rgb);
+      if (study_.scene.vrml_excess == VrmlExcess::scale && file->may_be_scaled) scale(m, *file);
     } else {
       m.diffuse = default_of(t);
     }
     if (id.exists()) m.emission_w_m2 = emission_[id.index()];
     return m;
+  }
+
+  /// What leaves at most: of the brightest band.
+  static double largest_sum(const Material& m) {
+    const double diffuse = m.diffuse_in_band ? std::ranges::max(*m.diffuse_in_band) : m.diffuse;
+    return diffuse + m.mirror;
+  }
+
+  /// Colours that add up to more than 1, with the ratio of diffuse, mirror and bands kept.
+  void scale(Material& m, const FileMaterial& file) {
+    const double sum = largest_sum(m);
+    if (sum <= 1 + rounding) return;
+    m.diffuse /= sum;
+    m.mirror /= sum;
+    if (m.diffuse_in_band)
+      for (double& share : *m.diffuse_in_band) share /= sum;
+    scaled_[fmt::format("'{}' of {}", m.name, file.source)] = 1 / sum;
+  }
+
+  void warn_of_scaled() {
+    if (scaled_.empty()) return;
+    std::string list;
+    for (const auto& [material, factor] : scaled_)
+      list += fmt::format("{}{} × {:.3g}", list.empty() ? "" : ", ", material, factor);
+    warnings_.push_back(fmt::format(
+        "{} materials whose diffuse and specular colours add up to more than 1 are scaled "
+        "(scene.vrml_excess): {}",
+        scaled_.size(), list));
   }
 
   /// Gloss, whose shares depend on the angle, stands on grey.
@@ -257,15 +289,20 @@ class MaterialAssigner {
     const auto known = ids_.find(m.name);
     if (known != ids_.end() && scene_.materials[known->second.index()] == m) return known->second;
     const double diffuse = m.diffuse_in_band ? std::ranges::max(*m.diffuse_in_band) : m.diffuse;
-    const double sum = diffuse + m.mirror + m.glossy + m.transmittance +
-                       clear_glass_factor * normal_transmittance(m);
-    if (sum > 1 + 1e-9 && refused_.insert(m.name).second)
-      problems_.add({},
+    const double sum =
+        largest_sum(m) + m.glossy + m.transmittance + clear_glass_factor * normal_transmittance(m);
+    const auto file_id = scene_.mesh.triangle_material[t];
+    const FileMaterial* file =
+        file_id.exists() ? &scene_.mesh.file_materials[file_id.index()] : nullptr;
+    if (sum > 1 + rounding && refused_.insert(m.name).second)
+      problems_.add({file ? file->source : std::string()},
                     fmt::format("material '{}': diffuse {} + mirror {}{} exceeds 1", m.name,
                                 diffuse, m.mirror, other_shares(m)),
                     "more light would leave than arrives (triangle " + std::to_string(t) + ")",
                     normal_transmittance(m) > 0
                         ? "diffuse and mirror under scene.materials go before those of the file"
+                    : file && file->may_be_scaled
+                        ? "override it in scene.materials, or write scene.vrml_excess: scale"
                         : "override it in scene.materials");
     const auto same = std::find(scene_.materials.begin(), scene_.materials.end(), m);
     const auto id = make_id<MaterialId>(static_cast<std::size_t>(same - scene_.materials.begin()));
@@ -283,6 +320,7 @@ class MaterialAssigner {
   std::map<std::string, MaterialStudy> of_table_;  ///< rows that the study names
   std::map<std::string, MaterialId> ids_;
   std::set<std::string> refused_;
+  std::map<std::string, double> scaled_;  ///< material and file, factor
   Problems problems_;
   std::array<double, surface_names.size()> defaulted_m2_{};
 };

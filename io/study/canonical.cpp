@@ -196,20 +196,23 @@ json canonical(const SceneFileStudy& file) {
 
 json canonical(const SceneStudy& scene) {
   const auto& [files, builtin, parallel_sources, parallel_sources_where, up, unit_m, lod,
-               vrml_colour, emission_scale_w, repair, orient, materials, assign, ground, where] =
-      scene;
-  return {{"builtin", builtin ? canonical(*builtin) : json()},
-          {"files", list_of(files)},
-          {"up", up == 0 ? std::string() : std::string(1, up)},
-          {"unit_m", unit_m},
-          {"lod", lod},
-          {"vrml_colour", word_of(vrml_colour)},
-          {"emission_scale_w", emission_scale_w},
-          {"repair", word_of(repair)},
-          {"orient", word_of(orient)},
-          {"materials", list_of(materials)},
-          {"assign", list_of(assign)},
-          {"ground", ground ? canonical(*ground) : json()}};
+               vrml_colour, vrml_excess, emission_scale_w, repair, orient, materials, assign,
+               ground, where] = scene;
+  json canon{{"builtin", builtin ? canonical(*builtin) : json()},
+             {"files", list_of(files)},
+             {"up", up == 0 ? std::string() : std::string(1, up)},
+             {"unit_m", unit_m},
+             {"lod", lod},
+             {"vrml_colour", word_of(vrml_colour)},
+             {"emission_scale_w", emission_scale_w},
+             {"repair", word_of(repair)},
+             {"orient", word_of(orient)},
+             {"materials", list_of(materials)},
+             {"assign", list_of(assign)},
+             {"ground", ground ? canonical(*ground) : json()}};
+  // What most studies refuse has no key: their hashes stay.
+  if (vrml_excess != VrmlExcess::refuse) canon["vrml_excess"] = word_of(vrml_excess);
+  return canon;
 }
 
 json canonical(const MeshStudy& mesh) {

@@ -242,7 +242,8 @@ void check_source(YamlMap& map) {
         "it needs one of the two",
         files ? "a variant removes a key of the base with `files: ~` or `builtin: ~`" : "");
   }
-  for (const char* key : {"up", "unit_m", "lod", "vrml_colour", "emission_scale_w"}) {
+  for (const char* key :
+       {"up", "unit_m", "lod", "vrml_colour", "vrml_excess", "emission_scale_w"}) {
     if (builtin && map.has(key) && !map.has("parallel_sources"))
       map.warn(key, "is not used", "it belongs to files");
   }
@@ -266,6 +267,7 @@ SceneStudy read_scene(YamlMap& map, const std::string& folder) {
   scene.lod = map.text("lod", scene.lod);
   check_lod(map, scene.lod);
   scene.vrml_colour = map.choice("vrml_colour", scene.vrml_colour);
+  scene.vrml_excess = map.choice("vrml_excess", scene.vrml_excess);
   scene.emission_scale_w = map.number("emission_scale_w", powers_w, scene.emission_scale_w);
   scene.repair = map.choice("repair", scene.repair);
   scene.orient = map.choice("orient", scene.orient);

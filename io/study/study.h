@@ -173,6 +173,7 @@ struct SceneStudy {
   double unit_m = 1;
   std::string lod = "highest";
   VrmlColour vrml_colour = VrmlColour::mean;
+  VrmlExcess vrml_excess = VrmlExcess::refuse;
   double emission_scale_w = 1;  ///< power of a VRML emissiveColor of strength 1
   Repair repair = Repair::safe;
   Orientation orient = Orientation::outward;

@@ -78,6 +78,9 @@ inline Words<Sides> words_of(Sides) { return {{"one", Sides::one}, {"two", Sides
 inline Words<VrmlColour> words_of(VrmlColour) {
   return {{"mean", VrmlColour::mean}, {"norm", VrmlColour::norm}};
 }
+inline Words<VrmlExcess> words_of(VrmlExcess) {
+  return {{"refuse", VrmlExcess::refuse}, {"scale", VrmlExcess::scale}};
+}
 inline Words<Repair> words_of(Repair) {
   return {{"none", Repair::none}, {"safe", Repair::safe}, {"all", Repair::all}};
 }

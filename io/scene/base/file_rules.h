@@ -9,6 +9,8 @@ namespace sunload {
 
 /// The strength of a VRML colour: mean of its components, or their Euclidean norm.
 enum class VrmlColour { mean, norm };
+/// Colours that reflect more than arrives: an error, or made smaller with their ratio kept.
+enum class VrmlExcess { refuse, scale };
 
 /// How the coordinates and the levels of detail of a scene file are to be understood.
 struct SceneFileRules {

@@ -55,9 +55,8 @@ MaterialId VrmlModel::material(const void* node, int index, const VrmlMaterial& 
   material.diffuse_rgb = bands_of(colours.diffuse, *material.diffuse);
   material.mirror = strength(colours.specular);
   material.emitted_power_w = strength(colours.emissive) * rules_.emission_scale_w;
-  if (*material.diffuse + *material.mirror > 1) {
-    notes_.count("materials reflect more than they receive (diffuseColor + specularColor above 1)");
-  }
+  material.source = file_;
+  material.may_be_scaled = true;
   if (material.emitted_power_w > 0) {
     notes_.say(
         fmt::format("material '{}' emits {:.6g} W in all (emissiveColor × "

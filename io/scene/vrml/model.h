@@ -33,6 +33,8 @@ class VrmlModel {
   VrmlModel(const std::string& path, const SceneFileRules& rules);
 
   /// Length of all files read so far: nested USEs let a short file stand for any number of faces.
+  /// Whose materials come next.
+  void set_file(const std::string& path) { file_ = path; }
   void set_file_bytes(std::size_t bytes) { file_bytes_ = bytes; }
 
   /// A place below `parent` (an index, −1 = the root) under the name of a DEF.
@@ -63,6 +65,7 @@ class VrmlModel {
   UniqueNames object_names_, material_names_;
   double largest_ = 0;
   std::size_t file_bytes_ = 0;
+  std::string file_;
 };
 
 }  // namespace sunload

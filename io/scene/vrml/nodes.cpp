@@ -47,7 +47,18 @@ VrmlFiles::~VrmlFiles() {
   SoDebugError::setHandlerCallback(SoError::getHandlerCallback(), nullptr);
   SoProto::setFetchExternProtoCallback(nullptr, nullptr);
 }
-const VrmlFiles::File& VrmlFiles::read(const std::string& path) {
+const VrmlFiles::File& VrmlFiles::read(const std::string& path, const std::string& asker) {
+  if (asker.empty()) return read_once(path);
+  try {
+    return read_once(path);
+  } catch (const InputError& error) {
+    std::vector<std::string> problems = error.problems();
+    for (auto& problem : problems) problem += "; it is wanted by the " + asker;
+    throw InputError(std::move(problems));
+  }
+}
+
+const VrmlFiles::File& VrmlFiles::read_once(const std::string& path) {
   std::error_code no_matter;
   const auto key = fs::weakly_canonical(path, no_matter).string();
   if (const auto known = files_.find(key); known != files_.end()) return known->second;
@@ -93,7 +104,8 @@ SoProto* VrmlFiles::fetch_proto(SoInput*, const SbString* urls, const int count,
   }
 }
 
-/// The PROTO that the first url with a file names, or the only one of that file.
+/// The PROTO that the first url with a file names; without a name the first of that file
+/// (ISO/IEC 14772-1, 4.8.3).
 SoProto* VrmlFiles::proto_of(const SbString* urls, int count) {
   for (int i = 0; i < count; ++i) {
     const std::string url = urls[i].getString();
@@ -106,16 +118,16 @@ SoProto* VrmlFiles::proto_of(const SbString* urls, int count) {
     search.setType(SoProto::getClassTypeId());
     search.setSearchingAll(TRUE);
     search.setInterest(SoSearchAction::ALL);
-    search.apply(read(path).root);
+    search.apply(read(path, "EXTERNPROTO of " + texts_.back()->path).root);
     errors_ = outer_errors;
     const auto& paths = search.getPaths();
     for (int p = 0; p < paths.getLength(); ++p) {
       auto* proto = static_cast<SoProto*>(paths[p]->getTail());
-      if (hash == url.npos ? paths.getLength() == 1
-                           : url.substr(hash + 1) == text_of(proto->getProtoName()))
+      if (hash == url.npos ? p == 0 : url.substr(hash + 1) == text_of(proto->getProtoName()))
         return proto;
     }
-    throw InputError({path}, "has no PROTO '" + url + "'", "an EXTERNPROTO asks for it");
+    throw InputError({path}, "has no PROTO '" + url + "'",
+                     "an EXTERNPROTO of " + texts_.back()->path + " asks for it");
   }
   throw InputError({texts_.back()->path}, "EXTERNPROTO without a file that is there",
                    count > 0 ? std::string("url ") + urls[0].getString() : "it names none");

@@ -87,7 +87,8 @@ class VrmlFiles {
   };
 
   /// A file's nodes; the same path again is not read again. Throws InputError.
-  const File& read(const std::string& path);
+  /// `asker` is named where the file is refused: who wants it; empty for the scene itself.
+  const File& read(const std::string& path, const std::string& asker = {});
 
   /// Length of the texts that were read.
   std::size_t bytes() const { return bytes_; }
@@ -103,6 +104,7 @@ class VrmlFiles {
   };
 
   static void note_error(const SoError* error, void* files);
+  const File& read_once(const std::string& path);
   static SoProto* fetch_proto(SoInput*, const SbString* urls, int count, void* files);
   SoProto* proto_of(const SbString* urls, int count);
   void note(const VrmlDropped& dropped, const std::string& what);

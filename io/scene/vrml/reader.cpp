@@ -84,7 +84,9 @@ class VrmlWalk {
   }
 
   void inline_file(const std::string& path, State& state, int place) {
-    const auto& file = files_.read(path);
+    const std::string asker =
+        files_stack_.empty() ? std::string() : "Inline of " + files_stack_.back()->text.path;
+    const auto& file = files_.read(path, asker);
     model_.set_file_bytes(files_.bytes());
     if (std::find(files_stack_.begin(), files_stack_.end(), &file) != files_stack_.end() ||
         files_stack_.size() >= deepest_inline) {
@@ -92,10 +94,12 @@ class VrmlWalk {
                        "Inline of " + path + " leads back to it");
     }
     files_stack_.push_back(&file);
+    model_.set_file(path);
     State inner;
     inner.file_from_here = state.file_from_here;
     visit(file.root, inner, place, 0);
     files_stack_.pop_back();
+    if (!files_stack_.empty()) model_.set_file(files_stack_.back()->text.path);
   }
 
   /// The first url that is a file; further urls are copies of it elsewhere.
@@ -105,7 +109,9 @@ class VrmlWalk {
       std::error_code no_matter;
       if (fs::is_regular_file(path, no_matter)) return inline_file(path, state, place);
     }
-    if (!urls.empty()) model_.notes().say("inlined file '" + urls.front() + "' is not there");
+    if (!urls.empty())
+      model_.notes().say("inlined file '" + urls.front() + "' is not there, which " +
+                         fs::path(files_stack_.back()->text.path).filename().string() + " wants");
   }
 
   void visit(SoNode* node, State& state, int place, std::size_t depth) {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "io/scene/vrml/shapes.h"
+#include "tests/support/refusal_of.h"
 #include "tests/support/scene_text.h"
 
 namespace sunload {
@@ -199,6 +200,31 @@ TEST(SceneVrml, GzipByContentInlineAndExternProto) {
   EXPECT_EQ(model.object_names, (std::vector<std::string>{"box", "box_2", "whole"}));
   EXPECT_TRUE(has_note(model, "'gone.wrl' is not there"));
   EXPECT_NEAR(bounding_box(model.vertices).high.z, 2, 1e-12);
+}
+
+/// ISO/IEC 14772-1, 4.8.3: a url without a name means the first PROTO of its file.
+TEST(SceneVrml, AnExternProtoWithoutNameIsTheFirstOfItsFile) {
+  write_text("protos.wrl", vrml97 +
+                               "PROTO Ball [ ] { Shape { geometry Sphere { } } }\n"
+                               "PROTO Box2 [ ] { Shape { geometry Box { } } }");
+  const auto model = read_text("whole.wrl", vrml97 + "EXTERNPROTO A [ ] \"protos.wrl\"\nA { }\n");
+  EXPECT_EQ(model.polygon_count(), 512u);
+}
+
+TEST(SceneVrml, WhatIsWrongWithAnIncludedFileNamesWhoWantsIt) {
+  write_text("broken.wrl", vrml97 + "Shape { geometry Box {");
+  write_text("middle.wrl", vrml97 + "Inline { url \"broken.wrl\" }");
+  const auto said_of = [](const std::string& text) {
+    return test::refusal_of([&] { read_text("outer.wrl", vrml97 + text); });
+  };
+  const auto included = said_of("Inline { url \"middle.wrl\" }");
+  EXPECT_NE(included.find("broken.wrl:2:"), std::string::npos) << included;
+  EXPECT_NE(included.find("Inline of"), std::string::npos) << included;
+  EXPECT_NE(included.find("middle.wrl"), std::string::npos) << included;
+  const auto proto = said_of("EXTERNPROTO A [ ] \"broken.wrl#A\"\nA { }");
+  EXPECT_NE(proto.find("broken.wrl:2:"), std::string::npos) << proto;
+  EXPECT_NE(proto.find("EXTERNPROTO of"), std::string::npos) << proto;
+  EXPECT_NE(proto.find("outer.wrl"), std::string::npos) << proto;
 }
 
 TEST(SceneVrml, CirclesOfFilesAreRefused) {
