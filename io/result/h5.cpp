@@ -332,7 +332,9 @@ std::vector<std::string> Dataset::strings() const {
   const auto begins = read_all<char*>(id(), size, *type);
   std::vector<std::string> values;
   values.reserve(begins.size());
-  for (const char* begin : begins) values.push_back(clean_name(begin != nullptr ? begin : ""));
+  // One value is a text with its lines, such as the study; of several each is a name.
+  const auto clean = size.empty() ? without_controls : clean_name;
+  for (const char* begin : begins) values.push_back(clean(begin != nullptr ? begin : ""));
   auto* reclaimed = const_cast<char**>(begins.data());
   H5Dvlen_reclaim(*type, *space_of(size), H5P_DEFAULT, reclaimed);
   return values;

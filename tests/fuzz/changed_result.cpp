@@ -42,6 +42,7 @@ const std::vector<std::string>& texts() {
                                             "\xff\xfe",
                                             "Europe/Nowhere",
                                             "EPSG:999999",
+                                            "\xff\xfe",
                                             "a\x1b[31m,\"<script>\n{",
                                             "[1",
                                             "illuminance",
