@@ -95,6 +95,9 @@ struct Mesh {
   std::vector<FacadeId> triangle_facade;      ///< or none
   std::vector<Surface> triangle_surface;
   std::vector<Sides> triangle_sides;
+  /// 1: lies inside a body or against another surface, so that no light reaches its fronts. Empty
+  /// where nothing is covered.
+  std::vector<std::uint8_t> triangle_covered;
 
   std::vector<std::string> object_names;
   std::vector<std::string> object_kinds;
@@ -103,6 +106,13 @@ struct Mesh {
   Vec3 origin;  ///< absolute position of the local origin
 
   std::size_t triangle_count() const { return triangles.size(); }
+  bool is_covered(std::size_t triangle) const {
+    return !triangle_covered.empty() && triangle_covered[triangle] != 0;
+  }
+  /// Floors and covered triangles cast shadows and are no patches.
+  bool bears_patches(std::size_t triangle) const {
+    return triangle_surface[triangle] != Surface::floor && !is_covered(triangle);
+  }
   Vec3 corner(std::size_t triangle, int k) const {
     return vertices[static_cast<std::size_t>(triangles[triangle][static_cast<std::size_t>(k)])];
   }

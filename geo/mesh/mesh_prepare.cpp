@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <numeric>
 
 #include "geo/base/check.h"
 #include "geo/mesh/facade.h"
-#include "geo/mesh/ground_plate.h"
 #include "geo/mesh/mesh_clean.h"
 #include "geo/mesh/orient.h"
 #include "geo/mesh/surface_kind.h"
@@ -137,9 +137,17 @@ Mesh triangles_of(const PolygonModel& model, const PrepareRules& rules, const Pl
   return mesh;
 }
 
-/// Steps 5 to 8: T-joints, twins, windings, kinds of surface.
-void settle(Mesh& mesh, const PrepareRules& rules, const PolygonModel& model, double tolerance,
-            PrepareReport& report) {
+/// On a slope the underside of a body is higher than its lowest point.
+void take_floors(Mesh& mesh, const std::vector<Foot>& feet) {
+  for (const Foot& foot : feet)
+    for (const auto t : foot.floors)
+      if (foot.stance == Stance::ground && mesh.triangle_surface[t] == Surface::other)
+        mesh.triangle_surface[t] = Surface::floor;
+}
+
+/// Steps 5 to 8: T-joints, twins, windings, feet, kinds of surface.
+std::vector<Foot> settle(Mesh& mesh, const PrepareRules& rules, const PolygonModel& model,
+                         double tolerance, PrepareReport& report, Bodies& bodies) {
   std::vector<std::uint8_t> faced_both_ways(mesh.triangle_count(), 0);
   if (rules.repair == Repair::all)
     report.t_joints_split = split_t_joints(mesh, tolerance, model.source);
@@ -149,7 +157,7 @@ void settle(Mesh& mesh, const PrepareRules& rules, const PolygonModel& model, do
     faced_both_ways = std::move(duplicates.faced_both_ways);
   }
   const bool may_turn = rules.repair != Repair::none && rules.orientation == Orientation::outward;
-  const auto bodies = orient(mesh, faced_both_ways, may_turn ? Winding::turn : Winding::keep);
+  bodies = orient(mesh, faced_both_ways, may_turn ? Winding::turn : Winding::keep);
   report.triangles_flipped = bodies.triangles_flipped;
   report.inside_out_bodies = bodies.inside_out;
   report.unorientable = bodies.unorientable;
@@ -164,7 +172,12 @@ void settle(Mesh& mesh, const PrepareRules& rules, const PolygonModel& model, do
     mesh.triangle_sides[t] = Sides::two;
     ++report.sheets_merged;
   }
-  decide_surfaces(mesh, bodies, model.is_city_format ? SceneKind::city : SceneKind::plain);
+  const auto kind = model.is_city_format ? SceneKind::city : SceneKind::plain;
+  auto feet = rules.ground ? find_feet(mesh, bodies, kind) : std::vector<Foot>{};
+  const Standing standing = standing_on(mesh, feet, rules.ground, bodies.bodies.size());
+  decide_surfaces(mesh, bodies, kind, standing);
+  if (!standing.on_ground.empty()) take_floors(mesh, feet);
+  return feet;
 }
 
 InputError nothing_left(const std::string& source, const PrepareReport& report) {
@@ -182,8 +195,50 @@ InputError nothing_left(const std::string& source, const PrepareReport& report) 
           "are the corners of its faces in order?"};
 }
 
+/// Triangles have new numbers.
+void keep_bodies(const std::vector<std::uint8_t>& keep, Bodies& bodies, std::vector<Foot>& feet) {
+  std::vector<std::size_t> new_index(keep.size());
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < keep.size(); ++t) {
+    new_index[t] = kept;
+    if (keep[t]) bodies.triangle_body[kept++] = bodies.triangle_body[t];
+  }
+  bodies.triangle_body.resize(kept);
+  for (Foot& foot : feet) {
+    std::erase_if(foot.floors, [&](std::size_t t) { return !keep[t]; });
+    for (std::size_t& t : foot.floors) t = new_index[t];
+    for (std::size_t& t : foot.walls) t = keep[t] ? new_index[t] : no_wall;
+  }
+}
+
+/// Walls drawn down come after the triangles of their object.
+void order_by_object(PreparedMesh& prepared) {
+  Mesh& mesh = prepared.mesh;
+  std::vector<std::size_t> order(mesh.triangle_count());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return mesh.triangle_object[a] < mesh.triangle_object[b];
+  });
+  const auto sort = [&](auto& list) {
+    if (list.empty()) return;
+    auto old = std::move(list);
+    list.clear();
+    for (const auto t : order) list.push_back(old[t]);
+  };
+  sort(mesh.triangles);
+  sort(mesh.triangle_object);
+  sort(mesh.triangle_material);
+  sort(mesh.triangle_facade);
+  sort(mesh.triangle_surface);
+  sort(mesh.triangle_sides);
+  sort(mesh.triangle_covered);
+  sort(prepared.bodies.triangle_body);
+  sort(prepared.seals);
+}
+
 /// Step 9.
-void drop_degenerates(Mesh& mesh, Repair repair, const std::string& source, PrepareReport& report) {
+void drop_degenerates(Mesh& mesh, Repair repair, const std::string& source, PrepareReport& report,
+                      Bodies& bodies, std::vector<Foot>& feet) {
   const auto keep = with_area(mesh, repair == Repair::none ? 0 : least_height_ratio);
   const auto degenerates = static_cast<std::size_t>(std::count(keep.begin(), keep.end(), 0));
   report.degenerates_dropped += degenerates;
@@ -192,18 +247,9 @@ void drop_degenerates(Mesh& mesh, Repair repair, const std::string& source, Prep
                      "irradiance is light per area", "set scene.repair: safe");
   }
   keep_triangles(mesh, keep);
+  if (degenerates > 0) keep_bodies(keep, bodies, feet);
   if (mesh.triangle_count() == 0) throw nothing_left(source, report);
   drop_unused_vertices(mesh);
-}
-
-void measure(const Mesh& mesh, PrepareReport& report) {
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    const auto surface = static_cast<std::size_t>(mesh.triangle_surface[t]);
-    report.area_m2[surface] += norm(mesh.area_vector2(t)) / 2;
-    report.worst_aspect = std::max(report.worst_aspect, aspect(mesh, t));
-    if (mesh.triangle_surface[t] == Surface::floor) ++report.floors;
-  }
-  report.bounds = bounding_box(mesh.vertices);
 }
 
 void add_warnings(PrepareReport& r, Orientation orientation) {
@@ -238,6 +284,21 @@ void add_warnings(PrepareReport& r, Orientation orientation) {
 
 }  // namespace
 
+void measure(const Mesh& mesh, PrepareReport& report) {
+  report.area_m2 = report.covered_m2 = {};
+  report.floors = 0;
+  report.worst_aspect = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const auto surface = static_cast<std::size_t>(mesh.triangle_surface[t]);
+    const double area = norm(mesh.area_vector2(t)) / 2;
+    report.area_m2[surface] += area;
+    if (mesh.is_covered(t)) report.covered_m2[surface] += area;
+    report.worst_aspect = std::max(report.worst_aspect, aspect(mesh, t));
+    if (mesh.triangle_surface[t] == Surface::floor) ++report.floors;
+  }
+  report.bounds = bounding_box(mesh.vertices);
+}
+
 PreparedMesh prepare(const PolygonModel& model, const PrepareRules& rules) {
   check_model(model);
   const auto is_used = used_vertices(model);
@@ -249,10 +310,17 @@ PreparedMesh prepare(const PolygonModel& model, const PrepareRules& rules) {
   report.polygons_read = model.polygon_count();
   report.vertices_read = model.vertices.size();
   mesh = triangles_of(model, rules, placement, is_used, report);
-  settle(mesh, rules, model, weld_tolerance(rules.repair, placement.diagonal), report);
-  drop_degenerates(mesh, rules.repair, model.source, report);
+  auto feet = settle(mesh, rules, model, weld_tolerance(rules.repair, placement.diagonal), report,
+                     result.bodies);
+  drop_degenerates(mesh, rules.repair, model.source, report, result.bodies, feet);
   find_facades(mesh, rules.north_deg);
-  if (rules.ground) add_ground_plate(mesh, rules.ground->margin_m);
+  if (rules.ground) {
+    auto made = add_ground(mesh, feet, *rules.ground);
+    report.ground = std::move(made.report);
+    result.seals = std::move(made.seals);
+    result.bodies.triangle_body.resize(mesh.triangle_count(), -1);
+    if (report.ground->drawn > 0 || !result.seals.empty()) order_by_object(result);
+  }
   measure(mesh, report);
   add_warnings(report, rules.orientation);
   return result;

@@ -25,7 +25,7 @@
 /// 9. **Degenerates** (geo/mesh/mesh_clean): triangles whose height is at most
 ///    `least_height_ratio` of their longest edge are dropped, after step 7 so
 ///    that a triangle without area does not open a body; `none` refuses them.
-/// 10. **Facades** (geo/mesh/facade), **ground plate** (geo/mesh/ground_plate), report.
+/// 10. **Facades** (geo/mesh/facade), **ground** (geo/mesh/ground), report.
 ///
 /// Equal input gives equal bits: no order depends on addresses or on hashing.
 #pragma once
@@ -35,7 +35,9 @@
 #include <string>
 #include <vector>
 
+#include "geo/mesh/ground.h"
 #include "geo/mesh/mesh.h"
+#include "geo/mesh/orient.h"
 
 namespace sunload {
 
@@ -46,15 +48,9 @@ enum class Repair { none, safe, all };
 /// outward: closed bodies are lit outside. keep: the winding of the file, for rooms lit inside.
 enum class Orientation { outward, keep };
 
-/// A horizontal plate under the scene at its lowest z, `margin_m` wider than
-/// the bounding box on each side; object and material are called `ground`.
-struct GroundPlate {
-  double margin_m = 50;
-};
-
 struct PrepareRules {
   Repair repair = Repair::safe;
-  std::optional<GroundPlate> ground;
+  std::optional<GroundRules> ground;
   Orientation orientation = Orientation::outward;
   double north_deg = 0;  ///< azimuth of scene +y: only names facades by their true direction
 };
@@ -82,8 +78,10 @@ struct PrepareReport {
   std::size_t unorientable = 0;       ///< bodies with edges that no orientation satisfies
   std::size_t open_edges = 0, nonmanifold_edges = 0;
   std::size_t floors = 0;  ///< triangles that touch the ground: cast shadows, are no patches
-  std::array<double, surface_names.size()> area_m2{};  ///< per surface kind
-  double volume_m3 = 0;                                ///< of all closed bodies
+  std::array<double, surface_names.size()> area_m2{};     ///< per surface kind
+  std::array<double, surface_names.size()> covered_m2{};  ///< of it: no light can reach it
+  std::optional<GroundReport> ground;                     ///< where one was asked for
+  double volume_m3 = 0;                                   ///< of all closed bodies
   double worst_aspect = 0;            ///< longest edge / shortest height of a triangle
   Box bounds;                         ///< relative to the mesh's origin, ground plate included
   std::vector<std::string> warnings;  ///< ready to print, each states its consequence
@@ -92,11 +90,16 @@ struct PrepareReport {
 struct PreparedMesh {
   Mesh mesh;
   PrepareReport report;
+  Bodies bodies;  ///< of the triangles of `mesh`; ground and walls drawn down to it are none
+  std::vector<std::uint8_t> seals;  ///< of the ground: see GroundMade
 };
 
 /// Throws InputError where the model is empty or nothing of it is left, where a
 /// coordinate is not finite or too large, under `none`, where triangles
 /// have no area, and, under `all`, where the edges of too many of them overlap.
 PreparedMesh prepare(const PolygonModel& model, const PrepareRules& rules);
+
+/// Areas, bounds, floors and slivers of the report, anew after triangles were divided.
+void measure(const Mesh& mesh, PrepareReport& report);
 
 }  // namespace sunload

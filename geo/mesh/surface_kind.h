@@ -3,20 +3,17 @@
 /// Wall, roof, ground, floor: decided from the slope where the file is silent.
 #pragma once
 
+#include "geo/mesh/feet.h"
+#include "geo/mesh/ground.h"
 #include "geo/mesh/mesh.h"
 #include "geo/mesh/orient.h"
 
 namespace sunload {
 
-/// city: objects are known to be buildings, land, plants, …; plain: just shapes.
-enum class SceneKind { plain, city };
-
-/// A face steeper than this is upright.
-inline constexpr double upright_slope_deg = 70;
-/// Faces this near to the lowest z of a body, or 5 % of its height where that
-/// is less, are at its foot.
-inline constexpr double foot_height_m = 0.1;
-inline constexpr double foot_height_ratio = 0.05;
+/// A face no higher than this above what is below it touches it: or 0.5 % of its body's height,
+/// where that is less.
+inline constexpr double touching_m = 0.01;  // the joints of built-in scenes are 5 mm
+inline constexpr double touching_ratio = 0.005;
 
 /// Replaces `other` by slope; what the reader has said stays.
 ///
@@ -27,14 +24,12 @@ inline constexpr double foot_height_ratio = 0.05;
 /// | plants of a city | other | other | other |
 /// | open sheet of a plain file | wall | other | other |
 ///
-/// The foot is that of the body, in cities that of the object. Floors touch the
-/// ground and are no patches, so a body of a plain file that hovers has none: a
-/// face at its foot stays `other` where the ground is lower than the foot's
-/// tolerance. The ground is the highest upward face below the face's centre (up
-/// to the body's top, so that sunk bodies are not taken to hover); where nothing
-/// is below, the lowest z of the scene, where a ground plate lies. Buildings of
-/// cities stand on the ground even where no terrain comes with them. Rooms,
+/// The foot is that of the body, in cities that of the object. Floors touch the ground or another
+/// body and are no patches: of a plain file a face at the foot is one only where the highest upward
+/// face below it (up to the body's top, so that sunk bodies are not taken to hover) touches
+/// it, or, where nothing is below, the ground that the scene will get. Without a ground it is lit
+/// from below. Buildings of cities stand on the ground even where none comes with them. Rooms,
 /// whose fronts look inward (`Winding::keep`), have walls and `other`.
-void decide_surfaces(Mesh& mesh, const Bodies& bodies, SceneKind kind);
+void decide_surfaces(Mesh& mesh, const Bodies& bodies, SceneKind kind, const Standing& standing);
 
 }  // namespace sunload

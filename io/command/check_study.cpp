@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geo/mesh/intersections.h"
+#include "geo/mesh/surface_kind.h"
 #include "io/base/exit_code.h"
 #include "io/base/machine.h"
 #include "io/base/output_target.h"
@@ -50,6 +51,63 @@ std::string counts_text(const PrepareReport& r) {
   text += "  area     ";
   for (std::size_t s = 0; s < surface_names.size(); ++s)
     if (r.area_m2[s] > 0) text += fmt::format(" {} {:.6g} m2", surface_names[s], r.area_m2[s]);
+  text += "\n";
+  std::string covered;
+  for (std::size_t s = 0; s < surface_names.size(); ++s)
+    if (r.covered_m2[s] > 0)
+      covered += fmt::format(" {} {:.6g} m2", surface_names[s], r.covered_m2[s]);
+  if (!covered.empty())
+    text += "  covered  " + covered +
+            ": inside of bodies, against other surfaces or below land; no patches\n";
+  return text;
+}
+
+/// "+0.12", "-0.30", and 0.00 without a sign.
+std::string signed_text(double metres) {
+  const double cm = std::round(metres * 100);
+  return cm == 0 ? "0.00" : fmt::format("{:+.2f}", cm / 100);
+}
+
+std::string gaps_text(const std::vector<FootGap>& gaps, std::size_t most) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(gaps.size(), most); ++i)
+    text +=
+        fmt::format("{}{} {} m", i == 0 ? "" : ", ", gaps[i].object, signed_text(gaps[i].gap_m));
+  return text + (gaps.size() > most ? ", …" : "");
+}
+
+/// How the ground was made, and how far bodies are above it or below.
+std::string ground_text(const GroundReport& g) {
+  constexpr std::size_t most = 10;
+  std::string text = "  ground    ";
+  if (g.made_m2 == 0)
+    text += "none made";
+  else if (g.is_level)
+    text +=
+        fmt::format("{:.6g} m2, level at {:.2f} m{}", g.made_m2, g.low_m,
+                    g.surface == GroundSurface::feet && g.standing > 0 ? " as all feet are" : "");
+  else
+    text += fmt::format(
+        "{:.6g} m2 through the feet, from {:.2f} to {:.2f} m, level beyond the outermost",
+        g.made_m2, g.low_m, g.high_m);
+  if (g.terrain_m2 > 0)
+    text += fmt::format("; the model's own terrain goes first, {:.6g} m2", g.terrain_m2);
+  text += fmt::format("\n  feet      {} bodies stand on it, {} on other bodies", g.standing,
+                      g.on_others);
+  if (g.standing > 0)
+    text +=
+        fmt::format("; above it (below: -) by {} {} {} {} {} m (least, 5 %, median, 95 %, most)",
+                    signed_text(g.gap_m[0]), signed_text(g.gap_m[1]), signed_text(g.gap_m[2]),
+                    signed_text(g.gap_m[3]), signed_text(g.gap_m[4]));
+  if (g.drawn > 0)
+    text +=
+        fmt::format("\n            walls of {} are drawn down to the terrain, by {:.2f} m at most",
+                    g.drawn, g.longest_drawn_m);
+  if (!g.worst.empty() && std::abs(g.worst.front().gap_m) > touching_m)
+    text += "\n            farthest: " + gaps_text(g.worst, most);
+  if (!g.hovering.empty())
+    text += fmt::format("\n            {} hover, too far from the feet beside them: {}",
+                        g.hovering.size(), gaps_text(g.hovering, most));
   return text + "\n";
 }
 
@@ -165,6 +223,7 @@ void print_text(const VariantPlan& plan, const VariantMesh& made, const WorkEsti
   text += "scene\n" + counts_text(plan.built.report) +
           extent_text(plan.built.scene.mesh, plan.built.report.bounds);
   if (rules.search == SearchIntersections::yes) text += intersections_text(plan.built.scene.mesh);
+  if (plan.built.report.ground) text += ground_text(*plan.built.report.ground);
   for (const auto& note : plan.built.notes) text += "  note      " + note + "\n";
   text += "materials\n" + materials_text(plan.built.scene) +
           parallel_sources_text(plan.built.scene.parallel_sources);

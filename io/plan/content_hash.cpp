@@ -18,8 +18,8 @@ namespace {
 void add_mesh(Digest& digest, const Mesh& mesh) {
   // What files say of materials, and kinds of objects, have become materials of the scene by now.
   const auto& [vertices, triangles, triangle_object, triangle_material, triangle_facade,
-               triangle_surface, triangle_sides, object_names, object_kinds, file_materials,
-               facades, origin] = mesh;
+               triangle_surface, triangle_sides, triangle_covered, object_names, object_kinds,
+               file_materials, facades, origin] = mesh;
   digest.add(origin);
   digest.add(vertices);
   digest.add(triangles);
@@ -30,6 +30,7 @@ void add_mesh(Digest& digest, const Mesh& mesh) {
   static_assert(static_cast<int>(Sides::one) == 0 && static_cast<int>(Sides::two) == 1);
   digest.add(triangle_surface);
   digest.add(triangle_sides);
+  digest.add(triangle_covered);
   digest.add(object_names);
   digest.add(facades.size());
   for (const Facade& facade : facades) {

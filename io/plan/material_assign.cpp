@@ -75,7 +75,7 @@ class MaterialAssigner {
   static std::vector<double> emission_per_area(const SceneStudy& study, const Mesh& mesh) {
     std::vector<double> area(mesh.file_materials.size(), 0), emission(area);
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-      if (mesh.triangle_material[t].exists() && mesh.triangle_surface[t] != Surface::floor &&
+      if (mesh.triangle_material[t].exists() && mesh.bears_patches(t) &&
           mesh.file_materials[mesh.triangle_material[t].index()].emitted_power_w > 0) {
         // The two patches of a two-sided triangle emit both.
         const auto m = mesh.triangle_material[t].index();
@@ -231,25 +231,25 @@ class MaterialAssigner {
   }
 
   double default_of(std::size_t t) {
-    defaulted_m2_[static_cast<std::size_t>(scene_.mesh.triangle_surface[t])] +=
-        norm(scene_.mesh.area_vector2(t)) / 2;
+    if (scene_.mesh.bears_patches(t))
+      defaulted_m2_[static_cast<std::size_t>(scene_.mesh.triangle_surface[t])] +=
+          norm(scene_.mesh.area_vector2(t)) / 2;
     return default_reflectance;
   }
 
-  /// Floors are no patches, and their reflectance is never asked for.
+  /// Of what is no patch the reflectance is never asked for.
   void warn_of_defaults() {
     double defaulted = 0, all = 0;
     std::string kinds;
     for (std::size_t s = 0; s < surface_names.size(); ++s) {
-      if (static_cast<Surface>(s) == Surface::floor || defaulted_m2_[s] == 0) continue;
+      if (defaulted_m2_[s] == 0) continue;
       defaulted += defaulted_m2_[s];
       kinds += fmt::format("{}{} {:.0f} m2", kinds.empty() ? "" : ", ", surface_names[s],
                            defaulted_m2_[s]);
     }
     if (defaulted == 0) return;
     for (std::size_t t = 0; t < scene_.mesh.triangle_count(); ++t)
-      if (scene_.mesh.triangle_surface[t] != Surface::floor)
-        all += norm(scene_.mesh.area_vector2(t)) / 2;
+      if (scene_.mesh.bears_patches(t)) all += norm(scene_.mesh.area_vector2(t)) / 2;
     warnings_.push_back(fmt::format(
         "{:.0f} m2, {:.3g} % of the surface, have no material in file or study ({}); diffuse "
         "reflectance {} is taken for them; scene.assign and scene.ground give materials, `sunload "

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "geo/mesh/covered.h"
 #include "geo/sun/weather.h"
 #include "io/plan/material_assign.h"
 #include "io/plan/scene_models.h"
@@ -51,7 +52,8 @@ PrepareRules prepare_rules(const Study& study, const PolygonModel& model, const 
   rules.orientation = study.scene.orient;
   const auto& ground = study.scene.ground;
   if (ground ? ground->wanted : model.is_city_format)
-    rules.ground = GroundPlate{ground ? ground->margin_m : GroundPlate{}.margin_m};
+    rules.ground =
+        ground ? GroundRules{ground->margin_m, ground->surface, ground->height_m} : GroundRules{};
   return rules;
 }
 
@@ -163,6 +165,41 @@ ParallelSources read_parallel_sources(const Study& study, Vec3 origin, BuiltScen
   return sources;
 }
 
+/// What is behind a veil is lit: which surfaces light goes through (that of panes leaves the scene)
+/// materials have to say. They are assigned anew afterwards, since a file's power is shared by what
+/// is left of its lamps.
+void cover(const Study& study, PreparedMesh& prepared) {
+  Scene scene;
+  scene.mesh = prepared.mesh;
+  std::vector<std::string> said_later;
+  assign_materials(study, scene, said_later);
+  prepared.mesh.triangle_sides = scene.mesh.triangle_sides;
+  std::vector<std::uint8_t> is_opaque;
+  for (const MaterialId id : scene.material)
+    is_opaque.push_back(scene.materials[id.index()].transmittance == 0);
+  scene = {};
+  const CoveredCut cut = cut_covered(prepared.mesh, prepared.bodies, is_opaque, prepared.seals);
+  if (cut.covered > 0) measure(prepared.mesh, prepared.report);
+}
+
+/// Feet that the ground does not reach.
+void warn_of_gaps(const Study& study, BuiltScene& built) {
+  if (!built.report.ground || built.report.ground->floating == 0) return;
+  const GroundReport& ground = *built.report.ground;
+  std::string names;
+  for (const FootGap& gap : ground.worst)
+    if (gap.gap_m > floating_m)
+      names += fmt::format("{}{} by {:.2f} m", names.empty() ? "" : ", ", gap.object, gap.gap_m);
+  built.warnings.push_back(message(
+      study.scene.where,
+      fmt::format("{} of {} bodies stand more than {} m above the ground ({}{})", ground.floating,
+                  ground.standing, floating_m, names,
+                  ground.floating > ground.worst.size() ? ", …" : ""),
+      "sun and sky pass below their walls",
+      ground.surface == GroundSurface::level ? "scene.ground: {surface: feet} goes through the feet"
+                                             : "the terrain of the model lies there"));
+}
+
 }  // namespace
 
 BuiltScene scene_before_materials(const Study& study) {
@@ -172,9 +209,11 @@ BuiltScene scene_before_materials(const Study& study) {
   built.site = resolve_site(study, model, built);
   built.crs = study.site.crs.empty() ? model.crs : study.site.crs;
   PreparedMesh prepared = prepare(model, prepare_rules(study, model, built.site));
+  if (study.scene.repair != Repair::none) cover(study, prepared);
   built.report = std::move(prepared.report);
   built.warnings.insert(built.warnings.end(), built.report.warnings.begin(),
                         built.report.warnings.end());
+  warn_of_gaps(study, built);
   built.scene.mesh = std::move(prepared.mesh);
   return built;
 }

@@ -165,8 +165,12 @@ json canonical(const AssignRule& rule) {
 }
 
 json canonical(const GroundStudy& ground) {
-  const auto& [wanted, margin_m, material] = ground;
-  return {{"wanted", wanted}, {"margin_m", margin_m}, {"material", material}};
+  const auto& [wanted, margin_m, material, surface, height_m] = ground;
+  return {{"wanted", wanted},
+          {"margin_m", margin_m},
+          {"material", material},
+          {"surface", word_of(surface)},
+          {"height_m", maybe(height_m)}};
 }
 
 json canonical(const BuiltinStudy& builtin) {

@@ -31,6 +31,7 @@ constexpr int most_panes = 10;
 constexpr Range normal_transmittances{0, 1, Range::Low::excluded};  // check_clear_glass: below 1
 constexpr Range exponents{0, 1e5};                                  // a lobe of some 0.4 degrees
 constexpr Range margins_m{0, 1e5};
+constexpr Range heights_m{-1e5, 1e5};
 constexpr Range edges_m{1e-3, 1e9};
 constexpr Range areas_m2{0, 1e6};
 constexpr Range tolerances{1e-4, 1e3};
@@ -230,6 +231,14 @@ std::optional<GroundStudy> read_ground(YamlMap& map) {
   map.section("ground", [&](YamlMap& section) {
     ground.margin_m = section.number("margin_m", margins_m, ground.margin_m);
     ground.material = section.text("material", ground.material);
+    const std::string surface = section.word("surface", {"feet", "level", "none"}, "feet");
+    ground.wanted = surface != "none";
+    if (surface == "level") ground.surface = GroundSurface::level;
+    ground.height_m = section.number("height_m", heights_m);
+    if (ground.height_m && surface != "level")
+      section.problem("height_m", "stands without surface: level",
+                      "a ground through the feet has many heights",
+                      "write surface: level, or leave it out");
   });
   return map.has("ground") ? std::optional(ground) : std::nullopt;
 }

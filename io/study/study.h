@@ -130,6 +130,8 @@ struct GroundStudy {
   bool wanted = true;
   double margin_m = 50;
   std::string material;
+  GroundSurface surface = GroundSurface::feet;
+  std::optional<double> height_m;  ///< of a level one; absent: the lowest point of the scene
 };
 
 struct BuiltinStudy {

@@ -81,6 +81,9 @@ inline Words<VrmlColour> words_of(VrmlColour) {
 inline Words<VrmlExcess> words_of(VrmlExcess) {
   return {{"refuse", VrmlExcess::refuse}, {"scale", VrmlExcess::scale}};
 }
+inline Words<GroundSurface> words_of(GroundSurface) {
+  return {{"feet", GroundSurface::feet}, {"level", GroundSurface::level}};
+}
 inline Words<Repair> words_of(Repair) {
   return {{"none", Repair::none}, {"safe", Repair::safe}, {"all", Repair::all}};
 }

@@ -30,7 +30,7 @@ ElementForest::ElementForest(const Scene& scene)
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const auto object = mesh.triangle_object[t].index();
     tree_key_.push_back(mixed(text_key(mesh.object_names[object]), number_in_object[object]++));
-    if (mesh.triangle_surface[t] == Surface::floor) continue;
+    if (!mesh.bears_patches(t)) continue;
     root_[t] = static_cast<std::int32_t>(elements_.size());
     elements_.push_back({mesh.triangles[t], -1, static_cast<std::int32_t>(t), 1,
                          apex_of_longest_edge(vertices_, mesh.triangles[t])});

@@ -29,7 +29,7 @@ std::size_t least_patch_count(const Scene& scene, const SplitRules& rules) {
   const Mesh& mesh = scene.mesh;
   double count = 0;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    if (mesh.triangle_surface[t] == Surface::floor) continue;
+    if (!mesh.bears_patches(t)) continue;
     const double area_m2 = norm(mesh.area_vector2(t)) / 2;
     const double leaves = std::max(1.0, std::ceil(area_m2 / largest_leaf_m2));
     count += mesh.triangle_sides[t] == Sides::two ? 2 * leaves : leaves;

@@ -79,7 +79,7 @@ void prepare_small(const PolygonModel& model, std::size_t input_bytes) {
   if (model.ring_vertex.size() > most_corners) return;
   PrepareRules rules;
   rules.repair = static_cast<Repair>(input_bytes % 3);
-  if (input_bytes % 2 == 0) rules.ground = GroundPlate{};
+  if (input_bytes % 2 == 0) rules.ground = GroundRules{};
   check_mesh(prepare(model, rules).mesh);
 }
 

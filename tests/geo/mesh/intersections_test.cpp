@@ -37,7 +37,7 @@ TEST(Intersections, BodiesThatOverlapHaveSome) {
 /// Where they stand on the ground, or on each other, bodies touch.
 TEST(Intersections, BodiesThatStandOnTheGroundOnlyTouchIt) {
   auto builder = ModelBuilder().object("one").box({0, 0, 0}, {2, 2, 2});
-  const PrepareRules on_plate{.ground = GroundPlate{5}};
+  const PrepareRules on_plate{.ground = GroundRules{5}};
   EXPECT_EQ(find_intersections(builder.prepared(on_plate).mesh).pairs(), 0u);
   builder.object("beside").box({2, 0.5, 0}, {3, 1.5, 1});
   const auto touching = find_intersections(builder.prepared(on_plate).mesh);

@@ -40,8 +40,9 @@ void add_wall_with_windows(ModelBuilder& builder, double width, double height, d
   }
 }
 
-TEST(SurfaceKind, ABoxHasWallsRoofAndFloor) {
-  const auto p = ModelBuilder().object("box").box({0, 0, 0}, {2, 3, 4}).prepared();
+TEST(SurfaceKind, ABoxOnAGroundHasWallsRoofAndFloor) {
+  const auto p =
+      ModelBuilder().object("box").box({0, 0, 0}, {2, 3, 4}).prepared({.ground = GroundRules{}});
   EXPECT_NEAR(area_of(p, Surface::wall), 2 * (8 + 12), rounding);
   EXPECT_NEAR(area_of(p, Surface::roof), 6, rounding);
   EXPECT_NEAR(area_of(p, Surface::floor), 6, rounding);
@@ -75,15 +76,28 @@ TEST(SurfaceKind, BodiesThatHoverHaveNoFloor) {
   EXPECT_EQ(downward["hovers"], std::set{Surface::other});
 }
 
-TEST(SurfaceKind, WhereNothingIsBelowTheGroundIsAtTheLowestPoint) {
-  auto builder = ModelBuilder().object("stands").box({0, 0, 0}, {2, 2, 4});
-  builder.object("hovers").box({20, 0, 1}, {22, 2, 4});
+TEST(SurfaceKind, WhereNothingIsBelowTheGroundDecides) {
+  auto builder = ModelBuilder().object("low").box({0, 0, 0}, {2, 2, 4});
+  builder.object("high").box({20, 0, 1}, {22, 2, 4});
+  // Without a ground both are lit from below.
   const auto p = builder.prepared();
-  EXPECT_NEAR(area_of(p, Surface::floor), 4, rounding);
-  EXPECT_NEAR(area_of(p, Surface::other), 4, rounding);
-  const auto with_plate = builder.prepared({.ground = GroundPlate{5}});
-  EXPECT_NEAR(area_of(with_plate, Surface::floor), 4, rounding);
-  EXPECT_NEAR(area_of(with_plate, Surface::other), 4, rounding);
+  EXPECT_NEAR(area_of(p, Surface::floor), 0, rounding);
+  EXPECT_NEAR(area_of(p, Surface::other), 8, rounding);
+  const auto on_plate = builder.prepared({.ground = GroundRules{5, GroundSurface::level}});
+  EXPECT_NEAR(area_of(on_plate, Surface::floor), 4, rounding);
+  EXPECT_NEAR(area_of(on_plate, Surface::other), 4, rounding);
+  const auto on_feet = builder.prepared({.ground = GroundRules{5}});
+  EXPECT_NEAR(area_of(on_feet, Surface::floor), 8, rounding);
+}
+
+TEST(SurfaceKind, AFloorIsWhatTouchesNotWhatLooksDown) {
+  auto builder = ModelBuilder().object("table").box({0, 0, 0}, {10, 10, 1});
+  builder.object("beyond its edge").box({9, 2, 1}, {12, 4, 2});
+  builder.object("near above it").box({2, 2, 1.02}, {4, 4, 2});
+  const auto p = builder.prepared();
+  EXPECT_EQ(p.report.floors, 0u);  // the first is cut where the table ends
+  builder.object("on it").box({6, 6, 1}, {7, 7, 2});
+  EXPECT_NEAR(area_of(builder.prepared(), Surface::floor), 1, rounding);
 }
 
 TEST(SurfaceKind, OpenSheetsOfPlainFilesOnlyHaveWalls) {

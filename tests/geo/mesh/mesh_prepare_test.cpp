@@ -168,18 +168,18 @@ TEST(MeshPrepare, OrdersTrianglesByObject) {
 
 TEST(MeshPrepare, GroundPlateLiesAtTheLowestPoint) {
   auto builder = ModelBuilder().object("ground").box({0, 0, 2}, {10, 20, 5});
-  const auto p = builder.prepared({.repair = Repair::safe, .ground = GroundPlate{5}});
-  ASSERT_EQ(p.mesh.triangle_count(), 14u);
+  const auto p = builder.prepared({.repair = Repair::safe, .ground = GroundRules{5}});
+  ASSERT_GT(p.mesh.triangle_count(), 14u);  // what lies under the box is apart
   EXPECT_EQ(p.mesh.object_names.back(), "ground_2");
   EXPECT_NEAR(area_of(p, Surface::ground), 20 * 30, rounding * 600);
-  for (std::size_t t = 12; t < 14; ++t) {
+  for (std::size_t t = 12; t < p.mesh.triangle_count(); ++t) {
     EXPECT_EQ(p.mesh.triangle_surface[t], Surface::ground);
     EXPECT_GT(p.mesh.area_vector2(t).z, 0);
     EXPECT_EQ(p.mesh.corner(t, 0).z, 2);
     EXPECT_EQ(p.mesh.file_materials[p.mesh.triangle_material[t].index()].name, "ground");
   }
   EXPECT_EQ(p.report.bounds.low, (Vec3{-5, -5, 2}));
-  EXPECT_THROW(builder.prepared({.repair = Repair::safe, .ground = GroundPlate{-1}}), InputError);
+  EXPECT_THROW(builder.prepared({.repair = Repair::safe, .ground = GroundRules{-1}}), InputError);
 }
 
 TEST(MeshPrepare, EqualInputGivesEqualBits) {

@@ -539,6 +539,7 @@ json study_around(const std::string& path) {
     study["period"] = {{"positions", json::array({sun})}};
     study["light"] = fixed;
   }
+  if (path == "scene.ground.height_m") study["scene"]["ground"]["surface"] = "level";
   if (path == "site.timezone") study["site"].erase("timezone");
   if (path.starts_with("scene.files")) {
     study["scene"].erase("builtin");
@@ -766,6 +767,8 @@ TEST(CanonicalText, SeesEveryValueThatCanChangeANumber) {
        {"assign material", [](Study& s) { s.scene.assign[0].material = "b"; }},
        {"no rules", [](Study& s) { s.scene.assign.clear(); }},
        {"ground wanted", [](Study& s) { s.scene.ground->wanted = false; }},
+       {"ground surface", [](Study& s) { s.scene.ground->surface = GroundSurface::level; }},
+       {"ground height", [](Study& s) { s.scene.ground->height_m = 3; }},
        {"ground margin", [](Study& s) { s.scene.ground->margin_m = 1; }},
        {"ground material", [](Study& s) { s.scene.ground->material = "b"; }},
        {"ground by default", [](Study& s) { s.scene.ground.reset(); }},

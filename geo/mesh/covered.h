@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What no light can reach: inside of bodies, against other surfaces, below the land.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "geo/mesh/mesh.h"
+#include "geo/mesh/orient.h"
+
+namespace sunload {
+
+/// Surfaces this near to each other touch: or 1e-4 of the scene's diagonal, where that is less.
+inline constexpr double contact_m = 2e-3;  // city models are written in whole millimetres
+
+struct CoveredCut {
+  std::vector<std::size_t> source;  ///< per triangle that there is now: what it is (a part) of
+  std::size_t cut = 0;              ///< triangles that were divided
+  std::size_t covered = 0;          ///< triangles that are covered now, parts and whole ones
+};
+
+/// Marks covered triangles in `mesh.triangle_covered`; those that are covered in part are divided
+/// along the line where that begins, in their place in the order. Facades lose what is covered of
+/// them, and go where nothing is left; the names of the others stay.
+///
+/// Covered is what has its front inside of a closed body, against the front of another surface, or
+/// below land (open surfaces of kind ground but roads and railways, which may be bridges). Surfaces
+/// for which `is_opaque` is 0 cover nothing, nor do bodies that have some. Two-sided surfaces are
+/// covered inside of bodies and below land only. Land is covered below floors that are closed
+/// at their rim: `seals` are these floors and the walls at their rim (geo/mesh/ground). Where
+/// nothing is covered, nothing changes. Throws InputError where too many triangles overlap.
+CoveredCut cut_covered(Mesh& mesh, Bodies& bodies, const std::vector<std::uint8_t>& is_opaque,
+                       const std::vector<std::uint8_t>& seals = {});
+
+}  // namespace sunload

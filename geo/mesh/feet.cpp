@@ -1,0 +1,305 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geo/mesh/feet.h"
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string_view>
+
+#include "geo/mesh/box_tree.h"
+#include "geo/mesh/edge_table.h"
+#include "geo/mesh/slope.h"
+
+namespace sunload {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double steepest_edge = 1.7321;  // tan 60 degrees: steeper edges are corners of walls
+constexpr double inside_m = 0.05;         // behind a wall one asks what is below it
+constexpr double half = 0.5;
+
+/// CityJSON 2.0.1, section 2.2, and types of extensions, which begin with a plus.
+bool is_building(const std::string& kind) {
+  return kind == "Building" || kind == "BuildingPart" || kind == "OtherConstruction" ||
+         (kind.starts_with('+') && kind.find("Building") != std::string::npos);
+}
+
+struct LowerEdge {
+  std::array<std::int32_t, 2> ends;
+  std::size_t wall;  // the triangle above
+};
+
+double low_of(const Mesh& mesh, const LowerEdge& e) {
+  return std::min(mesh.vertices[static_cast<std::size_t>(e.ends[0])].z,
+                  mesh.vertices[static_cast<std::size_t>(e.ends[1])].z);
+}
+
+double plan_distance2(Vec3 p, Vec3 a, Vec3 b) {
+  const double ex = b.x - a.x, ey = b.y - a.y, length2 = ex * ex + ey * ey;
+  const double s =
+      length2 > 0 ? std::clamp(((p.x - a.x) * ex + (p.y - a.y) * ey) / length2, 0.0, 1.0) : 0;
+  const double dx = p.x - a.x - s * ex, dy = p.y - a.y - s * ey;
+  return dx * dx + dy * dy;
+}
+
+bool cross_in_plan(Vec3 a, Vec3 b, Vec3 p, Vec3 q) {
+  const auto side = [](Vec3 u, Vec3 v, Vec3 w) {
+    return (v.x - u.x) * (w.y - u.y) - (v.y - u.y) * (w.x - u.x) > 0;
+  };
+  return side(a, b, p) != side(a, b, q) && side(p, q, a) != side(p, q, b);
+}
+
+/// Whether the lower edges of two feet are nearer to each other in plan than `distance`.
+bool are_near(const Foot& one, const Foot& other, double distance) {
+  std::vector<Box> boxes;
+  for (const auto& [p, q] : other.edges) {
+    boxes.push_back(box_around({p, q}));
+    boxes.back().low.z = -infinity, boxes.back().high.z = infinity;
+  }
+  const BoxTree tree(std::move(boxes));
+  bool is_near = false;
+  for (const auto& [a, b] : one.edges)
+    tree.visit_meeting(widened(box_around({a, b}), distance), [&](std::size_t i) {
+      const auto& [p, q] = other.edges[i];
+      if (is_near) return;
+      is_near = cross_in_plan(a, b, p, q) ||
+                std::min({plan_distance2(a, p, q), plan_distance2(b, p, q), plan_distance2(p, a, b),
+                          plan_distance2(q, a, b)}) < distance * distance;
+    });
+  return is_near;
+}
+
+class FootFinder {
+ public:
+  FootFinder(const Mesh& mesh, const Bodies& bodies, SceneKind kind)
+      : mesh_(mesh), bodies_(bodies), feet_(bodies.bodies.size()) {
+    has_feet_.resize(mesh.object_names.size(), 1);
+    for (std::size_t o = 0; kind == SceneKind::city && o < has_feet_.size(); ++o)
+      has_feet_[o] = is_building(mesh.object_kinds[o]);
+  }
+
+  std::vector<Foot> run() {
+    measure_bodies();
+    find_lower_edges();
+    for (std::size_t b = 0; b < feet_.size(); ++b) take_foot(b);
+    std::erase_if(feet_, [](const Foot& foot) { return foot.edges.empty(); });
+    find_stacked();
+    find_hovering();
+    return std::move(feet_);
+  }
+
+ private:
+  Vec3 at(std::int32_t v) const { return mesh_.vertices[static_cast<std::size_t>(v)]; }
+
+  void measure_bodies() {
+    std::vector<std::array<double, 2>> plan(feet_.size());
+    has_roof_.resize(feet_.size(), 0);
+    low_of_object_.resize(mesh_.object_names.size(), infinity);
+    for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
+      const auto b = bodies_.triangle_body[t];
+      if (b < 0) continue;
+      const auto slope = slope_of(mesh_, t);
+      if (!slope || *slope == Slope::upright) continue;
+      const bool looks_up = *slope == Slope::upward;
+      plan[static_cast<std::size_t>(b)][looks_up] += std::abs(mesh_.area_vector2(t).z) / 2;
+      if (looks_up) has_roof_[static_cast<std::size_t>(b)] = 1;
+    }
+    for (std::size_t b = 0; b < feet_.size(); ++b) {
+      const Body& body = bodies_.bodies[b];
+      feet_[b].body = static_cast<std::int32_t>(b);
+      feet_[b].object = body.object;
+      feet_[b].plan_m2 = std::max(plan[b][0], plan[b][1]);
+      double& low = low_of_object_[body.object.index()];
+      low = std::min(low, body.box.low.z);
+    }
+  }
+
+  void find_lower_edges() {
+    std::vector<std::uint8_t> included(mesh_.triangle_count());
+    for (std::size_t t = 0; t < included.size(); ++t)
+      included[t] = has_feet_[mesh_.triangle_object[t].index()] && bodies_.triangle_body[t] >= 0;
+    lower_.resize(feet_.size());
+    for_each_edge(edge_uses(mesh_, included), [&](std::span<const EdgeUse> uses) {
+      const Vec3 a = at(uses[0].low), b = at(uses[0].high);
+      const double length = std::hypot(b.x - a.x, b.y - a.y);
+      if (!(std::abs(b.z - a.z) <= steepest_edge * length) || length == 0) return;
+      std::size_t wall = mesh_.triangle_count(), corner = 0;
+      for (const EdgeUse& use : uses) {
+        const std::size_t t = use.triangle();
+        const auto slope = slope_of(mesh_, t);
+        if (!slope || *slope == Slope::downward) continue;
+        if (*slope == Slope::upward || !is_above(use, a, b)) return;
+        if (t >= wall) continue;
+        wall = t;
+        corner = use.corner();
+      }
+      if (wall == mesh_.triangle_count()) return;
+      lower_[static_cast<std::size_t>(bodies_.triangle_body[wall])].push_back(
+          {{mesh_.triangles[wall][corner], mesh_.triangles[wall][(corner + 1) % 3]}, wall});
+    });
+  }
+
+  /// Whether the upright triangle goes up from the edge.
+  bool is_above(const EdgeUse& use, Vec3 a, Vec3 b) const {
+    const Vec3 p = mesh_.corner(use.triangle(), static_cast<int>((use.corner() + 2) % 3));
+    const double ex = b.x - a.x, ey = b.y - a.y;
+    const double s = ((p.x - a.x) * ex + (p.y - a.y) * ey) / (ex * ex + ey * ey);
+    return p.z > a.z + s * (b.z - a.z);
+  }
+
+  /// Edges at the foot, and what is reached from there.
+  void take_foot(std::size_t b) {
+    const Body& body = bodies_.bodies[b];
+    auto& lower = lower_[b];
+    if (lower.empty() || body.is_inside_out || (body.is_closed && body.volume < 0)) return;
+    const bool is_house = body.is_closed || has_roof_[b] != 0;
+    double low = low_of_object_[body.object.index()];
+    if (is_house) {
+      low = infinity;
+      for (const auto& e : lower) low = std::min(low, low_of(mesh_, e));
+    }
+    const double foot = low + foot_tolerance(body.box.high.z - body.box.low.z);
+    std::vector<std::pair<std::int32_t, std::size_t>> edges_at;
+    for (std::size_t e = 0; e < lower.size(); ++e)
+      for (const auto v : lower[e].ends) edges_at.emplace_back(v, e);
+    std::sort(edges_at.begin(), edges_at.end());
+    std::vector<std::uint8_t> is_taken(lower.size(), 0);
+    std::vector<std::size_t> open;
+    for (std::size_t e = 0; e < lower.size(); ++e) {
+      if (low_of(mesh_, lower[e]) > foot) continue;
+      is_taken[e] = 1;
+      open.push_back(e);
+    }
+    while (!open.empty()) {
+      const std::size_t e = open.back();
+      open.pop_back();
+      for (const auto v : lower[e].ends) {
+        auto it = std::lower_bound(edges_at.begin(), edges_at.end(), std::pair(v, std::size_t{0}));
+        for (; it != edges_at.end() && it->first == v; ++it) {
+          if (is_taken[it->second]) continue;
+          is_taken[it->second] = 1;
+          open.push_back(it->second);
+        }
+      }
+    }
+    std::size_t kept = 0;
+    for (std::size_t e = 0; e < lower.size(); ++e)
+      if (is_taken[e]) lower[kept++] = lower[e];
+    lower.resize(kept);
+    for (const auto& e : lower) {
+      feet_[b].edges.push_back({at(e.ends[0]), at(e.ends[1])});
+      feet_[b].walls.push_back(e.wall);
+      for (const auto v : e.ends) {
+        Box& box = feet_[b].box;
+        const Vec3 p = at(v);
+        box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y),
+                    std::max(box.high.z, p.z)};
+      }
+    }
+  }
+
+  /// Floors, and bodies that have another one below most of their foot.
+  void find_stacked() {
+    std::vector<std::int32_t> foot_of(bodies_.bodies.size(), -1);
+    for (std::size_t f = 0; f < feet_.size(); ++f)
+      foot_of[static_cast<std::size_t>(feet_[f].body)] = static_cast<std::int32_t>(f);
+    std::vector<std::size_t> upward;
+    std::vector<Box> boxes;
+    for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
+      const auto slope = slope_of(mesh_, t);
+      const auto b = bodies_.triangle_body[t];
+      if (slope == Slope::downward && b >= 0 && foot_of[static_cast<std::size_t>(b)] >= 0) {
+        Foot& foot = feet_[static_cast<std::size_t>(foot_of[static_cast<std::size_t>(b)])];
+        const Box box = box_around({mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)});
+        if (box.high.z <= foot.box.high.z + level_m) foot.floors.push_back(t);
+      }
+      if (slope != Slope::upward || mesh_.triangle_surface[t] == Surface::ground ||
+          is_land(mesh_.object_kinds[mesh_.triangle_object[t].index()]))
+        continue;
+      upward.push_back(t);
+      boxes.push_back(box_around({mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)}));
+    }
+    const BoxTree tree(std::move(boxes));
+    for (Foot& foot : feet_) {
+      double supported = 0, all = 0;
+      for (const auto& e : lower_[static_cast<std::size_t>(foot.body)]) {
+        const Vec3 a = at(e.ends[0]), b = at(e.ends[1]);
+        const double length = norm(b - a);
+        const Vec3 p = (a + b) / 2 - inside_m * normalized(mesh_.area_vector2(e.wall));
+        all += length;
+        bool is_supported = false;
+        tree.visit_column(p.x, p.y, [&](std::size_t i) {
+          const std::size_t t = upward[i];
+          if (bodies_.triangle_body[t] == foot.body) return;
+          const auto z =
+              height_at(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), p.x, p.y);
+          is_supported |= z && *z <= p.z + foot_tolerance(infinity);
+        });
+        if (is_supported) supported += length;
+      }
+      if (supported > half * all) foot.stance = Stance::body;
+    }
+  }
+
+  /// Of feet that no land can join those with most area against them, one after the other.
+  void find_hovering() {
+    std::vector<Box> boxes;
+    for (const Foot& foot : feet_) boxes.push_back(foot.box);
+    const BoxTree tree(std::move(boxes));
+    std::vector<std::vector<std::size_t>> against(feet_.size());
+    for (std::size_t f = 0; f < feet_.size(); ++f) {
+      if (feet_[f].stance != Stance::ground) continue;
+      Box near = widened(feet_[f].box, foot_reach_m);
+      near.low.z = -infinity, near.high.z = infinity;
+      tree.visit_meeting(near, [&](std::size_t g) {
+        if (g == f || feet_[g].stance != Stance::ground) return;
+        const double rise = feet_[f].box.low.z - feet_[g].box.high.z;  // f is the higher one
+        if (rise <= highest_step_m) return;
+        if (!are_near(feet_[f], feet_[g], rise - highest_step_m)) return;
+        against[f].push_back(g);
+        against[g].push_back(f);
+      });
+    }
+    std::vector<std::size_t> contested;
+    for (std::size_t f = 0; f < feet_.size(); ++f)
+      if (!against[f].empty()) contested.push_back(f);
+    while (true) {
+      std::size_t worst = feet_.size();
+      double most = 0;
+      for (const auto f : contested) {
+        if (feet_[f].stance != Stance::ground) continue;
+        double area = 0;
+        for (const auto g : against[f])
+          if (feet_[g].stance == Stance::ground) area += feet_[g].plan_m2;
+        const double ratio = area / std::max(feet_[f].plan_m2, level_m);
+        const bool is_higher = worst < feet_.size() && feet_[f].box.low.z > feet_[worst].box.low.z;
+        if (ratio > most || (ratio == most && ratio > 0 && is_higher)) {
+          most = ratio;
+          worst = f;
+        }
+      }
+      if (worst == feet_.size()) return;
+      feet_[worst].stance = Stance::hovering;
+    }
+  }
+
+  static constexpr double level_m = 1e-3;  // and the least area that counts [m2]
+
+  const Mesh& mesh_;
+  const Bodies& bodies_;
+  std::vector<std::uint8_t> has_feet_, has_roof_;  // per object, per body
+  std::vector<double> low_of_object_;
+  std::vector<std::vector<LowerEdge>> lower_;  // per body
+  std::vector<Foot> feet_;
+};
+
+}  // namespace
+
+std::vector<Foot> find_feet(const Mesh& mesh, const Bodies& bodies, SceneKind kind) {
+  return FootFinder(mesh, bodies, kind).run();
+}
+
+}  // namespace sunload

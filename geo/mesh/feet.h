@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Where bodies meet the ground: the lower edges of their walls.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geo/mesh/mesh.h"
+#include "geo/mesh/orient.h"
+
+namespace sunload {
+
+/// city: objects are known to be buildings, land, plants, …; plain: just shapes.
+enum class SceneKind { plain, city };
+
+/// What is this near to the lowest point of a body of this height is at its foot.
+inline double foot_tolerance(double height_m) {
+  constexpr double most_m = 0.1, ratio = 0.05;
+  return std::min(most_m, ratio * height_m);
+}
+
+/// Land is no steeper between two feet than 45 degrees, and a step of this height.
+inline constexpr double highest_step_m = 2;
+/// Feet farther apart than this say nothing of each other.
+inline constexpr double foot_reach_m = 30;
+
+/// In the place of a wall that was dropped.
+inline constexpr std::size_t no_wall = static_cast<std::size_t>(-1);
+
+enum class Stance {
+  ground,   ///< the ground goes through the foot
+  body,     ///< another body is below most of it
+  hovering  ///< too far above (or below) the feet beside it: a balcony, a passage, a cellar
+};
+
+struct Foot {
+  std::int32_t body = -1;
+  ObjectId object;
+  Stance stance = Stance::ground;
+  std::vector<std::array<Vec3, 2>> edges;  ///< as the walls above walk them
+  std::vector<std::size_t> walls;          ///< the triangle above each edge
+  std::vector<std::size_t> floors;         ///< downward triangles no higher than its edges
+  Box box;                                 ///< of the edges
+  double plan_m2 = 0;                      ///< of what looks up or down, the larger
+};
+
+/// Feet of all bodies that have walls; of a city, of its buildings. In the order of the bodies.
+///
+/// A lower edge has an upright face above it, and below it a face that looks down or nothing. Of a
+/// body those count that are at its foot or reached from there along lower edges (a foot on a
+/// slope). Of a sheet without a roof, a single wall perhaps, the foot is that of its object.
+/// Where the feet of two bodies are too far above each other for the land between them, the one
+/// that has more area against it is taken to hover.
+std::vector<Foot> find_feet(const Mesh& mesh, const Bodies& bodies, SceneKind kind);
+
+}  // namespace sunload

@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// As in delaunay.cpp: CGAL's own checks raise exceptions instead of being switched off.
+#define CGAL_DEBUG 1
+
+#include "geo/mesh/land.h"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geo/base/check.h"
+#include "geo/mesh/box_tree.h"
+#include "geo/mesh/weld.h"
+
+namespace sunload {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int border_points = 32;  // on each side of the rectangle, where the land is not level
+// Lines of n pieces may cross n² times; houses that overlap cross a few times each.
+constexpr std::size_t crossings_per_line = 8, fewest_crossings = 100;
+
+struct PointInfo {
+  std::int32_t point = -1;
+};
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<
+    Kernel,
+    CGAL::Triangulation_data_structure_2<
+        CGAL::Triangulation_vertex_base_with_info_2<PointInfo, Kernel>,
+        CGAL::Constrained_triangulation_face_base_2<Kernel>>,
+    CGAL::Exact_predicates_tag>;
+
+/// The point of a line that is nearest in plan: how far it is, where along the line and how high.
+struct Nearest {
+  double distance, along, z;
+};
+Nearest nearest(const Segment& line, double x, double y) {
+  const auto& [a, b] = line;
+  const double ex = b.x - a.x, ey = b.y - a.y, length2 = ex * ex + ey * ey;
+  const double s =
+      length2 > 0 ? std::clamp(((x - a.x) * ex + (y - a.y) * ey) / length2, 0.0, 1.0) : 0;
+  return {std::hypot(x - a.x - s * ex, y - a.y - s * ey), s, a.z + s * (b.z - a.z)};
+}
+
+Box plan_box(const Segment& line) {
+  Box box = widened(box_around({line[0], line[1]}), land_snap_m);
+  box.low.z = -1e300, box.high.z = 1e300;
+  return box;
+}
+
+BoxTree tree_of(const std::vector<Segment>& lines) {
+  std::vector<Box> boxes;
+  boxes.reserve(lines.size());
+  for (const Segment& line : lines) boxes.push_back(plan_box(line));
+  return BoxTree(std::move(boxes));
+}
+
+class LandMaker {
+ public:
+  explicit LandMaker(const LandLines& lines)
+      : lines_(lines), rim_tree_(tree_of(lines.rims)), foot_tree_(tree_of(lines.feet)) {}
+
+  Land run() {
+    find_points();
+    insert_lines();
+    add_border();
+    return collect();
+  }
+
+ private:
+  /// Rims first; else the highest of the feet here; nothing away from all lines.
+  double height(double x, double y) const {
+    for (const bool is_rim : {true, false}) {
+      double highest = -infinity;
+      const auto& lines = is_rim ? lines_.rims : lines_.feet;
+      (is_rim ? rim_tree_ : foot_tree_).visit_column(x, y, [&](std::size_t i) {
+        const Nearest found = nearest(lines[i], x, y);
+        if (found.distance <= land_snap_m) highest = std::max(highest, found.z);
+      });
+      if (highest > -infinity) return highest;
+    }
+    return -infinity;
+  }
+
+  void find_points() {
+    std::vector<Vec3> ends;
+    for (const auto* lines : {&lines_.rims, &lines_.feet})
+      for (const auto& [a, b] : *lines) {
+        ends.push_back({a.x, a.y, 0});
+        ends.push_back({b.x, b.y, 0});
+      }
+    const std::vector<std::uint8_t> all(ends.size(), 1);
+    points_ = weld(ends, all, land_snap_m).vertices;
+    for (Vec3& p : points_) p.z = height(p.x, p.y);
+  }
+
+  void insert_lines() {
+    Delaunay::Face_handle near{};
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      handles_.push_back(delaunay_.insert({points_[p].x, points_[p].y}, near));
+      handles_[p]->info().point = static_cast<std::int32_t>(p);
+      near = handles_[p]->face();
+    }
+    std::vector<Box> boxes;
+    for (const Vec3 p : points_) boxes.push_back({p, p});
+    const BoxTree tree(std::move(boxes));
+    const std::size_t most = delaunay_.number_of_vertices() + fewest_crossings +
+                             crossings_per_line * (lines_.rims.size() + lines_.feet.size());
+    for (const auto* lines : {&lines_.rims, &lines_.feet})
+      for (const Segment& line : *lines) {
+        insert_line(line, tree);
+        if (delaunay_.number_of_vertices() > most)
+          throw InputError({}, "feet of bodies cross each other more often than land can follow",
+                           "the ground would go through all of them",
+                           "write scene.ground: {surface: level}");
+      }
+    for (const auto handle : delaunay_.finite_vertex_handles()) {
+      if (handle->info().point >= 0) continue;
+      handle->info().point = static_cast<std::int32_t>(points_.size());
+      const auto& q = handle->point();
+      points_.push_back({q.x(), q.y(), height(q.x(), q.y())});
+    }
+    // A crossing that rounding took away from its lines: as high as what is around it.
+    for (const auto handle : delaunay_.finite_vertex_handles()) {
+      Vec3& p = points_[static_cast<std::size_t>(handle->info().point)];
+      if (p.z > -infinity) continue;
+      auto around = delaunay_.incident_vertices(handle);
+      const auto first = around;
+      do {
+        if (!delaunay_.is_infinite(around))
+          p.z = std::max(p.z, points_[static_cast<std::size_t>(around->info().point)].z);
+      } while (++around != first);
+    }
+  }
+
+  /// Through all points that are on it.
+  void insert_line(const Segment& line, const BoxTree& tree) {
+    std::vector<std::pair<double, std::size_t>> on;
+    tree.visit_meeting(plan_box(line), [&](std::size_t p) {
+      const Nearest found = nearest(line, points_[p].x, points_[p].y);
+      if (found.distance <= land_snap_m) on.emplace_back(found.along, p);
+    });
+    std::sort(on.begin(), on.end());
+    for (std::size_t i = 1; i < on.size(); ++i) {
+      const auto a = handles_[on[i - 1].second], b = handles_[on[i].second];
+      if (a != b) delaunay_.insert_constraint(a, b);
+    }
+  }
+
+  /// Level land outside of the hull: each point of the border is as high as the hull's nearest.
+  void add_border() {
+    std::vector<Segment> hull;
+    double low = infinity, high = -infinity;
+    for (const Vec3 p : points_) low = std::min(low, p.z), high = std::max(high, p.z);
+    if (delaunay_.dimension() == 2) {
+      auto v = delaunay_.incident_vertices(delaunay_.infinite_vertex());
+      const auto first = v;
+      std::vector<std::int32_t> ring;
+      do ring.push_back(v->info().point);
+      while (++v != first);
+      for (std::size_t i = 0; i < ring.size(); ++i)
+        hull.push_back({points_[static_cast<std::size_t>(ring[i])],
+                        points_[static_cast<std::size_t>(ring[(i + 1) % ring.size()])]});
+    } else {
+      for (const auto* lines : {&lines_.rims, &lines_.feet})
+        hull.insert(hull.end(), lines->begin(), lines->end());
+    }
+    const int count = high - low > 0 ? border_points : 1;
+    const Vec3 corners[] = {{lines_.x0, lines_.y0, low},
+                            {lines_.x1, lines_.y0, low},
+                            {lines_.x1, lines_.y1, low},
+                            {lines_.x0, lines_.y1, low}};
+    for (std::size_t k = 0; k < 4; ++k)
+      for (int i = 0; i < count; ++i) {
+        const Vec3 from = corners[k], to = corners[(k + 1) % 4];
+        add_border_point(from + (static_cast<double>(i) / count) * (to - from), hull);
+      }
+  }
+
+  void add_border_point(Vec3 p, const std::vector<Segment>& hull) {
+    Nearest best{infinity, 0, p.z};
+    for (const Segment& edge : hull) {
+      const Nearest found = nearest(edge, p.x, p.y);
+      if (found.distance < best.distance) best = found;
+    }
+    if (best.distance <= land_snap_m) return;  // without a margin the hull ends at the border
+    const auto handle = delaunay_.insert({p.x, p.y});
+    handle->info().point = static_cast<std::int32_t>(points_.size());
+    p.z = best.z;
+    points_.push_back(p);
+  }
+
+  Land collect() const {
+    Land land;
+    land.points = points_;
+    for (const auto face : delaunay_.finite_face_handles()) {
+      std::array<std::int32_t, 3> t{};
+      for (int k = 0; k < 3; ++k) t[static_cast<std::size_t>(k)] = face->vertex(k)->info().point;
+      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+      land.triangles.push_back(t);
+    }
+    std::sort(land.triangles.begin(), land.triangles.end());
+    return land;
+  }
+
+  const LandLines& lines_;
+  BoxTree rim_tree_, foot_tree_;
+  std::vector<Vec3> points_;
+  Delaunay delaunay_;
+  std::vector<Delaunay::Vertex_handle> handles_;
+};
+
+}  // namespace
+
+Land triangulate_land(const LandLines& lines) {
+  try {
+    return LandMaker(lines).run();
+  } catch (const CGAL::Failure_exception& failure) {
+    throw InputError({}, "the feet of bodies make no land",
+                     "their triangulation failed: " + failure.message(),
+                     "write scene.ground: {surface: level}");
+  }
+}
+
+}  // namespace sunload

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Land through given lines: a constrained Delaunay triangulation in plan (CGAL).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geo/base/vec.h"
+
+namespace sunload {
+
+using Segment = std::array<Vec3, 2>;
+
+/// Ends nearer than this in plan are one point of the land, and points this near to a line are on
+/// it: the party walls of a terrace, each written by itself.
+inline constexpr double land_snap_m = 0.01;
+
+struct LandLines {
+  std::vector<Segment> rims;              ///< of terrain: the land has their heights
+  std::vector<Segment> feet;              ///< elsewhere it is nowhere lower than these
+  double x0 = 0, x1 = 0, y0 = 0, y1 = 0;  ///< the rectangle that it fills
+};
+
+struct Land {
+  std::vector<Vec3> points;
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise seen from above
+};
+
+/// Triangles between all lines, which are edges of theirs. Beyond the convex hull of the lines, up
+/// to the rectangle around them, the land is level: it has the height of the hull's nearest point.
+/// Equal lines give equal bits. Throws InputError where lines cross without end.
+Land triangulate_land(const LandLines& lines);
+
+}  // namespace sunload

@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Surfaces inside of bodies, against others and below land are found and cut out exactly.
+#include "geo/mesh/covered.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "tests/geo/mesh/mesh_prepare_models.h"
+
+namespace sunload::test {
+namespace {
+
+constexpr double rounding = 1e-6;  // m2, of areas of some hundred
+
+struct Cut {
+  PreparedMesh p;
+  CoveredCut cut;
+  double covered(const std::string& object, Surface kind) const {
+    double sum = 0;
+    for (std::size_t t = 0; t < p.mesh.triangle_count(); ++t)
+      if (p.mesh.object_names[p.mesh.triangle_object[t].index()] == object &&
+          p.mesh.triangle_surface[t] == kind && p.mesh.is_covered(t))
+        sum += norm(p.mesh.area_vector2(t)) / 2;
+    return sum;
+  }
+};
+
+Cut cut(const ModelBuilder& builder, PrepareRules rules = {},
+        const std::string& transparent_object = "") {
+  Cut result{builder.prepared(rules), {}};
+  Mesh& mesh = result.p.mesh;
+  std::vector<std::uint8_t> is_opaque;
+  for (const auto object : mesh.triangle_object)
+    is_opaque.push_back(mesh.object_names[object.index()] != transparent_object);
+  const double before = area(mesh);
+  result.cut = cut_covered(mesh, result.p.bodies, is_opaque);
+  EXPECT_NEAR(area(mesh), before, rounding);  // nothing is lost
+  EXPECT_EQ(result.cut.source.size(), mesh.triangle_count());
+  EXPECT_EQ(result.p.bodies.triangle_body.size(), mesh.triangle_count());
+  measure(mesh, result.p.report);
+  return result;
+}
+
+double all_covered(const Cut& c) {
+  double sum = 0;
+  for (const double m2 : c.p.report.covered_m2) sum += m2;
+  return sum;
+}
+
+/// Any place and direction: nothing may depend on the axes.
+Vec3 turned(Vec3 v) {
+  const double c = std::cos(0.37), s = std::sin(0.37);
+  return {c * v.x - s * v.y + 31, s * v.x + c * v.y - 17, v.z};
+}
+
+ModelBuilder terrace(double gap) {
+  auto builder = ModelBuilder().object("low").box({0, 0, 0}, {10, 10, 6});
+  builder.object("high").box({10 + gap, -2, 0}, {20, 9, 11});
+  builder.moved(turned);
+  return builder;
+}
+
+TEST(Covered, PartyWallsAreCutWhereTheyMeet) {
+  const auto c = cut(terrace(0));
+  // y from 0 to 9, z from 0 to 6 of both walls.
+  EXPECT_NEAR(c.covered("low", Surface::wall), 54, rounding);
+  EXPECT_NEAR(c.covered("high", Surface::wall), 54, rounding);
+  EXPECT_NEAR(all_covered(c), 108, rounding);
+  EXPECT_GT(c.cut.cut, 0u);
+}
+
+TEST(Covered, WallsRoundedToAMillimetreTouchAndAJointIsOpen) {
+  EXPECT_NEAR(all_covered(cut(terrace(0.001))), 108, 0.1);
+  EXPECT_EQ(cut(terrace(0.005)).cut.covered, 0u);
+}
+
+TEST(Covered, WhereNothingIsNothingChanges) {
+  const auto builder = terrace(3);
+  const auto before = builder.prepared();
+  const auto c = cut(builder);
+  EXPECT_EQ(c.p.mesh.vertices, before.mesh.vertices);
+  EXPECT_EQ(c.p.mesh.triangles, before.mesh.triangles);
+  EXPECT_TRUE(c.p.mesh.triangle_covered.empty());
+  EXPECT_EQ(c.cut.covered, 0u);
+}
+
+TEST(Covered, FacadesLoseWhatIsCoveredAndGoWhereNothingIsLeft) {
+  auto builder = ModelBuilder().object("low").box({0, 0, 0}, {10, 10, 6});
+  builder.object("high").box({10, 0, 0}, {20, 10, 11});
+  const auto c = cut(builder);
+  std::map<std::string, double> facades;
+  for (const auto& f : c.p.mesh.facades) facades[f.name] = f.area_m2;
+  EXPECT_EQ(facades.size(), 7u);
+  EXPECT_EQ(facades.count("low/east_1"), 0u);
+  EXPECT_NEAR(facades.at("high/west_1"), 50, rounding);
+  EXPECT_NEAR(facades.at("high/east_1"), 110, rounding);
+  for (std::size_t t = 0; t < c.p.mesh.triangle_count(); ++t)
+    if (c.p.mesh.triangle_facade[t].exists())
+      EXPECT_LT(c.p.mesh.triangle_facade[t].index(), c.p.mesh.facades.size());
+}
+
+TEST(Covered, ABodyInsideOfAnotherIsCoveredAsAWhole) {
+  auto builder = ModelBuilder().object("outer").box({0, 0, 0}, {10, 10, 10});
+  builder.object("inner").box({2, 3, 4}, {5, 6, 7});
+  builder.moved(turned);
+  const auto c = cut(builder);
+  EXPECT_NEAR(all_covered(c), 54, rounding);
+  EXPECT_EQ(c.cut.cut, 0u);
+  // Behind a veil it is lit.
+  EXPECT_EQ(cut(builder, {}, "outer").cut.covered, 0u);
+}
+
+TEST(Covered, ACavityIsNotCovered) {
+  auto builder = ModelBuilder().object("shell").box({0, 0, 0}, {10, 10, 10});
+  for (auto face : ModelBuilder::box_faces({2, 2, 2}, {8, 8, 8})) {
+    std::reverse(face.begin(), face.end());
+    builder.ring(face);
+  }
+  builder.object("lamp").box({4, 4, 4}, {5, 5, 5});
+  EXPECT_EQ(cut(builder).cut.covered, 0u);
+}
+
+TEST(Covered, OverlappingBodiesLoseWhatIsInTheOther) {
+  auto builder = ModelBuilder().object("a").box({0, 0, 0}, {10, 10, 10});
+  builder.object("b").box({6, -3, 2}, {14, 4, 20});
+  builder.moved(turned);
+  const auto c = cut(builder);
+  // In b of a: roof 4 × 4, sides x = 10 and y = 0. In a of b: bottom 4 × 4 and two sides.
+  EXPECT_NEAR(c.covered("a", Surface::roof), 16, rounding);
+  EXPECT_NEAR(c.covered("a", Surface::wall), 32 + 32, rounding);
+  EXPECT_NEAR(c.covered("b", Surface::wall), 32 + 32, rounding);
+  EXPECT_NEAR(c.covered("b", Surface::other), 16, rounding);
+}
+
+TEST(Covered, BelowLandIsCovered) {
+  auto builder = ModelBuilder().city().object("hill", "TINRelief");
+  const auto land = [](double x, double y) { return Vec3{x, y, 1 + 0.2 * x}; };
+  builder.ring({land(-50, -50), land(50, -50), land(50, 50), land(-50, 50)});
+  builder.object("house", "Building").box({0, 0, 0}, {10, 10, 8});
+  builder.object("deck", "Road").ring({{-20, -20, 7}, {-10, -20, 7}, {-10, 20, 7}, {-20, 20, 7}});
+  builder.object("under the deck", "Building").box({-18, 0, 2}, {-12, 4, 5});
+  const auto c = cut(builder);
+  // Land beside the house is 1 to 3 m high: walls x = 0, x = 10, and two of a mean of 2 m.
+  EXPECT_NEAR(c.covered("house", Surface::wall), 10 * (1 + 3 + 2 + 2), rounding);
+  // Of the land what is in the house: all, since its roof is above.
+  EXPECT_NEAR(c.covered("hill", Surface::ground), 100 * std::sqrt(1.04), rounding);
+  EXPECT_EQ(c.covered("under the deck", Surface::wall), 0);
+}
+
+TEST(Covered, RandomBoxesAgreeWithPointsTried) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> at(0, 10), size(1, 5);
+  std::vector<std::array<Vec3, 2>> boxes;
+  auto builder = ModelBuilder();
+  for (int i = 0; i < 12; ++i) {
+    const Vec3 low{at(random), at(random), at(random)};
+    boxes.push_back({low, low + Vec3{size(random), size(random), size(random)}});
+    builder.object("box_" + std::to_string(i)).box(boxes.back()[0], boxes.back()[1]);
+  }
+  builder.moved(turned);
+  const auto c = cut(builder, {.repair = Repair::safe});
+  EXPECT_GT(c.cut.cut, 10u);
+  const double cosine = std::cos(0.37), sine = std::sin(0.37);
+  std::uniform_real_distribution<double> share(0, 1);
+  std::size_t tried = 0, wrong = 0;
+  for (std::size_t t = 0; t < c.p.mesh.triangle_count(); ++t) {
+    if (c.p.mesh.triangle_surface[t] == Surface::floor) continue;
+    for (int i = 0; i < 20; ++i) {
+      double u = share(random), v = share(random);
+      if (u + v > 1) u = 1 - u, v = 1 - v;
+      const Vec3 q = c.p.mesh.point(t, u, v) + 1e-3 * c.p.mesh.normal(t) - Vec3{31, -17, 0};
+      const Vec3 p{cosine * q.x + sine * q.y, -sine * q.x + cosine * q.y, q.z};
+      const bool is_inside = std::any_of(boxes.begin(), boxes.end(), [&](const auto& b) {
+        return p.x > b[0].x && p.y > b[0].y && p.z > b[0].z && p.x < b[1].x && p.y < b[1].y &&
+               p.z < b[1].z;
+      });
+      ++tried;
+      wrong += is_inside != c.p.mesh.is_covered(t);
+    }
+  }
+  // Points within the millimetre that they are set off by may be on the other side.
+  EXPECT_LT(static_cast<double>(wrong), 0.005 * static_cast<double>(tried));
+}
+
+TEST(Covered, EqualInputGivesEqualBits) {
+  const auto one = cut(terrace(0)), two = cut(terrace(0));
+  EXPECT_EQ(one.p.mesh.vertices, two.p.mesh.vertices);
+  EXPECT_EQ(one.p.mesh.triangles, two.p.mesh.triangles);
+  EXPECT_EQ(one.p.mesh.triangle_covered, two.p.mesh.triangle_covered);
+}
+
+}  // namespace
+}  // namespace sunload::test

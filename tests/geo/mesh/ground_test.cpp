@@ -1,0 +1,280 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// A ground through the feet of bodies, or level.
+#include "geo/mesh/ground.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "geo/base/check.h"
+#include "geo/mesh/covered.h"
+#include "geo/mesh/land.h"
+#include "geo/mesh/slope.h"
+#include "tests/geo/mesh/mesh_prepare_models.h"
+
+namespace sunload::test {
+namespace {
+
+constexpr double rounding = 1e-9;
+
+PrepareRules on_feet(double margin_m = 20) { return {.ground = GroundRules{margin_m}}; }
+
+/// Heights of all ground above a point in plan, made or of the model.
+std::vector<double> ground_at(const Mesh& mesh, double x, double y) {
+  std::vector<double> heights;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.triangle_surface[t] != Surface::ground) continue;
+    if (const auto z = height_at(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), x, y))
+      heights.push_back(*z);
+  }
+  return heights;
+}
+
+double plan_area(const Mesh& mesh, bool is_covered) {
+  double sum = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.triangle_surface[t] == Surface::ground && mesh.is_covered(t) == is_covered)
+      sum += std::abs(mesh.area_vector2(t).z) / 2;
+  return sum;
+}
+
+/// Above any foot within the object's bounding box by no more than this, and never below one.
+void expect_on_ground(const PreparedMesh& p, double tolerance) {
+  ASSERT_TRUE(p.report.ground);
+  for (const auto& gap : p.report.ground->worst)
+    EXPECT_LE(gap.gap_m, tolerance) << gap.object << " floats";
+}
+
+TEST(Ground, LevelFeetGetAPlateWithoutWhatLiesUnderThem) {
+  auto builder = ModelBuilder().object("a").box({0, 0, 2}, {10, 20, 5});
+  builder.object("b").box({15, 0, 2}, {18, 3, 9});
+  const auto p = builder.prepared(on_feet(5));
+  EXPECT_TRUE(p.report.ground->is_level);
+  EXPECT_EQ(p.report.ground->standing, 2u);
+  EXPECT_EQ(p.report.ground->low_m, 2);
+  EXPECT_EQ(p.report.ground->high_m, 2);
+  EXPECT_NEAR(plan_area(p.mesh, false) + plan_area(p.mesh, true), 28 * 30, rounding * 1000);
+  EXPECT_NEAR(plan_area(p.mesh, true), 200 + 9, rounding * 1000);
+  EXPECT_NEAR(p.report.covered_m2[static_cast<std::size_t>(Surface::ground)], 209, 1e-6);
+  EXPECT_NEAR(area_of(p, Surface::floor), 209, 1e-6);
+}
+
+TEST(Ground, GoesThroughFeetOfAllHeights) {
+  auto builder = ModelBuilder();
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 5; ++j) {
+      const double z = 0.3 * i + 0.7 * ((i * 3 + j * 2) % 5);
+      builder.object("house_" + std::to_string(5 * i + j))
+          .box({20.0 * i, 20.0 * j, z}, {20.0 * i + 9, 20.0 * j + 11, z + 8});
+    }
+  const auto p = builder.prepared(on_feet());
+  EXPECT_FALSE(p.report.ground->is_level);
+  EXPECT_EQ(p.report.ground->standing, 25u);
+  EXPECT_EQ(p.report.ground->hovering.size(), 0u);
+  EXPECT_NEAR(p.report.ground->gap_m.front(), 0, rounding);
+  EXPECT_NEAR(p.report.ground->gap_m.back(), 0, rounding);
+  EXPECT_NEAR(plan_area(p.mesh, true), 25 * 99, 1e-6);
+  EXPECT_NEAR(plan_area(p.mesh, false), 129 * 131 - 25 * 99, 1e-6);
+  // By another way: the height beside each wall.
+  for (std::size_t t = 0; t < p.mesh.triangle_count(); ++t) {
+    if (p.mesh.triangle_surface[t] != Surface::floor) continue;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 v = p.mesh.corner(t, k);
+      const auto heights = ground_at(p.mesh, v.x, v.y);
+      ASSERT_FALSE(heights.empty());
+      for (const double z : heights) EXPECT_NEAR(z, v.z, rounding);
+    }
+  }
+}
+
+TEST(Ground, IsLevelBeyondTheOutermostFeet) {
+  auto builder = ModelBuilder().object("low").box({0, 0, 0}, {10, 10, 5});
+  builder.object("high").box({40, 0, 3}, {50, 10, 9});
+  const auto p = builder.prepared(on_feet());
+  for (const double z : ground_at(p.mesh, -15, 5)) EXPECT_NEAR(z, 0, rounding);
+  for (const double z : ground_at(p.mesh, 65, 5)) EXPECT_NEAR(z, 3, rounding);
+  for (const double z : ground_at(p.mesh, 25, 5)) EXPECT_NEAR(z, 1.5, 0.01);
+}
+
+TEST(Ground, OfSlopingFeetIsTheSlope) {
+  auto builder = ModelBuilder();
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      builder.object("house_" + std::to_string(4 * i + j))
+          .box({20.0 * i, 20.0 * j, 0}, {20.0 * i + 9, 20.0 * j + 11, 8});
+  builder.moved([](Vec3 v) { return Vec3{v.x, v.y, v.z + 0.15 * v.x - 0.08 * v.y}; });
+  const auto p = builder.prepared(on_feet());
+  EXPECT_EQ(p.report.ground->standing, 16u);
+  EXPECT_NEAR(p.report.ground->gap_m.back(), 0, rounding);
+  EXPECT_NEAR(p.report.ground->gap_m.front(), 0, rounding);
+  for (const auto& [x, y] : {std::pair{15.0, 15.0}, {33.0, 50.0}, {62.0, 3.0}})
+    for (const double z : ground_at(p.mesh, x, y)) EXPECT_NEAR(z, 0.15 * x - 0.08 * y, rounding);
+}
+
+TEST(Ground, AStepBetweenTwoHousesHidesTheLowerFoot) {
+  auto builder = ModelBuilder().object("low").box({0, 0, 0}, {10, 10, 9});
+  builder.object("high").box({10.0004, 0.0003, 1.5}, {20, 10, 12});  // a party wall, as written
+  const auto p = builder.prepared(on_feet());
+  EXPECT_EQ(p.report.ground->standing, 2u);
+  EXPECT_LE(p.report.ground->gap_m.back(), 0.001);
+  EXPECT_NEAR(p.report.ground->gap_m.front(), -1.5, land_snap_m);
+  EXPECT_EQ(p.report.ground->worst.front().object, "low");
+}
+
+TEST(Ground, BodiesOnBodiesBaysAndBalconiesAreNoFeet) {
+  auto builder = ModelBuilder().city().object("house", "Building");
+  builder.box({0, 0, 0}, {10, 10, 9});     // stands
+  builder.box({2, 2, 9}, {4, 4, 11});      // a chimney on it
+  builder.box({3, -1.2, 5}, {6, 0, 5.2});  // a balcony
+  builder.object("tree", "SolitaryVegetationObject").box({20, 0, 3}, {24, 4, 8});
+  builder.object("bridge", "Bridge").box({30, 0, 6}, {50, 4, 7});
+  builder.object("barn", "Building").box({60, 0, 1}, {70, 4, 7});
+  const auto p = builder.prepared(on_feet());
+  EXPECT_EQ(p.report.ground->standing, 2u);
+  EXPECT_EQ(p.report.ground->on_others, 1u);
+  ASSERT_EQ(p.report.ground->hovering.size(), 1u);
+  EXPECT_EQ(p.report.ground->hovering[0].object, "house");
+  EXPECT_NEAR(p.report.ground->hovering[0].gap_m, 5, 0.05);
+  EXPECT_EQ(p.report.ground->high_m, 1);
+  EXPECT_NEAR(p.report.ground->gap_m.back(), 0, rounding);
+}
+
+TEST(Ground, HousesWithoutFloorsCoverTheGround) {
+  auto builder = ModelBuilder().city().object("house", "Building");
+  const auto faces = ModelBuilder::box_faces({0, 0, 1}, {10, 10, 9});
+  for (std::size_t f = 1; f < faces.size(); ++f) builder.ring(faces[f]);
+  builder.object("other", "Building").box({30, 0, 0}, {40, 10, 9});
+  const auto p = builder.prepared(on_feet());
+  EXPECT_EQ(p.report.ground->standing, 2u);
+  EXPECT_NEAR(plan_area(p.mesh, true), 200, 1e-6);
+}
+
+TEST(Ground, ACourtyardIsOpenGround) {
+  auto builder = ModelBuilder().city().object("block", "Building");
+  const std::vector<Vec3> outer{{0, 0, 1}, {30, 0, 1}, {30, 30, 1}, {0, 30, 1}};
+  const std::vector<Vec3> inner{{10, 10, 1}, {20, 10, 1}, {20, 20, 1}, {10, 20, 1}};
+  const auto up = [](Vec3 v) { return v + Vec3{0, 0, 12}; };
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec3 a = outer[i], b = outer[(i + 1) % 4], c = inner[i], d = inner[(i + 1) % 4];
+    builder.ring({a, b, up(b), up(a)}).ring({d, c, up(c), up(d)});
+  }
+  const std::vector<Vec3> hole{inner[0], inner[3], inner[2], inner[1]};
+  std::vector<std::vector<Vec3>> roof{outer, hole};
+  for (auto& ring : roof)
+    for (Vec3& v : ring) v = up(v);
+  builder.polygon(roof).polygon({{outer[0], outer[3], outer[2], outer[1]}, inner});
+  builder.object("other", "Building").box({50, 0, 0}, {60, 10, 9});
+  const auto p = builder.prepared(on_feet());
+  EXPECT_NEAR(plan_area(p.mesh, true), 800 + 100, 1e-6);
+  for (const double z : ground_at(p.mesh, 15, 15)) EXPECT_NEAR(z, 1, rounding);
+}
+
+TEST(Ground, TerrainOfTheModelGoesFirst) {
+  auto builder = ModelBuilder().city().object("terrain", "TINRelief");
+  const auto land = [](double x, double y) { return Vec3{x, y, 4 + 0.1 * x + 0.05 * y}; };
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const double x = 10.0 * i, y = 10.0 * j;
+      builder.ring({land(x, y), land(x + 10, y), land(x + 10, y + 10), land(x, y + 10)});
+    }
+  builder.object("on it", "Building").box({12, 12, 5}, {18, 18, 15});
+  builder.object("beside", "Building").box({60, 10, 6}, {70, 20, 15});
+  const auto p = builder.prepared(on_feet());
+  EXPECT_NEAR(p.report.ground->terrain_m2, 1600, 1e-6);
+  EXPECT_NEAR(p.report.ground->made_m2, 110 * 80 - 1600, 1e-6);
+  EXPECT_EQ(ground_at(p.mesh, 5.1, 5.2).size(), 1u);
+  for (const double z : ground_at(p.mesh, 40.001, 20.3)) EXPECT_NEAR(z, 4 + 4 + 1, 0.05);
+  for (const double z : ground_at(p.mesh, 60.001, 15)) EXPECT_NEAR(z, 6, 0.01);
+  // The house on it ends below: the land there is 5.8 to 6.7 m high.
+  EXPECT_LT(p.report.ground->gap_m.front(), -1.5);
+}
+
+TEST(Ground, WallsThatEndAboveTheTerrainAreDrawnDown) {
+  auto builder = ModelBuilder().city().object("terrain", "TINRelief");
+  const auto land = [](double x, double y) { return Vec3{x, y, 0.1 * x}; };
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const double x = 10.0 * i, y = 10.0 * j;
+      builder.ring({land(x, y), land(x + 10, y), land(x + 10, y + 10), land(x, y + 10)});
+    }
+  builder.object("house", "Building").box({12, 12, 1.8}, {23, 18, 12});  // land: 1.2 to 2.3 m
+  builder.object("mast", "Building").box({30, 30, 9}, {31, 31, 22});     // land: 3 to 3.1 m
+  auto p = builder.prepared(on_feet());
+  EXPECT_EQ(p.report.ground->drawn, 1u);
+  EXPECT_NEAR(p.report.ground->longest_drawn_m, 0.6, rounding);
+  EXPECT_EQ(p.report.ground->floating, 1u);
+  EXPECT_EQ(p.report.ground->worst.front().object, "mast");
+  for (std::size_t t = 1; t < p.mesh.triangle_count(); ++t)
+    EXPECT_LE(p.mesh.triangle_object[t - 1], p.mesh.triangle_object[t]);
+  // Land under the house and its pocket is covered, and the walls are as long as they are high.
+  const std::vector<std::uint8_t> opaque(p.mesh.triangle_count(), 1);
+  cut_covered(p.mesh, p.bodies, opaque, p.seals);
+  EXPECT_NEAR(plan_area(p.mesh, true), 11 * 6, 1e-6);
+  double wall = 0;
+  for (std::size_t t = 0; t < p.mesh.triangle_count(); ++t)
+    if (p.mesh.triangle_surface[t] == Surface::wall && !p.mesh.is_covered(t) &&
+        p.mesh.object_names[p.mesh.triangle_object[t].index()] == "house")
+      wall += norm(p.mesh.area_vector2(t)) / 2;
+  EXPECT_NEAR(wall, 6 * (10.8 + 9.7) + 2 * 11 * 10.25, 1e-6);
+}
+
+TEST(Ground, LevelLiesWhereItIsTold) {
+  auto builder = ModelBuilder().object("a").box({0, 0, 2}, {10, 20, 5});
+  builder.object("b").box({15, 0, 2.5}, {18, 3, 9});
+  PrepareRules rules{.ground = GroundRules{5, GroundSurface::level, 1.2}};
+  const auto p = builder.prepared(rules);
+  EXPECT_TRUE(p.report.ground->is_level);
+  EXPECT_EQ(p.report.ground->low_m, 1.2);
+  EXPECT_EQ(p.report.ground->floating, 2u);
+  EXPECT_NEAR(p.report.ground->gap_m.front(), 0.8, rounding);
+  EXPECT_NEAR(p.report.ground->gap_m.back(), 1.3, rounding);
+  EXPECT_EQ(p.report.ground->worst.front().object, "b");
+  EXPECT_EQ(p.report.floors, 0u);  // both hover
+  EXPECT_NEAR(plan_area(p.mesh, true), 0, rounding);
+  rules.ground->height_m.reset();
+  const auto lowest = builder.prepared(rules);
+  EXPECT_EQ(lowest.report.ground->low_m, 2);
+  EXPECT_EQ(lowest.report.ground->floating, 1u);
+  EXPECT_NEAR(plan_area(lowest.mesh, true), 200, 1e-6);
+}
+
+TEST(Ground, IsRefusedWithoutArea) {
+  auto builder = ModelBuilder().object("a").box({0, 0, 2}, {10, 20, 5});
+  EXPECT_THROW(builder.prepared(on_feet(-1)), InputError);
+  EXPECT_NO_THROW(builder.prepared(on_feet(0)));
+}
+
+TEST(Ground, OverlappingHousesOfTwoHeightsFloatNowhere) {
+  auto builder = ModelBuilder();
+  for (int i = 0; i < 30; ++i) {
+    const double a = 0.37 * i, x = 60 * std::fmod(0.618 * i, 1.0),
+                 y = 60 * std::fmod(0.755 * i, 1.0);
+    const double z = 1.5 * std::fmod(0.414 * i, 1.0);
+    auto one = ModelBuilder().object("h").box({-6, -4, z}, {6, 4, z + 10});
+    one.moved([&](Vec3 v) {
+      return Vec3{x + std::cos(a) * v.x - std::sin(a) * v.y,
+                  y + std::sin(a) * v.x + std::cos(a) * v.y, v.z};
+    });
+    builder.object("house_" + std::to_string(i));
+    const auto& model = one.model();
+    for (std::size_t f = 0; f < model.polygon_count(); ++f) {
+      std::vector<Vec3> ring;
+      for (std::size_t k = 0; k < 4; ++k)
+        ring.push_back(model.vertices[static_cast<std::size_t>(model.ring_vertex[4 * f + k])]);
+      builder.ring(ring);
+    }
+  }
+  const auto p = builder.prepared(on_feet());
+  EXPECT_EQ(p.report.ground->standing, 30u);
+  expect_on_ground(p, 0.01);
+  EXPECT_GT(p.report.ground->gap_m.front(), -1.6);
+  const auto again = builder.prepared(on_feet());
+  EXPECT_EQ(p.mesh.vertices, again.mesh.vertices);
+  EXPECT_EQ(p.mesh.triangles, again.mesh.triangles);
+}
+
+}  // namespace
+}  // namespace sunload::test
