@@ -210,7 +210,7 @@ class Covers {
       const auto& kind = mesh_.object_kinds[mesh_.triangle_object[t].index()];
       const bool may_be_bridge =
           kind == "Road" || kind == "Railway" || kind == "TransportSquare" || kind == "Waterway";
-      is_land_[t] = !may_be_bridge && is_opaque_[t] && slope_of(mesh_, t) == Slope::upward;
+      is_land_[t] = !may_be_bridge && is_opaque_[t] && mesh_.area_vector2(t).z > 0;
     }
   }
   bool is_in_closed(std::size_t t) const {

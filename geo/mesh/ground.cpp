@@ -60,6 +60,11 @@ class PlanTriangles {
         visit(*z);
     });
   }
+  bool is_on(Vec3 p, double distance) const {
+    bool is_near = false;
+    visit_heights(p.x, p.y, [&](double z) { is_near |= std::abs(z - p.z) <= distance; });
+    return is_near;
+  }
   bool covers(Vec3 p) const {
     bool is_covered = false;
     visit_heights(p.x, p.y, [&](double) { is_covered = true; });
@@ -129,7 +134,7 @@ class GroundMaker {
   static std::vector<std::size_t> terrain_of(const Mesh& mesh) {
     std::vector<std::size_t> terrain;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-      if (mesh.triangle_surface[t] == Surface::ground && slope_of(mesh, t) == Slope::upward)
+      if (mesh.triangle_surface[t] == Surface::ground && mesh.area_vector2(t).z > 0)
         terrain.push_back(t);
     return terrain;
   }
@@ -305,6 +310,12 @@ class GroundMaker {
       boxes.push_back(foot.box);
     }
     const PlanTriangles under(mesh_, floors);
+    // Squares and yards that the model has as objects of other kinds.
+    std::vector<std::size_t> upward;
+    for (std::size_t t = 0; t < mesh_.triangle_count(); ++t)
+      if (mesh_.triangle_surface[t] != Surface::ground && slope_of(mesh_, t) == Slope::upward)
+        upward.push_back(t);
+    const PlanTriangles others(mesh_, std::move(upward));
     const BoxTree of_feet(std::move(boxes));
     begin_object();
     std::vector<std::pair<std::array<std::int32_t, 3>, bool>> wanted;
@@ -313,7 +324,8 @@ class GroundMaker {
       const Vec3 middle = (at(0) + at(1) + at(2)) / 3;
       const bool is_terrain = terrain.covers(middle);
       if (is_terrain && !is_plate()) continue;
-      wanted.emplace_back(t, is_terrain || under.covers(middle) || is_enclosed(middle, of_feet));
+      wanted.emplace_back(t, is_terrain || under.covers(middle) ||
+                                 others.is_on(middle, land_snap_m) || is_enclosed(middle, of_feet));
     }
     std::vector<std::int32_t> new_index(land.points.size(), -1);
     for (auto& [t, is_covered] : wanted) {

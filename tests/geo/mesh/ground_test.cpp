@@ -192,6 +192,19 @@ TEST(Ground, TerrainOfTheModelGoesFirst) {
   EXPECT_LT(p.report.ground->gap_m.front(), -1.5);
 }
 
+TEST(Ground, SteepPartsOfTheTerrainAreNotMadeAgain) {
+  auto builder = ModelBuilder().city().object("terrain", "TINRelief").with(Surface::ground);
+  const auto land = [](double x, double y) { return Vec3{x, y, x > 15 ? 9.0 : 0.0}; };
+  for (const double x : {0.0, 10.0, 15.0, 15.5, 30.0}) {
+    const double to = x == 0 ? 10 : x == 10 ? 15 : x == 15 ? 15.5 : x == 15.5 ? 30 : 40;
+    builder.ring({land(x, 0), land(to, 0), land(to, 40), land(x, 40)});  // a cliff of 87 degrees
+  }
+  builder.with(Surface::other).object("far", "Building").box({60, 10, 0}, {70, 20, 9});
+  const auto p = builder.prepared(on_feet());
+  EXPECT_NEAR(p.report.ground->terrain_m2, 1600, 1e-6);
+  EXPECT_NEAR(p.report.ground->made_m2, 110 * 80 - 1600, 1e-6);
+}
+
 TEST(Ground, WallsThatEndAboveTheTerrainAreDrawnDown) {
   auto builder = ModelBuilder().city().object("terrain", "TINRelief");
   const auto land = [](double x, double y) { return Vec3{x, y, 0.1 * x}; };
