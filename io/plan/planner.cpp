@@ -42,9 +42,21 @@ const BuiltScene& Planner::scene_before_materials(const Study& study) {
   const std::string key = key_of_scene(study);
   if (key == scene_key_) return scene_;
   scene_key_.clear();
+  is_uncovered_ = false;
   scene_ = sunload::scene_before_materials(study);
   scene_key_ = key;
   return scene_;
+}
+
+const BuiltScene& Planner::scene_uncovered(const Study& study) {
+  const BuiltScene& prepared = scene_before_materials(study);
+  auto covers = covers_of(study, prepared);
+  if (is_uncovered_ && covers == covers_) return uncovered_;
+  is_uncovered_ = false;
+  uncovered_ = sunload::scene_uncovered(study, prepared, covers);
+  covers_ = std::move(covers);
+  is_uncovered_ = true;
+  return uncovered_;
 }
 
 const LightSeries& Planner::light(const Study& study, const Site& site) {
@@ -57,7 +69,7 @@ const LightSeries& Planner::light(const Study& study, const Site& site) {
 }
 
 VariantPlan Planner::plan(const Study& study) {
-  BuiltScene built = scene_before_materials(study);
+  BuiltScene built = scene_uncovered(study);
   give_materials(study, built);
   const LightSeries& of_period = light(study, built.site);
   return plan_of(study, std::move(built), of_period);

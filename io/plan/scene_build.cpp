@@ -165,23 +165,6 @@ ParallelSources read_parallel_sources(const Study& study, Vec3 origin, BuiltScen
   return sources;
 }
 
-/// What is behind a veil is lit: which surfaces light goes through (that of panes leaves the scene)
-/// materials have to say. They are assigned anew afterwards, since a file's power is shared by what
-/// is left of its lamps.
-void cover(const Study& study, PreparedMesh& prepared) {
-  Scene scene;
-  scene.mesh = prepared.mesh;
-  std::vector<std::string> said_later;
-  assign_materials(study, scene, said_later);
-  prepared.mesh.triangle_sides = scene.mesh.triangle_sides;
-  std::vector<std::uint8_t> is_opaque;
-  for (const MaterialId id : scene.material)
-    is_opaque.push_back(scene.materials[id.index()].transmittance == 0);
-  scene = {};
-  const CoveredCut cut = cut_covered(prepared.mesh, prepared.bodies, is_opaque, prepared.seals);
-  if (cut.covered > 0) measure(prepared.mesh, prepared.report);
-}
-
 /// Feet that the ground does not reach.
 void warn_of_gaps(const Study& study, BuiltScene& built) {
   if (!built.report.ground || built.report.ground->floating == 0) return;
@@ -209,12 +192,54 @@ BuiltScene scene_before_materials(const Study& study) {
   built.site = resolve_site(study, model, built);
   built.crs = study.site.crs.empty() ? model.crs : study.site.crs;
   PreparedMesh prepared = prepare(model, prepare_rules(study, model, built.site));
-  if (study.scene.repair != Repair::none) cover(study, prepared);
   built.report = std::move(prepared.report);
   built.warnings.insert(built.warnings.end(), built.report.warnings.begin(),
                         built.report.warnings.end());
   warn_of_gaps(study, built);
   built.scene.mesh = std::move(prepared.mesh);
+  built.bodies = std::move(prepared.bodies);
+  built.seals = std::move(prepared.seals);
+  return built;
+}
+
+// Materials are assigned anew afterwards, since a file's power is shared by what is left of its
+// lamps. Light that panes transmit leaves the scene: they cover as walls do.
+std::vector<std::uint8_t> covers_of(const Study& study, const BuiltScene& prepared) {
+  constexpr std::uint8_t opaque = 1, two_sided = 2;
+  if (study.scene.repair == Repair::none) return {};
+  Scene scene;
+  scene.mesh = prepared.scene.mesh;
+  std::vector<std::string> said_later;
+  assign_materials(study, scene, said_later);
+  std::vector<std::uint8_t> covers;
+  covers.reserve(scene.material.size());
+  for (std::size_t t = 0; t < scene.material.size(); ++t) {
+    const bool is_opaque = scene.materials[scene.material[t].index()].transmittance == 0;
+    const bool is_two_sided = scene.mesh.triangle_sides[t] == Sides::two;
+    covers.push_back(
+        static_cast<std::uint8_t>((is_opaque ? opaque : 0) | (is_two_sided ? two_sided : 0)));
+  }
+  return covers;
+}
+
+BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
+                           const std::vector<std::uint8_t>& covers) {
+  BuiltScene built = prepared;
+  if (study.scene.repair != Repair::none) {
+    Mesh& mesh = built.scene.mesh;
+    const auto sides_of_files = mesh.triangle_sides;
+    std::vector<std::uint8_t> is_opaque(covers.size());
+    for (std::size_t t = 0; t < covers.size(); ++t) {
+      is_opaque[t] = covers[t] & 1;
+      mesh.triangle_sides[t] = (covers[t] & 2) != 0 ? Sides::two : Sides::one;
+    }
+    const CoveredCut cut = cut_covered(mesh, built.bodies, is_opaque, built.seals);
+    for (std::size_t t = 0; t < cut.source.size(); ++t)
+      mesh.triangle_sides[t] = sides_of_files[cut.source[t]];
+    if (cut.covered > 0) measure(mesh, built.report);
+  }
+  built.bodies = {};
+  built.seals.clear();
   return built;
 }
 
@@ -226,7 +251,8 @@ void give_materials(const Study& study, BuiltScene& built) {
 }
 
 BuiltScene build_scene(const Study& study) {
-  BuiltScene built = scene_before_materials(study);
+  const BuiltScene prepared = scene_before_materials(study);
+  BuiltScene built = scene_uncovered(study, prepared, covers_of(study, prepared));
   give_materials(study, built);
   return built;
 }

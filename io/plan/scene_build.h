@@ -3,6 +3,7 @@
 /// Study → scene: files read and put together, prepared, materials assigned.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,13 +22,20 @@ struct BuiltScene {
   std::string crs;                    ///< of the scene's coordinates; empty: none is known
   std::vector<std::string> notes;     ///< what readers counted
   std::vector<std::string> warnings;  ///< each states its consequence
+  Bodies bodies;                      ///< with `seals`: of the mesh, until what is covered is cut
+  std::vector<std::uint8_t> seals;
 };
 
 /// Throws InputError with every problem found.
 BuiltScene build_scene(const Study& study);
 
-/// Its two steps. What is read and prepared, which materials and their rules have no part in …
+/// Its steps. What is read and prepared, which materials and their rules have no part in …
 BuiltScene scene_before_materials(const Study& study);
+/// … what they say of each triangle: whether light passes it, and on how many sides it is lit …
+std::vector<std::uint8_t> covers_of(const Study& study, const BuiltScene& prepared);
+/// … the scene without what is covered, which depends on nothing else of them …
+BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
+                           const std::vector<std::uint8_t>& covers);
 /// … and materials, parallel sources and sensors.
 void give_materials(const Study& study, BuiltScene& built);
 

@@ -24,6 +24,7 @@ TEST(Planner, PlansAreThoseMadeAlone) {
           "  - {name: base}\n"
           "  - {name: dull, scene: {materials: {glass: {diffuse: 0.3, mirror: 0}}}}\n"
           "  - {name: two, scene: {materials: {plaster: {diffuse: 0.6, sides: two}}}}\n"
+          "  - {name: veil, scene: {materials: {plaster: {diffuse: 0.3, transmittance: 0.5}}}}\n"
           "  - {name: rule, scene: {assign: [{object: house, material: paving}]}}\n"
           "  - {name: seed, solver: {seed: 2}}\n"
           "  - {name: scaled, scene: {unit_m: 2}}\n"
