@@ -103,8 +103,8 @@ int run_study(const std::string& path, const RunOptions& options) {
   }
   for (const auto& job : jobs) job.remove_merged();
   if (world && !world->is_first()) return exit_code::done;
-  for (const auto& path : results_not_there(work)) {
-    progress.warn(path + " is not there; run the study again with --resume");
+  for (const auto& result : results_not_there(work)) {
+    progress.warn(result + " is not there; run the study again with --resume");
     is_complete = false;
   }
   return is_complete ? exit_code::done : exit_code::unfinished;
