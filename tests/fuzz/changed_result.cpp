@@ -257,7 +257,7 @@ std::size_t read_by_all(const std::string& path, Valid which) {
   picture.interpolate = true;
   commands.emplace_back([&result, picture] { render_png(result, picture, file_of("", "p.png")); });
   std::size_t working = 0;
-  for (const auto& command : commands) working += works(command) ? 1 : 0;
+  for (const auto& command : commands) working += works(command) ? 1u : 0u;
   return working;
 }
 

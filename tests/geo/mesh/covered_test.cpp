@@ -99,9 +99,9 @@ TEST(Covered, FacadesLoseWhatIsCoveredAndGoWhereNothingIsLeft) {
   EXPECT_EQ(facades.count("low/east_1"), 0u);
   EXPECT_NEAR(facades.at("high/west_1"), 50, rounding);
   EXPECT_NEAR(facades.at("high/east_1"), 110, rounding);
-  for (std::size_t t = 0; t < c.p.mesh.triangle_count(); ++t)
-    if (c.p.mesh.triangle_facade[t].exists())
-      EXPECT_LT(c.p.mesh.triangle_facade[t].index(), c.p.mesh.facades.size());
+  for (const FacadeId facade : c.p.mesh.triangle_facade) {
+    if (facade.exists()) EXPECT_LT(facade.index(), c.p.mesh.facades.size());
+  }
 }
 
 TEST(Covered, ABodyInsideOfAnotherIsCoveredAsAWhole) {
@@ -163,7 +163,7 @@ TEST(Covered, RandomBoxesAgreeWithPointsTried) {
     builder.object("box_" + std::to_string(i)).box(boxes.back()[0], boxes.back()[1]);
   }
   builder.moved(turned);
-  const auto c = cut(builder, {.repair = Repair::safe});
+  const auto c = cut(builder, {.repair = Repair::safe, .ground = {}});
   EXPECT_GT(c.cut.cut, 10u);
   const double cosine = std::cos(0.37), sine = std::sin(0.37);
   std::uniform_real_distribution<double> share(0, 1);
