@@ -33,8 +33,8 @@ std::string estimated_line(const ResultReader& result, double in) {
   const double estimated = ledger_kwh(result, "estimated");
   if (estimated == 0) return {};
   return info_line("",
-                   fmt::format("estimated {:.3g} ({:.2g} % of in): what surfaces receive of unshot "
-                               "light, part of the irradiance",
+                   fmt::format("estimated {:.3g} ({:.2g} % of in): what surfaces receive of light "
+                               "that is not followed, part of the irradiance",
                                estimated, in == 0 ? 0 : estimated / in * 100));
 }
 
