@@ -60,7 +60,8 @@ bool are_near(const Foot& one, const Foot& other, double distance) {
   }
   const BoxTree tree(std::move(boxes));
   bool is_near = false;
-  for (const auto& [a, b] : one.edges)
+  for (const auto& edge : one.edges) {
+    const Vec3 a = edge[0], b = edge[1];
     tree.visit_meeting(widened(box_around({a, b}), distance), [&](std::size_t i) {
       const auto& [p, q] = other.edges[i];
       if (is_near) return;
@@ -68,6 +69,7 @@ bool are_near(const Foot& one, const Foot& other, double distance) {
                 std::min({plan_distance2(a, p, q), plan_distance2(b, p, q), plan_distance2(p, a, b),
                           plan_distance2(q, a, b)}) < distance * distance;
     });
+  }
   return is_near;
 }
 

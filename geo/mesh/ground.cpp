@@ -231,7 +231,7 @@ class GroundMaker {
   };
   /// Of the terrain along a line in plan: at its ends, and where it crosses edges.
   Heights land_along(const Segment& line, const BoxTree& tree) const {
-    const auto& [a, b] = line;
+    const Vec3 a = line[0], b = line[1];
     Heights found;
     const auto at = [&](double s, double z) {
       found.low = std::min(found.low, z);

@@ -63,6 +63,7 @@ CircumsolarSky::CircumsolarSky(const SkyGrid& grid, const IntervalLight& light) 
 
   circumsolar_ = std::move(part);
   cell_width_ = 2.0f / static_cast<float>(grid.side());
+  strength_ = grid.solid_angle() * std::accumulate(circumsolar_.begin(), circumsolar_.end(), 0.0);
   for (int c = 0; c < grid.cell_count(); ++c)
     if (circumsolar_[static_cast<std::size_t>(c)] > 0) add_cell(grid, c);
   axis_ = normalized(axis_);
@@ -77,8 +78,8 @@ CircumsolarSky::CircumsolarSky(const SkyGrid& grid, const IntervalLight& light) 
 }
 
 void CircumsolarSky::add_cell(const SkyGrid& grid, int cell) {
-  const double brightness = circumsolar_[static_cast<std::size_t>(cell)] * grid.solid_angle();
-  strength_ += brightness;
+  const double brightness =
+      circumsolar_[static_cast<std::size_t>(cell)] * grid.solid_angle() / strength_;
   axis_ += brightness * grid.direction(cell, 0.5, 0.5);
   brightness_.push_back(static_cast<float>(brightness));
   a_.push_back(static_cast<float>(cell % grid.side()) * cell_width_ - 1);
@@ -140,7 +141,7 @@ void CircumsolarView::look(const CircumsolarSky& sky, Vec3 normal) {
             q_[corner].data());
   }
   // Less than 2^31 in all, since no cosine is above 1 but by rounding.
-  const double scale = 0.99 * shares / sky.strength();
+  constexpr double scale = 0.99 * shares;
   share_.resize(cells);
   weigh(sky.brightness_.data(), static_cast<float>(scale), cells, q_[0].data(), q_[1].data(),
         q_[2].data(), q_[3].data(), share_.data());
@@ -149,7 +150,7 @@ void CircumsolarView::look(const CircumsolarSky& sky, Vec3 normal) {
   for (std::size_t c = 0; c < cells; ++c) sums_[c] = sum += static_cast<std::uint32_t>(share_[c]);
   std::fill(sums_.begin() + static_cast<std::ptrdiff_t>(cells), sums_.end(),
             std::numeric_limits<std::uint32_t>::max());
-  irradiance_ = sum / scale;
+  irradiance_ = sky.strength() * sum / scale;
 }
 
 namespace {

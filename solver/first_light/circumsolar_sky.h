@@ -44,7 +44,7 @@ class CircumsolarSky {
   std::vector<double> circumsolar_;  ///< per cell of the grid
   std::array<double, band_count> band_factors_;
   // Of the cells with L_circ:
-  std::vector<float> brightness_;          ///< L_circ times the solid angle
+  std::vector<float> brightness_;          ///< share of the strength
   std::vector<float> a_, b_;               ///< lower corner in the grid's square
   std::vector<float> x_[4], y_[4], z_[4];  ///< directions of the corners (0, 0), (1, 0), …
   float cell_width_ = 0;
