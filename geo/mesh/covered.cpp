@@ -577,7 +577,7 @@ CoveredCut cut_covered(Mesh& mesh, Bodies& bodies, const std::vector<std::uint8_
       divided.divide(t, next->second.parts);
     ++next;
   }
-  const CoveredCut cut = divided.finish();
+  CoveredCut cut = divided.finish();
   take_from_facades(mesh);
   return cut;
 }

@@ -395,6 +395,7 @@ class GroundMaker {
     };
     std::sort(r.hovering.begin(), r.hovering.end(), by_size);
     std::vector<double> sorted;
+    sorted.reserve(gaps.size());
     for (const auto& gap : gaps) sorted.push_back(gap.gap_m);
     std::sort(sorted.begin(), sorted.end());
     for (std::size_t i = 0; i < GroundReport::shares.size() && !sorted.empty(); ++i)

@@ -297,6 +297,8 @@ void Dataset::write(const std::vector<std::string>& values) {
   if (values.empty()) return;
   std::vector<std::string> utf8;
   std::vector<const char*> begins;
+  utf8.reserve(values.size());
+  begins.reserve(values.size());
   for (const auto& value : values) utf8.push_back(utf8_text(value));
   for (const auto& value : utf8) begins.push_back(value.c_str());
   checked(H5Dwrite(id(), *text_type(), H5S_ALL, H5S_ALL, H5P_DEFAULT, begins.data()), "writing");

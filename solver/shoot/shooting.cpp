@@ -91,6 +91,8 @@ FirstMirrored::SentSuns Shooter::send_sun(std::span<const IntervalLight> block) 
 
 /// The samples of one chunk of patches, traced in packets that patches share.
 class Shooter::Task {
+  Packet origins_{}, directions_{};  ///< first, where their alignment leaves no gaps
+
  public:
   Task(const Shooter& shooter, const Address& address, std::size_t begin, std::size_t end)
       : s_(shooter), address_(address), begin_(begin), fates_(end - begin) {}
@@ -147,7 +149,6 @@ class Shooter::Task {
   Address address_;
   std::size_t begin_;
   std::vector<Fate<double>> fates_;  ///< per patch of the chunk
-  Packet origins_{}, directions_{};
   Vec3 w_[packet_size];
   std::uint32_t patch_[packet_size];
   double share_[packet_size];
