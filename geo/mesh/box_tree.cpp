@@ -10,6 +10,7 @@ namespace sunload {
 namespace {
 
 constexpr std::uint32_t leaf_size = 4;
+constexpr double any_height = 1e300;  // as an empty Box begins: sums of two are finite
 
 void grow(Box& box, const Box& by) {
   box.low = {std::min(box.low.x, by.low.x), std::min(box.low.y, by.low.y),
@@ -34,6 +35,16 @@ Box widened(Box box, double by) {
 bool meet(const Box& a, const Box& b) {
   return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
          a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
+Box upright(Box box) {
+  box.low.z = -any_height, box.high.z = any_height;
+  return box;
+}
+
+Box in_plan(Box box) {
+  box.low.z = box.high.z = 0;
+  return box;
 }
 
 BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {

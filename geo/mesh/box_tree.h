@@ -14,6 +14,11 @@ namespace sunload {
 Box box_around(std::initializer_list<Vec3> points);
 Box widened(Box box, double by);
 bool meet(const Box& a, const Box& b);
+/// The box at all heights: asks for what lies in the same place in plan.
+Box upright(Box box);
+/// The box at height 0, for trees that are asked by upright boxes only. (Upright ones in a tree
+/// would leave it nothing to halve.)
+Box in_plan(Box box);
 
 /// Boxes in boxes, halved by their number along the longest side (as `PointTree`, with boxes for
 /// points). Equal input gives the same tree.
@@ -44,7 +49,7 @@ class BoxTree {
   /// The same for all boxes above and below a point.
   template <class Visit>
   void visit_column(double x, double y, const Visit& visit) const {
-    visit_meeting({{x, y, -1e300}, {x, y, 1e300}}, visit);
+    visit_meeting(upright({{x, y, 0}, {x, y, 0}}), visit);
   }
 
  private:

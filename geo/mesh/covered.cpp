@@ -1,14 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// As in delaunay.cpp: CGAL's own checks raise exceptions instead of being switched off.
-#define CGAL_DEBUG 1
-
 #include "geo/mesh/covered.h"
-
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_face_base_with_info_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
 #include <array>
@@ -19,6 +11,7 @@
 
 #include "geo/base/check.h"
 #include "geo/mesh/box_tree.h"
+#include "geo/mesh/constrained_delaunay.h"
 #include "geo/mesh/delaunay.h"
 #include "geo/mesh/slope.h"
 
@@ -41,14 +34,7 @@ struct VertexInfo {
 struct FaceInfo {
   bool is_covered = false;
 };
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<
-    Kernel,
-    CGAL::Triangulation_data_structure_2<
-        CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, Kernel>,
-        CGAL::Constrained_triangulation_face_base_2<
-            Kernel, CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>>>,
-    CGAL::Exact_predicates_tag>;
+using Delaunay = ConstrainedDelaunay<VertexInfo, FaceInfo>;
 using Polygon = std::vector<Point2>;
 using Line2 = std::array<Point2, 2>;
 
@@ -82,11 +68,11 @@ double twice_area(const Polygon& polygon) {
 /// looks up, -1 down, 0 not. Of triangles at an edge or corner below the line just one side is met
 /// (Edelsbrunner, Mücke 1990, Simulation of simplicity).
 int crossing(const std::array<Vec3, 3>& corners, double x, double y) {
-  const Kernel::Point_2 p(x, y);
+  const PlanKernel::Point_2 p(x, y);
   int positive = 0, negative = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 a = corners[k], b = corners[(k + 1) % 3];
-    int side = CGAL::orientation(Kernel::Point_2(a.x, a.y), Kernel::Point_2(b.x, b.y), p);
+    int side = CGAL::orientation(PlanKernel::Point_2(a.x, a.y), PlanKernel::Point_2(b.x, b.y), p);
     if (side == 0)
       side = a.y != b.y ? (a.y > b.y ? 1 : -1) : (a.x != b.x ? (b.x > a.x ? 1 : -1) : 0);
     if (side == 0) return 0;

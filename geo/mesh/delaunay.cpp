@@ -1,17 +1,10 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The program is built with NDEBUG, which would switch off CGAL's own checks; with them a polygon
-// that CGAL cannot handle raises an exception and is counted, not undefined.
-#define CGAL_DEBUG 1
-
 #include "geo/mesh/delaunay.h"
 
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_face_base_with_info_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
-
 #include <algorithm>
+
+#include "geo/mesh/constrained_delaunay.h"
 
 namespace sunload {
 
@@ -33,14 +26,7 @@ struct CornerInfo {
 struct FaceInfo {
   int depth = -1;  // ring edges between it and the outside
 };
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<
-    Kernel,
-    CGAL::Triangulation_data_structure_2<
-        CGAL::Triangulation_vertex_base_with_info_2<CornerInfo, Kernel>,
-        CGAL::Constrained_triangulation_face_base_2<
-            Kernel, CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>>>,
-    CGAL::Exact_predicates_tag>;
+using Delaunay = ConstrainedDelaunay<CornerInfo, FaceInfo>;
 
 /// Even-odd rule.
 bool is_inside(const std::vector<Point2>& ring, Point2 p) {

@@ -54,15 +54,12 @@ bool cross_in_plan(Vec3 a, Vec3 b, Vec3 p, Vec3 q) {
 /// Whether the lower edges of two feet are nearer to each other in plan than `distance`.
 bool are_near(const Foot& one, const Foot& other, double distance) {
   std::vector<Box> boxes;
-  for (const auto& [p, q] : other.edges) {
-    boxes.push_back(box_around({p, q}));
-    boxes.back().low.z = -infinity, boxes.back().high.z = infinity;
-  }
+  for (const auto& [p, q] : other.edges) boxes.push_back(in_plan(box_around({p, q})));
   const BoxTree tree(std::move(boxes));
   bool is_near = false;
   for (const auto& edge : one.edges) {
     const Vec3 a = edge[0], b = edge[1];
-    tree.visit_meeting(widened(box_around({a, b}), distance), [&](std::size_t i) {
+    tree.visit_meeting(upright(widened(box_around({a, b}), distance)), [&](std::size_t i) {
       const auto& [p, q] = other.edges[i];
       if (is_near) return;
       is_near = cross_in_plan(a, b, p, q) ||
@@ -254,9 +251,7 @@ class FootFinder {
     std::vector<std::vector<std::size_t>> against(feet_.size());
     for (std::size_t f = 0; f < feet_.size(); ++f) {
       if (feet_[f].stance != Stance::ground) continue;
-      Box near = widened(feet_[f].box, foot_reach_m);
-      near.low.z = -infinity, near.high.z = infinity;
-      tree.visit_meeting(near, [&](std::size_t g) {
+      tree.visit_meeting(upright(widened(feet_[f].box, foot_reach_m)), [&](std::size_t g) {
         if (g == f || feet_[g].stance != Stance::ground) return;
         const double rise = feet_[f].box.low.z - feet_[g].box.high.z;  // f is the higher one
         if (rise <= highest_step_m) return;

@@ -202,8 +202,8 @@ class GroundMaker {
   void draw_down() {
     std::vector<Box> boxes;
     for (const auto t : terrain_)
-      boxes.push_back(box_around({mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)}));
-    for (Box& box : boxes) box.low.z = -1e300, box.high.z = 1e300;
+      boxes.push_back(
+          in_plan(box_around({mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)})));
     const BoxTree tree(std::move(boxes));
     drawn_m_.assign(feet_.size(), 0);
     for (std::size_t f = 0; f < feet_.size(); ++f) {
@@ -237,7 +237,7 @@ class GroundMaker {
       found.low = std::min(found.low, z);
       found.largest_gap = std::max(found.largest_gap, a.z + s * (b.z - a.z) - z);
     };
-    tree.visit_meeting(box_around({a, b}), [&](std::size_t i) {
+    tree.visit_meeting(upright(box_around({a, b})), [&](std::size_t i) {
       const std::array corners{mesh_.corner(terrain_[i], 0), mesh_.corner(terrain_[i], 1),
                                mesh_.corner(terrain_[i], 2)};
       for (const double s : {0.0, 1.0}) {

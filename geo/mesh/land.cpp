@@ -1,13 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// As in delaunay.cpp: CGAL's own checks raise exceptions instead of being switched off.
-#define CGAL_DEBUG 1
-
 #include "geo/mesh/land.h"
-
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +8,7 @@
 
 #include "geo/base/check.h"
 #include "geo/mesh/box_tree.h"
+#include "geo/mesh/constrained_delaunay.h"
 #include "geo/mesh/weld.h"
 
 namespace sunload {
@@ -29,13 +23,7 @@ constexpr std::size_t crossings_per_line = 8, fewest_crossings = 100;
 struct PointInfo {
   std::int32_t point = -1;
 };
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<
-    Kernel,
-    CGAL::Triangulation_data_structure_2<
-        CGAL::Triangulation_vertex_base_with_info_2<PointInfo, Kernel>,
-        CGAL::Constrained_triangulation_face_base_2<Kernel>>,
-    CGAL::Exact_predicates_tag>;
+using Delaunay = ConstrainedDelaunay<PointInfo>;
 
 /// The point of a line that is nearest in plan: how far it is, where along the line and how high.
 struct Nearest {
@@ -49,16 +37,12 @@ Nearest nearest(const Segment& line, double x, double y) {
   return {std::hypot(x - a.x - s * ex, y - a.y - s * ey), s, a.z + s * (b.z - a.z)};
 }
 
-Box plan_box(const Segment& line) {
-  Box box = widened(box_around({line[0], line[1]}), land_snap_m);
-  box.low.z = -1e300, box.high.z = 1e300;
-  return box;
-}
+Box box_near(const Segment& line) { return widened(box_around({line[0], line[1]}), land_snap_m); }
 
 BoxTree tree_of(const std::vector<Segment>& lines) {
   std::vector<Box> boxes;
   boxes.reserve(lines.size());
-  for (const Segment& line : lines) boxes.push_back(plan_box(line));
+  for (const Segment& line : lines) boxes.push_back(in_plan(box_near(line)));
   return BoxTree(std::move(boxes));
 }
 
@@ -143,7 +127,7 @@ class LandMaker {
   /// Through all points that are on it.
   void insert_line(const Segment& line, const BoxTree& tree) {
     std::vector<std::pair<double, std::size_t>> on;
-    tree.visit_meeting(plan_box(line), [&](std::size_t p) {
+    tree.visit_meeting(upright(box_near(line)), [&](std::size_t p) {
       const Nearest found = nearest(line, points_[p].x, points_[p].y);
       if (found.distance <= land_snap_m) on.emplace_back(found.along, p);
     });

@@ -52,17 +52,17 @@ class Descriptor {
   int number_;
 };
 
-void write_all(int to, const char* bytes, std::size_t count, const std::string& path) {
-  while (count > 0) {
-    const ssize_t written = ::write(to, bytes, count);
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) throw_cannot_write(path, errno);
-    bytes += written;
-    count -= static_cast<std::size_t>(written);
-  }
-}
-
 }  // namespace
+
+int write_all(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
 
 void throw_cannot_write(const std::string& path, int error_number) {
   std::string why = std::strerror(error_number);
@@ -102,7 +102,8 @@ void write_into(const OutputTarget& target, const std::string& from, const std::
   while (const ssize_t got = ::read(source, part.data(), part.size())) {
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw_cannot_write(path, errno);
-    write_all(sink, part.data(), static_cast<std::size_t>(got), path);
+    if (const int error = write_all(sink, {part.data(), static_cast<std::size_t>(got)}))
+      throw_cannot_write(path, error);
   }
   // Pipes, terminals and many devices cannot be flushed, and say so.
   if (::fsync(sink) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS)

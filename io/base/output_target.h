@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sunload {
@@ -28,6 +29,10 @@ void write_into(const OutputTarget& target, const std::string& from, const std::
 /// Throws InputError where the output is one of the files that are read, by whatever name: it would
 /// be destroyed. Empty names and names of nothing are no files.
 void expect_not_read(const std::string& output, const std::vector<std::string>& inputs);
+
+/// Writes all of the bytes to an open file, whatever interrupts it. Returns the number of the
+/// error, or 0.
+int write_all(int file, std::string_view bytes);
 
 /// MachineError "cannot write `path`: <text of the error number>".
 [[noreturn]] void throw_cannot_write(const std::string& path, int error_number);

@@ -17,17 +17,6 @@
 namespace sunload {
 namespace {
 
-/// The number of the error, or 0.
-int write_all(int to, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(to, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return errno;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return 0;
-}
-
 /// Bytes of standard output on their way.
 class Listing : public std::streambuf {
  public:

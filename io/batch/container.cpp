@@ -57,15 +57,9 @@ class Output {
   Output& operator=(const Output&) = delete;
 
   void write(const void* bytes, std::size_t count) {
-    const auto* from = static_cast<const char*>(bytes);
-    while (count > 0) {
-      const ssize_t written = ::write(file_, from, count);
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) throw_cannot_write(path_, errno);
-      from += written;
-      count -= static_cast<std::size_t>(written);
-      position_ += static_cast<std::size_t>(written);
-    }
+    if (const int error = write_all(file_, {static_cast<const char*>(bytes), count}))
+      throw_cannot_write(path_, error);
+    position_ += count;
   }
   void pad_to(std::size_t offset) {
     const std::array<char, block_alignment> zeros{};

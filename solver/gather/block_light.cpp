@@ -86,14 +86,7 @@ BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchO
 
 Columns seen_radiosity(const Hierarchy& mesh, const PatchOptics& optics, BlockLight& light) {
   if (light.estimated.empty()) return std::move(light.gathered_radiosity);
-  Columns radiosity = columns(mesh.element_count());
-  parallel_for(
-      optics.diffuse.size(),
-      [&](std::size_t i) {
-        for (std::size_t k = 0; k < block_width; ++k)
-          radiosity[i * block_width + k] = optics.diffuse[i] * light.total(i, k);
-      },
-      receivers_per_chunk);
+  Columns radiosity = reflected_radiosity(optics, light, mesh.element_count());
   pull_up(mesh, radiosity);
   return radiosity;
 }

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "solver/base/chunks.h"
+#include "solver/base/threads.h"
 #include "solver/first_light/circumsolar.h"
 #include "solver/first_light/ray_light.h"
 #include "solver/gather/jacobi.h"
@@ -61,8 +63,24 @@ BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchO
                        const BlockSources& sources, RayColumns rays,
                        const std::vector<double>& parallel, const BounceRules& rules);
 
+/// rho E of all light, of every patch; elements above them have none. `Light`: of a block, with
+/// total(patch, sun).
+template <class Light>
+Columns reflected_radiosity(const PatchOptics& optics, const Light& light, std::size_t elements) {
+  Columns radiosity = columns(elements);
+  parallel_for(
+      optics.diffuse.size(),
+      [&](std::size_t i) {
+        for (std::size_t k = 0; k < block_width; ++k)
+          radiosity[i * block_width + k] =
+              optics.diffuse[i] * static_cast<float>(light.total(i, k));
+      },
+      receivers_per_chunk);
+  return radiosity;
+}
+
 /// Diffusely reflected radiosity of all elements as sensors see it: what was gathered last, or
-/// where the light beyond is estimated, of all light. `followed` is used up.
+/// where the light beyond is estimated, of all light. `gathered_radiosity` is used up.
 Columns seen_radiosity(const Hierarchy& mesh, const PatchOptics& optics, BlockLight& light);
 
 /// Ledger of every sun of the block [W], but for the sun's light sent on by mirrors.

@@ -63,7 +63,7 @@ Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics
         },
         LinkTable::rows_per_block);
     pull_up(mesh, out.gathered_radiosity);
-    out.before = std::move(out.irradiance);
+    out.before.swap(out.irradiance);
     out.irradiance = ground;
     gather(lines.patches, out.gathered_radiosity, out.irradiance, Into::add);
   }
@@ -79,7 +79,7 @@ ReflectedExposure reflect(const Hierarchy& mesh, const LineSet& lines, const Pat
       out.gathered_radiosity[i] =
           static_cast<double>(optics.diffuse[i]) * (base[i] + out.irradiance[i]);
     pull_up(mesh, out.gathered_radiosity);
-    out.before = std::move(out.irradiance);
+    out.before.swap(out.irradiance);
     out.irradiance = ground;
     gather(lines.patches, out.gathered_radiosity, out.irradiance, Into::add);
   }

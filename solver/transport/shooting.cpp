@@ -208,17 +208,8 @@ class ShotBatch : public BatchTransport {
   }
 
   Columns seen_radiosity(const ShotLight& light) const {
-    Columns radiosity(light.shot_radiosity.begin(), light.shot_radiosity.end());
-    if (light.estimated.empty()) return radiosity;
-    parallel_for(
-        traced_.patches.count(),
-        [&](std::size_t i) {
-          for (std::size_t k = 0; k < block_width; ++k)
-            radiosity[i * block_width + k] =
-                traced_.optics.diffuse[i] * static_cast<float>(light.total(i, k));
-        },
-        receivers_per_chunk);
-    return radiosity;
+    if (light.estimated.empty()) return {light.shot_radiosity.begin(), light.shot_radiosity.end()};
+    return reflected_radiosity(traced_.optics, light, traced_.patches.count());
   }
 
   void add_realization(std::size_t r, const ShotLight& light, const Block& block) {
