@@ -139,6 +139,9 @@ struct SunInterval {
   UnixTime up_begin = 0, up_end = 0;  ///< as sunlit_begin and sunlit_end
   SunPosition sun;
   Vec3 direction;  ///< to the sun, scene frame, unit
+  /// To suns that stand for equal parts of the sunlit time, in the order of time: at the middle of
+  /// each. Empty where the representative sun stands for all of it.
+  std::vector<Vec3> sun_samples;
 
   double length_s() const { return end - begin; }
 };
@@ -155,8 +158,19 @@ struct PeriodStep {
   SunInstant rule = SunInstant::middle_of_sunlit_part;
 };
 
+/// Suns of an interval where one is too coarse: shadows of an hour are those of 15° of the sun's
+/// way.
+struct SunSamples {
+  /// Absent: as many that one stands for 20 minutes at most, which are 5° of the sun's way about
+  /// the pole. An instant (`given`) has one.
+  std::optional<int> count = 1;
+};
+
+/// Suns that stand for a stretch with that much sun: at least 1.
+int sun_sample_count(const SunSamples& samples, double sunlit_s);
+
 /// Sun path over consecutive steps (strictly increasing), standard air at the site's elevation.
 SunPath sun_path(const std::vector<PeriodStep>& steps, const Site& site, Refraction refraction,
-                 Ut1 ut1);
+                 Ut1 ut1, const SunSamples& samples = {});
 
 }  // namespace sunload

@@ -182,9 +182,43 @@ UnixTime representative(const PeriodStep& step, const std::vector<Part>& sunlit,
   return step.begin + (step.end - step.begin) / 2;
 }
 
-SunInterval interval_of(const PeriodStep& step, const SunEphemeris& sun, double sunlit_above,
-                        const Horizon& hills) {
-  const auto up = parts_up(sun, step, sunlit_above);
+/// When so much sun of these parts is over.
+UnixTime after_sun(const std::vector<Part>& parts, double sun_s) {
+  for (const Part& part : parts) {
+    if (sun_s <= part.length_s()) return part.begin + sun_s;
+    sun_s -= part.length_s();
+  }
+  return parts.back().end;
+}
+
+/// What positions of the sun are asked of, and by which rules.
+struct Watch {
+  const SunEphemeris& sun;
+  double sunlit_above_deg;
+  const Horizon& hills;
+  const Rotation& scene_axes;
+  const SunSamples& samples;
+
+  Vec3 direction(const SunPosition& of) const {
+    return scene_axes(enu_direction({of.azimuth_deg, of.elevation_deg}));
+  }
+};
+
+std::vector<Vec3> sun_samples(const PeriodStep& step, const std::vector<Part>& sunlit,
+                              double sunlit_s, const Watch& watch) {
+  if (step.rule == SunInstant::given || sunlit.empty()) return {};
+  const int count = sun_sample_count(watch.samples, sunlit_s);
+  if (count == 1) return {};
+  std::vector<Vec3> samples;
+  for (int s = 0; s < count; ++s)
+    samples.push_back(watch.direction(watch.sun(after_sun(sunlit, sunlit_s * (s + 0.5) / count))));
+  return samples;
+}
+
+SunInterval interval_of(const PeriodStep& step, const Watch& watch) {
+  const SunEphemeris& sun = watch.sun;
+  const Horizon& hills = watch.hills;
+  const auto up = parts_up(sun, step, watch.sunlit_above_deg);
   auto sunlit = hills.is_open() ? up : parts_above(hills, sun, up);
   SunInterval interval;
   interval.begin = step.begin;
@@ -200,6 +234,8 @@ SunInterval interval_of(const PeriodStep& step, const SunEphemeris& sun, double 
   interval.up_s = open.lit_s;
   interval.up_begin = open.begin;
   interval.up_end = open.end;
+  interval.direction = watch.direction(interval.sun);
+  interval.sun_samples = sun_samples(step, sunlit, lit.lit_s, watch);
   return interval;
 }
 
@@ -238,8 +274,15 @@ SunEvents sun_events(const SunEphemeris& sun, UnixTime day_begin, double true_el
   return events;
 }
 
+int sun_sample_count(const SunSamples& samples, double sunlit_s) {
+  constexpr double longest_s = 20 * seconds_per_minute;
+  constexpr double rounding_s = 1e-3;  // of the bounds, which are seconds since 1970
+  if (samples.count) return std::max(*samples.count, 1);
+  return std::max(1, static_cast<int>(std::ceil((sunlit_s - rounding_s) / longest_s)));
+}
+
 SunPath sun_path(const std::vector<PeriodStep>& steps, const Site& site, Refraction refraction,
-                 Ut1 ut1) {
+                 Ut1 ut1, const SunSamples& samples) {
   if (steps.empty()) return {};
   expect_in_order(steps);
   UnixTime end = steps.back().end;
@@ -251,12 +294,8 @@ SunPath sun_path(const std::vector<PeriodStep>& steps, const Site& site, Refract
 
   SunPath path;
   path.reserve(steps.size());
-  for (const auto& step : steps) {
-    SunInterval interval = interval_of(step, sun, sunlit_above, site.horizon);
-    interval.direction =
-        scene_axes(enu_direction({interval.sun.azimuth_deg, interval.sun.elevation_deg}));
-    path.push_back(interval);
-  }
+  const Watch watch{sun, sunlit_above, site.horizon, scene_axes, samples};
+  for (const auto& step : steps) path.push_back(interval_of(step, watch));
   return path;
 }
 

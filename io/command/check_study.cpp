@@ -178,6 +178,18 @@ std::string materials_text(const Scene& scene) {
   return text;
 }
 
+std::string rules_text(const std::vector<RuleUse>& rules) {
+  std::string text;
+  for (const RuleUse& use : rules) {
+    text +=
+        fmt::format("  rule      {}  {} triangles, {:.6g} m2", use.rule, use.given, use.given_m2);
+    if (use.given < use.matched)
+      text += fmt::format("  ({} more have it from elsewhere)", use.matched - use.given);
+    text += "\n";
+  }
+  return text;
+}
+
 std::string parallel_sources_text(const ParallelSources& sources) {
   if (sources.exitance.empty()) return {};
   double area = 0, power = 0;
@@ -190,10 +202,36 @@ std::string parallel_sources_text(const ParallelSources& sources) {
                      sources.exitance.size(), area, power);
 }
 
+/// How many suns stand for intervals; what more of them would do where one is coarse. Empty where
+/// every interval has its one sun, and is short.
+std::string suns_text(const VariantPlan& plan) {
+  std::size_t sunlit = 0, more = 0;
+  double longest_s = 0;
+  for (const LitInterval& interval : plan.light.intervals) {
+    if (interval.when.sunlit_s <= 0) continue;
+    ++sunlit;
+    longest_s = std::max(longest_s, interval.when.sunlit_s);
+    more += static_cast<std::size_t>(sun_sample_count({std::nullopt}, interval.when.sunlit_s));
+  }
+  const std::size_t suns = plan.light.sun_samples();
+  if (suns > sunlit) return fmt::format("  {} suns stand for {} intervals\n", suns, sunlit);
+  const bool suns_are_given = std::holds_alternative<InstantsPeriod>(plan.study.period.kind) ||
+                              std::holds_alternative<PositionsPeriod>(plan.study.period.kind);
+  if (suns_are_given || more == sunlit) return {};
+  constexpr double minutes_per_degree = 4;  // of the sun's way about the pole
+  const double minutes = longest_s / seconds_per_minute;
+  return fmt::format(
+      "  one sun stands for up to {:.0f} min, and shadows stay where it puts them while it moves "
+      "by "
+      "{:.0f} degrees; solver.sun_samples_per_interval: auto takes {:.2g} times as many suns\n",
+      minutes, minutes / minutes_per_degree,
+      static_cast<double>(more) / static_cast<double>(sunlit));
+}
+
 std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
-  std::string text;
+  std::string text = suns_text(plan);
   if (const auto& accuracy = plan.study.solver.accuracy)
-    text = fmt::format(
+    text += fmt::format(
         "  a standard error of {} is asked for: counts are decided at the start of the run, "
         "from {} lines and {} direct samples up to {}; what follows is with the least\n",
         goal_words(*accuracy), plan.study.solver.lines_per_patch, plan.study.solver.direct_samples,
@@ -225,7 +263,7 @@ void print_text(const VariantPlan& plan, const VariantMesh& made, const WorkEsti
   if (rules.search == SearchIntersections::yes) text += intersections_text(plan.built.scene.mesh);
   if (plan.built.report.ground) text += ground_text(*plan.built.report.ground);
   for (const auto& note : plan.built.notes) text += "  note      " + note + "\n";
-  text += "materials\n" + materials_text(plan.built.scene) +
+  text += "materials\n" + materials_text(plan.built.scene) + rules_text(plan.built.rules) +
           parallel_sources_text(plan.built.scene.parallel_sources);
   if (const auto sensors = plan.built.scene.sensors.size(); sensors > 0)
     text += fmt::format("sensors\n  {} points\n", sensors);

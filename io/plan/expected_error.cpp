@@ -43,11 +43,55 @@ double small_area(const Hierarchy& mesh) {
   return *at;
 }
 
+double longest_edge_m(const Hierarchy& mesh, std::size_t patch) {
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    longest = std::max(longest, norm(mesh.corner(patch, (k + 1) % 3) - mesh.corner(patch, k)));
+  return longest;
+}
+
+/// Patches with edges longer than asked for, which are too small to be split. Slivers of a real
+/// model are many and of no account: by area.
+std::vector<std::string> coarse_warnings(const MeshStudy& rules, const Hierarchy& mesh) {
+  constexpr double rounding = 1 + 1e-9, share_worth_telling = 0.01;
+  struct Coarse {
+    double area, edge_m;
+  };
+  std::vector<Coarse> coarse;
+  double area = 0, coarse_area = 0;
+  for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
+    area += mesh.area()[i];
+    const double edge_m = longest_edge_m(mesh, i);
+    if (edge_m <= rules.max_edge_m * rounding) continue;
+    coarse.push_back({mesh.area()[i], edge_m});
+    coarse_area += mesh.area()[i];
+  }
+  if (coarse_area <= share_worth_telling * area) return {};
+  std::sort(coarse.begin(), coarse.end(),
+            [](const Coarse& a, const Coarse& b) { return a.area > b.area; });
+  double longest_m = 0, fine_enough_m2 = coarse.front().area, met = 0;
+  for (const Coarse& patch : coarse) {
+    longest_m = std::max(longest_m, patch.edge_m);
+    if (met > (1 - share_worth_telling) * coarse_area) continue;
+    met += patch.area;
+    // The longest edge is halved by two bisections of it, which quarter the area.
+    const double halvings = std::ceil(std::log2(patch.edge_m / rules.max_edge_m / rounding));
+    fine_enough_m2 = std::min(fine_enough_m2, patch.area / std::pow(4, halvings));
+  }
+  const double step = std::pow(10, std::floor(std::log10(fine_enough_m2)));
+  return {fmt::format(
+      "mesh.min_area_m2 {:g} keeps {} of {} patches above mesh.max_edge_m {:g}, with edges of up "
+      "to "
+      "{:.3g} m: patches below twice that area are not split; {:g} lets nearly all of them be",
+      rules.min_area_m2, coarse.size(), mesh.patch_count(), rules.max_edge_m, longest_m,
+      std::floor(fine_enough_m2 / step) * step)};
+}
+
 }  // namespace
 
 std::vector<std::string> expected_error_warnings(const VariantPlan& plan, const Hierarchy& mesh) {
   const SolverStudy& s = plan.study.solver;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = coarse_warnings(plan.study.mesh, mesh);
   if (const double offset_m = ray_offset_m(plan.built.scene.mesh); offset_m > tolerable_offset_m)
     warnings.push_back(fmt::format(
         "the scene is so wide that rays start {:.1f} mm off its surfaces (single precision of the "

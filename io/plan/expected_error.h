@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What error a study's counts of samples let expect, before anything is computed.
+/// What error a study's counts of samples and its mesh let expect, before anything is computed.
 #pragma once
 
 #include <string>
@@ -19,6 +19,9 @@ namespace sunload {
 /// - the sun on a patch that a shadow's edge crosses by n samples: at most 0.5 / √n;
 /// - reflected light when shooting N samples over the area A on a patch of area a: √(A / (N a)),
 ///   the variance of equation 13 of docs/developer/method.md, Shooting, with a reflectance of 1.
+///
+/// And where rays start far off their surfaces, and where mesh.min_area_m2 keeps patches above
+/// mesh.max_edge_m.
 std::vector<std::string> expected_error_warnings(const VariantPlan& plan, const Hierarchy& mesh);
 
 }  // namespace sunload

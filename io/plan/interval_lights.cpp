@@ -27,6 +27,7 @@ IntervalLight IntervalLights::of(const LitInterval& interval, std::size_t number
   IntervalLight sun;
   sun.number = static_cast<std::uint32_t>(number);
   sun.direction = when.direction;
+  sun.sun_samples = when.sun_samples;
   const Irradiance source = source_means(interval, light_.quantity);
   sun.dni = source.dni;
   sun.dhi = source.dhi;

@@ -142,7 +142,8 @@ SunPath path_of(const std::vector<PeriodStep>& steps, const Study& study, const 
   if (const auto note = clock_warning(study.site.timezone, site, steps.front().begin);
       !note.empty())
     series.notes.push_back(note);
-  return sun_path(steps, site, study.sun.refraction, study.sun.ut1_utc);
+  return sun_path(steps, site, study.sun.refraction, study.sun.ut1_utc,
+                  {study.solver.sun_samples_per_interval});
 }
 
 SunPath dated_path(const Study& study, const Site& site, LightSeries& series) {
@@ -189,6 +190,14 @@ std::size_t LightSeries::lit_count(std::size_t begin, std::size_t end) const {
       std::count_if(intervals.begin() + static_cast<std::ptrdiff_t>(begin),
                     intervals.begin() + static_cast<std::ptrdiff_t>(end),
                     [](const LitInterval& interval) { return !is_dark(interval); }));
+}
+
+std::size_t LightSeries::sun_samples() const {
+  std::size_t count = 0;
+  for (const LitInterval& interval : intervals)
+    if (interval.when.sunlit_s > 0)
+      count += std::max<std::size_t>(interval.when.sun_samples.size(), 1);
+  return count;
 }
 
 LightSeries light_series(const Study& study, const Site& site) {

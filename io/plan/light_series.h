@@ -37,6 +37,8 @@ struct LightSeries {
   /// Intervals in [begin, end) that are not dark.
   std::size_t lit_count(std::size_t begin, std::size_t end) const;
   std::size_t lit_count() const { return lit_count(0, intervals.size()); }
+  /// Suns above the horizon, all those that stand for one interval counted.
+  std::size_t sun_samples() const;
 };
 
 /// Sun path and irradiance of every interval (docs/developer/design.md, Study).

@@ -27,6 +27,25 @@ bool says_nothing(const MaterialStudy& m) {
 
 bool says_nothing(const FileMaterial& m) { return !m.diffuse && !m.mirror; }
 
+/// Whether a rule names objects or materials of files, not just kinds of them.
+bool is_specific(const AssignRule& rule) {
+  const auto chooses = [](const std::string& pattern) {
+    return pattern.find_first_not_of('*') != std::string::npos;
+  };
+  return chooses(rule.object) || chooses(rule.material_was);
+}
+
+std::string in_words(const AssignRule& rule) {
+  std::string words;
+  for (const auto& [key, pattern] : {std::pair{"object", &rule.object},
+                                     {"surface", &rule.surface},
+                                     {"was", &rule.material_was},
+                                     {"type", &rule.kind}})
+    if (!pattern->empty())
+      words += fmt::format("{}{} {}", words.empty() ? "" : ", ", key, *pattern);
+  return (words.empty() ? "all" : words) + ": " + rule.material;
+}
+
 class MaterialAssigner {
  public:
   MaterialAssigner(const Study& study, Scene& scene, std::vector<std::string>& warnings)
@@ -45,21 +64,17 @@ class MaterialAssigner {
     problems_.throw_if_any();
   }
 
-  void run() {
+  std::vector<RuleUse> run() {
     const Mesh& mesh = scene_.mesh;
-    std::vector<bool> rule_used(study_.scene.assign.size(), false);
+    for (const auto& rule : study_.scene.assign) used_.push_back({.rule = in_words(rule)});
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-      scene_.material.push_back(id_of(material_of(t, rule_used), t));
+      scene_.material.push_back(id_of(material_of(t), t));
     problems_.throw_if_any();
-    for (std::size_t r = 0; r < rule_used.size(); ++r)
-      if (!rule_used[r])
-        warnings_.push_back(
-            message(study_.scene.assign[r].where,
-                    "this assignment of '" + study_.scene.assign[r].material + "' matches nothing",
-                    "no surface gets its material from it"));
+    for (std::size_t r = 0; r < used_.size(); ++r) warn_of_rule(study_.scene.assign[r], used_[r]);
     warn_of_defaults();
     warn_of_scaled();
     warn_of_dark_lamps();
+    return std::move(used_);
   }
 
  private:
@@ -131,29 +146,67 @@ class MaterialAssigner {
     return of_files_.at(name);
   }
 
-  Material material_of(std::size_t t, std::vector<bool>& rule_used) {
+  /// Numbers of the last rules that match: that name something, and that go by kinds.
+  struct LastRules {
+    std::optional<std::size_t> specific, by_kind;
+  };
+  LastRules rules_for(std::size_t t, const FileMaterial* file) {
     const Mesh& mesh = scene_.mesh;
-    const auto file_id = mesh.triangle_material[t];
-    const FileMaterial* file = file_id.exists() ? &mesh.file_materials[file_id.index()] : nullptr;
-    const MaterialStudy* chosen = nullptr;
     const auto& object = mesh.object_names[mesh.triangle_object[t].index()];
     const auto& kind = mesh.object_kinds[mesh.triangle_object[t].index()];
     const std::string surface = surface_names[static_cast<std::size_t>(mesh.triangle_surface[t])];
+    LastRules last;
     for (std::size_t r = 0; r < study_.scene.assign.size(); ++r) {
       const auto& rule = study_.scene.assign[r];
       if (!matches(rule.object, object) || !matches(rule.surface, surface) ||
           !matches(rule.kind, kind) || !matches(rule.material_was, file ? file->name : ""))
         continue;
-      rule_used[r] = true;
-      chosen = &named(rule.material);
+      ++used_[r].matched;
+      (is_specific(rule) ? last.specific : last.by_kind) = r;
     }
+    return last;
+  }
+
+  const MaterialStudy& given_by(std::size_t rule, std::size_t t) {
+    ++used_[rule].given;
+    used_[rule].given_m2 += norm(scene_.mesh.area_vector2(t)) / 2;
+    return named(study_.scene.assign[rule].material);
+  }
+
+  Material material_of(std::size_t t) {
+    const Mesh& mesh = scene_.mesh;
+    const auto file_id = mesh.triangle_material[t];
+    const FileMaterial* file = file_id.exists() ? &mesh.file_materials[file_id.index()] : nullptr;
+    const LastRules rules = rules_for(t, file);
+    if (rules.specific) return from_study(given_by(*rules.specific, t), file_id, t);
+    if (file && file->is_reference) return from_study(named(file->name), file_id, t);
+    if (rules.by_kind) return from_study(given_by(*rules.by_kind, t), file_id, t);
     const auto& ground = study_.scene.ground;
-    if (!chosen && ground && !ground->material.empty() && file && file->name == "ground")
-      chosen = &named(ground->material);
-    if (!chosen && file && (file->is_reference || by_name_.contains(file->name)))
-      chosen = &named(file->name);
-    if (chosen) return from_study(*chosen, file_id, t);
+    if (ground && !ground->material.empty() && file && file->name == "ground")
+      return from_study(named(ground->material), file_id, t);
+    if (file && by_name_.contains(file->name)) return from_study(named(file->name), file_id, t);
     return from_file(file, file_id, t);
+  }
+
+  void warn_of_rule(const AssignRule& rule, const RuleUse& use) {
+    const bool chooses = is_specific(rule) || !rule.surface.empty() || !rule.kind.empty();
+    std::string what, consequence;
+    if (use.matched == 0) {
+      what = "matches nothing";
+      consequence = "no surface gets its material from it";
+    } else if (use.given == 0) {
+      what = "gives nothing";
+      consequence =
+          "all that it matches has its material from later rules, or from those that name "
+          "objects or files";
+    } else if (chooses && use.matched == scene_.mesh.triangle_count()) {
+      what = "matches everything";
+      consequence = "what it chooses by, all surfaces have";
+    } else {
+      return;
+    }
+    warnings_.push_back(
+        message(rule.where, "this assignment of '" + rule.material + "' " + what, consequence));
   }
 
   Material from_study(const MaterialStudy& study, MaterialId file_id, std::size_t t) {
@@ -321,6 +374,7 @@ class MaterialAssigner {
   std::map<std::string, MaterialId> ids_;
   std::set<std::string> refused_;
   std::map<std::string, double> scaled_;  ///< material and file, factor
+  std::vector<RuleUse> used_;
   Problems problems_;
   std::array<double, surface_names.size()> defaulted_m2_{};
 };
@@ -349,8 +403,9 @@ bool matches(const std::string& pattern, const std::string& text) {
   return p == pattern.size();
 }
 
-void assign_materials(const Study& study, Scene& scene, std::vector<std::string>& warnings) {
-  MaterialAssigner(study, scene, warnings).run();
+std::vector<RuleUse> assign_materials(const Study& study, Scene& scene,
+                                      std::vector<std::string>& warnings) {
+  return MaterialAssigner(study, scene, warnings).run();
 }
 
 }  // namespace sunload

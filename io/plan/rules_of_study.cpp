@@ -26,8 +26,7 @@ RefineRules refine_rules(const Study& study) {
           .light_tolerance = study.mesh.light_tolerance,
           .light_threshold_m2 = study.mesh.light_threshold_m2,
           .form_factor_threshold = study.mesh.link_threshold,
-          .t_vertices = study.mesh.t_vertices,
-          .seed = study.solver.seed};
+          .t_vertices = study.mesh.t_vertices};
 }
 
 SolverRules solver_rules(const VariantPlan& plan) {

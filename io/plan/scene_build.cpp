@@ -244,7 +244,7 @@ BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
 }
 
 void give_materials(const Study& study, BuiltScene& built) {
-  assign_materials(study, built.scene, built.warnings);
+  built.rules = assign_materials(study, built.scene, built.warnings);
   built.scene.parallel_sources = read_parallel_sources(study, built.scene.mesh.origin, built);
   built.scene.sensors =
       place_sensors(study.sensors, built.scene.mesh, built.report.bounds, built.warnings);

@@ -9,6 +9,7 @@
 
 #include "geo/mesh/mesh_prepare.h"
 #include "geo/sun/site.h"
+#include "io/plan/material_assign.h"
 #include "io/study/study.h"
 #include "solver/surface/material.h"
 
@@ -22,6 +23,7 @@ struct BuiltScene {
   std::string crs;                    ///< of the scene's coordinates; empty: none is known
   std::vector<std::string> notes;     ///< what readers counted
   std::vector<std::string> warnings;  ///< each states its consequence
+  std::vector<RuleUse> rules;         ///< of scene.assign, in their order
   Bodies bodies;                      ///< with `seals`: of the mesh, until what is covered is cut
   std::vector<std::uint8_t> seals;
 };

@@ -67,7 +67,7 @@ PeriodLight period_light(const VariantPlan& plan) {
   }
   // One interval at random of every stretch of the period: all hours and seasons come in.
   const auto words = [&](std::size_t sample, std::size_t stretch) {
-    return random_words({.seed = plan.study.solver.seed,
+    return random_words({.seed = mesh_pilot_seed,
                          .purpose = Purpose::mesh_pilot,
                          .realization = static_cast<std::uint32_t>(sample),
                          .element = stretch});

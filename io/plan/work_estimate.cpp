@@ -117,6 +117,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   const double parts = 4.0 + (mirrors ? 1 : 0) + (lamps ? 1 : 0);
   const auto n = static_cast<double>(patches + plan.built.scene.sensors.size());
   const auto lit = static_cast<double>(lamps ? plan.intervals() : plan.light.lit_count());
+  const auto suns = static_cast<double>(plan.light.sun_samples());
   const auto batch = static_cast<double>(std::min(plan.batch_suns(), plan.intervals()));
   const auto batches = static_cast<double>(plan.batches());
   const double lines = n * counts.mean_lines(), links = lines * s.bounces;
@@ -127,7 +128,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   WorkEstimate work;
   work.patches = patches;
   work.line_rays = static_cast<std::uint64_t>(lines);
-  const double rays = n * facing_share * lit * counts.direct_samples;
+  const double rays = n * facing_share * suns * counts.direct_samples;
   work.direct_rays = static_cast<std::uint64_t>(rays);
   work.memory_bytes =
       program_bytes + lines * bytes_per_line +
@@ -155,7 +156,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
       (s_to_start + n * s_per_patch +
        lines * (guided ? 1 + rays_by_guide : 1) * line_seconds(plan.built.scene, s.mirror_depth) +
        rays * s_per_direct_ray +
-       (mirrors ? n * mirrored_share * lit * counts.direct_samples * s_per_mirror_ray : 0) +
+       (mirrors ? n * mirrored_share * suns * counts.direct_samples * s_per_mirror_ray : 0) +
        (s.transport == Transport::gather
             ? bands * (links * lit * s_per_link_sun + links * batches * s_per_link_batch)
             : static_cast<double>(work.samples) * s_per_sample) +

@@ -11,6 +11,7 @@
 
 #include "geo/base/check.h"
 #include "io/base/statistics.h"
+#include "io/result/common_area.h"
 #include "io/result/patch_groups.h"
 
 namespace sunload {
@@ -20,35 +21,57 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 // Loads may be stored as float: below its spacing a difference is rounding.
 constexpr double rounding_share = std::numeric_limits<float>::epsilon();
 
-/// One result, divided into groups.
-struct Side {
-  const ResultReader& result;
+using Place = std::map<std::pair<std::string, std::string>, std::size_t>;
+
+/// Groups by kind and name.
+Place places(const PatchGroups& groups) {
+  Place place;
+  for (std::size_t g = 0; g < groups.groups().size(); ++g)
+    place[{groups.groups()[g].kind, groups.groups()[g].name}] = g;
+  return place;
+}
+
+/// Groups of one result, of some of its area.
+struct Part {
   PatchGroups groups;
-  std::vector<double> load;                       ///< per group
-  std::vector<std::vector<double>> realizations;  ///< [group][realization]
-  std::vector<std::string> object_name;
-  std::map<std::pair<std::string, std::string>, std::size_t> place;  ///< of (kind, name)
+  std::vector<double> load;  ///< per group
+  Place place;
 };
 
-Side side(const ResultReader& result) {
+Part part(const ResultReader& result, std::vector<double> area) {
+  PatchGroups groups(result, std::move(area));
+  return {groups, group_means(result, groups, "light_load"), places(groups)};
+}
+
+/// One result: what it has in common with the other, and what it has alone.
+struct Side {
+  const ResultReader& result;
+  Part common, alone;
+  std::vector<std::vector<double>> realizations;  ///< of `common`, [group][realization]
+};
+
+void expect_load(const ResultReader& result) {
   if (!result.has("light_load"))
     throw InputError({result.path()}, "no dataset light_load", "there is nothing to compare",
                      "compare finished results of sunload run");
-  PatchGroups groups(result);
-  Side s{result,
-         groups,
-         group_means(result, groups, "light_load"),
-         group_realizations(result, groups),
-         result.strings("object_name"),
-         {}};
-  for (std::size_t g = 0; g < groups.groups().size(); ++g)
-    s.place[{groups.groups()[g].kind, groups.groups()[g].name}] = g;
+}
+
+Side side(const ResultReader& result, const std::vector<double>& common) {
+  std::vector<double> alone = result.doubles("patch_area");
+  for (std::size_t i = 0; i < alone.size(); ++i) alone[i] -= common[i];
+  Side s{result, part(result, common), part(result, std::move(alone)), {}};
+  s.realizations = group_realizations(result, s.common.groups);
   return s;
 }
 
+/// Realizations that a result keeps of its light load.
+std::size_t realization_count(const ResultReader& result) {
+  return result.has("light_load_realization") ? result.shape("light_load_realization").front() : 0;
+}
+
 Comparison::Errors error_kind(const Side& base, const Side& variant) {
-  const auto base_count = base.realizations.front().size();
-  const auto variant_count = variant.realizations.front().size();
+  const auto base_count = realization_count(base.result);
+  const auto variant_count = realization_count(variant.result);
   if (base_count < 2 || variant_count < 2) return Comparison::Errors::unknown;
   const auto pairing = base.result.text_attribute("pairing_id");
   const bool paired = !pairing.empty() && base_count == variant_count &&
@@ -56,44 +79,33 @@ Comparison::Errors error_kind(const Side& base, const Side& variant) {
   return paired ? Comparison::Errors::paired : Comparison::Errors::independent;
 }
 
-std::map<std::string, double> area_by_object(const Side& s, const PatchGroup& group) {
-  std::map<std::string, double> areas;
-  for (const auto& [object, area] : group.object_area_m2)
-    areas[s.object_name.at(static_cast<std::size_t>(object))] += area;
-  return areas;
+/// Area of a group that one result has alone.
+double area_alone(const Side& s, const PatchGroup& group) {
+  const auto found = s.alone.place.find({group.kind, group.name});
+  return found == s.alone.place.end() ? 0 : s.alone.groups.groups()[found->second].area_m2;
 }
 
-double unmatched_area(const Side& base, const PatchGroup& base_group, const Side& variant,
-                      const PatchGroup& variant_group) {
-  auto surplus = area_by_object(base, base_group);
-  for (const auto& [object, area] : area_by_object(variant, variant_group)) surplus[object] -= area;
-  double sum = 0;
-  for (const auto& [object, area] : surplus) sum += std::abs(area);
-  // Areas of equal walls cut differently agree to rounding only.
-  return sum <= rounding_share * (base_group.area_m2 + variant_group.area_m2) ? 0 : sum;
-}
-
+/// Group b of what the base has in common with the variant, whose group v it is.
 ComparisonRow matched_row(const Side& base, std::size_t b, const Side& variant, std::size_t v,
                           Comparison::Errors errors) {
-  const auto& group = base.groups.groups()[b];
+  const auto& group = base.common.groups.groups()[b];
+  const double base_load = base.common.load[b], variant_load = variant.common.load[v];
   ComparisonRow row;
   row.kind = group.kind;
   row.name = group.name;
   row.area_m2 = group.area_m2;
-  row.base_kwh_m2 = base.load[b];
-  row.variant_kwh_m2 = variant.load[v];
-  row.difference_kwh_m2 = variant.load[v] - base.load[b];
-  row.difference_percent =
-      base.load[b] == 0 ? not_known : row.difference_kwh_m2 / base.load[b] * 100;
-  row.unmatched_area_m2 = unmatched_area(base, group, variant, variant.groups.groups()[v]);
+  row.base_kwh_m2 = base_load;
+  row.variant_kwh_m2 = variant_load;
+  row.difference_kwh_m2 = variant_load - base_load;
+  row.difference_percent = base_load == 0 ? not_known : row.difference_kwh_m2 / base_load * 100;
+  row.unmatched_area_m2 = area_alone(base, group) + area_alone(variant, group);
   row.se_kwh_m2 = row.p_value = row.p_corrected = not_known;
   if (errors == Comparison::Errors::unknown) return row;
   const auto error = errors == Comparison::Errors::paired
                          ? paired_error(base.realizations[b], variant.realizations[v])
                          : welch_error(base.realizations[b], variant.realizations[v]);
   row.se_kwh_m2 = error.se;
-  const double rounding =
-      rounding_share * std::max(std::abs(base.load[b]), std::abs(variant.load[v]));
+  const double rounding = rounding_share * std::max(std::abs(base_load), std::abs(variant_load));
   row.p_value =
       std::abs(row.difference_kwh_m2) <= rounding
           ? 1
@@ -104,12 +116,12 @@ ComparisonRow matched_row(const Side& base, std::size_t b, const Side& variant, 
 enum class Present { base, variant };
 
 ComparisonRow lonely_row(const Side& s, std::size_t g, Present where) {
-  const auto& group = s.groups.groups()[g];
+  const auto& group = s.alone.groups.groups()[g];
   ComparisonRow row;
   row.kind = group.kind;
   row.name = group.name;
   row.area_m2 = row.unmatched_area_m2 = group.area_m2;
-  (where == Present::base ? row.base_kwh_m2 : row.variant_kwh_m2) = s.load[g];
+  (where == Present::base ? row.base_kwh_m2 : row.variant_kwh_m2) = s.alone.load[g];
   row.difference_kwh_m2 = row.difference_percent = not_known;
   row.se_kwh_m2 = row.p_value = row.p_corrected = not_known;
   return row;
@@ -143,7 +155,8 @@ std::vector<std::string> notes_on(const Side& base, const Side& variant) {
 }  // namespace
 
 Comparison compare_results(const ResultReader& base, const ResultReader& variant) {
-  const Side b = side(base), v = side(variant);
+  expect_load(base);
+  expect_load(variant);
   Comparison comparison;
   comparison.units = base.units("light_load");
   comparison.quantity = base.quantity();
@@ -151,24 +164,23 @@ Comparison compare_results(const ResultReader& base, const ResultReader& variant
     throw InputError({variant.path()}, "light_load is in " + variant.units("light_load"),
                      "the base has it in " + comparison.units,
                      "compare results of one light.quantity");
+  const CommonArea common = common_area(base, variant);
+  const Side b = side(base, common.base), v = side(variant, common.variant);
   comparison.base = base.text_attribute("variant");
   comparison.variant = variant.text_attribute("variant");
-  comparison.base_realizations = b.realizations.front().size();
-  comparison.variant_realizations = v.realizations.front().size();
+  comparison.base_realizations = realization_count(base);
+  comparison.variant_realizations = realization_count(variant);
   comparison.errors = error_kind(b, v);
   comparison.notes = notes_on(b, v);
-  for (std::size_t g = 0; g < b.groups.groups().size(); ++g) {
-    const auto& group = b.groups.groups()[g];
-    const auto found = v.place.find({group.kind, group.name});
-    comparison.rows.push_back(found == v.place.end()
-                                  ? lonely_row(b, g, Present::base)
-                                  : matched_row(b, g, v, found->second, comparison.errors));
-  }
-  for (std::size_t g = 0; g < v.groups.groups().size(); ++g) {
-    const auto& group = v.groups.groups()[g];
-    if (!b.place.count({group.kind, group.name}))
-      comparison.rows.push_back(lonely_row(v, g, Present::variant));
-  }
+  const auto& groups = b.common.groups.groups();
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (const auto found = v.common.place.find({groups[g].kind, groups[g].name});
+        found != v.common.place.end())
+      comparison.rows.push_back(matched_row(b, g, v, found->second, comparison.errors));
+  for (std::size_t g = 0; g < b.alone.groups.groups().size(); ++g)
+    comparison.rows.push_back(lonely_row(b, g, Present::base));
+  for (std::size_t g = 0; g < v.alone.groups.groups().size(); ++g)
+    comparison.rows.push_back(lonely_row(v, g, Present::variant));
   correct_within_kinds(comparison.rows);
   return comparison;
 }

@@ -3,13 +3,14 @@
 /// What changes between two results: differences of the light load with their
 /// significance, per facade, object, surface and on the whole.
 ///
-/// Groups are matched by name and compared by the area-weighted mean light load
-/// of their patches. Where both results carry the same `pairing_id` and number
-/// of realizations, realization r of both used the same random numbers: the
-/// standard error is that of the per-realization differences of the group
-/// means, with R − 1 degrees of freedom (patches need not match one to one, so
-/// that variants may differ in geometry). Otherwise both errors add up (Welch).
-/// p-values are corrected by Holm within each kind of group.
+/// Groups are matched by name and compared by the area-weighted mean light load of what both
+/// results have of them (io/result/common_area): new trees and storeys are in no mean of what was
+/// there before. What only one of the two has stands in rows of its own. Where both results carry
+/// the same `pairing_id` and number of realizations, realization r of both used the same random
+/// numbers: the standard error is that of the per-realization differences of the group means, with
+/// R − 1 degrees of freedom (patches need not match one to one, so that variants may differ in
+/// geometry). Otherwise both errors add up (Welch). p-values are corrected by Holm within each kind
+/// of group.
 #pragma once
 
 #include <optional>
@@ -24,17 +25,15 @@ namespace sunload {
 struct ComparisonRow {
   std::string kind;  ///< whole | surface | object | facade
   std::string name;
-  double area_m2 = 0;  ///< in the base; in the variant where the base lacks the group
-  std::optional<double> base_kwh_m2, variant_kwh_m2;  ///< absent: the result lacks the group
+  double area_m2 = 0;  ///< that is compared; of a row of one result, that it has alone
+  std::optional<double> base_kwh_m2, variant_kwh_m2;  ///< absent: a row of the other result alone
   double difference_kwh_m2 = 0;                       ///< variant − base
   double difference_percent = 0;                      ///< of the base
   double se_kwh_m2 = 0;                               ///< standard error of the difference
   double p_value = 0;                                 ///< two-sided, of no difference
   double p_corrected = 0;                             ///< for the number of groups of the same kind
   bool significant = false;                           ///< p_corrected < significance_level
-  /// Area of either result without a counterpart in the other: sum over the
-  /// group's objects, by name, of the differences in area.
-  double unmatched_area_m2 = 0;
+  double unmatched_area_m2 = 0;  ///< of the group in both, without a counterpart in the other
 };
 
 struct Comparison {

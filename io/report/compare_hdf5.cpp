@@ -140,7 +140,7 @@ void put_groups(ComparisonFile& file, const Comparison& comparison) {
     file.put(name, dims, h5::Type::float64, units, what, numbers_of(rows, get));
   };
   const auto& load = comparison.units;
-  put("group_area", "m2", "area in the base (in the variant where the base lacks the group)",
+  put("group_area", "m2", "area that is compared; of a group in one result alone, its area there",
       [](const ComparisonRow& r) { return r.area_m2; });
   put("group_base_light_load", load, "area-weighted mean light load of the base",
       [](const ComparisonRow& r) { return r.base_kwh_m2.value_or(not_known); });
@@ -168,7 +168,7 @@ void put_facades(ComparisonFile& file, const Comparison& comparison, const Resul
   if (names.empty()) return;
   std::map<std::string, const ComparisonRow*> rows;
   for (const auto& row : comparison.rows)
-    if (row.kind == "facade") rows[row.name] = &row;
+    if (row.kind == "facade" && row.base_kwh_m2 && row.variant_kwh_m2) rows[row.name] = &row;
   const auto values = [&](const auto& get) {
     std::vector<double> list;
     for (const auto& name : names)

@@ -108,10 +108,18 @@ std::string comparison_table(const Comparison& comparison) {
     if (rows.size() > rows_shown)
       text += fmt::format("  … and {} more: see --csv\n", rows.size() - rows_shown);
   }
-  const auto& whole = comparison.rows.front();
-  if (whole.unmatched_area_m2 > 0)
-    text += fmt::format("\n{:.1f} m² have no counterpart in the other result\n",
-                        whole.unmatched_area_m2);
+  double common = 0, only_in_base = 0, only_in_variant = 0;
+  for (const auto& row : comparison.rows)
+    if (row.kind == "whole")
+      (!row.variant_kwh_m2 ? only_in_base
+       : !row.base_kwh_m2  ? only_in_variant
+                           : common) += row.area_m2;
+  if (only_in_base + only_in_variant > 0)
+    text += fmt::format(
+        "\nCompared is what both results have, {:.1f} m². {:.1f} m² of the base and {:.1f} m² of "
+        "the "
+        "variant have no counterpart in the other result: rows of their own\n",
+        common, only_in_base, only_in_variant);
   return text;
 }
 

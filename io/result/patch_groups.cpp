@@ -28,7 +28,11 @@ std::array<Division, 4> divisions(const ResultReader& result, std::size_t patche
 
 }  // namespace
 
-PatchGroups::PatchGroups(const ResultReader& result) : area_(result.doubles("patch_area")) {
+PatchGroups::PatchGroups(const ResultReader& result)
+    : PatchGroups(result, result.doubles("patch_area")) {}
+
+PatchGroups::PatchGroups(const ResultReader& result, std::vector<double> area)
+    : area_(std::move(area)) {
   if (area_.empty()) throw InputError({result.path()}, "the result has no patches");
   group_of_.assign(area_.size() * kinds, -1);
   const auto object = result.integers("patch_object");
@@ -38,15 +42,16 @@ PatchGroups::PatchGroups(const ResultReader& result) : area_(result.doubles("pat
     SUNLOAD_EXPECT(division.of_patch.size() == area_.size(), division.kind);
     std::vector<std::int32_t> group_of_entry(division.names.size(), -1);
     std::vector<char> used(division.names.size(), 0);
-    for (const auto entry : division.of_patch)
-      if (entry >= 0) used.at(static_cast<std::size_t>(entry)) = 1;
+    for (std::size_t i = 0; i < area_.size(); ++i)
+      if (const auto entry = division.of_patch[i]; entry >= 0 && area_[i] > 0)
+        used.at(static_cast<std::size_t>(entry)) = 1;
     for (std::size_t entry = 0; entry < used.size(); ++entry) {
       if (!used[entry]) continue;
       group_of_entry[entry] = static_cast<std::int32_t>(groups_.size());
       groups_.push_back({division.kind, division.names[entry], 0, {}});
     }
     for (std::size_t i = 0; i < area_.size(); ++i) {
-      if (division.of_patch[i] < 0) continue;
+      if (division.of_patch[i] < 0 || area_[i] <= 0) continue;
       const auto group = group_of_entry[static_cast<std::size_t>(division.of_patch[i])];
       group_of_[i * kinds + kind] = group;
       auto& facts = groups_[static_cast<std::size_t>(group)];

@@ -29,6 +29,8 @@ class PatchGroups {
   /// them; groups without patches are left out.
   /// Throws InputError for a result without patches.
   explicit PatchGroups(const ResultReader& result);
+  /// The same with so much of each patch's area; groups of which nothing is left are left out.
+  PatchGroups(const ResultReader& result, std::vector<double> area);
 
   const std::vector<PatchGroup>& groups() const { return groups_; }
   std::size_t patch_count() const { return area_.size(); }

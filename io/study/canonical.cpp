@@ -237,8 +237,8 @@ json canonical(const SolverStudy& solver, LightColour colour) {
   // `isa` is left out: the instruction set in force is hashed apart, so that
   // pinning it finds the batches that `auto` computed on such a machine.
   const auto& [transport, jacobi, power_per_sample_w, bands, bounces, unshot, unfollowed,
-               lines_per_patch, direct_samples, realizations, mirror_depth, batch_suns, isa, seed,
-               accuracy, max_lines_per_patch] = solver;
+               lines_per_patch, direct_samples, sun_samples_per_interval, realizations,
+               mirror_depth, batch_suns, isa, seed, accuracy, max_lines_per_patch] = solver;
   json all{{"transport", word_of(transport)},
            {"jacobi", word_of(jacobi)},
            {"power_per_sample_w", maybe(power_per_sample_w)},
@@ -255,6 +255,10 @@ json canonical(const SolverStudy& solver, LightColour colour) {
     all["bands"] = word_of(bands);
     all["colour"] = word_of(colour);
   }
+  // One sun, as most studies have it, has no key: their hashes stay.
+  if (sun_samples_per_interval != 1)
+    all["sun_samples_per_interval"] =
+        sun_samples_per_interval ? json(*sun_samples_per_interval) : json("auto");
   if (accuracy) {
     const auto& [light_load_relative, irradiance_relative] = *accuracy;
     all["accuracy"] = {{"light_load_relative", maybe(light_load_relative)},

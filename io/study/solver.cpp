@@ -9,6 +9,7 @@
 #include "io/study/sections.h"
 #include "io/study/words.h"
 #include "solver/base/random_blocks.h"
+#include "solver/light/sun_samples.h"
 
 namespace sunload::study_sections {
 
@@ -91,6 +92,13 @@ void read_accuracy(YamlMap& map, SolverStudy& solver) {
                 fmt::format("lines_per_patch and direct_samples ask for up to {}", least));
 }
 
+/// Absent: auto.
+std::optional<int> read_sun_samples(YamlMap& map) {
+  const std::string key = "sun_samples_per_interval";
+  if (map.kind(key) == YamlNode::Kind::text && map.text(key, "") == "auto") return {};
+  return map.integer(key, 1, static_cast<int>(most_sun_samples), 1);
+}
+
 }  // namespace
 
 SolverStudy read_solver(YamlMap& map) {
@@ -102,6 +110,7 @@ SolverStudy read_solver(YamlMap& map) {
   solver.unfollowed = map.choice("unfollowed", solver.unfollowed);
   solver.lines_per_patch = map.integer("lines_per_patch", 1, most_lines, solver.lines_per_patch);
   solver.direct_samples = map.integer("direct_samples", 1, most_lines, solver.direct_samples);
+  solver.sun_samples_per_interval = read_sun_samples(map);
   const int unread = map.has("realizations") ? 0 : solver.realizations;
   const int realizations =
       map.integer("realizations", fewest_realizations, most_realizations, unread);

@@ -211,6 +211,7 @@ struct SolverStudy {
   Unfollowed unfollowed = Unfollowed::estimate;
   int lines_per_patch = 256;
   int direct_samples = 16;
+  std::optional<int> sun_samples_per_interval = 1;  ///< absent: auto
   int realizations = 8;
   int mirror_depth = 8;
   int batch_suns = 64;

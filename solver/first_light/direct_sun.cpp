@@ -231,7 +231,7 @@ class PatchSuns {
       const int visible = count_visible(geometry, patch, sun);
       if (visible == 0) continue;
       const auto n = static_cast<double>(sampler_.samples());
-      sunlit[patch * block_width + k] = static_cast<float>(visible / n);
+      sunlit[patch * block_width + k] += static_cast<float>(sun.sun_share * visible / n);
       into.add_pooled(patch, k, sun.dni * cos_theta * visible / n);
       const double n_each = n / static_cast<double>(seen_.size());
       for (std::size_t r = 0; r < seen_.size(); ++r)

@@ -139,7 +139,8 @@ class SunPoints {
 };
 
 /// Adds the direct sun of a block to `into`, and to `sunlit` ([N][block]) the share of each
-/// receiver that sees the sun, for every sun above the horizon. Returns the rays cast.
+/// receiver that sees the sun, times `sun_share`, for every sun above the horizon. Returns the rays
+/// cast.
 std::uint64_t direct_sun(const RayCaster& caster, const SunSampler& sampler,
                          std::span<const IntervalLight> block, const RaySink& into,
                          Columns& sunlit);

@@ -21,6 +21,9 @@ inline constexpr std::size_t block_width = 16;
 struct IntervalLight {
   std::uint32_t number = 0;  ///< of the interval in the period: address of random numbers
   Vec3 direction{0, 0, 1};   ///< to the sun, scene frame, unit
+  /// To suns that stand for equal parts of the sunlit time, where several do; else empty. The sky
+  /// is that of `direction`.
+  std::vector<Vec3> sun_samples;
   double dni = 0;
   double dhi = 0;
   double ground_exitance = 0;  ///< of the far ground, rho_g * GHI
@@ -28,6 +31,7 @@ struct IntervalLight {
   std::vector<double> sky;
   double length_s = 0;
   double sunlit_s = 0;         ///< above 0: the sun's centre is above the horizon
+  double sun_share = 1;        ///< of the interval's sun, in what `sun_samples` makes
   double disk_half_angle = 0;  ///< of the sun's disk; 0: a point
 
   /// The same light in one band (solver/light/band.h).

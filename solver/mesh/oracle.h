@@ -16,13 +16,17 @@ namespace sunload {
 
 enum class Oracle { none, light_load, historic };
 
+/// Of the pilot alone: a study's seed does not touch its mesh, so that runs of any seed have the
+/// same patches.
+inline constexpr std::uint64_t mesh_pilot_seed = 1;
+
 struct RefineRules {
   Oracle oracle = Oracle::none;
   double light_tolerance = 0.05;       ///< of the default oracle, share of the mean light load
   double light_threshold_m2 = 0.005;   ///< F1_eps of the historic one
   double form_factor_threshold = 0.5;  ///< F_eps of the historic one, for light of emitters
   TVertices t_vertices = TVertices::remove;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = mesh_pilot_seed;
 };
 
 /// Historic oracle of the light iteration, the form factor's estimate without distance: an area

@@ -6,6 +6,7 @@
 
 #include "solver/base/random_blocks.h"
 #include "solver/base/threads.h"
+#include "solver/light/sun_samples.h"
 #include "solver/lines/patch_lines.h"
 
 namespace sunload {
@@ -127,25 +128,24 @@ FirstMirrored::Light FirstMirrored::ground(std::size_t realization,
 /// The sun on mirror patches in one task; its sources are the suns of the block.
 class FirstMirrored::SunTask {
  public:
-  SunTask(const FirstMirrored& mirrored, std::span<const IntervalLight> block)
+  explicit SunTask(const FirstMirrored& mirrored)
       : deposits(static_cast<std::size_t>(mirrored.rules_.realizations)),
         fates(deposits.size()),
-        m_(mirrored),
-        block_(block) {}
+        m_(mirrored) {}
 
-  void run(std::size_t patch) {
+  void run(std::size_t patch, std::span<const IntervalLight> block) {
     const auto geometry = m_.sampler_.geometry(patch);
     const double samples_each =
         static_cast<double>(m_.sampler_.samples()) / static_cast<double>(deposits.size());
-    for (std::size_t k = 0; k < block_.size(); ++k) {
-      const IntervalLight& sun = block_[k];
+    for (std::size_t k = 0; k < block.size(); ++k) {
+      const IntervalLight& sun = block[k];
       const double cos_theta = dot(geometry.normal, sun.direction);
       if (!sun.has_sun() || sun.dni <= 0 || cos_theta <= 0) continue;
       const double power = m_.hierarchy_.area()[patch] * sun.dni * cos_theta / samples_each;
       m_.sampler_.seed(patch, sun.number, seeds_);
       for (std::size_t p = 0; p < m_.sampler_.packets(); ++p)
-        send_packet(lit_samples(m_.sampler_, m_.caster_, sun, geometry, seeds_, p), p, patch, k,
-                    power);
+        send_packet(lit_samples(m_.sampler_, m_.caster_, sun, geometry, seeds_, p), p, patch, sun,
+                    k, power);
     }
   }
 
@@ -154,9 +154,8 @@ class FirstMirrored::SunTask {
   std::uint64_t rays = 0;
 
  private:
-  void send_packet(const LitSamples& samples, std::size_t packet, std::size_t patch, std::size_t k,
-                   double power) {
-    const IntervalLight& sun = block_[k];
+  void send_packet(const LitSamples& samples, std::size_t packet, std::size_t patch,
+                   const IntervalLight& sun, std::size_t k, double power) {
     const Vec3 n = m_.hierarchy_.normal(patch);
     rays += static_cast<std::uint64_t>(std::popcount(samples.active));
     for (auto lit = samples.lit; lit != 0; lit &= lit - 1) {
@@ -177,7 +176,6 @@ class FirstMirrored::SunTask {
   }
 
   const FirstMirrored& m_;
-  std::span<const IntervalLight> block_;
   SunSampler::Seeds seeds_;
 };
 
@@ -197,10 +195,12 @@ FirstMirrored::SentSuns FirstMirrored::send(std::span<const IntervalLight> block
   if (!any()) return sent;
   const std::size_t chunks = tasks(mirrors_.size());
   sent.of_realization.resize(static_cast<std::size_t>(rules_.realizations), {Deposits(chunks), {}});
-  std::vector<SunTask> parts(chunks, SunTask(*this, block));
+  const auto suns = suns_one_by_one(block);
+  std::vector<SunTask> parts(chunks, SunTask(*this));
   parallel_chunks(mirrors_.size(), mirrors_per_task, [&](std::size_t begin, std::size_t end) {
     const std::size_t chunk = begin / mirrors_per_task;
-    for (std::size_t m = begin; m < end; ++m) parts[chunk].run(mirrors_[m]);
+    for (std::size_t m = begin; m < end; ++m)
+      for (const auto& of_intervals : suns) parts[chunk].run(mirrors_[m], of_intervals);
     for (std::size_t r = 0; r < sent.of_realization.size(); ++r)
       sent.of_realization[r].deposits.put(chunk, std::move(parts[chunk].deposits[r]));
   });

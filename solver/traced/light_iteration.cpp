@@ -6,6 +6,7 @@
 
 #include "solver/base/stopwatch.h"
 #include "solver/base/threads.h"
+#include "solver/light/sun_samples.h"
 
 namespace sunload {
 
@@ -14,31 +15,31 @@ namespace {
 using Suns = std::span<const IntervalLight>;
 
 /// The beams of each sun by way of mirrors; none where the scene has no mirrors.
-std::vector<SunBeams> beams_of(const TracedScene& traced, Suns block) {
+std::vector<SunBeams> beams_of(const TracedScene& traced, Suns suns) {
   if (traced.mirrors.size() == 0) return {};
   const BeamRules rules{traced.rules.mirror_depth, traced.rules.faint_glint,
                         traced.rules.most_sun_beams, traced.caster.offset_m()};
-  std::vector<SunBeams> beams(block.size(), SunBeams(traced.mirrors));
-  parallel_for(block.size(),
-               [&](std::size_t k) { beams[k] = SunBeams(traced.mirrors, block[k], rules); });
+  std::vector<SunBeams> beams(suns.size(), SunBeams(traced.mirrors));
+  parallel_for(suns.size(),
+               [&](std::size_t k) { beams[k] = SunBeams(traced.mirrors, suns[k], rules); });
   return beams;
 }
 
 /// Suns of too many mirrors for beams (curved glass) get those of the first reflection: sensors are
 /// few, and no chain of mirrors ends on them.
 std::vector<SunBeams> with_first_reflections(const TracedScene& traced, std::vector<SunBeams> beams,
-                                             Suns block) {
+                                             Suns suns) {
   const BeamRules of_first{.mirror_depth = std::min(traced.rules.mirror_depth, 1),
                            .most_beams = traced.rules.most_sensor_beams};
   parallel_for(beams.size(), [&](std::size_t k) {
-    if (beams[k].size() == 0) beams[k] = SunBeams(traced.mirrors, block[k], of_first);
+    if (beams[k].size() == 0) beams[k] = SunBeams(traced.mirrors, suns[k], of_first);
   });
   return beams;
 }
 
 RayLight empty_rays(const TracedScene& traced, std::size_t receivers, bool keep_columns) {
   RayLight rays;
-  rays.pooled.mirror = columns(receivers);
+  rays.pooled.direct = rays.pooled.mirror = rays.sunlit = columns(receivers);
   if (keep_columns)
     rays.of_realizations = {static_cast<std::size_t>(traced.rules.realizations), receivers};
   return rays;
@@ -50,12 +51,10 @@ RaySink sink(const TracedScene& traced, Columns& pooled, std::vector<std::vector
 }
 
 /// `sums`: null where nobody wants time integrals, here and below.
-std::uint64_t add_sun(const TracedScene& traced, const Receivers& receivers, Suns block,
+std::uint64_t add_sun(const TracedScene& traced, const Receivers& receivers, Suns suns,
                       RayLight& rays, RaySums* sums) {
-  rays.pooled.direct = columns(receivers.count());
-  rays.sunlit = columns(receivers.count());
   return direct_sun(
-      traced.caster, receivers.sampler, block,
+      traced.caster, receivers.sampler, suns,
       sink(traced, rays.pooled.direct, sums ? &sums->direct : nullptr, rays.of_realizations.direct),
       rays.sunlit);
 }
@@ -74,49 +73,58 @@ RaySink mirrored(const TracedScene& traced, RayLight& rays,
   return sink(traced, rays.pooled.mirror, exposure, rays.of_realizations.mirror);
 }
 
-void add_mirrors(const TracedScene& traced, Suns block, const std::vector<SunBeams>& beams,
+void add_mirrors(const TracedScene& traced, Suns suns, const std::vector<SunBeams>& beams,
                  BlockRays& rays, RaySums& sums, WorkDone& work) {
   if (beams.empty()) return;
   const RaySink into = mirrored(traced, rays.on_patches, &sums.mirror);
   work.add(Work::mirror_rays,
-           traced.mirror_sun.add_light(traced.patches.sampler, block, beams, into));
-  auto chains = traced.mirror_chains.follow(block, beams, into);
+           traced.mirror_sun.add_light(traced.patches.sampler, suns, beams, into));
+  const auto chains = traced.mirror_chains.follow(suns, beams, into);
   work.add(Work::mirror_rays, chains.rays);
   work.add(Work::mirror_shots, chains.shots);
   for (const auto& of_sun : beams) work.add(Work::mirror_beams, of_sun.size());
-  rays.sent_on = std::move(chains.fates);
+  rays.sent_on.resize(chains.fates.size());
+  for (std::size_t r = 0; r < chains.fates.size(); ++r) rays.sent_on[r] += chains.fates[r];
 }
 
-void add_gloss(const TracedScene& traced, Suns block, BlockRays& rays, RaySums& sums,
+void add_gloss(const TracedScene& traced, Suns suns, BlockRays& rays, RaySums& sums,
                WorkDone& work) {
   if (!traced.optics.any_glossy) return;
   const Stopwatch time(work[Work::mirror_s]);
   work.add(Work::mirror_rays,
-           traced.glossy_sun.add_light(traced.patches.lines, block,
+           traced.glossy_sun.add_light(traced.patches.lines, suns,
                                        mirrored(traced, rays.on_patches, &sums.gloss)));
   rays.sent_on.resize(static_cast<std::size_t>(traced.rules.realizations));
-  traced.glossy_sun.follow_light(block, rays.sent_on);
+  traced.glossy_sun.follow_light(suns, rays.sent_on);
 }
 
-/// Returns the rays cast.
-std::uint64_t light_sensors(const TracedScene& traced, Suns block, std::vector<SunBeams> beams,
-                            RayLight& rays, RaySums* sums) {
+/// `beams`: one set for each of `suns_one_by_one`. Returns the rays cast.
+std::uint64_t light_sensors(const TracedScene& traced,
+                            const std::vector<std::vector<IntervalLight>>& suns,
+                            std::vector<std::vector<SunBeams>> beams, RayLight& rays,
+                            RaySums* sums) {
   const Receivers& sensors = traced.sensors;
-  std::uint64_t cast = add_sun(traced, sensors, block, rays, sums);
   const RaySink into = mirrored(traced, rays, sums ? &sums->mirror : nullptr);
-  if (!beams.empty())
-    cast += traced.mirror_sun.add_light(
-        sensors.sampler, block, with_first_reflections(traced, std::move(beams), block), into);
-  if (!traced.optics.any_glossy) return cast;
-  cast += traced.glossy_sun.add_light_on_sensors(sensors.lines, traced.lobe_images, block, into);
-  return cast + traced.lobe_images.add_light(block, into);
+  std::uint64_t cast = 0;
+  for (std::size_t s = 0; s < suns.size(); ++s) {
+    cast += add_sun(traced, sensors, suns[s], rays, sums);
+    if (!beams[s].empty())
+      cast += traced.mirror_sun.add_light(
+          sensors.sampler, suns[s], with_first_reflections(traced, std::move(beams[s]), suns[s]),
+          into);
+    if (!traced.optics.any_glossy) continue;
+    cast +=
+        traced.glossy_sun.add_light_on_sensors(sensors.lines, traced.lobe_images, suns[s], into);
+    cast += traced.lobe_images.add_light(suns[s], into);
+  }
+  return cast;
 }
 
 }  // namespace
 
 BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources, const Kept& kept,
                           TimeSums& sums, WorkDone& work) {
-  const Suns block = sources.suns;
+  const auto suns = suns_one_by_one(sources.suns);
   BlockRays rays;
   rays.on_patches = empty_rays(traced, traced.patches.count(), kept.columns);
   // Nothing comes by mirrors that are not there.
@@ -124,23 +132,25 @@ BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources
     rays.on_patches.of_realizations.mirror.clear();
   {
     const Stopwatch time(work[Work::direct_s]);
-    work.add(Work::direct_rays,
-             add_sun(traced, traced.patches, block, rays.on_patches, &sums.on_patches));
+    for (const auto& of_intervals : suns)
+      work.add(Work::direct_rays,
+               add_sun(traced, traced.patches, of_intervals, rays.on_patches, &sums.on_patches));
     work.add(Work::direct_rays, add_circumsolar(traced, sources, rays.on_patches, sums.on_patches));
   }
-  std::vector<SunBeams> beams;
-  {
+  std::vector<std::vector<SunBeams>> beams;
+  for (const auto& of_intervals : suns) {
     const Stopwatch time(work[Work::mirror_s]);
-    beams = beams_of(traced, block);
-    add_mirrors(traced, block, beams, rays, sums.on_patches, work);
+    beams.push_back(beams_of(traced, of_intervals));
+    add_mirrors(traced, of_intervals, beams.back(), rays, sums.on_patches, work);
   }
   if (kept.by_samples) rays.on_patches.by_samples = summed(rays.on_patches.of_realizations);
-  add_gloss(traced, block, rays, sums.on_patches, work);
+  for (const auto& of_intervals : suns)
+    add_gloss(traced, of_intervals, rays, sums.on_patches, work);
   if (traced.sensors.count() == 0) return rays;
   const Stopwatch time(work[Work::sensors_s]);
   rays.on_sensors = empty_rays(traced, traced.sensors.count(), kept.columns);
   work.add(Work::sensor_rays,
-           light_sensors(traced, block, std::move(beams), rays.on_sensors, &sums.on_sensors));
+           light_sensors(traced, suns, std::move(beams), rays.on_sensors, &sums.on_sensors));
   return rays;
 }
 
@@ -148,16 +158,20 @@ RayLight direct_on_patches(const TracedScene& traced, const BlockSources& source
   const Stopwatch time(work[Work::direct_s]);
   const auto realizations = static_cast<std::size_t>(traced.rules.realizations);
   RayLight rays;
+  rays.pooled.direct = rays.sunlit = columns(traced.patches.count());
   rays.of_realizations.direct.assign(realizations, columns(traced.patches.count()));
-  work.add(Work::direct_rays, add_sun(traced, traced.patches, sources.suns, rays, nullptr));
+  for (const auto& suns : suns_one_by_one(sources.suns))
+    work.add(Work::direct_rays, add_sun(traced, traced.patches, suns, rays, nullptr));
   return rays;
 }
 
 RayLight rays_on_sensors(const TracedScene& traced, const BlockSources& sources, WorkDone& work) {
   const Stopwatch time(work[Work::sensors_s]);
   RayLight rays = empty_rays(traced, traced.sensors.count(), true);
-  work.add(Work::sensor_rays,
-           light_sensors(traced, sources.suns, beams_of(traced, sources.suns), rays, nullptr));
+  const auto suns = suns_one_by_one(sources.suns);
+  std::vector<std::vector<SunBeams>> beams;
+  for (const auto& of_intervals : suns) beams.push_back(beams_of(traced, of_intervals));
+  work.add(Work::sensor_rays, light_sensors(traced, suns, std::move(beams), rays, nullptr));
   return rays;
 }
 

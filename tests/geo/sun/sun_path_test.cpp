@@ -281,6 +281,56 @@ TEST(SunPath, DirectionIsInTheSceneFrame) {
   EXPECT_NEAR(horizontal(turned.direction).elevation_deg, plain.sun.elevation_deg, 1e-10);
 }
 
+// The suns of an hour are those that its parts would have each.
+TEST(SunSamples, StandAtTheMiddleOfEqualPartsOfTheSun) {
+  const Site site = site_at(49.7475, 13.3776);
+  const UnixTime begin = instant("2026-06-21T09:00");
+  const auto hour =
+      sun_path(steps(begin, begin + 3600, 3600), site, Refraction::spa, Ut1::zero, {.count = 4})
+          .front();
+  const auto quarters = path_of(site, begin, begin + 3600, 900);
+  ASSERT_EQ(hour.sun_samples.size(), quarters.size());
+  for (std::size_t s = 0; s < quarters.size(); ++s)
+    EXPECT_LT(norm(hour.sun_samples[s] - quarters[s].direction), 1e-12) << s;
+  EXPECT_EQ(hour.direction.x, path_of(site, begin, begin + 3600, 3600).front().direction.x);
+}
+
+TEST(SunSamples, LieWithinTheSunlitParts) {
+  // The day of a whole step has its night in the middle: 00:00 UTC is noon at 180 degrees.
+  const Site site = site_at(40, 180);
+  const UnixTime noon = instant("2026-03-20T00:00");
+  constexpr int count = 101;
+  const auto day =
+      sun_path(steps(noon, noon + day_s, day_s), site, Refraction::spa, Ut1::zero, {count}).front();
+  ASSERT_EQ(day.sun_samples.size(), static_cast<std::size_t>(count));
+  int west = 0;
+  for (const Vec3 w : day.sun_samples) {
+    EXPECT_GT(w.z, 0);
+    west += w.x < 0;
+  }
+  // Half of the day's sun is that of the afternoon, which comes first here but for some minutes
+  // (equation of time).
+  EXPECT_NEAR(west, count / 2.0, 1.5);
+  EXPECT_LT(day.sun_samples[count / 4].x, 0);
+  EXPECT_GT(day.sun_samples[3 * count / 4].x, 0);
+}
+
+TEST(SunSamples, AreAsManyAsAskedForOrOneForTwentyMinutes) {
+  EXPECT_EQ(sun_sample_count({}, 3600), 1);
+  EXPECT_EQ(sun_sample_count({.count = 5}, 60), 5);
+  const SunSamples automatic{.count = {}};
+  for (const auto& [sunlit_s, count] :
+       {std::pair{0.0, 1}, {900, 1}, {1200, 1}, {1201, 2}, {3600, 3}})
+    EXPECT_EQ(sun_sample_count(automatic, sunlit_s), count) << sunlit_s;
+  // An instant is one.
+  const Site site = site_at(51.5, 0);
+  const UnixTime noon = instant("2026-03-20T12:00");
+  const PeriodStep given{noon - 1800, noon + 1800, noon, SunInstant::given};
+  EXPECT_TRUE(sun_path({given}, site, Refraction::spa, Ut1::zero, {.count = 4})
+                  .front()
+                  .sun_samples.empty());
+}
+
 TEST(SunPath, RefusesStepsOutOfOrder) {
   const Site site = site_at(0, 0);
   auto backwards = steps(0, 7200, 3600);

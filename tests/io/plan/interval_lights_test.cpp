@@ -32,7 +32,7 @@ VariantPlan day_with_twilight(const std::string& more = {}) {
   return test::plan_of(
       "format: sunload-study-1\nname: t\nsite: {latitude_deg: 50, longitude_deg: 14}\n"
       "period: {year_of: weather}\nlight: {source: weather, weather: " +
-      weather + ", stamp: end}\nscene: {builtin: {name: street}}\nsolver: {batch_suns: 5}\n" +
+      weather + ", stamp: end}\nscene: {builtin: {name: street}}\nsolver:\n  batch_suns: 5\n" +
       more);
 }
 
@@ -107,6 +107,27 @@ TEST(IntervalLights, HaveTheirNumberInThePeriod) {
   ASSERT_EQ(some.size(), 3u);
   EXPECT_EQ(some[2].number, 9u);
   EXPECT_EQ(some[2].direction.x, plan.light.intervals[9].when.direction.x);
+}
+
+TEST(IntervalLights, HaveAsManySunsAsTheStudyWants) {
+  const SkyGrid grid;
+  const VariantPlan one = day_with_twilight();
+  EXPECT_EQ(one.light.sun_samples(), 18u);
+  for (const auto& sun : test::suns_of(one, grid)) EXPECT_TRUE(sun.sun_samples.empty());
+  // 17 hours and two thirds of one in the morning are three suns each but for the last, of 14
+  // minutes, and the first, of 7: the same suns at the middle of each.
+  const VariantPlan several = day_with_twilight("  sun_samples_per_interval: auto\n");
+  std::size_t samples = 0;
+  const auto suns = test::suns_of(several, grid);
+  for (std::size_t k = 0; k < suns.size(); ++k) {
+    const double sunlit_s = several.light.intervals[k].when.sunlit_s;
+    EXPECT_EQ(std::max<std::size_t>(suns[k].sun_samples.size(), sunlit_s > 0),
+              sunlit_s > 0 ? std::size_t(std::ceil(sunlit_s / 1200 - 1e-6)) : 0u);
+    samples += std::max<std::size_t>(suns[k].sun_samples.size(), sunlit_s > 0);
+  }
+  EXPECT_EQ(several.light.sun_samples(), samples);
+  EXPECT_GT(estimate_work(several, 1000).direct_rays, 5 * estimate_work(one, 1000).direct_rays / 2);
+  EXPECT_NE(several.content_hash, one.content_hash);
 }
 
 }  // namespace

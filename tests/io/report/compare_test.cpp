@@ -182,6 +182,53 @@ TEST(Compare, HousesOfOneResultOnlyAreCountedAsUnmatched) {
   }
 }
 
+/// A taller house_2: walls with new parts, and a roof elsewhere.
+SmallResult with_a_taller_house() {
+  SmallResult taller;
+  taller.houses[1].high.z += 3;
+  return taller;
+}
+
+TEST(Compare, MeansAreOverWhatBothHave) {
+  SmallResult more;
+  more.houses.push_back({"tower, new", {-3, 12, 0}, {3, 16, 30}});
+  more.load = [](const std::string& object, Vec3 normal, std::size_t) {
+    return object == "tower, new" ? 100 : 2 + normal.z - normal.y;
+  };
+  const ResultReader base(write_small_result(SmallResult{}, "common_base"));
+  const ResultReader variant(write_small_result(more, "common_tower"));
+  for (const auto& r : compare_results(base, variant).rows)
+    if (r.base_kwh_m2 && r.variant_kwh_m2) {
+      EXPECT_NEAR(r.difference_kwh_m2, 0, 1e-12) << r.kind << " " << r.name;
+    } else {
+      EXPECT_FALSE(r.base_kwh_m2) << r.kind << " " << r.name;
+      EXPECT_NEAR(*r.variant_kwh_m2, 100, 1e-9) << r.kind << " " << r.name;
+    }
+}
+
+TEST(Compare, OfAnObjectThatChangedTheAreaInCommonIsCompared) {
+  const SmallResult plain, taller = with_a_taller_house();
+  const ResultReader base(write_small_result(plain, "common_low"));
+  const ResultReader variant(write_small_result(taller, "common_high"));
+  const Vec3 size = plain.houses[1].high - plain.houses[1].low;
+  const double around = 2 * (size.x + size.y), roof = size.x * size.y;
+  const auto comparison = compare_results(base, variant);
+  const auto rows_of_house = [&] {
+    std::vector<ComparisonRow> rows;
+    for (const auto& r : comparison.rows)
+      if (r.kind == "object" && r.name == plain.houses[1].name) rows.push_back(r);
+    return rows;
+  }();
+  ASSERT_EQ(rows_of_house.size(), 3u);
+  EXPECT_NEAR(rows_of_house[0].area_m2, around * size.z, 1e-6);
+  EXPECT_NEAR(rows_of_house[0].difference_kwh_m2, 0, 1e-9);
+  EXPECT_NEAR(rows_of_house[0].unmatched_area_m2, 3 * around + 2 * roof, 1e-6);
+  EXPECT_NEAR(rows_of_house[1].area_m2, roof, 1e-6);
+  EXPECT_TRUE(rows_of_house[1].base_kwh_m2);
+  EXPECT_NEAR(rows_of_house[2].area_m2, 3 * around + roof, 1e-6);
+  EXPECT_TRUE(rows_of_house[2].variant_kwh_m2);
+}
+
 TEST(Compare, OneRealizationHasNoErrors) {
   SmallResult single;
   single.realizations = 1;

@@ -211,6 +211,22 @@ TEST(Study, ReadsTheShootingTransport) {
     EXPECT_FALSE(problems_of(with({{"solver", std::string("{") + wrong + "}"}})).empty()) << wrong;
 }
 
+TEST(Study, ReadsTheSunsOfAnInterval) {
+  const auto suns = [](const std::string& keys) {
+    return read_text(with({{"solver", "{" + keys + "}"}}))
+        .variants[0]
+        .solver.sun_samples_per_interval;
+  };
+  EXPECT_EQ(suns("bounces: 1"), 1);
+  EXPECT_EQ(suns("sun_samples_per_interval: 3"), 3);
+  EXPECT_FALSE(suns("sun_samples_per_interval: auto"));
+  for (const char* wrong : {"0", "-1", "2.5", "257", "some"})
+    EXPECT_FALSE(
+        problems_of(with({{"solver", std::string("{sun_samples_per_interval: ") + wrong + "}"}}))
+            .empty())
+        << wrong;
+}
+
 TEST(Study, FilesHaveUnitsAndPlacesOfTheirOwn) {
   const WorkFolder folder;
   folder.write("a.obj", "v 0 0 0\n");
@@ -781,6 +797,8 @@ TEST(CanonicalText, SeesEveryValueThatCanChangeANumber) {
        {"unshot", [](Study& s) { s.solver.unshot = 0; }},
        {"lines", [](Study& s) { s.solver.lines_per_patch = 8; }},
        {"samples", [](Study& s) { s.solver.direct_samples = 8; }},
+       {"suns of an interval", [](Study& s) { s.solver.sun_samples_per_interval = 2; }},
+       {"as many suns as it takes", [](Study& s) { s.solver.sun_samples_per_interval.reset(); }},
        {"realizations", [](Study& s) { s.solver.realizations = 4; }},
        {"mirror depth", [](Study& s) { s.solver.mirror_depth = 1; }},
        {"batch suns", [](Study& s) { s.solver.batch_suns = 1; }},

@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/result/common_area.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "geo/mesh/box_tree.h"
+
+namespace sunload {
+
+namespace {
+
+/// Planes that are so near are the same [m]: coordinates of results are rounded.
+constexpr double same_plane_m = 1e-3;
+/// … and so parallel: 0.06 degrees.
+constexpr double least_cosine = 1 - 5e-7;
+/// Less of a patch is rounding.
+constexpr double rounding_share = 1e-3;
+
+struct Triangle {
+  std::array<Vec3, 3> corner;  ///< counter-clockwise from the patch's own side
+  Vec3 normal;
+};
+
+struct Patches {
+  std::vector<Triangle> triangle;
+  std::vector<double> area;
+  std::vector<std::string> object;  ///< name of each patch's object
+};
+
+Patches patches_of(const ResultReader& result) {
+  const auto position = result.doubles("vertex_position");
+  const auto vertices = result.integers("patch_vertices");
+  const auto object = result.integers("patch_object");
+  const auto names = result.strings("object_name");
+  Patches patches;
+  patches.area = result.doubles("patch_area");
+  const Vec3 origin = result.origin();
+  for (std::size_t p = 0; p < patches.area.size(); ++p) {
+    Triangle t;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto v = static_cast<std::size_t>(vertices[3 * p + k]);
+      t.corner[k] = origin + Vec3{position[3 * v], position[3 * v + 1], position[3 * v + 2]};
+    }
+    t.normal = normalized(cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]));
+    patches.triangle.push_back(t);
+    patches.object.push_back(names.at(static_cast<std::size_t>(object[p])));
+  }
+  return patches;
+}
+
+bool are_same_mesh(const ResultReader& base, const ResultReader& variant) {
+  return base.origin() == variant.origin() &&
+         base.doubles("vertex_position") == variant.doubles("vertex_position") &&
+         base.integers("patch_vertices") == variant.integers("patch_vertices") &&
+         base.integers("patch_object") == variant.integers("patch_object") &&
+         base.strings("object_name") == variant.strings("object_name");
+}
+
+bool lie_in_one_plane(const Triangle& a, const Triangle& b) {
+  if (dot(a.normal, b.normal) < least_cosine) return false;
+  return std::all_of(b.corner.begin(), b.corner.end(), [&](Vec3 corner) {
+    return std::abs(dot(a.normal, corner - a.corner[0])) <= same_plane_m;
+  });
+}
+
+/// Area of what two triangles of one plane have in common: b is cut by the edges of a (Sutherland
+/// and Hodgman 1974, Reentrant polygon clipping).
+double overlap_m2(const Triangle& a, const Triangle& b) {
+  std::vector<Vec3> polygon(b.corner.begin(), b.corner.end());
+  for (std::size_t k = 0; k < 3 && !polygon.empty(); ++k) {
+    const Vec3 from = a.corner[k];
+    const Vec3 inward = cross(a.normal, a.corner[(k + 1) % 3] - from);
+    std::vector<Vec3> kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vec3 p = polygon[i], q = polygon[(i + 1) % polygon.size()];
+      const double of_p = dot(inward, p - from), of_q = dot(inward, q - from);
+      if (of_p >= 0) kept.push_back(p);
+      if ((of_p < 0) != (of_q < 0)) kept.push_back(p + (q - p) * (of_p / (of_p - of_q)));
+    }
+    polygon = std::move(kept);
+  }
+  Vec3 twice{0, 0, 0};
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+    twice = twice + cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+  return norm(twice) / 2;
+}
+
+/// All of a patch or nothing of it where rounding alone is missing.
+double without_rounding(double common, double area) {
+  if (common >= (1 - rounding_share) * area) return area;
+  return common <= rounding_share * area ? 0 : common;
+}
+
+}  // namespace
+
+CommonArea common_area(const ResultReader& base, const ResultReader& variant) {
+  if (are_same_mesh(base, variant))
+    return {base.doubles("patch_area"), variant.doubles("patch_area")};
+  const Patches own = patches_of(base), theirs = patches_of(variant);
+  std::vector<Box> boxes;
+  for (const Triangle& t : own.triangle)
+    boxes.push_back(widened(box_around({t.corner[0], t.corner[1], t.corner[2]}), same_plane_m));
+  const BoxTree tree(std::move(boxes));
+  CommonArea common{std::vector<double>(own.area.size(), 0),
+                    std::vector<double>(theirs.area.size(), 0)};
+  for (std::size_t v = 0; v < theirs.area.size(); ++v) {
+    const Triangle& t = theirs.triangle[v];
+    std::vector<std::size_t> near;
+    tree.visit_meeting(box_around({t.corner[0], t.corner[1], t.corner[2]}), [&](std::size_t b) {
+      if (own.object[b] == theirs.object[v] && lie_in_one_plane(own.triangle[b], t))
+        near.push_back(b);
+    });
+    std::sort(near.begin(), near.end());  // sums have an order
+    for (const std::size_t b : near) {
+      const double area = overlap_m2(own.triangle[b], t);
+      common.base[b] += area;
+      common.variant[v] += area;
+    }
+  }
+  for (std::size_t b = 0; b < own.area.size(); ++b)
+    common.base[b] = without_rounding(common.base[b], own.area[b]);
+  for (std::size_t v = 0; v < theirs.area.size(); ++v)
+    common.variant[v] = without_rounding(common.variant[v], theirs.area[v]);
+  return common;
+}
+
+}  // namespace sunload

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Several suns that stand for one interval, each for an equal part of its sunlit time.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/light/sun_block.h"
+
+namespace sunload {
+
+/// The most suns of an interval, and the most intervals where there are several: together they are
+/// the addresses of random numbers that a period has.
+inline constexpr std::size_t most_sun_samples = 256, most_intervals_of_samples = 1u << 24;
+
+/// The direct light of a block, one sun of every interval at a time, for all that follows the sun
+/// by rays. Together the s-th suns carry the DNI of their intervals, each in equal shares; an
+/// interval without an s-th sun is dark there. Each has random numbers of its own, the first those
+/// of the interval. The sky is left out. One span where no interval has more than one sun.
+std::vector<std::vector<IntervalLight>> suns_one_by_one(std::span<const IntervalLight> block);
+
+}  // namespace sunload

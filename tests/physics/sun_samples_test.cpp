@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Several suns that stand for one interval: its light is the mean of what each of them brings,
+/// straight, by mirrors and by gloss, on patches and sensors, by both transports.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/glints.h"
+#include "tests/support/scenes.h"
+#include "tests/support/statistics.h"
+
+namespace sunload::test {
+namespace {
+
+const std::vector<Vec3> three_directions{normalized({0.6, -0.5, 0.6}), normalized({0.3, -0.6, 0.7}),
+                                         normalized({-0.1, -0.65, 0.75})};
+
+/// A second of the sun that the three of them stand for.
+IntervalLight of_three() {
+  IntervalLight light = one_second(three_directions[1], dni);
+  light.sun_samples = three_directions;
+  return light;
+}
+
+/// The same as three intervals, each with its sun.
+std::vector<IntervalLight> one_after_the_other() {
+  std::vector<IntervalLight> thirds;
+  for (const Vec3 w : three_directions) {
+    IntervalLight& light = thirds.emplace_back(one_second(w, dni));
+    light.number = static_cast<std::uint32_t>(thirds.size());
+    light.length_s = light.sunlit_s = 1.0 / 3;
+  }
+  return thirds;
+}
+
+struct Yard {
+  SceneBuilder builder;
+  Scene scene;
+
+  /// A house throws its shadow on the ground, a wall behind it sends the sun back.
+  explicit Yard(const Material& wall) {
+    const int grey = builder.material({"grey", 0.3, 0, 0});
+    const int behind = builder.material(wall);
+    builder.object("ground").quad({-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}, grey);
+    builder.object("house").box({-2, -2, 0}, {2, 2, 5}, grey, SceneBuilder::Facing::outward);
+    builder.object("wall").quad({-10, 10, 0}, {10, 10, 0}, {10, 10, 6}, {-10, 10, 6}, behind);
+    scene = builder.scene();
+    scene.sensors = {sensor_at({0, 5, 1}, {0, -1, 1}), sensor_at({-4, 4, 0.5}, {0, 0, 1})};
+  }
+};
+
+SolverRules rules_of(Transport transport) {
+  SolverRules rules = test_rules();
+  rules.transport = transport;
+  rules.realizations = 32;
+  rules.lines_per_patch = 32 * 16;
+  rules.direct_samples = 32 * 4;
+  rules.bounces = 2;
+  return rules;
+}
+
+/// By realizations, which are independent: those of one solution less those of the other.
+void expect_equal(const std::string& what, std::vector<double> a, const std::vector<double>& b) {
+  for (std::size_t r = 0; r < a.size(); ++r) a[r] -= b[r];
+  const double scale = float_rounding * mean_error(b).mean;
+  const Verdict same = expect_mean(a, 0, scale);
+  EXPECT_TRUE(same) << what << ": " << same.text;
+}
+
+TEST(SunSamples, AnIntervalHasTheLightOfItsSunsOneAfterTheOther) {
+  for (const Transport transport : {Transport::gather, Transport::shoot})
+    for (const bool glossy : {false, true}) {
+      SCOPED_TRACE(std::string(transport == Transport::gather ? "gather" : "shoot") +
+                   (glossy ? ", gloss" : ", mirror"));
+      Material wall{"wall", 0.1, glossy ? 0.0 : 0.8, 0};
+      if (glossy) {
+        wall.glossy = 0.8;
+        wall.glossy_exponent = 30;
+      }
+      const Yard yard(wall);
+      const SolverRules rules = rules_of(transport);
+      const SplitRules split{.max_edge_m = 4};
+      const Solved whole = solve(yard.scene, {of_three()}, rules, split);
+      const Solved thirds = solve(yard.scene, one_after_the_other(), rules, split);
+      const auto of_object = [&](std::size_t object) {
+        return [&yard, &whole, object](std::size_t i) {
+          return yard.scene.mesh
+                     .triangle_object[static_cast<std::size_t>(whole.patches[i].triangle)]
+                     .index() == object;
+        };
+      };
+      for (const std::size_t object : {1u, 2u, 3u})
+        expect_equal(yard.scene.mesh.object_names[object], whole.means(of_object(object)),
+                     thirds.means(of_object(object)));
+      for (const std::size_t sensor : {0u, 1u})
+        expect_equal("sensor", of_sensor(whole.tally, sensor), of_sensor(thirds.tally, sensor));
+      check_ledger("three suns", whole);
+      // The sun of the middle alone is another light.
+      const Solved middle = solve(yard.scene, {one_second(three_directions[1], dni)}, rules, split);
+      auto off = middle.means(of_object(1));
+      const auto ground = thirds.means(of_object(1));
+      for (std::size_t r = 0; r < off.size(); ++r) off[r] -= ground[r];
+      EXPECT_FALSE(expect_mean(off, 0, float_rounding * dni));
+    }
+}
+
+TEST(SunSamples, OpenGroundHasTheirMeanCosineAndAllOfTheSunsTime) {
+  SceneBuilder builder;
+  const int black = builder.material({"black", 0, 0, 0});
+  builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, black);
+  const Solved solved = solve(builder.scene(), {of_three()}, rules_of(Transport::gather));
+  double cosine = 0;
+  for (const Vec3 w : three_directions) cosine += w.z / 3;
+  for (std::size_t i = 0; i < solved.area.size(); ++i) {
+    const auto total = static_cast<double>(solved.tally.irradiance[0][i]);
+    EXPECT_NEAR(total, dni * cosine, float_rounding * dni);
+    EXPECT_NEAR(solved.tally.sunlit_s[i], 1, float_rounding);
+  }
+}
+
+TEST(SunSamples, WhatASurfaceTurnsAwayFromIsNotItsSun) {
+  // Two of the three stand east of a wall that looks west.
+  SceneBuilder builder;
+  const int black = builder.material({"black", 0, 0, 0});
+  builder.quad({0, 1, 0}, {0, 0, 0}, {0, 0, 1}, {0, 1, 1}, black);
+  const Solved solved = solve(builder.scene(), {of_three()}, rules_of(Transport::gather));
+  for (std::size_t i = 0; i < solved.area.size(); ++i) {
+    const auto total = static_cast<double>(solved.tally.irradiance[0][i]);
+    EXPECT_NEAR(total, dni * -three_directions[2].x / 3, float_rounding * dni);
+    EXPECT_NEAR(solved.tally.sunlit_s[i], 1.0 / 3, float_rounding);
+  }
+}
+
+TEST(SunSamples, IntervalsMayHaveUnlikeNumbersOfThem) {
+  SceneBuilder builder;
+  const int black = builder.material({"black", 0, 0, 0});
+  builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, black);
+  IntervalLight one = one_second(three_directions[0], dni);
+  one.number = 1;
+  const Solved solved =
+      solve(builder.scene(), {of_three(), one, night}, rules_of(Transport::gather));
+  const std::size_t patches = solved.area.size();
+  for (std::size_t i = 0; i < patches; ++i) {
+    EXPECT_NEAR(static_cast<double>(solved.tally.irradiance[0][patches + i]),
+                dni * three_directions[0].z, float_rounding * dni);
+    EXPECT_EQ(solved.tally.irradiance[0][2 * patches + i], 0.0f);
+    EXPECT_NEAR(solved.tally.sunlit_s[i], 2, 2 * float_rounding);
+  }
+}
+
+}  // namespace
+}  // namespace sunload::test
