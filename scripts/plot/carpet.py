@@ -84,7 +84,7 @@ def draw(result, arguments):
                                 cmap=drawing.palette(arguments.colour), edgecolors="face", linewidths=0.2,
                                 rasterized=True)
         axes.add_collection(carpet)
-        axes.set_title(targets[k].label)
+        axes.set_title(drawing.shortened(targets[k].label, 90 // across))
         lay_axes(axes, result, places, together)
     for axes in grid[:, 0]:
         axes.set_ylabel(f"hour of the day, {result.zone_name}")

@@ -20,7 +20,7 @@ from reading import InputError, Result  # noqa: E402
 LINE_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000", "#999999")
 LINE_STYLES = ("-", "--", "-.", ":")
 COMPONENT_COLOURS = {"direct": "#E69F00", "sky": "#56B4E9", "mirror": "#CC79A7", "lamps": "#F0E442",
-                     "reflected": "#0072B2"}
+                     "reflected": "#0072B2", "other parts, not stored": "#999999"}
 TIME_SUMS = {"W/m²": "kWh/m²", "lx": "klx h"}   # of a thousand times the unit, by the hour
 NO_DATA = "#c9c9c9"
 # Scales end where this share of the area lies below, as those of `sunload render` do.

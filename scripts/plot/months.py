@@ -43,15 +43,34 @@ def month_span(result, month):
     return first.timestamp(), last.timestamp()
 
 
+# What the stored parts leave of the whole below this share of it is rounding of floats.
+ROUNDING_SHARE = 1e-4
+REST = "other parts, not stored"
+
+
+def parts_of(result, quantity, targets, hours):
+    """Names of the parts, and their sums [part, month, target]: W/m² times h, in thousands. What
+    the file does not have apart is a part of its own, so that bars are always the whole."""
+    def sums_of(name):
+        return hours @ result.series(name, targets) / 1000
+    whole = sums_of(quantity)
+    parts = result.components(quantity, targets)
+    sums = [sums_of(part) for part in parts]
+    if not parts:
+        return [quantity], np.array([whole])
+    rest = whole - np.sum(sums, axis=0)
+    if np.nansum(np.abs(rest)) > ROUNDING_SHARE * np.nansum(whole):
+        parts, sums = parts + [REST], sums + [rest]
+    return parts, np.array(sums)
+
+
 def draw(result, arguments):
     if result.is_synthetic:
         raise InputError(f"{result.path}: its suns have no dates (period.positions), so that there are no months")
     quantity = arguments.quantity or result.main_series()
     targets = result.targets(arguments.facade, arguments.patch, arguments.sensor, most=4)
-    parts = result.components(quantity, targets) or [quantity]
     months, hours = month_shares(result)
-    # [part, month, target]: W/m² times h, in thousands.
-    sums = np.array([hours @ result.series(part, targets) / 1000 for part in parts])
+    parts, sums = parts_of(result, quantity, targets, hours)
     units = drawing.TIME_SUMS.get(result.units(quantity))
     if units is None:
         raise InputError(f"{result.path}: sums over time of {quantity} [{result.units(quantity)}] have no meaning "
@@ -68,7 +87,9 @@ def draw(result, arguments):
             axes.axis("off")
             continue
         draw_bars(axes, months, is_whole, sums[:, :, k], parts, quantity)
-        axes.set_title(f"{targets[k].label}: {sums[:, :, k].sum():.4g} {units}")
+        axes.set_title(f"{drawing.shortened(targets[k].label, 80 // across)}: {sums[:, :, k].sum():.4g} {units}")
+    # One scale for all panels, which the highest bar of all decides.
+    grid[0, 0].set_ylim(0, 1.05 * max(np.nanmax(sums.sum(axis=0)), 1e-12))
     for axes in grid[:, 0]:
         axes.set_ylabel(f"light load of the month [{units}]")
     if len(parts) > 1:
@@ -92,7 +113,6 @@ def draw_bars(axes, months, is_whole, sums, parts, quantity):
                                                               else "")
         for m, ((year, month), whole) in enumerate(zip(months, is_whole))])
     axes.tick_params(labelbottom=True)
-    axes.set_ylim(bottom=0)
     axes.set_xlim(-0.6, max(len(months), 3) - 0.4)
     axes.grid(True, axis="y")
 

@@ -151,6 +151,26 @@ def test_months(plots, path, result):
         close(column(mine, "irradiance_sky").sum(), facade_means(result, "light_load_sky", k), 1e-5)
 
 
+def test_months_of_some_parts(plots, sunload, folder):
+    """Where the total and one part are stored the bars are the total, as where all parts are."""
+    with open(os.path.join(folder, "square.yaml")) as file:
+        text = file.read()
+    with open(os.path.join(folder, "parts.yaml"), "w") as file:
+        file.write(text.replace("name: square", "name: parts", 1).replace(
+            "variants:", "output: {series: [total, direct]}\nvariants:"))
+    ran = subprocess.run([sunload, "run", "parts.yaml", "--variant", "baseline"], cwd=folder,
+                         stderr=subprocess.PIPE, text=True)
+    assert ran.returncode == 0, ran.stderr
+    path = os.path.join(folder, "results/parts/baseline.h5")
+    rows = plots.rows("months", path, "--facade", "house/*")
+    with h5py.File(path, "r") as result:
+        for k, name in enumerate(name.decode() for name in result["facade_name"][...]):
+            mine = [row for row in rows if row["target"] == name]
+            close(column(mine, "sum").sum(), result["facade_light_load"][k], 1e-5)
+            close(column(mine, "irradiance_direct").sum(), facade_means(result, "light_load_direct", k), 1e-5)
+            assert column(mine, "other parts, not stored").sum() > 0, name
+
+
 def test_sun_path(plots, path, result):
     import sun_path
     close(sun_path.place(90, 0), (1, 0))    # east is right
@@ -271,6 +291,7 @@ def test(sunload, source, folder):
         for check in (test_facade_map, test_series, test_carpet, test_months, test_sun_path):
             check(plots, path, result)
             print(f"{check.__name__}: as in the file")
+    test_months_of_some_parts(plots, sunload, folder)
     test_facade_map_drawing(path)
     test_compare(plots, sunload, path, other)
     test_report(plots, folder)

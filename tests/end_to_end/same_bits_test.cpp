@@ -41,6 +41,16 @@ TEST(SameBits, StreetWithErrorsOfInstants) {
   expect_same_bits(folder, "street");
 }
 
+TEST(SameBits, SeveralSunsOfAnIntervalByBothTransports) {
+  for (const char* transport : {"gather", "shoot"}) {
+    const WorkFolder folder;
+    folder.write("street.yaml",
+                 street_study("instants", std::string(", sun_samples_per_interval: auto, transport: ") +
+                                              transport));
+    expect_same_bits(folder, "street");
+  }
+}
+
 TEST(SameBits, MirrorsLampsAndTwoSidedSheets) {
   const WorkFolder folder;
   folder.write("square.obj", square_obj);
