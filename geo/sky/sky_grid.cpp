@@ -10,6 +10,7 @@
 
 #include "geo/base/check.h"
 #include "geo/base/fast_math.h"
+#include "geo/base/vector_code.h"
 #include "geo/sky/sky.h"
 
 namespace sunload {
@@ -32,9 +33,8 @@ struct Points {
 
 /// Indicatrix at so many points: most of what a sun costs in a small scene. The same bits with any
 /// width of vectors.
-__attribute__((target_clones("default", "avx2", "avx512f"))) void indicatrix_at(
-    const SkyShape& shape, const Vec3& sun, const Points& points, std::size_t count,
-    double* indicatrix) {
+SUNLOAD_VECTOR_CODE void indicatrix_at(const SkyShape& shape, const Vec3& sun, const Points& points,
+                                       std::size_t count, double* indicatrix) {
   const SkyShape of_sky = shape;  // not to be read anew at every point
   const double sun_x = sun.x, sun_y = sun.y, sun_z = sun.z;
   for (std::size_t i = 0; i < count; ++i) {

@@ -128,7 +128,7 @@ SunEvents sun_events(const SunEphemeris& sun, UnixTime day_begin,
 /// Where the site has hills, sunlit is what the sun's centre spends above their line
 /// (passages found on steps of a minute); the representative sun of an interval that
 /// they hide all the time stands at the middle of the part with the sun above 0.
-/// An instant (`given`) with the sun behind them has `sunlit_s` = 0.
+/// An instant (`given`) with the sun behind them, or below the horizon, has `sunlit_s` = 0.
 struct SunInterval {
   UnixTime begin = 0, end = 0;
   UnixTime sun_time = 0;

@@ -226,7 +226,10 @@ SunInterval interval_of(const PeriodStep& step, const Watch& watch) {
   interval.sun_time = representative(step, sunlit, up);
   interval.sun = sun(interval.sun_time);
   const Horizontal place{interval.sun.azimuth_deg, interval.sun.elevation_deg};
-  if (step.rule == SunInstant::given && !hills.is_open() && !hills.is_above(place)) sunlit.clear();
+  // The sun of an instant stands where it stands: light of other minutes does not come from there.
+  if (step.rule == SunInstant::given &&
+      (interval.sun.true_elevation_deg <= watch.sunlit_above_deg || !hills.is_above(place)))
+    sunlit.clear();
   const Hull lit = hull(sunlit, interval.sun_time), open = hull(up, interval.sun_time);
   interval.sunlit_s = lit.lit_s;
   interval.sunlit_begin = lit.begin;

@@ -200,7 +200,22 @@ std::size_t LightSeries::sun_samples() const {
   return count;
 }
 
-LightSeries light_series(const Study& study, const Site& site) {
+namespace {
+
+/// Instants whose interval has sun that they do not stand for.
+void note_dark_instants(LightSeries& series) {
+  const auto count = std::ranges::count_if(series.intervals, [](const LitInterval& interval) {
+    return interval.when.sunlit_s == 0 && interval.when.up_s > 0 &&
+           interval.when.sun.elevation_deg <= 0;
+  });
+  if (count > 0)
+    series.notes.push_back(fmt::format(
+        "{} instants have the sun below the horizon though it is up during part of their interval: "
+        "no direct light comes then; steps (days, from, to, step_min) put the sun where it shines",
+        count));
+}
+
+LightSeries series_of(const Study& study, const Site& site) {
   LightSeries series;
   if (study.light.source == LightSource::weather) {
     add_weather(study, site, series);
@@ -230,6 +245,14 @@ LightSeries light_series(const Study& study, const Site& site) {
     }
     series.intervals.push_back(interval);
   }
+  return series;
+}
+
+}  // namespace
+
+LightSeries light_series(const Study& study, const Site& site) {
+  LightSeries series = series_of(study, site);
+  if (std::holds_alternative<InstantsPeriod>(study.period.kind)) note_dark_instants(series);
   return series;
 }
 

@@ -122,6 +122,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   const auto batches = static_cast<double>(plan.batches());
   const double lines = n * counts.mean_lines(), links = lines * s.bounces;
   const double of_realizations = double_bytes * s.realizations;
+  const bool of_instants = plan.study.output.standard_error == StandardErrors::instants;
   const bool is_rgb = s.bands == Bands::rgb;
   const double bands = is_rgb ? static_cast<double>(band_count) : 1;
 
@@ -136,7 +137,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
       n * (bands * (batch * parts * float_bytes + arrays_of_realizations * of_realizations) +
            bytes_per_patch);
   // The sun's light of each realization, straight and circumsolar, and by mirrors.
-  if (is_rgb)
+  if (is_rgb || of_instants)
     work.memory_bytes += n * s.realizations * block_width * float_bytes * (mirrors ? 3.0 : 2.0);
   if (s.transport == Transport::shoot) {
     const double blocks = batches * std::ceil(batch / static_cast<double>(block_width));
@@ -147,21 +148,27 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
         n * (shooting_bytes_per_patch + of_realizations * columns_of_a_realization) +
         per_shot / s.realizations * bytes_per_sample;
   }
-  work.disk_bytes = bands * n * lit * stored_bytes_per_value *
-                        (parts + static_cast<double>(plan.study.output.series.size())) +
-                    bands * n * batches * (of_realizations + batch_bytes_per_patch) +
-                    bands * n * (of_realizations + result_bytes_per_patch) +
-                    (plan.batches() > 1 ? lines * kept_bytes_per_line : 0);
+  work.disk_bytes =
+      bands * n * lit * stored_bytes_per_value *
+          (parts + static_cast<double>(plan.study.output.series.size()) + (of_instants ? 2 : 0)) +
+      bands * n * batches * (of_realizations + batch_bytes_per_patch) +
+      bands * n * (of_realizations + result_bytes_per_patch) +
+      (plan.batches() > 1 ? lines * kept_bytes_per_line : 0);
   work.seconds =
       (s_to_start + n * s_per_patch +
        lines * (guided ? 1 + rays_by_guide : 1) * line_seconds(plan.built.scene, s.mirror_depth) +
        rays * s_per_direct_ray +
        (mirrors ? n * mirrored_share * suns * counts.direct_samples * s_per_mirror_ray : 0) +
+       (guided ? n * s_per_guided_patch : 0) +
        (s.transport == Transport::gather
-            ? bands * (links * lit * s_per_link_sun + links * batches * s_per_link_batch)
+            ? bands * (links * lit * s_per_link_sun + links * batches * s_per_link_batch +
+                       (of_instants ? links * lit * s_per_link_sun +
+                                          n * lit * s.realizations * s_per_patch_sun_realization
+                                    : 0))
             : static_cast<double>(work.samples) * s_per_sample) +
        (plan.study.mesh.oracle == Oracle::none ? 0 : refinement_rays(n, lit) * s_per_direct_ray) +
        bands * (lit * s_per_sun + n * lit * s_per_patch_sun +
+                n * batches * s.realizations * s_per_patch_batch_realization +
                 n * static_cast<double>(plan.intervals()) * s_per_value)) /
       thread_count();
   return work;

@@ -13,9 +13,8 @@
 namespace sunload {
 namespace {
 
-/// Of sums over patches and intervals, relative to the light that comes in: some 10^7 terms of
-/// double precision.
-constexpr double rounding = 1e-9;
+/// Relative to the light that comes in: columns of a block of suns are in single precision.
+constexpr double rounding = 1e-7;
 
 /// Time sum of one term of the ledger [kWh, klm h]; 0 where the result lacks it.
 double ledger_kwh(const ResultReader& result, const std::string& term) {

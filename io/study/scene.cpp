@@ -32,7 +32,7 @@ constexpr Range normal_transmittances{0, 1, Range::Low::excluded};  // check_cle
 constexpr Range exponents{0, 1e5};                                  // a lobe of some 0.4 degrees
 constexpr Range margins_m{0, 1e5};
 constexpr Range heights_m{-1e5, 1e5};
-constexpr Range edges_m{1e-3, 1e9};
+constexpr Range edges_m{1e-6, 1e9};
 constexpr Range areas_m2{0, 1e6};
 constexpr Range tolerances{1e-4, 1e3};
 constexpr Range link_thresholds{0, 1e3};

@@ -26,9 +26,10 @@ inline double s_per_line_ray(double triangles) {
 /// accuracy are chosen, and another value would choose others, which changes results.
 inline constexpr double s_per_line_of_street = 2.3e-7;
 inline constexpr double share_that_meets = 0.6;  ///< of the lines; the others leave the scene
-/// Where surfaces emit, a line has a point on a bright surface beside it, three eighths of both go
-/// before, and three times an eighth is spent on what sees what (solver/gather/guide.cpp).
-inline constexpr double rays_by_guide = 1 + 3 * 2 * 0.125 + 3 * 0.125;
+/// Where surfaces emit, a line has a point on a bright surface beside it …
+inline constexpr double rays_by_guide = 1;
+/// … and every patch has its part in finding out which of them it sees (solver/gather/guide.cpp).
+inline constexpr double s_per_guided_patch = 2.1e-4;
 
 // Rays to the sun.
 inline constexpr double s_per_direct_ray = 3.5e-8;
@@ -40,6 +41,10 @@ inline constexpr double mirrored_share = 0.11;  ///< of them again, where there 
 inline constexpr double s_per_link_sun = 2.0e-10;    ///< one link of one sun and one bounce
 inline constexpr double s_per_link_batch = 6.6e-10;  ///< one link of one batch's realizations
 inline constexpr double s_per_patch_sun = 2.5e-7;
+/// One patch of one sun in a realization's own solution, where errors per instant are asked for.
+inline constexpr double s_per_patch_sun_realization = 6e-8;
+/// One patch of one batch in a realization's time sums: made, compressed, written, read again.
+inline constexpr double s_per_patch_batch_realization = 2e-7;
 inline constexpr double s_per_sun = 4.2e-4;    ///< in a scene of any size: its sky, cell by cell
 inline constexpr double s_per_sample = 6e-7;   ///< shot, with its deposit
 inline constexpr double s_per_value = 1.2e-8;  ///< one patch of one interval, stored

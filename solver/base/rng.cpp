@@ -4,6 +4,8 @@
 
 #include <Random123/philox.h>
 
+#include "geo/base/vector_code.h"
+
 namespace sunload {
 
 namespace {
@@ -35,8 +37,7 @@ RandomWords random_words(const RandomKey& key) {
 
 // The same rounds for 16 keys side by side, in the shape that compilers turn
 // into vector code; a test holds it against random_words.
-__attribute__((target_clones("default", "avx2", "avx512f"))) RandomLanes random_lanes(
-    const RandomKey& key_of_first) {
+SUNLOAD_VECTOR_CODE RandomLanes random_lanes(const RandomKey& key_of_first) {
   constexpr std::uint32_t multiplier_0 = 0xd2511f53, multiplier_1 = 0xcd9e8d57;
   constexpr std::uint32_t weyl_0 = 0x9e3779b9, weyl_1 = 0xbb67ae85;
   const Address a = address(key_of_first);

@@ -8,6 +8,8 @@
 #include <limits>
 #include <numeric>
 
+#include "geo/base/vector_code.h"
+
 namespace sunload {
 
 namespace {
@@ -103,17 +105,15 @@ namespace {
 constexpr float least_q = 0.01f;
 
 /// The cosine at one corner of all cells.
-__attribute__((target_clones("default", "avx2", "avx512f"))) void cosines(
-    const float* x, const float* y, const float* z, const float* normal, std::size_t cells,
-    float* cosine) {
+SUNLOAD_VECTOR_CODE void cosines(const float* x, const float* y, const float* z,
+                                 const float* normal, std::size_t cells, float* cosine) {
   for (std::size_t c = 0; c < cells; ++c)
     cosine[c] = x[c] * normal[0] + y[c] * normal[1] + z[c] * normal[2];
 }
 
 /// From cosines at the corners to q, and the cells' shares of ∫ L_circ q dω.
-__attribute__((target_clones("default", "avx2", "avx512f"))) void weigh(
-    const float* brightness, float scale, std::size_t cells, float* q0, float* q1, float* q2,
-    float* q3, std::int32_t* share) {
+SUNLOAD_VECTOR_CODE void weigh(const float* brightness, float scale, std::size_t cells, float* q0,
+                               float* q1, float* q2, float* q3, std::int32_t* share) {
   for (std::size_t c = 0; c < cells; ++c) {
     const float upper = q0[c] > q1[c] ? q0[c] : q1[c], lower = q2[c] > q3[c] ? q2[c] : q3[c];
     const float largest = upper > lower ? upper : lower;
@@ -164,8 +164,8 @@ struct Drawn {
 };
 
 /// First cell whose sum exceeds `at`, by bisection of a power of two cells.
-__attribute__((target_clones("default", "avx2", "avx512f"))) void find_cells(
-    const std::uint32_t* sums, std::size_t size, const std::uint32_t* at, std::uint32_t* cell) {
+SUNLOAD_VECTOR_CODE void find_cells(const std::uint32_t* sums, std::size_t size,
+                                    const std::uint32_t* at, std::uint32_t* cell) {
   for (std::size_t s = 0; s < packet_size; ++s) cell[s] = 0;
   for (auto step = static_cast<std::uint32_t>(size / 2); step > 0; step /= 2)
     for (std::size_t s = 0; s < packet_size; ++s)
@@ -180,8 +180,8 @@ inline float sample_linear(float u, float f0, float f1) {
 /// Places in cells by their bilinear q; then the direction there as SkyGrid::direction has it, in
 /// single precision and without branches, in the shape that compilers turn into vector code: sine
 /// and cosine by their series, which end below 1e-6 at π/4.
-__attribute__((target_clones("default", "avx2", "avx512f"))) void aim(
-    Drawn& drawn, float cell_width, const float* normal, CircumsolarView::Samples& out) {
+SUNLOAD_VECTOR_CODE void aim(Drawn& drawn, float cell_width, const float* normal,
+                             CircumsolarView::Samples& out) {
   constexpr float quarter_pi = 0.78539816f, least = 1e-20f;
   for (std::size_t s = 0; s < packet_size; ++s) {
     const float q00 = drawn.q00[s], q10 = drawn.q10[s], q01 = drawn.q01[s], q11 = drawn.q11[s];

@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "geo/base/check.h"
+#include "geo/base/vector_code.h"
 #include "solver/base/chunks.h"
 #include "solver/base/sampling.h"
 #include "solver/base/threads.h"
@@ -18,9 +19,9 @@ constexpr std::size_t lanes = 16;
 
 /// Origins of 16 samples: the map of sample_triangle on Owen-scrambled points,
 /// without branches, in the shape that compilers turn into vector code.
-__attribute__((target_clones("default", "avx2", "avx512f"))) void place(
-    const SunSampler::Geometry& g, const std::uint32_t* point_u, const std::uint32_t* point_v,
-    const std::uint32_t* seed_u, const std::uint32_t* seed_v, Packet& out) {
+SUNLOAD_VECTOR_CODE void place(const SunSampler::Geometry& g, const std::uint32_t* point_u,
+                               const std::uint32_t* point_v, const std::uint32_t* seed_u,
+                               const std::uint32_t* seed_v, Packet& out) {
   for (std::size_t s = 0; s < packet_size; ++s) {
     const float u = uniform(owen_scrambled(point_u[s], seed_u[s]));
     const float v = uniform(owen_scrambled(point_v[s], seed_v[s]));
@@ -33,8 +34,7 @@ __attribute__((target_clones("default", "avx2", "avx512f"))) void place(
   }
 }
 
-__attribute__((target_clones("default", "avx2", "avx512f"))) void scramble(
-    const ScrambledPoints& seeds, ScrambledPoints& points) {
+SUNLOAD_VECTOR_CODE void scramble(const ScrambledPoints& seeds, ScrambledPoints& points) {
   for (std::size_t s = 0; s < packet_size; ++s) {
     points.u[s] = owen_scrambled(points.u[s], seeds.u[s]);
     points.v[s] = owen_scrambled(points.v[s], seeds.v[s]);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "geo/base/vector_code.h"
 #include "solver/base/threads.h"
 #include "solver/mesh/push_pull.h"
 
@@ -13,8 +14,8 @@ namespace {
 
 // Compilers turn the inner loops into one vector instruction per link where the
 // processor has 512 bits; the order of additions is the same everywhere.
-__attribute__((target_clones("default", "avx2", "avx512f"))) void gather_rows(
-    const LinkTable::Block& block, const float* source, float* out, Into into) {
+SUNLOAD_VECTOR_CODE void gather_rows(const LinkTable::Block& block, const float* source, float* out,
+                                     Into into) {
   const std::size_t rows = block.begin.size() - 1;
   for (std::size_t row = 0; row < rows; ++row) {
     float sum[block_width];

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/lines/patch_lines.h"
 
+#include "geo/base/vector_code.h"
+
 namespace sunload {
 
 namespace {
@@ -16,8 +18,8 @@ struct LineColumns {
 
 // In the shape that compilers turn into vector code; `lines` by value, so that stores cannot
 // change it.
-__attribute__((target_clones("default", "avx2", "avx512f"))) void place_lines(
-    const PatchLines lines, const Coordinates& x, LineColumns& out) {
+SUNLOAD_VECTOR_CODE void place_lines(const PatchLines lines, const Coordinates& x,
+                                     LineColumns& out) {
   for (std::size_t l = 0; l < packet_size; ++l) {
     const PatchLines::Line line = lines.line(x[0][l], x[1][l], x[2][l], x[3][l]);
     out.origin[0][l] = line.origin.x;

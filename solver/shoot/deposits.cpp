@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "geo/base/vector_code.h"
 #include "solver/base/chunks.h"
 #include "solver/base/threads.h"
 
@@ -13,11 +14,8 @@ namespace sunload {
 namespace {
 
 // One vector instruction or two per deposit; the order of additions is the same everywhere.
-__attribute__((target_clones("default", "avx2", "avx512f"))) void add(const Deposit* begin,
-                                                                      const Deposit* end,
-                                                                      const double* power,
-                                                                      const double* area,
-                                                                      double* irradiance) {
+SUNLOAD_VECTOR_CODE void add(const Deposit* begin, const Deposit* end, const double* power,
+                             const double* area, double* irradiance) {
   for (const Deposit* d = begin; d != end; ++d) {
     const double per_area = d->weight / area[d->target];
     const double* P = power + static_cast<std::size_t>(d->source) * block_width;

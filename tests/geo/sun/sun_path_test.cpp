@@ -265,8 +265,10 @@ TEST(SunPath, GivenInstantsStayWhereTheyAre) {
   const auto interval = sun_path({step}, site, Refraction::spa, Ut1::zero).front();
   EXPECT_EQ(interval.sun_time, step.instant);
   EXPECT_LT(interval.sun.elevation_deg, 0);
-  EXPECT_GT(interval.sunlit_s, 0);
-  EXPECT_LT(interval.sunlit_s, 1800);
+  // Part of the interval has sun, but not from where the sun stands at that instant.
+  EXPECT_EQ(interval.sunlit_s, 0);
+  EXPECT_GT(interval.up_s, 0);
+  EXPECT_LT(interval.up_s, 1800);
 }
 
 TEST(SunPath, DirectionIsInTheSceneFrame) {

@@ -295,7 +295,7 @@ TEST(Study, ReportsAllProblemsAtOnceFromTopToBottom) {
       Expected{"study.yaml:3:8:", "'latitude'", "'latitude_deg'"},
       Expected{"study.yaml:3:36:", "site.longitude_deg", "from -180 up to 180 degrees"},
       Expected{"study.yaml:5:25:", "scene.builtin.name", "'street'"},
-      Expected{"study.yaml:6:20:", "mesh.max_edge_m", "from 0.001"}};
+      Expected{"study.yaml:6:20:", "mesh.max_edge_m", "from 1e-06"}};
   const auto problems = problems_of(
       "format: sunload-study-1\nname: a b\nsite: {latitude: 5, longitude_deg: 200}\n"
       "period: {days: [2026-03-21]}\nscene: {builtin: {name: stret}}\n"
@@ -497,7 +497,7 @@ TEST(Study, ChecksVariants) {
   // Each problem once, and at the variant's own line.
   EXPECT_EQ(problems_of(with({{"mesh", "{max_edge_m: -1}"}}) +
                         "variants:\n  - {name: a}\n  - {name: b, mesh: {min_area_m2: -1}}\n"),
-            (Strings{"study.yaml:2:20: mesh.max_edge_m: -1 is out of range (must be from 0.001 up "
+            (Strings{"study.yaml:2:20: mesh.max_edge_m: -1 is out of range (must be from 1e-06 up "
                      "to 1000000000 metres)",
                      "study.yaml:9:35: mesh.min_area_m2: -1 is out of range (must be from 0 up to "
                      "1000000 square metres)"}));

@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Functions that are there for every width of vectors that processors have; the program takes the
+/// widest when it starts. Their numbers are the same for all (no contraction of products and sums).
+#pragma once
+
+/// Before a function. Not with the thread sanitizer: functions are chosen before it is ready.
+#ifdef __SANITIZE_THREAD__
+#define SUNLOAD_VECTOR_CODE
+#else
+#define SUNLOAD_VECTOR_CODE __attribute__((target_clones("default", "avx2", "avx512f")))
+#endif
