@@ -44,9 +44,10 @@ TEST(SameBits, StreetWithErrorsOfInstants) {
 TEST(SameBits, SeveralSunsOfAnIntervalByBothTransports) {
   for (const char* transport : {"gather", "shoot"}) {
     const WorkFolder folder;
-    folder.write("street.yaml",
-                 street_study("instants", std::string(", sun_samples_per_interval: auto, transport: ") +
-                                              transport));
+    folder.write(
+        "street.yaml",
+        street_study("instants",
+                     std::string(", sun_samples_per_interval: auto, transport: ") + transport));
     expect_same_bits(folder, "street");
   }
 }
