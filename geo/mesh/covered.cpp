@@ -42,6 +42,15 @@ double turn(Point2 a, Point2 b, Point2 p) {
   return (b.u - a.u) * (p.v - a.v) - (b.v - a.v) * (p.u - a.u);
 }
 
+bool is_before(Point2 a, Point2 b) { return a.u != b.u ? a.u < b.u : a.v < b.v; }
+
+/// Into an order of their own: crossings of lines depend on which comes first.
+void sort_lines(std::vector<Line2>& lines) {
+  const auto key = [](const Line2& l) { return std::array{l[0].u, l[0].v, l[1].u, l[1].v}; };
+  std::sort(lines.begin(), lines.end(),
+            [&](const Line2& a, const Line2& b) { return key(a) < key(b); });
+}
+
 /// The part of a convex polygon on the left of a → b (Sutherland, Hodgman 1974).
 Polygon left_part(const Polygon& polygon, Point2 a, Point2 b) {
   Polygon result;
@@ -291,9 +300,7 @@ class Cutter {
       }
     });
     if (lines_.size() > most_lines) lines_.clear();
-    const auto key = [](const Line2& l) { return std::array{l[0].u, l[0].v, l[1].u, l[1].v}; };
-    std::sort(lines_.begin(), lines_.end(),
-              [&](const Line2& a, const Line2& b) { return key(a) < key(b); });
+    sort_lines(lines_);
   }
 
   /// Where the triangle `u` goes through this one.
@@ -392,8 +399,12 @@ class Cutter {
       if (face->info().is_covered == other->info().is_covered) continue;
       const auto& a = face->vertex(Delaunay::cw(k))->point();
       const auto& b = face->vertex(Delaunay::ccw(k))->point();
-      borders.push_back({Point2{a.x(), a.y()}, Point2{b.x(), b.y()}});
+      Line2 border{Point2{a.x(), a.y()}, Point2{b.x(), b.y()}};
+      if (is_before(border[1], border[0])) std::swap(border[0], border[1]);
+      borders.push_back(border);
     }
+    // CGAL tells an edge from the one of its two faces that has the lower address.
+    sort_lines(borders);
     return borders;
   }
 

@@ -195,5 +195,46 @@ TEST(Covered, EqualInputGivesEqualBits) {
   EXPECT_EQ(one.p.mesh.triangle_covered, two.p.mesh.triangle_covered);
 }
 
+/// Chunks of all sizes with gaps between them: what is allocated next lies in another order.
+class ScatteredMemory {
+ public:
+  explicit ScatteredMemory(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_int_distribution<std::size_t> bytes(500, 30000);
+    for (int i = 0; i < 400; ++i) chunks_.emplace_back(bytes(random));
+    std::shuffle(chunks_.begin(), chunks_.end(), random);
+    chunks_.resize(chunks_.size() / 2);
+  }
+
+ private:
+  std::vector<std::vector<char>> chunks_;
+};
+
+TEST(Covered, EqualInputGivesEqualBitsWhereverItsMemoryLies) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> at(-5, 5), size(2, 6), angle(0, 6);
+  auto builder = ModelBuilder();
+  for (int i = 0; i < 12; ++i) {
+    const Vec3 low{at(random), at(random), at(random)};
+    builder.object("box_" + std::to_string(i))
+        .box(low, low + Vec3{size(random), size(random), size(random)});
+    const double c = std::cos(angle(random)), s = std::sin(angle(random));
+    const double t = std::hypot(c, s);
+    builder.moved([&](Vec3 v) {
+      return Vec3{(c * v.x - s * v.y) / t, (s * v.x + c * v.y) / t, v.z};
+    });
+  }
+  const PrepareRules rules{.repair = Repair::safe, .ground = {}};
+  const auto one = cut(builder, rules);
+  EXPECT_GT(one.cut.cut, 10u);
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    const ScatteredMemory scattered(seed);
+    const auto two = cut(builder, rules);
+    ASSERT_EQ(one.p.mesh.vertices, two.p.mesh.vertices) << seed;
+    ASSERT_EQ(one.p.mesh.triangles, two.p.mesh.triangles) << seed;
+    ASSERT_EQ(one.p.mesh.triangle_covered, two.p.mesh.triangle_covered) << seed;
+  }
+}
+
 }  // namespace
 }  // namespace sunload::test
