@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "geo/mesh/covered.h"
+#include "geo/mesh/overlap.h"
 #include "geo/sun/weather.h"
 #include "io/plan/material_assign.h"
 #include "io/plan/scene_models.h"
@@ -202,6 +203,28 @@ BuiltScene scene_before_materials(const Study& study) {
   return built;
 }
 
+namespace {
+
+/// A plate under the made ground, a house that two files have.
+void warn_of_doubled(BuiltScene& built) {
+  constexpr double worth_telling_m2 = 1e-3;
+  const Mesh& mesh = built.scene.mesh;
+  const Doubled doubled = find_doubled(mesh);
+  if (doubled.area_m2 < worth_telling_m2) return;
+  const auto name = [&](std::size_t t) {
+    return mesh.object_names[mesh.triangle_object[t].index()];
+  };
+  built.warnings.push_back(
+      message({},
+              fmt::format("{:.4g} m2 lie in other surfaces that face the same way (first {} in {})",
+                          doubled.area_m2, name(doubled.first[1]), name(doubled.first[0])),
+              "both receive the light of one, and what they send on counts twice",
+              "leave one of the two out; a plate of the model's own goes with scene.ground: "
+              "{surface: none}"));
+}
+
+}  // namespace
+
 // Materials are assigned anew afterwards, since a file's power is shared by what is left of its
 // lamps. Light that panes transmit leaves the scene: they cover as walls do.
 std::vector<std::uint8_t> covers_of(const Study& study, const BuiltScene& prepared) {
@@ -238,6 +261,7 @@ BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
       mesh.triangle_sides[t] = sides_of_files[cut.source[t]];
     if (cut.covered > 0) measure(mesh, built.report);
   }
+  warn_of_doubled(built);
   built.bodies = {};
   built.seals.clear();
   return built;

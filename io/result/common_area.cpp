@@ -8,6 +8,7 @@
 #include <string>
 
 #include "geo/mesh/box_tree.h"
+#include "geo/mesh/overlap.h"
 
 namespace sunload {
 
@@ -67,28 +68,6 @@ bool lie_in_one_plane(const Triangle& a, const Triangle& b) {
   });
 }
 
-/// Area of what two triangles of one plane have in common: b is cut by the edges of a (Sutherland
-/// and Hodgman 1974, Reentrant polygon clipping).
-double overlap_m2(const Triangle& a, const Triangle& b) {
-  std::vector<Vec3> polygon(b.corner.begin(), b.corner.end());
-  for (std::size_t k = 0; k < 3 && !polygon.empty(); ++k) {
-    const Vec3 from = a.corner[k];
-    const Vec3 inward = cross(a.normal, a.corner[(k + 1) % 3] - from);
-    std::vector<Vec3> kept;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Vec3 p = polygon[i], q = polygon[(i + 1) % polygon.size()];
-      const double of_p = dot(inward, p - from), of_q = dot(inward, q - from);
-      if (of_p >= 0) kept.push_back(p);
-      if ((of_p < 0) != (of_q < 0)) kept.push_back(p + (q - p) * (of_p / (of_p - of_q)));
-    }
-    polygon = std::move(kept);
-  }
-  Vec3 twice{0, 0, 0};
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-    twice = twice + cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
-  return norm(twice) / 2;
-}
-
 /// All of a patch or nothing of it where rounding alone is missing.
 double without_rounding(double common, double area) {
   if (common >= (1 - rounding_share) * area) return area;
@@ -116,7 +95,7 @@ CommonArea common_area(const ResultReader& base, const ResultReader& variant) {
     });
     std::sort(near.begin(), near.end());  // sums have an order
     for (const std::size_t b : near) {
-      const double area = overlap_m2(own.triangle[b], t);
+      const double area = overlap_m2(own.triangle[b].corner, own.triangle[b].normal, t.corner);
       common.base[b] += area;
       common.variant[v] += area;
     }

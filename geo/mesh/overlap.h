@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Surfaces that lie in one another.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "geo/mesh/mesh.h"
+
+namespace sunload {
+
+/// Area [m2] of what two triangles of one plane have in common: b is cut by the edges of a
+/// (Sutherland and Hodgman 1974, Reentrant polygon clipping). `normal`: unit, of a.
+double overlap_m2(const std::array<Vec3, 3>& a, Vec3 normal, const std::array<Vec3, 3>& b);
+
+/// Triangles with patches that lie in the place of others and face the same way: each of the two
+/// receives the light of one, and sends it on.
+struct Doubled {
+  double area_m2 = 0;
+  std::array<std::size_t, 2> first{};  ///< triangles, where there is any area
+};
+/// What lies nearer than the ray caster's single precision can tell.
+Doubled find_doubled(const Mesh& mesh);
+
+}  // namespace sunload
