@@ -117,8 +117,8 @@ def object_means(result):
 def by_other_transport(program, study, random, comparisons):
     """Gathered and shot light agree, on every object and on the whole, as one of so many comparisons.
 
-    Nothing is left to what the two know differently: no early stop, no estimate of what is not followed
-    and no second reflection, from which on gathering reuses its lines.
+    Nothing is left to what the two know differently: no early stop, no estimate of what is not followed,
+    no links to more than a patch and no second reflection, from which on gathering reuses its lines.
     """
     tree = copy.deepcopy(study.tree)
     for key in ("variants", "sensors"):
@@ -128,6 +128,7 @@ def by_other_transport(program, study, random, comparisons):
         solver.pop(key, None)
     tree["light"].pop("colour", None)
     tree["output"] = {"series": ["total"]}
+    tree["mesh"]["link_threshold"] = 0
     solver.update(unshot=0, unfollowed="leave", bounces=1, realizations=16, lines_per_patch=16 * 32, direct_samples=32)
     results = []
     for transport in ("gather", "shoot"):

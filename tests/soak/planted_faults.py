@@ -31,6 +31,7 @@ STUDY = {
     "mesh": {"max_edge_m": 4, "oracle": "none"},
     "solver": {"realizations": 16, "lines_per_patch": 1024, "direct_samples": 32, "unshot": 0},
     "sensors": {"points": [{"position_m": [9, 9, 1.5], "normal": [0, 0, 1]}]}, "output": {"standard_error": "instants"}}
+LEDGERS = 1000
 KINDS = {"gathered": {}, "shot": {"transport": "shoot"}, "bands": {"bands": "rgb"}}
 
 
@@ -147,15 +148,19 @@ FAULTS = [
 ]
 
 
+def all_problems(results):
+    return [*invariants.problems(results), *invariants.ledger_closes(results, LEDGERS)]
+
+
 def missed_in_results(paths):
     """Faults of results that nobody sees, and problems of the good ones."""
     good = {kind: read_result(path) for kind, path in paths.items()}
     for kind, results in good.items():
-        yield from (f"good, {kind}: {problem}" for problem in invariants.problems(results))
+        yield from (f"good, {kind}: {problem}" for problem in all_problems(results))
     for name, kind, fault in FAULTS:
         broken = copy.deepcopy(good[kind])
         fault(broken[0])
-        if not any(problem.startswith(name) for problem in invariants.problems(broken)):
+        if not any(problem.startswith(name) for problem in all_problems(broken)):
             yield f"{name} does not see fault {FAULTS.index((name, kind, fault))} in what is {kind}"
     tested = {name for name, _, _ in FAULTS}
     yield from (f"no fault for {f.__name__}" for f in (*invariants.EVERY, invariants.ledger_closes) if f.__name__ not in tested)

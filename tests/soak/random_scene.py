@@ -56,9 +56,12 @@ def body(random, size):
         lambda: ("rock", shapes.tetrahedron(of(0.4, 0.8)))])()
 
 
-def arrangement(random, size, count):
+# Ways to put bodies that leave two fronts in one place: undersides in one plane, bodies twice.
+COINCIDENT = ("meeting", "nested", "twice")
+
+
+def arrangement(random, size, count, way):
     """Bodies as (name, faces) on z = 0 that stand apart, touch, meet, hover, lie in one another."""
-    way = random.choice(["apart", "apart", "row", "piled", "meeting", "nested", "twice"])
     bodies, x = [], 0.0
     columns = math.ceil(math.sqrt(count))
     for k in range(count):
@@ -103,7 +106,7 @@ def extras(random, size, reach):
 
 def dirt(random, objects, is_repaired):
     """What bad models have: faces turned, twice, without area, thin or not plane."""
-    kinds = ["turned", "twice", "bent", "gone", *(["degenerate", "thin"] if is_repaired else [])]
+    kinds = ["turned", "bent", "gone", *(["twice", "degenerate", "thin"] if is_repaired else [])]
     for _, faces in objects:
         k = random.randrange(len(faces))
         kind, corners = faces[k]
@@ -124,11 +127,13 @@ def dirt(random, objects, is_repaired):
 
 class RandomScene:
     """`section` is that of the study; `low` and `high` bound what the files hold, in the scene's frame;
-    `area_m2` with the ground; `city` names a CityJSON file, `crs` the map."""
+    `area_m2` with the ground; `city` names a CityJSON file, `crs` the map. Where the scene `is_sound` no two
+    fronts lie in one place, nor a front and the inside of a floor: each of two would send on the light that
+    falls on the place."""
 
     def __init__(self, random, folder, allowed):
         self.random, self.folder, self.allowed = random, folder, allowed
-        self.crs, self.city = None, None
+        self.crs, self.city, self.is_sound, self.has_plate = None, None, True, False
         self.extent = 10 ** random.choice([random.uniform(0, 3.7), random.uniform(1.3, 2.3)])
         self.section = {"repair": random.choice(["safe", "safe", "safe", "none", "all"]), "materials": {}}
         random.choice([self.builtin, self.raster, self.city_model, *[self.bodies] * 7])()
@@ -160,7 +165,8 @@ class RandomScene:
             if random.random() < 0.5:
                 crowns = [[random.choice([0, 0, 0, 0, 6]) for _ in row] for row in ground]
                 scene_files.write_raster(os.path.join(self.folder, "crowns.asc"), crowns, cell)
-                files["canopy"] = "crowns.asc"
+                files["canopy"] = "crowns.asc"  # whose sides lie against walls
+                self.is_sound = False
         self.section["files"] = [files]
 
     def model(self, objects, materials):
@@ -182,7 +188,13 @@ class RandomScene:
             names.append(f"{kind}_{k}")
             self.section["materials"][names[-1]] = random_material(self.random, kind, self.allowed)
         self.section["materials"]["crown"] = random_material(self.random, "crown", self.allowed)
+        self.is_sound &= not any(name.startswith("two") for name in names)
         return names
+
+    def arrangement(self, size, count):
+        way = self.random.choice(["apart", "apart", "apart", "row", "row", "piled", "piled", *COINCIDENT])
+        self.is_sound &= count == 1 or way not in COINCIDENT
+        return arrangement(self.random, size, count, way)
 
     def moved(self, objects, offset):
         return [(name, shapes.placed(faces, move=offset)) for name, faces in objects]
@@ -204,7 +216,8 @@ class RandomScene:
         """Buildings and trees of a city model."""
         random = self.random
         size = self.extent / 5
-        objects = [("box_1", shapes.box(size, size, size)), *arrangement(random, size, random.choice([1, 3, 6]))]
+        objects = [*self.arrangement(size, random.choice([1, 3, 6])),
+                   ("hall", shapes.placed(shapes.box(size, size, size), move=(-2 * size, 0.0, 0.0)))]
         objects = [(name, faces) for name, faces in objects if not name.startswith("rock")]
         if random.random() < 0.4:
             objects.append(("crown_1", shapes.placed(shapes.crown(0.3 * size, size), move=(-size, -size, 0.1 * size))))
@@ -221,7 +234,7 @@ class RandomScene:
     def bodies(self):
         random = self.random
         size = self.extent / random.choice([2, 4, 8])
-        objects = arrangement(random, size, random.choice([1, 1, 2, 3, 5, 9])) if random.random() < 0.9 else []
+        objects = self.arrangement(size, random.choice([1, 1, 2, 3, 5, 9])) if random.random() < 0.9 else []
         objects += extras(random, size, self.extent)
         if not objects or random.random() < 0.1:
             objects.append(("soup_0", shapes.soup(random, random.choice([5, 30]), self.extent)))
@@ -235,6 +248,7 @@ class RandomScene:
             objects.append(("land", shapes.land(1.5 * self.extent, random.choice([1, 3, 5]), height)))
         if random.random() < 0.15:
             dirt(random, objects, self.section["repair"] != "none")
+        self.has_plate = way != "none"
         objects = self.moved(objects, self.offset())
         self.measure(objects)
         self.write(objects)
@@ -293,6 +307,7 @@ class RandomScene:
                 self.area_m2 += (100 + 3 * self.extent) ** 2
             return
         surface = random.choice(["feet", "feet", "level", "none"])
+        self.is_sound &= surface == "none" or not self.has_plate
         if surface == "none":
             self.section["ground"] = random.choice(["none", {"surface": "none"}])
             return

@@ -99,7 +99,8 @@ def broken(random, study):
 
 class RandomStudy:
     """`tree`: the study as written; `variants`: their names; `is_wrong`: the program must refuse it;
-    `is_measurable`: it takes long enough that the estimates can be held against it."""
+    `is_measurable`: it takes long enough that the estimates can be held against it; `is_sound`: what is
+    said of random_scene, and no coarse links, which cost the ledger its balance."""
 
     def __init__(self, seed, folder):
         random = random_numbers.Random(seed)
@@ -113,7 +114,7 @@ class RandomStudy:
         if not illuminance:
             allowed.add("emission")
         scene = RandomScene(random, folder, allowed)
-        self.city = scene.city
+        self.city, self.is_sound = scene.city, scene.is_sound
         light = RandomLight(random, folder, scene.crs, 64 if self.is_measurable else 24)
         patches = MEASURABLE_PATCHES if self.is_measurable else 10 ** random.uniform(1.3, 2.8)
         if light.is_of_weather_file:
@@ -121,6 +122,7 @@ class RandomStudy:
         study = {"format": "sunload-study-1", "name": self.name, **light.sections, "scene": scene.section,
                  "mesh": random_mesh(random, scene.area_m2, patches, scene.extent),
                  "solver": random_solver(random, transport), "output": self.random_output()}
+        self.is_sound &= study["mesh"].get("link_threshold", 0) <= 0.5
         if bands:
             study["solver"]["bands"] = "rgb"
             study["light"]["colour"] = random.choice(["sky", "white"])
