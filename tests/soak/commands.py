@@ -102,8 +102,8 @@ class Commands:
                  "vrml": begins(b"#VRML V2.0"), "ply": begins(b"ply\n"), "cityjson": is_json, "gpkg": is_geopackage,
                  "energyplus": None}
         form = self.random.choice(list(forms))
-        # Only whole years go to EnergyPlus.
-        codes = (DONE, WRONG_INPUT) if form == "energyplus" else (DONE,)
+        # Only whole years go to EnergyPlus, and XDMF has no bands.
+        codes = (DONE, WRONG_INPUT) if form == "energyplus" or (form == "xdmf" and self.bands) else (DONE,)
         words = ["--quantity", "series"] if form == "csv" and self.random.random() < 0.3 else []
         if form == "cityjson" and self.study.city and self.random.random() < 0.7:
             words = ["--model", self.study.city]

@@ -302,7 +302,7 @@ class RandomScene:
 
     def ground(self):
         random = self.random
-        if "builtin" in self.section or random.random() < (0.2 if self.city else 0.6):
+        if "builtin" in self.section or random.random() < (0.2 if self.city else 0.75 if self.has_plate else 0.4):
             if self.city:
                 self.area_m2 += (100 + 3 * self.extent) ** 2
             return
