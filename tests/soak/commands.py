@@ -11,6 +11,7 @@ import re
 import sqlite3
 import xml.etree.ElementTree as xml
 
+from invariants import FALSE_ALARMS
 from other_ways import result_path
 from program import DONE, MACHINE_LIMIT, WRONG_INPUT
 
@@ -33,10 +34,11 @@ def is_picture(path):
 
 
 class Commands:
-    """`first` is the result of the study's first variant, in all its bands."""
+    """`first` is the result of the study's first variant, in all its bands; `tests`: how many tests by
+    chance the soak makes."""
 
-    def __init__(self, program, study, first, random):
-        self.program, self.study, self.random = program, study, random
+    def __init__(self, program, study, first, random, tests):
+        self.program, self.study, self.random, self.tests = program, study, random, tests
         self.result = first[0]
         self.bands = ["red", "green", "blue"] if len(first) > 1 else []
         self.path = os.path.relpath(result_path(study, "results", study.variants[0]), study.folder)
@@ -94,8 +96,19 @@ class Commands:
                 yield "a result differs from itself, or nothing is compared"
         yield from self.said(self.program.run("compare", self.path, self.path, "--csv"), DONE, check=is_csv)
         if len(self.study.variants) > 1:
+            yield from self.other_seed()
             yield from self.said(self.program.run("compare", "study.yaml", *self.study.variants), DONE)
             yield from self.wrote("differences.h5", "compare", "study.yaml", *self.study.variants, "--hdf5", "differences.h5")
+
+    def other_seed(self):
+        """Where another seed is all that a variant has, nothing differs by more than chance."""
+        if list(self.study.tree["variants"][1].get("solver", {})) != ["seed"]:
+            return
+        ran = self.program.run("compare", "study.yaml", *self.study.variants, "--json")
+        yield from self.said(ran, DONE)
+        chances = [p for key, p in every_value(json.loads(ran.out)) if key == "p_corrected" and p is not None]
+        if chances and min(chances) < FALSE_ALARMS / self.tests:
+            yield f"another seed makes a difference that has a chance of {min(chances):.2g}"
 
     def export(self):
         forms = {"csv": None, "vtk": begins(b"# vtk DataFile"), "xdmf": lambda p: xml.parse(p) and (), "glb": begins(b"glTF"),

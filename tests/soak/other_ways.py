@@ -58,7 +58,11 @@ def in_shards(program, study, random):
         processes = [program.start(*w) for w in words]
         shards = [program.finish(p) for p in processes]
     else:
-        shards = [program.run(*w) for w in words]
+        shards = [program.run(*words[0])]
+        # What others owe is listed; where the first shard was all, there is nothing to merge any more.
+        yield from program.run("merge", "study.yaml", "--output", "shards").problems(DONE, UNFINISHED)
+        yield from program.run("merge", "study.yaml", "--output", "shards", "--partial").problems(DONE)
+        shards += [program.run(*w) for w in words[1:]]
     for ran in shards:
         yield from ran.problems(DONE)
     if random.random() < 0.3:
@@ -76,6 +80,15 @@ def killed(program, study, random, whole_s):
         # While its libraries are loaded a program does not listen: SIGTERM ends it as any other.
         yield from ran.problems(*((DONE, UNFINISHED, -signal.SIGKILL, -signal.SIGTERM) if k < kills else (DONE,)))
     yield from same(study, "killed")
+
+
+def by_and_by(program, study, random):
+    """One variant after the other, and with a limit of time that comes at once."""
+    for variant in random.sample(study.variants, len(study.variants)):
+        words = ("run", "study.yaml", "--output", "parts", "--variant", variant, "--progress", "none")
+        yield from program.run(*words, "--time-limit", "1e-6").problems(DONE, UNFINISHED)
+        yield from program.run(*words, "--resume").problems(DONE)
+    yield from same(study, "parts")
 
 
 def in_other_batches(program, study, random):

@@ -142,7 +142,7 @@ class RandomScene:
             self.section["orient"] = "keep"
 
     def builtin(self):
-        shining = ("room", "emission", "windows")
+        shining = ("room", "emission", "shadow")
         name, parameters = self.random.choice([b for b in BUILTIN if "emission" in self.allowed or b[0] not in shining])
         self.section["builtin"] = {"name": name, **parameters}
         self.extent = {"emission": 1, "city": 60, "cylinder": 8, "room": 8, "shadow": 8}.get(name, 30)
