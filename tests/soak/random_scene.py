@@ -254,41 +254,42 @@ class RandomScene:
         self.write(objects)
 
     def write(self, objects):
-        """As one file of some format, or two."""
+        """As files of some format."""
         random = self.random
         names = self.materials(random.choice([1, 2, 4]))
         model = self.model(objects, names)
         unit_m, up = random.choice([1, 1, 1, 0.001, 0.3048]), random.choice(["z", "z", "y", "x"])
         form = random.choice(["obj", "obj", "obj", "ply", "stl", "off", "wrl"])
-        if form == "stl" and max(map(abs, (*self.low, *self.high))) > 1000 * self.extent:
-            form = "obj"  # whose numbers are not floats
-        if form == "wrl":
-            emits = "emission" in self.allowed and random.random() < 0.2
-            colours = {n: (*GREYS.get(n.split("_")[0], (0.4, 0.0)), 1.0 if emits and n == names[0] else 0.0)
-                       for n in [*names, "crown"]}
-            if max(map(abs, (*self.low, *self.high))) > 1000 * self.extent:
-                form = "obj"  # Coin has floats
-            else:
-                self.section["emission_scale_w"] = random.choice([1, 1e4])
-                scene_files.write_vrml(os.path.join(self.folder, "scene.wrl"), model, up, unit_m, colours)
-                self.section["materials"] = {}
-        if form in ("ply", "stl", "off", "wrl"):
-            if form != "wrl":
-                getattr(scene_files, f"write_{form}")(os.path.join(self.folder, f"scene.{form}"), model, up, unit_m)
-                self.section["assign"] = [{"surface": s, "material": m} for s, m in zip(("wall", "roof", "ground"), names)]
-            self.section["files"] = [f"scene.{form}"]
+        if form in ("stl", "wrl") and max(map(abs, (*self.low, *self.high))) > 1000 * self.extent:
+            form = "obj"  # the others, or Coin, which reads them, have floats
+        if form == "obj":
+            self.write_obj(model, up, unit_m)
+        elif form == "wrl":
+            self.write_vrml(model, names, up, unit_m)
         else:
-            parts = [model] if len(model) < 2 or random.random() < 0.8 else [model[::2], model[1::2]]
-            self.section["files"] = []
-            for k, part in enumerate(parts):
-                scene_files.write_obj(os.path.join(self.folder, f"scene_{k}.obj"), part, up, unit_m)
-                self.section["files"].append(f"scene_{k}.obj")
+            getattr(scene_files, f"write_{form}")(os.path.join(self.folder, f"scene.{form}"), model, up, unit_m)
+            self.section["files"] = [f"scene.{form}"]
+            self.section["assign"] = [{"surface": s, "material": m} for s, m in zip(("wall", "roof", "ground"), names)]
         if unit_m != 1:
             self.section["unit_m"] = unit_m
-        if up != {"wrl": "y"}.get(form, "z"):
+        if up != "z" or form == "wrl":
             self.section["up"] = up
         if "emission" in self.allowed and random.random() < 0.08:
             self.parallel_sources(up, unit_m)
+
+    def write_obj(self, model, up, unit_m):
+        """One file, or two."""
+        parts = [model] if len(model) < 2 or self.random.random() < 0.8 else [model[::2], model[1::2]]
+        self.section["files"] = [f"scene_{k}.obj" for k in range(len(parts))]
+        for name, part in zip(self.section["files"], parts):
+            scene_files.write_obj(os.path.join(self.folder, name), part, up, unit_m)
+
+    def write_vrml(self, model, names, up, unit_m):
+        """With colours of its own in place of the study's materials."""
+        emits = "emission" in self.allowed and self.random.random() < 0.2
+        colours = {n: (*GREYS.get(n.split("_")[0], (0.4, 0.0)), float(emits and n == names[0])) for n in [*names, "crown"]}
+        scene_files.write_vrml(os.path.join(self.folder, "scene.wrl"), model, up, unit_m, colours)
+        self.section.update(files=["scene.wrl"], materials={}, emission_scale_w=self.random.choice([1, 1e4]))
 
     def parallel_sources(self, up, unit_m):
         """A panel above all that shines down, as a second file."""

@@ -38,7 +38,8 @@ def random_solver(random, transport):
               "lines_per_patch": realizations * random.choice([1, 2, 3, 5, 8, 16]),
               "direct_samples": realizations * random.choice([1, 1, 2, 3]),
               "bounces": random.choice([0, 1, 2, 5, 5, 12]), "batch_suns": random.choice([1, 2, 3, 7, 16, 17, 64])}
-    optional = {"unshot": [0, 1e-3, 0.1], "unfollowed": ["estimate", "leave"], "mirror_depth": [0, 1, 3, 8]}
+    optional = {"unshot": [0, 1e-3, 0.1], "unfollowed": ["estimate", "leave"], "mirror_depth": [0, 1, 3, 8],
+                "sun_samples_per_interval": ["auto", 2, 3]}
     solver.update({key: random.choice(values) for key, values in optional.items() if random.random() < 0.3})
     if transport == "shoot":
         solver["jacobi"] = random.choice(["incremental", "incremental", "regular"])

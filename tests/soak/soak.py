@@ -33,6 +33,7 @@ from result import read_result
 # Ledgers and comparisons of a study, at the most: variants; objects of two transports.
 TESTS_PER_STUDY = 20
 COMMANDS_PER_STUDY = 3
+TOLD_EVERY = 50
 
 
 def refused(program, study):
@@ -74,7 +75,7 @@ class Soak:
             yield from self.is_as_foretold(variant, results[0])
         if study.is_measurable:
             return  # small studies show all else in less time
-        yield from self.other_ways(study, program, ran.cpu_s)
+        yield from self.other_ways(study, program, ran.wall_s)
         yield from Commands(program, study, first, study.random, self.tests).some(COMMANDS_PER_STUDY)
 
     def is_as_foretold(self, told, result):
@@ -114,6 +115,8 @@ class Soak:
             folder = keep or tempfile.mkdtemp(prefix="soak-")
             os.makedirs(folder, exist_ok=True)
             found = self.problems(number, folder)
+            if number > 0 and number % TOLD_EVERY == 0:
+                print(f"... {number} studies, {len(failed)} failed", flush=True)
             if not keep:
                 shutil.rmtree(folder)
             if found:
