@@ -59,9 +59,9 @@ def in_shards(program, study, random):
         shards = [program.finish(p) for p in processes]
     else:
         shards = [program.run(*words[0])]
-        # What others owe is listed; where the first shard was all, there is nothing to merge any more.
+        # What others owe is listed, to which all may belong; or the first shard was all there is.
         yield from program.run("merge", "study.yaml", "--output", "shards").problems(DONE, UNFINISHED)
-        yield from program.run("merge", "study.yaml", "--output", "shards", "--partial").problems(DONE)
+        yield from program.run("merge", "study.yaml", "--output", "shards", "--partial").problems(DONE, UNFINISHED)
         shards += [program.run(*w) for w in words[1:]]
     for ran in shards:
         yield from ran.problems(DONE)
