@@ -147,14 +147,17 @@ TEST(Bands, MeanOfColouredLightOnGreySurfacesIsBroadband) {
   EXPECT_NEAR(part(0, Part::sky) / part(2, Part::sky), blue_sky[0] / blue_sky[2], 1e-5);
 }
 
-// A band is the broadband solution of its light on its reflectances. (Not to the bit where surfaces
+// A band is the broadband solution of its light on its reflectances, in every realization, and of
+// what it has of light that is not followed. (Not to the bit where surfaces
 // emit: points on bright surfaces are drawn by mean reflectances.)
 TEST(Bands, EveryBandIsASolutionOfItsOwn) {
   const BandShares rho{0.7, 0.4, 0.1};
   const auto light = suns(red_sun, blue_sky);
   constexpr double dark = 0;
-  const auto bands =
-      solve_bands(coloured_court(coloured("wall", rho), dark), light, court_rules(), split);
+  SolverRules rules = court_rules();
+  rules.bounces = 2;
+  rules.unfollowed = Unfollowed::estimate;
+  const auto bands = solve_bands(coloured_court(coloured("wall", rho), dark), light, rules, split);
   for (std::size_t b = 0; b < band_count; ++b) {
     auto of_band = light;
     for (auto& sun : of_band) {
@@ -163,14 +166,20 @@ TEST(Bands, EveryBandIsASolutionOfItsOwn) {
       sun.sky = sun.bands[b].sky;
       sun.bands.clear();
     }
-    const auto alone =
-        solve(coloured_court({"wall", rho[b], 0, 0}, dark), of_band, court_rules(), split);
+    const auto alone = solve(coloured_court({"wall", rho[b], 0, 0}, dark), of_band, rules, split);
     const auto total = static_cast<std::size_t>(Part::total);
     EXPECT_LT(largest_difference(bands[b].tally.irradiance[total], alone.tally.irradiance[total]),
               float_rounding);
+    for (std::size_t r = 0; r < alone.tally.exposure_realization.size(); ++r)
+      EXPECT_LT(largest_difference(bands[b].tally.exposure_realization[r],
+                                   alone.tally.exposure_realization[r]),
+                float_rounding);
     for (std::size_t t = 0; t < term_count; ++t)
       EXPECT_NEAR(bands[b].tally.energy.terms[t], alone.tally.energy.terms[t],
                   float_rounding * alone.tally.energy.in());
+    EXPECT_GT(alone.tally.energy.estimated, 0);
+    EXPECT_NEAR(bands[b].tally.energy.estimated, alone.tally.energy.estimated,
+                float_rounding * alone.tally.energy.in());
     // Planted fault: the next band's reflectances.
     const auto& other = bands[(b + 1) % band_count];
     EXPECT_GT(largest_difference(other.tally.irradiance[total], alone.tally.irradiance[total]),

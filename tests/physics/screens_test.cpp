@@ -112,6 +112,40 @@ TEST(Screens, LedgerOfAShadedCourtCloses) {
   EXPECT_FALSE(expect_mean(met_by_crowns, 0, float_rounding * in));
 }
 
+// Leaves that shine: part of the light passes, part goes on in a lobe, of which some is cut off by
+// the leaf's own plane; what is left is absorbed.
+TEST(Screens, LedgerOfGlossyLeavesCloses) {
+  constexpr double T = 0.4;
+  Material leaf = crown(T, 0.15);
+  leaf.glossy = 0.3;
+  leaf.glossy_exponent = 8;
+  SceneBuilder builder;
+  builder.object("ground").quad({-6, -6, 0}, {6, -6, 0}, {6, 6, 0}, {-6, 6, 0},
+                                builder.material({"ground", 0.25}));
+  builder.sides(Sides::two)
+      .object("crown")
+      .box({-2, -2, 1}, {2, 2, 4}, builder.material(leaf), Facing::outward);
+  for (const Transport transport : {Transport::gather, Transport::shoot}) {
+    auto rules = test_rules();
+    rules.transport = transport;
+    rules.bounces = 20;
+    const auto solved = solve(builder.scene(), three_suns(), rules, {.max_edge_m = 2});
+    const auto residual = solved.ledger([](const Ledger& l) { return l.residual(); });
+    const double in = mean_error(solved.ledger([](const Ledger& l) { return l.in(); })).mean;
+    const Verdict verdict = expect_mean(residual, 0, float_rounding * in);
+    std::cout << "in " << in << " W, residual " << verdict.text << "\n";
+    EXPECT_TRUE(verdict) << verdict.text;
+    EXPECT_LE(verdict.standard_error, 0.01 * in);
+    // Planted fault: what passes is told to be absorbed, as 2 % of what the leaves receive.
+    std::vector<double> passed = residual;
+    for (std::size_t r = 0; r < passed.size(); ++r)
+      for (std::size_t i = 0; i < solved.area.size(); ++i)
+        if (solved.patches[i].triangle >= 2)
+          passed[r] -= 0.02 * solved.area[i] * solved.tally.exposure_realization[r][i];
+    EXPECT_FALSE(expect_mean(passed, 0, float_rounding * in));
+  }
+}
+
 TEST(Screens, SameBitsForAnyNumberOfThreads) {
   auto rules = test_rules();
   rules.lines_per_patch = 16 * 8;

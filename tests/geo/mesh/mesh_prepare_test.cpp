@@ -99,6 +99,25 @@ TEST(MeshPrepare, WeldsWithinToleranceUnlessNone) {
   EXPECT_GT(none.report.open_edges, 0u);
 }
 
+// Points are looked for in cells of sixteen tolerances: their borders must not show.
+TEST(MeshPrepare, WeldsWhereverTheModelStands) {
+  constexpr double step = 2e-5, cell = 16 * weld_tolerance_m;
+  for (int k = 0; k * step < cell; ++k) {
+    auto builder = ModelBuilder().object("cube").box({0, 0, 0}, {100, 100, 100});
+    std::size_t v = 0;
+    builder.moved([&](Vec3 p) {
+      const auto off = [&](std::size_t of) {
+        return k * step + 1e-5 * static_cast<double>(of % 5);
+      };
+      ++v;
+      return p + Vec3{off(v), off(2 * v), off(3 * v)};
+    });
+    const auto report = builder.prepared().report;
+    EXPECT_EQ(report.closed_bodies, 1u) << k;
+    EXPECT_EQ(report.vertices_welded, 16u) << k;
+  }
+}
+
 TEST(MeshPrepare, SmallModelsAreNotWeldedAway) {
   const auto p = ModelBuilder().object("bead").box({0, 0, 0}, {1e-4, 1e-4, 1e-4}).prepared();
   EXPECT_EQ(p.mesh.vertices.size(), 8u);
