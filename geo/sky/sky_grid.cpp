@@ -45,7 +45,7 @@ SUNLOAD_VECTOR_CODE void indicatrix_at(const SkyShape& shape, const Vec3& sun, c
 
 }  // namespace
 
-SkyGrid::SkyGrid(int size) : size_(size), half_(size / 2) {
+SkyGrid::SkyGrid(int size) : size_(size), half_(static_cast<double>(size) / 2) {
   SUNLOAD_EXPECT(size > 0 && size % 2 == 0, "a sky grid has an even number of cells per side");
   const auto cells = static_cast<std::size_t>(cell_count());
   projected_.resize(cells);
@@ -72,7 +72,8 @@ void SkyGrid::place_samples(int row, int column) {
   const std::size_t ring_a = ring(column), ring_b = ring(row);
   const std::size_t k = std::max(ring_a, ring_b);
   const bool diagonal = ring_a == ring_b;
-  const auto cell = static_cast<std::size_t>(row * size_ + column);
+  const int number = row * size_ + column;
+  const auto cell = static_cast<std::size_t>(number);
 
   // ∫ cosθ over the cell by the moments of r = (k + t)/half, t its place across the ring.
   const double mean = diagonal ? 2.0 / 3 : 1.0 / 2;
@@ -131,8 +132,9 @@ int SkyGrid::cell(Vec3 w) const {
 Vec3 SkyGrid::direction(int cell, double u, double v) const {
   // Further from the border than the rounding of `cell` reaches.
   constexpr double margin = 1e-9;
-  const double a = (cell % size_ + std::clamp(u, margin, 1 - margin)) / half_ - 1;
-  const double b = (cell / size_ + std::clamp(v, margin, 1 - margin)) / half_ - 1;
+  const int column = cell % size_, row = cell / size_;
+  const double a = (column + std::clamp(u, margin, 1 - margin)) / half_ - 1;
+  const double b = (row + std::clamp(v, margin, 1 - margin)) / half_ - 1;
   const bool a_larger = std::abs(a) >= std::abs(b);
   const double r = std::max(std::abs(a), std::abs(b));
   const double angle = pi / 4 * std::min(std::abs(a), std::abs(b)) / r;

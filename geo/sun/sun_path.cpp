@@ -98,8 +98,8 @@ UnixTime upper_transit(const SunEphemeris& sun, UnixTime day_begin) {
   const auto in_the_east = [&](UnixTime t) { return eastward(sun(t)) > 0; };
   const UnixTime begin = day_begin - margin_s, end = day_begin + seconds_per_day + margin_s;
   bool east = in_the_east(begin);
-  for (UnixTime a = begin; a < end; a += step_s) {
-    const UnixTime b = std::min(a + step_s, end);
+  for (int step = 0; begin + step * step_s < end; ++step) {
+    const UnixTime a = begin + step * step_s, b = std::min(a + step_s, end);
     const bool still_east = in_the_east(b);
     if (east && !still_east) return change_of(in_the_east, a, b);
     east = still_east;
@@ -210,6 +210,7 @@ std::vector<Vec3> sun_samples(const PeriodStep& step, const std::vector<Part>& s
   const int count = sun_sample_count(watch.samples, sunlit_s);
   if (count == 1) return {};
   std::vector<Vec3> samples;
+  samples.reserve(static_cast<std::size_t>(count));
   for (int s = 0; s < count; ++s)
     samples.push_back(watch.direction(watch.sun(after_sun(sunlit, sunlit_s * (s + 0.5) / count))));
   return samples;

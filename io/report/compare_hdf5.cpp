@@ -67,6 +67,7 @@ std::vector<std::vector<double>> realizations(const ResultReader& result) {
 
 std::vector<double> column(const std::vector<std::vector<double>>& rows, std::size_t place) {
   std::vector<double> values;
+  values.reserve(rows.size());
   for (const auto& row : rows) values.push_back(row[place]);
   return values;
 }
@@ -95,7 +96,7 @@ class ComparisonFile {
     for (const auto& dim : dims) spec.shape.push_back(sizes_.at(dim));
     auto dataset = file_.create_dataset(name, spec);
     for (std::size_t i = 0; i < dims.size(); ++i) dataset.attach_scale(i, scales_.at(dims[i]));
-    if (type == h5::Type::float64) dataset.set("_FillValue", {not_known}, type);
+    if (type == h5::Type::float64) dataset.set("_FillValue", not_known, type);
     dataset.set("long_name", long_name);
     if (!units.empty()) dataset.set("units", units);
     dataset.write(values);
@@ -118,6 +119,7 @@ class ComparisonFile {
 template <class Get>
 std::vector<double> numbers_of(const std::vector<ComparisonRow>& rows, const Get& get) {
   std::vector<double> values;
+  values.reserve(rows.size());
   for (const auto& row : rows) values.push_back(get(row));
   return values;
 }
@@ -171,6 +173,7 @@ void put_facades(ComparisonFile& file, const Comparison& comparison, const Resul
     if (row.kind == "facade" && row.base_kwh_m2 && row.variant_kwh_m2) rows[row.name] = &row;
   const auto values = [&](const auto& get) {
     std::vector<double> list;
+    list.reserve(names.size());
     for (const auto& name : names)
       list.push_back(rows.contains(name) ? get(*rows[name]) : not_known);
     return list;

@@ -45,6 +45,7 @@ std::vector<Value> flat(const std::vector<std::array<Value, n>>& rows) {
 
 std::vector<double> components(const std::vector<Vec3>& points, double Vec3::*component) {
   std::vector<double> values;
+  values.reserve(points.size());
   for (const Vec3& p : points) values.push_back(p.*component);
   return values;
 }
@@ -98,7 +99,7 @@ h5::Dataset ResultWriter::File::create(const ResultVariable& of,
   } else {
     for (std::size_t i = 0; i < dims.size(); ++i) dataset.attach_scale(i, scales.at(dims[i]));
   }
-  if (is_fillable) dataset.set("_FillValue", {std::nan("")}, of.type);
+  if (is_fillable) dataset.set("_FillValue", std::nan(""), of.type);
   dataset.set("long_name", std::string(of.long_name));
   if (!of.units.empty()) dataset.set("units", std::string(of.units));
   if (!of.standard_name.empty()) dataset.set("standard_name", std::string(of.standard_name));

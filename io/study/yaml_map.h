@@ -168,6 +168,7 @@ template <class E>
 E YamlMap::choice(const std::string& key, const std::vector<std::pair<std::string, E>>& names,
                   E absent) {
   std::vector<std::string> words;
+  words.reserve(names.size());
   for (const auto& name : names) words.push_back(name.first);
   const auto found = find_word(key, words);
   return found ? names[*found].second : absent;

@@ -84,8 +84,9 @@ void CircumsolarSky::add_cell(const SkyGrid& grid, int cell) {
       circumsolar_[static_cast<std::size_t>(cell)] * grid.solid_angle() / strength_;
   axis_ += brightness * grid.direction(cell, 0.5, 0.5);
   brightness_.push_back(static_cast<float>(brightness));
-  a_.push_back(static_cast<float>(cell % grid.side()) * cell_width_ - 1);
-  b_.push_back(static_cast<float>(cell / grid.side()) * cell_width_ - 1);
+  const int column = cell % grid.side(), row = cell / grid.side();
+  a_.push_back(static_cast<float>(column) * cell_width_ - 1);
+  b_.push_back(static_cast<float>(row) * cell_width_ - 1);
   for (int corner = 0; corner < 4; ++corner) {
     const Vec3 w = grid.direction(cell, corner_u[corner], corner_v[corner]);
     x_[corner].push_back(static_cast<float>(w.x));
@@ -114,6 +115,7 @@ SUNLOAD_VECTOR_CODE void cosines(const float* x, const float* y, const float* z,
 /// From cosines at the corners to q, and the cells' shares of ∫ L_circ q dω.
 SUNLOAD_VECTOR_CODE void weigh(const float* brightness, float scale, std::size_t cells, float* q0,
                                float* q1, float* q2, float* q3, std::int32_t* share) {
+  constexpr float half = 0.5f;  // cut off: rounds what is not below 0
   for (std::size_t c = 0; c < cells; ++c) {
     const float upper = q0[c] > q1[c] ? q0[c] : q1[c], lower = q2[c] > q3[c] ? q2[c] : q3[c];
     const float largest = upper > lower ? upper : lower;
@@ -123,7 +125,7 @@ SUNLOAD_VECTOR_CODE void weigh(const float* brightness, float scale, std::size_t
     q2[c] = q2[c] > least_q ? q2[c] : least_q;
     q3[c] = q3[c] > least_q ? q3[c] : least_q;
     const float mean = 0.25f * (q0[c] + q1[c] + q2[c] + q3[c]);
-    share[c] = static_cast<std::int32_t>(scale * brightness[c] * mean * in_front + 0.5f);
+    share[c] = static_cast<std::int32_t>(scale * brightness[c] * mean * in_front + half);
   }
 }
 

@@ -138,6 +138,7 @@ BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources
     work.add(Work::direct_rays, add_circumsolar(traced, sources, rays.on_patches, sums.on_patches));
   }
   std::vector<std::vector<SunBeams>> beams;
+  beams.reserve(suns.size());
   for (const auto& of_intervals : suns) {
     const Stopwatch time(work[Work::mirror_s]);
     beams.push_back(beams_of(traced, of_intervals));
@@ -170,6 +171,7 @@ RayLight rays_on_sensors(const TracedScene& traced, const BlockSources& sources,
   RayLight rays = empty_rays(traced, traced.sensors.count(), true);
   const auto suns = suns_one_by_one(sources.suns);
   std::vector<std::vector<SunBeams>> beams;
+  beams.reserve(suns.size());
   for (const auto& of_intervals : suns) beams.push_back(beams_of(traced, of_intervals));
   work.add(Work::sensor_rays, light_sensors(traced, suns, std::move(beams), rays, nullptr));
   return rays;
