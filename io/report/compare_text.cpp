@@ -117,8 +117,7 @@ std::string comparison_table(const Comparison& comparison) {
   if (only_in_base + only_in_variant > 0)
     text += fmt::format(
         "\nCompared is what both results have, {:.1f} m². {:.1f} m² of the base and {:.1f} m² of "
-        "the "
-        "variant have no counterpart in the other result: rows of their own\n",
+        "the variant have no counterpart in the other result: rows of their own\n",
         common, only_in_base, only_in_variant);
   return text;
 }

@@ -35,7 +35,6 @@ PatchGroups::PatchGroups(const ResultReader& result, std::vector<double> area)
     : area_(std::move(area)) {
   if (area_.empty()) throw InputError({result.path()}, "the result has no patches");
   group_of_.assign(area_.size() * kinds, -1);
-  const auto object = result.integers("patch_object");
   const auto all = divisions(result, area_.size());
   for (std::size_t kind = 0; kind < kinds; ++kind) {
     const auto& division = all[kind];
@@ -48,18 +47,13 @@ PatchGroups::PatchGroups(const ResultReader& result, std::vector<double> area)
     for (std::size_t entry = 0; entry < used.size(); ++entry) {
       if (!used[entry]) continue;
       group_of_entry[entry] = static_cast<std::int32_t>(groups_.size());
-      groups_.push_back({division.kind, division.names[entry], 0, {}});
+      groups_.push_back({division.kind, division.names[entry], 0});
     }
     for (std::size_t i = 0; i < area_.size(); ++i) {
       if (division.of_patch[i] < 0 || area_[i] <= 0) continue;
       const auto group = group_of_entry[static_cast<std::size_t>(division.of_patch[i])];
       group_of_[i * kinds + kind] = group;
-      auto& facts = groups_[static_cast<std::size_t>(group)];
-      facts.area_m2 += area_[i];
-      // Patches are ordered by object: the one at hand is the last met.
-      if (facts.object_area_m2.empty() || facts.object_area_m2.back().first != object[i])
-        facts.object_area_m2.emplace_back(object[i], 0);
-      facts.object_area_m2.back().second += area_[i];
+      groups_[static_cast<std::size_t>(group)].area_m2 += area_[i];
     }
   }
 }

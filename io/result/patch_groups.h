@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "io/result/reader.h"
@@ -18,8 +17,6 @@ struct PatchGroup {
   std::string kind;  ///< whole | surface | object | facade
   std::string name;
   double area_m2 = 0;
-  /// Area of this group by object of the result (index as in object_name).
-  std::vector<std::pair<std::int32_t, double>> object_area_m2;
 };
 
 /// Every group of a result, and the groups of each patch.
