@@ -268,11 +268,38 @@ class CommandLine {
 
   void add_info() {
     CLI::App* sub = command("info", "what a result holds, on one screen", [this] {
-      return print_info(result(), patches_ ? InfoFormat::patches_csv : InfoFormat::screen);
+      info_.result = result();
+      if (csv_) info_.format = InfoOptions::Format::csv;
+      if (json_) info_.format = InfoOptions::Format::json;
+      return print_info(info_);
     });
     add_result(sub);
-    sub->add_flag("--patches", patches_, "every patch as CSV");
+    using What = InfoOptions::What;
+    const auto add_table = [&](const char* option, What what, const char* words) {
+      sub->add_flag_callback(
+          option, [this, what] { info_.what.push_back(what); }, words);
+    };
+    add_table("--facades", What::facades, "table of the facades: what each of them receives");
+    add_table("--objects", What::objects, "table of the objects");
+    add_table("--sensors", What::sensors, "table of the sensors");
+    add_table("--patches", What::patches, "every patch as CSV");
+    add_named(sub, info_.parts, "only");
+    sub->add_option("--sensor", info_.parts.sensors, "only the sensor of that number, from 0")
+        ->allow_extra_args(false);
+    auto* csv = sub->add_flag("--csv", csv_, "tables for machines");
+    sub->add_flag("--json", json_, "the same as JSON")->excludes(csv);
     add_band(sub);
+  }
+
+  /// Facades and objects by name or pattern.
+  void add_named(CLI::App* sub, NamedParts& parts, const std::string& only) {
+    sub->add_option("--facade", parts.facades,
+                    only +
+                        " the facade of that name, or those of a pattern: 'house_3/*' "
+                        "(repeatable)")
+        ->allow_extra_args(false);
+    sub->add_option("--object", parts.objects, only + " the object of that name or pattern")
+        ->allow_extra_args(false);
   }
 
   void add_result(CLI::App* sub) {
@@ -295,6 +322,7 @@ class CommandLine {
     sub->add_option("--output", compare_.output, "folder of the study's results");
     auto* csv = sub->add_flag("--csv", csv_, "one row per group, for machines");
     sub->add_flag("--json", json_, "the same as JSON")->excludes(csv);
+    add_named(sub, compare_.parts, "only rows of");
     add_band(sub);
     writes(sub->add_option("--hdf5", compare_.differences,
                            "file of the differences of groups, facades and patches, besides"));
@@ -378,6 +406,11 @@ class CommandLine {
         "--model", export_.model,
         "cityjson: the study's own model, whose surfaces and objects get the values as "
         "attributes"));
+    sub->add_option("--of", export_.of,
+                    "csv: a row for every patch (default), facade, object or sensor");
+    add_named(sub, export_.parts, "csv, gpkg, energyplus: only");
+    sub->add_option("--sensor", export_.parts.sensors, "csv, gpkg: only the sensor of that number")
+        ->allow_extra_args(false);
     sub->add_option("--quantity", export_.quantity,
                     "dataset per patch (default: light_load; csv and xdmf: all); csv: series");
     sub->add_option("--time", export_.time,
@@ -419,6 +452,7 @@ class CommandLine {
   std::string study_, picture_, shard_, band_, subdivision_ = "cells";
   std::vector<std::string> results_;
   RunOptions options_;
+  InfoOptions info_;
   CompareOptions compare_;
   RenderOptions render_;
   std::pair<PictureColours, Palette> render_colours_{PictureColours::of_values,
@@ -430,8 +464,8 @@ class CommandLine {
   std::size_t view_step_ = 0;
   double largest_ = 0;
   bool resume_ = false, overwrite_ = false, keep_batches_ = false, json_ = false, csv_ = false,
-       patches_ = false, mesh_lines_ = false, partial_ = false, markdown_ = false,
-       intersections_ = false, no_refine_ = false;
+       mesh_lines_ = false, partial_ = false, markdown_ = false, intersections_ = false,
+       no_refine_ = false;
 };
 
 }  // namespace

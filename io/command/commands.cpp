@@ -77,6 +77,51 @@ std::string text_of(const Comparison& comparison, CompareOptions::Format format)
   return comparison_table(comparison);
 }
 
+/// The table that was asked for, or that the names are of.
+InfoOptions::What table_asked_for(const InfoOptions& options) {
+  using What = InfoOptions::What;
+  if (options.what.size() > 1)
+    throw InputError({}, "--patches, --facades, --objects and --sensors are one table each",
+                     "two of them are asked for", "call info once for each");
+  if (!options.what.empty()) return options.what.front();
+  std::vector<What> of_names;
+  if (!options.parts.facades.empty()) of_names.push_back(What::facades);
+  if (!options.parts.objects.empty()) of_names.push_back(What::objects);
+  if (!options.parts.sensors.empty()) of_names.push_back(What::sensors);
+  if (of_names.size() > 1)
+    throw InputError({}, "names of more than one kind", "there is a table for each kind",
+                     "call info once for each, or list their --patches");
+  return of_names.empty() ? What::screen : of_names.front();
+}
+
+InfoOptions::What asked_for(const InfoOptions& options) {
+  using What = InfoOptions::What;
+  const What what = table_asked_for(options);
+  if (what == What::screen && options.format != InfoOptions::Format::text)
+    throw InputError({}, "--csv and --json are of tables", "the screen is for people",
+                     "add --facades, --objects, --sensors or --patches");
+  if (what == What::patches && options.format == InfoOptions::Format::json)
+    throw InputError({}, "--patches with --json", "it is CSV", "leave out --json");
+  if (what == What::patches && !options.parts.sensors.empty())
+    throw InputError({}, "--patches with --sensor", "sensors are no patches", "write --sensors");
+  return what;
+}
+
+void print_table(const ResultReader& result, TableOf of, const InfoOptions& options) {
+  const GroupTable table = group_table(result, of, options.parts);
+  switch (options.format) {
+    case InfoOptions::Format::csv:
+      std::cout << group_table_csv(table);
+      return;
+    case InfoOptions::Format::json:
+      std::cout << group_table_json(result, table);
+      return;
+    case InfoOptions::Format::text:
+      break;
+  }
+  std::cout << group_table_text(result, table);
+}
+
 void write_scene(const PolygonModel& model, const std::string& path) {
   if (path.ends_with(".obj")) return write_obj(model, path);
   if (path.ends_with(".json")) return write_cityjson(model, path);
@@ -90,9 +135,27 @@ std::optional<std::size_t> chosen_band(const std::string& name) {
   return name.empty() ? std::nullopt : std::optional(band_by_name(name));
 }
 
-int print_info(const NamedResult& named, InfoFormat format) {
-  const ResultReader result(named.path, chosen_band(named.band));
-  std::cout << (format == InfoFormat::patches_csv ? patches_csv(result) : info_text(result));
+int print_info(const InfoOptions& options) {
+  using What = InfoOptions::What;
+  const What what = asked_for(options);
+  const ResultReader result(options.result.path, chosen_band(options.result.band));
+  switch (what) {
+    case What::screen:
+      std::cout << info_text(result);
+      break;
+    case What::patches:
+      std::cout << patches_csv(result, options.parts);
+      break;
+    case What::facades:
+      print_table(result, TableOf::facades, options);
+      break;
+    case What::objects:
+      print_table(result, TableOf::objects, options);
+      break;
+    case What::sensors:
+      print_table(result, TableOf::sensors, options);
+      break;
+  }
   return exit_code::done;
 }
 
@@ -107,9 +170,10 @@ int compare(const CompareOptions& asked) {
   const ResultReader base(options.base, band);
   for (const auto& path : options.variants) {
     const ResultReader variant(path, band);
-    const Comparison comparison = compare_results(base, variant);
+    Comparison comparison = compare_results(base, variant);
     if (!options.differences.empty())
       write_comparison_hdf5(comparison, base, variant, options.differences);
+    keep_named(comparison, options.parts, path);
     std::cout << text_of(comparison, options.format);
   }
   return exit_code::done;

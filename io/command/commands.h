@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/picture/render.h"
+#include "io/result/named_parts.h"
 
 namespace sunload {
 
@@ -18,15 +19,22 @@ struct NamedResult {
   std::string band;  ///< red, green or blue of a result in bands; empty: their mean
 };
 
-/// What a result holds, on stdout.
-enum class InfoFormat { screen, patches_csv };
-int print_info(const NamedResult& result, InfoFormat format);
+struct InfoOptions {
+  NamedResult result;
+  enum class What { screen, patches, facades, objects, sensors };
+  std::vector<What> what;  ///< that was asked for; empty: what the names are of, or the screen
+  NamedParts parts;
+  enum class Format { text, csv, json } format = Format::text;
+};
+/// What a result holds, on stdout. Throws InputError for words that contradict each other.
+int print_info(const InfoOptions& options);
 
 struct CompareOptions {
   std::string base;                   ///< result file, or a study
   std::vector<std::string> variants;  ///< result files, or names of variants of the study
   std::string output;                 ///< folder of the study's results; empty: as it says
   std::string band;
+  NamedParts parts;  ///< rows of these alone; sensors are not compared
   enum class Format { table, csv, json } format = Format::table;
   std::string differences;  ///< HDF5 file of the differences, besides; empty: none
 };

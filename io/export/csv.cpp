@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 #include "geo/base/check.h"
 #include "geo/mesh/mesh.h"
@@ -11,6 +12,7 @@
 #include "io/base/light_quantity.h"
 #include "io/base/text.h"
 #include "io/export/format.h"
+#include "io/result/group_table.h"
 #include "io/result/patch_groups.h"
 #include "io/result/patches_csv.h"
 #include "io/result/schema.h"
@@ -28,7 +30,7 @@ void write_quantity(const ResultReader& result, const ExportRules& rules, std::o
       << (shown.is_series ? ",time_utc\n" : "\n");
   const std::string when =
       shown.is_series ? "," + iso_utc(result.doubles("time").at(shown.interval)) : "";
-  for (std::size_t i = 0; i < patches.area.size(); ++i)
+  for (const std::size_t i : chosen_patches(result, rules.parts))
     out << fmt::format(
         "{},{},{},{},{},{},{}{}\n", i,
         csv_text(patches.object_names.at(static_cast<std::size_t>(patches.object[i]))),
@@ -47,6 +49,39 @@ std::vector<std::string> time_columns(const ResultReader& result) {
   return names;
 }
 
+/// Names of a dataset that were asked for; none where no name of their kind was.
+template <class Chosen>
+std::vector<std::string> names_asked_for(const ResultReader& result, const NamedParts& parts,
+                                         const std::vector<std::string>& patterns,
+                                         const char* dataset, const Chosen& chosen) {
+  std::vector<std::string> asked;
+  if (patterns.empty()) return asked;
+  const auto names = result.strings(dataset);
+  for (const auto k : chosen(result, parts)) asked.push_back(names[k]);
+  return asked;
+}
+
+/// Groups that have a column: all, those of a kind (`--of`), or those that are named.
+std::vector<std::size_t> chosen_groups(const ResultReader& result, const ExportRules& rules,
+                                       const PatchGroups& groups) {
+  const auto& parts = rules.parts;
+  const auto facades = names_asked_for(result, parts, parts.facades, "facade_name", chosen_facades);
+  const auto objects = names_asked_for(result, parts, parts.objects, "object_name", chosen_objects);
+  const auto is_one_of = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  std::vector<std::size_t> chosen;
+  for (std::size_t g = 0; g < groups.groups().size(); ++g) {
+    const auto& group = groups.groups()[g];
+    const bool is_of_kind = rules.of.empty() || group.kind == rules.of;
+    const bool is_named = !parts.choose_patches() ||
+                          (group.kind == "facade" && is_one_of(facades, group.name)) ||
+                          (group.kind == "object" && is_one_of(objects, group.name));
+    if (is_of_kind && is_named) chosen.push_back(g);
+  }
+  return chosen;
+}
+
 /// Sun, sky, ledger, and the means of the irradiance over the whole, surfaces, objects and facades.
 void write_series(const ResultReader& result, const ExportRules& rules, std::ostream& out) {
   if (!rules.time.empty())
@@ -54,7 +89,12 @@ void write_series(const ResultReader& result, const ExportRules& rules, std::ost
                      "leave out --time");
   const std::string dataset = dataset_name("irradiance", result.quantity());
   const bool has_light = result.has(dataset);
+  if (rules.of == "patch" || rules.of == "sensor" || !rules.parts.sensors.empty())
+    throw InputError({}, "--quantity series of patches or sensors",
+                     "its columns are means over surfaces, objects and facades",
+                     "write --of facade or object, or read the result file itself");
   const PatchGroups groups(result);
+  const auto chosen = chosen_groups(result, rules, groups);
   std::vector<std::vector<double>> columns;
   out << "begin_utc,end_utc,sun_utc";
   for (const auto& name : time_columns(result)) {
@@ -62,29 +102,56 @@ void write_series(const ResultReader& result, const ExportRules& rules, std::ost
     columns.push_back(result.doubles(name));
   }
   if (has_light)
-    for (const auto& group : groups.groups())
+    for (const auto g : chosen) {
+      const auto& group = groups.groups()[g];
       out << ","
           << csv_text(column_name(result, dataset) + " " +
                       (group.kind == "whole" ? "whole" : group.kind + " " + group.name));
+    }
   out << "\n";
   const auto time = result.doubles("time"), bounds = result.doubles("time_bounds");
   for (std::size_t k = 0; k < time.size(); ++k) {
     out << iso_utc(bounds[2 * k]) << "," << iso_utc(bounds[2 * k + 1]) << "," << iso_utc(time[k]);
     for (const auto& column : columns) out << "," << csv_number(column[k]);
-    if (has_light)
-      for (const double mean : groups.means(result.row(dataset, k).data()))
-        out << "," << csv_number(mean);
+    if (has_light) {
+      const auto means = groups.means(result.row(dataset, k).data());
+      for (const auto g : chosen) out << "," << csv_number(means[g]);
+    }
     out << "\n";
   }
+}
+
+/// What `--of` names but for patches.
+std::optional<TableOf> table_of(const std::string& word) {
+  if (word.empty() || word == "patch") return {};
+  if (word == "facade") return TableOf::facades;
+  if (word == "object") return TableOf::objects;
+  if (word == "sensor") return TableOf::sensors;
+  throw InputError({}, "--of " + word, "no such table", "write patch, facade, object or sensor");
+}
+
+void expect_parts_of_patches(const ExportRules& rules) {
+  if (!rules.parts.sensors.empty())
+    throw InputError({}, "--sensor in a table of patches", "sensors are no patches",
+                     "add --of sensor");
 }
 
 }  // namespace
 
 void export_csv(const ResultReader& result, const ExportRules& rules, const ExportTarget& target) {
+  const auto of = table_of(rules.of);
+  if (rules.quantity == "series") return write_series(result, rules, target.stream);
+  if (of && (!rules.quantity.empty() || !rules.time.empty()))
+    throw InputError({}, "--of " + rules.of + " with --quantity or --time",
+                     "its columns are the totals",
+                     "leave them out, or write --quantity series for means at every instant");
+  if (of) {
+    target.stream << group_table_csv(group_table(result, *of, rules.parts));
+    return;
+  }
+  expect_parts_of_patches(rules);
   if (rules.quantity.empty() && rules.time.empty())
-    target.stream << patches_csv(result);
-  else if (rules.quantity == "series")
-    write_series(result, rules, target.stream);
+    target.stream << patches_csv(result, rules.parts);
   else
     write_quantity(result, rules, target.stream);
 }

@@ -125,12 +125,16 @@ void export_energyplus(const ResultReader& result, const ExportRules& rules,
   if (!rules.quantity.empty() || !rules.time.empty())
     throw InputError({}, "--quantity and --time with --to energyplus",
                      "the file holds the sunlit fractions of all intervals", "leave them out");
+  if (!rules.parts.objects.empty() || !rules.parts.sensors.empty())
+    throw InputError({}, "--object and --sensor with --to energyplus", "the file holds facades",
+                     "write --facade");
   const Year year = expected_year(result);
   const Direct direct = direct_light(result);
   const Facades facades(result);
   auto& out = target.stream;
   out << "Surface Name";
-  for (const auto& name : facades.names()) out << "," << csv_text(name);
+  const auto chosen = chosen_facades(result, rules.parts);
+  for (const auto f : chosen) out << "," << csv_text(facades.names()[f]);
   out << "\n";
   std::size_t unknown = 0;
   for (std::size_t k = 0; k < year.begin.size(); ++k) {
@@ -143,8 +147,8 @@ void export_energyplus(const ResultReader& result, const ExportRules& rules,
           "there is no value at the interval that ends " + end_text(year.begin[k], year.step_s),
           "finish the run");
     out << end_text(year.begin[k], year.step_s);
-    for (const double share : facades.sunlit(row, direct.normal[k], sun))
-      out << fmt::format(",{:.6g}", share);
+    const auto sunlit = facades.sunlit(row, direct.normal[k], sun);
+    for (const auto f : chosen) out << fmt::format(",{:.6g}", sunlit[f]);
     out << "\n";
   }
   if (unknown > 0)

@@ -18,24 +18,26 @@ namespace {
 
 enum class Content : std::uint8_t { text, bytes, reference };
 enum class Colours : std::uint8_t { none, of_patches, of_corners };
+enum class Parts : std::uint8_t { whole, named };  ///< whether it can hold some of the scene alone
 
 struct ExportFormat {
   std::string_view word;
   ExportWriter write;
   Content content;  ///< reference: names the result by its path from the file
   Colours colours;  ///< finest that the format has
+  Parts parts = Parts::whole;
 };
 
 constexpr std::array formats{
-    ExportFormat{"csv", export_csv, Content::text, Colours::none},
+    ExportFormat{"csv", export_csv, Content::text, Colours::none, Parts::named},
     ExportFormat{"vtk", export_vtk, Content::bytes, Colours::none},
     ExportFormat{"xdmf", export_xdmf, Content::reference, Colours::none},
     ExportFormat{"glb", export_glb, Content::bytes, Colours::of_corners},
     ExportFormat{"vrml", export_vrml, Content::text, Colours::of_corners},
     ExportFormat{"ply", export_ply, Content::bytes, Colours::of_patches},
     ExportFormat{"cityjson", export_cityjson, Content::text, Colours::none},
-    ExportFormat{"gpkg", export_geopackage, Content::bytes, Colours::none},
-    ExportFormat{"energyplus", export_energyplus, Content::text, Colours::none},
+    ExportFormat{"gpkg", export_geopackage, Content::bytes, Colours::none, Parts::named},
+    ExportFormat{"energyplus", export_energyplus, Content::text, Colours::none, Parts::named},
 };
 
 const ExportFormat& chosen_format(const std::string& word) {
@@ -63,6 +65,11 @@ void expect_heeded(const ExportFormat& format, const ExportRules& rules, const s
                  "must lie in [0, 180] degrees", "20 joins the facets of round towers");
   if (!rules.model.empty() && format.write != export_cityjson)
     problems.add({}, "--model with " + to, "only city models get values back", "use --to cityjson");
+  if (!rules.of.empty() && format.write != export_csv)
+    problems.add({}, "--of with " + to, "it chooses the rows of a table", "use --to csv");
+  if (!rules.parts.empty() && format.parts != Parts::named)
+    problems.add({}, "--facade, --object and --sensor with " + to, "it holds the whole scene",
+                 "leave them out, or export to csv or gpkg");
   if (format.content != Content::text && path.empty())
     problems.add({}, to + " needs a file", "it is not written to the standard output",
                  "add -o FILE." + std::string(format.word));

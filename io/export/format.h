@@ -64,8 +64,9 @@ void export_ply(const ResultReader&, const ExportRules&, const ExportTarget&);
 /// attributes, or CityJSON 2.0 of the patches. CityJSON specifications 2.0.1.
 void export_cityjson(const ResultReader&, const ExportRules&, const ExportTarget&);
 
-/// GeoPackage with the layers "patches" and "objects", surfaces with z, in the scene's CRS where it
-/// has one. OGC 12-128r18, GeoPackage Encoding Standard 1.3, written by GDAL.
+/// GeoPackage with the layers "patches", "objects" and "facades", surfaces with z, and "sensors",
+/// points with z, in the scene's CRS where it has one, and with styles for QGIS. OGC 12-128r18,
+/// GeoPackage Encoding Standard 1.3, written by GDAL.
 void export_geopackage(const ResultReader&, const ExportRules&, const ExportTarget&);
 
 /// Sunlit fraction of every facade at every step of a year, CSV: direct light by what an unshaded

@@ -8,13 +8,16 @@
 #include <ogr_api.h>
 #include <ogr_srs_api.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 
 #include "geo/base/check.h"
 #include "geo/mesh/mesh.h"
 #include "io/export/format.h"
+#include "io/export/qgis_style.h"
 #include "io/export/surface_values.h"
+#include "io/result/group_table.h"
 
 namespace sunload {
 namespace {
@@ -69,6 +72,11 @@ class Shapes {
     OGR_G_AddGeometryDirectly(polygon, ring);
     return polygon;
   }
+  static OGRGeometryH point(Vec3 at) {
+    OGRGeometryH shape = OGR_G_CreateGeometry(wkbPoint25D);
+    OGR_G_SetPoint(shape, 0, at.x, at.y, at.z);
+    return shape;
+  }
   OGRGeometryH all(const std::vector<std::size_t>& patches) const {
     OGRGeometryH shape = OGR_G_CreateGeometry(wkbMultiPolygon25D);
     for (const auto p : patches) OGR_G_AddGeometryDirectly(shape, triangle(p));
@@ -97,9 +105,9 @@ class Layer {
     for (const auto& [name, word] : words)
       OGR_F_SetFieldString(feature.get(), column(name), word.c_str());
     for (const auto& [name, value] : values)
-      if (const int place = column(name); place >= 0)
+      if (const int place = column(name); place >= 0 && std::isfinite(value))
         OGR_F_SetFieldDouble(feature.get(), place, value);
-    if (OGR_F_SetGeometryDirectly(feature.get(), shape) != OGRERR_NONE ||
+    if ((shape != nullptr && OGR_F_SetGeometryDirectly(feature.get(), shape) != OGRERR_NONE) ||
         OGR_L_CreateFeature(layer_, feature.get()) != OGRERR_NONE)
       fail("a row");
   }
@@ -121,31 +129,158 @@ std::string name_at(const std::vector<std::string>& names, std::int32_t place) {
   return place < 0 ? std::string() : names.at(static_cast<std::size_t>(place));
 }
 
-void write_layers(const ResultReader& result, const ExportRules& rules, GDALDatasetH file,
-                  OGRSpatialReferenceH crs) {
-  const ResultPatches patches(result);
-  const SurfaceValues values(result, rules);
-  const Shapes shapes(patches);
-  const auto facades = result.strings("facade_name"), materials = result.strings("material_name");
-  const auto facade = result.integers("patch_facade"), material = result.integers("patch_material"),
-             surface = result.integers("patch_surface"), side = result.integers("patch_side");
-  std::vector<std::vector<std::size_t>> of_object(patches.object_names.size());
-  Layer rows(file, "patches", crs, wkbPolygon25D);
-  for (std::size_t p = 0; p < patches.corners.size(); ++p) {
-    rows.add({{"object", name_at(patches.object_names, patches.object[p])},
-              {"facade", name_at(facades, facade[p])},
-              {"surface", surface_names[static_cast<std::size_t>(surface[p])]},
-              {"material", name_at(materials, material[p])},
-              {"side", side[p] == 0 ? "front" : "back"}},
-             values.of({p}), shapes.triangle(p));
-    if (side[p] == 0) of_object[static_cast<std::size_t>(patches.object[p])].push_back(p);
-  }
-  Layer objects(file, "objects", crs, wkbMultiPolygon25D);
-  for (std::size_t k = 0; k < of_object.size(); ++k)
-    if (!of_object[k].empty())
-      objects.add({{"object", patches.object_names[k]}}, values.of(of_object[k]),
-                  shapes.all(of_object[k]));
+/// What columns of numbers are called, as in `SurfaceValues`.
+std::string sunload_name(const std::string& key) { return "sunload_" + key; }
+
+SurfaceValues::Named numbers(const GroupTable& table, std::size_t row) {
+  SurfaceValues::Named named;
+  for (const auto& column : table.columns)
+    named.emplace_back(sunload_name(column.key), column.values[row]);
+  return named;
 }
+
+/// The layers of a result, one function for each.
+class ResultLayers {
+ public:
+  ResultLayers(const ResultReader& result, const ExportRules& rules, GDALDatasetH file,
+               OGRSpatialReferenceH crs)
+      : result_(result),
+        rules_(rules),
+        file_(file),
+        crs_(crs),
+        patches_(result),
+        values_(result, rules),
+        shapes_(patches_),
+        shown_(export_quantity(result, rules)),
+        largest_(scale_end(rules.largest, shown_.values, patches_.area)),
+        side_(result.integers("patch_side")) {}
+
+  void write() {
+    const auto& parts = rules_.parts;
+    const bool is_all = parts.empty();
+    if (is_all || parts.choose_patches()) write_patches();
+    if (is_all || !parts.objects.empty()) write_objects();
+    if ((is_all && !result_.strings("facade_name").empty()) || !parts.facades.empty())
+      write_facades();
+    if ((is_all && result_.has("sensor_position")) || !parts.sensors.empty()) write_sensors();
+    write_styles();
+  }
+
+ private:
+  void write_patches() {
+    const auto facades = result_.strings("facade_name"),
+               materials = result_.strings("material_name");
+    const auto facade = result_.integers("patch_facade"),
+               material = result_.integers("patch_material"),
+               surface = result_.integers("patch_surface");
+    Layer rows(file_, "patches", crs_, wkbPolygon25D);
+    for (const auto p : chosen_patches(result_, rules_.parts))
+      rows.add({{"object", name_at(patches_.object_names, patches_.object[p])},
+                {"facade", name_at(facades, facade[p])},
+                {"surface", surface_names[static_cast<std::size_t>(surface[p])]},
+                {"material", name_at(materials, material[p])},
+                {"side", side_[p] == 0 ? "front" : "back"}},
+               values_.of({p}), shapes_.triangle(p));
+    styled("patches", StyledAs::areas);
+  }
+
+  void write_objects() {
+    const auto of_object = fronts_by(patches_.object, patches_.object_names.size());
+    Layer rows(file_, "objects", crs_, wkbMultiPolygon25D);
+    for (const auto k : chosen_objects(result_, rules_.parts))
+      if (!of_object[k].empty())
+        rows.add({{"object", patches_.object_names[k]}}, values_.of(of_object[k]),
+                 shapes_.all(of_object[k]));
+    styled("objects", StyledAs::areas);
+  }
+
+  /// The numbers of the table of facades; of a quantity that was asked for, its mean.
+  void write_facades() {
+    NamedParts parts;
+    parts.facades = rules_.parts.facades;
+    const auto table = group_table(result_, TableOf::facades, parts);
+    const auto of_facade =
+        fronts_by(result_.integers("patch_facade"), result_.strings("facade_name").size());
+    Layer rows(file_, "facades", crs_, wkbMultiPolygon25D);
+    for (std::size_t row = 0; row < table.names.size(); ++row) {
+      const auto& own = of_facade[table.entries[row]];
+      if (own.empty()) continue;
+      rows.add({{"facade", table.names[row]},
+                {"object", name_at(patches_.object_names, patches_.object[own.front()])}},
+               rules_.quantity.empty() ? numbers(table, row) : values_.of(own), shapes_.all(own));
+    }
+    styled("facades", StyledAs::outlines);
+  }
+
+  /// Their own totals, whatever quantity of patches was asked for.
+  void write_sensors() {
+    NamedParts parts;
+    parts.sensors = rules_.parts.sensors;
+    const auto table = group_table(result_, TableOf::sensors, parts);
+    const auto position = result_.doubles("sensor_position");
+    Layer rows(file_, "sensors", crs_, wkbPoint25D);
+    for (std::size_t row = 0; row < table.names.size(); ++row) {
+      const double* at = position.data() + 3 * table.entries[row];
+      rows.add({{"sensor", table.names[row]}}, numbers(table, row),
+               Shapes::point(patches_.origin + Vec3{at[0], at[1], at[2]}));
+    }
+    const auto load = result_.doubles("sensor_light_load");
+    styles_.push_back({"sensors", "light load",
+                       qgis_style(sunload_name(unit_names("light_load_kwh_m2", result_.quantity())),
+                                  scale_end({}, load, std::vector<double>(load.size(), 1)),
+                                  palette(), StyledAs::dots)});
+  }
+
+  std::vector<std::vector<std::size_t>> fronts_by(const std::vector<std::int32_t>& entry,
+                                                  std::size_t count) const {
+    std::vector<std::vector<std::size_t>> patches(count);
+    for (std::size_t p = 0; p < entry.size(); ++p)
+      if (entry[p] >= 0 && side_[p] == 0) patches[static_cast<std::size_t>(entry[p])].push_back(p);
+    return patches;
+  }
+
+  Palette palette() const { return rules_.palette.value_or(Palette::false_colour); }
+
+  void styled(const char* layer, StyledAs as) {
+    styles_.push_back(
+        {layer, shown_.name,
+         qgis_style(sunload_name(column_name(result_, shown_.dataset)), largest_, palette(), as)});
+  }
+
+  /// The table in which QGIS looks for styles, with the columns that it makes itself.
+  void write_styles() {
+    Layer rows(file_, "layer_styles", nullptr, wkbNone);
+    for (const auto& style : styles_)
+      rows.add({{"f_table_catalog", ""},
+                {"f_table_schema", ""},
+                {"f_table_name", style.layer},
+                {"f_geometry_column", "geom"},
+                {"styleName", style.name},
+                {"styleQML", style.qml},
+                {"styleSLD", ""},
+                {"description", export_caption(result_, shown_)},
+                {"owner", ""},
+                {"ui", ""},
+                {"update_time", ""}},
+               {{"useAsDefault", 1}}, nullptr);
+  }
+
+  struct Style {
+    std::string layer, name, qml;
+  };
+
+  const ResultReader& result_;
+  const ExportRules& rules_;
+  GDALDatasetH file_;
+  OGRSpatialReferenceH crs_;
+  ResultPatches patches_;
+  SurfaceValues values_;
+  Shapes shapes_;
+  ShownQuantity shown_;
+  double largest_;
+  std::vector<std::int32_t> side_;
+  std::vector<Style> styles_;
+};
 
 }  // namespace
 
@@ -167,7 +302,7 @@ void export_geopackage(const ResultReader& result, const ExportRules& rules,
     OSRSetAxisMappingStrategy(crs.get(), OAMS_TRADITIONAL_GIS_ORDER);
     // One transaction: a row for itself would be flushed for itself.
     GDALDatasetStartTransaction(file.get(), FALSE);
-    write_layers(result, rules, file.get(), has_crs ? crs.get() : nullptr);
+    ResultLayers(result, rules, file.get(), has_crs ? crs.get() : nullptr).write();
     if (GDALDatasetCommitTransaction(file.get()) != OGRERR_NONE) fail(target.path);
   }
   target.stream << memory.bytes();

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "io/base/key_names.h"
+#include "io/base/name_pattern.h"
 #include "io/study/material_table.h"
 #include "solver/surface/clear_glass.h"
 
@@ -380,28 +381,6 @@ class MaterialAssigner {
 };
 
 }  // namespace
-
-bool matches(const std::string& pattern, const std::string& text) {
-  if (pattern.empty()) return true;
-  // Greedy matching with one backtracking point: the last `*` seen.
-  std::size_t p = 0, t = 0, star = std::string::npos, resume = 0;
-  while (t < text.size()) {
-    if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t]) && pattern[p] != '*') {
-      ++p;
-      ++t;
-    } else if (p < pattern.size() && pattern[p] == '*') {
-      star = p++;
-      resume = t;
-    } else if (star != std::string::npos) {
-      p = star + 1;
-      t = ++resume;
-    } else {
-      return false;
-    }
-  }
-  while (p < pattern.size() && pattern[p] == '*') ++p;
-  return p == pattern.size();
-}
 
 std::vector<RuleUse> assign_materials(const Study& study, Scene& scene,
                                       std::vector<std::string>& warnings) {

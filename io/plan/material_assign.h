@@ -42,7 +42,4 @@ std::vector<RuleUse> assign_materials(const Study& study, Scene& scene,
 /// table 8.2: urban areas 0.10 … 0.27, mean of the range's upper half).
 inline constexpr double default_reflectance = 0.2;
 
-/// Whether `text` matches a pattern with `*` and `?`.
-bool matches(const std::string& pattern, const std::string& text);
-
 }  // namespace sunload

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "geo/base/check.h"
+#include "io/base/name_pattern.h"
 #include "io/base/statistics.h"
 #include "io/result/common_area.h"
 #include "io/result/patch_groups.h"
@@ -183,6 +184,34 @@ Comparison compare_results(const ResultReader& base, const ResultReader& variant
     comparison.rows.push_back(lonely_row(v, g, Present::variant));
   correct_within_kinds(comparison.rows);
   return comparison;
+}
+
+void keep_named(Comparison& comparison, const NamedParts& parts, const std::string& path) {
+  if (!parts.choose_patches()) return;
+  std::vector<char> is_kept(comparison.rows.size(), 0);
+  Problems problems;
+  const auto keep = [&](const std::string& kind, const std::vector<std::string>& patterns) {
+    if (patterns.empty()) return;
+    std::vector<std::size_t> rows;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
+      if (comparison.rows[i].kind != kind) continue;
+      rows.push_back(i);
+      names.push_back(comparison.rows[i].name);
+    }
+    try {
+      for (const auto k : matching_names(patterns, names, kind, path)) is_kept[rows[k]] = 1;
+    } catch (const InputError& error) {
+      problems.add(error);
+    }
+  };
+  keep("facade", parts.facades);
+  keep("object", parts.objects);
+  problems.throw_if_any();
+  std::vector<ComparisonRow> rows;
+  for (std::size_t i = 0; i < is_kept.size(); ++i)
+    if (is_kept[i]) rows.push_back(std::move(comparison.rows[i]));
+  comparison.rows = std::move(rows);
 }
 
 }  // namespace sunload

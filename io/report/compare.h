@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "io/result/named_parts.h"
 #include "io/result/reader.h"
 
 namespace sunload {
@@ -48,6 +49,10 @@ struct Comparison {
 
 /// Throws InputError where a result has no light load or the units differ.
 Comparison compare_results(const ResultReader& base, const ResultReader& variant);
+
+/// Keeps the rows of the facades and objects that are named (all where nothing is); p-values stay
+/// corrected for all groups of their kind. Throws InputError for names that neither result has.
+void keep_named(Comparison& comparison, const NamedParts& parts, const std::string& path);
 
 /// Table for people: significant differences first within each kind.
 std::string comparison_table(const Comparison& comparison);

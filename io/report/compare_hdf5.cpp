@@ -88,6 +88,17 @@ class ComparisonFile {
     scales_.emplace(name, scale);
   }
 
+  /// A dimension whose entries have names.
+  void labels(const std::string& name, const std::vector<std::string>& names) {
+    sizes_[name] = names.size();
+    const auto* of = find_result_variable(name);
+    auto scale = file_.create_dataset(name, {of->type, {names.size()}, {}, 0});
+    scale.make_scale(name);
+    scale.set("long_name", std::string(of->long_name));
+    scale.write(names);
+    scales_.emplace(name, scale);
+  }
+
   template <class Value>
   h5::Dataset put(const std::string& name, const std::vector<std::string>& dims, h5::Type type,
                   const std::string& units, const std::string& long_name,
@@ -179,7 +190,7 @@ void put_facades(ComparisonFile& file, const Comparison& comparison, const Resul
     return list;
   };
   const std::vector<std::string> dims{"facade"};
-  file.dimension("facade", names.size());
+  file.labels("facade", names);
   file.put("facade_name", dims, h5::Type::text, "", "name of the facade", names);
   file.put("facade_light_load_difference", dims, h5::Type::float64, comparison.units,
            "variant minus base, area-weighted means",
@@ -195,7 +206,7 @@ void put_mesh(ComparisonFile& file, const ResultReader& base) {
   file.dimension("corner", axes);
   file.dimension("vertex", base.shape("vertex_position").front());
   file.dimension("patch", base.shape("patch_area").front());
-  file.dimension("object", base.strings("object_name").size());
+  file.labels("object", base.strings("object_name"));
   for (const char* name : {"object_name", "vertex_position", "vertex_x", "vertex_y", "vertex_z",
                            "patch_vertices", "patch_area", "patch_centroid", "patch_normal",
                            "patch_object", "patch_facade", "patch_surface", "patch_side"}) {

@@ -79,6 +79,12 @@ void ResultWriter::File::create_dimension(const std::string& name, std::size_t s
   scales.emplace(name, scale);
 }
 
+void ResultWriter::File::put_labels(const std::string& dimension,
+                                    const std::vector<std::string>& names) {
+  sizes[dimension] = names.size();
+  put(dimension, names);
+}
+
 h5::Dataset ResultWriter::File::create(const ResultVariable& of,
                                        const std::vector<std::string>& dims) {
   h5::DatasetSpec spec{of.type, {}, {}, options.compression};
@@ -93,7 +99,7 @@ h5::Dataset ResultWriter::File::create(const ResultVariable& of,
     spec.chunk.back() = shape.columns;
   }
   h5::Dataset dataset = file->create_dataset(std::string(of.name), spec);
-  if (of.name == "time" || of.name == "band") {
+  if (is_coordinate_of_itself(of)) {
     dataset.make_scale(std::string(of.name));
     scales.emplace(std::string(of.name), dataset);
   } else {
@@ -124,9 +130,9 @@ void ResultWriter::File::put_dimensions(const ResultGeometry& geometry) {
   create_dimension("vertex", geometry.vertices.size());
   create_dimension("patch", geometry.patch_vertices.size());
   create_dimension("input_triangle", geometry.input_triangle_vertices.size());
-  create_dimension("object", geometry.object_name.size());
-  create_dimension("facade", geometry.facade_name.size());
-  create_dimension("material", geometry.material_name.size());
+  put_labels("object", geometry.object_name);
+  put_labels("facade", geometry.facade_name);
+  put_labels("material", geometry.material_name);
   create_dimension("realization", options.realizations);
   if (!geometry.sensor_position.empty())
     create_dimension("sensor", geometry.sensor_position.size());

@@ -56,6 +56,8 @@ struct ResultWriter::File {
   }
 
   void create_dimension(const std::string& name, std::size_t size);
+  /// A dimension whose entries have names.
+  void put_labels(const std::string& dimension, const std::vector<std::string>& names);
   /// A dataset with the attributes of the schema; `dims` may differ from it.
   h5::Dataset create(const ResultVariable& of, const std::vector<std::string>& dims);
   std::vector<std::string> dimensions_of(const ResultVariable& of) const;

@@ -51,7 +51,7 @@ class Names {
 
 }  // namespace
 
-std::string patches_csv(const ResultReader& result) {
+std::string patches_csv(const ResultReader& result, const NamedParts& parts) {
   const Names objects(result.strings("object_name")), facades(result.strings("facade_name")),
       materials(result.strings("material_name")),
       surfaces({surface_names.begin(), surface_names.end()});
@@ -70,7 +70,7 @@ std::string patches_csv(const ResultReader& result) {
   for (const auto& column : columns)
     fmt::format_to(out, ",{}", unit_names(column.header, result.quantity()));
   fmt::format_to(out, "\n");
-  for (std::size_t i = 0; i < area.size(); ++i) {
+  for (const std::size_t i : chosen_patches(result, parts)) {
     fmt::format_to(out, "{},{},{},{},{},{},{}", i, objects[object[i]], facades[facade[i]],
                    surfaces[surface[i]], materials[material[i]], side[i], csv_number(area[i]));
     for (const auto* vectors : {&centroid, &normal})

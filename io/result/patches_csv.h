@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "io/result/named_parts.h"
 #include "io/result/reader.h"
 
 namespace sunload {
@@ -13,6 +14,7 @@ namespace sunload {
 /// side, area, centroid and normal in the scene frame (add the attribute
 /// `origin` for absolute coordinates), light load with its standard error and
 /// parts, sun hours, power load. Empty where the result lacks a value.
-std::string patches_csv(const ResultReader& result);
+/// `parts`: patches of these facades and objects alone.
+std::string patches_csv(const ResultReader& result, const NamedParts& parts = {});
 
 }  // namespace sunload

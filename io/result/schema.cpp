@@ -37,6 +37,9 @@ constexpr std::array table{
     ResultVariable{"global_horizontal_illuminance", "time", float64, "lx", sun, "global horizontal illuminance (light.quantity: illuminance)", "", interval_mean},
 
     ResultVariable{"band", "band", text, "", coordinate, "band of the light: red, green, blue (solver.bands: rgb)"},
+    ResultVariable{"object", "object", text, "", coordinate, "name of the object, as label of its dimension"},
+    ResultVariable{"facade", "facade", text, "", coordinate, "name of the facade, as label of its dimension"},
+    ResultVariable{"material", "material", text, "", coordinate, "name of the material, as label of its dimension"},
 
     // Mesh: patches are the leaves of the frozen hierarchy.
     ResultVariable{"vertex_position", "vertex,xyz", float64, "m", coordinate, "position in the scene frame, relative to the attribute origin"},
@@ -180,6 +183,10 @@ const ResultVariable* find_result_variable(std::string_view name, Quantity quant
     if (variable.name == name) return &variable;
   }
   return nullptr;
+}
+
+bool is_coordinate_of_itself(const ResultVariable& variable) {
+  return variable.dims == variable.name;
 }
 
 std::vector<std::string> dimension_names(const ResultVariable& variable) {

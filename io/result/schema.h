@@ -42,6 +42,8 @@ std::span<const ResultVariable> result_schema(Quantity quantity = Quantity::irra
 /// Null where the schema has no such dataset.
 const ResultVariable* find_result_variable(std::string_view name,
                                            Quantity quantity = Quantity::irradiance);
+/// Whether it is the variable of its own dimension: `time`, `band`, or names as labels.
+bool is_coordinate_of_itself(const ResultVariable& variable);
 /// "time,patch" → {"time", "patch"}.
 std::vector<std::string> dimension_names(const ResultVariable& variable);
 /// Whether there is a value per band in a result of light in bands: series, totals and the ledger,

@@ -80,12 +80,18 @@ constexpr std::array ranges{
     Range{"global_horizontal_illuminance", 0, largest_irradiance, "no illuminance"},
 };
 
+/// Names as labels of their dimension: `band`, `facade` … Results made before there were labels
+/// have a scale without values in their place.
+bool is_label(const ResultVariable& variable) {
+  return is_coordinate_of_itself(variable) && variable.type == h5::Type::text;
+}
+
 /// Whether no command does without it: times, sun and patches, but not what only some studies have.
 bool is_indispensable(const ResultVariable& variable) {
   const bool is_of_all_results = variable.part == ResultPart::coordinate ||
                                  variable.part == ResultPart::geometry ||
                                  variable.part == ResultPart::sun;
-  return is_of_all_results && variable.name != "band" && variable.name != "mesh" &&
+  return is_of_all_results && !is_label(variable) && variable.name != "mesh" &&
          !variable.name.starts_with("vertex_x") && !variable.name.starts_with("vertex_y") &&
          !variable.name.starts_with("vertex_z") && !variable.name.starts_with("sensor_") &&
          !variable.name.ends_with("_illuminance");
@@ -119,6 +125,7 @@ class Examination {
   void shapes() {
     for (const auto& variable : result_schema(quantity_)) {
       const std::string name(variable.name);
+      if (file_.has(name) && is_bare_scale(variable)) continue;
       if (file_.has(name))
         shape(variable, file_.dataset(name));
       else if (is_indispensable(variable))
@@ -161,6 +168,11 @@ class Examination {
  private:
   void add(const std::string& what, const std::string& why) {
     problems_.add({path_}, what, why, "another program has changed it: run the study again");
+  }
+
+  bool is_bare_scale(const ResultVariable& variable) const {
+    return is_label(variable) && variable.name != "band" &&
+           file_.dataset(std::string(variable.name)).kind() == h5::ValueKind::real;
   }
 
   std::vector<std::vector<std::string>> allowed_dims(const ResultVariable& variable) const {

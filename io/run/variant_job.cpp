@@ -73,7 +73,8 @@ void VariantJob::expect_may_run() const {
   if (!hash) return;
   if (hash != folder_.content_hash())
     throw of_another_state(folder_.result(), "use --overwrite to replace it, or --output");
-  if (work_.options.existing == Existing::refuse)
+  // Of a shard's variants others may be finished by other shards before it comes.
+  if (work_.options.existing == Existing::refuse && work_.options.shard.is_whole())
     throw InputError({folder_.result()}, "is there already, of this very study",
                      "nothing is left to compute",
                      "use --resume to accept it, or --overwrite to compute it again");

@@ -464,7 +464,7 @@ def test_geopackage(exports):
     ran = exports.run("export", "results/city/fine.h5", "--to", "gpkg", "-o", path)
     assert ran.returncode == 0, ran.stderr
     data = sqlite3.connect(path)
-    assert data.execute("SELECT organization_coordsys_id FROM gpkg_geometry_columns JOIN gpkg_spatial_ref_sys USING (srs_id)").fetchall() == [(7415,)] * 2
+    assert data.execute("SELECT organization_coordsys_id FROM gpkg_geometry_columns JOIN gpkg_spatial_ref_sys USING (srs_id)").fetchall() == [(7415,)] * 3
     rows = data.execute("SELECT object, sunload_light_load_kwh_m2, geom FROM patches ORDER BY fid").fetchall()
     with h5py.File(os.path.join(exports.folder, "results/city/fine.h5"), "r") as result:
         names = list(result["object_name"].asstr())
@@ -482,6 +482,30 @@ def test_geopackage(exports):
         for k, name in enumerate(names):
             own = np.flatnonzero((result["patch_object"][()] == k) & (result["patch_side"][()] == 0))
             assert np.isclose(objects[name], mean_and_error(result, own)[0], 1e-6)
+        facades = data.execute("SELECT facade, sunload_light_load_kwh_m2, sunload_light_load_se_kwh_m2, sunload_azimuth_deg, "
+                               "sunload_energy_kwh FROM facades ORDER BY fid").fetchall()
+        assert [row[0] for row in facades] == list(result["facade_name"].asstr())
+        area = np.bincount(result["patch_facade"][()][result["patch_facade"][()] >= 0],
+                           result["patch_area"][()][result["patch_facade"][()] >= 0])
+        expected = np.transpose([result["facade_light_load"][()], result["facade_light_load_se"][()],
+                                 result["facade_azimuth"][()], result["facade_light_load"][()] * area])
+        assert np.allclose([row[1:] for row in facades], expected, 1e-9)
+    styles = dict(data.execute("SELECT f_table_name, styleQML FROM layer_styles WHERE f_table_schema = '' AND "
+                               "f_geometry_column = 'geom' AND useAsDefault").fetchall())
+    assert set(styles) == {"patches", "objects", "facades"}, set(styles)
+    for layer, qml in styles.items():
+        renderer = xml.fromstring(qml.split("'SYSTEM'>")[1]).find("renderer-v2")
+        ranges = renderer.findall("ranges/range")
+        assert renderer.get("type") == "graduatedSymbol" and len(ranges) == len(renderer.findall("symbols/symbol")) == 10
+        data.execute(f"SELECT {renderer.get('attr')} FROM {layer}").fetchone()
+        assert [one.get("lower") for one in ranges[1:]] == [one.get("upper") for one in ranges[:-1]]
+    data.close()
+    ran = exports.run("export", "results/city/fine.h5", "--to", "gpkg", "-o", os.path.join(exports.folder, "b.gpkg"),
+                      "--facade", facades[0][0])
+    assert ran.returncode == 0, ran.stderr
+    data = sqlite3.connect(os.path.join(exports.folder, "b.gpkg"))
+    assert data.execute("SELECT count(*) FROM facades").fetchone() == (1,)
+    assert data.execute("SELECT DISTINCT facade FROM patches").fetchall() == [(facades[0][0],)]
     data.close()
 
 

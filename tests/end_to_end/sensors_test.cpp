@@ -77,6 +77,30 @@ TEST(SensorStudy, ResultHasWhatPatchesHave) {
   EXPECT_NE(check.out.find("3 points"), std::string::npos) << check.out;
 }
 
+TEST(SensorStudy, TablesAndGeoPackageHaveThem) {
+  const Square square;
+  ASSERT_EQ(square.run("a").code, 0);
+  const std::string path = square.result("a");
+  const Ran csv = program(square.folder, {"info", path, "--sensor", "0", "--sensor", "1", "--csv"});
+  ASSERT_EQ(csv.code, 0) << csv.err;
+  const ResultReader result(path);
+  const auto load = result.doubles("sensor_light_load"),
+             se = result.doubles("sensor_light_load_se");
+  EXPECT_NE(csv.out.find(fmt::format("\n0,180,,{:.9g},{:.9g},,,", load[0], se[0])),
+            std::string::npos)
+      << csv.out;
+  EXPECT_NE(csv.out.find(",0,-5,1.5\n1,,,"), std::string::npos) << csv.out;
+  EXPECT_EQ(program(square.folder, {"info", path, "--sensor", "7"}).code, 2);
+  ASSERT_EQ(program(square.folder, {"export", path, "--to", "gpkg", "-o", "a.gpkg"}).code, 0);
+  const Ran rows =
+      python(square.folder,
+             "import sqlite3; print(sqlite3.connect('a.gpkg').execute('SELECT sensor, "
+             "sunload_light_load_kwh_m2, sunload_azimuth_deg FROM sensors').fetchall())");
+  EXPECT_EQ(rows.out.find("[('0', "), 0u) << rows.out << rows.err;
+  EXPECT_NE(rows.out.find(", 180.0), ('1', "), std::string::npos) << rows.out;
+  EXPECT_NE(rows.out.find(", None)]"), std::string::npos) << rows.out;
+}
+
 TEST(SensorStudy, ChangesNoPatchAndHasTheSameBitsByShardsThreadsAndFile) {
   const Square square("");
   ASSERT_EQ(square.run("without").code, 0);

@@ -83,6 +83,38 @@ TEST(Shards, OneAfterAnotherGiveTheSameBits) {
   EXPECT_EQ(program(folder, {"merge", "street.yaml"}).code, 0);
 }
 
+TEST(Shards, ByHandForAnyNumberOfVariants) {
+  // Variants of one batch: each shard finishes some, and finds those of the others.
+  const auto study = [](const std::string& plaster) {
+    auto text = std::regex_replace(square_study(), std::regex("batch_suns: 2"), "batch_suns: 12");
+    text = std::regex_replace(text, std::regex("plaster: \\{diffuse: 0.6\\}"),
+                              "plaster: {diffuse: " + plaster + "}");
+    text += "variants:\n";
+    for (const char* name : {"a", "b", "c", "d"}) text += std::string("  - {name: ") + name + "}\n";
+    return text;
+  };
+  const WorkFolder folder;
+  folder.write("square.obj", square_obj);
+  folder.write("square.yaml", study("0.6"));
+  const auto run = [&](const std::string& shard) {
+    return program(folder, {"run", "square.yaml", "--shard", shard});
+  };
+  for (const char* shard : {"0/3", "1/3", "2/3"}) {
+    const Ran ran = run(shard);
+    EXPECT_EQ(ran.code, 0) << shard << "\n" << ran.err;
+  }
+  EXPECT_EQ(files(folder, ".h5").size(), 4u);
+  // Once more there is nothing to do; without --shard it is refused as ever.
+  EXPECT_EQ(run("1/3").code, 0);
+  EXPECT_EQ(program(folder, {"run", "square.yaml"}).code, 2);
+  // Results of another study are no shard's.
+  folder.write("square.yaml", study("0.5"));
+  const Ran other = run("1/3");
+  EXPECT_EQ(other.code, 2) << other.err;
+  EXPECT_NE(other.err.find("is the result of another state of the study"), std::string::npos)
+      << other.err;
+}
+
 TEST(Shards, AtTheSameTimeGiveTheSameBits) {
   const WorkFolder folder;
   folder.write("street.yaml", street_study());

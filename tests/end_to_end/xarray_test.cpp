@@ -34,6 +34,9 @@ const nlohmann::json promised = {
     {"patch_side", {"patch", ""}},
     {"input_triangle_vertices", {"input_triangle corner", ""}},
     {"patch_input_triangle", {"patch", ""}},
+    {"object", {"object", ""}},
+    {"facade", {"facade", ""}},
+    {"material", {"material", ""}},
     {"object_name", {"object", ""}},
     {"facade_name", {"facade", ""}},
     {"material_name", {"material", ""}},
@@ -91,6 +94,14 @@ assert data.time.values[0] >= data.time_bounds.values[0][0]
 for name in ('title', 'source', 'history', 'Conventions', 'sunload_format', 'study_sha256', 'variant',
              'seed', 'realizations', 'isa', 'timezone', 'sun_sampling'):
     assert name in data.attrs, name
+# Names are labels; indices count in the datasets of names, as ever.
+facades = data.facade_irradiance.to_pandas()
+assert list(facades.columns) == list(data.facade_name.values) and len(facades.columns) > 4
+assert facades.columns.name == 'facade' and facades.index.name == 'time'
+south = data.facade_light_load.sel(facade='house_1/south_1')
+assert south == data.facade_light_load[list(data.facade_name.values).index('house_1/south_1')]
+assert list(data.object.values) == list(data.object_name.values)
+assert list(data.material.values) == list(data.material_name.values)
 assert open(sys.argv[3]).read() == str(data.study_yaml.values)
 data.load()
 for name, variable in data.variables.items():

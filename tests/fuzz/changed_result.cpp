@@ -204,10 +204,20 @@ std::string changed_result(Valid which, const std::vector<ChangeAt>& changes) {
   return path;
 }
 
+void tables(const ResultReader& result, TableOf of) {
+  const GroupTable table = group_table(result, of, {});
+  group_table_csv(table);
+  group_table_text(result, table);
+  group_table_json(result, table);
+}
+
 std::size_t read_by_all(const std::string& path, Valid which) {
   const ResultReader result(path), base(valid_result(which));
   std::vector<std::function<void()>> commands{[&] { info_text(result); },
                                               [&] { patches_csv(result); },
+                                              [&] { tables(result, TableOf::facades); },
+                                              [&] { tables(result, TableOf::objects); },
+                                              [&] { tables(result, TableOf::sensors); },
                                               [&] {
                                                 ViewBlocks blocks;
                                                 view_data(result, 1, blocks);

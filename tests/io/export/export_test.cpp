@@ -133,6 +133,36 @@ TEST(Export, TablesHaveARowPerPatchOrTime) {
       << last << " " << 200 * sum / whole;
 }
 
+TEST(Export, TablesAreOfWhatIsNamed) {
+  const auto path = write_small_result({}, "export_named");
+  ExportRules rules;
+  rules.format = "csv";
+  rules.parts.facades = {"house_1/*"};
+  const auto patches = exported(path, rules);
+  EXPECT_EQ(std::count(patches.begin(), patches.end(), '\n'), 1 + 4 * 8);
+  rules.of = "facade";
+  const auto facades = exported(path, rules);
+  EXPECT_EQ(facades.rfind("name,azimuth_deg,area_m2,light_load_kwh_m2,", 0), 0u) << facades;
+  EXPECT_EQ(std::count(facades.begin(), facades.end(), '\n'), 1 + 4);
+  rules.quantity = "series";
+  const auto series = exported(path, rules);
+  EXPECT_NE(series.find("facade house_1/north_1,"), std::string::npos) << series;
+  EXPECT_EQ(series.find("whole"), std::string::npos) << series;
+  EXPECT_EQ(series.find("house_2"), std::string::npos) << series;
+  rules.of = "roof";
+  EXPECT_NE(refusal(rules, "a.csv").find("--of roof (no such table)"), std::string::npos);
+  rules.of = "facade";
+  rules.quantity = "light_load";
+  EXPECT_NE(refusal(rules, "a.csv").find("its columns are the totals"), std::string::npos);
+  rules = {};
+  rules.format = "glb";
+  rules.of = "facade";
+  rules.parts.objects = {"house_1"};
+  const auto both = refusal(rules, "a.glb");
+  EXPECT_NE(both.find("use --to csv"), std::string::npos) << both;
+  EXPECT_NE(both.find("it holds the whole scene"), std::string::npos) << both;
+}
+
 TEST(Export, CornersAreMeansWithinTheCreaseAngle) {
   const ResultReader result(write_small_result({}, "export_crease"));
   const ResultPatches patches(result);

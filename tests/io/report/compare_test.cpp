@@ -9,6 +9,7 @@
 #include <limits>
 #include <random>
 
+#include "geo/base/check.h"
 #include "geo/base/units.h"
 #include "io/base/statistics.h"
 #include "tests/support/result_change.h"
@@ -261,6 +262,20 @@ TEST(Compare, CsvHeaderIsTheContract) {
   // whole, 4 surfaces, 4 objects, 8 facades
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 1 + 4 + 4 + 8);
   EXPECT_EQ(csv.find("nan"), std::string::npos);
+}
+
+TEST(Compare, NamedRowsAloneWithTheCorrectionOfAll) {
+  const ResultReader base(write_small_result({}, "named_base")),
+      variant(write_small_result({}, "named_variant"));
+  const auto all = compare_results(base, variant);
+  auto some = all;
+  keep_named(some, {{"house_1/*"}, {"house_2"}, {}}, "v.h5");
+  ASSERT_EQ(some.rows.size(), 5u);
+  for (const auto& row : some.rows)
+    EXPECT_TRUE(row.kind == "object" ? row.name == "house_2" : row.name.starts_with("house_1/"));
+  keep_named(some, {}, "v.h5");
+  EXPECT_EQ(some.rows.size(), 5u);
+  EXPECT_THROW(keep_named(some, {{"house_7/*"}, {}, {}}, "v.h5"), InputError);
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "geo/base/check.h"
@@ -77,6 +79,82 @@ TEST(Info, PatchListHasARowPerPatchAndQuotesNames) {
   std::size_t rows = 1;
   for (std::string line; std::getline(csv, line);) ++rows;
   EXPECT_EQ(rows, result.shape("patch_area").front());
+}
+
+/// A value of a table by the column's key and the row's name.
+double value_of(const GroupTable& table, const std::string& key, const std::string& name) {
+  const auto row = std::find(table.names.begin(), table.names.end(), name);
+  for (const auto& column : table.columns)
+    if (column.key == key && row != table.names.end())
+      return column.values.at(static_cast<std::size_t>(row - table.names.begin()));
+  ADD_FAILURE() << "no " << key << " of " << name;
+  return 0;
+}
+
+SmallResult scattered() {
+  SmallResult small;
+  small.load = [](const std::string&, Vec3 normal, std::size_t r) {
+    return (2 + normal.z - normal.y) * (1 + (r % 2 ? 0.01 : -0.01));
+  };
+  return small;
+}
+
+TEST(InfoTables, FacadesHaveLoadEnergyAndTheirErrors) {
+  const ResultReader result(write_small_result(scattered(), "info_facades"));
+  const auto table = group_table(result, TableOf::facades, {});
+  EXPECT_EQ(table.names, result.strings("facade_name"));
+  const std::string south = "house_1/south_1";  // 10 m × 9 m, load 3
+  EXPECT_EQ(value_of(table, "azimuth_deg", south), 180);
+  EXPECT_NEAR(value_of(table, "area_m2", south), 90, 1e-9);
+  EXPECT_NEAR(value_of(table, "light_load_kwh_m2", south), 3, 1e-12);
+  EXPECT_NEAR(value_of(table, "energy_kwh", south), 270, 1e-9);
+  // s/√8 of ± 1 %: 0.01·√(8/7)/√8.
+  const double se = 3 * 0.01 * std::sqrt(8.0 / 7) / std::sqrt(8.0);
+  EXPECT_NEAR(value_of(table, "light_load_se_kwh_m2", south), se, 1e-12);
+  EXPECT_NEAR(value_of(table, "energy_se_kwh", south), 90 * se, 1e-9);
+  EXPECT_EQ(value_of(table, "sun_hours_h", south), 3);
+  EXPECT_TRUE(std::isnan(value_of(table, "sky_view_factor", south)));  // the file has none
+}
+
+TEST(InfoTables, PatternsChooseRowsInTheOrderOfTheFile) {
+  const ResultReader result(write_small_result(SmallResult{}, "info_chosen"));
+  const NamedParts parts{{"*/south_1", "house_2/north_1"}, {}, {}};
+  EXPECT_EQ(group_table(result, TableOf::facades, parts).names,
+            (std::vector<std::string>{"house_1/south_1", "house_2/north_1", "house_2/south_1"}));
+  EXPECT_THROW(group_table(result, TableOf::objects, parts), InputError);
+  EXPECT_THROW(group_table(result, TableOf::sensors, {}), InputError);
+  // 2 × 8 triangles of the wall, and of the patches of an object all.
+  EXPECT_EQ(chosen_patches(result, {{"house_1/south_1"}, {}, {}}).size(), 8u);
+  EXPECT_EQ(chosen_patches(result, {{"house_1/south_1"}, {"house_1"}, {}}).size(), 40u);
+}
+
+TEST(InfoTables, ObjectsAreOfBothTheirSides) {
+  const ResultReader result(write_small_result(SmallResult{}, "info_objects"));
+  const auto table = group_table(result, TableOf::objects, {});
+  EXPECT_NEAR(value_of(table, "area_m2", "awning"), 32, 1e-9);
+  EXPECT_NEAR(value_of(table, "light_load_kwh_m2", "awning"), 2, 1e-12);  // 3 above, 1 below
+  EXPECT_TRUE(std::isnan(value_of(table, "azimuth_deg", "awning")));
+}
+
+TEST(InfoTables, TextCsvAndJsonHaveTheSameRows) {
+  SmallResult small = scattered();
+  small.houses.front().name = "a, \"b\"";
+  const ResultReader result(write_small_result(small, "info_formats"));
+  const auto table = group_table(result, TableOf::facades, {{"a*"}, {}, {}});
+  const auto csv = group_table_csv(table);
+  expect_in(csv,
+            "name,azimuth_deg,area_m2,light_load_kwh_m2,light_load_se_kwh_m2,energy_kwh,"
+            "energy_se_kwh,sun_hours_h,sky_view_factor,irradiance_max_w_m2\n");
+  expect_in(csv, "\"a, \"\"b\"\"/south_1\",180,90,3,0.0113389342,270,1.02050408,3,,\n");
+  const auto json = nlohmann::json::parse(group_table_json(result, table));
+  ASSERT_EQ(json["rows"].size(), 4u);
+  EXPECT_EQ(json["table"], "facades");
+  EXPECT_EQ(json["rows"][2]["name"], "a, \"b\"/south_1");
+  EXPECT_NEAR(json["rows"][2]["energy_kwh"].get<double>(), 270, 1e-9);
+  EXPECT_TRUE(json["rows"][2]["sky_view_factor"].is_null());
+  const auto text = group_table_text(result, table);
+  expect_in(text, "small, variant baseline: 4 facades\n");
+  expect_in(text, "  180  90.0           3    0.011     270");
 }
 
 }  // namespace

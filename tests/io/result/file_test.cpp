@@ -64,6 +64,26 @@ TEST(ResultFile, RoundTrip) {
   EXPECT_EQ(folder.content().size(), 3u) << "two batches and the result";
 }
 
+TEST(ResultFile, NamesAreLabelsAndResultsWithoutThemAreRead) {
+  const WorkFolder folder;
+  Example example;
+  example.patches = 10;
+  example.intervals = 3;
+  example.write_result(folder, folder / "a.h5");
+  const ResultReader labelled(folder / "a.h5");
+  EXPECT_EQ(labelled.strings("facade"), labelled.strings("facade_name"));
+  EXPECT_EQ(labelled.strings("object"), labelled.strings("object_name"));
+  // As versions before wrote it: a scale without values.
+  const Output changed = run_program(
+      "/usr/bin/python3 -c \"import h5py; f = h5py.File('" + folder / "a.h5" +
+      std::string("', 'a'); ") +
+      "n = len(f['facade']); del f['facade']; f.create_dataset('facade', (n,), 'f4'); "
+      "f['facade'].make_scale('This is a netCDF dimension but not a netCDF variable.')\"");
+  SUNLOAD_NEEDS_PROGRAM("h5py", "/usr/bin/python3 -c 'import h5py'");
+  ASSERT_EQ(changed.status, 0) << changed.text;
+  EXPECT_EQ(ResultReader(folder / "a.h5").strings("facade_name").size(), example.facades);
+}
+
 TEST(ResultFile, MissingRowsAreNaN) {
   const WorkFolder folder;
   const Example example;

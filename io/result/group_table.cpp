@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/result/group_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geo/base/check.h"
+#include "geo/base/units.h"
+#include "io/base/statistics.h"
+#include "io/base/text.h"
+#include "io/batch/facade_means.h"
+
+namespace sunload {
+namespace {
+
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+// Below this share of its length along the level a sensor looks straight up or down.
+constexpr double upright = 1e-6;
+
+/// What is known of every facade, object or sensor, by its place in the file.
+struct Values {
+  std::vector<double> azimuth_deg, area, load, load_se, sun_hours, sky_view, largest;
+  std::vector<Vec3> place;  ///< of sensors
+};
+
+/// Area-weighted means over the patches of every entry, and the largest of their values.
+class OverPatches {
+ public:
+  OverPatches(const ResultReader& result, const std::string& index, std::size_t count)
+      : result_(result),
+        entry_(result.integers(index)),
+        area_(count, 0),
+        means_(entry_, result.doubles("patch_area"), count) {
+    const auto patch_area = result.doubles("patch_area");
+    for (std::size_t p = 0; p < entry_.size(); ++p)
+      if (entry_[p] >= 0) area_[static_cast<std::size_t>(entry_[p])] += patch_area[p];
+  }
+
+  const std::vector<double>& area() const { return area_; }
+
+  std::vector<double> mean(const std::string& dataset) const {
+    if (!result_.has(dataset)) return std::vector<double>(area_.size(), not_known);
+    return means_.of(result_.doubles(dataset), Divided::terms);
+  }
+
+  std::vector<double> largest(const std::string& dataset) const {
+    std::vector<double> values(area_.size(), not_known);
+    if (!result_.has(dataset)) return values;
+    const auto of_patches = result_.doubles(dataset);
+    for (std::size_t p = 0; p < entry_.size(); ++p) {
+      if (entry_[p] < 0 || std::isnan(of_patches[p])) continue;
+      double& value = values[static_cast<std::size_t>(entry_[p])];
+      value = std::isnan(value) ? of_patches[p] : std::max(value, of_patches[p]);
+    }
+    return values;
+  }
+
+  /// Standard error of the mean over the realizations of [realization, patch].
+  std::vector<double> error(const std::string& dataset) const {
+    std::vector<std::vector<double>> samples(area_.size());
+    if (result_.has(dataset))
+      for (std::size_t r = 0; r < result_.shape(dataset).front(); ++r) {
+        const auto means = means_.of(result_.row(dataset, r), Divided::terms);
+        for (std::size_t k = 0; k < means.size(); ++k) samples[k].push_back(means[k]);
+      }
+    std::vector<double> errors;
+    for (const auto& of_entry : samples) errors.push_back(sample_mean(of_entry).se);
+    return errors;
+  }
+
+ private:
+  const ResultReader& result_;
+  std::vector<std::int32_t> entry_;
+  std::vector<double> area_;
+  FacadeMeans means_;
+};
+
+/// Standard errors of what has a column in [realization, n].
+std::vector<double> errors_of_columns(const ResultReader& result, const std::string& dataset) {
+  const auto shape = result.shape(dataset);
+  const auto rows = result.doubles(dataset);
+  std::vector<double> errors(shape.back()), samples(shape.front());
+  for (std::size_t k = 0; k < errors.size(); ++k) {
+    for (std::size_t r = 0; r < samples.size(); ++r) samples[r] = rows[r * errors.size() + k];
+    errors[k] = sample_mean(samples).se;
+  }
+  return errors;
+}
+
+void expect_load(const ResultReader& result, const char* dataset) {
+  if (!result.has(dataset))
+    throw InputError({result.path()}, "no dataset " + std::string(dataset),
+                     "the table says what falls on something",
+                     "take a finished result of sunload run");
+}
+
+Values of_patches(const ResultReader& result, const std::string& index, std::size_t count) {
+  expect_load(result, "light_load");
+  const OverPatches patches(result, index, count);
+  Values v;
+  v.azimuth_deg.assign(count, not_known);
+  v.area = patches.area();
+  v.load = patches.mean("light_load");
+  v.load_se = patches.error("light_load_realization");
+  v.sun_hours = patches.mean("sun_hours");
+  v.sky_view = patches.mean("sky_view_factor");
+  v.largest = patches.largest(dataset_name("irradiance_max", result.quantity()));
+  return v;
+}
+
+Values of_facades(const ResultReader& result) {
+  const std::size_t count = result.strings("facade_name").size();
+  Values v = of_patches(result, "patch_facade", count);
+  v.azimuth_deg = result.doubles("facade_azimuth");
+  if (result.has("facade_light_load")) v.load = result.doubles("facade_light_load");
+  if (result.has("facade_light_load_realization"))
+    v.load_se = errors_of_columns(result, "facade_light_load_realization");
+  return v;
+}
+
+/// Azimuth of the scene's +y axis: what north is turned by.
+double turn_deg(const ResultReader& result) {
+  const double north = result.number_attribute("north_deg");
+  return std::isnan(north) ? 0 : north;
+}
+
+Values of_sensors(const ResultReader& result) {
+  expect_load(result, "sensor_light_load");
+  const auto position = result.doubles("sensor_position"), normal = result.doubles("sensor_normal");
+  Values v;
+  v.load = result.doubles("sensor_light_load");
+  const std::size_t count = v.load.size();
+  const auto of = [&](const std::string& dataset) {
+    return result.has(dataset) ? result.doubles(dataset) : std::vector<double>(count, not_known);
+  };
+  v.area.assign(count, not_known);
+  for (std::size_t s = 0; s < count; ++s) {
+    const Vec3 towards{normal[3 * s], normal[3 * s + 1], normal[3 * s + 2]};
+    v.azimuth_deg.push_back(std::hypot(towards.x, towards.y) < upright
+                                ? not_known
+                                : wrapped_deg(horizontal(towards).azimuth_deg + turn_deg(result)));
+    v.place.push_back(result.origin() +
+                      Vec3{position[3 * s], position[3 * s + 1], position[3 * s + 2]});
+  }
+  v.load_se = result.has("sensor_light_load_realization")
+                  ? errors_of_columns(result, "sensor_light_load_realization")
+                  : of("sensor_light_load_se");
+  v.sun_hours = of("sensor_sun_hours");
+  v.sky_view = of("sensor_sky_view_factor");
+  v.largest = of(dataset_name("sensor_irradiance_max", result.quantity()));
+  return v;
+}
+
+std::vector<double> times(std::vector<double> values, const std::vector<double>& factor) {
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] *= factor[k];
+  return values;
+}
+
+std::vector<double> component(const std::vector<Vec3>& places, double Vec3::*axis) {
+  std::vector<double> values;
+  for (const Vec3& p : places) values.push_back(p.*axis);
+  return values;
+}
+
+std::vector<TableColumn> columns_of(const Values& v, Quantity quantity) {
+  const auto units = [&](const char* text) { return display_units(light_units(text, quantity)); };
+  const auto key = [&](const char* text) { return unit_names(text, quantity); };
+  std::vector<TableColumn> columns{
+      {"azimuth_deg", "azimuth", "°", "{:.0f}", v.azimuth_deg},
+      {"area_m2", "area", "m²", "{:.1f}", v.area},
+      {key("light_load_kwh_m2"), "light load", units("kWh m-2"), "{:.4g}", v.load},
+      {key("light_load_se_kwh_m2"), "±", units("kWh m-2"), "{:.2g}", v.load_se},
+      {key("energy_kwh"), "energy", units("kWh"), "{:.5g}", times(v.load, v.area)},
+      {key("energy_se_kwh"), "±", units("kWh"), "{:.2g}", times(v.load_se, v.area)},
+      {"sun_hours_h", "sun", "h", "{:.1f}", v.sun_hours},
+      {"sky_view_factor", "sky view", "", "{:.3f}", v.sky_view},
+      {quantity == Quantity::illuminance ? "illuminance_max_lx" : "irradiance_max_w_m2", "largest",
+       units("W m-2"), "{:.4g}", v.largest}};
+  if (v.place.empty()) return columns;
+  columns.push_back({"x_m", "x", "m", "{:.2f}", component(v.place, &Vec3::x)});
+  columns.push_back({"y_m", "y", "m", "{:.2f}", component(v.place, &Vec3::y)});
+  columns.push_back({"z_m", "z", "m", "{:.2f}", component(v.place, &Vec3::z)});
+  return columns;
+}
+
+/// The rows that were chosen; what has no area (all of it covered) has none.
+GroupTable chosen_rows(TableOf of, const std::vector<std::string>& names,
+                       const std::vector<std::size_t>& chosen, const Values& values,
+                       Quantity quantity) {
+  GroupTable table{of, {}, {}, {}};
+  for (const auto k : chosen) {
+    if (values.area[k] == 0) continue;
+    table.entries.push_back(k);
+    table.names.push_back(names[k]);
+  }
+  for (const TableColumn& all : columns_of(values, quantity)) {
+    auto& column =
+        table.columns.emplace_back(TableColumn{all.key, all.word, all.units, all.format, {}});
+    for (const auto k : table.entries) column.values.push_back(all.values[k]);
+  }
+  return table;
+}
+
+void expect_own_kind(TableOf of, const NamedParts& parts) {
+  Problems problems;
+  const auto refuse = [&](TableOf kind, const char* word, const auto& names) {
+    if (of != kind && !names.empty())
+      problems.add({}, fmt::format("--{} {} in another table", word, names.front()),
+                   "a table holds facades, objects or sensors",
+                   fmt::format("choose the table of {0}s, or name its own rows, e.g. --facade "
+                               "'house_3/*' among facades",
+                               word));
+  };
+  refuse(TableOf::facades, "facade", parts.facades);
+  refuse(TableOf::objects, "object", parts.objects);
+  refuse(TableOf::sensors, "sensor", parts.sensors);
+  problems.throw_if_any();
+}
+
+}  // namespace
+
+GroupTable group_table(const ResultReader& result, TableOf of, const NamedParts& parts) {
+  expect_own_kind(of, parts);
+  const auto rows = [&](const char* kind, const std::vector<std::string>& names,
+                        const std::vector<std::size_t>& chosen, const auto& values) {
+    if (names.empty())
+      throw InputError({result.path()}, "the result has no " + std::string(kind),
+                       "there is nothing to list");
+    return chosen_rows(of, names, chosen, values(result), result.quantity());
+  };
+  switch (of) {
+    case TableOf::facades:
+      return rows("facades", result.strings("facade_name"), chosen_facades(result, parts),
+                  of_facades);
+    case TableOf::objects: {
+      const auto names = result.strings("object_name");
+      return rows("objects", names, chosen_objects(result, parts), [&](const ResultReader& r) {
+        return of_patches(r, "patch_object", names.size());
+      });
+    }
+    case TableOf::sensors:
+      break;
+  }
+  return rows("sensors (the study has no section sensors)", sensor_names(result),
+              chosen_sensors(result, parts), of_sensors);
+}
+
+std::string group_table_csv(const GroupTable& table) {
+  std::string text = "name";
+  for (const auto& column : table.columns) text += "," + column.key;
+  text += "\n";
+  for (std::size_t row = 0; row < table.names.size(); ++row) {
+    text += csv_text(table.names[row]);
+    for (const auto& column : table.columns) text += "," + csv_number(column.values[row]);
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace sunload

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/result/named_parts.h"
+
+#include "io/base/name_pattern.h"
+
+namespace sunload {
+namespace {
+
+/// Marks the patches whose entry is among those chosen.
+void mark(const std::vector<std::int32_t>& entry, const std::vector<std::size_t>& chosen,
+          std::size_t entries, std::vector<char>& is_chosen) {
+  std::vector<char> is_wanted(entries, 0);
+  for (const auto k : chosen) is_wanted[k] = 1;
+  for (std::size_t p = 0; p < entry.size(); ++p)
+    if (entry[p] >= 0 && is_wanted[static_cast<std::size_t>(entry[p])]) is_chosen[p] = 1;
+}
+
+}  // namespace
+
+std::vector<std::string> sensor_names(const ResultReader& result) {
+  std::vector<std::string> names;
+  if (!result.has("sensor_position")) return names;
+  for (std::size_t s = 0; s < result.shape("sensor_position").front(); ++s)
+    names.push_back(std::to_string(s));
+  return names;
+}
+
+std::vector<std::size_t> chosen_facades(const ResultReader& result, const NamedParts& parts) {
+  return matching_names(parts.facades, result.strings("facade_name"), "facade", result.path());
+}
+
+std::vector<std::size_t> chosen_objects(const ResultReader& result, const NamedParts& parts) {
+  return matching_names(parts.objects, result.strings("object_name"), "object", result.path());
+}
+
+std::vector<std::size_t> chosen_sensors(const ResultReader& result, const NamedParts& parts) {
+  return matching_names(parts.sensors, sensor_names(result), "sensor", result.path());
+}
+
+std::vector<std::size_t> chosen_patches(const ResultReader& result, const NamedParts& parts) {
+  std::vector<char> is_chosen(result.shape("patch_area").front(), parts.choose_patches() ? 0 : 1);
+  if (!parts.facades.empty())
+    mark(result.integers("patch_facade"), chosen_facades(result, parts),
+         result.strings("facade_name").size(), is_chosen);
+  if (!parts.objects.empty())
+    mark(result.integers("patch_object"), chosen_objects(result, parts),
+         result.strings("object_name").size(), is_chosen);
+  std::vector<std::size_t> patches;
+  for (std::size_t p = 0; p < is_chosen.size(); ++p)
+    if (is_chosen[p]) patches.push_back(p);
+  return patches;
+}
+
+}  // namespace sunload

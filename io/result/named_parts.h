@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What a command's --facade, --object and --sensor choose of a result.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "io/result/reader.h"
+
+namespace sunload {
+
+/// Names or patterns (`house_3/*`); of sensors their numbers, from 0.
+struct NamedParts {
+  std::vector<std::string> facades, objects, sensors;
+
+  bool choose_patches() const { return !facades.empty() || !objects.empty(); }
+  bool empty() const { return !choose_patches() && sensors.empty(); }
+};
+
+// Indices in the order of the file; all where nothing is named. They throw InputError for a name
+// that the result does not have, and tell near ones.
+std::vector<std::size_t> chosen_facades(const ResultReader& result, const NamedParts& parts);
+std::vector<std::size_t> chosen_objects(const ResultReader& result, const NamedParts& parts);
+std::vector<std::size_t> chosen_sensors(const ResultReader& result, const NamedParts& parts);
+/// Patches of the facades and those of the objects, both sides.
+std::vector<std::size_t> chosen_patches(const ResultReader& result, const NamedParts& parts);
+
+/// "0", "1" …: what sensors are called.
+std::vector<std::string> sensor_names(const ResultReader& result);
+
+}  // namespace sunload
