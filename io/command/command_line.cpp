@@ -345,9 +345,11 @@ class CommandLine {
     sub->add_option("--time", render_.rules.time, "instant of a series, e.g. 2026-06-21T12:00");
     add_word(sub, "--camera", render_.rules.view,
              {{"overview", View::overview}, {"sun", View::sun}, {"top", View::top}}, "view");
-    sub->add_option("--facade", render_.rules.facade, "camera before the facade of that name");
-    sub->add_option("--eye", render_.eye, "camera at the eye point x,y,z [m]");
-    sub->add_option("--look", render_.look, "point looked at x,y,z [m]");
+    add_named(sub, render_.rules.parts, "picture of");
+    sub->add_option("--eye", render_.rules.eye,
+                    "camera at x,y,z [m], NAME+dx,dy,dz [m from the foot of an object or facade], "
+                    "before a facade NAME, or on top of an object NAME");
+    sub->add_option("--look", render_.rules.look, "what is looked at: x,y,z, NAME, NAME+dx,dy,dz");
     add_word(sub, "--projection", render_.rules.projection,
              {{"perspective", Projection::perspective}, {"parallel", Projection::parallel}},
              "of overview and eye point");

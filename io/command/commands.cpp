@@ -4,7 +4,6 @@
 
 #include <cstdio>
 #include <iostream>
-#include <sstream>
 
 #include "geo/base/check.h"
 #include "io/base/bands.h"
@@ -21,17 +20,6 @@
 
 namespace sunload {
 namespace {
-
-/// Parses "x,y,z".
-Vec3 point(const std::string& text, const char* option) {
-  std::istringstream words(text);
-  Vec3 p;
-  char comma = 0, second = 0;
-  if (!(words >> p.x >> comma >> p.y >> second >> p.z) || comma != ',' || second != ',')
-    throw InputError({}, std::string(option) + " " + text, "not three numbers",
-                     "write x,y,z in metres, e.g. 10,-20,1.7");
-  return p;
-}
 
 /// The result of a study's variant.
 std::string result_named(const CompareOptions& options, const std::string& variant) {
@@ -181,8 +169,6 @@ int compare(const CompareOptions& asked) {
 
 int render(RenderOptions options) {
   RenderRules& rules = options.rules;
-  if (!options.eye.empty()) rules.eye = point(options.eye, "--eye");
-  if (!options.look.empty()) rules.look = point(options.look, "--look");
   if (std::sscanf(options.size.c_str(), "%dx%d", &rules.width, &rules.height) != 2)
     throw InputError({}, "--size " + options.size, "not a size", "write e.g. 1600x1000");
   const ResultReader result(options.result.path, chosen_band(options.result.band));

@@ -45,7 +45,6 @@ int compare(const CompareOptions& options);
 struct RenderOptions {
   NamedResult result;
   RenderRules rules;
-  std::string eye, look;  ///< x,y,z; empty: none
   std::string size = "1600x1000";
   std::string picture;  ///< file to write
   bool animate = false;

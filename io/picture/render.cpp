@@ -16,6 +16,7 @@
 #include "io/picture/render_bands.h"
 #include "io/picture/render_frame.h"
 #include "io/picture/render_scene.h"
+#include "io/picture/viewpoint.h"
 #include "io/result/patches.h"
 #include "io/result/shown_quantity.h"
 #include "io/result/time.h"
@@ -33,6 +34,8 @@ constexpr double overview_elevation_deg = 35;
 constexpr double overview_west_deg = 45;
 // Balconies and eaves of a facade are less deep than this; what stands farther in front hides it.
 constexpr double facade_front_m = 2;
+// Facades whose normals cancel out to less of their area look all ways.
+constexpr double one_sided_share = 0.2;
 // Fast enough for motion, slow enough to read the hour.
 constexpr int milliseconds_per_picture = 250;
 
@@ -74,12 +77,16 @@ void expect_sense(const RenderRules& rules) {
     if (pixels < least_pixels || pixels > most_pixels)
       problems.add({}, fmt::format("--size {}x{}", rules.width, rules.height),
                    fmt::format("width and height must lie in [{}, {}]", least_pixels, most_pixels));
-  if (rules.eye.has_value() != rules.look.has_value())
-    problems.add({}, "a free camera needs both --eye and --look", "one is missing");
-  if (!rules.facade.empty() && (rules.eye || rules.view != View::overview))
+  if (!rules.parts.sensors.empty())
+    problems.add({}, "--sensor in a picture", "sensors are points", "name facades or objects");
+  if (!rules.parts.facades.empty() && (!rules.eye.empty() || rules.view != View::overview))
     problems.add({}, "--facade with another camera", "it is a camera of its own",
-                 "leave out --eye, --look and --camera");
-  const bool is_free = rules.eye || (rules.view == View::overview && rules.facade.empty());
+                 "leave out --eye and --camera, or write --object");
+  if (!rules.look.empty() && rules.eye.empty() && rules.parts.choose_patches())
+    problems.add({}, "--look without --eye, with --facade or --object",
+                 "both say what the picture is of", "leave out one");
+  const bool is_free =
+      !rules.eye.empty() || (rules.view == View::overview && rules.parts.facades.empty());
   if (rules.projection == Projection::parallel && !is_free)
     problems.add({}, "--projection with this camera", "it is always parallel", "leave it out");
   if (rules.crease_angle_deg && !rules.interpolate)
@@ -102,6 +109,35 @@ std::string title(const ResultReader& result) {
                      result.text_attribute("variant"));
 }
 
+/// "; facade house_3/*, object tower".
+std::string named_in_words(const NamedParts& parts) {
+  std::string words;
+  for (const auto& [kind, names] :
+       {std::pair("facade", &parts.facades), {"object", &parts.objects}})
+    for (const auto& name : *names)
+      words += fmt::format("{} {} {}", words.empty() ? ";" : ",", kind, name);
+  return words;
+}
+
+/// What --look names, where no eye says from where.
+ScenePlace looked_at(const ResultReader& result, const std::string& look) {
+  auto place = viewpoint(result, look, ViewpointOf::look).of;
+  if (!place)
+    throw InputError({}, "--look " + look + " without --eye", "a point can be seen from anywhere",
+                     "add --eye, or look at an object or a facade by name");
+  return *place;
+}
+
+/// A time that nothing in the picture depends on is a slip: the user wants another quantity.
+void expect_time_matters(const ResultReader& result, const RenderRules& rules,
+                         const ShownQuantity& shown) {
+  const bool is_for_sky = rules.sky.value_or(SkyBackground::plain) != SkyBackground::plain;
+  if (rules.time.empty() || shown.is_series || rules.view == View::sun || is_for_sky) return;
+  throw InputError({}, "--time " + rules.time, shown.dataset + " is a total of the whole period",
+                   "leave it out, or name a series: --quantity " +
+                       dataset_name("irradiance", result.quantity()));
+}
+
 /// A result being drawn: what all pictures of it share.
 class Renderer {
  public:
@@ -111,6 +147,8 @@ class Renderer {
         scene_(result),
         caster_(scene_.mesh()),
         north_deg_(scene_north_deg(result)) {
+    if (rules.parts.choose_patches()) place_ = scene_place(result, rules.parts);
+    if (rules.eye.empty() && !rules.look.empty()) place_ = looked_at(result, rules.look);
     if (rules.interpolate) patches_ = std::make_unique<ResultPatches>(result);
   }
 
@@ -135,10 +173,11 @@ class Renderer {
     auto picture = std::make_unique<Picture>(rules_.width, rules_.height);
     const PictureArea area = scene_area(*picture);
     // A camera that follows the sun sees something else each time.
-    if (!traced_ || (rules_.view == View::sun && !rules_.eye)) {
+    if (!traced_ || (rules_.view == View::sun && rules_.eye.empty())) {
       camera_ = std::make_unique<Camera>(camera(shown.interval, area));
       traced_ = std::make_unique<TracedPicture>(scene_, caster_, *camera_, area.width, area.height,
                                                 rules_.mesh);
+      expect_something_seen();
     }
     PatchColours colours{shown.values, largest, rules_.palette, rules_.mesh, {}, {}};
     const bool in_rgb = rules_.colours == PictureColours::of_bands;
@@ -157,8 +196,7 @@ class Renderer {
                    traced_->pixels(colours, {kind, sun_at(result_, shown.interval)}));
     draw_title(
         *picture, title(result_) + band_title(result_),
-        shown.name + ", " + shown.when +
-            (rules_.facade.empty() ? "" : "; facade " + rules_.facade) +
+        shown.name + ", " + shown.when + named_in_words(rules_.parts) +
             (in_rgb ? fmt::format(", in colour, white: {:.4g} {}", largest, shown.units) : ""));
     const bool is_exceeded = std::any_of(shown.values.begin(), shown.values.end(),
                                          [&](double value) { return value > largest; });
@@ -171,38 +209,75 @@ class Renderer {
 
  private:
   Camera camera(std::size_t interval, PictureArea area) const {
-    if (rules_.eye) return free_camera(area);
-    if (!rules_.facade.empty()) {
-      const auto shape = scene_.facade_shape(result_, rules_.facade);
-      return Camera::parallel(shape.points, shape.normal, {0, 0, 1}, area.width, area.height,
+    if (!rules_.eye.empty()) return free_camera(area);
+    if (!rules_.parts.facades.empty() && place_->normal)
+      return Camera::parallel(place_->points, *place_->normal, {0, 0, 1}, area.width, area.height,
                               facade_front_m);
-    }
     switch (rules_.view) {
       case View::sun:
         return sun_camera(interval, area);
       case View::top:
-        return Camera::parallel(scene_.focus_points(), {0, 0, 1},
-                                scene_direction({0, 0}, north_deg_), area.width, area.height);
+        return Camera::parallel(focus_points(), {0, 0, 1}, scene_direction({0, 0}, north_deg_),
+                                area.width, area.height);
       case View::overview:
         break;
     }
-    const Vec3 from = overview_direction(result_, north_deg_);
+    const Vec3 from = view_direction();
     return rules_.projection == Projection::parallel
-               ? Camera::parallel(scene_.focus_points(), from, {0, 0, 1}, area.width, area.height)
-               : Camera::fitted(scene_.focus_points(), from, overview_field_deg, area.width,
-                                area.height);
+               ? Camera::parallel(focus_points(), from, {0, 0, 1}, area.width, area.height)
+               : Camera::fitted(focus_points(), from, overview_field_deg, area.width, area.height);
   }
 
+  /// Of facades that look several ways the side that most of them look to.
+  Vec3 view_direction() const {
+    if (rules_.parts.facades.empty() || !place_) return overview_direction(result_, north_deg_);
+    const Vec3 sum = place_->normal_sum;
+    if (std::hypot(sum.x, sum.y) < one_sided_share * place_->area)
+      return overview_direction(result_, north_deg_);
+    return enu_direction({horizontal(sum).azimuth_deg, overview_elevation_deg});
+  }
+
+  /// What the camera holds: what is asked for, or the buildings.
+  std::vector<Vec3> focus_points() const { return place_ ? place_->points : scene_.focus_points(); }
+
   Camera free_camera(PictureArea area) const {
-    const Vec3 origin = result_.origin();
-    const Vec3 eye = *rules_.eye - origin, look = *rules_.look - origin;
+    const Viewpoint from = viewpoint(result_, rules_.eye, ViewpointOf::eye);
+    if (rules_.look.empty() && !from.towards)
+      throw InputError({}, "--eye " + rules_.eye + " without --look",
+                       "only a facade says where one looks from it",
+                       "add --look x,y,z or --look NAME");
+    const Vec3 eye = from.at, look = rules_.look.empty()
+                                         ? eye + *from.towards
+                                         : viewpoint(result_, rules_.look, ViewpointOf::look).at;
     if (!(norm(eye - look) > 0))
       throw InputError({}, "--eye and --look are the same point",
                        "there is no direction to look in");
     return rules_.projection == Projection::parallel
-               ? Camera::parallel(scene_.focus_points(), eye - look, {0, 0, 1}, area.width,
-                                  area.height)
+               ? Camera::parallel(focus_points(), eye - look, {0, 0, 1}, area.width, area.height)
                : Camera::perspective(eye, look, walker_field_deg, area.width, area.height);
+  }
+
+  /// A picture without anything of the scene helps nobody.
+  void expect_something_seen() const {
+    const Box box = bounding_box(scene_.mesh().vertices);
+    const Vec3 low = box.low + result_.origin(), high = box.high + result_.origin();
+    if (!traced_->shows_anything())
+      throw InputError(
+          {}, "the picture would show nothing of the scene",
+          fmt::format(
+              "the scene lies in x {:.1f} … {:.1f}, y {:.1f} … {:.1f}, z {:.1f} … {:.1f} m, "
+              "and the camera looks past it, or is inside of a body or below the ground",
+              low.x, high.x, low.y, high.y, low.z, high.z),
+          "look at something by name (--look NAME), or take another --eye");
+    if (place_ && !traced_->shows(place_->patches))
+      throw InputError(
+          {}, "the picture would show nothing of what is asked for",
+          fmt::format("other things hide it; it lies about x {:.1f}, y {:.1f}, z {:.1f} "
+                      "m",
+                      (place_->middle() + result_.origin()).x,
+                      (place_->middle() + result_.origin()).y,
+                      (place_->middle() + result_.origin()).z),
+          "take --camera top, --facade, or an --eye near it");
   }
 
   Camera sun_camera(std::size_t interval, PictureArea area) const {
@@ -210,7 +285,7 @@ class Renderer {
     if (sun.z <= 0)
       throw InputError({}, "the sun is below the horizon", interval_in_words(result_, interval),
                        "choose another --time");
-    return Camera::parallel(scene_.focus_points(), sun, {0, 0, 1}, area.width, area.height);
+    return Camera::parallel(focus_points(), sun, {0, 0, 1}, area.width, area.height);
   }
 
   const ResultReader& result_;
@@ -218,6 +293,7 @@ class Renderer {
   PatchScene scene_;
   RayCaster caster_;
   double north_deg_;
+  std::optional<ScenePlace> place_;  ///< what the picture is of, where somebody says so
   std::unique_ptr<ResultPatches> patches_;
   std::unique_ptr<Camera> camera_;
   std::unique_ptr<TracedPicture> traced_;
@@ -250,6 +326,7 @@ void render_png(const ResultReader& result, const RenderRules& rules, const std:
   const std::string usual = rules.colours == PictureColours::of_bands ? "power_load" : "light_load";
   const auto shown =
       shown_quantity(result, rules.quantity.empty() ? usual : rules.quantity, rules.time);
+  expect_time_matters(result, rules, shown);
   Renderer renderer(result, rules);
   renderer.picture(shown, renderer.largest(shown))->save(path);
 }

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "geo/base/vec.h"
 #include "io/base/colour_map.h"
+#include "io/result/named_parts.h"
 #include "io/result/reader.h"
 
 namespace sunload {
@@ -34,11 +34,13 @@ struct RenderRules {
   std::string quantity;
   std::string time;  ///< as in a study; empty: the brightest interval
   View view = View::overview;
-  /// Parallel, from before the facade of that name; what stands farther in front is cut away.
-  std::string facade;
-  /// From a point to a point of the scene, in the coordinates of the study (absolute). Both or
-  /// none.
-  std::optional<Vec3> eye, look;
+  /// What the picture is of. Facades that look the same way are seen parallel, from before them;
+  /// what stands farther in front is cut away. Objects, and facades that look several ways, are
+  /// what the other cameras hold. Empty: buildings, not the ground about them.
+  NamedParts parts;
+  /// From a point to a point, as io/picture/viewpoint.h reads them. An eye alone is before a
+  /// facade and looks where it does; what is looked at alone is seen as by the overview.
+  std::string eye, look;
   /// Of the overview and of eye and look; parallel pictures hold the whole scene.
   Projection projection = Projection::perspective;
   int width = 1600, height = 1000;  ///< of the whole picture [pixels], 320 … 16384
@@ -59,7 +61,8 @@ struct RenderRules {
 /// are not shaded, so that every colour is one of the legend's; thin lines part
 /// objects, materials and folds. Backs of one-sided surfaces are grey.
 /// Throws InputError for a quantity, time, camera or size that the result does
-/// not have, MachineError where the picture cannot be written.
+/// not have, for a time that changes nothing, and where the camera would see nothing of the scene
+/// or of what it is to show; MachineError where the picture cannot be written.
 void render_png(const ResultReader& result, const RenderRules& rules, const std::string& path);
 
 /// A picture for every interval of `day` (year-month-day; empty: of the period) with the sun above

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
 #include "geo/sky/sky_colour.h"
-#include "io/base/key_names.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
@@ -32,6 +32,8 @@ constexpr double mesh_half_width = 0.5, mesh_fade_pixels = 6;
 constexpr double middle_luminance = 0.184;
 constexpr double dark_line = 0.01, light_line = 0.55;
 constexpr std::size_t palette_steps = 1024;
+// What rises by less is no building: kerbs, slabs, plates that are modelled as thin bodies.
+constexpr double least_rise_m = 2;
 
 std::vector<Vec3> vectors(const std::vector<double>& flat) {
   std::vector<Vec3> points(flat.size() / 3);
@@ -165,6 +167,22 @@ TracedPicture::TracedPicture(const PatchScene& scene, const RayCaster& caster, c
   });
 }
 
+bool TracedPicture::shows_anything() const {
+  return std::any_of(samples_.begin(), samples_.end(), [&](const Sample& sample) {
+    return sample.triangle >= 0 && scene_.patch_met(sample.triangle, sample.front) >= 0;
+  });
+}
+
+bool TracedPicture::shows(const std::vector<std::size_t>& patches) const {
+  std::vector<char> is_wanted(scene_.patch_count(), 0);
+  for (const auto p : patches) is_wanted[p] = 1;
+  return std::any_of(samples_.begin(), samples_.end(), [&](const Sample& sample) {
+    if (sample.triangle < 0) return false;
+    const auto patch = scene_.patch_met(sample.triangle, sample.front);
+    return patch >= 0 && is_wanted[static_cast<std::size_t>(patch)];
+  });
+}
+
 /// Mean of the samples in linear light, as the eye would blur them.
 std::vector<Colour> TracedPicture::pixels(const PatchColours& colours,
                                           const Background& background) const {
@@ -294,37 +312,38 @@ std::int32_t PatchScene::patch_met(std::int32_t triangle, bool front) const {
   return (front ? front_ : back_)[static_cast<std::size_t>(triangle)];
 }
 
-std::vector<Vec3> PatchScene::focus_points() const {
-  const auto ground = static_cast<std::int32_t>(Surface::ground);
+std::vector<Vec3> PatchScene::vertices_of(const std::vector<char>& is_wanted) const {
   std::vector<char> is_used(mesh_.vertices.size(), 0);
   for (std::size_t t = 0; t < mesh_.triangle_count(); ++t)
-    if (surface_[static_cast<std::size_t>(front_[t])] != ground)
+    if (is_wanted[t])
       for (const auto vertex : mesh_.triangles[t]) is_used[static_cast<std::size_t>(vertex)] = 1;
   std::vector<Vec3> points;
   for (std::size_t i = 0; i < is_used.size(); ++i)
     if (is_used[i]) points.push_back(mesh_.vertices[i]);
-  return points.empty() ? mesh_.vertices : points;
+  return points;
 }
 
-PatchScene::FacadeShape PatchScene::facade_shape(const ResultReader& result,
-                                                 const std::string& name) const {
-  const auto names = result.strings("facade_name");
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
-    throw InputError({result.path()}, "no facade " + name, {}, key_hint(name, names));
-  const auto facade = result.integers("patch_facade");
-  FacadeShape shape;
-  for (std::size_t i = 0; i < facade.size(); ++i) {
-    if (facade[i] != found - names.begin()) continue;
-    for (const auto vertex : corners_[i])
-      shape.points.push_back(mesh_.vertices[static_cast<std::size_t>(vertex)]);
-    shape.normal += normal_[i] * area_[i];
+std::vector<Vec3> PatchScene::focus_points() const {
+  constexpr auto ground = static_cast<std::int32_t>(Surface::ground);
+  std::vector<char> is_above(facets_.size()), is_building(facets_.size());
+  std::map<std::int32_t, std::pair<double, double>> heights;  // of objects, without their ground
+  for (std::size_t t = 0; t < facets_.size(); ++t) {
+    is_above[t] = facets_[t].surface != ground;
+    if (!is_above[t]) continue;
+    auto& [low, high] = heights.try_emplace(facets_[t].object, 1e300, -1e300).first->second;
+    for (const int k : {0, 1, 2}) {
+      low = std::min(low, mesh_.corner(t, k).z);
+      high = std::max(high, mesh_.corner(t, k).z);
+    }
   }
-  if (shape.points.empty() || norm(shape.normal) == 0)
-    throw InputError({result.path()}, "facade " + name + " has no patches",
-                     "there is nothing to see");
-  shape.normal = normalized(shape.normal);
-  return shape;
+  for (std::size_t t = 0; t < facets_.size(); ++t) {
+    if (!is_above[t]) continue;
+    const auto& [low, high] = heights.at(facets_[t].object);
+    is_building[t] = high - low >= least_rise_m;
+  }
+  for (const auto& wanted : {is_building, is_above})
+    if (auto points = vertices_of(wanted); !points.empty()) return points;
+  return mesh_.vertices;
 }
 
 bool PatchScene::is_border(std::int32_t triangle, std::int32_t other) const {

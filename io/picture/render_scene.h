@@ -28,13 +28,8 @@ class PatchScene {
   const std::vector<double>& area() const { return area_; }
   /// Corners of a patch; a back has those of its front in another order.
   const std::array<std::int32_t, 3>& corners(std::size_t patch) const { return corners_[patch]; }
-  /// Vertices of the patches of a facade, and their area-weighted normal.
-  struct FacadeShape {
-    std::vector<Vec3> points;
-    Vec3 normal;
-  };
-  FacadeShape facade_shape(const ResultReader& result, const std::string& name) const;
-  /// Vertices of what is not ground (all, where there is nothing else).
+  /// Vertices of what a picture is of where nobody says: of objects that rise, without their
+  /// ground; where none does of what is not ground; else of all.
   std::vector<Vec3> focus_points() const;
   /// Whether a line parts two triangles: other object or material, fold, or step.
   bool is_border(std::int32_t triangle, std::int32_t other) const;
@@ -45,6 +40,8 @@ class PatchScene {
     std::int32_t object, material, surface;
     std::array<float, 3> normal, centroid;
   };
+
+  std::vector<Vec3> vertices_of(const std::vector<char>& is_wanted) const;
 
   Mesh mesh_;
   std::vector<Facet> facets_;               ///< of triangles
@@ -82,6 +79,9 @@ class TracedPicture {
   /// Scene and caster must outlive this. `mesh`: whether patch lines will be wanted.
   TracedPicture(const PatchScene& scene, const RayCaster& caster, const Camera& camera, int width,
                 int height, MeshLines mesh);
+  /// Whether any ray met a surface from the side that has values; of these patches alone.
+  bool shows_anything() const;
+  bool shows(const std::vector<std::size_t>& patches) const;
   /// Rows of pixels.
   std::vector<Colour> pixels(const PatchColours& colours, const Background& background) const;
 

@@ -14,8 +14,10 @@
 #include "io/batch/chunk.h"
 #include "io/picture/camera.h"
 #include "io/picture/render_scene.h"
+#include "io/picture/viewpoint.h"
 #include "solver/base/threads.h"
 #include "tests/support/png.h"
+#include "tests/support/refusal_of.h"
 #include "tests/support/small_result.h"
 #include "tests/support/work_folder.h"
 
@@ -231,8 +233,8 @@ TEST(Render, EveryViewAndQuantityHasItsColours) {
   // In absolute coordinates: the origin of the result lies at (1000, 2000, 0).
   rules.quantity = "light_load";
   rules.largest = 4;
-  rules.eye = {1000, 1985, 2};
-  rules.look = {1000, 2000, 4};
+  rules.eye = "1000,1985,2";
+  rules.look = "1000,2000,4";
   expect_colours(0.05, 0.03);
 }
 
@@ -325,10 +327,11 @@ TEST(Render, ThePlaneBehindIsTheSkysColour) {
 TEST(Render, AFacadeIsSeenFromBeforeIt) {
   const ResultReader result(write_small_result(SmallResult{}, "render_facade"));
   const PatchScene scene(result);
-  const auto shape = scene.facade_shape(result, "house_1/south_1");
-  EXPECT_NEAR(shape.normal.y, -1, 1e-9);
+  const auto place = scene_place(result, {{"house_1/south_1"}, {}, {}});
+  ASSERT_TRUE(place.normal);
+  EXPECT_NEAR(place.normal->y, -1, 1e-9);
   constexpr int size = 100;
-  const auto camera = Camera::parallel(shape.points, shape.normal, {0, 0, 1}, size, size, 2);
+  const auto camera = Camera::parallel(place.points, *place.normal, {0, 0, 1}, size, size, 2);
   const RayCaster caster(scene.mesh());
   PatchColours colours;
   colours.largest = 4;
@@ -339,7 +342,81 @@ TEST(Render, AFacadeIsSeenFromBeforeIt) {
                                                                                                : 0);
   const auto pixels = drawn_pixels(scene, caster, camera, size, size, colours);
   EXPECT_LT(colour_difference(pixels[50 * size + 50], map_colour(Palette::false_colour, 0.75)), 1);
-  EXPECT_THROW(scene.facade_shape(result, "house_9/south_1"), InputError);
+  EXPECT_THROW(scene_place(result, {{"house_9/south_1"}, {}, {}}), InputError);
+  EXPECT_FALSE(scene_place(result, {{"house_1/*"}, {}, {}}).normal);  // they look all ways
+  EXPECT_TRUE(scene_place(result, {{"*/south_1"}, {}, {}}).normal);
+}
+
+TEST(Render, PlacesAreNamedOrRelativeToNames) {
+  // house_1: x −12 … −2, y 0 … 8, z 0 … 9, relative to (1000, 2000, 0).
+  const ResultReader result(write_small_result(SmallResult{}, "render_places"));
+  const auto at = [&](const char* text, ViewpointOf of) { return viewpoint(result, text, of).at; };
+  const auto expect = [](Vec3 found, Vec3 wanted) { EXPECT_LT(norm(found - wanted), 1e-9); };
+  expect(at("1001, 2002,3", ViewpointOf::eye), {1, 2, 3});
+  expect(at("house_1", ViewpointOf::look), {-7, 4, 4.5});
+  expect(at("house_1", ViewpointOf::eye), {-7, 4, 9 + 1.7});
+  expect(at("house_1+0,-30,1.7", ViewpointOf::eye), {-7, -26, 1.7});
+  expect(at("house_1+-3,0,2", ViewpointOf::look), {-10, 4, 2});
+  expect(at("house_1/south_1", ViewpointOf::eye), {-7, -0.5, 4.5});
+  EXPECT_NEAR(viewpoint(result, "house_1/south_1", ViewpointOf::eye).towards->y, -1, 1e-9);
+  const auto refusal =
+      test::refusal_of([&] { viewpoint(result, "hause_1+0,1,2", ViewpointOf::eye); });
+  EXPECT_NE(refusal.find("did you mean 'house_1'"), std::string::npos) << refusal;
+  EXPECT_THROW(viewpoint(result, "house_1+0,1", ViewpointOf::eye), InputError);
+  EXPECT_THROW(viewpoint(result, "1,2,nan", ViewpointOf::eye), InputError);
+}
+
+TEST(Render, TheCameraHoldsBuildingsAndNotWhatLiesFlat) {
+  SmallResult small;
+  // A plate that is modelled as a thin body.
+  small.houses.push_back({"slab", {-200, -200, -0.4}, {200, 200, -0.1}});
+  const ResultReader result(write_small_result(small, "render_focus"));
+  for (const Vec3 p : PatchScene(result).focus_points()) {
+    EXPECT_LE(std::abs(p.x), 12);
+    EXPECT_LE(std::abs(p.y), 8);
+  }
+}
+
+TEST(Render, APictureOfNothingIsRefusedWithThePlaceOfTheScene) {
+  const ResultReader result(write_small_result(SmallResult{}, "render_nothing"));
+  const auto refusal = [&](const auto& change) {
+    RenderRules rules;
+    rules.width = rules.height = 320;
+    change(rules);
+    return test::refusal_of([&] { render_png(result, rules, picture_path("render_nothing")); });
+  };
+  const auto past = refusal([](RenderRules& r) {
+    r.eye = "1000,1900,2";
+    r.look = "1000,1800,2";
+  });
+  EXPECT_NE(past.find("the scene lies in x 980.0 … 1020.0, y 1980.0 … 2020.0, z 0.0 … 9.0 m"),
+            std::string::npos)
+      << past;
+  const auto inside = refusal([](RenderRules& r) {
+    r.eye = "993,2004,4";
+    r.look = "994,2004,4";
+  });
+  EXPECT_NE(inside.find("inside of a body"), std::string::npos) << inside;
+  // Asked for, but on the far side.
+  const auto hidden = refusal([](RenderRules& r) {
+    r.parts.objects = {"house_1"};
+    r.eye = "1001,2004,3";
+    r.look = "1015,2004,3";
+  });
+  EXPECT_FALSE(hidden.empty());
+  EXPECT_EQ(refusal([](RenderRules& r) { r.look = "house_1"; }), "");
+  EXPECT_EQ(refusal([](RenderRules& r) { r.parts.facades = {"house_1/*"}; }), "");
+  EXPECT_EQ(refusal([](RenderRules& r) { r.eye = "house_1/south_1"; }), "");
+  EXPECT_NE(refusal([](RenderRules& r) { r.eye = "house_1"; }), "");
+  EXPECT_NE(refusal([](RenderRules& r) { r.look = "1,2,3"; }), "");
+  // A total has no time, but for a camera or a sky that has.
+  const auto timed = refusal([](RenderRules& r) { r.time = "2026-06-21T11:30"; });
+  EXPECT_NE(timed.find("is a total of the whole period"), std::string::npos) << timed;
+  EXPECT_EQ(refusal([](RenderRules& r) {
+              r.time = "2026-06-21T11:30";
+              r.view = View::sun;
+            }),
+            "");
 }
 
 std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
@@ -418,24 +495,21 @@ TEST(Render, RefusesWhatTheResultDoesNotHave) {
     change(rules);
     return rules;
   };
-  const std::vector<RenderRules> wrong{with([](RenderRules& r) { r.quantity = "glare"; }),
-                                       with([](RenderRules& r) { r.quantity = "patch_object"; }),
-                                       with([](RenderRules& r) { r.quantity = "time"; }),
-                                       with([](RenderRules& r) { r.time = "2027-01-01"; }),
-                                       with([](RenderRules& r) {
-                                         r.eye = Vec3{1, 2, 3};
-                                       }),
-                                       with([](RenderRules& r) {
-                                         r.eye = r.look = Vec3{1, 2, 3};
-                                       }),
-                                       with([](RenderRules& r) { r.largest = 0.0; }),
-                                       with([](RenderRules& r) { r.facade = "no_facade"; }),
-                                       with([](RenderRules& r) { r.crease_angle_deg = 10; }),
-                                       with([](RenderRules& r) {
-                                         r.view = View::top;
-                                         r.projection = Projection::parallel;
-                                       }),
-                                       with([](RenderRules& r) { r.width = 10; })};
+  const std::vector<RenderRules> wrong{
+      with([](RenderRules& r) { r.quantity = "glare"; }),
+      with([](RenderRules& r) { r.quantity = "patch_object"; }),
+      with([](RenderRules& r) { r.quantity = "time"; }),
+      with([](RenderRules& r) { r.time = "2027-01-01"; }),
+      with([](RenderRules& r) { r.eye = "1,2,3"; }),
+      with([](RenderRules& r) { r.eye = r.look = "1,2,3"; }),
+      with([](RenderRules& r) { r.largest = 0.0; }),
+      with([](RenderRules& r) { r.parts.facades = {"no_facade"}; }),
+      with([](RenderRules& r) { r.crease_angle_deg = 10; }),
+      with([](RenderRules& r) {
+        r.view = View::top;
+        r.projection = Projection::parallel;
+      }),
+      with([](RenderRules& r) { r.width = 10; })};
   for (const auto& rules : wrong) EXPECT_THROW(render_png(result, rules, path), InputError);
   EXPECT_FALSE(std::filesystem::exists(path));
   EXPECT_THROW(render_png(result, with([](RenderRules& r) { r.width = r.height = 400; }),
