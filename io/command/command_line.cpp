@@ -21,7 +21,6 @@
 #include "io/run/run.h"
 #include "io/scene/builtin.h"
 #include "io/study/material_table.h"
-#include "io/view/view.h"
 
 namespace sunload {
 namespace {
@@ -380,14 +379,17 @@ class CommandLine {
   void add_view() {
     CLI::App* sub = command(
         "view", "one self-contained page: walk through the scene, any time, two results", [this] {
-          if (view_step_ > 0) view_.step = view_step_;
-          view_.band = chosen_band(band_);
-          view_html(results_, view_, picture_);
-          return exit_code::done;
+          if (view_step_ > 0) view_.rules.step = view_step_;
+          view_.rules.band = chosen_band(band_);
+          return view(view_);
         });
-    reads(sub->add_option("RESULT", results_, "one result file (.h5), or two to compare"))
+    reads(sub->add_option("RESULT", view_.inputs,
+                          "one result file (.h5), or two to compare; or a study (.yaml), whose "
+                          "scene is shown without light"))
         ->required();
-    writes(sub->add_option("-o,--output", picture_, "page to write (.html)"))->required();
+    writes(sub->add_option("-o,--output", view_.page, "page to write (.html)"))->required();
+    sub->add_option("--variant", view_.variants,
+                    "of a study: its variants to show, at most two (default: the first two)");
     sub->add_option("--step", view_step_,
                     "hold every N-th interval only (default: as many as 60 MB hold)")
         ->check(CLI::Range(1, 1'000'000));
@@ -461,7 +463,7 @@ class CommandLine {
                                                      Palette::false_colour};
   ExportRules export_;
   SkyOptions sky_;
-  ViewRules view_;
+  ViewOptions view_;
   BuiltinOptions builtin_;
   std::size_t view_step_ = 0;
   double largest_ = 0;

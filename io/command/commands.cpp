@@ -32,8 +32,7 @@ std::string result_named(const CompareOptions& options, const std::string& varia
 
 /// With the files of a study's variants in place of their names.
 CompareOptions with_files(CompareOptions options) {
-  const bool is_study = options.base.ends_with(".yaml") || options.base.ends_with(".yml");
-  if (!is_study) return options;
+  if (!is_study(options.base)) return options;
   auto& names = options.variants;
   if (names.size() == 1)
     names.insert(names.begin(), read_study(options.base).variants.front().variant);

@@ -10,6 +10,7 @@
 
 #include "io/picture/render.h"
 #include "io/result/named_parts.h"
+#include "io/view/view.h"
 
 namespace sunload {
 
@@ -52,6 +53,15 @@ struct RenderOptions {
 };
 /// Throws InputError for words that do not say what they should.
 int render(RenderOptions options);
+
+struct ViewOptions {
+  std::vector<std::string> inputs;    ///< results; or one study, shown without light
+  std::vector<std::string> variants;  ///< of the study; empty: its first two
+  ViewRules rules;
+  std::string page;  ///< file to write
+};
+/// Throws InputError, also for variants of what is no study.
+int view(const ViewOptions& options);
 
 struct BuiltinOptions {
   std::string name;

@@ -26,6 +26,8 @@ struct RunOptions {
   Shard shard;                ///< which units are this process' own
 };
 
+/// Whether a path names a study where a result could stand, too: by its ending.
+bool is_study(const std::string& path);
 /// The variants that were asked for. Throws InputError for unknown names.
 std::vector<Study> chosen_variants(const StudyFile& file, const RunOptions& options);
 /// Folder of all results: that of `--output`, or the one that the study names.

@@ -83,21 +83,26 @@ double accuracy_share(const Totals& totals, const ResultGeometry& geometry, doub
 /// Attributes are added to these lists in the order of the functions below.
 using Attributes = ResultAttributes;
 
-/// What was computed, by what, and when.
+/// Of what it is, and by what.
+void add_names(Attributes& a, const VariantPlan& plan) {
+  a.text.insert(a.text.end(), {{"source", std::string("sunload ") + version + " (" + commit + ")"},
+                               {"study", plan.study.name},
+                               {"variant", plan.study.variant}});
+}
+
+/// How it was computed.
 void add_identity(Attributes& a, const MergedResult& result) {
   const VariantPlan& plan = result.plan;
   const Study& study = plan.study;
   const std::string command =
       "sunload run " + std::filesystem::path(result.file.path).filename().string();
-  a.text = {{"title", "Light load: " + study.name + ", variant " + study.variant},
-            {"source", std::string("sunload ") + version + " (" + commit + ")"},
-            {"history", iso_utc(now()) + " " + command},
-            {"study", study.name},
-            {"variant", study.variant},
-            {"study_sha256", plan.content_hash},
-            {"pairing_id", plan.pairing_id},
-            {"isa", plan.isa},
-            {"transport", study.solver.transport == Transport::shoot ? "shoot" : "gather"}};
+  a.text.insert(a.text.end(),
+                {{"title", "Light load: " + study.name + ", variant " + study.variant},
+                 {"history", iso_utc(now()) + " " + command},
+                 {"study_sha256", plan.content_hash},
+                 {"pairing_id", plan.pairing_id},
+                 {"isa", plan.isa},
+                 {"transport", study.solver.transport == Transport::shoot ? "shoot" : "gather"}});
   if (study.solver.bands == Bands::rgb) {
     a.text.emplace_back("bands", "rgb");
     a.text.emplace_back("light_colour", study.light.colour == LightColour::white ? "white" : "sky");
@@ -108,12 +113,12 @@ void add_identity(Attributes& a, const MergedResult& result) {
 }
 
 /// Where and when the sun stands.
-void add_place(Attributes& a, const MergedResult& result) {
-  const BuiltScene& built = result.plan.built;
-  const bool has_instants = std::holds_alternative<InstantsPeriod>(result.plan.study.period.kind);
+void add_place(Attributes& a, const VariantPlan& plan) {
+  const BuiltScene& built = plan.built;
+  const bool has_instants = std::holds_alternative<InstantsPeriod>(plan.study.period.kind);
   a.text.insert(
       a.text.end(),
-      {{"timezone", result.plan.study.site.timezone},
+      {{"timezone", plan.study.site.timezone},
        {"site_source", built.site_source},
        {"sun_sampling", has_instants ? "sun at the given instant"
                                      : "sun at the middle of the sunlit part of the interval"}});
@@ -198,9 +203,14 @@ std::vector<std::string> result_warnings(const Totals& totals, const ResultGeome
 }
 
 ResultAttributes result_attributes(const MergedResult& result) {
+  ResultAttributes attributes = scene_attributes(result.plan);
+  for (const auto add : {add_identity, add_work, add_accuracy, add_notes}) add(attributes, result);
+  return attributes;
+}
+
+ResultAttributes scene_attributes(const VariantPlan& plan) {
   ResultAttributes attributes;
-  for (const auto add : {add_identity, add_place, add_work, add_accuracy, add_notes})
-    add(attributes, result);
+  for (const auto add : {add_names, add_place}) add(attributes, plan);
   return attributes;
 }
 

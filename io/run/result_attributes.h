@@ -22,6 +22,8 @@ struct MergedResult {
 
 /// Root attributes (docs/result-file.md).
 ResultAttributes result_attributes(const MergedResult& result);
+/// What of them is known before any light: names, place, time zone.
+ResultAttributes scene_attributes(const VariantPlan& plan);
 /// Faults of the model that only the light brings out.
 std::vector<std::string> result_warnings(const Totals& totals, const ResultGeometry& geometry);
 

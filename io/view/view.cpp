@@ -12,6 +12,7 @@
 #include "geo/base/check.h"
 #include "io/base/colour_map.h"
 #include "io/base/file_aside.h"
+#include "io/base/scene_colours.h"
 #include "io/base/standard_streams.h"
 #include "io/view/data.h"
 #include "io/view/page.h"
@@ -23,7 +24,7 @@ namespace {
 // them, and geometry and totals take a few megabytes more.
 constexpr std::size_t most_series_bytes = 60'000'000;
 constexpr std::size_t most_results = 2;
-constexpr int palette_colours = 256;
+constexpr std::size_t palette_colours = 256;
 
 std::size_t chosen_step(const std::deque<ResultReader>& results) {
   std::size_t bytes = 0;
@@ -33,15 +34,22 @@ std::size_t chosen_step(const std::deque<ResultReader>& results) {
   return std::max<std::size_t>(1, (bytes + most_series_bytes - 1) / most_series_bytes);
 }
 
-/// 256 sRGB colours, 3 numbers of 0 … 255 each.
-nlohmann::json palette(Palette which) {
+/// sRGB colours, 3 numbers of 0 … 255 each; `colour_of` a number from 0.
+template <class ColourOf>
+nlohmann::json colours(std::size_t count, const ColourOf& colour_of) {
   auto list = nlohmann::json::array();
-  for (int k = 0; k < palette_colours; ++k) {
-    const auto colour = map_colour(which, static_cast<double>(k) / (palette_colours - 1));
+  for (std::size_t k = 0; k < count; ++k) {
+    const Colour colour = colour_of(k);
     for (const double channel : {colour.red, colour.green, colour.blue})
       list.push_back(static_cast<int>(std::lround(255 * channel)));
   }
   return list;
+}
+
+nlohmann::json palette(Palette which) {
+  return colours(palette_colours, [&](std::size_t k) {
+    return map_colour(which, static_cast<double>(k) / (palette_colours - 1));
+  });
 }
 
 /// JSON that cannot end the element it stands in, whatever the names of a scene are.
@@ -80,7 +88,10 @@ void view_html(const std::vector<std::string>& paths, const ViewRules& rules,
                      rules.step ? "" : ", to stay small; --step sets this"));
 
   ViewBlocks blocks;
-  nlohmann::json about{{"false", palette(Palette::false_colour)}, {"grey", palette(Palette::grey)}};
+  nlohmann::json about{{"false", palette(Palette::false_colour)},
+                       {"grey", palette(Palette::grey)},
+                       {"surfaces", colours(surface_colour_count, surface_colour)},
+                       {"materials", colours(material_colour_count, material_colour)}};
   for (const auto& result : results) {
     if (result.shape("patch_area").at(0) == 0)
       throw InputError({result.path()}, "no patches", "there is nothing to view");
