@@ -69,6 +69,8 @@ json geometry(const ResultReader& result, ViewBlocks& blocks) {
     j[name] = add_numbers(blocks, floats(result.doubles(name)));
   for (const auto* name : {"object_name", "facade_name", "material_name"})
     j[name] = result.has(name) ? result.strings(name) : std::vector<std::string>{};
+  for (const auto* name : {"facade_azimuth", "facade_light_load_se"})
+    if (result.has(name)) j[name] = result.doubles(name);
   return j;
 }
 

@@ -173,6 +173,14 @@ class Result {
     return [0, 1, 2].filter((axis) => axis !== off);
   }
 
+  allSurfaceNames() { return surfaces; }
+
+  /** Kinds of surface that its patches have. */
+  surfaceNames() {
+    const used = new Set(this.patch_surface);
+    return surfaces.filter((_, k) => used.has(k));
+  }
+
   patchNames(patch) {
     const g = this.geometry;
     return {
@@ -188,11 +196,12 @@ class Result {
     return [this.vertices[v], this.vertices[v + 1], this.vertices[v + 2]];
   }
 
-  /** Height of the highest patch below a height over a point of the plan; -Infinity: none. */
-  heightAt(x, y, below) {
-    const { vertices: v, patch_vertices: corners } = this;
+  /** Height of the highest patch (of a kind) below a height over a point of the plan; -Infinity: none. */
+  heightAt(x, y, below, kind = "") {
+    const { vertices: v, patch_vertices: corners } = this, only = kind ? surfaces.indexOf(kind) : -1;
     let highest = -Infinity;
     for (let c = 0; c < corners.length; c += 3) {
+      if (only >= 0 && this.patch_surface[c / 3] !== only) continue;
       const a = 3 * corners[c], b = 3 * corners[c + 1], d = 3 * corners[c + 2];
       // Twice the signed areas that the point spans with the sides, seen in plan.
       const u = (v[b] - x) * (v[d + 1] - y) - (v[d] - x) * (v[b + 1] - y);
@@ -240,7 +249,7 @@ export async function readPage() {
   const halves = halfValues();
   const results = [];
   for (const one of about.results) results.push(await Result.read(one, halves));
-  return { results, palettes: { false: about.false, grey: about.grey, difference: differencePalette() } };
+  return { results, palettes: { false: about.false, grey: about.grey, difference: differencePalette(), surfaces: about.surfaces, materials: about.materials } };
 }
 
 /** Blue, near white, orange: lightness falls equally to both sides (CIELAB), told apart by all colour vision. */

@@ -1,27 +1,43 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page of `sunload view`: state, what it draws, and what the user does to it.
+// The page of `sunload view`: state, and what it draws of it.
 import * as THREE from "three";
+import { addressOf, readAddress } from "./address.js";
 import { CameraMan } from "./camera.js";
+import { fillChoices, listen, showState } from "./controls.js";
 import { matchedMean, readPage } from "./data.js";
-import { PatchMesh, paletteTexture } from "./mesh.js";
-import { $, drawLegend, isShape, materialPalette, materialValue, materials, preview, tellPatch, tellTime } from "./panels.js";
-import { scaleEnd, shown } from "./scale.js";
+import { knownNames } from "./find.js";
+import { legendsOf, limitOf, showLegends } from "./legend.js";
+import { PatchMesh, difference, paletteTexture } from "./mesh.js";
+import { $, isShape, kinds, materials, preview, tellSelection, tellTime } from "./panels.js";
+import { Picker } from "./picker.js";
+import { sameEntry, selectedPatches, shapeOf } from "./selection.js";
 import { Sky, sceneNorth } from "./sky.js";
+import { caption, quantities } from "./words.js";
 
-const playIntervalMs = 250, clickPixels = 4;
+const playIntervalMs = 250, addressAfterMs = 300, captionPixels = 24;
+// What is not higher above the ground than this is no roof.
+const highestStreetM = 2;
 
 class Viewer {
   constructor({ results, palettes }) {
     this.results = results;
-    this.palettes = { ...palettes, materials: materialPalette() };
-    this.state = { view: results.length > 1 ? "side" : "0", quantity: "light_load", k: this.brightest(results[0]), colours: "false",
-      shading: "constant", crease: Number($("crease").value), lines: "none", picked: null, limits: {} };
-    this.textures = Object.fromEntries(Object.entries(this.palettes).map(([name, colours]) => [name, paletteTexture(colours)]));
+    this.canvas = $("scene");
+    this.palettes = palettes;
+    this.textures = Object.fromEntries(Object.entries(palettes).map(([name, colours]) => [name, paletteTexture(colours)]));
+    this.known = knownNames(results);
+    this.match = results.length > 1 ? results[0].matched(results[1]) : null;
+    this.unmatchedShare = this.match ? this.lonelyShare() : 0;
+    this.state = { view: results.length > 1 ? "side" : "0", quantity: quantities(this)[0][0], k: this.brightest(results[0]), colours: "false",
+      shading: "constant", crease: 20, lines: "none", edges: true, shade: "shapes", path: true, takes: "patch", chart: "day", picked: [], limits: {}, folded: new Set() };
     this.buildScene();
-    this.fillChoices();
-    this.listen();
-    this.refresh();
+    fillChoices(this);
+    this.usual = { ...this.state, fold: "" };
+    if (this.isNarrow()) this.state.folded.add("left");
+    this.usual.fold = [...this.state.folded].join(",");
+    listen(this);
+    this.takeAddress();
+    window.addEventListener("hashchange", () => window.location.hash.slice(1) !== this.written && this.takeAddress());
     this.loop();
   }
 
@@ -30,44 +46,84 @@ class Viewer {
     return elevation.indexOf(Math.max(...elevation));
   }
 
+  isNarrow() { return window.matchMedia("(max-width: 760px)").matches; }
+
+  /** Share of the first result's area that has nothing in its place in the second. */
+  lonelyShare() {
+    const { patch_area: area } = this.results[0], { first } = this.match;
+    let lonely = 0, all = 0;
+    area.forEach((one, p) => { all += one; if (first[p] === first[p + 1]) lonely += one; });
+    return lonely / all;
+  }
+
   // What is drawn.
 
   buildScene() {
     const [result] = this.results;
-    this.renderer = new THREE.WebGLRenderer({ canvas: $("scene"), antialias: !isDrawnBySoftware(), preserveDrawingBuffer: true });
+    this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: !isDrawnBySoftware(), preserveDrawingBuffer: true });
     this.renderer.setClearColor(0xe8f0f7);
     this.renderer.autoClear = false;
     this.scene = new THREE.Scene();
-    this.meshes = this.results.map((one) => new PatchMesh(one));
-    // All results in the frame of the first.
-    this.meshes.forEach((mesh, n) => {
-      mesh.object.position.set(...this.results[n].geometry.centre.map((x, axis) => x - result.geometry.centre[axis]));
-      this.scene.add(mesh.object);
-    });
-    const { box } = this.meshes[0];
-    const radius = 0.5 * box.getSize(new THREE.Vector3()).length();
-    this.sky = new Sky(result.times, radius, box.min.z);
-    this.scene.add(this.sky.object);
+    this.meshes = [];
+    this.results.forEach((_, n) => this.addMesh(n, n));
+    const { box } = this.meshes[0], focus = this.meshes[0].focus(), radius = 0.5 * box.getSize(new THREE.Vector3()).length();
+    const middle = focus.getCenter(new THREE.Vector3()), north = sceneNorth(result.times), flat = focus.getSize(new THREE.Vector3());
     this.lowest = box.min.z;
+    this.sky = new Sky(result.times, Math.min(radius, 0.62 * Math.hypot(flat.x, flat.y)), middle.clone().setZ(focus.min.z));
+    this.scene.add(this.sky.object);
     this.rays = new THREE.Raycaster();
-    this.man = new CameraMan($("scene"), radius, sceneNorth(result.times), (x, y, below) => this.groundAt(x, y, below), () => { this.isStale = true; });
+    this.picker = new Picker(this);
+    const world = { groundAt: (x, y, below) => this.groundAt(x, y, below), clear: (from, way) => this.clear(from, way), isOutdoors: (x, y) => this.isOutdoors(x, y) };
+    this.man = new CameraMan(this.canvas, radius, focus, north, world, () => this.touch());
+    new ResizeObserver(() => this.resize()).observe($("stage"));
     this.resize();
+  }
+
+  /** All results in the frame of the first. */
+  addMesh(at, n) {
+    const mesh = new PatchMesh(this.results[n]);
+    mesh.object.position.set(...this.results[n].geometry.centre.map((x, axis) => x - this.results[0].geometry.centre[axis]));
+    this.scene.add(mesh.object);
+    this.meshes[at] = mesh;
   }
 
   /** Height of the highest surface below a height, over a point of the plan. */
   groundAt(x, y, below) {
-    const height = this.results[0].heightAt(x, y, Number.isFinite(below) ? below : this.lowest + highestStreetM);
+    const height = this.results[0].heightAt(x, y, below);
     return Number.isFinite(height) ? height : this.lowest;
   }
 
-  /** Views side by side: which mesh in which share of the width. */
-  parts() {
-    const { view } = this.state;
-    if (view === "side") return [{ mesh: 0, from: 0, to: 0.5 }, { mesh: 1, from: 0.5, to: 1 }];
-    return [{ mesh: view === "1" ? 1 : 0, from: 0, to: 1 }];
+  /** Whether the ground is the highest that is there over a point of the plan. */
+  isOutdoors(x, y) {
+    const [result] = this.results, height = result.heightAt(x, y, Infinity);
+    return Number.isFinite(height) && height <= result.heightAt(x, y, Infinity, "ground") + highestStreetM;
   }
 
-  isDifference() { return this.state.view === "difference" && !isShape(this.state.quantity); }
+  /** Metres from a point to the first surface on a way; infinite where there is none, 0 where it is seen from behind. */
+  clear(from, way) {
+    this.rays.set(from, way);
+    const [hit] = this.rays.intersectObject(this.meshes[0].object, false), normals = this.results[0].patch_normal;
+    if (!hit) return Infinity;
+    const patch = this.meshes[0].patchOf[hit.faceIndex], turn = way.dot(new THREE.Vector3().fromArray(normals, 3 * patch));
+    return turn < 0 || this.results[0].isTwoSided[this.results[0].patch_input_triangle[patch]] ? hit.distance : 0;
+  }
+
+  /**
+   * The pictures beside each other (one above the other where the stage is tall): which mesh, of which result, and
+   * where [pixels of the stage, from its upper left corner]. Below each is room for its caption.
+   */
+  parts() {
+    const { view } = this.state, { clientWidth: width, clientHeight: height } = this.canvas;
+    const meshes = { side: [0, 1], difference: [difference], all: [0, 1, difference] }[view] ?? [Number(view)];
+    const isTall = height > width, wide = isTall ? width : width / meshes.length, tall = isTall ? height / meshes.length : height;
+    return meshes.map((mesh, k) => {
+      const x = isTall ? 0 : Math.round(k * wide), y = isTall ? Math.round(k * tall) : 0;
+      return { mesh, n: mesh === difference ? 0 : mesh, x, y, width: (isTall ? width : Math.round((k + 1) * wide)) - x,
+        height: (isTall ? Math.round((k + 1) * tall) : height) - y - captionPixels };
+    });
+  }
+
+  isDifference(part) { return part.mesh === difference && !isShape(this.state.quantity); }
 
   /** Value per patch of a result for the quantity that is shown, at the time of the slider. */
   valuesOf(n, quantity = this.state.quantity, k = this.state.k) {
@@ -80,82 +136,75 @@ class Viewer {
     return values.map((value, p) => matchedMean(this.match, p, (q) => others[q]) - value);
   }
 
+  /** What a mesh shows: one value per patch, or the number of a kind. */
+  shownBy(part) {
+    const { quantity } = this.state, result = this.results[part.n];
+    if (quantity === preview) return new Float32Array(result.patches);
+    if (quantity === kinds) return Float32Array.from(result.patch_surface);
+    if (quantity === materials) return Float32Array.from(result.patch_material, (k) => (k < 0 ? -1 : k % (this.palettes.materials.length / 3)));
+    return this.isDifference(part) ? this.difference(this.valuesOf(0), this.valuesOf(1)) : this.valuesOf(part.n);
+  }
+
   refresh() {
-    const { quantity, shading, crease, lines, colours, k } = this.state;
-    const end = this.limit(), isSmooth = shading === "smooth";
-    this.meshes.forEach((mesh, n) => {
-      const { uniforms } = mesh;
-      if (quantity === materials) {
-        mesh.show(Float32Array.from(this.results[n].patch_material, materialValue), false, crease);
-      } else if (quantity !== preview) {
-        let values = this.valuesOf(n);
-        if (this.isDifference() && n === 0) {
-          values = this.difference(values, this.valuesOf(1));
-        }
-        mesh.show(values, isSmooth, crease);
-      }
-      mesh.showAs(isShape(quantity));
-      uniforms.materials.value = quantity === materials;
-      const palette = this.isDifference() ? "difference" : quantity === materials ? materials : colours;
-      uniforms.palette.value = this.textures[palette];
-      uniforms.low.value = this.isDifference() ? -end : 0;
+    const { quantity, shading, crease, lines, colours, edges, shade, path, picked, k } = this.state;
+    for (const part of this.parts()) {
+      if (!this.meshes[part.mesh]) this.addMesh(part.mesh, part.n);
+      const mesh = this.meshes[part.mesh], { uniforms } = mesh, isApart = this.isDifference(part), end = this.limit(isApart);
+      mesh.show(this.shownBy(part), shading === "smooth" && !isShape(quantity), crease);
+      mesh.showAs(isShape(quantity), shade === "all" || (shade === "shapes" && isShape(quantity)));
+      uniforms.kinds.value = quantity === materials || quantity === kinds;
+      uniforms.palette.value = this.textures[isApart ? "difference" : uniforms.kinds.value ? quantity : colours];
+      uniforms.low.value = isApart ? -end : 0;
       uniforms.high.value = end;
       mesh.showLines(lines);
-      this.showSensors(mesh, n, end);
-    });
+      mesh.foldLines.visible = edges;
+      mesh.outline.show(this, picked, part.n);
+      this.showSensors(mesh, part, end);
+    }
     this.sky.show(k);
-    drawLegend(this, end);
+    if (path !== this.isPathShown) this.sky.object.visible = this.isPathShown = path;
+    this.showCaptions();
+    const legends = this.legends(), told = JSON.stringify(legends.map((legend) => ({ ...legend, palette: colours })));
+    if (told !== this.toldLegends) showLegends($("legend"), legends, (key, value) => this.setLimit(key, value));
+    this.toldLegends = told;
     tellTime(this);
-    tellPatch(this);
-    this.isStale = true;
+    tellSelection(this);
+    showState(this);
+    this.touch();
   }
 
   /** Sensors have the colours of their values; in a difference, and where they lack the quantity, they are white. */
-  showSensors(mesh, n, end) {
+  showSensors(mesh, part, end) {
     if (!mesh.sensors) return;
-    const { quantity, colours, k } = this.state, own = n === 0 ? k : this.results[n].intervalAt(this.results[0].times[k]);
-    const values = this.isDifference() || isShape(quantity) ? null : this.results[n].sensors.values(quantity, own);
+    const { quantity, colours, k } = this.state, result = this.results[part.n], own = part.n === 0 ? k : result.intervalAt(this.results[0].times[k]);
+    const values = part.mesh === difference || isShape(quantity) ? null : result.sensors.values(quantity, own);
     mesh.sensors.show(values, this.palettes[colours], 0, end);
   }
 
+  showCaptions() {
+    $("names").replaceChildren(...this.parts().map((part) => {
+      const span = Object.assign(document.createElement("span"), { textContent: caption(this, part), title: caption(this, part) });
+      Object.assign(span.style, { left: `${part.x}px`, top: `${part.y + part.height}px`, width: `${part.width}px` });
+      return span;
+    }));
+  }
+
+  legends() { return legendsOf(this); }
+
   /** What the colours end at: the user's limit, or one for all results and times. */
-  limit() {
-    const { quantity, limits } = this.state;
-    if (isShape(quantity)) return 1;
-    const key = this.limitKey();
-    return limits[key] ?? (this.ends ??= {})[key] ?? (this.ends[key] = this.automaticLimit());
-  }
-
-  limitKey() { return `${this.state.quantity}${this.isDifference() ? " difference" : ""}`; }
-
-  automaticLimit() {
-    const { quantity, k } = this.state, isSeries = this.results[0].series?.name === quantity;
-    const intervals = isSeries ? [...new Set([0.25, 0.5, 0.75, 1].map((share) => this.atElevation(share)).concat(k))] : [k];
-    const ends = intervals.flatMap((at) => {
-      if (!this.isDifference()) return this.results.map((result, n) => scaleEnd(this.valuesOf(n, quantity, at), result.patch_area));
-      const apart = this.difference(this.valuesOf(0, quantity, at), this.valuesOf(1, quantity, at));
-      return [scaleEnd(apart.map(Math.abs), this.results[0].patch_area)];
-    });
-    return Math.max(...ends);
-  }
-
-  /** Interval whose sun stands at a share of the highest elevation. */
-  atElevation(share) {
-    const elevation = this.results[0].times.map((time) => time.elevation), goal = share * Math.max(...elevation);
-    return elevation.reduce((best, value, k) => (Math.abs(value - goal) < Math.abs(elevation[best] - goal) ? k : best), 0);
-  }
+  limit(isApart = this.state.view === "difference") { return limitOf(this, isApart); }
 
   render() {
-    const { clientWidth: width, clientHeight: height } = $("scene");
+    const { clientHeight: whole } = this.canvas;
     this.renderer.setScissorTest(true);
     for (const part of this.parts()) {
-      const x = Math.round(part.from * width), wide = Math.round(part.to * width) - x;
-      this.renderer.setViewport(x, 0, wide, height);
-      this.renderer.setScissor(x, 0, wide, height);
-      this.man.fitTo(wide / height);
+      const { x, width, height } = part, y = whole - part.y - height;
+      this.renderer.setViewport(x, y, width, height);
+      this.renderer.setScissor(x, y, width, height);
+      this.man.fitTo(width / height);
       this.meshes.forEach((mesh, n) => {
         mesh.object.visible = n === part.mesh;
-        mesh.showFolds(this.man.camera, height);
+        if (n === part.mesh) mesh.showFolds(this.man.camera, height);
       });
       this.renderer.clear();
       this.renderer.render(this.scene, this.man.camera);
@@ -163,10 +212,17 @@ class Viewer {
     this.isStale = false;
   }
 
+  /** Draws with the next frame, and soon writes the address. */
+  touch() {
+    this.isStale = true;
+    clearTimeout(this.writing);
+    this.writing = setTimeout(() => this.writeAddress(), addressAfterMs);
+  }
+
   loop() {
     let before = performance.now();
     const frame = (now) => {
-      if (this.man.step((now - before) / 1000)) this.isStale = true;
+      if (this.man.step((now - before) / 1000, now)) this.touch();
       before = now;
       if (this.isStale) this.render();
       requestAnimationFrame(frame);
@@ -175,77 +231,78 @@ class Viewer {
   }
 
   resize() {
+    const { clientWidth: width, clientHeight: height } = $("stage");
+    if (width < 1 || height < 1) return;
     this.renderer.setPixelRatio(window.devicePixelRatio);
-    this.renderer.setSize(window.innerWidth, window.innerHeight, false);
-    this.isStale = true;
+    this.renderer.setSize(width, height, false);
+    // At once, so that the picture does not blink; not before there is something to show.
+    if (this.toldLegends === undefined) return;
+    this.showCaptions();
+    tellSelection(this);
+    this.render();
+    this.touch();
+  }
+
+  // The address.
+
+  offset() { return this.results[0].geometry.centre.map((x, axis) => x + (this.results[0].origin?.[axis] ?? 0)); }
+
+  address() {
+    return addressOf(this.state, this.usual, this.results[0], { mode: this.man.mode, isMoved: this.man.isMoved, numbers: this.man.numbers(this.offset()) });
+  }
+
+  writeAddress() {
+    this.written = this.address();
+    if (window.location.hash.slice(1) !== this.written) window.history.replaceState(null, "", `${window.location.href.split("#")[0]}${this.written ? "#" : ""}${this.written}`);
+  }
+
+  takeAddress() {
+    const has = (id, value) => [...$(id).options].some((option) => option.value === value);
+    const { camera, ...asked } = readAddress(window.location.hash, this.results, has);
+    Object.assign(this.state, asked);
+    this.refresh();
+    if (camera) this.man.setNumbers(camera.mode, camera.numbers, this.offset());
+    showState(this);
   }
 
   // What the user does.
 
-  fillChoices() {
-    const { results, state } = this;
-    document.title = `sunload: ${results[0].study}`;
-    $("title").textContent = `${results[0].study}: ${results.map((result) => result.label).join(", ")}`;
-    this.match = results.length > 1 ? results[0].matched(results[1]) : null;
-    const lonely = this.match ? results[0].patch_area.reduce((sum, area, p) => sum + (this.match.first[p] < this.match.first[p + 1] ? 0 : area), 0) : 0;
-    this.unmatchedShare = this.match ? lonely / results[0].patch_area.reduce((sum, area) => sum + area, 0) : 0;
-    const views = results.map((result, n) => [String(n), result.label]);
-    if (results.length > 1) views.push(["side", "side by side"]);
-    if (this.unmatchedShare < 1 && this.match) views.push(["difference", `difference: ${results[1].label} − ${results[0].label}`]);
-    $("no-difference").hidden = !(this.unmatchedShare > 0);
-    if (this.match) {
-      $("no-difference").textContent = this.unmatchedShare < 1 ?
-        `${shown(100 * this.unmatchedShare, 2)} % of ${results[0].label} has other shapes in ${results[1].label}: grey in the difference.` :
-        "The two results share no surface: there is no difference.";
-    }
-    fill($("view"), views, state.view);
-    $("view").parentElement.hidden = results.length < 2;
-    // What a result has, the other may lack: only quantities of both can be shown.
-    const names = results[0].totals.map((total) => total.name).filter((name) => results.every((r) => r.totals.some((t) => t.name === name)));
-    const series = results[0].series?.name;
-    if (series && results.every((r) => r.series?.name === series)) names.push(series);
-    if (!names.includes(state.quantity)) state.quantity = names[0];
-    fill($("quantity"), [[preview, "preview (shape only)"], [materials, "materials"], ...names.map((name) => [name,
-      name.replaceAll("_", " ") + (name === series ? " at the time" : name.endsWith("_se") ? " (error)" : "")])], state.quantity);
-    $("slider").max = results[0].times.length - 1;
-  }
-
-  listen() {
-    const choose = (id, key, read = (element) => element.value) => $(id).addEventListener("change", () => {
-      this.state[key] = read($(id));
-      this.refresh();
-    });
-    for (const id of ["view", "quantity", "colours", "shading", "lines"]) choose(id, id);
-    choose("crease", "crease", (element) => Math.min(180, Math.max(0, Number(element.value) || 0)));
-    $("camera").addEventListener("change", () => {
-      this.man.setMode($("camera").value);
-      $("hint").textContent = $("camera").value === "walk" ? "W A S D or arrows walk, dragging looks around" : "";
-      $("scene").focus();
-    });
-    $("slider").addEventListener("input", () => this.setTime(Number($("slider").value)));
-    $("play").addEventListener("click", () => this.play());
-    $("limit").addEventListener("change", () => this.setLimit(Number($("limit").value)));
-    $("automatic").addEventListener("click", () => this.setLimit(null));
-    $("close").addEventListener("click", () => { this.state.picked = null; this.refresh(); });
-    let down = null;
-    $("scene").addEventListener("pointerdown", (event) => { down = event; });
-    $("scene").addEventListener("pointerup", (event) => {
-      if (down && Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) < clickPixels) this.pick(event.clientX, event.clientY);
-      down = null;
-    });
-    window.addEventListener("resize", () => this.resize());
-  }
-
-  setTime(k) {
-    this.state.k = k;
+  change(what) {
+    Object.assign(this.state, what);
     this.refresh();
   }
 
-  setLimit(value) {
+  choose(entries) {
+    if (entries.length && this.isNarrow()) this.state.folded.add("left");
+    this.change({ picked: entries });
+  }
+
+  /** Adds an entry, or takes it away where it is chosen. */
+  toggle(entry) {
+    const { picked } = this.state, rest = picked.filter((one) => !sameEntry(one, entry));
+    this.choose(rest.length < picked.length ? rest : [...picked.filter((one) => one.of !== "sensor"), entry]);
+  }
+
+  flyTo(entries = this.state.picked) {
+    for (const [m, result] of this.results.entries()) {
+      const patches = selectedPatches(this, entries, m);
+      if (!patches.length) continue;
+      const shape = shapeOf(result, patches), { position } = this.meshes[m].object;
+      shape.box.translate(position);
+      shape.middle.add(position);
+      return this.man.flyTo(shape);
+    }
+    const [sensor] = entries.filter((entry) => entry.of === "sensor");
+    if (!sensor) return undefined;
+    const { sensors } = this.results[sensor.n], middle = new THREE.Vector3().fromArray(sensors.position, 3 * sensor.sensor).add(this.meshes[sensor.n].object.position);
+    return this.man.flyTo({ box: new THREE.Box3().setFromCenterAndSize(middle, new THREE.Vector3(6, 6, 6)), middle, normal: new THREE.Vector3(0, 0, 1) });
+  }
+
+  setLimit(key, value) {
     if (value !== null && !(value > 0)) return;
-    if (value === null) delete this.state.limits[this.limitKey()];
-    else this.state.limits[this.limitKey()] = value;
-    $("limit").blur();
+    if (value === null) delete this.state.limits[key];
+    else this.state.limits[key] = value;
+    this.toldLegends = "";
     this.refresh();
   }
 
@@ -256,66 +313,24 @@ class Viewer {
     } else {
       // A total does not change with time: light at the time is what plays.
       const series = this.results[0].series?.name;
-      if (series && this.state.quantity !== series && [...$("quantity").options].some((one) => one.value === series)) {
-        this.state.quantity = $("quantity").value = series;
-      }
-      this.timer = setInterval(() => this.setTime((this.state.k + 1) % this.results[0].times.length), playIntervalMs);
+      if (series && !isShape(this.state.quantity) && quantities(this).some(([word]) => word === series)) this.state.quantity = series;
+      this.timer = setInterval(() => this.stepTime(1), playIntervalMs);
     }
-    $("play").textContent = this.timer ? "stop" : "play";
-  }
-
-  /** The patch under a point of the window. */
-  patchAt(x, y) {
-    const { clientWidth: width, clientHeight: height } = $("scene");
-    const part = this.parts().find((one) => x / width < one.to) ?? this.parts()[0];
-    const across = (x / width - part.from) / (part.to - part.from);
-    this.man.fitTo(((part.to - part.from) * width) / height);
-    this.rays.setFromCamera(new THREE.Vector2(2 * across - 1, 1 - (2 * y) / height), this.man.camera);
-    const { object, patchOf } = this.meshes[part.mesh], [hit] = this.rays.intersectObject(object, false);
-    return hit ? { n: part.mesh, patch: patchOf[hit.faceIndex] } : null;
-  }
-
-  /** The sensor under a point of the window, where nothing stands before it. */
-  sensorAt(x, y) {
-    const { clientWidth: width, clientHeight: height } = $("scene");
-    const part = this.parts().find((one) => x / width < one.to) ?? this.parts()[0], { sensors } = this.meshes[part.mesh];
-    if (!sensors) return null;
-    this.man.fitTo(((part.to - part.from) * width) / height);
-    const found = sensors.near(x, y, this.man.camera, (point) => this.pixelOf(point, part));
-    if (!found) return null;
-    const way = new THREE.Vector3().fromArray(this.results[part.mesh].sensors.position, 3 * found.sensor)
-      .add(this.meshes[part.mesh].object.position).sub(this.man.camera.position).normalize();
-    this.rays.set(this.man.camera.position, way);
-    const [hit] = this.rays.intersectObject(this.meshes[part.mesh].object, false);
-    // Sensors lie on surfaces or before them.
-    return hit && hit.distance < 0.999 * found.distance ? null : { n: part.mesh, sensor: found.sensor };
-  }
-
-  pick(x, y) {
-    this.state.picked = this.sensorAt(x, y) ?? this.patchAt(x, y);
     this.refresh();
   }
 
-  /** Where a point is in the window, and its depth. */
-  pixelOf(point, part) {
-    const { clientWidth: width, clientHeight: height } = $("scene"), at = point.clone().project(this.man.camera);
-    return { x: width * (part.from + ((at.x + 1) / 2) * (part.to - part.from)), y: (height * (1 - at.y)) / 2, z: at.z };
+  stepTime(by) {
+    const count = this.results[0].times.length;
+    this.change({ k: (this.state.k + by + count) % count });
   }
 
-  // For tests: where a patch is in the window, and how fast frames are.
+  // For tests: where things are in the window, and how fast frames are.
 
-  placeOf(patch, n = 0) {
-    const part = this.parts().find((one) => one.mesh === n);
-    const { clientWidth: width, clientHeight: height } = $("scene");
-    this.man.fitTo(((part.to - part.from) * width) / height);
-    return this.pixelOf(new THREE.Vector3(...this.results[n].centroid(patch)).add(this.meshes[n].object.position), part);
-  }
+  patchAt(x, y) { return this.picker.patchAt(x, y); }
 
-  placeOfSensor(sensor, n = 0) {
-    const part = this.parts().find((one) => one.mesh === n), { clientWidth: width, clientHeight: height } = $("scene");
-    this.man.fitTo(((part.to - part.from) * width) / height);
-    return this.pixelOf(new THREE.Vector3().fromArray(this.results[n].sensors.position, 3 * sensor).add(this.meshes[n].object.position), part);
-  }
+  placeOf(patch, n = 0) { return this.picker.placeOf(new THREE.Vector3(...this.results[n].centroid(patch)), n); }
+
+  placeOfSensor(sensor, n = 0) { return this.picker.placeOf(new THREE.Vector3().fromArray(this.results[n].sensors.position, 3 * sensor), n); }
 
   /** Frames per second of a turn around the scene, each finished before the next begins. */
   measuredFrames(count) {
@@ -332,9 +347,6 @@ class Viewer {
   }
 }
 
-// Walking starts on what is lower than this above the lowest point: streets, not roofs.
-const highestStreetM = 2;
-
 /** Whether the browser draws without a graphics card: smooth edges cost it two thirds of its frames. */
 function isDrawnBySoftware() {
   const gl = document.createElement("canvas").getContext("webgl2");
@@ -342,11 +354,6 @@ function isDrawnBySoftware() {
   const name = info ? gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : "";
   gl?.getExtension("WEBGL_lose_context")?.loseContext();
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
-}
-
-function fill(select, choices, chosen) {
-  select.replaceChildren(...choices.map(([value, text]) => Object.assign(document.createElement("option"), { value, textContent: text })));
-  select.value = chosen;
 }
 
 readPage().then((page) => {

@@ -2,30 +2,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The patches of a result as triangles that know a value at every corner.
 import * as THREE from "three";
+import { Outline } from "./selection.js";
 import { SensorPoints } from "./sensors.js";
 
 // Two pairs of shaders: without a graphics card every number that is handed on costs frames.
 const lightVertexShader = `
 attribute float value;
 varying float vValue;
+varying float vShade;
+uniform float shade;
+uniform vec3 light;
 void main() {
   vValue = value;
+  vShade = 1.0 - shade * (1.0 - max(normal.z, max(0.0, dot(normal, light))));
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }`;
 
-// Colours are those of the legend, not shaded; backs of one-sided patches are grey.
+// Colours are those of the legend, unless the user wants some shade: level surfaces keep them then, too,
+// and others are darker by as much as the legend shows. Backs of one-sided patches are grey.
 const lightFragmentShader = `
 uniform sampler2D palette;
 uniform float low;
 uniform float high;
 varying float vValue;
+varying float vShade;
 void main() {
   vec3 colour = vec3(0.72);
   if (gl_FrontFacing && vValue > -1e29) {
     float share = clamp((vValue - low) / (high - low), 0.0, 1.0);
     colour = texture2D(palette, vec2((share * 255.0 + 0.5) / 256.0, 0.5)).rgb;
   }
-  gl_FragColor = vec4(colour, 1.0);
+  gl_FragColor = vec4(colour * vShade, 1.0);
 }`;
 
 const shapeVertexShader = `
@@ -38,24 +45,30 @@ void main() {
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }`;
 
-// What is built, shaded: in one colour or in those of the materials.
+// What is built, shaded: in one colour or in those of kinds.
 const shapeFragmentShader = `
 uniform sampler2D palette;
-uniform bool materials;
+uniform bool kinds;
+uniform float shade;
 uniform vec3 light;
 varying float vValue;
 varying vec3 vNormal;
 void main() {
   vec3 colour = vec3(0.72);
   if (gl_FrontFacing) {
-    vec3 own = materials && vValue > -0.5 ? texture2D(palette, vec2((vValue + 0.5) / 256.0, 0.5)).rgb : vec3(0.93, 0.92, 0.89);
-    colour = own * (0.5 + 0.2 * vNormal.z + 0.3 * max(0.0, dot(vNormal, light)));
+    vec3 own = kinds && vValue > -0.5 ? texture2D(palette, vec2((vValue + 0.5) / 256.0, 0.5)).rgb : vec3(0.93, 0.92, 0.89);
+    colour = own * mix(1.0, 0.5 + 0.2 * vNormal.z + 0.3 * max(0.0, dot(vNormal, light)), shade);
   }
   gl_FragColor = vec4(colour, 1.0);
 }`;
 const notKnown = -1e30;
+/** Among meshes, that of the second result minus the first; before it come those of the results. */
+export const difference = 2;
+// Share of light that shading takes at most.
+export const deepestShade = 0.22;
 // Cosine of the turn from which on an edge gets a line (20°), as in `sunload render`.
 const leastFold = 0.94;
+const shortestFoldPixels = 5;
 
 export function paletteTexture(colours) {
   const bytes = new Uint8Array(256 * 4).fill(255);
@@ -87,8 +100,8 @@ export class PatchMesh {
     geometry.setAttribute("value", this.value);
     if (twoSidedCorners > 0) geometry.addGroup(0, twoSidedCorners, 0);
     if (twoSidedCorners < corners) geometry.addGroup(twoSidedCorners, corners - twoSidedCorners, 1);
-    this.uniforms = { palette: { value: null }, low: { value: 0 }, high: { value: 1 }, materials: { value: false },
-      light: { value: new THREE.Vector3(0.4, -0.6, 0.7) } };
+    this.uniforms = { palette: { value: null }, low: { value: 0 }, high: { value: 1 }, kinds: { value: false },
+      shade: { value: 0 }, light: { value: new THREE.Vector3(0.4, -0.6, 0.7) } };
     const ofSides = (vertexShader, fragmentShader) => [THREE.FrontSide, THREE.DoubleSide].map((side) => new THREE.ShaderMaterial({
       vertexShader, fragmentShader, side, uniforms: this.uniforms, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
     this.ofLight = ofSides(lightVertexShader, lightFragmentShader);
@@ -98,15 +111,18 @@ export class PatchMesh {
     this.addFolds();
     this.lines = {};
     this.creaseDeg = null;
+    this.outline = new Outline();
+    this.object.add(this.outline.object);
     if (result.sensors) {
       this.sensors = new SensorPoints(result.sensors);
       this.object.add(this.sensors.object);
     }
   }
 
-  /** What is built (preview, materials), or light on it. */
-  showAs(isShape) {
+  /** What is built (preview, kinds of surface, materials), or light on it. */
+  showAs(isShape, isShaded) {
     this.object.material = isShape ? this.ofShape : this.ofLight;
+    this.uniforms.shade.value = isShaded ? (isShape ? 1 : deepestShade) : 0;
   }
 
   /** One value per patch, constant on it or interpolated between its corners. */
@@ -176,12 +192,20 @@ export class PatchMesh {
     this.object.add(this.foldLines);
   }
 
-  /** Leaves lines out that would be shorter than two pixels even on the side of the scene next to the camera. */
+  /** Leaves lines out that would be short even on the side of the scene next to the camera. */
   showFolds(camera, heightPixels) {
     const distance = this.box.distanceToPoint(camera.position.clone().sub(this.object.position));
-    const shortest = (2 * 2 * distance * Math.tan((camera.fov * Math.PI) / 360)) / heightPixels;
+    const shortest = (2 * shortestFoldPixels * distance * Math.tan((camera.fov * Math.PI) / 360)) / heightPixels;
     const first = this.foldLengths.findIndex((length) => length < shortest);
     this.foldLines.geometry.setDrawRange(0, first < 0 ? Infinity : 2 * first);
+  }
+
+  /** Box around what is built, or around everything where there is nothing but ground. */
+  focus() {
+    const { result } = this, box = new THREE.Box3(), ground = result.allSurfaceNames().indexOf("ground");
+    for (let p = 0; p < result.patches; ++p)
+      if (result.patch_surface[p] !== ground) for (let k = 0; k < 3; ++k) box.expandByPoint(new THREE.Vector3(...result.corner(p, k)));
+    return box.isEmpty() ? this.box.clone() : box;
   }
 
   /** Edges of the input triangles where the surface turns or ends. */

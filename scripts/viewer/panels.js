@@ -1,103 +1,132 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the page says beside the picture: legend, time and the values of a patch.
-import { matchedMean } from "./data.js";
-import { drawSeries } from "./plot.js";
-import { shown, ticks } from "./scale.js";
+// What the page says beside the picture: time, and values and charts of what is chosen.
+import { chartNames, chartsOf, curveColours, drawChart } from "./chart.js";
+import { shown } from "./scale.js";
+import { meanOver, sameEntry, selectedPatches, selectionText } from "./selection.js";
 
 export const $ = (id) => document.getElementById(id);
-// The preview has no values; it is a choice among the quantities all the same.
-export const preview = "preview", materials = "materials";
-export const isShape = (quantity) => quantity === preview || quantity === materials;
-
-/** Colours that all eyes tell apart (Okabe & Ito 2008, Color Universal Design), lightened; then darker ones of them. */
-const basicColours = ["#d9a441", "#7cc4ea", "#45b592", "#e5dc6a", "#4a90c4", "#dc8b55", "#d79bbf"];
-const materialColours = [1, 0.72, 0.5].flatMap((share) => basicColours.map((colour) =>
-  [1, 3, 5].map((at) => Math.round(share * parseInt(colour.slice(at, at + 2), 16)))));
-export function materialPalette() {
-  return Array.from({ length: 256 }, (_, k) => materialColours[k % materialColours.length]).flat();
-}
-/** A material's place in the palette; -1: none. */
-export const materialValue = (index) => (index < 0 ? -1 : index % materialColours.length);
-
-function drawMaterials(viewer) {
-  const names = viewer.results[0].geometry.material_name, used = new Set(viewer.results[0].patch_material);
-  const shownMost = 12, list = names.map((name, k) => [name, k]).filter(([, k]) => used.has(k));
-  $("materials").replaceChildren(...list.slice(0, shownMost).map(([name, k]) => {
-    const row = document.createElement("li");
-    const swatch = document.createElement("span");
-    swatch.style.background = `rgb(${materialColours[materialValue(k)]})`;
-    row.append(swatch, name || "without a name");
-    return row;
-  }), ...(list.length > shownMost ? [`and ${list.length - shownMost} more`] : []));
-}
-
-export function drawLegend(viewer, end) {
-  const { quantity, colours } = viewer.state;
-  $("legend").hidden = isShape(quantity);
-  $("materials").hidden = quantity !== materials;
-  if (quantity === materials) drawMaterials(viewer);
-  if (isShape(quantity)) return;
-  const bar = $("bar").getContext("2d"), palette = viewer.palettes[viewer.isDifference() ? "difference" : colours];
-  for (let y = 0; y < 256; ++y) {
-    bar.fillStyle = `rgb(${palette.slice(3 * (255 - y), 3 * (255 - y) + 3)})`;
-    bar.fillRect(0, y, 22, 1);
-  }
-  const low = viewer.isDifference() ? -end : 0;
-  $("ticks").replaceChildren(...ticks(low, end).map((value) => {
-    const tick = document.createElement("span");
-    tick.textContent = shown(value);
-    tick.style.top = `${256 * (1 - (value - low) / (end - low))}px`;
-    return tick;
-  }));
-  $("units").textContent = viewer.results[0].units(quantity) || "share";
-  if (document.activeElement !== $("limit")) $("limit").value = end;
-  let largest = 0;
-  viewer.parts().forEach((part) => viewer.meshes[part.mesh].value.array.forEach((value) => { if (value > largest) largest = value; }));
-  $("above").textContent = largest > end * (1 + 1e-6) ? `larger values, up to ${shown(largest)}, have the last colour` : "";
-}
+// What is built has no values; it is a choice among the quantities all the same.
+export const preview = "preview", materials = "materials", kinds = "surfaces";
+export const isShape = (quantity) => [preview, materials, kinds].includes(quantity);
 
 export function tellTime(viewer) {
   const result = viewer.results[0], time = result.times[viewer.state.k];
   const sun = `sun ${time.azimuth.toFixed(0)}° from north, ${time.elevation.toFixed(1)}° high`;
   const dark = time.elevation > 0 ? sun : "sun below the horizon";
-  const clock = result.is_synthetic ? `position ${viewer.state.k * result.step + 1}` :
-    `${time.local_begin.slice(0, 16).replace("T", " ")} – ${time.local_end.slice(11, 16)} ${result.timezone}`;
-  $("clock").textContent = `${clock}, ${dark}`;
+  $("clock").textContent = `${clockText(result, viewer.state.k)}, ${dark}`;
   $("slider").value = viewer.state.k;
-  const isSide = viewer.state.view === "side";
-  $("names").children[0].textContent = isSide ? viewer.results[0].label : "";
-  $("names").children[1].textContent = isSide ? viewer.results[1].label : "";
+  $("slider").setAttribute("aria-valuetext", $("clock").textContent);
 }
 
-export function tellPatch(viewer) {
-  const { picked, k } = viewer.state;
-  $("patch").hidden = !picked;
-  if (!picked) return;
-  if (picked.sensor !== undefined) return tellSensor(viewer);
-  const { n, patch } = picked, result = viewer.results[n];
-  // For a patch of the first result also what the second has in its place.
-  const hasBoth = n === 0 && viewer.match && viewer.match.first[patch] < viewer.match.first[patch + 1], which = hasBoth ? [0, 1] : [n];
-  const valueOf = (m, value) => (m === n ? value(patch) : matchedMean(viewer.match, patch, value));
-  const rows = [["patch", patch], ...Object.entries(result.patchNames(patch)),
-    ["area", `${shown(result.patch_area[patch])} m²`]].filter(([, value]) => value !== "").map(([name, value]) => [name, [value]]);
-  if (viewer.results.length > 1) rows.push(["", which.map((m) => viewer.results[m].label)]);
-  const names = [...result.totals.map((total) => total.name), ...(result.series ? [result.series.name] : [])];
-  for (const name of names)
-    rows.push([`${name.replaceAll("_", " ")} ${result.units(name) && `[${result.units(name)}]`}`,
-      which.map((m) => {
-        const values = viewer.valuesOf(m, name);
-        return shown(valueOf(m, (p) => values[p]), digits(viewer, name));
-      }), name]);
-  showRows(rows);
-  $("series").hidden = !result.series;
-  if (!result.series) return;
-  const times = viewer.results[0].times;
-  const curves = which.map((m) => ({ label: viewer.results[m].label, values: times.map((time, i) => {
-    const own = m === 0 ? i : viewer.results[m].intervalAt(time);
-    return own >= 0 ? valueOf(m, (p) => viewer.results[m].seriesValue(own, p)) : NaN;
-  }) }));
-  drawSeries($("series"), times, k, curves, `${result.series.name} [${result.series.units}]`);
+export function clockText(result, k) {
+  const time = result.times[k];
+  return result.is_synthetic ? `position ${k * result.step + 1}` :
+    `${time.local_begin.slice(0, 16).replace("T", " ")} – ${time.local_end.slice(11, 16)} ${result.timezone}`;
+}
+
+export function tellSelection(viewer) {
+  const { picked } = viewer.state;
+  $("patch").hidden = !picked.length;
+  // Before the chart is drawn, which asks how wide it is.
+  document.body.classList.toggle("no-patch", !picked.length);
+  if (!picked.length) return;
+  $("chosen").textContent = selectionText(picked);
+  showWidening(viewer);
+  const sensor = picked.length === 1 && picked[0].of === "sensor" ? picked[0] : null;
+  const told = sensor ? sensorTold(viewer, sensor) : patchesTold(viewer);
+  showRows(told.rows);
+  showCharts(viewer, told.curves, told.units);
+}
+
+/** From a patch to its facade and object: buttons. */
+function showWidening(viewer) {
+  const { picked } = viewer.state, wider = [];
+  for (const { of, n, patch } of picked.slice(-1)) {
+    if (of !== "patch") continue;
+    const names = viewer.results[n].patchNames(patch);
+    for (const kind of ["facade", "object"]) if (names[kind]) wider.push({ of: kind, name: names[kind] });
+  }
+  if (picked.length === 1 && picked[0].of === "facade") {
+    for (const result of viewer.results) {
+      const facade = result.geometry.facade_name.indexOf(picked[0].name), patch = result.patch_facade.indexOf(facade);
+      const entry = facade >= 0 && patch >= 0 && { of: "object", name: result.patchNames(patch).object };
+      if (entry && entry.name && !wider.some((one) => sameEntry(one, entry))) wider.push(entry);
+    }
+  }
+  $("widen").replaceChildren(...wider.map((entry) => {
+    const button = Object.assign(document.createElement("button"), { textContent: `${entry.of} ${entry.name}`, title: `choose this ${entry.of}` });
+    button.addEventListener("click", () => viewer.choose([entry]));
+    return button;
+  }));
+}
+
+function patchesTold(viewer) {
+  const { picked, k } = viewer.state, { results } = viewer;
+  const single = picked.length === 1 ? picked[0] : null, sets = results.map((_, m) => selectedPatches(viewer, picked, m));
+  const which = results.map((_, m) => m).filter((m) => sets[m].length), rows = [];
+  if (single?.of === "patch") {
+    const result = results[single.n], names = Object.entries(result.patchNames(single.patch));
+    rows.push(["patch", [single.patch]], ...names.filter(([, name]) => name !== "").map(([what, name]) => [what, [name]]),
+      ["area", [`${shown(result.patch_area[single.patch])} m²`]]);
+  } else {
+    if (results.length > 1) rows.push(["", which.map((m) => results[m].label)]);
+    rows.push(...describedRows(viewer, single, sets, which));
+  }
+  if (results.length > 1 && single?.of === "patch") rows.push(["", which.map((m) => results[m].label)]);
+  rows.push(...valueRows(viewer, single, sets, which));
+  const series = which.length ? results[which[0]].series : null, { times } = results[0];
+  const curves = series ? which.filter((m) => results[m].series?.name === series.name).map((m) => {
+    const result = results[m], values = Float64Array.from(result.times, (_, i) => meanOver(sets[m], result.patch_area, (p) => result.seriesValue(i, p)));
+    return { label: result.label, times: result.times, values, step: result.step, shown: m === 0 ? values : times.map((time) => values[result.intervalAt(time)] ?? NaN) };
+  }) : [];
+  return { rows, curves, units: series ? `${series.name} [${series.units}]` : "" };
+}
+
+/** What is chosen, without light. */
+function describedRows(viewer, single, sets, which) {
+  const { results } = viewer, areaOf = (m) => sets[m].reduce((sum, p) => sum + results[m].patch_area[p], 0), rows = [];
+  const facade = single?.of === "facade" ? which.map((m) => results[m].geometry.facade_azimuth?.[results[m].geometry.facade_name.indexOf(single.name)]) : [];
+  if (facade.some(Number.isFinite)) rows.push(["faces", facade.map((azimuth) => `${shown(azimuth, 3)}° from north`)]);
+  rows.push(["patches", which.map((m) => sets[m].length)], ["area", which.map((m) => `${shown(areaOf(m))} m²`)]);
+  return rows;
+}
+
+/** Series travel with 11 bits: three digits. Errors of parts are no mean of those of patches. */
+function valueRows(viewer, single, sets, which) {
+  const { results } = viewer, isGroup = single?.of !== "patch";
+  const names = [...results[0].totals.map((total) => total.name), ...(results[0].series ? [results[0].series.name] : [])];
+  return names.flatMap((name) => {
+    const units = results[0].units(name), digits = name === results[0].series?.name ? 3 : 4, lists = which.map((m) => viewer.valuesOf(m, name));
+    const means = which.map((m, i) => meanOver(sets[m], results[m].patch_area, (p) => lists[i][p]));
+    const row = (what, values, key) => [what, values.map((value) => shown(value, digits)), key];
+    const head = `${name.replaceAll("_", " ")} ${units && `[${units}]`}`;
+    if (!isGroup) return [row(head, means, name)];
+    if (name === "light_load_se") {
+      const errors = which.map((m) => (single?.of === "facade" ? results[m].geometry.facade_light_load_se?.[results[m].geometry.facade_name.indexOf(single.name)] : NaN));
+      return errors.some(Number.isFinite) ? [row(`${head} of the mean`, errors, name)] : [];
+    }
+    if (name.endsWith("_se")) return [];
+    const isLargest = name.endsWith("_max"), largest = which.map((m, i) => sets[m].reduce((most, p) => (lists[i][p] > most ? lists[i][p] : most), -Infinity));
+    if (isLargest) return [row(`${head}, largest`, largest, name)];
+    const sum = units === "kWh/m²" && name === "light_load" ? [row("energy [kWh]", means.map((mean, i) => mean * sets[which[i]].reduce((all, p) => all + results[which[i]].patch_area[p], 0)), "energy")] : [];
+    return [row(head, means, name), ...sum];
+  });
+}
+
+function sensorTold(viewer, { n, sensor }) {
+  const { k } = viewer.state, result = viewer.results[n], { sensors } = result;
+  const at = [0, 1, 2].map((axis) => shown(sensors.position[3 * sensor + axis] + result.geometry.centre[axis] + (result.origin?.[axis] ?? 0), 8));
+  const rows = [["sensor", [sensor]], ["position [m]", [at.join(", ")]]];
+  const own = n === 0 ? k : result.intervalAt(viewer.results[0].times[k]);
+  for (const name of [...sensors.totals.map((total) => total.name), ...(sensors.series ? [sensors.series.name] : [])]) {
+    const units = sensors.units(name), values = sensors.values(name, own);
+    rows.push([`${name.replaceAll("_", " ")} ${units && `[${units}]`}`, [values ? shown(values[sensor], sensors.series?.name === name ? 3 : 4) : "not known"], name]);
+  }
+  if (!sensors.series) return { rows, curves: [], units: "" };
+  const values = Float64Array.from(result.times, (_, i) => sensors.seriesValue(i, sensor)), { times } = viewer.results[0];
+  return { rows, units: `${sensors.series.name} [${sensors.series.units}]`, curves: [{ label: result.label, times: result.times, values, step: result.step,
+    shown: n === 0 ? values : times.map((time) => values[result.intervalAt(time)] ?? NaN) }] };
 }
 
 function showRows(rows) {
@@ -113,26 +142,31 @@ function showRows(rows) {
   }));
 }
 
-function tellSensor(viewer) {
-  const { picked: { n, sensor }, k } = viewer.state, result = viewer.results[n], { sensors } = result;
-  const at = [0, 1, 2].map((axis) => shown(sensors.position[3 * sensor + axis] + result.geometry.centre[axis] + (result.origin?.[axis] ?? 0), 8));
-  const rows = [["sensor", [sensor]], ["position [m]", [at.join(", ")]]];
-  const own = n === 0 ? k : result.intervalAt(viewer.results[0].times[k]);
-  for (const name of [...sensors.totals.map((total) => total.name), ...(sensors.series ? [sensors.series.name] : [])]) {
-    const units = sensors.units(name), values = sensors.values(name, own);
-    rows.push([`${name.replaceAll("_", " ")} ${units && `[${units}]`}`, [values ? shown(values[sensor], sensors.series?.name === name ? 3 : 4) : "not known"], name]);
-  }
-  showRows(rows);
-  $("series").hidden = !sensors.series;
-  if (!sensors.series) return;
-  const times = viewer.results[0].times;
-  drawSeries($("series"), times, k, [{ label: result.label, values: times.map((time, i) => {
-    const interval = n === 0 ? i : result.intervalAt(time);
-    return interval >= 0 ? sensors.seriesValue(interval, sensor) : NaN;
-  }) }], `${sensors.series.name} [${sensors.series.units}]`);
+/** The chart that is chosen, and buttons for the others. */
+function showCharts(viewer, curves, units) {
+  const possible = curves.length ? chartsOf(viewer.results[0]) : [], { state } = viewer;
+  const kind = possible.includes(state.chart) ? state.chart : possible[0];
+  $("series").hidden = $("chart-says").hidden = !kind;
+  $("charts").replaceChildren(...(possible.length > 1 ? possible : []).map((one) => {
+    const button = Object.assign(document.createElement("button"), { textContent: chartNames[one] });
+    button.setAttribute("role", "tab");
+    button.setAttribute("aria-selected", one === kind);
+    button.dataset.chart = one;
+    button.addEventListener("click", () => viewer.change({ chart: one }));
+    return button;
+  }));
+  if (!kind) return;
+  viewer.chart = { kind, ...drawChart($("series"), kind, viewer.results[0].times, state.k, curves) };
+  sayChart(viewer, kind, curves, units);
 }
 
-/** Series travel with 11 bits. */
-function digits(viewer, name) {
-  return name === viewer.results[0].series?.name ? 3 : 4;
+function sayChart(viewer, kind, curves, units) {
+  const energy = units.replace("W/m²", "kWh/m²").replace("[lx]", "[klx h]");
+  const what = { day: units, hours: `${units}, mean of each hour of the day`, days: `${energy} of each day`, months: `${energy} of each month` }[kind];
+  const says = [Object.assign(document.createElement("span"), { textContent: what.replaceAll("_", " ") })];
+  if (curves.length > 1) curves.forEach((curve, n) => {
+    says.push(" ", Object.assign(document.createElement("b"), { textContent: `${n ? "- -" : "—"} ${curve.label}`, style: `color: ${curveColours[n]}` }));
+  });
+  if (curves.some((curve) => curve.step > 1)) says.push(` (from every ${curves[0].step}. interval)`);
+  $("chart-says").replaceChildren(...says);
 }

@@ -32,16 +32,18 @@ function line(points, colour) {
 }
 
 export class Sky {
-  constructor(times, radius, ground) {
+  /** Around a point of the ground. */
+  constructor(times, radius, middle) {
     this.times = times;
     this.radius = radius;
     this.object = new THREE.Group();
+    this.object.position.copy(middle);
     const north = sceneNorth(times);
-    const circle = [...Array(97).keys()].map((k) => bearing((k * Math.PI) / 48, north).multiplyScalar(radius).setZ(ground));
+    const circle = [...Array(97).keys()].map((k) => bearing((k * Math.PI) / 48, north).multiplyScalar(radius));
     this.object.add(line(circle, 0x888888));
     ["N", "E", "S", "W"].forEach((text, k) => {
       const sprite = letter(text);
-      sprite.position.copy(bearing((k * Math.PI) / 2, north).multiplyScalar(1.06 * radius)).setZ(ground);
+      sprite.position.copy(bearing((k * Math.PI) / 2, north).multiplyScalar(1.06 * radius));
       sprite.scale.setScalar(0.09 * radius);
       this.object.add(sprite);
     });

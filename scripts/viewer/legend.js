@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the colours stand for: a scale of values, or kinds with a swatch each.
+import { deepestShade } from "./mesh.js";
+import { isShape, kinds, preview } from "./panels.js";
+import { scaleEnd, shown, ticks } from "./scale.js";
+
+const mostSwatches = 40;
+
+/** What the colours of the pictures stand for. */
+export function legendsOf(viewer) {
+  const { quantity, colours, shade, limits } = viewer.state, parts = viewer.parts();
+  if (quantity === preview) return [];
+  if (isShape(quantity)) return [{ of: quantity, swatches: swatchesOf(viewer, parts) }];
+  const isApart = (part) => viewer.isDifference(part), chosen = [parts.find((part) => !isApart(part)), parts.find(isApart)].filter(Boolean);
+  return chosen.map((part, place) => {
+    const apart = isApart(part), high = limitOf(viewer, apart), low = apart ? -high : 0, key = limitKey(viewer, apart), units = viewer.results[0].units(quantity) || "share";
+    let largest = 0;
+    for (const one of parts) if (isApart(one) === apart) for (const value of viewer.meshes[one.mesh].value.array) if (value > largest) largest = value;
+    return { key, low, high, units: apart && chosen.length > 1 ? `± ${units}` : units, ticks: ticks(low, high), palette: viewer.palettes[apart ? "difference" : colours],
+      isShaded: shade === "all", isUsers: key in limits, isMain: place === 0, above: largest > high * (1 + 1e-6) ? `larger values, up to ${shown(largest)}, have the last colour` : "" };
+  });
+}
+
+function swatchesOf(viewer, parts) {
+  const { quantity } = viewer.state, palette = viewer.palettes[quantity], colour = (k) => `rgb(${palette.slice(3 * k, 3 * k + 3)})`, found = new Map();
+  for (const { n } of parts) {
+    const result = viewer.results[n], of = quantity === kinds ? result.patch_surface : result.patch_material;
+    const names = quantity === kinds ? result.allSurfaceNames() : result.geometry.material_name;
+    for (const k of [...new Set(of)].sort((a, b) => a - b))
+      if (k >= 0) found.set(`${k} ${names[k]}`, { colour: colour(k % (palette.length / 3)), name: names[k] || "without a name" });
+  }
+  return [...found.values()];
+}
+
+/** What the colours end at: the user's limit, or one for all results and times. */
+export function limitOf(viewer, isApart) {
+  const { quantity, limits } = viewer.state;
+  if (isShape(quantity)) return 1;
+  const key = limitKey(viewer, isApart);
+  return limits[key] ?? (viewer.ends ??= {})[key] ?? (viewer.ends[key] = automaticLimit(viewer, isApart));
+}
+
+function limitKey(viewer, isApart) { return `${viewer.state.quantity}${isApart ? " difference" : ""}`; }
+
+function automaticLimit(viewer, isApart) {
+  const { quantity, k } = viewer.state, isSeries = viewer.results[0].series?.name === quantity;
+  const intervals = isSeries ? [...new Set([0.25, 0.5, 0.75, 1].map((share) => atElevation(viewer.results[0], share)).concat(k))] : [k];
+  const ends = intervals.flatMap((at) => {
+    if (!isApart) return viewer.results.map((result, n) => scaleEnd(viewer.valuesOf(n, quantity, at), result.patch_area));
+    const apart = viewer.difference(viewer.valuesOf(0, quantity, at), viewer.valuesOf(1, quantity, at));
+    return [scaleEnd(apart.map(Math.abs), viewer.results[0].patch_area)];
+  });
+  return Math.max(...ends);
+}
+
+/** Interval whose sun stands at a share of the highest elevation. */
+function atElevation(result, share) {
+  const elevation = result.times.map((time) => time.elevation), goal = share * Math.max(...elevation);
+  return elevation.reduce((best, value, k) => (Math.abs(value - goal) < Math.abs(elevation[best] - goal) ? k : best), 0);
+}
+
+/** The bar of a scale, 256 colours from left to right; below, where there is shading, how dark it makes them. */
+export function drawBarCanvas(canvas, { palette, isShaded }) {
+  [canvas.width, canvas.height] = [256, 16];
+  const c = canvas.getContext("2d");
+  for (let x = 0; x < 256; ++x) {
+    const colour = palette.slice(3 * x, 3 * x + 3);
+    c.fillStyle = `rgb(${colour})`;
+    c.fillRect(x, 0, 1, 16);
+    if (!isShaded) continue;
+    c.fillStyle = `rgb(${colour.map((channel) => Math.round(channel * (1 - deepestShade)))})`;
+    c.fillRect(x, 12, 1, 4);
+  }
+}
+
+function element(name, text = "", properties = {}) {
+  return Object.assign(document.createElement(name), { textContent: text, ...properties });
+}
+
+function scaleElement(legend, setLimit) {
+  const box = element("div", "", { className: "scale" }), bar = element("div", "", { className: "bar" }), canvas = element("canvas");
+  drawBarCanvas(canvas, legend);
+  if (legend.isShaded) canvas.title = "below: the same colours where surfaces are shaded";
+  const marks = element("div", "", { className: "ticks" });
+  for (const value of legend.ticks) {
+    const tick = element("span", shown(value));
+    tick.style.left = `${(100 * (value - legend.low)) / (legend.high - legend.low)}%`;
+    marks.append(tick);
+  }
+  bar.append(canvas, marks);
+  const choice = element("span"), limit = element("input", "", { type: "number", min: 0, step: "any", value: legend.high, title: "value of the last colour" });
+  limit.setAttribute("aria-label", "limit");
+  limit.addEventListener("change", () => setLimit(legend.key, Number(limit.value)));
+  const automatic = element("button", "automatic", { disabled: !legend.isUsers });
+  automatic.addEventListener("click", () => setLimit(legend.key, null));
+  if (legend.isMain) [limit.id, automatic.id, canvas.id] = ["limit", "automatic", "bar"];
+  choice.append(limit, " ", automatic);
+  box.append(element("span", legend.units, { className: "units" }), bar, choice);
+  // Always there, so that the picture stays as high as it is.
+  box.append(element("p", legend.above || "\u00a0", { className: "above" }));
+  return box;
+}
+
+function swatchElement({ swatches, of }) {
+  const list = element("ul", "", { className: "swatches", id: of });
+  for (const { colour, name } of swatches.slice(0, mostSwatches)) {
+    const row = element("li"), swatch = element("span");
+    swatch.style.background = colour;
+    row.append(swatch, name);
+    list.append(row);
+  }
+  if (swatches.length > mostSwatches) list.append(element("li", `and ${swatches.length - mostSwatches} more`));
+  return list;
+}
+
+export function showLegends(box, legends, setLimit) {
+  box.replaceChildren(...legends.map((legend) => (legend.swatches ? swatchElement(legend) : scaleElement(legend, setLimit))));
+}

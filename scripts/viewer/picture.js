@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is shown as one picture: title, scene with captions, legend and time.
+import { drawBarCanvas } from "./legend.js";
+import { shown } from "./scale.js";
+import { caption, fileName, title } from "./words.js";
+
+const margin = 16, titleHeight = 40, captionHeight = 24, legendHeight = 64, barWidth = 320;
+
+/** Lines of swatches that fit a width; calls draw(x, line, swatch) where given. */
+function flow(c, swatches, width, draw = () => {}) {
+  let x = 0, line = 0;
+  for (const swatch of swatches) {
+    const wide = 34 + c.measureText(swatch.name).width;
+    if (x > 0 && x + wide > width) [x, line] = [0, line + 1];
+    draw(x, line, swatch);
+    x += wide;
+  }
+  return line + 1;
+}
+
+function drawScale(c, legend, x, y) {
+  c.font = "bold 13px 'DejaVu Sans', Verdana, sans-serif";
+  c.fillText(legend.units, x, y + 13);
+  const from = x + c.measureText(legend.units).width + 12, bar = document.createElement("canvas");
+  drawBarCanvas(bar, legend);
+  c.drawImage(bar, from, y, barWidth, 16);
+  c.strokeStyle = "#555";
+  c.strokeRect(from - 0.5, y - 0.5, barWidth + 1, 17);
+  c.font = "12px 'DejaVu Sans', Verdana, sans-serif";
+  for (const value of legend.ticks) {
+    const text = shown(value), at = from + ((value - legend.low) / (legend.high - legend.low)) * barWidth;
+    c.fillText(text, at - c.measureText(text).width / 2, y + 30);
+  }
+  c.fillStyle = "#555";
+  if (legend.above) c.fillText(legend.above, from, y + 46);
+  c.fillStyle = "#222";
+  return from + barWidth + 40;
+}
+
+/** A canvas with all of it, as sharp as the scene's own. */
+export function composed(viewer) {
+  viewer.render();
+  const scene = viewer.canvas, width = scene.clientWidth, height = scene.clientHeight, ratio = scene.width / width;
+  const page = document.createElement("canvas"), c = page.getContext("2d");
+  const legends = viewer.legends();
+  c.font = "12px 'DejaVu Sans', Verdana, sans-serif";
+  const swatches = legends.find((one) => one.swatches)?.swatches;
+  const foot = swatches ? 20 * flow(c, swatches, width - 2 * margin) + margin : legends.length ? legendHeight * (legends.length > 1 && width < 1000 ? 2 : 1) : 0;
+  page.width = Math.round(width * ratio);
+  page.height = Math.round((titleHeight + height + foot + margin) * ratio);
+  c.scale(ratio, ratio);
+  c.fillStyle = "#fff";
+  c.fillRect(0, 0, width, page.height);
+  c.fillStyle = "#222";
+  c.font = "bold 15px 'DejaVu Sans', Verdana, sans-serif";
+  c.fillText(title(viewer), margin, 26, width - 2 * margin);
+  c.drawImage(scene, 0, titleHeight, width, height);
+  for (const part of viewer.parts()) {
+    const y = titleHeight + part.y + part.height;
+    c.fillStyle = "#fff";
+    c.fillRect(part.x, y, part.width, captionHeight);
+    c.fillStyle = "#222";
+    c.font = "bold 13px 'DejaVu Sans', Verdana, sans-serif";
+    c.textAlign = "center";
+    c.fillText(caption(viewer, part), part.x + part.width / 2, y + 17, part.width - 12);
+    c.textAlign = "left";
+  }
+  const top = titleHeight + height + 10;
+  c.font = "12px 'DejaVu Sans', Verdana, sans-serif";
+  if (swatches) {
+    flow(c, swatches, width - 2 * margin, (x, line, { colour, name }) => {
+      c.fillStyle = colour;
+      c.fillRect(margin + x, top + 20 * line, 14, 14);
+      c.fillStyle = "#222";
+      c.fillText(name, margin + x + 20, top + 20 * line + 12);
+    });
+  } else {
+    let x = margin, y = top;
+    for (const legend of legends) {
+      x = drawScale(c, legend, x, y);
+      if (x + barWidth > width) [x, y] = [margin, y + legendHeight];
+    }
+  }
+  return page;
+}
+
+/** Saves it as a PNG of that name. */
+export function savePicture(viewer) {
+  composed(viewer).toBlob((blob) => {
+    const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: `${fileName(viewer)}.png` });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+  }, "image/png");
+}
