@@ -10,9 +10,7 @@
 
 namespace sunload {
 
-bool is_study(const std::string& path) {
-  return path.ends_with(".yaml") || path.ends_with(".yml");
-}
+bool is_study(const std::string& path) { return path.ends_with(".yaml") || path.ends_with(".yml"); }
 
 std::vector<Study> chosen_variants(const StudyFile& file, const RunOptions& options) {
   if (options.variants.empty()) return file.variants;
