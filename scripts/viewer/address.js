@@ -3,7 +3,7 @@
 // What is shown as words of the address, so that a view can be sent: #view=side&quantity=…
 // Words that the page does not know or cannot show are left out.
 
-const clean = (x) => Number(x.toFixed(2));
+const clean = (x) => Number(x.toFixed(3));
 
 function entryWord({ of, name, n, patch, sensor }) {
   return [of, ...(of === "patch" ? [n, patch] : of === "sensor" ? [n, sensor] : [name])].map((part) => encodeURIComponent(part)).join(":");

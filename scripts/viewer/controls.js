@@ -42,8 +42,10 @@ export function showState(viewer) {
   $("camera").value = man.mode;
   $("pad").hidden = man.mode !== "walk";
   $("play").textContent = viewer.timer ? "stop" : "play";
-  for (const part of ["left", "foot"]) document.body.classList.toggle(`no-${part}`, state.folded.has(part));
-  for (const button of document.querySelectorAll("button.fold")) button.setAttribute("aria-expanded", !state.folded.has(button.dataset.of));
+  // In a narrow window choices and values are not open at once, so that there is room for the picture.
+  const isFolded = { left: state.folded.has("left") || (viewer.isNarrow() && state.picked.length > 0), foot: state.folded.has("foot") };
+  for (const part of ["left", "foot"]) document.body.classList.toggle(`no-${part}`, isFolded[part]);
+  for (const button of document.querySelectorAll("button.fold")) button.setAttribute("aria-expanded", !isFolded[button.dataset.of]);
 }
 
 export function listen(viewer) {
@@ -66,9 +68,8 @@ function goHome(viewer) {
   viewer.touch();
 }
 
-/** In a narrow window one panel is open at a time, so that there is room for the picture. */
 function fold(viewer, part) {
-  const { folded } = viewer.state, isOpening = folded.has(part);
+  const { folded } = viewer.state, isOpening = document.body.classList.contains(`no-${part}`);
   isOpening ? folded.delete(part) : folded.add(part);
   viewer.change(isOpening && part === "left" && viewer.isNarrow() ? { picked: [] } : {});
 }

@@ -93,10 +93,10 @@ class Viewer {
     return Number.isFinite(height) ? height : this.lowest;
   }
 
-  /** Whether the ground is the highest that is there over a point of the plan. */
+  /** Whether the ground (where the scene has none: its lowest level) is the highest that is there over a point of the plan. */
   isOutdoors(x, y) {
-    const [result] = this.results, height = result.heightAt(x, y, Infinity);
-    return Number.isFinite(height) && height <= result.heightAt(x, y, Infinity, "ground") + highestStreetM;
+    const [result] = this.results, height = result.heightAt(x, y, Infinity), hasGround = result.surfaceNames().includes("ground");
+    return Number.isFinite(height) && height <= (hasGround ? result.heightAt(x, y, Infinity, "ground") : this.lowest) + highestStreetM;
   }
 
   /** Metres from a point to the first surface on a way; infinite where there is none, 0 where it is seen from behind. */
@@ -239,6 +239,7 @@ class Viewer {
     if (this.toldLegends === undefined) return;
     this.showCaptions();
     tellSelection(this);
+    showState(this);
     this.render();
     this.touch();
   }
@@ -272,10 +273,7 @@ class Viewer {
     this.refresh();
   }
 
-  choose(entries) {
-    if (entries.length && this.isNarrow()) this.state.folded.add("left");
-    this.change({ picked: entries });
-  }
+  choose(entries) { this.change({ picked: entries }); }
 
   /** Adds an entry, or takes it away where it is chosen. */
   toggle(entry) {

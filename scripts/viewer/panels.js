@@ -87,7 +87,7 @@ function patchesTold(viewer) {
 function describedRows(viewer, single, sets, which) {
   const { results } = viewer, areaOf = (m) => sets[m].reduce((sum, p) => sum + results[m].patch_area[p], 0), rows = [];
   const facade = single?.of === "facade" ? which.map((m) => results[m].geometry.facade_azimuth?.[results[m].geometry.facade_name.indexOf(single.name)]) : [];
-  if (facade.some(Number.isFinite)) rows.push(["faces", facade.map((azimuth) => `${shown(azimuth, 3)}° from north`)]);
+  if (facade.some(Number.isFinite)) rows.push(["azimuth", facade.map((azimuth) => `${shown(azimuth, 3)}°`)]);
   rows.push(["patches", which.map((m) => sets[m].length)], ["area", which.map((m) => `${shown(areaOf(m))} m²`)]);
   return rows;
 }

@@ -4,23 +4,15 @@
 //   node view_probe.mjs FOLDER_OF_PLAYWRIGHT CHROMIUM PAGE FOLDER_OF_PICTURES [match|one]
 // one: a page of one result, only looked at.
 // match: only what the second result brings onto the patches of the first.
-import { createRequire } from "node:module";
 import { join } from "node:path";
+import { Browser, picture as draw } from "./view_browser.mjs";
 
 const [modules, chromium, page, pictures, mode] = process.argv.slice(2);
-const playwright = createRequire(join(modules, "package.json"))("playwright-core");
-const seen = { errors: [], requests: [], patches: [], clicks: [], times: {} };
+const seen = { patches: [], clicks: [], times: {} };
 
-const browser = await playwright.chromium.launch({ executablePath: chromium,
-  args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--force-color-profile=srgb"] });
+const browser = await Browser.start(modules, chromium, seen);
 try {
-  const tab = await browser.newPage({ viewport: { width: 1280, height: 720 } });
-  tab.on("console", (message) => ["error", "warning"].includes(message.type()) && seen.errors.push(message.text()));
-  tab.on("pageerror", (error) => seen.errors.push(String(error)));
-  tab.on("request", (request) => !/^(file|data|blob):/.test(request.url()) && seen.requests.push(request.url()));
-  const started = Date.now();
-  await tab.goto(`file://${page}`);
-  await tab.waitForFunction(() => window.sunload, null, { timeout: 240000 });
+  const started = Date.now(), tab = await browser.open(`file://${page}`);
   seen.loadSeconds = (Date.now() - started) / 1000;
   await { match, one, undefined: use }[mode](tab);
 } finally {
@@ -28,11 +20,7 @@ try {
 }
 console.log(JSON.stringify(seen));
 
-/** Draws at once: a test does not wait for the next frame. */
-async function picture(tab, name) {
-  await tab.evaluate(() => window.sunload.render());
-  await tab.screenshot({ path: join(pictures, `${name}.png`) });
-}
+const picture = (tab, name) => draw(tab, join(pictures, `${name}.png`));
 
 async function set(tab, id, value) {
   await tab.selectOption(`#${id}`, value);
