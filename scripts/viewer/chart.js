@@ -5,7 +5,7 @@ import { roundedUp, shown } from "./scale.js";
 
 export const curveColours = ["#0072B2", "#D55E00"];
 const left = 46, right = 10, top = 10, bottom = 24, secondsPerHour = 3600, wattsPerKilowatt = 1000;
-export const chartNames = { day: "through the day", hours: "by hour", days: "by day", months: "by month" };
+export const chartNames = { day: "course", hours: "hours", days: "days", months: "months" };
 
 const dayOf = (time) => time.local_begin.slice(0, 10), monthOf = (time) => time.local_begin.slice(0, 7);
 

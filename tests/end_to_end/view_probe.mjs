@@ -8,6 +8,7 @@ import { join } from "node:path";
 import { Browser, picture as draw } from "./view_browser.mjs";
 
 const [modules, chromium, page, pictures, mode] = process.argv.slice(2);
+const picture = (tab, name) => draw(tab, join(pictures, `${name}.png`));
 const seen = { patches: [], clicks: [], times: {} };
 
 const browser = await Browser.start(modules, chromium, seen);
@@ -19,8 +20,6 @@ try {
   await browser.close();
 }
 console.log(JSON.stringify(seen));
-
-const picture = (tab, name) => draw(tab, join(pictures, `${name}.png`));
 
 async function set(tab, id, value) {
   await tab.selectOption(`#${id}`, value);
