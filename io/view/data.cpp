@@ -69,7 +69,7 @@ json geometry(const ResultReader& result, ViewBlocks& blocks) {
     j[name] = add_numbers(blocks, floats(result.doubles(name)));
   for (const auto* name : {"object_name", "facade_name", "material_name"})
     j[name] = result.has(name) ? result.strings(name) : std::vector<std::string>{};
-  for (const auto* name : {"facade_azimuth", "facade_light_load_se"})
+  for (const auto* name : {"facade_azimuth", "facade_area", "facade_light_load_se"})
     if (result.has(name)) j[name] = result.doubles(name);
   return j;
 }
@@ -149,6 +149,19 @@ json series(const ResultReader& result, const std::string& name, std::size_t ste
           {"values", add_block(blocks, planes)}};
 }
 
+/// The same of facades, whose series are there where patches have none; null where there is
+/// neither.
+json facade_series(const ResultReader& result, std::size_t step, ViewBlocks& blocks) {
+  for (const std::string name : {"irradiance", "illuminance"}) {
+    const std::string of_facades = "facade_" + name;
+    if (!result.has(of_facades) || result.shape(of_facades).size() != 2) continue;
+    auto own = series(result, of_facades, step, blocks);
+    own["name"] = name;
+    return own;
+  }
+  return nullptr;
+}
+
 /// Points of the study that receive light; names as those of patches. Null where there are none.
 json sensors(const ResultReader& result, std::size_t step, ViewBlocks& blocks) {
   if (!result.has("sensor_position")) return nullptr;
@@ -196,6 +209,7 @@ json view_data(const ResultReader& result, std::size_t step, ViewBlocks& blocks)
           {"totals", totals(result, blocks)},
           {"sensors", sensors(result, step, blocks)},
           {"origin", {origin.x, origin.y, origin.z}},
+          {"facade_series", facade_series(result, step, blocks)},
           {"series", series(result, viewed_series(result), step, blocks)}};
 }
 

@@ -122,6 +122,7 @@ function drawDay(canvas, times, k, curves) {
   c.strokeStyle = "#bbb";
   let written = -Infinity;
   const hasFullHours = times.slice(first, last).filter((time) => time.local_begin.slice(14, 16) === "00").length > 2;
+  const hasDays = last > first && dayOf(times[first]) !== dayOf(times[last - 1]);
   for (let i = first; i < last; ++i) {
     const isNew = i === first || dayOf(times[i]) !== dayOf(times[i - 1]), clock = times[i].local_begin.slice(11, 16);
     if (i > first && times[i].begin > times[i - 1].end + 1) {
@@ -130,8 +131,8 @@ function drawDay(canvas, times, k, curves) {
       c.lineTo(x(i), height - bottom);
       c.stroke();
     }
-    const text = isNew ? `${times[i].local_begin.slice(5, 10)} ${clock}` : clock;
-    if ((isNew || !hasFullHours || clock.endsWith(":00")) && x(i) > written + 14 && x(i) + c.measureText(text).width < width) {
+    const text = hasDays ? dayOf(times[i]).slice(5) : isNew ? `${dayOf(times[i]).slice(5)} ${clock}` : clock;
+    if ((isNew || (!hasDays && (!hasFullHours || clock.endsWith(":00")))) && x(i) > written + 14 && x(i) + c.measureText(text).width < width) {
       c.fillText(text, x(i), height - 8);
       written = x(i) + c.measureText(text).width;
     }

@@ -71,6 +71,7 @@ class Result {
     result.patches = result.patch_area.length;
     for (const total of about.totals) total.values = new Float32Array(await block(total.values));
     if (about.series) about.series.planes = new Uint8Array(await block(about.series.values));
+    if (about.facade_series) about.facade_series.planes = new Uint8Array(await block(about.facade_series.values));
     if (about.sensors) result.sensors = await Sensors.read(about.sensors, halves);
     const twins = new Set();
     result.patch_side.forEach((side, p) => side && twins.add(result.patch_input_triangle[p]));
@@ -83,6 +84,10 @@ class Result {
   /** Value of the series at interval k of the page. */
   seriesValue(k, patch) {
     return halfAt(this.series, this.halves, this.patches, k, patch);
+  }
+
+  facadeValue(k, facade) {
+    return halfAt(this.facade_series, this.halves, this.geometry.facade_name.length, k, facade);
   }
 
   /** One value per patch: of a total, or of the series at interval k (NaN: not covered). */

@@ -195,8 +195,8 @@ export class PatchMesh {
   /** Leaves lines out that would be short even on the side of the scene next to the camera. */
   showFolds(camera, heightPixels) {
     const distance = this.box.distanceToPoint(camera.position.clone().sub(this.object.position));
-    const shortest = (2 * shortestFoldPixels * distance * Math.tan((camera.fov * Math.PI) / 360)) / heightPixels;
-    const first = this.foldLengths.findIndex((length) => length < shortest);
+    const pixel = (2 * distance * Math.tan((camera.fov * Math.PI) / 360)) / heightPixels;
+    const first = this.foldLengths.findIndex((length) => length < shortestFoldPixels * pixel);
     this.foldLines.geometry.setDrawRange(0, first < 0 ? Infinity : 2 * first);
   }
 

@@ -62,7 +62,7 @@ function showWidening(viewer) {
 }
 
 function patchesTold(viewer) {
-  const { picked, k } = viewer.state, { results } = viewer;
+  const { picked } = viewer.state, { results } = viewer;
   const single = picked.length === 1 ? picked[0] : null, sets = results.map((_, m) => selectedPatches(viewer, picked, m));
   const which = results.map((_, m) => m).filter((m) => sets[m].length), rows = [];
   if (single?.of === "patch") {
@@ -75,12 +75,32 @@ function patchesTold(viewer) {
   }
   if (results.length > 1 && single?.of === "patch") rows.push(["", which.map((m) => results[m].label)]);
   rows.push(...valueRows(viewer, single, sets, which));
-  const series = which.length ? results[which[0]].series : null, { times } = results[0];
-  const curves = series ? which.filter((m) => results[m].series?.name === series.name).map((m) => {
-    const result = results[m], values = Float64Array.from(result.times, (_, i) => meanOver(sets[m], result.patch_area, (p) => result.seriesValue(i, p)));
+  const series = which.map((m) => seriesOf(results[m], picked)).find(Boolean);
+  return { rows, curves: series ? curvesOf(viewer, sets, which, series.name) : [], units: series ? `${series.name} [${series.units}]` : "" };
+}
+
+/** The series that a selection has: facades have one of their own, which is there where patches have none. */
+function seriesOf(result, picked) {
+  return (picked.every((entry) => entry.of === "facade") && result.facade_series) || result.series;
+}
+
+/** One value per interval of a result: the mean over facades, or over patches. */
+function meansOverTime(result, picked, patches) {
+  if (seriesOf(result, picked) === result.series) return Float64Array.from(result.times, (_, i) => meanOver(patches, result.patch_area, (p) => result.seriesValue(i, p)));
+  const facades = picked.map((entry) => result.geometry.facade_name.indexOf(entry.name)).filter((facade) => facade >= 0);
+  return Float64Array.from(result.times, (_, i) => meanOver(facades, result.geometry.facade_area, (facade) => result.facadeValue(i, facade)));
+}
+
+/** Curves of a selection; kept while it stays, because time may play. */
+function curvesOf(viewer, sets, which, name) {
+  const { picked } = viewer.state, { results } = viewer, key = JSON.stringify(picked), { times } = results[0];
+  if (viewer.curves?.key === key) return viewer.curves.list;
+  const list = which.filter((m) => seriesOf(results[m], picked)?.name === name).map((m) => {
+    const result = results[m], values = meansOverTime(result, picked, sets[m]);
     return { label: result.label, times: result.times, values, step: result.step, shown: m === 0 ? values : times.map((time) => values[result.intervalAt(time)] ?? NaN) };
-  }) : [];
-  return { rows, curves, units: series ? `${series.name} [${series.units}]` : "" };
+  });
+  viewer.curves = { key, list };
+  return list;
 }
 
 /** What is chosen, without light. */
@@ -104,7 +124,7 @@ function valueRows(viewer, single, sets, which) {
     if (!isGroup) return [row(head, means, name)];
     if (name === "light_load_se") {
       const errors = which.map((m) => (single?.of === "facade" ? results[m].geometry.facade_light_load_se?.[results[m].geometry.facade_name.indexOf(single.name)] : NaN));
-      return errors.some(Number.isFinite) ? [row(`${head} of the mean`, errors, name)] : [];
+      return errors.some(Number.isFinite) ? [row(`error of the mean [${units}]`, errors, name)] : [];
     }
     if (name.endsWith("_se")) return [];
     const isLargest = name.endsWith("_max"), largest = which.map((m, i) => sets[m].reduce((most, p) => (lists[i][p] > most ? lists[i][p] : most), -Infinity));

@@ -10,7 +10,7 @@ import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { findNames } from "./find.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 
-const outlinePixels = 3, outlineColour = 0x00b7ff;
+const outlinePixels = 3, outlineColour = 0x00b7ff, smallestLoop = 0.3;
 
 export const sameEntry = (a, b) => a.of === b.of && a.name === b.name && a.n === b.n && a.patch === b.patch && a.sensor === b.sensor;
 
@@ -79,7 +79,27 @@ function rim(result, patches) {
       edges.has(key) ? edges.set(key, null) : edges.set(key, [a, b]);
     }
   }
-  return [...edges.values()].filter(Boolean).flatMap((ends) => ends.flatMap((k) => [0, 1, 2].map((axis) => result.vertices[3 * k + axis])));
+  const at = (k) => [0, 1, 2].map((axis) => result.vertices[3 * k + axis]);
+  return largeLoops([...edges.values()].filter(Boolean), at).flatMap((ends) => ends.flatMap(at));
+}
+
+/** Edges in loops that are not small beside the largest: holes for windows are left out. */
+function largeLoops(edges, at) {
+  const above = new Map(), top = (k) => {
+    while (above.has(k)) {
+      if (above.has(above.get(k))) above.set(k, above.get(above.get(k)));
+      k = above.get(k);
+    }
+    return k;
+  };
+  for (const [a, b] of edges) if (top(a) !== top(b)) above.set(top(a), top(b));
+  const boxes = new Map();
+  for (const [a, b] of edges) {
+    if (!boxes.has(top(a))) boxes.set(top(a), new THREE.Box3());
+    for (const k of [a, b]) boxes.get(top(a)).expandByPoint(new THREE.Vector3(...at(k)));
+  }
+  const size = (box) => box.getSize(new THREE.Vector3()).length(), largest = Math.max(0, ...[...boxes.values()].map(size));
+  return edges.filter(([a]) => size(boxes.get(top(a))) >= smallestLoop * largest);
 }
 
 /** The twelve edges of a box. */
@@ -98,6 +118,9 @@ export class Outline {
   }
 
   show(viewer, picked, m) {
+    const key = JSON.stringify(picked);
+    if (key === this.key) return;
+    this.key = key;
     const result = viewer.results[m], isObject = ({ of }) => of === "object";
     const points = [...rim(result, selectedPatches(viewer, picked.filter((entry) => !isObject(entry)), m)), ...picked.filter(isObject).flatMap((entry) => {
       const patches = selectedPatches(viewer, [entry], m);

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Uses a page of `sunload view` as people do, and tells what it saw as JSON:
-//   node view_use_probe.mjs FOLDER_OF_PLAYWRIGHT CHROMIUM PAGE FOLDER_OF_PICTURES FACADE PAGE_OF_THE_STUDY
+//   node view_use_probe.mjs FOLDER_OF_PLAYWRIGHT CHROMIUM PAGE FOLDER_OF_PICTURES FACADE PAGE_OF_THE_STUDY PAGE_WITHOUT_SERIES
 import { join } from "node:path";
 import { Browser, picture as draw } from "./view_browser.mjs";
 
-const [modules, chromium, page, pictures, facade, studyPage] = process.argv.slice(2);
+const [modules, chromium, page, pictures, facade, studyPage, barePage] = process.argv.slice(2);
 const sizes = [[1280, 720], [600, 900], [900, 420], [400, 760]];
 const seen = { layouts: [], charts: {}, keys: {} };
 const picture = (tab, name) => draw(tab, join(pictures, `${name}.png`));
@@ -22,6 +22,7 @@ try {
   await tab.close();
   await touched(await browser.open(`file://${page}`, { viewport: { width: 400, height: 760 }, hasTouch: true }));
   await ofStudy(await browser.open(`file://${studyPage}`));
+  await withoutSeries(await browser.open(`file://${barePage}#select=facade:${encodeURIComponent(facade)}&chart=days`));
 } finally {
   await browser.close();
 }
@@ -222,5 +223,12 @@ async function ofStudy(tab) {
   seen.study.materials = await tab.$$eval("#materials li", (list) => list.map((row) => row.textContent));
   await tab.evaluate(() => { window.sunload.choose([{ of: "object", name: "house" }]); });
   seen.study.chosen = await tab.textContent("#values");
+  await tab.close();
+}
+
+async function withoutSeries(tab) {
+  seen.bare = await tab.evaluate(() => ({ names: window.sunload.chart?.names, values: window.sunload.chart?.values }));
+  await tab.evaluate(() => { window.sunload.choose([{ of: "object", name: "house" }]); });
+  seen.bareObject = await tab.evaluate(() => document.getElementById("series").hidden);
   await tab.close();
 }

@@ -186,6 +186,15 @@ def test_study(seen, folder):
     assert not [name for name in os.listdir(folder) if ".part-" in name], "scenes are left beside the page"
 
 
+def test_without_series(seen, folder):
+    """Facades have series of their own where patches have none; objects have no chart then."""
+    with h5py.File(os.path.join(folder, "bare/square/baseline.h5")) as file:
+        assert "irradiance" not in file
+    bare, whole = seen["bare"], seen["charts"]["days"]
+    assert bare["names"] == whole["names"] and np.allclose(bare["values"][0], whole["values"][0], rtol=THREE_DIGITS), (bare, whole)
+    assert seen["bareObject"]
+
+
 def test_refusals(sunload, folder):
     import subprocess
     for words, says in ((["square.yaml", "--variant", "none"], "baseline, bright"), (["square.yaml", "square.yaml"], "alone"),
@@ -203,6 +212,11 @@ def test(sunload, source, packages, folder):
             file.write(text)
     run([sunload, "view", "square.yaml", "-o", "study.html"], cwd=folder)
     run([sunload, "run", "square.yaml", "--overwrite"], cwd=folder)
+    bare_page = os.path.join(folder, "bare.html")
+    with open(os.path.join(folder, "bare.yaml"), "w") as file:
+        file.write(STUDY + "output: {series: [direct]}\n")
+    run([sunload, "run", "bare.yaml", "--variant", "baseline", "--output", "bare", "--overwrite"], cwd=folder)
+    run([sunload, "view", "bare/square/baseline.h5", "-o", bare_page], cwd=folder)
     paths = [os.path.join(folder, f"results/square/{name}.h5") for name in ("baseline", "bright")]
     page = os.path.join(folder, "page.html")
     run([sunload, "view", *paths, "-o", page])
@@ -210,7 +224,7 @@ def test(sunload, source, packages, folder):
     with h5py.File(paths[0]) as base, h5py.File(paths[1]) as bright:
         facade = next(name for name in base["facade_name"].asstr() if name.startswith("house/south"))
         probe = os.path.join(os.path.dirname(os.path.abspath(__file__)), "view_use_probe.mjs")
-        seen = json.loads(run(["node", probe, packages, chromium, page, folder, facade, os.path.join(folder, "study.html")]))
+        seen = json.loads(run(["node", probe, packages, chromium, page, folder, facade, os.path.join(folder, "study.html"), bare_page]))
         assert seen["errors"] == [] and seen["requests"] == [], (seen["errors"], seen["requests"])
         test_layouts(seen)
         test_found(seen, base, facade)
@@ -221,6 +235,7 @@ def test(sunload, source, packages, folder):
     test_shades(seen, folder)
     test_keys(seen)
     test_study(seen, folder)
+    test_without_series(seen, folder)
     test_refusals(sunload, folder)
     print(f"{len(seen['layouts'])} layouts without overlaps, {len(seen['regions'])} regions as they were sent")
 
