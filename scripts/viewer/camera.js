@@ -14,7 +14,7 @@ const ways = { KeyW: "ahead", ArrowUp: "ahead", KeyS: "back", ArrowDown: "back",
 export class CameraMan {
   /** `focus`: box that a whole view frames. `world`: groundAt(x, y, below) and clear(from, way): metres to what is in the way. */
   constructor(canvas, radius, focus, north, world, moved) {
-    Object.assign(this, { canvas, radius, focus, north, world, moved, mode: "orbit", keys: new Set(), isMoved: false });
+    Object.assign(this, { canvas, radius, focus, north, world, moved, mode: "orbit", keys: new Set(), isMoved: false, aspect: usualAspect });
     this.camera = new THREE.PerspectiveCamera(fieldDeg, usualAspect, radius / 2000, radius * 20);
     this.camera.up.set(0, 0, 1);
     this.orbit = new OrbitControls(this.camera, canvas);
@@ -39,11 +39,17 @@ export class CameraMan {
     this.flight = null;
   }
 
-  /** How far from the middle of a box the camera must be, looking against `way`, to have all of it in a usual picture. */
+  /** Pictures have another shape now: a whole view stays one. */
+  shapeTo(aspect) {
+    this.aspect = aspect;
+    if (!this.isMoved) this.home();
+  }
+
+  /** How far from the middle of a box the camera must be, looking against `way`, to have all of it in a picture. */
   distanceFor(box, way) {
     const middle = box.getCenter(new THREE.Vector3()), right = new THREE.Vector3(-way.y, way.x, 0);
     if (right.lengthSq() < 1e-9) right.set(1, 0, 0);
-    const up = way.clone().cross(right.normalize()), tall = Math.tan((fieldDeg * Math.PI) / 360), wide = tall * usualAspect;
+    const up = way.clone().cross(right.normalize()), tall = Math.tan((fieldDeg * Math.PI) / 360) * Math.max(1, usualAspect / this.aspect), wide = tall * this.aspect;
     let farthest = 0;
     for (let k = 0; k < 8; ++k) {
       const corner = new THREE.Vector3(k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z).sub(middle);

@@ -16,6 +16,8 @@ import { Sky, sceneNorth } from "./sky.js";
 import { caption, quantities } from "./words.js";
 
 const playIntervalMs = 250, addressAfterMs = 300, captionPixels = 24;
+// The sun's path lies beyond what is built by this factor; a whole view has so many of its heights around it.
+const pathBeyond = 1.15, aroundHeight = 0.3;
 // What is not higher above the ground than this is no roof.
 const highestStreetM = 2;
 
@@ -67,10 +69,11 @@ class Viewer {
     this.meshes = [];
     this.results.forEach((_, n) => this.addMesh(n, n));
     const { box } = this.meshes[0], focus = this.meshes[0].focus(), radius = 0.5 * box.getSize(new THREE.Vector3()).length();
-    const middle = focus.getCenter(new THREE.Vector3()), north = sceneNorth(result.times), flat = focus.getSize(new THREE.Vector3());
+    const middle = focus.getCenter(new THREE.Vector3()), north = sceneNorth(result.times), size = focus.getSize(new THREE.Vector3());
     this.lowest = box.min.z;
-    this.sky = new Sky(result.times, Math.min(radius, 0.62 * Math.hypot(flat.x, flat.y)), middle.clone().setZ(focus.min.z));
+    this.sky = new Sky(result.times, pathBeyond * Math.hypot(size.x / 2, size.y / 2, size.z), middle.clone().setZ(focus.min.z));
     this.scene.add(this.sky.object);
+    focus.expandByVector(new THREE.Vector3(aroundHeight * size.z, aroundHeight * size.z, 0));
     this.rays = new THREE.Raycaster();
     this.picker = new Picker(this);
     const world = { groundAt: (x, y, below) => this.groundAt(x, y, below), clear: (from, way) => this.clear(from, way), isOutdoors: (x, y) => this.isOutdoors(x, y) };
@@ -146,6 +149,7 @@ class Viewer {
   }
 
   refresh() {
+    this.shapeCamera();
     const { quantity, shading, crease, lines, colours, edges, shade, path, picked, k } = this.state;
     for (const part of this.parts()) {
       if (!this.meshes[part.mesh]) this.addMesh(part.mesh, part.n);
@@ -179,6 +183,11 @@ class Viewer {
     const { quantity, colours, k } = this.state, result = this.results[part.n], own = part.n === 0 ? k : result.intervalAt(this.results[0].times[k]);
     const values = part.mesh === difference || isShape(quantity) ? null : result.sensors.values(quantity, own);
     mesh.sensors.show(values, this.palettes[colours], 0, end);
+  }
+
+  shapeCamera() {
+    const [{ width, height }] = this.parts();
+    if (width > 0 && height > 0) this.man.shapeTo(width / height);
   }
 
   showCaptions() {
@@ -237,6 +246,7 @@ class Viewer {
     this.renderer.setSize(width, height, false);
     // At once, so that the picture does not blink; not before there is something to show.
     if (this.toldLegends === undefined) return;
+    this.shapeCamera();
     this.showCaptions();
     tellSelection(this);
     showState(this);
