@@ -9,6 +9,7 @@
 #include "geo/sky/sky.h"
 #include "geo/sun/site.h"
 #include "io/plan/light_series.h"
+#include "solver/light/lit_period.h"
 #include "solver/light/sun_block.h"
 
 namespace sunload {
@@ -42,6 +43,31 @@ class IntervalLights {
   Bands bands_;
   const SkyGrid& grid_;
   std::vector<double> open_share_;  ///< per cell; empty with an open horizon
+};
+
+/// The light of a series; both must outlive it.
+class SeriesLight : public LitPeriod {
+ public:
+  SeriesLight(const IntervalLights& lights, const LightSeries& series)
+      : lights_(lights), series_(series) {}
+  std::size_t intervals() const override { return series_.intervals.size(); }
+  bool is_dark(std::size_t interval) const override {
+    return sunload::is_dark(series_.intervals[interval]);
+  }
+  bool has_sun(std::size_t interval) const override {
+    const SunInterval& when = series_.intervals[interval].when;
+    return when.sunlit_s > 0 && when.direction.z > 0;
+  }
+  Vec3 direction(std::size_t interval) const override {
+    return series_.intervals[interval].when.direction;
+  }
+  IntervalLight of(std::size_t interval) const override {
+    return lights_.of(series_.intervals[interval], interval);
+  }
+
+ private:
+  const IntervalLights& lights_;
+  const LightSeries& series_;
 };
 
 }  // namespace sunload

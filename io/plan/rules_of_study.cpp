@@ -47,6 +47,7 @@ SolverRules solver_rules(const VariantPlan& plan) {
                                                                             : Errors::totals,
           .bands = s.bands,
           .transport = s.transport,
+          .year = s.year,
           .jacobi = s.jacobi,
           .power_per_sample_w = s.power_per_sample_w,
           .samples_per_patch = {},

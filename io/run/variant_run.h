@@ -39,6 +39,7 @@ class VariantRun {
   void read_or_trace();
   void build(std::optional<Lines> ready);
   void warn_of_sensors();
+  void tell_reduction() const;
   void keep_lines(const std::string& path);
   SolverRules decided_rules();
   void warn(const std::string& text) const;
@@ -49,10 +50,11 @@ class VariantRun {
   Progress& progress_;
   SolverRules rules_;  ///< of the solver, counts decided
   std::unique_ptr<const TracedScene> traced_;
-  std::unique_ptr<const LightTransport> transport_;
   std::optional<IntervalLights> lights_;  ///< on the sky grid of the traced scene
-  WorkDone unwritten_;                    ///< work that no batch carries yet
-  WorkDone done_;                         ///< all of it
+  std::optional<SeriesLight> period_;
+  std::unique_ptr<const LightTransport> transport_;
+  WorkDone unwritten_;  ///< work that no batch carries yet
+  WorkDone done_;       ///< all of it
 };
 
 }  // namespace sunload

@@ -237,7 +237,7 @@ json canonical(const SolverStudy& solver, LightColour colour) {
   // `isa` is left out: the instruction set in force is hashed apart, so that
   // pinning it finds the batches that `auto` computed on such a machine.
   const auto& [transport, jacobi, power_per_sample_w, bands, bounces, unshot, unfollowed,
-               lines_per_patch, direct_samples, sun_samples_per_interval, realizations,
+               year, lines_per_patch, direct_samples, sun_samples_per_interval, realizations,
                mirror_depth, batch_suns, isa, seed, accuracy, max_lines_per_patch] = solver;
   json all{{"transport", word_of(transport)},
            {"jacobi", word_of(jacobi)},
@@ -255,6 +255,8 @@ json canonical(const SolverStudy& solver, LightColour colour) {
     all["bands"] = word_of(bands);
     all["colour"] = word_of(colour);
   }
+  // What is left to the program has no key, either.
+  if (year != Year::automatic) all["year"] = word_of(year);
   // One sun, as most studies have it, has no key: their hashes stay.
   if (sun_samples_per_interval != 1)
     all["sun_samples_per_interval"] =

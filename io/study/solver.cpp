@@ -108,6 +108,7 @@ SolverStudy read_solver(YamlMap& map) {
   solver.bounces = map.integer("bounces", 0, most_reflections, solver.bounces);
   solver.unshot = map.number("unshot", shares, solver.unshot);
   solver.unfollowed = map.choice("unfollowed", solver.unfollowed);
+  solver.year = map.choice("year", solver.year);
   solver.lines_per_patch = map.integer("lines_per_patch", 1, most_lines, solver.lines_per_patch);
   solver.direct_samples = map.integer("direct_samples", 1, most_lines, solver.direct_samples);
   solver.sun_samples_per_interval = read_sun_samples(map);
@@ -119,6 +120,11 @@ SolverStudy read_solver(YamlMap& map) {
   if (solver.bands == Bands::rgb && solver.transport == Transport::shoot)
     map.problem("bands", "rgb cannot go with transport: shoot",
                 "bands share the lines of gathering", "write transport: gather");
+  if (solver.year == Year::modes &&
+      (solver.bands == Bands::rgb || solver.transport == Transport::shoot))
+    map.problem("year", "modes cannot go with bands: rgb or transport: shoot",
+                "they share solutions of broadband light that is gathered",
+                "write auto or each, or leave it out");
   solver.batch_suns = map.integer("batch_suns", 1, most_batch_suns, solver.batch_suns);
   solver.isa = map.word("isa", {"auto", "sse4.2", "avx2", "avx512"}, solver.isa);
   const auto seed = map.integer("seed", std::int64_t{0}, std::numeric_limits<std::int64_t>::max(),

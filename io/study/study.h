@@ -209,6 +209,7 @@ struct SolverStudy {
   int bounces = 5;
   double unshot = 1e-3;
   Unfollowed unfollowed = Unfollowed::estimate;
+  Year year = Year::automatic;
   int lines_per_patch = 256;
   int direct_samples = 16;
   std::optional<int> sun_samples_per_interval = 1;  ///< absent: auto

@@ -57,6 +57,9 @@ inline Words<Quantity> words_of(Quantity) {
 inline Words<LightColour> words_of(LightColour) {
   return {{"sky", LightColour::sky}, {"white", LightColour::white}};
 }
+inline Words<Year> words_of(Year) {
+  return {{"auto", Year::automatic}, {"modes", Year::modes}, {"each", Year::each}};
+}
 inline Words<Unfollowed> words_of(Unfollowed) {
   return {{"estimate", Unfollowed::estimate}, {"leave", Unfollowed::leave}};
 }

@@ -26,6 +26,14 @@ void TimeSums::add_sources(const BlockSources& sources) {
   }
 }
 
+void TimeSums::add_whole_sources(const BlockSources& sources) {
+  for (const IntervalLight& sun : sources.suns) {
+    for (std::size_t c = 0; c < sun.sky.size(); ++c) sky[c] += pi * sun.sky[c] * sun.length_s;
+    ground += sun.ground_exitance * sun.length_s;
+    length_s += sun.length_s;
+  }
+}
+
 FirstExposure first_exposure(const LineSet& lines, const PatchOptics& optics, const TimeSums& sums,
                              const ExposureByRays& by_rays) {
   const std::size_t rows = lines.ends.size();

@@ -19,6 +19,8 @@ struct TimeSums {
            std::size_t sky_cells);
   /// Adds what the light of a block has of sky, far ground and time.
   void add_sources(const BlockSources& sources);
+  /// The same of a block whose sky is not split: circumsolar light is for the caller to take out.
+  void add_whole_sources(const BlockSources& sources);
 
   RaySums on_patches, on_sensors;
   std::vector<double> sky;           ///< [cells] π·radiance·time

@@ -38,6 +38,7 @@ struct SolverRules {
   Errors errors = Errors::totals;
   Bands bands = Bands::broadband;  ///< rgb when gathering only
   Transport transport = Transport::gather;
+  Year year = Year::each;                    ///< when gathering broadband light
   Jacobi jacobi = Jacobi::incremental;       ///< when shooting
   std::optional<double> power_per_sample_w;  ///< when shooting, ShootingRules
   std::optional<int> samples_per_patch;      ///< when shooting, ShootingRules

@@ -9,24 +9,12 @@
 #include "solver/gather/sensor_light.h"
 #include "solver/light/instant_spread.h"
 #include "solver/transport/band_rays.h"
+#include "solver/transport/gathered_sums.h"
 #include "solver/transport/realizations.h"
 
 namespace sunload {
 
 namespace {
-
-TimeSums empty_sums(const TracedScene& traced) {
-  TimeSums sums(static_cast<std::size_t>(traced.rules.realizations), traced.patches.count(),
-                traced.sensors.count(), static_cast<std::size_t>(traced.grid.cell_count()));
-  if (traced.optics.any_glossy) sums.on_patches.gloss = sums.on_patches.mirror;
-  return sums;
-}
-
-/// The columns of realization r, which are not needed afterwards.
-RayColumns taken(SunColumns& columns, std::size_t r) {
-  return {std::move(columns.direct[r]), std::move(columns.mirror[r]),
-          std::move(columns.circumsolar[r])};
-}
 
 /// One batch.
 class GatheredBatch : public BatchTransport {
@@ -77,7 +65,7 @@ class GatheredBatch : public BatchTransport {
     const Columns radiosity = light_patches(band, block, sources, rays.on_patches, tally);
     if (traced_.sensors.count() > 0)
       light_sensors(optics, block, sources, rays.on_sensors, radiosity, tally.sensors);
-    book_sent_on(block, rays.sent_on, sums_[band], tally);
+    book_sent_on(traced_, block, rays.sent_on, sums_[band], tally);
     sums_[band].add_sources(sources);
     if (of_instants()) errors_of_instants(band, block, sources, std::move(rays), tally);
   }
@@ -104,21 +92,6 @@ class GatheredBatch : public BatchTransport {
         sensor_light(traced_.sensors.lines.pooled, optics, sources, std::move(rays.pooled),
                      traced_.sensors.lamps.pooled, radiosity);
     store_received(light, block.suns, block.first_row, rays.sunlit, tally);
-  }
-
-  /// The sun's light that mirrors sent on, and that of parallel sources.
-  void book_sent_on(const Block& block, const std::vector<SunFates>& sent_on, TimeSums& sums,
-                    BatchTally& tally) const {
-    const double of_one = 1.0 / static_cast<double>(traced_.rules.realizations);
-    for (std::size_t r = 0; r < sent_on.size(); ++r)
-      for (std::size_t k = 0; k < block.suns.size(); ++k) {
-        const Ledger fate = booked(sent_on[r][k]);
-        tally.ledger[block.first_row + k] += scaled(fate, of_one);
-        sums.sent_on[r] += scaled(fate, block.suns[k].length_s);
-      }
-    for (const Ledger& of_realization : traced_.patches.lamps.ledger)
-      for (std::size_t k = 0; k < block.suns.size(); ++k)
-        tally.ledger[block.first_row + k] += scaled(of_realization, of_one);
   }
 
   /// Every realization of the block for itself.

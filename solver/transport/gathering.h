@@ -12,7 +12,11 @@ namespace sunload {
 
 class Gathering : public LightTransport {
  public:
-  using LightTransport::LightTransport;
+  /// `tried`: work that was done before it was chosen.
+  explicit Gathering(const TracedScene& traced, const WorkDone& tried = {})
+      : LightTransport(traced) {
+    work_ = tried;
+  }
   std::unique_ptr<BatchTransport> begin(std::vector<BatchTally>& tallies,
                                         WorkDone& work) const override;
 };

@@ -4,12 +4,21 @@
 
 #include "solver/transport/gathering.h"
 #include "solver/transport/shooting.h"
+#include "solver/transport/year_gathering.h"
 
 namespace sunload {
 
 std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced) {
   if (traced.rules.transport == Transport::shoot) return std::make_unique<Shooting>(traced);
   return std::make_unique<Gathering>(traced);
+}
+
+std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced,
+                                                   const LitPeriod& period) {
+  WorkDone tried;
+  if (auto year = year_where_it_pays(traced, period, tried)) return year;
+  if (traced.rules.transport == Transport::shoot) return std::make_unique<Shooting>(traced);
+  return std::make_unique<Gathering>(traced, tried);
 }
 
 }  // namespace sunload

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/light/lit_period.h"
 #include "solver/light/work.h"
 #include "solver/traced/traced_scene.h"
 
@@ -30,6 +31,15 @@ class BatchTransport {
   virtual void finish() = 0;
 };
 
+/// How near the light of few solutions comes to that of each interval.
+struct Reduction {
+  std::size_t skies = 0, suns = 0;  ///< that are solved
+  /// Root mean square over patches and intervals that are no nodes, by area [W m-2]: of what is
+  /// made up against what is solved, and of the standard error of what is solved.
+  double error_w_m2 = 0, standard_error_w_m2 = 0;
+  bool is_met = false;  ///< error ≤ a third of the standard error
+};
+
 class LightTransport {
  public:
   explicit LightTransport(const TracedScene& traced) : traced_(traced) {}
@@ -43,6 +53,8 @@ class LightTransport {
                                                 WorkDone& work) const = 0;
   /// Work done before any batch, beside `TracedScene::work`.
   const WorkDone& work() const { return work_; }
+  /// Null where each interval has its own solution.
+  virtual const Reduction* reduction() const { return nullptr; }
 
  protected:
   const TracedScene& traced_;
@@ -51,5 +63,9 @@ class LightTransport {
 
 /// The one that the rules of the scene ask for; `traced` must outlive it.
 std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced);
+/// The same for a whole period, which few solutions may serve (SolverRules::year); `period` must
+/// outlive it, too. Throws Interrupted.
+std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced,
+                                                   const LitPeriod& period);
 
 }  // namespace sunload

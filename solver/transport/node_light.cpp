@@ -1,0 +1,329 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/transport/node_light.h"
+
+#include <algorithm>
+
+#include "geo/base/units.h"
+#include "geo/base/vector_code.h"
+#include "solver/base/stopwatch.h"
+#include "solver/gather/sensor_light.h"
+#include "solver/transport/gathered_sums.h"
+
+namespace sunload {
+
+namespace {
+
+/// Of a sun that is a node [W m-2]: any will do.
+constexpr double node_dni = 1000;
+
+/// Ranked at the most; a year of a real site needs about half as many.
+constexpr std::size_t most_skies = 320, most_suns = 640;
+
+/// Σ_j nodes[j] weights[j][k] is added to every row of out, [rows][block].
+SUNLOAD_VECTOR_CODE void add_rows(const float* nodes, const float* weights, float* out,
+                                  std::size_t rows) {
+  for (std::size_t row = 0; row < rows; ++row) {
+    float sum[block_width];
+    for (std::size_t k = 0; k < block_width; ++k) sum[k] = out[row * block_width + k];
+    for (std::size_t j = 0; j < block_width; ++j) {
+      const float of_node = nodes[row * block_width + j];
+      for (std::size_t k = 0; k < block_width; ++k)
+        sum[k] += of_node * weights[j * block_width + k];
+    }
+    for (std::size_t k = 0; k < block_width; ++k) out[row * block_width + k] = sum[k];
+  }
+}
+
+/// The same of all blocks, one kind of light; what falls below 0 is 0.
+void combine(const std::vector<const Columns*>& nodes, const std::vector<NodeWeights>& weights,
+             Columns& out) {
+  parallel_chunks(
+      out.size() / block_width, receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
+        const std::size_t at = begin * block_width;
+        for (std::size_t b = 0; b < nodes.size(); ++b)
+          if (weights[b].any && !nodes[b]->empty())
+            add_rows(nodes[b]->data() + at, weights[b].of.data(), out.data() + at, end - begin);
+        for (std::size_t i = at; i < end * block_width; ++i) out[i] = std::max(out[i], 0.0f);
+      });
+}
+
+/// An interval with that sky and nothing else.
+IntervalLight sky_alone(IntervalLight light) {
+  light.dni = light.ground_exitance = light.sunlit_s = 0;
+  light.sun_samples.clear();
+  return light;
+}
+
+/// An interval with a sun in the middle of its sunlit part, and nothing else.
+IntervalLight sun_alone(IntervalLight light) {
+  light.dni = node_dni;
+  light.dhi = light.ground_exitance = 0;
+  light.sky.clear();
+  light.sun_samples.clear();
+  return light;
+}
+
+/// The nodes about the suns of an interval, each sun with its share.
+std::vector<SunNodes::Weight> nodes_about(const SunNodes& nodes, const IntervalLight& light) {
+  if (!light.has_sun() || light.dni <= 0 || nodes.count() == 0) return {};
+  const std::vector<Vec3> one{light.direction};
+  const std::vector<Vec3>& suns = light.sun_samples.empty() ? one : light.sun_samples;
+  std::vector<SunNodes::Weight> about;
+  for (const Vec3& sun : suns)
+    for (const auto& [node, weight] : nodes.weights(sun))
+      about.push_back({node, weight / static_cast<double>(suns.size())});
+  return about;
+}
+
+}  // namespace
+
+void NodeWeights::add(std::size_t source, std::size_t interval, double weight) {
+  of[source * block_width + interval] += static_cast<float>(weight);
+  any = true;
+}
+
+std::vector<Ledger> ledger_of_rays(const TracedScene& traced, const Columns& direct,
+                                   const Columns& mirror, std::size_t suns) {
+  using Ledgers = std::array<Ledger, block_width>;
+  const PatchOptics& optics = traced.optics;
+  const std::vector<double>& area = traced.hierarchy().area();
+  std::vector<Ledgers> parts(chunk_count(area.size(), receivers_per_chunk));
+  const LineEnds no_ends{};
+  parallel_chunks(area.size(), receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
+    Ledgers& part = parts[begin / receivers_per_chunk];
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t k = 0; k < suns; ++k) {
+        const auto straight = static_cast<double>(direct[i * block_width + k]);
+        const auto mirrored = static_cast<double>(mirror[i * block_width + k]);
+        if (straight + mirrored == 0) continue;
+        part[k] += ledger_of_patch({.area = area[i],
+                                    .diffuse = static_cast<double>(optics.diffuse[i]),
+                                    .absorbed = optics.absorbed(i),
+                                    .passed = static_cast<double>(optics.passed[i]),
+                                    .direct = straight,
+                                    .total = straight + mirrored},
+                                   no_ends);
+      }
+  });
+  std::vector<Ledger> ledger(suns);
+  for (std::size_t k = 0; k < suns; ++k)
+    for (const auto& part : parts) ledger[k] += part[k];
+  return ledger;
+}
+
+NodeLight::NodeLight(const TracedScene& traced, const LitPeriod& period, WorkDone& work)
+    : traced_(traced),
+      period_(period),
+      skies_(traced.grid, period, most_skies),
+      suns_(period, most_suns),
+      lamps_and_ground_(solve_lamps_and_ground(work)) {}
+
+void NodeLight::take(std::size_t skies, std::size_t suns, WorkDone& work) {
+  const auto whole_blocks = [](std::size_t count, std::size_t there_are) {
+    return std::min(there_are, (count + block_width - 1) / block_width * block_width);
+  };
+  const auto grow = [&](std::vector<NodeBlock>& blocks, std::size_t count, auto&& solve_nodes) {
+    for (std::size_t first = blocks.size() * block_width; first < count; first += block_width)
+      blocks.push_back(solve_nodes(first, std::min(block_width, count - first)));
+  };
+  const std::size_t sky_count =
+      std::max(skies_.count(), whole_blocks(skies, skies_.ranked().size()));
+  const std::size_t sun_count = std::max(suns_.count(), whole_blocks(suns, suns_.ranked().size()));
+  grow(sky_blocks_, sky_count,
+       [&](std::size_t first, std::size_t n) { return solve_skies(first, n, work); });
+  grow(sun_blocks_, sun_count,
+       [&](std::size_t first, std::size_t n) { return solve_suns(first, n, work); });
+  skies_.take(sky_count);
+  suns_.take(sun_count);
+}
+
+std::vector<const NodeBlock*> NodeLight::blocks() const {
+  std::vector<const NodeBlock*> all{&lamps_and_ground_};
+  for (const auto* blocks : {&sky_blocks_, &sun_blocks_})
+    for (const NodeBlock& block : *blocks) all.push_back(&block);
+  return all;
+}
+
+std::vector<NodeWeights> NodeLight::weights(std::span<const IntervalLight> suns,
+                                            const std::vector<Ledger>& by_rays) const {
+  std::vector<NodeWeights> weights(1 + sky_blocks_.size() + sun_blocks_.size());
+  std::vector<std::vector<double>> of_skies(suns.size());
+  parallel_for(suns.size(), [&](std::size_t k) { of_skies[k] = skies_.weights(suns[k].sky); });
+  for (std::size_t k = 0; k < suns.size(); ++k) {
+    weights[0].add(0, k, 1);
+    weights[0].add(1, k, suns[k].ground_exitance);
+    for (std::size_t m = 0; m < of_skies[k].size(); ++m)
+      weights[1 + m / block_width].add(m % block_width, k, of_skies[k][m]);
+    const auto about = nodes_about(suns_, suns[k]);
+    double reflected_first = 0;
+    for (const auto& [node, weight] : about)
+      reflected_first +=
+          weight * sun_blocks_[node / block_width].reflected_first[node % block_width];
+    if (reflected_first <= 0) continue;
+    const double scale = by_rays[k][Term::unshot] / reflected_first;
+    for (const auto& [node, weight] : about)
+      weights[1 + sky_blocks_.size() + node / block_width].add(node % block_width, k,
+                                                               scale * weight);
+  }
+  return weights;
+}
+
+void NodeLight::add_light(const std::vector<NodeWeights>& weights,
+                          NodeBlock::Received NodeBlock::*of_receivers, BlockLight& light) const {
+  const auto all = blocks();
+  const auto add = [&](Columns NodeBlock::Received::*kind, Columns& out) {
+    std::vector<const Columns*> nodes;
+    for (const NodeBlock* block : all) nodes.push_back(&(block->*of_receivers.*kind));
+    combine(nodes, weights, out);
+  };
+  light.sky = light.reflected = columns(light.direct.size() / block_width);
+  add(&NodeBlock::Received::sky, light.sky);
+  if (traced_.optics.any_mirror) add(&NodeBlock::Received::mirror, light.mirror);
+  add(&NodeBlock::Received::reflected, light.reflected);
+}
+
+void NodeLight::add_circumsolar(const std::vector<NodeWeights>& weights, std::size_t r,
+                                Columns& light) const {
+  const Columns none;
+  std::vector<const Columns*> nodes;
+  for (const NodeBlock* block : blocks())
+    nodes.push_back(block->circumsolar.empty() ? &none : &block->circumsolar[r]);
+  combine(nodes, weights, light);
+}
+
+void NodeLight::split_circumsolar(const std::vector<NodeSeconds>& seconds, TimeSums& sums) const {
+  const auto all = blocks();
+  sums.sky_of_lines = sums.sky;
+  for (std::size_t b = 0; b < seconds.size(); ++b)
+    for (std::size_t j = 0; j < all[b]->circumsolar_sky.size(); ++j)
+      for (std::size_t c = 0; c < all[b]->circumsolar_sky[j].size(); ++c)
+        sums.sky_of_lines[c] -= seconds[b][j] * all[b]->circumsolar_sky[j][c];
+  // Where the nodes have a little more than the sky there is nothing left.
+  for (double& left : sums.sky_of_lines) left = std::max(left, 0.0);
+  for (std::size_t r = 0; r < sums.on_patches.circumsolar.size(); ++r) {
+    std::vector<double>& exposure = sums.on_patches.circumsolar[r];
+    parallel_for(
+        exposure.size(),
+        [&](std::size_t i) {
+          for (std::size_t b = 0; b < seconds.size(); ++b) {
+            if (all[b]->circumsolar.empty()) continue;
+            const float* of_nodes = all[b]->circumsolar[r].data() + i * block_width;
+            for (std::size_t j = 0; j < block_width; ++j)
+              exposure[i] += seconds[b][j] * static_cast<double>(of_nodes[j]);
+          }
+          exposure[i] = std::max(exposure[i], 0.0);
+        },
+        receivers_per_chunk);
+  }
+}
+
+Ledger NodeLight::ledger(const std::vector<NodeWeights>& weights, std::size_t interval) const {
+  Ledger ledger;
+  const auto all = blocks();
+  for (std::size_t b = 0; b < all.size(); ++b)
+    for (std::size_t j = 0; j < block_width; ++j)
+      if (const float w = weights[b].of[j * block_width + interval]; w != 0)
+        ledger += scaled(all[b]->ledger[j], static_cast<double>(w));
+  return ledger;
+}
+
+/// Gathers the light of these sources; what their suns bring by rays is reflected, and left out.
+NodeBlock NodeLight::solve(std::span<const IntervalLight> suns, WorkDone& work) const {
+  BlockSources sources(suns, static_cast<std::size_t>(traced_.grid.cell_count()));
+  sources.split_sky(traced_.grid);
+  TimeSums unwanted = empty_sums(traced_);
+  BlockRays rays = light_iteration(traced_, sources, {.columns = true}, unwanted, work);
+  const Stopwatch time(work[Work::solve_s]);
+  const Columns by_mirrors = rays.on_patches.pooled.mirror;
+  NodeBlock block;
+  if (any_circumsolar(sources.circumsolar))
+    block.circumsolar = std::move(rays.on_patches.of_realizations.circumsolar);
+  for (const auto& sky : sources.circumsolar) {
+    std::vector<double> cells;
+    for (std::size_t c = 0; sky.any() && c < sources.sky.size() / block_width; ++c)
+      cells.push_back(pi * sky.radiance(c));
+    block.circumsolar_sky.push_back(std::move(cells));
+  }
+  const LineSet& lines = traced_.patches.lines.pooled;
+  BlockLight light = block_light(traced_.hierarchy(), lines, traced_.optics, sources,
+                                 std::move(rays.on_patches.pooled), traced_.patches.lamps.pooled,
+                                 traced_.bounce_rules(0));
+  const auto whole =
+      block_ledger(lines, traced_.optics, traced_.hierarchy().area(), sources, light);
+  const auto first = ledger_of_rays(traced_, light.direct, by_mirrors, suns.size());
+  for (std::size_t j = 0; j < suns.size(); ++j) {
+    (block.ledger[j] = whole[j]) += scaled(first[j], -1);
+    block.reflected_first[j] = first[j][Term::unshot];
+  }
+  block.patches.sky = std::move(light.sky);
+  for (std::size_t at = 0; at < by_mirrors.size(); ++at) light.mirror[at] -= by_mirrors[at];
+  if (traced_.optics.any_mirror) block.patches.mirror = std::move(light.mirror);
+  block.patches.reflected = light.reflected;
+  if (traced_.sensors.count() > 0) {
+    light.sky = block.patches.sky;
+    if (light.mirror.empty()) light.mirror = block.patches.mirror;
+    for (std::size_t at = 0; at < by_mirrors.size(); ++at) light.mirror[at] += by_mirrors[at];
+    const Columns dark = columns(traced_.sensors.count());
+    BlockLight on_sensors = sensor_light(
+        traced_.sensors.lines.pooled, traced_.optics, sources, {dark, dark, {}},
+        traced_.sensors.lamps.pooled, seen_radiosity(traced_.hierarchy(), traced_.optics, light));
+    block.sensors = {std::move(on_sensors.sky), std::move(on_sensors.mirror),
+                     std::move(on_sensors.reflected)};
+  }
+  return block;
+}
+
+NodeBlock NodeLight::solve_lamps_and_ground(WorkDone& work) const {
+  std::vector<IntervalLight> sources(2);  // lamps alone; with them the ground
+  sources[1].ground_exitance = 1;
+  NodeBlock block = solve(sources, work);
+  for (Columns* light : {&block.patches.reflected, &block.sensors.reflected})
+    for (std::size_t at = 0; at < light->size(); at += block_width)
+      (*light)[at + 1] -= (*light)[at];
+  block.ledger[1] += scaled(block.ledger[0], -1);
+  block.patches.sky.clear();
+  block.patches.mirror.clear();
+  block.sensors.sky.clear();
+  block.sensors.mirror.clear();
+  return block;
+}
+
+NodeBlock NodeLight::solve_skies(std::size_t first, std::size_t count, WorkDone& work) const {
+  std::vector<IntervalLight> sources(count);
+  parallel_for(count, [&](std::size_t j) {
+    sources[j] = sky_alone(period_.of(skies_.ranked()[first + j]));
+  });
+  NodeBlock block = solve(sources, work);
+  leave_out_lamps(block, count);
+  return block;
+}
+
+NodeBlock NodeLight::solve_suns(std::size_t first, std::size_t count, WorkDone& work) const {
+  std::vector<IntervalLight> sources(count);
+  parallel_for(
+      count, [&](std::size_t j) { sources[j] = sun_alone(period_.of(suns_.ranked()[first + j])); });
+  NodeBlock block = solve(sources, work);
+  leave_out_lamps(block, count);
+  block.patches.sky.clear();
+  block.patches.mirror.clear();
+  block.sensors.sky.clear();
+  block.sensors.mirror.clear();
+  block.circumsolar.clear();
+  return block;
+}
+
+/// Lamps shine in every solution, and count once.
+void NodeLight::leave_out_lamps(NodeBlock& block, std::size_t sources) const {
+  if (!traced_.optics.any_emission) return;
+  const auto leave_out = [&](const Columns& lamps, Columns& light) {
+    for (std::size_t at = 0; at < light.size(); at += block_width)
+      for (std::size_t j = 0; j < sources; ++j) light[at + j] -= lamps[at];
+  };
+  leave_out(lamps_and_ground_.patches.reflected, block.patches.reflected);
+  leave_out(lamps_and_ground_.sensors.reflected, block.sensors.reflected);
+  for (std::size_t j = 0; j < sources; ++j)
+    block.ledger[j] += scaled(lamps_and_ground_.ledger[0], -1);
+}
+
+}  // namespace sunload

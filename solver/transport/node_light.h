@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The light of few sources, solved once, of which that of every interval is made up.
+///
+/// Beside the sun's own rays, which every interval has for itself, all light is linear in the
+/// sources: the sky, the far ground, the lamps, and the sun as a source of reflected light. With
+/// skies and suns as nodes (solver/year) the light of interval k is
+///
+///     E_k = E_direct + E_mirror + Σ_m c_km E_m(sky) + g_k E(ground) + E(lamps)
+///           + DNI_k Σ_j w_kj E_j(reflected sun)
+///
+/// and so is its ledger. The interpolated reflection is scaled so that what surfaces reflect first
+/// is the power that the interval's own rays bring. Each term is what gathering on the pooled lines
+/// gives for that source.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "solver/gather/time_sums.h"
+#include "solver/transport/light_transport.h"
+#include "solver/year/sky_nodes.h"
+#include "solver/year/sun_nodes.h"
+
+namespace sunload {
+
+/// Up to `block_width` sources side by side, and what they bring.
+struct NodeBlock {
+  struct Received {
+    Columns sky;        ///< straight from the sky; empty: nothing
+    Columns mirror;     ///< of the sky, by mirrors; empty: nothing
+    Columns reflected;  ///< after a diffuse reflection, and of the far ground
+  };
+  Received patches, sensors;
+  std::array<Ledger, block_width> ledger{};  ///< but for first light of the sun's rays
+  /// Of suns: first light of their rays that surfaces reflect diffusely [W].
+  std::array<double, block_width> reflected_first{};
+  std::vector<Columns> circumsolar;  ///< [R] part of the sky, per realization
+  /// [source][cells] π · radiance of that part; empty ones: none.
+  std::vector<std::vector<double>> circumsolar_sky;
+};
+
+/// How much of each source of a NodeBlock the intervals of a block have, [source][interval].
+struct NodeWeights {
+  std::array<float, block_width * block_width> of{};
+  bool any = false;
+  void add(std::size_t source, std::size_t interval, double weight);
+};
+
+/// Seconds that each source of a block shines, all intervals together.
+using NodeSeconds = std::array<double, block_width>;
+
+class NodeLight {
+ public:
+  /// Ranks the period's skies and suns; lamps and far ground are solved at once. `traced` and
+  /// `period` must outlive it.
+  NodeLight(const TracedScene& traced, const LitPeriod& period, WorkDone& work);
+
+  /// Solves nodes until there are so many skies and suns, rounded up to whole blocks; never fewer
+  /// than before. Cost: gathering one block of suns for 16 of them.
+  void take(std::size_t skies, std::size_t suns, WorkDone& work);
+  const SkyNodes& skies() const { return skies_; }
+  const SunNodes& suns() const { return suns_; }
+
+  /// Lamps and ground, skies, suns.
+  std::vector<const NodeBlock*> blocks() const;
+  /// Of those blocks. `by_rays`: ledger_of_rays of these suns.
+  std::vector<NodeWeights> weights(std::span<const IntervalLight> suns,
+                                   const std::vector<Ledger>& by_rays) const;
+
+  /// `of_receivers`: patches or sensors. `light` has direct, mirror (by rays) and lamps; it gets
+  /// the sky's straight light, that of the sky by mirrors, and what is reflected. What falls below
+  /// 0, in corners that are nearly dark, is 0.
+  void add_light(const std::vector<NodeWeights>& weights,
+                 NodeBlock::Received NodeBlock::*of_receivers, BlockLight& light) const;
+  /// Adds the samples of the sky about the sun in realization r, [N][block].
+  void add_circumsolar(const std::vector<NodeWeights>& weights, std::size_t r,
+                       Columns& light) const;
+  /// Puts that part of the sky, as the nodes have it, into `sums` and takes it from the lines.
+  void split_circumsolar(const std::vector<NodeSeconds>& seconds, TimeSums& sums) const;
+  /// Ledger of an interval of the block but for first light of the sun's rays [W].
+  Ledger ledger(const std::vector<NodeWeights>& weights, std::size_t interval) const;
+
+ private:
+  NodeBlock solve(std::span<const IntervalLight> sources, WorkDone& work) const;
+  NodeBlock solve_lamps_and_ground(WorkDone& work) const;
+  NodeBlock solve_skies(std::size_t first, std::size_t count, WorkDone& work) const;
+  NodeBlock solve_suns(std::size_t first, std::size_t count, WorkDone& work) const;
+  void leave_out_lamps(NodeBlock& block, std::size_t sources) const;
+
+  const TracedScene& traced_;
+  const LitPeriod& period_;
+  SkyNodes skies_;
+  SunNodes suns_;
+  NodeBlock lamps_and_ground_;
+  std::vector<NodeBlock> sky_blocks_, sun_blocks_;
+};
+
+/// What the first light of the sun's rays brings to the ledger, for each sun of a block [W].
+std::vector<Ledger> ledger_of_rays(const TracedScene& traced, const Columns& direct,
+                                   const Columns& mirror, std::size_t suns);
+
+}  // namespace sunload

@@ -1,0 +1,288 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/transport/year_gathering.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geo/base/check.h"
+#include "geo/base/units.h"
+#include "solver/base/stopwatch.h"
+#include "solver/gather/block_tally.h"
+#include "solver/light/instant_spread.h"
+#include "solver/transport/gathered_sums.h"
+#include "solver/transport/realizations.h"
+
+namespace sunload {
+
+namespace {
+
+/// Where nodes begin: rest of the skies, and distance between a sun and its nearest node.
+constexpr double first_rest = 0.004, first_distance = 7 * radians_per_degree;
+/// The reduction may be so much of the standard error of an interval: then it adds 5 % to it.
+constexpr double wanted_share = 1.0 / 3;
+constexpr double growth = 1.5;
+/// Nodes are few where they are fewer than this share of the intervals with light.
+constexpr double few = 0.25;
+/// Intervals on which the reduction is measured: one block.
+constexpr std::size_t tests = block_width;
+
+std::vector<std::size_t> lit_intervals(const TracedScene& traced, const LitPeriod& period) {
+  std::vector<std::size_t> lit;
+  for (std::size_t k = 0; k < period.intervals(); ++k)
+    if (traced.optics.any_emission || !period.is_dark(k)) lit.push_back(k);
+  return lit;
+}
+
+/// Intervals with a sun that are no nodes, spread evenly; of all that have light where few have a
+/// sun.
+std::vector<IntervalLight> test_intervals(const LitPeriod& period, const NodeLight& nodes) {
+  std::vector<std::size_t> is_node = nodes.skies().ranked();
+  is_node.insert(is_node.end(), nodes.suns().ranked().begin(), nodes.suns().ranked().end());
+  std::sort(is_node.begin(), is_node.end());
+  const auto choice = [&](auto&& may_be) {
+    std::vector<std::size_t> intervals;
+    for (std::size_t k = 0; k < period.intervals(); ++k)
+      if (may_be(k) && !std::binary_search(is_node.begin(), is_node.end(), k))
+        intervals.push_back(k);
+    return intervals;
+  };
+  auto from = choice([&](std::size_t k) { return period.has_sun(k); });
+  if (from.size() < tests) from = choice([&](std::size_t k) { return !period.is_dark(k); });
+  const std::size_t count = std::min(tests, from.size());
+  std::vector<IntervalLight> lights(count);
+  parallel_for(count, [&](std::size_t t) {
+    lights[t] = period.of(from[(2 * t + 1) * from.size() / (2 * count)]);
+  });
+  return lights;
+}
+
+BlockLight light_of_nodes(const TracedScene& traced, const NodeLight& nodes,
+                          const std::vector<NodeWeights>& weights, RayLight& rays) {
+  BlockLight light;
+  light.direct = std::move(rays.pooled.direct);
+  light.mirror = std::move(rays.pooled.mirror);
+  const LineSet& lines = traced.patches.lines.pooled;
+  light.lamps.assign(lines.lamps.begin(), lines.lamps.end());
+  light.lamps.resize(traced.patches.count(), 0);
+  for (std::size_t i = 0; i < traced.patches.lamps.pooled.size(); ++i)
+    light.lamps[i] += static_cast<float>(traced.patches.lamps.pooled[i]);
+  nodes.add_light(weights, &NodeBlock::patches, light);
+  return light;
+}
+
+/// Mean over patches and intervals, by area, of the squares of what the nodes are off by.
+struct Squares {
+  double sky = 0, reflected = 0;  ///< of each alone, noise included
+  double error = 0;               ///< of both, without the noise of samples
+  double standard_error = 0;
+  double share() const { return standard_error > 0 ? std::sqrt(error / standard_error) : 0; }
+};
+
+class ReductionTest {
+ public:
+  /// Solves the test intervals by all lines and by each realization.
+  ReductionTest(const TracedScene& traced, std::vector<IntervalLight> suns, WorkDone& work)
+      : traced_(traced),
+        suns_(std::move(suns)),
+        sources_(suns_, static_cast<std::size_t>(traced.grid.cell_count())) {
+    sources_.split_sky(traced.grid);
+    TimeSums unwanted = empty_sums(traced);
+    rays_ = light_iteration(traced, sources_, {.columns = true, .all_parts = true}, unwanted, work)
+                .on_patches;
+    const Stopwatch time(work[Work::solve_s]);
+    RayColumns pooled = rays_.pooled;
+    exact_ = block_light(traced.hierarchy(), traced.patches.lines.pooled, traced.optics, sources_,
+                         std::move(pooled), traced.patches.lamps.pooled, traced.bounce_rules(0));
+    InstantSpread spread(traced.patches.count(), suns_.size());
+    const std::size_t R = static_cast<std::size_t>(traced.rules.realizations);
+    for (std::size_t r = 0; r < R; ++r)
+      spread.add(total_of(block_light(
+          traced.hierarchy(), traced.patches.lines.realizations[r], traced.optics, sources_,
+          {rays_.of_realizations.direct[r], rays_.of_realizations.mirror[r],
+           has_circumsolar() ? rays_.of_realizations.circumsolar[r] : Columns()},
+          traced.patches.lamps.of(r), traced.bounce_rules(0))));
+    standard_error_.resize(suns_.size() * traced.patches.count());
+    spread.store(0, standard_error_);
+  }
+
+  Squares squares_of(const NodeLight& nodes) const {
+    const auto weights = nodes.weights(
+        suns_, ledger_of_rays(traced_, rays_.pooled.direct, rays_.pooled.mirror, suns_.size()));
+    RayLight rays = rays_;
+    const BlockLight made = light_of_nodes(traced_, nodes, weights, rays);
+    const std::vector<float> noise = noise_of_samples(nodes, weights);
+    const std::vector<double>& area = traced_.hierarchy().area();
+    Squares sum;
+    double all = 0;
+    for (std::size_t i = 0; i < area.size(); ++i) {
+      const double part = area[i] / static_cast<double>(suns_.size());
+      all += area[i];
+      for (std::size_t k = 0; k < suns_.size(); ++k) {
+        const std::size_t at = i * block_width + k, row = k * area.size() + i;
+        const auto sky = static_cast<double>(made.sky[at] + made.mirror[at] - exact_.sky[at] -
+                                             exact_.mirror[at]);
+        const auto reflected = static_cast<double>(made.reflected[at] - exact_.reflected[at]);
+        const auto noisy = static_cast<double>(noise[row]);
+        sum.sky += part * sky * sky;
+        sum.reflected += part * reflected * reflected;
+        sum.error += part * ((sky + reflected) * (sky + reflected) - noisy * noisy);
+        const auto se = static_cast<double>(standard_error_[row]);
+        sum.standard_error += part * se * se;
+      }
+    }
+    for (double* square : {&sum.sky, &sum.reflected, &sum.error, &sum.standard_error})
+      *square = std::max(0.0, *square / all);
+    return sum;
+  }
+
+ private:
+  bool has_circumsolar() const { return any_circumsolar(sources_.circumsolar); }
+
+  /// Standard error of what nodes and test differ by, by their samples of the sky about the sun,
+  /// [interval][patch]: both solutions have it, and it says nothing of the nodes.
+  std::vector<float> noise_of_samples(const NodeLight& nodes,
+                                      const std::vector<NodeWeights>& weights) const {
+    std::vector<float> noise(standard_error_.size(), 0);
+    if (!has_circumsolar()) return noise;
+    InstantSpread spread(traced_.patches.count(), suns_.size());
+    for (std::size_t r = 0; r < rays_.of_realizations.circumsolar.size(); ++r) {
+      Columns difference = columns(traced_.patches.count());
+      nodes.add_circumsolar(weights, r, difference);
+      const Columns& of_test = rays_.of_realizations.circumsolar[r];
+      spread.add([&](std::size_t i, std::size_t k) {
+        const std::size_t at = i * block_width + k;
+        return difference[at] - of_test[at];
+      });
+    }
+    spread.store(0, noise);
+    return noise;
+  }
+
+  const TracedScene& traced_;
+  std::vector<IntervalLight> suns_;
+  BlockSources sources_;
+  RayLight rays_;
+  BlockLight exact_;
+  std::vector<float> standard_error_;  ///< [interval][patch]
+};
+
+/// One batch.
+class YearBatch : public BatchTransport {
+ public:
+  YearBatch(const TracedScene& traced, const NodeLight& nodes, BatchTally& tally, WorkDone& work)
+      : traced_(traced), nodes_(nodes), tally_(tally), work_(work), sums_(empty_sums(traced)) {}
+
+  void light(const Block& block) override {
+    const BlockSources sources(block.suns, static_cast<std::size_t>(traced_.grid.cell_count()));
+    BlockRays rays = light_iteration(traced_, sources, {}, sums_, work_);
+    const Stopwatch time(work_[Work::solve_s]);
+    const auto by_rays = ledger_of_rays(traced_, rays.on_patches.pooled.direct,
+                                        rays.on_patches.pooled.mirror, block.suns.size());
+    const auto weights = nodes_.weights(block.suns, by_rays);
+    std::copy(by_rays.begin(), by_rays.end(),
+              tally_.ledger.begin() + static_cast<std::ptrdiff_t>(block.first_row));
+    light_patches(block, weights, rays.on_patches);
+    if (traced_.sensors.count() > 0) light_sensors(block, weights, rays.on_sensors);
+    book_sent_on(traced_, block, rays.sent_on, sums_, tally_);
+    sums_.add_whole_sources(sources);
+    add_shares(block, weights);
+  }
+
+  void finish() override {
+    const Stopwatch time(work_[Work::realizations_s]);
+    nodes_.split_circumsolar(shares_, sums_);
+    solve_realizations(traced_, 0, sums_, tally_);
+  }
+
+ private:
+  void light_patches(const Block& block, const std::vector<NodeWeights>& weights, RayLight& rays) {
+    const BlockLight light = light_of_nodes(traced_, nodes_, weights, rays);
+    for (std::size_t k = 0; k < block.suns.size(); ++k)
+      tally_.ledger[block.first_row + k] += nodes_.ledger(weights, k);
+    store_patches(traced_.optics, light, block.suns, block.first_row, rays.sunlit, tally_);
+  }
+
+  void light_sensors(const Block& block, const std::vector<NodeWeights>& weights, RayLight& rays) {
+    BlockLight light;
+    light.direct = std::move(rays.pooled.direct);
+    light.mirror = std::move(rays.pooled.mirror);
+    const LineSet& lines = traced_.sensors.lines.pooled;
+    light.lamps.assign(lines.lamps.begin(), lines.lamps.end());
+    light.lamps.resize(traced_.sensors.count(), 0);
+    for (std::size_t i = 0; i < traced_.sensors.lamps.pooled.size(); ++i)
+      light.lamps[i] += static_cast<float>(traced_.sensors.lamps.pooled[i]);
+    nodes_.add_light(weights, &NodeBlock::sensors, light);
+    store_received(light, block.suns, block.first_row, rays.sunlit, tally_.sensors);
+  }
+
+  /// Time that each node shines, in all intervals together.
+  void add_shares(const Block& block, const std::vector<NodeWeights>& weights) {
+    shares_.resize(weights.size());
+    for (std::size_t b = 0; b < weights.size(); ++b)
+      for (std::size_t j = 0; j < block_width; ++j)
+        for (std::size_t k = 0; k < block.suns.size(); ++k)
+          shares_[b][j] +=
+              static_cast<double>(weights[b].of[j * block_width + k]) * block.suns[k].length_s;
+  }
+
+  const TracedScene& traced_;
+  const NodeLight& nodes_;
+  BatchTally& tally_;
+  WorkDone& work_;
+  TimeSums sums_;
+  std::vector<NodeSeconds> shares_;  ///< of each block of nodes
+};
+
+}  // namespace
+
+YearGathering::YearGathering(const TracedScene& traced, const LitPeriod& period)
+    : LightTransport(traced), nodes_(std::make_unique<NodeLight>(traced, period, work_)) {
+  SUNLOAD_EXPECT(year_can_serve(traced.rules), "gathered broadband light, errors of totals");
+  std::size_t skies = nodes_->skies().count_for(first_rest);
+  std::size_t suns = nodes_->suns().count_for(first_distance);
+  const ReductionTest test(traced, test_intervals(period, *nodes_), work_);
+  const std::size_t lit = lit_intervals(traced, period).size();
+  const std::size_t most = static_cast<std::size_t>(few * static_cast<double>(lit));
+  for (;;) {
+    nodes_->take(skies, suns, work_);
+    const Squares squares = test.squares_of(*nodes_);
+    reduction_ = {nodes_->skies().count(), nodes_->suns().count(), std::sqrt(squares.error),
+                  std::sqrt(squares.standard_error), squares.share() <= wanted_share};
+    if (reduction_.is_met || reduction_.skies + reduction_.suns >= most) return;
+    const bool no_more_suns = nodes_->suns().count() == nodes_->suns().ranked().size();
+    const bool no_more_skies = nodes_->skies().count() == nodes_->skies().ranked().size();
+    if (no_more_suns && no_more_skies) return;
+    std::size_t& more = no_more_suns || (squares.sky > squares.reflected && !no_more_skies)
+                            ? (skies = nodes_->skies().count())
+                            : (suns = nodes_->suns().count());
+    more = static_cast<std::size_t>(growth * static_cast<double>(more)) + 1;
+  }
+}
+
+std::unique_ptr<BatchTransport> YearGathering::begin(std::vector<BatchTally>& tallies,
+                                                     WorkDone& work) const {
+  return std::make_unique<YearBatch>(traced_, *nodes_, tallies.front(), work);
+}
+
+bool year_can_serve(const SolverRules& rules) {
+  return rules.transport == Transport::gather && rules.bands == Bands::broadband &&
+         rules.errors == Errors::totals;
+}
+
+std::unique_ptr<const LightTransport> year_where_it_pays(const TracedScene& traced,
+                                                         const LitPeriod& period, WorkDone& work) {
+  if (traced.rules.year == Year::modes) return std::make_unique<YearGathering>(traced, period);
+  if (traced.rules.year == Year::each || !year_can_serve(traced.rules)) return nullptr;
+  const auto lit = static_cast<double>(lit_intervals(traced, period).size());
+  // Before anything is solved or ranked: no period of fewer intervals gains by it.
+  if (few * lit < static_cast<double>(8 * block_width)) return nullptr;
+  auto year = std::make_unique<YearGathering>(traced, period);
+  const Reduction& reduction = *year->reduction();
+  if (reduction.is_met && static_cast<double>(reduction.skies + reduction.suns) < few * lit)
+    return year;
+  work += year->work();
+  return nullptr;
+}
+
+}  // namespace sunload

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// A long period from few solutions: gathering for some hundred skies and suns, of which the sky's
+/// light and all reflected light of every interval is made up (node_light.h). The sun's own rays,
+/// straight and by mirrors, are those of the interval, and the totals of the realizations have the
+/// exact sources, integrated over time.
+///
+/// How far this is from solving each interval is measured on intervals that are no nodes, and more
+/// nodes are taken until it is a given share of the standard error of an interval.
+#pragma once
+
+#include <memory>
+
+#include "solver/transport/node_light.h"
+
+namespace sunload {
+
+class YearGathering : public LightTransport {
+ public:
+  /// Solves nodes. `traced` and `period` must outlive it. Throws Interrupted.
+  YearGathering(const TracedScene& traced, const LitPeriod& period);
+  std::unique_ptr<BatchTransport> begin(std::vector<BatchTally>& tallies,
+                                        WorkDone& work) const override;
+  const Reduction* reduction() const override { return &reduction_; }
+
+ private:
+  std::unique_ptr<NodeLight> nodes_;
+  Reduction reduction_;
+};
+
+/// Whether it can serve these rules at all: gathered broadband light with errors of totals.
+bool year_can_serve(const SolverRules& rules);
+/// The solution by nodes where the rules ask for it, or leave it open and it costs less than a
+/// quarter of solving each interval, and keeps its aim; else null. Then `work` is what was tried.
+std::unique_ptr<const LightTransport> year_where_it_pays(const TracedScene& traced,
+                                                         const LitPeriod& period, WorkDone& work);
+
+}  // namespace sunload
