@@ -28,7 +28,10 @@ inline constexpr const char* patch_lines = "patch_lines";    ///< [N] if a pilot
 inline constexpr const char* kept_area = "kept_area";        ///< [2] see KeptArea
 inline constexpr const char* energy = "energy";              ///< [3] J: in, residual, lost at backs
 inline constexpr const char* sensor_backs = "sensor_backs";  ///< [S] share of lines that met backs
-inline constexpr const char* work = "work";                  ///< see WorkDone
+/// [4] of a year from few solutions: skies, suns; what it differs by from a solution for each
+/// interval, and the standard error of these [W m-2], root mean squares.
+inline constexpr const char* reduction = "reduction";
+inline constexpr const char* work = "work";  ///< see WorkDone
 }  // namespace batch_array
 
 /// Before the names of arrays and datasets of sensors: `sensor_irradiance`, ….

@@ -65,6 +65,14 @@ double refinement_rays(double patches, double lit) {
          (std::min(lit, static_cast<double>(most_mesh_pilot_suns)) + other_directions);
 }
 
+/// Whether few solutions will serve the period, as far as that is known before they are tried.
+bool is_year_of_few(const VariantPlan& plan, double lit) {
+  const SolverRules rules = solver_rules(plan);
+  if (rules.year == Year::modes) return true;
+  return rules.year == Year::automatic && year_can_serve(rules) &&
+         year_share_of_few * lit > year_skies + year_suns;
+}
+
 double line_seconds(const Scene& scene, int mirror_depth) {
   const auto triangles = static_cast<double>(std::max<std::size_t>(scene.mesh.triangle_count(), 1));
   return rays_per_line(scene, mirror_depth) * s_per_line_ray(triangles);
@@ -126,6 +134,9 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   const bool is_rgb = s.bands == Bands::rgb;
   const double bands = is_rgb ? static_cast<double>(band_count) : 1;
 
+  const bool of_few = is_year_of_few(plan, lit);
+  const double solved = of_few ? std::min(lit, year_skies + year_suns + year_tests) : lit;
+
   WorkEstimate work;
   work.patches = patches;
   work.line_rays = static_cast<std::uint64_t>(lines);
@@ -139,6 +150,9 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   // The sun's light of each realization, straight and circumsolar, and by mirrors.
   if (is_rgb || of_instants)
     work.memory_bytes += n * s.realizations * block_width * float_bytes * (mirrors ? 3.0 : 2.0);
+  if (of_few)
+    work.memory_bytes +=
+        n * float_bytes * (year_suns + year_skies * (2.0 + (mirrors ? 1 : 0) + s.realizations));
   if (s.transport == Transport::shoot) {
     const double blocks = batches * std::ceil(batch / static_cast<double>(block_width));
     work.samples =
@@ -161,13 +175,14 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
        (mirrors ? n * mirrored_share * suns * counts.direct_samples * s_per_mirror_ray : 0) +
        (guided ? n * s_per_guided_patch : 0) +
        (s.transport == Transport::gather
-            ? bands * (links * lit * s_per_link_sun + links * batches * s_per_link_batch +
+            ? bands * (links * solved * s_per_link_sun + links * batches * s_per_link_batch +
                        (of_instants ? links * lit * s_per_link_sun +
                                           n * lit * s.realizations * s_per_patch_sun_realization
                                     : 0))
             : static_cast<double>(work.samples) * s_per_sample) +
        (plan.study.mesh.oracle == Oracle::none ? 0 : refinement_rays(n, lit) * s_per_direct_ray) +
-       bands * (lit * s_per_sun + n * lit * s_per_patch_sun +
+       bands * (lit * s_per_sun + n * solved * s_per_patch_sun +
+                (of_few ? n * lit * s_per_patch_interval_of_year : 0) +
                 n * batches * s.realizations * s_per_patch_batch_realization +
                 n * static_cast<double>(plan.intervals()) * s_per_value)) /
       thread_count();

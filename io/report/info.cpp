@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "geo/base/units.h"
+#include "io/base/light_quantity.h"
 #include "io/base/statistics.h"
 #include "io/base/text.h"
 #include "io/plan/time_words.h"
@@ -86,6 +87,21 @@ std::string asked_for(const ResultReader& result) {
   return text;
 }
 
+/// Of a year from few solutions.
+std::string reduction(const ResultReader& result) {
+  const double skies = result.number_attribute("year_skies");
+  if (std::isnan(skies)) return {};
+  const Quantity quantity = result.quantity();
+  return info_line(
+      "",
+      fmt::format("sky and reflected light of all intervals from {:.0f} skies and {:.0f} suns, "
+                  "off by {:.2g} {} (root mean square), {:.0f} % of an interval's standard error",
+                  skies, result.number_attribute("year_suns"),
+                  result.number_attribute(unit_names("reduction_error_w_m2", quantity)),
+                  quantity == Quantity::illuminance ? "lx" : "W/m²",
+                  100 * result.number_attribute("reduction_error_share")));
+}
+
 std::string accuracy(const ResultReader& result, const PatchGroups& groups,
                      const std::vector<double>& load) {
   const auto realizations =
@@ -107,7 +123,7 @@ std::string accuracy(const ResultReader& result, const PatchGroups& groups,
                          "{:.2g} % on 95 %; {} realizations",
                          weighted_quantile(relative, area, median),
                          weighted_quantile(relative, area, upper_quantile), realizations)) +
-         asked_for(result);
+         reduction(result) + asked_for(result);
 }
 
 /// Least, mean and largest value of a quantity over the patches.

@@ -156,6 +156,14 @@ void add_accuracy(Attributes& a, const MergedResult& result) {
   a.numbers.emplace_back("reuse_bias_share", reuse_bias(totals, result.geometry, R));
   a.numbers.emplace_back(unit_names("residual_reuse_bias_kwh", study.light.quantity),
                          residual_reuse_bias_kwh(totals, R));
+  if (totals.has(batch_array::reduction)) {
+    const auto& reduction = totals[batch_array::reduction];
+    a.integers.insert(a.integers.end(), {{"year_skies", static_cast<std::int64_t>(reduction[0])},
+                                         {"year_suns", static_cast<std::int64_t>(reduction[1])}});
+    a.numbers.emplace_back(unit_names("reduction_error_w_m2", study.light.quantity), reduction[2]);
+    a.numbers.emplace_back("reduction_error_share",
+                           reduction[3] > 0 ? reduction[2] / reduction[3] : 0);
+  }
   if (!study.solver.accuracy) return;
   if (const auto relative = study.solver.accuracy->light_load_relative) {
     a.numbers.emplace_back("accuracy_light_load_relative", *relative);

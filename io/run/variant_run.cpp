@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "io/base/machine.h"
@@ -193,6 +194,13 @@ void VariantRun::compute(std::size_t batch) {
   const auto& accuracy = plan_.study.solver.accuracy;
   add_tallies(writer, solved.bands, *traced_, plan_.built.scene.mesh, unwritten_,
               accuracy ? accuracy->irradiance_relative : std::nullopt);
+  if (const Reduction* reduction = transport_->reduction()) {
+    const std::array values{static_cast<double>(reduction->skies),
+                            static_cast<double>(reduction->suns), reduction->error_w_m2,
+                            reduction->standard_error_w_m2};
+    writer.add({batch_array::reduction, MergeRule::maximum, ArrayType::float64, {values.size()}},
+               values.data());
+  }
   // Another process that failed may have removed the folder, which was empty until now.
   folder_.make();
   writer.write(folder_.batch(batch));

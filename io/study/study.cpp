@@ -150,6 +150,11 @@ void check_together(YamlMap& root, const Study& study, PlaceWritten placed) {
     root.reading().problem(root.where("solver"), "solver.bands: rgb cannot go with illuminance",
                            "lux are weighted by the eye's own response to the whole spectrum",
                            "write light.quantity: irradiance, or leave solver.bands away");
+  if (study.solver.year == Year::modes && study.output.standard_error == StandardErrors::instants)
+    root.reading().problem(root.where("solver"),
+                           "solver.year: modes cannot go with standard_error: instants",
+                           "few solutions have no errors of each instant",
+                           "write year: auto or each, or standard_error: totals");
   if (study.solver.bands == Bands::broadband && study.light.colour != LightColour::sky)
     root.reading().warn(root.where("light"), "light.colour is not used",
                         "it belongs to solver.bands: rgb");

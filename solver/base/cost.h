@@ -41,6 +41,10 @@ inline constexpr double mirrored_share = 0.11;  ///< of them again, where there 
 inline constexpr double s_per_link_sun = 2.0e-10;    ///< one link of one sun and one bounce
 inline constexpr double s_per_link_batch = 6.6e-10;  ///< one link of one batch's realizations
 inline constexpr double s_per_patch_sun = 2.5e-7;
+/// Where few solutions serve a period: skies, suns, and what else is solved to test them; and one
+/// patch of one interval that is made up of them.
+inline constexpr double year_skies = 200, year_suns = 110, year_tests = 80;
+inline constexpr double s_per_patch_interval_of_year = 1.2e-7;
 /// One patch of one sun in a realization's own solution, where errors per instant are asked for.
 inline constexpr double s_per_patch_sun_realization = 6e-8;
 /// One patch of one batch in a realization's time sums: made, compressed, written, read again.

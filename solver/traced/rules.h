@@ -46,4 +46,13 @@ struct SolverRules {
   bool by_source = false;
 };
 
+/// Whether few solutions can serve a period by these rules at all
+/// (solver/transport/year_gathering): gathered broadband light with errors of totals.
+inline bool year_can_serve(const SolverRules& rules) {
+  return rules.transport == Transport::gather && rules.bands == Bands::broadband &&
+         rules.errors == Errors::totals;
+}
+/// They are few where they are fewer than this share of the intervals with light.
+inline constexpr double year_share_of_few = 0.25;
+
 }  // namespace sunload

@@ -20,19 +20,33 @@ constexpr double node_dni = 1000;
 /// Ranked at the most; a year of a real site needs about half as many.
 constexpr std::size_t most_skies = 320, most_suns = 640;
 
-/// Σ_j nodes[j] weights[j][k] is added to every row of out, [rows][block].
+/// One row of a block as the compiler's vector, which any processor has in parts.
+using Row = float __attribute__((vector_size(block_width * sizeof(float))));
+
+/// Σ_j nodes[j] weights[j][k] is added to every row of out, [rows][block]; all are aligned.
 SUNLOAD_VECTOR_CODE void add_rows(const float* nodes, const float* weights, float* out,
                                   std::size_t rows) {
-  for (std::size_t row = 0; row < rows; ++row) {
-    float sum[block_width];
-    for (std::size_t k = 0; k < block_width; ++k) sum[k] = out[row * block_width + k];
+  const Row* of_node = reinterpret_cast<const Row*>(weights);
+  Row* sums = reinterpret_cast<Row*>(out);
+  std::size_t row = 0;
+  for (; row + 4 <= rows; row += 4) {
+    const float* const at = nodes + row * block_width;
+    Row a = sums[row], b = sums[row + 1], c = sums[row + 2], d = sums[row + 3];
     for (std::size_t j = 0; j < block_width; ++j) {
-      const float of_node = nodes[row * block_width + j];
-      for (std::size_t k = 0; k < block_width; ++k)
-        sum[k] += of_node * weights[j * block_width + k];
+      const Row w = of_node[j];
+      a += at[j] * w;
+      b += at[block_width + j] * w;
+      c += at[2 * block_width + j] * w;
+      d += at[3 * block_width + j] * w;
     }
-    for (std::size_t k = 0; k < block_width; ++k) out[row * block_width + k] = sum[k];
+    sums[row] = a;
+    sums[row + 1] = b;
+    sums[row + 2] = c;
+    sums[row + 3] = d;
   }
+  for (; row < rows; ++row)
+    for (std::size_t j = 0; j < block_width; ++j)
+      sums[row] += nodes[row * block_width + j] * of_node[j];
 }
 
 /// The same of all blocks, one kind of light; what falls below 0 is 0.
@@ -112,11 +126,12 @@ std::vector<Ledger> ledger_of_rays(const TracedScene& traced, const Columns& dir
   return ledger;
 }
 
-NodeLight::NodeLight(const TracedScene& traced, const LitPeriod& period, WorkDone& work)
+NodeLight::NodeLight(const TracedScene& traced, const LitPeriod& period,
+                     const std::vector<std::size_t>& left_out, WorkDone& work)
     : traced_(traced),
       period_(period),
-      skies_(traced.grid, period, most_skies),
-      suns_(period, most_suns),
+      skies_(traced.grid, period, most_skies, left_out),
+      suns_(period, most_suns, left_out),
       lamps_and_ground_(solve_lamps_and_ground(work)) {}
 
 void NodeLight::take(std::size_t skies, std::size_t suns, WorkDone& work) {

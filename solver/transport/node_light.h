@@ -43,7 +43,7 @@ struct NodeBlock {
 
 /// How much of each source of a NodeBlock the intervals of a block have, [source][interval].
 struct NodeWeights {
-  std::array<float, block_width * block_width> of{};
+  alignas(64) std::array<float, block_width * block_width> of{};
   bool any = false;
   void add(std::size_t source, std::size_t interval, double weight);
 };
@@ -53,9 +53,10 @@ using NodeSeconds = std::array<double, block_width>;
 
 class NodeLight {
  public:
-  /// Ranks the period's skies and suns; lamps and far ground are solved at once. `traced` and
-  /// `period` must outlive it.
-  NodeLight(const TracedScene& traced, const LitPeriod& period, WorkDone& work);
+  /// Ranks the period's skies and suns but for `left_out` (ascending); lamps and far ground are
+  /// solved at once. `traced` and `period` must outlive it.
+  NodeLight(const TracedScene& traced, const LitPeriod& period,
+            const std::vector<std::size_t>& left_out, WorkDone& work);
 
   /// Solves nodes until there are so many skies and suns, rounded up to whole blocks; never fewer
   /// than before. Cost: gathering one block of suns for 16 of them.

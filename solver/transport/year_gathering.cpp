@@ -18,14 +18,12 @@ namespace sunload {
 namespace {
 
 /// Where nodes begin: rest of the skies, and distance between a sun and its nearest node.
-constexpr double first_rest = 0.004, first_distance = 7 * radians_per_degree;
+constexpr double first_rest = 0.01, first_distance = 7 * radians_per_degree;
 /// The reduction may be so much of the standard error of an interval: then it adds 5 % to it.
 constexpr double wanted_share = 1.0 / 3;
 constexpr double growth = 1.5;
-/// Nodes are few where they are fewer than this share of the intervals with light.
-constexpr double few = 0.25;
-/// Intervals on which the reduction is measured: one block.
-constexpr std::size_t tests = block_width;
+/// Intervals on which the reduction is measured: two blocks.
+constexpr std::size_t tests = 2 * block_width;
 
 std::vector<std::size_t> lit_intervals(const TracedScene& traced, const LitPeriod& period) {
   std::vector<std::size_t> lit;
@@ -34,26 +32,23 @@ std::vector<std::size_t> lit_intervals(const TracedScene& traced, const LitPerio
   return lit;
 }
 
-/// Intervals with a sun that are no nodes, spread evenly; of all that have light where few have a
-/// sun.
-std::vector<IntervalLight> test_intervals(const LitPeriod& period, const NodeLight& nodes) {
-  std::vector<std::size_t> is_node = nodes.skies().ranked();
-  is_node.insert(is_node.end(), nodes.suns().ranked().begin(), nodes.suns().ranked().end());
-  std::sort(is_node.begin(), is_node.end());
-  const auto choice = [&](auto&& may_be) {
-    std::vector<std::size_t> intervals;
-    for (std::size_t k = 0; k < period.intervals(); ++k)
-      if (may_be(k) && !std::binary_search(is_node.begin(), is_node.end(), k))
-        intervals.push_back(k);
-    return intervals;
-  };
-  auto from = choice([&](std::size_t k) { return period.has_sun(k); });
-  if (from.size() < tests) from = choice([&](std::size_t k) { return !period.is_dark(k); });
+/// Intervals on which the reduction is measured: with a sun, spread evenly over the period; of all
+/// that have light where few have a sun.
+std::vector<std::size_t> test_intervals(const TracedScene& traced, const LitPeriod& period) {
+  std::vector<std::size_t> from;
+  for (std::size_t k = 0; k < period.intervals(); ++k)
+    if (period.has_sun(k)) from.push_back(k);
+  if (from.size() < tests) from = lit_intervals(traced, period);
   const std::size_t count = std::min(tests, from.size());
-  std::vector<IntervalLight> lights(count);
-  parallel_for(count, [&](std::size_t t) {
-    lights[t] = period.of(from[(2 * t + 1) * from.size() / (2 * count)]);
-  });
+  std::vector<std::size_t> some(count);
+  for (std::size_t t = 0; t < count; ++t) some[t] = from[(2 * t + 1) * from.size() / (2 * count)];
+  return some;
+}
+
+std::vector<IntervalLight> lights_of(const LitPeriod& period,
+                                     const std::vector<std::size_t>& intervals) {
+  std::vector<IntervalLight> lights(intervals.size());
+  parallel_for(intervals.size(), [&](std::size_t t) { lights[t] = period.of(intervals[t]); });
   return lights;
 }
 
@@ -71,11 +66,18 @@ BlockLight light_of_nodes(const TracedScene& traced, const NodeLight& nodes,
   return light;
 }
 
-/// Mean over patches and intervals, by area, of the squares of what the nodes are off by.
+/// Sums over intervals of means over patches, by area, of the squares of what nodes are off by.
 struct Squares {
   double sky = 0, reflected = 0;  ///< of each alone, noise included
   double error = 0;               ///< of both, without the noise of samples
   double standard_error = 0;
+  Squares& operator+=(const Squares& more) {
+    sky += more.sky;
+    reflected += more.reflected;
+    error += more.error;
+    standard_error += more.standard_error;
+    return *this;
+  }
   double share() const { return standard_error > 0 ? std::sqrt(error / standard_error) : 0; }
 };
 
@@ -84,8 +86,8 @@ class ReductionTest {
   /// Solves the test intervals by all lines and by each realization.
   ReductionTest(const TracedScene& traced, std::vector<IntervalLight> suns, WorkDone& work)
       : traced_(traced),
-        suns_(std::move(suns)),
-        sources_(suns_, static_cast<std::size_t>(traced.grid.cell_count())) {
+        suns_(std::make_unique<const std::vector<IntervalLight>>(std::move(suns))),
+        sources_(*suns_, static_cast<std::size_t>(traced.grid.cell_count())) {
     sources_.split_sky(traced.grid);
     TimeSums unwanted = empty_sums(traced);
     rays_ = light_iteration(traced, sources_, {.columns = true, .all_parts = true}, unwanted, work)
@@ -94,7 +96,7 @@ class ReductionTest {
     RayColumns pooled = rays_.pooled;
     exact_ = block_light(traced.hierarchy(), traced.patches.lines.pooled, traced.optics, sources_,
                          std::move(pooled), traced.patches.lamps.pooled, traced.bounce_rules(0));
-    InstantSpread spread(traced.patches.count(), suns_.size());
+    InstantSpread spread(traced.patches.count(), suns_->size());
     const std::size_t R = static_cast<std::size_t>(traced.rules.realizations);
     for (std::size_t r = 0; r < R; ++r)
       spread.add(total_of(block_light(
@@ -102,13 +104,15 @@ class ReductionTest {
           {rays_.of_realizations.direct[r], rays_.of_realizations.mirror[r],
            has_circumsolar() ? rays_.of_realizations.circumsolar[r] : Columns()},
           traced.patches.lamps.of(r), traced.bounce_rules(0))));
-    standard_error_.resize(suns_.size() * traced.patches.count());
+    standard_error_.resize(suns_->size() * traced.patches.count());
     spread.store(0, standard_error_);
+    rays_.of_realizations.direct.clear();
+    rays_.of_realizations.mirror.clear();
   }
 
   Squares squares_of(const NodeLight& nodes) const {
     const auto weights = nodes.weights(
-        suns_, ledger_of_rays(traced_, rays_.pooled.direct, rays_.pooled.mirror, suns_.size()));
+        *suns_, ledger_of_rays(traced_, rays_.pooled.direct, rays_.pooled.mirror, suns_->size()));
     RayLight rays = rays_;
     const BlockLight made = light_of_nodes(traced_, nodes, weights, rays);
     const std::vector<float> noise = noise_of_samples(nodes, weights);
@@ -116,9 +120,9 @@ class ReductionTest {
     Squares sum;
     double all = 0;
     for (std::size_t i = 0; i < area.size(); ++i) {
-      const double part = area[i] / static_cast<double>(suns_.size());
+      const double part = area[i];
       all += area[i];
-      for (std::size_t k = 0; k < suns_.size(); ++k) {
+      for (std::size_t k = 0; k < suns_->size(); ++k) {
         const std::size_t at = i * block_width + k, row = k * area.size() + i;
         const auto sky = static_cast<double>(made.sky[at] + made.mirror[at] - exact_.sky[at] -
                                              exact_.mirror[at]);
@@ -145,7 +149,7 @@ class ReductionTest {
                                       const std::vector<NodeWeights>& weights) const {
     std::vector<float> noise(standard_error_.size(), 0);
     if (!has_circumsolar()) return noise;
-    InstantSpread spread(traced_.patches.count(), suns_.size());
+    InstantSpread spread(traced_.patches.count(), suns_->size());
     for (std::size_t r = 0; r < rays_.of_realizations.circumsolar.size(); ++r) {
       Columns difference = columns(traced_.patches.count());
       nodes.add_circumsolar(weights, r, difference);
@@ -160,7 +164,7 @@ class ReductionTest {
   }
 
   const TracedScene& traced_;
-  std::vector<IntervalLight> suns_;
+  std::unique_ptr<const std::vector<IntervalLight>> suns_;  ///< where `sources_` looks for them
   BlockSources sources_;
   RayLight rays_;
   BlockLight exact_;
@@ -236,17 +240,46 @@ class YearBatch : public BatchTransport {
 
 }  // namespace
 
+namespace {
+
+std::vector<ReductionTest> reduction_tests(const TracedScene& traced, const LitPeriod& period,
+                                           const std::vector<std::size_t>& intervals,
+                                           WorkDone& work) {
+  std::vector<ReductionTest> made;
+  made.reserve(tests / block_width);
+  for (std::size_t first = 0; first < intervals.size(); first += block_width) {
+    const auto begin = intervals.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto count = std::min(block_width, intervals.size() - first);
+    made.emplace_back(traced,
+                      lights_of(period, {begin, begin + static_cast<std::ptrdiff_t>(count)}), work);
+  }
+  return made;
+}
+
+Squares mean_squares(const std::vector<ReductionTest>& made, const NodeLight& nodes,
+                     std::size_t intervals) {
+  Squares sum;
+  for (const ReductionTest& test : made) sum += test.squares_of(nodes);
+  for (double* square : {&sum.sky, &sum.reflected, &sum.error, &sum.standard_error})
+    *square /= static_cast<double>(intervals);
+  return sum;
+}
+
+}  // namespace
+
 YearGathering::YearGathering(const TracedScene& traced, const LitPeriod& period)
-    : LightTransport(traced), nodes_(std::make_unique<NodeLight>(traced, period, work_)) {
+    : LightTransport(traced) {
   SUNLOAD_EXPECT(year_can_serve(traced.rules), "gathered broadband light, errors of totals");
+  const std::vector<std::size_t> tested = test_intervals(traced, period);
+  nodes_ = std::make_unique<NodeLight>(traced, period, tested, work_);
   std::size_t skies = nodes_->skies().count_for(first_rest);
   std::size_t suns = nodes_->suns().count_for(first_distance);
-  const ReductionTest test(traced, test_intervals(period, *nodes_), work_);
+  const auto made = reduction_tests(traced, period, tested, work_);
   const std::size_t lit = lit_intervals(traced, period).size();
-  const std::size_t most = static_cast<std::size_t>(few * static_cast<double>(lit));
+  const std::size_t most = static_cast<std::size_t>(year_share_of_few * static_cast<double>(lit));
   for (;;) {
     nodes_->take(skies, suns, work_);
-    const Squares squares = test.squares_of(*nodes_);
+    const Squares squares = mean_squares(made, *nodes_, tested.size());
     reduction_ = {nodes_->skies().count(), nodes_->suns().count(), std::sqrt(squares.error),
                   std::sqrt(squares.standard_error), squares.share() <= wanted_share};
     if (reduction_.is_met || reduction_.skies + reduction_.suns >= most) return;
@@ -265,21 +298,17 @@ std::unique_ptr<BatchTransport> YearGathering::begin(std::vector<BatchTally>& ta
   return std::make_unique<YearBatch>(traced_, *nodes_, tallies.front(), work);
 }
 
-bool year_can_serve(const SolverRules& rules) {
-  return rules.transport == Transport::gather && rules.bands == Bands::broadband &&
-         rules.errors == Errors::totals;
-}
-
 std::unique_ptr<const LightTransport> year_where_it_pays(const TracedScene& traced,
                                                          const LitPeriod& period, WorkDone& work) {
   if (traced.rules.year == Year::modes) return std::make_unique<YearGathering>(traced, period);
   if (traced.rules.year == Year::each || !year_can_serve(traced.rules)) return nullptr;
   const auto lit = static_cast<double>(lit_intervals(traced, period).size());
   // Before anything is solved or ranked: no period of fewer intervals gains by it.
-  if (few * lit < static_cast<double>(8 * block_width)) return nullptr;
+  if (year_share_of_few * lit < static_cast<double>(8 * block_width)) return nullptr;
   auto year = std::make_unique<YearGathering>(traced, period);
   const Reduction& reduction = *year->reduction();
-  if (reduction.is_met && static_cast<double>(reduction.skies + reduction.suns) < few * lit)
+  if (reduction.is_met &&
+      static_cast<double>(reduction.skies + reduction.suns) < year_share_of_few * lit)
     return year;
   work += year->work();
   return nullptr;

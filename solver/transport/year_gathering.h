@@ -28,8 +28,6 @@ class YearGathering : public LightTransport {
   Reduction reduction_;
 };
 
-/// Whether it can serve these rules at all: gathered broadband light with errors of totals.
-bool year_can_serve(const SolverRules& rules);
 /// The solution by nodes where the rules ask for it, or leave it open and it costs less than a
 /// quarter of solving each interval, and keeps its aim; else null. Then `work` is what was tried.
 std::unique_ptr<const LightTransport> year_where_it_pays(const TracedScene& traced,

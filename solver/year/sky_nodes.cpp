@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "geo/base/check.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
@@ -38,10 +39,12 @@ double product(const std::vector<float>& a, const std::vector<float>& b) {
 }
 
 /// Every interval that has a sky, or evenly spread ones of them.
-std::vector<std::size_t> candidates(const LitPeriod& period, std::size_t most) {
+std::vector<std::size_t> candidates(const LitPeriod& period, std::size_t most,
+                                    const std::vector<std::size_t>& left_out) {
   std::vector<std::size_t> lit;
   for (std::size_t k = 0; k < period.intervals(); ++k)
-    if (!period.is_dark(k)) lit.push_back(k);
+    if (!period.is_dark(k) && !std::binary_search(left_out.begin(), left_out.end(), k))
+      lit.push_back(k);
   if (lit.size() <= most) return lit;
   std::vector<std::size_t> some(most);
   for (std::size_t c = 0; c < most; ++c) some[c] = lit[c * lit.size() / most];
@@ -50,9 +53,10 @@ std::vector<std::size_t> candidates(const LitPeriod& period, std::size_t most) {
 
 }  // namespace
 
-SkyNodes::SkyNodes(const SkyGrid& grid, const LitPeriod& period, std::size_t most)
+SkyNodes::SkyNodes(const SkyGrid& grid, const LitPeriod& period, std::size_t most,
+                   const std::vector<std::size_t>& left_out)
     : side_(static_cast<std::size_t>(grid.side())) {
-  const std::vector<std::size_t> intervals = candidates(period, most_candidates);
+  const std::vector<std::size_t> intervals = candidates(period, most_candidates, left_out);
   std::vector<std::vector<float>> skies(intervals.size());
   std::vector<double> strength(intervals.size());
   parallel_for(intervals.size(), [&](std::size_t c) {
@@ -111,6 +115,7 @@ std::size_t SkyNodes::count_for(double rest) const {
 }
 
 void SkyNodes::take(std::size_t count) {
+  SUNLOAD_EXPECT(count <= ranked_.size(), "skies that are ranked");
   const std::vector<std::vector<float>> taken(skies_.begin(),
                                               skies_.begin() + static_cast<std::ptrdiff_t>(count));
   double square = 0;

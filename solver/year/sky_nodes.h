@@ -23,8 +23,9 @@ namespace sunload {
 class SkyNodes {
  public:
   /// Ranks skies of the period, `most` at most. Candidates are up to `most_candidates` intervals
-  /// with a sky, spread evenly over the period. Cost: candidates × most × cells / 4 operations.
-  SkyNodes(const SkyGrid& grid, const LitPeriod& period, std::size_t most);
+  /// with a sky, spread evenly over the period, without `left_out` (ascending). Cost: candidates × most × cells / 4 operations.
+  SkyNodes(const SkyGrid& grid, const LitPeriod& period, std::size_t most,
+           const std::vector<std::size_t>& left_out = {});
 
   static constexpr std::size_t most_candidates = 1000;
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geo/base/units.h"
+#include "geo/base/check.h"
 
 namespace sunload {
 
@@ -29,10 +29,12 @@ struct Near {
 
 }  // namespace
 
-SunNodes::SunNodes(const LitPeriod& period, std::size_t most) {
+SunNodes::SunNodes(const LitPeriod& period, std::size_t most,
+                   const std::vector<std::size_t>& left_out) {
   std::vector<std::size_t> up;
   for (std::size_t k = 0; k < period.intervals(); ++k)
-    if (period.has_sun(k)) up.push_back(k);
+    if (period.has_sun(k) && !std::binary_search(left_out.begin(), left_out.end(), k))
+      up.push_back(k);
   const std::size_t count = std::min(up.size(), most_candidates);
   std::vector<std::size_t> intervals(count);
   std::vector<Vec3> directions(count);
@@ -40,12 +42,13 @@ SunNodes::SunNodes(const LitPeriod& period, std::size_t most) {
     intervals[c] = up[c * up.size() / count];
     directions[c] = period.direction(intervals[c]);
   }
+  distance_.push_back(std::numeric_limits<double>::infinity());
+  if (count == 0) return;
   // The highest sun first; then always the one furthest from those that are chosen.
   std::vector<double> left(count, std::numeric_limits<double>::infinity());
   const auto highest = std::max_element(directions.begin(), directions.end(),
                                         [](Vec3 a, Vec3 b) { return a.z < b.z; });
   auto next = static_cast<std::size_t>(highest - directions.begin());
-  distance_.push_back(std::numeric_limits<double>::infinity());
   while (ranked_.size() < std::min(most, count)) {
     ranked_.push_back(intervals[next]);
     directions_.push_back(directions[next]);
@@ -64,7 +67,10 @@ std::size_t SunNodes::count_for(double distance) const {
   return ranked_.size();
 }
 
-void SunNodes::take(std::size_t count) { taken_ = count; }
+void SunNodes::take(std::size_t count) {
+  SUNLOAD_EXPECT(count <= ranked_.size(), "suns that are ranked");
+  taken_ = count;
+}
 
 std::vector<SunNodes::Weight> SunNodes::weights(Vec3 to_sun) const {
   const Tangents axes = tangents(to_sun);

@@ -19,8 +19,9 @@ namespace sunload {
 class SunNodes {
  public:
   /// Ranks suns of the period, `most` at most, of up to `most_candidates` that stand above the
-  /// horizon, spread evenly over it.
-  SunNodes(const LitPeriod& period, std::size_t most);
+  /// horizon, spread evenly over it, without `left_out` (ascending).
+  SunNodes(const LitPeriod& period, std::size_t most,
+           const std::vector<std::size_t>& left_out = {});
 
   static constexpr std::size_t most_candidates = 4000;
 

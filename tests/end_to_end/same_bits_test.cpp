@@ -52,6 +52,13 @@ TEST(SameBits, SeveralSunsOfAnIntervalByBothTransports) {
   }
 }
 
+TEST(SameBits, YearFromFewSolutions) {
+  const WorkFolder folder;
+  folder.write("square.obj", square_obj);
+  folder.write("square.yaml", square_study("totals", ", year: modes"));
+  expect_same_bits(folder, "square");
+}
+
 TEST(SameBits, MirrorsLampsAndTwoSidedSheets) {
   const WorkFolder folder;
   folder.write("square.obj", square_obj);

@@ -40,11 +40,14 @@ std::vector<double> SolvedPlan::load(std::size_t patch) const {
 
 SolvedPlan solve_study(const std::string& yaml) {
   Watch watch;
-  SolvedPlan solved{plan_of(yaml), {}, {}};
+  SolvedPlan solved{plan_of(yaml), {}, {}, {}};
   solved.made = make_mesh(solved.plan, watch);
   const auto traced =
       trace_scene(solved.plan.built.scene, solved.made.mesh, solver_rules(solved.plan), watch);
-  const auto transport = transport_of(*traced);
+  const IntervalLights lights(solved.plan.study, solved.plan.built.site, traced->grid);
+  const SeriesLight period(lights, solved.plan.light);
+  const auto transport = transport_of(*traced, period);
+  if (const Reduction* reduction = transport->reduction()) solved.reduction = *reduction;
   solved.tally =
       std::move(solve(*transport, suns_of(solved.plan, traced->grid), watch).bands.front());
   return solved;

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "io/plan/variant_mesh.h"
 #include "solver/light/sun_block.h"
 #include "solver/light/tally.h"
+#include "solver/transport/light_transport.h"
 
 namespace sunload::test {
 
@@ -25,6 +27,7 @@ struct SolvedPlan {
   VariantPlan plan;
   VariantMesh made;
   BatchTally tally;
+  std::optional<Reduction> reduction;  ///< where few solutions served the period
 
   const Hierarchy& mesh() const { return *made.mesh; }
   /// Object of a patch, by name.

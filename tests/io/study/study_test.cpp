@@ -160,7 +160,7 @@ scene:
   assign: [{object: "a*", surface: wall, was: x, type: Building, material: glass}]
   ground: {margin_m: 10, material: red}
 mesh: {max_edge_m: 0.5, min_area_m2: 0.1}
-solver: {transport: gather, bounces: 3, unshot: 0.01, lines_per_patch: 128, direct_samples: 32,
+solver: {transport: gather, bounces: 3, unshot: 0.01, year: each, lines_per_patch: 128, direct_samples: 32,
          realizations: 16, mirror_depth: 2, batch_suns: 32, isa: avx2, seed: 7, power_per_sample_w: auto}
 output: {folder: out, series: [total, sky], standard_error: instants, compression: 9}
 )")
@@ -795,6 +795,7 @@ TEST(CanonicalText, SeesEveryValueThatCanChangeANumber) {
        {"power per sample", [](Study& s) { s.solver.power_per_sample_w = 0.5; }},
        {"bounces", [](Study& s) { s.solver.bounces = 1; }},
        {"unshot", [](Study& s) { s.solver.unshot = 0; }},
+       {"year", [](Study& s) { s.solver.year = Year::each; }},
        {"lines", [](Study& s) { s.solver.lines_per_patch = 8; }},
        {"samples", [](Study& s) { s.solver.direct_samples = 8; }},
        {"suns of an interval", [](Study& s) { s.solver.sun_samples_per_interval = 2; }},

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// A year from few solutions against a solution for each of its intervals: patches, sensors, lamps,
+/// mirrors, the ledger, and what the transport says of its own error.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "io/plan/interval_lights.h"
+#include "io/plan/rules_of_study.h"
+#include "solver/solver.h"
+#include "solver/transport/year_gathering.h"
+#include "tests/support/program.h"
+#include "tests/support/small_study.h"
+#include "tests/support/study_plan.h"
+
+namespace sunload::test {
+namespace {
+
+/// The square with its mirror, lamp, awning and sensors, from winter to summer, hour by hour.
+std::string half_a_year(const std::string& obj, const std::string& errors, const char* year) {
+  std::string study = square_study(errors, std::string(", year: ") + year, "3");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    study.replace(study.find(from), from.size(), to);
+  };
+  replace("period: {days: [2026-03-21], from: \"06:00\", to: \"18:00\", step_min: 60}",
+          "period: {days: [2026-01-01, 2026-01-21, 2026-02-10, 2026-03-02, 2026-03-22, 2026-04-11, "
+          "2026-05-01, 2026-05-21, 2026-06-10], from: \"05:00\", to: \"20:00\", step_min: 15}");
+  replace("square.obj", obj);
+  return study +
+         "sensors: {points: [{position_m: [0, 0, 1.5], normal: [0, 0, 1]}, "
+         "{position_m: [-5, -4, 1.5], normal: [0, -1, 0]}]}\n";
+}
+
+struct Solutions {
+  SolvedPlan each, modes;
+};
+
+/// Root mean square over patches by area and rows [K][N].
+double mean_square(const SolvedPlan& solved, const std::vector<float>& a,
+                   const std::vector<float>& b) {
+  const std::vector<double>& area = solved.mesh().area();
+  double sum = 0, all = 0;
+  for (std::size_t at = 0; at < a.size(); ++at) {
+    const double difference = static_cast<double>(a[at]) - static_cast<double>(b[at]);
+    sum += area[at % area.size()] * difference * difference;
+    all += area[at % area.size()];
+  }
+  return std::sqrt(sum / all);
+}
+
+class YearOfTheSquare : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const WorkFolder folder;
+    const std::string obj = folder.write("square.obj", square_obj);
+    solutions = new Solutions{solve_study(half_a_year(obj, "instants", "each")),
+                              solve_study(half_a_year(obj, "totals", "modes"))};
+  }
+  static void TearDownTestSuite() {
+    delete solutions;
+    solutions = nullptr;
+  }
+  static const BatchTally& each() { return solutions->each.tally; }
+  static const BatchTally& modes() { return solutions->modes.tally; }
+  static Solutions* solutions;
+};
+Solutions* YearOfTheSquare::solutions = nullptr;
+
+constexpr auto total = static_cast<std::size_t>(Part::total);
+
+TEST_F(YearOfTheSquare, IsMadeOfFewSolutions) {
+  ASSERT_TRUE(solutions->modes.reduction);
+  EXPECT_FALSE(solutions->each.reduction);
+  const Reduction& reduction = *solutions->modes.reduction;
+  EXPECT_LT(reduction.skies + reduction.suns, each().intervals) << reduction.skies << " skies";
+  EXPECT_TRUE(reduction.is_met);
+}
+
+TEST_F(YearOfTheSquare, DirectSunAndSunHoursAreTheSame) {
+  const auto direct = static_cast<std::size_t>(Part::direct);
+  EXPECT_EQ(each().irradiance[direct], modes().irradiance[direct]);
+  EXPECT_EQ(each().sunlit_s, modes().sunlit_s);
+}
+
+TEST_F(YearOfTheSquare, InstantsDifferByLessThanAThirdOfTheirErrors) {
+  const std::vector<float> none(each().irradiance_se.size(), 0);
+  const double error = mean_square(solutions->each, each().irradiance_se, none);
+  const double difference =
+      mean_square(solutions->each, each().irradiance[total], modes().irradiance[total]);
+  EXPECT_LT(difference, error / 3);
+  // What it says of itself, from few intervals, is of that size.
+  EXPECT_LT(difference, 2 * solutions->modes.reduction->error_w_m2 + error / 10);
+}
+
+TEST_F(YearOfTheSquare, LoadsDifferByLessThanTheirErrors) {
+  const auto& of_each = each().exposure_realization;
+  double square = 0, errors = 0;
+  for (std::size_t i = 0; i < each().exposure[total].size(); ++i) {
+    std::vector<double> values;
+    for (const auto& realization : of_each) values.push_back(realization[i]);
+    const double se = mean_error(values).standard_error;
+    const double difference = modes().exposure[total][i] - each().exposure[total][i];
+    square += difference * difference;
+    errors += se * se;
+  }
+  EXPECT_LT(square, errors / 9);
+}
+
+TEST_F(YearOfTheSquare, SensorsSeeTheSame) {
+  ASSERT_FALSE(each().sensors.exposure[total].empty());
+  for (std::size_t s = 0; s < each().sensors.exposure[total].size(); ++s) {
+    std::vector<double> values;
+    for (const auto& realization : each().sensors.exposure_realization)
+      values.push_back(realization[s]);
+    EXPECT_NEAR(modes().sensors.exposure[total][s], each().sensors.exposure[total][s],
+                mean_error(values).standard_error)
+        << s;
+  }
+}
+
+TEST_F(YearOfTheSquare, LedgersAgree) {
+  // Each term may differ by what the irradiance of all surfaces differs by, were it all one way.
+  double area = 0, seconds = 0;
+  for (const double a : solutions->each.mesh().area()) area += a;
+  for (const auto& interval : solutions->each.plan.light.intervals)
+    seconds += interval.when.length_s();
+  const double most = solutions->modes.reduction->error_w_m2 * area * seconds;
+  for (std::size_t t = 0; t < term_count; ++t)
+    EXPECT_NEAR(modes().energy.terms[t], each().energy.terms[t], most) << ledger_line_names[t];
+  EXPECT_NEAR(modes().energy.residual(), each().energy.residual(), most);
+}
+
+/// Suns stand for each other as if morning were evening.
+class Mirrored : public LitPeriod {
+ public:
+  explicit Mirrored(const LitPeriod& period) : period_(period) {}
+  std::size_t intervals() const override { return period_.intervals(); }
+  bool is_dark(std::size_t k) const override { return period_.is_dark(k); }
+  bool has_sun(std::size_t k) const override { return period_.has_sun(k); }
+  Vec3 direction(std::size_t k) const override {
+    const Vec3 w = period_.direction(k);
+    return {-w.x, w.y, w.z};
+  }
+  IntervalLight of(std::size_t k) const override { return period_.of(k); }
+
+ private:
+  const LitPeriod& period_;
+};
+
+// The twin: nodes in the wrong places are noticed by the error that is measured.
+TEST_F(YearOfTheSquare, WrongNodesAreNoticed) {
+  const VariantPlan& plan = solutions->each.plan;
+  Watch watch;
+  SolverRules rules = solver_rules(plan);
+  rules.errors = Errors::totals;
+  const auto traced = trace_scene(plan.built.scene, solutions->each.made.mesh, rules, watch);
+  const IntervalLights lights(plan.study, plan.built.site, traced->grid);
+  const SeriesLight period(lights, plan.light);
+  const Mirrored mirrored(period);
+  const YearGathering wrong(*traced, mirrored);
+  EXPECT_GT(wrong.reduction()->error_w_m2, 3 * solutions->modes.reduction->error_w_m2);
+}
+
+}  // namespace
+}  // namespace sunload::test
