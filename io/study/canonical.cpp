@@ -236,8 +236,8 @@ json canonical(const MeshStudy& mesh) {
 json canonical(const SolverStudy& solver, LightColour colour) {
   // `isa` is left out: the instruction set in force is hashed apart, so that
   // pinning it finds the batches that `auto` computed on such a machine.
-  const auto& [transport, jacobi, power_per_sample_w, bands, bounces, unshot, unfollowed,
-               year, lines_per_patch, direct_samples, sun_samples_per_interval, realizations,
+  const auto& [transport, jacobi, power_per_sample_w, bands, bounces, unshot, unfollowed, year,
+               lines_per_patch, direct_samples, sun_samples_per_interval, realizations,
                mirror_depth, batch_suns, isa, seed, accuracy, max_lines_per_patch] = solver;
   json all{{"transport", word_of(transport)},
            {"jacobi", word_of(jacobi)},

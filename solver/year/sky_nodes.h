@@ -23,7 +23,8 @@ namespace sunload {
 class SkyNodes {
  public:
   /// Ranks skies of the period, `most` at most. Candidates are up to `most_candidates` intervals
-  /// with a sky, spread evenly over the period, without `left_out` (ascending). Cost: candidates × most × cells / 4 operations.
+  /// with a sky, spread evenly over the period, without `left_out` (ascending). Cost: candidates ×
+  /// most × cells / 4 operations.
   SkyNodes(const SkyGrid& grid, const LitPeriod& period, std::size_t most,
            const std::vector<std::size_t>& left_out = {});
 
