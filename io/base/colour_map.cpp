@@ -70,6 +70,15 @@ Colour hue_colour(double hue_deg) {
   return {channel(of_red), channel(0), channel(of_blue)};
 }
 
+/// `part` in [−1, 1]; of one lightness and chroma the ends are within sRGB.
+Colour difference_colour(double part) {
+  constexpr double neutral_lightness = 94, end_lightness = 35, end_chroma = 46;
+  constexpr double blue_deg = 282, red_deg = 28;
+  const double size = std::abs(part), hue = radians(part < 0 ? blue_deg : red_deg);
+  return srgb_from_lab({neutral_lightness + (end_lightness - neutral_lightness) * size,
+                        end_chroma * size * std::cos(hue), end_chroma * size * std::sin(hue)});
+}
+
 }  // namespace
 
 // IEC 61966-2-1, 5.2: a power of 2.4 with a linear toe.
@@ -104,6 +113,7 @@ Lab lab_from_srgb(Colour colour) {
 
 Colour map_colour(Palette palette, double share) {
   const double t = std::clamp(share, 0.0, 1.0);
+  if (palette == Palette::difference) return clamped(difference_colour(2 * t - 1));
   constexpr double cold_hue_deg = 240;
   if (palette == Palette::hue) return hue_colour(cold_hue_deg * (1 - t));
   const double lightness = darkest + (lightest - darkest) * t;

@@ -8,8 +8,10 @@
 /// difference; lightness alone orders the colours for any colour vision.
 /// `grey` is the neutral axis. `hue` is the scale of the historic system (docs/developer/method.md,
 /// The historic system): HLS hue from cold (blue) to warm (red), lightness and saturation ½;
-/// neither uniform nor safe, it is for pictures that are compared with old ones. CIE 15:2004,
-/// Colorimetry; sRGB: IEC 61966-2-1.
+/// neither uniform nor safe, it is for pictures that are compared with old ones. `difference` is of
+/// two arms in CIELAB, from blue (less) by a light neutral grey at the middle (0) to red (more): on
+/// either side lightness falls and chroma grows linearly, alike, and every colour vision tells the
+/// two apart. CIE 15:2004, Colorimetry; sRGB: IEC 61966-2-1.
 #pragma once
 
 #include <array>
@@ -39,7 +41,7 @@ Lab lab_from_srgb(Colour colour);
 double linear_from_srgb(double channel);
 double srgb_from_linear(double channel);
 
-enum class Palette { false_colour, grey, hue };
+enum class Palette { false_colour, grey, hue, difference };
 
 /// Colour of `share` in [0, 1]; beyond, that of the nearer end.
 Colour map_colour(Palette palette, double share);

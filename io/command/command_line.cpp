@@ -398,7 +398,8 @@ class CommandLine {
 
   void add_export() {
     CLI::App* sub = command("export", "a result in the format of another program", [this] {
-      export_result(ResultReader(results_.front(), chosen_band(band_)), export_, picture_);
+      export_result(ResultReader(results_.front(), chosen_band(band_), Opens::comparisons_too),
+                    export_, picture_);
       return exit_code::done;
     });
     add_result(sub);

@@ -170,7 +170,8 @@ int render(RenderOptions options) {
   RenderRules& rules = options.rules;
   if (std::sscanf(options.size.c_str(), "%dx%d", &rules.width, &rules.height) != 2)
     throw InputError({}, "--size " + options.size, "not a size", "write e.g. 1600x1000");
-  const ResultReader result(options.result.path, chosen_band(options.result.band));
+  const ResultReader result(options.result.path, chosen_band(options.result.band),
+                            Opens::comparisons_too);
   if (!options.day.empty() && !options.animate)
     throw InputError({}, "--day without --animate", "one picture shows one time", "use --time");
   options.animate ? render_animation(result, rules, options.day, options.picture)

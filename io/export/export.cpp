@@ -76,6 +76,18 @@ void expect_heeded(const ExportFormat& format, const ExportRules& rules, const s
   problems.throw_if_any();
 }
 
+/// A comparison has patches, and neither times nor sums of what a result holds.
+void expect_fit_for_comparison(const ResultReader& result, const ExportFormat& format,
+                               const ExportRules& rules) {
+  if (!result.is_comparison()) return;
+  if (format.write == export_xdmf || format.write == export_energyplus)
+    throw InputError({result.path()}, "--to " + std::string(format.word) + " of a comparison",
+                     "it has no series", "export to csv, gpkg, vtk, glb, vrml, ply or cityjson");
+  if (!(rules.of.empty() || rules.of == "patch") || rules.quantity == "series")
+    throw InputError({result.path()}, "a table of groups of a comparison",
+                     "sunload compare --csv writes it", "leave out --of, or compare the results");
+}
+
 }  // namespace
 
 std::string export_formats() {
@@ -88,6 +100,7 @@ std::string export_formats() {
 void export_result(const ResultReader& result, const ExportRules& rules, const std::string& path) {
   const auto& format = chosen_format(rules.format);
   expect_heeded(format, rules, path);
+  expect_fit_for_comparison(result, format, rules);
   if (path.empty()) return format.write(result, rules, {std::cout, path});
   FileAside file(path);
   errno = 0;

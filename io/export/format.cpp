@@ -18,9 +18,9 @@
 namespace sunload {
 namespace {
 
-std::int32_t palette_step(double value, double largest) {
+std::int32_t palette_step(double value, const ExportColours& scale) {
   if (std::isnan(value)) return -1;
-  const double share = std::clamp(value / largest, 0.0, 1.0);
+  const double share = std::clamp((value - scale.least) / (scale.largest - scale.least), 0.0, 1.0);
   return static_cast<std::int32_t>(std::lround(share * (export_palette_steps - 1)));
 }
 
@@ -33,7 +33,8 @@ Colour export_colour(Palette palette, std::int32_t step) {
 
 ShownQuantity export_quantity(const ResultReader& result, const ExportRules& rules) {
   const bool is_default = rules.quantity.empty();
-  auto shown = shown_quantity(result, is_default ? "light_load" : rules.quantity, rules.time);
+  auto shown =
+      shown_quantity(result, is_default ? usual_quantity(result) : rules.quantity, rules.time);
   if (!rules.time.empty() && !shown.is_series)
     throw InputError({}, "--time " + rules.time,
                      shown.dataset + " is of the whole period" +
@@ -43,19 +44,27 @@ ShownQuantity export_quantity(const ResultReader& result, const ExportRules& rul
   return shown;
 }
 
+Palette export_palette(const ExportRules& rules, const ShownQuantity& shown) {
+  if (shown.is_difference && rules.palette && rules.palette != Palette::false_colour)
+    throw InputError({}, "--colour of a difference", "it has its own scale, from blue to red",
+                     "leave it out");
+  return shown.is_difference ? Palette::difference : rules.palette.value_or(Palette::false_colour);
+}
+
 ExportColours export_colours(const ResultReader& result, const ExportRules& rules,
                              const ResultPatches& patches) {
   ExportColours colours;
   colours.shown = export_quantity(result, rules);
-  colours.largest = scale_end(rules.largest, colours.shown.values, patches.area);
-  colours.palette = rules.palette.value_or(Palette::false_colour);
+  colours.largest = scale_end(rules.largest, colours.shown.sizes(), patches.area);
+  colours.least = colours.shown.scale_begin(colours.largest);
+  colours.palette = export_palette(rules, colours.shown);
   for (const double value : colours.shown.values)
-    colours.patch_step.push_back(palette_step(value, colours.largest));
+    colours.patch_step.push_back(palette_step(value, colours));
   if (!rules.interpolate) return colours;
   for (const auto& corner : corner_values(patches, colours.shown.values,
                                           rules.crease_angle_deg.value_or(default_crease_deg))) {
     auto& steps = colours.corner_step.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) steps[k] = palette_step(corner[k], colours.largest);
+    for (std::size_t k = 0; k < 3; ++k) steps[k] = palette_step(corner[k], colours);
   }
   return colours;
 }

@@ -23,7 +23,7 @@ struct ExportTarget {
 /// A quantity as colours.
 struct ExportColours {
   ShownQuantity shown;
-  double largest = 1;
+  double least = 0, largest = 1;  ///< values of the first and the last colour
   Palette palette = Palette::false_colour;
   /// A step of the palette for every patch, or for its corners; -1: not known.
   std::vector<std::int32_t> patch_step;
@@ -34,8 +34,12 @@ inline constexpr int export_palette_steps = 1024;
 /// sRGB of a step; grey for -1.
 Colour export_colour(Palette palette, std::int32_t step);
 
-/// The quantity asked for, or light_load. Throws InputError for a time of what is no series.
+/// The quantity asked for, or light_load; of a comparison its difference. Throws InputError for a
+/// time of what is no series.
 ShownQuantity export_quantity(const ResultReader& result, const ExportRules& rules);
+
+/// The one asked for; of differences their own. Throws InputError where both are wanted.
+Palette export_palette(const ExportRules& rules, const ShownQuantity& shown);
 
 ExportColours export_colours(const ResultReader& result, const ExportRules& rules,
                              const ResultPatches& patches);

@@ -8,6 +8,7 @@
 #include <ogr_api.h>
 #include <ogr_srs_api.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -89,15 +90,17 @@ class Shapes {
 
 using Words = std::vector<std::pair<std::string, std::string>>;
 
-/// A layer whose columns are those of its first row.
+/// A layer with these columns of numbers, and those of words that its first row has.
 class Layer {
  public:
-  Layer(GDALDatasetH file, const char* name, OGRSpatialReferenceH crs, OGRwkbGeometryType type)
-      : layer_(GDALDatasetCreateLayer(file, name, crs, type, nullptr)) {
+  Layer(GDALDatasetH file, const char* name, OGRSpatialReferenceH crs, OGRwkbGeometryType type,
+        std::vector<std::string> numbers)
+      : layer_(GDALDatasetCreateLayer(file, name, crs, type, nullptr)),
+        numbers_(std::move(numbers)) {
     if (layer_ == nullptr) fail(name);
   }
   void add(const Words& words, const SurfaceValues::Named& values, OGRGeometryH shape) {
-    if (OGR_FD_GetFieldCount(OGR_L_GetLayerDefn(layer_)) == 0) make_columns(words, values);
+    if (OGR_FD_GetFieldCount(OGR_L_GetLayerDefn(layer_)) == 0) make_columns(words);
     const auto feature = owned(OGR_F_Create(OGR_L_GetLayerDefn(layer_)), &OGR_F_Destroy);
     const auto column = [&](const std::string& name) {
       return OGR_F_GetFieldIndex(feature.get(), name.c_str());
@@ -113,16 +116,17 @@ class Layer {
   }
 
  private:
-  void make_columns(const Words& words, const SurfaceValues::Named& values) {
+  void make_columns(const Words& words) {
     const auto make = [&](const std::string& name, OGRFieldType type) {
       const auto column = owned(OGR_Fld_Create(name.c_str(), type), &OGR_Fld_Destroy);
       if (OGR_L_CreateField(layer_, column.get(), TRUE) != OGRERR_NONE) fail(name);
     };
     for (const auto& [name, word] : words) make(name, OFTString);
-    for (const auto& [name, value] : values) make(name, OFTReal);
+    for (const auto& name : numbers_) make(name, OFTReal);
   }
 
   OGRLayerH layer_;
+  std::vector<std::string> numbers_;
 };
 
 std::string name_at(const std::vector<std::string>& names, std::int32_t place) {
@@ -131,6 +135,12 @@ std::string name_at(const std::vector<std::string>& names, std::int32_t place) {
 
 /// What columns of numbers are called, as in `SurfaceValues`.
 std::string sunload_name(const std::string& key) { return "sunload_" + key; }
+
+std::vector<std::string> names_of(const GroupTable& table) {
+  std::vector<std::string> names;
+  for (const auto& column : table.columns) names.push_back(sunload_name(column.key));
+  return names;
+}
 
 SurfaceValues::Named numbers(const GroupTable& table, std::size_t row) {
   SurfaceValues::Named named;
@@ -152,7 +162,7 @@ class ResultLayers {
         values_(result, rules),
         shapes_(patches_),
         shown_(export_quantity(result, rules)),
-        largest_(scale_end(rules.largest, shown_.values, patches_.area)),
+        largest_(scale_end(rules.largest, shown_.sizes(), patches_.area)),
         side_(result.integers("patch_side")) {}
 
   void write() {
@@ -173,7 +183,7 @@ class ResultLayers {
     const auto facade = result_.integers("patch_facade"),
                material = result_.integers("patch_material"),
                surface = result_.integers("patch_surface");
-    Layer rows(file_, "patches", crs_, wkbPolygon25D);
+    Layer rows(file_, "patches", crs_, wkbPolygon25D, values_.names());
     for (const auto p : chosen_patches(result_, rules_.parts))
       rows.add({{"object", name_at(patches_.object_names, patches_.object[p])},
                 {"facade", name_at(facades, facade[p])},
@@ -186,7 +196,7 @@ class ResultLayers {
 
   void write_objects() {
     const auto of_object = fronts_by(patches_.object, patches_.object_names.size());
-    Layer rows(file_, "objects", crs_, wkbMultiPolygon25D);
+    Layer rows(file_, "objects", crs_, wkbMultiPolygon25D, values_.names());
     for (const auto k : chosen_objects(result_, rules_.parts))
       if (!of_object[k].empty())
         rows.add({{"object", patches_.object_names[k]}}, values_.of(of_object[k]),
@@ -198,18 +208,49 @@ class ResultLayers {
   void write_facades() {
     NamedParts parts;
     parts.facades = rules_.parts.facades;
-    const auto table = group_table(result_, TableOf::facades, parts);
     const auto of_facade =
         fronts_by(result_.integers("patch_facade"), result_.strings("facade_name").size());
-    Layer rows(file_, "facades", crs_, wkbMultiPolygon25D);
-    for (std::size_t row = 0; row < table.names.size(); ++row) {
-      const auto& own = of_facade[table.entries[row]];
-      if (own.empty()) continue;
-      rows.add({{"facade", table.names[row]},
-                {"object", name_at(patches_.object_names, patches_.object[own.front()])}},
-               rules_.quantity.empty() ? numbers(table, row) : values_.of(own), shapes_.all(own));
-    }
     styled("facades", StyledAs::outlines);
+    const auto add = [&](Layer& rows, const std::string& name, std::size_t facade,
+                         const SurfaceValues::Named& values) {
+      const auto& own = of_facade[facade];
+      rows.add({{"facade", name},
+                {"object", name_at(patches_.object_names, patches_.object[own.front()])}},
+               values, shapes_.all(own));
+    };
+    const auto names = result_.strings("facade_name");
+    if (result_.is_comparison() && shown_.is_difference) {
+      const auto compared = compared_facades();
+      Layer rows(file_, "facades", crs_, wkbMultiPolygon25D,
+                 {compared[0].first, compared[1].first});
+      for (const auto f : chosen_facades(result_, parts))
+        if (!of_facade[f].empty())
+          add(rows, names[f], f,
+              {{compared[0].first, compared[0].second[f]},
+               {compared[1].first, compared[1].second[f]}});
+      return;
+    }
+    if (result_.is_comparison() || !rules_.quantity.empty()) {
+      Layer rows(file_, "facades", crs_, wkbMultiPolygon25D, values_.names());
+      for (const auto f : chosen_facades(result_, parts))
+        if (!of_facade[f].empty()) add(rows, names[f], f, values_.of(of_facade[f]));
+      return;
+    }
+    const auto table = group_table(result_, TableOf::facades, parts);
+    Layer rows(file_, "facades", crs_, wkbMultiPolygon25D, names_of(table));
+    for (std::size_t row = 0; row < table.names.size(); ++row)
+      if (!of_facade[table.entries[row]].empty())
+        add(rows, table.names[row], table.entries[row], numbers(table, row));
+  }
+
+  /// Differences of a comparison over the area that both have, and their standard errors.
+  std::array<std::pair<std::string, std::vector<double>>, 2> compared_facades() const {
+    const auto key = [&](const char* name) {
+      return sunload_name(unit_names(name, result_.quantity()));
+    };
+    return {{{key("light_load_difference_kwh_m2"), result_.doubles("facade_light_load_difference")},
+             {key("light_load_difference_se_kwh_m2"),
+              result_.doubles("facade_light_load_difference_se")}}};
   }
 
   /// Their own totals, whatever quantity of patches was asked for.
@@ -218,7 +259,7 @@ class ResultLayers {
     parts.sensors = rules_.parts.sensors;
     const auto table = group_table(result_, TableOf::sensors, parts);
     const auto position = result_.doubles("sensor_position");
-    Layer rows(file_, "sensors", crs_, wkbPoint25D);
+    Layer rows(file_, "sensors", crs_, wkbPoint25D, names_of(table));
     for (std::size_t row = 0; row < table.names.size(); ++row) {
       const double* at = position.data() + 3 * table.entries[row];
       rows.add({{"sensor", table.names[row]}}, numbers(table, row),
@@ -227,7 +268,7 @@ class ResultLayers {
     const auto load = result_.doubles("sensor_light_load");
     styles_.push_back({"sensors", "light load",
                        qgis_style(sunload_name(unit_names("light_load_kwh_m2", result_.quantity())),
-                                  scale_end({}, load, std::vector<double>(load.size(), 1)),
+                                  {0, scale_end({}, load, std::vector<double>(load.size(), 1))},
                                   palette(), StyledAs::dots)});
   }
 
@@ -239,17 +280,17 @@ class ResultLayers {
     return patches;
   }
 
-  Palette palette() const { return rules_.palette.value_or(Palette::false_colour); }
+  Palette palette() const { return export_palette(rules_, shown_); }
 
   void styled(const char* layer, StyledAs as) {
-    styles_.push_back(
-        {layer, shown_.name,
-         qgis_style(sunload_name(column_name(result_, shown_.dataset)), largest_, palette(), as)});
+    styles_.push_back({layer, shown_.name,
+                       qgis_style(sunload_name(column_name(result_, shown_.dataset)),
+                                  {shown_.scale_begin(largest_), largest_}, palette(), as)});
   }
 
   /// The table in which QGIS looks for styles, with the columns that it makes itself.
   void write_styles() {
-    Layer rows(file_, "layer_styles", nullptr, wkbNone);
+    Layer rows(file_, "layer_styles", nullptr, wkbNone, {"useAsDefault"});
     for (const auto& style : styles_)
       rows.add({{"f_table_catalog", ""},
                 {"f_table_schema", ""},

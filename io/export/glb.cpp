@@ -133,7 +133,7 @@ void export_glb(const ResultReader& result, const ExportRules& rules, const Expo
                          {"generator", std::string("sunload ") + version},
                          {"extras",
                           {{"caption", export_caption(result, colours.shown)},
-                           {"colours_from", 0},
+                           {"colours_from", colours.least},
                            {"colours_to", colours.largest},
                            {"units", colours.shown.units},
                            {"origin", {origin.x, origin.y, origin.z}}}}};

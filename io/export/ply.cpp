@@ -40,7 +40,7 @@ std::string head(const ResultReader& result, const ResultPatches& patches,
                  const ExportColours& colours, const std::vector<Property>& properties) {
   std::string text = "ply\nformat binary_little_endian 1.0\n";
   text += comment(export_caption(result, colours.shown));
-  text += comment(fmt::format("colours from 0 to {}", colours.largest));
+  text += comment(fmt::format("colours from {} to {}", colours.least, colours.largest));
   text += comment(fmt::format("metres, z up; relative to {} {} {}", patches.origin.x,
                               patches.origin.y, patches.origin.z));
   for (std::size_t k = 0; k < patches.object_names.size(); ++k)

@@ -11,6 +11,7 @@ namespace sunload {
 namespace {
 
 constexpr int classes = 10;
+constexpr double far_beyond = std::numeric_limits<float>::max();
 
 std::string colour_text(Colour colour) {
   const auto byte = [](double channel) { return std::lround(channel * 255); };  // of 8 bits
@@ -55,15 +56,19 @@ std::string symbol(int number, const std::string& colour, StyledAs as) {
 
 }  // namespace
 
-std::string qgis_style(const std::string& column, double largest, Palette palette, StyledAs as) {
+std::string qgis_style(const std::string& column, StyleRange range, Palette palette, StyledAs as) {
   std::string ranges, symbols;
   for (int k = 0; k < classes; ++k) {
-    const double lower = largest * k / classes, upper = largest * (k + 1) / classes;
-    const bool is_last = k + 1 == classes;
+    const auto bound = [&](int c) {
+      return range.least + (range.largest - range.least) * c / classes;
+    };
+    const double lower = bound(k), upper = bound(k + 1);
+    const bool is_last = k + 1 == classes, has_more_below = k == 0 && range.least < 0;
+    const std::string from = has_more_below ? std::string("… ") : fmt::format("{:.4g} … ", lower);
     ranges += fmt::format(
-        R"(<range lower="{:.9g}" upper="{:.9g}" symbol="{}" label="{}" render="true"/>)", lower,
-        is_last ? std::numeric_limits<float>::max() : upper, k,
-        is_last ? fmt::format("{:.4g} …", lower) : fmt::format("{:.4g} … {:.4g}", lower, upper));
+        R"(<range lower="{:.9g}" upper="{:.9g}" symbol="{}" label="{}" render="true"/>)",
+        has_more_below ? -far_beyond : lower, is_last ? far_beyond : upper, k,
+        is_last ? from : from + fmt::format("{:.4g}", upper));
     symbols += symbol(k, colour_text(map_colour(palette, (k + 0.5) / classes)), as);
   }
   return fmt::format(

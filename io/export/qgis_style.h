@@ -13,8 +13,13 @@ namespace sunload {
 /// has the colour; points are dots.
 enum class StyledAs { areas, outlines, dots };
 
-/// QML (QGIS style, version 3.22): graduated colours of a column of numbers from 0 to `largest` in
-/// ten classes of equal width; what is above has the last.
-std::string qgis_style(const std::string& column, double largest, Palette palette, StyledAs as);
+/// Values of the first and the last colour.
+struct StyleRange {
+  double least = 0, largest = 1;
+};
+
+/// QML (QGIS style, version 3.22): graduated colours of a column of numbers in ten classes of equal
+/// width; what is beyond has the first or the last.
+std::string qgis_style(const std::string& column, StyleRange range, Palette palette, StyledAs as);
 
 }  // namespace sunload

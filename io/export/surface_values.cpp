@@ -35,7 +35,8 @@ SurfaceValues::SurfaceValues(const ResultReader& result, const ExportRules& rule
   }
   const std::string largest = dataset_name("irradiance_max", result.quantity());
   for (const auto& dataset : patch_datasets(result, PatchDatasets::totals)) {
-    if (dataset == "patch_area") continue;
+    // Errors of patches hang together: those of a set's mean do not follow from them.
+    if (dataset == "patch_area" || dataset == "light_load_difference_se") continue;
     Column column{name(dataset), dataset == largest ? Kind::largest : Kind::mean, {}};
     if (dataset == "light_load_se") {
       if (!result.has("light_load_realization")) continue;
@@ -46,6 +47,13 @@ SurfaceValues::SurfaceValues(const ResultReader& result, const ExportRules& rule
     }
     columns_.push_back(std::move(column));
   }
+}
+
+std::vector<std::string> SurfaceValues::names() const {
+  std::vector<std::string> names;
+  for (const auto& column : columns_) names.push_back(column.name);
+  names.emplace_back("sunload_area_m2");
+  return names;
 }
 
 SurfaceValues::Named SurfaceValues::of(const std::vector<std::size_t>& patches) const {

@@ -20,6 +20,7 @@ class SurfaceValues {
   /// The quantity asked for, or every total of the result.
   SurfaceValues(const ResultReader& result, const ExportRules& rules);
 
+  std::vector<std::string> names() const;
   using Named = std::vector<std::pair<std::string, double>>;
   /// Of at least one patch; numbers that are not known are left out. The last is the area [m²].
   Named of(const std::vector<std::size_t>& patches) const;

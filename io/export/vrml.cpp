@@ -63,7 +63,8 @@ void export_vrml(const ResultReader& result, const ExportRules& rules, const Exp
   auto& out = target.stream;
   out << "#VRML V2.0 utf8\nWorldInfo {\n  title " << vrml_string(result.text_attribute("title"))
       << "\n  info [ " << vrml_string(export_caption(result, colours.shown)) << ",\n    "
-      << vrml_string(fmt::format("colours from 0 to {}", colours.largest)) << ",\n    "
+      << vrml_string(fmt::format("colours from {} to {}", colours.least, colours.largest))
+      << ",\n    "
       << vrml_string(fmt::format("metres, y up; relative to x, y, z (z up) {}, {}, {}",
                                  patches.origin.x, patches.origin.y, patches.origin.z))
       << " ]\n}\nShape {\n  geometry IndexedFaceSet {\n"

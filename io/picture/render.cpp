@@ -40,8 +40,13 @@ constexpr double one_sided_share = 0.2;
 constexpr int milliseconds_per_picture = 250;
 
 /// Azimuth, clockwise from true north, of the scene's +y axis: the turn between
-/// the sun's azimuth and its direction in the scene, at the lowest sun.
+/// the sun's azimuth and its direction in the scene, at the lowest sun. A comparison, which has no
+/// sun, says it.
 double scene_north_deg(const ResultReader& result) {
+  if (!result.has("sun_direction")) {
+    const double north = result.number_attribute("north_deg");
+    return std::isnan(north) ? 0 : north;
+  }
   const auto direction = result.doubles("sun_direction"), azimuth = result.doubles("sun_azimuth");
   std::size_t lowest = 0;
   for (std::size_t i = 0; i < azimuth.size(); ++i)
@@ -55,14 +60,20 @@ Vec3 scene_direction(Horizontal compass, double north_deg) {
   return enu_direction({compass.azimuth_deg - north_deg, compass.elevation_deg});
 }
 
-Vec3 overview_direction(const ResultReader& result, double north_deg) {
+/// Whether most light comes from the northern half of the sky.
+bool has_northern_sun(const ResultReader& result) {
+  if (!result.has("sun_azimuth")) return result.number_attribute("latitude_deg") < 0;
   const auto azimuth = result.doubles("sun_azimuth"), ghi = result.doubles("ghi");
   double northward = 0;
   for (std::size_t i = 0; i < azimuth.size(); ++i)
     northward += ghi[i] * std::cos(radians(azimuth[i]));
+  return northward > 0;
+}
+
+Vec3 overview_direction(const ResultReader& result, double north_deg) {
   constexpr double north_deg_of_compass = 0, south_deg_of_compass = 180;
-  const double azimuth_deg = northward > 0 ? north_deg_of_compass - overview_west_deg
-                                           : south_deg_of_compass + overview_west_deg;
+  const double azimuth_deg = has_northern_sun(result) ? north_deg_of_compass - overview_west_deg
+                                                      : south_deg_of_compass + overview_west_deg;
   return scene_direction({azimuth_deg, overview_elevation_deg}, north_deg);
 }
 
@@ -104,6 +115,9 @@ void expect_sense(const RenderRules& rules) {
 }
 
 std::string title(const ResultReader& result) {
+  if (result.is_comparison())
+    return fmt::format("{} — {} minus {}", result.text_attribute("study"),
+                       result.text_attribute("variant"), result.text_attribute("base"));
   const auto study = result.text_attribute("study");
   return fmt::format("{} — {}", study.empty() ? result.text_attribute("title") : study,
                      result.text_attribute("variant"));
@@ -126,6 +140,22 @@ ScenePlace looked_at(const ResultReader& result, const std::string& look) {
     throw InputError({}, "--look " + look + " without --eye", "a point can be seen from anywhere",
                      "add --eye, or look at an object or a facade by name");
   return *place;
+}
+
+void expect_fit_for_comparison(const ResultReader& result, const RenderRules& rules) {
+  if (!result.is_comparison()) return;
+  Problems problems;
+  const auto refuse = [&](bool is_wrong, const std::string& what, const std::string& why,
+                          const std::string& hint) {
+    if (is_wrong) problems.add({result.path()}, what + " of a comparison", why, hint);
+  };
+  refuse(rules.view == View::sun, "--camera sun", "it has no sun", "use overview or top");
+  refuse(rules.sky.value_or(SkyBackground::plain) != SkyBackground::plain, "--sky", "it has no sun",
+         "leave it out");
+  refuse(!rules.time.empty(), "--time", "it is of the whole period", "leave it out");
+  refuse(rules.colours == PictureColours::of_bands || rules.palette != Palette::false_colour,
+         "--colour", "differences have their own scale, from blue to red", "leave it out");
+  problems.throw_if_any();
 }
 
 /// A time that nothing in the picture depends on is a slip: the user wants another quantity.
@@ -154,14 +184,15 @@ class Renderer {
 
   /// End of the scale for values of this result and of those that are compared with it.
   double largest(const ShownQuantity& shown) const {
-    double end = scale_end(rules_.largest, shown.values, scene_.area());
+    double end = scale_end(rules_.largest, shown.sizes(), scene_.area());
     for (const auto& path : rules_.same_scale) {
-      const ResultReader other(path, result_.band());
+      const ResultReader other(path, result_.band(),
+                               result_.is_comparison() ? Opens::comparisons_too : Opens::results);
       const auto theirs = shown_quantity(other, shown.dataset, rules_.time);
       if (theirs.units != shown.units)
         throw InputError({path}, shown.dataset + " is in " + theirs.units,
                          "the result drawn has it in " + shown.units);
-      end = std::max(end, scale_end({}, theirs.values, other.doubles("patch_area")));
+      end = std::max(end, scale_end({}, theirs.sizes(), other.doubles("patch_area")));
     }
     return end;
   }
@@ -179,7 +210,9 @@ class Renderer {
                                                 rules_.mesh);
       expect_something_seen();
     }
-    PatchColours colours{shown.values, largest, rules_.palette, rules_.mesh, {}, {}};
+    const Palette palette = shown.is_difference ? Palette::difference : rules_.palette;
+    PatchColours colours{shown.values, largest, palette, rules_.mesh};
+    colours.least = shown.scale_begin(largest);
     const bool in_rgb = rules_.colours == PictureColours::of_bands;
     if (in_rgb) {
       auto bands =
@@ -193,16 +226,21 @@ class Renderer {
     const auto kind =
         rules_.sky.value_or(shown.is_series ? SkyBackground::second : SkyBackground::plain);
     picture->paint(area.x, area.y, area.width,
-                   traced_->pixels(colours, {kind, sun_at(result_, shown.interval)}));
+                   traced_->pixels(colours, {kind, sun_behind(shown.interval)}));
     draw_title(
         *picture, title(result_) + band_title(result_),
         shown.name + ", " + shown.when + named_in_words(rules_.parts) +
             (in_rgb ? fmt::format(", in colour, white: {:.4g} {}", largest, shown.units) : ""));
-    const bool is_exceeded = std::any_of(shown.values.begin(), shown.values.end(),
-                                         [&](double value) { return value > largest; });
+    const auto marked_where = [&](const auto& is_beyond) {
+      return std::any_of(shown.values.begin(), shown.values.end(), is_beyond)
+                 ? Legend::Above::marked
+                 : Legend::Above::nothing;
+    };
     if (!in_rgb)
-      draw_legend(*picture, {shown.units, largest, rules_.palette,
-                             is_exceeded ? Legend::Above::marked : Legend::Above::nothing});
+      draw_legend(*picture,
+                  {shown.units, largest, palette,
+                   marked_where([&](double value) { return value > largest; }), colours.least,
+                   marked_where([&](double value) { return value < colours.least; })});
     draw_north(*picture, camera_->image_direction(scene_direction({0, 0}, north_deg_)));
     return picture;
   }
@@ -280,6 +318,11 @@ class Renderer {
           "take --camera top, --facade, or an --eye near it");
   }
 
+  /// Comparisons are of no instant: the sky behind them is plain.
+  Vec3 sun_behind(std::size_t interval) const {
+    return result_.is_comparison() ? Vec3{0, 0, 1} : sun_at(result_, interval);
+  }
+
   Camera sun_camera(std::size_t interval, PictureArea area) const {
     const Vec3 sun = sun_at(result_, interval);
     if (sun.z <= 0)
@@ -323,7 +366,9 @@ ShownQuantity shown_at(const ResultReader& result, const std::string& dataset,
 
 void render_png(const ResultReader& result, const RenderRules& rules, const std::string& path) {
   expect_sense(rules);
-  const std::string usual = rules.colours == PictureColours::of_bands ? "power_load" : "light_load";
+  expect_fit_for_comparison(result, rules);
+  const std::string usual =
+      rules.colours == PictureColours::of_bands ? "power_load" : usual_quantity(result);
   const auto shown =
       shown_quantity(result, rules.quantity.empty() ? usual : rules.quantity, rules.time);
   expect_time_matters(result, rules, shown);
@@ -334,6 +379,9 @@ void render_png(const ResultReader& result, const RenderRules& rules, const std:
 void render_animation(const ResultReader& result, const RenderRules& rules, const std::string& day,
                       const std::string& path) {
   expect_sense(rules);
+  if (result.is_comparison())
+    throw InputError({result.path()}, "--animate of a comparison", "it is of no instant",
+                     "draw one picture of it, or animate the results");
   if (!rules.time.empty())
     throw InputError({}, "--time with --animate", "it shows all times", "use --day");
   if (rules.colours == PictureColours::of_bands)

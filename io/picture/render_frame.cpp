@@ -57,26 +57,34 @@ void draw_legend(Picture& picture, const Legend& legend) {
     picture.fill_rectangle({x, bottom - row - 1}, bar_width * u, 1,
                            map_colour(legend.palette, (row + 0.5) / rows));
   const double bar_top = bottom - rows;
-  const std::vector<PicturePoint> tip{
-      {x, bar_top}, {x + bar_width * u / 2, bar_top - u}, {x + bar_width * u, bar_top}};
-  if (legend.above == Legend::Above::marked) {
-    picture.fill_polygon(tip, map_colour(legend.palette, 1));
+  const auto draw_tip = [&](double y, double outward, double share) {
+    const std::vector<PicturePoint> tip{
+        {x, y}, {x + bar_width * u / 2, y + outward * u}, {x + bar_width * u, y}};
+    picture.fill_polygon(tip, map_colour(legend.palette, share));
     picture.draw_lines(tip, line_width * u, ink);
-  }
+  };
+  if (legend.above == Legend::Above::marked) draw_tip(bar_top, -1, 1);
+  if (legend.below == Legend::Above::marked) draw_tip(bottom, 1, 0);
   picture.draw_lines({{x, bar_top},
                       {x, bottom},
                       {x + bar_width * u, bottom},
                       {x + bar_width * u, bar_top},
                       {x, bar_top}},
                      line_width * u, ink);
-  const auto ticks = round_ticks(legend.largest, most_ticks);
-  for (const double value : ticks.values) {
-    const double y = bottom - rows * value / legend.largest;
+  const bool has_two_sides = legend.least < 0;
+  const auto ticks = round_ticks(legend.largest, has_two_sides ? most_ticks / 2 : most_ticks);
+  std::vector<double> values = ticks.values;
+  if (has_two_sides)
+    for (const double value : ticks.values)
+      if (value > 0) values.push_back(-value);
+  for (const double value : values) {
+    const double y = bottom - rows * (value - legend.least) / (legend.largest - legend.least);
     const double end = x + (bar_width + tick_length) * u;
     picture.draw_lines({{x + bar_width * u, y}, {end, y}}, line_width * u, ink);
     constexpr double half_digit = 0.36;  // digits are some 0.72 of the font's height
     picture.write({end + tick_length * u, y + half_digit * u},
-                  fmt::format("{:.{}f}", value, ticks.decimals),
+                  fmt::format(fmt::runtime(has_two_sides && value != 0 ? "{:+.{}f}" : "{:.{}f}"),
+                              value, ticks.decimals),
                   {u, Align::left, Weight::normal, ink});
   }
 }

@@ -22,9 +22,11 @@ void draw_title(Picture& picture, const std::string& title, const std::string& s
 
 struct Legend {
   std::string units;
-  double largest = 1;  ///< value of the last colour; the first is 0
+  double largest = 1;  ///< value of the last colour
   Palette palette = Palette::false_colour;
   enum class Above { nothing, marked } above = Above::nothing;  ///< larger values occur
+  double least = 0;              ///< value of the first colour: 0, or −largest
+  Above below = Above::nothing;  ///< smaller values occur
 };
 void draw_legend(Picture& picture, const Legend& legend);
 

@@ -64,6 +64,7 @@ struct PatchColours {
   MeshLines mesh = MeshLines::none;
   /// Values at the corners of every patch, to be interpolated; empty: constant patches.
   std::vector<std::array<double, 3>> corner_values = {};
+  double least = 0;              ///< value of the first colour
   std::vector<Colour> own = {};  ///< per patch, linear light; where given, in place of a palette's
 };
 

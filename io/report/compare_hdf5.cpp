@@ -11,8 +11,10 @@
 #include "io/base/light_quantity.h"
 #include "io/base/statistics.h"
 #include "io/report/compare.h"
+#include "io/result/common_area.h"
 #include "io/result/h5.h"
 #include "io/result/schema.h"
+#include "io/result/shown_quantity.h"
 
 namespace sunload {
 namespace {
@@ -206,10 +208,14 @@ void put_mesh(ComparisonFile& file, const ResultReader& base) {
   file.dimension("corner", axes);
   file.dimension("vertex", base.shape("vertex_position").front());
   file.dimension("patch", base.shape("patch_area").front());
+  file.dimension("input_triangle", base.shape("input_triangle_vertices").front());
   file.labels("object", base.strings("object_name"));
-  for (const char* name : {"object_name", "vertex_position", "vertex_x", "vertex_y", "vertex_z",
-                           "patch_vertices", "patch_area", "patch_centroid", "patch_normal",
-                           "patch_object", "patch_facade", "patch_surface", "patch_side"}) {
+  file.labels("material", base.strings("material_name"));
+  for (const char* name :
+       {"object_name", "material_name", "patch_material", "patch_input_triangle",
+        "input_triangle_vertices", "vertex_position", "vertex_x", "vertex_y", "vertex_z",
+        "patch_vertices", "patch_area", "patch_centroid", "patch_normal", "patch_object",
+        "patch_facade", "patch_surface", "patch_side"}) {
     const auto* of = find_result_variable(name);
     const auto dims = dimension_names(*of);
     const std::string units(of->units), what(of->long_name);
@@ -231,17 +237,18 @@ void put_mesh(ComparisonFile& file, const ResultReader& base) {
 void put_patches(ComparisonFile& file, const Comparison& comparison, const ResultReader& base,
                  const ResultReader& variant) {
   const auto match = matched_patches(base, variant);
-  const auto own = base.doubles("light_load"), theirs = variant.doubles("light_load");
-  const auto own_rows = realizations(base), their_rows = realizations(variant);
-  std::vector<double> of_variant(own.size(), not_known), difference(own.size(), not_known),
-      se(own.size(), not_known);
+  const auto overlaps = patch_overlaps(base, variant);
+  const auto own = base.doubles("light_load");
+  const auto of_variant = means_on_base(overlaps, variant.doubles("light_load"));
+  const auto own_rows = realizations(base);
+  auto their_rows = realizations(variant);
+  for (auto& row : their_rows) row = means_on_base(overlaps, row);
+  std::vector<double> difference(own.size(), not_known), se(own.size(), not_known);
   for (std::size_t p = 0; p < own.size(); ++p) {
-    if (match[p] < 0) continue;
-    const auto q = static_cast<std::size_t>(match[p]);
-    of_variant[p] = theirs[q];
-    difference[p] = theirs[q] - own[p];
+    if (std::isnan(of_variant[p])) continue;
+    difference[p] = of_variant[p] - own[p];
     if (comparison.errors == Comparison::Errors::unknown) continue;
-    const auto a = column(own_rows, p), b = column(their_rows, q);
+    const auto a = column(own_rows, p), b = column(their_rows, p);
     se[p] =
         (comparison.errors == Comparison::Errors::paired ? paired_error(a, b) : welch_error(a, b))
             .se;
@@ -269,7 +276,7 @@ void put_attributes(h5::File& file, const Comparison& comparison, const ResultRe
   const Vec3 origin = base.origin();
   file.set("title", "Light load: variant " + comparison.variant + " minus base " + comparison.base);
   file.set("Conventions", std::string(result_conventions));
-  file.set("sunload_format", "sunload-comparison-1");
+  file.set("sunload_format", std::string(comparison_format));
   file.set("base", comparison.base);
   file.set("variant", comparison.variant);
   file.set("base_study_sha256", base.text_attribute("study_sha256"));
@@ -278,6 +285,12 @@ void put_attributes(h5::File& file, const Comparison& comparison, const ResultRe
   file.set("base_realizations", static_cast<std::int64_t>(comparison.base_realizations));
   file.set("variant_realizations", static_cast<std::int64_t>(comparison.variant_realizations));
   if (comparison.quantity == Quantity::illuminance) file.set("quantity", "illuminance");
+  for (const char* name : {"study", "timezone", "crs"})
+    if (const auto text = base.text_attribute(name); !text.empty()) file.set(name, text);
+  for (const char* name : {"latitude_deg", "longitude_deg", "elevation_m", "north_deg"})
+    if (const double number = base.number_attribute(name); std::isfinite(number))
+      file.set(name, number, h5::Type::float64);
+  file.set("period", whole_period(base));
   file.set("origin", {origin.x, origin.y, origin.z}, h5::Type::float64);
   if (!notes.empty()) file.set("notes", notes);
 }

@@ -76,16 +76,19 @@ double without_rounding(double common, double area) {
 
 }  // namespace
 
-CommonArea common_area(const ResultReader& base, const ResultReader& variant) {
-  if (are_same_mesh(base, variant))
-    return {base.doubles("patch_area"), variant.doubles("patch_area")};
+PatchOverlaps patch_overlaps(const ResultReader& base, const ResultReader& variant) {
+  PatchOverlaps overlaps{{}, base.doubles("patch_area"), variant.doubles("patch_area")};
+  overlaps.of_base.resize(overlaps.base_area.size());
+  if (are_same_mesh(base, variant)) {
+    for (std::size_t p = 0; p < overlaps.of_base.size(); ++p)
+      overlaps.of_base[p] = {{p, overlaps.base_area[p]}};
+    return overlaps;
+  }
   const Patches own = patches_of(base), theirs = patches_of(variant);
   std::vector<Box> boxes;
   for (const Triangle& t : own.triangle)
     boxes.push_back(widened(box_around({t.corner[0], t.corner[1], t.corner[2]}), same_plane_m));
   const BoxTree tree(std::move(boxes));
-  CommonArea common{std::vector<double>(own.area.size(), 0),
-                    std::vector<double>(theirs.area.size(), 0)};
   for (std::size_t v = 0; v < theirs.area.size(); ++v) {
     const Triangle& t = theirs.triangle[v];
     std::vector<std::size_t> near;
@@ -94,17 +97,43 @@ CommonArea common_area(const ResultReader& base, const ResultReader& variant) {
         near.push_back(b);
     });
     std::sort(near.begin(), near.end());  // sums have an order
-    for (const std::size_t b : near) {
-      const double area = overlap_m2(own.triangle[b].corner, own.triangle[b].normal, t.corner);
+    for (const std::size_t b : near)
+      overlaps.of_base[b].push_back(
+          {v, overlap_m2(own.triangle[b].corner, own.triangle[b].normal, t.corner)});
+  }
+  return overlaps;
+}
+
+CommonArea common_area(const ResultReader& base, const ResultReader& variant) {
+  const PatchOverlaps overlaps = patch_overlaps(base, variant);
+  const auto &own = overlaps.base_area, &theirs = overlaps.variant_area;
+  CommonArea common{std::vector<double>(own.size(), 0), std::vector<double>(theirs.size(), 0)};
+  for (std::size_t b = 0; b < own.size(); ++b)
+    for (const auto& [v, area] : overlaps.of_base[b]) {
       common.base[b] += area;
       common.variant[v] += area;
     }
-  }
-  for (std::size_t b = 0; b < own.area.size(); ++b)
-    common.base[b] = without_rounding(common.base[b], own.area[b]);
-  for (std::size_t v = 0; v < theirs.area.size(); ++v)
-    common.variant[v] = without_rounding(common.variant[v], theirs.area[v]);
+  for (std::size_t b = 0; b < own.size(); ++b)
+    common.base[b] = without_rounding(common.base[b], own[b]);
+  for (std::size_t v = 0; v < theirs.size(); ++v)
+    common.variant[v] = without_rounding(common.variant[v], theirs[v]);
   return common;
+}
+
+std::vector<double> means_on_base(const PatchOverlaps& overlaps,
+                                  const std::vector<double>& of_variant) {
+  std::vector<double> means(overlaps.of_base.size(), std::nan(""));
+  for (std::size_t b = 0; b < means.size(); ++b) {
+    const bool is_one = overlaps.of_base[b].size() == 1;  // whose value it is, without rounding
+    double sum = 0, area = 0;
+    for (const auto& [v, common] : overlaps.of_base[b]) {
+      sum += common * of_variant[v];
+      area += common;
+    }
+    if (area >= (1 - rounding_share) * overlaps.base_area[b])
+      means[b] = is_one ? of_variant[overlaps.of_base[b].front().patch] : sum / area;
+  }
+  return means;
 }
 
 }  // namespace sunload

@@ -3,6 +3,7 @@
 /// Which part of the patches of two results lies in the same place.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "io/result/reader.h"
@@ -16,6 +17,22 @@ namespace sunload {
 struct CommonArea {
   std::vector<double> base, variant;  ///< per patch
 };
+
+/// What lies on each patch of the base.
+struct PatchOverlaps {
+  struct Overlap {
+    std::size_t patch = 0;  ///< of the variant
+    double area = 0;        ///< in common [m2]
+  };
+  std::vector<std::vector<Overlap>> of_base;
+  std::vector<double> base_area, variant_area;  ///< of the patches
+};
+PatchOverlaps patch_overlaps(const ResultReader& base, const ResultReader& variant);
+
+/// Values of the variant's patches as area-weighted means over each patch of the base; NaN where
+/// patches of the variant do not cover all of it, but for rounding.
+std::vector<double> means_on_base(const PatchOverlaps& overlaps,
+                                  const std::vector<double>& of_variant);
 
 /// Some microseconds a patch; nothing where both have the same mesh.
 CommonArea common_area(const ResultReader& base, const ResultReader& variant);

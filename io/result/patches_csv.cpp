@@ -29,6 +29,11 @@ std::vector<Column> value_columns(const ResultReader& result) {
                               {"light_load_reflected", "light_load_reflected_kwh_m2", {}},
                               {"sun_hours", "sun_hours_h", {}},
                               {"power_load", "power_load_kwh_m2", {}}};
+  if (result.is_comparison())
+    columns = {{"base_light_load", "base_kwh_m2", {}},
+               {"variant_light_load", "variant_kwh_m2", {}},
+               {"light_load_difference", "difference_kwh_m2", {}},
+               {"light_load_difference_se", "se_kwh_m2", {}}};
   for (auto& column : columns)
     if (result.has(column.dataset)) column.values = result.doubles(column.dataset);
   return columns;

@@ -105,7 +105,7 @@ double one_number(const h5::Object& object, const std::string& attribute) {
   return is_known ? values->front() : std::numeric_limits<double>::quiet_NaN();
 }
 
-h5::File opened(const std::string& path) {
+h5::File opened(const std::string& path, Opens opens) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError({path}, "there is no such file");
   const auto refuse_damage = [&](const std::string& problem) {
@@ -118,7 +118,9 @@ h5::File opened(const std::string& path) {
     refuse_damage(end_problem(path, file));
     const auto format = file.text("sunload_format");
     if (!format) throw InputError({path}, "is not a result of sunload", "no sunload_format");
-    if (*format != result_format) {
+    const bool is_wanted = *format == result_format ||
+                           (*format == comparison_format && opens == Opens::comparisons_too);
+    if (!is_wanted) {
       throw InputError({path}, "has the format " + *format,
                        "this program reads " + std::string(result_format));
     }
@@ -131,8 +133,8 @@ h5::File opened(const std::string& path) {
 
 }  // namespace
 
-ResultReader::ResultReader(const std::string& path, std::optional<std::size_t> band)
-    : file_(std::make_unique<File>(File{path, opened(path)})) {
+ResultReader::ResultReader(const std::string& path, std::optional<std::size_t> band, Opens opens)
+    : file_(std::make_unique<File>(File{path, opened(path, opens)})) {
   file_->bands = has("band") ? Bands::rgb : Bands::broadband;
   file_->band = band;
   if (band && file_->bands == Bands::broadband)
@@ -142,6 +144,10 @@ ResultReader::ResultReader(const std::string& path, std::optional<std::size_t> b
 ResultReader::~ResultReader() = default;
 
 const std::string& ResultReader::path() const { return file_->path; }
+
+bool ResultReader::is_comparison() const {
+  return text_attribute("sunload_format") == comparison_format;
+}
 
 bool ResultReader::has(const std::string& dataset) const {
   try {

@@ -21,9 +21,14 @@ namespace sunload {
 /// A result of light in bands reads as one without: `band` chooses one of them, without it values
 /// are the means of the bands, which is broadband light. (Of standard errors and of largest values
 /// these means are upper bounds: bands share their lines.) Shapes have no dimension `band` then.
+///
+/// A comparison file (docs/comparison-file.md) is opened where the caller can do with one: it has
+/// the patches and names of its base, no times, and as totals the datasets of `comparison_schema`.
+enum class Opens { results, comparisons_too };
 class ResultReader {
  public:
-  explicit ResultReader(const std::string& path, std::optional<std::size_t> band = {});
+  explicit ResultReader(const std::string& path, std::optional<std::size_t> band = {},
+                        Opens opens = Opens::results);
   ~ResultReader();
   const std::string& path() const;
   bool has(const std::string& dataset) const;
@@ -39,6 +44,7 @@ class ResultReader {
   std::string text_attribute(const std::string& name) const;  ///< of the root; empty if absent
   double number_attribute(
       const std::string& name) const;  ///< of the root; NaN if absent or impossible
+  bool is_comparison() const;
   Quantity quantity() const;
   Bands bands() const;
   /// Absolute position that positions in the file are relative to [m]; zero if absent.

@@ -148,13 +148,22 @@ constexpr std::array table{
 
     ResultVariable{"study_yaml", "", text, "", study, "the study, verbatim"},
 };
+
+constexpr std::array comparison_table{
+    ResultVariable{"base_light_load", "patch", float64, kwh_m2, total, "light load of the base"},
+    ResultVariable{"variant_light_load", "patch", float64, kwh_m2, total, "light load of the variant"},
+    ResultVariable{difference_dataset, "patch", float64, kwh_m2, total, "variant minus base"},
+    ResultVariable{"light_load_difference_se", "patch", float64, kwh_m2, total, "standard error of the difference"},
+    ResultVariable{"facade_light_load_difference", "facade", float64, kwh_m2, total, "variant minus base, area-weighted means"},
+    ResultVariable{"facade_light_load_difference_se", "facade", float64, kwh_m2, total, "standard error of the difference"},
+};
 // clang-format on
 
 /// The table for illuminance, which owns its texts.
 class IlluminanceTable {
  public:
-  IlluminanceTable() {
-    for (ResultVariable row : table) {
+  explicit IlluminanceTable(std::span<const ResultVariable> of_irradiance) {
+    for (ResultVariable row : of_irradiance) {
       if (row.part != sun) {
         row.name = kept(dataset_name(std::string(row.name), Quantity::illuminance));
         row.units = kept(light_units(row.units, Quantity::illuminance));
@@ -174,8 +183,13 @@ class IlluminanceTable {
 }  // namespace
 
 std::span<const ResultVariable> result_schema(Quantity quantity) {
-  static const IlluminanceTable illuminance;
+  static const IlluminanceTable illuminance(table);
   return quantity == Quantity::illuminance ? illuminance.rows() : table;
+}
+
+std::span<const ResultVariable> comparison_schema(Quantity quantity) {
+  static const IlluminanceTable illuminance(comparison_table);
+  return quantity == Quantity::illuminance ? illuminance.rows() : comparison_table;
 }
 
 const ResultVariable* find_result_variable(std::string_view name, Quantity quantity) {

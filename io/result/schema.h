@@ -52,7 +52,13 @@ bool has_bands(const ResultVariable& variable);
 /// The same dimensions with `band` put in: before those of patches, facades and sensors, else last.
 std::vector<std::string> with_band(std::vector<std::string> dimensions);
 
+/// What a comparison file has of its patches (docs/comparison-file.md), of the whole period.
+std::span<const ResultVariable> comparison_schema(Quantity quantity = Quantity::irradiance);
+/// The dataset of differences: values on both sides of 0.
+inline constexpr std::string_view difference_dataset = "light_load_difference";
+
 inline constexpr std::string_view result_format = "sunload-result-1";
+inline constexpr std::string_view comparison_format = "sunload-comparison-1";
 inline constexpr std::string_view result_conventions = "CF-1.10 UGRID-1.0";
 inline constexpr std::string_view time_units = "seconds since 1970-01-01T00:00:00Z";
 

@@ -31,20 +31,34 @@ bool is_one_of(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+}  // namespace
+
 std::string whole_period(const ResultReader& result) {
+  if (result.is_comparison()) return result.text_attribute("period");
   const auto bounds = result.doubles("time_bounds");
   if (bounds.empty()) return "no intervals";
   const auto zone = result_zone(result);
   return fmt::format("{} … {}", iso_local(bounds.front(), zone), iso_local(bounds.back(), zone));
 }
 
-}  // namespace
+std::string usual_quantity(const ResultReader& result) {
+  return result.is_comparison() ? std::string(difference_dataset) : "light_load";
+}
+
+std::vector<double> ShownQuantity::sizes() const {
+  auto sizes = values;
+  if (is_difference)
+    for (double& value : sizes) value = std::abs(value);
+  return sizes;
+}
 
 std::vector<std::string> patch_datasets(const ResultReader& result, PatchDatasets which) {
   const std::string_view dims = which == PatchDatasets::totals ? "patch" : "time,patch";
   const auto patches = result.shape("patch_area").front();
   std::vector<std::string> names;
-  for (const auto& variable : result_schema(result.quantity())) {
+  const auto schema = result.is_comparison() ? comparison_schema(result.quantity())
+                                             : result_schema(result.quantity());
+  for (const auto& variable : schema) {
     const std::string name(variable.name);
     if (variable.dims == dims && !variable.units.empty() && result.has(name) &&
         result.shape(name).back() == patches)
@@ -62,7 +76,9 @@ ShownQuantity shown_quantity(const ResultReader& result, const std::string& data
   s.dataset = s.name = dataset;
   std::replace(s.name.begin(), s.name.end(), '_', ' ');
   s.units = display_units(result.units(dataset));
-  s.interval = time.empty() ? brightest_interval(result) : interval_at(result, time);
+  s.is_difference = result.is_comparison() && dataset == difference_dataset;
+  if (!result.is_comparison())
+    s.interval = time.empty() ? brightest_interval(result) : interval_at(result, time);
   s.values = s.is_series ? result.row(dataset, s.interval) : result.doubles(dataset);
   s.when = s.is_series ? "sun of " + interval_in_words(result, s.interval) : whole_period(result);
   return s;

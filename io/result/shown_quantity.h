@@ -16,12 +16,23 @@ namespace sunload {
 struct ShownQuantity {
   std::vector<double> values;
   std::string dataset;
-  std::string name;          ///< words: "light load"
-  std::string units;         ///< as people write them
-  std::string when;          ///< the whole period, or the interval in words
-  std::size_t interval = 0;  ///< of the time asked for, or the brightest one
-  bool is_series = false;    ///< values are those of `interval`
+  std::string name;            ///< words: "light load"
+  std::string units;           ///< as people write them
+  std::string when;            ///< the whole period, or the interval in words
+  std::size_t interval = 0;    ///< of the time asked for, or the brightest one
+  bool is_series = false;      ///< values are those of `interval`
+  bool is_difference = false;  ///< values lie on both sides of 0
+
+  /// Value of the first colour of a scale that ends with `largest`.
+  double scale_begin(double largest) const { return is_difference ? -largest : 0; }
+  /// Sizes of the values, which decide the end of a scale.
+  std::vector<double> sizes() const;
 };
+
+/// What is shown where nobody says: the light load, or of a comparison its difference.
+std::string usual_quantity(const ResultReader& result);
+/// From the begin of the first interval to the end of the last one, in civil time.
+std::string whole_period(const ResultReader& result);
 
 /// A dataset [patch] as it is, or the interval of a dataset [time, patch] that holds `time`
 /// (as in a study; empty: the brightest). Throws InputError that lists what there is.

@@ -97,6 +97,13 @@ bool is_indispensable(const ResultVariable& variable) {
          !variable.name.ends_with("_illuminance");
 }
 
+/// Whether a comparison file has it, too: geometry and names of the base's patches.
+bool is_of_compared_patches(const ResultVariable& variable) {
+  const bool is_of_patches = variable.dims.starts_with("patch") || variable.dims == "vertex,xyz";
+  return (is_of_patches && is_indispensable(variable) && variable.name != "patch_input_triangle") ||
+         variable.name == "object_name" || variable.name == "material_name";
+}
+
 h5::ValueKind kind_of(const ResultVariable& variable) {
   switch (variable.type) {
     case h5::Type::text:
@@ -120,6 +127,7 @@ class Examination {
     quantity_ = file.text("quantity").value_or("") == "illuminance" ? Quantity::illuminance
                                                                     : Quantity::irradiance;
     is_rgb_ = file.has("band");
+    is_comparison_ = file.text("sunload_format").value_or("") == comparison_format;
   }
 
   void shapes() {
@@ -128,8 +136,16 @@ class Examination {
       if (file_.has(name) && is_bare_scale(variable)) continue;
       if (file_.has(name))
         shape(variable, file_.dataset(name));
-      else if (is_indispensable(variable))
+      else if (is_comparison_ ? is_of_compared_patches(variable) : is_indispensable(variable))
         add("there is no dataset " + name, "every result has one");
+    }
+    if (!is_comparison_) return;
+    for (const auto& variable : comparison_schema(quantity_)) {
+      const std::string name(variable.name);
+      if (file_.has(name))
+        shape(variable, file_.dataset(name));
+      else if (variable.dims == "patch")
+        add("there is no dataset " + name, "every comparison has one");
     }
   }
 
@@ -284,7 +300,7 @@ class Examination {
   const std::string& path_;
   const h5::File& file_;
   Quantity quantity_ = Quantity::irradiance;
-  bool is_rgb_ = false;
+  bool is_rgb_ = false, is_comparison_ = false;
   Problems problems_;
   std::set<std::string, std::less<>> sound_;  ///< datasets of the right kind and rank
   bool has_sizes_ = true;                     ///< dimensions agree

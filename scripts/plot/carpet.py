@@ -6,6 +6,8 @@
 One carpet for each facade, patch or sensor; a facade is the area-weighted mean
 of its patches. White lines are sunrise and sunset as the intervals show them."""
 
+import interpreter  # first: finds a Python that has the other packages
+
 import datetime
 
 import matplotlib.dates as dates

@@ -7,6 +7,8 @@ Whiskers are 95 % confidence intervals from the realizations (Student's t).
 Where two results carry the same pairing_id, differences are taken realization
 by realization, as `sunload compare` does; otherwise both errors add up (Welch)."""
 
+import interpreter  # first: finds a Python that has the other packages
+
 import fnmatch
 import sys
 
@@ -16,7 +18,8 @@ import drawing
 from drawing import plt
 from reading import InputError, Result
 
-MOST_GROUPS = 20
+# More of them would make a picture that no reader of PNG opens.
+MOST_GROUPS = 400
 CONFIDENCE = 0.95
 
 
@@ -30,17 +33,20 @@ def student_t(degrees):
 
 
 class Groups:
-    """Area-weighted means of the light load by facade, object or surface."""
+    """Area-weighted means of the light load of the whole, or by facade, object or surface."""
 
     def __init__(self, result, by):
         self.result = result
-        if by == "surface":
+        if by == "whole":
+            self.names = ["whole"]
+        elif by == "surface":
             attributes = result.file["patch_surface"].attrs
             words = attributes["flag_meanings"]
             self.names = (words.decode() if isinstance(words, bytes) else words).split()
         else:
             self.names = result.names(by + "_name")
-        member = result.numbers(f"patch_{by}").astype(int)
+        member = np.zeros(len(result.numbers("patch_area")), int) if by == "whole" else \
+            result.numbers(f"patch_{by}").astype(int)
         weight = np.where(member >= 0, result.numbers("patch_area"), 0)
         self.area = np.bincount(np.maximum(member, 0), weight, len(self.names))
 
@@ -82,7 +88,7 @@ def difference(base, variant, name):
 
 
 def chosen_names(base, variants, patterns, by):
-    """Groups that all results have: those named, or those that change most."""
+    """Groups that all results have: those named, or all; those that change most first."""
     common = [name for name in base.place if all(name in variant.place for variant in variants)]
     if patterns:
         common = [name for name in common if any(fnmatch.fnmatchcase(name, p) for p in patterns)]
@@ -91,7 +97,7 @@ def chosen_names(base, variants, patterns, by):
                                                                  else "; choose another --by"))
     change = {name: max(abs(v.load[v.place[name]] - base.load[base.place[name]]) for v in variants)
               for name in common}
-    return sorted(sorted(common, key=lambda name: -change[name])[:MOST_GROUPS], key=common.index), len(common)
+    return sorted(common, key=lambda name: -change[name])[:MOST_GROUPS], len(common)
 
 
 def draw(results, arguments):

@@ -7,6 +7,8 @@ Every facade is drawn as seen from outside, upright and to scale, those of one
 object side by side in the order in which one walks around it. Without --facade
 the largest ones are drawn."""
 
+import interpreter  # first: finds a Python that has the other packages
+
 import numpy as np
 from matplotlib.collections import PolyCollection
 

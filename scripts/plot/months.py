@@ -6,6 +6,8 @@
 Months are those of civil time. Bars are sums of the series over the intervals
 that the study has: months that it covers only in part are marked."""
 
+import interpreter  # first: finds a Python that has the other packages
+
 import calendar
 import datetime
 

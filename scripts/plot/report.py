@@ -1,18 +1,24 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The sunload authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One PDF or HTML page about a study: what was computed, how sure it is, and the pictures.
+"""One PDF or HTML page about a study: the scene, what each variant changes, one table, and the pictures.
 
 STUDY is the study's folder of results, or its result files; the result named
 baseline, else the first, is what the others are compared with."""
+
+import interpreter  # first: finds a Python that has the other packages
 
 import argparse
 import base64
 import glob
 import html
 import io
+import json
 import os
+import shutil
+import subprocess
 import sys
+import tempfile
 import textwrap
 from types import SimpleNamespace
 
@@ -31,6 +37,7 @@ from reading import InputError, Result
 
 # Carpets and months of a few days say nothing that the series does not.
 LEAST_DAYS_OF_CARPET, LEAST_MONTHS = 5, 2
+HTML_DPI = 130
 
 
 def results_of(names):
@@ -49,23 +56,17 @@ def results_of(names):
 
 
 def facts(result):
-    """Rows (what, value) of the first page."""
+    """Rows (what, value) about one result."""
     load, area = result.numbers("light_load"), result.numbers("patch_area")
     units = result.units("light_load")
-    rows = [("variant", result.attribute("variant")), ("period", result.period()),
+    rows = [("period", result.period()),
             ("intervals", f"{len(result.bounds())}, sun above the horizon in "
                           f"{int((result.numbers('sun_elevation') > 0).sum())}"),
             ("site", f"latitude {result.attribute('latitude_deg', np.nan):.4f}°, longitude "
                      f"{result.attribute('longitude_deg', np.nan):.4f}°; scene +y points to "
                      f"{sun_path.scene_north_deg(result) % 360:.1f}° from north"),
             ("patches", f"{len(area)}, {area.sum():.0f} m²"),
-            ("light load", f"mean {np.average(load, weights=area):.4g}, least {load.min():.4g}, "
-                           f"largest {load.max():.4g} {units}")]
-    if result.has("light_load_realization"):
-        means = np.array([np.average(row[...], weights=area) for row in result.file["light_load_realization"]])
-        if len(means) > 1:
-            rows.append(("standard error of the mean", f"{means.std(ddof=1) / np.sqrt(len(means)):.2g} {units} "
-                                                       f"from {len(means)} realizations"))
+            ("least … largest load of a patch", f"{load.min():.4g} … {load.max():.4g} {units}")]
     if result.has("power_residual"):
         residual = result.file["power_residual"].attrs
         if "time_sum_kwh" in residual:
@@ -76,8 +77,92 @@ def facts(result):
     return rows + [("made by", result.attribute("source")), ("content hash", result.attribute("study_sha256")[:16])]
 
 
-def pictures(results):
+def load_rows(results, program):
+    """Mean light load of the whole and of every kind of surface, with standard errors; of variants the
+    change of what they have in common with the base, in percent."""
+    units = results[0].units("light_load")
+    changes = [program.changes(results[0].path, result.path) for result in results[1:]]
+    for by in ("whole", "surface"):
+        of_results = [compare_bars.Groups(result, by) for result in results]
+        for name in of_results[0].place:
+            cells = []
+            for one, change in zip(of_results, [{}, *changes]):
+                if name not in one.place:
+                    cells.append("none")
+                    continue
+                k, count = one.place[name], len(one.realizations)
+                error = f" ± {one.realizations[:, k].std(ddof=1) / np.sqrt(count):.2g}" if count > 1 else ""
+                percent = change.get((by, name))
+                cells.append(f"{one.load[k]:.4g}{error} {units}"
+                             + (f" ({percent:+.2f} % where both are)" if percent is not None else ""))
+            yield f"mean load, {'all surfaces' if by == 'whole' else name}", cells
+
+
+def table(results, program):
+    """The one table: rows (what, a value of each result)."""
+    yield "variant", [result.attribute("variant") for result in results]
+    yield from load_rows(results, program)
+    of_each = [dict(facts(result)) for result in results]
+    for what in dict.fromkeys(key for rows in of_each for key in rows):
+        yield what, [str(rows.get(what, "")) for rows in of_each]
+
+
+class Program:
+    """sunload, which draws the scene; none where it is not found, which is told."""
+
+    def __init__(self, named):
+        built = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../build/io/sunload")
+        self.path = named or os.environ.get("SUNLOAD") or (built if os.access(built, os.X_OK) else shutil.which("sunload"))
+        if not self.path:
+            print("no pictures of the scene: the program sunload is neither in build/io nor on PATH; name it with --sunload",
+                  file=sys.stderr)
+
+    def run(self, *words):
+        try:
+            ran = subprocess.run([self.path, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
+        except OSError as error:
+            raise InputError(f"{self.path}: {error.strerror}; name the program sunload with --sunload") from error
+        if ran.returncode != 0:
+            raise InputError(ran.stderr.strip() or f"{self.path} {words[0]} ended with {ran.returncode}")
+        return ran.stdout
+
+    def changes(self, base, variant):
+        """Of (kind, name) of groups the change over the area that both have [%]; empty without the program."""
+        if not self.path:
+            return {}
+        rows = json.loads(self.run("compare", base, variant, "--json"))["rows"]
+        return {(row["group"], row["name"]): row["difference_percent"] for row in rows
+                if row["difference_percent"] is not None}
+
+    def picture(self, path, folder):
+        """A result or a comparison as a figure, pixel by pixel."""
+        image = os.path.join(folder, "scene.png")
+        self.run("render", path, "-o", image, "--size", "1400x880")
+        pixels = plt.imread(image)
+        figure = plt.figure(figsize=(pixels.shape[1] / HTML_DPI, pixels.shape[0] / HTML_DPI), constrained_layout=False)
+        axes = figure.add_axes([0, 0, 1, 1])
+        axes.imshow(pixels, interpolation="none")
+        axes.set_axis_off()
+        return figure
+
+
+def scene_pictures(results, program):
+    """The scene with the light load of the base, and what each variant changes."""
+    if not program.path:
+        return
+    base, *variants = results
+    with tempfile.TemporaryDirectory(prefix="sunload-report-") as folder:
+        yield f"{base.attribute('variant')}: the scene", program.picture(base.path, folder)
+        for variant in variants:
+            difference = os.path.join(folder, "difference.h5")
+            program.run("compare", base.path, variant.path, "--hdf5", difference)
+            yield (f"{variant.attribute('variant')} minus {base.attribute('variant')}: the difference",
+                   program.picture(difference, folder))
+
+
+def pictures(results, program):
     """(title, figure) one after the other, so that one figure is open at a time."""
+    yield from scene_pictures(results, program)
     if len(results) > 1 and all(result.has("facade_name") for result in results):
         yield "Variants", compare_bars.draw(results, SimpleNamespace(by="facade", group=[]))[0]
     # All variants show the same facades on the same scales.
@@ -100,46 +185,64 @@ def pictures(results):
             yield f"{name}: hours in the sun", sun_path.draw(result, chosen)[0]
 
 
-def write_html(results, file):
+def table_html(results, program):
+    """Values that all results share stand once."""
+    text = "<table>"
+    for what, values in table(results, program):
+        cells = values[:1] if len(set(values)) == 1 else values
+        span = f' colspan="{len(values)}"' if len(cells) < len(values) else ""
+        text += f"<tr><td>{html.escape(what)}</td>" + "".join(f"<td{span}>{html.escape(value)}</td>" for value in cells) + "</tr>"
+    return text + "</table>\n"
+
+
+def write_html(results, program, file):
     title = html.escape(f"sunload: {results[0].attribute('study')}")
     file.write(f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>'
                "body{font:15px/1.45 sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#222}"
                "img{width:100%}td{padding:.15em 1em .15em 0;vertical-align:top}td:first-child{color:#666}"
+               "tr:first-child{font-weight:bold}"
                f"</style></head><body>\n<h1>{title}</h1>\n")
-    for result in results:
-        file.write("<table>" + "".join(f"<tr><td>{html.escape(what)}</td><td>{html.escape(value)}</td></tr>"
-                                       for what, value in facts(result)) + "</table><hr>\n")
-    for name, figure in pictures(results):
+    is_table_due = True
+    for name, figure in pictures(results, program):
+        if is_table_due and not name.endswith((": the scene", ": the difference")):
+            file.write(table_html(results, program))
+            is_table_due = False
         picture = io.BytesIO()
-        figure.savefig(picture, format="png", dpi=130)
+        figure.savefig(picture, format="png", dpi=HTML_DPI)
         plt.close(figure)
         file.write(f'<h2>{html.escape(name)}</h2><img alt="{html.escape(name)}" src="data:image/png;base64,'
                    f'{base64.b64encode(picture.getvalue()).decode()}">\n')
     file.write("</body></html>\n")
 
 
-def first_page(results):
+def table_page(results, program):
+    """The table as text; long values are wrapped."""
+    rows = [(what, values[:1] if len(set(values)) == 1 else values) for what, values in table(results, program)]
+    width = max(24, 110 // len(results))
     lines = []
-    for result in results:
-        for what, value in facts(result):
-            first, *rest = textwrap.wrap(str(value), 95) or [""]
-            lines += [f"{what:>28}   {first}"] + [" " * 31 + line for line in rest]
-        lines.append("")
+    for what, values in rows:
+        cells = [textwrap.wrap(value, width * (len(results) if len(values) == 1 else 1) - 2) or [""] for value in values]
+        for k in range(max(len(cell) for cell in cells)):
+            lines.append(f"{what if k == 0 else '':>32}   " + "".join(
+                f"{cell[k] if k < len(cell) else '':<{width}}" for cell in cells))
     figure = plt.figure(figsize=(11, 1.5 + 0.17 * len(lines)))
     figure.text(0.02, 0.98, f"sunload: {results[0].attribute('study')}", va="top", fontsize=16)
-    figure.text(0.02, 1 - 0.8 / figure.get_figheight(), "\n".join(lines), va="top", fontsize=8,
-                family="monospace")
+    figure.text(0.02, 1 - 0.8 / figure.get_figheight(), "\n".join(lines), va="top", fontsize=7, family="monospace")
     return figure
 
 
-def write_pdf(results, file):
+def write_pdf(results, program, file):
     with PdfPages(file, metadata={"Title": f"sunload: {results[0].attribute('study')}", "CreationDate": None}) as pdf:
-        front = first_page(results)
-        pdf.savefig(front)
-        plt.close(front)
-        for _, figure in pictures(results):
+        def page(figure):
             pdf.savefig(figure, dpi=150)
             plt.close(figure)
+
+        is_table_due = True
+        for name, figure in pictures(results, program):
+            if is_table_due and not name.endswith((": the scene", ": the difference")):
+                page(table_page(results, program))
+                is_table_due = False
+            page(figure)
 
 
 def main(argv):
@@ -147,21 +250,24 @@ def main(argv):
     p.add_argument("results", metavar="STUDY", nargs="+", help="folder of results, or result files (.h5)")
     p.add_argument("-o", "--output", metavar="REPORT", help="file to write: .html or .pdf (default: report.html "
                                                             "in the folder of the first result)")
+    p.add_argument("--sunload", metavar="PROGRAM", help="the program, which draws the scene (default: $SUNLOAD, that of "
+                                                        "build/io, or that on PATH)")
     arguments = p.parse_args(argv)
     results = results_of(arguments.results)
     output = arguments.output or os.path.join(os.path.dirname(results[0].path), "report.html")
     kind = os.path.splitext(output)[1].lower()
     if kind not in (".html", ".pdf"):
         raise InputError(f"{output}: a report is .html or .pdf")
+    program = Program(arguments.sunload)
     # Aside first: what fails half-way leaves no half report behind.
     aside = f"{output}.part-{os.getpid()}"
     try:
         if kind == ".html":
             with open(aside, "w", encoding="utf-8") as file:
-                write_html(results, file)
+                write_html(results, program, file)
         else:
             with open(aside, "wb") as file:
-                write_pdf(results, file)
+                write_pdf(results, program, file)
         os.replace(aside, output)
     finally:
         if os.path.exists(aside):

@@ -7,6 +7,8 @@ A facade is the area-weighted mean of its patches. Steps are the study's
 intervals; periods without intervals are cut out. Without --facade, --patch or
 --sensor the largest facades are drawn."""
 
+import interpreter  # first: finds a Python that has the other packages
+
 import matplotlib.dates as dates
 import numpy as np
 

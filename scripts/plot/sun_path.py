@@ -10,6 +10,8 @@ sun, coloured by what arrives straight from the sun, hollow where nothing does;
 the sun is behind the surface in the grey part. For a facade the colour is the
 share of its area in the sun."""
 
+import interpreter  # first: finds a Python that has the other packages
+
 import numpy as np
 
 import drawing

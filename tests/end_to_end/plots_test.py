@@ -211,7 +211,8 @@ def test_report(plots, folder):
     assert ran.returncode == 0, ran.stderr
     text = open(page, encoding="utf-8").read()
     pictures = re.findall(r'<h2>(.*?)</h2><img alt=".*?" src="data:image/png;base64,([^"]+)"', text)
-    assert [name for name, _ in pictures] == ["Variants"] + [
+    assert [name for name, _ in pictures] == [
+        "baseline: the scene", "bright minus baseline: the difference", "Variants"] + [
         f"{variant}: {what}" for variant in ("baseline", "bright")
         for what in ("facades", "time series", "months", "hours in the sun")], [name for name, _ in pictures]
     for name, data in pictures:
@@ -219,11 +220,31 @@ def test_report(plots, folder):
         with open(picture, "wb") as file:
             file.write(base64.b64decode(data))
         assert_not_blank(picture)
+    assert text.count("<table>") == 1 and text.index("the difference</h2>") < text.index("<table>") < text.index("Variants</h2>")
+    assert re.search(r"mean load, wall</td><td>[\d.]+ ± [\de.-]+ kWh/m²</td><td>[^<]+ \([+-][\d.]+ % where both are\)</td>", text), text[:3000]
     assert "http" not in text, "the page wants the network"
     page = os.path.join(folder, "report.pdf")
     assert plots.run("report", os.path.join(folder, "results/square"), "-o", page).returncode == 0
     data = open(page, "rb").read()
     assert data.startswith(b"%PDF") and len(re.findall(rb"/Type /Page\b", data)) == 1 + len(pictures)
+
+
+def test_interpreter(source, folder):
+    """Another python3 without the packages stands first on PATH."""
+    script, path = os.path.join(source, "scripts/plot/series.py"), os.path.join(folder, "results/square/baseline.h5")
+    bare = os.path.join(folder, "bare/bin")
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", os.path.dirname(bare)], check=True)
+    lines = ["import importlib.util", "assert importlib.util.find_spec('numpy') is None"]
+    assert subprocess.run([os.path.join(bare, "python3"), "-c", "\n".join(lines)]).returncode == 0
+    environment = {**os.environ, "PATH": bare + os.pathsep + os.environ["PATH"]}
+    picture = os.path.join(folder, "by_another.png")
+    ran = subprocess.run(["python3", script, path, "-o", picture], env=environment, stderr=subprocess.PIPE, text=True)
+    assert ran.returncode == 0 and os.path.exists(picture), ran.stderr
+    # None has them: every one asked is told with what it lacks.
+    ran = subprocess.run([os.path.join(bare, "python3"), script, path, "-o", picture], stderr=subprocess.PIPE, text=True,
+                         env={**environment, "SUNLOAD_PLOT_PYTHON": "taken over already"})
+    assert ran.returncode == 3 and "Traceback" not in ran.stderr, ran.stderr
+    assert f"{os.path.join(bare, 'python3')}: lacks numpy, h5py, matplotlib" in ran.stderr, ran.stderr
 
 
 def test_bands(plots, sunload, folder):
@@ -287,6 +308,8 @@ def test(sunload, source, folder):
     assert ran.returncode == 0, ran.stderr
     path, other = (os.path.join(folder, f"results/square/{name}.h5") for name in ("baseline", "bright"))
     plots = Plots(source, folder)
+    os.environ["SUNLOAD"] = sunload
+    test_interpreter(source, folder)
     with h5py.File(path, "r") as result:
         for check in (test_facade_map, test_series, test_carpet, test_months, test_sun_path):
             check(plots, path, result)

@@ -98,6 +98,20 @@ TEST(ColourMap, LightnessGrowsForEveryColourVision) {
   }
 }
 
+TEST(ColourMap, DifferencesOfOneSizeAreEquallyLight) {
+  for (const double size : {0.25, 0.5, 1.0}) {
+    const Colour less = map_colour(Palette::difference, 0.5 - size / 2),
+                 more = map_colour(Palette::difference, 0.5 + size / 2);
+    // Nothing is clipped at the gamut: lightness is as asked for, on both sides.
+    EXPECT_NEAR(lab_from_srgb(less).lightness, 94 - 59 * size, 0.05);
+    EXPECT_NEAR(lab_from_srgb(more).lightness, 94 - 59 * size, 0.05);
+    EXPECT_GT(less.blue, less.red);
+    EXPECT_GT(more.red, more.blue);
+  }
+  const Lab zero = lab_from_srgb(map_colour(Palette::difference, 0.5));
+  EXPECT_LT(std::hypot(zero.a, zero.b), 1e-3);
+}
+
 TEST(ColourMap, TicksAreRound) {
   const auto ticks = round_ticks(3, 6);
   EXPECT_EQ(ticks.step, 0.5);
