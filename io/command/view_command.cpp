@@ -70,8 +70,9 @@ int view(const ViewOptions& options) {
     return exit_code::done;
   }
   const auto scenes = scene_files(options);
-  std::vector<std::string> paths;
-  for (const auto& scene : scenes) paths.push_back(scene.path());
+  std::vector<std::string> paths(scenes.size());
+  std::transform(scenes.begin(), scenes.end(), paths.begin(),
+                 [](const SceneFile& scene) { return scene.path(); });
   view_html(paths, options.rules, options.page);
   return exit_code::done;
 }
