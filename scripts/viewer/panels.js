@@ -181,8 +181,8 @@ function showCharts(viewer, curves, units) {
 }
 
 function sayChart(viewer, kind, curves, units) {
-  const energy = units.replace("W/m²", "kWh/m²").replace("[lx]", "[klx h]");
-  const what = { day: units, hours: `${units}, mean of each hour of the day`, days: `${energy} of each day`, months: `${energy} of each month` }[kind];
+  const energy = units.includes("lx") ? "light exposure [klx h]" : "light load [kWh/m²]";
+  const what = { day: units, hours: `${units}, mean of each hour`, days: `${energy} of each day`, months: `${energy} of each month` }[kind];
   const says = [Object.assign(document.createElement("span"), { textContent: what.replaceAll("_", " ") })];
   if (curves.length > 1) curves.forEach((curve, n) => {
     says.push(" ", Object.assign(document.createElement("b"), { textContent: `${n ? "- -" : "—"} ${curve.label}`, style: `color: ${curveColours[n]}` }));

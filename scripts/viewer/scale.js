@@ -38,5 +38,5 @@ export function ticks(low, high) {
 /** Some digits, as people write them. */
 export function shown(value, digits = 4) {
   if (!Number.isFinite(value)) return "not known";
-  return Math.abs(value) >= 1e5 || (value !== 0 && Math.abs(value) < 1e-3) ? value.toExponential(digits - 1) : String(Number(value.toPrecision(digits)));
+  return Math.abs(value) >= 1e7 || (value !== 0 && Math.abs(value) < 1e-3) ? value.toExponential(digits - 1) : String(Number(value.toPrecision(digits)));
 }
