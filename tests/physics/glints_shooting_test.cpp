@@ -12,6 +12,7 @@
 #include "geo/mesh/mesh_prepare.h"
 #include "io/scene/builtin.h"
 #include "solver/base/threads.h"
+#include "solver/surface/fresnel.h"
 #include "tests/support/glints.h"
 
 namespace sunload::test {
@@ -39,6 +40,30 @@ TEST(Street, ImagesAndShootingAgree) {
     EXPECT_TRUE(same) << depth << ": " << same.text;
     EXPECT_FALSE(expect_mean(faulty, 0, rounding * 0.01)) << depth;
   }
+}
+
+// All that the window sends meets the wall, and all that the wall sends the ground.
+TEST(Street, PanesReflectWhatMirrorsSendAtItsAngle) {
+  const TwoMirrorStreet street;
+  constexpr double of_window = 0.85, index = 1.52;
+  Scene scene = street.scene(of_window, 0);
+  scene.materials.back().smooth = Panes{.refractive_index = index, .count = 1};  // the wall
+  const auto shot = solve_sun(scene, street.sun, glint_rules(By::shooting, 3), 2);
+  EXPECT_GT(shot.work[Work::mirror_shots], 0u);
+  double power = 0;
+  for (std::size_t i = 0; i < shot.area.size(); ++i)
+    if (shot.patches[i].triangle < 2)
+      power += shot.area[i] * static_cast<double>(by_mirrors(shot, i));
+  const double window_m2 =
+      (TwoMirrorStreet::y1 - TwoMirrorStreet::y0) * (TwoMirrorStreet::z1 - TwoMirrorStreet::z0);
+  const double sent = dni * street.sun.x * window_m2 * of_window;
+  const auto reflected = [&](double cosine) {
+    return sent * pane_shares({index, 0, 1}, cosine).reflected;
+  };
+  const double truth = reflected(street.sun.x);
+  EXPECT_NEAR(power, truth, float_rounding * sent);
+  // Planted fault: as if from the normal.
+  EXPECT_GT(std::abs(power - reflected(1)), 100 * float_rounding * sent);
 }
 
 /// The built-in street with its glass house, and all windows of the other houses of glass as well.

@@ -7,31 +7,29 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
+#include <vector>
 
-#include "solver/transport/light_transport.h"
+#include "solver/traced/traced_scene.h"
 #include "tests/support/scenes.h"
 
 namespace sunload::test {
 namespace {
 
-constexpr double exitance = 100, reflectance = 0.7;
-constexpr int bounces = 8;
+constexpr double reflectance = 0.7;
 
-/// A closed room that glows alike everywhere, in patches that are far smaller than its walls.
-std::unique_ptr<const TracedScene> glowing_room(double link_threshold) {
+/// A closed room of one material, in patches that are far smaller than its walls.
+std::unique_ptr<const TracedScene> closed_room(double link_threshold) {
   SceneBuilder builder;
-  builder.box({0, 0, 0}, {4, 3, 2}, builder.material({"glow", reflectance, 0, exitance}),
+  builder.box({0, 0, 0}, {4, 3, 2}, builder.material({"wall", reflectance, 0, 0}),
               SceneBuilder::Facing::inward);
   SolverRules rules = test_rules();
   rules.realizations = 2;
   rules.lines_per_patch = 128;
-  rules.bounces = bounces;
   rules.link_threshold = link_threshold;
   Watch watch;
-  return trace_scene(builder.scene(), {.max_edge_m = 1}, rules, watch);
+  return trace_scene(builder.scene(), {.max_edge_m = 0.5}, rules, watch);
 }
 
 /// Of a hundred links, how many lead to elements that have halves.
@@ -46,22 +44,29 @@ double percent_above_leaves(const TracedScene& room) {
   return 100 * above / links;
 }
 
-// E = M (1 + rho + … + rho^n) on every patch: each of its lines ends on what is as bright.
+// Where 100 W/m2 arrive everywhere, 100 (rho + … + rho^n) follow: each line ends on what is as
+// bright as all else.
 TEST(Jacobi, ElementsAboveTheLeavesSendWhatTheirHalvesSend) {
-  const double truth = exitance * (1 - std::pow(reflectance, bounces + 1)) / (1 - reflectance);
+  constexpr float first = 100;
+  constexpr int bounces = 8;
+  const double truth =
+      first * reflectance * (1 - std::pow(reflectance, bounces)) / (1 - reflectance);
+  const double within = 1e-5 * truth;  // roundings of eight sums in float
   for (const double link_threshold : {0.0, 16.0}) {
-    const auto room = glowing_room(link_threshold);
+    const auto room = closed_room(link_threshold);
     const double above = percent_above_leaves(*room);
     if (link_threshold == 0)
       EXPECT_EQ(above, 0);
     else
       EXPECT_GT(above, 50);
-    Watch watch;
-    const auto transport = transport_of(*room);
-    const BatchTally tally = sunload::solve(*transport, std::array{night}, watch).bands.front();
-    for (const double E : tally.exposure[static_cast<std::size_t>(Part::total)])
-      EXPECT_NEAR(E, truth, 1e-5 * truth);  // roundings of eight sums in float
-    for (const Ledger& ledger : tally.ledger) EXPECT_NEAR(ledger.residual(), 0, 1e-5 * ledger.in());
+    const std::size_t patches = room->hierarchy().patch_count();
+    const auto of_suns = reflect(room->hierarchy(), room->patches.lines.pooled, room->optics,
+                                 Columns(patches * block_width, first), columns(patches), bounces);
+    for (const float E : of_suns.irradiance) EXPECT_NEAR(E, truth, within);
+    const auto of_exposure =
+        reflect(room->hierarchy(), room->patches.lines.pooled, room->optics,
+                std::vector<double>(patches, first), std::vector<double>(patches, 0), bounces);
+    for (const double E : of_exposure.irradiance) EXPECT_NEAR(E, truth, within);
   }
 }
 
