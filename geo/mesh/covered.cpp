@@ -11,6 +11,7 @@
 
 #include "geo/base/check.h"
 #include "geo/mesh/box_tree.h"
+#include "geo/mesh/clip.h"
 #include "geo/mesh/constrained_delaunay.h"
 #include "geo/mesh/delaunay.h"
 #include "geo/mesh/slope.h"
@@ -31,8 +32,10 @@ constexpr std::size_t most_pairs = 500'000'000;
 struct VertexInfo {
   std::int32_t vertex = -1;  // of the mesh
 };
+/// What is said of a part of a triangle: `taken` is where another triangle is instead.
+enum class State : std::uint8_t { open, covered, taken };
 struct FaceInfo {
-  bool is_covered = false;
+  State state = State::open;
 };
 using Delaunay = ConstrainedDelaunay<VertexInfo, FaceInfo>;
 using Polygon = std::vector<Point2>;
@@ -49,21 +52,6 @@ void sort_lines(std::vector<Line2>& lines) {
   const auto key = [](const Line2& l) { return std::array{l[0].u, l[0].v, l[1].u, l[1].v}; };
   std::sort(lines.begin(), lines.end(),
             [&](const Line2& a, const Line2& b) { return key(a) < key(b); });
-}
-
-/// The part of a convex polygon on the left of a → b (Sutherland, Hodgman 1974).
-Polygon left_part(const Polygon& polygon, Point2 a, Point2 b) {
-  Polygon result;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point2 p = polygon[i], q = polygon[(i + 1) % polygon.size()];
-    const double of_p = turn(a, b, p), of_q = turn(a, b, q);
-    if (of_p >= 0) result.push_back(p);
-    if ((of_p > 0 && of_q < 0) || (of_p < 0 && of_q > 0)) {
-      const double s = of_p / (of_p - of_q);
-      result.push_back({p.u + s * (q.u - p.u), p.v + s * (q.v - p.v)});
-    }
-  }
-  return result;
 }
 
 double twice_area(const Polygon& polygon) {
@@ -94,10 +82,11 @@ int crossing(const std::array<Vec3, 3>& corners, double x, double y) {
 class Covers {
  public:
   Covers(const Mesh& mesh, const Bodies& bodies, const std::vector<std::uint8_t>& is_opaque,
-         const std::vector<std::uint8_t>& seals)
-      : mesh_(mesh), bodies_(bodies), is_opaque_(is_opaque), seals_(seals) {
+         const std::vector<std::uint8_t>& seals, const std::vector<std::uint8_t>& emits)
+      : mesh_(mesh), bodies_(bodies), is_opaque_(is_opaque), seals_(seals), emits_(emits) {
     const Box box = bounding_box(mesh.vertices);
     contact_ = std::min(contact_m, contact_ratio * norm(box.high - box.low));
+    same_place_ = same_place_m(mesh);
     find_solids();
     find_land();
     std::vector<Box> boxes;
@@ -117,19 +106,33 @@ class Covers {
 
   template <class Visit>
   void visit_near(std::size_t t, const Visit& visit) const {
-    tree_.visit_meeting(widened(box_of(t), contact_), [&](std::size_t u) {
+    tree_.visit_meeting(widened(box_of(t), std::max(contact_, same_place_)), [&](std::size_t u) {
       if (u == t) return;
-      const auto b = bodies_.triangle_body[t];
-      if (b >= 0 && b == bodies_.triangle_body[u]) return;
-      if (++pairs_ > most_pairs) throw too_many_pairs();
+      if (!are_of_one_body(t, u) && ++pairs_ > most_pairs) throw too_many_pairs();
       visit(u);
     });
+  }
+  bool are_of_one_body(std::size_t t, std::size_t u) const {
+    const auto b = bodies_.triangle_body[t];
+    return b >= 0 && b == bodies_.triangle_body[u];
+  }
+
+  /// Whether `u` is in the place of `t` where they overlap, and faces where `t` does. Of two that
+  /// are alike the first is there; before others what emits, then what faces both ways.
+  bool is_taken(std::size_t t, std::size_t u) const {
+    if (!is_opaque_[u] || !mesh_.bears_patches(u)) return false;
+    const auto rank = [&](std::size_t x) { return std::pair(emits(x), faces_both(x)); };
+    if (rank(t) == rank(u) ? u > t : rank(u) < rank(t)) return false;
+    if (faces_both(t) && !faces_both(u)) return false;
+    if (!faces_both(u) && dot(normal_[t], normal_[u]) <= 0) return false;
+    return is_near_plane(t, u, same_place_) && is_near_plane(u, t, same_place_);
   }
 
   /// Front against front, as near as the contact where they overlap.
   bool is_against(std::size_t t, std::size_t u) const {
     return is_opaque_[u] && mesh_.triangle_sides[t] == Sides::one &&
-           dot(normal_[t], normal_[u]) < 0 && (is_near_plane(t, u) || is_near_plane(u, t));
+           dot(normal_[t], normal_[u]) < 0 &&
+           (is_near_plane(t, u, contact_) || is_near_plane(u, t, contact_));
   }
   /// Whether the inside of a solid or the land ends where `u` cuts `t`.
   bool may_end_at(std::size_t t, std::size_t u) const {
@@ -169,6 +172,8 @@ class Covers {
             "what lies inside of bodies cannot be told from what does not",
             "is geometry there many times over? scene.repair: none leaves it as it is"};
   }
+  bool emits(std::size_t t) const { return !emits_.empty() && emits_[t] != 0; }
+  bool faces_both(std::size_t t) const { return mesh_.triangle_sides[t] == Sides::two; }
   bool seals(std::size_t t) const { return !seals_.empty() && seals_[t] != 0; }
   /// Land at `p` under a floor, or in the pocket that it closes.
   bool is_sealed(Vec3 p) const {
@@ -216,9 +221,9 @@ class Covers {
   double distance(std::size_t plane, Vec3 p) const {
     return dot(p - mesh_.corner(plane, 0), normal_[plane]);
   }
-  bool is_near_plane(std::size_t plane, std::size_t of) const {
+  bool is_near_plane(std::size_t plane, std::size_t of, double within) const {
     for (int k = 0; k < 3; ++k)
-      if (std::abs(distance(plane, mesh_.corner(of, k))) > contact_) return false;
+      if (std::abs(distance(plane, mesh_.corner(of, k))) > within) return false;
     return true;
   }
   bool is_cut(std::size_t plane, std::size_t of) const {
@@ -239,7 +244,8 @@ class Covers {
   const Bodies& bodies_;
   const std::vector<std::uint8_t>& is_opaque_;
   const std::vector<std::uint8_t>& seals_;
-  double contact_ = 0;
+  const std::vector<std::uint8_t>& emits_;
+  double contact_ = 0, same_place_ = 0;
   std::vector<std::uint8_t> is_solid_, is_land_;  // per body, per triangle
   std::vector<Vec3> normal_;
   BoxTree tree_;
@@ -249,7 +255,7 @@ class Covers {
 struct Part {
   std::array<std::array<double, 3>, 3> corners;  // of new ones; the old ones are told by `old`
   std::array<std::int32_t, 3> old;               // vertex of the mesh, or -1
-  bool is_covered;
+  State state;
 };
 
 /// One triangle in its own plane.
@@ -265,42 +271,57 @@ class Cutter {
     area2_ = twice_area(outline_);
   }
 
-  /// No parts: the triangle is as a whole what `is_covered` says.
+  /// No parts: the triangle is `state` as a whole.
   struct Result {
-    bool is_covered = false;
+    State state = State::open;
     std::vector<Part> parts;
+    std::optional<std::size_t> taken_by;  ///< the first of them
   };
   Result run() {
     find_lines();
-    if (lines_.empty()) return {is_covered_at(middle(outline_[0], outline_[1], outline_[2])), {}};
-    const double covered = divide(lines_);
-    if (covered <= least_share * area2_) return {false, {}};
-    if (covered >= (1 - least_share) * area2_) return {true, {}};
-    // Once more along the lines only where it begins.
-    const auto borders = borders_of_covered();
+    if (lines_.empty()) return {state_at(middle(outline_[0], outline_[1], outline_[2])), {}, {}};
+    const auto [covered, taken] = divide(lines_);
+    if (covered + taken <= least_share * area2_) return {};
+    for (const auto& [area2, state] : {std::pair{covered, State::covered}, {taken, State::taken}})
+      if (area2 >= (1 - least_share) * area2_) return {state, {}, first_taker_};
+    // Once more along the lines only where that begins.
+    const auto borders = borders_of_states();
     divide(borders);
-    return {false, parts()};
+    return {State::open, parts(), first_taker_};
   }
 
  private:
   void find_lines() {
     covers_.visit_near(t_, [&](std::size_t u) {
-      if (covers_.is_against(t_, u)) {
-        Polygon overlap;
-        for (const Vec3 p : covers_.corners(u)) overlap.push_back(plane_.seen(p));
-        if (twice_area(overlap) < 0) std::reverse(overlap.begin(), overlap.end());
-        for (std::size_t k = 0; k < 3; ++k)
-          overlap = left_part(overlap, outline_[k], outline_[(k + 1) % 3]);
-        if (twice_area(overlap) <= least_share * area2_) return;
-        for (std::size_t i = 0; i < overlap.size(); ++i)
-          lines_.push_back({overlap[i], overlap[(i + 1) % overlap.size()]});
-        against_.push_back(std::move(overlap));
+      if (covers_.is_taken(t_, u)) {
+        if (add_overlap(u, taken_)) first_taker_ = std::min(first_taker_.value_or(u), u);
+      } else if (covers_.are_of_one_body(t_, u)) {
+        return;
+      } else if (covers_.is_against(t_, u)) {
+        add_overlap(u, against_);
       } else if (covers_.may_end_at(t_, u)) {
         if (const auto line = cut_by(u)) lines_.push_back(*line);
       }
     });
     if (lines_.size() > most_lines) lines_.clear();
     sort_lines(lines_);
+  }
+
+  /// Where `u`, which goes to `list`, begins on this one; false where they have next to nothing in
+  /// common.
+  bool add_overlap(std::size_t u, std::vector<Polygon>& list) {
+    Polygon other;
+    for (const Vec3 p : covers_.corners(u)) other.push_back(plane_.seen(p));
+    if (twice_area(other) < 0) std::reverse(other.begin(), other.end());
+    Polygon overlap = other;
+    for (std::size_t k = 0; k < 3; ++k)
+      overlap =
+          clipped(overlap, [&](Point2 p) { return turn(outline_[k], outline_[(k + 1) % 3], p); });
+    if (twice_area(overlap) <= least_share * area2_) return false;
+    for (std::size_t i = 0; i < overlap.size(); ++i)
+      lines_.push_back({overlap[i], overlap[(i + 1) % overlap.size()]});
+    list.push_back(std::move(other));
+    return true;
   }
 
   /// Where the triangle `u` goes through this one.
@@ -336,46 +357,79 @@ class Cutter {
     return {(a.u + b.u + c.u) / 3, (a.v + b.v + c.v) / 3};
   }
 
-  bool is_covered_at(Point2 p) const {
-    for (const Polygon& overlap : against_) {
-      bool is_inside = true;
-      for (std::size_t i = 0; i < overlap.size() && is_inside; ++i)
-        is_inside = turn(overlap[i], overlap[(i + 1) % overlap.size()], p) >= 0;
-      if (is_inside) return true;
-    }
-    return covers_.is_buried(t_, plane_.lifted(p));
+  // Not in their overlaps with this one: of corners that are one but for rounding the edge between
+  // them may point anywhere.
+  static bool is_in_any(const std::vector<Polygon>& triangles, Point2 p) {
+    return std::any_of(triangles.begin(), triangles.end(), [&](const Polygon& of) {
+      return turn(of[0], of[1], p) >= 0 && turn(of[1], of[2], p) >= 0 && turn(of[2], of[0], p) >= 0;
+    });
   }
 
-  /// Doubled area of what is covered.
-  double divide(const std::vector<Line2>& lines) {
+  State state_at(Point2 p) const {
+    if (is_in_any(taken_, p)) return State::taken;
+    const bool is_covered = is_in_any(against_, p) || covers_.is_buried(t_, plane_.lifted(p));
+    return is_covered ? State::covered : State::open;
+  }
+
+  /// Doubled.
+  struct Areas2 {
+    double covered = 0, taken = 0;
+  };
+  Areas2 divide(const std::vector<Line2>& lines) {
     delaunay_.clear();
-    std::array<Delaunay::Vertex_handle, 3> corner;
+    nodes_.clear();
     for (std::size_t k = 0; k < 3; ++k) {
-      corner[k] = delaunay_.insert({outline_[k].u, outline_[k].v});
-      corner[k]->info().vertex = mesh_.triangles[t_][is_reversed_ ? 2 - k : k];
+      nodes_.push_back({outline_[k], delaunay_.insert({outline_[k].u, outline_[k].v})});
+      nodes_[k].handle->info().vertex = mesh_.triangles[t_][is_reversed_ ? 2 - k : k];
     }
-    for (std::size_t k = 0; k < 3; ++k) delaunay_.insert_constraint(corner[k], corner[(k + 1) % 3]);
+    std::vector<std::array<std::size_t, 2>> ends;
+    for (std::size_t k = 0; k < 3; ++k) ends.push_back({k, (k + 1) % 3});
     for (const Line2& line : lines) {
-      const auto a = end_of(line[0], corner), b = end_of(line[1], corner);
-      if (a != b) delaunay_.insert_constraint(a, b);
+      const std::size_t a = node_at(line[0]), b = node_at(line[1]);
+      if (a != b) ends.push_back({a, b});
+    }
+    for (const auto& [a, b] : ends) {
+      constrain(a, b);
       if (delaunay_.number_of_vertices() > most_crossings) break;
     }
-    double covered = 0;
+    Areas2 sum;
     for (const auto face : delaunay_.finite_face_handles()) {
       const Polygon p = corners_of(face);
       const Point2 inside = middle(p[0], p[1], p[2]);
-      face->info().is_covered = is_in_outline(inside) && is_covered_at(inside);
-      if (face->info().is_covered) covered += twice_area(p);
+      const State state = is_in_outline(inside) ? state_at(inside) : State::open;
+      face->info().state = state;
+      if (state == State::covered) sum.covered += twice_area(p);
+      if (state == State::taken) sum.taken += twice_area(p);
     }
-    return covered;
+    return sum;
   }
 
-  /// An end as near to a corner of the triangle as rounding is the corner.
-  Delaunay::Vertex_handle end_of(Point2 p, const std::array<Delaunay::Vertex_handle, 3>& corner) {
-    const double near = covers_.contact() / rounds_per_contact;
-    for (std::size_t k = 0; k < 3; ++k)
-      if (std::hypot(p.u - outline_[k].u, p.v - outline_[k].v) <= near) return corner[k];
-    return delaunay_.insert({p.u, p.v});
+  // Ends as near to each other, and to lines, as rounding are one, and on them: where a line ends
+  // just beyond another, CGAL bends it to whatever is near.
+  double rounding() const { return covers_.contact() / rounds_per_contact; }
+
+  std::size_t node_at(Point2 p) {
+    for (std::size_t n = 0; n < nodes_.size(); ++n)
+      if (std::hypot(p.u - nodes_[n].at.u, p.v - nodes_[n].at.v) <= rounding()) return n;
+    nodes_.push_back({p, delaunay_.insert({p.u, p.v})});
+    return nodes_.size() - 1;
+  }
+
+  /// The line from a to b, by all nodes on it.
+  void constrain(std::size_t a, std::size_t b) {
+    const Point2 from = nodes_[a].at, to = nodes_[b].at;
+    const double length = std::hypot(to.u - from.u, to.v - from.v);
+    std::vector<std::pair<double, std::size_t>> on{{0, a}, {length, b}};
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+      const Point2 p = nodes_[n].at;
+      const double along =
+          ((p.u - from.u) * (to.u - from.u) + (p.v - from.v) * (to.v - from.v)) / length;
+      if (n == a || n == b || along <= 0 || along >= length) continue;
+      if (std::abs(turn(from, to, p)) <= rounding() * length) on.emplace_back(along, n);
+    }
+    std::sort(on.begin(), on.end());
+    for (std::size_t i = 1; i < on.size(); ++i)
+      delaunay_.insert_constraint(nodes_[on[i - 1].second].handle, nodes_[on[i].second].handle);
   }
 
   Polygon corners_of(Delaunay::Face_handle face) const {
@@ -391,12 +445,12 @@ class Cutter {
     return true;
   }
 
-  std::vector<Line2> borders_of_covered() const {
+  std::vector<Line2> borders_of_states() const {
     std::vector<Line2> borders;
     for (const auto& [face, k] : delaunay_.finite_edges()) {
       const auto other = face->neighbor(k);
       if (delaunay_.is_infinite(face) || delaunay_.is_infinite(other)) continue;
-      if (face->info().is_covered == other->info().is_covered) continue;
+      if (face->info().state == other->info().state) continue;
       const auto& a = face->vertex(Delaunay::cw(k))->point();
       const auto& b = face->vertex(Delaunay::ccw(k))->point();
       Line2 border{Point2{a.x(), a.y()}, Point2{b.x(), b.y()}};
@@ -413,7 +467,7 @@ class Cutter {
     for (const auto face : delaunay_.finite_face_handles()) {
       const Polygon p = corners_of(face);
       if (!is_in_outline(middle(p[0], p[1], p[2]))) continue;
-      Part part{{}, {-1, -1, -1}, face->info().is_covered};
+      Part part{{}, {-1, -1, -1}, face->info().state};
       double longest2 = 0;
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t to = is_reversed_ ? 2 - k : k;
@@ -440,8 +494,14 @@ class Cutter {
   bool is_reversed_ = false;
   double area2_ = 0;
   std::vector<Line2> lines_;
-  std::vector<Polygon> against_;
+  std::vector<Polygon> against_, taken_;  // triangles
+  std::optional<std::size_t> first_taker_;
+  struct Node {
+    Point2 at;
+    Delaunay::Vertex_handle handle;
+  };
   Delaunay delaunay_;  // of the last division
+  std::vector<Node> nodes_;
 };
 
 /// Corners of parts, one vertex where they are one.
@@ -467,18 +527,24 @@ class NewVertices {
 class Divided {
  public:
   Divided(Mesh& mesh, Bodies& bodies, double grid_m)
-      : mesh_(mesh), bodies_(bodies), vertices_(mesh.vertices, grid_m) {}
+      : mesh_(mesh),
+        bodies_(bodies),
+        vertices_(mesh.vertices, grid_m),
+        is_facade_less_(mesh.facades.size(), 0) {}
 
-  void keep(std::size_t t, bool is_covered) { add(t, mesh_.triangles[t], is_covered); }
+  void keep(std::size_t t, State state) { add(t, mesh_.triangles[t], state); }
   void divide(std::size_t t, const std::vector<Part>& parts) {
     for (const Part& part : parts) {
       std::array<std::int32_t, 3> corners{};
       for (std::size_t k = 0; k < 3; ++k)
         corners[k] = part.old[k] >= 0 ? part.old[k] : vertices_.of(part.corners[k]);
       if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
-        add(t, corners, part.is_covered);
+        add(t, corners, part.state);
     }
     ++cut_;
+  }
+  void note_taker(std::size_t t, std::size_t by) {
+    if (taken_.area_m2 == 0) taken_.first = {by, t};
   }
 
   CoveredCut finish() {
@@ -498,44 +564,55 @@ class Divided {
     taken(mesh_.triangle_sides);
     taken(bodies_.triangle_body);
     mesh_.triangle_covered = covered > 0 ? std::move(is_covered_) : std::vector<std::uint8_t>{};
-    return {std::move(source_), cut_, covered};
+    take_from_facades();
+    return {std::move(source_), cut_, covered, taken_};
   }
 
  private:
-  void add(std::size_t t, const std::array<std::int32_t, 3>& corners, bool is_covered) {
+  void add(std::size_t t, const std::array<std::int32_t, 3>& corners, State state) {
+    const FacadeId facade = mesh_.triangle_facade[t];
+    if (state != State::open && facade.exists()) is_facade_less_[facade.index()] = 1;
+    if (state == State::taken) {
+      const auto at = [&](std::size_t k) {
+        return mesh_.vertices[static_cast<std::size_t>(corners[k])];
+      };
+      taken_.area_m2 += norm(cross(at(1) - at(0), at(2) - at(0))) / 2;
+      return;
+    }
     triangles_.push_back(corners);
     source_.push_back(t);
-    is_covered_.push_back(is_covered);
+    is_covered_.push_back(state == State::covered);
+  }
+
+  void take_from_facades() {
+    std::vector<double> left(mesh_.facades.size(), 0);
+    for (std::size_t t = 0; t < mesh_.triangle_count(); ++t)
+      if (mesh_.triangle_facade[t].exists() && !mesh_.is_covered(t))
+        left[mesh_.triangle_facade[t].index()] += norm(mesh_.area_vector2(t)) / 2;
+    std::vector<FacadeId> new_id(mesh_.facades.size(), FacadeId::none());
+    std::size_t kept = 0;
+    for (std::size_t f = 0; f < mesh_.facades.size(); ++f) {
+      if (left[f] == 0) continue;
+      if (is_facade_less_[f]) mesh_.facades[f].area_m2 = left[f];
+      new_id[f] = make_id<FacadeId>(kept);
+      if (kept != f) mesh_.facades[kept] = std::move(mesh_.facades[f]);
+      ++kept;
+    }
+    mesh_.facades.resize(kept);
+    for (FacadeId& id : mesh_.triangle_facade)
+      if (id.exists()) id = new_id[id.index()];
   }
 
   Mesh& mesh_;
   Bodies& bodies_;
   NewVertices vertices_;
+  std::vector<std::uint8_t> is_facade_less_;
   std::vector<std::array<std::int32_t, 3>> triangles_;
   std::vector<std::size_t> source_;
   std::vector<std::uint8_t> is_covered_;
   std::size_t cut_ = 0;
+  Doubled taken_;
 };
-
-void take_from_facades(Mesh& mesh) {
-  std::vector<double> left(mesh.facades.size(), 0), covered(mesh.facades.size(), 0);
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-    if (mesh.triangle_facade[t].exists())
-      (mesh.is_covered(t) ? covered : left)[mesh.triangle_facade[t].index()] +=
-          norm(mesh.area_vector2(t)) / 2;
-  std::vector<FacadeId> new_id(mesh.facades.size(), FacadeId::none());
-  std::size_t kept = 0;
-  for (std::size_t f = 0; f < mesh.facades.size(); ++f) {
-    if (left[f] == 0) continue;
-    if (covered[f] > 0) mesh.facades[f].area_m2 = left[f];
-    new_id[f] = make_id<FacadeId>(kept);
-    if (kept != f) mesh.facades[kept] = std::move(mesh.facades[f]);
-    ++kept;
-  }
-  mesh.facades.resize(kept);
-  for (FacadeId& id : mesh.triangle_facade)
-    if (id.exists()) id = new_id[id.index()];
-}
 
 /// Of a triangle that CGAL cannot divide nothing is covered.
 Cutter::Result covered_parts(const Mesh& mesh, const Covers& covers, std::size_t t) {
@@ -549,13 +626,15 @@ Cutter::Result covered_parts(const Mesh& mesh, const Covers& covers, std::size_t
 }  // namespace
 
 CoveredCut cut_covered(Mesh& mesh, Bodies& bodies, const std::vector<std::uint8_t>& is_opaque,
-                       const std::vector<std::uint8_t>& seals) {
-  const Covers covers(mesh, bodies, is_opaque, seals);
+                       const std::vector<std::uint8_t>& seals,
+                       const std::vector<std::uint8_t>& emits) {
+  const Covers covers(mesh, bodies, is_opaque, seals, emits);
   std::vector<std::pair<std::size_t, Cutter::Result>> found;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     if (!mesh.bears_patches(t) || !slope_of(mesh, t)) continue;
     auto result = covered_parts(mesh, covers, t);
-    if (result.is_covered || !result.parts.empty()) found.emplace_back(t, std::move(result));
+    if (result.state != State::open || !result.parts.empty())
+      found.emplace_back(t, std::move(result));
   }
   CoveredCut nothing;
   nothing.source.resize(mesh.triangle_count());
@@ -565,18 +644,17 @@ CoveredCut cut_covered(Mesh& mesh, Bodies& bodies, const std::vector<std::uint8_
   auto next = found.begin();
   for (std::size_t t = 0; t < nothing.source.size(); ++t) {
     if (next == found.end() || next->first != t) {
-      divided.keep(t, mesh.is_covered(t));
+      divided.keep(t, mesh.is_covered(t) ? State::covered : State::open);
       continue;
     }
+    if (next->second.taken_by) divided.note_taker(t, *next->second.taken_by);
     if (next->second.parts.empty())
-      divided.keep(t, true);
+      divided.keep(t, next->second.state);
     else
       divided.divide(t, next->second.parts);
     ++next;
   }
-  CoveredCut cut = divided.finish();
-  take_from_facades(mesh);
-  return cut;
+  return divided.finish();
 }
 
 }  // namespace sunload

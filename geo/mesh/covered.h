@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What no light can reach: inside of bodies, against other surfaces, below the land.
+/// What no light can reach: inside of bodies, against other surfaces, below the land; and what is
+/// there twice.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +10,7 @@
 
 #include "geo/mesh/mesh.h"
 #include "geo/mesh/orient.h"
+#include "geo/mesh/overlap.h"
 
 namespace sunload {
 
@@ -19,6 +21,7 @@ struct CoveredCut {
   std::vector<std::size_t> source;  ///< per triangle that there is now: what it is (a part) of
   std::size_t cut = 0;              ///< triangles that were divided
   std::size_t covered = 0;          ///< triangles that are covered now, parts and whole ones
+  Doubled taken;                    ///< what is left out, and its first two triangles as they were
 };
 
 /// Marks covered triangles in `mesh.triangle_covered`; those that are covered in part are divided
@@ -29,9 +32,16 @@ struct CoveredCut {
 /// below land (open surfaces of kind ground but roads and railways, which may be bridges). Surfaces
 /// for which `is_opaque` is 0 cover nothing, nor do bodies that have some. Two-sided surfaces are
 /// covered inside of bodies and below land only. Land is covered below floors that are closed
-/// at their rim: `seals` are these floors and the walls at their rim (geo/mesh/ground). Where
-/// nothing is covered, nothing changes. Throws InputError where too many triangles overlap.
+/// at their rim: `seals` are these floors and the walls at their rim (geo/mesh/ground).
+///
+/// Left out is what lies in the place of another opaque surface and faces where that does: the
+/// first of them stays, but before others what `emits` (empty: nothing), then two-sided surfaces.
+/// No ray could tell which of the two it meets.
+///
+/// Where nothing is covered or left out, nothing changes. Throws InputError where too many
+/// triangles overlap.
 CoveredCut cut_covered(Mesh& mesh, Bodies& bodies, const std::vector<std::uint8_t>& is_opaque,
-                       const std::vector<std::uint8_t>& seals = {});
+                       const std::vector<std::uint8_t>& seals = {},
+                       const std::vector<std::uint8_t>& emits = {});
 
 }  // namespace sunload

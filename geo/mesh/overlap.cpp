@@ -4,26 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "geo/mesh/box_tree.h"
+#include "geo/mesh/clip.h"
 
 namespace sunload {
 
 double overlap_m2(const std::array<Vec3, 3>& a, Vec3 normal, const std::array<Vec3, 3>& b) {
   std::vector<Vec3> polygon(b.begin(), b.end());
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 from = a[k];
-    const Vec3 inward = cross(normal, a[(k + 1) % 3] - from);
-    std::vector<Vec3> kept;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Vec3 p = polygon[i], q = polygon[(i + 1) % polygon.size()];
-      const double of_p = dot(inward, p - from), of_q = dot(inward, q - from);
-      if (of_p >= 0) kept.push_back(p);
-      if ((of_p < 0) != (of_q < 0)) kept.push_back(p + (q - p) * (of_p / (of_p - of_q)));
-    }
-    polygon = std::move(kept);
+    const Vec3 inward = cross(normal, a[(k + 1) % 3] - a[k]);
+    polygon = clipped(polygon, [&](Vec3 p) { return dot(inward, p - a[k]); });
   }
   Vec3 twice{0, 0, 0};
   for (std::size_t i = 2; i < polygon.size(); ++i)
@@ -33,8 +25,6 @@ double overlap_m2(const std::array<Vec3, 3>& a, Vec3 normal, const std::array<Ve
 
 namespace {
 
-/// Of the scene's diagonal: eight roundings to float.
-constexpr double same_place = 1e-6;
 /// Of the smaller triangle: less is an edge in common.
 constexpr double least_share = 1e-6;
 
@@ -61,9 +51,14 @@ bool lies_in(const Facing& a, const Facing& b, double within_m) {
 
 }  // namespace
 
-Doubled find_doubled(const Mesh& mesh) {
+double same_place_m(const Mesh& mesh) {
+  constexpr double ratio = 1e-6;  // eight roundings to float
   const Box all = bounding_box(mesh.vertices);
-  const double within_m = same_place * norm(all.high - all.low);
+  return ratio * norm(all.high - all.low);
+}
+
+Doubled find_doubled(const Mesh& mesh) {
+  const double within_m = same_place_m(mesh);
   std::vector<std::size_t> triangle;
   std::vector<Facing> facings;
   std::vector<Box> boxes;

@@ -10,17 +10,19 @@
 
 namespace sunload {
 
-/// Area [m2] of what two triangles of one plane have in common: b is cut by the edges of a
-/// (Sutherland and Hodgman 1974, Reentrant polygon clipping). `normal`: unit, of a.
+/// Area [m2] of what two triangles of one plane have in common: b is cut by the edges of a.
+/// `normal`: unit, of a.
 double overlap_m2(const std::array<Vec3, 3>& a, Vec3 normal, const std::array<Vec3, 3>& b);
 
 /// Triangles with patches that lie in the place of others and face the same way: each of the two
 /// receives the light of one, and sends it on.
 struct Doubled {
   double area_m2 = 0;
-  std::array<std::size_t, 2> first{};  ///< triangles, where there is any area
+  std::array<std::size_t, 2> first{};  ///< a triangle, and one that lies in it; where there is any
 };
-/// What lies nearer than the ray caster's single precision can tell.
+/// Surfaces that are nearer [m] than this are in one place: the ray caster's single precision does
+/// not tell them apart.
+double same_place_m(const Mesh& mesh);
 Doubled find_doubled(const Mesh& mesh);
 
 }  // namespace sunload

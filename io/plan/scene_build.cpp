@@ -205,22 +205,36 @@ BuiltScene scene_before_materials(const Study& study) {
 
 namespace {
 
-/// A plate under the made ground, a house that two files have.
-void warn_of_doubled(BuiltScene& built) {
+/// Of a triangle, in `covers`.
+constexpr std::uint8_t opaque = 1, two_sided = 2, emitting = 4;
+
+/// What follows from surfaces that lie in others, in words.
+struct Consequence {
+  const char *of, *why, *what_to_try;
+};
+constexpr Consequence are_left_out{
+    "that lie in other surfaces and face the same way are left out",
+    "a place receives light once; what emits keeps its name and material, or what comes first",
+    "leave one of the two out of the files; a plate of the model's own goes with scene.ground: "
+    "{surface: none}"};
+constexpr Consequence receive_twice{
+    "lie in other surfaces that face the same way",
+    "both receive the light of one, and what they send on counts twice",
+    "leave one of the two out of the files, or to scene.repair: safe"};
+
+/// A plate under the made ground, a house that two files have. `mesh`: what the triangles are of.
+void warn_of_doubled(const Doubled& doubled, const Mesh& mesh, const Consequence& consequence,
+                     BuiltScene& built) {
   constexpr double worth_telling_m2 = 1e-3;
-  const Mesh& mesh = built.scene.mesh;
-  const Doubled doubled = find_doubled(mesh);
   if (doubled.area_m2 < worth_telling_m2) return;
   const auto name = [&](std::size_t t) {
     return mesh.object_names[mesh.triangle_object[t].index()];
   };
   built.warnings.push_back(
       message({},
-              fmt::format("{:.4g} m2 lie in other surfaces that face the same way (first {} in {})",
-                          doubled.area_m2, name(doubled.first[1]), name(doubled.first[0])),
-              "both receive the light of one, and what they send on counts twice",
-              "leave one of the two out; a plate of the model's own goes with scene.ground: "
-              "{surface: none}"));
+              fmt::format("{:.4g} m2 {} (first {} in {})", doubled.area_m2, consequence.of,
+                          name(doubled.first[1]), name(doubled.first[0])),
+              consequence.why, consequence.what_to_try));
 }
 
 }  // namespace
@@ -228,7 +242,6 @@ void warn_of_doubled(BuiltScene& built) {
 // Materials are assigned anew afterwards, since a file's power is shared by what is left of its
 // lamps. Light that panes transmit leaves the scene: they cover as walls do.
 std::vector<std::uint8_t> covers_of(const Study& study, const BuiltScene& prepared) {
-  constexpr std::uint8_t opaque = 1, two_sided = 2;
   if (study.scene.repair == Repair::none) return {};
   Scene scene;
   scene.mesh = prepared.scene.mesh;
@@ -237,10 +250,11 @@ std::vector<std::uint8_t> covers_of(const Study& study, const BuiltScene& prepar
   std::vector<std::uint8_t> covers;
   covers.reserve(scene.material.size());
   for (std::size_t t = 0; t < scene.material.size(); ++t) {
-    const bool is_opaque = scene.materials[scene.material[t].index()].transmittance == 0;
+    const Material& material = scene.materials[scene.material[t].index()];
     const bool is_two_sided = scene.mesh.triangle_sides[t] == Sides::two;
-    covers.push_back(
-        static_cast<std::uint8_t>((is_opaque ? opaque : 0) | (is_two_sided ? two_sided : 0)));
+    covers.push_back(static_cast<std::uint8_t>((material.transmittance == 0 ? opaque : 0) |
+                                               (is_two_sided ? two_sided : 0) |
+                                               (material.emission_w_m2 > 0 ? emitting : 0)));
   }
   return covers;
 }
@@ -251,17 +265,19 @@ BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
   if (study.scene.repair != Repair::none) {
     Mesh& mesh = built.scene.mesh;
     const auto sides_of_files = mesh.triangle_sides;
-    std::vector<std::uint8_t> is_opaque(covers.size());
+    std::vector<std::uint8_t> is_opaque(covers.size()), emits(covers.size());
     for (std::size_t t = 0; t < covers.size(); ++t) {
-      is_opaque[t] = covers[t] & 1;
-      mesh.triangle_sides[t] = (covers[t] & 2) != 0 ? Sides::two : Sides::one;
+      is_opaque[t] = (covers[t] & opaque) != 0;
+      emits[t] = (covers[t] & emitting) != 0;
+      mesh.triangle_sides[t] = (covers[t] & two_sided) != 0 ? Sides::two : Sides::one;
     }
-    const CoveredCut cut = cut_covered(mesh, built.bodies, is_opaque, built.seals);
+    const CoveredCut cut = cut_covered(mesh, built.bodies, is_opaque, built.seals, emits);
     for (std::size_t t = 0; t < cut.source.size(); ++t)
       mesh.triangle_sides[t] = sides_of_files[cut.source[t]];
-    if (cut.covered > 0) measure(mesh, built.report);
+    if (cut.covered > 0 || cut.taken.area_m2 > 0) measure(mesh, built.report);
+    warn_of_doubled(cut.taken, prepared.scene.mesh, are_left_out, built);
   }
-  warn_of_doubled(built);
+  warn_of_doubled(find_doubled(built.scene.mesh), built.scene.mesh, receive_twice, built);
   built.bodies = {};
   built.seals.clear();
   return built;

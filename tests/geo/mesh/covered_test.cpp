@@ -10,6 +10,7 @@
 #include <map>
 #include <random>
 
+#include "geo/mesh/slope.h"
 #include "tests/geo/mesh/mesh_prepare_models.h"
 
 namespace sunload::test {
@@ -39,7 +40,7 @@ Cut cut(const ModelBuilder& builder, PrepareRules rules = {},
     is_opaque.push_back(mesh.object_names[object.index()] != transparent_object);
   const double before = area(mesh);
   result.cut = cut_covered(mesh, result.p.bodies, is_opaque);
-  EXPECT_NEAR(area(mesh), before, rounding);  // nothing is lost
+  EXPECT_NEAR(area(mesh) + result.cut.taken.area_m2, before, rounding);  // nothing is lost
   EXPECT_EQ(result.cut.source.size(), mesh.triangle_count());
   EXPECT_EQ(result.p.bodies.triangle_body.size(), mesh.triangle_count());
   measure(mesh, result.p.report);
@@ -186,6 +187,117 @@ TEST(Covered, RandomBoxesAgreeWithPointsTried) {
   }
   // Points within the millimetre that they are set off by may be on the other side.
   EXPECT_LT(static_cast<double>(wrong), 0.005 * static_cast<double>(tried));
+}
+
+/// Of the open triangles that face along `normal`.
+double open_area(const Cut& c, Vec3 normal) {
+  double sum = 0;
+  for (std::size_t t = 0; t < c.p.mesh.triangle_count(); ++t)
+    if (c.p.mesh.bears_patches(t) && dot(c.p.mesh.normal(t), normal) > 0.999)
+      sum += norm(c.p.mesh.area_vector2(t)) / 2;
+  return sum;
+}
+
+TEST(Covered, WallsOfTwoBodiesInOnePlaceAreThereOnce) {
+  auto builder = ModelBuilder().object("a").box({0, 0, 0}, {10, 10, 6});
+  builder.object("b").box({4, 0, 0}, {14, 8, 6});
+  builder.moved(turned);
+  const auto c = cut(builder);
+  // Of y = 0 a has 10 × 6, b the same, and 6 × 6 are of both; of roofs and undersides 100, 80
+  // and 48.
+  EXPECT_NEAR(c.cut.taken.area_m2, 36 + 48 + 48, rounding);
+  EXPECT_NEAR(open_area(c, turned({0, -1, 0}) - turned({0, 0, 0})), 84, rounding);
+  EXPECT_NEAR(open_area(c, {0, 0, 1}), 132, rounding);
+  for (const auto& f : c.p.mesh.facades) {
+    if (f.name.rfind("a/", 0) == 0) continue;
+    EXPECT_TRUE(std::abs(f.area_m2 - 24) < rounding || std::abs(f.area_m2 - 48) < rounding ||
+                std::abs(f.area_m2 - 36) < rounding)
+        << f.name << " " << f.area_m2;  // south, east, north: 10 × 6 less the 6 × 6 inside of a
+  }
+  EXPECT_EQ(find_doubled(c.p.mesh).area_m2, 0);
+}
+
+Cut plates(double z, bool up, Sides sides_of_second, const std::string& transparent = "") {
+  auto builder = ModelBuilder().object("first").with(Surface::other);
+  builder.ring({{0, 0, 3}, {10, 0, 3}, {10, 10, 3}, {0, 10, 3}});
+  builder.object("second").with(Surface::other, sides_of_second);
+  std::vector<Vec3> ring{{2, 2, 3 + z}, {5, 2, 3 + z}, {5, 6, 3 + z}, {2, 6, 3 + z}};
+  if (!up) std::reverse(ring.begin(), ring.end());
+  builder.ring(ring);
+  return cut(builder, {.repair = Repair::safe, .ground = {}}, transparent);
+}
+
+double area_of(const Cut& c, const std::string& object) {
+  double sum = 0;
+  for (std::size_t t = 0; t < c.p.mesh.triangle_count(); ++t)
+    if (c.p.mesh.object_names[c.p.mesh.triangle_object[t].index()] == object)
+      sum += norm(c.p.mesh.area_vector2(t)) / 2;
+  return sum;
+}
+
+TEST(Covered, OfPlatesInOnePlaceTheFirstStays) {
+  const auto c = plates(0, true, Sides::one);
+  EXPECT_NEAR(c.cut.taken.area_m2, 12, rounding);
+  EXPECT_EQ(area_of(c, "second"), 0);
+  EXPECT_NEAR(area_of(c, "first"), 100, rounding);
+  EXPECT_LT(c.cut.taken.first[0], 2u);  // the two of "first"
+  EXPECT_GE(c.cut.taken.first[1], 2u);
+}
+
+TEST(Covered, WhatFacesBothWaysStays) {
+  const auto c = plates(0, true, Sides::two);
+  EXPECT_NEAR(area_of(c, "second"), 12, rounding);
+  EXPECT_NEAR(area_of(c, "first"), 88, rounding);
+}
+
+TEST(Covered, LampsInAWallStay) {
+  auto builder = ModelBuilder().object("wall").with(Surface::other);
+  builder.ring({{0, 0, 0}, {10, 0, 0}, {10, 0, 5}, {0, 0, 5}});
+  builder.object("lamp").ring({{2, 0, 2}, {4, 0, 2}, {4, 0, 3}, {2, 0, 3}});
+  auto p = builder.prepared({.repair = Repair::safe, .ground = {}});
+  const std::vector<std::uint8_t> opaque(p.mesh.triangle_count(), 1);
+  std::vector<std::uint8_t> emits;
+  for (const auto object : p.mesh.triangle_object)
+    emits.push_back(p.mesh.object_names[object.index()] == "lamp");
+  const CoveredCut found = cut_covered(p.mesh, p.bodies, opaque, {}, emits);
+  EXPECT_NEAR(found.taken.area_m2, 2, rounding);
+  const Cut c{std::move(p), found};
+  EXPECT_NEAR(area_of(c, "lamp"), 2, rounding);
+  EXPECT_NEAR(area_of(c, "wall"), 48, rounding);
+}
+
+TEST(Covered, BackToBackVeilsAndAMillimetreAboveStay) {
+  EXPECT_EQ(plates(0, false, Sides::one).cut.taken.area_m2, 0);
+  EXPECT_EQ(plates(0, true, Sides::one, "first").cut.taken.area_m2, 0);
+  EXPECT_EQ(plates(1e-3, true, Sides::one).cut.taken.area_m2, 0);
+}
+
+// Every point of the union has one surface, whatever lies how often where.
+TEST(Covered, RandomPlatesInOnePlaceAreTheirUnion) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> at(0, 10), size(1, 5);
+  std::vector<std::array<double, 4>> rectangles;
+  auto builder = ModelBuilder();
+  for (int i = 0; i < 15; ++i) {
+    const double x = at(random), y = at(random);
+    rectangles.push_back({x, y, x + size(random), y + size(random)});
+    const auto [a, b, c, d] = rectangles.back();
+    builder.object("plate_" + std::to_string(i)).with(Surface::other);
+    builder.ring({{a, b, 2}, {c, b, 2}, {c, d, 2}, {a, d, 2}});
+  }
+  const auto c = cut(builder, {.repair = Repair::safe, .ground = {}});
+  const Mesh& mesh = c.p.mesh;
+  for (int i = 0; i < 2000; ++i) {
+    const double x = 1.5 * at(random) - mesh.origin.x, y = 1.5 * at(random) - mesh.origin.y;
+    const bool is_there = std::any_of(rectangles.begin(), rectangles.end(), [&](const auto& r) {
+      return x + mesh.origin.x > r[0] && y + mesh.origin.y > r[1] && x + mesh.origin.x < r[2] &&
+             y + mesh.origin.y < r[3];
+    });
+    int found = 0;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+      found += height_at(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), x, y).has_value();
+    EXPECT_EQ(found, is_there ? 1 : 0) << x << " " << y;
+  }
 }
 
 TEST(Covered, EqualInputGivesEqualBits) {

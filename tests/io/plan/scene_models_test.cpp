@@ -29,12 +29,12 @@ class Files : public testing::Test {
     folder_.write("b.obj", sheet);
   }
   Study study(const std::string& files,
-              const std::string& site = "latitude_deg: 50, longitude_deg: 14") const {
-    return read_study(
-               folder_.write("s.yaml",
-                             "format: sunload-study-1\nname: s\nsite: {timezone: UTC, " + site +
-                                 "}\nperiod: {days: [2026-03-21]}\nscene: {repair: none, files: [" +
-                                 files + "]}\n"))
+              const std::string& site = "latitude_deg: 50, longitude_deg: 14",
+              const std::string& repair = "none") const {
+    return read_study(folder_.write("s.yaml",
+                                    "format: sunload-study-1\nname: s\nsite: {timezone: UTC, " +
+                                        site + "}\nperiod: {days: [2026-03-21]}\nscene: {repair: " +
+                                        repair + ", files: [" + files + "]}\n"))
         .variants.front();
   }
   PolygonModel model(const std::string& files) const { return read_models(study(files)); }
@@ -58,6 +58,33 @@ TEST_F(Files, StandWhereTheStudyPutsThem) {
   EXPECT_EQ(m.vertices[4], (Vec3{10, 19, 30}));    // +x goes to -y: clockwise from above, exactly
   EXPECT_EQ(m.vertices[5], (Vec3{10.5, 20, 30}));  // +y to +x
   EXPECT_EQ(m.facts.size(), 2u);
+}
+
+double area_of(const BuiltScene& built) {
+  double sum = 0;
+  for (std::size_t t = 0; t < built.scene.mesh.triangle_count(); ++t)
+    sum += norm(built.scene.mesh.area_vector2(t)) / 2;
+  return sum;
+}
+
+// The triangle has 1 m2; the second of two files lies in the first, but for a strip of 0.75 m2.
+TEST_F(Files, AreLeftOutWhereTheyLieInOneAnother) {
+  const std::string site = "latitude_deg: 50, longitude_deg: 14",
+                    files = "a.obj, {file: b.obj, position_m: [1, 0, 0]}";
+  const BuiltScene built = build_scene(study(files, site, "safe"));
+  EXPECT_NEAR(area_of(built), 1.75, 1e-12);
+  const auto says = [](const BuiltScene& of, const std::string& text) {
+    return std::any_of(of.warnings.begin(), of.warnings.end(), [&](const std::string& warning) {
+      return warning.find(text) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(says(built,
+                   "0.25 m2 that lie in other surfaces and face the same way are left out "
+                   "(first sheet_2 in sheet)"));
+  EXPECT_FALSE(says(built, "receive the light of one"));
+  const BuiltScene as_read = build_scene(study(files, site, "none"));
+  EXPECT_NEAR(area_of(as_read), 2, 1e-12);
+  EXPECT_TRUE(says(as_read, "0.25 m2 lie in other surfaces that face the same way"));
 }
 
 TEST_F(Files, TurnAsAzimuthsDo) {
