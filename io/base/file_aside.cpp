@@ -3,6 +3,7 @@
 #include "io/base/file_aside.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -65,19 +66,37 @@ bool is_left_over(const fs::path& file, const Writer& writer) {
   return !gone && fs::file_time_type::clock::now() - written > unwritten_for;
 }
 
+const char* const whole = "whole";
+
+/// Removes folders of killed processes; others' links and folders stay.
+void remove_folders_left_in(const fs::path& temporary) {
+  std::error_code unreadable;
+  for (const auto& entry : fs::directory_iterator(temporary, unreadable)) {
+    const auto writer = writer_of(entry.path().filename().string());
+    struct stat folder {};
+    if (!writer || ::lstat(entry.path().c_str(), &folder) != 0 || !S_ISDIR(folder.st_mode) ||
+        folder.st_uid != ::geteuid() || !is_left_over(entry.path(), *writer))
+      continue;
+    ::unlink((entry.path() / whole).c_str());
+    ::rmdir(entry.path().c_str());
+  }
+}
+
 /// Beside the file, or in a new folder of this process alone where nothing can be renamed to it.
 std::string place_aside(const OutputTarget& target, const std::string& path) {
+  const std::string mark = part_mark + this_place() + "-" + std::to_string(::getpid()) + "-";
   if (target.kind == OutputTarget::Kind::file)
-    return target.path + part_mark + this_place() + "-" + std::to_string(::getpid()) + "-" +
-           std::to_string(std::random_device{}());
+    return target.path + mark + std::to_string(std::random_device{}());
   std::error_code none;
-  std::string folder = (fs::temp_directory_path(none) / "sunload-XXXXXX").string();
+  const fs::path temporary = fs::temp_directory_path(none);
+  std::string folder = (temporary / ("sunload" + mark + "XXXXXX")).string();
+  remove_folders_left_in(temporary);
   if (none || ::mkdtemp(folder.data()) == nullptr)
     throw MachineError("cannot write " + path + ": what is written into it is made in the folder " +
                        "of temporary files, which cannot be written to (" +
                        (none ? none.message() : std::strerror(errno)) +
                        "); let TMPDIR name another");
-  return folder + "/whole";
+  return folder + "/" + whole;
 }
 
 /// fsync of a file or folder; the number of the error, or 0.

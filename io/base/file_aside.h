@@ -17,8 +17,9 @@ namespace sunload {
 /// the file aside is removed.
 ///
 /// Links stay: the file that they lead to is the one that is replaced. What is no file (a device, a
-/// pipe, an open descriptor such as /dev/stdout) stays as well: the file aside lies in the folder
-/// of temporary files then, and its bytes are written into what is there.
+/// pipe, an open descriptor such as /dev/stdout) stays as well: the file aside lies in a folder of
+/// its own among the temporary files then, and its bytes are written into what is there. What a
+/// killed process has left there, the next one removes.
 class FileAside {
  public:
   /// Throws MachineError where `path` is a folder.

@@ -296,6 +296,10 @@ VariantJob::Merging VariantJob::merge() {
           fmt::format("{}: batches{} must be computed again: run the study with --resume", name_,
                       list_text(damaged.numbers)));
     return Merging::incomplete;
+  } catch (const MachineError&) {
+    // The folder that the result is written into may vanish, and all batches with it.
+    if (folder_.is_there()) throw;
+    return Merging::incomplete;
   }
 }
 

@@ -201,10 +201,21 @@ void VariantRun::compute(std::size_t batch) {
     writer.add({batch_array::reduction, MergeRule::maximum, ArrayType::float64, {values.size()}},
                values.data());
   }
-  // Another process that failed may have removed the folder, which was empty until now.
-  folder_.make();
-  writer.write(folder_.batch(batch));
+  write(writer, folder_.batch(batch));
   unwritten_ = {};
+}
+
+/// Another process that failed may have removed the folder, which was empty until now; who cleans
+/// up may remove it while this is written.
+void VariantRun::write(const BatchWriter& writer, const std::string& path) const {
+  folder_.make();
+  try {
+    writer.write(path);
+  } catch (const MachineError&) {
+    if (folder_.is_there()) throw;
+    folder_.make();
+    writer.write(path);
+  }
 }
 
 void VariantRun::report_work() const {

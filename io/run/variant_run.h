@@ -42,6 +42,7 @@ class VariantRun {
   void tell_reduction() const;
   void keep_lines(const std::string& path);
   SolverRules decided_rules();
+  void write(const BatchWriter& writer, const std::string& path) const;
   void warn(const std::string& text) const;
 
   const WorkFolder& folder_;

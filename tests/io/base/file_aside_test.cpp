@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
+#include <optional>
 
 #include "tests/support/child_process.h"
 #include "tests/support/work_folder.h"
@@ -69,6 +71,35 @@ TEST(FileAside, OfOtherMachinesOnlyWhatNobodyTouchedForADay) {
   fs::last_write_time(folder / old, fs::file_time_type::clock::now() - std::chrono::hours(25));
   remove_left_aside(folder.path());
   EXPECT_EQ(folder.content(), Names{fresh});
+}
+
+/// TMPDIR, put back in the end.
+class TemporaryFiles {
+ public:
+  explicit TemporaryFiles(const std::string& folder) {
+    if (const char* before = std::getenv("TMPDIR")) before_ = before;
+    setenv("TMPDIR", folder.c_str(), 1);
+  }
+  ~TemporaryFiles() { before_ ? setenv("TMPDIR", before_->c_str(), 1) : unsetenv("TMPDIR"); }
+  TemporaryFiles(const TemporaryFiles&) = delete;
+  TemporaryFiles& operator=(const TemporaryFiles&) = delete;
+
+ private:
+  std::optional<std::string> before_;
+};
+
+TEST(FileAside, FoldersOfTheDeadAmongTemporaryFilesAreRemoved) {
+  const WorkFolder folder;
+  const TemporaryFiles there(folder.path());
+  ChildProcess dead = writing_process("/dev/null"), living = writing_process("/dev/null");
+  ASSERT_EQ(folder.content().size(), 4u);  // a folder of each, with a file
+  folder.write("notes.part-0123456789ab-1-7", "a file, of another program");
+  dead.kill();
+  { const FileAside next("/dev/null"); }
+  EXPECT_EQ(folder.content().size(), 3u);  // of the living, and the notes
+  living.kill();
+  { const FileAside next("/dev/null"); }
+  EXPECT_EQ(folder.content(), Names{"notes.part-0123456789ab-1-7"});
 }
 
 TEST(FileAside, NoFolderNothingToRemove) {
