@@ -77,6 +77,10 @@ BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchO
       receivers_per_chunk);
   Reflected reflected = reflect(mesh, lines, optics, base, light.reflected, rules.bounces);
   if (!rules.beyond.empty()) light.estimated = unfollowed(reflected, rules.beyond);
+  // Never below 0: no bounce takes light away, and roundings keep the order of what they round.
+  light.last = std::move(reflected.before);
+  for (std::size_t at = 0; at < light.last.size(); ++at)
+    light.last[at] = reflected.irradiance[at] - light.last[at];
   light.reflected = std::move(reflected.irradiance);
   light.gathered_radiosity = std::move(reflected.gathered_radiosity);
   for (std::size_t at = 0; at < light.estimated.size(); ++at)
@@ -105,6 +109,7 @@ std::vector<Ledger> block_ledger(const LineSet& lines, const PatchOptics& optics
         const std::size_t at = i * block_width + k;
         const double estimated =
             light.estimated.empty() ? 0 : static_cast<double>(light.estimated[at]);
+        const double total = static_cast<double>(light.total(i, k)) - estimated;
         part[k] += ledger_of_patch(
             {.area = area[i],
              .diffuse = static_cast<double>(optics.diffuse[i]),
@@ -114,8 +119,9 @@ std::vector<Ledger> block_ledger(const LineSet& lines, const PatchOptics& optics
              .direct = static_cast<double>(light.direct[at]),
              .sky = static_cast<double>(light.sky[at]),
              .ground_exitance = static_cast<double>(sources.ground_exitance[k]),
-             .total = static_cast<double>(light.total(i, k)) - estimated,
+             .total = total,
              .gathered_radiosity = static_cast<double>(light.gathered_radiosity[at]),
+             .last = light.last.empty() ? total : static_cast<double>(light.last[at]),
              .estimated = estimated},
             lines.ends[i]);
       }

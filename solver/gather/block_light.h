@@ -42,6 +42,7 @@ struct BlockSources {
 struct BlockLight {
   Columns direct, sky, mirror, reflected;
   Columns gathered_radiosity;  ///< radiosity gathered last
+  Columns last;                ///< part of `reflected` by the last bounce; empty: no bounce
   Columns estimated;           ///< part of `reflected` that bounces do not follow; empty: none
   std::vector<float> lamps;    ///< [N], the same for all suns
 

@@ -19,6 +19,7 @@ struct PatchLight {
   double ground_exitance = 0;     ///< of the far ground
   double total = 0;               ///< irradiance in all, but for what is estimated
   double gathered_radiosity = 0;  ///< reflected radiosity that was gathered last
+  double last = 0;                ///< irradiance by the last bounce: what is not reflected
   double estimated = 0;           ///< irradiance by light that is not followed
 };
 
@@ -35,7 +36,7 @@ inline Ledger ledger_of_patch(const PatchLight& p, const LineEnds& ends) {
   ledger[Term::ground] = p.area * static_cast<double>(ends.ground) * p.ground_exitance * stopped;
   ledger[Term::emitted] = p.area * p.emission;
   ledger[Term::absorbed] = p.area * p.absorbed * p.total;
-  ledger[Term::unshot] = p.area * (p.diffuse * p.total - p.gathered_radiosity);
+  ledger[Term::unshot] = p.area * p.diffuse * p.last;
   ledger.estimated = p.area * p.estimated;
   return booked(scaled(in_double(ends.fate), sent), ledger);
 }

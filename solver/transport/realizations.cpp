@@ -52,19 +52,20 @@ std::vector<double> solve_patches(const TracedScene& traced, std::size_t band, s
     const double total = first.base[i] + reflected.irradiance[i];
     tally.exposure_realization[r][i] = total + beyond;
     SUNLOAD_EXPECT(total + beyond >= 0, "light that is a number and not below 0");
-    tally.ledger_realization[r] +=
-        ledger_of_patch({.area = traced.hierarchy().area()[i],
-                         .diffuse = static_cast<double>(optics.diffuse[i]),
-                         .absorbed = optics.absorbed(i),
-                         .passed = static_cast<double>(optics.passed[i]),
-                         .emission = static_cast<double>(optics.emission[i]) * sums.length_s,
-                         .direct = rays.direct[r][i],
-                         .sky = first.sky[i],
-                         .ground_exitance = sums.ground,
-                         .total = total,
-                         .gathered_radiosity = reflected.gathered_radiosity[i],
-                         .estimated = beyond},
-                        lines.ends[i]);
+    tally.ledger_realization[r] += ledger_of_patch(
+        {.area = traced.hierarchy().area()[i],
+         .diffuse = static_cast<double>(optics.diffuse[i]),
+         .absorbed = optics.absorbed(i),
+         .passed = static_cast<double>(optics.passed[i]),
+         .emission = static_cast<double>(optics.emission[i]) * sums.length_s,
+         .direct = rays.direct[r][i],
+         .sky = first.sky[i],
+         .ground_exitance = sums.ground,
+         .total = total,
+         .gathered_radiosity = reflected.gathered_radiosity[i],
+         .last = reflected.before.empty() ? total : reflected.irradiance[i] - reflected.before[i],
+         .estimated = beyond},
+        lines.ends[i]);
     reflected.irradiance[i] += beyond;
   }
   keep_parts(rays.direct[r], first, std::move(reflected.irradiance), r, tally);

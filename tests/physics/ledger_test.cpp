@@ -48,6 +48,25 @@ TEST(Ledger, ClosesForEverySunOfThePooledLines) {
   }
 }
 
+// After many bounces what is left is below any rounding, and still light.
+TEST(Ledger, WhatIsNotFollowedIsNeverBelowZero) {
+  SolverRules rules = test_rules();
+  rules.realizations = 2;
+  rules.lines_per_patch = 64;
+  rules.mirror_depth = 100;
+  for (const Unfollowed unfollowed : {Unfollowed::leave, Unfollowed::estimate})
+    for (const int bounces : {0, 1, 2, 60}) {
+      rules.unfollowed = unfollowed;
+      rules.bounces = bounces;
+      const auto solved = solve(court(), three_suns(), rules, {.max_edge_m = 1.5});
+      for (const auto& ledgers : {solved.tally.ledger, solved.tally.ledger_realization})
+        for (const Ledger& ledger : ledgers) {
+          EXPECT_GE(ledger[Term::unshot], 0) << bounces;
+          EXPECT_EQ(ledger[Term::unshot] > 1e-3 * ledger.in(), bounces < 3) << bounces;
+        }
+    }
+}
+
 // Parallel light that a closed body intercepts is DNI times its silhouette.
 TEST(Ledger, DirectPowerIsDniTimesSilhouette) {
   SceneBuilder builder;
