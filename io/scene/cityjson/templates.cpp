@@ -103,6 +103,7 @@ std::size_t CityTemplates::index_of(const json& instance, const GeometryPlace& p
       index->get<std::size_t>() >= models_.size()) {
     place.fail("names no template", "the file has " + std::to_string(models_.size()));
   }
+  // cppcheck-suppress nullPointerRedundantCheck  // fail() does not come back
   return index->get<std::size_t>();
 }
 
