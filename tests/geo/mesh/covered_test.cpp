@@ -272,31 +272,50 @@ TEST(Covered, BackToBackVeilsAndAMillimetreAboveStay) {
   EXPECT_EQ(plates(1e-3, true, Sides::one).cut.taken.area_m2, 0);
 }
 
-// Every point of the union has one surface, whatever lies how often where.
-TEST(Covered, RandomPlatesInOnePlaceAreTheirUnion) {
-  std::mt19937 random(3);
+using Rectangle = std::array<double, 4>;  // low x, low y, high x, high y
+
+std::vector<Rectangle> random_rectangles(std::mt19937& random, int count) {
   std::uniform_real_distribution<double> at(0, 10), size(1, 5);
-  std::vector<std::array<double, 4>> rectangles;
-  auto builder = ModelBuilder();
-  for (int i = 0; i < 15; ++i) {
+  std::vector<Rectangle> rectangles;
+  for (int i = 0; i < count; ++i) {
     const double x = at(random), y = at(random);
     rectangles.push_back({x, y, x + size(random), y + size(random)});
-    const auto [a, b, c, d] = rectangles.back();
-    builder.object("plate_" + std::to_string(i)).with(Surface::other);
-    builder.ring({{a, b, 2}, {c, b, 2}, {c, d, 2}, {a, d, 2}});
   }
-  const auto c = cut(builder, {.repair = Repair::safe, .ground = {}});
+  return rectangles;
+}
+
+bool is_in_any(const std::vector<Rectangle>& rectangles, double x, double y) {
+  return std::any_of(rectangles.begin(), rectangles.end(), [&](const Rectangle& r) {
+    return x > r[0] && y > r[1] && x < r[2] && y < r[3];
+  });
+}
+
+// Every point of the union has one surface, whatever lies how often where; and it is covered where
+// there is one that faces it.
+TEST(Covered, RandomPlatesInOnePlaneAreTheirUnionAndCoverEachOther) {
+  std::mt19937 random(3);
+  const auto up = random_rectangles(random, 15), down = random_rectangles(random, 15);
+  auto builder = ModelBuilder();
+  const auto add = [&](const Rectangle& r, bool is_up) {
+    std::vector<Vec3> ring{{r[0], r[1], 2}, {r[2], r[1], 2}, {r[2], r[3], 2}, {r[0], r[3], 2}};
+    if (!is_up) std::reverse(ring.begin(), ring.end());
+    builder.object("plate").with(Surface::other).ring(ring);
+  };
+  for (const Rectangle& r : up) add(r, true);
+  for (const Rectangle& r : down) add(r, false);
+  const auto c = cut(builder, {.repair = Repair::none, .ground = {}});
   const Mesh& mesh = c.p.mesh;
+  std::uniform_real_distribution<double> anywhere(0, 15);
   for (int i = 0; i < 2000; ++i) {
-    const double x = 1.5 * at(random) - mesh.origin.x, y = 1.5 * at(random) - mesh.origin.y;
-    const bool is_there = std::any_of(rectangles.begin(), rectangles.end(), [&](const auto& r) {
-      return x + mesh.origin.x > r[0] && y + mesh.origin.y > r[1] && x + mesh.origin.x < r[2] &&
-             y + mesh.origin.y < r[3];
-    });
-    int found = 0;
+    const double x = anywhere(random), y = anywhere(random);
+    const bool is_up = is_in_any(up, x, y), is_down = is_in_any(down, x, y);
+    std::array<int, 4> found{},
+        expected{is_up && !is_down, is_down && !is_up, is_up && is_down, is_up && is_down};
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-      found += height_at(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), x, y).has_value();
-    EXPECT_EQ(found, is_there ? 1 : 0) << x << " " << y;
+      if (height_at(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), x - mesh.origin.x,
+                    y - mesh.origin.y))
+        ++found[(mesh.is_covered(t) ? 2u : 0u) + (mesh.normal(t).z > 0 ? 0u : 1u)];
+    EXPECT_EQ(found, expected) << x << " " << y;
   }
 }
 
