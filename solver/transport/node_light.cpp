@@ -116,7 +116,8 @@ std::vector<Ledger> ledger_of_rays(const TracedScene& traced, const Columns& dir
                                     .absorbed = optics.absorbed(i),
                                     .passed = static_cast<double>(optics.passed[i]),
                                     .direct = straight,
-                                    .total = straight + mirrored},
+                                    .total = straight + mirrored,
+                                    .last = straight + mirrored},
                                    no_ends);
       }
   });
