@@ -16,6 +16,7 @@
 #include "io/base/standard_streams.h"
 #include "io/picture/sun_diagram.h"
 #include "io/plan/expected_error.h"
+#include "io/plan/mesh_family.h"
 #include "io/plan/planner.h"
 #include "io/plan/room.h"
 #include "io/plan/rules_of_study.h"
@@ -268,10 +269,12 @@ void print_text(const VariantPlan& plan, const VariantMesh& made, const WorkEsti
   if (const auto sensors = plan.built.scene.sensors.size(); sensors > 0)
     text += fmt::format("sensors\n  {} points\n", sensors);
   text += "sun\n" + time_words(plan.light, plan.built.site, plan.study, plan.built.site_source);
+  text += "mesh\n";
   if (const auto refined = refine_text(made.report, plan.study); !refined.empty())
-    text += "mesh\n  " + refined + "\n";
+    text += "  " + refined + "\n";
   if (is_left_unrefined(plan, rules.mesh))
-    text += "mesh\n  not refined here (--no-refine): a run has these patches or more\n";
+    text += "  not refined here (--no-refine): a run has these patches or more\n";
+  text += "  largest   " + largest_patches_text(plan, *made.mesh) + "\n";
   text += "work\n" + work_text(plan, work);
   for (const auto& list :
        {plan.built.warnings, plan.light.notes, expected_error_warnings(plan, *made.mesh)})
@@ -305,7 +308,7 @@ class Meshes {
       if (!has_unrefined_of(plan)) keep_unrefined_of(plan);
       return unrefined_;
     }
-    tell_of_refinement(plan);
+    if (!plan.family || !plan.family->made) tell_of_refinement(plan);
     progress_.begin_variant(plan.study.variant, 0);
     refined_ = make_mesh(plan, progress_);
     return refined_;
@@ -383,10 +386,12 @@ int check_study(const std::string& path, const RunOptions& options, const CheckR
   const std::string folder = results_folder(file, options);
   Problems problems;
   Planner planner;
+  const MeshFamilies families(file, planner);
   Meshes meshes(rules.mesh, options.progress);
   for (const auto& study : chosen_variants(file, options)) {
     try {
-      const VariantPlan plan = planner.plan(study);
+      VariantPlan plan = planner.plan(study);
+      families.join(plan);
       expect_meshable(plan);
       const VariantMesh& made = meshes.of(plan);
       const WorkEstimate work = estimate_work(plan, made.mesh->patch_count());

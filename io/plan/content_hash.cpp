@@ -4,6 +4,8 @@
 // is put in or left out on purpose.
 #include "io/plan/content_hash.h"
 
+#include <map>
+
 #include "io/base/hash.h"
 
 namespace sunload {
@@ -116,7 +118,7 @@ std::string times_text(const LightSeries& light) {
 }  // namespace
 
 std::string content_hash(const Study& study, const BuiltScene& built, const LightSeries& light,
-                         const std::string& isa) {
+                         const std::string& isa, const std::string& mesh_pilots) {
   Digest digest;
   digest.add(numerics_version);
   digest.add(canonical_text(study));
@@ -126,6 +128,52 @@ std::string content_hash(const Study& study, const BuiltScene& built, const Ligh
   digest.add(light.weather_sha256);
   add_site(digest, built.site);
   add_scene(digest, built.scene);
+  if (!mesh_pilots.empty()) digest.add(mesh_pilots);
+  return digest.hex();
+}
+
+std::string geometry_digest(const Mesh& mesh) {
+  Digest digest;
+  add_mesh(digest, mesh);
+  return digest.hex();
+}
+
+std::string pilot_digest(const Scene& scene, const PeriodLight& light) {
+  Digest digest;
+  // Materials that look alike to a pilot count as one, in the order in which they come.
+  std::map<std::string, std::uint32_t> number_of;
+  std::vector<std::uint32_t> number(scene.materials.size()), of_triangle;
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    const Material& material = scene.materials[m];
+    Digest seen;
+    // The share that meets no glass of a coated pane lowers its mirror.
+    seen.add(is_fresnel(material) ? material.diffuse : 0.0);
+    for (const double property : {material.mirror, material.emission_w_m2, material.transmittance})
+      seen.add(property);
+    std::visit([&](const auto& kind) { add_smooth(seen, kind); }, material.smooth);
+    number[m] = number_of.try_emplace(seen.hex(), static_cast<std::uint32_t>(m)).first->second;
+  }
+  std::map<std::uint32_t, std::uint32_t> order;
+  for (const MaterialId id : scene.material)
+    of_triangle.push_back(
+        order.try_emplace(number[id.index()], static_cast<std::uint32_t>(order.size()))
+            .first->second);
+  std::vector<std::string> kinds(order.size());
+  for (const auto& [text, first] : number_of)
+    if (const auto place = order.find(first); place != order.end()) kinds[place->second] = text;
+  digest.add(kinds);
+  digest.add(of_triangle);
+  const auto& [suns, samples, sky, ground, lamp_time_s] = light;
+  for (const auto* list : {&suns, &samples[0], &samples[1]}) {
+    digest.add(list->size());
+    for (const auto& [direction, exposure] : *list) {
+      digest.add(direction);
+      digest.add(exposure);
+    }
+  }
+  digest.add(sky);
+  digest.add(ground);
+  digest.add(lamp_time_s);
   return digest.hex();
 }
 

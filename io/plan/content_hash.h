@@ -8,6 +8,7 @@
 #include "io/plan/light_series.h"
 #include "io/plan/scene_build.h"
 #include "io/study/study.h"
+#include "solver/mesh/mesh_pilot.h"
 
 namespace sunload {
 
@@ -15,9 +16,17 @@ namespace sunload {
 inline constexpr int numerics_version = 9;
 
 /// SHA-256 of everything that can change a number: the study's canonical text, the scene as
-/// prepared, times and weather, the instruction set that rays are traced with, `numerics_version`.
+/// prepared, times and weather, the instruction set that rays are traced with, `numerics_version`;
+/// the pilots of other variants that refine the same mesh, where there are any.
 std::string content_hash(const Study& study, const BuiltScene& built, const LightSeries& light,
-                         const std::string& isa);
+                         const std::string& isa, const std::string& mesh_pilots = {});
+
+/// Of triangles, objects, kinds of surface and sides: equal meshes, equal patches before they are
+/// refined.
+std::string geometry_digest(const Mesh& mesh);
+/// Of what the mesh pilot looks at beside the geometry: mirrors, lamps and screens triangle by
+/// triangle, and the light.
+std::string pilot_digest(const Scene& scene, const PeriodLight& light);
 
 /// Equal where realizations share their random numbers: hash of times, seed and counts.
 std::string pairing_id(const Study& study, const LightSeries& light);

@@ -130,15 +130,26 @@ void make_sky_absolute(LitInterval& interval, const LightStudy& light) {
   sky.dhi = dhi;
 }
 
+/// How far UT1 may be from UTC behind the table. Leap seconds keep it below 0.9 s until 2035 (CGPM
+/// resolution 4 of 2022); from then on days of up to a millisecond too much or too little add up.
+double hour_angle_doubt_deg(UnixTime utc) {
+  constexpr double largest_s = 0.9, s_per_day = 1e-3, day_s = 86400, deg_per_s = 360 / day_s;
+  const UnixTime last_leap = utc_from_calendar({.year = 2035, .month = 1, .day = 1});
+  return deg_per_s * (largest_s + s_per_day * std::max(0.0, utc - last_leap) / day_s);
+}
+
 SunPath path_of(const std::vector<PeriodStep>& steps, const Study& study, const Site& site,
                 LightSeries& series) {
   if (steps.empty()) throw InputError(study.period.where, "period has no intervals");
-  if (study.sun.ut1_utc == Ut1::table &&
-      !(ut1_table_covers(steps.front().begin) && ut1_table_covers(steps.back().end)))
-    series.notes.push_back(
-        "part of the period lies outside of the table of UT1-UTC, which ends at " +
-        iso_utc(ut1_table_end()) +
-        "; UT1 = UTC is taken there (moves the sun's azimuth by at most 0.004 degrees)");
+  if (study.sun.ut1_utc == Ut1::table && !ut1_table_covers(steps.back().end)) {
+    constexpr double worth_telling_deg = 0.01;
+    if (const double doubt_deg = hour_angle_doubt_deg(steps.back().end);
+        doubt_deg > worth_telling_deg)
+      series.notes.push_back(fmt::format(
+          "part of the period lies behind the table of UT1-UTC, which ends at {}; UT1 = UTC is "
+          "taken there, and the Earth may have turned by {:.2f} degrees less or more by then",
+          iso_utc(ut1_table_end()), doubt_deg));
+  }
   if (const auto note = clock_warning(study.site.timezone, site, steps.front().begin);
       !note.empty())
     series.notes.push_back(note);

@@ -10,6 +10,7 @@
 #include "geo/mesh/overlap.h"
 #include "geo/sun/weather.h"
 #include "io/plan/material_assign.h"
+#include "io/plan/scene_doubts.h"
 #include "io/plan/scene_models.h"
 #include "io/plan/weather_light.h"
 #include "io/scene/file.h"
@@ -78,8 +79,9 @@ Site site_on_map(const SiteStudy& given, const std::string& crs, const PolygonMo
   }
   built.site_source = given.latitude_deg ? "position from the study, north from " + crs
                                          : "position and north from " + crs;
-  if (const auto warning = area_of_use_warning(crs, middle); !warning.empty())
-    built.warnings.push_back(warning);
+  for (const auto& warning :
+       {area_of_use_warning(crs, middle), north_warning(given, crs, site.north_deg)})
+    if (!warning.empty()) built.warnings.push_back(warning);
   if (!given.latitude_deg) return site;
   const double away_m = distance_m(site, {.latitude_deg = *given.latitude_deg,
                                           .longitude_deg = given.longitude_deg.value_or(0)});
@@ -199,6 +201,8 @@ BuiltScene scene_before_materials(const Study& study) {
   warn_of_gaps(study, built);
   built.scene.mesh = std::move(prepared.mesh);
   built.bodies = std::move(prepared.bodies);
+  if (const auto lying = lying_warning(study, built, model.is_city_format); !lying.empty())
+    built.warnings.push_back(lying);
   built.seals = std::move(prepared.seals);
   return built;
 }
@@ -285,6 +289,7 @@ BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
 
 void give_materials(const Study& study, BuiltScene& built) {
   built.rules = assign_materials(study, built.scene, built.warnings);
+  warn_of_reflectances(study, built);
   built.scene.parallel_sources = read_parallel_sources(study, built.scene.mesh.origin, built);
   built.scene.sensors =
       place_sensors(study.sensors, built.scene.mesh, built.report.bounds, built.warnings);

@@ -5,9 +5,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <iterator>
+#include <list>
+#include <optional>
 #include <vector>
 
 #include "io/plan/interval_lights.h"
+#include "io/plan/mesh_family.h"
 #include "io/plan/rules_of_study.h"
 #include "solver/base/rng.h"
 
@@ -90,8 +95,50 @@ VariantMesh unrefined_mesh(const VariantPlan& plan) {
   return made;
 }
 
+namespace {
+
+/// Refined by the pilots of all variants that share it.
+VariantMesh mesh_of_family(const VariantPlan& plan, Watch& watch) {
+  const SplitRules split = split_rules(plan.study);
+  expect_splittable(plan.built.scene, split);
+  struct Cast {
+    Cast(const Mesh& mesh, const std::string& isa, const Screens& passed)
+        : transmittance(passed.transmittance), caster(mesh, isa, passed) {}
+    std::vector<float> transmittance;
+    RayCaster caster;
+  };
+  std::list<Scene> scenes;
+  std::list<Cast> casts;  // of scenes that let the same light pass
+  std::vector<PilotView> views;
+  for (const MeshPilotInput& pilot : plan.family->pilots) {
+    Scene& scene = scenes.emplace_back();
+    scene.mesh = plan.built.scene.mesh;
+    scene.materials = pilot.materials;
+    scene.material = pilot.material;
+    const Screens passed = screens(scene);
+    auto cast = std::find_if(casts.begin(), casts.end(), [&](const Cast& c) {
+      return c.transmittance == passed.transmittance;
+    });
+    if (cast == casts.end()) {
+      casts.emplace_back(scene.mesh, plan.isa, passed);
+      cast = std::prev(casts.end());
+    }
+    views.push_back({scene, cast->caster, pilot.light});
+  }
+  VariantMesh made;
+  made.mesh = std::make_shared<const Hierarchy>(
+      refined_mesh(views, split, refine_rules(plan.study), watch, &made.report));
+  return made;
+}
+
+}  // namespace
+
 VariantMesh make_mesh(const VariantPlan& plan, Watch& watch) {
   if (plan.study.mesh.oracle == Oracle::none) return unrefined_mesh(plan);
+  if (plan.family) {
+    if (!plan.family->made) plan.family->made = mesh_of_family(plan, watch);
+    return *plan.family->made;
+  }
   VariantMesh made;
   const Scene& scene = plan.built.scene;
   const SplitRules split = split_rules(plan.study);
@@ -107,12 +154,47 @@ std::string refine_text(const RefineReport& report, const Study& study) {
   if (study.mesh.oracle == Oracle::historic)
     return fmt::format("{} patches refined to {} by the historic oracle (threshold {:g} m2)",
                        report.patches_before, report.patches, study.mesh.light_threshold_m2);
+  std::string kinds;
+  for (std::size_t k = 0; k < mesh_kind_names.size(); ++k)
+    if (report.error_of_kind[k] > 0)
+      kinds += fmt::format("{}{} {:.1f}", kinds.empty() ? "" : ", ", mesh_kind_names[k],
+                           100 * report.error_of_kind[k]);
   return fmt::format(
-      "{} patches refined to {}: the light load inside of patches varies by {:.1f} % of its mean "
-      "(was {:.1f} %, tolerance {:g} %{})",
-      report.patches_before, report.patches, 100 * report.error, 100 * report.error_before,
-      100 * study.mesh.light_tolerance,
-      report.is_exhausted ? "; mesh.min_area_m2 allows no finer" : "");
+             "{} patches refined to {}: the light load inside of patches varies by {:.1f} % of its "
+             "mean "
+             "(was {:.1f} %, tolerance {:g} %{}{})",
+             report.patches_before, report.patches, 100 * report.error, 100 * report.error_before,
+             100 * study.mesh.light_tolerance, kinds.empty() ? "" : "; " + kinds,
+             report.is_exhausted ? "; mesh.min_area_m2 allows no finer" : "") +
+         (report.pilots > 1
+              ? fmt::format("; by {} pilots, of all variants of this geometry", report.pilots)
+              : "");
+}
+
+std::string largest_patches_text(const VariantPlan& plan, const Hierarchy& mesh) {
+  const Mesh& triangles = plan.built.scene.mesh;
+  const auto triangle = [&](std::size_t patch) {
+    return static_cast<std::size_t>(mesh.patches()[patch].triangle);
+  };
+  std::array<std::optional<std::size_t>, surface_names.size()> largest;
+  for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
+    auto& of_kind = largest[static_cast<std::size_t>(triangles.triangle_surface[triangle(i)])];
+    if (!of_kind || mesh.area()[i] > mesh.area()[*of_kind]) of_kind = i;
+  }
+  std::vector<std::size_t> patches;
+  for (const auto& patch : largest)
+    if (patch) patches.push_back(*patch);
+  std::stable_sort(patches.begin(), patches.end(),
+                   [&](std::size_t a, std::size_t b) { return mesh.area()[a] > mesh.area()[b]; });
+  std::string text;
+  for (const auto patch : patches) {
+    const std::size_t t = triangle(patch);
+    text += fmt::format("{}{} {:.3g} m2 ({})", text.empty() ? "" : ", ",
+                        surface_names[static_cast<std::size_t>(triangles.triangle_surface[t])],
+                        mesh.area()[patch],
+                        triangles.object_names[triangles.triangle_object[t].index()]);
+  }
+  return text;
 }
 
 }  // namespace sunload

@@ -32,4 +32,8 @@ VariantMesh unrefined_mesh(const VariantPlan& plan);
 /// What refinement did, in words; empty where none was asked for.
 std::string refine_text(const RefineReport& report, const Study& study);
 
+/// The largest patch of every kind of surface with its object, the largest first: "ground 812 m2
+/// (ground), wall 12.3 m2 (house_2)".
+std::string largest_patches_text(const VariantPlan& plan, const Hierarchy& mesh);
+
 }  // namespace sunload

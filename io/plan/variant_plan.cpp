@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/plan/content_hash.h"
+#include "io/plan/mesh_family.h"
 #include "solver/surface/ray_caster.h"
 
 namespace sunload {
@@ -41,7 +42,8 @@ VariantPlan make_plan(const Study& study) {
 }
 
 std::string hash_with_isa(const VariantPlan& plan, const std::string& isa) {
-  return content_hash(plan.study, plan.built, plan.light, isa);
+  return content_hash(plan.study, plan.built, plan.light, isa,
+                      plan.family ? plan.family->digest : std::string());
 }
 
 bool has_lamps(const VariantPlan& plan) {

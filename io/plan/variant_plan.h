@@ -3,6 +3,7 @@
 /// What one variant of a study will compute.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@
 #include "io/study/study.h"
 
 namespace sunload {
+
+struct MeshFamily;
 
 struct VariantPlan {
   Study study;
@@ -21,6 +24,8 @@ struct VariantPlan {
   /// Equal where realizations share their random numbers. Counts that an accuracy has raised are no
   /// part of it: the first points are the same, and pairs are independent of each other.
   std::string pairing_id;
+  /// With whom it shares a mesh; null: with nobody.
+  std::shared_ptr<const MeshFamily> family = {};
 
   std::size_t intervals() const { return light.intervals.size(); }
   std::size_t batch_suns() const { return static_cast<std::size_t>(study.solver.batch_suns); }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/plan/mesh_family.h"
 #include "io/plan/rules_of_study.h"
 #include "io/plan/variant_mesh.h"
 #include "solver/base/cost.h"
@@ -99,7 +100,9 @@ std::pair<double, double> refinement_seconds(const VariantPlan& plan, std::size_
   // Measured on built-in streets and cities: the mesh grows 2 … 7 times.
   constexpr double least = 0.5, most = 4;
   const auto triangles = static_cast<double>(plan.built.scene.mesh.triangle_count());
+  const double pilots = plan.family ? static_cast<double>(plan.family->pilots.size()) : 1;
   const double seconds =
+      pilots *
       refinement_rays(static_cast<double>(patches), static_cast<double>(plan.light.lit_count())) *
       s_per_line_ray(std::max(triangles, 1.0)) / thread_count();
   return {least * seconds, most * seconds};

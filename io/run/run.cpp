@@ -7,11 +7,13 @@
 #include <list>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geo/base/check.h"
 #include "io/base/exit_code.h"
 #include "io/base/output_target.h"
+#include "io/plan/mesh_family.h"
 #include "io/plan/planner.h"
 #include "io/run/mpi_world.h"
 #include "io/study/named_files.h"
@@ -28,10 +30,13 @@ std::list<VariantJob> planned_jobs(const StudyWork& work,
   Problems problems;
   const std::vector<std::string> inputs = named_files(work.file);
   Planner planner;
+  const MeshFamilies families(work.file, planner);
   for (const auto& study : chosen_variants(work.file, work.options)) {
     try {
       expect_not_read(result_path(work.folder, study), inputs);
-      VariantJob& job = jobs.emplace_back(work, planner.plan(study));
+      VariantPlan plan = planner.plan(study);
+      families.join(plan);
+      VariantJob& job = jobs.emplace_back(work, std::move(plan));
       (job.*expect_allowed)();
       if (!job.is_finished()) continue;
       job.release();

@@ -337,6 +337,7 @@ void VariantJob::remove_merged() const {
 void VariantJob::release() {
   mesh_ = {};
   plan_.built = {};
+  plan_.family.reset();
   plan_.light = {};
 }
 

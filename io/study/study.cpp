@@ -11,6 +11,7 @@
 
 #include "io/base/key_names.h"
 #include "io/scene/base/from_file.h"
+#include "io/study/not_a_study.h"
 #include "io/study/sections.h"
 #include "io/study/yaml_map.h"
 
@@ -49,6 +50,7 @@ std::string read_text_of(const std::string& path) {
   std::error_code error;
   if (!fs::exists(path, error)) throw InputError({path}, "the study is not there");
   if (fs::is_directory(path, error)) throw InputError({path}, "is a folder, not a study");
+  refuse_other_files(path);
   // Pipes have no size.
   if (fs::is_regular_file(path, error) && fs::file_size(path, error) > largest_study_bytes) {
     throw InputError({path}, "is too large for a study",

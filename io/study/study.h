@@ -190,7 +190,7 @@ struct MeshStudy {
   double max_edge_m = 1e9;  ///< absent: input triangles are the roots and may stay leaves
   double min_area_m2 = 0.01;
   Oracle oracle = Oracle::light_load;
-  double light_tolerance = 0.05;      ///< of the default oracle
+  double light_tolerance = 0.07;      ///< of the default oracle
   double light_threshold_m2 = 0.005;  ///< of the historic one
   TVertices t_vertices = TVertices::remove;
   double link_threshold = 0.5;  ///< of the exchange between elements

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "solver/first_light/beam_raster.h"
-#include "solver/first_light/mirror_groups.h"
+#include "solver/surface/mirror_groups.h"
 
 namespace sunload {
 

@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "solver/first_light/beam_raster.h"
-#include "solver/first_light/mirror_groups.h"
+#include "solver/surface/mirror_groups.h"
 #include "solver/light/sun_block.h"
 
 namespace sunload {

@@ -15,8 +15,8 @@ namespace {
 
 /// Directions per half in which the surroundings are seen.
 constexpr std::size_t directions_per_half = 8;
-/// Of all surfaces: variants that differ in their reflectances get the same mesh, so that their
-/// patches pair one to one.
+/// Of all surfaces: variants that differ in their diffuse reflectances get the same mesh, so that
+/// their patches pair one to one.
 constexpr double typical_reflectance = 0.3;
 /// Points of emitters per half.
 constexpr std::size_t emitter_points_per_half = 8;
@@ -24,6 +24,9 @@ constexpr std::size_t emitter_points_per_half = 8;
 constexpr double areas_per_packet = 256;
 constexpr std::size_t most_packets = 8;
 constexpr std::size_t halves_of_light = 2;
+/// In which a sun is looked for in mirrors; of more orientations so many are chosen, by the power
+/// that they send on.
+constexpr std::size_t most_images = 4;
 
 std::size_t packets_for(double area_m2, double min_area_m2) {
   if (min_area_m2 <= 0) return 1;
@@ -32,6 +35,23 @@ std::size_t packets_for(double area_m2, double min_area_m2) {
 }
 
 constexpr std::uint32_t all_rays = (1u << packet_size) - 1u;
+
+struct Moments {
+  double mean = 0, variance = 0;
+};
+
+/// Over the points. The halves are sampled independently: their covariance has no part of the
+/// sampling in it.
+Moments moments(const std::vector<double> (&at_point)[halves_of_light]) {
+  const std::size_t n = at_point[0].size();
+  double mean[halves_of_light] = {};
+  for (std::size_t h = 0; h < halves_of_light; ++h)
+    for (const double x : at_point[h]) mean[h] += x / static_cast<double>(n);
+  double variance = 0;
+  for (std::size_t s = 0; s < n; ++s)
+    variance += (at_point[0][s] - mean[0]) * (at_point[1][s] - mean[1]);
+  return {(mean[0] + mean[1]) / 2, variance / static_cast<double>(n - 1)};
+}
 
 }  // namespace
 
@@ -78,14 +98,15 @@ struct MeshPilot::Points {
   }
 };
 
-MeshPilot::MeshPilot(const ElementForest& forest, const RayCaster& caster, const PeriodLight& light,
-                     std::uint64_t seed)
+MeshPilot::MeshPilot(const ElementForest& forest, const Scene& scene, const RayCaster& caster,
+                     const PeriodLight& light, std::uint64_t seed)
     : forest_(forest),
+      scene_(scene),
       caster_(caster),
       light_(light),
       seed_(seed),
+      mirrors_(scene),
       load_(2 * forest.elements().size(), 0.0f) {
-  const Scene& scene = forest.scene();
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
     const double exitance = scene.material_of(t).emission_w_m2;
     if (exitance <= 0 || light.lamp_time_s <= 0) continue;
@@ -94,6 +115,63 @@ MeshPilot::MeshPilot(const ElementForest& forest, const RayCaster& caster, const
     emitters_.push_back({static_cast<std::int32_t>(t), emitted_power_});
   }
   for (auto& emitter : emitters_) emitter.power_share /= emitted_power_;
+  for (std::size_t g = 0; g < mirrors_.size(); ++g) {
+    mirror_area_m2_.push_back(0);
+    for (const auto t : mirrors_[g].triangles)
+      mirror_area_m2_[g] += norm(scene.mesh.area_vector2(static_cast<std::size_t>(t))) / 2;
+  }
+  for (std::size_t h = 0; h < halves_of_light; ++h) {
+    add_images(light.suns, h);
+    add_images(light.samples[h], h);
+  }
+}
+
+void MeshPilot::add_images(const std::vector<PeriodSun>& suns, std::size_t half) {
+  for (std::size_t s = 0; s < suns.size(); ++s) {
+    std::vector<std::size_t> groups;
+    std::vector<double> powers;  // of them and all before
+    double power = 0;
+    for (std::size_t g = 0; g < mirrors_.size(); ++g) {
+      const double cos_theta = dot(mirrors_[g].normal, suns[s].direction);
+      if (cos_theta <= 0) continue;
+      const double own = mirrors_.strongest(g, cos_theta) * mirror_area_m2_[g] * cos_theta;
+      if (own <= 0) continue;
+      groups.push_back(g);
+      powers.push_back(power += own);
+    }
+    choose_images(suns[s], groups, powers, half, s);
+  }
+}
+
+void MeshPilot::choose_images(const PeriodSun& sun, const std::vector<std::size_t>& groups,
+                              const std::vector<double>& powers, std::size_t half,
+                              std::size_t number) {
+  const auto image = [&](std::size_t group, double probability) {
+    return Image{.direction = -mirrored(sun.direction, mirrors_[group].normal),
+                 .sun = sun.direction,
+                 .group = static_cast<std::int32_t>(group),
+                 .exposure = sun.exposure / probability};
+  };
+  const bool is_of_both = !light_.suns.empty();
+  if (groups.size() <= most_images) {
+    if (is_of_both && half > 0) return;
+    auto& images = is_of_both ? images_ : images_of_half_[half];
+    for (const auto group : groups) images.push_back(image(group, 1));
+    return;
+  }
+  const RandomWords words =
+      random_words({.seed = seed_,
+                    .purpose = Purpose::mesh_pilot,
+                    .realization = static_cast<std::uint32_t>(3 * halves_of_light + half),
+                    .element = number});
+  const double start = static_cast<double>(uniform(words[0]));
+  for (std::size_t i = 0; i < most_images; ++i) {
+    const double at = (static_cast<double>(i) + start) / most_images * powers.back();
+    const auto chosen = static_cast<std::size_t>(
+        std::lower_bound(powers.begin(), powers.end() - 1, at) - powers.begin());
+    const double own = powers[chosen] - (chosen > 0 ? powers[chosen - 1] : 0);
+    images_of_half_[half].push_back(image(groups[chosen], most_images * own / powers.back()));
+  }
 }
 
 void MeshPilot::set_load(std::size_t element, std::uint8_t side, double load) {
@@ -112,28 +190,33 @@ ElementLoad MeshPilot::load(std::size_t element, std::uint8_t side, double min_a
   const Points points(forest_, element, side, caster_.offset_m(), seed_, packets);
   ElementLoad load;
   const std::size_t n = packets * packet_size;
-  std::vector<double> at_point[halves_of_light];
-  for (auto& sums : at_point) sums.assign(n, 0);
+  std::vector<double> at_point[halves_of_light], glints[halves_of_light];
+  for (std::size_t h = 0; h < halves_of_light; ++h) {
+    at_point[h].assign(n, 0);
+    glints[h].assign(n, 0);
+  }
   for (std::size_t p = 0; p < packets; ++p) {
-    double common[packet_size] = {};
+    double common[packet_size] = {}, common_glints[packet_size] = {};
     add_suns(points, light_.suns, points.normal, p, common, load);
+    add_mirrored(points, images_, p, common_glints);
     for (std::uint32_t h = 0; h < halves_of_light; ++h) {
       double* sum = &at_point[h][p * packet_size];
       std::copy_n(common, packet_size, sum);
       add_suns(points, light_.samples[h], points.normal, p, sum, load);
       if (!emitters_.empty()) add_emitters(points, p, h, forest_.area(element), sum, load);
       add_surroundings(points, p, h, sum);
+      double* glint = &glints[h][p * packet_size];
+      std::copy_n(common_glints, packet_size, glint);
+      add_mirrored(points, images_of_half_[h], p, glint);
+      for (std::size_t r = 0; r < packet_size; ++r) sum[r] += glint[r];
     }
   }
-  double mean[halves_of_light] = {};
-  for (std::size_t h = 0; h < halves_of_light; ++h)
-    for (const double x : at_point[h]) mean[h] += x / static_cast<double>(n);
-  // The halves are sampled independently: their covariance over the points has no part of the
-  // sampling in it.
-  for (std::size_t s = 0; s < n; ++s)
-    load.variance += (at_point[0][s] - mean[0]) * (at_point[1][s] - mean[1]);
-  load.variance /= static_cast<double>(n - 1);
-  load.mean = (mean[0] + mean[1]) / 2;
+  const auto [mean, variance] = moments(at_point);
+  const auto [glint_mean, glint_variance] = moments(glints);
+  load.mean = mean;
+  load.variance = variance;
+  load.glint_mean = glint_mean;
+  load.glint_variance = glint_variance;
   return load;
 }
 
@@ -147,6 +230,34 @@ void MeshPilot::add_suns(const Points& points, const std::vector<PeriodSun>& sun
     load.sees_sun = true;
     load.largest_cosine = std::max(load.largest_cosine, cos_theta);
     for (; lit != 0; lit &= lit - 1) sum[std::countr_zero(lit)] += sun.exposure * cos_theta;
+  }
+}
+
+/// What a ray towards the image of a sun meets first is a mirror of that orientation, and sees the
+/// sun itself.
+void MeshPilot::add_mirrored(const Points& points, const std::vector<Image>& images,
+                             std::size_t packet, double* sum) const {
+  for (const Image& image : images) {
+    const double cos_theta = dot(points.normal, image.direction);
+    if (cos_theta <= 0) continue;
+    const PacketHits hits = caster_.first_hits(points.packets[packet], image.direction, all_rays);
+    Packet origins{};
+    std::uint32_t on_mirror = 0;
+    for (std::size_t r = 0; r < packet_size; ++r) {
+      const Hit hit = hits[r];
+      if (hit.left_scene() || mirrors_.of_side(hit.triangle, hit.front) != image.group) continue;
+      const Vec3 n = met_normal(scene_.mesh, hit);
+      put(origins, r, lifted_point(scene_.mesh, hit, n, caster_.offset_m()));
+      on_mirror |= 1u << r;
+    }
+    if (on_mirror == 0) continue;
+    for (auto lit = caster_.unoccluded(origins, image.sun, on_mirror); lit != 0; lit &= lit - 1) {
+      const auto r = static_cast<std::size_t>(std::countr_zero(lit));
+      const double cos_at_mirror =
+          dot(mirrors_[static_cast<std::size_t>(image.group)].normal, image.sun);
+      sum[r] +=
+          image.exposure * cos_theta * mirrors_.weight_of_hit(hits.triangle[r], cos_at_mirror);
+    }
   }
 }
 
@@ -169,7 +280,7 @@ void MeshPilot::add_surroundings(const Points& points, std::size_t packet, std::
 /// Points y on emitters by power: E(x) = mean of Φ cosθ cosθ' V / (π r²), the same y for all x.
 void MeshPilot::add_emitters(const Points& points, std::size_t packet, std::uint32_t half,
                              double area_m2, double* sum, ElementLoad& load) const {
-  const Mesh& mesh = forest_.scene().mesh;
+  const Mesh& mesh = scene_.mesh;
   const Packet& origins = points.packets[packet];
   const RandomWords& seeds = points.emitter_seeds[half];
   for (std::uint32_t s = 0; s < emitter_points_per_half; ++s) {

@@ -3,8 +3,9 @@
 /// A first look at the light of the whole period: how much falls on an element, and how much that
 /// varies inside of it. Only the mesh is decided by it; no number of a result is made from it.
 ///
-/// Light comes from parallel directions (suns of the period with their exposure), from emitters of
-/// the scene, from the sky and the far ground, and from surfaces after one diffuse reflection. It
+/// Light comes from parallel directions (suns of the period with their exposure), from these by one
+/// mirror, from emitters of the scene, from the sky and the far ground, and from surfaces after one
+/// diffuse reflection. It
 /// is seen from the same points of the element along the same directions, so that the differences
 /// between the points are those of the light and not of its sampling.
 #pragma once
@@ -15,6 +16,7 @@
 
 #include "geo/sky/sky.h"
 #include "solver/mesh/element_forest.h"
+#include "solver/surface/mirror_groups.h"
 #include "solver/surface/ray_caster.h"
 
 namespace sunload {
@@ -41,16 +43,19 @@ struct ElementLoad {
   double mean = 0;        ///< light load [J m-2]
   double variance = 0;    ///< of the light load over its points; estimated without the variance of
                           ///< the sampling, hence below zero at times [J2 m-4]
-  bool sees_sun = false;  ///< some point sees some sun
+  double glint_mean = 0;  ///< of the part that comes by mirrors
+  double glint_variance = 0;
+  bool sees_sun = false;        ///< some point sees some sun
   double largest_cosine = 0;    ///< of the suns that it sees
   double lamp_form_factor = 0;  ///< largest disc estimate from a point of an emitter that it sees
 };
 
 class MeshPilot {
  public:
-  /// All must outlive it; the forest may grow.
-  MeshPilot(const ElementForest& forest, const RayCaster& caster, const PeriodLight& light,
-            std::uint64_t seed);
+  /// All must outlive it; the forest may grow. `scene` has the forest's geometry and materials of
+  /// its own.
+  MeshPilot(const ElementForest& forest, const Scene& scene, const RayCaster& caster,
+            const PeriodLight& light, std::uint64_t seed);
 
   /// Load of one side (0 front, 1 back) of an element. Cost: 16 rays for every direction and
   /// packet of points; large elements have more packets.
@@ -67,6 +72,17 @@ class MeshPilot {
     std::int32_t triangle;
     double power_share;  ///< of this one and all before it
   };
+  /// A sun as it is seen in mirrors of one orientation.
+  struct Image {
+    Vec3 direction, sun;
+    std::int32_t group;
+    double exposure;  ///< normal to the sun, over the probability with which it was chosen
+  };
+  void add_images(const std::vector<PeriodSun>& suns, std::size_t half);
+  void choose_images(const PeriodSun& sun, const std::vector<std::size_t>& groups,
+                     const std::vector<double>& powers, std::size_t half, std::size_t number);
+  void add_mirrored(const Points& points, const std::vector<Image>& images, std::size_t packet,
+                    double* sum) const;
   void add_suns(const Points& points, const std::vector<PeriodSun>& suns, Vec3 normal,
                 std::size_t packet, double* sum, ElementLoad& load) const;
   void add_emitters(const Points& points, std::size_t packet, std::uint32_t half, double area_m2,
@@ -76,13 +92,18 @@ class MeshPilot {
   double radiosity(const PacketHits& hits, std::size_t ray) const;
 
   const ElementForest& forest_;
+  const Scene& scene_;
   const RayCaster& caster_;
   const PeriodLight& light_;
   std::uint64_t seed_;
   SkyGrid grid_;
   std::vector<Emitter> emitters_;
   double emitted_power_ = 0;  ///< of all of them [W]
-  std::vector<float> load_;   ///< [2·element + side] J m-2
+  MirrorGroups mirrors_;
+  std::vector<double> mirror_area_m2_;  ///< per group
+  std::vector<Image> images_;           ///< in both halves
+  std::array<std::vector<Image>, 2> images_of_half_;
+  std::vector<float> load_;  ///< [2·element + side] J m-2
 };
 
 }  // namespace sunload

@@ -22,7 +22,7 @@ inline constexpr std::uint64_t mesh_pilot_seed = 1;
 
 struct RefineRules {
   Oracle oracle = Oracle::none;
-  double light_tolerance = 0.05;       ///< of the default oracle, share of the mean light load
+  double light_tolerance = 0.07;       ///< of the default oracle, share of the mean light load
   double light_threshold_m2 = 0.005;   ///< F1_eps of the historic one
   double form_factor_threshold = 0.5;  ///< F_eps of the historic one, for light of emitters
   TVertices t_vertices = TVertices::remove;

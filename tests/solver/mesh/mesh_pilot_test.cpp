@@ -34,7 +34,7 @@ TEST(MeshPilot, LoadOfAnOpenPlateIsThatOfItsSunsAndWhatIsAround) {
   light.suns = {{normalized({0.1, -0.6, 0.4}), 100},
                 {normalized({0.9, 0.5, 0.1}), 70},
                 {normalized({-0.9, 0.3, 0.1}), 40}};
-  const MeshPilot pilot(forest, caster, light, 1);
+  const MeshPilot pilot(forest, scene, caster, light, 1);
   for (const std::uint8_t side : {std::uint8_t{0}, std::uint8_t{1}}) {
     const Vec3 n = side == 0 ? normal : -normal;
     double truth = around, without_cosine = around, largest_cosine = 0;

@@ -38,31 +38,40 @@ PeriodLight suns(int count) {
   return light;
 }
 
-/// Root mean square of the direct light load's variation inside of patches, as share of its mean:
-/// from 256 points per patch, without the pilot.
+struct Load {
+  double mean = 0, variance = 0;
+};
+
+/// Direct light load of a patch over 256 points, without the pilot.
+Load sunlight(const Hierarchy& mesh, std::size_t patch, const RayCaster& caster,
+              const PeriodLight& light) {
+  constexpr int side = 16;
+  const Vec3 n = mesh.normal(patch), a = mesh.corner(patch, 0);
+  double sum = 0, sum_of_squares = 0;
+  for (int p = 0; p < side * side; ++p) {
+    const auto at = sample_triangle((p % side + 0.5) / side, (p / side + 0.5) / side);
+    const Vec3 x = a * at.w0 + mesh.corner(patch, 1) * at.w1 + mesh.corner(patch, 2) * at.w2;
+    double H = 0;
+    for (const auto& sun : light.suns) {
+      const double cos_theta = dot(n, sun.direction);
+      if (cos_theta > 0 && caster.first_hit(x + n * caster.offset_m(), sun.direction).left_scene())
+        H += sun.exposure * cos_theta;
+    }
+    sum += H;
+    sum_of_squares += H * H;
+  }
+  constexpr double count = side * side;
+  return {sum / count, sum_of_squares / count - sum / count * (sum / count)};
+}
+
+/// Root mean square of the direct light load's variation inside of patches, as share of its mean.
 double true_error(const Scene& scene, const Hierarchy& mesh, const PeriodLight& light) {
   const RayCaster caster(scene.mesh);
-  constexpr int side = 16;
   double squares = 0, power = 0, area = 0;
   for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
-    const Vec3 n = mesh.normal(i), a = mesh.corner(i, 0);
-    double sum = 0, sum_of_squares = 0;
-    for (int p = 0; p < side * side; ++p) {
-      const auto at = sample_triangle((p % side + 0.5) / side, (p / side + 0.5) / side);
-      const Vec3 x = a * at.w0 + mesh.corner(i, 1) * at.w1 + mesh.corner(i, 2) * at.w2;
-      double H = 0;
-      for (const auto& sun : light.suns) {
-        const double cos_theta = dot(n, sun.direction);
-        if (cos_theta > 0 &&
-            caster.first_hit(x + n * caster.offset_m(), sun.direction).left_scene())
-          H += sun.exposure * cos_theta;
-      }
-      sum += H;
-      sum_of_squares += H * H;
-    }
-    constexpr double count = side * side;
-    squares += mesh.area()[i] * (sum_of_squares / count - sum / count * (sum / count));
-    power += mesh.area()[i] * sum / count;
+    const Load load = sunlight(mesh, i, caster, light);
+    squares += mesh.area()[i] * load.variance;
+    power += mesh.area()[i] * load.mean;
     area += mesh.area()[i];
   }
   return std::sqrt(squares * area) / power;
@@ -120,6 +129,117 @@ TEST(Refine, LeavesAMeshAloneThatIsFineEnough) {
   const Hierarchy mesh =
       refined(scene, suns(5), {.oracle = Oracle::light_load, .light_tolerance = 10}, report);
   EXPECT_EQ(mesh.patch_count(), Hierarchy(scene, {}).patch_count());
+}
+
+/// A small house in the middle of a wide plain: kinds of surface as a study's scene has them.
+Scene house_on_plain(double plain_m) {
+  SceneBuilder builder;
+  const int m = builder.material({"m", 0.3, 0, 0});
+  const double h = plain_m / 2;
+  builder.object("plain").quad({-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}, m);
+  builder.object("house").box({-4, -4, 0.001}, {4, 4, 6}, m, SceneBuilder::Facing::outward);
+  Scene scene = builder.scene();
+  Mesh& mesh = scene.mesh;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const double z = mesh.normal(t, true).z;
+    const bool is_plain = mesh.corner(t, 0).z == 0 && z > 0.5;
+    mesh.triangle_surface[t] = is_plain   ? Surface::ground
+                               : z > 0.5  ? Surface::roof
+                               : z < -0.5 ? Surface::floor
+                                          : Surface::wall;
+  }
+  return scene;
+}
+
+/// A hundred points of a look do not find 100 m2 of shadow on 40 000 m2: the mean over all of the
+/// area was within any tolerance with the two triangles of the plain.
+TEST(Refine, ShowsTheShadowOfASmallHouseOnAWidePlain) {
+  const Scene scene = house_on_plain(400);
+  const PeriodLight light = suns(5);
+  RefineReport report;
+  const Hierarchy mesh =
+      refined(scene, light, {.oracle = Oracle::light_load, .light_tolerance = 0.07}, report, 0.01);
+  // Of the ground within 10 m of the house (a square, for simplicity): the share of the area where
+  // the load varies by more than a quarter of the mean.
+  double power = 0, area = 0, varied = 0, largest_near = 0, largest = 0;
+  const RayCaster caster(scene.mesh);
+  std::vector<std::pair<double, double>> deviations;
+  for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
+    const Vec3 c = mesh.centroid(i);
+    largest = std::max(largest, mesh.area()[i]);
+    if (mesh.normal(i).z < 0.5 || c.z > 0.1 || std::abs(c.x) > 14 || std::abs(c.y) > 14) continue;
+    const Load load = sunlight(mesh, i, caster, light);
+    power += mesh.area()[i] * load.mean;
+    area += mesh.area()[i];
+    deviations.push_back({std::sqrt(std::max(0.0, load.variance)), mesh.area()[i]});
+    largest_near = std::max(largest_near, mesh.area()[i]);
+  }
+  for (const auto& [deviation, own] : deviations)
+    if (deviation > 0.25 * power / area) varied += own;
+  std::cout << mesh.patch_count() << " patches, the largest " << largest << " m2, near the house "
+            << largest_near << " m2; " << 100 * varied / area << " % of the area varies\n";
+  EXPECT_LE(varied, 0.05 * area);
+  EXPECT_LE(largest_near, 200);  // half a square of 20 m
+  EXPECT_GT(largest, 1000);
+  EXPECT_LE(report.error, 0.07);
+  EXPECT_LT(mesh.patch_count(), 3000u);
+}
+
+/// A wall that mirrors, a plain in front of it; the sun beyond the plain, low.
+Scene wall_before_plain(double mirror) {
+  SceneBuilder builder;
+  const int m = builder.material({"m", 0.3, 0, 0});
+  const int glass = builder.material({"glass", 0.05, mirror, 0});
+  builder.object("plain").quad({-20, -20, 0}, {20, -20, 0}, {20, 20, 0}, {-20, 20, 0}, m);
+  builder.object("pane").quad({1, 20, 4}, {3, 20, 4}, {3, 20, 6}, {1, 20, 6}, glass);
+  return builder.scene();
+}
+
+PeriodLight low_sun_from_the_south() {
+  PeriodLight light = suns(0);
+  light.suns.push_back({normalized(Vec3{0, -1, 0.4}), 1});
+  return light;
+}
+
+/// Patches of the plain where the pane's image falls: it is turned over at y = 20, and falls as far
+/// towards the sun as it is high over the slope, 10 … 15 m.
+std::size_t patches_in_image(const Hierarchy& mesh) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
+    const Vec3 c = mesh.centroid(i);
+    if (c.z == 0 && c.x > 1 && c.x < 3 && c.y > 5 && c.y < 10) ++count;
+  }
+  return count;
+}
+
+TEST(Refine, ResolvesTheImagesOfMirrors) {
+  const PeriodLight light = low_sun_from_the_south();
+  const RefineRules rules{.oracle = Oracle::light_load, .light_tolerance = 0.07};
+  RefineReport report;
+  const std::size_t dull = patches_in_image(refined(wall_before_plain(0), light, rules, report));
+  const std::size_t bright =
+      patches_in_image(refined(wall_before_plain(0.8), light, rules, report));
+  std::cout << bright << " patches in the image, without it " << dull << "\n";
+  EXPECT_GT(bright, 20u);
+  EXPECT_LT(dull, 5u);
+}
+
+TEST(Refine, MakesOneMeshForAllThatLookAtIt) {
+  const Scene dull = wall_before_plain(0), bright = wall_before_plain(0.8);
+  const PeriodLight low = low_sun_from_the_south(), five = suns(5);
+  const RayCaster caster(dull.mesh);
+  const RefineRules rules{.oracle = Oracle::light_load, .light_tolerance = 0.07};
+  const SplitRules split{.min_area_m2 = 1e-3};
+  Watch watch;
+  const auto of = [&](std::vector<PilotView> views) {
+    return refined_mesh(views, split, rules, watch).key();
+  };
+  const auto both = of({{dull, caster, low}, {bright, caster, low}});
+  EXPECT_EQ(both, of({{bright, caster, low}, {dull, caster, low}}));
+  EXPECT_EQ(both, of({{bright, caster, low}, {dull, caster, low}, {bright, caster, low}}));
+  EXPECT_GE(both.size(), of({{bright, caster, low}}).size());
+  // Another light on the same scene, in which the image falls elsewhere.
+  EXPECT_GT(of({{bright, caster, low}, {bright, caster, five}}).size(), both.size());
 }
 
 TEST(Refine, NoiseOfTheLookItselfSplitsNothing) {

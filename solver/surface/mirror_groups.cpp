@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/first_light/mirror_groups.h"
+#include "solver/surface/mirror_groups.h"
 
 #include <algorithm>
 #include <cmath>

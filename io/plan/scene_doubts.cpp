@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/plan/scene_doubts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "io/study/material_table.h"
+
+namespace sunload {
+
+namespace {
+
+/// Area and reflectance over it, by kind of surface.
+struct Reflecting {
+  double area_m2 = 0, diffuse_m2 = 0, all_m2 = 0;
+  double diffuse() const { return diffuse_m2 / area_m2; }
+  double all() const { return all_m2 / area_m2; }
+};
+using OfKinds = std::array<Reflecting, surface_names.size()>;
+
+/// Whether a triangle reflects what the appearance of its city model says.
+bool shows_its_colour(const Study& study, const Scene& scene, std::size_t t) {
+  const Mesh& mesh = scene.mesh;
+  const auto id = mesh.triangle_material[t];
+  if (!id.exists() || mesh.object_kinds[mesh.triangle_object[t].index()].empty()) return false;
+  const FileMaterial& file = mesh.file_materials[id.index()];
+  const Material& material = scene.material_of(t);
+  return file.diffuse && material.name == file.name && material.diffuse == *file.diffuse &&
+         std::none_of(study.scene.materials.begin(), study.scene.materials.end(),
+                      [&](const MaterialStudy& m) { return m.name == file.name; });
+}
+
+/// What the table has for that kind of surface, a plain one.
+const char* usual_material(Surface surface) {
+  switch (surface) {
+    case Surface::wall:
+      return "brick";
+    case Surface::roof:
+      return "roof_tile";
+    case Surface::ground:
+      return "paving";
+    case Surface::window:
+      return "double_glazing";
+    case Surface::other:
+    case Surface::floor:
+      break;
+  }
+  return nullptr;
+}
+
+void warn_of_colours(const OfKinds& shown, BuiltScene& built) {
+  std::string means, offers;
+  for (std::size_t s = 0; s < surface_names.size(); ++s) {
+    if (shown[s].area_m2 == 0) continue;
+    means +=
+        fmt::format("{}{} {:.3g}", means.empty() ? "" : ", ", surface_names[s], shown[s].diffuse());
+    const char* usual = usual_material(static_cast<Surface>(s));
+    if (!usual) continue;
+    means += fmt::format(" (table: {} {:.3g})", usual, tabled_material(usual)->diffuse.value_or(0));
+    offers += fmt::format("{}{{surface: {}, material: {}}}", offers.empty() ? "" : ", ",
+                          surface_names[s], usual);
+  }
+  if (means.empty()) return;
+  built.warnings.push_back(
+      message({}, "the model's appearance gives colours, which are taken as reflectances: " + means,
+              "they were chosen for display and say little of sunlight",
+              offers.empty() ? "give the materials by scene.materials"
+                             : "scene.assign: [" + offers + "] takes the table's"));
+}
+
+}  // namespace
+
+std::string north_warning(const SiteStudy& given, const std::string& crs, double map_north_deg) {
+  constexpr double worth_telling_deg = 0.5;  // the sun's diameter: shadows of houses move by less
+  constexpr double turn_deg = 360;
+  if (!given.north_deg) return {};
+  const double apart_deg = std::remainder(*given.north_deg - map_north_deg, turn_deg);
+  if (std::abs(apart_deg) < worth_telling_deg) return {};
+  return message(
+      given.where,
+      fmt::format("site.north_deg is {:g}, and {} puts north at {:.3f}", *given.north_deg, crs,
+                  std::remainder(map_north_deg, turn_deg)),
+      fmt::format("the sun stands {:.2f} degrees aside, by the study's word", std::abs(apart_deg)),
+      "leave north_deg away where the model is in its map's coordinates");
+}
+
+std::string lying_warning(const Study& study, const BuiltScene& prepared, bool is_city_format) {
+  if (is_city_format) return {};
+  // Faces along an axis to within some 8 degrees. A town has much that is level, as open sheet or
+  // as roofs of bodies whose feet are level, and its walls face all sides.
+  constexpr double along = 0.99, much = 3, most_of_bodies = 0.8, same_foot = 0.01;
+  constexpr std::size_t some_bodies = 3;
+  const Mesh& mesh = prepared.scene.mesh;
+  std::array<double, 3> area{}, net{};
+  double all = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const auto id = mesh.triangle_material[t];
+    if (id.exists() && mesh.file_materials[id.index()].name == "ground") continue;  // ours
+    const Vec3 n = mesh.area_vector2(t);
+    const double own = norm(n);
+    all += own;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double c = component(n, axis);
+      if (std::abs(c) < along * own) continue;
+      area[static_cast<std::size_t>(axis)] += own;
+      net[static_cast<std::size_t>(axis)] += c;
+    }
+  }
+  const auto with_common_foot = [&](int axis) {
+    double least = 0, most = 0, count = 0;
+    for (const Body& body : prepared.bodies.bodies) {
+      const double low = component(body.box.low, axis), high = component(body.box.high, axis);
+      if (count++ == 0) least = low, most = high;
+      least = std::min(least, low);
+      most = std::max(most, high);
+    }
+    const double near = same_foot * (most - least);
+    double low = 0, high = 0;
+    for (const Body& body : prepared.bodies.bodies) {
+      low += component(body.box.low, axis) <= least + near;
+      high += component(body.box.high, axis) >= most - near;
+    }
+    return count > 0 ? std::max(low, high) / count : 0;
+  };
+  const int wide = area[0] > area[1] ? 0 : 1;
+  const auto w = static_cast<std::size_t>(wide);
+  if (all <= 0 || area[w] < much * area[2]) return {};
+  const bool is_open_land =
+      std::abs(net[w]) > all / much && std::abs(net[w]) > much * std::abs(net[2]);
+  const bool is_town = prepared.bodies.bodies.size() >= some_bodies &&
+                       with_common_foot(wide) >= most_of_bodies &&
+                       with_common_foot(2) < most_of_bodies;
+  if (!is_open_land && !is_town) return {};
+  return message(
+      study.scene.where,
+      fmt::format("the scene seems to lie on its side: {:.0f} % of its area faces along {}, {:.0f} "
+                  "% is level",
+                  100 * area[w] / all, wide == 0 ? "x" : "y", 100 * area[2] / all),
+      "its walls are taken for level land and the other way round",
+      fmt::format("write scene.up: {} where that axis of the file points to the zenith",
+                  wide == 0 ? "x" : "y"));
+}
+
+void warn_of_reflectances(const Study& study, BuiltScene& built) {
+  constexpr double brightest = 0.8;  // fresh snow
+  const Scene& scene = built.scene;
+  OfKinds shown, all;
+  for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
+    if (!scene.mesh.bears_patches(t)) continue;
+    const auto s = static_cast<std::size_t>(scene.mesh.triangle_surface[t]);
+    const Material& material = scene.material_of(t);
+    const double area = norm(scene.mesh.area_vector2(t)) / 2;
+    const auto add = [&](Reflecting& sum) {
+      sum.area_m2 += area;
+      sum.diffuse_m2 += area * material.diffuse;
+      sum.all_m2 += area * (material.diffuse + mirror_reflectance(material, 1) + material.glossy);
+    };
+    add(all[s]);
+    if (shows_its_colour(study, scene, t)) add(shown[s]);
+  }
+  warn_of_colours(shown, built);
+  const Reflecting& walls = all[static_cast<std::size_t>(Surface::wall)];
+  if (walls.area_m2 > 0 && walls.all() > brightest)
+    built.warnings.push_back(
+        message({}, fmt::format("walls reflect {:.3g} of the light in the mean", walls.all()),
+                "that is more than fresh snow does; facades of cities reflect 0.2 to 0.5",
+                "scene.assign: [{surface: wall, material: brick}] takes the table's"));
+}
+
+}  // namespace sunload

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Warnings of scenes that are hardly what was meant.
+
+#include "io/plan/scene_doubts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "io/plan/light_series.h"
+#include "tests/support/work_folder.h"
+
+namespace sunload::test {
+namespace {
+
+class Doubts : public testing::Test {
+ protected:
+  Study study(const std::string& scene, const std::string& site = "",
+              const std::string& day = "2026-03-21") const {
+    return read_study(folder_.write("s.yaml",
+                                    "format: sunload-study-1\nname: s\nsite: {latitude_deg: 52, "
+                                    "longitude_deg: 4.4, timezone: UTC" +
+                                        site + "}\nperiod: {days: [" + day + "]}\nscene: {" +
+                                        scene + "}\n"))
+        .variants.front();
+  }
+  bool warns(const Study& of, const std::string& what) const {
+    const auto warnings = build_scene(of).warnings;
+    return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& warning) {
+      return warning.find(what) != std::string::npos;
+    });
+  }
+  /// Boxes of an OBJ file with feet at z = 0, or turned so that y is up.
+  void write_town(const std::string& name, bool y_up) const {
+    std::string text;
+    int first = 1;
+    for (int house = 0; house < 4; ++house) {
+      const double x = 12.0 * house, y = 7.0 * (house % 3), h = 5 + house;
+      text += "o house_" + std::to_string(house) + "\n";
+      for (const double z : {0.0, h})
+        for (const auto& [a, b] :
+             {std::pair{x, y}, {x + 10, y + 2}, {x + 8, y + 12}, {x - 2, y + 10}})
+          text += "v " + std::to_string(a) + " " +
+                  (y_up ? std::to_string(z) + " " + std::to_string(-b)
+                        : std::to_string(b) + " " + std::to_string(z)) +
+                  "\n";
+      const auto face = [&](std::initializer_list<int> corners) {
+        text += "f";
+        for (const int c : corners) text += " " + std::to_string(first + c);
+        text += "\n";
+      };
+      face({3, 2, 1, 0});
+      face({4, 5, 6, 7});
+      for (int k = 0; k < 4; ++k) face({k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k});
+      first += 8;
+    }
+    folder_.write(name, text);
+  }
+  WorkFolder folder_;
+};
+
+constexpr const char* lies = "lie on its side";
+
+TEST_F(Doubts, SeeATownThatLiesOnItsSide) {
+  write_town("up_z.obj", false);
+  write_town("up_y.obj", true);
+  EXPECT_FALSE(warns(study("files: [up_z.obj], up: z"), lies));
+  EXPECT_TRUE(warns(study("files: [up_y.obj], up: z"), lies));
+  EXPECT_FALSE(warns(study("files: [up_y.obj], up: y"), lies));
+}
+
+TEST_F(Doubts, SeeLandThatStandsUpright) {
+  folder_.write("land.obj",
+                "v 0 0 0\nv 9 0 0\nv 9 0 9\nv 0 0 9\nf 1 4 3 2\n"
+                "v 3 0 3\nv 5 0 3\nv 5 4 3\nv 3 4 3\nf 5 6 7 8\n");
+  EXPECT_TRUE(warns(study("files: [land.obj], up: z"), lies));
+  EXPECT_FALSE(warns(study("files: [land.obj], up: y"), lies));
+}
+
+TEST_F(Doubts, LeaveSlabsAndFacadesAlone) {
+  for (const char* scene : {"street", "skyscrapers", "windows", "canyon", "city", "box_on_plane"})
+    EXPECT_FALSE(warns(study(std::string("builtin: {name: ") + scene + "}"), lies)) << scene;
+  folder_.write("wall.obj", "v 0 0 0\nv 9 0 0\nv 9 0 9\nv 0 0 9\nf 1 2 3 4\n");
+  EXPECT_FALSE(warns(study("files: [wall.obj], up: z, ground: {margin_m: 5}"), lies));
+}
+
+TEST_F(Doubts, CompareNorthWithTheMap) {
+  SiteStudy given;
+  given.north_deg = 0;
+  EXPECT_EQ(north_warning(given, "EPSG:28992", 0.4), "");
+  EXPECT_EQ(north_warning(given, "EPSG:28992", 359.7), "");
+  EXPECT_EQ(north_warning({}, "EPSG:28992", 5), "");
+  EXPECT_NE(north_warning(given, "EPSG:28992", -0.8).find("puts north at -0.8"), std::string::npos);
+}
+
+/// A city of one house whose appearance paints its walls.
+std::string painted_house(const std::string& colour) {
+  return R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},
+"appearance":{"materials":[{"name":"paint","diffuseColor":)" +
+         colour + R"(}]},
+"CityObjects":{"house":{"type":"Building","geometry":[{"type":"MultiSurface","lod":"2",
+"boundaries":[[[0,1,5,4]],[[1,2,6,5]],[[2,3,7,6]],[[3,0,4,7]],[[4,5,6,7]]],
+"material":{"visual":{"values":[0,0,0,0,0]}}}]}},
+"vertices":[[0,0,0],[9,0,0],[9,9,0],[0,9,0],[0,0,6],[9,0,6],[9,9,6],[0,9,6]]})";
+}
+
+TEST_F(Doubts, TellOfColoursThatBecomeReflectances) {
+  folder_.write("house.city.json", painted_house("[0.92,0.92,0.92]"));
+  const std::string files = "files: [house.city.json]";
+  EXPECT_TRUE(
+      warns(study(files), "taken as reflectances: wall 0.92 (table: brick 0.3), roof 0.92"));
+  EXPECT_TRUE(warns(study(files), "walls reflect 0.92 of the light"));
+  // What the study says is no colour, and bright walls are told once more.
+  const std::string said = files + ", materials: {paint: {diffuse: 0.92}}";
+  EXPECT_FALSE(warns(study(said), "taken as reflectances"));
+  EXPECT_TRUE(warns(study(said), "walls reflect 0.92 of the light"));
+  const std::string ruled = files +
+                            ", assign: [{surface: wall, material: brick}, {surface: roof, "
+                            "material: roof_tile}]";
+  EXPECT_FALSE(warns(study(ruled), "taken as reflectances"));
+  EXPECT_FALSE(warns(study(ruled), "walls reflect"));
+}
+
+/// Behind the table UT1 is known to 0.9 s, 0.004 degrees, as long as there are leap seconds.
+TEST_F(Doubts, TellOfTheEarthsTurnOnlyWhereItMatters) {
+  const auto notes = [&](const std::string& day) {
+    const Study of = study("builtin: {name: box_on_plane}", "", day);
+    std::string text;
+    for (const auto& note : light_series(of, build_scene(of).site).notes) text += note + "\n";
+    return text;
+  };
+  EXPECT_EQ(notes("2029-03-21").find("UT1"), std::string::npos);
+  EXPECT_NE(notes("2060-03-21").find("UT1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sunload::test
