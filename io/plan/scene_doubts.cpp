@@ -93,7 +93,8 @@ std::string lying_warning(const Study& study, const BuiltScene& prepared, bool i
   if (is_city_format) return {};
   // Faces along an axis to within some 8 degrees. A town has much that is level, as open sheet or
   // as roofs of bodies whose feet are level, and its walls face all sides.
-  constexpr double along = 0.99, much = 3, most_of_bodies = 0.8, same_foot = 0.01;
+  constexpr double along = 0.99, much = 3, most_of_bodies = 0.8, same_foot = 0.01,
+                   some_walls = 0.05;
   constexpr std::size_t some_bodies = 3;
   const Mesh& mesh = prepared.scene.mesh;
   std::array<double, 3> area{}, net{};
@@ -130,8 +131,9 @@ std::string lying_warning(const Study& study, const BuiltScene& prepared, bool i
   const int wide = area[0] > area[1] ? 0 : 1;
   const auto w = static_cast<std::size_t>(wide);
   if (all <= 0 || area[w] < much * area[2]) return {};
+  const bool bears_walls = all - area[w] > some_walls * all;  // or is a wall itself
   const bool is_open_land =
-      std::abs(net[w]) > all / much && std::abs(net[w]) > much * std::abs(net[2]);
+      bears_walls && std::abs(net[w]) > all / much && std::abs(net[w]) > much * std::abs(net[2]);
   const bool is_town = prepared.bodies.bodies.size() >= some_bodies &&
                        with_common_foot(wide) >= most_of_bodies &&
                        with_common_foot(2) < most_of_bodies;
