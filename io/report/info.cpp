@@ -236,6 +236,7 @@ std::string info_text(const ResultReader& result) {
   text += period(result);
   text += orientation(result);
   text += size(result, groups);
+  text += info_line("covered", result.text_attribute("covered"));
   text += info_line("bands", band_words(result));
   text += accuracy(result, groups, load);
   text += lighting_analysis(result, groups, load);

@@ -129,6 +129,17 @@ void add_place(Attributes& a, const VariantPlan& plan) {
                                      {"north_deg", built.site.north_deg}});
 }
 
+/// Surfaces that are no patches, since they are inside of bodies, against others or below land.
+void add_covered(Attributes& a, const VariantPlan& plan) {
+  std::string text;
+  const auto& covered_m2 = plan.built.report.covered_m2;
+  for (std::size_t s = 0; s < surface_names.size(); ++s)
+    if (covered_m2[s] > 0)
+      text += fmt::format("{}{} {:.6g} m2", text.empty() ? "" : ", ", surface_names[s],
+                          covered_m2[s]);
+  if (!text.empty()) a.text.emplace_back("covered", text);
+}
+
 /// Rays and seconds.
 void add_work(Attributes& a, const MergedResult& result) {
   const WorkDone work = work_from(result.totals[batch_array::work]);
@@ -218,7 +229,7 @@ ResultAttributes result_attributes(const MergedResult& result) {
 
 ResultAttributes scene_attributes(const VariantPlan& plan) {
   ResultAttributes attributes;
-  for (const auto add : {add_names, add_place}) add(attributes, plan);
+  for (const auto add : {add_names, add_place, add_covered}) add(attributes, plan);
   return attributes;
 }
 
