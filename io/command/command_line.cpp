@@ -8,6 +8,8 @@
 #include <functional>
 #include <iostream>
 #include <map>
+#include <optional>
+#include <tuple>
 
 #include "geo/base/check.h"
 #include "io/base/exit_code.h"
@@ -32,7 +34,9 @@ const std::map<std::string, std::pair<PictureColours, Palette>> picture_colours{
     {"false", {PictureColours::of_values, Palette::false_colour}},
     {"grey", {PictureColours::of_values, Palette::grey}},
     {"hue", {PictureColours::of_values, Palette::hue}},
-    {"rgb", {PictureColours::of_bands, Palette::false_colour}}};
+    {"rgb", {PictureColours::of_bands, Palette::false_colour}},
+    {"surface", {PictureColours::of_surfaces, Palette::false_colour}},
+    {"material", {PictureColours::of_materials, Palette::false_colour}}};
 
 /// An option that takes one of some words.
 template <class Value>
@@ -333,11 +337,15 @@ class CommandLine {
       RenderRules& rules = render_.rules;
       if (largest_ > 0) rules.largest = largest_;
       if (mesh_lines_) rules.mesh = MeshLines::patches;
-      rules.colours = render_colours_.first;
-      rules.palette = render_colours_.second;
+      render_.has_colours = render_colours_.has_value();
+      if (render_colours_) std::tie(rules.colours, rules.palette) = *render_colours_;
       return render(render_);
     });
-    add_result(sub);
+    reads(sub->add_option("RESULT", results_,
+                          "result file (.h5), comparison file, or a study (.yaml), whose scene is "
+                          "drawn without light"))
+        ->required()
+        ->expected(1);
     writes(sub->add_option("-o,--output", render_.picture, "picture to write (.png)"))->required();
     sub->add_option("--quantity", render_.rules.quantity,
                     "dataset to draw (default: light_load; animated: irradiance)");
@@ -354,8 +362,11 @@ class CommandLine {
              "of overview and eye point");
     sub->add_option("--size", render_.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
     sub->add_option("--max", largest_, "value of the last colour")->check(positive);
-    add_word(sub, "--colour", render_colours_, picture_colours,
-             "colours (rgb: the bands themselves, default quantity power_load)");
+    add_word<std::optional<std::pair<PictureColours, Palette>>>(
+        sub, "--colour", render_colours_, {picture_colours.begin(), picture_colours.end()},
+        "colours (rgb: the bands themselves, default quantity power_load; surface, material: the "
+        "scene without light, default surface of a study)");
+    sub->add_option("--variant", render_.variant, "of a study (default: its first)");
     add_band(sub);
     reads(sub->add_option("--same-scale", render_.rules.same_scale,
                           "results that the scale is to do for, too, so that pictures can be "
@@ -460,8 +471,7 @@ class CommandLine {
   InfoOptions info_;
   CompareOptions compare_;
   RenderOptions render_;
-  std::pair<PictureColours, Palette> render_colours_{PictureColours::of_values,
-                                                     Palette::false_colour};
+  std::optional<std::pair<PictureColours, Palette>> render_colours_;
   ExportRules export_;
   SkyOptions sky_;
   ViewOptions view_;

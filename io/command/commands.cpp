@@ -9,6 +9,7 @@
 #include "io/base/bands.h"
 #include "io/base/exit_code.h"
 #include "io/base/output_target.h"
+#include "io/command/study_scenes.h"
 #include "io/report/compare.h"
 #include "io/report/info.h"
 #include "io/result/patches_csv.h"
@@ -109,6 +110,23 @@ void print_table(const ResultReader& result, TableOf of, const InfoOptions& opti
   std::cout << group_table_text(result, table);
 }
 
+/// The scene of a study before any light: kinds of surface, or materials.
+int render_study(RenderOptions options) {
+  if (!options.has_colours) options.rules.colours = PictureColours::of_surfaces;
+  const bool is_of_light = options.rules.colours == PictureColours::of_values ||
+                           options.rules.colours == PictureColours::of_bands;
+  if (is_of_light || options.animate || !options.day.empty() || !options.result.band.empty())
+    throw InputError({options.result.path}, "a study has no light yet",
+                     "its scene is drawn by kinds of surface or by materials",
+                     "write --colour surface or --colour material, or run it and draw the result");
+  const StudyFile file = read_study(options.result.path);
+  RunOptions chosen;
+  if (!options.variant.empty()) chosen.variants = {options.variant};
+  const auto scenes = study_scenes(file, {chosen_variants(file, chosen).front()}, options.picture);
+  render_png(ResultReader(scenes.front().path()), options.rules, options.picture);
+  return exit_code::done;
+}
+
 void write_scene(const PolygonModel& model, const std::string& path) {
   if (path.ends_with(".obj")) return write_obj(model, path);
   if (path.ends_with(".json")) return write_cityjson(model, path);
@@ -170,6 +188,10 @@ int render(RenderOptions options) {
   RenderRules& rules = options.rules;
   if (std::sscanf(options.size.c_str(), "%dx%d", &rules.width, &rules.height) != 2)
     throw InputError({}, "--size " + options.size, "not a size", "write e.g. 1600x1000");
+  if (is_study(options.result.path)) return render_study(options);
+  if (!options.variant.empty())
+    throw InputError({}, "--variant without a study", "a result is of one variant",
+                     "name the result of the variant, or the study");
   const ResultReader result(options.result.path, chosen_band(options.result.band),
                             Opens::comparisons_too);
   if (!options.day.empty() && !options.animate)

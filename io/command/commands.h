@@ -44,7 +44,9 @@ struct CompareOptions {
 int compare(const CompareOptions& options);
 
 struct RenderOptions {
-  NamedResult result;
+  NamedResult result;        ///< or a comparison, or a study, whose scene is drawn without light
+  std::string variant;       ///< of a study; empty: its first
+  bool has_colours = false;  ///< whether rules.colours was asked for
   RenderRules rules;
   std::string size = "1600x1000";
   std::string picture;  ///< file to write

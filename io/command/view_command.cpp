@@ -8,13 +8,10 @@
 
 #include "geo/base/check.h"
 #include "io/base/exit_code.h"
-#include "io/base/output_target.h"
 #include "io/base/standard_streams.h"
 #include "io/command/commands.h"
-#include "io/plan/planner.h"
+#include "io/command/study_scenes.h"
 #include "io/run/options.h"
-#include "io/run/scene_file.h"
-#include "io/study/named_files.h"
 
 namespace sunload {
 namespace {
@@ -40,17 +37,7 @@ std::vector<Study> viewed_variants(const StudyFile& file, const ViewOptions& opt
 /// The scene of a study as files that read like results without light.
 std::deque<SceneFile> scene_files(const ViewOptions& options) {
   const StudyFile file = read_study(options.inputs.front());
-  expect_not_read(options.page, named_files(file));
-  std::deque<SceneFile> files;
-  Planner planner;
-  for (const auto& warning : file.warnings) tell("warning: " + warning);
-  for (const Study& study : viewed_variants(file, options)) {
-    const VariantPlan plan = planner.plan(study);
-    for (const auto& warning : plan.built.warnings)
-      tell("warning: " + study.variant + ": " + warning);
-    files.emplace_back(plan, file, options.page);
-  }
-  return files;
+  return study_scenes(file, viewed_variants(file, options), options.page);
 }
 
 }  // namespace

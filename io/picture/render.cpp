@@ -11,7 +11,9 @@
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
+#include "geo/mesh/mesh.h"
 #include "io/base/file_aside.h"
+#include "io/base/scene_colours.h"
 #include "io/picture/animated_png.h"
 #include "io/picture/render_bands.h"
 #include "io/picture/render_frame.h"
@@ -168,6 +170,66 @@ void expect_time_matters(const ResultReader& result, const RenderRules& rules,
                        dataset_name("irradiance", result.quantity()));
 }
 
+bool is_of_kinds(PictureColours colours) {
+  return colours == PictureColours::of_surfaces || colours == PictureColours::of_materials;
+}
+
+/// Options of light make no sense of a scene without it.
+void expect_fit_for_kinds(const RenderRules& rules) {
+  const bool is_about_light = !rules.quantity.empty() || rules.largest ||
+                              !rules.same_scale.empty() || rules.interpolate ||
+                              rules.sky.value_or(SkyBackground::plain) != SkyBackground::plain ||
+                              (!rules.time.empty() && rules.view != View::sun);
+  if (is_about_light)
+    throw InputError({}, "--quantity, --time, --max, --same-scale, --interpolate or --sky",
+                     "the picture is of surfaces or materials, without light",
+                     "leave them out, or draw a result with --colour false");
+}
+
+/// Kinds of surface or materials: which each patch has, and which are there.
+struct SceneKinds {
+  std::vector<std::size_t> of_patch;
+  std::vector<Colour> colours;     ///< of all kinds
+  std::vector<KindEntry> entries;  ///< those with area, largest first
+};
+
+SceneKinds scene_kinds(const ResultReader& result, PictureColours by) {
+  const bool by_surface = by == PictureColours::of_surfaces;
+  std::vector<std::string> names =
+      by_surface ? std::vector<std::string>{surface_names.begin(), surface_names.end()}
+                 : result.strings("material_name");
+  names.emplace_back("none");
+  const auto entry = result.integers(by_surface ? "patch_surface" : "patch_material");
+  const auto area = result.doubles("patch_area");
+  SceneKinds kinds;
+  std::vector<double> sums(names.size(), 0);
+  for (std::size_t k = 0; k + 1 < names.size(); ++k)
+    kinds.colours.push_back(by_surface ? surface_colour(k) : material_colour(k));
+  kinds.colours.push_back(back_colour);
+  for (std::size_t p = 0; p < entry.size(); ++p) {
+    kinds.of_patch.push_back(entry[p] < 0 ? names.size() - 1 : static_cast<std::size_t>(entry[p]));
+    sums[kinds.of_patch.back()] += area[p];
+  }
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (sums[k] > 0) kinds.entries.push_back({names[k], kinds.colours[k], sums[k]});
+  std::stable_sort(kinds.entries.begin(), kinds.entries.end(),
+                   [](const auto& a, const auto& b) { return a.area_m2 > b.area_m2; });
+  return kinds;
+}
+
+/// Begins anew where no interval follows for longer than the sun needs for an hour line or two.
+SunTrack sun_track(const ResultReader& result) {
+  constexpr double longest_gap_s = 3 * seconds_per_hour;
+  const auto azimuth = result.doubles("sun_azimuth"), elevation = result.doubles("sun_elevation"),
+             time = result.doubles("time");
+  SunTrack path;
+  for (std::size_t k = 0; k < azimuth.size(); ++k) {
+    path.places.push_back({azimuth[k], elevation[k]});
+    path.breaks.push_back(k > 0 && time[k] - time[k - 1] > longest_gap_s);
+  }
+  return path;
+}
+
 /// A result being drawn: what all pictures of it share.
 class Renderer {
  public:
@@ -199,17 +261,33 @@ class Renderer {
 
   const PatchScene& scene() const { return scene_; }
 
+  /// The scene by kinds of surface or by materials, as it is without any light.
+  std::unique_ptr<Picture> picture_of_kinds(std::size_t interval) {
+    auto picture = std::make_unique<Picture>(rules_.width, rules_.height);
+    const PictureArea area = scene_area(*picture);
+    trace(interval, area);
+    const SceneKinds kinds = scene_kinds(result_, rules_.colours);
+    PatchColours colours;
+    colours.values.assign(scene_.patch_count(), 0);
+    colours.mesh = rules_.mesh;
+    for (const auto kind : kinds.of_patch) colours.own.push_back(linear_light(kinds.colours[kind]));
+    picture->paint(area.x, area.y, area.width, traced_->pixels(colours, {}));
+    draw_title(*picture, title(result_),
+               std::string(rules_.colours == PictureColours::of_surfaces ? "kinds of surface"
+                                                                         : "materials") +
+                   ", sun path of " + whole_period(result_) + named_in_words(rules_.parts));
+    draw_kinds(*picture, kinds.entries);
+    draw_sun_path(*picture, sun_track(result_),
+                  camera_->image_direction(scene_direction({0, 0}, north_deg_)));
+    return picture;
+  }
+
   /// The whole picture with its frame.
   std::unique_ptr<Picture> picture(const ShownQuantity& shown, double largest) {
     auto picture = std::make_unique<Picture>(rules_.width, rules_.height);
     const PictureArea area = scene_area(*picture);
     // A camera that follows the sun sees something else each time.
-    if (!traced_ || (rules_.view == View::sun && rules_.eye.empty())) {
-      camera_ = std::make_unique<Camera>(camera(shown.interval, area));
-      traced_ = std::make_unique<TracedPicture>(scene_, caster_, *camera_, area.width, area.height,
-                                                rules_.mesh);
-      expect_something_seen();
-    }
+    if (!traced_ || (rules_.view == View::sun && rules_.eye.empty())) trace(shown.interval, area);
     const Palette palette = shown.is_difference ? Palette::difference : rules_.palette;
     PatchColours colours{shown.values, largest, palette, rules_.mesh};
     colours.least = shown.scale_begin(largest);
@@ -246,6 +324,13 @@ class Renderer {
   }
 
  private:
+  void trace(std::size_t interval, PictureArea area) {
+    camera_ = std::make_unique<Camera>(camera(interval, area));
+    traced_ = std::make_unique<TracedPicture>(scene_, caster_, *camera_, area.width, area.height,
+                                              rules_.mesh);
+    expect_something_seen();
+  }
+
   Camera camera(std::size_t interval, PictureArea area) const {
     if (!rules_.eye.empty()) return free_camera(area);
     if (!rules_.parts.facades.empty() && place_->normal)
@@ -366,6 +451,17 @@ ShownQuantity shown_at(const ResultReader& result, const std::string& dataset,
 
 void render_png(const ResultReader& result, const RenderRules& rules, const std::string& path) {
   expect_sense(rules);
+  if (is_of_kinds(rules.colours)) {
+    if (result.is_comparison())
+      throw InputError({result.path()}, "--colour of a comparison", "it is of differences",
+                       "draw one of its results, or the study");
+    expect_fit_for_kinds(rules);
+    Renderer(result, rules)
+        .picture_of_kinds(rules.time.empty() ? brightest_interval(result)
+                                             : interval_at(result, rules.time))
+        ->save(path);
+    return;
+  }
   expect_fit_for_comparison(result, rules);
   const std::string usual =
       rules.colours == PictureColours::of_bands ? "power_load" : usual_quantity(result);
@@ -384,6 +480,9 @@ void render_animation(const ResultReader& result, const RenderRules& rules, cons
                      "draw one picture of it, or animate the results");
   if (!rules.time.empty())
     throw InputError({}, "--time with --animate", "it shows all times", "use --day");
+  if (is_of_kinds(rules.colours))
+    throw InputError({}, "--animate of surfaces or materials", "they do not change",
+                     "leave it out");
   if (rules.colours == PictureColours::of_bands)
     throw InputError({}, "--colour rgb with --animate",
                      "each picture would have a white of its own",

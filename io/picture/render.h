@@ -23,8 +23,9 @@ enum class Projection { perspective, parallel };
 
 enum class MeshLines { none, patches };
 
-/// of_values: by a palette; of_bands: red, green and blue light as what they are.
-enum class PictureColours { of_values, of_bands };
+/// of_values: by a palette; of_bands: red, green and blue light as what they are; of_surfaces and
+/// of_materials: kinds, without any light (io/base/scene_colours.h).
+enum class PictureColours { of_values, of_bands, of_surfaces, of_materials };
 /// What is behind the scene: one light colour, or the clear sky with the sun of the interval by one
 /// of the two models of geo/sky/sky_colour.h.
 enum class SkyBackground { plain, first, second };
@@ -56,10 +57,11 @@ struct RenderRules {
   std::optional<double> crease_angle_deg;
 };
 
-/// Draws and writes a PNG. Colours of bands show white where all bands reach `largest`, of
-/// `power_load` as an eye would see the surfaces. Rays are cast at 2 × 2 points of a pixel; colours
-/// are not shaded, so that every colour is one of the legend's; thin lines part
-/// objects, materials and folds. Backs of one-sided surfaces are grey.
+/// Draws and writes a PNG. Of kinds of surface or of materials it needs no light: the legend has
+/// their areas, and beside north stands the path of the sun over the period. Colours of bands show
+/// white where all bands reach `largest`, of `power_load` as an eye would see the surfaces. Rays
+/// are cast at 2 × 2 points of a pixel; colours are not shaded, so that every colour is one of the
+/// legend's; thin lines part objects, materials and folds. Backs of one-sided surfaces are grey.
 /// Throws InputError for a quantity, time, camera or size that the result does
 /// not have, for a time that changes nothing, and where the camera would see nothing of the scene
 /// or of what it is to show; MachineError where the picture cannot be written.

@@ -26,6 +26,12 @@ constexpr double title_size = 1.5, title_line = 1.9, subtitle_line = 3.5;
 constexpr double bar_width = 1.8, tick_length = 0.5, line_width = 0.09;
 constexpr double arrow_radius = 3;
 
+/// Whole square metres; of small areas two digits.
+std::string area_words(double area_m2) {
+  constexpr double small_m2 = 10;
+  return area_m2 < small_m2 ? fmt::format("{:.2g} m²", area_m2) : fmt::format("{:.0f} m²", area_m2);
+}
+
 }  // namespace
 
 PictureArea scene_area(const Picture& picture) {
@@ -111,6 +117,76 @@ void draw_north(Picture& picture, PicturePoint north) {
   constexpr double letter = 0.72, half_letter = 0.36;
   const auto place = at(letter, 0);
   picture.write({place.x, place.y + half_letter * u}, "N", {u, Align::centre, Weight::bold, ink});
+}
+
+void draw_kinds(Picture& picture, const std::vector<KindEntry>& kinds) {
+  const double u = unit(picture);
+  const double x = std::round(picture.width() - (legend_strip - margin) * u);
+  const double room = picture.width() - x - margin * u / 2;
+  constexpr double swatch = 1.6, line = 1.25, entry = 4.2;
+  double y = (title_strip + margin) * u;
+  const auto write = [&](double at, const std::string& text, Weight weight) {
+    TextStyle style{u, Align::left, weight, ink};
+    const double width = picture.text_width(text, style);
+    if (width > room) style.size *= room / width;
+    picture.write({x, at}, text, style);
+  };
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    if (y + 2 * entry * u > picture.height() && k + 1 < kinds.size()) {
+      write(y + line * u, fmt::format("and {} more", kinds.size() - k), Weight::normal);
+      return;
+    }
+    picture.fill_rectangle({x, y}, 2 * swatch * u, swatch * u, kinds[k].colour);
+    picture.draw_lines({{x, y},
+                        {x + 2 * swatch * u, y},
+                        {x + 2 * swatch * u, y + swatch * u},
+                        {x, y + swatch * u},
+                        {x, y}},
+                       line_width * u, ink);
+    write(y + (swatch + line) * u, kinds[k].name, Weight::bold);
+    write(y + (swatch + 2 * line) * u, area_words(kinds[k].area_m2), Weight::normal);
+    y += (entry + 1) * u;
+  }
+}
+
+void draw_sun_path(Picture& picture, const SunTrack& path, PicturePoint north) {
+  constexpr double disc_radius = 7, letter_place = 0.86, dot = 0.22, path_width = 0.14;
+  constexpr double zenith_deg = 90;
+  constexpr std::size_t most_dots = 80;
+  constexpr Colour paper{1, 1, 1}, line{0.85, 0.45, 0.05}, grid{0.75, 0.75, 0.75};
+  const double u = unit(picture), radius = disc_radius * u;
+  const PicturePoint centre{margin * u + radius, picture.height() - margin * u - radius};
+  // Where one looks along north, or straight down with north up, north is up.
+  const double turn = std::hypot(north.x, north.y) > 0 ? std::atan2(north.x, -north.y) : 0;
+  const auto at = [&](Horizontal place, double share) {
+    const double angle = radians(place.azimuth_deg) + turn;
+    const double r = radius * share * (zenith_deg - place.elevation_deg) / zenith_deg;
+    return PicturePoint{centre.x + r * std::sin(angle), centre.y - r * std::cos(angle)};
+  };
+  constexpr double rim = 0.72;  // of the disc: the letters stand outside of it
+  picture.fill_circle(centre, radius, paper);
+  picture.draw_circle(centre, radius, line_width * u, ink);
+  for (const double elevation : {0.0, 30.0, 60.0})
+    picture.draw_circle(centre, radius * rim * (zenith_deg - elevation) / zenith_deg,
+                        line_width * u, grid);
+  std::vector<PicturePoint> lit;
+  const auto flush = [&] {
+    if (lit.size() > 1) picture.draw_lines(lit, path_width * u, line);
+    lit.clear();
+  };
+  for (std::size_t k = 0; k < path.places.size(); ++k) {
+    if (path.places[k].elevation_deg < 0 || path.breaks[k]) flush();
+    if (path.places[k].elevation_deg < 0) continue;
+    lit.push_back(at(path.places[k], rim));
+    if (path.places.size() <= most_dots) picture.fill_circle(lit.back(), dot * u, line);
+  }
+  flush();
+  constexpr double half_letter = 0.36, quarter_deg = 90;
+  for (int k = 0; k < 4; ++k) {
+    const auto place = at({k * quarter_deg, 0}, letter_place);
+    picture.write({place.x, place.y + half_letter * u}, std::string(1, "NESW"[k]),
+                  {u, Align::centre, k == 0 ? Weight::bold : Weight::normal, ink});
+  }
 }
 
 }  // namespace sunload

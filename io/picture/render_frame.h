@@ -4,7 +4,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "geo/base/units.h"
 #include "io/base/colour_map.h"
 #include "io/picture/picture.h"
 
@@ -29,6 +31,25 @@ struct Legend {
   Above below = Above::nothing;  ///< smaller values occur
 };
 void draw_legend(Picture& picture, const Legend& legend);
+
+/// A kind of surface or a material.
+struct KindEntry {
+  std::string name;
+  Colour colour;
+  double area_m2 = 0;
+};
+/// In the order given; where there is no room for all, the rest is counted.
+void draw_kinds(Picture& picture, const std::vector<KindEntry>& kinds);
+
+/// Suns of the period as one who lies on the ground sees them from below, mirrored to agree with a
+/// map: the rim is the horizon, the middle the zenith. `places`: azimuth from true north, in the
+/// order of time; a jump to another day has elevations below 0 between, or `breaks` at its index.
+struct SunTrack {
+  std::vector<Horizontal> places;
+  std::vector<char> breaks;  ///< whether the path begins anew here
+};
+/// A disc in the lower left corner with the compass turned as the picture shows north.
+void draw_sun_path(Picture& picture, const SunTrack& path, PicturePoint north);
 
 /// Arrow in the lower left corner; `north` in the image, length 1 where it is
 /// not foreshortened; none where one looks along it.

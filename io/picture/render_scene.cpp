@@ -42,10 +42,6 @@ std::vector<Vec3> vectors(const std::vector<double>& flat) {
   return points;
 }
 
-Colour linear(Colour c) {
-  return {linear_from_srgb(c.red), linear_from_srgb(c.green), linear_from_srgb(c.blue)};
-}
-
 Colour blended(Colour a, Colour b, double share) {
   const auto mix = [&](double x, double y) { return x + share * (y - x); };
   return {mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue)};
@@ -83,7 +79,7 @@ class Painter {
           const Background& background)
       : scene_(scene), camera_(camera), colours_(colours), background_(background) {
     for (std::size_t k = 0; k < palette_steps; ++k)
-      palette_.push_back(linear(map_colour(
+      palette_.push_back(linear_light(map_colour(
           colours.palette, static_cast<double>(k) / static_cast<double>(palette_steps - 1))));
   }
 
@@ -134,7 +130,7 @@ class Painter {
     const auto c = sky_colour(
         background_.kind == SkyBackground::first ? SkyColourModel::first : SkyColourModel::second,
         w, background_.sun, picture_gain);
-    return linear({c.red, c.green, c.blue});
+    return linear_light({c.red, c.green, c.blue});
   }
 
   const PatchScene& scene_;
@@ -142,10 +138,15 @@ class Painter {
   const PatchColours& colours_;
   const Background& background_;
   std::vector<Colour> palette_;
-  Colour plain_ = linear(plain_sky), far_ground_ = linear(far_ground), back_ = linear(back_colour);
+  Colour plain_ = linear_light(plain_sky), far_ground_ = linear_light(far_ground),
+         back_ = linear_light(back_colour);
 };
 
 }  // namespace
+
+Colour linear_light(Colour c) {
+  return {linear_from_srgb(c.red), linear_from_srgb(c.green), linear_from_srgb(c.blue)};
+}
 
 TracedPicture::TracedPicture(const PatchScene& scene, const RayCaster& caster, const Camera& camera,
                              int width, int height, MeshLines mesh)

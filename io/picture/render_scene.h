@@ -56,6 +56,9 @@ class PatchScene {
 inline constexpr Colour plain_sky{0.91, 0.94, 0.97};
 inline constexpr Colour far_ground{0.50, 0.50, 0.48};  ///< below the horizon of a coloured sky
 
+/// The light that an encoded sRGB colour stands for.
+Colour linear_light(Colour colour);
+
 /// Values of the patches and the value of the last colour.
 struct PatchColours {
   std::vector<double> values;  ///< per patch; NaN is drawn as a back

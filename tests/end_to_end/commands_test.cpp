@@ -160,6 +160,26 @@ TEST(Commands, CompareAsCsvInfoAndPictures) {
   EXPECT_EQ(square.folder.read("a.png").substr(1, 3), "PNG");
 }
 
+TEST(Commands, PicturesOfAStudyNeedNoRun) {
+  const Square square(two_variants);
+  const auto render = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", "square.yaml", "-o", "scene.png", "--size", "400x320"});
+    return program(square.folder, more);
+  };
+  for (const char* variant : {"mirror", "dull"}) {
+    const Ran ran = render({"--variant", variant, "--colour", "material"});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+  }
+  EXPECT_EQ(render({"--object", "house"}).code, 0);
+  EXPECT_EQ(square.folder.read("scene.png").substr(1, 3), "PNG");
+  for (const auto& more : std::vector<std::vector<std::string>>{
+           {"--colour", "false"}, {"--animate"}, {"--quantity", "light_load"}, {"--variant", "x"}})
+    EXPECT_EQ(render(more).code, 2) << more.back();
+  // Nothing is left but the picture.
+  for (const auto& name : square.folder.content())
+    EXPECT_EQ(name.find(".part-"), std::string::npos) << name;
+}
+
 TEST(Commands, InfoGivesTheErrorOfTheEnergyAlsoWithErrorsOfInstants) {
   const Square square;
   square.change("standard_error: totals", "standard_error: instants");

@@ -10,7 +10,9 @@
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
+#include "geo/mesh/mesh.h"
 #include "geo/sky/sky_colour.h"
+#include "io/base/scene_colours.h"
 #include "io/batch/chunk.h"
 #include "io/picture/camera.h"
 #include "io/picture/render_scene.h"
@@ -389,6 +391,31 @@ TEST(Render, TheCameraHoldsBuildingsAndNotWhatLiesFlat) {
     EXPECT_LE(std::abs(p.x), 12);
     EXPECT_LE(std::abs(p.y), 8);
   }
+}
+
+TEST(Render, KindsNeedNoLight) {
+  const ResultReader result(write_small_result(SmallResult{}, "render_kinds"));
+  RenderRules rules;
+  rules.width = 480;
+  rules.height = 320;
+  rules.view = View::top;
+  const auto path = picture_path("render_kinds");
+  rules.colours = PictureColours::of_surfaces;
+  render_png(result, rules, path);
+  auto png = test::read_png(path);
+  for (const auto kind : {Surface::roof, Surface::ground})
+    EXPECT_GT(test::count_of(png, surface_colour(static_cast<std::size_t>(kind))), 1000u);
+  rules.colours = PictureColours::of_materials;
+  render_png(result, rules, path);
+  png = test::read_png(path);
+  EXPECT_GT(test::count_of(png, material_colour(0)), 10000u);
+  rules.largest = 3;
+  EXPECT_THROW(render_png(result, rules, path), InputError);
+  rules.largest = {};
+  rules.time = "2026-06-21T11:30";
+  EXPECT_THROW(render_png(result, rules, path), InputError);
+  rules.view = View::sun;
+  EXPECT_NO_THROW(render_png(result, rules, path));
 }
 
 TEST(Render, APictureOfNothingIsRefusedWithThePlaceOfTheScene) {

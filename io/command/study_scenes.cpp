@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/command/study_scenes.h"
+
+#include "io/base/output_target.h"
+#include "io/base/standard_streams.h"
+#include "io/plan/planner.h"
+#include "io/study/named_files.h"
+
+namespace sunload {
+
+std::deque<SceneFile> study_scenes(const StudyFile& file, const std::vector<Study>& variants,
+                                   const std::string& output) {
+  expect_not_read(output, named_files(file));
+  std::deque<SceneFile> files;
+  Planner planner;
+  for (const auto& warning : file.warnings) tell("warning: " + warning);
+  for (const Study& study : variants) {
+    const VariantPlan plan = planner.plan(study);
+    for (const auto& warning : plan.built.warnings)
+      tell("warning: " + study.variant + ": " + warning);
+    files.emplace_back(plan, file, output);
+  }
+  return files;
+}
+
+}  // namespace sunload
