@@ -4,9 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
 
 #include "geo/mesh/intersections.h"
 #include "geo/mesh/surface_kind.h"
@@ -255,32 +258,132 @@ bool is_left_unrefined(const VariantPlan& plan, CheckMesh mesh) {
   return mesh == CheckMesh::unrefined && plan.study.mesh.oracle != Oracle::none;
 }
 
-void print_text(const VariantPlan& plan, const VariantMesh& made, const WorkEstimate& work,
-                const CheckRules& rules) {
-  std::string text = fmt::format("study {}, variant {} (content {})\n", plan.study.name,
-                                 plan.study.variant, plan.content_hash.substr(0, 12));
-  text += "scene\n" + counts_text(plan.built.report) +
-          extent_text(plan.built.scene.mesh, plan.built.report.bounds);
-  if (rules.search == SearchIntersections::yes) text += intersections_text(plan.built.scene.mesh);
-  if (plan.built.report.ground) text += ground_text(*plan.built.report.ground);
-  for (const auto& note : plan.built.notes) text += "  note      " + note + "\n";
-  text += "materials\n" + materials_text(plan.built.scene) + rules_text(plan.built.rules) +
-          parallel_sources_text(plan.built.scene.parallel_sources);
+/// What is told of a variant, under headings; that of warnings is empty.
+struct CheckText {
+  std::string head;
+  std::vector<std::pair<std::string, std::string>> sections;
+};
+
+CheckText text_of(const VariantPlan& plan, const VariantMesh& made, const WorkEstimate& work,
+                  const CheckRules& rules) {
+  CheckText text{fmt::format("study {}, variant {} (content {})", plan.study.name,
+                             plan.study.variant, plan.content_hash.substr(0, 12)),
+                 {}};
+  const auto add = [&](const char* heading, std::string words) {
+    if (!words.empty()) text.sections.emplace_back(heading, std::move(words));
+  };
+  std::string scene =
+      counts_text(plan.built.report) + extent_text(plan.built.scene.mesh, plan.built.report.bounds);
+  if (rules.search == SearchIntersections::yes) scene += intersections_text(plan.built.scene.mesh);
+  if (plan.built.report.ground) scene += ground_text(*plan.built.report.ground);
+  for (const auto& note : plan.built.notes) scene += "  note      " + note + "\n";
+  add("scene", scene);
+  add("materials", materials_text(plan.built.scene) + rules_text(plan.built.rules) +
+                       parallel_sources_text(plan.built.scene.parallel_sources));
   if (const auto sensors = plan.built.scene.sensors.size(); sensors > 0)
-    text += fmt::format("sensors\n  {} points\n", sensors);
-  text += "sun\n" + time_words(plan.light, plan.built.site, plan.study, plan.built.site_source);
-  text += "mesh\n";
+    add("sensors", fmt::format("  {} points\n", sensors));
+  add("sun", time_words(plan.light, plan.built.site, plan.study, plan.built.site_source));
+  std::string mesh;
   if (const auto refined = refine_text(made.report, plan.study); !refined.empty())
-    text += "  " + refined + "\n";
+    mesh = "  " + refined + "\n";
   if (is_left_unrefined(plan, rules.mesh))
-    text += "  not refined here (--no-refine): a run has these patches or more\n";
-  text += "  largest   " + largest_patches_text(plan, *made.mesh) + "\n";
-  text += "work\n" + work_text(plan, work);
+    mesh += "  not refined here (--no-refine): a run has these patches or more\n";
+  mesh += "  largest   " + largest_patches_text(plan, *made.mesh) + "\n";
+  add("mesh", mesh);
+  add("work", work_text(plan, work));
+  std::string warnings;
   for (const auto& list :
        {plan.built.warnings, plan.light.notes, expected_error_warnings(plan, *made.mesh)})
-    for (const auto& line : list) text += "warning: " + line + "\n";
-  std::cout << text;
+    for (const auto& line : list) warnings += "warning: " + line + "\n";
+  add("", warnings);
+  return text;
 }
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// What a line is about: the word that it begins with.
+std::string subject(const std::string& line) {
+  std::istringstream words(line);
+  std::string first;
+  words >> first;
+  return first;
+}
+
+template <class IsIt>
+bool has_line(const std::vector<std::string>& lines, const IsIt& is_it) {
+  return std::any_of(lines.begin(), lines.end(), is_it);
+}
+
+/// Lines of a section that are not in the first variant's.
+std::string changed_lines(const std::string& first, const std::string& own) {
+  const auto theirs = lines_of(first);
+  std::string text;
+  for (const auto& line : lines_of(own))
+    if (!has_line(theirs, [&](const auto& other) { return other == line; })) text += line + "\n";
+  return text;
+}
+
+/// Subjects that the first variant's section has alone.
+std::string missing_subjects(const std::string& first, const std::string& own) {
+  const auto mine = lines_of(own);
+  std::string text;
+  for (const auto& line : lines_of(first))
+    if (!has_line(mine, [&](const auto& other) { return subject(other) == subject(line); }))
+      text += "  without   " + subject(line) + "\n";
+  return text;
+}
+
+const std::string& section_of(const CheckText& text, const std::string& heading) {
+  static const std::string none;
+  for (const auto& [name, words] : text.sections)
+    if (name == heading) return words;
+  return none;
+}
+
+std::string whole_text(const CheckText& text) {
+  std::string words = text.head + "\n";
+  for (const auto& [heading, lines] : text.sections)
+    words += (heading.empty() ? "" : heading + "\n") + lines;
+  return words;
+}
+
+/// A later variant by what differs from the first one: what both have is told once.
+std::string text_beside(const CheckText& first, const CheckText& text,
+                        const std::string& first_name) {
+  std::string words;
+  for (const char* heading : {"scene", "materials", "sensors", "sun", "mesh", "work", ""}) {
+    const auto &theirs = section_of(first, heading), &own = section_of(text, heading);
+    auto apart = changed_lines(theirs, own);
+    if (std::string(heading) == "materials") apart += missing_subjects(theirs, own);
+    if (apart.empty()) continue;
+    words += (*heading == '\0' ? "" : std::string(heading) + "\n") + apart;
+  }
+  return text.head + (words.empty() ? ": as " + first_name + "\n"
+                                    : ": as " + first_name + ", but for\n" + words);
+}
+
+/// Variants in the order of the study: the first in full, the others beside it.
+class VariantTexts {
+ public:
+  void print(const std::string& name, CheckText text) {
+    if (!first_) {
+      std::cout << whole_text(text);
+      first_ = std::move(text);
+      first_name_ = name;
+      return;
+    }
+    std::cout << "\n" << text_beside(*first_, text, first_name_);
+  }
+
+ private:
+  std::optional<CheckText> first_;
+  std::string first_name_;
+};
 
 nlohmann::ordered_json as_json(const VariantPlan& plan, const WorkEstimate& work, CheckMesh mesh) {
   nlohmann::ordered_json told{{"name", plan.study.variant},
@@ -388,6 +491,7 @@ int check_study(const std::string& path, const RunOptions& options, const CheckR
   Planner planner;
   const MeshFamilies families(file, planner);
   Meshes meshes(rules.mesh, options.progress);
+  VariantTexts texts;
   for (const auto& study : chosen_variants(file, options)) {
     try {
       VariantPlan plan = planner.plan(study);
@@ -401,7 +505,8 @@ int check_study(const std::string& path, const RunOptions& options, const CheckR
       units += plan.batches();
       json["variants"].push_back(as_json(plan, work, rules.mesh));
       json["batch_suns"] = plan.batch_suns();
-      if (rules.format == CheckFormat::text) print_text(plan, made, work, rules);
+      if (rules.format == CheckFormat::text)
+        texts.print(plan.study.variant, text_of(plan, made, work, rules));
     } catch (const InputError& error) {
       problems.add(error);
     }

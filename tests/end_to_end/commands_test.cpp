@@ -160,6 +160,22 @@ TEST(Commands, CompareAsCsvInfoAndPictures) {
   EXPECT_EQ(square.folder.read("a.png").substr(1, 3), "PNG");
 }
 
+TEST(Commands, CheckTellsOfVariantsWhatDiffers) {
+  const Square square(two_variants);
+  const Ran ran = square.run({"check", "--no-refine"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto second = ran.out.find("study square, variant dull");
+  ASSERT_NE(second, std::string::npos) << ran.out;
+  const auto first_part = ran.out.substr(0, second), rest = ran.out.substr(second);
+  EXPECT_NE(first_part.find("triangles touch the ground"), std::string::npos);
+  EXPECT_NE(rest.find(": as mirror, but for\n"), std::string::npos) << rest;
+  EXPECT_NE(rest.find("  glass "), std::string::npos) << rest;
+  // What both have is told once.
+  EXPECT_EQ(rest.find("triangles touch the ground"), std::string::npos) << rest;
+  EXPECT_EQ(rest.find("  plaster "), std::string::npos) << rest;
+  EXPECT_LT(rest.size(), first_part.size() / 2) << rest;
+}
+
 TEST(Commands, PicturesOfAStudyNeedNoRun) {
   const Square square(two_variants);
   const auto render = [&](std::vector<std::string> more) {
