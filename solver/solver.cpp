@@ -8,7 +8,8 @@ namespace sunload {
 
 namespace {
 
-BatchTally tally_of(const TracedScene& traced, std::size_t intervals) {
+BatchTally tally_of(const TracedScene& traced, std::size_t intervals,
+                    std::span<const PartOfBatch> parts) {
   TallyShape shape{.patches = traced.patches.count(),
                    .sensors = traced.sensors.count(),
                    .intervals = intervals,
@@ -16,7 +17,8 @@ BatchTally tally_of(const TracedScene& traced, std::size_t intervals) {
                    .parts = {},
                    .errors = traced.rules.errors,
                    .by_source = traced.rules.by_source,
-                   .transport = traced.rules.transport};
+                   .transport = traced.rules.transport,
+                   .periods = {parts.begin(), parts.end()}};
   for (std::size_t p = 0; p < part_count; ++p)
     shape.parts[p] = traced.has_part(static_cast<Part>(p));
   return empty_tally(shape);
@@ -45,11 +47,12 @@ void add_energy(std::span<const IntervalLight> batch, BatchTally& tally) {
 
 }  // namespace
 
-Solved solve(const LightTransport& transport, std::span<const IntervalLight> batch, Watch& watch) {
+Solved solve(const LightTransport& transport, std::span<const IntervalLight> batch, Watch& watch,
+             std::span<const PartOfBatch> parts) {
   const TracedScene& traced = transport.traced();
   Solved solved;
   for (std::size_t b = 0; b < traced.optics_of_band.size(); ++b)
-    solved.bands.push_back(tally_of(traced, batch.size()));
+    solved.bands.push_back(tally_of(traced, batch.size(), parts));
   const auto in_batch = transport.begin(solved.bands, solved.work);
   std::size_t done = 0;
   for (const Block& block : lit_blocks(traced, batch)) {

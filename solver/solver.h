@@ -21,7 +21,9 @@ struct Solved {
   WorkDone work;                  ///< of this batch
 };
 
-/// Light of consecutive intervals. With rgb every sun has its light in `bands`. Throws Interrupted.
-Solved solve(const LightTransport& transport, std::span<const IntervalLight> batch, Watch& watch);
+/// Light of consecutive intervals, and the totals of `parts` of their time (ReceiverTally::parts).
+/// With rgb every sun has its light in `bands`. Throws Interrupted.
+Solved solve(const LightTransport& transport, std::span<const IntervalLight> batch, Watch& watch,
+             std::span<const PartOfBatch> parts = {});
 
 }  // namespace sunload

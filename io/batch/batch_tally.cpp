@@ -14,6 +14,8 @@ namespace sunload {
 
 namespace {
 
+constexpr std::string_view part_word = "part/";
+
 /// Mean irradiance of every facade, [K][facade].
 std::vector<float> facade_series(const BatchTally& tally, const Hierarchy& hierarchy,
                                  const Mesh& mesh) {
@@ -136,6 +138,43 @@ void add_band(BatchWriter& writer, const BatchTally& tally, const Hierarchy& hie
              tally.outgoing.data());
 }
 
+/// Sums of receivers in one band over a part of the period.
+void add_part(BatchWriter& writer, const ReceiverTally& tally, const BatchParts::Source& source,
+              const std::string& prefix) {
+  const auto add = [&](const std::string& name, const std::vector<double>& values) {
+    if (!values.empty())
+      writer.add({prefix + name, MergeRule::sum, ArrayType::float64, {values.size()}},
+                 values.data());
+  };
+  const PartTally* of = source.solved ? &tally.parts[*source.solved] : nullptr;
+  const auto whole = [&](Part part) { return tally.exposure[static_cast<std::size_t>(part)]; };
+  add(sum_name(Part::total), of ? of->total : whole(Part::total));
+  add(sum_name(Part::direct), of ? of->direct : whole(Part::direct));
+  if (!source.with_errors) return;
+  const auto& rows = of ? of->exposure_realization : tally.exposure_realization;
+  const std::size_t N = tally.sunlit_s.size();
+  writer.add({prefix + batch_array::exposure, MergeRule::sum, ArrayType::float64, {rows.size(), N}},
+             flattened(rows).data());
+}
+
+void add_part(BatchWriter& writer, const std::vector<BatchTally>& bands,
+              const std::vector<std::string>& prefixes, const BatchParts::Source& source) {
+  const std::string of_part = part_prefix(source.part);
+  const bool has_sensors = !bands.front().sensors.sunlit_s.empty();
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    add_part(writer, bands[b], source, prefixes[b] + of_part);
+    if (has_sensors)
+      add_part(writer, bands[b].sensors, source, prefixes[b] + of_part + sensor_prefix);
+  }
+  const auto add_sunlit = [&](const ReceiverTally& tally, const std::string& prefix) {
+    const auto& sunlit = source.solved ? tally.parts[*source.solved].sunlit_s : tally.sunlit_s;
+    writer.add({prefix + batch_array::sunlit, MergeRule::sum, ArrayType::float64, {sunlit.size()}},
+               sunlit.data());
+  };
+  add_sunlit(bands.front(), of_part);
+  if (has_sensors) add_sunlit(bands.front().sensors, of_part + sensor_prefix);
+}
+
 /// Lines and samples per patch that were taken.
 void add_counts(BatchWriter& writer, const SolverRules& rules) {
   const std::vector<double> lines(rules.lines_of_patch.begin(), rules.lines_of_patch.end());
@@ -167,6 +206,19 @@ std::string part_exposure_name(Part part) {
   return batch_array::exposure + ("_" + std::string(part_names[static_cast<std::size_t>(part)]));
 }
 
+std::string part_prefix(std::size_t part) {
+  return std::string(part_word) + std::to_string(part) + "/";
+}
+
+PartArray part_array(const std::string& name) {
+  const auto begin = name.find(part_word);
+  if (begin == std::string::npos) return {{}, name};
+  const auto number = begin + part_word.size(), end = name.find('/', number);
+  SUNLOAD_EXPECT(end != std::string::npos, "name of a part's array");
+  return {std::stoul(name.substr(number, end - number)),
+          name.substr(0, begin) + name.substr(end + 1)};
+}
+
 std::vector<double> work_values(const WorkDone& work) {
   return {work.values().begin(), work.values().end()};
 }
@@ -179,13 +231,14 @@ WorkDone work_from(const std::vector<double>& values) {
 }
 
 void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
-                 const TracedScene& traced, const Mesh& mesh, const WorkDone& work,
-                 std::optional<double> irradiance_relative) {
+                 const TracedScene& traced, const Mesh& mesh, const BatchParts& parts,
+                 const WorkDone& work, std::optional<double> irradiance_relative) {
   const Hierarchy& hierarchy = traced.hierarchy();
   const std::size_t N = hierarchy.patch_count();
   const auto prefixes = band_prefixes(traced.rules.bands);
   for (std::size_t b = 0; b < bands.size(); ++b)
     add_band(writer, bands[b], hierarchy, mesh, prefixes[b]);
+  for (const auto& source : parts.sources) add_part(writer, bands, prefixes, source);
   add_sunlit(writer, bands.front(), "");
   if (!bands.front().sensors.sunlit_s.empty()) add_sensors(writer, bands.front(), traced);
   writer.add({batch_array::sky_view, MergeRule::maximum, ArrayType::float64, {N}},

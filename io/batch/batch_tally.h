@@ -34,6 +34,25 @@ inline constexpr const char* reduction = "reduction";
 inline constexpr const char* work = "work";  ///< see WorkDone
 }  // namespace batch_array
 
+/// What a batch has of the parts of the period, for its file.
+struct BatchParts {
+  struct Source {
+    std::size_t part = 0;               ///< number in the period, over all divisions
+    bool with_errors = true;            ///< the realizations' sums, too
+    std::optional<std::size_t> solved;  ///< in `solved`; absent: the batch lies in it as a whole
+  };
+  std::vector<PartOfBatch> solved;  ///< for the solver: no two alike
+  std::vector<Source> sources;
+};
+/// Begins the names of a part's arrays, behind the band: `part/3/exposure`.
+std::string part_prefix(std::size_t part);
+/// Number of the part and the rest of the name; none for arrays of the whole.
+struct PartArray {
+  std::optional<std::size_t> part;
+  std::string name;
+};
+PartArray part_array(const std::string& name);
+
 /// Before the names of arrays and datasets of sensors: `sensor_irradiance`, ….
 inline const std::string sensor_prefix = "sensor_";
 
@@ -48,12 +67,12 @@ std::string part_exposure_name(Part part);
 std::vector<double> work_values(const WorkDone& work);
 WorkDone work_from(const std::vector<double>& values);
 
-/// Everything of the tallies, one per band, into a batch file's arrays; `work` is what this batch
-/// cost; `irradiance_relative` is the goal that the study has for its series, if it has one.
-/// Arrays of three bands have the prefixes of `band_prefixes`, but for those that are the
-/// same in all of them.
+/// Everything of the tallies, one per band, into a batch file's arrays; `parts` are those that they
+/// were solved with; `work` is what this batch cost; `irradiance_relative` is the goal that the
+/// study has for its series, if it has one. Arrays of three bands have the prefixes of
+/// `band_prefixes`, but for those that are the same in all of them.
 void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
-                 const TracedScene& traced, const Mesh& mesh, const WorkDone& work,
-                 std::optional<double> irradiance_relative);
+                 const TracedScene& traced, const Mesh& mesh, const BatchParts& parts,
+                 const WorkDone& work, std::optional<double> irradiance_relative);
 
 }  // namespace sunload

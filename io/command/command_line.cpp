@@ -267,7 +267,24 @@ class CommandLine {
                     "of a result with solver.bands: rgb: red, green or blue (default: their mean)");
   }
 
-  NamedResult result() const { return {results_.front(), band_}; }
+  /// Which part of the period: of all commands on results, in the same words.
+  void add_period(CLI::App* sub) {
+    const std::string group =
+        "Part of the period (civil time of the site; all that is given holds)";
+    const auto add = [&](const char* option, std::string& words, const char* meaning) {
+      sub->add_option(option, words, meaning)->group(group);
+    };
+    add("--month", period_.month, "totals of a month: 1 to 12, or 2026-06");
+    add("--season", period_.season, "of spring, summer, autumn or winter");
+    add("--day", period_.day, "of a day: 2026-06-21");
+    add("--hours", period_.hours, "of hours of day: 8-12, from 8:00 to 12:00");
+    add("--from", period_.from, "from a date or time on: 2026-06-01, 2026-06-21T12:00");
+    // The format of an export has the shorter word.
+    const bool is_free = sub->get_option_no_throw("--to") == nullptr;
+    add(is_free ? "--to,--until" : "--until", period_.to, "up to a date or time, exclusive");
+  }
+
+  NamedResult result() const { return {results_.front(), band_, period_}; }
 
   void add_info() {
     CLI::App* sub = command("info", "what a result holds, on one screen", [this] {
@@ -292,6 +309,7 @@ class CommandLine {
     auto* csv = sub->add_flag("--csv", csv_, "tables for machines");
     sub->add_flag("--json", json_, "the same as JSON")->excludes(csv);
     add_band(sub);
+    add_period(sub);
   }
 
   /// Facades and objects by name or pattern.
@@ -313,6 +331,7 @@ class CommandLine {
     CLI::App* sub =
         command("compare", "differences of the light load with their significance", [this] {
           compare_.band = band_;
+          compare_.period = period_;
           if (json_) compare_.format = CompareOptions::Format::json;
           if (csv_) compare_.format = CompareOptions::Format::csv;
           return compare(compare_);
@@ -327,6 +346,7 @@ class CommandLine {
     sub->add_flag("--json", json_, "the same as JSON")->excludes(csv);
     add_named(sub, compare_.parts, "only rows of");
     add_band(sub);
+    add_period(sub);
     writes(sub->add_option("--hdf5", compare_.differences,
                            "file of the differences of groups, facades and patches, besides"));
   }
@@ -368,6 +388,7 @@ class CommandLine {
         "scene without light, default surface of a study)");
     sub->add_option("--variant", render_.variant, "of a study (default: its first)");
     add_band(sub);
+    add_period(sub);
     reads(sub->add_option("--same-scale", render_.rules.same_scale,
                           "results that the scale is to do for, too, so that pictures can be "
                           "compared"));
@@ -384,7 +405,6 @@ class CommandLine {
     sub->add_flag("--animate", render_.animate,
                   "a picture for every sun position, NAME-0001.png ..., and NAME.png with all "
                   "(APNG)");
-    sub->add_option("--day", render_.day, "animate this day only (year-month-day)");
   }
 
   void add_view() {
@@ -392,6 +412,7 @@ class CommandLine {
         "view", "one self-contained page: walk through the scene, any time, two results", [this] {
           if (view_step_ > 0) view_.rules.step = view_step_;
           view_.rules.band = chosen_band(band_);
+          view_.rules.period = period_;
           return view(view_);
         });
     reads(sub->add_option("RESULT", view_.inputs,
@@ -405,12 +426,12 @@ class CommandLine {
                     "hold every N-th interval only (default: as many as 60 MB hold)")
         ->check(CLI::Range(1, 1'000'000));
     add_band(sub);
+    add_period(sub);
   }
 
   void add_export() {
     CLI::App* sub = command("export", "a result in the format of another program", [this] {
-      export_result(ResultReader(results_.front(), chosen_band(band_), Opens::comparisons_too),
-                    export_, picture_);
+      export_result(*opened(result(), Opens::comparisons_too), export_, picture_);
       return exit_code::done;
     });
     add_result(sub);
@@ -435,6 +456,7 @@ class CommandLine {
                                      {palettes.begin(), palettes.end()}, "colours");
     sub->add_option("--max", export_.largest, "value of the last colour")->check(positive);
     add_band(sub);
+    add_period(sub);
     sub->add_flag("--interpolate", export_.interpolate,
                   "colours of corners, not of patches (glb, vrml)");
     sub->add_option("--crease-angle", export_.crease_angle_deg,
@@ -470,6 +492,7 @@ class CommandLine {
   RunOptions options_;
   InfoOptions info_;
   CompareOptions compare_;
+  PeriodChoice period_;
   RenderOptions render_;
   std::optional<std::pair<PictureColours, Palette>> render_colours_;
   ExportRules export_;

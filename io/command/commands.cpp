@@ -9,6 +9,7 @@
 #include "io/base/bands.h"
 #include "io/base/exit_code.h"
 #include "io/base/output_target.h"
+#include "io/base/standard_streams.h"
 #include "io/command/study_scenes.h"
 #include "io/report/compare.h"
 #include "io/report/info.h"
@@ -115,7 +116,7 @@ int render_study(RenderOptions options) {
   if (!options.has_colours) options.rules.colours = PictureColours::of_surfaces;
   const bool is_of_light = options.rules.colours == PictureColours::of_values ||
                            options.rules.colours == PictureColours::of_bands;
-  if (is_of_light || options.animate || !options.day.empty() || !options.result.band.empty())
+  if (is_of_light || options.animate || options.result.period.any() || !options.result.band.empty())
     throw InputError({options.result.path}, "a study has no light yet",
                      "its scene is drawn by kinds of surface or by materials",
                      "write --colour surface or --colour material, or run it and draw the result");
@@ -140,10 +141,17 @@ std::optional<std::size_t> chosen_band(const std::string& name) {
   return name.empty() ? std::nullopt : std::optional(band_by_name(name));
 }
 
+std::unique_ptr<const ResultReader> opened(const NamedResult& named, Opens opens) {
+  auto result = std::make_unique<ResultReader>(named.path, chosen_band(named.band), opens);
+  result->choose(named.period);
+  return result;
+}
+
 int print_info(const InfoOptions& options) {
   using What = InfoOptions::What;
   const What what = asked_for(options);
-  const ResultReader result(options.result.path, chosen_band(options.result.band));
+  const auto reader = opened(options.result);
+  const ResultReader& result = *reader;
   switch (what) {
     case What::screen:
       std::cout << info_text(result);
@@ -171,14 +179,18 @@ int compare(const CompareOptions& asked) {
   std::vector<std::string> inputs = options.variants;
   inputs.push_back(options.base);
   expect_not_read(options.differences, inputs);
-  const auto band = chosen_band(options.band);
-  const ResultReader base(options.base, band);
+  const auto read_base = opened({options.base, options.band, options.period});
+  const ResultReader& base = *read_base;
   for (const auto& path : options.variants) {
-    const ResultReader variant(path, band);
+    const auto read_variant = opened({path, options.band, options.period});
+    const ResultReader& variant = *read_variant;
     Comparison comparison = compare_results(base, variant);
     if (!options.differences.empty())
       write_comparison_hdf5(comparison, base, variant, options.differences);
     keep_named(comparison, options.parts, path);
+    // The table and JSON have them among what they tell.
+    if (options.format == CompareOptions::Format::csv)
+      for (const auto& note : comparison.notes) tell("note: " + note);
     std::cout << text_of(comparison, options.format);
   }
   return exit_code::done;
@@ -192,12 +204,12 @@ int render(RenderOptions options) {
   if (!options.variant.empty())
     throw InputError({}, "--variant without a study", "a result is of one variant",
                      "name the result of the variant, or the study");
-  const ResultReader result(options.result.path, chosen_band(options.result.band),
-                            Opens::comparisons_too);
-  if (!options.day.empty() && !options.animate)
-    throw InputError({}, "--day without --animate", "one picture shows one time", "use --time");
-  options.animate ? render_animation(result, rules, options.day, options.picture)
-                  : render_png(result, rules, options.picture);
+  if (!rules.time.empty() && options.result.period.any())
+    throw InputError({}, "--time with --" + options.result.period.words(),
+                     "one is an instant, the other a part of the period", "leave out one");
+  const auto result = opened(options.result, Opens::comparisons_too);
+  options.animate ? render_animation(*result, rules, options.picture)
+                  : render_png(*result, rules, options.picture);
   return exit_code::done;
 }
 

@@ -4,6 +4,7 @@
 /// studies are in io/run/run.h and io/command/check_study.h.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +19,10 @@ namespace sunload {
 struct NamedResult {
   std::string path;
   std::string band;  ///< red, green or blue of a result in bands; empty: their mean
+  PeriodChoice period;
 };
+/// Open, with the band and the part of the period that are chosen. Throws InputError.
+std::unique_ptr<const ResultReader> opened(const NamedResult& named, Opens opens = Opens::results);
 
 struct InfoOptions {
   NamedResult result;
@@ -35,6 +39,7 @@ struct CompareOptions {
   std::vector<std::string> variants;  ///< result files, or names of variants of the study
   std::string output;                 ///< folder of the study's results; empty: as it says
   std::string band;
+  PeriodChoice period;
   NamedParts parts;  ///< rows of these alone; sensors are not compared
   enum class Format { table, csv, json } format = Format::table;
   std::string differences;  ///< HDF5 file of the differences, besides; empty: none
@@ -51,7 +56,6 @@ struct RenderOptions {
   std::string size = "1600x1000";
   std::string picture;  ///< file to write
   bool animate = false;
-  std::string day;  ///< of the animation; empty: all
 };
 /// Throws InputError for words that do not say what they should.
 int render(RenderOptions options);

@@ -248,8 +248,9 @@ class Renderer {
   double largest(const ShownQuantity& shown) const {
     double end = scale_end(rules_.largest, shown.sizes(), scene_.area());
     for (const auto& path : rules_.same_scale) {
-      const ResultReader other(path, result_.band(),
-                               result_.is_comparison() ? Opens::comparisons_too : Opens::results);
+      ResultReader other(path, result_.band(),
+                         result_.is_comparison() ? Opens::comparisons_too : Opens::results);
+      other.choose(result_.chosen());
       const auto theirs = shown_quantity(other, shown.dataset, rules_.time);
       if (theirs.units != shown.units)
         throw InputError({path}, shown.dataset + " is in " + theirs.units,
@@ -427,18 +428,15 @@ class Renderer {
   std::unique_ptr<TracedPicture> traced_;
 };
 
-/// Intervals of a day, or all, with the sun above the horizon.
-std::vector<std::size_t> sunny_intervals(const ResultReader& result, const std::string& day) {
-  const auto elevation = result.doubles("sun_elevation"), time = result.doubles("time");
-  const auto zone = result_zone(result);
+/// Intervals that are chosen with the sun above the horizon.
+std::vector<std::size_t> sunny_intervals(const ResultReader& result) {
+  const auto elevation = result.doubles("sun_elevation"), shares = result.chosen_shares();
   std::vector<std::size_t> sunny;
   for (std::size_t k = 0; k < elevation.size(); ++k)
-    if (elevation[k] > 0 && (day.empty() || iso_local(time[k], zone).starts_with(day)))
-      sunny.push_back(k);
+    if (elevation[k] > 0 && shares[k] > 0) sunny.push_back(k);
   if (sunny.empty())
-    throw InputError({result.path()}, day.empty() ? "the sun is never up" : "--day " + day,
-                     "no interval has the sun above the horizon",
-                     day.empty() ? "" : "write a day of the period, e.g. 2026-06-21");
+    throw InputError({result.path()}, "the sun is never up",
+                     "no interval has the sun above the horizon");
   return sunny;
 }
 
@@ -472,7 +470,7 @@ void render_png(const ResultReader& result, const RenderRules& rules, const std:
   renderer.picture(shown, renderer.largest(shown))->save(path);
 }
 
-void render_animation(const ResultReader& result, const RenderRules& rules, const std::string& day,
+void render_animation(const ResultReader& result, const RenderRules& rules,
                       const std::string& path) {
   expect_sense(rules);
   if (result.is_comparison())
@@ -489,7 +487,7 @@ void render_animation(const ResultReader& result, const RenderRules& rules, cons
                      "draw single pictures with --time and --max");
   const std::string dataset =
       rules.quantity.empty() ? dataset_name("irradiance", result.quantity()) : rules.quantity;
-  const auto intervals = sunny_intervals(result, day);
+  const auto intervals = sunny_intervals(result);
   Renderer renderer(result, rules);
   double largest = 0;
   for (const auto k : intervals)

@@ -67,11 +67,11 @@ struct RenderRules {
 /// or of what it is to show; MachineError where the picture cannot be written.
 void render_png(const ResultReader& result, const RenderRules& rules, const std::string& path);
 
-/// A picture for every interval of `day` (year-month-day; empty: of the period) with the sun above
-/// the horizon: `NAME-0001.png` … by the interval's place in the result (from 1), and `NAME.png`
+/// A picture for every interval, of the part of the period that is chosen, with the sun above the
+/// horizon: `NAME-0001.png` … by the interval's place in the result (from 1), and `NAME.png`
 /// with all of them as an animation (APNG). One scale does for all. Throws as above, and where no
 /// sun is up.
-void render_animation(const ResultReader& result, const RenderRules& rules, const std::string& day,
+void render_animation(const ResultReader& result, const RenderRules& rules,
                       const std::string& path);
 
 }  // namespace sunload

@@ -21,7 +21,9 @@ BandColours colours_of_bands(const ResultReader& result, const std::string& data
   std::array<std::vector<double>, band_count> bands;
   std::vector<double> brightest(area.size(), 0);
   for (std::size_t b = 0; b < band_count; ++b) {
-    bands[b] = shown_quantity(ResultReader(result.path(), b), dataset, time).values;
+    ResultReader of_band(result.path(), b);
+    of_band.choose(result.chosen());
+    bands[b] = shown_quantity(of_band, dataset, time).values;
     for (std::size_t i = 0; i < area.size(); ++i)
       brightest[i] = std::max(brightest[i], bands[b][i]);
   }

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "io/base/hash.h"
+#include "io/plan/part_totals.h"
 
 namespace sunload {
 
@@ -115,6 +116,21 @@ std::string times_text(const LightSeries& light) {
   return digest.hex();
 }
 
+/// Nothing where there are none, as most studies of one day have it: their hashes stay.
+void add_totals(Digest& digest, const std::vector<PartTotals>& totals) {
+  for (const auto& [division, with_errors] : totals) {
+    digest.add(std::string(part_kind_names[static_cast<std::size_t>(division.kind)]));
+    digest.add(with_errors);
+    for (const auto& [label, bounds, duration_s, intervals] : division.parts) {
+      digest.add(label);
+      for (const auto& [interval, share] : intervals) {
+        digest.add(interval);
+        digest.add(share);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::string content_hash(const Study& study, const BuiltScene& built, const LightSeries& light,
@@ -128,6 +144,7 @@ std::string content_hash(const Study& study, const BuiltScene& built, const Ligh
   digest.add(light.weather_sha256);
   add_site(digest, built.site);
   add_scene(digest, built.scene);
+  add_totals(digest, part_totals(study, light, built.site.latitude_deg));
   if (!mesh_pilots.empty()) digest.add(mesh_pilots);
   return digest.hex();
 }

@@ -29,6 +29,7 @@ VariantPlan plan_of(const Study& study, BuiltScene built, LightSeries light) {
   plan.isa = usable_isa(study.solver.isa);
   plan.built = std::move(built);
   plan.light = std::move(light);
+  plan.totals = part_totals(study, plan.light, plan.built.site.latitude_deg);
   refuse_lamps_in_lux(plan);
   plan.content_hash = hash_with_isa(plan, plan.isa);
   plan.pairing_id = pairing_id(study, plan.light);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/plan/light_series.h"
+#include "io/plan/part_totals.h"
 #include "io/plan/scene_build.h"
 #include "io/study/study.h"
 
@@ -19,8 +20,9 @@ struct VariantPlan {
   Study study;
   BuiltScene built;
   LightSeries light;
-  std::string isa;           ///< that rays will be traced with
-  std::string content_hash;  ///< SHA-256 of everything that can change a number
+  std::vector<PartTotals> totals;  ///< of parts of the period
+  std::string isa;                 ///< that rays will be traced with
+  std::string content_hash;        ///< SHA-256 of everything that can change a number
   /// Equal where realizations share their random numbers. Counts that an accuracy has raised are no
   /// part of it: the first points are the same, and pairs are independent of each other.
   std::string pairing_id;

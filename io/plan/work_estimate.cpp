@@ -139,6 +139,12 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
 
   const bool of_few = is_year_of_few(plan, lit);
   const double solved = of_few ? std::min(lit, year_skies + year_suns + year_tests) : lit;
+  const PartCost periods = part_cost(plan.totals, plan.batch_suns());
+  // Solved side by side, as suns are, by every realization on its lines.
+  const double suns_of_parts =
+      s.transport == Transport::gather ? static_cast<double>(periods.blocks * block_width) : 0;
+  // Of every part: all light, the direct one, sun hours; with errors the realizations, too.
+  constexpr double sums_of_part = 3, values_of_part = 4;
 
   WorkEstimate work;
   work.patches = patches;
@@ -151,11 +157,13 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
       n * (bands * (batch * parts * float_bytes + arrays_of_realizations * of_realizations) +
            bytes_per_patch);
   // The sun's light of each realization, straight and circumsolar, and by mirrors.
-  if (is_rgb || of_instants)
+  if (is_rgb || of_instants || suns_of_parts > 0)
     work.memory_bytes += n * s.realizations * block_width * float_bytes * (mirrors ? 3.0 : 2.0);
   if (of_few)
     work.memory_bytes +=
         n * float_bytes * (year_suns + year_skies * (2.0 + (mirrors ? 1 : 0) + s.realizations));
+  work.memory_bytes += bands * n * static_cast<double>(periods.most) *
+                       (arrays_of_realizations * of_realizations + sums_of_part * double_bytes);
   if (s.transport == Transport::shoot) {
     const double blocks = batches * std::ceil(batch / static_cast<double>(block_width));
     work.samples =
@@ -170,6 +178,12 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
           (parts + static_cast<double>(plan.study.output.series.size()) + (of_instants ? 2 : 0)) +
       bands * n * batches * (of_realizations + batch_bytes_per_patch) +
       bands * n * (of_realizations + result_bytes_per_patch) +
+      bands * n *
+          (static_cast<double>(periods.stored) * sums_of_part * double_bytes +
+           static_cast<double>(periods.stored_with_errors) * of_realizations) +
+      bands * n * float_bytes *
+          (static_cast<double>(periods.parts) * values_of_part +
+           static_cast<double>(periods.parts_with_errors) * s.realizations) +
       (plan.batches() > 1 ? lines * kept_bytes_per_line : 0);
   work.seconds =
       (s_to_start + n * s_per_patch +
@@ -179,6 +193,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
        (guided ? n * s_per_guided_patch : 0) +
        (s.transport == Transport::gather
             ? bands * (links * solved * s_per_link_sun + links * batches * s_per_link_batch +
+                       links * suns_of_parts * s_per_link_sun +
+                       n * suns_of_parts * s.realizations * s_per_patch_sun_realization +
                        (of_instants ? links * lit * s_per_link_sun +
                                           n * lit * s.realizations * s_per_patch_sun_realization
                                     : 0))
@@ -186,7 +202,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
        (plan.study.mesh.oracle == Oracle::none ? 0 : refinement_rays(n, lit) * s_per_direct_ray) +
        bands * (lit * s_per_sun + n * solved * s_per_patch_sun +
                 (of_few ? n * lit * s_per_patch_interval_of_year : 0) +
-                n * batches * s.realizations * s_per_patch_batch_realization +
+                n * (batches + static_cast<double>(periods.stored_with_errors)) * s.realizations *
+                    s_per_patch_batch_realization +
                 n * static_cast<double>(plan.intervals()) * s_per_value)) /
       thread_count();
   return work;

@@ -14,6 +14,7 @@
 #include "io/base/statistics.h"
 #include "io/result/common_area.h"
 #include "io/result/patch_groups.h"
+#include "io/result/time.h"
 
 namespace sunload {
 namespace {
@@ -145,7 +146,10 @@ void correct_within_kinds(std::vector<ComparisonRow>& rows) {
 std::vector<std::string> notes_on(const Side& base, const Side& variant) {
   std::vector<std::string> notes;
   if (base.result.doubles("time_bounds") != variant.result.doubles("time_bounds"))
-    notes.emplace_back("the two results cover different intervals of time");
+    notes.push_back("the two results cover different intervals of time: " +
+                    period_in_words(base.result) + " and " + period_in_words(variant.result));
+  if (base.result.chosen().any())
+    notes.push_back("a part of the period: " + period_in_words(base.result));
   const auto version = [](const Side& s) { return s.result.text_attribute("source"); };
   if (version(base) != version(variant))
     notes.push_back("the two results come from different versions: " + version(base) + " and " +

@@ -15,6 +15,7 @@
 #include "io/result/h5.h"
 #include "io/result/schema.h"
 #include "io/result/shown_quantity.h"
+#include "io/result/time.h"
 
 namespace sunload {
 namespace {
@@ -290,7 +291,7 @@ void put_attributes(h5::File& file, const Comparison& comparison, const ResultRe
   for (const char* name : {"latitude_deg", "longitude_deg", "elevation_m", "north_deg"})
     if (const double number = base.number_attribute(name); std::isfinite(number))
       file.set(name, number, h5::Type::float64);
-  file.set("period", whole_period(base));
+  file.set("period", period_in_words(base));
   file.set("origin", {origin.x, origin.y, origin.z}, h5::Type::float64);
   if (!notes.empty()) file.set("notes", notes);
 }

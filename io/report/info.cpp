@@ -14,6 +14,7 @@
 #include "io/base/text.h"
 #include "io/plan/time_words.h"
 #include "io/result/energy_text.h"
+#include "io/result/part_of_period.h"
 #include "io/result/patch_groups.h"
 #include "io/result/time.h"
 
@@ -34,16 +35,21 @@ std::string heading(const ResultReader& result) {
 }
 
 std::string period(const ResultReader& result) {
-  const auto lengths = interval_lengths(result);
-  if (lengths.empty()) return info_line("period", "no intervals");
-  const double hours = std::accumulate(lengths.begin(), lengths.end(), 0.0) / seconds_per_hour;
-  auto text = info_line("period", fmt::format("{} interval{}, {:.5g} h in all", lengths.size(),
-                                              lengths.size() == 1 ? "" : "s", hours));
+  const auto lengths = interval_lengths(result), shares = result.chosen_shares();
+  std::vector<std::size_t> chosen;
+  double hours = 0;
+  for (std::size_t k = 0; k < lengths.size(); ++k) {
+    if (shares[k] > 0) chosen.push_back(k);
+    hours += shares[k] * lengths[k] / seconds_per_hour;
+  }
+  if (chosen.empty()) return info_line("period", "no intervals");
+  auto text = info_line("period", fmt::format("{} interval{}, {:.5g} h in all", chosen.size(),
+                                              chosen.size() == 1 ? "" : "s", hours));
   if (result.number_attribute("time_is_synthetic") > 0)
     return text + info_line("", "sun positions without a date");
-  text += info_line("  first sun", interval_in_words(result, 0));
-  if (lengths.size() > 1)
-    text += info_line("  last sun", interval_in_words(result, lengths.size() - 1));
+  text += info_line("  days", period_in_words(result));
+  text += info_line("  first sun", interval_in_words(result, chosen.front()));
+  if (chosen.size() > 1) text += info_line("  last sun", interval_in_words(result, chosen.back()));
   return text;
 }
 
@@ -184,6 +190,37 @@ std::string sensors(const ResultReader& result) {
                                    weighted_quantile(relative, weight, upper_quantile)));
 }
 
+/// Mean over all patches of every part of the period that has totals of its own.
+std::string parts_of_period(const ResultReader& result, const PatchGroups& groups) {
+  constexpr std::size_t most_parts = 31;
+  if (result.chosen().any()) return {};
+  std::string text;
+  for (const std::string kind : part_kind_names) {
+    const std::string load = "light_load_by_" + kind, of_realizations = load + "_realization",
+                      sun = "sun_hours_by_" + kind;
+    if (!result.has(load) || result.shape(load).front() > most_parts) continue;
+    const std::size_t patches = groups.patch_count();
+    text += fmt::format("{:<18}{:>10}{:>14}{:>12}\n", "by " + kind, "time, h",
+                        "load, " + display_units(result.units(load)), "sun, h");
+    const auto labels = part_labels(result, kind);
+    const auto hours = result.doubles(kind + "_duration");
+    for (std::size_t part = 0; part < labels.size(); ++part) {
+      std::vector<double> means;
+      if (result.has(of_realizations)) {
+        const auto rows = result.rows(of_realizations, part, 1);
+        for (std::size_t first = 0; first + patches <= rows.size(); first += patches)
+          means.push_back(groups.means(rows.data() + first).front());
+      }
+      const double se = sample_mean(means).se;
+      text += fmt::format("  {:<16}{:>10.4g}{:>14.4g}{:>12.4g}{}\n", labels[part], hours[part],
+                          groups.means(result.row(load, part).data()).front(),
+                          groups.means(result.row(sun, part).data()).front(),
+                          std::isnan(se) ? std::string() : fmt::format("  load ± {:.2g}", se));
+    }
+  }
+  return text;
+}
+
 std::string facades(const ResultReader& result, const PatchGroups& groups,
                     const std::vector<double>& load) {
   const auto mean = groups.means(load.data());
@@ -240,9 +277,12 @@ std::string info_text(const ResultReader& result) {
   text += info_line("bands", band_words(result));
   text += accuracy(result, groups, load);
   text += lighting_analysis(result, groups, load);
+  text += parts_of_period(result, groups);
   text += facades(result, groups, load);
   text += sensors(result);
-  text += energy_text(result);
+  text += result.chosen().any()
+              ? info_line("energy", "of the whole period: without " + result.chosen().words())
+              : energy_text(result);
   text += runtime(result);
   text += info_line("made by", result.text_attribute("source"));
   return text;

@@ -90,7 +90,8 @@ h5::Dataset ResultWriter::File::create(const ResultVariable& of,
   h5::DatasetSpec spec{of.type, {}, {}, options.compression};
   for (const auto& dim : dims) spec.shape.push_back(sizes.at(dim));
   const bool is_floating = of.type == h5::Type::float32 || of.type == h5::Type::float64;
-  const bool is_fillable = is_floating && of.part != ResultPart::coordinate;
+  const bool is_fillable =
+      is_floating && of.part != ResultPart::coordinate && of.part != ResultPart::division;
   if (is_fillable) spec.unwritten = h5::DatasetSpec::Unwritten::nan;
   if (of.part == ResultPart::series && spec.shape.front() > 0 && spec.shape.back() > 0) {
     const ChunkShape shape = chunk_shape(spec.shape.back());
@@ -227,6 +228,39 @@ void ResultWriter::File::put_bands() {
   if (!is_rgb()) return;
   sizes["band"] = band_count;
   put("band", std::vector<std::string>(band_names.begin(), band_names.end()));
+}
+
+void ResultWriter::File::put_divisions(const ResultGeometry& geometry) {
+  for (const auto& division : options.divisions) put_division(division, geometry);
+}
+
+void ResultWriter::File::put_division(const ResultDivision& division,
+                                      const ResultGeometry& geometry) {
+  const std::string& name = division.name;
+  sizes[name] = division.label.size();
+  if (variable(name).type == h5::Type::text) {
+    put(name, division.label);
+  } else {
+    std::vector<std::int32_t> numbers;
+    for (const auto& label : division.label) numbers.push_back(std::stoi(label));
+    put(name, numbers);
+  }
+  if (!division.bounds.empty()) put(name + "_bounds", flat(division.bounds));
+  put(name + "_duration", division.duration_h);
+  for (const auto& of : result_schema()) {
+    const auto dims = dimension_names(of);
+    if (of.part != ResultPart::total || dims.size() < 2 || dims.front() != name) continue;
+    const bool is_of_errors = of.name.ends_with("_se") || of.name.ends_with("_realization");
+    if (is_of_errors && !division.with_errors) continue;
+    if (dims.back() == "facade" && geometry.facade_name.empty()) continue;
+    if (dims.back() == "sensor" && geometry.sensor_position.empty()) continue;
+    h5::Dataset dataset = create(std::string(of.name));
+    const auto shape = dataset.shape();
+    std::size_t row = 1;
+    for (std::size_t axis = 1; axis < shape.size(); ++axis) row *= shape[axis];
+    // Now, so that its place is among what the seal covers, before that of the series.
+    if (row > 0) dataset.write_rows(0, 1, std::vector<double>(row, std::nan("")).data());
+  }
 }
 
 }  // namespace sunload

@@ -81,6 +81,9 @@ struct ResultWriter::File {
   void put_groups(const ResultGeometry& geometry);
   void put_sensors(const ResultGeometry& geometry);
   void put_bands();
+  /// Dimensions, names and times of divisions, and room for their totals: missing ones are NaN.
+  void put_divisions(const ResultGeometry& geometry);
+  void put_division(const ResultDivision& division, const ResultGeometry& geometry);
 
   // What batches bring, and what follows from it (result_file.cpp).
   h5::Dataset series_dataset(const std::string& name);

@@ -12,6 +12,7 @@
 
 #include "geo/base/check.h"
 #include "io/result/h5.h"
+#include "io/result/part_of_period.h"
 #include "io/result/schema.h"
 #include "io/result/seal.h"
 #include "io/result/soundness.h"
@@ -30,6 +31,18 @@ struct ResultReader::File {
   h5::File file;
   Bands bands = Bands::broadband;
   std::optional<std::size_t> band = {};
+  PeriodChoice choice = {};
+  std::optional<PartOfPeriod> part = {};  ///< of the period, where one is chosen
+  /// The total that was asked for last: realizations are asked for one by one.
+  std::pair<std::string, std::vector<double>> last_total = {};
+
+  bool is_of_part(const std::string& dataset) const { return part && part->tells(dataset); }
+  /// A total of the chosen part of the period.
+  const std::vector<double>& total(const std::string& dataset) {
+    if (!part->has(dataset)) refuse("there is no dataset " + dataset, "of " + choice.words());
+    if (last_total.first != dataset) last_total = {dataset, part->values(dataset)};
+    return last_total.second;
+  }
 
   bool is_banded(const std::string& dataset) const {
     if (bands == Bands::broadband) return false;
@@ -143,6 +156,20 @@ ResultReader::ResultReader(const std::string& path, std::optional<std::size_t> b
 
 ResultReader::~ResultReader() = default;
 
+void ResultReader::choose(const PeriodChoice& choice) {
+  file_->part.reset();
+  file_->last_total = {};
+  file_->choice = choice;
+  if (choice.any()) file_->part.emplace(*this, choice);
+}
+
+const PeriodChoice& ResultReader::chosen() const { return file_->choice; }
+
+std::vector<double> ResultReader::chosen_shares() const {
+  if (file_->part) return file_->part->shares();
+  return std::vector<double>(shape("time").front(), 1);
+}
+
 const std::string& ResultReader::path() const { return file_->path; }
 
 bool ResultReader::is_comparison() const {
@@ -151,7 +178,7 @@ bool ResultReader::is_comparison() const {
 
 bool ResultReader::has(const std::string& dataset) const {
   try {
-    return file_->file.has(dataset);
+    return file_->file.has(dataset) && (!file_->is_of_part(dataset) || file_->part->has(dataset));
   } catch (const h5::Error& error) {
     file_->refuse("cannot be read", error.what());
   }
@@ -164,6 +191,7 @@ std::vector<std::size_t> ResultReader::shape(const std::string& dataset) const {
 }
 
 std::vector<double> ResultReader::doubles(const std::string& dataset) const {
+  if (file_->is_of_part(dataset)) return file_->total(dataset);
   return file_->with(dataset, [&](const h5::Dataset& data) {
     return file_->without_bands(dataset, file_->possible(dataset, data.doubles()), data.shape());
   });
@@ -183,6 +211,13 @@ std::vector<double> ResultReader::row(const std::string& dataset, std::size_t ti
 
 std::vector<double> ResultReader::rows(const std::string& dataset, std::size_t first,
                                        std::size_t count) const {
+  if (file_->is_of_part(dataset)) {
+    const auto& all = file_->total(dataset);
+    const std::size_t of_row = all.size() / std::max<std::size_t>(shape(dataset).front(), 1);
+    SUNLOAD_EXPECT((first + count) * of_row <= all.size(), "rows of " + dataset);
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first * of_row);
+    return {begin, begin + static_cast<std::ptrdiff_t>(count * of_row)};
+  }
   return file_->with(dataset, [&](const h5::Dataset& data) {
     return file_->without_bands(dataset, file_->possible(dataset, data.rows(first, count)),
                                 data.shape());

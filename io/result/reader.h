@@ -11,6 +11,7 @@
 
 #include "geo/base/vec.h"
 #include "io/base/light_quantity.h"
+#include "io/result/period_choice.h"
 #include "solver/light/band.h"
 
 namespace sunload {
@@ -30,6 +31,12 @@ class ResultReader {
   explicit ResultReader(const std::string& path, std::optional<std::size_t> band = {},
                         Opens opens = Opens::results);
   ~ResultReader();
+  /// From now on totals of the period are those of a part of it; those that nobody knows of it are
+  /// not there. Series, sun and times stay. Throws InputError where the result has nothing of it.
+  void choose(const PeriodChoice& choice);
+  const PeriodChoice& chosen() const;  ///< nothing: the whole period
+  /// Share of every interval that is chosen.
+  std::vector<double> chosen_shares() const;
   const std::string& path() const;
   bool has(const std::string& dataset) const;
   std::vector<std::size_t> shape(const std::string& dataset) const;

@@ -22,6 +22,7 @@ enum class ResultPart : std::uint8_t {
   series,      ///< rows come with the batches; float32, chunked
   ledger,      ///< power terms: rows come with the batches
   total,       ///< after the last batch
+  division,    ///< parts of the period, where they have totals: complete, no _FillValue
   study
 };
 

@@ -33,14 +33,6 @@ bool is_one_of(const std::vector<std::string>& names, const std::string& name) {
 
 }  // namespace
 
-std::string whole_period(const ResultReader& result) {
-  if (result.is_comparison()) return result.text_attribute("period");
-  const auto bounds = result.doubles("time_bounds");
-  if (bounds.empty()) return "no intervals";
-  const auto zone = result_zone(result);
-  return fmt::format("{} … {}", iso_local(bounds.front(), zone), iso_local(bounds.back(), zone));
-}
-
 std::string usual_quantity(const ResultReader& result) {
   return result.is_comparison() ? std::string(difference_dataset) : "light_load";
 }
@@ -80,7 +72,8 @@ ShownQuantity shown_quantity(const ResultReader& result, const std::string& data
   if (!result.is_comparison())
     s.interval = time.empty() ? brightest_interval(result) : interval_at(result, time);
   s.values = s.is_series ? result.row(dataset, s.interval) : result.doubles(dataset);
-  s.when = s.is_series ? "sun of " + interval_in_words(result, s.interval) : whole_period(result);
+  s.when =
+      s.is_series ? "sun of " + interval_in_words(result, s.interval) : period_in_words(result);
   return s;
 }
 

@@ -31,8 +31,6 @@ struct ShownQuantity {
 
 /// What is shown where nobody says: the light load, or of a comparison its difference.
 std::string usual_quantity(const ResultReader& result);
-/// From the begin of the first interval to the end of the last one, in civil time.
-std::string whole_period(const ResultReader& result);
 
 /// A dataset [patch] as it is, or the interval of a dataset [time, patch] that holds `time`
 /// (as in a study; empty: the brightest). Throws InputError that lists what there is.

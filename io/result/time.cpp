@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "geo/base/check.h"
 
@@ -35,13 +36,17 @@ TimeZone result_zone(const ResultReader& result) {
 }
 
 std::size_t brightest_interval(const ResultReader& result) {
+  const auto shares = result.chosen_shares();
+  const auto largest = [&](const std::vector<double>& values) {
+    std::optional<std::size_t> place;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (shares[k] > 0 && (!place || values[k] > values[*place])) place = k;
+    return place.value_or(0);
+  };
   const auto ghi = result.doubles("ghi");
-  const auto brightest = std::max_element(ghi.begin(), ghi.end());
-  if (brightest != ghi.end() && *brightest > 0)
-    return static_cast<std::size_t>(brightest - ghi.begin());
-  const auto elevation = result.doubles("sun_elevation");
-  return static_cast<std::size_t>(std::max_element(elevation.begin(), elevation.end()) -
-                                  elevation.begin());
+  const std::size_t brightest = largest(ghi);
+  return brightest < ghi.size() && ghi[brightest] > 0 ? brightest
+                                                      : largest(result.doubles("sun_elevation"));
 }
 
 std::size_t interval_at(const ResultReader& result, const std::string& time) {
@@ -67,6 +72,28 @@ std::string interval_in_words(const ResultReader& result, std::size_t interval) 
       "{} for {} … {} ({} for {} … {})", local_sun, clock(iso_local(bounds.at(0), zone), local_sun),
       clock(iso_local(bounds.at(1), zone), local_sun), iso_utc(sun),
       clock(iso_utc(bounds[0]), iso_utc(sun)), clock(iso_utc(bounds[1]), iso_utc(sun)));
+}
+
+std::string period_in_words(const ResultReader& result) {
+  if (result.is_comparison()) return result.text_attribute("period");
+  const auto bounds = result.doubles("time_bounds");
+  const auto shares = result.chosen_shares();
+  std::vector<TimeSpan> intervals;
+  for (std::size_t k = 0; k < shares.size(); ++k)
+    if (shares[k] > 0) intervals.push_back({bounds[2 * k], bounds[2 * k + 1]});
+  if (intervals.empty()) return "no intervals";
+  if (result.number_attribute("time_is_synthetic") > 0) return "sun positions without a date";
+  const auto zone = result_zone(result);
+  const auto chosen = result.chosen().words();
+  const bool is_one_stretch =
+      std::adjacent_find(intervals.begin(), intervals.end(), [](const auto& a, const auto& b) {
+        return a[1] < b[0];
+      }) == intervals.end();
+  const std::string words = is_one_stretch
+                                ? fmt::format("{} … {}", iso_local(intervals.front()[0], zone),
+                                              iso_local(intervals.back()[1], zone))
+                                : days_in_words(intervals, zone);
+  return chosen.empty() ? words : chosen + ": " + words;
 }
 
 std::vector<double> interval_lengths(const ResultReader& result) {

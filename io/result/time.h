@@ -28,6 +28,10 @@ std::size_t interval_at(const ResultReader& result, const std::string& time);
 /// "2026-06-21 12:30 +02:00 for 12:00 … 13:00 (2026-06-21T10:30:00Z for 10:00 … 11:00)".
 std::string interval_in_words(const ResultReader& result, std::size_t interval);
 
+/// The days that there are, of the part that is chosen: "2026-06-21, 2026-12-21", or begin and end
+/// where there is no gap.
+std::string period_in_words(const ResultReader& result);
+
 /// Lengths of the intervals [s].
 std::vector<double> interval_lengths(const ResultReader& result);
 

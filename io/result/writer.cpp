@@ -145,6 +145,7 @@ ResultWriter::ResultWriter(const std::string& path, const ResultGeometry& geomet
     file_->put_patches(geometry);
     file_->put_groups(geometry);
     file_->put_sensors(geometry);
+    file_->put_divisions(geometry);
   });
 }
 
@@ -195,6 +196,13 @@ void ResultWriter::write(const ResultArray& array) {
   }
   SUNLOAD_EXPECT(variable.part == ResultPart::total, array.name + " is no total");
   file_->writing([&] { file_->put(array.name, array.values); });
+}
+
+void ResultWriter::write_part(const ResultArray& array, std::size_t part) {
+  file_->writing([&] {
+    h5::Dataset dataset = file_->file->dataset(file_->stored(array.name));
+    dataset.write_rows(part, 1, array.values.data());
+  });
 }
 
 void ResultWriter::finish(const ResultAttributes& attributes, const std::string& study_yaml) {

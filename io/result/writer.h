@@ -45,6 +45,15 @@ struct ResultTimes {
   std::vector<double> direct_illuminance, diffuse_illuminance, global_illuminance;
 };
 
+/// A division of the period whose parts have totals of their own.
+struct ResultDivision {
+  std::string name;                           ///< of the dimension: month, season, day, hour_of_day
+  std::vector<std::string> label;             ///< of the parts; whole numbers for hours
+  std::vector<std::array<double, 2>> bounds;  ///< UTC s since 1970; empty: none in the calendar
+  std::vector<double> duration_h;
+  bool with_errors = true;
+};
+
 /// Root attributes: text and numbers by name.
 struct ResultAttributes {
   std::vector<std::pair<std::string, std::string>> text;
@@ -72,6 +81,7 @@ class ResultWriter {
     Quantity quantity = Quantity::irradiance;
     /// With rgb, batches bring the arrays of each band, and totals those of all bands side by side.
     Bands bands = Bands::broadband;
+    std::vector<ResultDivision> divisions;
   };
   ResultWriter(const std::string& path, const ResultGeometry& geometry, const ResultTimes& times,
                const Options& options);
@@ -82,6 +92,8 @@ class ResultWriter {
   void append(const BatchReader& batch);
   /// Time integrals and other arrays without time: name must be in the schema.
   void write(const ResultArray& array);
+  /// One part's values of totals of parts of the period, `light_load_by_month`, …: row `part`.
+  void write_part(const ResultArray& array, std::size_t part);
   /// One value per interval: ledger terms (power_sun …), facade series come by `append`.
   void finish(const ResultAttributes& attributes, const std::string& study_yaml);
 

@@ -8,6 +8,8 @@
 #include "io/base/bands.h"
 #include "io/batch/batch_tally.h"
 #include "io/batch/facade_means.h"
+#include "io/run/band_writer.h"
+#include "io/run/part_merge.h"
 #include "io/run/result_attributes.h"
 #include "io/run/result_geometry.h"
 #include "io/run/totals.h"
@@ -15,35 +17,6 @@
 namespace sunload {
 
 namespace {
-
-std::vector<double> scaled(std::vector<double> values, double factor) {
-  for (auto& v : values) v *= factor;
-  return values;
-}
-
-/// Writes what follows from the totals of every band, side by side.
-class BandWriter {
- public:
-  BandWriter(ResultWriter& writer, Bands bands)
-      : writer_(writer), prefixes_(band_prefixes(bands)) {}
-
-  /// `of_band(prefix)` gives the values of one band, [rows, n].
-  template <class OfBand>
-  void write(const std::string& name, std::size_t rows, OfBand&& of_band) {
-    std::vector<std::vector<double>> bands;
-    for (const auto& prefix : prefixes_) bands.push_back(of_band(prefix));
-    writer_.write({name, side_by_side(std::move(bands), rows)});
-  }
-  /// What is the same in all bands.
-  void write_once(const std::string& name, std::vector<double> values) {
-    writer_.write({name, std::move(values)});
-  }
-  const std::string& first() const { return prefixes_.front(); }
-
- private:
-  ResultWriter& writer_;
-  std::vector<std::string> prefixes_;
-};
 
 /// Totals of N patches or sensors; names begin with `prefix`.
 void write_received(BandWriter& writer, const Totals& totals, const std::string& prefix,
@@ -130,6 +103,7 @@ ResultWriter::Options writer_options(const VariantPlan& plan) {
   options.left_out = unwanted_series(plan.study.output);
   options.quantity = plan.study.light.quantity;
   options.bands = plan.study.solver.bands;
+  options.divisions = result_divisions(plan);
   return options;
 }
 
@@ -143,12 +117,15 @@ std::vector<std::string> merge_variant(const WorkFolder& folder, const VariantPl
   const ResultWriter::Options options = writer_options(plan);
   ResultWriter writer(path, geometry, result_times(plan), options);
   Totals totals;
+  PartMerge parts(writer, plan, geometry);
   for (std::size_t b = 0; b < plan.batches(); ++b) {
     if (std::find(left_out.begin(), left_out.end(), b) != left_out.end()) continue;
     const BatchReader batch(folder.batch(b));
     writer.append(batch);
     totals.add(batch);
+    parts.add(batch);
   }
+  parts.finish();
   totals.add_means();
   BandWriter band_writer(writer, options.bands);
   write_loads(band_writer, totals, geometry, options.realizations);

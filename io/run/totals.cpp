@@ -11,17 +11,20 @@ namespace sunload {
 
 void Totals::add(const BatchReader& batch) {
   for (const auto& spec : batch.arrays()) {
-    if (spec.rule == MergeRule::append) continue;
-    auto values = batch.doubles(spec.name);
-    auto [place, is_first] = arrays_.try_emplace(spec.name);
-    if (is_first) {
-      place->second = std::move(values);
-      continue;
-    }
-    auto& total = place->second;
-    for (std::size_t i = 0; i < total.size(); ++i)
-      total[i] = spec.rule == MergeRule::sum ? total[i] + values[i] : std::max(total[i], values[i]);
+    if (spec.rule != MergeRule::append && !part_array(spec.name).part)
+      add(spec.name, spec.rule, batch.doubles(spec.name));
   }
+}
+
+void Totals::add(const std::string& name, MergeRule rule, std::vector<double> values) {
+  auto [place, is_first] = arrays_.try_emplace(name);
+  if (is_first) {
+    place->second = std::move(values);
+    return;
+  }
+  auto& total = place->second;
+  for (std::size_t i = 0; i < total.size(); ++i)
+    total[i] = rule == MergeRule::sum ? total[i] + values[i] : std::max(total[i], values[i]);
 }
 
 void Totals::add_means() {

@@ -16,6 +16,7 @@
 #include "io/plan/rules_of_study.h"
 #include "io/plan/work_estimate.h"
 #include "io/run/mpi_world.h"
+#include "io/run/part_merge.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
@@ -180,7 +181,9 @@ SolverRules VariantRun::decided_rules() {
 void VariantRun::compute(std::size_t batch) {
   const std::size_t first = batch * plan_.batch_suns();
   const std::size_t count = std::min(plan_.batch_suns(), plan_.intervals() - first);
-  const Solved solved = solve(*transport_, lights_->of(plan_.light, first, count), progress_);
+  const BatchParts parts = parts_of_batch(plan_.totals, first, count);
+  const Solved solved =
+      solve(*transport_, lights_->of(plan_.light, first, count), progress_, parts.solved);
   unwritten_ += solved.work;
   done_ += solved.work;
   BatchWriter writer({.content_hash = plan_.content_hash,
@@ -192,7 +195,7 @@ void VariantRun::compute(std::size_t batch) {
                       .chunk_intervals = plan_.batch_suns(),
                       .compression = plan_.study.output.compression});
   const auto& accuracy = plan_.study.solver.accuracy;
-  add_tallies(writer, solved.bands, *traced_, plan_.built.scene.mesh, unwritten_,
+  add_tallies(writer, solved.bands, *traced_, plan_.built.scene.mesh, parts, unwritten_,
               accuracy ? accuracy->irradiance_relative : std::nullopt);
   if (const Reduction* reduction = transport_->reduction()) {
     const std::array values{static_cast<double>(reduction->skies),

@@ -53,6 +53,35 @@ std::vector<std::string> read_series(YamlMap& map, std::vector<std::string> abse
   return series;
 }
 
+/// Absent: auto.
+std::optional<std::vector<PartKind>> read_totals(YamlMap& map) {
+  const std::string key = "totals";
+  if (!map.has(key)) {
+    map.tree(key);
+    return {};
+  }
+  std::vector<PartKind> kinds;
+  if (map.kind(key) == YamlNode::Kind::text) {
+    if (map.word(key, {"auto", "none"}, "auto") == "auto") return {};
+    return kinds;
+  }
+  for (const auto& [text, where] : map.texts(key)) {
+    const auto name = std::find(part_kind_names.begin(), part_kind_names.end(), text);
+    const auto kind = static_cast<PartKind>(name - part_kind_names.begin());
+    if (name == part_kind_names.end()) {
+      map.reading().problem(where, "output.totals: '" + text + "' is not known",
+                            fmt::format("{}, or auto or none in place of the list",
+                                        fmt::join(part_kind_names, ", ")));
+    } else if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) {
+      map.reading().problem(where, "output.totals: '" + text + "' is written twice");
+    } else {
+      kinds.push_back(kind);
+    }
+  }
+  std::sort(kinds.begin(), kinds.end());
+  return kinds;
+}
+
 /// Gathering has no samples of power.
 void read_shooting(YamlMap& map, SolverStudy& solver) {
   solver.jacobi = map.choice("jacobi", solver.jacobi);
@@ -145,6 +174,8 @@ OutputStudy read_output(YamlMap& map) {
   output.series = read_series(map, output.series);
   output.standard_error = map.choice("standard_error", output.standard_error);
   output.compression = map.integer("compression", 0, strongest_compression, output.compression);
+  output.totals = read_totals(map);
+  output.totals_where = map.where("totals");
   return output;
 }
 

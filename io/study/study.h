@@ -25,6 +25,7 @@
 #include "geo/sky/sky.h"
 #include "geo/sun/sun.h"
 #include "geo/sun/weather.h"
+#include "geo/time/period_parts.h"
 #include "geo/time/time.h"
 #include "io/base/light_quantity.h"
 #include "io/scene/file.h"
@@ -228,6 +229,9 @@ struct OutputStudy {
   std::vector<std::string> series{"total", "direct", "sky", "mirror", "lamps", "reflected"};
   StandardErrors standard_error = StandardErrors::totals;
   int compression = 4;
+  /// Parts of the period that get totals of their own; absent: auto (io/plan/part_totals.h).
+  std::optional<std::vector<PartKind>> totals;
+  Where totals_where;
 };
 
 /// Points that receive without disturbing the scene, inline or from a file.

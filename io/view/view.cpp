@@ -81,7 +81,7 @@ void view_html(const std::vector<std::string>& paths, const ViewRules& rules,
     throw InputError({}, fmt::format("view of {} results", paths.size()),
                      "a page shows one result or two side by side", "name at most two");
   std::deque<ResultReader> results;
-  for (const auto& name : paths) results.emplace_back(name, rules.band);
+  for (const auto& name : paths) results.emplace_back(name, rules.band).choose(rules.period);
   const std::size_t step = rules.step.value_or(chosen_step(results));
   if (step > 1)
     tell(fmt::format("{}: holds every {}. interval only{}", path, step,

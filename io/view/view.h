@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "io/result/period_choice.h"
+
 namespace sunload {
 
 struct ViewRules {
@@ -14,6 +16,7 @@ struct ViewRules {
   /// page below about 60 MB.
   std::optional<std::size_t> step;
   std::optional<std::size_t> band;  ///< of results in bands; none: their mean
+  PeriodChoice period;              ///< that totals are of
 };
 
 /// Writes the page for one result, or for two that are shown side by side or as

@@ -15,21 +15,11 @@ import sys
 import numpy as np
 
 import drawing
-from drawing import plt
+from drawing import plt, student_t
 from reading import InputError, Result
 
 # More of them would make a picture that no reader of PNG opens.
 MOST_GROUPS = 400
-CONFIDENCE = 0.95
-
-
-def student_t(degrees):
-    """Quantile of Student's t for a two-sided interval, from its density (trapezoids in an
-    angle that makes the tails finite: t = √ν tan θ has the density cos^(ν−1) θ)."""
-    angle = np.linspace(0, np.pi / 2, 200_001)
-    density = np.cos(angle) ** (degrees - 1)
-    inside = np.concatenate([[0], np.cumsum((density[1:] + density[:-1]) / 2)])
-    return float(np.sqrt(degrees) * np.tan(np.interp(CONFIDENCE * inside[-1], inside, angle)))
 
 
 class Groups:

@@ -20,9 +20,11 @@ from reading import InputError, Result  # noqa: E402
 LINE_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000", "#999999")
 LINE_STYLES = ("-", "--", "-.", ":")
 COMPONENT_COLOURS = {"direct": "#E69F00", "sky": "#56B4E9", "mirror": "#CC79A7", "lamps": "#F0E442",
-                     "reflected": "#0072B2", "other parts, not stored": "#999999"}
+                     "reflected": "#0072B2", "other parts, not stored": "#999999", "other light": "#999999"}
 TIME_SUMS = {"W/m²": "kWh/m²", "lx": "klx h"}   # of a thousand times the unit, by the hour
 NO_DATA = "#c9c9c9"
+# Of the intervals that whiskers show.
+CONFIDENCE = 0.95
 # Scales end where this share of the area lies below, as those of `sunload render` do.
 SCALE_SHARE = 0.995
 
@@ -31,6 +33,15 @@ plt.rcParams.update({
     "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True, "legend.frameon": False,
     "axes.grid": False, "grid.color": "#dddddd", "grid.linewidth": 0.6, "savefig.facecolor": "white",
     "svg.hashsalt": "sunload", "figure.constrained_layout.use": True})
+
+
+def student_t(degrees):
+    """Quantile of Student's t for a two-sided interval, from its density (trapezoids in an
+    angle that makes the tails finite: t = √ν tan θ has the density cos^(ν−1) θ)."""
+    angle = np.linspace(0, np.pi / 2, 200_001)
+    density = np.cos(angle) ** (degrees - 1)
+    inside = np.concatenate([[0], np.cumsum((density[1:] + density[:-1]) / 2)])
+    return float(np.sqrt(degrees) * np.tan(np.interp(CONFIDENCE * inside[-1], inside, angle)))
 
 
 def srgb_from_lab(lightness, a, b):

@@ -4,7 +4,10 @@
 """Monthly light load of facades, patches or sensors as bars, divided into its parts.
 
 Months are those of civil time. Bars are sums of the series over the intervals
-that the study has: months that it covers only in part are marked."""
+that the study has: months that it covers only in part are marked. Where a
+result has no such series its stored totals of months are drawn
+(output.totals), direct light apart. Whiskers: 95 % confidence of the month,
+where the result has errors of months."""
 
 import interpreter  # first: finds a Python that has the other packages
 
@@ -66,14 +69,40 @@ def parts_of(result, quantity, targets, hours):
     return parts, np.array(sums)
 
 
+def stored_months(result, targets):
+    """The same from the totals of months: direct light, and all other."""
+    whole, direct = (np.asarray(result.parts_of_period("month", total, targets), dtype=float)
+                     for total in ("light_load", "light_load_direct"))
+    return ["direct", "other light"], np.array([direct, whole - direct])
+
+
+def confidence(result, months, targets):
+    """Half widths of 95 % intervals [month, target]; None where months have no errors, or others than here."""
+    if not result.has("light_load_by_month_realization") or \
+            result.names("month") != [f"{year:04}-{month:02}" for year, month in months]:
+        return None
+    realizations = result.file["light_load_by_month_realization"].shape[1]
+    return drawing.student_t(realizations - 1) * result.errors_of_parts("month", targets)
+
+
 def draw(result, arguments):
     if result.is_synthetic:
         raise InputError(f"{result.path}: its suns have no dates (period.positions), so that there are no months")
-    quantity = arguments.quantity or result.main_series()
     targets = result.targets(arguments.facade, arguments.patch, arguments.sensor, most=4)
     months, hours = month_shares(result)
-    parts, sums = parts_of(result, quantity, targets, hours)
-    units = drawing.TIME_SUMS.get(result.units(quantity))
+    main_series = next((name for name in ("irradiance", "illuminance") if result.has(name)), None)
+    whiskers = None
+    if arguments.quantity or main_series or not result.has("light_load_by_month"):
+        quantity = arguments.quantity or result.main_series()
+        parts, sums = parts_of(result, quantity, targets, hours)
+        units = drawing.TIME_SUMS.get(result.units(quantity))
+        if quantity == main_series:
+            whiskers = confidence(result, months, targets)
+    else:
+        quantity = "light_load"
+        parts, sums = stored_months(result, targets)
+        units = result.units("light_load")
+        whiskers = confidence(result, months, targets)
     if units is None:
         raise InputError(f"{result.path}: sums over time of {quantity} [{result.units(quantity)}] have no meaning "
                          "here; choose an irradiance or illuminance")
@@ -89,6 +118,9 @@ def draw(result, arguments):
             axes.axis("off")
             continue
         draw_bars(axes, months, is_whole, sums[:, :, k], parts, quantity)
+        if whiskers is not None:
+            axes.errorbar(range(len(months)), sums[:, :, k].sum(axis=0), whiskers[:, k], fmt="none", ecolor="black",
+                          elinewidth=0.8, capsize=2)
         axes.set_title(f"{drawing.shortened(targets[k].label, 80 // across)}: {sums[:, :, k].sum():.4g} {units}")
     # One scale for all panels, which the highest bar of all decides.
     grid[0, 0].set_ylim(0, 1.05 * max(np.nanmax(sums.sum(axis=0)), 1e-12))

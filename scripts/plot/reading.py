@@ -14,6 +14,8 @@ import bands
 
 # One block of a series that is in memory at a time: values, not bytes.
 BLOCK_VALUES = 16_000_000
+# More stretches of days than these are told by their number.
+MOST_RUNS_NAMED = 4
 DATASETS = (h5py.Dataset, bands.MeanOfBands)
 COMPONENTS = ("direct", "sky", "mirror", "lamps", "reflected")
 SHOWN_UNITS = {"W m-2": "W/m²", "kWh m-2": "kWh/m²", "degree": "°", "1": "", "lx": "lx",
@@ -185,8 +187,25 @@ class Result:
     def period(self):
         if self.is_synthetic:
             return f"{len(self.bounds())} positions of the sun without dates"
-        begin, end = (self.civil(s) for s in (self.bounds().min(), self.bounds().max()))
+        bounds = self.bounds()
+        if np.any(bounds[1:, 0] > bounds[:-1, 1]):
+            return f"{self.days()} {self.zone_name}"
+        begin, end = (self.civil(s) for s in (bounds.min(), bounds.max()))
         return f"{begin:%Y-%m-%d %H:%M} … {end:%Y-%m-%d %H:%M} {self.zone_name}"
+
+    def days(self):
+        """The days that are in the study: '2026-06-21, 2026-12-21', '12 days of 2026-01-21 … 2026-12-21'."""
+        bounds = self.bounds()
+        days = sorted({self.civil(s).date() for s in np.concatenate((bounds[:, 0], bounds[:, 1] - 1))})
+        runs = []
+        for day in days:
+            if runs and (day - runs[-1][1]).days == 1:
+                runs[-1][1] = day
+            else:
+                runs.append([day, day])
+        if len(runs) > MOST_RUNS_NAMED:
+            return f"{len(days)} days of {days[0]} … {days[-1]}"
+        return ", ".join(f"{first}" if first == last else f"{first} … {last}" for first, last in runs)
 
     def interval_words(self, index):
         if self.is_synthetic:
@@ -268,6 +287,32 @@ class Result:
         if of_patches:
             values[:, of_patches] = self._patch_series(quantity, [targets[k] for k in of_patches])
         return values
+
+    def parts_of_period(self, kind, total, targets):
+        """Stored totals of months, days, … [part, target]: of patches and sensors, area-weighted means of facades.
+        `total`: light_load, light_load_direct or sun_hours."""
+        return self._of_targets(f"{total}_by_{kind}", targets)
+
+    def errors_of_parts(self, kind, targets):
+        """Standard errors of the light load [part, target], from its realizations; nan where there are none."""
+        name = f"light_load_by_{kind}_realization"
+        if not self.has(name):
+            return np.full((len(self.file[kind]), len(targets)), np.nan)
+        values = self._of_targets(name, targets)
+        return values.std(axis=1, ddof=1) / np.sqrt(values.shape[1])
+
+    def _of_targets(self, name, targets):
+        columns = []
+        for target in targets:
+            if target.kind == "sensor":
+                dataset = self.need("sensor_" + name, "of sensors")
+                columns.append(dataset[(slice(None),) * (len(dataset.shape) - 1) + (target.index,)])
+                continue
+            dataset = self.file[name]
+            first, last = int(target.patches.min()), int(target.patches.max()) + 1
+            values = dataset[(slice(None),) * (len(dataset.shape) - 1) + (slice(first, last),)]
+            columns.append(values[..., target.patches - first] @ (target.area / target.area.sum()))
+        return np.stack(columns, axis=-1)
 
     def _patch_series(self, quantity, targets):
         dataset = self.file[self.wanted(quantity, ("time", "patch"))]

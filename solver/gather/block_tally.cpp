@@ -16,6 +16,19 @@ namespace {
 /// No estimator adds a term below 0.
 bool is_light(float irradiance) { return irradiance >= 0 && std::isfinite(irradiance); }
 
+/// Adds what receiver i gets of sun k of the block to the parts that the interval belongs to.
+void add_to_parts(const BlockLight& light, const IntervalLight& sun, std::size_t interval,
+                  std::size_t i, std::size_t k, double sunlit, std::vector<PartTally>& parts) {
+  for (PartTally& part : parts) {
+    const double time = part.share[interval] * sun.length_s;
+    if (time == 0) continue;
+    if (!part.total.empty()) part.total[i] += static_cast<double>(light.total(i, k)) * time;
+    if (!part.direct.empty())
+      part.direct[i] += static_cast<double>(light.direct[i * block_width + k]) * time;
+    part.sunlit_s[i] += part.share[interval] * sunlit * sun.sunlit_s;
+  }
+}
+
 }  // namespace
 
 void store_received(const BlockLight& light, std::span<const IntervalLight> block,
@@ -45,6 +58,8 @@ void store_received(const BlockLight& light, std::span<const IntervalLight> bloc
           put(Part::reflected, i, k, light.reflected[at]);
           tally.sunlit_s[i] += static_cast<double>(sunlit[at]) * block[k].sunlit_s;
           tally.irradiance_max[i] = std::max(tally.irradiance_max[i], total);
+          add_to_parts(light, block[k], first_row + k, i, k, static_cast<double>(sunlit[at]),
+                       tally.parts);
         }
       },
       receivers_per_chunk);

@@ -14,23 +14,26 @@ TimeSums::TimeSums(std::size_t realizations, std::size_t patches, std::size_t se
       sky_of_lines(sky),
       sent_on(realizations) {}
 
-void TimeSums::add_sources(const BlockSources& sources) {
+void TimeSums::add_sources(const BlockSources& sources, std::span<const double> shares) {
   for (std::size_t k = 0; k < sources.suns.size(); ++k) {
     const IntervalLight& sun = sources.suns[k];
+    const double time = shares.empty() ? sun.length_s : shares[k] * sun.length_s;
     for (std::size_t c = 0; c < sun.sky.size(); ++c) {
-      sky[c] += pi * sun.sky[c] * sun.length_s;
-      sky_of_lines[c] += pi * sources.radiance_for_lines(k, c) * sun.length_s;
+      sky[c] += pi * sun.sky[c] * time;
+      sky_of_lines[c] += pi * sources.radiance_for_lines(k, c) * time;
     }
-    ground += sun.ground_exitance * sun.length_s;
-    length_s += sun.length_s;
+    ground += sun.ground_exitance * time;
+    length_s += time;
   }
 }
 
-void TimeSums::add_whole_sources(const BlockSources& sources) {
-  for (const IntervalLight& sun : sources.suns) {
-    for (std::size_t c = 0; c < sun.sky.size(); ++c) sky[c] += pi * sun.sky[c] * sun.length_s;
-    ground += sun.ground_exitance * sun.length_s;
-    length_s += sun.length_s;
+void TimeSums::add_whole_sources(const BlockSources& sources, std::span<const double> shares) {
+  for (std::size_t k = 0; k < sources.suns.size(); ++k) {
+    const IntervalLight& sun = sources.suns[k];
+    const double time = shares.empty() ? sun.length_s : shares[k] * sun.length_s;
+    for (std::size_t c = 0; c < sun.sky.size(); ++c) sky[c] += pi * sun.sky[c] * time;
+    ground += sun.ground_exitance * time;
+    length_s += time;
   }
 }
 

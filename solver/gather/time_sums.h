@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "solver/first_light/ray_light.h"
@@ -17,10 +18,11 @@ namespace sunload {
 struct TimeSums {
   TimeSums(std::size_t realizations, std::size_t patches, std::size_t sensors,
            std::size_t sky_cells);
-  /// Adds what the light of a block has of sky, far ground and time.
-  void add_sources(const BlockSources& sources);
+  /// Adds what the light of a block has of sky, far ground and time; `shares`: of that of every
+  /// sun, all of it where there are none.
+  void add_sources(const BlockSources& sources, std::span<const double> shares = {});
   /// The same of a block whose sky is not split: circumsolar light is for the caller to take out.
-  void add_whole_sources(const BlockSources& sources);
+  void add_whole_sources(const BlockSources& sources, std::span<const double> shares = {});
 
   RaySums on_patches, on_sensors;
   std::vector<double> sky;           ///< [cells] π·radiance·time

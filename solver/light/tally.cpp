@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/light/tally.h"
 
+#include "geo/base/check.h"
 #include "solver/base/spread.h"
 
 namespace sunload {
@@ -60,6 +61,16 @@ void make_room(ReceiverTally& tally, std::size_t receivers, const TallyShape& sh
   tally.sunlit_s.assign(receivers, 0);
   tally.irradiance_max.assign(receivers, 0);
   if (shape.errors == Errors::instants) tally.irradiance_se.assign(values, 0);
+  const auto sums = [&](Part part) {
+    return std::vector<double>(shape.parts[static_cast<std::size_t>(part)] ? receivers : 0, 0);
+  };
+  for (const PartOfBatch& period : shape.periods) {
+    SUNLOAD_EXPECT(period.share.size() == shape.intervals, "a share of every interval");
+    tally.parts.push_back(
+        {period, sums(Part::total), sums(Part::direct), tally.sunlit_s,
+         std::vector<std::vector<double>>(period.with_errors ? shape.realizations : 0,
+                                          std::vector<double>(receivers, 0))});
+  }
 }
 
 }  // namespace

@@ -59,6 +59,19 @@ double ledger_line(const Ledger& ledger, std::size_t line);
 /// `ledger` with power [W] that ended so: what met backs is absorbed, what was cut is unshot.
 Ledger booked(const Fate<double>& fate, Ledger ledger = {});
 
+/// A part of the batch's time: a month, the mornings, ….
+struct PartOfBatch {
+  std::vector<double> share;  ///< [K] of every interval's time, 0 … 1
+  bool with_errors = true;    ///< whether realizations are solved for it
+};
+
+/// What N receivers get in such a part: sums over the intervals of share · what they get [J m-2].
+struct PartTally : PartOfBatch {
+  std::vector<double> total, direct;  ///< [N] of the series; a part that there is not: empty
+  std::vector<double> sunlit_s;       ///< [N]
+  std::vector<std::vector<double>> exposure_realization;  ///< [R][N]; without errors: none
+};
+
 /// What N receivers (patches or sensors) get in K consecutive intervals, R
 /// realizations. Energies are J m-2; a part that the scene cannot have is empty.
 struct ReceiverTally {
@@ -70,6 +83,7 @@ struct ReceiverTally {
   std::array<std::vector<std::vector<double>>, part_count> part_realization;
   std::vector<double> sunlit_s;       ///< [N]
   std::vector<float> irradiance_max;  ///< [N]
+  std::vector<PartTally> parts;       ///< those that were asked for, in their order
 };
 
 /// Exposures of every realization by what their errors come from, [R][N] J m-2. What they leave of
@@ -120,6 +134,7 @@ struct TallyShape {
   Errors errors = Errors::totals;
   bool by_source = false;
   Transport transport = Transport::gather;
+  std::vector<PartOfBatch> periods{};  ///< parts of the batch's time that have totals of their own
 };
 /// All zeros; what errors per instant alone need only where they are asked for, and sources
 /// likewise. When gathering exposures by source are empty: the sun's part is put there at the end.

@@ -10,6 +10,7 @@
 #include "solver/light/instant_spread.h"
 #include "solver/transport/band_rays.h"
 #include "solver/transport/gathered_sums.h"
+#include "solver/transport/part_sums.h"
 #include "solver/transport/realizations.h"
 
 namespace sunload {
@@ -21,26 +22,33 @@ class GatheredBatch : public BatchTransport {
  public:
   GatheredBatch(const TracedScene& traced, std::vector<BatchTally>& tallies, WorkDone& work)
       : traced_(traced), tallies_(tallies), work_(work) {
-    for (std::size_t b = 0; b < tallies.size(); ++b) sums_.push_back(empty_sums(traced));
+    for (std::size_t b = 0; b < tallies.size(); ++b) {
+      sums_.push_back(empty_sums(traced));
+      part_sums_.emplace_back(traced, b, tallies[b]);
+    }
   }
 
   void light(const Block& block) override {
     BlockSources sources(block.suns, static_cast<std::size_t>(traced_.grid.cell_count()));
     sources.split_sky(traced_.grid);
     if (traced_.is_rgb()) return light_in_bands(block, sources);
-    light_band(0, block, sources, light_iteration(traced_, sources, kept(), sums_.front(), work_));
+    BlockRays rays = light_iteration(traced_, sources, kept(block), sums_.front(), work_);
+    part_sums_.front().add(block, sources, rays, whole_light());
+    light_band(0, block, sources, std::move(rays));
   }
 
   void finish() override {
     const Stopwatch time(work_[Work::realizations_s]);
-    for (std::size_t b = 0; b < tallies_.size(); ++b)
+    for (std::size_t b = 0; b < tallies_.size(); ++b) {
       solve_realizations(traced_, b, sums_[b], tallies_[b]);
+      part_sums_[b].solve();
+    }
   }
 
  private:
   bool of_instants() const { return traced_.rules.errors == Errors::instants; }
-  Kept kept() const {
-    return {.columns = of_instants() || traced_.is_rgb(),
+  Kept kept(const Block& block) const {
+    return {.columns = of_instants() || traced_.is_rgb() || part_sums_.front().wants(block),
             .all_parts = of_instants(),
             .by_samples = traced_.rules.by_source};
   }
@@ -48,13 +56,15 @@ class GatheredBatch : public BatchTransport {
   /// Rays are traced once, for the mean of the bands.
   void light_in_bands(const Block& block, const BlockSources& sources) {
     TimeSums of_broadband = empty_sums(traced_);
-    const BlockRays rays = light_iteration(traced_, sources, kept(), of_broadband, work_);
+    const BlockRays rays = light_iteration(traced_, sources, kept(block), of_broadband, work_);
     for (std::size_t b = 0; b < sums_.size(); ++b) {
       const auto suns = suns_in_band(block.suns, b);
       const BandFactors factors = band_factors(sources, suns, b);
       add_exposures(rays, factors, suns, sums_[b]);
-      light_band(b, {suns, block.first_row}, sources_in_band(sources, suns, factors),
-                 in_band(rays, factors, traced_.rules.errors));
+      const Block of_band{suns, block.first_row};
+      const BlockSources of_band_sources = sources_in_band(sources, suns, factors);
+      part_sums_[b].add(of_band, of_band_sources, rays, factors);
+      light_band(b, of_band, of_band_sources, in_band(rays, factors, traced_.rules.errors));
     }
   }
 
@@ -154,7 +164,8 @@ class GatheredBatch : public BatchTransport {
   const TracedScene& traced_;
   std::vector<BatchTally>& tallies_;
   WorkDone& work_;
-  std::vector<TimeSums> sums_;  ///< of each band
+  std::vector<TimeSums> sums_;       ///< of each band
+  std::vector<PartSums> part_sums_;  ///< likewise
 };
 
 }  // namespace

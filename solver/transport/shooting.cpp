@@ -58,19 +58,26 @@ class MeanLight {
   std::vector<double> lamps_;
 };
 
-/// Adds the time sums of one realization to its exposures, in all and by parts.
+/// Adds the time sums of one realization to its exposures, in all, by parts of the light and of
+/// the period.
 template <class Light, class Lamps>
-void add_exposure(const Light& light, const Lamps& lamps, std::span<const IntervalLight> block,
-                  std::size_t r, ReceiverTally& tally) {
-  const auto add = [&](std::vector<double>* exposure, const auto& irradiance) {
-    if (!exposure) return;
+void add_exposure(const Light& light, const Lamps& lamps, const Block& block, std::size_t r,
+                  ReceiverTally& tally) {
+  using Times = std::array<double, block_width>;
+  Times lengths_s{};
+  for (std::size_t k = 0; k < block.suns.size(); ++k) lengths_s[k] = block.suns[k].length_s;
+  const auto add_times = [&](std::vector<double>& exposure, const auto& irradiance,
+                             const Times& times) {
     parallel_for(
-        exposure->size(),
+        exposure.size(),
         [&](std::size_t i) {
-          for (std::size_t k = 0; k < block.size(); ++k)
-            (*exposure)[i] += static_cast<double>(irradiance(i, k)) * block[k].length_s;
+          for (std::size_t k = 0; k < block.suns.size(); ++k)
+            exposure[i] += static_cast<double>(irradiance(i, k)) * times[k];
         },
         receivers_per_chunk);
+  };
+  const auto add = [&](std::vector<double>* exposure, const auto& irradiance) {
+    if (exposure) add_times(*exposure, irradiance, lengths_s);
   };
   const auto of = [](const auto& columns) {
     return [&columns](std::size_t i, std::size_t k) { return columns[i * block_width + k]; };
@@ -82,6 +89,13 @@ void add_exposure(const Light& light, const Lamps& lamps, std::span<const Interv
   add(part(Part::mirror), of(light.mirror));
   add(part(Part::lamps), [&](std::size_t i, std::size_t) { return lamps[i]; });
   add(part(Part::reflected), of(light.reflected));
+  for (PartTally& period : tally.parts) {
+    if (!period.with_errors) continue;
+    Times times = lengths_s;
+    for (std::size_t k = 0; k < block.suns.size(); ++k)
+      times[k] *= period.share[block.first_row + k];
+    add_times(period.exposure_realization[r], total_of(light), times);
+  }
 }
 
 /// `parallel`: irradiance by parallel sources, or empty.
@@ -175,7 +189,7 @@ class ShotBatch : public BatchTransport {
       const BlockLight received = shot_to_sensors(r, sources, light, of_sensors.of_realizations);
       on_sensors.add(received);
       sensor_spread.add(total_of(received));
-      add_exposure(received, received.lamps, block.suns, r, tally_.sensors);
+      add_exposure(received, received.lamps, block, r, tally_.sensors);
     }
     store_patches(traced_.optics, mean.in_float(), block.suns, block.first_row, sun.sunlit, tally_);
     if (sensors > 0)
@@ -213,7 +227,7 @@ class ShotBatch : public BatchTransport {
   }
 
   void add_realization(std::size_t r, const ShotLight& light, const Block& block) {
-    add_exposure(light, *light.lamps, block.suns, r, tally_);
+    add_exposure(light, *light.lamps, block, r, tally_);
     if (light.by_source)
       add_by_source(r, light, traced_.patches.lamps.of(r), block.suns, tally_.by_source);
     for (std::size_t k = 0; k < block.suns.size(); ++k) {

@@ -11,6 +11,7 @@
 #include "solver/gather/block_tally.h"
 #include "solver/light/instant_spread.h"
 #include "solver/transport/gathered_sums.h"
+#include "solver/transport/part_sums.h"
 #include "solver/transport/realizations.h"
 
 namespace sunload {
@@ -175,28 +176,41 @@ class ReductionTest {
 class YearBatch : public BatchTransport {
  public:
   YearBatch(const TracedScene& traced, const NodeLight& nodes, BatchTally& tally, WorkDone& work)
-      : traced_(traced), nodes_(nodes), tally_(tally), work_(work), sums_(empty_sums(traced)) {}
+      : traced_(traced),
+        nodes_(nodes),
+        tally_(tally),
+        work_(work),
+        sums_(empty_sums(traced)),
+        parts_(traced, 0, tally),
+        shares_of_parts_(parts_.count()) {}
 
   void light(const Block& block) override {
     const BlockSources sources(block.suns, static_cast<std::size_t>(traced_.grid.cell_count()));
-    BlockRays rays = light_iteration(traced_, sources, {}, sums_, work_);
+    BlockRays rays =
+        light_iteration(traced_, sources, {.columns = parts_.wants(block)}, sums_, work_);
     const Stopwatch time(work_[Work::solve_s]);
     const auto by_rays = ledger_of_rays(traced_, rays.on_patches.pooled.direct,
                                         rays.on_patches.pooled.mirror, block.suns.size());
     const auto weights = nodes_.weights(block.suns, by_rays);
     std::copy(by_rays.begin(), by_rays.end(),
               tally_.ledger.begin() + static_cast<std::ptrdiff_t>(block.first_row));
+    parts_.add(block, sources, rays, whole_light(), PartSums::Sky::whole);
+    for (std::size_t p = 0; p < parts_.count(); ++p)
+      add_shares(block, weights, parts_.shares(p, block), shares_of_parts_[p]);
     light_patches(block, weights, rays.on_patches);
     if (traced_.sensors.count() > 0) light_sensors(block, weights, rays.on_sensors);
     book_sent_on(traced_, block, rays.sent_on, sums_, tally_);
     sums_.add_whole_sources(sources);
-    add_shares(block, weights);
+    add_shares(block, weights, std::vector<double>(block.suns.size(), 1), shares_);
   }
 
   void finish() override {
     const Stopwatch time(work_[Work::realizations_s]);
     nodes_.split_circumsolar(shares_, sums_);
     solve_realizations(traced_, 0, sums_, tally_);
+    for (std::size_t p = 0; p < parts_.count(); ++p)
+      nodes_.split_circumsolar(shares_of_parts_[p], parts_.sums(p));
+    parts_.solve();
   }
 
  private:
@@ -220,14 +234,15 @@ class YearBatch : public BatchTransport {
     store_received(light, block.suns, block.first_row, rays.sunlit, tally_.sensors);
   }
 
-  /// Time that each node shines, in all intervals together.
-  void add_shares(const Block& block, const std::vector<NodeWeights>& weights) {
-    shares_.resize(weights.size());
+  /// Time that each node shines, in all intervals together, of each so much of its time.
+  static void add_shares(const Block& block, const std::vector<NodeWeights>& weights,
+                         const std::vector<double>& of_suns, std::vector<NodeSeconds>& shares) {
+    shares.resize(weights.size());
     for (std::size_t b = 0; b < weights.size(); ++b)
       for (std::size_t j = 0; j < block_width; ++j)
         for (std::size_t k = 0; k < block.suns.size(); ++k)
-          shares_[b][j] +=
-              static_cast<double>(weights[b].of[j * block_width + k]) * block.suns[k].length_s;
+          shares[b][j] += static_cast<double>(weights[b].of[j * block_width + k]) *
+                          (of_suns[k] * block.suns[k].length_s);
   }
 
   const TracedScene& traced_;
@@ -235,7 +250,9 @@ class YearBatch : public BatchTransport {
   BatchTally& tally_;
   WorkDone& work_;
   TimeSums sums_;
+  PartSums parts_;
   std::vector<NodeSeconds> shares_;  ///< of each block of nodes
+  std::vector<std::vector<NodeSeconds>> shares_of_parts_;
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "geo/base/units.h"
+#include "geo/time/period_parts.h"
 #include "io/result/h5.h"
 #include "io/result/reader.h"
 #include "solver/light/tally.h"
@@ -125,6 +126,33 @@ std::string facades_problem(const ResultReader& result) {
   return {};
 }
 
+/// Parts of the period make up all of it.
+std::string parts_problem(const ResultReader& result) {
+  for (const std::string kind : part_kind_names) {
+    if (!result.has(kind)) continue;
+    for (const std::string total :
+         {"light_load", "light_load_direct", "sun_hours", "light_load_realization",
+          "facade_light_load", "facade_light_load_realization", "sensor_light_load",
+          "sensor_light_load_realization", "sensor_sun_hours"}) {
+      if (!result.has(total)) continue;
+      const std::string end = total.ends_with("_realization") ? "_realization" : "",
+                        parts = total.substr(0, total.size() - end.size()) + "_by_" + kind + end;
+      if (!result.has(parts)) return parts + " is missing";
+      const auto whole = result.doubles(total), rows = result.doubles(parts);
+      const double largest = *std::max_element(whole.begin(), whole.end());
+      for (std::size_t i = 0; i < whole.size(); ++i) {
+        double sum = 0;
+        for (std::size_t at = i; at < rows.size(); at += whole.size()) sum += rows[at];
+        // Stored as floats, and with bands or mirrors summed from floats.
+        constexpr double rounding = 1e-5;
+        if (!(std::abs(sum - whole[i]) <= rounding * largest))
+          return fmt::format("{} adds up to {} at place {}, not to {}", parts, sum, i, whole[i]);
+      }
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 std::vector<std::string> different_data(const std::string& a, const std::string& b) {
@@ -168,8 +196,8 @@ std::string ledger_problem(const std::string& path, double lost_share) {
 
 std::string sums_problem(const std::string& path) {
   const ResultReader result(path);
-  for (const auto& problem :
-       {series_problem(result), sun_hours_problem(result), facades_problem(result)})
+  for (const auto& problem : {series_problem(result), sun_hours_problem(result),
+                              facades_problem(result), parts_problem(result)})
     if (!problem.empty()) return path + ": " + problem;
   return {};
 }

@@ -45,7 +45,7 @@ inline std::string square_study(const std::string& standard_error = "totals",
          "solver: {lines_per_patch: 64, direct_samples: 16, realizations: 16, batch_suns: 2" +
          solver +
          "}\n"
-         "output: {folder: results, standard_error: " +
+         "output: {folder: results, totals: [season, day, hour_of_day], standard_error: " +
          standard_error + "}\n";
 }
 
@@ -62,7 +62,7 @@ inline std::string street_study(const std::string& standard_error = "totals",
          "solver: {lines_per_patch: 64, direct_samples: 16, realizations: 16, batch_suns: 2" +
          solver +
          "}\n"
-         "output: {folder: results, standard_error: " +
+         "output: {folder: results, totals: [season, day, hour_of_day], standard_error: " +
          standard_error + "}\n";
 }
 

@@ -191,6 +191,19 @@ output: {folder: out, series: [total, sky], standard_error: instants, compressio
   EXPECT_EQ(study.output.standard_error, StandardErrors::instants);
 }
 
+TEST(Study, ReadsPartsOfThePeriod) {
+  const auto totals = [](const std::string& value) {
+    return read_text(with({{"output", "{totals: " + value + "}"}})).variants[0].output.totals;
+  };
+  EXPECT_FALSE(totals("auto"));
+  EXPECT_TRUE(totals("none")->empty());
+  EXPECT_EQ(totals("[hour_of_day, month]"),
+            (std::vector<PartKind>{PartKind::month, PartKind::hour_of_day}));
+  for (const char* wrong : {"[week]", "[day, day]", "daily", "[]"})
+    EXPECT_FALSE(problems_of(with({{"output", std::string("{totals: ") + wrong + "}"}})).empty())
+        << wrong;
+}
+
 TEST(Study, ReadsTheShootingTransport) {
   const auto solver = [](const std::string& keys) {
     return read_text(with({{"solver", "{" + keys + "}"}}));
@@ -645,6 +658,7 @@ TEST(StudySchema, HasTheDefaultsOfTheReader) {
     EXPECT_EQ(absent.output.series, written.output.series);
     EXPECT_EQ(absent.output.standard_error, written.output.standard_error);
     EXPECT_EQ(absent.output.compression, written.output.compression);
+    EXPECT_EQ(absent.output.totals, written.output.totals);
   });
   EXPECT_GT(defaults, 30);
 }
@@ -945,7 +959,8 @@ TEST(CanonicalText, SeesEveryKeyOfTheSchemaButThese) {
       // errors of instants, which are more datasets.
       "scene.files[].file", "scene.files[].source", "scene.parallel_sources", "light.weather",
       "sensors.file", "sensors.points[].position_m", "sensors.points[].normal", "solver.isa",
-      "output.standard_error",
+      // So are the parts of the period that have totals.
+      "output.standard_error", "output.totals",
       // One word only, beside which no other period can stand; any parameter of built-in scenes.
       "period.year_of", "scene.builtin.*"};
   std::set<std::string> unseen;

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/transport/part_sums.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "geo/base/units.h"
+#include "solver/gather/sensor_light.h"
+
+namespace sunload {
+
+namespace {
+
+bool any(const std::vector<double>& shares) {
+  return std::any_of(shares.begin(), shares.end(), [](double share) { return share > 0; });
+}
+
+}  // namespace
+
+PartSums::PartSums(const TracedScene& traced, std::size_t band, BatchTally& tally)
+    : traced_(traced), band_(band), tally_(tally) {
+  for (std::size_t p = 0; p < tally.parts.size(); ++p)
+    if (tally.parts[p].with_errors)
+      parts_.push_back(
+          {p,
+           {static_cast<std::size_t>(traced.rules.realizations), traced.patches.count(),
+            traced.sensors.count(), static_cast<std::size_t>(traced.grid.cell_count())}});
+}
+
+std::vector<double> PartSums::shares(std::size_t part, const Block& block) const {
+  const auto first =
+      tally_.parts[parts_[part].part].share.begin() + static_cast<std::ptrdiff_t>(block.first_row);
+  return {first, first + static_cast<std::ptrdiff_t>(block.suns.size())};
+}
+
+bool PartSums::wants(const Block& block) const {
+  for (std::size_t p = 0; p < count(); ++p)
+    if (any(shares(p, block))) return true;
+  return false;
+}
+
+void PartSums::add(const Block& block, const BlockSources& sources, const BlockRays& rays,
+                   const BandFactors& factors, Sky sky) {
+  for (std::size_t p = 0; p < count(); ++p) {
+    const auto of_suns = shares(p, block);
+    if (!any(of_suns)) continue;
+    BandFactors of_part = factors;
+    for (std::size_t k = 0; k < of_suns.size(); ++k) {
+      of_part.sun[k] *= of_suns[k];
+      of_part.circumsolar[k] *= of_suns[k];
+    }
+    add_exposures(rays, of_part, sources.suns, sums(p));
+    if (sky == Sky::split)
+      sums(p).add_sources(sources, of_suns);
+    else
+      sums(p).add_whole_sources(sources, of_suns);
+  }
+}
+
+void PartSums::solve() {
+  Parts block;
+  for (const OfPart& of : parts_) {
+    if (of.sums.length_s > 0) block.push_back(&of);
+    if (block.size() == block_width || (&of == &parts_.back() && !block.empty())) {
+      solve(block);
+      block.clear();
+    }
+  }
+}
+
+void PartSums::solve(const Parts& block) {
+  const PatchOptics& optics = traced_.optics_of_band[band_];
+  const std::vector<IntervalLight> means = mean_lights(block);
+  BlockSources sources(means, static_cast<std::size_t>(traced_.grid.cell_count()));
+  for (std::size_t k = 0; k < block.size(); ++k)
+    for (std::size_t c = 0; c < block[k]->sums.sky_of_lines.size(); ++c)
+      sources.sky_of_lines[c * block_width + k] =
+          static_cast<float>(block[k]->sums.sky_of_lines[c] / block[k]->sums.length_s);
+  for (std::size_t r = 0; r < static_cast<std::size_t>(traced_.rules.realizations); ++r) {
+    BlockLight light = block_light(traced_.hierarchy(), traced_.patches.lines.realizations[r],
+                                   optics, sources, mean_rays(block, &TimeSums::on_patches, r),
+                                   traced_.patches.lamps.of(r), traced_.bounce_rules(band_));
+    keep(block, r, light, tally_);
+    if (tally_.sensors.parts.empty()) continue;
+    RayColumns rays = mean_rays(block, &TimeSums::on_sensors, r);
+    rays.circumsolar.clear();  // sensors see all of the sky by their lines
+    keep(block, r,
+         sensor_light(traced_.sensors.lines.realizations[r], optics, sources, std::move(rays),
+                      traced_.sensors.lamps.of(r),
+                      seen_radiosity(traced_.hierarchy(), optics, light)),
+         tally_.sensors);
+  }
+}
+
+std::vector<IntervalLight> PartSums::mean_lights(const Parts& block) {
+  std::vector<IntervalLight> means(block.size());
+  for (std::size_t k = 0; k < block.size(); ++k) {
+    const TimeSums& sums = block[k]->sums;
+    means[k].ground_exitance = sums.ground / sums.length_s;
+    for (const double sky : sums.sky) means[k].sky.push_back(sky / (pi * sums.length_s));
+  }
+  return means;
+}
+
+RayColumns PartSums::mean_rays(const Parts& block, RaySums TimeSums::*of, std::size_t r) {
+  const auto means = [&](std::vector<std::vector<double>> RaySums::*kind) {
+    Columns mean = columns(((block.front()->sums.*of).*kind)[r].size());
+    for (std::size_t k = 0; k < block.size(); ++k) {
+      const auto& sum = ((block[k]->sums.*of).*kind)[r];
+      for (std::size_t i = 0; i < sum.size(); ++i)
+        mean[i * block_width + k] = static_cast<float>(sum[i] / block[k]->sums.length_s);
+    }
+    return mean;
+  };
+  return {means(&RaySums::direct), means(&RaySums::mirror), means(&RaySums::circumsolar)};
+}
+
+void PartSums::keep(const Parts& block, std::size_t r, const BlockLight& light,
+                    ReceiverTally& tally) {
+  for (std::size_t k = 0; k < block.size(); ++k) {
+    auto& exposure = tally.parts[block[k]->part].exposure_realization[r];
+    for (std::size_t i = 0; i < exposure.size(); ++i)
+      exposure[i] = static_cast<double>(light.total(i, k)) * block[k]->sums.length_s;
+  }
+}
+
+BandFactors whole_light() {
+  BandFactors factors;
+  factors.sun.fill(1);
+  factors.circumsolar.fill(1);
+  return factors;
+}
+
+}  // namespace sunload
