@@ -3,6 +3,7 @@
 #include "io/view/data.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -162,6 +163,25 @@ json facade_series(const ResultReader& result, std::size_t step, ViewBlocks& blo
   return nullptr;
 }
 
+// Divisions of the period whose totals the page shows; of days of a year it would have too many.
+constexpr std::array shown_divisions{"month", "season", "day"};
+constexpr std::size_t most_parts = 31;
+
+/// Light loads of parts of the period, [part, patch], where they are stored.
+json divisions(const ResultReader& result, ViewBlocks& blocks) {
+  json list = json::array();
+  for (const std::string division : shown_divisions) {
+    const std::string name = "light_load_by_" + division;
+    if (!result.has(name) || !result.has(division) || result.shape(name).at(0) > most_parts)
+      continue;
+    list.push_back({{"name", division},
+                    {"parts", result.strings(division)},
+                    {"units", display_units(result.units(name))},
+                    {"values", add_numbers(blocks, floats(result.doubles(name)))}});
+  }
+  return list;
+}
+
 /// Points of the study that receive light; names as those of patches. Null where there are none.
 json sensors(const ResultReader& result, std::size_t step, ViewBlocks& blocks) {
   if (!result.has("sensor_position")) return nullptr;
@@ -207,6 +227,7 @@ json view_data(const ResultReader& result, std::size_t step, ViewBlocks& blocks)
           {"times", times(result, step)},
           {"geometry", geometry(result, blocks)},
           {"totals", totals(result, blocks)},
+          {"divisions", divisions(result, blocks)},
           {"sensors", sensors(result, step, blocks)},
           {"origin", {origin.x, origin.y, origin.z}},
           {"facade_series", facade_series(result, step, blocks)},

@@ -87,8 +87,9 @@ function drawAxis({ c, width, height }, largest) {
 
 const largestOf = (lists) => Math.max(0, ...lists.map((list) => list.reduce((most, value) => (value > most ? value : most), 0)));
 
-function drawBars(canvas, kind, times, curves) {
-  const page = cleared(canvas), { c, width, height } = page, { names, values } = bars(kind, times, curves);
+/** `names` and for each curve one value per name. */
+export function drawBars(canvas, kind, { names, values }) {
+  const page = cleared(canvas), { c, width, height } = page;
   const y = drawAxis(page, largestOf(values)), wide = (width - left - right) / Math.max(1, names.length), gap = wide > 6 ? 0.15 * wide : 0;
   let written = -Infinity;
   names.forEach((name, i) => {
@@ -161,5 +162,5 @@ function drawDay(canvas, times, k, curves) {
  */
 export function drawChart(canvas, kind, times, k, curves) {
   if (kind === "day") return { intervalAt: drawDay(canvas, times, k, curves) };
-  return drawBars(canvas, kind, times, curves);
+  return drawBars(canvas, kind, bars(kind, times, curves));
 }

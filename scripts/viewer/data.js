@@ -71,6 +71,7 @@ class Result {
     result.patches = result.patch_area.length;
     for (const total of about.totals) total.values = new Float32Array(await block(total.values));
     if (about.series) about.series.planes = new Uint8Array(await block(about.series.values));
+    for (const division of about.divisions) division.values = new Float32Array(await block(division.values));
     if (about.facade_series) about.facade_series.planes = new Uint8Array(await block(about.facade_series.values));
     if (about.sensors) result.sensors = await Sensors.read(about.sensors, halves);
     const twins = new Set();
@@ -90,16 +91,31 @@ class Result {
     return halfAt(this.facade_series, this.halves, this.geometry.facade_name.length, k, facade);
   }
 
-  /** One value per patch: of a total, or of the series at interval k (NaN: not covered). */
+  /** Light loads of parts of the period: [word of the quantity, name of the part]. */
+  partNames() {
+    return this.divisions.flatMap(({ name, parts }) => parts.map((part) => [`light_load_by_${name}:${part}`, part]));
+  }
+
+  /** Values of such a part, one per patch; nothing where there is none. */
+  partValues(word) {
+    for (const { name, parts, values } of this.divisions) {
+      const at = parts.findIndex((part) => word === `light_load_by_${name}:${part}`);
+      if (at >= 0) return values.subarray(at * this.patches, (at + 1) * this.patches);
+    }
+    return null;
+  }
+
+  /** One value per patch: of a total, of a part of the period, or of the series at interval k (NaN: not covered). */
   values(name, k) {
-    const total = this.totals.find((one) => one.name === name);
-    if (total) return total.values;
+    const total = this.totals.find((one) => one.name === name), part = this.partValues(name);
+    if (total || part) return total?.values ?? part;
     const values = new Float32Array(this.patches).fill(NaN);
     if (this.series?.name === name && k >= 0) for (let p = 0; p < this.patches; ++p) values[p] = this.seriesValue(k, p);
     return values;
   }
 
   units(name) {
+    if (this.partValues(name)) return this.divisions[0].units;
     return this.series?.name === name ? this.series.units : this.totals.find((one) => one.name === name)?.units ?? "";
   }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the page says beside the picture: time, and values and charts of what is chosen.
-import { chartNames, chartsOf, curveColours, drawChart } from "./chart.js";
+import { chartNames, chartsOf, curveColours, drawBars, drawChart } from "./chart.js";
 import { shown } from "./scale.js";
 import { meanOver, sameEntry, selectedPatches, selectionText } from "./selection.js";
 
@@ -36,7 +36,7 @@ export function tellSelection(viewer) {
   const sensor = picked.length === 1 && picked[0].of === "sensor" ? picked[0] : null;
   const told = sensor ? sensorTold(viewer, sensor) : patchesTold(viewer);
   showRows(told.rows);
-  showCharts(viewer, told.curves, told.units);
+  showCharts(viewer, told);
 }
 
 /** From a patch to its facade and object: buttons. */
@@ -76,7 +76,22 @@ function patchesTold(viewer) {
   if (results.length > 1 && single?.of === "patch") rows.push(["", which.map((m) => results[m].label)]);
   rows.push(...valueRows(viewer, single, sets, which));
   const series = which.map((m) => seriesOf(results[m], picked)).find(Boolean);
-  return { rows, curves: series ? curvesOf(viewer, sets, which, series.name) : [], units: series ? `${series.name} [${series.units}]` : "" };
+  return { rows, curves: series ? curvesOf(viewer, sets, which, series.name) : [], units: series ? `${series.name} [${series.units}]` : "",
+    stored: storedSums(viewer, sets, which) };
+}
+
+/** Charts of stored totals: those of all results, exact where series have rounded values or are missing. */
+function storedSums(viewer, sets, which) {
+  const charts = {};
+  for (const [chart, name] of [["days", "day"], ["months", "month"]]) {
+    const own = which.map((m) => viewer.results[m].divisions.find((division) => division.name === name));
+    if (!own.length || own.some((division) => !division || String(division.parts) !== String(own[0].parts))) continue;
+    charts[chart] = { names: own[0].parts, labels: which.map((m) => viewer.results[m].label), values: which.map((m, i) => {
+      const result = viewer.results[m];
+      return own[0].parts.map((_, at) => meanOver(sets[m], result.patch_area, (p) => own[i].values[at * result.patches + p]));
+    }) };
+  }
+  return charts;
 }
 
 /** The series that a selection has: facades have one of their own, which is there where patches have none. */
@@ -163,8 +178,8 @@ function showRows(rows) {
 }
 
 /** The chart that is chosen, and buttons for the others. */
-function showCharts(viewer, curves, units) {
-  const possible = curves.length ? chartsOf(viewer.results[0]) : [], { state } = viewer;
+function showCharts(viewer, { curves, units, stored = {} }) {
+  const { state } = viewer, possible = [...new Set([...(curves.length ? chartsOf(viewer.results[0]) : []), ...Object.keys(stored)])];
   const kind = possible.includes(state.chart) ? state.chart : possible[0];
   $("series").hidden = $("chart-says").hidden = !kind;
   $("charts").replaceChildren(...(possible.length > 1 ? possible : []).map((one) => {
@@ -176,11 +191,12 @@ function showCharts(viewer, curves, units) {
     return button;
   }));
   if (!kind) return;
-  viewer.chart = { kind, ...drawChart($("series"), kind, viewer.results[0].times, state.k, curves) };
-  sayChart(viewer, kind, curves, units);
+  const bars = stored[kind];
+  viewer.chart = { kind, ...(bars ? drawBars($("series"), kind, bars) : drawChart($("series"), kind, viewer.results[0].times, state.k, curves)) };
+  sayChart(kind, bars ? bars.labels.map((label) => ({ label, step: 1 })) : curves, units);
 }
 
-function sayChart(viewer, kind, curves, units) {
+function sayChart(kind, curves, units) {
   const energy = units.includes("lx") ? "light exposure [klx h]" : "light load [kWh/m²]";
   const what = { day: units, hours: `${units}, mean of each hour`, days: `${energy} of each day`, months: `${energy} of each month` }[kind];
   const says = [Object.assign(document.createElement("span"), { textContent: what.replaceAll("_", " ") })];

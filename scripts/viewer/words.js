@@ -10,7 +10,13 @@ export function quantities(viewer) {
   const names = results[0].totals.map((total) => total.name).filter((name) => results.every((r) => r.totals.some((t) => t.name === name)));
   if (series && results.every((r) => r.series?.name === series)) names.push(series);
   return [...names.map((name) => [name, name.replaceAll("_", " ") + (name === series ? " at the time" : name.endsWith("_se") ? " (error)" : "")]),
-    [kinds, "kinds of surface"], [materials, "materials"], [preview, "shape only"]];
+    ...partsOfAll(results), [kinds, "kinds of surface"], [materials, "materials"], [preview, "shape only"]];
+}
+
+/** Light loads of parts of the period that all results have. */
+function partsOfAll(results) {
+  const shared = results[0].partNames().filter(([word]) => results.every((result) => result.partValues(word)));
+  return shared.map(([word, part]) => [word, `light load, ${part}`]);
 }
 
 export function views(viewer) {
