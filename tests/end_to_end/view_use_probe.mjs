@@ -15,6 +15,7 @@ try {
   const tab = await browser.open(`file://${page}`);
   await layouts(tab);
   await found(tab);
+  await parts(tab);
   await address(tab);
   await saved(tab);
   await shaded(tab);
@@ -113,6 +114,18 @@ async function found(tab) {
     seen.charts[kind] = await tab.evaluate(() => ({ names: window.sunload.chart.names, values: window.sunload.chart.values, says: document.getElementById("chart-says").textContent }));
     await picture(tab, `chart-${kind}`);
   }
+}
+
+/** Stored totals of parts of the period, on the map and in charts. */
+async function parts(tab) {
+  await tab.evaluate(() => { window.sunload.choose([{ of: "object", name: "house" }]); });
+  await tab.click("#charts button[data-chart=months]");
+  seen.months = await tab.evaluate(() => ({ names: window.sunload.chart.names, values: window.sunload.chart.values }));
+  await tab.selectOption("#quantity", "light_load_by_month:2026-06");
+  seen.june = await tab.evaluate(() => ({ values: [...window.sunload.valuesOf(1)], caption: document.getElementById("names").textContent,
+    days: [...document.querySelectorAll("#quantity option")].filter((option) => option.value.startsWith("light_load_by_day:")).map((option) => option.textContent) }));
+  await tab.selectOption("#quantity", "light_load");
+  await tab.evaluate((name) => { window.sunload.choose([{ of: "facade", name }]); }, facade);
 }
 
 async function address(tab) {
@@ -229,6 +242,6 @@ async function ofStudy(tab) {
 async function withoutSeries(tab) {
   seen.bare = await tab.evaluate(() => ({ names: window.sunload.chart?.names, values: window.sunload.chart?.values }));
   await tab.evaluate(() => { window.sunload.choose([{ of: "object", name: "house" }]); });
-  seen.bareObject = await tab.evaluate(() => document.getElementById("series").hidden);
+  seen.bareObject = await tab.$$eval("#charts button", (list) => list.map((button) => button.dataset.chart));
   await tab.close();
 }

@@ -27,11 +27,14 @@ scene:
   materials: {paving: {diffuse: 0.3}, plaster: {diffuse: 0.6}, glass: {diffuse: 0.05, mirror: 0.85}}
 mesh: {max_edge_m: 2, oracle: none}
 solver: {lines_per_patch: 64}
+output: {series: [SERIES], totals: [month, day]}
 variants:
   - {name: baseline}
   - {name: bright, scene: {materials: {plaster: {diffuse: 0.9}}}}
 """
 KWH_PER_J = 1 / 3.6e6
+# Values travel as floats.
+FLOATS = 2e-7
 # Boxes of a page are rounded to its pixels.
 PIXEL = 1.0
 # Of 255, as in the shader: products are rounded once.
@@ -118,6 +121,19 @@ def part_of(image, box):
     return image[top:bottom, left:right]
 
 
+def test_parts(seen, files):
+    """Stored totals of months and days are what the file has."""
+    for k, file in enumerate(files):
+        house = list(file["object_name"].asstr()).index("house")
+        own, area, months = file["patch_object"][...] == house, file["patch_area"][...], file["light_load_by_month"][...]
+        wanted = (months[:, own] * area[own]).sum(axis=1) / area[own].sum()
+        assert seen["months"]["names"] == list(file["month"].asstr()) == ["2026-03", "2026-06"], seen["months"]
+        assert np.allclose(seen["months"]["values"][k], wanted, rtol=FLOATS), (seen["months"], wanted)
+    assert np.allclose(seen["june"]["values"], files[1]["light_load_by_month"][1], rtol=FLOATS)
+    assert "bright: light load, 2026-06" in seen["june"]["caption"] or "baseline: light load, 2026-06" in seen["june"]["caption"], seen["june"]["caption"]
+    assert len(seen["june"]["days"]) == 3, seen["june"]["days"]
+
+
 def test_address(seen, folder):
     """The view that was sent is the view that is received, region by region."""
     sent, received = (picture(folder, name) for name in ("sent", "received"))
@@ -187,12 +203,12 @@ def test_study(seen, folder):
 
 
 def test_without_series(seen, folder):
-    """Facades have series of their own where patches have none; objects have no chart then."""
+    """Facades have series of their own where patches have none; objects have charts of stored totals then."""
     with h5py.File(os.path.join(folder, "bare/square/baseline.h5")) as file:
         assert "irradiance" not in file
     bare, whole = seen["bare"], seen["charts"]["days"]
     assert bare["names"] == whole["names"] and np.allclose(bare["values"][0], whole["values"][0], rtol=THREE_DIGITS), (bare, whole)
-    assert seen["bareObject"]
+    assert seen["bareObject"] == ["days", "months"], seen["bareObject"]
 
 
 def test_refusals(sunload, folder):
@@ -207,14 +223,12 @@ def test_refusals(sunload, folder):
 def test(sunload, source, packages, folder):
     sys.path.insert(0, os.path.join(source, "scripts/plot"))
     sys.dont_write_bytecode = True
-    for name, text in (("square.obj", SQUARE), ("square.yaml", STUDY)):
+    for name, text in (("square.obj", SQUARE), ("square.yaml", STUDY.replace("SERIES", "total")), ("bare.yaml", STUDY.replace("SERIES", "direct"))):
         with open(os.path.join(folder, name), "w") as file:
             file.write(text)
     run([sunload, "view", "square.yaml", "-o", "study.html"], cwd=folder)
     run([sunload, "run", "square.yaml", "--overwrite"], cwd=folder)
     bare_page = os.path.join(folder, "bare.html")
-    with open(os.path.join(folder, "bare.yaml"), "w") as file:
-        file.write(STUDY + "output: {series: [direct]}\n")
     run([sunload, "run", "bare.yaml", "--variant", "baseline", "--output", "bare", "--overwrite"], cwd=folder)
     run([sunload, "view", "bare/square/baseline.h5", "-o", bare_page], cwd=folder)
     paths = [os.path.join(folder, f"results/square/{name}.h5") for name in ("baseline", "bright")]
@@ -230,6 +244,7 @@ def test(sunload, source, packages, folder):
         test_found(seen, base, facade)
         test_values(seen, (base, bright), facade)
         test_charts(seen, (base, bright), facade)
+        test_parts(seen, (base, bright))
     test_address(seen, folder)
     test_saved(seen, folder)
     test_shades(seen, folder)
