@@ -276,7 +276,7 @@ class Renderer {
     draw_title(*picture, title(result_),
                std::string(rules_.colours == PictureColours::of_surfaces ? "kinds of surface"
                                                                          : "materials") +
-                   ", sun path of " + whole_period(result_) + named_in_words(rules_.parts));
+                   ", sun path of " + period_in_words(result_) + named_in_words(rules_.parts));
     draw_kinds(*picture, kinds.entries);
     draw_sun_path(*picture, sun_track(result_),
                   camera_->image_direction(scene_direction({0, 0}, north_deg_)));
