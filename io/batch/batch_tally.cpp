@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/batch/batch_tally.h"
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 
@@ -67,21 +68,28 @@ void add_ledger(BatchWriter& writer, const BatchTally& tally, const std::string&
              energy.data());
 }
 
+bool is_stored(const std::string& name, const StoredSeries& stored) {
+  const auto& left_out = stored.left_out;
+  return std::find(left_out.begin(), left_out.end(), band_array(name).name) == left_out.end();
+}
+
 /// What receivers get: series, their time sums, and those of the realizations.
 void add_received(BatchWriter& writer, const ReceiverTally& tally, std::size_t K,
-                  const std::string& prefix) {
+                  const std::string& prefix, const StoredSeries& stored) {
   const std::size_t N = tally.sunlit_s.size(), R = tally.exposure_realization.size();
+  const auto add_series = [&](const std::string& name, const std::vector<float>& values) {
+    if (is_stored(name, stored))
+      writer.add({name, MergeRule::append, ArrayType::float32, {K, N}, stored.mantissa_bits},
+                 values.data());
+  };
   for (std::size_t p = 0; p < part_count; ++p) {
     if (tally.irradiance[p].empty()) continue;
     const auto part = static_cast<Part>(p);
-    writer.add({prefix + series_name(part), MergeRule::append, ArrayType::float32, {K, N}},
-               tally.irradiance[p].data());
+    add_series(prefix + series_name(part), tally.irradiance[p]);
     writer.add({prefix + sum_name(part), MergeRule::sum, ArrayType::float64, {N}},
                tally.exposure[p].data());
   }
-  if (!tally.irradiance_se.empty())
-    writer.add({prefix + "irradiance_se", MergeRule::append, ArrayType::float32, {K, N}},
-               tally.irradiance_se.data());
+  if (!tally.irradiance_se.empty()) add_series(prefix + "irradiance_se", tally.irradiance_se);
   writer.add({prefix + batch_array::exposure, MergeRule::sum, ArrayType::float64, {R, N}},
              flattened(tally.exposure_realization).data());
   for (std::size_t p = 0; p < part_count; ++p)
@@ -119,11 +127,11 @@ void add_sensors(BatchWriter& writer, const BatchTally& tally, const TracedScene
 
 /// What every band has of its own.
 void add_band(BatchWriter& writer, const BatchTally& tally, const Hierarchy& hierarchy,
-              const Mesh& mesh, const std::string& prefix) {
+              const Mesh& mesh, const std::string& prefix, const StoredSeries& stored) {
   const std::size_t K = tally.intervals;
-  add_received(writer, tally, K, prefix);
+  add_received(writer, tally, K, prefix, stored);
   if (!tally.sensors.sunlit_s.empty())
-    add_received(writer, tally.sensors, K, prefix + sensor_prefix);
+    add_received(writer, tally.sensors, K, prefix + sensor_prefix, stored);
   if (!mesh.facades.empty())
     writer.add({prefix + "facade_irradiance",
                 MergeRule::append,
@@ -232,12 +240,13 @@ WorkDone work_from(const std::vector<double>& values) {
 
 void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
                  const TracedScene& traced, const Mesh& mesh, const BatchParts& parts,
-                 const WorkDone& work, std::optional<double> irradiance_relative) {
+                 const WorkDone& work, std::optional<double> irradiance_relative,
+                 const StoredSeries& stored) {
   const Hierarchy& hierarchy = traced.hierarchy();
   const std::size_t N = hierarchy.patch_count();
   const auto prefixes = band_prefixes(traced.rules.bands);
   for (std::size_t b = 0; b < bands.size(); ++b)
-    add_band(writer, bands[b], hierarchy, mesh, prefixes[b]);
+    add_band(writer, bands[b], hierarchy, mesh, prefixes[b], stored);
   for (const auto& source : parts.sources) add_part(writer, bands, prefixes, source);
   add_sunlit(writer, bands.front(), "");
   if (!bands.front().sensors.sunlit_s.empty()) add_sensors(writer, bands.front(), traced);

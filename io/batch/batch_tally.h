@@ -67,12 +67,20 @@ std::string part_exposure_name(Part part);
 std::vector<double> work_values(const WorkDone& work);
 WorkDone work_from(const std::vector<double>& values);
 
+/// What is stored of the series of patches and sensors. Means of facades keep all bits: many
+/// patches make them surer than any of these.
+struct StoredSeries {
+  std::vector<std::string> left_out;  ///< names, as in BatchHeader
+  int mantissa_bits = all_mantissa_bits;
+};
+
 /// Everything of the tallies, one per band, into a batch file's arrays; `parts` are those that they
 /// were solved with; `work` is what this batch cost; `irradiance_relative` is the goal that the
 /// study has for its series, if it has one. Arrays of three bands have the prefixes of
 /// `band_prefixes`, but for those that are the same in all of them.
 void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
                  const TracedScene& traced, const Mesh& mesh, const BatchParts& parts,
-                 const WorkDone& work, std::optional<double> irradiance_relative);
+                 const WorkDone& work, std::optional<double> irradiance_relative,
+                 const StoredSeries& stored = {});
 
 }  // namespace sunload

@@ -45,24 +45,57 @@ void unshuffle(const unsigned char* planes, std::size_t count, unsigned char* va
   }
 }
 
+bool are_mantissa_bits(int bits) { return bits > 0 && bits <= all_mantissa_bits; }
+
+/// To a mantissa of so many bits.
+class Rounding {
+ public:
+  explicit Rounding(int mantissa_bits)
+      : left_out_(static_cast<unsigned>(all_mantissa_bits - mantissa_bits)),
+        last_kept_(left_out_ > 0 ? 1U : 0U),
+        below_half_(left_out_ > 0 ? (1U << (left_out_ - 1)) - 1 : 0U) {}
+
+  bool changes_nothing() const { return left_out_ == 0; }
+  float operator()(float value) const {
+    constexpr std::uint32_t exponent = 0x7f800000U;
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    // Half a unit, less a bit where the last bit kept is even: a carry runs on into the exponent.
+    const std::uint32_t nearest =
+        (bits + below_half_ + ((bits >> left_out_) & last_kept_)) & (~0U << left_out_);
+    return std::bit_cast<float>((bits & exponent) == exponent ? bits : nearest);
+  }
+
+ private:
+  unsigned left_out_;
+  std::uint32_t last_kept_, below_half_;
+};
+
 /// Rows of an array and the chunk of them whose first column is `first`.
 struct Piece {
   const float* values;
   std::size_t rows, columns, first;
   ChunkShape shape;
+  Rounding rounding;
 
   std::size_t width() const { return std::min(shape.columns, columns - first); }
   std::size_t count() const { return shape.rows * shape.columns; }
-  const float* row(std::size_t k) const { return values + k * columns + first; }
+  /// Values of row k; `room` has room for them, rounded.
+  const float* row(std::size_t k, std::vector<float>& room) const {
+    const float* const row = values + k * columns + first;
+    if (rounding.changes_nothing()) return row;
+    room.resize(width());
+    std::transform(row, row + width(), room.begin(), rounding);
+    return room.data();
+  }
 };
 
 /// As it is, padded to its shape.
 Bytes plain(const Piece& piece) {
   Bytes bytes(piece.shape.bytes());
-  std::vector<float> row(piece.shape.columns, fill);
+  std::vector<float> row(piece.shape.columns, fill), room;
   for (std::size_t k = 0; k < piece.shape.rows; ++k) {
     if (k == piece.rows) std::fill(row.begin(), row.end(), fill);
-    if (k < piece.rows) std::copy_n(piece.row(k), piece.width(), row.data());
+    if (k < piece.rows) std::copy_n(piece.row(k, room), piece.width(), row.data());
     std::memcpy(bytes.data() + k * row.size() * sizeof(float), row.data(),
                 row.size() * sizeof(float));
   }
@@ -73,9 +106,10 @@ Bytes plain(const Piece& piece) {
 void shuffled(const Piece& piece, Bytes& planes) {
   planes.resize(piece.shape.bytes());
   const std::vector<float> padding(piece.shape.columns, fill);
+  std::vector<float> room;
   for (std::size_t k = 0; k < piece.shape.rows; ++k) {
     const std::size_t known = k < piece.rows ? piece.width() : 0, first = k * piece.shape.columns;
-    if (known > 0) shuffle(piece.row(k), known, first, piece.count(), planes.data());
+    if (known > 0) shuffle(piece.row(k, room), known, first, piece.count(), planes.data());
     shuffle(padding.data(), piece.shape.columns - known, first + known, piece.count(),
             planes.data());
   }
@@ -205,12 +239,19 @@ Bytes encoded(const Piece& piece, int level) {
 
 }  // namespace
 
+float rounded(float value, int mantissa_bits) {
+  SUNLOAD_EXPECT(are_mantissa_bits(mantissa_bits), "bits of a mantissa");
+  return Rounding(mantissa_bits)(value);
+}
+
 std::vector<Bytes> encoded_chunks(const float* values, std::size_t rows, std::size_t columns,
-                                  ChunkShape shape, int level) {
+                                  ChunkShape shape, int level, int mantissa_bits) {
   SUNLOAD_EXPECT(rows <= shape.rows && shape.columns > 0 && level >= 0, "shape of chunks");
+  SUNLOAD_EXPECT(are_mantissa_bits(mantissa_bits), "bits of a mantissa");
+  const Rounding rounding(mantissa_bits);
   std::vector<Bytes> chunks(shape.count(columns));
   parallel_for(chunks.size(), [&](std::size_t c) {
-    chunks[c] = encoded({values, rows, columns, c * shape.columns, shape}, level);
+    chunks[c] = encoded({values, rows, columns, c * shape.columns, shape, rounding}, level);
   });
   return chunks;
 }

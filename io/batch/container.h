@@ -46,6 +46,7 @@ class Container {
   Container(const Container&) = delete;
   Container& operator=(const Container&) = delete;
 
+  const std::string& path() const { return path_; }
   const nlohmann::json& header() const { return header_; }
   std::size_t block_count() const { return blocks_.size(); }
   std::size_t block_bytes(std::size_t i) const { return blocks_[i].bytes; }

@@ -71,7 +71,8 @@ json to_json(const BatchHeader& header) {
           {"first_interval", header.first_interval},
           {"interval_count", header.interval_count},
           {"chunk_intervals", header.chunk_intervals},
-          {"compression", header.compression}};
+          {"compression", header.compression},
+          {"left_out", header.left_out}};
 }
 
 BatchHeader header_from(const json& from) {
@@ -84,12 +85,17 @@ BatchHeader header_from(const json& from) {
   from.at("interval_count").get_to(header.interval_count);
   from.at("chunk_intervals").get_to(header.chunk_intervals);
   from.at("compression").get_to(header.compression);
+  header.left_out = from.value("left_out", header.left_out);
   return header;
 }
 
 ArraySpec spec_from(const json& from) {
-  return {from.at("name"), from_name<MergeRule>(from.at("rule"), rule_names),
-          from_name<ArrayType>(from.at("type"), type_names), from.at("dims")};
+  const ArraySpec spec{from.at("name"), from_name<MergeRule>(from.at("rule"), rule_names),
+                       from_name<ArrayType>(from.at("type"), type_names), from.at("dims"),
+                       from.value("mantissa_bits", all_mantissa_bits)};
+  if (spec.mantissa_bits < 1 || spec.mantissa_bits > all_mantissa_bits)
+    throw std::runtime_error("bits of array " + spec.name);
+  return spec;
 }
 
 }  // namespace
@@ -143,7 +149,7 @@ void BatchWriter::add(const ArraySpec& spec, const float* values) {
     return;
   }
   block->chunks = encoded_chunks(values, spec.dims[0], spec.dims[1], chunk_shape(header_, spec),
-                                 header_.compression);
+                                 header_.compression, spec.mantissa_bits);
 }
 
 void BatchWriter::write(const std::string& path) const {
@@ -155,6 +161,7 @@ void BatchWriter::write(const std::string& path) const {
                       {"type", name_of(block->spec.type, type_names)},
                       {"dims", block->spec.dims},
                       {"chunk_bytes", block->chunk_bytes()}});
+    if (!block->chunks.empty()) tables.back()["mantissa_bits"] = block->spec.mantissa_bits;
     blocks.push_back(block->pieces());
   }
   write_container(path, {{"batch", to_json(header_)}, {"arrays", tables}}, blocks);
@@ -234,6 +241,8 @@ BatchReader::BatchReader(const std::string& path) : content_(std::make_unique<Co
 BatchReader::~BatchReader() = default;
 BatchReader::BatchReader(BatchReader&&) noexcept = default;
 
+const std::string& BatchReader::path() const { return content_->container.path(); }
+
 void BatchReader::verify() const { content_->container.verify(); }
 
 bool BatchReader::has(const std::string& name) const {
@@ -309,14 +318,22 @@ BatchReader::Chunk BatchReader::chunk(const std::string& name, std::size_t c) co
   return {bytes.data(), bytes.size(), is_plain};
 }
 
-BatchCheck check_batch(const std::string& path, const std::string& content_hash,
-                       std::size_t batch) {
+void expect_series(const BatchReader& batch, const std::vector<std::string>& may_lack) {
+  for (const auto& name : batch.header().left_out)
+    if (std::find(may_lack.begin(), may_lack.end(), name) == may_lack.end())
+      throw InputError({batch.path()}, "has no series " + name,
+                       "it was computed for other output.series", "compute it again");
+}
+
+BatchCheck check_batch(const std::string& path, const std::string& content_hash, std::size_t batch,
+                       const std::vector<std::string>& may_lack) {
   BatchCheck check;
   std::error_code error;
   check.exists = std::filesystem::exists(path, error);
   if (!check.exists) return check;
   try {
     const BatchReader reader(path);
+    expect_series(reader, may_lack);
     reader.verify();
     const BatchHeader& header = reader.header();
     if (header.content_hash != content_hash) {

@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "io/batch/chunk.h"
+
 namespace sunload {
 
 enum class MergeRule : std::uint8_t { append, sum, maximum };
@@ -27,7 +29,8 @@ struct ArraySpec {
   std::string name;
   MergeRule rule = MergeRule::append;
   ArrayType type = ArrayType::float64;
-  std::vector<std::size_t> dims;  ///< `append`: the first is time within the batch
+  std::vector<std::size_t> dims;          ///< `append`: the first is time within the batch
+  int mantissa_bits = all_mantissa_bits;  ///< that a chunked array keeps; others keep all
 };
 
 struct BatchHeader {
@@ -38,6 +41,8 @@ struct BatchHeader {
   std::size_t first_interval = 0, interval_count = 0;
   std::size_t chunk_intervals = 64;  ///< length of a chunk in time (batch_suns)
   int compression = 4;
+  /// Series that the study does not store: no batch of them can be merged where it does.
+  std::vector<std::string> left_out{};
 };
 
 /// Collects arrays (series already compressed) and writes the file in one go.
@@ -68,6 +73,7 @@ class BatchReader {
   BatchReader(BatchReader&&) noexcept;
   /// All of it. Throws InputError where the file is damaged.
   void verify() const;
+  const std::string& path() const;
   const BatchHeader& header() const { return header_; }
   const std::vector<ArraySpec>& arrays() const { return specs_; }
   bool has(const std::string& name) const;
@@ -95,11 +101,16 @@ class BatchReader {
   std::unique_ptr<Content> content_;
 };
 
-/// Whether `path` is a valid batch of that hash and number; a reason if it is there but not valid.
+/// Throws InputError where `batch` lacks series other than those of `may_lack`.
+void expect_series(const BatchReader& batch, const std::vector<std::string>& may_lack);
+
+/// Whether `path` is a valid batch of that hash and number, that lacks no series but those of
+/// `may_lack`; a reason if it is there but not valid.
 struct BatchCheck {
   bool exists = false, valid = false;
   std::string reason;
 };
-BatchCheck check_batch(const std::string& path, const std::string& content_hash, std::size_t batch);
+BatchCheck check_batch(const std::string& path, const std::string& content_hash, std::size_t batch,
+                       const std::vector<std::string>& may_lack = {});
 
 }  // namespace sunload

@@ -8,6 +8,7 @@
 
 #include "io/base/hash.h"
 #include "io/plan/part_totals.h"
+#include "io/plan/stored_bits.h"
 
 namespace sunload {
 
@@ -139,6 +140,11 @@ std::string content_hash(const Study& study, const BuiltScene& built, const Ligh
   digest.add(numerics_version);
   digest.add(canonical_text(study));
   digest.add(study.output.standard_error == StandardErrors::instants);
+  // What rounds nothing leaves the hash as it was.
+  if (const int bits = stored_bits(study); bits < float_mantissa_bits) {
+    digest.add(std::string("significant bits"));
+    digest.add(bits);
+  }
   digest.add(isa);
   digest.add(times_text(light));
   digest.add(light.weather_sha256);

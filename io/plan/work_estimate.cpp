@@ -7,6 +7,7 @@
 
 #include "io/plan/mesh_family.h"
 #include "io/plan/rules_of_study.h"
+#include "io/plan/stored_bits.h"
 #include "io/plan/variant_mesh.h"
 #include "solver/base/cost.h"
 #include "solver/base/threads.h"
@@ -156,6 +157,14 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
       static_cast<double>(plan.intervals()) * bytes_per_interval +
       n * (bands * (batch * parts * float_bytes + arrays_of_realizations * of_realizations) +
            bytes_per_patch);
+  // One batch is written while the next is computed.
+  const double series =
+      std::min(parts, static_cast<double>(plan.study.output.series.size())) + (of_instants ? 1 : 0);
+  constexpr double float_bits = 32, sign_and_exponent = float_bits - float_mantissa_bits;
+  const double value_bytes =
+      stored_bytes_per_value * (sign_and_exponent + stored_bits(plan.study)) / float_bits;
+  const double batch_sums = parts * of_realizations + batch_bytes_per_patch;
+  work.memory_bytes += bands * n * (batch * series * value_bytes + batch_sums);
   // The sun's light of each realization, straight and circumsolar, and by mirrors.
   if (is_rgb || of_instants || suns_of_parts > 0)
     work.memory_bytes += n * s.realizations * block_width * float_bytes * (mirrors ? 3.0 : 2.0);
@@ -173,18 +182,15 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
         n * (shooting_bytes_per_patch + of_realizations * columns_of_a_realization) +
         per_shot / s.realizations * bytes_per_sample;
   }
-  work.disk_bytes =
-      bands * n * lit * stored_bytes_per_value *
-          (parts + static_cast<double>(plan.study.output.series.size()) + (of_instants ? 2 : 0)) +
-      bands * n * batches * (of_realizations + batch_bytes_per_patch) +
-      bands * n * (of_realizations + result_bytes_per_patch) +
-      bands * n *
-          (static_cast<double>(periods.stored) * sums_of_part * double_bytes +
-           static_cast<double>(periods.stored_with_errors) * of_realizations) +
-      bands * n * float_bytes *
-          (static_cast<double>(periods.parts) * values_of_part +
-           static_cast<double>(periods.parts_with_errors) * s.realizations) +
-      (plan.batches() > 1 ? lines * kept_bytes_per_line : 0);
+  work.disk_bytes = bands * n * lit * value_bytes * 2 * series + bands * n * batches * batch_sums +
+                    bands * n * (of_realizations + result_bytes_per_patch) +
+                    bands * n *
+                        (static_cast<double>(periods.stored) * sums_of_part * double_bytes +
+                         static_cast<double>(periods.stored_with_errors) * of_realizations) +
+                    bands * n * float_bytes *
+                        (static_cast<double>(periods.parts) * values_of_part +
+                         static_cast<double>(periods.parts_with_errors) * s.realizations) +
+                    (plan.batches() > 1 ? lines * kept_bytes_per_line : 0);
   work.seconds =
       (s_to_start + n * s_per_patch +
        lines * (guided ? 1 + rays_by_guide : 1) * line_seconds(plan.built.scene, s.mirror_depth) +

@@ -87,6 +87,7 @@ struct ResultWriter::File {
 
   // What batches bring, and what follows from it (result_file.cpp).
   h5::Dataset series_dataset(const std::string& name);
+  void make_series(const ArraySpec& spec);
   void append_series(const BatchReader& batch, const ArraySpec& spec);
   void append_ledger(const BatchReader& batch, const ArraySpec& spec);
   void put_time_sums();

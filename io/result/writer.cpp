@@ -42,6 +42,20 @@ h5::Dataset ResultWriter::File::series_dataset(const std::string& name) {
   return create(of, is_rgb() ? with_band({"time"}) : std::vector<std::string>{"time"});
 }
 
+/// Makes the dataset that an array goes to, and says how its values are rounded.
+void ResultWriter::File::make_series(const ArraySpec& spec) {
+  // The word by which netCDF-4 knows it: bits kept of the mantissa.
+  constexpr const char* bits_kept = "_QuantizeBitRoundNumberOfSignificantBits";
+  const std::string name = band_array(spec.name).name;
+  const bool is_new = !file->has(stored(name));
+  h5::Dataset dataset = series_dataset(name);
+  if (is_new && spec.mantissa_bits < all_mantissa_bits)
+    dataset.set(bits_kept, spec.mantissa_bits, h5::Type::int32);
+  const auto bits = is_new ? std::nullopt : dataset.numbers(bits_kept);
+  SUNLOAD_EXPECT(is_new || (bits ? bits->front() : all_mantissa_bits) == spec.mantissa_bits,
+                 "bits of series " + spec.name);
+}
+
 /// A [time, n] array: one row of chunks, copied where the batch has them.
 void ResultWriter::File::append_series(const BatchReader& batch, const ArraySpec& spec) {
   const BandArray array = band_array(spec.name);
@@ -172,7 +186,7 @@ void ResultWriter::append(const BatchReader& batch) {
   }
   file_->writing([&] {
     // All datasets before all data: their text is then outside of the series' bytes.
-    for (const ArraySpec& spec : specs) file_->series_dataset(band_array(spec.name).name);
+    for (const ArraySpec& spec : specs) file_->make_series(spec);
     if (file_->series.begin == 0) file_->series.begin = file_->file->end();
     for (const ArraySpec& spec : specs) {
       if (file_->variable(band_array(spec.name).name).part == ResultPart::series) {

@@ -12,6 +12,7 @@
 #include "io/run/part_merge.h"
 #include "io/run/result_attributes.h"
 #include "io/run/result_geometry.h"
+#include "io/run/stored_series.h"
 #include "io/run/totals.h"
 
 namespace sunload {
@@ -84,16 +85,6 @@ void write_ledger_errors(BandWriter& writer, const Totals& totals) {
   }
 }
 
-/// Series of the batch files that the study does not want in its result.
-std::vector<std::string> unwanted_series(const OutputStudy& output) {
-  std::vector<std::string> unwanted;
-  for (std::size_t p = 0; p < part_count; ++p)
-    if (std::find(output.series.begin(), output.series.end(), part_names[p]) == output.series.end())
-      for (const auto& prefix : {std::string(), sensor_prefix})
-        unwanted.push_back(prefix + series_name(static_cast<Part>(p)));
-  return unwanted;
-}
-
 ResultWriter::Options writer_options(const VariantPlan& plan) {
   ResultWriter::Options options;
   options.chunk_intervals = plan.batch_suns();
@@ -121,6 +112,7 @@ std::vector<std::string> merge_variant(const WorkFolder& folder, const VariantPl
   for (std::size_t b = 0; b < plan.batches(); ++b) {
     if (std::find(left_out.begin(), left_out.end(), b) != left_out.end()) continue;
     const BatchReader batch(folder.batch(b));
+    expect_series(batch, options.left_out);
     writer.append(batch);
     totals.add(batch);
     parts.add(batch);

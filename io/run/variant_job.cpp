@@ -205,7 +205,9 @@ void VariantJob::compute_missing(UnitQueue& units, MpiWorld* world) {
     }
     suns_behind += suns;
   }
-  if (run) run->report_work();
+  if (!run) return;
+  run->finish();
+  run->report_work();
 }
 
 OwnBatches VariantJob::merge_if_complete(MpiWorld* world) {

@@ -17,6 +17,7 @@
 #include "io/plan/work_estimate.h"
 #include "io/run/mpi_world.h"
 #include "io/run/part_merge.h"
+#include "io/run/stored_series.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
@@ -68,6 +69,14 @@ void refuse_too_much(double memory_bytes) {
 VariantRun::VariantRun(const WorkFolder& folder, const VariantPlan& plan,
                        std::shared_ptr<const Hierarchy> mesh, Progress& progress)
     : folder_(folder), plan_(plan), mesh_(std::move(mesh)), progress_(progress) {}
+
+VariantRun::~VariantRun() {
+  try {
+    finish();
+  } catch (const std::exception& error) {
+    warn(std::string("the last batch is lost: ") + error.what());
+  }
+}
 
 void VariantRun::prepare(MpiWorld* world) {
   rules_ = decided_rules();
@@ -186,27 +195,35 @@ void VariantRun::compute(std::size_t batch) {
       solve(*transport_, lights_->of(plan_.light, first, count), progress_, parts.solved);
   unwritten_ += solved.work;
   done_ += solved.work;
-  BatchWriter writer({.content_hash = plan_.content_hash,
-                      .variant = plan_.study.variant,
-                      .isa = plan_.isa,
-                      .batch = batch,
-                      .first_interval = first,
-                      .interval_count = count,
-                      .chunk_intervals = plan_.batch_suns(),
-                      .compression = plan_.study.output.compression});
+  const StoredSeries stored = stored_series(plan_.study);
+  auto writer =
+      std::make_shared<BatchWriter>(BatchHeader{.content_hash = plan_.content_hash,
+                                                .variant = plan_.study.variant,
+                                                .isa = plan_.isa,
+                                                .batch = batch,
+                                                .first_interval = first,
+                                                .interval_count = count,
+                                                .chunk_intervals = plan_.batch_suns(),
+                                                .compression = plan_.study.output.compression,
+                                                .left_out = stored.left_out});
   const auto& accuracy = plan_.study.solver.accuracy;
-  add_tallies(writer, solved.bands, *traced_, plan_.built.scene.mesh, parts, unwritten_,
-              accuracy ? accuracy->irradiance_relative : std::nullopt);
+  add_tallies(*writer, solved.bands, *traced_, plan_.built.scene.mesh, parts, unwritten_,
+              accuracy ? accuracy->irradiance_relative : std::nullopt, stored);
   if (const Reduction* reduction = transport_->reduction()) {
     const std::array values{static_cast<double>(reduction->skies),
                             static_cast<double>(reduction->suns), reduction->error_w_m2,
                             reduction->standard_error_w_m2};
-    writer.add({batch_array::reduction, MergeRule::maximum, ArrayType::float64, {values.size()}},
-               values.data());
+    writer->add({batch_array::reduction, MergeRule::maximum, ArrayType::float64, {values.size()}},
+                values.data());
   }
-  write(writer, folder_.batch(batch));
+  writing_.begin([this, writer = std::move(writer), path = folder_.batch(batch)]() mutable {
+    write(*writer, path);
+    writer.reset();  // its memory; the thread's state lives until the next file
+  });
   unwritten_ = {};
 }
+
+void VariantRun::finish() { writing_.finish(); }
 
 /// Another process that failed may have removed the folder, which was empty until now; who cleans
 /// up may remove it while this is written.

@@ -12,6 +12,7 @@
 #include "io/plan/variant_plan.h"
 #include "io/run/progress.h"
 #include "io/run/work_folder.h"
+#include "io/run/writing_behind.h"
 #include "solver/solver.h"
 
 namespace sunload {
@@ -22,6 +23,8 @@ class VariantRun {
  public:
   VariantRun(const WorkFolder& folder, const VariantPlan& plan,
              std::shared_ptr<const Hierarchy> mesh, Progress& progress);
+  /// Ends when the batch in hand is written, and warns where that fails.
+  ~VariantRun();
   VariantRun(const VariantRun&) = delete;
   VariantRun& operator=(const VariantRun&) = delete;
 
@@ -30,8 +33,11 @@ class VariantRun {
   /// killed. Ranks of `world` (null: none) call it together: the first one traces. Throws
   /// Interrupted, MachineError.
   void prepare(MpiWorld* world);
-  /// Computes a batch and writes its file. Throws Interrupted, MachineError.
+  /// Computes a batch. Its file is written while the next one is computed, and is there after
+  /// `finish`. Throws Interrupted, MachineError, also of the batch before.
   void compute(std::size_t batch);
+  /// Waits until all batches are written. Throws MachineError.
+  void finish();
   /// Says what work was done and how long it took.
   void report_work() const;
 
@@ -54,8 +60,9 @@ class VariantRun {
   std::optional<IntervalLights> lights_;  ///< on the sky grid of the traced scene
   std::optional<SeriesLight> period_;
   std::unique_ptr<const LightTransport> transport_;
-  WorkDone unwritten_;  ///< work that no batch carries yet
-  WorkDone done_;       ///< all of it
+  WorkDone unwritten_;     ///< work that no batch carries yet
+  WorkDone done_;          ///< all of it
+  WritingBehind writing_;  ///< of the batch before
 };
 
 }  // namespace sunload

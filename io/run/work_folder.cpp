@@ -13,6 +13,7 @@
 #include "io/base/machine.h"
 #include "io/base/merge_lock.h"
 #include "io/result/reader.h"
+#include "io/run/stored_series.h"
 
 namespace sunload {
 
@@ -67,6 +68,7 @@ WorkFolder::WorkFolder(const std::string& folder, const Study& study, std::strin
       content_hash_(std::move(content_hash)),
       result_(result_path(folder, study)),
       path_(work_ + "/" + variant_ + "-" + content_hash_),
+      unwanted_(unwanted_series(study.output)),
       batches_(batches) {}
 
 WorkFolder WorkFolder::with_hash(const std::string& content_hash) const {
@@ -90,7 +92,7 @@ std::optional<std::string> WorkFolder::result_hash() const {
 }
 
 BatchCheck WorkFolder::check(std::size_t number) const {
-  return check_batch(batch(number), content_hash_, number);
+  return check_batch(batch(number), content_hash_, number, unwanted_);
 }
 
 MissingBatches WorkFolder::missing_batches() const {

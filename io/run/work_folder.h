@@ -72,6 +72,7 @@ class WorkFolder {
 
  private:
   std::string work_, variant_, content_hash_, result_, path_;
+  std::vector<std::string> unwanted_;  ///< series that batches may lack
   std::size_t batches_;
 };
 

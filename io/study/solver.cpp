@@ -168,6 +168,20 @@ SolverStudy read_solver(YamlMap& map) {
   return solver;
 }
 
+namespace {
+
+/// none: auto; absent: off, all of them.
+std::optional<int> read_significant_bits(YamlMap& map) {
+  const std::string key = "significant_bits";
+  const bool is_word = map.kind(key) == YamlNode::Kind::text;
+  const std::string word = is_word ? map.text(key, "") : "";
+  if (word == "auto") return {};
+  if (word == "off") return float_mantissa_bits;
+  return map.integer(key, 1, float_mantissa_bits, float_mantissa_bits);
+}
+
+}  // namespace
+
 OutputStudy read_output(YamlMap& map) {
   OutputStudy output;
   output.folder = map.text("folder", output.folder);
@@ -176,6 +190,7 @@ OutputStudy read_output(YamlMap& map) {
   output.compression = map.integer("compression", 0, strongest_compression, output.compression);
   output.totals = read_totals(map);
   output.totals_where = map.where("totals");
+  output.significant_bits = read_significant_bits(map);
   return output;
 }
 

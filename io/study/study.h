@@ -223,6 +223,7 @@ struct SolverStudy {
   int max_lines_per_patch = 4096;  ///< of accuracy: the most lines, and the most direct samples
 };
 
+inline constexpr int float_mantissa_bits = 23;
 enum class StandardErrors { none, totals, instants };
 struct OutputStudy {
   std::string folder = "results";
@@ -232,6 +233,8 @@ struct OutputStudy {
   /// Parts of the period that get totals of their own; absent: auto (io/plan/part_totals.h).
   std::optional<std::vector<PartKind>> totals;
   Where totals_where;
+  /// Of the mantissa, in stored series: 1 … 23, all of a float (off); none: auto.
+  std::optional<int> significant_bits = float_mantissa_bits;
 };
 
 /// Points that receive without disturbing the scene, inline or from a file.

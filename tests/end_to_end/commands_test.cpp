@@ -6,10 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "io/batch/chunk.h"
 #include "io/result/reader.h"
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
@@ -250,6 +252,50 @@ TEST(Commands, WhatChangesTheHash) {
   EXPECT_FALSE(result.has("irradiance_direct"));  // series: [total]
   EXPECT_NE(square.folder.read("results/square/baseline.h5"), first);
   EXPECT_EQ(ledger_problem(square.result()), "");
+}
+
+// Batches hold no other series than the study wants: with more of them they are computed again.
+TEST(Commands, SeriesOfKeptBatchesMayBeFewerNotMore) {
+  const Square square;
+  ASSERT_EQ(square.run({"run", "--output", "all"}).code, 0);
+  square.change("folder: results, ", "folder: results, series: [total, sky], ");
+  ASSERT_EQ(square.run({"run", "--keep-batches"}).code, 0);
+  const auto kept = square.folder.read(square.batch(0).substr(square.folder.path().size() + 1));
+  square.change("series: [total, sky], ", "series: [total], ");
+  const Ran fewer = square.run({"run", "--overwrite", "--keep-batches", "--progress", "lines"});
+  EXPECT_EQ(fewer.code, 0) << fewer.err;
+  EXPECT_EQ(fewer.err.find("computed again"), std::string::npos) << fewer.err;
+  EXPECT_FALSE(ResultReader(square.result()).has("irradiance_sky"));
+  EXPECT_EQ(square.folder.read(square.batch(0).substr(square.folder.path().size() + 1)), kept);
+  square.change("series: [total], ", "");
+  const Ran merged = square.run({"merge"});  // of the same hash: nothing to do
+  EXPECT_EQ(merged.code, 0) << merged.err;
+  std::filesystem::remove(square.result());
+  const Ran unfinished = square.run({"merge"});
+  EXPECT_EQ(unfinished.code, 75) << unfinished.err;
+  EXPECT_NE(unfinished.err.find("irradiance_direct"), std::string::npos) << unfinished.err;
+  const Ran more = square.run({"run", "--resume"});
+  EXPECT_EQ(more.code, 0) << more.err;
+  EXPECT_EQ(different_data(square.result(), square.folder / "all/square/baseline.h5"), Lines{});
+}
+
+TEST(Commands, RoundedSeriesAreThoseOfTheUnroundedRun) {
+  const Square square;
+  ASSERT_EQ(square.run({"run", "--output", "all"}).code, 0);
+  square.change("folder: results, ", "folder: results, significant_bits: 9, ");
+  const Ran rounded_run = square.run({"run"});
+  ASSERT_EQ(rounded_run.code, 0) << rounded_run.err;
+  const ResultReader all(square.folder / "all/square/baseline.h5"), less(square.result());
+  EXPECT_NE(all.text_attribute("study_sha256"), less.text_attribute("study_sha256"));
+  for (const char* name : {"irradiance", "irradiance_sky", "irradiance_reflected"}) {
+    const auto exact = all.doubles(name), stored = less.doubles(name);
+    ASSERT_EQ(exact.size(), stored.size());
+    for (std::size_t i = 0; i < exact.size(); ++i)
+      ASSERT_EQ(stored[i], static_cast<double>(rounded(static_cast<float>(exact[i]), 9))) << name;
+  }
+  for (const char* name : {"light_load", "light_load_se", "irradiance_max", "facade_irradiance",
+                           "light_load_realization", "power_residual"})
+    EXPECT_EQ(all.doubles(name), less.doubles(name)) << name;
 }
 
 TEST(Commands, DamagedResultIsNamedAndReplaced) {

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "solver/base/threads.h"
@@ -48,6 +50,48 @@ TEST(Chunk, RoundTripAndPadding) {
             }
           }
         }
+      }
+    }
+  }
+}
+
+/// Nearest value of so many bits by doubles, halves to even.
+float nearest(float value, int bits) {
+  if (value == 0 || !std::isfinite(value)) return value;
+  const double unit = std::exp2(std::max(std::ilogb(value), -126) - bits);
+  return static_cast<float>(std::nearbyint(static_cast<double>(value) / unit) * unit);
+}
+
+TEST(Chunk, RoundsToTheNearestHalvesToEven) {
+  EXPECT_EQ(rounded(1 + 0x1p-10F, 9), 1);
+  EXPECT_EQ(rounded(1 + 0x3p-10F, 9), 1 + 0x1p-8F);
+  EXPECT_EQ(rounded(2 - 0x1p-11F, 9), 2);  // the carry reaches the exponent
+  const float infinity = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(rounded(infinity, 1), infinity);
+  EXPECT_TRUE(std::isnan(rounded(std::numeric_limits<float>::quiet_NaN(), 1)));
+  std::mt19937 random(3);
+  for (int k = 0; k < 100'000; ++k) {
+    const auto value = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+    if (std::isnan(value)) continue;
+    for (const int bits : {1, 9, 22, 23}) ASSERT_EQ(rounded(value, bits), nearest(value, bits));
+  }
+}
+
+TEST(Chunk, RoundedValuesTakeLess) {
+  constexpr std::size_t rows = 64, columns = 5000;
+  const auto values = values_of(Kind::noise, rows, columns);
+  for (const int level : {0, 4, 6}) {
+    const auto all = encoded_chunks(values.data(), rows, columns, shape, level);
+    const auto chunks = encoded_chunks(values.data(), rows, columns, shape, level, 9);
+    for (std::size_t c = 0; c < 2; ++c) {
+      if (level > 0) {
+        EXPECT_LT(chunks[c].size(), all[c].size() / 2);
+      }
+      const auto back = decoded_chunk(chunks[c], shape);
+      for (std::size_t i = 0; i < back.size(); ++i) {
+        const std::size_t column = c * shape.columns + i % shape.columns;
+        if (column >= columns) continue;
+        ASSERT_EQ(back[i], rounded(values[i / shape.columns * columns + column], 9));
       }
     }
   }

@@ -64,6 +64,18 @@ TEST(BatchFile, CheckTellsWhatIsWrong) {
   EXPECT_NE(check_batch(path, "hash", 0).reason.find("something else"), std::string::npos);
 }
 
+TEST(BatchFile, SeriesLeftOutAreTold) {
+  const WorkFolder folder;
+  const std::string path = folder / "0.batch";
+  BatchHeader header{"hash", "v", "avx2", 0, 0, 1, 64, 4};
+  header.left_out = {"irradiance_sky", "irradiance_direct"};
+  BatchWriter(header).write(path);
+  EXPECT_TRUE(check_batch(path, "hash", 0, {"irradiance_direct", "irradiance_sky"}).valid);
+  const BatchCheck lacking = check_batch(path, "hash", 0, {"irradiance_direct"});
+  EXPECT_FALSE(lacking.valid);
+  EXPECT_NE(lacking.reason.find("irradiance_sky"), std::string::npos) << lacking.reason;
+}
+
 TEST(BatchFile, EveryCutAndEveryFlippedByteIsNoticed) {
   const WorkFolder folder;
   Example example;

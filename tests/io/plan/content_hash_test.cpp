@@ -69,6 +69,8 @@ TEST(ContentHash, SeesWhatFilesAndTablesBring) {
       [](Content& c) { c.light.weather_sha256 = "x"; },
       [](Content& c) { c.light.intervals[0].when.end = 1; },
       [](Content& c) { c.study.output.standard_error = StandardErrors::instants; },
+      [](Content& c) { c.study.output.significant_bits = 9; },
+      [](Content& c) { c.study.output.significant_bits = 10; },
       material(&Material::name, "glass"),
       material(&Material::diffuse, 0.1),
       material(&Material::mirror, 0.1),

@@ -66,10 +66,10 @@ TEST(CostModel, PageHasTheSizesOfTheProgram) {
                     "· realizations + {})",
                     bytes_per_interval, program_bytes / 1e6, bytes_per_line, float_bytes,
                     arrays_of_realizations * double_bytes, bytes_per_patch),
-        fmt::format("{} · patches · lit · (parts + output.series, two more with `standard_error: "
+        fmt::format("{} · patches · lit · 2 · (output.series, one more with `standard_error: "
                     "instants`)",
                     stored_bytes_per_value),
-        fmt::format("patches · batches · ({} · realizations + {})", double_bytes,
+        fmt::format("patches · batches · ({} · parts · realizations + {})", double_bytes,
                     batch_bytes_per_patch),
         fmt::format("patches · ({} · realizations + {})", double_bytes, result_bytes_per_patch),
         fmt::format("{} · lines for the prepared file", kept_bytes_per_line)})

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "geo/base/check.h"
+#include "io/result/h5.h"
 #include "io/result/schema.h"
 #include "tests/io/result/result_example.h"
 #include "tests/support/paths.h"
@@ -131,6 +132,33 @@ TEST(ResultFile, WhatIsLeftOutIsNotThere) {
   }
   EXPECT_TRUE(ResultReader(folder / "a.h5").has("irradiance"));
   EXPECT_FALSE(ResultReader(folder / "a.h5").has("irradiance_direct"));
+}
+
+TEST(ResultFile, RoundedSeriesSayHow) {
+  const WorkFolder folder;
+  Example example;
+  example.intervals = 10;
+  const auto values = example.series(0, example.intervals, example.patches);
+  BatchWriter batch({"hash", "baseline", "avx2", 0, 0, 10, 64, 4});
+  const auto spec = [&](const char* name, int bits) {
+    return ArraySpec{name, MergeRule::append, ArrayType::float32, {10, example.patches}, bits};
+  };
+  batch.add(spec("irradiance", 9), values.data());
+  batch.add(spec("irradiance_sky", all_mantissa_bits), values.data());
+  batch.write(folder / "0");
+  const std::string path = folder / "a.h5";
+  {
+    ResultWriter writer(path, example.geometry(), example.times(), example.options());
+    writer.append(BatchReader(folder / "0"));
+    writer.finish({}, "");
+  }
+  const auto stored = ResultReader(path).doubles("irradiance");
+  for (std::size_t i = 0; i < values.size(); ++i)
+    ASSERT_EQ(stored[i], static_cast<double>(rounded(values[i], 9)));
+  const std::string name = "_QuantizeBitRoundNumberOfSignificantBits";
+  const h5::File file = h5::File::open(path);
+  EXPECT_EQ(file.dataset("irradiance").numbers(name), std::vector<double>{9});
+  EXPECT_EQ(file.dataset("irradiance_sky").numbers(name), std::nullopt);
 }
 
 TEST(ResultFile, SeriesOfDoublesBecomeChunks) {

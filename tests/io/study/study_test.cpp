@@ -162,7 +162,8 @@ scene:
 mesh: {max_edge_m: 0.5, min_area_m2: 0.1}
 solver: {transport: gather, bounces: 3, unshot: 0.01, year: each, lines_per_patch: 128, direct_samples: 32,
          realizations: 16, mirror_depth: 2, batch_suns: 32, isa: avx2, seed: 7, power_per_sample_w: auto}
-output: {folder: out, series: [total, sky], standard_error: instants, compression: 9}
+output: {folder: out, series: [total, sky], standard_error: instants, compression: 9,
+         significant_bits: 10}
 )")
                           .variants[0];
   EXPECT_EQ(study.site.crs, "EPSG:28992");
@@ -189,6 +190,21 @@ output: {folder: out, series: [total, sky], standard_error: instants, compressio
   EXPECT_EQ(study.solver.isa, "avx2");
   EXPECT_EQ(study.output.series, (Strings{"total", "sky"}));
   EXPECT_EQ(study.output.standard_error, StandardErrors::instants);
+  EXPECT_EQ(study.output.significant_bits, 10);
+}
+
+TEST(Study, ReadsSignificantBits) {
+  const auto bits = [](const std::string& value) {
+    return read_text(with({{"output", "{significant_bits: " + value + "}"}}))
+        .variants[0]
+        .output.significant_bits;
+  };
+  EXPECT_EQ(bits("auto"), std::nullopt);
+  EXPECT_EQ(bits("off"), float_mantissa_bits);
+  EXPECT_EQ(bits("1"), 1);
+  for (const char* wrong : {"0", "24", "many", "2.5", "[9]"})
+    expect_problem({{"output", std::string("{significant_bits: ") + wrong + "}"}},
+                   "significant_bits");
 }
 
 TEST(Study, ReadsPartsOfThePeriod) {
@@ -659,6 +675,7 @@ TEST(StudySchema, HasTheDefaultsOfTheReader) {
     EXPECT_EQ(absent.output.standard_error, written.output.standard_error);
     EXPECT_EQ(absent.output.compression, written.output.compression);
     EXPECT_EQ(absent.output.totals, written.output.totals);
+    EXPECT_EQ(absent.output.significant_bits, written.output.significant_bits);
   });
   EXPECT_GT(defaults, 30);
 }
@@ -956,11 +973,11 @@ TEST(CanonicalText, SeesEveryKeyOfTheSchemaButThese) {
       // Names and what is shown or stored.
       "name", "variants[].name", "format", "output.folder", "output.series", "output.compression",
       // Hashed apart: bytes of files, points of sensors, the instruction set in force, the standard
-      // errors of instants, which are more datasets.
+      // errors of instants, which are more datasets, and roundings.
       "scene.files[].file", "scene.files[].source", "scene.parallel_sources", "light.weather",
       "sensors.file", "sensors.points[].position_m", "sensors.points[].normal", "solver.isa",
       // So are the parts of the period that have totals.
-      "output.standard_error", "output.totals",
+      "output.standard_error", "output.significant_bits", "output.totals",
       // One word only, beside which no other period can stand; any parameter of built-in scenes.
       "period.year_of", "scene.builtin.*"};
   std::set<std::string> unseen;
