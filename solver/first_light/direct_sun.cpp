@@ -219,8 +219,9 @@ namespace {
 class PatchSuns {
  public:
   PatchSuns(const RayCaster& caster, const SunSampler& sampler,
-            std::span<const IntervalLight> block, std::size_t realizations)
-      : caster_(caster), sampler_(sampler), block_(block), seen_(realizations) {}
+            std::span<const IntervalLight> block, std::span<const SunSight> sights,
+            std::size_t realizations)
+      : caster_(caster), sampler_(sampler), block_(block), sights_(sights), seen_(realizations) {}
 
   void run(std::size_t patch, const RaySink& into, Columns& sunlit) {
     const auto geometry = sampler_.geometry(patch);
@@ -228,7 +229,7 @@ class PatchSuns {
       const IntervalLight& sun = block_[k];
       const double cos_theta = dot(geometry.normal, sun.direction);
       if (!sun.has_sun() || cos_theta <= 0) continue;
-      const int visible = count_visible(geometry, patch, sun);
+      const int visible = visible_samples(geometry, patch, k);
       if (visible == 0) continue;
       const auto n = static_cast<double>(sampler_.samples());
       sunlit[patch * block_width + k] += static_cast<float>(sun.sun_share * visible / n);
@@ -242,6 +243,15 @@ class PatchSuns {
 
  private:
   /// Visible samples in all, and per realization in seen_.
+  int visible_samples(const SunSampler::Geometry& geometry, std::size_t patch, std::size_t k) {
+    const SunSight sight = sights_.empty() ? SunSight::unknown : sights_[patch * block_width + k];
+    if (sight == SunSight::unknown) return count_visible(geometry, patch, block_[k]);
+    if (sight == SunSight::closed) return 0;
+    const auto n = static_cast<int>(sampler_.samples());
+    std::fill(seen_.begin(), seen_.end(), n / static_cast<int>(seen_.size()));
+    return n;
+  }
+  /// The same by rays.
   int count_visible(const SunSampler::Geometry& geometry, std::size_t patch,
                     const IntervalLight& sun) {
     std::fill(seen_.begin(), seen_.end(), 0);
@@ -261,6 +271,7 @@ class PatchSuns {
   const RayCaster& caster_;
   const SunSampler& sampler_;
   std::span<const IntervalLight> block_;
+  std::span<const SunSight> sights_;  ///< empty: unknown
   SunSampler::Seeds seeds_;
   std::vector<int> seen_;
 };
@@ -268,11 +279,12 @@ class PatchSuns {
 }  // namespace
 
 std::uint64_t direct_sun(const RayCaster& caster, const SunSampler& sampler,
-                         std::span<const IntervalLight> block, const RaySink& into,
-                         Columns& sunlit) {
+                         std::span<const IntervalLight> block, const RaySink& into, Columns& sunlit,
+                         const SunShafts* shafts) {
+  const auto sights = shafts ? shafts->sights(block) : std::vector<SunSight>();
   return ordered_sum(sampler.receivers(), receivers_per_chunk, std::uint64_t{0},
                      [&](std::size_t begin, std::size_t end) {
-                       PatchSuns suns(caster, sampler, block, into.realizations());
+                       PatchSuns suns(caster, sampler, block, sights, into.realizations());
                        for (std::size_t i = begin; i < end; ++i) suns.run(i, into, sunlit);
                        return suns.rays;
                      });

@@ -56,7 +56,7 @@ std::uint64_t add_sun(const TracedScene& traced, const Receivers& receivers, Sun
   return direct_sun(
       traced.caster, receivers.sampler, suns,
       sink(traced, rays.pooled.direct, sums ? &sums->direct : nullptr, rays.of_realizations.direct),
-      rays.sunlit);
+      rays.sunlit, &receivers == &traced.patches ? &traced.sun_shafts : nullptr);
 }
 
 std::uint64_t add_circumsolar(const TracedScene& traced, const BlockSources& sources,

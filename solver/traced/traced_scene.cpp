@@ -96,6 +96,7 @@ TracedScene::TracedScene(const Scene& whole, std::shared_ptr<const Hierarchy> fr
       optics_of_band(optics_of_bands(whole, *mesh, optics, of_study.bands)),
       patches(SunSampler(*mesh, caster, direct_rules(of_study))),
       sensors(SunSampler(whole.sensors, caster, direct_rules(of_study))),
+      sun_shafts(whole, *mesh, caster.offset_m()),
       mirrors(whole),
       mirror_sun(caster, mirrors),
       mirror_chains(*mesh, caster, patches.sampler, mirrors,

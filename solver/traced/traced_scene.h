@@ -14,6 +14,7 @@
 #include "solver/first_light/mirror_chains.h"
 #include "solver/first_light/mirror_sun.h"
 #include "solver/first_light/parallel_light.h"
+#include "solver/first_light/sun_shafts.h"
 #include "solver/gather/jacobi.h"
 #include "solver/light/work.h"
 #include "solver/lines/lines.h"
@@ -58,6 +59,7 @@ struct TracedScene {
   PatchOptics optics;                       ///< broadband
   std::vector<PatchOptics> optics_of_band;  ///< one where light is broadband
   Receivers patches, sensors;
+  SunShafts sun_shafts;  ///< of patches
   MirrorGroups mirrors;
   MirrorSun mirror_sun;
   MirrorChains mirror_chains;

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/surface/occluders.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace sunload {
+
+namespace {
+
+/// As a ray caster in single precision has it; zeros have no sign.
+Vec3 rounded(Vec3 p) {
+  const auto one = [](double c) { return static_cast<double>(static_cast<float>(c) + 0.0f); };
+  return {one(p.x), one(p.y), one(p.z)};
+}
+
+double along(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+struct Bounds {
+  Vec3 low, high;
+  explicit Bounds(Vec3 p) : low(p), high(p) {}
+  void hold(Vec3 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  int longest_axis() const {
+    const Vec3 size = high - low;
+    if (size.x >= size.y && size.x >= size.z) return 0;
+    return size.y >= size.z ? 1 : 2;
+  }
+};
+
+}  // namespace
+
+Occluders::Occluders(const Mesh& mesh, std::span<const float> transmittance)
+    : transmittance_(transmittance.begin(), transmittance.end()) {
+  weld(mesh);
+  find_edges();
+  ordered_.resize(corners_.size());
+  std::iota(ordered_.begin(), ordered_.end(), 0);
+  if (!ordered_.empty()) grow(0, static_cast<std::uint32_t>(ordered_.size()));
+}
+
+void Occluders::weld(const Mesh& mesh) {
+  for (const Vec3 p : mesh.vertices) point_.push_back(rounded(p));
+  const auto key = [&](std::uint32_t i) {
+    return std::tuple(point_[i].x, point_[i].y, point_[i].z);
+  };
+  std::vector<std::uint32_t> order(point_.size()), same(point_.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    same[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? same[order[i - 1]] : order[i];
+  for (const auto& t : mesh.triangles)
+    corners_.push_back({same[static_cast<std::size_t>(t[0])], same[static_cast<std::size_t>(t[1])],
+                        same[static_cast<std::size_t>(t[2])]});
+}
+
+void Occluders::find_edges() {
+  struct Edge {
+    std::uint32_t a, b, triangle, k;
+    bool operator<(const Edge& e) const {
+      return std::tie(a, b, triangle, k) < std::tie(e.a, e.b, e.triangle, e.k);
+    }
+  };
+  std::vector<Edge> edges;
+  for (std::size_t t = 0; t < corners_.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(corners_[t][k], corners_[t][(k + 1) % 3]);
+      edges.push_back({a, b, static_cast<std::uint32_t>(t), static_cast<std::uint32_t>(k)});
+    }
+  std::sort(edges.begin(), edges.end());
+  edge_.resize(corners_.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (i == 0 || edges[i].a != edges[i - 1].a || edges[i].b != edges[i - 1].b)
+      edge_begin_.push_back(static_cast<std::uint32_t>(i));
+    edge_[edges[i].triangle][edges[i].k] = static_cast<std::uint32_t>(edge_begin_.size() - 1);
+    at_edge_.push_back(static_cast<std::int32_t>(edges[i].triangle));
+  }
+  edge_begin_.push_back(static_cast<std::uint32_t>(edges.size()));
+}
+
+/// Boxes of the triangles [begin, end) of ordered_, halved at the median of their centres.
+void Occluders::grow(std::uint32_t begin, std::uint32_t end) {
+  constexpr std::uint32_t most_of_leaf = 4;
+  const auto centre3 = [&](std::int32_t t) {
+    const auto i = static_cast<std::size_t>(t);
+    return corner(i, 0) + corner(i, 1) + corner(i, 2);
+  };
+  Bounds all(corner(static_cast<std::size_t>(ordered_[begin]), 0)),
+      centres(centre3(ordered_[begin]));
+  for (std::uint32_t i = begin; i < end; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) all.hold(corner(static_cast<std::size_t>(ordered_[i]), k));
+    centres.hold(centre3(ordered_[i]));
+  }
+  const std::size_t node = nodes_.size();
+  const Box box{(all.low + all.high) * 0.5, (all.high - all.low) * 0.5};
+  nodes_.push_back({box, begin, end - begin});
+  if (end - begin <= most_of_leaf) return;
+  const int axis = centres.longest_axis();
+  const std::uint32_t middle = begin + (end - begin) / 2;
+  std::nth_element(ordered_.begin() + begin, ordered_.begin() + middle, ordered_.begin() + end,
+                   [&](std::int32_t a, std::int32_t b) {
+                     return std::pair(along(centre3(a), axis), a) <
+                            std::pair(along(centre3(b), axis), b);
+                   });
+  grow(begin, middle);
+  nodes_[node].first = static_cast<std::uint32_t>(nodes_.size());
+  nodes_[node].count = 0;
+  grow(middle, end);
+}
+
+std::span<const std::int32_t> Occluders::at_edge(std::size_t triangle, std::size_t k) const {
+  const std::uint32_t edge = edge_[triangle][k];
+  return std::span(at_edge_).subspan(edge_begin_[edge], edge_begin_[edge + 1] - edge_begin_[edge]);
+}
+
+Vec3 Occluders::beside_edge(std::size_t of, std::size_t triangle, std::size_t k) const {
+  const std::uint32_t a = corners_[triangle][k], b = corners_[triangle][(k + 1) % 3];
+  for (std::size_t c = 0; c < 3; ++c)
+    if (corners_[of][c] != a && corners_[of][c] != b) return corner(of, c);
+  return corner(of, 0);
+}
+
+}  // namespace sunload
