@@ -132,10 +132,10 @@ void ShaftWalk::add_blocker(std::int32_t triangle) {
     farthest = std::max(farthest, depth_of(corner));
     outline.add(p);
   }
-  if (highest <= surely_below * offset) return;
+  const double margin = lateral * offset + spread_ * std::max(farthest - nearest_, 0.0);
+  if (highest <= surely_below * offset || group_.keeps_off(outline, margin)) return;
   outline.close();
   if (lowest < surely_below * offset) outline = outline.above(surely_below * offset);
-  const double margin = lateral * offset + spread_ * std::max(farthest - nearest_, 0.0);
   if (outline.size() < 3 || apart(outline, group_, margin)) return;
   const double faces = std::abs(facing(t));
   const bool sure = occluders.is_opaque(t) && faces > spread_ + least_facing;
@@ -151,17 +151,16 @@ void ShaftWalk::add_blocker(std::int32_t triangle) {
 
 void ShaftWalk::walk(Element element, std::size_t depth) {
   const Outline target = depth == 0 ? group_ : outline_of(element);
-  const std::size_t level = depth == 0 ? 0 : depth;
   if (depth > 0) {
-    if (in_shaft_.size() <= level) in_shaft_.resize(level + 1);
-    auto& inside = in_shaft_[level];
+    if (in_shaft_.size() <= depth) in_shaft_.resize(depth + 1);
+    auto& inside = in_shaft_[depth];
     inside.clear();
-    for (const auto b : in_shaft_[level - 1])
+    for (const auto b : in_shaft_[depth - 1])
       if (!apart(blockers_[b].outline, target, blockers_[b].margin)) inside.push_back(b);
   }
-  if (in_shaft_[level].empty()) return tell(element, SunSight::open);
-  if (in_shaft_[level].size() > most_per_patch * shafts_.patches_in(element)) return;
-  if (covers(target, in_shaft_[level])) return tell(element, SunSight::closed);
+  if (in_shaft_[depth].empty()) return tell(element, SunSight::open);
+  if (in_shaft_[depth].size() > most_per_patch * shafts_.patches_in(element)) return;
+  if (covers(target, in_shaft_[depth])) return tell(element, SunSight::closed);
   const std::size_t patches = shafts_.hierarchy().patch_count();
   if (element < patches) return;
   for (const auto half : shafts_.hierarchy().halves_of(element - patches)) walk(half, depth + 1);
