@@ -135,8 +135,8 @@ void add_covered(Attributes& a, const VariantPlan& plan) {
   const auto& covered_m2 = plan.built.report.covered_m2;
   for (std::size_t s = 0; s < surface_names.size(); ++s)
     if (covered_m2[s] > 0)
-      text += fmt::format("{}{} {:.6g} m2", text.empty() ? "" : ", ", surface_names[s],
-                          covered_m2[s]);
+      text +=
+          fmt::format("{}{} {:.6g} m2", text.empty() ? "" : ", ", surface_names[s], covered_m2[s]);
   if (!text.empty()) a.text.emplace_back("covered", text);
 }
 

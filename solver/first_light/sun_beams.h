@@ -22,8 +22,8 @@
 #include <vector>
 
 #include "solver/first_light/beam_raster.h"
-#include "solver/surface/mirror_groups.h"
 #include "solver/light/sun_block.h"
+#include "solver/surface/mirror_groups.h"
 
 namespace sunload {
 

@@ -90,7 +90,7 @@ class Names : public testing::Test {
         "mtllib plates.mtl\no plate\nusemtl m\nv 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nf 1 2 3 4\n"
         "o strip\nusemtl brick\nv 5 0 0\nv 6 0 0\nv 6 4 0\nv 5 4 0\nf 5 6 7 8\n");
     folder_.write("lamp.obj",
-                  "mtllib plates.mtl\no lamp\nusemtl lamp\nv 0 0 0\nv 4 0 0\nv 4 4 0\nf 1 2 3\n");
+                  "mtllib plates.mtl\no lamp\nusemtl lamp\nv 0 0 1\nv 4 0 1\nv 4 4 1\nf 1 2 3\n");
   }
 
   VariantPlan plan(const std::string& scene) const {

@@ -1036,9 +1036,7 @@ TEST(CanonicalText, DoesNotSeeNamesPlacesAndOutput) {
       {"files", [](Study& s) { s.scene.files[0].path = "/elsewhere/x"; }},
       {"parallel sources", [](Study& s) { s.scene.parallel_sources = "/elsewhere/x"; }},
       {"output",
-       [](Study& s) {
-         s.output = {"x", {"total"}, StandardErrors::instants, 0};
-       }},
+       [](Study& s) { s.output = {"x", {"total"}, StandardErrors::instants, 0, {}, {}, {}}; }},
       {"time of day written",
        [](Study& s) {
          s.period.where = {"y", 1, 1};
