@@ -347,8 +347,10 @@ const std::string& section_of(const CheckText& text, const std::string& heading)
 
 std::string whole_text(const CheckText& text) {
   std::string words = text.head + "\n";
-  for (const auto& [heading, lines] : text.sections)
-    words += (heading.empty() ? "" : heading + "\n") + lines;
+  for (const auto& [heading, lines] : text.sections) {
+    if (!heading.empty()) words += heading + "\n";
+    words += lines;
+  }
   return words;
 }
 

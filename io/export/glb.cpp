@@ -20,8 +20,7 @@ using nlohmann::json;
 constexpr std::uint32_t file_magic = 0x46546C67, file_version = 2;
 constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 constexpr int type_float = 5126, type_unsigned_short = 5123, target_vertices = 34962;
-constexpr std::size_t alignment = 4, head_bytes = 12, chunk_head_bytes = 8;
-constexpr std::size_t position_bytes = 12, colour_bytes = 8;
+constexpr std::size_t alignment = 4, head_bytes = 12;
 constexpr double largest_short = 65535;
 
 template <class Number>

@@ -225,7 +225,7 @@ SunTrack sun_track(const ResultReader& result) {
   SunTrack path;
   for (std::size_t k = 0; k < azimuth.size(); ++k) {
     path.places.push_back({azimuth[k], elevation[k]});
-    path.breaks.push_back(k > 0 && time[k] - time[k - 1] > longest_gap_s);
+    path.breaks.push_back(k > 0 && time[k] - time[k - 1] > longest_gap_s ? 1 : 0);
   }
   return path;
 }

@@ -67,7 +67,7 @@ class Encoder {
  private:
   static constexpr std::size_t steps = 65536;
   double at(double x) const {
-    return table_[static_cast<std::size_t>(std::clamp(x, 0.0, 1.0) * steps + 0.5)];
+    return table_[static_cast<std::size_t>(std::lround(std::clamp(x, 0.0, 1.0) * steps))];
   }
   std::vector<double> table_;
 };
@@ -330,8 +330,8 @@ std::vector<Vec3> PatchScene::focus_points() const {
   std::vector<char> is_above(facets_.size()), is_building(facets_.size());
   std::map<std::int32_t, std::pair<double, double>> heights;  // of objects, without their ground
   for (std::size_t t = 0; t < facets_.size(); ++t) {
-    is_above[t] = facets_[t].surface != ground;
-    if (!is_above[t]) continue;
+    is_above[t] = facets_[t].surface != ground ? 1 : 0;
+    if (is_above[t] == 0) continue;
     auto& [low, high] = heights.try_emplace(facets_[t].object, 1e300, -1e300).first->second;
     for (const int k : {0, 1, 2}) {
       low = std::min(low, mesh_.corner(t, k).z);
@@ -341,7 +341,7 @@ std::vector<Vec3> PatchScene::focus_points() const {
   for (std::size_t t = 0; t < facets_.size(); ++t) {
     if (!is_above[t]) continue;
     const auto& [low, high] = heights.at(facets_[t].object);
-    is_building[t] = high - low >= least_rise_m;
+    is_building[t] = high - low >= least_rise_m ? 1 : 0;
   }
   for (const auto& wanted : {is_building, is_above})
     if (auto points = vertices_of(wanted); !points.empty()) return points;

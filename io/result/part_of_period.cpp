@@ -97,9 +97,13 @@ PartOfPeriod::PartOfPeriod(const ResultReader& result, const PeriodChoice& choic
   shares_ = chosen_shares(choice, intervals, zone, latitude);
   is_whole_ = std::all_of(shares_.begin(), shares_.end(), [](double share) { return share == 1; });
   if (is_whole_) return;
+  std::vector<TimeSpan> hours;
+  for (const TimeSpan& interval : intervals)
+    for (const TimeSpan& hour : clock_hours(interval, zone)) hours.push_back(hour);
+  const auto shares_of_hours = chosen_shares(choice, hours, zone, latitude);
   for (const PartKind kind :
        {PartKind::month, PartKind::season, PartKind::day, PartKind::hour_of_day})
-    if (find_parts(kind, intervals, zone, latitude)) return;
+    if (find_parts(kind, hours, shares_of_hours, zone, latitude)) return;
   if (!of_series(std::string(load_word)).empty()) return;
   throw InputError({result.path()}, "has nothing of " + choice.words(),
                    "its stored totals of parts do not make it up, and it has no series",
@@ -107,29 +111,27 @@ PartOfPeriod::PartOfPeriod(const ResultReader& result, const PeriodChoice& choic
 }
 
 /// Divisions are computed as when the result was written; parts without errors do where there are
-/// no others.
-bool PartOfPeriod::find_parts(PartKind kind, const std::vector<TimeSpan>& intervals,
-                              const TimeZone& zone, double latitude_deg) {
+/// no others. `hours` are those of the clock that the intervals are made of, each in one part.
+bool PartOfPeriod::find_parts(PartKind kind, const std::vector<TimeSpan>& hours,
+                              const std::vector<double>& shares_of_hours, const TimeZone& zone,
+                              double latitude_deg) {
   const std::string name = part_kind_names[static_cast<std::size_t>(kind)];
   if (!result_.has(name_by(std::string(load_word), name)) || !result_.has(name)) return false;
-  const PeriodDivision division = divided(kind, intervals, zone, latitude_deg);
+  const PeriodDivision division = divided(kind, hours, zone, latitude_deg);
   const auto labels = part_labels(result_, name);
   if (labels.size() != division.parts.size()) return false;
   std::vector<std::size_t> rows;
-  std::vector<double> left = shares_;
-  constexpr double rounding = 1e-9;
   for (std::size_t row = 0; row < labels.size(); ++row) {
     const PeriodPart& part = division.parts[row];
     if (part.label != labels[row]) return false;
-    const bool is_chosen = std::all_of(
-        part.intervals.begin(), part.intervals.end(),
-        [&](const PartShare& of) { return shares_[of.interval] >= of.share - rounding; });
-    if (!is_chosen) continue;
-    rows.push_back(row);
-    for (const auto& [interval, share] : part.intervals) left[interval] -= share;
+    const auto is = [&](double share) {
+      return [&, share](const PartShare& of) { return shares_of_hours[of.interval] == share; };
+    };
+    if (std::all_of(part.intervals.begin(), part.intervals.end(), is(1)))
+      rows.push_back(row);
+    else if (!std::all_of(part.intervals.begin(), part.intervals.end(), is(0)))
+      return false;
   }
-  if (std::any_of(left.begin(), left.end(), [](double x) { return std::abs(x) > rounding; }))
-    return false;
   const bool has_errors = result_.has(name_by("light_load_realization", name));
   if (!kind_.empty() && !has_errors) return false;
   kind_ = name;

@@ -35,7 +35,8 @@ class PartOfPeriod {
   const std::vector<double>& shares() const { return shares_; }
 
  private:
-  bool find_parts(PartKind kind, const std::vector<TimeSpan>& intervals, const TimeZone& zone,
+  bool find_parts(PartKind kind, const std::vector<TimeSpan>& hours,
+                  const std::vector<double>& shares_of_hours, const TimeZone& zone,
                   double latitude_deg);
   /// Dataset of the parts of a total; empty where no parts are used.
   std::string of_parts(const std::string& dataset) const;

@@ -148,7 +148,8 @@ class Refinement {
     Estimate e;
     const double area = forest_.area(leaf);
     const double weighted = places_[leaf].weighted_m2;
-    for (std::uint8_t side = 0; side < (forest_.is_two_sided(leaf) ? 2 : 1); ++side) {
+    const std::uint8_t sides = forest_.is_two_sided(leaf) ? 2 : 1;
+    for (std::uint8_t side = 0; side < sides; ++side) {
       const ElementLoad load = pilot.load(leaf, side, split_.min_area_m2);
       loads[side] = load.mean;
       e.squared_error += squared_error(load.variance, weighted);

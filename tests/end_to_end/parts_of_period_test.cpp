@@ -109,7 +109,7 @@ TEST(PartsOfPeriod, AllCommandsOnResultsTakeThem) {
   EXPECT_NE(compared.out.find("true"), std::string::npos) << compared.out;  // paired
   EXPECT_NE(compared.err.find(winter), std::string::npos) << compared.err;
   EXPECT_NE(compared.out, ran({"compare", path, "results/days/dark.h5", "--csv"}).out);
-  ran({"render", path, "--day", winter, "--size", "200x150", "-o", "day.png"});
+  ran({"render", path, "--day", winter, "--size", "400x320", "-o", "day.png"});
   ran({"export", path, "--to", "csv", "--month", "6", "-o", "june.csv"});
   const Ran never = program(folder, {"info", path, "--month", "4"});
   EXPECT_EQ(never.code, 2);

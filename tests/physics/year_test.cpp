@@ -65,12 +65,19 @@ class YearOfTheSquare : public testing::Test {
   static const BatchTally& each() { return solutions->each.tally; }
   static const BatchTally& modes() { return solutions->modes.tally; }
   static Solutions* solutions;
+
+  static void is_made_of_few_solutions();
+  static void direct_sun_and_sun_hours_are_the_same();
+  static void instants_differ_by_less_than_a_third_of_their_errors();
+  static void loads_differ_by_less_than_their_errors();
+  static void sensors_see_the_same();
+  static void ledgers_agree();
 };
 Solutions* YearOfTheSquare::solutions = nullptr;
 
 constexpr auto total = static_cast<std::size_t>(Part::total);
 
-TEST_F(YearOfTheSquare, IsMadeOfFewSolutions) {
+void YearOfTheSquare::is_made_of_few_solutions() {
   ASSERT_TRUE(solutions->modes.reduction);
   EXPECT_FALSE(solutions->each.reduction);
   const Reduction& reduction = *solutions->modes.reduction;
@@ -78,13 +85,13 @@ TEST_F(YearOfTheSquare, IsMadeOfFewSolutions) {
   EXPECT_TRUE(reduction.is_met);
 }
 
-TEST_F(YearOfTheSquare, DirectSunAndSunHoursAreTheSame) {
+void YearOfTheSquare::direct_sun_and_sun_hours_are_the_same() {
   const auto direct = static_cast<std::size_t>(Part::direct);
   EXPECT_EQ(each().irradiance[direct], modes().irradiance[direct]);
   EXPECT_EQ(each().sunlit_s, modes().sunlit_s);
 }
 
-TEST_F(YearOfTheSquare, InstantsDifferByLessThanAThirdOfTheirErrors) {
+void YearOfTheSquare::instants_differ_by_less_than_a_third_of_their_errors() {
   const std::vector<float> none(each().irradiance_se.size(), 0);
   const double error = mean_square(solutions->each, each().irradiance_se, none);
   const double difference =
@@ -94,7 +101,7 @@ TEST_F(YearOfTheSquare, InstantsDifferByLessThanAThirdOfTheirErrors) {
   EXPECT_LT(difference, 2 * solutions->modes.reduction->error_w_m2 + error / 10);
 }
 
-TEST_F(YearOfTheSquare, LoadsDifferByLessThanTheirErrors) {
+void YearOfTheSquare::loads_differ_by_less_than_their_errors() {
   const auto& of_each = each().exposure_realization;
   double square = 0, errors = 0;
   for (std::size_t i = 0; i < each().exposure[total].size(); ++i) {
@@ -108,7 +115,7 @@ TEST_F(YearOfTheSquare, LoadsDifferByLessThanTheirErrors) {
   EXPECT_LT(square, errors / 9);
 }
 
-TEST_F(YearOfTheSquare, SensorsSeeTheSame) {
+void YearOfTheSquare::sensors_see_the_same() {
   ASSERT_FALSE(each().sensors.exposure[total].empty());
   for (std::size_t s = 0; s < each().sensors.exposure[total].size(); ++s) {
     std::vector<double> values;
@@ -120,7 +127,7 @@ TEST_F(YearOfTheSquare, SensorsSeeTheSame) {
   }
 }
 
-TEST_F(YearOfTheSquare, LedgersAgree) {
+void YearOfTheSquare::ledgers_agree() {
   // Each term may differ by what the irradiance of all surfaces differs by, were it all one way.
   double area = 0, seconds = 0;
   for (const double a : solutions->each.mesh().area()) area += a;
@@ -130,6 +137,16 @@ TEST_F(YearOfTheSquare, LedgersAgree) {
   for (std::size_t t = 0; t < term_count; ++t)
     EXPECT_NEAR(modes().energy.terms[t], each().energy.terms[t], most) << ledger_line_names[t];
   EXPECT_NEAR(modes().energy.residual(), each().energy.residual(), most);
+}
+
+// One test: each would solve the year for itself.
+TEST_F(YearOfTheSquare, AgreesWithASolutionForEachInterval) {
+  is_made_of_few_solutions();
+  direct_sun_and_sun_hours_are_the_same();
+  instants_differ_by_less_than_a_third_of_their_errors();
+  loads_differ_by_less_than_their_errors();
+  sensors_see_the_same();
+  ledgers_agree();
 }
 
 /// Suns stand for each other as if morning were evening.
