@@ -90,9 +90,9 @@ BatchHeader header_from(const json& from) {
 }
 
 ArraySpec spec_from(const json& from) {
-  const ArraySpec spec{from.at("name"), from_name<MergeRule>(from.at("rule"), rule_names),
-                       from_name<ArrayType>(from.at("type"), type_names), from.at("dims"),
-                       from.value("mantissa_bits", all_mantissa_bits)};
+  ArraySpec spec{from.at("name"), from_name<MergeRule>(from.at("rule"), rule_names),
+                 from_name<ArrayType>(from.at("type"), type_names), from.at("dims"),
+                 from.value("mantissa_bits", all_mantissa_bits)};
   if (spec.mantissa_bits < 1 || spec.mantissa_bits > all_mantissa_bits)
     throw std::runtime_error("bits of array " + spec.name);
   return spec;

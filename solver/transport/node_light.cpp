@@ -190,6 +190,7 @@ void NodeLight::add_light(const std::vector<NodeWeights>& weights,
   const auto all = blocks();
   const auto add = [&](Columns NodeBlock::Received::*kind, Columns& out) {
     std::vector<const Columns*> nodes;
+    nodes.reserve(all.size());
     for (const NodeBlock* block : all) nodes.push_back(&(block->*of_receivers.*kind));
     combine(nodes, weights, out);
   };
@@ -202,8 +203,10 @@ void NodeLight::add_light(const std::vector<NodeWeights>& weights,
 void NodeLight::add_circumsolar(const std::vector<NodeWeights>& weights, std::size_t r,
                                 Columns& light) const {
   const Columns none;
+  const auto all = blocks();
   std::vector<const Columns*> nodes;
-  for (const NodeBlock* block : blocks())
+  nodes.reserve(all.size());
+  for (const NodeBlock* block : all)
     nodes.push_back(block->circumsolar.empty() ? &none : &block->circumsolar[r]);
   combine(nodes, weights, light);
 }
