@@ -44,6 +44,7 @@ std::string csv_number(double value) {
 
 std::string display_units(const std::string& units) {
   if (units == "1") return {};
+  if (units == "percent") return "%";
   const auto per_area = units.find(" m-2");
   return per_area == std::string::npos ? units : units.substr(0, per_area) + "/m²";
 }

@@ -302,6 +302,8 @@ class CommandLine {
     add_table("--facades", What::facades, "table of the facades: what each of them receives");
     add_table("--objects", What::objects, "table of the objects");
     add_table("--sensors", What::sensors, "table of the sensors");
+    add_table("--measures", What::measures,
+              "table of the study's measures: values and verdicts of facades, objects, sensors");
     add_table("--patches", What::patches, "every patch as CSV");
     add_named(sub, info_.parts, "only");
     sub->add_option("--sensor", info_.parts.sensors, "only the sensor of that number, from 0")

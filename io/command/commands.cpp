@@ -13,6 +13,7 @@
 #include "io/command/study_scenes.h"
 #include "io/report/compare.h"
 #include "io/report/info.h"
+#include "io/report/measures.h"
 #include "io/result/patches_csv.h"
 #include "io/run/options.h"
 #include "io/run/work_folder.h"
@@ -70,7 +71,8 @@ std::string text_of(const Comparison& comparison, CompareOptions::Format format)
 InfoOptions::What table_asked_for(const InfoOptions& options) {
   using What = InfoOptions::What;
   if (options.what.size() > 1)
-    throw InputError({}, "--patches, --facades, --objects and --sensors are one table each",
+    throw InputError({},
+                     "--patches, --facades, --objects, --sensors and --measures are one table each",
                      "two of them are asked for", "call info once for each");
   if (!options.what.empty()) return options.what.front();
   std::vector<What> of_names;
@@ -88,7 +90,7 @@ InfoOptions::What asked_for(const InfoOptions& options) {
   const What what = table_asked_for(options);
   if (what == What::screen && options.format != InfoOptions::Format::text)
     throw InputError({}, "--csv and --json are of tables", "the screen is for people",
-                     "add --facades, --objects, --sensors or --patches");
+                     "add --facades, --objects, --sensors, --measures or --patches");
   if (what == What::patches && options.format == InfoOptions::Format::json)
     throw InputError({}, "--patches with --json", "it is CSV", "leave out --json");
   if (what == What::patches && !options.parts.sensors.empty())
@@ -109,6 +111,21 @@ void print_table(const ResultReader& result, TableOf of, const InfoOptions& opti
       break;
   }
   std::cout << group_table_text(result, table);
+}
+
+void print_measures(const ResultReader& result, const InfoOptions& options) {
+  const auto rows = measure_table(result, options.parts);
+  switch (options.format) {
+    case InfoOptions::Format::csv:
+      std::cout << measure_table_csv(result, rows);
+      return;
+    case InfoOptions::Format::json:
+      std::cout << measure_table_json(result, rows);
+      return;
+    case InfoOptions::Format::text:
+      break;
+  }
+  std::cout << measure_table_text(result, rows);
 }
 
 /// The scene of a study before any light: kinds of surface, or materials.
@@ -159,6 +176,9 @@ int print_info(const InfoOptions& options) {
     case What::patches:
       std::cout << patches_csv(result, options.parts);
       break;
+    case What::measures:
+      print_measures(result, options);
+      break;
     case What::facades:
       print_table(result, TableOf::facades, options);
       break;
@@ -192,6 +212,8 @@ int compare(const CompareOptions& asked) {
     if (options.format == CompareOptions::Format::csv)
       for (const auto& note : comparison.notes) tell("note: " + note);
     std::cout << text_of(comparison, options.format);
+    if (options.format == CompareOptions::Format::table)
+      std::cout << measure_changes_text(base, variant, options.parts);
   }
   return exit_code::done;
 }

@@ -7,6 +7,7 @@
 
 #include "io/plan/content_hash.h"
 #include "io/plan/mesh_family.h"
+#include "io/plan/study_measures.h"
 #include "solver/surface/ray_caster.h"
 
 namespace sunload {
@@ -31,6 +32,7 @@ VariantPlan plan_of(const Study& study, BuiltScene built, LightSeries light) {
   plan.light = std::move(light);
   plan.totals = part_totals(study, plan.light, plan.built.site.latitude_deg);
   refuse_lamps_in_lux(plan);
+  expect_measurable(study, plan.built, plan.light);
   plan.content_hash = hash_with_isa(plan, plan.isa);
   plan.pairing_id = pairing_id(study, plan.light);
   return plan;

@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 #include "geo/base/units.h"
 #include "io/base/light_quantity.h"
 #include "io/base/statistics.h"
 #include "io/base/text.h"
 #include "io/plan/time_words.h"
+#include "io/report/measures.h"
 #include "io/result/energy_text.h"
 #include "io/result/part_of_period.h"
 #include "io/result/patch_groups.h"
@@ -283,6 +285,11 @@ std::string info_text(const ResultReader& result) {
   text += result.chosen().any()
               ? info_line("energy", "of the whole period: without " + result.chosen().words())
               : energy_text(result);
+  if (const auto measures = measures_line(result); !measures.empty()) {
+    std::istringstream lines(measures);
+    const char* word = "measures";
+    for (std::string line; std::getline(lines, line); word = "") text += info_line(word, line);
+  }
   text += runtime(result);
   text += info_line("made by", result.text_attribute("source"));
   return text;

@@ -237,6 +237,19 @@ std::string ResultReader::text_attribute(const std::string& name) const {
   }
 }
 
+std::string ResultReader::text_attribute(const std::string& dataset,
+                                         const std::string& name) const {
+  return file_->with(dataset,
+                     [&](const h5::Dataset& data) { return data.text(name).value_or(""); });
+}
+
+std::vector<double> ResultReader::number_attributes(const std::string& dataset,
+                                                    const std::string& name) const {
+  return file_->with(dataset, [&](const h5::Dataset& data) {
+    return data.numbers(name).value_or(std::vector<double>{});
+  });
+}
+
 double ResultReader::number_attribute(const std::string& dataset, const std::string& name) const {
   return file_->with(dataset, [&](const h5::Dataset& data) {
     const auto values = data.numbers(name);

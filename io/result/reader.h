@@ -57,6 +57,9 @@ class ResultReader {
   /// Absolute position that positions in the file are relative to [m]; zero if absent.
   Vec3 origin() const;
   std::optional<std::size_t> band() const;  ///< that was chosen
+  /// Of a dataset; empty if absent.
+  std::string text_attribute(const std::string& dataset, const std::string& name) const;
+  std::vector<double> number_attributes(const std::string& dataset, const std::string& name) const;
   /// Of a dataset; NaN if absent.
   double number_attribute(const std::string& dataset, const std::string& name) const;
 

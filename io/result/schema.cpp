@@ -213,6 +213,12 @@ constexpr std::array table{
     ResultVariable{"study_yaml", "", text, "", study, "the study, verbatim"},
 };
 
+constexpr std::array measure_table{
+    ResultVariable{measure_prefix, "patch", float64, "", total, "measure, at the centre of the patch"},
+    ResultVariable{"facade_measure_", "facade", float64, "", total, "measure, mean over what is measured of the facade", "", "area: mean"},
+    ResultVariable{"sensor_measure_", "sensor", float64, "", total, "measure, at the sensor"},
+};
+
 constexpr std::array comparison_table{
     ResultVariable{"base_light_load", "patch", float64, kwh_m2, total, "light load of the base"},
     ResultVariable{"variant_light_load", "patch", float64, kwh_m2, total, "light load of the variant"},
@@ -260,6 +266,8 @@ const ResultVariable* find_result_variable(std::string_view name, Quantity quant
   for (const auto& variable : result_schema(quantity)) {
     if (variable.name == name) return &variable;
   }
+  for (const auto& variable : measure_table)
+    if (name.starts_with(variable.name)) return &variable;
   return nullptr;
 }
 
@@ -281,7 +289,7 @@ std::vector<std::string> dimension_names(const ResultVariable& variable) {
 bool has_bands(const ResultVariable& variable) {
   const std::string_view name = variable.name;
   if (name.find("sun_hours") != std::string_view::npos || name.ends_with("sky_view_factor") ||
-      name == "patch_lines")
+      name == "patch_lines" || name.find(measure_prefix) != std::string_view::npos)
     return false;
   return variable.part == ResultPart::series || variable.part == ResultPart::ledger ||
          variable.part == ResultPart::total;

@@ -40,7 +40,10 @@ struct ResultVariable {
 /// The datasets of a result of that quantity. Illuminance has the rows of irradiance in its own
 /// names and units, but for `dni`, `dhi` and `ghi`, which stay what the study says.
 std::span<const ResultVariable> result_schema(Quantity quantity = Quantity::irradiance);
-/// Null where the schema has no such dataset.
+/// Begins the names of measures of patches; those of facades and sensors have a prefix more.
+inline constexpr std::string_view measure_prefix = "measure_";
+/// Null where the schema has no such dataset. Of measures, whose names the study gives, it is the
+/// row that all of them share: without name and units.
 const ResultVariable* find_result_variable(std::string_view name,
                                            Quantity quantity = Quantity::irradiance);
 /// Whether it is the variable of its own dimension: `time`, `band`, or names as labels.

@@ -11,6 +11,7 @@
 #include "io/base/colour_map.h"
 #include "io/base/statistics.h"
 #include "io/base/text.h"
+#include "io/result/measure_table.h"
 #include "io/result/schema.h"
 #include "io/result/time.h"
 
@@ -56,6 +57,9 @@ std::vector<std::string> patch_datasets(const ResultReader& result, PatchDataset
         result.shape(name).back() == patches)
       names.push_back(name);
   }
+  if (which == PatchDatasets::totals)
+    for (const auto& measure : measure_names(result))
+      names.push_back(std::string(measure_prefix) + measure);
   return names;
 }
 

@@ -139,6 +139,13 @@ class Examination {
       else if (is_comparison_ ? is_of_compared_patches(variable) : is_indispensable(variable))
         add("there is no dataset " + name, "every result has one");
     }
+    for (const std::string& name : file_.names()) {
+      const ResultVariable* of = find_result_variable(name, quantity_);
+      if (!of || of->name == name || is_comparison_) continue;
+      ResultVariable measure = *of;
+      measure.name = name;
+      shape(measure, file_.dataset(name));
+    }
     if (!is_comparison_) return;
     for (const auto& variable : comparison_schema(quantity_)) {
       const std::string name(variable.name);

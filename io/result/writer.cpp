@@ -212,6 +212,20 @@ void ResultWriter::write(const ResultArray& array) {
   file_->writing([&] { file_->put(array.name, array.values); });
 }
 
+void ResultWriter::write_measure(const MeasureArray& array, const MeasureAttributes& attributes) {
+  ResultVariable of = *find_result_variable(array.name);
+  of.name = array.name;
+  of.units = array.units;
+  file_->writing([&] {
+    h5::Dataset dataset = file_->create(of, dimension_names(of));
+    dataset.write(array.values);
+    for (const auto& [name, value] : attributes.text) dataset.set(name, value);
+    if (attributes.level_values.empty()) return;
+    dataset.set("level_values", attributes.level_values, h5::Type::float64);
+    dataset.set("area_percent", attributes.area_percent, h5::Type::float64);
+  });
+}
+
 void ResultWriter::write_part(const ResultArray& array, std::size_t part) {
   file_->writing([&] {
     h5::Dataset dataset = file_->file->dataset(file_->stored(array.name));

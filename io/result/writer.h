@@ -67,6 +67,19 @@ struct ResultArray {
   std::vector<double> values;  ///< row-major, stored in the type of the schema
 };
 
+/// Values of a measure per patch, facade or sensor, as the beginning of its name says:
+/// measure_NAME, facade_measure_NAME, sensor_measure_NAME; NaN where there is none.
+struct MeasureArray {
+  std::string name, units;
+  std::vector<double> values;
+};
+/// What its datasets say of it.
+struct MeasureAttributes {
+  std::vector<std::pair<std::string, std::string>> text;
+  std::vector<double> level_values;  ///< empty: it has no verdict, and no share of area
+  double area_percent = 0;
+};
+
 /// Writes `<path>` aside and renames it at `finish`; nothing is left behind if
 /// the writer is destroyed before. Memory stays bounded by one batch.
 class ResultWriter {
@@ -92,6 +105,7 @@ class ResultWriter {
   void append(const BatchReader& batch);
   /// Time integrals and other arrays without time: name must be in the schema.
   void write(const ResultArray& array);
+  void write_measure(const MeasureArray& array, const MeasureAttributes& attributes);
   /// One part's values of totals of parts of the period, `light_load_by_month`, …: row `part`.
   void write_part(const ResultArray& array, std::size_t part);
   /// One value per interval: ledger terms (power_sun …), facade series come by `append`.

@@ -9,6 +9,7 @@
 #include "io/batch/batch_tally.h"
 #include "io/batch/facade_means.h"
 #include "io/run/band_writer.h"
+#include "io/run/measure_merge.h"
 #include "io/run/part_merge.h"
 #include "io/run/result_attributes.h"
 #include "io/run/result_geometry.h"
@@ -109,6 +110,7 @@ std::vector<std::string> merge_variant(const WorkFolder& folder, const VariantPl
   ResultWriter writer(path, geometry, result_times(plan), options);
   Totals totals;
   PartMerge parts(writer, plan, geometry);
+  MeasureMerge measures(plan, hierarchy, geometry);
   for (std::size_t b = 0; b < plan.batches(); ++b) {
     if (std::find(left_out.begin(), left_out.end(), b) != left_out.end()) continue;
     const BatchReader batch(folder.batch(b));
@@ -116,12 +118,14 @@ std::vector<std::string> merge_variant(const WorkFolder& folder, const VariantPl
     writer.append(batch);
     totals.add(batch);
     parts.add(batch);
+    measures.add(batch);
   }
   parts.finish();
   totals.add_means();
   BandWriter band_writer(writer, options.bands);
   write_loads(band_writer, totals, geometry, options.realizations);
   write_ledger_errors(band_writer, totals);
+  measures.write(writer);
   writer.finish(result_attributes({plan, file, totals, geometry}), file.yaml);
   return result_warnings(totals, geometry);
 }

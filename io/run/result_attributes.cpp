@@ -13,6 +13,7 @@
 #include "io/base/version.h"
 #include "io/batch/batch_tally.h"
 #include "io/plan/content_hash.h"
+#include "io/run/measure_merge.h"
 #include "solver/accuracy.h"
 
 namespace sunload {
@@ -103,6 +104,12 @@ void add_identity(Attributes& a, const MergedResult& result) {
                  {"pairing_id", plan.pairing_id},
                  {"isa", plan.isa},
                  {"transport", study.solver.transport == Transport::shoot ? "shoot" : "gather"}});
+  if (!study.measures.empty()) {
+    std::string names;
+    for (const auto& measure : study.measures) names += (names.empty() ? "" : " ") + measure.name;
+    a.text.emplace_back("measures", names);
+    a.text.emplace_back("measures_sha256", measures_hash(study));
+  }
   if (study.solver.bands == Bands::rgb) {
     a.text.emplace_back("bands", "rgb");
     a.text.emplace_back("light_colour", study.light.colour == LightColour::white ? "white" : "sky");

@@ -31,9 +31,12 @@ void expect_room_for(const WorkEstimate& work, const std::string& folder, double
     if (!problem.empty()) throw MachineError(problem);
 }
 
-InputError of_another_state(const std::string& result, const char* hint) {
-  return {
-      {result}, "is the result of another state of the study", "its content hash differs", hint};
+InputError of_another_state(const WorkFolder& folder, const std::string& hash, const char* hint) {
+  const bool is_of_this_light = hash.starts_with(folder.content_hash());
+  return {{folder.result()},
+          "is the result of another state of the study",
+          is_of_this_light ? "its measures differ" : "its content hash differs",
+          hint};
 }
 
 std::string list_text(const std::vector<std::size_t>& numbers) {
@@ -71,8 +74,8 @@ void VariantJob::expect_may_run() const {
   if (is_overwritten()) return;
   const auto hash = folder_.result_hash();
   if (!hash) return;
-  if (hash != folder_.content_hash())
-    throw of_another_state(folder_.result(), "use --overwrite to replace it, or --output");
+  if (hash != folder_.wanted_hash())
+    throw of_another_state(folder_, *hash, "use --overwrite to replace it, or --output");
   // Of a shard's variants others may be finished by other shards before it comes.
   if (work_.options.existing == Existing::refuse && work_.options.shard.is_whole())
     throw InputError({folder_.result()}, "is there already, of this very study",
@@ -83,8 +86,8 @@ void VariantJob::expect_may_run() const {
 void VariantJob::expect_may_merge() const {
   if (is_overwritten()) return;
   const auto hash = folder_.result_hash();
-  if (hash && hash != folder_.content_hash() && folder_.batches_not_there().empty())
-    throw of_another_state(folder_.result(), "use --overwrite to replace it");
+  if (hash && hash != folder_.wanted_hash() && folder_.batches_not_there().empty())
+    throw of_another_state(folder_, *hash, "use --overwrite to replace it");
 }
 
 /// Shards on machines of different instruction sets would not fit together.
@@ -108,7 +111,7 @@ void VariantJob::refuse_other_isa() const {
 /// A result that cannot be read is no obstacle to --overwrite.
 bool VariantJob::is_merged() const {
   try {
-    return folder_.result_hash() == folder_.content_hash();
+    return folder_.result_hash() == folder_.wanted_hash();
   } catch (const InputError&) {
     if (is_overwritten()) return false;
     throw;

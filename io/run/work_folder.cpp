@@ -13,6 +13,7 @@
 #include "io/base/machine.h"
 #include "io/base/merge_lock.h"
 #include "io/result/reader.h"
+#include "io/run/measure_merge.h"
 #include "io/run/stored_series.h"
 
 namespace sunload {
@@ -38,6 +39,10 @@ void remove_files(const fs::path& work) {
     if (is_ours) fs::remove(path, ignored);
   }
   fs::remove(work, ignored);
+}
+
+std::string with_measures(const std::string& content, const std::string& measures) {
+  return measures.empty() ? content : content + "+" + measures;
 }
 
 bool exists(const std::string& path) {
@@ -66,6 +71,7 @@ WorkFolder::WorkFolder(const std::string& folder, const Study& study, std::strin
     : work_(work_of_study(folder, study.name)),
       variant_(study.variant),
       content_hash_(std::move(content_hash)),
+      wanted_hash_(with_measures(content_hash_, measures_hash(study))),
       result_(result_path(folder, study)),
       path_(work_ + "/" + variant_ + "-" + content_hash_),
       unwanted_(unwanted_series(study.output)),
@@ -88,7 +94,9 @@ bool WorkFolder::is_there() const { return exists(path_); }
 
 std::optional<std::string> WorkFolder::result_hash() const {
   if (!exists(result_)) return {};
-  return ResultReader(result_).text_attribute("study_sha256");
+  const ResultReader result(result_);
+  return with_measures(result.text_attribute("study_sha256"),
+                       result.text_attribute("measures_sha256"));
 }
 
 BatchCheck WorkFolder::check(std::size_t number) const {

@@ -45,9 +45,11 @@ class WorkFolder {
   std::string merge_lock() const;
 
   bool is_there() const;
-  /// Content hash of the finished result; none where there is no result. Throws InputError where
-  /// it cannot be read.
+  /// Content hash of the finished result, with that of its measures where it has any; none where
+  /// there is no result. Throws InputError where it cannot be read.
   std::optional<std::string> result_hash() const;
+  /// What it is to be.
+  const std::string& wanted_hash() const { return wanted_hash_; }
   /// A batch's file, all of it read.
   BatchCheck check(std::size_t number) const;
   /// All batches' files, all of them read.
@@ -71,7 +73,7 @@ class WorkFolder {
   void remove_finished_work() const;
 
  private:
-  std::string work_, variant_, content_hash_, result_, path_;
+  std::string work_, variant_, content_hash_, wanted_hash_, result_, path_;
   std::vector<std::string> unwanted_;  ///< series that batches may lack
   std::size_t batches_;
 };

@@ -55,6 +55,7 @@ json canonical(const SunAt& sun);
 json canonical(const MaterialStudy& material);
 json canonical(const AssignRule& rule);
 json canonical(const SceneFileStudy& file);
+json canonical(const MeasureParameters& measure);
 
 template <class T>
 json list_of(const std::vector<T>& values) {
@@ -270,12 +271,31 @@ json canonical(const SolverStudy& solver, LightColour colour) {
   return all;
 }
 
+json canonical(const MeasureParameters& measure) {
+  const auto& [name, rule, numbers, words, date, of, where] = measure;
+  const auto& [object, facade, surface] = of;
+  json canon{{"name", name}, {"rule", rule}};
+  for (const auto& [key, value] : numbers) canon[key] = value;
+  for (const auto& [key, word] : words) canon[key] = word;
+  if (date) canon["date"] = {date->year, date->month, date->day};
+  const json chosen{{"object", object}, {"facade", facade}, {"surface", surface}};
+  for (const auto& [key, pattern] : chosen.items())
+    if (pattern != "") canon["of"][key] = pattern;
+  return canon;
+}
+
 }  // namespace
 
+std::string measure_text(const MeasureParameters& measure) { return canonical(measure).dump(); }
+
+std::string measures_text(const Study& study) {
+  return study.measures.empty() ? std::string() : list_of(study.measures).dump();
+}
+
 std::string canonical_text(const Study& study) {
-  // Sensors are hashed with the scene.
-  const auto& [name, variant, site, period, sun, light, scene, mesh, solver, sensors, output] =
-      study;
+  // Sensors are hashed with the scene; measures are made of finished batches (measures_text).
+  const auto& [name, variant, site, period, sun, light, scene, mesh, solver, sensors, output,
+               measures] = study;
   const json all{{"site", canonical(site)},
                  {"period", canonical(period)},
                  {"sun", canonical(sun)},

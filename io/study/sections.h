@@ -37,6 +37,9 @@ SolverStudy read_solver(YamlMap& map);
 /// The file is relative to `folder`.
 SensorsStudy read_sensors(YamlMap& map, const std::string& folder);
 OutputStudy read_output(YamlMap& map);
+MeasureParameters read_measure(const std::string& name, YamlMap& map);
+/// What measures need of the other sections.
+void check_measures(YamlMap& root, const Study& study, PlaceWritten placed);
 
 /// Adds what a reader of the values found wrong without knowing the place.
 void add_at(YamlMap& map, const std::string& key, const Where& where, const InputError& error);

@@ -34,6 +34,7 @@ const std::map<std::string, std::string> common_sections{
     {"period", "all variants have the same times, or they could not be compared"},
     {"sun", "all variants have the same sun path, or they could not be compared"},
     {"sensors", "all variants are measured at the same points"},
+    {"measures", "all variants are measured alike, or they could not be compared"},
     {"output", "all results of a study go to one place"},
     {"variants", "a variant has no variants"}};
 const std::map<std::string, std::string> common_solver_keys{
@@ -213,7 +214,11 @@ Study read_values(YamlMap& root, const std::string& folder) {
     root.section("sensors", [&](YamlMap& map) { study.sensors = read_sensors(map, folder); });
   }
   root.section("output", [&](YamlMap& map) { study.output = read_output(map); });
+  root.named("measures", [&](const std::string& name, YamlMap& map) {
+    study.measures.push_back(read_measure(name, map));
+  });
   check_together(root, study, site.place_written);
+  check_measures(root, study, site.place_written);
   return study;
 }
 

@@ -28,6 +28,7 @@
 #include "geo/time/period_parts.h"
 #include "geo/time/time.h"
 #include "io/base/light_quantity.h"
+#include "io/measure/parameters.h"
 #include "io/scene/file.h"
 #include "io/scene/sensor_file.h"
 #include "solver/light/band.h"
@@ -255,6 +256,7 @@ struct Study {
   SolverStudy solver;
   SensorsStudy sensors;
   OutputStudy output;
+  std::vector<MeasureParameters> measures = {};
 };
 
 struct StudyFile {
@@ -278,6 +280,12 @@ SceneStudy scene_of_text(const std::string& yaml, const std::string& variant);
 /// bytes of the files are hashed apart, and so is the instruction set in force,
 /// which `solver.isa` only pins). Equal texts, equal results.
 std::string canonical_text(const Study& study);
+
+/// The same of the measures, which are no part of it: batches know nothing of them. Empty where
+/// there are none.
+std::string measures_text(const Study& study);
+/// Of one of them.
+std::string measure_text(const MeasureParameters& measure);
 
 /// Every key that the reader knows, sorted: `scene.materials.*.diffuse`,
 /// `period.positions[].azimuth_deg`; `*` is a name of the user's choice.

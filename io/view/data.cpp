@@ -14,6 +14,7 @@
 #include "io/base/deflate.h"
 #include "io/base/half_float.h"
 #include "io/base/text.h"
+#include "io/result/measure_table.h"
 #include "io/result/schema.h"
 #include "io/result/time.h"
 
@@ -86,6 +87,17 @@ json totals(const ResultReader& result, ViewBlocks& blocks) {
                     {"what", variable.long_name},
                     {"units", display_units(result.units(name))},
                     {"values", add_numbers(blocks, floats(result.doubles(name)))}});
+  }
+  for (const auto& measure : measure_names(result)) {
+    const std::string name = std::string(measure_prefix) + measure;
+    auto values = floats(result.doubles(name));
+    // The page has no patches without a value.
+    std::replace_if(
+        values.begin(), values.end(), [](float value) { return std::isnan(value); }, 0.0F);
+    list.push_back({{"name", name},
+                    {"what", result.text_attribute(name, "definition")},
+                    {"units", display_units(result.units(name))},
+                    {"values", add_numbers(blocks, values)}});
   }
   return list;
 }

@@ -59,6 +59,10 @@ inline std::string street_study(const std::string& standard_error = "totals",
          "light: {source: clear_sky}\n"
          "scene: {builtin: {name: street}}\n"
          "mesh: {oracle: none, max_edge_m: 4}\n"
+         "measures:\n"
+         "  exposure: {rule: en_17037, least_elevation_deg: 13, of: {facade: '*'}}\n"
+         "  sky: {rule: bre_209_vsc, of: {object: 'house_1'}}\n"
+         "  bright: {rule: light_hours, above_w_m2: 500}\n"
          "solver: {lines_per_patch: 64, direct_samples: 16, realizations: 16, batch_suns: 2" +
          solver +
          "}\n"

@@ -532,6 +532,75 @@ TEST(Study, ChecksVariants) {
                      "1000000 square metres)"}));
 }
 
+// --- measures -----------------------------------------------------------------------------
+
+std::map<std::string, std::string> measured(const std::string& measures) {
+  return {{"measures", measures}};
+}
+
+TEST(StudyMeasures, AreReadWithTheDefaultsOfTheirRule) {
+  const auto file = read_text(
+      with(measured("{b: {rule: csn_73_4301}, a: {rule: en_17037, date: 2026-02-10, "
+                    "least_elevation_deg: 13, of: {facade: 'house_1/*', surface: wall}}}")));
+  const auto& measures = file.variants[0].measures;
+  ASSERT_EQ(measures.size(), 2u);
+  EXPECT_EQ(measures[0].name, "b");
+  EXPECT_EQ(measures[0].number("least_elevation_deg"), 5);
+  EXPECT_EQ(measures[0].number("least_plan_angle_deg"), 25);
+  EXPECT_EQ(measures[0].number("area_percent"), 50);
+  EXPECT_FALSE(measures[0].date);
+  EXPECT_EQ(measures[1].of.facade, "house_1/*");
+  EXPECT_EQ(measures[1].date->day, 10);
+  EXPECT_EQ(measures[1].number("least_elevation_deg"), 13);
+}
+
+TEST(StudyMeasures, RefuseWhatTheirRuleDoesNotKnow) {
+  const auto expect = [](const std::string& measures, const std::string& part) {
+    expect_problem(measured(measures), part);
+  };
+  expect("{a: {}}", "measures.a.rule is missing");
+  expect("{a: {rule: csn}}", "'csn'");
+  expect("{a: {rule: en_17037}}", "measures.a.least_elevation_deg is missing");
+  expect("{a: {rule: sun_hours}}", "measures.a.date is missing");
+  expect("{a: {rule: bre_209_vsc, least_h: 2}}", "rule bre_209_vsc has no such limit");
+  expect("{a: {rule: bre_209_vsc, date: 2026-03-01}}", "rule bre_209_vsc has no such limit");
+  expect("{a: {rule: csn_73_4301, count: longest}}", "rule csn_73_4301 has no such limit");
+  expect("{a: {rule: csn_73_4301, date: \"2026-03-01T12:00\"}}", "has a time of day");
+  expect("{a: {rule: csn_73_4301, date: 2026-02-30}}", "measures.a.date");
+  expect("{a: {rule: en_17037, least_elevation_deg: 13, date: 2026-06-21}}",
+         "wants a day from 1 February to 21 March");
+  expect("{a-b: {rule: csn_73_4301}}", "'a-b' cannot be the name of a measure");
+  expect("{a_end: {rule: csn_73_4301}}", "'a_end' cannot be the name of a measure");
+  expect("{a: {rule: bre_209_probable_sun}}", "needs light.source: weather");
+  expect("{a: {rule: light_hours}}", "measure a needs above_w_m2");
+  expect("{a: {rule: light_hours, above_lx: 100}}", "measure a needs above_w_m2");
+  expect_problem(
+      {{"measures", "{a: {rule: glint_hours, above_w_m2: 100}}"}, {"output", "{series: [total]}"}},
+      "measure a watches the series mirror");
+  expect_problem({{"measures", "{a: {rule: csn_73_4301}}"},
+                  {"period", "{positions: [{azimuth_deg: 180, elevation_deg: 30}]}"},
+                  {"light", "{source: fixed, dni_w_m2: 800, dhi_w_m2: 100}"}},
+                 "measure a needs a period with dates");
+}
+
+TEST(StudyMeasures, AreNoPartOfTheCanonicalText) {
+  const auto text_of = [](const std::string& measures) {
+    return read_text(with(measured(measures))).variants[0];
+  };
+  const Study none = text_of(""), one = text_of("{a: {rule: csn_73_4301}}");
+  EXPECT_EQ(canonical_text(none), canonical_text(one));
+  EXPECT_EQ(measures_text(none), "");
+  const std::string least = measures_text(one);
+  for (const char* other :
+       {"{b: {rule: csn_73_4301}}", "{a: {rule: bre_209_garden}}",
+        "{a: {rule: csn_73_4301, date: 2026-03-02}}", "{a: {rule: csn_73_4301, least_h: 2}}",
+        "{a: {rule: csn_73_4301, area_percent: 60}}",
+        "{a: {rule: csn_73_4301, of: {surface: wall}}}",
+        "{a: {rule: csn_73_4301, of: {object: x}}}", "{a: {rule: csn_73_4301, of: {facade: x}}}"})
+    EXPECT_NE(measures_text(text_of(other)), least) << other;
+  EXPECT_EQ(measures_text(text_of("{a: {rule: csn_73_4301, least_h: 1.5}}")), least);
+}
+
 // --- the schema ---------------------------------------------------------------------------
 
 json read_schema() {
@@ -976,6 +1045,13 @@ TEST(CanonicalText, SeesEveryKeyOfTheSchemaButThese) {
       // errors of instants, which are more datasets, and roundings.
       "scene.files[].file", "scene.files[].source", "scene.parallel_sources", "light.weather",
       "sensors.file", "sensors.points[].position_m", "sensors.points[].normal", "solver.isa",
+      // Made of finished batches (measures_text).
+      "measures.*.rule", "measures.*.of.object", "measures.*.of.facade", "measures.*.of.surface",
+      "measures.*.date", "measures.*.least_elevation_deg", "measures.*.least_angle_deg",
+      "measures.*.least_plan_angle_deg", "measures.*.least_span_min", "measures.*.least_dni_w_m2",
+      "measures.*.above_w_m2", "measures.*.above_lx", "measures.*.least_h", "measures.*.most_h",
+      "measures.*.least_percent", "measures.*.area_percent", "measures.*.count",
+      "measures.*.season", "measures.*.light",
       // So are the parts of the period that have totals.
       "output.standard_error", "output.significant_bits", "output.totals",
       // One word only, beside which no other period can stand; any parameter of built-in scenes.

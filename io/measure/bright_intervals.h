@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Sun that weather leaves: of the intervals with a strong enough beam.
+#pragma once
+
+#include "io/measure/rule.h"
+
+namespace sunload {
+
+/// 120 W m-2: what the World Meteorological Organization calls sunshine.
+inline constexpr double sunshine_w_m2 = 120;
+
+/// Stretches of the intervals whose DNI while sunlit is at least so much; `in_winter`: those that
+/// begin from 21 September up to 21 March alone (UTC).
+enum class InSeason { year, winter };
+std::vector<SunStretch> bright_stretches(const MeasuredScene& scene, double least_dni,
+                                         InSeason season = InSeason::year);
+
+}  // namespace sunload

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Hours of sunshine as weather stations count them, where nothing stands before the sun.
+#include "geo/base/units.h"
+#include "io/measure/all_rules.h"
+#include "io/measure/bright_intervals.h"
+
+namespace sunload {
+
+std::vector<SunStretch> bright_stretches(const MeasuredScene& scene, double least_dni,
+                                         InSeason season) {
+  // Equinoxes, as British practice takes them.
+  constexpr int march = 3, september = 9, day_of_equinox = 21;
+  std::vector<SunStretch> suns;
+  for (const MeasuredInterval& interval : scene.intervals) {
+    if (interval.dni < least_dni) continue;
+    const CivilTime date = calendar_from_utc(interval.begin);
+    const auto place = std::pair(date.month, date.day);
+    const bool is_summer =
+        place >= std::pair(march, day_of_equinox) && place < std::pair(september, day_of_equinox);
+    if (season == InSeason::winter && is_summer) continue;
+    suns.insert(suns.end(), interval.suns.begin(), interval.suns.end());
+  }
+  return suns;
+}
+
+namespace rules {
+
+namespace {
+
+class BrightSun : public Measure {
+ public:
+  BrightSun(double least_dni, const MeasuredScene& scene) : least_dni_(least_dni), scene_(scene) {}
+  MeasureValues values() override {
+    MeasureValues found{
+        seen_sun_s(scene_.points, scene_.caster, bright_stretches(scene_, least_dni_)), {}, {}};
+    for (double& value : found.value) value /= seconds_per_hour;
+    return found;
+  }
+
+ private:
+  double least_dni_;
+  const MeasuredScene& scene_;
+};
+
+}  // namespace
+
+MeasureRule bright_sun() {
+  return {
+      .word = "bright_sun",
+      .definition = "hours of the period with sun on the surface and a beam of 120 W/m² or more",
+      .source = "WMO-No. 8, Guide to Instruments and Methods of Observation, I.8.1: sunshine",
+      .units = "h",
+      .keys = {{"least_dni_w_m2", sunshine_w_m2}, {"least_h", 0}},
+      .needs = MeasureRule::Needs::intervals,
+      .levels = [](const MeasureParameters& of) -> std::vector<MeasureLevel> {
+        if (of.number("least_h") == 0) return {};
+        return {{"pass", of.number("least_h")}};
+      },
+      .start = [](const MeasureParameters& of,
+                  const MeasuredScene& scene) -> std::unique_ptr<Measure> {
+        return std::make_unique<BrightSun>(of.number("least_dni_w_m2"), scene);
+      }};
+}
+
+}  // namespace rules
+
+}  // namespace sunload

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What a study asks of one measure.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "geo/base/check.h"
+#include "geo/time/time.h"
+
+namespace sunload {
+
+/// Patches that are measured: patterns of names (`*`, `?`) and a kind of surface; empty: any.
+struct MeasureOf {
+  std::string object, facade, surface;
+};
+
+struct MeasureParameters {
+  std::string name;                          ///< of its datasets: measure_NAME
+  std::string rule;                          ///< word in `measure_rules`
+  std::map<std::string, double> numbers;     ///< by key, defaults of the rule filled in
+  std::map<std::string, std::string> words;  ///< the same
+  std::optional<CivilTime> date;             ///< absent: the rule's own day, or it needs none
+  MeasureOf of;
+  Where where;
+
+  double number(const std::string& key) const { return numbers.at(key); }
+};
+
+}  // namespace sunload

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/plan/study_measures.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "geo/base/units.h"
+#include "io/base/name_pattern.h"
+#include "io/measure/rules.h"
+#include "solver/mesh/hierarchy.h"
+
+namespace sunload {
+
+namespace {
+
+std::vector<std::string> facade_names(const Mesh& mesh) {
+  std::vector<std::string> names;
+  for (const Facade& facade : mesh.facades) names.push_back(facade.name);
+  return names;
+}
+
+void expect_one(const std::string& pattern, const std::vector<std::string>& names,
+                const std::string& kind, const MeasureParameters& of, Problems& problems) {
+  if (pattern.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+        return matches(pattern, name);
+      }))
+    return;
+  std::string near;
+  for (const auto& name : near_names(pattern, names)) near += (near.empty() ? "" : ", ") + name;
+  problems.add(of.where, "measure " + of.name + ": no " + kind + " matches '" + pattern + "'", "",
+               near.empty() ? "" : "did you mean " + near + "?");
+}
+
+MeasuredInterval measured(const LitInterval& lit) {
+  MeasuredInterval interval{lit.when.begin, lit.when.end, 0, {}};
+  if (lit.when.sunlit_s <= 0) return interval;
+  // Means are over the whole interval.
+  interval.dni = lit.mean.dni * lit.when.length_s() / lit.when.sunlit_s;
+  const auto& samples = lit.when.sun_samples;
+  if (samples.empty()) interval.suns = {{lit.when.direction, lit.when.sunlit_s}};
+  for (const Vec3& sun : samples)
+    interval.suns.push_back({sun, lit.when.sunlit_s / static_cast<double>(samples.size())});
+  std::erase_if(interval.suns, [](const SunStretch& sun) { return sun.direction.z <= 0; });
+  return interval;
+}
+
+/// The rule's own day, in the year in which the period begins.
+void fill_in_date(MeasureParameters& of, const MeasureRule& rule, const VariantPlan& plan) {
+  if (of.date || !rule.day) return;
+  const TimeZone zone(plan.built.site.timezone);
+  const auto [month, day] = *rule.day;
+  of.date = {zone.civil_from_utc(plan.light.intervals.front().when.begin).year, month, day};
+}
+
+std::vector<std::size_t> chosen_patches(const MeasureOf& of, const Mesh& mesh,
+                                        const Hierarchy& hierarchy) {
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < hierarchy.patch_count(); ++i) {
+    const Patch& patch = hierarchy.patches()[i];
+    const auto t = static_cast<std::size_t>(patch.triangle);
+    const FacadeId facade = patch.side == 0 ? mesh.triangle_facade[t] : FacadeId::none();
+    const auto surface = surface_names[static_cast<std::size_t>(mesh.triangle_surface[t])];
+    if (!of.facade.empty() &&
+        (!facade.exists() || !matches(of.facade, mesh.facades[facade.index()].name)))
+      continue;
+    if (!of.surface.empty() && of.surface != surface) continue;
+    if (matches(of.object, mesh.object_names[mesh.triangle_object[t].index()])) chosen.push_back(i);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+void expect_measurable(const Study& study, const BuiltScene& built, const LightSeries& light) {
+  // A year of weather files, leap days left out.
+  constexpr double year_s = 365 * seconds_per_day;
+  const double length_s = std::accumulate(
+      light.intervals.begin(), light.intervals.end(), 0.0,
+      [](double sum, const LitInterval& interval) { return sum + interval.when.length_s(); });
+  Problems problems;
+  const auto facades = facade_names(built.scene.mesh);
+  for (const MeasureParameters& of : study.measures) {
+    expect_one(of.of.object, built.scene.mesh.object_names, "object", of, problems);
+    expect_one(of.of.facade, facades, "facade", of, problems);
+    if (find_measure_rule(of.rule)->needs == MeasureRule::Needs::weather_year && length_s < year_s)
+      problems.add(of.where, "measure " + of.name + " needs a whole year",
+                   "its hours are a share of the year's sunshine",
+                   "write period: {year_of: weather}");
+  }
+  problems.throw_if_any();
+}
+
+StudyMeasures::StudyMeasures(const VariantPlan& plan, const Hierarchy& hierarchy) {
+  if (plan.study.measures.empty()) return;
+  const Scene& scene = plan.built.scene;
+  caster_ = std::make_unique<RayCaster>(scene.mesh, plan.isa);
+  for (const LitInterval& lit : plan.light.intervals) intervals_.push_back(measured(lit));
+  for (const MeasureParameters& of : plan.study.measures) {
+    StudyMeasure& m = all_.emplace_back(StudyMeasure{of, find_measure_rule(of.rule), {}, {}, {}});
+    fill_in_date(m.parameters, *m.rule, plan);
+    m.patches = chosen_patches(of.of, scene.mesh, hierarchy);
+    m.scene = std::make_unique<MeasuredScene>(MeasuredScene{{},
+                                                            m.patches.size(),
+                                                            *caster_,
+                                                            plan.built.site,
+                                                            plan.study.sun.refraction,
+                                                            plan.study.sun.ut1_utc,
+                                                            intervals_});
+    for (const std::size_t i : m.patches)
+      m.scene->points.push_back({hierarchy.centroid(i), hierarchy.normal(i)});
+    for (const Sensor& sensor : scene.sensors)
+      m.scene->points.push_back({sensor.position, sensor.normal});
+    m.measure = m.rule->start(m.parameters, *m.scene);
+  }
+}
+
+}  // namespace sunload

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The measures of a study at work on one variant.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/measure/rule.h"
+#include "io/plan/variant_plan.h"
+
+namespace sunload {
+
+class Hierarchy;
+
+/// Throws InputError where a measure chooses nothing of the scene, or needs a year that the period
+/// is not.
+void expect_measurable(const Study& study, const BuiltScene& built, const LightSeries& light);
+
+/// One of them. What it refers to is kept by its study's.
+struct StudyMeasure {
+  MeasureParameters parameters;  ///< the date filled in
+  const MeasureRule* rule = nullptr;
+  std::vector<std::size_t> patches;  ///< that are measured, ascending
+  std::unique_ptr<MeasuredScene> scene;
+  std::unique_ptr<Measure> measure;
+};
+
+class StudyMeasures {
+ public:
+  /// Plan and mesh must outlive it. Nothing is computed yet.
+  StudyMeasures(const VariantPlan& plan, const Hierarchy& hierarchy);
+  std::vector<StudyMeasure>& all() { return all_; }
+
+ private:
+  std::unique_ptr<const RayCaster> caster_;  ///< every surface opaque
+  std::vector<MeasuredInterval> intervals_;
+  std::vector<StudyMeasure> all_;
+};
+
+}  // namespace sunload

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Measures of a study: values and verdicts on the command line, other measures, variants.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "io/result/measure_table.h"
+#include "io/result/reader.h"
+#include "tests/support/program.h"
+#include "tests/support/result_check.h"
+#include "tests/support/small_study.h"
+
+namespace sunload::test {
+namespace {
+
+const std::string measures =
+    "measures:\n"
+    "  exposure: {rule: en_17037, least_elevation_deg: 13, of: {object: house}}\n"
+    "  czech: {rule: csn_73_4301, of: {object: house}}\n"
+    "  sunny: {rule: sun_hours, date: 2026-12-21, least_elevation_deg: 5}\n"
+    "  sky: {rule: bre_209_vsc, of: {surface: wall}}\n"
+    "  glints: {rule: glint_hours, above_w_m2: 50, most_h: 1, of: {surface: ground}}\n"
+    "sensors: {points: [{position_m: [0, -9, 1], normal: [0, 0, 1]}]}\n";
+// A tower in the south of the house, 2 m from it.
+const std::string tower =
+    "o tower\nusemtl plaster\n"
+    "v -9 -2 0.01\nv 9 -2 0.01\nv 9 1 0.01\nv -9 1 0.01\nv -9 -2 30\nv 9 -2 30\nv 9 1 30\nv -9 1 "
+    "30\n"
+    "f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\nf 4 3 2 1\n";
+const std::string variants =
+    "variants:\n  - {name: base}\n  - {name: towered, scene: {files: [square.obj, tower.obj]}}\n";
+
+void write(const WorkFolder& folder, const std::string& more) {
+  folder.write("square.obj", square_obj);
+  folder.write("tower.obj", tower);
+  folder.write("square.yaml", square_study() + more);
+}
+
+constexpr const char* base = "results/square/base.h5";
+
+MeasureRow row_of(const ResultReader& result, const std::string& measure,
+                  const std::string& facade) {
+  for (const MeasureRow& row : measure_table(result, {{facade}, {}, {}}))
+    if (row.measure == measure) return row;
+  ADD_FAILURE() << measure << " of " << facade;
+  return {};
+}
+
+TEST(Measures, HaveVerdictsAndTellWhoLoses) {
+  const WorkFolder folder;
+  write(folder, measures + variants);
+  const Ran ran = program(folder, {"run", "square.yaml"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const ResultReader result(folder / base);
+  EXPECT_EQ(result.text_attribute("measures"), "exposure czech sunny sky glints");
+  // Open to the south at the equinox.
+  const MeasureRow south = row_of(result, "exposure", "house/south_1");
+  EXPECT_EQ(south.level, "high");
+  EXPECT_DOUBLE_EQ(south.margin, south.reached - 1.5);
+  EXPECT_EQ(south.passing_percent, 100);
+  EXPECT_EQ(row_of(result, "exposure", "house/north_1").level, "fail");
+  EXPECT_EQ(row_of(result, "exposure", "house/north_1").margin, -1.5);
+  const std::string dataset = "measure_czech";
+  EXPECT_EQ(result.units(dataset), "h");
+  for (const char* attribute : {"definition", "source", "rule", "parameters", "level_words"})
+    EXPECT_FALSE(result.text_attribute(dataset, attribute).empty()) << attribute;
+  const auto parameters = nlohmann::json::parse(result.text_attribute(dataset, "parameters"));
+  EXPECT_EQ(parameters["date"], nlohmann::json({2026, 3, 1}));
+  EXPECT_EQ(sums_problem(folder / base), "");
+
+  const Ran table = program(folder, {"info", base, "--measures", "--csv"});
+  EXPECT_EQ(table.out.rfind("measure,group,name,area_m2,mean,reached,units,level,margin,"
+                            "passing_percent\n",
+                            0),
+            0u);
+  EXPECT_NE(table.out.find("sunny,sensor,0,"), std::string::npos) << table.out;
+  const auto json =
+      nlohmann::json::parse(program(folder, {"info", base, "--measures", "--json"}).out);
+  EXPECT_EQ(json["measures"][0]["levels"].size(), 3u);
+  const Ran screen = program(folder, {"info", base});
+  EXPECT_NE(screen.out.find("exposure: mean"), std::string::npos) << screen.out;
+
+  const Ran compared = program(folder, {"compare", base, "results/square/towered.h5"});
+  EXPECT_NE(compared.out.find("facade house/south_1: high → fail"), std::string::npos)
+      << compared.out;
+  for (const char* quantity : {"measure_exposure", "measure_sky"}) {
+    const Ran drawn = program(
+        folder, {"render", base, "-o", "a.png", "--size", "200x150", "--quantity", quantity});
+    EXPECT_EQ(drawn.code, 0) << drawn.err;
+    const Ran exported =
+        program(folder, {"export", base, "--to", "csv", "-o", "a.csv", "--quantity", quantity});
+    EXPECT_EQ(exported.code, 0) << exported.err;
+  }
+  EXPECT_EQ(program(folder, {"view", base, "-o", "a.html"}).code, 0);
+  const Ran part = program(folder, {"info", base, "--measures", "--hours", "8-12"});
+  EXPECT_EQ(part.code, 2);
+  EXPECT_NE(part.err.find("of the whole period"), std::string::npos) << part.err;
+}
+
+TEST(Measures, OthersMakeAnotherResultOfTheSameBatches) {
+  const WorkFolder folder, whole;
+  write(folder, measures);
+  EXPECT_EQ(program(folder, {"run", "square.yaml", "--resume", "--shard", "0/2"}).code, 0);
+  // What another shard was told meanwhile.
+  const std::string other =
+      "measures: {sky: {rule: bre_209_vsc}}\n" + measures.substr(measures.find("sensors:"));
+  write(folder, other);
+  const Ran second =
+      program(folder, {"run", "square.yaml", "--resume", "--shard", "1/2", "--keep-batches"});
+  EXPECT_EQ(second.code, 0) << second.err;
+  write(whole, other);
+  EXPECT_EQ(program(whole, {"run", "square.yaml", "--threads", "1"}).code, 0);
+  const char* result = "results/square/baseline.h5";
+  EXPECT_EQ(different_data(folder / result, whole / result), std::vector<std::string>{});
+
+  write(folder, measures);
+  const Ran refused = program(folder, {"run", "square.yaml", "--resume"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("its measures differ"), std::string::npos) << refused.err;
+  EXPECT_EQ(program(folder, {"run", "square.yaml", "--overwrite"}).code, 0);
+  EXPECT_EQ(measure_names(ResultReader(folder / result)).size(), 5u);
+}
+
+TEST(Measures, ThatChooseNothingAreRefusedAtOnce) {
+  const WorkFolder folder;
+  write(folder,
+        "measures: {a: {rule: csn_73_4301, of: {facade: 'hause/*'}}, b: {rule: csn_73_4301, "
+        "of: {object: squares}}}\n");
+  const Ran ran = program(folder, {"check", "square.yaml"});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_NE(ran.err.find("measure a: no facade matches 'hause/*'"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find("measure b: no object matches 'squares'"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find("did you mean square?"), std::string::npos) << ran.err;
+}
+
+}  // namespace
+}  // namespace sunload::test

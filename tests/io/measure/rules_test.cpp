@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rules of intervals and series on cases by hand; the page of all rules.
+#include "io/measure/rules.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "geo/base/units.h"
+#include "io/measure/bright_intervals.h"
+#include "tests/support/paths.h"
+#include "tests/support/scenes.h"
+
+namespace sunload::test {
+namespace {
+
+/// A point that looks south and one that looks up, before a wall in the west.
+class TwoPoints {
+ public:
+  TwoPoints() {
+    SceneBuilder builder;
+    builder.box({-11, -50, 0}, {-10, 50, 50}, builder.material({"wall", 0.3, 0, 0}),
+                SceneBuilder::Facing::outward);
+    scene_ = builder.scene();
+    caster_ = std::make_unique<RayCaster>(scene_.mesh);
+  }
+  void add(const CivilTime& begin, double hours, double dni, Vec3 sun) {
+    const UnixTime t = utc_from_calendar(begin);
+    intervals_.push_back({t, t + 3600 * hours, dni, {{normalized(sun), 3600 * hours}}});
+  }
+  MeasuredScene scene() const {
+    return {{{{0, 0, 1}, {0, -1, 0}}, {{0, 0, 1}, {0, 0, 1}}},
+            2,
+            *caster_,
+            site_,
+            Refraction::none,
+            Ut1::table,
+            intervals_};
+  }
+
+ private:
+  Scene scene_;
+  Site site_;
+  std::unique_ptr<RayCaster> caster_;
+  std::vector<MeasuredInterval> intervals_;
+};
+
+constexpr Vec3 south{0, -1, 1}, north{0, 1, 1}, west{-1, -0.1, 1};
+
+TEST(BrightSun, CountsWhatIsSeenOfAStrongBeam) {
+  TwoPoints points;
+  points.add({2026, 1, 1, 10}, 1, 500, south);
+  points.add({2026, 1, 1, 11}, 2, 119, south);
+  points.add({2026, 6, 1, 5}, 3, 120, north);
+  points.add({2026, 6, 1, 18}, 4, 800, west);  // behind the wall
+  const MeasuredScene scene = points.scene();
+  MeasureParameters of;
+  of.numbers = {{"least_dni_w_m2", 120}, {"least_h", 0}};
+  const auto found = find_measure_rule("bright_sun")->start(of, scene)->values();
+  EXPECT_DOUBLE_EQ(found.value[0], 1);
+  EXPECT_DOUBLE_EQ(found.value[1], 4);
+  // BRE 209: of 8 hours of sunshine; in winter 1.
+  of.words = {{"season", "year"}};
+  const auto year = find_measure_rule("bre_209_probable_sun")->start(of, scene)->values();
+  EXPECT_DOUBLE_EQ(year.value[0], 100.0 / 8);
+  EXPECT_DOUBLE_EQ(year.value[1], 400.0 / 8);
+  of.words = {{"season", "winter"}};
+  const auto winter = find_measure_rule("bre_209_probable_sun")->start(of, scene)->values();
+  EXPECT_DOUBLE_EQ(winter.value[1], 100.0 / 8);
+}
+
+TEST(BrightSun, WinterLastsFromEquinoxToEquinox) {
+  TwoPoints points;
+  points.add({2026, 3, 20, 10}, 1, 500, south);
+  points.add({2026, 3, 21, 10}, 1, 500, south);
+  points.add({2026, 9, 20, 10}, 1, 500, south);
+  points.add({2026, 9, 21, 10}, 1, 500, south);
+  EXPECT_EQ(bright_stretches(points.scene(), sunshine_w_m2, InSeason::winter).size(), 2u);
+  EXPECT_EQ(bright_stretches(points.scene(), sunshine_w_m2).size(), 4u);
+}
+
+TEST(LightHours, CountsIntervalsAboveAThreshold) {
+  TwoPoints points;
+  points.add({2026, 1, 1, 10}, 1, 0, south);
+  points.add({2026, 1, 1, 11}, 2, 0, south);
+  points.add({2026, 1, 1, 13}, 4, 0, south);
+  const MeasuredScene scene = points.scene();
+  MeasureParameters of;
+  of.numbers = {{"above_w_m2", 100}, {"above_lx", 0}, {"least_h", 0}};
+  of.words = {{"light", "mirror"}};
+  const std::vector<double> none, last{200, 100}, first{101, 0, 99, 300};
+  // Batches in any order, of any size.
+  const auto measure = find_measure_rule("light_hours")->start(of, scene);
+  EXPECT_EQ(measure->series(), "irradiance_mirror");
+  measure->watch({2, 1, last, none});
+  measure->watch({0, 2, first, none});
+  const auto found = measure->values();
+  EXPECT_DOUBLE_EQ(found.value[0], 1 + 4);
+  EXPECT_DOUBLE_EQ(found.value[1], 2);
+}
+
+TEST(Rules, HaveLevelsSourcesAndKnownKeys) {
+  for (const MeasureRule& rule : measure_rules()) {
+    MeasureParameters of;
+    for (const RuleKey& key : rule.keys) {
+      of.numbers[key.key] = key.absent.value_or(1);
+      const auto& known = measure_keys();
+      EXPECT_TRUE(std::any_of(known.begin(), known.end(), [&](const MeasureKey& k) {
+        return k.key == key.key;
+      })) << key.key;
+    }
+    for (const RuleWords& key : rule.words) of.words[key.key] = key.words.front();
+    const auto levels = levels_of(rule, of);
+    for (std::size_t l = 1; l < levels.size(); ++l)
+      EXPECT_GT(levels[l].value, levels[l - 1].value) << rule.word;
+    EXPECT_FALSE(rule.source.empty() || rule.definition.empty() || rule.units.empty());
+    EXPECT_TRUE(rule.start != nullptr);
+    EXPECT_EQ(rule.needs == MeasureRule::Needs::sun_path, rule.day.has_value()) << rule.word;
+  }
+}
+
+TEST(Rules, AreOnThePageOfMeasures) {
+  std::ifstream file(source_folder() + "/docs/measures.md");
+  std::ostringstream page;
+  page << file.rdbuf();
+  EXPECT_NE(page.str().find(measure_rules_markdown()), std::string::npos)
+      << "docs/measures.md must have this table:\n"
+      << measure_rules_markdown();
+}
+
+}  // namespace
+}  // namespace sunload::test
