@@ -87,7 +87,7 @@ TEST(Measures, HaveVerdictsAndTellWhoLoses) {
       << compared.out;
   for (const char* quantity : {"measure_exposure", "measure_sky"}) {
     const Ran drawn = program(
-        folder, {"render", base, "-o", "a.png", "--size", "200x150", "--quantity", quantity});
+        folder, {"render", base, "-o", "a.png", "--size", "320x320", "--quantity", quantity});
     EXPECT_EQ(drawn.code, 0) << drawn.err;
     const Ran exported =
         program(folder, {"export", base, "--to", "csv", "-o", "a.csv", "--quantity", quantity});
