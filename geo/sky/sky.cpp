@@ -200,12 +200,18 @@ double preetham_zenith_luminance_kcd(double turbidity, double sun_zenith_deg) {
   return std::max(0.0, (4.0453 * T - 4.9710) * std::tan(chi) - 0.2155 * T + 2.4192);
 }
 
-double preetham_illuminance_klx(double turbidity, double sun_zenith_deg) {
-  const SkyShape shape = preetham(turbidity);
-  const Vec3 chord = Vec3{0, 0, 1} - enu_direction({0, 90 - sun_zenith_deg});
+double illuminance_klx(const SkyInput& sky, double zenith_luminance_kcd) {
+  const SkyShape shape = shape_of(sky);
+  const Vec3 chord = Vec3{0, 0, 1} - enu_direction({0, 90 - sky.sun_zenith_deg});
   const double at_zenith = shape.gradation(1) * shape.indicatrix(dot(chord, chord));
-  return preetham_zenith_luminance_kcd(turbidity, sun_zenith_deg) / at_zenith *
-         horizontal_integral(shape, std::cos(radians(sun_zenith_deg)));
+  return zenith_luminance_kcd / at_zenith *
+         horizontal_integral(shape, std::cos(radians(sky.sun_zenith_deg)));
+}
+
+double preetham_illuminance_klx(double turbidity, double sun_zenith_deg) {
+  return illuminance_klx(
+      {.model = SkyModel::preetham, .sun_zenith_deg = sun_zenith_deg, .turbidity = turbidity},
+      preetham_zenith_luminance_kcd(turbidity, sun_zenith_deg));
 }
 
 RelativeSky relative_sky(const SkyInput& input) {

@@ -63,9 +63,13 @@ PerezCoefficients perez_coefficients(const SkyCondition& sky, double sun_zenith_
 /// negative (the formula is, for low turbidity and a low sun).
 double preetham_zenith_luminance_kcd(double turbidity, double sun_zenith_deg);
 
-/// Horizontal illuminance [klx] of the whole sky with that zenith luminance and Preetham's
+/// Horizontal illuminance [klx] of the whole sky with Preetham's zenith luminance and
 /// distribution; the sun at most 90 degrees from the zenith.
 double preetham_illuminance_klx(double turbidity, double sun_zenith_deg);
+
+/// The same of any model's distribution (SkyInput::sun_zenith_deg, cie_type, turbidity; of perez
+/// the irradiances, too) with that luminance at the zenith [kcd m-2].
+double illuminance_klx(const SkyInput& sky, double zenith_luminance_kcd);
 
 /// ∫ gradation·indicatrix·cosθ dω over the hemisphere with the sun at this cosine of the
 /// zenith angle, within 2e-7 (measured in the tests), in about 40 µs.

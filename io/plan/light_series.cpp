@@ -90,13 +90,6 @@ Irradiance over_interval(const SunInterval& when, const Irradiance& lit, const I
   return {direct.dni * share, open.dhi, open.dhi + (direct.ghi - direct.dhi) * share};
 }
 
-LitInterval fixed_light(const SunInterval& when, const LightStudy& light) {
-  const double sin_elevation = std::max(0.0, std::sin(radians(when.sun.elevation_deg)));
-  const Irradiance lit{light.dni_w_m2, light.dhi_w_m2,
-                       light.dni_w_m2 * sin_elevation + light.dhi_w_m2};
-  return {when, over_interval(when, lit, lit), lit};
-}
-
 /// Without sun above the horizon: the sky of a sun that stands on it.
 double sky_zenith_deg(const SunInterval& when) {
   return std::clamp(90 - when.sun.elevation_deg, 0.0, 90.0);
@@ -118,16 +111,53 @@ std::string clock_warning(const std::string& timezone, const Site& site, UnixTim
       timezone, std::abs(gap_h), gap_h > 0 ? "ahead of" : "behind", site.longitude_deg);
 }
 
-/// Puts the model's own luminance in place of the diffuse light while the sun is up, at the
-/// representative sun.
+/// Diffuse irradiance whose illuminance is this by the efficacy that follows from it and the DNI.
+/// Efficacy jumps between classes of skies: where no irradiance fits, that of the jump.
+double dhi_of(double illuminance_lx, LitInterval interval) {
+  constexpr int halvings = 60;          // to the last digit of a double
+  constexpr double least_lm_per_w = 1;  // far below any daylight's
+  double low = 0, high = illuminance_lx / least_lm_per_w;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (low + high) / 2;
+    interval.of_the_sky.dhi = middle;
+    (middle * efficacy_of(interval).diffuse < illuminance_lx ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+/// Puts the sky's own luminance in place of the diffuse light while the sun is up, at the
+/// representative sun. Watts follow by the efficacy of the clear sky that the source has, or where
+/// it has none by that of the sky itself.
 void make_sky_absolute(LitInterval& interval, const LightStudy& light) {
-  constexpr double lux_per_kilolux = 1000;
-  interval.lm_per_w = efficacy_of(interval);
+  constexpr double kilo = 1000;
+  const double sun_zenith_deg = sky_zenith_deg(interval.when);
+  const double zenith_kcd = light.zenith_luminance_cd_m2
+                                ? *light.zenith_luminance_cd_m2 / kilo
+                                : preetham_zenith_luminance_kcd(light.turbidity, sun_zenith_deg);
+  const double lux = kilo * illuminance_klx({.model = light.sky,
+                                             .sun_zenith_deg = sun_zenith_deg,
+                                             .cie_type = light.sky_type,
+                                             .turbidity = light.turbidity},
+                                            zenith_kcd);
   Irradiance& sky = interval.of_the_sky;
-  const double dhi = preetham_illuminance_klx(light.turbidity, sky_zenith_deg(interval.when)) *
-                     lux_per_kilolux / interval.lm_per_w->diffuse;
+  const bool is_fixed = light.source == LightSource::fixed;
+  LitInterval by_itself = interval;
+  if (is_fixed) by_itself.of_the_sky.dhi = dhi_of(lux, interval);
+  interval.lm_per_w = efficacy_of(by_itself);
+  if (is_fixed && lux > 0) interval.lm_per_w->diffuse = lux / by_itself.of_the_sky.dhi;
+  const double dhi = lux / interval.lm_per_w->diffuse;
   sky.ghi += dhi - sky.dhi;
   sky.dhi = dhi;
+}
+
+LitInterval fixed_light(const SunInterval& when, const LightStudy& light) {
+  const bool is_absolute = light.sky_scale == SkyScale::absolute;
+  const double sin_elevation = std::max(0.0, std::sin(radians(when.sun.elevation_deg)));
+  const double dhi = is_absolute ? 0 : light.dhi_w_m2;
+  LitInterval interval{when, {}, {light.dni_w_m2, dhi, light.dni_w_m2 * sin_elevation + dhi}};
+  if (is_absolute && when.up_s > 0) make_sky_absolute(interval, light);
+  interval.mean = over_interval(when, interval.of_the_sky, interval.of_the_sky);
+  return interval;
 }
 
 /// How far UT1 may be from UTC behind the table. Leap seconds keep it below 0.9 s until 2035 (CGPM

@@ -15,6 +15,7 @@
 #include "io/plan/mesh_family.h"
 #include "io/plan/rules_of_study.h"
 #include "solver/base/rng.h"
+#include "solver/matrix/form_factors.h"
 
 namespace sunload {
 
@@ -88,10 +89,27 @@ PeriodLight period_light(const VariantPlan& plan) {
   return light;
 }
 
+namespace {
+
+/// All pairs of patches are too many soon.
+void expect_small_enough(const VariantPlan& plan, const Hierarchy& mesh) {
+  if (plan.study.solver.transport != Transport::matrix) return;
+  if (mesh.patch_count() <= most_matrix_patches) return;
+  throw InputError(plan.study.scene.where,
+                   fmt::format("the scene has {} patches, and transport: matrix takes {} at most",
+                               mesh.patch_count(), most_matrix_patches),
+                   "its work grows with their number's third power",
+                   "write a larger mesh.max_edge_m or light_tolerance (or mesh.oracle: none), take "
+                   "a part of the scene, or write solver.transport: gather");
+}
+
+}  // namespace
+
 VariantMesh unrefined_mesh(const VariantPlan& plan) {
   VariantMesh made;
   made.mesh = std::make_shared<const Hierarchy>(plan.built.scene, split_rules(plan.study));
   made.report.patches = made.report.patches_before = made.mesh->patch_count();
+  expect_small_enough(plan, *made.mesh);
   return made;
 }
 
@@ -133,8 +151,9 @@ VariantMesh mesh_of_family(const VariantPlan& plan, Watch& watch) {
 
 }  // namespace
 
-VariantMesh make_mesh(const VariantPlan& plan, Watch& watch) {
-  if (plan.study.mesh.oracle == Oracle::none) return unrefined_mesh(plan);
+namespace {
+
+VariantMesh mesh_by_oracle(const VariantPlan& plan, Watch& watch) {
   if (plan.family) {
     if (!plan.family->made) plan.family->made = mesh_of_family(plan, watch);
     return *plan.family->made;
@@ -146,6 +165,15 @@ VariantMesh make_mesh(const VariantPlan& plan, Watch& watch) {
   const RayCaster caster(scene.mesh, plan.isa, screens(scene));
   made.mesh = std::make_shared<const Hierarchy>(refined_mesh(
       scene, caster, split, refine_rules(plan.study), period_light(plan), watch, &made.report));
+  return made;
+}
+
+}  // namespace
+
+VariantMesh make_mesh(const VariantPlan& plan, Watch& watch) {
+  if (plan.study.mesh.oracle == Oracle::none) return unrefined_mesh(plan);
+  VariantMesh made = mesh_by_oracle(plan, watch);
+  expect_small_enough(plan, *made.mesh);
   return made;
 }
 

@@ -22,6 +22,18 @@ void refuse_lamps_in_lux(const VariantPlan& plan) {
                    "set their emission_w_m2 to 0, or light.quantity to irradiance");
 }
 
+/// Form factors are those of opaque diffuse surfaces.
+void refuse_smooth_surfaces_in_a_matrix(const VariantPlan& plan) {
+  if (plan.study.solver.transport != Transport::matrix) return;
+  const Scene& scene = plan.built.scene;
+  for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t)
+    if (const Material& material = scene.material_of(t); goes_on_straight(material))
+      throw InputError(plan.study.scene.where,
+                       "material '" + material.name + "' is a mirror, glass, glossy or lets pass",
+                       "transport: matrix exchanges light between opaque diffuse surfaces",
+                       "make it diffuse, or write solver.transport: gather or shoot");
+}
+
 }  // namespace
 
 VariantPlan plan_of(const Study& study, BuiltScene built, LightSeries light) {
@@ -33,6 +45,7 @@ VariantPlan plan_of(const Study& study, BuiltScene built, LightSeries light) {
   plan.totals = part_totals(study, plan.light, plan.built.site.latitude_deg);
   refuse_lamps_in_lux(plan);
   expect_measurable(study, plan.built, plan.light);
+  refuse_smooth_surfaces_in_a_matrix(plan);
   plan.content_hash = hash_with_isa(plan, plan.isa);
   plan.pairing_id = pairing_id(study, plan.light);
   return plan;

@@ -132,7 +132,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   const auto suns = static_cast<double>(plan.light.sun_samples());
   const auto batch = static_cast<double>(std::min(plan.batch_suns(), plan.intervals()));
   const auto batches = static_cast<double>(plan.batches());
-  const double lines = n * counts.mean_lines(), links = lines * s.bounces;
+  const bool by_matrix = s.transport == Transport::matrix;
+  const double lines = n * counts.mean_lines(), links = by_matrix ? n * n : lines * s.bounces;
   const double of_realizations = double_bytes * s.realizations;
   const bool of_instants = plan.study.output.standard_error == StandardErrors::instants;
   const bool is_rgb = s.bands == Bands::rgb;
@@ -143,7 +144,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   const PartCost periods = part_cost(plan.totals, plan.batch_suns());
   // Solved side by side, as suns are, by every realization on its lines.
   const double suns_of_parts =
-      s.transport == Transport::gather ? static_cast<double>(periods.blocks * block_width) : 0;
+      s.transport != Transport::shoot ? static_cast<double>(periods.blocks * block_width) : 0;
   // Of every part: all light, the direct one, sun hours; with errors the realizations, too.
   constexpr double sums_of_part = 3, values_of_part = 4;
 
@@ -173,6 +174,10 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
         n * float_bytes * (year_suns + year_skies * (2.0 + (mirrors ? 1 : 0) + s.realizations));
   work.memory_bytes += bands * n * static_cast<double>(periods.most) *
                        (arrays_of_realizations * of_realizations + sums_of_part * double_bytes);
+  if (by_matrix)
+    work.memory_bytes +=
+        n * n *
+        ((s.realizations + 1.0) * bytes_per_form_factor + thread_count() * bytes_per_factor_solved);
   if (s.transport == Transport::shoot) {
     const double blocks = batches * std::ceil(batch / static_cast<double>(block_width));
     work.samples =
@@ -197,7 +202,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
        rays * s_per_direct_ray +
        (mirrors ? n * mirrored_share * suns * counts.direct_samples * s_per_mirror_ray : 0) +
        (guided ? n * s_per_guided_patch : 0) +
-       (s.transport == Transport::gather
+       (by_matrix ? n * n * (s_per_form_factor + n * s.realizations * s_per_factor_solved) : 0) +
+       (s.transport != Transport::shoot
             ? bands * (links * solved * s_per_link_sun + links * batches * s_per_link_batch +
                        links * suns_of_parts * s_per_link_sun +
                        n * suns_of_parts * s.realizations * s_per_patch_sun_realization +

@@ -134,7 +134,7 @@ std::string accuracy(const ResultReader& result, const PatchGroups& groups,
          reduction(result) + asked_for(result);
 }
 
-/// Least, mean and largest value of a quantity over the patches.
+/// Least, mean and largest value of a quantity over the patches, and all their ratios.
 std::string analysis(const std::string& name, const std::vector<double>& values,
                      const PatchGroups& groups) {
   if (values.empty()) return {};
@@ -143,14 +143,16 @@ std::string analysis(const std::string& name, const std::vector<double>& values,
   const auto ratio = [](double a, double b) {
     return b == 0 ? std::string("-") : fmt::format("{:.3f}", a / b);
   };
-  return fmt::format("  {:<24}{:>10.4g} {:>10.4g} {:>10.4g} {:>10} {:>10}\n", name, *least, mean,
-                     *largest, ratio(*least, mean), ratio(*least, *largest));
+  return fmt::format("  {:<24}{:>10.4g} {:>10.4g} {:>10.4g} {:>9} {:>9} {:>9} {:>9} {:>9}\n", name,
+                     *least, mean, *largest, ratio(*least, mean), ratio(*least, *largest),
+                     ratio(mean, *least), ratio(*largest, *least), ratio(*largest, mean));
 }
 
 std::string lighting_analysis(const ResultReader& result, const PatchGroups& groups,
                               const std::vector<double>& load) {
-  std::string text = fmt::format("{:<26}{:>10} {:>10} {:>10} {:>10} {:>10}\n", "lighting analysis",
-                                 "min", "mean", "max", "min/mean", "min/max");
+  std::string text =
+      fmt::format("{:<26}{:>10} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "lighting analysis",
+                  "min", "mean", "max", "min/mean", "min/max", "mean/min", "max/min", "max/mean");
   const std::string series = dataset_name("irradiance", result.quantity());
   const auto with_units = [&](const std::string& name, const std::string& dataset) {
     return name + ", " + display_units(result.units(dataset));

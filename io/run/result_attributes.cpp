@@ -14,6 +14,7 @@
 #include "io/batch/batch_tally.h"
 #include "io/plan/content_hash.h"
 #include "io/run/measure_merge.h"
+#include "io/study/words.h"
 #include "solver/accuracy.h"
 
 namespace sunload {
@@ -103,7 +104,7 @@ void add_identity(Attributes& a, const MergedResult& result) {
                  {"study_sha256", plan.content_hash},
                  {"pairing_id", plan.pairing_id},
                  {"isa", plan.isa},
-                 {"transport", study.solver.transport == Transport::shoot ? "shoot" : "gather"}});
+                 {"transport", word_of(study.solver.transport)}});
   if (!study.measures.empty()) {
     std::string names;
     for (const auto& measure : study.measures) names += (names.empty() ? "" : " ") + measure.name;

@@ -107,8 +107,8 @@ json canonical(const SunStudy& sun) {
 
 json canonical(const LightStudy& light) {
   const auto& [source, model, linke_turbidity, dni_w_m2, dhi_w_m2, sky, sky_type, turbidity,
-               sky_scale, far_ground_albedo, quantity, weather, colour, stamp, missing,
-               decomposition] = light;
+               sky_scale, zenith_luminance_cd_m2, far_ground_albedo, quantity, weather, colour,
+               stamp, missing, decomposition] = light;
   // The weather file is hashed by its bytes; the colour belongs to the solver's bands.
   json canon = {{"stamp", maybe(stamp)},       {"quantity", word_of(quantity)},
                 {"missing", word_of(missing)}, {"decomposition", word_of(decomposition)},
@@ -119,6 +119,7 @@ json canonical(const LightStudy& light) {
                 {"turbidity", turbidity}};
   // The usual scale has no key: hashes stay those of the time before there was another.
   if (sky_scale != SkyScale::diffuse) canon["sky_scale"] = word_of(sky_scale);
+  if (zenith_luminance_cd_m2) canon["zenith_luminance_cd_m2"] = *zenith_luminance_cd_m2;
   return canon;
 }
 

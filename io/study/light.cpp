@@ -16,7 +16,9 @@ constexpr Range linke_turbidities{1, 20};   // 1: a clean, dry sky; smog reaches
 constexpr Range irradiances_w_m2{0, 2000};  // above the sun outside of the atmosphere (1361)
 constexpr Range albedos{0, 1};
 constexpr Range preetham_turbidities{2, 10};  // Preetham et al. (1999), fitted to 2 … 10
-constexpr int cie_sky_types = 15;             // ISO 15469:2004, table 1
+// Above the brightest zenith of any clear sky (a sun overhead in haze) by a factor of some ten.
+constexpr Range luminances_cd_m2{0, 1e6, Range::Low::excluded};
+constexpr int cie_sky_types = 15;  // ISO 15469:2004, table 1
 
 Turbidity read_turbidity(YamlMap& map) {
   const std::string key = "linke_turbidity";
@@ -57,7 +59,33 @@ void warn_unused(YamlMap& map, const LightStudy& light) {
     }
   }
   if (light.sky != SkyModel::cie_general) unused("sky_type", "sky: cie_general");
-  if (light.sky != SkyModel::preetham) unused("turbidity", "sky: preetham");
+  if (light.sky_scale != SkyScale::absolute) {
+    unused("zenith_luminance_cd_m2", "sky_scale: absolute");
+    if (light.sky != SkyModel::preetham) unused("turbidity", "sky: preetham");
+  } else {
+    if (light.zenith_luminance_cd_m2 && light.sky != SkyModel::preetham)
+      unused("turbidity", "skies without zenith_luminance_cd_m2");
+    if (light.source == LightSource::fixed) unused("dhi_w_m2", "sky_scale: diffuse");
+  }
+}
+
+/// Whether the zenith's luminance is known, and nothing else says how bright the sky is.
+void expect_absolute(YamlMap& map, const LightStudy& light) {
+  if (light.source == LightSource::weather)
+    map.problem("sky_scale", "absolute cannot go with source: weather",
+                "the weather says how bright the sky is", "write sky_scale: diffuse");
+  if (light.sky == SkyModel::perez) {
+    map.problem("sky_scale", "absolute cannot go with sky: perez",
+                "its shape follows from the diffuse irradiance, which would follow from it",
+                "write sky_scale: diffuse, or sky: preetham, cie_clear or cie_general");
+    return;
+  }
+  const bool by_turbidity = light.sky == SkyModel::preetham || light.sky == SkyModel::cie_clear ||
+                            light.sky == SkyModel::cie_general;
+  if (!by_turbidity && !light.zenith_luminance_cd_m2)
+    map.problem("sky_scale", "absolute needs zenith_luminance_cd_m2 here",
+                "turbidity tells the zenith's luminance of clear skies only",
+                "write zenith_luminance_cd_m2, or sky: preetham, cie_clear or cie_general");
 }
 
 /// The weather file and how it is read.
@@ -104,18 +132,15 @@ LightStudy read_light(YamlMap& map, const std::string& folder) {
   light.sky_type = map.integer("sky_type", 1, cie_sky_types, light.sky_type);
   light.turbidity = map.number("turbidity", preetham_turbidities, light.turbidity);
   light.sky_scale = map.choice("sky_scale", light.sky_scale);
-  if (light.sky_scale == SkyScale::absolute &&
-      (light.sky != SkyModel::preetham || light.source != LightSource::clear_sky))
-    map.problem("sky_scale", "absolute goes with sky: preetham and source: clear_sky only",
-                "no other model has a luminance of its own, and other sources say how bright the "
-                "sky is",
-                "write sky_scale: diffuse");
+  light.zenith_luminance_cd_m2 = map.number("zenith_luminance_cd_m2", luminances_cd_m2);
+  if (light.sky_scale == SkyScale::absolute) expect_absolute(map, light);
   light.far_ground_albedo = map.number("far_ground_albedo", albedos, light.far_ground_albedo);
   read_weather(map, folder, light);
   light.quantity = map.choice("quantity", light.quantity);
   light.colour = map.choice("colour", light.colour);
   for (const char* key : {"dni_w_m2", "dhi_w_m2"}) {
-    if (light.source == LightSource::fixed && !map.has(key)) {
+    const bool follows = key == std::string("dhi_w_m2") && light.sky_scale == SkyScale::absolute;
+    if (light.source == LightSource::fixed && !map.has(key) && !follows) {
       map.problem("source", std::string("fixed needs ") + key, "", "write it beside `source`");
     }
   }

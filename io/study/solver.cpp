@@ -88,7 +88,7 @@ void read_shooting(YamlMap& map, SolverStudy& solver) {
   const std::string key = "power_per_sample_w";
   if (map.kind(key) != YamlNode::Kind::text || map.text(key, "") != "auto")
     solver.power_per_sample_w = map.number(key, watts);
-  if (solver.transport == Transport::shoot) return;
+  if (solver.transport == Transport::shoot) return;  // gathering and the matrix have no samples
   for (const std::string& unused : {std::string("jacobi"), key})
     if (map.has(unused)) map.warn(unused, "is not used", "it belongs to transport: shoot");
 }
@@ -101,6 +101,10 @@ namespace {
 void read_accuracy(YamlMap& map, SolverStudy& solver) {
   const bool describe = map.reading().purpose == YamlReading::Purpose::describe;
   map.tree("accuracy");
+  if (map.has("accuracy") && solver.transport == Transport::matrix)
+    map.problem("accuracy", "cannot go with transport: matrix",
+                "no pilot tells how many lines its first light needs",
+                "write lines_per_patch and direct_samples, or transport: gather");
   if (map.has("accuracy") || describe) {
     map.section("accuracy", [&](YamlMap& section) {
       solver.accuracy = {section.number("light_load_relative", relative_errors),
@@ -119,6 +123,18 @@ void read_accuracy(YamlMap& map, SolverStudy& solver) {
     map.problem("max_lines_per_patch",
                 fmt::format("{} is below the least counts", solver.max_lines_per_patch),
                 fmt::format("lines_per_patch and direct_samples ask for up to {}", least));
+}
+
+/// What other transports do not have.
+void expect_gathering(YamlMap& map, const SolverStudy& solver) {
+  if (solver.bands == Bands::rgb && solver.transport != Transport::gather)
+    map.problem("bands", "rgb cannot go with transport: " + word_of(solver.transport),
+                "bands share the lines of gathering", "write transport: gather");
+  if (solver.year == Year::modes &&
+      (solver.bands == Bands::rgb || solver.transport != Transport::gather))
+    map.problem("year", "modes cannot go with bands: rgb or transport: shoot or matrix",
+                "they share solutions of broadband light that is gathered",
+                "write auto or each, or leave it out");
 }
 
 /// Absent: auto.
@@ -146,14 +162,7 @@ SolverStudy read_solver(YamlMap& map) {
       map.integer("realizations", fewest_realizations, most_realizations, unread);
   solver.mirror_depth = map.integer("mirror_depth", 0, most_reflections, solver.mirror_depth);
   solver.bands = map.choice("bands", solver.bands);
-  if (solver.bands == Bands::rgb && solver.transport == Transport::shoot)
-    map.problem("bands", "rgb cannot go with transport: shoot",
-                "bands share the lines of gathering", "write transport: gather");
-  if (solver.year == Year::modes &&
-      (solver.bands == Bands::rgb || solver.transport == Transport::shoot))
-    map.problem("year", "modes cannot go with bands: rgb or transport: shoot",
-                "they share solutions of broadband light that is gathered",
-                "write auto or each, or leave it out");
+  expect_gathering(map, solver);
   solver.batch_suns = map.integer("batch_suns", 1, most_batch_suns, solver.batch_suns);
   solver.isa = map.word("isa", {"auto", "sse4.2", "avx2", "avx512"}, solver.isa);
   const auto seed = map.integer("seed", std::int64_t{0}, std::numeric_limits<std::int64_t>::max(),

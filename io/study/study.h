@@ -97,8 +97,9 @@ struct LightStudy {
   double dni_w_m2 = 0, dhi_w_m2 = 0;  ///< of `fixed`
   SkyModel sky = SkyModel::perez;
   int sky_type = 12;     ///< of cie_general
-  double turbidity = 3;  ///< of preetham
+  double turbidity = 3;  ///< of preetham, and of the zenith's luminance of absolute CIE skies
   SkyScale sky_scale = SkyScale::diffuse;
+  std::optional<double> zenith_luminance_cd_m2;  ///< of absolute skies; absent: by turbidity
   double far_ground_albedo = 0.2;
   Quantity quantity = Quantity::irradiance;
   std::string weather;  ///< file, already resolved; the rest is of `weather` too

@@ -67,7 +67,8 @@ inline Words<Jacobi> words_of(Jacobi) {
   return {{"incremental", Jacobi::incremental}, {"regular", Jacobi::regular}};
 }
 inline Words<Transport> words_of(Transport) {
-  return {{"gather", Transport::gather}, {"shoot", Transport::shoot}};
+  return {
+      {"gather", Transport::gather}, {"shoot", Transport::shoot}, {"matrix", Transport::matrix}};
 }
 inline Words<Bands> words_of(Bands) {
   return {{"broadband", Bands::broadband}, {"rgb", Bands::rgb}};

@@ -58,10 +58,15 @@ inline constexpr double s_per_value = 1.2e-8;  ///< one patch of one interval, s
 inline constexpr double elements_per_leaf = 2, points_per_element = 16;
 inline constexpr double other_directions = 16;
 
+// The matrix of a small scene: one form factor, and its share in a realization's factorisation.
+inline constexpr double s_per_form_factor = 1.5e-6, s_per_factor_solved = 3e-10;
+
 // Memory.
 inline constexpr double double_bytes = 8, float_bytes = 4;
 inline constexpr double program_bytes = 3.6e7, bytes_per_line = 12.2, bytes_per_patch = 1400;
 inline constexpr double bytes_per_interval = 500;
+inline constexpr double bytes_per_form_factor = 12;       ///< of one realization: it and its link
+inline constexpr double bytes_per_factor_solved = 40;     ///< of one thread
 inline constexpr double bytes_per_sample = 40;            ///< of one realization and iteration
 inline constexpr double shooting_bytes_per_patch = 2700;  ///< columns in double
 inline constexpr double columns_of_a_realization = 8;     ///< direct sun, in doubles

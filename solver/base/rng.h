@@ -24,6 +24,7 @@ enum class Purpose : std::uint32_t {
   parallel_light = 10,
   bright_surfaces = 11,
   sun_disk = 12,  ///< points of it that glossy surfaces ask
+  form_factors = 13,
   shooting = 16,
 };
 

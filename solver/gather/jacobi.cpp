@@ -52,21 +52,52 @@ void gather(const LinkTable& links, const std::vector<double>& source, std::vect
   });
 }
 
+namespace {
+
+/// Passes over the links that so many bounces take.
+int passes(const LineSet& lines, int bounces) {
+  return lines.all_reflections ? std::min(bounces, 1) : bounces;
+}
+
+/// ρ (base + irradiance), of all elements.
+void set_radiosity(const Hierarchy& mesh, const PatchOptics& optics, const Columns& base,
+                   Reflected& light) {
+  parallel_for(
+      optics.diffuse.size(),
+      [&](std::size_t i) {
+        for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k)
+          light.gathered_radiosity[k] = optics.diffuse[i] * (base[k] + light.irradiance[k]);
+      },
+      LinkTable::rows_per_block);
+  pull_up(mesh, light.gathered_radiosity);
+}
+void set_radiosity(const Hierarchy& mesh, const PatchOptics& optics,
+                   const std::vector<double>& base, ReflectedExposure& light) {
+  for (std::size_t i = 0; i < base.size(); ++i)
+    light.gathered_radiosity[i] =
+        static_cast<double>(optics.diffuse[i]) * (base[i] + light.irradiance[i]);
+  pull_up(mesh, light.gathered_radiosity);
+}
+
+/// Where links stand for all reflections, what was gathered is all radiosity, and nothing is left.
+template <class Light, class Irradiance>
+void count_all_as_gathered(const Hierarchy& mesh, const PatchOptics& optics, const Irradiance& base,
+                           Light& light) {
+  set_radiosity(mesh, optics, base, light);
+  light.before = light.irradiance;
+}
+
+}  // namespace
+
 Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                   const Columns& base, const Columns& ground, int bounces) {
   Reflected out{ground, columns(mesh.element_count()), {}};
-  for (int b = 1; b <= bounces; ++b) {
-    parallel_for(
-        optics.diffuse.size(),
-        [&](std::size_t i) {
-          for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k)
-            out.gathered_radiosity[k] = optics.diffuse[i] * (base[k] + out.irradiance[k]);
-        },
-        LinkTable::rows_per_block);
-    pull_up(mesh, out.gathered_radiosity);
+  for (int b = 1; b <= passes(lines, bounces); ++b) {
+    set_radiosity(mesh, optics, base, out);
     out.before.swap(out.irradiance);
     out.irradiance = ground;
     gather(lines.patches, out.gathered_radiosity, out.irradiance, Into::add);
+    if (lines.all_reflections) count_all_as_gathered(mesh, optics, base, out);
   }
   return out;
 }
@@ -75,20 +106,19 @@ ReflectedExposure reflect(const Hierarchy& mesh, const LineSet& lines, const Pat
                           const std::vector<double>& base, const std::vector<double>& ground,
                           int bounces) {
   ReflectedExposure out{ground, std::vector<double>(mesh.element_count(), 0), {}};
-  for (int b = 1; b <= bounces; ++b) {
-    for (std::size_t i = 0; i < base.size(); ++i)
-      out.gathered_radiosity[i] =
-          static_cast<double>(optics.diffuse[i]) * (base[i] + out.irradiance[i]);
-    pull_up(mesh, out.gathered_radiosity);
+  for (int b = 1; b <= passes(lines, bounces); ++b) {
+    set_radiosity(mesh, optics, base, out);
     out.before.swap(out.irradiance);
     out.irradiance = ground;
     gather(lines.patches, out.gathered_radiosity, out.irradiance, Into::add);
+    if (lines.all_reflections) count_all_as_gathered(mesh, optics, base, out);
   }
   return out;
 }
 
 int bounces_needed(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                    int bounces, double unshot) {
+  if (lines.all_reflections) return bounces;
   const std::vector<double>& area = mesh.area();
   const std::size_t patches = area.size();
   std::vector<double> received(patches), radiosity(mesh.element_count());

@@ -10,6 +10,8 @@
 /// brings, E^(∞) - E^(n), can be estimated (solver/gather/unfollowed.h).
 /// Reusing the lines in every iteration is unbiased for two transports and
 /// biased by O(1/lines) after (Bekaert 1999; docs/developer/method.md, Gathering).
+/// Links that stand for all reflections (LineSet::all_reflections) are gathered over once, for any
+/// number of bounces above 0, and leave nothing.
 #pragma once
 
 #include <vector>

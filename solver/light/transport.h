@@ -6,8 +6,9 @@
 namespace sunload {
 
 /// gather: over lines traced once (solver/gather/jacobi); shoot: by samples of power
-/// (solver/shoot/shooting).
-enum class Transport { gather, shoot };
+/// (solver/shoot/shooting); matrix: by form factors between all patches of a small scene
+/// (solver/matrix/form_factors).
+enum class Transport { gather, shoot, matrix };
 
 /// When shooting. incremental: what is not yet shot; regular: all of it again in every iteration.
 enum class Jacobi { incremental, regular };

@@ -77,7 +77,8 @@ LineSet empty_line_set(std::size_t rows, bool any_lamps) {
           LinkTable(rows),
           std::vector<LineEnds>(rows),
           std::vector<double>(any_lamps ? rows : 0),
-          {}};
+          {},
+          false};
 }
 
 namespace {
@@ -105,7 +106,7 @@ class BlockTracer {
     output.mirrored_fates.resize(lines.realizations.size());
     LineBundle bundle;
     Row row{BrightView(guide_), {}, {}};
-    for (std::size_t first = begin, last; first < end; first = last) {
+    for (std::size_t first = begin, last = begin; first < end; first = last) {
       last = end_of_bundle(first, end);
       cast(first, last, bundle);
       std::size_t at = 0;

@@ -71,6 +71,8 @@ struct LineSet {
   /// Irradiance by emitters, straight or by mirrors [W m-2]; empty: none.
   std::vector<double> lamps;
   MirroredFates mirrored_fates;
+  /// `patches` stands for all reflections at once, and not for one (solver/matrix).
+  bool all_reflections = false;
 };
 
 /// Where a line met a glossy surface: any sun may be asked from there

@@ -220,6 +220,37 @@ ElementLoad MeshPilot::load(std::size_t element, std::uint8_t side, double min_a
   return load;
 }
 
+ElementLoad MeshPilot::sources(std::size_t element, std::uint8_t side, double min_area_m2) const {
+  const double area_m2 = forest_.area(element);
+  const Points points(forest_, element, side, caster_.offset_m(), seed_,
+                      packets_for(area_m2, min_area_m2));
+  ElementLoad load;
+  look_for_suns(points, load);
+  double unused[packet_size] = {};
+  for (std::size_t p = 0; p < points.packets.size() && !emitters_.empty(); ++p)
+    for (std::uint32_t h = 0; h < halves_of_light; ++h)
+      add_emitters(points, p, h, area_m2, unused, load);
+  return load;
+}
+
+/// From the highest one down: the first that some point sees is the one that counts.
+void MeshPilot::look_for_suns(const Points& points, ElementLoad& load) const {
+  std::vector<std::pair<double, Vec3>> suns;
+  for (const auto* of : {&light_.suns, &light_.samples[0], &light_.samples[1]})
+    for (const PeriodSun& sun : *of)
+      if (const double cos_theta = dot(points.normal, sun.direction); cos_theta > 0)
+        suns.emplace_back(cos_theta, sun.direction);
+  std::sort(suns.begin(), suns.end(),
+            [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (const auto& [cos_theta, direction] : suns)
+    for (const Packet& packet : points.packets)
+      if (caster_.unoccluded(packet, direction, all_rays) != 0) {
+        load.sees_sun = true;
+        load.largest_cosine = cos_theta;
+        return;
+      }
+}
+
 void MeshPilot::add_suns(const Points& points, const std::vector<PeriodSun>& suns, Vec3 normal,
                          std::size_t packet, double* sum, ElementLoad& load) const {
   for (const auto& sun : suns) {

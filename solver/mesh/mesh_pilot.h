@@ -61,6 +61,10 @@ class MeshPilot {
   /// packet of points; large elements have more packets.
   ElementLoad load(std::size_t element, std::uint8_t side, double min_area_m2) const;
 
+  /// Which sources an element's side sees, and how: `sees_sun`, `largest_cosine` and
+  /// `lamp_form_factor` alone, as `load` has them, in a small part of its time.
+  ElementLoad sources(std::size_t element, std::uint8_t side, double min_area_m2) const;
+
   /// Light load that surfaces are taken to receive where others see them, per element and side.
   void set_load(std::size_t element, std::uint8_t side, double load);
   /// A new element takes the load of its parent until its own is set.
@@ -85,6 +89,7 @@ class MeshPilot {
                     double* sum) const;
   void add_suns(const Points& points, const std::vector<PeriodSun>& suns, Vec3 normal,
                 std::size_t packet, double* sum, ElementLoad& load) const;
+  void look_for_suns(const Points& points, ElementLoad& load) const;
   void add_emitters(const Points& points, std::size_t packet, std::uint32_t half, double area_m2,
                     double* sum, ElementLoad& load) const;
   void add_surroundings(const Points& points, std::size_t packet, std::uint32_t half,

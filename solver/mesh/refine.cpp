@@ -72,8 +72,11 @@ struct Estimate {
   double area_m2 = 0;              ///< of the sides that have patches
   double glint_squared_error = 0;  ///< of the light by mirrors alone
   double glint_squares = 0;        ///< ∫ H² dA of it
-  double historic_m2 = 0;          ///< largest estimate of the historic oracle, by suns
-  double form_factor = 0;          ///< the same by emitters
+};
+
+/// What the historic oracle goes by: its largest estimates.
+struct HistoricEstimate {
+  double by_suns_m2 = 0, by_emitters = 0;
 };
 
 /// Sums over the leaves of one kind.
@@ -146,7 +149,6 @@ class Refinement {
 
   Estimate estimate(const MeshPilot& pilot, std::size_t leaf, double (&loads)[2]) const {
     Estimate e;
-    const double area = forest_.area(leaf);
     const double weighted = places_[leaf].weighted_m2;
     const std::uint8_t sides = forest_.is_two_sided(leaf) ? 2 : 1;
     for (std::uint8_t side = 0; side < sides; ++side) {
@@ -158,10 +160,21 @@ class Refinement {
       e.glint_squared_error += squared_error(load.glint_variance, weighted);
       e.glint_squares +=
           squared_error(load.glint_mean * load.glint_mean + load.glint_variance, weighted);
-      e.form_factor = std::max(e.form_factor, load.lamp_form_factor);
+    }
+    return e;
+  }
+
+  /// What the historic oracle asks for.
+  HistoricEstimate historic_estimate(const MeshPilot& pilot, std::size_t leaf) const {
+    HistoricEstimate e;
+    const double area = forest_.area(leaf);
+    const std::uint8_t sides = forest_.is_two_sided(leaf) ? 2 : 1;
+    for (std::uint8_t side = 0; side < sides; ++side) {
+      const ElementLoad load = pilot.sources(leaf, side, split_.min_area_m2);
+      e.by_emitters = std::max(e.by_emitters, load.lamp_form_factor);
       if (load.sees_sun)
-        e.historic_m2 =
-            std::max(e.historic_m2, historic_light_estimate_m2(load.largest_cosine, area));
+        e.by_suns_m2 =
+            std::max(e.by_suns_m2, historic_light_estimate_m2(load.largest_cosine, area));
     }
     return e;
   }
@@ -355,25 +368,44 @@ class Refinement {
     }
   }
 
-  bool exceeds_historic_threshold(const Estimate& e) const {
-    return e.historic_m2 > rules_.light_threshold_m2 ||
-           e.form_factor > rules_.form_factor_threshold;
+  bool exceeds_historic_threshold(const HistoricEstimate& e) const {
+    return e.by_suns_m2 > rules_.light_threshold_m2 || e.by_emitters > rules_.form_factor_threshold;
   }
 
   void refine_historically() {
     // What others receive is not asked for: the small ones need no look.
     Leaves leaves = large_enough(all_leaves());
     while (!leaves.empty()) {
-      place(leaves);
-      look_at(leaves);
+      // How many patches each will be divided into.
+      std::vector<double> parts(leaves.size());
+      parallel_for(
+          leaves.size(), [&](std::size_t l) { parts[l] = historic_parts(leaves[l]); },
+          elements_per_task);
       Leaves lit;
-      for (const auto leaf : leaves)
-        if (std::any_of(looks_.begin(), looks_.end(), [&](const Look& look) {
-              return exceeds_historic_threshold(look.estimates[leaf]);
-            }))
-          lit.push_back(leaf);
+      double to_come = 0;
+      for (std::size_t l = 0; l < leaves.size(); ++l) {
+        if (parts[l] <= 1) continue;
+        lit.push_back(leaves[l]);
+        to_come += parts[l] - 1;
+      }
+      const auto patches = static_cast<double>(forest_.patch_count());
+      watch_.advance(Stage::refine, patches / (patches + to_come));
       leaves = large_enough(split(lit));
     }
+  }
+
+  /// Above 1 where the leaf is to be split: its estimates over their thresholds, at most what the
+  /// least area leaves.
+  double historic_parts(std::size_t leaf) const {
+    double parts = 0;
+    for (const Look& look : looks_) {
+      const HistoricEstimate e = historic_estimate(look.pilot, leaf);
+      if (!exceeds_historic_threshold(e)) continue;
+      parts = std::max({parts, e.by_suns_m2 / rules_.light_threshold_m2,
+                        e.by_emitters / rules_.form_factor_threshold});
+    }
+    return split_.min_area_m2 > 0 ? std::min(parts, forest_.area(leaf) / split_.min_area_m2)
+                                  : parts;
   }
 
   /// Bisects leaves, unless a neighbour's split has done so; the new leaves.

@@ -68,6 +68,9 @@ inline bool is_mirror(const Material& m) { return m.mirror > 0 || is_pane_or_met
 /// A line that meets it goes on, or ends in ways that depend on its angle.
 inline bool sends_on(const Material& m) { return is_mirror(m) || m.glossy > 0; }
 
+/// Light goes on from it, or through it, in a direction of its own.
+inline bool goes_on_straight(const Material& m) { return sends_on(m) || m.transmittance > 0; }
+
 /// Share of power that an ideal mirror of this material returns at the angle
 /// whose cosine is `cos_theta` (of incidence). Constant for plain mirrors.
 inline double mirror_reflectance(const Material& material, double cos_theta) {

@@ -10,6 +10,7 @@
 #include "solver/gather/jacobi.h"
 #include "solver/gather/unfollowed.h"
 #include "solver/lines/sensor_lines.h"
+#include "solver/matrix/form_factors.h"
 
 namespace sunload {
 
@@ -71,12 +72,27 @@ int bounces_of_bands(const TracedScene& traced) {
 std::vector<std::vector<float>> beyond_of_bands(const TracedScene& traced) {
   const SolverRules& rules = traced.rules;
   const bool leaves = rules.unfollowed == Unfollowed::leave ||
+                      rules.transport == Transport::matrix ||  // or nothing is left
                       (rules.transport == Transport::shoot && rules.jacobi == Jacobi::regular);
   std::vector<std::vector<float>> beyond(traced.optics_of_band.size());
   for (std::size_t b = 0; b < beyond.size() && !leaves; ++b)
     beyond[b] = light_beyond(*traced.mesh, traced.patches.lines.pooled, traced.optics_of_band[b],
                              traced.bounces);
   return beyond;
+}
+
+/// Form factors in place of links between patches.
+void use_form_factors(TracedScene& traced, Watch& watch) {
+  const Stopwatch time(traced.work[Work::lines_s]);
+  const SolverRules& rules = traced.rules;
+  FormFactorRules of_factors{.realizations = rules.realizations, .seed = rules.seed};
+  of_factors.lines_per_patch = std::max(of_factors.lines_per_patch, rules.lines_per_patch);
+  const FormFactors factors =
+      form_factors(traced.scene.mesh, *traced.mesh, traced.caster, of_factors, watch);
+  const bool follows_all = rules.unfollowed == Unfollowed::estimate && rules.bounces > 0;
+  put_form_factors(factors, traced.optics, follows_all ? Reflections::all : Reflections::counted,
+                   traced.patches.lines);
+  traced.work.add(Work::line_rays, factors.rays);
 }
 
 DirectRules direct_rules(const SolverRules& rules) {
@@ -104,6 +120,9 @@ TracedScene::TracedScene(const Scene& whole, std::shared_ptr<const Hierarchy> fr
       glossy_sun(whole, *mesh, caster, patches.sampler, optics, line_rules(of_study)),
       lobe_images(whole, caster, sensors.sampler, line_rules(of_study)) {
   SUNLOAD_EXPECT(!is_rgb() || rules.transport == Transport::gather, "bands are gathered");
+  SUNLOAD_EXPECT(rules.transport != Transport::matrix ||
+                     std::none_of(whole.materials.begin(), whole.materials.end(), goes_on_straight),
+                 "form factors are of opaque diffuse surfaces");
 }
 
 bool TracedScene::has_part(Part part) const {
@@ -133,6 +152,7 @@ std::unique_ptr<const TracedScene> trace_scene(const Scene& scene,
                                                std::optional<Lines> ready) {
   auto traced = std::make_unique<TracedScene>(scene, std::move(mesh), rules);
   traced->patches.lines = ready ? std::move(*ready) : lines_of_patches(*traced, watch);
+  if (rules.transport == Transport::matrix) use_form_factors(*traced, watch);
   traced->sensors.lines = lines_of_sensors(*traced);
   add_parallel_light(*traced);
   traced->bounces = bounces_of_bands(*traced);

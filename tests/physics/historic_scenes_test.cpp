@@ -12,6 +12,7 @@
 
 #include "geo/base/units.h"
 #include "io/plan/expected_error.h"
+#include "tests/support/paths.h"
 #include "tests/support/statistics.h"
 #include "tests/support/study_plan.h"
 
@@ -121,6 +122,18 @@ TEST(HistoricScenes, LitRegionsAreMeshedFinerAndNoTVertexIsLeft) {
       if (made.mesh->normal(i).y > 0.9) coarsest_shaded = std::max(coarsest_shaded, area);
     }
     EXPECT_GT(coarsest_shaded, 4 * finest_lit) << "lit regions are finer than shaded ones";
+  }
+}
+
+TEST(HistoricScenes, HaveTheSourcesSizesByItsOracle) {
+  // "About 60 000" and "some 70 000" patches are what the thesis says.
+  constexpr double rounding = 0.15;
+  Watch watch;
+  const std::map<std::string, double> published{{"street", 60000}, {"skyscrapers", 70000}};
+  for (const auto& [name, patches] : published) {
+    const auto file = read_study(test::source_folder() + "/configs/mcrad/" + name + ".yaml");
+    const VariantMesh made = make_mesh(make_plan(file.variants.front()), watch);
+    EXPECT_NEAR(static_cast<double>(made.report.patches), patches, rounding * patches) << name;
   }
 }
 

@@ -118,6 +118,51 @@ TEST(Illuminance, IsAnotherContentAndKnowsNoLamps) {
 }
 
 // Preetham, Shirley & Smits (1999): zenith luminance and the sky's illuminance, on an open plane.
+/// The sun put 60 degrees from the zenith, without a date.
+Study put_sun(SkyModel sky) {
+  Study study;
+  study.period.kind = PositionsPeriod{{{.azimuth_deg = 180, .elevation_deg = 30}}};
+  study.light.source = LightSource::fixed;
+  study.light.dni_w_m2 = 700;
+  study.light.sky = sky;
+  study.light.sky_scale = SkyScale::absolute;
+  return study;
+}
+
+TEST(Illuminance, OfAbsoluteSkiesFollowsFromTheZenith) {
+  const Site site{.latitude_deg = 50, .longitude_deg = 0};
+  const auto lux_of = [&](Study study) {
+    study.light.quantity = Quantity::illuminance;
+    const LitInterval interval = light_series(study, site).intervals.front();
+    EXPECT_NEAR(interval.mean.dhi * interval.lm_per_w->diffuse,
+                source_means(interval, Quantity::illuminance).dhi, 1e-9 * interval.mean.dhi);
+    // Skies send 90 to 200 lumens per watt (Perez et al. 1990, figure 3).
+    EXPECT_GT(interval.lm_per_w->diffuse, 90);
+    EXPECT_LT(interval.lm_per_w->diffuse, 200);
+    EXPECT_NEAR(interval.mean.ghi, 700 * std::sin(radians(30.0)) + interval.mean.dhi, 1e-9);
+    return source_means(interval, Quantity::illuminance).dhi;
+  };
+  // Uniform: pi L. Overcast: L (1 + 2 cos)/3 gives 7/9 pi L.
+  Study given = put_sun(SkyModel::uniform);
+  given.light.zenith_luminance_cd_m2 = 5000;
+  EXPECT_NEAR(lux_of(given), pi * 5000, 1e-6 * pi * 5000);
+  given.light.sky = SkyModel::cie_overcast;
+  EXPECT_NEAR(lux_of(given), 7.0 / 9 * pi * 5000, 1e-6 * pi * 5000);
+  // By hand, T = 3: chi = (4/9 - 3/120)(pi - 2 pi/3) = 0.4392412;
+  // (4.0453*3 - 4.9710) tan chi - 0.2155*3 + 2.4192 = 7.1649*0.4698539 + 1.7727 = 5.139156 kcd/m2.
+  const double kcd = 5.139156;
+  for (const SkyModel model : {SkyModel::cie_clear, SkyModel::cie_general}) {
+    Study by_turbidity = put_sun(model);
+    by_turbidity.light.turbidity = 3;
+    Study by_zenith = by_turbidity;
+    by_zenith.light.zenith_luminance_cd_m2 = 1000 * kcd;
+    const double lux = lux_of(by_turbidity);
+    EXPECT_NEAR(lux, lux_of(by_zenith), 1e-5 * lux);
+    by_zenith.light.zenith_luminance_cd_m2 = 2000 * kcd;
+    EXPECT_NEAR(2 * lux, lux_of(by_zenith), 1e-5 * lux);
+  }
+}
+
 TEST(Illuminance, OfTheAbsoluteSkyIsTheModelsOwn) {
   Study absolute;
   absolute.site.timezone = "UTC";

@@ -466,11 +466,20 @@ TEST(Study, ChecksLightSceneAndSolver) {
   expect_problem({{"output", "{series: [total, totl]}"}}, "'totl' is not known");
   expect_problem({{"output", "{series: [sky, sky]}"}}, "is written twice");
   expect_problem({{"sensors", "{points: []}"}}, "the list is empty");
-  expect_problem({{"light", "{sky: perez, sky_scale: absolute}"}}, "goes with sky: preetham");
-  expect_problem({{"light",
-                   "{sky: preetham, sky_scale: absolute, source: fixed, dni_w_m2: 1, "
-                   "dhi_w_m2: 1}"}},
-                 "and source: clear_sky only");
+  expect_problem({{"light", "{sky: perez, sky_scale: absolute}"}}, "cannot go with sky: perez");
+  expect_problem({{"light", "{sky: uniform, sky_scale: absolute}"}},
+                 "needs zenith_luminance_cd_m2");
+  expect_problem({{"light", "{sky: cie_clear, sky_scale: absolute, source: weather}"}},
+                 "cannot go with source: weather");
+  expect_problem({{"light", "{sky: cie_clear, source: fixed, dni_w_m2: 1}"}},
+                 "fixed needs dhi_w_m2");
+  expect_right({{"light", "{sky: cie_clear, sky_scale: absolute, source: fixed, dni_w_m2: 1}"}});
+  expect_right({{"light", "{sky: uniform, sky_scale: absolute, zenith_luminance_cd_m2: 3000}"}});
+  expect_problem({{"solver", "{bands: rgb, transport: matrix}"}},
+                 "cannot go with transport: matrix");
+  expect_problem({{"solver", "{year: modes, transport: matrix}"}}, "modes cannot go with");
+  expect_problem({{"solver", "{accuracy: {light_load_relative: 0.1}, transport: matrix}"}},
+                 "cannot go with transport: matrix");
   expect_problem({{"format", "sunload-study-9"}}, "must be one of sunload-study-1");
   expect_problem({{"period", ""}}, "period is missing");
   expect_problem({{"name", ".hidden"}}, "cannot be a name");
@@ -751,14 +760,19 @@ TEST(StudySchema, HasTheDefaultsOfTheReader) {
 
 TEST(StudyConfigs, AreRead) {
   int read = 0;
-  for (const auto& entry : fs::directory_iterator(test::source_folder() + "/configs")) {
+  std::vector<fs::directory_entry> entries;
+  for (const char* folder : {"/configs", "/configs/mcrad"})
+    for (const auto& entry : fs::directory_iterator(test::source_folder() + folder))
+      entries.push_back(entry);
+  for (const auto& entry : entries) {
     if (entry.path().extension() != ".yaml") continue;
     // A model that does not come with the project: below.
     if (entry.path().stem() == "delft_day") continue;
     ++read;
     try {
       const auto file = read_study(entry.path().string());
-      EXPECT_EQ(file.name, entry.path().stem().string());
+      const bool historic = entry.path().parent_path().stem() == "mcrad";
+      EXPECT_EQ(file.name, (historic ? "mcrad_" : "") + entry.path().stem().string());
       EXPECT_TRUE(file.warnings.empty()) << joined(file.warnings);
     } catch (const InputError& error) {
       ADD_FAILURE() << error.what();
@@ -844,6 +858,7 @@ TEST(CanonicalText, SeesEveryValueThatCanChangeANumber) {
        {"sky_type", [](Study& s) { s.light.sky_type = 1; }},
        {"turbidity", [](Study& s) { s.light.turbidity = 4; }},
        {"sky scale", [](Study& s) { s.light.sky_scale = SkyScale::absolute; }},
+       {"zenith", [](Study& s) { s.light.zenith_luminance_cd_m2 = 1000; }},
        {"bands", [](Study& s) { s.solver.bands = Bands::rgb; }},
        {"far ground", [](Study& s) { s.light.far_ground_albedo = 0; }},
        {"builtin", [](Study& s) { s.scene.builtin->name = "x"; }},
@@ -891,6 +906,7 @@ TEST(CanonicalText, SeesEveryValueThatCanChangeANumber) {
        {"max edge", [](Study& s) { s.mesh.max_edge_m = 1; }},
        {"min area", [](Study& s) { s.mesh.min_area_m2 = 1; }},
        {"transport", [](Study& s) { s.solver.transport = Transport::shoot; }},
+       {"matrix", [](Study& s) { s.solver.transport = Transport::matrix; }},
        {"jacobi", [](Study& s) { s.solver.jacobi = Jacobi::regular; }},
        {"power per sample", [](Study& s) { s.solver.power_per_sample_w = 0.5; }},
        {"bounces", [](Study& s) { s.solver.bounces = 1; }},
@@ -953,6 +969,8 @@ json study_to_see(const std::string& path) {
     study["light"] = {{"source", "weather"}, {"weather", test::source_folder() + "/LICENSE"}};
   if (path == "light.source") study["light"] = {{"dni_w_m2", 800}, {"dhi_w_m2", 100}};
   if (path == "light.sky_scale") study["light"]["sky"] = "preetham";
+  if (path == "light.zenith_luminance_cd_m2")
+    study["light"] = {{"sky", "preetham"}, {"sky_scale", "absolute"}};
   if (path == "light.colour") study["solver"]["bands"] = "rgb";
   if (path == "site.position" || path == "site.latitude_deg" || path == "site.longitude_deg")
     study["site"] = {{"timezone", "UTC"}, {"position", "49d44'51\"N 13d22'39\"E"}};
