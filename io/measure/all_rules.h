@@ -16,5 +16,7 @@ MeasureRule bre_209_probable_sun();
 MeasureRule bright_sun();
 MeasureRule light_hours();
 MeasureRule glint_hours();
+MeasureRule peak_light();
+MeasureRule roof_potential();
 
 }  // namespace sunload::rules

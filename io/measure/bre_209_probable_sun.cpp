@@ -23,7 +23,7 @@ class ProbableSun : public Measure {
     const auto counted = bright_stretches(scene_, sunshine_w_m2, season_);
     double all_s = 0;
     for (const SunStretch& sun : suns) all_s += sun.length_s;
-    MeasureValues found{seen_sun_s(scene_.points, scene_.caster, counted), {}, {}};
+    MeasureValues found{seen_sun_s(scene_.points, scene_.caster, counted)};
     for (double& value : found.value)
       value = all_s > 0 ? percent * value / all_s : std::numeric_limits<double>::quiet_NaN();
     return found;
@@ -44,7 +44,8 @@ MeasureRule bre_209_probable_sun() {
           .source = "BRE 209 (Littlefair 2022), 3.2; sunshine as of WMO",
           .units = "percent",
           .words = {{"season", {"year", "winter"}}},
-          .needs = MeasureRule::Needs::weather_year,
+          .needs = MeasureRule::Needs::intervals,
+          .spans = MeasureRule::Spans::year_of_weather,
           .levels =
               [](const MeasureParameters& of) {
                 return std::vector<MeasureLevel>{

@@ -19,7 +19,7 @@ class SkyComponent : public Measure {
       return hills.is_open() || hills.is_above(horizontal(enu(w)));
     };
     constexpr double percent = 100;
-    MeasureValues found{overcast_sky_components(scene_.points, scene_.caster, is_open), {}, {}};
+    MeasureValues found{overcast_sky_components(scene_.points, scene_.caster, is_open)};
     for (double& value : found.value) value *= percent;
     return found;
   }

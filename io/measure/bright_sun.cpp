@@ -33,7 +33,7 @@ class BrightSun : public Measure {
   BrightSun(double least_dni, const MeasuredScene& scene) : least_dni_(least_dni), scene_(scene) {}
   MeasureValues values() override {
     MeasureValues found{
-        seen_sun_s(scene_.points, scene_.caster, bright_stretches(scene_, least_dni_)), {}, {}};
+        seen_sun_s(scene_.points, scene_.caster, bright_stretches(scene_, least_dni_))};
     for (double& value : found.value) value /= seconds_per_hour;
     return found;
   }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Hours with the glint of mirrors: on streets, windows, observers.
 #include "io/measure/all_rules.h"
-#include "io/measure/light_hours.h"
+#include "io/measure/series_measure.h"
 
 namespace sunload::rules {
 

@@ -1,49 +1,34 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/measure/light_hours.h"
-
 #include <algorithm>
 
 #include "geo/base/units.h"
 #include "io/measure/all_rules.h"
+#include "io/measure/series_measure.h"
 
 namespace sunload {
 
 namespace {
 
-class LightHours : public Measure {
+class LightHours : public SeriesMeasure {
  public:
-  LightHours(std::string series, double above, const MeasuredScene& scene)
-      : series_(std::move(series)), above_(above), scene_(scene), hours_(scene.points.size(), 0) {}
-
-  std::string series() const override { return series_; }
-
-  void watch(const SeriesRows& rows) override {
-    for (std::size_t row = 0; row < rows.rows; ++row) {
-      const MeasuredInterval& interval = scene_.intervals[rows.first + row];
-      add(rows.patch, row, 0, scene_.patches, interval.end - interval.begin);
-      add(rows.sensor, row, scene_.patches, scene_.points.size() - scene_.patches,
-          interval.end - interval.begin);
-    }
-  }
+  LightHours(const std::string& light, double above, const MeasuredScene& scene)
+      : SeriesMeasure(light, scene), above_(above), lit_s_(points(), 0) {}
 
   MeasureValues values() override {
-    MeasureValues found{hours_, {}, {}};
+    MeasureValues found{lit_s_};
     for (double& value : found.value) value /= seconds_per_hour;
     return found;
   }
 
- private:
-  void add(const std::vector<double>& values, std::size_t row, std::size_t first, std::size_t n,
-           double length_s) {
-    for (std::size_t i = 0; i < n; ++i)
-      if (values[row * n + i] > above_) hours_[first + i] += length_s;
+ protected:
+  void take(std::size_t point, double value, const MeasuredInterval& interval) override {
+    if (value > above_) lit_s_[point] += interval.end - interval.begin;
   }
 
-  std::string series_;
+ private:
   double above_;
-  const MeasuredScene& scene_;
-  std::vector<double> hours_;  ///< in seconds until the end
+  std::vector<double> lit_s_;
 };
 
 }  // namespace
@@ -52,8 +37,7 @@ std::unique_ptr<Measure> start_light_hours(const std::string& light,
                                            const MeasureParameters& parameters,
                                            const MeasuredScene& scene) {
   return std::make_unique<LightHours>(
-      light == "total" ? "irradiance" : "irradiance_" + light,
-      std::max(parameters.number("above_w_m2"), parameters.number("above_lx")), scene);
+      light, std::max(parameters.number("above_w_m2"), parameters.number("above_lx")), scene);
 }
 
 namespace rules {

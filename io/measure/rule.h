@@ -38,8 +38,8 @@ struct MeasuredScene {
 /// Values of all points, patches first; NaN where there is none.
 struct MeasureValues {
   std::vector<double> value;
-  /// Of the longest stretch of sun, UTC s since 1970; empty of rules that have none.
-  std::vector<double> begin, end;
+  /// Stretches of sun, UTC s since 1970; empty of rules that have none.
+  std::vector<std::vector<SunSpan>> spans = {};
 };
 
 /// Rows of a series for the intervals [first, first + rows): of the chosen patches, and of sensors.
@@ -88,7 +88,9 @@ struct MeasureRule {
   std::vector<RuleWords> words = {};
   /// Month and day of the year in which the period begins; {0, 0}: a date must be written.
   std::optional<std::pair<int, int>> day = {};
-  enum class Needs { geometry, sun_path, intervals, weather_year, series } needs = Needs::geometry;
+  enum class Needs { geometry, sun_path, intervals, series } needs = Needs::geometry;
+  /// The period must be a year, or one of measured or typical weather.
+  enum class Spans { any_period, whole_year, year_of_weather } spans = Spans::any_period;
   /// Levels from low to high that values reach from below, or stay below; none: no verdict.
   enum class Better { more, less } better = Better::more;
   std::vector<MeasureLevel> (*levels)(const MeasureParameters&) = nullptr;

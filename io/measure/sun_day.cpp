@@ -3,7 +3,6 @@
 #include "io/measure/sun_day.h"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "geo/base/units.h"
@@ -43,12 +42,11 @@ class SunDay : public Measure {
       : parameters_(std::move(parameters)), scene_(scene) {}
 
   MeasureValues values() override {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const SunCourse course =
         sun_course(scene_, *parameters_.date, number_or_zero(parameters_, "least_elevation_deg"));
-    const auto spans = sunlit_spans(scene_.points, scene_.caster, course,
-                                    {number_or_zero(parameters_, "least_angle_deg"),
-                                     number_or_zero(parameters_, "least_plan_angle_deg")});
+    auto spans = sunlit_spans(scene_.points, scene_.caster, course,
+                              {number_or_zero(parameters_, "least_angle_deg"),
+                               number_or_zero(parameters_, "least_plan_angle_deg")});
     const double least_s = seconds_per_minute * number_or_zero(parameters_, "least_span_min");
     const auto count = parameters_.words.find("count");
     const bool only_longest = count != parameters_.words.end() && count->second == "longest";
@@ -58,9 +56,8 @@ class SunDay : public Measure {
       const double counted = one.length_s() < least_s ? 0 : one.length_s();
       found.value.push_back((only_longest ? counted : total_s(of_point, least_s)) /
                             seconds_per_hour);
-      found.begin.push_back(one.length_s() > 0 ? one.begin : none);
-      found.end.push_back(one.length_s() > 0 ? one.end : none);
     }
+    found.spans = std::move(spans);
     return found;
   }
 

@@ -83,10 +83,9 @@ void expect_measurable(const Study& study, const BuiltScene& built, const LightS
   for (const MeasureParameters& of : study.measures) {
     expect_one(of.of.object, built.scene.mesh.object_names, "object", of, problems);
     expect_one(of.of.facade, facades, "facade", of, problems);
-    if (find_measure_rule(of.rule)->needs == MeasureRule::Needs::weather_year && length_s < year_s)
+    if (find_measure_rule(of.rule)->spans != MeasureRule::Spans::any_period && length_s < year_s)
       problems.add(of.where, "measure " + of.name + " needs a whole year",
-                   "its hours are a share of the year's sunshine",
-                   "write period: {year_of: weather}");
+                   "its values are those of a year", "write period: {year_of: weather}");
   }
   problems.throw_if_any();
 }

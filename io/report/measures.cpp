@@ -74,6 +74,7 @@ std::string measure_table_text(const ResultReader& result, const std::vector<Mea
                             cell(row.passing_percent, "{:.0f} %"), row.level);
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
+    if (!row.spans.empty()) text += "          sun " + row.spans + "\n";
   }
   return text;
 }
@@ -103,7 +104,8 @@ std::string measure_table_json(const ResultReader& result, const std::vector<Mea
                     {"reached", json_number(row.reached)},
                     {"level", row.level.empty() ? Json(nullptr) : Json(row.level)},
                     {"margin", json_number(row.margin)},
-                    {"passing_percent", json_number(row.passing_percent)}});
+                    {"passing_percent", json_number(row.passing_percent)},
+                    {"spans", row.spans}});
   const Json document = {{"study", result.text_attribute("study")},
                          {"variant", result.text_attribute("variant")},
                          {"measures", measures},

@@ -118,7 +118,7 @@ void add_groups(const ResultReader& result, const MeasureWords& words,
   const Judge judge(words);
   for (const Group& group : groups) {
     std::vector<double> values, area;
-    MeasureRow row{words.name, group.kind, group.name, 0, 0, 0, {}, 0, 0};
+    MeasureRow row{words.name, group.kind, group.name, 0, 0, 0, {}, 0, 0, {}};
     for (const std::size_t i : group.patches) {
       if (std::isnan(all[i])) continue;
       values.push_back(all[i]);
@@ -139,11 +139,14 @@ void add_sensors(const ResultReader& result, const MeasureWords& words, const Na
   if (!result.has(dataset) || (!parts.empty() && parts.sensors.empty())) return;
   const auto values = result.doubles(dataset);
   const auto names = sensor_names(result);
+  const std::string of_spans = dataset + std::string(measure_spans_end);
+  const auto spans = result.has(of_spans) ? result.strings(of_spans) : std::vector<std::string>();
   const Judge judge(words);
   for (const std::size_t s : chosen_sensors(result, parts)) {
     if (std::isnan(values[s])) continue;
-    MeasureRow row{words.name, "sensor", names[s], not_known, values[s], 0, {}, 0, 0};
+    MeasureRow row{words.name, "sensor", names[s], not_known, values[s], 0, {}, 0, 0, {}};
     judge.put_verdict(row, {values[s]}, {1});
+    if (s < spans.size()) row.spans = spans[s];
     rows.push_back(std::move(row));
   }
 }
@@ -198,12 +201,13 @@ std::vector<MeasureRow> measure_table(const ResultReader& result, const NamedPar
 }
 
 std::string measure_table_csv(const ResultReader& result, const std::vector<MeasureRow>& rows) {
-  std::string text = "measure,group,name,area_m2,mean,reached,units,level,margin,passing_percent\n";
+  std::string text =
+      "measure,group,name,area_m2,mean,reached,units,level,margin,passing_percent,spans\n";
   for (const MeasureRow& row : rows)
     text += row.measure + "," + row.kind + "," + csv_text(row.name) + "," +
             csv_number(row.area_m2) + "," + csv_number(row.mean) + "," + csv_number(row.reached) +
             "," + result.units(dataset_of(row.measure)) + "," + row.level + "," +
-            csv_number(row.margin) + "," + csv_number(row.passing_percent) + "\n";
+            csv_number(row.margin) + "," + csv_number(row.passing_percent) + "," + row.spans + "\n";
   return text;
 }
 

@@ -34,6 +34,7 @@ struct MeasureRow {
   std::string level;                ///< reached; "fail" below the lowest; empty without levels
   double margin = 0;                ///< of `reached` to the lowest level: below 0 where it fails
   double passing_percent = 0;       ///< share of the area that reaches the lowest level
+  std::string spans;                ///< of a sensor's sun, ISO 8601 in UTC, divided by blanks
 };
 
 /// Rows of every measure: of the groups that `parts` chooses (all where it chooses nothing) and
@@ -41,7 +42,7 @@ struct MeasureRow {
 std::vector<MeasureRow> measure_table(const ResultReader& result, const NamedParts& parts);
 
 /// RFC 4180 with the header measure,group,name,area_m2,mean,reached,units,level,margin,
-/// passing_percent; what is not known is empty.
+/// passing_percent,spans; what is not known is empty.
 std::string measure_table_csv(const ResultReader& result, const std::vector<MeasureRow>& rows);
 
 }  // namespace sunload

@@ -42,6 +42,8 @@ struct ResultVariable {
 std::span<const ResultVariable> result_schema(Quantity quantity = Quantity::irradiance);
 /// Begins the names of measures of patches; those of facades and sensors have a prefix more.
 inline constexpr std::string_view measure_prefix = "measure_";
+/// Ends the names of the texts that list all spans of sun of sensors.
+inline constexpr std::string_view measure_spans_end = "_spans";
 /// Null where the schema has no such dataset. Of measures, whose names the study gives, it is the
 /// row that all of them share: without name and units.
 const ResultVariable* find_result_variable(std::string_view name,

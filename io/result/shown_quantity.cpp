@@ -78,6 +78,8 @@ ShownQuantity shown_quantity(const ResultReader& result, const std::string& data
   s.values = s.is_series ? result.row(dataset, s.interval) : result.doubles(dataset);
   s.when =
       s.is_series ? "sun of " + interval_in_words(result, s.interval) : period_in_words(result);
+  if (dataset.starts_with(measure_prefix))
+    if (const auto day = result.text_attribute(dataset, "when"); !day.empty()) s.when = day;
   return s;
 }
 

@@ -144,6 +144,7 @@ class Examination {
       if (!of || of->name == name || is_comparison_) continue;
       ResultVariable measure = *of;
       measure.name = name;
+      if (name.ends_with(measure_spans_end)) measure.type = h5::Type::text;
       shape(measure, file_.dataset(name));
     }
     if (!is_comparison_) return;

@@ -216,9 +216,10 @@ void ResultWriter::write_measure(const MeasureArray& array, const MeasureAttribu
   ResultVariable of = *find_result_variable(array.name);
   of.name = array.name;
   of.units = array.units;
+  if (!array.texts.empty()) of.type = h5::Type::text;
   file_->writing([&] {
     h5::Dataset dataset = file_->create(of, dimension_names(of));
-    dataset.write(array.values);
+    array.texts.empty() ? dataset.write(array.values) : dataset.write(array.texts);
     for (const auto& [name, value] : attributes.text) dataset.set(name, value);
     if (attributes.level_values.empty()) return;
     dataset.set("level_values", attributes.level_values, h5::Type::float64);

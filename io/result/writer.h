@@ -72,6 +72,7 @@ struct ResultArray {
 struct MeasureArray {
   std::string name, units;
   std::vector<double> values;
+  std::vector<std::string> texts = {};  ///< in place of values: all spans of sun
 };
 /// What its datasets say of it.
 struct MeasureAttributes {

@@ -9,6 +9,7 @@
 
 #include "io/base/bands.h"
 #include "io/base/hash.h"
+#include "io/base/light_quantity.h"
 #include "io/batch/batch_tally.h"
 #include "io/measure/rules.h"
 #include "io/result/schema.h"
@@ -72,12 +73,30 @@ std::vector<double> facade_means(const std::vector<double>& values, const Result
   return sum;
 }
 
+/// "2026-03-21T06:12:31Z/2026-03-21T08:40:02Z", one after the other (ISO 8601).
+std::string spans_text(const std::vector<SunSpan>& spans) {
+  std::string text;
+  for (const SunSpan& span : spans)
+    text += (text.empty() ? "" : " ") + iso_utc(std::round(span.begin)) + "/" +
+            iso_utc(std::round(span.end));
+  return text;
+}
+
+/// When it is about: a day, always, or (empty) the period.
+std::string when_of(const StudyMeasure& of) {
+  if (of.rule->needs == MeasureRule::Needs::geometry) return "always";
+  if (!of.parameters.date) return {};
+  return iso_utc(utc_from_calendar(*of.parameters.date))
+      .substr(0, std::string("2026-03-21").size());
+}
+
 MeasureAttributes attributes_of(const StudyMeasure& of) {
   MeasureAttributes a;
   a.text = {{"definition", of.rule->definition},
             {"source", of.rule->source},
             {"rule", of.rule->word},
             {"parameters", measure_text(of.parameters)}};
+  if (const auto when = when_of(of); !when.empty()) a.text.emplace_back("when", when);
   const auto levels = levels_of(*of.rule, of.parameters);
   if (levels.empty()) return a;
   std::string words;
@@ -135,9 +154,20 @@ void MeasureMerge::write_one(ResultWriter& writer, const StudyMeasure& of) const
                             {values.begin() + static_cast<std::ptrdiff_t>(n), values.end()}},
                            attributes);
   };
-  put("", found.value, of.rule->units);
-  put("_begin", found.begin, std::string(time_units));
-  put("_end", found.end, std::string(time_units));
+  put("", found.value, light_units(of.rule->units, plan_.study.light.quantity));
+  if (found.spans.empty()) return;
+  std::vector<double> begin, end;
+  for (const auto& spans : found.spans) {
+    const SunSpan one = longest(spans);
+    begin.push_back(one.length_s() > 0 ? one.begin : not_measured);
+    end.push_back(one.length_s() > 0 ? one.end : not_measured);
+  }
+  put("_begin", begin, std::string(time_units));
+  put("_end", end, std::string(time_units));
+  if (geometry_.sensor_position.empty()) return;
+  std::vector<std::string> texts;
+  for (std::size_t p = n; p < found.spans.size(); ++p) texts.push_back(spans_text(found.spans[p]));
+  writer.write_measure({sensor_prefix + name + "_spans", {}, {}, texts}, attributes);
 }
 
 std::string measures_hash(const Study& study) {

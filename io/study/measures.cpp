@@ -103,9 +103,9 @@ MeasureParameters read_measure(const std::string& name, YamlMap& map) {
     map.reading().problem(map.where(), "'" + name + "' cannot be the name of a measure",
                           "it becomes part of the names of datasets",
                           "letters A to Z, digits and _ make names");
-  if (name.ends_with("_begin") || name.ends_with("_end"))
+  if (name.ends_with("_begin") || name.ends_with("_end") || name.ends_with("_spans"))
     map.reading().problem(map.where(), "'" + name + "' cannot be the name of a measure",
-                          "_begin and _end are datasets of its longest span", "name it otherwise");
+                          "_begin, _end and _spans are datasets of its sun", "name it otherwise");
   map.require("rule", "", "write one of " + fmt::format("{}", fmt::join(rule_words(), ", ")));
   measure.rule = map.word("rule", rule_words(), "");
   const MeasureRule* rule = find_measure_rule(measure.rule);
@@ -130,19 +130,25 @@ void check_measures(YamlMap& root, const Study& study, PlaceWritten placed) {
              placed == PlaceWritten::yes ? "write period: {days: [...]}"
                                          : "write period: {days: [...]} and the site's position");
     }
-    if (rule->needs == Needs::weather_year && study.light.source != LightSource::weather)
+    if (rule->spans == MeasureRule::Spans::year_of_weather &&
+        study.light.source != LightSource::weather)
       refuse(measure, "needs light.source: weather", "it counts the sunshine of a year",
              "write light: {source: weather, weather: x.epw} and period: {year_of: weather}");
     if (rule->needs != Needs::series) continue;
     const bool lux = study.light.quantity == Quantity::illuminance;
+    if (rule->spans == MeasureRule::Spans::whole_year && lux)
+      refuse(measure, "needs light.quantity: irradiance", "its classes are of energy",
+             "leave light.quantity away");
     const char* wanted = lux ? "above_lx" : "above_w_m2";
     const char* other = lux ? "above_w_m2" : "above_lx";
-    if (measure.number(wanted) <= 0 || measure.number(other) > 0)
+    const bool has_threshold = measure.numbers.contains(wanted);
+    if (has_threshold && (measure.number(wanted) <= 0 || measure.number(other) > 0))
       refuse(measure, std::string("needs ") + wanted,
              lux ? "light.quantity is illuminance" : "light.quantity is irradiance",
              std::string("write ") + wanted + " alone, above 0");
     const auto word = measure.words.find("light");
-    const std::string light = word == measure.words.end() ? "mirror" : word->second;
+    const std::string own = rule->word == "glint_hours" ? "mirror" : "total";
+    const std::string light = word == measure.words.end() ? own : word->second;
     const auto& series = study.output.series;
     if (std::find(series.begin(), series.end(), light) == series.end())
       refuse(measure, "watches the series " + light, "output.series leaves it out",

@@ -3,8 +3,8 @@
 /// Measures of a study: values and verdicts on the command line, other measures, variants.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "io/result/measure_table.h"
 #include "io/result/reader.h"
@@ -72,10 +72,15 @@ TEST(Measures, HaveVerdictsAndTellWhoLoses) {
 
   const Ran table = program(folder, {"info", base, "--measures", "--csv"});
   EXPECT_EQ(table.out.rfind("measure,group,name,area_m2,mean,reached,units,level,margin,"
-                            "passing_percent\n",
+                            "passing_percent,spans\n",
                             0),
             0u);
-  EXPECT_NE(table.out.find("sunny,sensor,0,"), std::string::npos) << table.out;
+  // In the open: from 5° to 5° in one span.
+  const auto sensor = table.out.find("sunny,sensor,0,");
+  ASSERT_NE(sensor, std::string::npos) << table.out;
+  const std::string line = table.out.substr(sensor, table.out.find('\n', sensor) - sensor);
+  EXPECT_NE(line.find(",2026-12-21T07:"), std::string::npos) << line;
+  EXPECT_EQ(std::count(line.begin(), line.end(), '/'), 1) << line;
   const auto json =
       nlohmann::json::parse(program(folder, {"info", base, "--measures", "--json"}).out);
   EXPECT_EQ(json["measures"][0]["levels"].size(), 3u);
@@ -121,6 +126,14 @@ TEST(Measures, OthersMakeAnotherResultOfTheSameBatches) {
   EXPECT_NE(refused.err.find("its measures differ"), std::string::npos) << refused.err;
   EXPECT_EQ(program(folder, {"run", "square.yaml", "--overwrite"}).code, 0);
   EXPECT_EQ(measure_names(ResultReader(folder / result)).size(), 5u);
+}
+
+TEST(Measures, OfAYearNeedOne) {
+  const WorkFolder folder;
+  write(folder, "measures: {a: {rule: roof_potential, of: {surface: roof}}}\n");
+  const Ran ran = program(folder, {"check", "square.yaml"});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_NE(ran.err.find("measure a needs a whole year"), std::string::npos) << ran.err;
 }
 
 TEST(Measures, ThatChooseNothingAreRefusedAtOnce) {

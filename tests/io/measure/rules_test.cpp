@@ -102,6 +102,43 @@ TEST(LightHours, CountsIntervalsAboveAThreshold) {
   EXPECT_DOUBLE_EQ(found.value[1], 2);
 }
 
+TEST(PeakLight, TellsTheFirstIntervalOfTheLargest) {
+  TwoPoints points;
+  points.add({2026, 1, 1, 10}, 1, 0, south);
+  points.add({2026, 1, 1, 11}, 2, 0, south);
+  points.add({2026, 1, 1, 13}, 4, 0, south);
+  const MeasuredScene scene = points.scene();
+  MeasureParameters of;
+  of.words = {{"light", "total"}};
+  const std::vector<double> none, last{200, 0}, first{100, 0, 200, 0};
+  for (const bool is_reversed : {false, true}) {
+    const auto measure = find_measure_rule("peak_light")->start(of, scene);
+    EXPECT_EQ(measure->series(), "irradiance");
+    if (is_reversed) measure->watch({2, 1, last, none});
+    measure->watch({0, 2, first, none});
+    if (!is_reversed) measure->watch({2, 1, last, none});
+    const auto found = measure->values();
+    EXPECT_EQ(found.value[0], 200);
+    ASSERT_EQ(found.spans[0].size(), 1u);
+    EXPECT_EQ(found.spans[0][0].begin, utc_from_calendar({2026, 1, 1, 11}));
+    EXPECT_EQ(found.spans[0][0].length_s(), 2 * 3600);
+    EXPECT_TRUE(found.spans[1].empty());
+  }
+}
+
+TEST(RoofPotential, IsTheSumOfTheSeries) {
+  TwoPoints points;
+  points.add({2026, 1, 1, 10}, 1, 0, south);
+  points.add({2026, 1, 1, 11}, 2, 0, south);
+  const MeasuredScene scene = points.scene();
+  const auto measure = find_measure_rule("roof_potential")->start({}, scene);
+  const std::vector<double> none, all{500, 100, 250, 0};
+  measure->watch({0, 2, all, none});
+  const auto found = measure->values();
+  EXPECT_DOUBLE_EQ(found.value[0], (500 + 2 * 250) / 1000.0);
+  EXPECT_DOUBLE_EQ(found.value[1], 0.1);
+}
+
 TEST(Rules, HaveLevelsSourcesAndKnownKeys) {
   for (const MeasureRule& rule : measure_rules()) {
     MeasureParameters of;

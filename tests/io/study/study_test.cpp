@@ -582,6 +582,9 @@ TEST(StudyMeasures, RefuseWhatTheirRuleDoesNotKnow) {
   expect("{a_end: {rule: csn_73_4301}}", "'a_end' cannot be the name of a measure");
   expect("{a: {rule: bre_209_probable_sun}}", "needs light.source: weather");
   expect("{a: {rule: light_hours}}", "measure a needs above_w_m2");
+  expect_problem(
+      {{"measures", "{a: {rule: roof_potential}}"}, {"light", "{quantity: illuminance}"}},
+      "measure a needs light.quantity: irradiance");
   expect("{a: {rule: light_hours, above_lx: 100}}", "measure a needs above_w_m2");
   expect_problem(
       {{"measures", "{a: {rule: glint_hours, above_w_m2: 100}}"}, {"output", "{series: [total]}"}},
