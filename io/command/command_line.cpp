@@ -18,7 +18,10 @@
 #include "io/base/version.h"
 #include "io/command/check_study.h"
 #include "io/command/commands.h"
+#include "io/command/doctor.h"
+#include "io/command/manual.h"
 #include "io/export/export.h"
+#include "io/init/init.h"
 #include "io/run/progress.h"
 #include "io/run/run.h"
 #include "io/scene/builtin.h"
@@ -38,13 +41,16 @@ const std::map<std::string, std::pair<PictureColours, Palette>> picture_colours{
     {"surface", {PictureColours::of_surfaces, Palette::false_colour}},
     {"material", {PictureColours::of_materials, Palette::false_colour}}};
 
+/// What options take that take one of some words.
+using Choices = std::map<const CLI::Option*, std::vector<std::string>>;
+
 /// An option that takes one of some words.
 template <class Value>
-void add_word(CLI::App* sub, const std::string& option, Value& target,
-              const std::map<std::string, Value>& words, const std::string& what) {
+const CLI::Option* add_word(CLI::App* sub, const std::string& option, Value& target,
+                            const std::map<std::string, Value>& words, const std::string& what) {
   std::string list;
   for (const auto& [word, value] : words) list += (list.empty() ? "" : ", ") + word;
-  sub->add_option_function<std::string>(
+  return sub->add_option_function<std::string>(
       option,
       [&target, words, option, list](const std::string& word) {
         const auto found = words.find(word);
@@ -54,6 +60,43 @@ void add_word(CLI::App* sub, const std::string& option, Value& target,
       },
       what + ": " + list);
 }
+
+/// What people try first, at the end of a command's help and of its page.
+const std::map<std::string, std::string> examples{
+    {"init",
+     "sunload init town.city.json                        # place and north from the file's CRS\n"
+     "sunload init house.obj weather.epw                 # a year of weather\n"
+     "sunload init house.obj --at \"52.01 4.36\"          # three days of clear sky\n"
+     "sunload init dsm.tif --terrain dem.tif -o square.yaml\n"
+     "sunload init --example street                      # a study that comes with the program"},
+    {"check", "sunload check street.yaml\nsunload check street.yaml --json --no-refine"},
+    {"run",
+     "sunload run street.yaml\n"
+     "sunload run street.yaml --variant glazed --resume\n"
+     "sunload run street.yaml --shard auto               # in an array of Slurm"},
+    {"merge", "sunload merge street.yaml\nsunload merge street.yaml --partial"},
+    {"sun", "sunload sun street.yaml > sun.csv\nsunload sun street.yaml --image sun.png"},
+    {"sky", "sunload sky street.yaml --time 2026-03-08T10:00 --image sky.png"},
+    {"info",
+     "sunload info results/street/glazed.h5\n"
+     "sunload info results/street/glazed.h5 --facades --csv > facades.csv\n"
+     "sunload info results/street/glazed.h5 --facade 'house_3/*'"},
+    {"compare",
+     "sunload compare street.yaml glazed                 # with the study's first variant\n"
+     "sunload compare results/street/baseline.h5 results/street/glazed.h5 --csv"},
+    {"render",
+     "sunload render results/street/glazed.h5 -o glazed.png\n"
+     "sunload render results/street/glazed.h5 -o top.png --camera top --mesh\n"
+     "sunload render street.yaml -o scene.png --colour material"},
+    {"view",
+     "sunload view results/street/baseline.h5 results/street/glazed.h5 -o street.html\n"
+     "sunload view street.yaml -o scene.html"},
+    {"export",
+     "sunload export results/street/glazed.h5 --to csv --of facade -o facades.csv\n"
+     "sunload export results/street/glazed.h5 --to glb -o glazed.glb"},
+    {"scene", "sunload scene street --set house_3=glazed -o street.obj"},
+    {"doctor", "sunload doctor"},
+    {"manual", "sunload manual -o manual && man -l manual/man1/sunload-run.1"}};
 
 const CLI::Validator positive(
     [](const std::string& text) {
@@ -86,11 +129,13 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
 class CommandLine {
  public:
   CommandLine() {
+    app_.name("sunload");
     app_.require_subcommand(1);
     app_.set_version_flag("--version", std::string("sunload ") + version + " (" + commit + ")");
+    add_init();
+    add_check();
     add_run();
     add_merge();
-    add_check();
     add_sun();
     add_sky();
     add_info();
@@ -100,6 +145,15 @@ class CommandLine {
     add_export();
     add_scene();
     add_materials();
+    add_doctor();
+    add_manual();
+    app_.footer(
+        "Begin with:\n  sunload init MODEL            a study of a model\n"
+        "  sunload init --example street a study that comes with the program\n"
+        "Options of a command: sunload COMMAND --help");
+    for (CLI::App* sub : app_.get_subcommands({}))
+      if (const auto found = examples.find(sub->get_name()); found != examples.end())
+        sub->footer("Examples:\n" + indented(found->second));
   }
 
   int run(int argc, char** argv) {
@@ -141,6 +195,46 @@ class CommandLine {
     throw InputError({}, error.what(), {}, "see " + help);
   }
 
+  static std::string indented(const std::string& lines) {
+    std::string text = "  ";
+    for (const char letter : lines)
+      text += letter == '\n' ? std::string("\n  ") : std::string(1, letter);
+    return text;
+  }
+
+  /// What the help of all commands tells.
+  std::vector<CommandWords> words() const {
+    std::vector<CommandWords> commands;
+    for (const CLI::App* sub : app_.get_subcommands({})) {
+      CommandWords command{sub->get_name(), sub->get_description(), {}, {}};
+      if (const auto found = examples.find(command.name); found != examples.end())
+        command.examples = found->second;
+      for (const CLI::Option* option : sub->get_options()) {
+        OptionWords words{{}, {}, option->get_description(), {}};
+        for (const auto& name : option->get_snames()) words.names.push_back("-" + name);
+        for (const auto& name : option->get_lnames()) words.names.push_back("--" + name);
+        const bool is_flag = option->get_items_expected_max() == 0;
+        if (words.names.empty())
+          words.argument = option->get_name(true);
+        else if (!is_flag)
+          words.argument = "VALUE";
+        if (const auto found = choices_.find(option); found != choices_.end())
+          words.choices = found->second;
+        command.options.push_back(std::move(words));
+      }
+      commands.push_back(std::move(command));
+    }
+    return commands;
+  }
+
+  /// An option that takes one of some words, which completions know.
+  template <class Value>
+  void add_choice(CLI::App* sub, const std::string& option, Value& target,
+                  const std::map<std::string, Value>& words, const std::string& what) {
+    auto& list = choices_[add_word(sub, option, target, words, what)];
+    for (const auto& [word, value] : words) list.push_back(word);
+  }
+
   /// A sub-command that runs `action` once the line is parsed.
   CLI::App* command(const char* name, const char* what, std::function<int()> action) {
     CLI::App* sub = app_.add_subcommand(name, what);
@@ -164,7 +258,55 @@ class CommandLine {
     sub->add_option("--threads", options_.threads,
                     "threads (default: the processors this process may use)")
         ->envname("SUNLOAD_THREADS")
-        ->check(CLI::Range(1, 4096));
+        ->check(CLI::Range(1, 4096).description("1 to 4096"));
+  }
+
+  void add_init() {
+    CLI::App* sub = command(
+        "init", "write a study to begin with: what the model and weather tell, the rest marked",
+        [this] { return init(); });
+    CLI::Option* model = reads(sub->add_option("MODEL", init_.model, "scene file of any format"));
+    reads(sub->add_option("WEATHER", init_.weather,
+                          "weather file: EPW, TMY3, WEA, CSV (default: clear sky of three days)"));
+    writes(sub->add_option("-o,--output", picture_,
+                           "study to write (.yaml; default: the model's name); of an example: "
+                           "folder"));
+    sub->add_option("--at", init_.at,
+                    "place, latitude first: \"52.01 4.36\", UTM or MGRS (default: from the CRS, or "
+                    "the weather station)");
+    sub->add_option("--crs", init_.crs, "map projection of the coordinates, e.g. EPSG:28992");
+    sub->add_option("--zone", init_.zone, "time zone, e.g. Europe/Amsterdam (default: a guess)");
+    const std::map<std::string, std::string> axes{{"x", "x"}, {"y", "y"}, {"z", "z"}};
+    add_choice(sub, "--up", init_.up, axes, "axis of the file that points up");
+    sub->add_option("--unit-m", init_.unit_m, "length of the file's unit [m], e.g. 0.001")
+        ->check(positive);
+    reads(sub->add_option("--terrain", init_.terrain,
+                          "raster of bare ground, beside a raster of surfaces"));
+    reads(sub->add_option("--canopy", init_.canopy,
+                          "raster of crowns' heights, beside a raster of surfaces"));
+    sub->add_option("--example", example_, "copy a study that comes with the program instead")
+        ->excludes(model);
+  }
+
+  int init() {
+    if (!example_.empty()) return init_example(example_, picture_);
+    if (init_.model.empty())
+      throw InputError({}, "init of what?", "neither a model nor an example is named",
+                       "write sunload init MODEL, or sunload init --example street");
+    return init_study(init_, picture_);
+  }
+
+  void add_doctor() {
+    command("doctor", "what this build has, what this machine gives, and a self-test of seconds",
+            [] { return doctor(); });
+  }
+
+  void add_manual() {
+    CLI::App* sub = command("manual", "write pages of man and completions of shells", [this] {
+      write_manual(picture_, words());
+      return exit_code::done;
+    });
+    sub->add_option("-o,--output", picture_, "folder for man1 and completion")->required();
   }
 
   void add_run() {
@@ -186,7 +328,7 @@ class CommandLine {
                     "auto/N (PBS)");
     sub->add_option("--time-limit", options_.time_limit_min, "stop cleanly after so many minutes")
         ->check(positive);
-    add_word(sub, "--progress", options_.progress, progress_styles, "how to tell of the work");
+    add_choice(sub, "--progress", options_.progress, progress_styles, "how to tell of the work");
   }
 
   void add_merge() {
@@ -218,7 +360,7 @@ class CommandLine {
     sub->add_flag("--intersections", intersections_, "look for triangles that cut or cover others");
     sub->add_flag("--no-refine", no_refine_,
                   "do not refine the mesh: patches, memory and time are the least");
-    add_word(sub, "--progress", options_.progress, progress_styles, "how to tell of the work");
+    add_choice(sub, "--progress", options_.progress, progress_styles, "how to tell of the work");
   }
 
   void add_sun() {
@@ -240,23 +382,21 @@ class CommandLine {
     sub->add_option("--time", sky_.time,
                     "instant, e.g. 2026-06-21T12:00 (civil time of the site), …Z, …+02:00")
         ->required();
-    sub->add_option("--colour", sky_.rules.kind, "of the picture: false (luminance) or rgb")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, SkyPicture>{
-            {"false", SkyPicture::luminance}, {"rgb", SkyPicture::colour}}));
-    sub->add_option("--colour-model", sky_.rules.model, "of rgb: second (default) or first")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, SkyColourModel>{
-            {"first", SkyColourModel::first}, {"second", SkyColourModel::second}}));
-    sub->add_option("--subdivision", subdivision_,
-                    "patches of the CSV: cells (64 x 64, default), tregenza, mf2 or mf4")
-        ->check(CLI::IsMember({"cells", "tregenza", "mf2", "mf4"}));
+    add_choice(sub, "--colour", sky_.rules.kind,
+               {{"false", SkyPicture::luminance}, {"rgb", SkyPicture::colour}},
+               "of the picture, by luminance or as it looks");
+    add_choice(sub, "--colour-model", sky_.rules.model,
+               {{"first", SkyColourModel::first}, {"second", SkyColourModel::second}},
+               "of rgb (default: second)");
+    add_choice<std::optional<Subdivision>>(sub, "--subdivision", sky_.subdivision,
+                                           {{"cells", std::nullopt},
+                                            {"tregenza", Subdivision::tregenza},
+                                            {"mf2", Subdivision::reinhart_mf2},
+                                            {"mf4", Subdivision::reinhart_mf4}},
+                                           "patches of the CSV (default: cells, 64 x 64)");
   }
 
   int sky() {
-    const std::map<std::string, Subdivision> subdivisions{{"tregenza", Subdivision::tregenza},
-                                                          {"mf2", Subdivision::reinhart_mf2},
-                                                          {"mf4", Subdivision::reinhart_mf4}};
-    const auto found = subdivisions.find(subdivision_);
-    if (found != subdivisions.end()) sky_.subdivision = found->second;
     sky_.picture = picture_;
     return print_sky(study_, sky_);
   }
@@ -372,19 +512,19 @@ class CommandLine {
     sub->add_option("--quantity", render_.rules.quantity,
                     "dataset to draw (default: light_load; animated: irradiance)");
     sub->add_option("--time", render_.rules.time, "instant of a series, e.g. 2026-06-21T12:00");
-    add_word(sub, "--camera", render_.rules.view,
-             {{"overview", View::overview}, {"sun", View::sun}, {"top", View::top}}, "view");
+    add_choice(sub, "--camera", render_.rules.view,
+               {{"overview", View::overview}, {"sun", View::sun}, {"top", View::top}}, "view");
     add_named(sub, render_.rules.parts, "picture of");
     sub->add_option("--eye", render_.rules.eye,
                     "camera at x,y,z [m], NAME+dx,dy,dz [m from the foot of an object or facade], "
                     "before a facade NAME, or on top of an object NAME");
     sub->add_option("--look", render_.rules.look, "what is looked at: x,y,z, NAME, NAME+dx,dy,dz");
-    add_word(sub, "--projection", render_.rules.projection,
-             {{"perspective", Projection::perspective}, {"parallel", Projection::parallel}},
-             "of overview and eye point");
+    add_choice(sub, "--projection", render_.rules.projection,
+               {{"perspective", Projection::perspective}, {"parallel", Projection::parallel}},
+               "of overview and eye point");
     sub->add_option("--size", render_.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
     sub->add_option("--max", largest_, "value of the last colour")->check(positive);
-    add_word<std::optional<std::pair<PictureColours, Palette>>>(
+    add_choice<std::optional<std::pair<PictureColours, Palette>>>(
         sub, "--colour", render_colours_, {picture_colours.begin(), picture_colours.end()},
         "colours (rgb: the bands themselves, default quantity power_load; surface, material: the "
         "scene without light, default surface of a study)");
@@ -394,12 +534,12 @@ class CommandLine {
     reads(sub->add_option("--same-scale", render_.rules.same_scale,
                           "results that the scale is to do for, too, so that pictures can be "
                           "compared"));
-    add_word<std::optional<SkyBackground>>(sub, "--sky", render_.rules.sky,
-                                           {{"plain", SkyBackground::plain},
-                                            {"first", SkyBackground::first},
-                                            {"second", SkyBackground::second}},
-                                           "sky behind (default: plain for totals, second for "
-                                           "series)");
+    add_choice<std::optional<SkyBackground>>(sub, "--sky", render_.rules.sky,
+                                             {{"plain", SkyBackground::plain},
+                                              {"first", SkyBackground::first},
+                                              {"second", SkyBackground::second}},
+                                             "sky behind (default: plain for totals, second for "
+                                             "series)");
     sub->add_flag("--mesh", mesh_lines_, "draw the patches' edges");
     sub->add_flag("--interpolate", render_.rules.interpolate, "colours run between corners");
     sub->add_option("--crease-angle", render_.rules.crease_angle_deg,
@@ -426,7 +566,7 @@ class CommandLine {
                     "of a study: its variants to show, at most two (default: the first two)");
     sub->add_option("--step", view_step_,
                     "hold every N-th interval only (default: as many as 60 MB hold)")
-        ->check(CLI::Range(1, 1'000'000));
+        ->check(CLI::Range(1, 1'000'000).description("1 to 1000000"));
     add_band(sub);
     add_period(sub);
   }
@@ -454,8 +594,8 @@ class CommandLine {
                     "dataset per patch (default: light_load; csv and xdmf: all); csv: series");
     sub->add_option("--time", export_.time,
                     "instant of a series, e.g. 2026-06-21T12:00 (default: the brightest)");
-    add_word<std::optional<Palette>>(sub, "--colour", export_.palette,
-                                     {palettes.begin(), palettes.end()}, "colours");
+    add_choice<std::optional<Palette>>(sub, "--colour", export_.palette,
+                                       {palettes.begin(), palettes.end()}, "colours");
     sub->add_option("--max", export_.largest, "value of the last colour")->check(positive);
     add_band(sub);
     add_period(sub);
@@ -489,7 +629,7 @@ class CommandLine {
   CLI::App app_{"sunload: how much sun and sky light falls on every patch of a city"};
   std::function<int()> action_;
   std::vector<CLI::Option*> inputs_, outputs_;
-  std::string study_, picture_, shard_, band_, subdivision_ = "cells";
+  std::string study_, picture_, shard_, band_;
   std::vector<std::string> results_;
   RunOptions options_;
   InfoOptions info_;
@@ -501,6 +641,9 @@ class CommandLine {
   SkyOptions sky_;
   ViewOptions view_;
   BuiltinOptions builtin_;
+  InitRules init_;
+  std::string example_;
+  Choices choices_;
   std::size_t view_step_ = 0;
   double largest_ = 0;
   bool resume_ = false, overwrite_ = false, keep_batches_ = false, json_ = false, csv_ = false,

@@ -33,6 +33,14 @@ std::size_t launched_ranks() {
 
 }  // namespace
 
+bool has_mpi() {
+#ifdef SUNLOAD_WITH_MPI
+  return true;
+#else
+  return false;
+#endif
+}
+
 #ifdef SUNLOAD_WITH_MPI
 
 namespace {

@@ -8,6 +8,9 @@
 
 namespace sunload {
 
+/// Whether this build has MPI.
+bool has_mpi();
+
 /// The ranks that were started together; they share a counter per variant.
 class MpiWorld {
  public:

@@ -71,16 +71,17 @@ void refuse_other_files(const std::string& path) {
   if (!fs::is_regular_file(path, unreadable)) return;
   const std::string name = fs::path(path).filename().string();
   constexpr const char* place = "latitude_deg: 52.5, longitude_deg: 13.4, ";
+  const std::string init = "`sunload init " + name + "` writes one; or ";
   switch (kind_of(path, first_bytes(path))) {
     case FileKind::unknown:
       return;
     case FileKind::city:
       throw InputError({path}, "is a city model, not a study", "a study names its models",
-                       study_with("", "clear_sky", "files: [" + name + "]"));
+                       init + study_with("", "clear_sky", "files: [" + name + "]"));
     case FileKind::mesh:
       throw InputError(
           {path}, "is a model, not a study", "a study names its models",
-          study_with(place, "clear_sky", "files: [" + name + "], ground: {margin_m: 50}"));
+          init + study_with(place, "clear_sky", "files: [" + name + "], ground: {margin_m: 50}"));
     case FileKind::weather:
       throw InputError({path}, "is a weather file, not a study", "a study names its weather",
                        study_with("", "weather, weather: " + name, "builtin: {name: street}"));

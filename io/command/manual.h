@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Pages of `man` and completions of shells, from the options of the commands.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sunload {
+
+/// An option or a positional argument as its help tells it.
+struct OptionWords {
+  std::vector<std::string> names;  ///< --output, -o; empty: a positional one
+  std::string argument;            ///< what it takes; empty: nothing, a flag
+  std::string what;
+  std::vector<std::string> choices;  ///< words that it takes, where these are all
+};
+struct CommandWords {
+  std::string name, what, examples;
+  std::vector<OptionWords> options;
+};
+
+/// Writes FOLDER/man1/sunload.1 and a page for each command, and completions for bash, zsh and fish
+/// into FOLDER/completion. Throws MachineError.
+void write_manual(const std::string& folder, const std::vector<CommandWords>& commands);
+
+}  // namespace sunload

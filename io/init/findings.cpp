@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/init/findings.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "geo/base/check.h"
+#include "geo/sun/weather.h"
+
+namespace sunload {
+
+namespace {
+
+/// A study of the files that says nothing else; without dates, it needs no place.
+Study bare_study(const InitRules& rules, const Findings& found) {
+  Study study;
+  study.scene.files = {scene_file_of(rules)};
+  study.scene.where = {rules.model, 0, 0};
+  study.period.kind = PositionsPeriod{{SunAt{180, 45, 60}}};
+  study.site.crs = rules.crs;
+  if (!rules.at.empty()) {
+    const Site site = site_from_text(rules.at);
+    study.site.latitude_deg = site.latitude_deg;
+    study.site.longitude_deg = site.longitude_deg;
+  }
+  if (found.weather) {
+    study.light.source = LightSource::weather;
+    study.light.weather = rules.weather;
+    study.light.missing = Missing::interpolate;
+    if (!found.is_stamp_known) study.light.stamp = Stamp::end;
+  }
+  return study;
+}
+
+/// CSV has no convention of its own: its rows are read as ends of intervals, and the study says so.
+void read_weather(const std::string& path, Findings& found) {
+  if (path.empty()) return;
+  try {
+    found.weather = read_weather_file(path, {});
+  } catch (const InputError&) {
+    found.weather = read_weather_file(path, Stamp::end);
+    found.is_stamp_known = false;
+  }
+  constexpr int any_leap_year = 2004;  // no record is left out
+  const auto weather = dated(found.weather->records, any_leap_year, 0);
+  const WeatherSource source = source_of(weather);
+  found.records_incomplete = static_cast<std::size_t>(std::count_if(
+      weather.begin(), weather.end(),
+      [&](const DatedWeather& record) { return is_incomplete(record.values, source); }));
+}
+
+/// By its ending: what is inside has been read by then.
+bool is_raster(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  return ending == ".tif" || ending == ".tiff" || ending == ".asc";
+}
+
+void look_at_site(const InitRules& rules, const BuiltScene& built, Findings& found) {
+  found.crs = built.crs.empty() ? rules.crs : built.crs;
+  const bool has_station = found.weather && found.weather->place;
+  if (!found.crs.empty() || !rules.at.empty() || has_station) {
+    found.site = built.site;
+    found.site_source = built.site_source;
+  }
+  found.is_at_station = has_station && found.crs.empty() && rules.at.empty();
+  const std::optional<double> offset =
+      found.weather ? found.weather->offset_s : std::optional<double>();
+  if (found.site)
+    found.zone = guessed_zone(found.site->latitude_deg, found.site->longitude_deg, offset);
+  if (has_station && found.site && !found.is_at_station)
+    found.station_away_m =
+        distance_m(*found.site, {.latitude_deg = found.weather->place->latitude_deg,
+                                 .longitude_deg = found.weather->place->longitude_deg});
+}
+
+void look_at_surfaces(const Mesh& mesh, Findings& found) {
+  found.triangles = mesh.triangle_count();
+  found.objects = mesh.object_names.size();
+  for (const auto& kind : mesh.object_kinds)
+    if (!kind.empty()) ++found.kinds[kind];
+  for (const auto& material : mesh.file_materials) {
+    found.materials.push_back({material, 0});
+    if (material.may_be_scaled && material.diffuse.value_or(0) + material.mirror.value_or(0) > 1)
+      found.has_excess = true;
+  }
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const double area = norm(mesh.area_vector2(t)) / 2;
+    const auto surface = static_cast<std::size_t>(mesh.triangle_surface[t]);
+    found.area[surface] += area;
+    const MaterialId material = mesh.triangle_material[t];
+    const bool has_material = material != MaterialId::none();
+    if (has_material) found.materials[material.index()].area_m2 += area;
+    if (!has_material || !mesh.file_materials[material.index()].diffuse)
+      found.undetermined[surface] += area;
+  }
+}
+
+}  // namespace
+
+SceneFileStudy scene_file_of(const InitRules& rules) {
+  SceneFileStudy file;
+  file.path = rules.model;
+  file.where = {rules.model, 0, 0};
+  file.terrain = rules.terrain;
+  file.canopy = rules.canopy;
+  if (!rules.up.empty()) file.up = rules.up.front();
+  if (rules.unit_m != 1) file.unit_m = rules.unit_m;
+  return file;
+}
+
+Findings findings_of(const InitRules& rules) {
+  Findings found;
+  read_weather(rules.weather, found);
+  const BuiltScene built = scene_before_materials(bare_study(rules, found));
+  const PrepareReport& report = built.report;
+  look_at_site(rules, built, found);
+  look_at_surfaces(built.scene.mesh, found);
+  found.polygons = report.polygons_read;
+  found.size = report.bounds.high - report.bounds.low;
+  found.middle = built.scene.mesh.origin + (report.bounds.high + report.bounds.low) / 2;
+  found.is_city_format = report.ground.has_value();
+  found.has_ground = found.area[static_cast<std::size_t>(Surface::ground)] > 0;
+  found.is_raster = is_raster(rules.model);
+  found.warnings = built.warnings;
+  return found;
+}
+
+}  // namespace sunload

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What a model and a weather file tell about a study of them.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "geo/base/vec.h"
+#include "geo/mesh/mesh.h"
+#include "geo/sun/site.h"
+#include "io/init/zone_guess.h"
+#include "io/plan/scene_build.h"
+#include "io/weather/file.h"
+
+namespace sunload {
+
+/// What the user gives of it.
+struct InitRules {
+  std::string model = {};                 ///< any scene file
+  std::string weather = {};               ///< empty: clear sky
+  std::string terrain = {}, canopy = {};  ///< rasters beside a raster of surfaces
+  std::string crs = {};                   ///< empty: what the model names
+  std::string at = {};    ///< latitude and longitude in words (site_from_text); empty: unknown
+  std::string zone = {};  ///< empty: a guess
+  std::string up = {};    ///< x, y, z; empty: of the format
+  double unit_m = 1;
+};
+
+/// Areas of the surfaces that could be patches [m2].
+using Areas = std::array<double, surface_names.size()>;
+
+struct FoundMaterial {
+  FileMaterial material;
+  double area_m2 = 0;
+};
+
+struct Findings {
+  std::string crs;           ///< empty: none is known
+  std::optional<Site> site;  ///< nothing where no place is known
+  std::string site_source;
+  bool is_at_station = false;  ///< the place is that of the weather station
+  std::optional<ZoneGuess> zone;
+  std::optional<double> station_away_m;
+
+  std::size_t polygons = 0, triangles = 0, objects = 0;
+  std::map<std::string, std::size_t> kinds;  ///< of city objects, with their count
+  Vec3 size;                                 ///< of the bounding box [m]
+  Vec3 middle;                               ///< its place in the file's coordinates
+  Areas area{}, undetermined{};              ///< … of it: no reflectance in the file
+  std::vector<FoundMaterial> materials;
+  bool has_ground = false, is_city_format = false;
+  bool is_raster = false;   ///< of heights, which are the ground, too
+  bool has_excess = false;  ///< colours of VRML that reflect more than arrives
+  std::vector<std::string> warnings;
+
+  std::optional<WeatherFile> weather;
+  bool is_year_too_long = false;  ///< of the weather, for a first picture
+  /// Of the rules that would be written those that give no surface its material, by their place.
+  std::set<std::size_t> idle_rules;
+  std::size_t records_incomplete = 0;  ///< of the weather, that lack what light is made from
+  bool is_stamp_known = true;  ///< else stamps of the weather are taken as ends of intervals
+};
+
+/// Reads both files. Throws InputError.
+Findings findings_of(const InitRules& rules);
+/// The scene's part of a study of these files, as `findings_of` reads it.
+SceneFileStudy scene_file_of(const InitRules& rules);
+
+}  // namespace sunload

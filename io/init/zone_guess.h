@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// A time zone by the nearest place of the time-zone database.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace sunload {
+
+struct ZoneGuess {
+  std::string name;   ///< IANA, e.g. Europe/Amsterdam
+  double away_m = 0;  ///< of the place that the database gives the zone
+};
+
+/// The zone whose place (`zone.tab`: one for each zone and country) is nearest; of those with that
+/// standard offset from UTC [s], where one is given and any has it. A guess: zones end at borders,
+/// which the database does not have. Nothing where the system has no such table.
+std::optional<ZoneGuess> guessed_zone(double latitude_deg, double longitude_deg,
+                                      std::optional<double> standard_offset_s = {});
+
+}  // namespace sunload

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Mesh in, irradiance out: a wall on a plane, an hour of sun under a uniform sky.
+#include <cstdio>
+
+#include "geo/mesh/mesh_prepare.h"
+#include "geo/sky/sky.h"
+#include "solver/solver.h"
+
+using namespace sunload;
+
+int main() {
+  PolygonModel model;  // metres, z up; corners counter-clockwise seen from the front
+  model.object_names = {"court"};
+  model.vertices = {{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}, {0, 8, 4}, {8, 8, 4}};
+  const PolygonModel::Facts court{.object = ObjectId{0}, .sides = Sides::two};
+  model.add_polygon({{0, 1, 2, 3}}, court);
+  model.add_polygon({{3, 2, 5, 4}}, court);
+
+  Scene scene{.mesh = prepare(model, {}).mesh, .materials = {{"plaster", 0.5}}, .material = {}};
+  scene.material.assign(scene.mesh.triangle_count(), MaterialId{0});
+
+  IntervalLight noon;  // one hour of it
+  noon.direction = normalized(Vec3{0, -1, 1});
+  noon.dni = 800;
+  noon.dhi = 100;
+  noon.length_s = noon.sunlit_s = 3600;
+  noon.sky.assign(static_cast<std::size_t>(SkyGrid().cell_count()), noon.dhi / pi);
+
+  Watch watch;
+  const auto traced = trace_scene(scene, SplitRules{.max_edge_m = 1}, SolverRules{}, watch);
+  const Solved solved = solve(*transport_of(*traced), {&noon, 1}, watch);
+
+  const BatchTally& received = solved.bands.front();
+  std::printf("patch,area_m2,irradiance_w_m2,standard_error_w_m2\n");
+  for (std::size_t p = 0; p < traced->hierarchy().patches().size(); ++p) {
+    std::vector<double> realizations;
+    for (const auto& exposure : received.exposure_realization)
+      realizations.push_back(exposure[p] / noon.length_s);
+    const MeanError of_patch = mean_error(realizations);
+    std::printf("%zu,%.4f,%.2f,%.2f\n", p, traced->hierarchy().area()[p], of_patch.mean,
+                of_patch.standard_error);
+  }
+}

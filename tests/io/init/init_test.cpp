@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The study that `init` writes: it is read, says what is a guess, and replaces nothing.
+#include "io/init/init.h"
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <sstream>
+
+#include "io/init/proposals.h"
+#include "io/init/study_text.h"
+#include "io/plan/planner.h"
+#include "io/study/material_table.h"
+#include "io/study/study.h"
+#include "tests/support/paths.h"
+#include "tests/support/refusal_of.h"
+#include "tests/support/small_weather.h"
+#include "tests/support/work_folder.h"
+
+namespace sunload {
+namespace {
+
+using test::refusal_of;
+using test::WorkFolder;
+
+constexpr const char* box =
+    "mtllib no.mtl\no house\nv 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 0 0 3\nv 4 0 3\nv 4 4 3\nv 0 4 "
+    "3\n"
+    "usemtl Facade_Brick_02\nf 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nusemtl "
+    "nothing\n"
+    "f 5 6 7 8\n";
+
+/// What is written to the standard output meanwhile.
+class Listing {
+ public:
+  Listing() : before_(std::cout.rdbuf(text_.rdbuf())) {}
+  ~Listing() { std::cout.rdbuf(before_); }
+  Listing(const Listing&) = delete;
+  Listing& operator=(const Listing&) = delete;
+  std::string text() const { return text_.str(); }
+
+ private:
+  std::ostringstream text_;
+  std::streambuf* before_;
+};
+
+/// The study that init writes, read again; its text.
+std::pair<Study, std::string> begun(const WorkFolder& folder, const InitRules& rules) {
+  const Listing listing;
+  init_study(rules, folder / "study.yaml");
+  EXPECT_NE(listing.text().find("sunload check"), std::string::npos);
+  const StudyFile file = read_study(folder / "study.yaml");
+  EXPECT_NO_THROW(Planner().plan(file.variants.front()));
+  return {file.variants.front(), folder.read("study.yaml")};
+}
+
+TEST(Init, WithoutAPlaceTheSunStandsWhereTheStudyPutsIt) {
+  const WorkFolder folder;
+  const auto [study, text] = begun(folder, {.model = folder.write("box.obj", box)});
+  EXPECT_TRUE(std::holds_alternative<PositionsPeriod>(study.period.kind));
+  EXPECT_NE(text.find("<<< Neither file nor weather tells where this stands"), std::string::npos);
+}
+
+TEST(Init, APlaceBringsDaysAndAZone) {
+  const WorkFolder folder;
+  const auto [study, text] =
+      begun(folder, {.model = folder.write("box.obj", box), .at = "52.01 4.36"});
+  const auto& days = std::get<DaysPeriod>(study.period.kind);
+  EXPECT_EQ(days.days.size(), 3u);
+  EXPECT_EQ(study.site.timezone, "Europe/Amsterdam");
+  EXPECT_NE(text.find("<<< timezone"), std::string::npos);
+  EXPECT_NE(text.find("<<< north_deg"), std::string::npos);
+}
+
+TEST(Init, PlaceAndNorthOfAProjectionAreTheFilesOwn) {
+  const WorkFolder folder;
+  const auto [study, text] =
+      begun(folder, {.model = test::source_folder() + "/configs/models/town.city.json"});
+  EXPECT_FALSE(study.site.latitude_deg);
+  EXPECT_FALSE(study.site.north_deg);
+  EXPECT_EQ(study.site.timezone, "Europe/Prague");
+  EXPECT_NE(text.find("type: \"SolitaryVegetationObject\", material: crown"), std::string::npos);
+}
+
+TEST(Init, WeatherBringsItsYearAndItsStation) {
+  const WorkFolder folder;
+  const auto [study, text] = begun(folder, {.model = folder.write("box.obj", box),
+                                            .weather = folder.write("w.epw", test::small_epw())});
+  EXPECT_EQ(study.light.source, LightSource::weather);
+  EXPECT_TRUE(std::holds_alternative<WeatherPeriod>(study.period.kind));
+  EXPECT_NE(text.find("<<< the place is the weather station's"), std::string::npos);
+}
+
+TEST(Init, MaterialsAreProposedByNamesAndKinds) {
+  EXPECT_EQ(proposed_for_name("Facade_Brick_02"), "brick");
+  EXPECT_EQ(proposed_for_name("oak window"), "double_glazing");
+  EXPECT_FALSE(proposed_for_name("material_7"));
+  EXPECT_EQ(proposed_for_kind("WaterBody"), "water");
+  EXPECT_FALSE(proposed_for_kind("Building"));
+  const WorkFolder folder;
+  const auto [study, text] = begun(folder, {.model = folder.write("box.obj", box), .at = "52 4"});
+  EXPECT_NE(text.find("was: \"Facade_Brick_02\", material: brick"), std::string::npos) << text;
+}
+
+TEST(Init, EveryProposedMaterialIsInTheTable) {
+  for (std::size_t s = 0; s < surface_names.size(); ++s)
+    EXPECT_TRUE(tabled_material(proposed_for_surface(static_cast<Surface>(s))));
+  for (const char* name :
+       {"glass", "brick", "concrete", "road", "lawn", "leaf", "tile", "slate", "plaster", "wood",
+        "steel", "alumin", "water", "stone", "paving", "gravel", "wall"})
+    EXPECT_TRUE(tabled_material(*proposed_for_name(name))) << name;
+  for (const char* kind : {"PlantCover", "Road", "Railway", "TransportSquare", "LandUse"})
+    EXPECT_TRUE(tabled_material(*proposed_for_kind(kind))) << kind;
+}
+
+TEST(Init, ReplacesNoFile) {
+  const WorkFolder folder;
+  folder.write("study.yaml", "mine");
+  const InitRules rules{.model = folder.write("box.obj", box)};
+  EXPECT_NE(refusal_of([&] { init_study(rules, folder / "study.yaml"); }).find("is there already"),
+            std::string::npos);
+  EXPECT_EQ(folder.read("study.yaml"), "mine");
+  EXPECT_NE(refusal_of([&] { init_study(rules, folder / "study.txt"); }).find(".yaml"),
+            std::string::npos);
+}
+
+TEST(Init, NamesOfStudiesAreThoseThatAStudyMayHave) {
+  EXPECT_EQ(study_name("a/Delft Zuid (2).city.json"), "Delft_Zuid__2_");
+  EXPECT_EQ(study_name("tower.obj"), "tower");
+  EXPECT_EQ(study_name(".obj"), "obj");
+  EXPECT_EQ(study_name("..."), "first");
+}
+
+TEST(Init, ZonesAreThoseOfTheNearestPlaceWithTheOffset) {
+  EXPECT_EQ(guessed_zone(52.0, 4.4)->name, "Europe/Amsterdam");
+  EXPECT_EQ(guessed_zone(-33.4, -70.8)->name, "America/Santiago");
+  // A station that keeps the time of India is in India, however near Nepal it lies.
+  EXPECT_EQ(guessed_zone(27.7, 85.3)->name, "Asia/Kathmandu");
+  EXPECT_EQ(guessed_zone(27.7, 85.3, 5.5 * 3600)->name, "Asia/Kolkata");
+}
+
+TEST(Init, AnExampleIsCopiedWithItsFiles) {
+  const WorkFolder folder;
+  const Listing listing;
+  init_example("town_day", folder.path());
+  EXPECT_EQ(folder.content(),
+            (std::vector<std::string>{"models/", "models/town.city.json", "town_day.yaml"}));
+  EXPECT_NE(refusal_of([&] { init_example("town_day", folder.path()); }).find("is there already"),
+            std::string::npos);
+  EXPECT_NE(refusal_of([&] { init_example("../town", folder.path()); }).find("write one of"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace sunload
