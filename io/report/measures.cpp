@@ -74,7 +74,7 @@ std::string measure_table_text(const ResultReader& result, const std::vector<Mea
                             cell(row.passing_percent, "{:.0f} %"), row.level);
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
-    if (!row.spans.empty()) text += "          sun " + row.spans + "\n";
+    if (!row.spans.empty()) text += "          spans " + row.spans + "\n";
   }
   return text;
 }
