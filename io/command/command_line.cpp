@@ -528,6 +528,9 @@ class CommandLine {
         sub, "--colour", render_colours_, {picture_colours.begin(), picture_colours.end()},
         "colours (rgb: the bands themselves, default quantity power_load; surface, material: the "
         "scene without light, default surface of a study)");
+    add_word(sub, "--scale", render_.rules.scale,
+             {{"linear", ColourScale::linear}, {"log", ColourScale::logarithmic}},
+             "of the colours (log: three powers of ten below the last one)");
     sub->add_option("--variant", render_.variant, "of a study (default: its first)");
     add_band(sub);
     add_period(sub);
@@ -620,10 +623,14 @@ class CommandLine {
   void add_materials() {
     CLI::App* sub = command(
         "materials", "list the materials that studies may name without defining them", [this] {
-          std::cout << (markdown_ ? material_page() : material_listing());
+          std::cout << (angles_     ? angle_listing()
+                        : markdown_ ? material_page()
+                                    : material_listing());
           return exit_code::done;
         });
-    sub->add_flag("--markdown", markdown_, "as the page docs/materials.md");
+    CLI::Option* markdown = sub->add_flag("--markdown", markdown_, "as the page docs/materials.md");
+    sub->add_flag("--angles", angles_, "what they reflect and let pass, by angle of incidence")
+        ->excludes(markdown);
   }
 
   CLI::App app_{"sunload: how much sun and sky light falls on every patch of a city"};
@@ -647,8 +654,8 @@ class CommandLine {
   std::size_t view_step_ = 0;
   double largest_ = 0;
   bool resume_ = false, overwrite_ = false, keep_batches_ = false, json_ = false, csv_ = false,
-       mesh_lines_ = false, partial_ = false, markdown_ = false, intersections_ = false,
-       no_refine_ = false;
+       mesh_lines_ = false, partial_ = false, markdown_ = false, angles_ = false,
+       intersections_ = false, no_refine_ = false;
 };
 
 }  // namespace

@@ -113,6 +113,9 @@ void expect_sense(const RenderRules& rules) {
   if (rules.colours == PictureColours::of_bands && (rules.interpolate || !rules.same_scale.empty()))
     problems.add({}, "--colour rgb with --interpolate or --same-scale",
                  "these are of values, not of bands", "leave them out; --max sets what is white");
+  if (rules.scale == ColourScale::logarithmic && rules.colours != PictureColours::of_values)
+    problems.add({}, "--scale log with --colour rgb, surface or material",
+                 "it is of values by a palette", "leave out one");
   problems.throw_if_any();
 }
 
@@ -155,6 +158,8 @@ void expect_fit_for_comparison(const ResultReader& result, const RenderRules& ru
   refuse(rules.sky.value_or(SkyBackground::plain) != SkyBackground::plain, "--sky", "it has no sun",
          "leave it out");
   refuse(!rules.time.empty(), "--time", "it is of the whole period", "leave it out");
+  refuse(rules.scale == ColourScale::logarithmic, "--scale log", "differences are of either sign",
+         "leave it out");
   refuse(rules.colours == PictureColours::of_bands || rules.palette != Palette::false_colour,
          "--colour", "differences have their own scale, from blue to red", "leave it out");
   problems.throw_if_any();
@@ -291,7 +296,9 @@ class Renderer {
     if (!traced_ || (rules_.view == View::sun && rules_.eye.empty())) trace(shown.interval, area);
     const Palette palette = shown.is_difference ? Palette::difference : rules_.palette;
     PatchColours colours{shown.values, largest, palette, rules_.mesh};
-    colours.least = shown.scale_begin(largest);
+    colours.scale = rules_.scale;
+    colours.least = rules_.scale == ColourScale::logarithmic ? least_of_decades(largest)
+                                                             : shown.scale_begin(largest);
     const bool in_rgb = rules_.colours == PictureColours::of_bands;
     if (in_rgb) {
       auto bands =
@@ -316,10 +323,11 @@ class Renderer {
                  : Legend::Above::nothing;
     };
     if (!in_rgb)
-      draw_legend(*picture,
-                  {shown.units, largest, palette,
-                   marked_where([&](double value) { return value > largest; }), colours.least,
-                   marked_where([&](double value) { return value < colours.least; })});
+      draw_legend(
+          *picture,
+          {shown.units, largest, palette,
+           marked_where([&](double value) { return value > largest; }), colours.least,
+           marked_where([&](double value) { return value < colours.least; }), colours.scale});
     draw_north(*picture, camera_->image_direction(scene_direction({0, 0}, north_deg_)));
     return picture;
   }

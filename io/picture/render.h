@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/base/colour_map.h"
+#include "io/picture/colour_scale.h"
 #include "io/result/named_parts.h"
 #include "io/result/reader.h"
 
@@ -49,7 +50,8 @@ struct RenderRules {
   PictureColours colours = PictureColours::of_values;
   std::vector<std::string> same_scale;  ///< results that the last colour must do for, too
   Palette palette = Palette::false_colour;
-  std::optional<SkyBackground> sky;  ///< plain for totals, `second` for series
+  ColourScale scale = ColourScale::linear;  ///< logarithmic: three decades, of values alone
+  std::optional<SkyBackground> sky;         ///< plain for totals, `second` for series
   MeshLines mesh = MeshLines::none;
   /// Colours run between corners; these have the means of the patches around them that turn by
   /// no more than the crease angle (20° where left out).

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace sunload {
 namespace {
@@ -51,6 +53,30 @@ void draw_title(Picture& picture, const std::string& title, const std::string& s
   picture.write({margin * u, subtitle_line * u}, subtitle, style);
 }
 
+namespace {
+
+/// Values beside the bar, with their words.
+std::vector<std::pair<double, std::string>> ticks_of(const Legend& legend) {
+  std::vector<std::pair<double, std::string>> named;
+  if (legend.scale == ColourScale::logarithmic) {
+    for (const double value : logarithmic_ticks(legend.least, legend.largest))
+      named.emplace_back(value, fmt::format("{:.4g}", value));
+    return named;
+  }
+  const bool has_two_sides = legend.least < 0;
+  const auto ticks = round_ticks(legend.largest, has_two_sides ? most_ticks / 2 : most_ticks);
+  for (const double value : ticks.values) {
+    named.emplace_back(
+        value, fmt::format(fmt::runtime(has_two_sides && value != 0 ? "{:+.{}f}" : "{:.{}f}"),
+                           value, ticks.decimals));
+    if (has_two_sides && value > 0)
+      named.emplace_back(-value, fmt::format("{:+.{}f}", -value, ticks.decimals));
+  }
+  return named;
+}
+
+}  // namespace
+
 void draw_legend(Picture& picture, const Legend& legend) {
   const double u = unit(picture);
   // Whole pixels: the rows of the bar would blend with what is below them.
@@ -77,20 +103,13 @@ void draw_legend(Picture& picture, const Legend& legend) {
                       {x + bar_width * u, bar_top},
                       {x, bar_top}},
                      line_width * u, ink);
-  const bool has_two_sides = legend.least < 0;
-  const auto ticks = round_ticks(legend.largest, has_two_sides ? most_ticks / 2 : most_ticks);
-  std::vector<double> values = ticks.values;
-  if (has_two_sides)
-    for (const double value : ticks.values)
-      if (value > 0) values.push_back(-value);
-  for (const double value : values) {
-    const double y = bottom - rows * (value - legend.least) / (legend.largest - legend.least);
+  for (const auto& [value, text] : ticks_of(legend)) {
+    const double y =
+        bottom - rows * colour_share(legend.scale, value, legend.least, legend.largest);
     const double end = x + (bar_width + tick_length) * u;
     picture.draw_lines({{x + bar_width * u, y}, {end, y}}, line_width * u, ink);
     constexpr double half_digit = 0.36;  // digits are some 0.72 of the font's height
-    picture.write({end + tick_length * u, y + half_digit * u},
-                  fmt::format(fmt::runtime(has_two_sides && value != 0 ? "{:+.{}f}" : "{:.{}f}"),
-                              value, ticks.decimals),
+    picture.write({end + tick_length * u, y + half_digit * u}, text,
                   {u, Align::left, Weight::normal, ink});
   }
 }

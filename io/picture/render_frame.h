@@ -8,6 +8,7 @@
 
 #include "geo/base/units.h"
 #include "io/base/colour_map.h"
+#include "io/picture/colour_scale.h"
 #include "io/picture/picture.h"
 
 namespace sunload {
@@ -27,8 +28,9 @@ struct Legend {
   double largest = 1;  ///< value of the last colour
   Palette palette = Palette::false_colour;
   enum class Above { nothing, marked } above = Above::nothing;  ///< larger values occur
-  double least = 0;              ///< value of the first colour: 0, or −largest
+  double least = 0;              ///< value of the first colour: 0, −largest, or of decades
   Above below = Above::nothing;  ///< smaller values occur
+  ColourScale scale = ColourScale::linear;
 };
 void draw_legend(Picture& picture, const Legend& legend);
 

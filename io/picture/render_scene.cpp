@@ -101,8 +101,7 @@ class Painter {
 
  private:
   Colour of_value(double value) const {
-    const double share =
-        std::clamp((value - colours_.least) / (colours_.largest - colours_.least), 0.0, 1.0);
+    const double share = colour_share(colours_.scale, value, colours_.least, colours_.largest);
     return palette_[static_cast<std::size_t>(
         std::lround(share * static_cast<double>(palette_steps - 1)))];
   }

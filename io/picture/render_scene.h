@@ -10,6 +10,7 @@
 
 #include "io/base/colour_map.h"
 #include "io/picture/camera.h"
+#include "io/picture/colour_scale.h"
 #include "io/picture/render.h"
 #include "io/result/reader.h"
 #include "solver/surface/ray_caster.h"
@@ -69,6 +70,7 @@ struct PatchColours {
   std::vector<std::array<double, 3>> corner_values = {};
   double least = 0;              ///< value of the first colour
   std::vector<Colour> own = {};  ///< per patch, linear light; where given, in place of a palette's
+  ColourScale scale = ColourScale::linear;
 };
 
 /// The sky behind the scene.

@@ -6,6 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+
+#include "geo/base/units.h"
+#include "solver/surface/material.h"
 
 namespace sunload {
 
@@ -161,6 +165,34 @@ is what `sunload materials --markdown` writes.
   for (const auto& m : table)
     text += fmt::format("| `{}` | {:.3g} | {} | {} | {} | {} |\n", m.name, m.diffuse(),
                         range_text(m), further_text(m), m.what, m.source);
+  return text;
+}
+
+std::string angle_listing() {
+  constexpr std::array angles_deg{0, 15, 30, 45, 60, 75, 85};
+  std::string text = fmt::format("{:<32}", "angle of incidence");
+  for (const int angle_deg : angles_deg) text += fmt::format("{:>6}°", angle_deg);
+  text += "\n";
+  const auto add = [&](const std::string& name, const auto& share_of_cosine) {
+    text += fmt::format("{:<32}", name);
+    for (const int angle_deg : angles_deg)
+      text += fmt::format("{:>7.3f}", share_of_cosine(std::cos(radians(angle_deg))));
+    text += "\n";
+  };
+  for (const auto& row : table) {
+    const MaterialStudy study = *tabled_material(row.name);
+    const Material material{.name = row.name,
+                            .diffuse = row.diffuse(),
+                            .mirror = row.mirror,
+                            .smooth = study.smooth,
+                            .transmittance = row.transmittance};
+    const auto passed = [&](double cosine) {
+      return row.transmittance + smooth_shares(material, cosine).transmitted;
+    };
+    add(std::string(row.name) + ", reflected",
+        [&](double cosine) { return row.diffuse() + smooth_shares(material, cosine).mirror; });
+    if (passed(1) > 0) add(std::string(row.name) + ", passed", passed);
+  }
   return text;
 }
 

@@ -49,4 +49,8 @@ std::string material_page();
 /// One material a line, for `sunload materials`.
 std::string material_listing();
 
+/// By angle of incidence what share of light each material reflects, into whatever direction
+/// (directional-hemispherical reflectance), and where it differs from 0, what it lets pass.
+std::string angle_listing();
+
 }  // namespace sunload

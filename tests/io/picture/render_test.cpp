@@ -480,6 +480,26 @@ std::vector<std::string> chunks_of(const std::string& png) {
   return names;
 }
 
+TEST(Render, LogarithmicColoursSpanThreeDecades) {
+  const double least = least_of_decades(500);
+  EXPECT_NEAR(least, 0.5, 1e-12);
+  const auto share = [&](double value) {
+    return colour_share(ColourScale::logarithmic, value, least, 500);
+  };
+  EXPECT_EQ(share(0), 0);
+  EXPECT_EQ(share(-3), 0);
+  EXPECT_EQ(share(0.1), 0);
+  EXPECT_NEAR(share(5), 1.0 / 3, 1e-12);
+  EXPECT_NEAR(share(50), 2.0 / 3, 1e-12);
+  EXPECT_EQ(share(500), 1);
+  EXPECT_EQ(share(1e4), 1);
+  EXPECT_NEAR(colour_share(ColourScale::linear, 50, 0, 500), 0.1, 1e-12);
+  const std::vector<double> ticks{0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500};
+  const auto drawn = logarithmic_ticks(least, 500);
+  ASSERT_EQ(drawn.size(), ticks.size());
+  for (std::size_t i = 0; i < ticks.size(); ++i) EXPECT_NEAR(drawn[i], ticks[i], 1e-9 * ticks[i]);
+}
+
 TEST(Render, AnAnimationHasAPictureForEverySun) {
   const ResultReader result(write_small_result(SmallResult{}, "render_animation"));
   RenderRules rules;

@@ -51,6 +51,34 @@ TEST(MaterialTable, HasTheLecturesValues) {
   for (const auto& [name, value] : lecture) EXPECT_EQ(tabled_material(name)->diffuse, value);
 }
 
+/// The row of a listing that begins so, as numbers.
+std::vector<double> shares_of(const std::string& listing, const std::string& name) {
+  const auto at = listing.find("\n" + name);
+  if (at == std::string::npos) return {};
+  std::istringstream row(listing.substr(at + 1 + name.size(), listing.find('\n', at + 1) - at));
+  std::vector<double> shares;
+  for (double share = 0; row >> share && shares.size() < 7;) shares.push_back(share);
+  return shares;
+}
+
+TEST(MaterialTable, TellsReflectancesByAngle) {
+  const std::string listing = angle_listing();
+  constexpr double printed = 5.1e-4;  // three digits
+  const auto brick = shares_of(listing, "brick, reflected");
+  ASSERT_EQ(brick.size(), 7u);
+  for (const double share : brick)
+    EXPECT_NEAR(share, tabled_material("brick")->diffuse.value(), printed);
+  EXPECT_TRUE(shares_of(listing, "brick, passed").empty());
+  // A pane: more and more of slanting light, and energy is kept.
+  const auto reflected = shares_of(listing, "glass, reflected");
+  const auto passed = shares_of(listing, "glass, passed");
+  ASSERT_EQ(reflected.size(), 7u);
+  ASSERT_EQ(passed.size(), 7u);
+  EXPECT_TRUE(std::is_sorted(reflected.begin(), reflected.end()));
+  EXPECT_GT(reflected.back(), 4 * reflected.front());
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_LE(reflected[i] + passed[i], 1 + 2 * printed);
+}
+
 TEST(MaterialTable, ACrownPassesWhatWasMeasuredThroughTwoSurfaces) {
   for (const auto& [name, whole] : {std::pair{"crown", 0.03}, {"crown_bare", 0.46}}) {
     const double skin = tabled_material(name)->transmittance;
