@@ -1,0 +1,141 @@
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Results as xarray, with names as coordinates and the accessor `.sunload`."""
+
+from __future__ import annotations
+
+import io
+import os
+from typing import Any, Optional, Union
+
+import numpy as np
+import pandas
+import xarray
+
+from . import program
+
+
+def open(path: Union[str, os.PathLike]) -> xarray.Dataset:  # pylint: disable=redefined-builtin
+    """A result file (docs/result-file.md), read as it is asked for. Beside what the file has, patches have the
+    coordinates `object_of`, `facade_of`, `material_of`, `surface_of`: names, '' for none. Raises InputError where the
+    file is no result."""
+    path = os.path.abspath(os.fspath(path))
+    try:
+        result = xarray.open_dataset(path, engine="h5netcdf", decode_timedelta=False)
+    except (OSError, ValueError) as error:
+        raise program.InputError(f"{path}: cannot be read ({error}); name a file that `sunload run` has written",
+                                 2) from error
+    if not str(result.attrs.get("sunload_format", "")).startswith("sunload-result-"):
+        result.close()
+        raise program.InputError(f"{path}: is no result of sunload; name a file that `sunload run` has written", 2)
+    names = {"object_of": ("patch_object", "object"), "facade_of": ("patch_facade", "facade"),
+             "material_of": ("patch_material", "material")}
+    coordinates = {}
+    for name, (index, axis) in names.items():
+        if index in result and axis in result:
+            coordinates[name] = ("patch", _named(result[index].values, result[axis].values))
+    if "patch_surface" in result:
+        surface = result["patch_surface"]
+        words = np.array(str(surface.attrs["flag_meanings"]).split(), dtype=object)
+        values = np.asarray(surface.attrs["flag_values"])
+        order = np.argsort(values)
+        place = order[np.searchsorted(values[order], surface.values.astype(int))]
+        coordinates["surface_of"] = ("patch", words[place])
+    result = result.assign_coords(coordinates)
+    result.encoding["source"] = path
+    return result
+
+
+def _named(index: np.ndarray, names: np.ndarray) -> np.ndarray:
+    """Names by index; '' for -1."""
+    return np.append(names.astype(object), "")[index.astype(int)]
+
+
+@xarray.register_dataset_accessor("sunload")
+class Accessor:
+    """What people do with results."""
+
+    def __init__(self, result: xarray.Dataset):
+        self._result = result
+
+    @property
+    def path(self) -> str:
+        """Of the file that the result was opened from. Raises ValueError where it was computed otherwise."""
+        path = self._result.encoding.get("source")
+        if not path:
+            raise ValueError("this dataset was not opened by sunload.open")
+        return path
+
+    def facades(self) -> pandas.DataFrame:
+        """Facades by name: azimuth_deg, area_m2, light_load_kwh_m2 and its standard error, … (docs/tables.md)."""
+        return self._group_table("facades").set_index("name")
+
+    def objects(self) -> pandas.DataFrame:
+        """The same of objects."""
+        return self._group_table("objects").set_index("name")
+
+    def _group_table(self, table: str) -> pandas.DataFrame:
+        text = program.run(["info", self.path, "--" + table, "--csv"])
+        return pandas.read_csv(io.StringIO(text))
+
+    def mean(self, quantity: str = "light_load", **by: str) -> xarray.DataArray:
+        """Area-weighted mean over patches, for instance mean("irradiance", surface_of="wall"). Patches that light cannot
+        reach (patch_covered) do not count. Raises ValueError where no patch is left."""
+        result = self._result
+        chosen = np.ones(result.sizes["patch"], dtype=bool)
+        if "patch_covered" in result:
+            chosen &= result["patch_covered"].values == 0
+        for name, value in by.items():
+            chosen &= result[name].values == value
+        if not chosen.any():
+            raise ValueError(f"no patch with {by}")
+        kept = result[quantity].isel(patch=np.flatnonzero(chosen))
+        return kept.weighted(result["patch_area"].isel(patch=np.flatnonzero(chosen))).mean("patch", keep_attrs=True)
+
+    def months(self, quantity: str = "light_load") -> xarray.DataArray:
+        """Totals of months per facade (area-weighted means of patches), dims (month, facade). Raises ValueError where
+        the result has no such totals: a study of several months has them, or output.totals: [month]."""
+        result, name = self._result, quantity + "_by_month"
+        if name not in result:
+            raise ValueError(f"{self.path}: has no {name}; write output: {{totals: [month]}} and run it again")
+        facade, area = result["patch_facade"].values.astype(int), result["patch_area"].values
+        values, count = result[name].values, result.sizes["facade"]
+        counts = facade >= 0
+        weight = np.bincount(facade[counts], area[counts], count)
+        with np.errstate(invalid="ignore"):
+            sums = np.stack([np.bincount(facade[counts], (row * area)[counts], count) / weight for row in values])
+        return xarray.DataArray(sums, dims=("month", "facade"), name=name, attrs=dict(result[name].attrs),
+                                coords={"month": result["month"].values, "facade": result["facade"].values})
+
+    def compare(self, other: Union[xarray.Dataset, str, os.PathLike]) -> pandas.DataFrame:
+        """Differences of `other` to this result per facade, object and surface, with errors and significance: what
+        `sunload compare --csv` tells (docs/tables.md)."""
+        path = other.sunload.path if isinstance(other, xarray.Dataset) else os.fspath(other)
+        return pandas.read_csv(io.StringIO(program.run(["compare", self.path, path, "--csv"])))
+
+    def plot_map(self, quantity: str = "light_load", time: Optional[Any] = None, ax: Optional[Any] = None,
+                 **options: Any) -> Any:
+        """A map of what is seen from above, higher patches over lower ones, by matplotlib; returns its axes. `time`: of
+        a series, as of xarray's `sel(method="nearest")`. Options go to PolyCollection."""
+        from matplotlib import pyplot  # needed here alone
+        from matplotlib.collections import PolyCollection
+        result = self._result
+        values = result[quantity]
+        if "time" in values.dims:
+            values = values.isel(time=int(np.nanargmax(result["ghi"].values))) if time is None else \
+                values.sel(time=time, method="nearest")
+        if values.dims != ("patch",):
+            raise ValueError(f"{quantity} has the dimensions {values.dims}; a map is of patches")
+        corners = result["vertex_position"].values[result["patch_vertices"].values.astype(int)]
+        seen = np.flatnonzero(result["patch_normal"].values[:, 2] > 1e-6)
+        seen = seen[np.argsort(corners[seen, :, 2].max(axis=1), kind="stable")]
+        ax = pyplot.gca() if ax is None else ax
+        drawn = ax.add_collection(PolyCollection(corners[seen][:, :, :2], array=values.values[seen],
+                                                 **{"cmap": "inferno", "edgecolors": "face", **options}))
+        ax.set_aspect("equal")
+        ax.autoscale_view()
+        ax.set_xlabel("x [m]")
+        ax.set_ylabel("y [m]")
+        units = values.attrs.get("units", "")
+        ax.figure.colorbar(drawn, ax=ax, label=f"{quantity} [{units}]" if units else quantity)
+        return ax

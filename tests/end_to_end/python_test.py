@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Python package: studies from dicts, errors with the program's words, results with names.
+
+python_test.py SUNLOAD SOURCE_FOLDER
+"""
+
+import os
+import sys
+import tempfile
+
+from skip import skip
+from small_study import SQUARE
+
+try:
+    import matplotlib
+    import numpy as np
+    import pandas  # noqa: F401
+    import xarray  # noqa: F401
+except ImportError as error:
+    skip(f"{error.name} is missing")
+matplotlib.use("Agg")
+
+
+def raised(kind, work):
+    try:
+        work()
+    except kind as error:
+        return str(error)
+    raise AssertionError(f"no {kind.__name__}")
+
+
+def study(**changes):
+    base = {"name": "square", "site": {"latitude_deg": 49.7, "longitude_deg": 13.4, "timezone": "Europe/Prague"},
+            "period": {"days": ["2026-03-21", "2026-04-21"], "from": "09:00", "to": "15:00", "step_min": 180},
+            "light": {"source": "clear_sky"},
+            "scene": {"files": ["square.obj"], "materials": {"paving": {"diffuse": 0.3}, "plaster": {"diffuse": 0.6},
+                                                             "glass": {"diffuse": 0.05, "mirror": 0.85}}},
+            "mesh": {"max_edge_m": 3, "oracle": "none"}, "solver": {"lines_per_patch": 64},
+            "variants": [{"name": "baseline"},
+                         {"name": "dark", "scene": {"materials": {"plaster": {"diffuse": 0.2}}}}]}
+    return {**base, **changes}
+
+
+def expect_errors(sunload, folder):
+    wrong = raised(sunload.InputError, lambda: sunload.Study(study(name="wrong", colour=1), folder).check())
+    assert "unknown key 'colour'" in wrong and "wrong.yaml" in wrong, wrong
+    assert "letters, digits" in raised(sunload.InputError, lambda: sunload.Study(study(name="a b"), folder))
+    assert "another study" in raised(sunload.InputError, lambda: sunload.Study(study(mesh={"max_edge_m": 9}), folder))
+    assert "run` has written" in raised(sunload.InputError, lambda: sunload.open(os.path.join(folder, "square.obj")))
+    raised(sunload.InputError, lambda: sunload.open(os.path.join(folder, "none.h5")))
+
+
+def expect_result(sunload, result):
+    assert set(result.surface_of.values) >= {"wall", "roof"}, set(result.surface_of.values)
+    walls = result.sunload.mean("light_load", surface_of="wall")
+    by_hand = result.surface_of.values == "wall"
+    area = result.patch_area.values[by_hand]
+    assert np.isclose(walls, np.sum(result.light_load.values[by_hand] * area) / area.sum(), rtol=1e-6)
+    facades = result.sunload.facades()
+    assert list(facades.index) == list(result.facade.values)
+    value = [column for column in facades.columns if column.startswith("light_load")][0]
+    assert np.allclose(facades[value], result.facade_light_load.values, rtol=1e-5), facades
+    months = result.sunload.months()
+    assert months.dims == ("month", "facade")
+    assert np.allclose(months.sum("month"), result.facade_light_load, rtol=1e-5)
+    assert "water" in raised(ValueError, lambda: result.sunload.mean("light_load", surface_of="water"))
+    ax = result.sunload.plot_map()
+    assert len(ax.collections[0].get_paths()) == int((result.patch_normal.values[:, 2] > 1e-6).sum())
+
+
+def main():
+    os.environ["SUNLOAD"], source = sys.argv[1:3]
+    sys.path.insert(0, os.path.join(source, "io/python"))
+    import sunload
+    with tempfile.TemporaryDirectory() as folder:
+        with open(os.path.join(folder, "square.obj"), "w", encoding="utf-8") as file:
+            file.write(SQUARE)
+        told = []
+        checked = sunload.Study(study(), folder).check()
+        assert [variant["name"] for variant in checked.report["variants"]] == ["baseline", "dark"]
+        assert checked.report.seconds >= 0
+        results = checked.run(progress=told.append)
+        assert any(entry.get("share") == 1 for entry in told), told
+        assert list(results) == ["baseline", "dark"]
+        with results["baseline"] as base, results["dark"] as dark:
+            expect_result(sunload, base)
+            differences = base.sunload.compare(dark)
+            assert (differences["difference_kwh_m2"] < 0).any() and "p_value" in differences
+        # Of the same study, by its file: nothing is computed again.
+        again = sunload.Study(os.path.join(folder, "square.yaml"), folder).run(variants=["dark"])
+        assert list(again) == ["dark"] and os.path.exists(again.paths["dark"])
+        expect_errors(sunload, folder)
+
+
+main()
