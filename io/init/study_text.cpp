@@ -317,7 +317,7 @@ std::string assign_text(const Findings& found) {
     rules +=
         fmt::format("    {}- {{{}}}   # {}\n", rule.is_active ? "" : "# ", rule.what, rule.remark);
   }
-  const std::string known = known_materials(found);
+  std::string known = known_materials(found);
   if (rules.empty()) return known;
   return known +
          fmt::format(
