@@ -11,6 +11,7 @@
 #include "geo/sun/weather.h"
 #include "io/plan/material_assign.h"
 #include "io/plan/scene_doubts.h"
+#include "io/plan/scene_edit.h"
 #include "io/plan/scene_models.h"
 #include "io/plan/weather_light.h"
 #include "io/scene/file.h"
@@ -190,7 +191,7 @@ void warn_of_gaps(const Study& study, BuiltScene& built) {
 
 BuiltScene scene_before_materials(const Study& study) {
   BuiltScene built;
-  const PolygonModel model = read_models(study);
+  const PolygonModel model = edited(read_models(study), study);
   built.notes = model.notes;
   built.site = resolve_site(study, model, built);
   built.crs = study.site.crs.empty() ? model.crs : study.site.crs;

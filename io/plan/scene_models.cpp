@@ -37,6 +37,8 @@ void add_object_names(PolygonModel& into, const PolygonModel& from) {
         renamed, renamed == 1 ? " is" : "s are", first, renamed == 1 ? "" : ", …"));
 }
 
+}  // namespace
+
 void append(PolygonModel& into, const PolygonModel& from) {
   const auto vertex_base = static_cast<std::int32_t>(into.vertices.size());
   const auto ring_base = static_cast<std::int64_t>(into.ring_begin.size()) - 1;
@@ -66,6 +68,8 @@ void append(PolygonModel& into, const PolygonModel& from) {
   into.source += (into.source.empty() ? "" : ", ") + from.source;
 }
 
+namespace {
+
 PolygonModel built_in(const BuiltinStudy& builtin) {
   try {
     return builtin_scene({builtin.name, builtin.parameters});
@@ -89,6 +93,8 @@ void give_material(PolygonModel& model, const std::string& name) {
       facts.material = given;
 }
 
+}  // namespace
+
 PolygonModel read_part(const SceneFileStudy& file, const SceneStudy& scene) {
   const auto rules = rules_of(file, scene);
   PolygonModel part = file.terrain.empty()
@@ -102,6 +108,8 @@ PolygonModel read_part(const SceneFileStudy& file, const SceneStudy& scene) {
   if (!file.material.empty()) give_material(part, file.material);
   return part;
 }
+
+namespace {
 
 /// Reads, places and appends file by file; the CRS is that of the first file that stays in place.
 class SceneJoin {
@@ -155,8 +163,7 @@ class SceneJoin {
 }  // namespace
 
 PolygonModel read_models(const Study& study) {
-  if (study.scene.builtin) return built_in(*study.scene.builtin);
-  return SceneJoin(study).run();
+  return study.scene.builtin ? built_in(*study.scene.builtin) : SceneJoin(study).run();
 }
 
 void place(PolygonModel& model, const FilePlace& place) {

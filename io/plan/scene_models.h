@@ -18,6 +18,12 @@ namespace sunload {
 /// Throws InputError with the problems of all files.
 PolygonModel read_models(const Study& study);
 
+/// One file as the study reads it, before it is placed.
+PolygonModel read_part(const SceneFileStudy& file, const SceneStudy& scene);
+
+/// Puts `from` behind `into`: see read_models() for names that both have.
+void append(PolygonModel& into, const PolygonModel& from);
+
 /// Turns and moves the model of a file, without the CRS that it had.
 void place(PolygonModel& model, const FilePlace& place);
 

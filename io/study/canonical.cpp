@@ -56,6 +56,7 @@ json canonical(const MaterialStudy& material);
 json canonical(const AssignRule& rule);
 json canonical(const SceneFileStudy& file);
 json canonical(const MeasureParameters& measure);
+json canonical(const EditStep& step);
 
 template <class T>
 json list_of(const std::vector<T>& values) {
@@ -200,10 +201,81 @@ json canonical(const SceneFileStudy& file) {
   return all;
 }
 
+json canonical(const AreasStudy& all) {
+  const auto& [areas, in_degrees] = all;
+  json rings = json::array();
+  for (const PlanArea& area : areas) {
+    rings.push_back(json::array());
+    for (const auto& ring : area) {
+      json corners = json::array();
+      for (const Point2 p : ring) corners.push_back({p.u, p.v});
+      rings.back().push_back(corners);
+    }
+  }
+  return {{"areas", rings}, {"in_degrees", in_degrees}};
+}
+
+json canonical(const std::optional<Point2>& p) { return p ? json{p->u, p->v} : json(); }
+
+json canonical(const ObjectsStudy& objects) {
+  const auto& [object, kind, polygon, near, within_m] = objects;
+  return {{"object", object},
+          {"type", kind},
+          {"polygon", canonical(polygon)},
+          {"near", canonical(near)},
+          {"within_m", maybe(within_m)}};
+}
+
+json canonical(const RemoveEdit& /*has no values*/) { return {{"remove", true}}; }
+json canonical(const RaiseEdit& raise) {
+  const auto& [by_m, from_m] = raise;
+  return {{"raise", by_m}, {"from_m", maybe(from_m)}};
+}
+json canonical(const MoveEdit& move) {
+  const auto& [by] = move;
+  return {{"move", {by.x, by.y, by.z}}};
+}
+json canonical(const TurnEdit& turn) {
+  const auto& [by_deg, about] = turn;
+  return {{"turn", by_deg}, {"about", canonical(about)}};
+}
+// Files by their bytes, which the mesh has; paths tell studies of one run apart.
+json canonical(const ReplaceEdit& replace) {
+  return {{"replace", canonical(replace.file)}, {"path", replace.file.path}};
+}
+json canonical(const AddFileEdit& add) {
+  return {{"add", canonical(add.file)}, {"path", add.file.path}};
+}
+json canonical(const AddPrismEdit& add) {
+  const auto& [name, material, areas, base_m, height_m] = add;
+  return {{"prism", name},
+          {"material", material},
+          {"areas", canonical(areas)},
+          {"base_m", maybe(base_m)},
+          {"height_m", height_m}};
+}
+json canonical(const AddTreesEdit& add) {
+  const auto& [name, at, base_m, to, every_m, shape] = add;
+  const auto& [height_m, crown_m, trunk_m, leaves, trunk] = shape;
+  return {{"tree", name},
+          {"at", {at.u, at.v}},
+          {"base_m", maybe(base_m)},
+          {"to", canonical(to)},
+          {"every_m", every_m},
+          {"shape", {height_m, crown_m, trunk_m}},
+          {"materials", {leaves, trunk}}};
+}
+
+json canonical(const EditStep& step) {
+  const auto& [objects, action, where] = step;
+  return {{"objects", canonical(objects)},
+          {"action", std::visit([](const auto& kind) { return canonical(kind); }, action)}};
+}
+
 json canonical(const SceneStudy& scene) {
   const auto& [files, builtin, parallel_sources, parallel_sources_where, up, unit_m, lod,
                vrml_colour, vrml_excess, emission_scale_w, repair, orient, materials, assign,
-               ground, where] = scene;
+               ground, edit, where] = scene;
   json canon{{"builtin", builtin ? canonical(*builtin) : json()},
              {"files", list_of(files)},
              {"up", up == 0 ? std::string() : std::string(1, up)},
@@ -216,6 +288,7 @@ json canonical(const SceneStudy& scene) {
              {"materials", list_of(materials)},
              {"assign", list_of(assign)},
              {"ground", ground ? canonical(*ground) : json()}};
+  if (!edit.empty()) canon["edit"] = list_of(edit);
   // What most studies refuse has no key: their hashes stay.
   if (vrml_excess != VrmlExcess::refuse) canon["vrml_excess"] = word_of(vrml_excess);
   return canon;

@@ -285,6 +285,7 @@ SceneStudy read_scene(YamlMap& map, const std::string& folder) {
   });
   map.each("assign", [&](YamlMap& rule) { scene.assign.push_back(read_rule(rule)); });
   scene.ground = read_ground(map);
+  scene.edit = read_scene_edit(map, folder);
   return scene;
 }
 

@@ -21,34 +21,9 @@ constexpr Range heights_m{-1e4, 1e5};
 constexpr Range least_heights_m{0, 1000};
 constexpr Range trunk_shares{0, 0.99};  // crowns have a height
 
-/// `source`: where the file can be had.
-std::string read_path(YamlMap& map, const std::string& key, const std::string& folder,
-                      const std::string& source = "paths are relative to the study file") {
-  const auto text = map.text(key);
-  if (!text) return {};
-  const fs::path path = (fs::path(folder) / *text).lexically_normal();
-  std::error_code error;
-  // As a text of the list, and as the key of a map.
-  const std::string subject = key == "file" ? "scene.files: " : map.path(key) + ": ";
-  const auto refuse = [&](const std::string& what, const std::string& hint) {
-    map.reading().problem(map.where(key), subject + "'" + *text + "' " + what,
-                          "it is sought at " + path.string(), hint);
-  };
-  if (!fs::exists(path, error)) {
-    refuse("is not there", source);
-  } else if (!fs::is_regular_file(path, error)) {
-    refuse("is no file", "");
-  }
-  return path.string();
-}
-
 void read_position(YamlMap& map, SceneFileStudy& file) {
-  const auto values = map.numbers("position_m", coordinates_m);
-  if (values.size() == 3) {
-    file.position = Vec3{values[0], values[1], values[2]};
-  } else if (map.has("position_m")) {
-    map.problem("position_m", "must be three numbers, x, y and z");
-  }
+  if (const auto at = read_numbers(map, "position_m", 3, "three numbers, x, y and z"); !at.empty())
+    file.position = Vec3{at[0], at[1], at[2]};
   const double height_m = map.number("height_m", heights_m, 0);
   const auto text = map.text("position");
   if (map.has("height_m") && !text)
@@ -106,6 +81,36 @@ bool is_same_place(const SceneFileStudy& a, const SceneFileStudy& b) {
 }
 
 }  // namespace
+
+std::string read_path(YamlMap& map, const std::string& key, const std::string& folder,
+                      const std::string& source) {
+  const auto text = map.text(key);
+  if (!text) return {};
+  const fs::path path = (fs::path(folder) / *text).lexically_normal();
+  std::error_code error;
+  // As a text of the list, and as the key of a map.
+  const std::string subject = map.path(key).starts_with("scene.files") && key == "file"
+                                  ? "scene.files: "
+                                  : map.path(key) + ": ";
+  const auto refuse = [&](const std::string& what, const std::string& hint) {
+    map.reading().problem(map.where(key), subject + "'" + *text + "' " + what,
+                          "it is sought at " + path.string(), hint);
+  };
+  if (!fs::exists(path, error)) {
+    refuse("is not there", source);
+  } else if (!fs::is_regular_file(path, error)) {
+    refuse("is no file", "");
+  }
+  return path.string();
+}
+
+std::vector<double> read_numbers(YamlMap& map, const std::string& key, std::size_t count,
+                                 const std::string& in_words) {
+  auto values = map.numbers(key, coordinates_m);
+  if (values.size() == count || !map.has(key)) return values;
+  map.problem(key, "must be " + in_words);
+  return {};
+}
 
 void check_lod(YamlMap& map, const std::string& lod) {
   static const Pattern level(R"(\d(\.\d)?)");

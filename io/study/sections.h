@@ -32,6 +32,17 @@ inline constexpr Range units_m{1e-6, 1e6};
 void check_lod(YamlMap& map, const std::string& lod);
 /// `scene.files`; paths are relative to `folder`.
 std::vector<SceneFileStudy> read_scene_files(YamlMap& scene, const std::string& folder);
+/// A file that is there, relative to `folder`; empty where the key is absent. `source`: where it
+/// can be had.
+std::string read_path(YamlMap& map, const std::string& key, const std::string& folder,
+                      const std::string& source = "paths are relative to the study file");
+/// As many numbers as that; empty where the key is absent or wrong, which is reported.
+std::vector<double> read_numbers(YamlMap& map, const std::string& key, std::size_t count,
+                                 const std::string& in_words);
+/// `scene.edit`; paths are relative to `folder`.
+std::vector<EditStep> read_scene_edit(YamlMap& scene, const std::string& folder);
+/// Corners [x, y], or a GeoJSON file relative to `folder`.
+AreasStudy read_areas(YamlMap& map, const std::string& key, const std::string& folder);
 MeshStudy read_mesh(YamlMap& map);
 SolverStudy read_solver(YamlMap& map);
 /// The file is relative to `folder`.

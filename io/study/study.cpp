@@ -11,6 +11,7 @@
 
 #include "io/base/key_names.h"
 #include "io/scene/base/from_file.h"
+#include "io/study/matrix.h"
 #include "io/study/not_a_study.h"
 #include "io/study/sections.h"
 #include "io/study/yaml_map.h"
@@ -27,11 +28,12 @@ constexpr std::uintmax_t largest_study_bytes = 8'000'000;  // 400 000 instants
 constexpr std::size_t longest_name = 100;  // with suffixes below the 255 of file systems
 
 /// Sections that a variant may change, and why it may not change the others.
-const std::vector<std::string> variant_sections{"scene", "light", "mesh", "solver"};
+const std::vector<std::string> variant_sections{"site",  "period", "scene",
+                                                "light", "mesh",   "solver"};
 const std::map<std::string, std::string> common_sections{
     {"format", "it belongs to the file"},
-    {"site", "all variants stand in the same place"},
-    {"period", "all variants have the same times, or they could not be compared"},
+    {"name", "it belongs to the file"},
+    {"matrix", "a matrix makes variants"},
     {"sun", "all variants have the same sun path, or they could not be compared"},
     {"sensors", "all variants are measured at the same points"},
     {"measures", "all variants are measured alike, or they could not be compared"},
@@ -40,11 +42,15 @@ const std::map<std::string, std::string> common_sections{
 const std::map<std::string, std::string> common_solver_keys{
     {"batch_suns", "shards count the same batches in every variant"},
     {"isa", "one run uses one instruction set"}};
-const std::vector<std::string> appended_lists{"scene.assign"};
+/// The only key of the site that a variant may change.
+const std::string variant_site_key = "north_deg";
+const std::string same_place = "all variants stand in the same place";
+const std::vector<std::string> appended_lists{"scene.assign", "scene.edit"};
 
 struct Variant {
   std::string name = "baseline";
-  YamlTree over;  ///< map of sections, null without changes
+  YamlTree over;                         ///< map of sections, null without changes
+  std::vector<MatrixValue> values = {};  ///< of a matrix, put over those
 };
 
 std::string read_text_of(const std::string& path) {
@@ -82,15 +88,45 @@ std::string read_name(YamlMap& map) {
   return name;
 }
 
-void refuse_common_solver_keys(YamlMap& variant) {
-  const YamlTree solver = variant.tree("solver");
-  if (!solver || solver->kind != YamlNode::Kind::map) return;
-  for (const auto& entry : solver->entries) {
-    const auto common = common_solver_keys.find(entry.key);
-    if (common == common_solver_keys.end()) continue;
-    variant.reading().problem(entry.where, "a variant cannot change solver." + entry.key,
-                              common->second, "write it in the study's own solver section");
-  }
+void refuse_common_keys(YamlMap& variant) {
+  const auto each_key = [&](const char* section, const auto& reason_of) {
+    const YamlTree map = variant.tree(section);
+    if (!map || map->kind != YamlNode::Kind::map) return;
+    for (const auto& entry : map->entries)
+      if (const std::string reason = reason_of(entry.key); !reason.empty())
+        variant.reading().problem(
+            entry.where, std::string("a variant cannot change ") + section + "." + entry.key,
+            reason, std::string("write it in the study's own section ") + section);
+  };
+  each_key("solver", [](const std::string& key) {
+    const auto common = common_solver_keys.find(key);
+    return common == common_solver_keys.end() ? std::string() : common->second;
+  });
+  each_key("site", [](const std::string& key) {
+    return key == variant_site_key ? std::string() : same_place;
+  });
+}
+
+/// The same for the keys of a matrix.
+void refuse_common_keys(const MatrixValue& value, YamlReading& reading) {
+  const std::string& section = value.path.front().key;
+  const std::string key = value.path.size() > 1 ? value.path[1].key : "";
+  std::string reason;
+  if (const auto common = common_sections.find(section); common != common_sections.end())
+    reason = common->second;
+  else if (const auto of_solver = common_solver_keys.find(key);
+           section == "solver" && of_solver != common_solver_keys.end())
+    reason = of_solver->second;
+  else if (section == "site" && key != variant_site_key)
+    reason = same_place;
+  else if (std::find(variant_sections.begin(), variant_sections.end(), section) ==
+           variant_sections.end())
+    reason = "the sections of variants are site, period, scene, light, mesh and solver";
+  else
+    return;
+  reading.problem(value.where,
+                  "matrix: a variant cannot change " + section + (key.empty() ? "" : "." + key),
+                  reason);
 }
 
 Variant read_variant(YamlMap& map) {
@@ -105,11 +141,11 @@ Variant read_variant(YamlMap& map) {
   }
   variant.over = std::move(over);
   for (const auto& [section, reason] : common_sections) {
-    if (map.has(section)) {
+    if (section != "name" && map.has(section)) {
       map.refuse(section, "a variant cannot change this", reason, "make another study of it");
     }
   }
-  refuse_common_solver_keys(map);
+  refuse_common_keys(map);
   return variant;
 }
 
@@ -126,6 +162,41 @@ std::vector<Variant> read_variants(YamlMap& root) {
   });
   if (variants.empty()) variants.emplace_back();
   return variants;
+}
+
+/// Every variant with every combination of the matrix; its name is that of the variant, where the
+/// study writes any, and the labels of the values.
+std::vector<Variant> read_all_variants(YamlMap& root) {
+  const bool are_named = root.has("variants");
+  const std::vector<Variant> written = read_variants(root);
+  const auto axes = read_matrix(root);
+  if (axes.empty()) return written;
+  for (const auto& axis : axes) refuse_common_keys(axis.front(), root.reading());
+  std::vector<Variant> all;
+  std::set<std::string> names;
+  for (const Variant& base : written)
+    for (auto& values : combinations(axes)) {
+      Variant variant{are_named ? base.name : "", base.over, std::move(values)};
+      for (const MatrixValue& value : variant.values)
+        variant.name += (variant.name.empty() ? "" : "_") + value.label;
+      if (variant.name.size() > longest_name || variant.name.starts_with('.'))
+        root.problem(
+            "matrix", "'" + variant.name + "' cannot be a name",
+            "names have at most " + std::to_string(longest_name) + " characters, the first no dot",
+            "write a map of short names and values");
+      if (!names.insert(lower(variant.name)).second)
+        root.problem("matrix", "makes '" + variant.name + "' twice", "case makes no difference");
+      all.push_back(std::move(variant));
+    }
+  return all;
+}
+
+/// The study with what the variant changes.
+YamlTree merged(const YamlTree& tree, const Variant& variant, YamlReading& reading) {
+  YamlTree all = variant.over ? merge_yaml(tree, variant.over, appended_lists) : tree;
+  for (const MatrixValue& value : variant.values)
+    all = with_value(all, value, appended_lists, reading);
+  return all;
 }
 
 /// Files of these formats carry no position on Earth.
@@ -175,21 +246,6 @@ void check_together(YamlMap& root, const Study& study, PlaceWritten placed) {
   }
 }
 
-/// With `year_of: weather` the file makes the times, which all variants share.
-void expect_same_weather_years(const std::vector<Study>& variants, YamlReading& reading) {
-  const Study& first = variants.front();
-  if (!std::holds_alternative<WeatherPeriod>(first.period.kind)) return;
-  for (const auto& variant : variants) {
-    if (variant.light.weather == first.light.weather && variant.light.stamp == first.light.stamp)
-      continue;
-    reading.problem(
-        variant.period.where,
-        "variant " + variant.variant + " has another weather file than " + first.variant,
-        "with year_of: weather the file makes the times, which all variants share",
-        "make another study of it, or write days or start and end");
-  }
-}
-
 Study read_values(YamlMap& root, const std::string& folder) {
   Study study;
   root.require("format", "", "write format: " + format_name);
@@ -233,18 +289,17 @@ StudyFile read_study(const std::string& path) {
   const std::string folder = fs::path(path).parent_path().string();
   std::vector<Variant> variants;
   YamlMap::read_all(tree, reading, [&](YamlMap& root) {
-    variants = read_variants(root);
+    variants = read_all_variants(root);
     root.keep_rest();  // read with each variant's changes below
   });
   for (const auto& variant : variants) {
-    const YamlTree merged = variant.over ? merge_yaml(tree, variant.over, appended_lists) : tree;
-    YamlMap::read_all(merged, reading, [&](YamlMap& root) {
+    YamlMap::read_all(merged(tree, variant, reading), reading, [&](YamlMap& root) {
       root.tree("variants");
+      root.tree("matrix");
       file.variants.push_back(read_values(root, folder));
       file.variants.back().variant = variant.name;
     });
   }
-  expect_same_weather_years(file.variants, reading);
   reading.throw_if_any();
   file.name = file.variants.front().name;
   file.warnings = reading.warnings;
@@ -256,17 +311,16 @@ SceneStudy scene_of_text(const std::string& yaml, const std::string& variant) {
   const YamlTree tree = parse_yaml("", yaml, reading.parser_problems);
   std::vector<Variant> variants;
   YamlMap::read_all(tree, reading, [&](YamlMap& root) {
-    variants = read_variants(root);
+    variants = read_all_variants(root);
     root.keep_rest();
   });
   SceneStudy scene;
-  for (const auto& [name, over] : variants) {
-    if (name != variant) continue;
-    YamlMap::read_all(over ? merge_yaml(tree, over, appended_lists) : tree, reading,
-                      [&](YamlMap& root) {
-                        root.section("scene", [&](YamlMap& map) { scene = read_scene(map, ""); });
-                        root.keep_rest();
-                      });
+  for (const Variant& each : variants) {
+    if (each.name != variant) continue;
+    YamlMap::read_all(merged(tree, each, reading), reading, [&](YamlMap& root) {
+      root.section("scene", [&](YamlMap& map) { scene = read_scene(map, ""); });
+      root.keep_rest();
+    });
   }
   return scene;
 }
@@ -274,7 +328,7 @@ SceneStudy scene_of_text(const std::string& yaml, const std::string& variant) {
 std::vector<std::string> study_keys() {
   YamlReading reading(later_keys(), YamlReading::Purpose::describe);
   YamlMap::read_all(nullptr, reading, [](YamlMap& root) {
-    read_variants(root);
+    read_all_variants(root);
     read_values(root, "");
   });
   return {reading.keys.begin(), reading.keys.end()};

@@ -5,8 +5,8 @@
 /// Reading rejects unknown keys (with the nearest name), wrong types, units and
 /// ranges, each with file:line:column, all at once. Keys of later versions are
 /// refused by name. Every variant is a complete study: the base with the
-/// variant's overrides merged in (maps merge, `scene.assign` is appended to,
-/// other lists are replaced).
+/// variant's overrides merged in (maps merge, `scene.assign` and `scene.edit` are
+/// appended to, other lists are replaced).
 #pragma once
 
 #include <array>
@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "geo/base/check.h"
+#include "geo/edit/solids.h"
 #include "geo/mesh/mesh.h"
 #include "geo/mesh/mesh_prepare.h"
 #include "geo/sky/horizon.h"
@@ -169,6 +170,66 @@ struct SceneFileStudy {
   bool is_placed() const { return position || earth_position || turn_deg != 0; }
 };
 
+/// Areas in plan as written, or of a GeoJSON file.
+struct AreasStudy {
+  std::vector<PlanArea> areas;
+  bool in_degrees = false;  ///< longitude and latitude, where the scene has a CRS
+};
+
+/// Objects that a step of `scene.edit` is about; what is empty chooses all.
+struct ObjectsStudy {
+  std::string object, kind;
+  AreasStudy polygon;          ///< that hold the middle of the object's bounding box
+  std::optional<Point2> near;  ///< the nearest object, or all that come …
+  std::optional<double> within_m;
+
+  bool chooses() const {
+    return !object.empty() || !kind.empty() || near || !polygon.areas.empty();
+  }
+};
+
+struct RemoveEdit {};
+struct RaiseEdit {
+  double by_m = 0;
+  std::optional<double> from_m;  ///< above the object's foot; absent: its eaves
+};
+struct MoveEdit {
+  Vec3 by;
+};
+struct TurnEdit {
+  double by_deg = 0;            ///< clockwise seen from above
+  std::optional<Point2> about;  ///< absent: the middle of what is turned
+};
+struct ReplaceEdit {
+  SceneFileStudy file;
+};
+struct AddFileEdit {
+  SceneFileStudy file;
+};
+/// Areas between two heights: a box, or an extruded footprint.
+struct AddPrismEdit {
+  std::string name, material;
+  AreasStudy areas;
+  std::optional<double> base_m;  ///< absent: what is below its middle
+  double height_m = 0;
+};
+struct AddTreesEdit {
+  std::string name;
+  Point2 at{0, 0};
+  std::optional<double> base_m;
+  std::optional<Point2> to;  ///< of a row
+  double every_m = 0;
+  TreeShape shape{};
+};
+using EditAction = std::variant<RemoveEdit, RaiseEdit, MoveEdit, TurnEdit, ReplaceEdit, AddFileEdit,
+                                AddPrismEdit, AddTreesEdit>;
+/// One step of `scene.edit`.
+struct EditStep {
+  ObjectsStudy objects;  ///< not of what is added
+  EditAction action;
+  Where where;
+};
+
 struct SceneStudy {
   std::vector<SceneFileStudy> files;
   std::optional<BuiltinStudy> builtin;
@@ -185,6 +246,7 @@ struct SceneStudy {
   std::vector<MaterialStudy> materials;
   std::vector<AssignRule> assign;
   std::optional<GroundStudy> ground;  ///< absent: the default of the format
+  std::vector<EditStep> edit;         ///< one after the other, before preparation
   Where where;
 };
 

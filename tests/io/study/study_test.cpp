@@ -104,6 +104,60 @@ std::string scene_of(const std::string& material) {
   return "{builtin: {name: street}, materials: {a: {" + material + "}}}";
 }
 
+/// The section `scene` of the built-in street with these steps.
+std::map<std::string, std::string> steps(const std::string& list) {
+  return {{"scene", "{builtin: {name: street}, edit: [" + list + "]}"}};
+}
+
+TEST(StudyEdit, ReadsSteps) {
+  const Study study =
+      read_text(with(steps("{object: house_1, raise: {storeys: 2, storey_m: 3.2}}, "
+                           "{near: {position_m: [1, 2]}, remove: true}, "
+                           "{add: {box: {position_m: [0, 0], size_m: [4, 2, 3], turn_deg: 90}}}, "
+                           "{add: {tree: {position_m: [1, 2, 3], height_m: 8, crown_m: 5}}}")))
+          .variants.front();
+  ASSERT_EQ(study.scene.edit.size(), 4u);
+  EXPECT_EQ(study.scene.edit[0].objects.object, "house_1");
+  EXPECT_EQ(std::get<RaiseEdit>(study.scene.edit[0].action).by_m, 6.4);
+  EXPECT_EQ(study.scene.edit[1].objects.near->v, 2);
+  const auto& box = std::get<AddPrismEdit>(study.scene.edit[2].action);
+  EXPECT_FALSE(box.base_m);
+  EXPECT_EQ(box.height_m, 3);
+  EXPECT_NEAR(box.areas.areas[0][0][0].u, -1, 1e-12);  // a cosine of 90 degrees
+  EXPECT_EQ(std::get<AddTreesEdit>(study.scene.edit[3].action).base_m, 3);
+}
+
+TEST(StudyEdit, VariantsAppendSteps) {
+  const StudyFile file = read_text(with(steps("{object: a, remove: true}")) +
+                                   "variants:\n  - {name: a}\n  - {name: b, scene: {edit: "
+                                   "[{object: b, move_m: [1, 0, 0]}]}}\n");
+  ASSERT_EQ(file.variants[0].scene.edit.size(), 1u);
+  ASSERT_EQ(file.variants[1].scene.edit.size(), 2u);
+  EXPECT_EQ(std::get<MoveEdit>(file.variants[1].scene.edit[1].action).by, (Vec3{1, 0, 0}));
+}
+
+TEST(StudyEdit, RefusesWhatIsNoStep) {
+  expect_problem(steps("{object: a}"), "a step does nothing (one of remove, raise, move_m,");
+  expect_problem(steps("{object: a, remove: true, move_m: [1, 2, 3]}"), "does several things");
+  expect_problem(steps("{remove: true}"), "a step chooses no objects");
+  expect_problem(steps("{object: a, remove: yes}"), "'yes' is not known (must be one of true)");
+  expect_problem(steps("{object: a, raise: {storeys: 2}}"), "raise.storey_m is missing");
+  expect_problem(steps("{object: a, raise: {}}"), "write by_m, or storeys and storey_m");
+  expect_problem(steps("{object: a, move_m: [1, 2]}"), "must be three numbers along x, y and z");
+  expect_problem(steps("{object: a, add: {box: {position_m: [0, 0], size_m: [1, 1, 1]}}}"),
+                 "stands beside a choice of objects");
+  expect_problem(steps("{add: {box: {position_m: [0, 0], size_m: [1, 0, 1]}}}"), "not above 0");
+  expect_problem(steps("{add: {}}"), "add does nothing (one of box, footprint, tree, file)");
+  expect_problem(steps("{add: {tree: {position_m: [0, 0], height_m: 3, crown_m: 2, trunk_m: 3}}}"),
+                 "is not below height_m");
+  expect_problem(steps("{add: {tree: {position_m: [0, 0], height_m: 3, crown_m: 2, every_m: 3}}}"),
+                 "stands alone");
+  expect_problem(steps("{polygon: [[0, 0], [1, 1]], remove: true}"), "three corners or more");
+  expect_problem(steps("{polygon: [[0, 0], [1, x], [0, 1]], remove: true}"), "two numbers, [x, y]");
+  expect_problem(steps("{polygon: no.json, remove: true}"), "'no.json' is not there");
+  expect_problem(steps("{object: a, replace: {file: no.obj}}"), "scene.edit[1].replace.file");
+}
+
 TEST(StudyMaterials, KindsExcludeEachOther) {
   for (const char* right :
        {"refractive_index: 1.52",
@@ -528,7 +582,9 @@ TEST(Study, ChecksVariants) {
   wrong("[{name: x/y}]", "'x/y' cannot be a name");
   wrong("[{scene: {}}]", "variants[1].name is missing");
   wrong("[]", "the list is empty");
-  wrong("[{name: a, period: {}}]", "a variant cannot change this");
+  wrong("[{name: a, sun: {}}]", "a variant cannot change this");
+  wrong("[{name: a, matrix: {}}]", "a variant cannot change this (a matrix makes variants)");
+  wrong("[{name: a, site: {elevation_m: 3}}]", "a variant cannot change site.elevation_m");
   wrong("[{name: a, solver: {batch_suns: 3}}]", "a variant cannot change solver.batch_suns");
   wrong("[{name: a, solver: {isa: avx2}}]", "a variant cannot change solver.isa");
   wrong("[{name: a, secne: {}}]", "did you mean 'scene'?");
@@ -613,6 +669,64 @@ TEST(StudyMeasures, AreNoPartOfTheCanonicalText) {
   EXPECT_EQ(measures_text(text_of("{a: {rule: csn_73_4301, least_h: 1.5}}")), least);
 }
 
+Strings names_of(const StudyFile& file) {
+  Strings names;
+  for (const Study& study : file.variants) names.push_back(study.variant);
+  return names;
+}
+
+TEST(StudyMatrix, MakesAVariantOfEveryCombination) {
+  const StudyFile file =
+      read_text(with({{"scene",
+                       "{builtin: {name: street}, materials: {m: {diffuse: 0.2}}, edit: "
+                       "[{object: a, raise: {storeys: 0, storey_m: 3}}]}"},
+                      {"matrix",
+                       "{'scene.edit[1].raise.storeys': [0, 2], "
+                       "scene.materials.m.diffuse: [0.1, 0.5], site.north_deg: [10]}"}}));
+  EXPECT_EQ(names_of(file),
+            (Strings{"storeys-0_diffuse-0.1_north_deg-10", "storeys-0_diffuse-0.5_north_deg-10",
+                     "storeys-2_diffuse-0.1_north_deg-10", "storeys-2_diffuse-0.5_north_deg-10"}));
+  const Study& last = file.variants.back();
+  EXPECT_EQ(std::get<RaiseEdit>(last.scene.edit[0].action).by_m, 6);
+  EXPECT_EQ(last.scene.materials[0].diffuse, 0.5);
+  EXPECT_EQ(last.site.north_deg, 10);
+  const SceneStudy scene = scene_of_text(file.yaml, last.variant);  // as a result keeps it
+  EXPECT_EQ(std::get<RaiseEdit>(scene.edit[0].action).by_m, 6);
+}
+
+TEST(StudyMatrix, GoesOverVariantsAndNamesValues) {
+  const StudyFile file = read_text(
+      with({{"matrix",
+             "{scene: {as_is: {}, no_shed: {edit: [{object: shed, remove: true}]}}, "
+             "period: {spring: {}, summer: {days: [2026-06-21]}}}"},
+            {"variants", "[{name: a}, {name: b, scene: {edit: [{object: b, remove: true}]}}]"}}));
+  EXPECT_EQ(names_of(file),
+            (Strings{"a_as_is_spring", "a_as_is_summer", "a_no_shed_spring", "a_no_shed_summer",
+                     "b_as_is_spring", "b_as_is_summer", "b_no_shed_spring", "b_no_shed_summer"}));
+  ASSERT_EQ(file.variants.back().scene.edit.size(), 2u);  // appended, as those of variants
+  EXPECT_EQ(file.variants.back().scene.edit[1].objects.object, "shed");
+  EXPECT_EQ(std::get<DaysPeriod>(file.variants.back().period.kind).days[0].month, 6);
+}
+
+TEST(StudyMatrix, RefusesWhatMakesNoVariants) {
+  const auto wrong = [](const std::string& matrix, const std::string& part) {
+    expect_problem({{"matrix", matrix}}, part);
+  };
+  wrong("[1]", "must be a map of keys and their values");
+  wrong("{solver.bounces: 3}", "must be a list of values, or a map of named ones");
+  wrong("{solver.bounces: []}", "matrix.solver.bounces: has no values");
+  wrong("{solver.bounces: [[1]]}", "a value of a list must be a single one");
+  wrong("{solver.bounces: [1, x]}", "solver.bounces: 'x' is no number");
+  wrong("{solver.bounces: [1, 1]}", "makes 'bounces-1' twice");
+  wrong("{solver.bouncs: [1]}", "did you mean 'bounces'?");
+  wrong("{solver..a: [1]}", "'solver..a' is no key of a study");
+  wrong("{'scene.edit[1].remove': [true]}", "scene.edit[1] is not there (the list has 0 items)");
+  wrong("{solver.batch_suns: [1, 2]}", "a variant cannot change solver.batch_suns");
+  wrong("{site.latitude_deg: [1, 2]}", "a variant cannot change site.latitude_deg");
+  wrong("{output.folder: [a]}", "a variant cannot change output.folder");
+  wrong("{name: [a]}", "a variant cannot change name");
+}
+
 // --- the schema ---------------------------------------------------------------------------
 
 json read_schema() {
@@ -649,6 +763,40 @@ TEST(StudySchema, ListsTheKeysThatTheReaderKnows) {
   EXPECT_EQ(Strings(in_schema.begin(), in_schema.end()), known);
 }
 
+/// A step of scene.edit in which the key can stand, and has an effect.
+json step_around(const std::string& path) {
+  const std::string file = test::source_folder() + "/LICENSE";
+  const json corners = {{0, 0}, {1, 0}, {0, 1}};
+  json step = {{"object", "a*"}};
+  const auto is_in = [&](const std::string& key) {
+    return path.starts_with("scene.edit[]." + key);
+  };
+  if (is_in("turn")) {
+    step["turn"] = {{"by_deg", 10}};
+  } else if (is_in("replace")) {
+    step["replace"] = {{"file", file}};
+  } else if (is_in("add.box") || is_in("add.name") || is_in("add.material")) {
+    step = {{"add", {{"box", {{"position_m", {0, 0}}, {"size_m", {1, 1, 1}}}}}}};
+  } else if (is_in("add.footprint")) {
+    step = {{"add", {{"footprint", {{"polygon", corners}, {"height_m", 9}}}}}};
+  } else if (is_in("add.tree")) {
+    step = {{"add", {{"tree", {{"position_m", {0, 0}}, {"height_m", 160}, {"crown_m", 1}}}}}};
+    step["add"]["tree"]["height_m"] = 150;
+    if (is_in("add.tree.every_m")) step["add"]["tree"]["to_m"] = {50, 0};
+    if (is_in("add.tree.to_m")) step["add"]["tree"]["every_m"] = 5;
+  } else if (is_in("add.file")) {
+    step = {{"add", {{"file", {{"file", file}}}}}};
+  } else if (is_in("raise.storey")) {
+    step["raise"] = {{"storeys", 1}, {"storey_m", 2}};
+  } else if (is_in("raise.from_m")) {
+    step["raise"] = {{"by_m", 1}};
+  } else if (!is_in("remove") && !is_in("move_m") && !is_in("raise")) {
+    step["remove"] = true;
+  }
+  if (is_in("near.within_m")) step["near"] = {{"position_m", {0, 0}}};
+  return step;
+}
+
 /// A study in which the key can stand.
 json study_around(const std::string& path) {
   json study = json::parse(R"({"format": "sunload-study-1", "name": "test",
@@ -667,6 +815,7 @@ json study_around(const std::string& path) {
   }
   if (path == "scene.ground.height_m") study["scene"]["ground"]["surface"] = "level";
   if (path == "site.timezone") study["site"].erase("timezone");
+  if (path.starts_with("scene.edit")) study["scene"]["edit"] = json::array({step_around(path)});
   if (path.starts_with("scene.files")) {
     study["scene"].erase("builtin");
     study["scene"]["files"] = json::array({{{"file", test::source_folder() + "/LICENSE"}}});
@@ -999,6 +1148,7 @@ json study_to_see(const std::string& path) {
 /// Values that the schema lets stand under a key, some of them.
 std::vector<json> values_of(const std::string& path, const json& schema) {
   const std::string file = test::source_folder() + "/LICENSE";
+  const json corners = {{0, 0}, {2, 0}, {0, 1}};
   const std::map<std::string, std::vector<json>> texts{
       {"site.position", {"50d00'00\"N 14d00'00\"E"}},
       {"site.crs", {"EPSG:28992", "EPSG:32633"}},
@@ -1025,6 +1175,18 @@ std::vector<json> values_of(const std::string& path, const json& schema) {
       {"scene.assign[].type", {"a"}},
       {"scene.assign[].material", {"m", "n"}},
       {"scene.ground.material", {"m", "n"}},
+      {"scene.edit[].object", {"a", "b"}},
+      {"scene.edit[].type", {"a"}},
+      {"scene.edit[].polygon", std::vector<json>(1, corners)},
+      {"scene.edit[].replace.file", {file, test::source_folder() + "/README.md"}},
+      {"scene.edit[].replace.material", {"m"}},
+      {"scene.edit[].add.file.file", {file, test::source_folder() + "/README.md"}},
+      {"scene.edit[].add.file.material", {"m"}},
+      {"scene.edit[].add.name", {"a"}},
+      {"scene.edit[].add.material", {"m"}},
+      {"scene.edit[].add.footprint.polygon", std::vector<json>(1, corners)},
+      {"scene.edit[].add.tree.leaves", {"m"}},
+      {"scene.edit[].add.tree.trunk", {"m"}},
       {"name", {"one", "other"}},
       {"variants[].name", {"one", "other"}},
       {"output.folder", {"a", "b"}},
@@ -1076,7 +1238,9 @@ TEST(CanonicalText, SeesEveryKeyOfTheSchemaButThese) {
       // So are the parts of the period that have totals.
       "output.standard_error", "output.significant_bits", "output.totals",
       // One word only, beside which no other period can stand; any parameter of built-in scenes.
-      "period.year_of", "scene.builtin.*"};
+      "period.year_of", "scene.builtin.*",
+      // Of files that are edited in, the mesh has the bytes; what a matrix says becomes variants.
+      "matrix.*"};
   std::set<std::string> unseen;
   walk(read_schema(), "", [&](const std::string& path, const json& schema) {
     const bool has_keys =

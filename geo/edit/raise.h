@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Houses made higher: walls extended at one height, all above it lifted whole.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "geo/edit/objects.h"
+
+namespace sunload {
+
+/// What is thinner hangs on the body (balconies, eaves) and is no roof of its own.
+inline constexpr double thinnest_body_m = 1;
+
+/// Height [m, absolute] from which a body is lifted by default: the lowest point of its roofs,
+/// which are the faces named so, else those that lean, have nothing of the object above and at
+/// least `thinnest_body_m` of it below. What hangs under a roof's rim counts as part of it.
+/// Nothing where no face is a roof.
+std::optional<double> eaves_of(const std::vector<LooseFace>& faces);
+
+struct RaisedObject {
+  double cut_m = 0;             ///< height that walls are extended at, absolute
+  std::size_t windows_cut = 0;  ///< faces of kind window that become higher
+  std::string refusal, reason;  ///< what cannot be done, and why; empty: it is done
+};
+
+/// Lifts all corners of an object at and above `cut_m` (absent: the eaves) by `by_m`; the lower
+/// ones stay. Corners keep their neighbours: closed bodies stay closed, upright walls plane.
+/// Changes nothing where it refuses: no roof, a roof that reaches down to the foot, a cut through a
+/// roof, or, with `by_m` below 0, walls that would vanish.
+RaisedObject raise_object(PolygonModel& model, ObjectId object, double by_m,
+                          std::optional<double> cut_m);
+
+}  // namespace sunload

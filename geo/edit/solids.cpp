@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geo/edit/solids.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "geo/base/units.h"
+#include "geo/edit/objects.h"
+#include "geo/mesh/slope.h"
+
+namespace sunload {
+
+namespace {
+
+constexpr int crown_meridians = 12, crown_zones = 6, trunk_sides = 6;
+
+/// Positive where counter-clockwise.
+double signed_area(const std::vector<Point2>& ring) {
+  double twice = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point2 a = ring[i], b = ring[(i + 1) % ring.size()];
+    twice += (a.u - ring[0].u) * (b.v - ring[0].v) - (b.u - ring[0].u) * (a.v - ring[0].v);
+  }
+  return twice / 2;
+}
+
+PolygonModel::Facts begin_object(PolygonModel& model, const SolidFacts& facts) {
+  model.object_names.push_back(facts.name);
+  model.object_kinds.resize(model.object_names.size() - 1);
+  model.object_kinds.push_back(facts.kind);
+  PolygonModel::Facts of_faces;
+  of_faces.object = make_id<ObjectId>(model.object_names.size() - 1);
+  return of_faces;
+}
+
+MaterialId add_reference(PolygonModel& model, const std::string& name) {
+  if (name.empty()) return MaterialId::none();
+  FileMaterial material;
+  material.name = name;
+  material.is_reference = true;
+  model.materials.push_back(material);
+  return make_id<MaterialId>(model.materials.size() - 1);
+}
+
+std::vector<std::int32_t> add_ring(PolygonModel& model, const std::vector<Point2>& ring, double z) {
+  std::vector<std::int32_t> corners;
+  for (const Point2 p : ring) {
+    corners.push_back(static_cast<std::int32_t>(model.vertices.size()));
+    model.vertices.push_back({p.u, p.v, z});
+  }
+  return corners;
+}
+
+/// Outer rings counter-clockwise, holes clockwise, without repeated ends.
+PlanArea ordered(PlanArea area) {
+  for (std::size_t r = 0; r < area.size(); ++r) {
+    auto& ring = area[r];
+    const auto is_same = [](Point2 a, Point2 b) { return a.u == b.u && a.v == b.v; };
+    ring.erase(std::unique(ring.begin(), ring.end(), is_same), ring.end());
+    while (ring.size() > 1 && is_same(ring.front(), ring.back())) ring.pop_back();
+    if ((signed_area(ring) > 0) != (r == 0)) std::reverse(ring.begin(), ring.end());
+  }
+  return area;
+}
+
+using Rings = std::vector<std::vector<std::int32_t>>;
+
+void add_area(PolygonModel& model, const PlanArea& area, double low_m, double high_m,
+              const PolygonModel::Facts& facts) {
+  Rings bottom, top;
+  for (const auto& ring : ordered(area)) {
+    bottom.push_back(add_ring(model, ring, low_m));
+    top.push_back(add_ring(model, ring, high_m));
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const std::size_t j = (i + 1) % ring.size();
+      model.add_polygon({{bottom.back()[i], bottom.back()[j], top.back()[j], top.back()[i]}},
+                        facts);
+    }
+  }
+  model.add_polygon(top, facts);
+  for (auto& ring : bottom) std::reverse(ring.begin(), ring.end());
+  model.add_polygon(bottom, facts);
+}
+
+std::vector<Point2> circle(Point2 middle, double radius, int corners) {
+  std::vector<Point2> ring;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / corners;
+    ring.push_back({middle.u + radius * std::cos(angle), middle.v + radius * std::sin(angle)});
+  }
+  return ring;
+}
+
+void add_crown(PolygonModel& model, Vec3 foot, const TreeShape& shape,
+               const PolygonModel::Facts& facts) {
+  const double half = (shape.height_m - shape.trunk_m) / 2, middle = foot.z + shape.trunk_m + half;
+  std::vector<std::vector<std::int32_t>> circles;
+  for (int zone = 1; zone < crown_zones; ++zone) {
+    const double angle = std::numbers::pi * zone / crown_zones;  // from the lower end
+    circles.push_back(add_ring(
+        model, circle({foot.x, foot.y}, shape.crown_m / 2 * std::sin(angle), crown_meridians),
+        middle - half * std::cos(angle)));
+  }
+  const auto end = [&](double z) {
+    model.vertices.push_back({foot.x, foot.y, z});
+    return static_cast<std::int32_t>(model.vertices.size() - 1);
+  };
+  const std::int32_t low = end(middle - half), high = end(middle + half);
+  for (std::size_t i = 0; i < crown_meridians; ++i) {
+    const std::size_t j = (i + 1) % crown_meridians;
+    model.add_triangle(low, circles.front()[j], circles.front()[i], facts);
+    for (std::size_t z = 0; z + 1 < circles.size(); ++z)
+      model.add_polygon({{circles[z][i], circles[z][j], circles[z + 1][j], circles[z + 1][i]}},
+                        facts);
+    model.add_triangle(high, circles.back()[i], circles.back()[j], facts);
+  }
+}
+
+}  // namespace
+
+bool lies_in(const std::vector<PlanArea>& areas, Point2 point) {
+  return std::any_of(areas.begin(), areas.end(), [&](const PlanArea& area) {
+    return holds_in_plan(area, point, [](Point2 p) { return p; });
+  });
+}
+
+PlanArea rectangle_in_plan(Point2 middle, double width_m, double depth_m, double turn_deg) {
+  const double turn = radians(turn_deg), cos = std::cos(turn), sin = std::sin(turn);
+  const auto corner = [&](double x, double y) {
+    return Point2{middle.u + x * cos + y * sin, middle.v - x * sin + y * cos};
+  };
+  const double w = width_m / 2, d = depth_m / 2;
+  return {{corner(-w, -d), corner(w, -d), corner(w, d), corner(-w, d)}};
+}
+
+void add_prism(PolygonModel& model, const std::vector<PlanArea>& areas, double low_m, double high_m,
+               const SolidFacts& facts) {
+  auto of_faces = begin_object(model, facts);
+  of_faces.material = add_reference(model, facts.material);
+  for (const PlanArea& area : areas) add_area(model, area, low_m, high_m, of_faces);
+}
+
+void add_tree(PolygonModel& model, Vec3 foot, const TreeShape& shape, const SolidFacts& facts) {
+  auto of_faces = begin_object(model, facts);
+  of_faces.surface = Surface::other;
+  if (shape.trunk_m > 0) {
+    of_faces.material = add_reference(model, shape.trunk);
+    const double radius = shape.height_m * trunk_width_ratio / 2;
+    add_area(model, {circle({foot.x, foot.y}, radius, trunk_sides)}, foot.z, foot.z + shape.trunk_m,
+             of_faces);
+  }
+  of_faces.material = add_reference(model, shape.leaves);
+  of_faces.sides = Sides::two;
+  add_crown(model, foot, shape, of_faces);
+}
+
+std::optional<double> standing_height(const PolygonModel& model, Point2 place) {
+  std::optional<double> ground;
+  for (std::size_t p = 0; p < model.polygon_count(); ++p) {
+    const auto object = model.facts[p].object.index();
+    const bool is_of_land =
+        object < model.object_kinds.size() && is_land(model.object_kinds[object]);
+    if (!is_of_land && model.facts[p].surface != Surface::ground) continue;
+    const LooseFace face = face_of(model, p);
+    const Vec3 normal = area_vector2(face);
+    if (normal.z == 0 || !holds_in_plan(face.rings, place, in_plan)) continue;
+    const Vec3 through = face.rings[0][0];
+    const double z =
+        through.z -
+        (normal.x * (place.u - through.x) + normal.y * (place.v - through.y)) / normal.z;
+    if (!ground || z > *ground) ground = z;
+  }
+  if (ground) return ground;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const ObjectExtent& extent : extents_of(model)) {
+    if (extent.is_empty()) continue;
+    const double away = distance_in_plan(extent, place);
+    if (away < nearest) {
+      nearest = away;
+      ground = extent.box.low.z;
+    }
+  }
+  return ground;
+}
+
+}  // namespace sunload

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Steps of `scene.edit` done on the model that scene files make.
+#pragma once
+
+#include "geo/mesh/mesh.h"
+#include "io/study/study.h"
+
+namespace sunload {
+
+/// One step after the other; what each has chosen is added to the model's notes. Throws InputError,
+/// at the step, where nothing matches (with near names) or where it cannot be done.
+PolygonModel edited(PolygonModel model, const Study& study);
+
+}  // namespace sunload

@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Houses made higher, and bodies that are added: closed, of the volume that they should have.
+#include "geo/edit/raise.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "geo/edit/solids.h"
+#include "geo/mesh/mesh_prepare.h"
+#include "tests/geo/mesh/mesh_prepare_models.h"
+
+namespace sunload::test {
+namespace {
+
+constexpr double rounding = 1e-9;  // of sums of some hundred products of numbers up to 1000
+
+/// 10 m by 6 m, eaves at 5 m, ridge at 8 m along x; a window in its front.
+constexpr double volume_of_house = 10 * 6 * 5 + 10 * 6 * 3 / 2.0;
+ModelBuilder house() {
+  const Vec3 a{0, 0, 0}, b{10, 0, 0}, c{10, 6, 0}, d{0, 6, 0}, e{0, 0, 5}, f{10, 0, 5}, g{10, 6, 5},
+      h{0, 6, 5}, r{0, 3, 8}, s{10, 3, 8};
+  const std::vector<Vec3> window{{4, 0, 1}, {6, 0, 1}, {6, 0, 3}, {4, 0, 3}};
+  ModelBuilder builder;
+  builder.object("house")
+      .polygon({{d, c, b, a}})
+      .polygon({{a, b, f, e}, {window.rbegin(), window.rend()}})
+      .polygon({{b, c, g, s, f}})
+      .polygon({{c, d, h, g}})
+      .polygon({{d, a, e, r, h}})
+      .polygon({{e, f, s, r}})
+      .polygon({{g, h, r, s}})
+      .with(Surface::window)
+      .polygon({window});
+  return builder;
+}
+
+PrepareReport report_of(const PolygonModel& model) { return prepare(model, {}).report; }
+
+void expect_closed(const PolygonModel& model, std::size_t bodies, double volume) {
+  const PrepareReport report = report_of(model);
+  EXPECT_EQ(report.closed_bodies, bodies);
+  EXPECT_EQ(report.open_sheets, 0u);
+  EXPECT_EQ(report.open_edges, 0u);
+  EXPECT_EQ(report.nonmanifold_edges, 0u);
+  EXPECT_EQ(report.triangles_flipped, 0u);
+  EXPECT_NEAR(report.volume_m3, volume, rounding * volume);
+}
+
+double highest_of(const PolygonModel& model, Surface surface) {
+  double highest = -1e9;
+  for (const LooseFace& face : faces_of(model, make_id<ObjectId>(0)))
+    if (face.facts.surface == surface)
+      for (const Vec3 v : face.rings[0]) highest = std::max(highest, v.z);
+  return highest;
+}
+
+TEST(Raise, LiftsTheRoofWholeAndExtendsTheWalls) {
+  PolygonModel model = house().model();
+  expect_closed(model, 1, volume_of_house);
+  const auto raised = raise_object(model, make_id<ObjectId>(0), 6.5, {});
+  EXPECT_EQ(raised.refusal, "");
+  EXPECT_NEAR(raised.cut_m, 5, rounding);
+  EXPECT_EQ(raised.windows_cut, 0u);
+  expect_closed(model, 1, volume_of_house + 10 * 6 * 6.5);
+  EXPECT_EQ(highest_of(model, Surface::other), 14.5);
+  EXPECT_EQ(highest_of(model, Surface::window), 3);  // windows stay where they are
+}
+
+TEST(Raise, CutsWhereItIsTold) {
+  PolygonModel model = house().model();
+  const auto raised = raise_object(model, make_id<ObjectId>(0), 2, 2);
+  EXPECT_EQ(raised.windows_cut, 1u);
+  EXPECT_EQ(highest_of(model, Surface::window), 5);
+  expect_closed(model, 1, volume_of_house + 10 * 6 * 2);
+}
+
+TEST(Raise, LowersAsFarAsThereIsWall) {
+  PolygonModel model = house().model();
+  EXPECT_EQ(raise_object(model, make_id<ObjectId>(0), -1.5, {}).refusal, "");
+  expect_closed(model, 1, volume_of_house - 10 * 6 * 1.5);
+  const auto too_far = raise_object(model, make_id<ObjectId>(0), -0.5, {});  // onto the window
+  EXPECT_NE(too_far.refusal, "");
+  expect_closed(model, 1, volume_of_house - 10 * 6 * 1.5);
+}
+
+TEST(Raise, RefusesWhatHasNoWallToExtend) {
+  PolygonModel model = ModelBuilder()
+                           .object("tent")
+                           .polygon({{{0, 6, 0}, {10, 6, 0}, {10, 0, 0}, {0, 0, 0}}})
+                           .polygon({{{0, 0, 0}, {10, 0, 0}, {10, 3, 8}, {0, 3, 8}}})
+                           .polygon({{{10, 6, 0}, {0, 6, 0}, {0, 3, 8}, {10, 3, 8}}})
+                           .polygon({{{10, 0, 0}, {10, 6, 0}, {10, 3, 8}}})
+                           .polygon({{{0, 6, 0}, {0, 0, 0}, {0, 3, 8}}})
+                           .object("plate")
+                           .polygon({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}})
+                           .model();
+  const PolygonModel before = model;
+  EXPECT_EQ(raise_object(model, make_id<ObjectId>(0), 3, {}).refusal, "begins to rise at its foot");
+  EXPECT_EQ(raise_object(model, make_id<ObjectId>(0), 3, 4).refusal, "has a roof that from_m cuts");
+  EXPECT_EQ(raise_object(model, make_id<ObjectId>(1), 3, {}).refusal, "has no roof");
+  EXPECT_EQ(model.vertices, before.vertices);
+  EXPECT_EQ(model.ring_vertex, before.ring_vertex);
+}
+
+/// A box with a roof slab of 30 cm that sticks out by 1 m all around, and a balcony below.
+TEST(Raise, TakesWhatHangsUnderTheRoofAlongAndLeavesBalconies) {
+  ModelBuilder builder;
+  const auto ring = [](double out, double z) {
+    return std::vector<Vec3>{
+        {-out, -out, z}, {10 + out, -out, z}, {10 + out, 10 + out, z}, {-out, 10 + out, z}};
+  };
+  const auto reversed = [](std::vector<Vec3> list) {
+    std::reverse(list.begin(), list.end());
+    return list;
+  };
+  builder.object("house").polygon({reversed(ring(0, 0))}).polygon({ring(1, 9.3)});
+  builder.polygon({reversed(ring(1, 9)), ring(0, 9)});  // soffit
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t j = (i + 1) % 4;
+    builder.polygon({{ring(0, 0)[i], ring(0, 0)[j], ring(0, 9)[j], ring(0, 9)[i]}});
+    builder.polygon({{ring(1, 9)[i], ring(1, 9)[j], ring(1, 9.3)[j], ring(1, 9.3)[i]}});
+  }
+  PolygonModel model = builder.model();
+  add_prism(model, {rectangle_in_plan({5, -1.6}, 3, 1, 0)}, 3, 3.2, {"balcony", "", ""});
+  expect_closed(model, 2, 10 * 10 * 9 + 12 * 12 * 0.3 + 3 * 0.2);
+  const auto faces = faces_of(model, make_id<ObjectId>(0));
+  EXPECT_NEAR(eaves_of(faces).value_or(0), 9, rounding);
+  EXPECT_EQ(raise_object(model, make_id<ObjectId>(0), 3, {}).refusal, "");
+  expect_closed(model, 2, 10 * 10 * 12 + 12 * 12 * 0.3 + 3 * 0.2);
+}
+
+TEST(Solids, PrismsWithCourtsAreClosed) {
+  PolygonModel model;
+  PlanArea area = rectangle_in_plan({0, 0}, 20, 10, 0);
+  area.push_back(rectangle_in_plan({2, 0}, 6, 4, 30)[0]);
+  add_prism(model, {area}, 2, 8, {"block", "Building", "brick"});
+  expect_closed(model, 1, (20 * 10 - 6 * 4) * 6);
+  EXPECT_EQ(model.object_kinds.front(), "Building");
+  EXPECT_TRUE(lies_in({area}, {-8, 0}));
+  EXPECT_FALSE(lies_in({area}, {2, 0}));
+  // Windings of the file do not matter, nor corners written twice.
+  for (auto& ring : area) std::reverse(ring.begin(), ring.end());
+  area[0].push_back(area[0].front());
+  PolygonModel other;
+  add_prism(other, {area}, 2, 8, {"block", "Building", "brick"});
+  expect_closed(other, 1, (20 * 10 - 6 * 4) * 6);
+}
+
+TEST(Solids, TurnsAreClockwise) {
+  const PlanArea area = rectangle_in_plan({1, 2}, 4, 2, 90);
+  EXPECT_NEAR(area[0][0].u, 1 - 1, rounding);  // (-2, -1) goes to (-1, 2)
+  EXPECT_NEAR(area[0][0].v, 2 + 2, rounding);
+}
+
+TEST(Solids, TreesAreClosedAndAsHighAsTheyShould) {
+  PolygonModel model;
+  add_tree(model, {3, 4, 100},
+           {.height_m = 12, .crown_m = 6, .trunk_m = 4, .leaves = "crown", .trunk = "wood"},
+           {"tree", "SolitaryVegetationObject", ""});
+  const PrepareReport report = report_of(model);
+  EXPECT_EQ(report.closed_bodies, 2u);
+  EXPECT_EQ(report.open_edges, 0u);
+  const ObjectExtent extent = extents_of(model)[0];
+  EXPECT_NEAR(extent.box.low.z, 100, rounding);
+  EXPECT_NEAR(extent.box.high.z, 112, rounding);
+  EXPECT_NEAR(extent.box.high.x - extent.box.low.x, 6, rounding);
+  // Its corners lie on the ellipsoid: less volume, by what is between chords and arcs.
+  const double ellipsoid = 4.0 / 3 * std::numbers::pi * 3 * 3 * 4;
+  EXPECT_LT(report.volume_m3, ellipsoid);
+  EXPECT_GT(report.volume_m3, 0.8 * ellipsoid);  // 12 meridians: 0.955, 6 zones: 0.93 at least
+  // What is added stands on land where there is some, and else on what is near.
+  EXPECT_EQ(standing_height(model, {50, 50}), 100);
+  EXPECT_FALSE(standing_height({}, {0, 0}));
+}
+
+TEST(Objects, AreTakenOutWithoutATraceInTheOthers) {
+  PolygonModel model = house().model();
+  const PolygonModel alone = model;
+  add_prism(model, {rectangle_in_plan({30, 0}, 4, 2, 10)}, 0, 3, {"shed", "", "wood"});
+  const PolygonModel rest = without_objects(model, {0, 1});
+  EXPECT_EQ(rest.object_names, alone.object_names);
+  EXPECT_EQ(rest.polygon_count(), alone.polygon_count());
+  expect_closed(rest, 1, volume_of_house);
+  expect_closed(without_objects(model, {1, 0}), 1, 4 * 2 * 3);
+}
+
+TEST(Objects, ArePartedFromWhatTheyTouch) {
+  // Two triangles of two objects that share an edge in the file.
+  PolygonModel model;
+  model.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  model.object_names = {"a", "b"};
+  model.add_triangle(0, 1, 2, {.object = make_id<ObjectId>(0)});
+  model.add_triangle(0, 2, 3, {.object = make_id<ObjectId>(1)});
+  displace_objects(model, {0, 1}, [](Vec3 p) { return p + Vec3{0, 5, 0}; });
+  const auto a = faces_of(model, make_id<ObjectId>(0)), b = faces_of(model, make_id<ObjectId>(1));
+  EXPECT_EQ(a[0].rings[0][2], (Vec3{1, 1, 0}));
+  EXPECT_EQ(b[0].rings[0][1], (Vec3{1, 6, 0}));
+}
+
+}  // namespace
+}  // namespace sunload::test

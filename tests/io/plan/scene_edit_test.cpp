@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Steps of scene.edit: what they choose, what becomes of it, and what is said of it.
+#include "io/plan/scene_edit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "geo/edit/objects.h"
+#include "io/plan/scene_build.h"
+#include "io/plan/scene_models.h"
+#include "tests/support/refusal_of.h"
+#include "tests/support/work_folder.h"
+
+namespace sunload::test {
+namespace {
+
+class SceneEdit : public testing::Test {
+ protected:
+  Study study(const std::string& steps, const std::string& more = "") const {
+    return read_study(folder_.write(
+                          "s.yaml",
+                          "format: sunload-study-1\nname: s\nsite: {timezone: UTC, latitude_deg: "
+                          "50, longitude_deg: 14}\nperiod: {days: [2026-03-21]}\nscene: {files: "
+                          "[town.obj], edit: [" +
+                              steps + "]" + more + "}\n"))
+        .variants.front();
+  }
+  PolygonModel model(const std::string& steps) const {
+    const Study with_steps = study(steps);
+    return edited(read_models(with_steps), with_steps);
+  }
+  std::string refusal(const std::string& steps) const {
+    return refusal_of([&] { model(steps); });
+  }
+  SceneEdit() { folder_.write("town.obj", town()); }
+
+  /// house_1 about (5, 5) and house_2 about (25, 5), boxes of 10 m by 10 m and 6 m; shed at (45,
+  /// 5).
+  static std::string town() {
+    std::string text;
+    int first = 1;
+    for (const auto& [name, x] :
+         {std::pair{"house_1", 0}, std::pair{"house_2", 20}, std::pair{"shed", 40}}) {
+      text += std::string("o ") + name + "\n";
+      for (const int z : {0, 6})
+        for (const auto& [dx, dy] :
+             {std::pair{0, 0}, std::pair{10, 0}, std::pair{10, 10}, std::pair{0, 10}})
+          text += "v " + std::to_string(x + dx) + " " + std::to_string(dy) + " " +
+                  std::to_string(z) + "\n";
+      const auto face = [&](int a, int b, int c, int d) {
+        text += "f";
+        for (const int v : {a, b, c, d}) text += " " + std::to_string(first + v);
+        text += "\n";
+      };
+      face(3, 2, 1, 0);
+      face(4, 5, 6, 7);
+      for (int i = 0; i < 4; ++i) face(i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i);
+      first += 8;
+    }
+    return text;
+  }
+
+  static Box box_of(const PolygonModel& model, const std::string& name) {
+    const auto found = std::find(model.object_names.begin(), model.object_names.end(), name);
+    if (found == model.object_names.end()) return {};
+    return extents_of(model)[static_cast<std::size_t>(found - model.object_names.begin())].box;
+  }
+  using Names = std::vector<std::string>;
+  WorkFolder folder_;
+};
+
+TEST_F(SceneEdit, ChoosesByNamePolygonAndNearness) {
+  EXPECT_EQ(model("{object: 'house_*', remove: true}").object_names, Names{"shed"});
+  EXPECT_EQ(model("{polygon: [[-1, -1], [28, -1], [28, 11], [-1, 11]], remove: true}").object_names,
+            Names{"shed"});
+  EXPECT_EQ(model("{near: {position_m: [33, 5]}, remove: true}").object_names,
+            (Names{"house_1", "shed"}));
+  EXPECT_EQ(model("{near: {position_m: [35, 5], within_m: 5}, remove: true}").object_names,
+            Names{"house_1"});
+  // All that is written must hold.
+  EXPECT_EQ(model("{object: 'house_*', near: {position_m: [45, 5]}, remove: true}").object_names,
+            (Names{"house_1", "shed"}));
+}
+
+TEST_F(SceneEdit, TellsWhatItHasChosen) {
+  const auto notes = model("{object: 'house_*', raise: {storeys: 2, storey_m: 3}}").notes;
+  ASSERT_FALSE(notes.empty());
+  EXPECT_EQ(notes.back(), "scene.edit[1]: raises by 6 m 2 objects: house_1, house_2");
+}
+
+TEST_F(SceneEdit, RefusesAStepThatMatchesNothing) {
+  const std::string said =
+      refusal("{object: shed, move_m: [0, 1, 0]}, {object: huose_1, remove: true}");
+  EXPECT_NE(said.find("scene.edit[2]: no object matches object 'huose_1' (there are 3)"), said.npos)
+      << said;
+  EXPECT_NE(said.find("did you mean 'house_1'"), said.npos) << said;
+  EXPECT_NE(said.find("s.yaml:5:"), said.npos) << said;
+}
+
+TEST_F(SceneEdit, StepsFollowEachOther) {
+  const auto m = model(
+      "{object: house_1, raise: {by_m: 3}}, {object: house_1, move_m: [0, 0, 1]}, {object: "
+      "house_2, turn: {by_deg: 90, about_m: [20, 0]}}");
+  EXPECT_EQ(box_of(m, "house_1").low.z, 1);
+  EXPECT_EQ(box_of(m, "house_1").high.z, 10);
+  EXPECT_EQ(box_of(m, "house_2").low, (Vec3{20, -10, 0}));  // clockwise from above, exactly
+  EXPECT_EQ(box_of(m, "house_2").high, (Vec3{30, 0, 6}));
+}
+
+TEST_F(SceneEdit, AddsBodiesOnTheGroundThatIsThere) {
+  const auto m = model(
+      "{object: shed, move_m: [0, 0, 2]}, {add: {box: {position_m: [70, 5], size_m: [4, 6, 3]}}}, "
+      "{add: {name: shed, footprint: {polygon: [[0, 20], [9, 20], [9, 30]], height_m: 5}}}, "
+      "{add: {tree: {position_m: [0, -10], height_m: 8, crown_m: 4, trunk_m: 2, to_m: [25, -10], "
+      "every_m: 10}}}");
+  EXPECT_EQ(m.object_names,
+            (Names{"house_1", "house_2", "shed", "box", "shed_2", "tree_1", "tree_2", "tree_3"}));
+  EXPECT_EQ(box_of(m, "box").low.z, 2);  // as the shed, which is nearest
+  EXPECT_EQ(box_of(m, "box").high.z, 5);
+  EXPECT_EQ(box_of(m, "tree_3").low.z, 0);
+  EXPECT_NEAR(extents_of(m)[7].middle().x, 20, 1e-9);  // of sums of some cosines
+}
+
+TEST_F(SceneEdit, ReplacesByAFile) {
+  folder_.write("new.obj", "o tower\nv 0 0 0\nv 2 0 0\nv 0 1 40\nf 1 2 3\n");
+  const auto m = model("{object: house_2, replace: {file: new.obj, position_m: [20, 0, 0]}}");
+  EXPECT_EQ(m.object_names, (Names{"house_1", "shed", "tower"}));
+  EXPECT_EQ(box_of(m, "tower").high, (Vec3{22, 1, 40}));
+}
+
+TEST_F(SceneEdit, ReadsGeoJson) {
+  const std::string polygon =
+      R"({"type": "Polygon", "coordinates": [[[0,20],[8,20],[8,24],[0,24],[0,20]]]})";
+  folder_.write("a.json", R"({"type": "FeatureCollection", "features": [{"type": "Feature",
+    "properties": {}, "geometry": )" +
+                              polygon + "}]}");
+  const auto m = model("{add: {footprint: {polygon: a.json, height_m: 5}}}");
+  EXPECT_EQ(box_of(m, "block").high, (Vec3{8, 24, 5}));
+  folder_.write("b.json", R"({"type": "Point", "coordinates": [0, 20]})");
+  const std::string said = refusal_of([&] { study("{polygon: b.json, remove: true}"); });
+  EXPECT_NE(said.find("holds no polygon"), said.npos) << said;
+}
+
+TEST_F(SceneEdit, MakesScenesThatArePreparedAsAnyOther) {
+  const BuiltScene built = build_scene(
+      study("{object: house_1, raise: {by_m: 4}}, {add: {tree: {position_m: [15, 5], height_m: 6, "
+            "crown_m: 3, trunk_m: 2}}}, {add: {material: brick, box: {position_m: [5, 30], size_m: "
+            "[4, 4, 4]}}}",
+            ", ground: {}"));
+  EXPECT_EQ(built.report.closed_bodies, 6u);  // three houses, a box, crown and trunk
+  EXPECT_EQ(built.report.open_edges, 0u);
+  const auto has_material = [&](const std::string& name) {
+    return std::any_of(built.scene.materials.begin(), built.scene.materials.end(),
+                       [&](const Material& m) { return m.name == name; });
+  };
+  EXPECT_TRUE(has_material("crown"));
+  EXPECT_TRUE(has_material("wood"));
+  EXPECT_TRUE(has_material("brick"));
+}
+
+TEST_F(SceneEdit, RefusesWhatCannotBeRaised) {
+  folder_.write("town.obj", "o plate\nv 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string said = refusal("{object: plate, raise: {by_m: 3}}");
+  EXPECT_NE(said.find("scene.edit[1]: plate has no roof"), said.npos) << said;
+}
+
+}  // namespace
+}  // namespace sunload::test
