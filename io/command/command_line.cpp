@@ -486,6 +486,10 @@ class CommandLine {
     sub->add_option("--output", compare_.output, "folder of the study's results");
     auto* csv = sub->add_flag("--csv", csv_, "one row per group, for machines");
     sub->add_flag("--json", json_, "the same as JSON")->excludes(csv);
+    constexpr double largest_share = 1000;  // ten times the base
+    sub->add_option("--least", compare_.least_percent,
+                    "percent of the base: significant is what surely differs by more")
+        ->check(CLI::Range(0.0, largest_share));
     add_named(sub, compare_.parts, "only rows of");
     add_band(sub);
     add_period(sub);

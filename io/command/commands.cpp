@@ -204,7 +204,7 @@ int compare(const CompareOptions& asked) {
   for (const auto& path : options.variants) {
     const auto read_variant = opened({path, options.band, options.period});
     const ResultReader& variant = *read_variant;
-    Comparison comparison = compare_results(base, variant);
+    Comparison comparison = compare_results(base, variant, options.least_percent);
     if (!options.differences.empty())
       write_comparison_hdf5(comparison, base, variant, options.differences);
     keep_named(comparison, options.parts, path);

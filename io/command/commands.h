@@ -40,7 +40,8 @@ struct CompareOptions {
   std::string output;                 ///< folder of the study's results; empty: as it says
   std::string band;
   PeriodChoice period;
-  NamedParts parts;  ///< rows of these alone; sensors are not compared
+  NamedParts parts;          ///< rows of these alone; sensors are not compared
+  double least_percent = 0;  ///< what matters, as share of the base
   enum class Format { table, csv, json } format = Format::table;
   std::string differences;  ///< HDF5 file of the differences, besides; empty: none
 };

@@ -87,9 +87,21 @@ double area_alone(const Side& s, const PatchGroup& group) {
   return found == s.alone.place.end() ? 0 : s.alone.groups.groups()[found->second].area_m2;
 }
 
+/// Two-sided p-value of a true difference at the rim of what does not matter, which is the largest
+/// of all that do not (Hodges & Lehmann 1954, Testing the approximate validity of statistical
+/// hypotheses); without a rim that of no difference. For differences beyond it.
+template <class Error>
+double p_beyond(const ComparisonRow& row, double least_percent, const Error& error) {
+  const auto p = [&](double t) { return student_t_two_sided_p(t, error.degrees_of_freedom); };
+  const double difference = std::abs(row.difference_kwh_m2);
+  if (least_percent == 0) return p(difference / error.se);
+  const double rim = std::abs(*row.base_kwh_m2) * least_percent / 100;
+  return (p((difference - rim) / error.se) + p((difference + rim) / error.se)) / 2;
+}
+
 /// Group b of what the base has in common with the variant, whose group v it is.
 ComparisonRow matched_row(const Side& base, std::size_t b, const Side& variant, std::size_t v,
-                          Comparison::Errors errors) {
+                          Comparison::Errors errors, double least_percent) {
   const auto& group = base.common.groups.groups()[b];
   const double base_load = base.common.load[b], variant_load = variant.common.load[v];
   ComparisonRow row;
@@ -108,10 +120,8 @@ ComparisonRow matched_row(const Side& base, std::size_t b, const Side& variant, 
                          : welch_error(base.realizations[b], variant.realizations[v]);
   row.se_kwh_m2 = error.se;
   const double rounding = rounding_share * std::max(std::abs(base_load), std::abs(variant_load));
-  row.p_value =
-      std::abs(row.difference_kwh_m2) <= rounding
-          ? 1
-          : student_t_two_sided_p(row.difference_kwh_m2 / error.se, error.degrees_of_freedom);
+  const double least = std::max(rounding, std::abs(base_load) * least_percent / 100);
+  row.p_value = std::abs(row.difference_kwh_m2) <= least ? 1 : p_beyond(row, least_percent, error);
   return row;
 }
 
@@ -159,7 +169,9 @@ std::vector<std::string> notes_on(const Side& base, const Side& variant) {
 
 }  // namespace
 
-Comparison compare_results(const ResultReader& base, const ResultReader& variant) {
+Comparison compare_results(const ResultReader& base, const ResultReader& variant,
+                           double least_percent) {
+  SUNLOAD_EXPECT(least_percent >= 0, "a share of the base");
   expect_load(base);
   expect_load(variant);
   Comparison comparison;
@@ -176,18 +188,28 @@ Comparison compare_results(const ResultReader& base, const ResultReader& variant
   comparison.base_realizations = realization_count(base);
   comparison.variant_realizations = realization_count(variant);
   comparison.errors = error_kind(b, v);
+  comparison.least_percent = least_percent;
   comparison.notes = notes_on(b, v);
   const auto& groups = b.common.groups.groups();
   for (std::size_t g = 0; g < groups.size(); ++g)
     if (const auto found = v.common.place.find({groups[g].kind, groups[g].name});
         found != v.common.place.end())
-      comparison.rows.push_back(matched_row(b, g, v, found->second, comparison.errors));
+      comparison.rows.push_back(
+          matched_row(b, g, v, found->second, comparison.errors, least_percent));
   for (std::size_t g = 0; g < b.alone.groups.groups().size(); ++g)
     comparison.rows.push_back(lonely_row(b, g, Present::base));
   for (std::size_t g = 0; g < v.alone.groups.groups().size(); ++g)
     comparison.rows.push_back(lonely_row(v, g, Present::variant));
   correct_within_kinds(comparison.rows);
   return comparison;
+}
+
+ChangeCounts change_counts(const Comparison& comparison, const std::string& kind) {
+  ChangeCounts counts;
+  for (const auto& row : comparison.rows)
+    if (row.kind == kind && row.base_kwh_m2 && row.variant_kwh_m2)
+      ++(!row.significant ? counts.others : row.difference_kwh_m2 > 0 ? counts.gain : counts.lose);
+  return counts;
 }
 
 void keep_named(Comparison& comparison, const NamedParts& parts, const std::string& path) {

@@ -31,9 +31,10 @@ struct ComparisonRow {
   double difference_kwh_m2 = 0;                       ///< variant − base
   double difference_percent = 0;                      ///< of the base
   double se_kwh_m2 = 0;                               ///< standard error of the difference
-  double p_value = 0;                                 ///< two-sided, of no difference
-  double p_corrected = 0;                             ///< for the number of groups of the same kind
-  bool significant = false;                           ///< p_corrected < significance_level
+  /// Of a difference that is no larger, either way, than `least_percent` of the base: of none.
+  double p_value = 0;
+  double p_corrected = 0;        ///< for the number of groups of the same kind
+  bool significant = false;      ///< p_corrected < significance_level
   double unmatched_area_m2 = 0;  ///< of the group in both, without a counterpart in the other
 };
 
@@ -42,17 +43,26 @@ struct Comparison {
   std::string units;          ///< of the light load, as the files state it
   Quantity quantity = Quantity::irradiance;
   std::size_t base_realizations = 0, variant_realizations = 0;
+  double least_percent = 0;  ///< of the base: smaller differences do not matter, however sure
   enum class Errors { paired, independent, unknown } errors = Errors::unknown;
   std::vector<std::string> notes;  ///< what a reader must know, e.g. that the periods differ
   std::vector<ComparisonRow> rows;
 };
 
+/// `least_percent`, 0 or above: significant is what is surely more than this share of the base.
 /// Throws InputError where a result has no light load or the units differ.
-Comparison compare_results(const ResultReader& base, const ResultReader& variant);
+Comparison compare_results(const ResultReader& base, const ResultReader& variant,
+                           double least_percent = 0);
 
 /// Keeps the rows of the facades and objects that are named (all where nothing is); p-values stay
 /// corrected for all groups of their kind. Throws InputError for names that neither result has.
 void keep_named(Comparison& comparison, const NamedParts& parts, const std::string& path);
+
+/// Groups of a kind that surely gain or lose more than asked for, and the others that both have.
+struct ChangeCounts {
+  std::size_t gain = 0, lose = 0, others = 0;
+};
+ChangeCounts change_counts(const Comparison& comparison, const std::string& kind);
 
 /// Table for people: significant differences first within each kind.
 std::string comparison_table(const Comparison& comparison);

@@ -285,6 +285,8 @@ void put_attributes(h5::File& file, const Comparison& comparison, const ResultRe
   file.set("errors", errors[static_cast<std::size_t>(comparison.errors)]);
   file.set("base_realizations", static_cast<std::int64_t>(comparison.base_realizations));
   file.set("variant_realizations", static_cast<std::int64_t>(comparison.variant_realizations));
+  if (comparison.least_percent > 0)
+    file.set("least_percent", comparison.least_percent, h5::Type::float64);
   if (comparison.quantity == Quantity::illuminance) file.set("quantity", "illuminance");
   for (const char* name : {"study", "timezone", "crs"})
     if (const auto text = base.text_attribute(name); !text.empty()) file.set(name, text);

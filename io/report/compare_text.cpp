@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -81,6 +82,21 @@ std::vector<ComparisonRow> rows_of_kind(const Comparison& comparison, const std:
   return rows;
 }
 
+constexpr std::array counted_kinds{"surface", "object", "facade"};
+
+/// `facade: 3 gain, 12 lose, 40 others`, a line for each kind.
+std::string counts_in_words(const Comparison& comparison) {
+  if (comparison.errors == Comparison::Errors::unknown) return {};
+  std::string text = comparison.least_percent > 0
+                         ? fmt::format("\nSurely more than {:g} %:\n", comparison.least_percent)
+                         : "\nSurely different:\n";
+  std::string lines;
+  for (const char* kind : counted_kinds)
+    if (const auto [gain, lose, others] = change_counts(comparison, kind); gain + lose + others > 0)
+      lines += fmt::format("  {:<8} {} gain, {} lose, {} others\n", kind, gain, lose, others);
+  return lines.empty() ? lines : text + lines;
+}
+
 // A screen holds about so many rows of a kind; machines read the CSV.
 constexpr std::size_t rows_shown = 16;
 
@@ -92,10 +108,14 @@ nlohmann::ordered_json json_number(double value) {
 
 std::string comparison_table(const Comparison& comparison) {
   std::string text = fmt::format(
-      "Light load of {} (variant) against {} (base) [{}]\n{};\n* p, corrected for the number of "
+      "Light load of {} (variant) against {} (base) [{}]\n{};\n* p{}, corrected for the number of "
       "groups of a kind (Holm), is below {}\n",
       comparison.variant, comparison.base, display_units(comparison.units),
-      errors_in_words(comparison), significance_level);
+      errors_in_words(comparison),
+      comparison.least_percent > 0
+          ? fmt::format(" of a difference of {:g} % at most", comparison.least_percent)
+          : "",
+      significance_level);
   for (const auto& note : comparison.notes) text += "note: " + note + "\n";
   std::size_t width = 0;
   for (const auto& row : comparison.rows) width = std::max(width, row.name.size());
@@ -108,6 +128,7 @@ std::string comparison_table(const Comparison& comparison) {
     if (rows.size() > rows_shown)
       text += fmt::format("  … and {} more: see --csv\n", rows.size() - rows_shown);
   }
+  text += counts_in_words(comparison);
   double common = 0, only_in_base = 0, only_in_variant = 0;
   for (const auto& row : comparison.rows)
     if (row.kind == "whole")
@@ -155,10 +176,17 @@ std::string comparison_json(const Comparison& comparison) {
                     {"p_corrected", json_number(row.p_corrected)},
                     {"significant", row.significant},
                     {"unmatched_area_m2", json_number(row.unmatched_area_m2)}});
+  nlohmann::ordered_json counts;
+  for (const char* kind : counted_kinds) {
+    const auto [gain, lose, others] = change_counts(comparison, kind);
+    counts[kind] = {{"gain", gain}, {"lose", lose}, {"others", others}};
+  }
   const nlohmann::ordered_json document = {{"base", comparison.base},
                                            {"variant", comparison.variant},
                                            {"units", comparison.units},
+                                           {"least_percent", comparison.least_percent},
                                            {"notes", comparison.notes},
+                                           {"counts", counts},
                                            {"rows", rows}};
   // Paths may be anything.
   return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";

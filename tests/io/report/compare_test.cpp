@@ -145,6 +145,32 @@ TEST(Compare, PairingRevealsWhatIndependentErrorsHide) {
   EXPECT_GT(row(without, "facade", "house_1/south_1").se_kwh_m2, 0.1);
 }
 
+// The south facade of house_1 gains 0.1 of some 3: 3.3 %, more or less by house.
+TEST(Compare, WhatMattersIsMoreThanTheLeastShare) {
+  const ResultReader base(write_small_result(noisy("baseline", "same"), "compare_base"));
+  const ResultReader paired(write_small_result(noisy("other", "same"), "compare_paired"));
+  const auto south = [&](double least_percent) {
+    return row(compare_results(base, paired, least_percent), "facade", "house_1/south_1");
+  };
+  const double percent = south(0).difference_percent;
+  EXPECT_TRUE(south(0.9 * percent).significant);
+  EXPECT_FALSE(south(1.1 * percent).significant);
+  EXPECT_EQ(south(1.1 * percent).p_value, 1);
+  // At the rim itself half of all samples lie beyond: no sure difference.
+  EXPECT_GT(south(0.9999 * percent).p_value, 0.3);
+  EXPECT_GE(south(0.5 * percent).p_value, south(0).p_value);
+
+  const auto counts = change_counts(compare_results(base, paired, 0.5 * percent), "facade");
+  EXPECT_EQ(counts.gain, 1u);
+  EXPECT_EQ(counts.lose, 0u);
+  EXPECT_GT(counts.others, 0u);
+  const auto back = change_counts(compare_results(paired, base, 0.5 * percent), "facade");
+  EXPECT_EQ(back.lose, 1u);
+  const auto text = comparison_table(compare_results(base, paired, 1));
+  EXPECT_NE(text.find("Surely more than 1 %:"), text.npos) << text;
+  EXPECT_NE(text.find("facade   1 gain, 0 lose, "), text.npos) << text;
+}
+
 TEST(Compare, EqualResultsDifferNowhere) {
   const ResultReader base(write_small_result(noisy("baseline", "same"), "compare_equal"));
   for (const auto& r : compare_results(base, base).rows) {
