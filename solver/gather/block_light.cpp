@@ -32,23 +32,29 @@ void BlockSources::split_sky(const SkyGrid& grid) {
   }
 }
 
+BlockLight light_by_rays(const LineSet& lines, RayColumns rays,
+                         const std::vector<double>& parallel) {
+  BlockLight light;
+  light.direct = std::move(rays.direct);
+  light.mirror = std::move(rays.mirror);
+  light.lamps.assign(lines.lamps.begin(), lines.lamps.end());
+  light.lamps.resize(lines.ends.size(), 0);
+  for (std::size_t i = 0; i < parallel.size(); ++i)
+    light.lamps[i] += static_cast<float>(parallel[i]);
+  return light;
+}
+
 BlockLight unreflected_light(const LineSet& lines, const PatchOptics& optics,
                              const BlockSources& sources, RayColumns rays,
                              const std::vector<double>& parallel) {
   const std::size_t rows = lines.ends.size();
-  BlockLight light;
-  light.direct = std::move(rays.direct);
+  const Columns circumsolar = std::move(rays.circumsolar);
+  BlockLight light = light_by_rays(lines, std::move(rays), parallel);
   light.sky = columns(rows);
-  const bool split = !rays.circumsolar.empty();
+  const bool split = !circumsolar.empty();
   gather(lines.sky, split ? sources.sky_of_lines : sources.sky, light.sky, Into::replace);
-  for (std::size_t at = 0; at < rays.circumsolar.size(); ++at)
-    light.sky[at] += rays.circumsolar[at];
-  light.mirror = std::move(rays.mirror);
+  for (std::size_t at = 0; at < circumsolar.size(); ++at) light.sky[at] += circumsolar[at];
   if (optics.any_mirror) gather(lines.sky_by_mirror, sources.sky, light.mirror, Into::add);
-  light.lamps.assign(lines.lamps.begin(), lines.lamps.end());
-  light.lamps.resize(rows, 0);
-  for (std::size_t i = 0; i < parallel.size(); ++i)
-    light.lamps[i] += static_cast<float>(parallel[i]);
   light.reflected = columns(rows);
   parallel_for(
       rows,

@@ -52,6 +52,11 @@ struct BlockLight {
   }
 };
 
+/// What needs no line from row to row: the sun's rays, straight and by mirrors, emitters that the
+/// rows of `lines` meet, and parallel sources ([N], or empty).
+BlockLight light_by_rays(const LineSet& lines, RayColumns rays,
+                         const std::vector<double>& parallel);
+
 /// What arrives at the rows of `lines` without diffuse reflection by patches: by these lines, by
 /// `rays`, and of parallel sources ([N], or empty). `reflected` holds the far ground alone,
 /// `gathered_radiosity` nothing.

@@ -6,6 +6,15 @@
 
 namespace sunload {
 
+namespace {
+
+double seconds(const BlockSources& sources, std::span<const double> shares, std::size_t k) {
+  const double length_s = sources.suns[k].length_s;
+  return shares.empty() ? length_s : shares[k] * length_s;
+}
+
+}  // namespace
+
 TimeSums::TimeSums(std::size_t realizations, std::size_t patches, std::size_t sensors,
                    std::size_t sky_cells)
     : on_patches(realizations, patches),
@@ -15,22 +24,18 @@ TimeSums::TimeSums(std::size_t realizations, std::size_t patches, std::size_t se
       sent_on(realizations) {}
 
 void TimeSums::add_sources(const BlockSources& sources, std::span<const double> shares) {
+  add_whole_sources(sources, shares);
   for (std::size_t k = 0; k < sources.suns.size(); ++k) {
-    const IntervalLight& sun = sources.suns[k];
-    const double time = shares.empty() ? sun.length_s : shares[k] * sun.length_s;
-    for (std::size_t c = 0; c < sun.sky.size(); ++c) {
-      sky[c] += pi * sun.sky[c] * time;
+    const double time = seconds(sources, shares, k);
+    for (std::size_t c = 0; c < sources.suns[k].sky.size(); ++c)
       sky_of_lines[c] += pi * sources.radiance_for_lines(k, c) * time;
-    }
-    ground += sun.ground_exitance * time;
-    length_s += time;
   }
 }
 
 void TimeSums::add_whole_sources(const BlockSources& sources, std::span<const double> shares) {
   for (std::size_t k = 0; k < sources.suns.size(); ++k) {
     const IntervalLight& sun = sources.suns[k];
-    const double time = shares.empty() ? sun.length_s : shares[k] * sun.length_s;
+    const double time = seconds(sources, shares, k);
     for (std::size_t c = 0; c < sun.sky.size(); ++c) sky[c] += pi * sun.sky[c] * time;
     ground += sun.ground_exitance * time;
     length_s += time;

@@ -50,21 +50,14 @@ RaySink sink(const TracedScene& traced, Columns& pooled, std::vector<std::vector
   return {pooled, static_cast<std::size_t>(traced.rules.realizations), exposure, &of_realizations};
 }
 
-/// Shafts pay where triangles are divided into many patches. With 5 patches of a triangle (street)
-/// they cost a quarter more than the rays that they spare, with 28 (city) as much; with more, less.
-const SunShafts* shafts_where_they_pay(const TracedScene& traced) {
-  constexpr std::size_t patches_of_a_triangle = 32;
-  const std::size_t triangles = traced.scene.mesh.triangle_count();
-  return traced.patches.count() >= patches_of_a_triangle * triangles ? &traced.sun_shafts : nullptr;
-}
-
 /// `sums`: null where nobody wants time integrals, here and below.
 std::uint64_t add_sun(const TracedScene& traced, const Receivers& receivers, Suns suns,
                       RayLight& rays, RaySums* sums) {
   return direct_sun(
       traced.caster, receivers.sampler, suns,
       sink(traced, rays.pooled.direct, sums ? &sums->direct : nullptr, rays.of_realizations.direct),
-      rays.sunlit, &receivers == &traced.patches ? shafts_where_they_pay(traced) : nullptr);
+      rays.sunlit,
+      &receivers == &traced.patches && traced.sun_shafts ? &*traced.sun_shafts : nullptr);
 }
 
 std::uint64_t add_circumsolar(const TracedScene& traced, const BlockSources& sources,

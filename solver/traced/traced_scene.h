@@ -59,7 +59,7 @@ struct TracedScene {
   PatchOptics optics;                       ///< broadband
   std::vector<PatchOptics> optics_of_band;  ///< one where light is broadband
   Receivers patches, sensors;
-  SunShafts sun_shafts;  ///< of patches
+  std::optional<SunShafts> sun_shafts;  ///< of patches; none where they do not pay
   MirrorGroups mirrors;
   MirrorSun mirror_sun;
   MirrorChains mirror_chains;

@@ -53,17 +53,13 @@ std::vector<IntervalLight> lights_of(const LitPeriod& period,
   return lights;
 }
 
-BlockLight light_of_nodes(const TracedScene& traced, const NodeLight& nodes,
-                          const std::vector<NodeWeights>& weights, RayLight& rays) {
-  BlockLight light;
-  light.direct = std::move(rays.pooled.direct);
-  light.mirror = std::move(rays.pooled.mirror);
-  const LineSet& lines = traced.patches.lines.pooled;
-  light.lamps.assign(lines.lamps.begin(), lines.lamps.end());
-  light.lamps.resize(traced.patches.count(), 0);
-  for (std::size_t i = 0; i < traced.patches.lamps.pooled.size(); ++i)
-    light.lamps[i] += static_cast<float>(traced.patches.lamps.pooled[i]);
-  nodes.add_light(weights, &NodeBlock::patches, light);
+/// `of_receivers`: those, patches or sensors. The columns of `rays` are used up.
+BlockLight light_of_nodes(const Receivers& receivers, NodeBlock::Received NodeBlock::*of_receivers,
+                          const NodeLight& nodes, const std::vector<NodeWeights>& weights,
+                          RayLight& rays) {
+  BlockLight light =
+      light_by_rays(receivers.lines.pooled, std::move(rays.pooled), receivers.lamps.pooled);
+  nodes.add_light(weights, of_receivers, light);
   return light;
 }
 
@@ -115,7 +111,8 @@ class ReductionTest {
     const auto weights = nodes.weights(
         *suns_, ledger_of_rays(traced_, rays_.pooled.direct, rays_.pooled.mirror, suns_->size()));
     RayLight rays = rays_;
-    const BlockLight made = light_of_nodes(traced_, nodes, weights, rays);
+    const BlockLight made =
+        light_of_nodes(traced_.patches, &NodeBlock::patches, nodes, weights, rays);
     const std::vector<float> noise = noise_of_samples(nodes, weights);
     const std::vector<double>& area = traced_.hierarchy().area();
     Squares sum;
@@ -215,22 +212,16 @@ class YearBatch : public BatchTransport {
 
  private:
   void light_patches(const Block& block, const std::vector<NodeWeights>& weights, RayLight& rays) {
-    const BlockLight light = light_of_nodes(traced_, nodes_, weights, rays);
+    const BlockLight light =
+        light_of_nodes(traced_.patches, &NodeBlock::patches, nodes_, weights, rays);
     for (std::size_t k = 0; k < block.suns.size(); ++k)
       tally_.ledger[block.first_row + k] += nodes_.ledger(weights, k);
     store_patches(traced_.optics, light, block.suns, block.first_row, rays.sunlit, tally_);
   }
 
   void light_sensors(const Block& block, const std::vector<NodeWeights>& weights, RayLight& rays) {
-    BlockLight light;
-    light.direct = std::move(rays.pooled.direct);
-    light.mirror = std::move(rays.pooled.mirror);
-    const LineSet& lines = traced_.sensors.lines.pooled;
-    light.lamps.assign(lines.lamps.begin(), lines.lamps.end());
-    light.lamps.resize(traced_.sensors.count(), 0);
-    for (std::size_t i = 0; i < traced_.sensors.lamps.pooled.size(); ++i)
-      light.lamps[i] += static_cast<float>(traced_.sensors.lamps.pooled[i]);
-    nodes_.add_light(weights, &NodeBlock::sensors, light);
+    const BlockLight light =
+        light_of_nodes(traced_.sensors, &NodeBlock::sensors, nodes_, weights, rays);
     store_received(light, block.suns, block.first_row, rays.sunlit, tally_.sensors);
   }
 
@@ -254,10 +245,6 @@ class YearBatch : public BatchTransport {
   std::vector<NodeSeconds> shares_;  ///< of each block of nodes
   std::vector<std::vector<NodeSeconds>> shares_of_parts_;
 };
-
-}  // namespace
-
-namespace {
 
 std::vector<ReductionTest> reduction_tests(const TracedScene& traced, const LitPeriod& period,
                                            const std::vector<std::size_t>& intervals,
