@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/reference.h"
-#include "tests/support/paths.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iostream>
 #include <stdexcept>
+
+#include "tests/support/paths.h"
 
 namespace sunload::test {
 
@@ -84,6 +87,14 @@ std::vector<Vec3> polygon(const nlohmann::json& points) {
   std::vector<Vec3> corners;
   for (const auto& value : points) corners.push_back(point(value));
   return corners;
+}
+
+void expect_reference(const std::string& what, double ours, double truth, double tolerance) {
+  const std::string text =
+      fmt::format("{}: value {:.10g}, truth {:.10g}, off by {:.3g}, limit {:.3g}", what, ours,
+                  truth, ours - truth, tolerance);
+  std::cout << text << "\n";
+  EXPECT_NEAR(ours, truth, tolerance) << text;
 }
 
 }  // namespace sunload::test

@@ -28,6 +28,9 @@ std::vector<nlohmann::json> reference_cases(const std::string& name,
 /// A number that the JSON files give as number or as text with all its digits.
 double number(const nlohmann::json& value);
 double number(const Row& row, const std::string& column);
+/// Expects that `ours` is a reference value but for its tolerance, and tells both on one line,
+/// which scripts/validate reads.
+void expect_reference(const std::string& what, double ours, double truth, double tolerance);
 /// A list of three numbers, and one of points.
 Vec3 point(const nlohmann::json& value);
 std::vector<Vec3> polygon(const nlohmann::json& points);

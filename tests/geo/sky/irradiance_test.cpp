@@ -18,7 +18,7 @@ using test::number;
 const std::string folder = "02_irradiance_models/";
 
 void expect_relative(double value, double expected, double tolerance, const std::string& what) {
-  EXPECT_NEAR(value, expected, tolerance * std::abs(expected)) << what;
+  test::expect_reference(what, value, expected, tolerance * std::abs(expected));
 }
 
 TEST(AirMass, KastenAndYoungMeetTheReference) {
@@ -43,7 +43,8 @@ TEST(AirMass, StaysFiniteAtAndBelowTheHorizon) {
 
 TEST(Pressure, MeetsTheReference) {
   for (const auto& row : test::read_csv(folder + "altitude_pressure.csv")) {
-    EXPECT_NEAR(standard_pressure(number(row, "altitude_m")), number(row, "pressure_Pa"), 0.001);
+    test::expect_reference("pressure_Pa", standard_pressure(number(row, "altitude_m")),
+                           number(row, "pressure_Pa"), 0.001);
   }
   EXPECT_EQ(standard_pressure(1e6), 0);
 }

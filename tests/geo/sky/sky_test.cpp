@@ -53,7 +53,7 @@ SkyInput perez_input(double sun_zenith_deg, double clearness, double brightness)
 }
 
 void expect_relative(double value, double expected, double tolerance, const std::string& what) {
-  EXPECT_NEAR(value, expected, tolerance * std::abs(expected)) << what;
+  test::expect_reference(what, value, expected, tolerance * std::abs(expected));
 }
 
 TEST(CieGeneral, RelativeLuminanceMeetsTheReference) {
@@ -136,11 +136,11 @@ TEST(Perez, SkiesMeetTheReference) {
     EXPECT_EQ(condition.bin + 1, static_cast<std::size_t>(std::stoi(row.at("bin"))));
     const PerezCoefficients x = perez_coefficients(condition, sun_zenith_deg);
     // Seven decimals are given.
-    EXPECT_NEAR(x.a, number(row, "a"), 1e-7);
-    EXPECT_NEAR(x.b, number(row, "b"), 1e-7);
-    EXPECT_NEAR(x.c, number(row, "c"), 1e-7);
-    EXPECT_NEAR(x.d, number(row, "d"), 1e-7);
-    EXPECT_NEAR(x.e, number(row, "e"), 1e-7);
+    test::expect_reference("a", x.a, number(row, "a"), 1e-7);
+    test::expect_reference("b", x.b, number(row, "b"), 1e-7);
+    test::expect_reference("c", x.c, number(row, "c"), 1e-7);
+    test::expect_reference("d", x.d, number(row, "d"), 1e-7);
+    test::expect_reference("e", x.e, number(row, "e"), 1e-7);
 
     const Sky sky(perez_input(sun_zenith_deg, eps, delta));
     const SkyShape& shape = sky.shape();

@@ -1,0 +1,180 @@
+# SPDX-FileCopyrightText: The sunload authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Light that was measured, and what another program computes for the weather of ASHRAE 140.
+
+Data: `../shared/data` beside the project (its README names the sources); without it these sections are skipped."""
+
+import csv
+import json
+import math
+import os
+from datetime import datetime, timedelta
+
+import numpy as np
+
+from rows import Row, Section
+
+ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+DATA = os.path.normpath(os.path.join(ROOT, "..", "shared", "data"))
+
+# Six radiometers of a mast, and how they look in the frame of the map.
+DIRECTIONS = {"Kdown": (0, 0, 1), "Kup": (0, 0, -1), "Kn": (0, 1, 0), "Ke": (1, 0, 0), "Ks": (0, -1, 0),
+              "Kw": (-1, 0, 0)}
+HEIGHT_M = 1.1
+
+# Folder, rasters (surface, ground, crowns), CRS, forcing of each day.
+SITES = [
+    ("gothenburg_kronenhuset", ("DSM_KR.tif", "DEM_KR.tif", "CDSM_KR.asc"), "EPSG:3007",
+     {"20051007": "MetFile_Prepared.txt"}, "measurements_kr.csv"),
+    ("gothenburg_gustav_adolfs", ("DSM_GA.tif", "DEM_GA.tif", "CDSM_GA.tif"), "EPSG:3006",
+     {day: f"MetFile_{day}.txt" for day in ("20051011", "20060726", "20060801")}, "measurements_ga.csv"),
+]
+
+STUDY = """site: {{timezone: "+01:00", crs: "{crs}"}}
+period: {{days: [{day}], from: "{begin:02d}:00", to: "{end:02d}:00", step_min: 60}}
+light: {{source: weather, weather: {weather}, stamp: start}}
+scene:
+  files:
+    - {{file: {surface}, terrain: {terrain}, canopy: {canopy}, material: wall}}
+  materials:
+    wall: {{diffuse: 0.2}}
+    paving: {{diffuse: 0.2}}
+    roof: {{diffuse: 0.18}}
+  assign:
+    - {{surface: ground, material: paving}}
+    - {{surface: roof, material: roof}}
+mesh: {{oracle: none}}
+solver: {{lines_per_patch: 64, sun_samples_per_interval: auto}}
+output: {{series: [total]}}
+sensors: {{points: [{sensors}]}}
+"""
+
+
+def forcing(path):
+    """Day of a forcing file of UMEP as our weather: hours that begin at their stamp, diffuse and direct light."""
+    text = "# utc_offset: +01:00\ntime,dhi_w_m2,dni_w_m2\n"
+    with open(path, encoding="utf-8") as lines:
+        next(lines)
+        for line in lines:
+            words = line.split()
+            begin = datetime(int(words[0]), 1, 1) + timedelta(days=int(words[1]) - 1, hours=int(words[2]))
+            text += f"{begin:%Y-%m-%dT%H:%M},{words[21]},{words[22]}\n"
+    return text
+
+
+def measurements(path, only_day):
+    """{day: {hour: {direction: W m-2}}}, by the hour that begins. The stations' hours end at their stamp: their light
+    is symmetrical about a stamp that is one later than that of the forcing."""
+    found = {}
+    with open(path, encoding="utf-8") as lines:
+        for row in csv.DictReader(lines):
+            day = row.get("day", only_day)
+            found.setdefault(day, {})[int(row["hour"]) - 1] = {name: float(row[name]) for name in DIRECTIONS}
+    return found
+
+
+def ground_below(result, x, y):
+    """Height of the ground at a place of the map, of the nearest patch that is ground [m]."""
+    flags = result["patch_surface"].attrs["flag_meanings"]
+    kinds = (flags.decode() if isinstance(flags, bytes) else flags).split()
+    ground = result["patch_surface"][:] == result["patch_surface"].attrs["flag_values"][kinds.index("ground")]
+    centre = result["patch_centroid"][:][ground] + np.asarray(result.attrs["origin"])
+    return centre[np.argmin(np.hypot(centre[:, 0] - x, centre[:, 1] - y)), 2]
+
+
+def study_of(site, folder, day, hours, sensors):
+    surface, terrain, crowns = (os.path.join(folder, name) for name in site[1])
+    return STUDY.format(crs=site[2], day=f"{day[:4]}-{day[4:6]}-{day[6:]}", begin=min(hours), end=max(hours) + 1,
+                        weather="forcing.csv", surface=surface, terrain=terrain, canopy=crowns,
+                        sensors=", ".join("{position_m: [%.3f, %.3f, %.3f], normal: [%d, %d, %d]}" % (*at, *normal)
+                                          for at, normal in sensors))
+
+
+def measured_site(program, site):
+    folder = os.path.join(DATA, "studies", site[0])
+    with open(os.path.join(folder, "poi.geojson"), encoding="utf-8") as file:
+        x, y = json.load(file)["geometry"]["coordinates"]
+    pairs = {name: [] for name in DIRECTIONS}
+    z = None
+    for day, hours in measurements(os.path.join(folder, site[4]), next(iter(site[3]))).items():
+        program.write("forcing.csv", forcing(os.path.join(folder, site[3][day])))
+        if z is None:
+            first = study_of(site, folder, day, [12], [((x, y, 1000), (0, 0, 1))])
+            z = ground_below(program.results(site[0] + "_ground", first)["baseline"], x, y) + HEIGHT_M
+        study = study_of(site, folder, day, hours, [((x, y, z), normal) for normal in DIRECTIONS.values()])
+        ours = program.results(f"{site[0]}_{day}", study)["baseline"]["sensor_irradiance"][:]
+        for k, hour in enumerate(range(min(hours), max(hours) + 1)):
+            for s, name in enumerate(DIRECTIONS if hour in hours else ()):
+                pairs[name].append((hours[hour][name], float(ours[k, s])))
+    return {name: np.array(both).T for name, both in pairs.items()}
+
+
+def fit(measured, ours):
+    rms = math.sqrt(np.mean((ours - measured) ** 2))
+    return rms, np.corrcoef(measured, ours)[0, 1] ** 2
+
+
+def gothenburg(program):
+    name = "Gothenburg: light measured in six directions"
+    rows = []
+    for site in SITES:
+        for direction, (seen, ours) in measured_site(program, site).items():
+            rms, r2 = fit(seen, ours)
+            rows.append(Row(name, f"{site[0][11:]} {direction}, mean of {len(seen)} hours, W/m2 "
+                                  f"(rms {rms:.0f}, R2 {r2:.2f})", seen.mean(), ours.mean(), None, None))
+    return Section(name, "Lindberg, Holmer & Thorsson 2008", rows,
+                   said="Means of hours, one point in a square. Told, not judged: the crowns' transmittance, the "
+                        "reflectances and the clock of the stations are not known well enough.")
+
+
+PLANES = {"e_90": (90, 90), "s_90": (180, 90), "w_90": (270, 90), "n_90": (0, 90), "45_e_90": (135, 90),
+          "45_w_90": (225, 90), "e_30": (90, 30), "s_30": (180, 30), "w_30": (270, 30)}
+# Not WD300 (Santiago): the annual sums that the file tells do not fit its own weather file. By the hour angle alone
+# (Duffie & Beckman, 1.6) its direct light on walls is 627 (north) and 29 kWh/m2 (south), ours 638 and 28, there 828
+# and 4.
+CASES = {"WD100": ("WD100_denver.epw", 0), "WD600": ("WD100_denver.epw", 0.2)}
+
+
+def normal(azimuth_deg, tilt_deg):
+    azimuth, tilt = math.radians(azimuth_deg), math.radians(tilt_deg)
+    return math.sin(tilt) * math.sin(azimuth), math.sin(tilt) * math.cos(azimuth), math.cos(tilt)
+
+
+def ashrae(program):
+    name = "ASHRAE 140 weather: light on tilted planes"
+    rows = []
+    program.write("speck.obj", "v 0 0 -900\nv 0.01 0 -900\nv 0 0.01 -900\nf 1 2 3\n")
+    for case, (weather, albedo) in CASES.items():
+        with open(os.path.join(DATA, "studies", "ashrae140_weather", case + "_results.json"), encoding="utf-8") as file:
+            theirs = json.load(file)["annual_results"]
+        points = ", ".join("{position_m: [0, 0, 0], normal: [%.12f, %.12f, %.12f]}" % normal(*a)
+                           for a in PLANES.values())
+        result = program.results(case.lower(), f"""period: {{year_of: weather}}
+light: {{source: weather, weather: {os.path.join(DATA, "weather", weather)}, far_ground_albedo: {albedo}}}
+scene: {{files: [speck.obj], ground: none}}
+mesh: {{oracle: none}}
+solver: {{sun_samples_per_interval: 4}}
+output: {{series: [total]}}
+sensors: {{points: [{points}]}}
+""")["baseline"]
+        for part, dataset in (("beam", "_direct"), ("total", "")):
+            ours = result[f"sensor_light_load{dataset}"][:]
+            for k, plane in enumerate(PLANES):
+                key = f"total_{part}_radiation_{plane}" if part == "beam" else f"total_radiation_{plane}"
+                if key in theirs:
+                    rows.append(Row(name, f"{case} {plane} {part}, kWh/m2 in a year", float(theirs[key]) / 1000,
+                                    ours[k], None, None))
+    worst = max(abs(row.off / row.reference) for row in rows)
+    return Section(name, "IBPSA Modelica library, one program's numbers", rows,
+                   said=f"Largest difference {100 * worst:.1f} %. The other program has the tilted-plane model of "
+                        "Perez et al. 1990, ours the sky of 1993 integrated over each plane: models differ, so this is "
+                        "told, not judged. WD300 is left out: its annual sums do not fit its own weather file.")
+
+
+def sections(program, tell):
+    for name, made in (("ASHRAE 140", ashrae), ("Gothenburg", gothenburg)):
+        if not os.path.isdir(DATA):
+            yield Section(name, "", [], skipped="needs the shared data beside the project")
+            continue
+        tell(name)
+        yield made(program)
