@@ -84,6 +84,10 @@ const std::map<std::string, std::string> examples{
     {"compare",
      "sunload compare street.yaml glazed                 # with the study's first variant\n"
      "sunload compare results/street/baseline.h5 results/street/glazed.h5 --csv"},
+    {"explain",
+     "sunload explain results/street/glazed.h5 --object pavement_north\n"
+     "sunload explain results/street/glazed.h5 --object 'pavement*' --against "
+     "results/street/baseline.h5"},
     {"render",
      "sunload render results/street/glazed.h5 -o glazed.png\n"
      "sunload render results/street/glazed.h5 -o top.png --camera top --mesh\n"
@@ -140,6 +144,7 @@ class CommandLine {
     add_sky();
     add_info();
     add_compare();
+    add_explain();
     add_render();
     add_view();
     add_export();
@@ -497,6 +502,28 @@ class CommandLine {
                            "file of the differences of groups, facades and patches, besides"));
   }
 
+  void add_explain() {
+    CLI::App* sub = command(
+        "explain", "who takes and who gives the light of a facade, an object or a sensor", [this] {
+          explain_.result = result();
+          if (csv_) explain_.format = ExplainOptions::Format::csv;
+          if (json_) explain_.format = ExplainOptions::Format::json;
+          return explain(explain_);
+        });
+    add_result(sub);
+    add_named(sub, explain_.parts, "explain");
+    sub->add_option("--sensor", explain_.parts.sensors,
+                    "explain the sensor of that number, from 0 (repeatable)")
+        ->allow_extra_args(false);
+    reads(sub->add_option("--against", explain_.against,
+                          "result of the base: who brings which share of the difference"));
+    sub->add_option("--study-folder", explain_.study_folder,
+                    "folder of the study file, where its scene and weather are found from "
+                    "(default: the working directory)");
+    auto* csv = sub->add_flag("--csv", csv_, "all objects, for machines");
+    sub->add_flag("--json", json_, "the same as JSON")->excludes(csv);
+  }
+
   void add_render() {
     CLI::App* sub = command("render", "picture of a result in false colour, with legend", [this] {
       render_.result = result();
@@ -645,6 +672,7 @@ class CommandLine {
   RunOptions options_;
   InfoOptions info_;
   CompareOptions compare_;
+  ExplainOptions explain_;
   PeriodChoice period_;
   RenderOptions render_;
   std::optional<std::pair<PictureColours, Palette>> render_colours_;

@@ -49,6 +49,16 @@ struct CompareOptions {
 /// single one is compared with the study's first variant. Throws InputError.
 int compare(const CompareOptions& options);
 
+struct ExplainOptions {
+  NamedResult result;
+  std::string against;       ///< result of the base; empty: none
+  std::string study_folder;  ///< that files named in the study are relative to; empty: this one
+  NamedParts parts;          ///< the place
+  enum class Format { text, csv, json } format = Format::text;
+};
+/// Who takes and gives the light of a place, on stdout. Throws InputError.
+int explain(const ExplainOptions& options);
+
 struct RenderOptions {
   NamedResult result;        ///< or a comparison, or a study, whose scene is drawn without light
   std::string variant;       ///< of a study; empty: its first

@@ -14,6 +14,7 @@
 #include "io/study/matrix.h"
 #include "io/study/not_a_study.h"
 #include "io/study/sections.h"
+#include "io/study/study_text.h"
 #include "io/study/yaml_map.h"
 
 namespace sunload {
@@ -280,10 +281,12 @@ Study read_values(YamlMap& root, const std::string& folder) {
 
 }  // namespace
 
-StudyFile read_study(const std::string& path) {
+StudyFile read_study(const std::string& path) { return study_of_text(path, read_text_of(path)); }
+
+StudyFile study_of_text(const std::string& path, const std::string& yaml) {
   StudyFile file;
   file.path = path;
-  file.yaml = read_text_of(path);
+  file.yaml = yaml;
   YamlReading reading(later_keys());
   const YamlTree tree = parse_yaml(path, file.yaml, reading.parser_problems);
   const std::string folder = fs::path(path).parent_path().string();

@@ -202,12 +202,26 @@ TEST(House, OneFileKnowsEachForeignLibrary) {
       {"libdeflate", {"io/base/deflate", "io/base/gzip", "io/batch/chunk"}},
       {"Inventor/", {"io/scene/vrml/faces", "io/scene/vrml/nodes", "io/scene/vrml/reader"}},
       {"nlohmann",
-       {"io/base/json_text", "io/batch/container", "io/batch/file", "io/command/check_study",
-        "io/export/cityjson", "io/export/cityjson_model", "io/export/glb", "io/report/compare_text",
-        "io/report/info_table", "io/report/measures", "io/run/progress",
-        "io/scene/cityjson/geometry", "io/scene/cityjson/lod", "io/scene/cityjson/select",
-        "io/scene/cityjson/templates", "io/scene/cityjson/write",
-        "io/scene/mesh_files/gltf_buffers", "io/study/canonical", "io/view/data"}}};
+       {"io/base/json_text",
+        "io/batch/container",
+        "io/batch/file",
+        "io/command/check_study",
+        "io/explain/explanation_text",
+        "io/export/cityjson",
+        "io/export/cityjson_model",
+        "io/export/glb",
+        "io/report/compare_text",
+        "io/report/info_table",
+        "io/report/measures",
+        "io/run/progress",
+        "io/scene/cityjson/geometry",
+        "io/scene/cityjson/lod",
+        "io/scene/cityjson/select",
+        "io/scene/cityjson/templates",
+        "io/scene/cityjson/write",
+        "io/scene/mesh_files/gltf_buffers",
+        "io/study/canonical",
+        "io/view/data"}}};
   for (const auto& [header, files] : owners) EXPECT_EQ(users_of(header), files) << header;
 }
 

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+
+#include "io/base/exit_code.h"
+#include "io/command/commands.h"
+#include "io/explain/explanation.h"
+#include "io/explain/place.h"
+
+namespace sunload {
+
+namespace {
+
+std::string text_of(const Explanation& explanation, ExplainOptions::Format format) {
+  switch (format) {
+    case ExplainOptions::Format::csv:
+      return explanation_csv(explanation);
+    case ExplainOptions::Format::json:
+      return explanation_json(explanation);
+    case ExplainOptions::Format::text:
+      break;
+  }
+  return explanation_text(explanation);
+}
+
+}  // namespace
+
+int explain(const ExplainOptions& options) {
+  ResultScenes scenes(options.study_folder);
+  const auto explanation_of = [&](const NamedResult& named) {
+    const auto result = opened(named);
+    place_named(*result, options.parts);  // refuses before the work
+    return explained(*result, *scenes.of(*result), options.parts);
+  };
+  Explanation explanation = explanation_of(options.result);
+  if (!options.against.empty()) {
+    NamedResult base = options.result;
+    base.path = options.against;
+    explanation = difference(explanation_of(base), explanation);
+  }
+  std::cout << text_of(explanation, options.format);
+  return exit_code::done;
+}
+
+}  // namespace sunload

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "io/base/text.h"
+#include "io/explain/explanation.h"
+
+namespace sunload {
+
+namespace {
+
+using Kind = ExplainedRow::Kind;
+constexpr std::size_t objects_shown = 20;  // a screen; CSV and JSON have all
+
+std::string cell(double value, int digits) {
+  if (std::isnan(value)) return "";
+  // What rounds to nothing has no sign.
+  const double least = 0.5 * std::pow(10.0, -digits);
+  return fmt::format("{:.{}f}", std::abs(value) < least ? 0.0 : value, digits);
+}
+
+/// Digits that show a hundred-thousandth of the largest row.
+int digits_for(const Explanation& explanation) {
+  double largest = 0;
+  for (const auto& row : explanation.rows) largest = std::max(largest, std::abs(row.total));
+  if (largest <= 0) return 3;
+  return std::clamp(4 - static_cast<int>(std::floor(std::log10(largest))), 0, 9);
+}
+
+std::string name_of(const ExplainedRow& row, bool is_difference) {
+  switch (row.kind) {
+    case Kind::open:
+      return "in the open";
+    case Kind::object:
+      return row.name;
+    case Kind::sum:
+      return "adds up to";
+    case Kind::result:
+      return is_difference ? "the results" : "the result";
+    case Kind::remainder:
+      return "remainder";
+  }
+  return {};
+}
+
+/// Objects beyond a screen as one row.
+std::vector<ExplainedRow> shown_rows(const Explanation& explanation) {
+  std::vector<ExplainedRow> shown;
+  std::size_t objects = 0;
+  ExplainedRow others;
+  for (const auto& row : explanation.rows) {
+    if (row.kind != Kind::object) {
+      if (row.kind == Kind::sum && objects > objects_shown) {
+        others.name = fmt::format("{} others", objects - objects_shown);
+        shown.push_back(others);
+      }
+      shown.push_back(row);
+      continue;
+    }
+    if (++objects <= objects_shown) {
+      shown.push_back(row);
+    } else if (objects == objects_shown + 1) {
+      others = row;
+      others.se = std::numeric_limits<double>::quiet_NaN();
+    } else {
+      others.total += row.total;
+      others.share_percent += row.share_percent;
+      for (std::size_t c = 0; c < column_count; ++c) others.columns[c] += row.columns[c];
+    }
+  }
+  return shown;
+}
+
+std::string heading(const Explanation& e) {
+  std::string text =
+      fmt::format("{} of {}, variant {} ({})", e.place, e.study, e.variant, e.extent);
+  if (!e.base.empty()) text += fmt::format(": what differs from {}", e.base);
+  return text + fmt::format(", light load in {}\n", display_units(e.units));
+}
+
+std::vector<std::string> keys_of(const Explanation& explanation) {
+  std::vector<std::string> keys{"row", "name"};
+  const auto with_unit = [&](const std::string& name) {
+    keys.push_back(unit_names(name + "_kwh_m2", explanation.quantity));
+  };
+  for (const char* name : column_names) with_unit(name);
+  with_unit("total");
+  with_unit("se");
+  keys.emplace_back("share_percent");
+  return keys;
+}
+
+/// In the order of the keys, without row and name.
+std::vector<double> numbers_of(const ExplainedRow& row) {
+  std::vector<double> numbers(row.columns.begin(), row.columns.end());
+  numbers.insert(numbers.end(), {row.total, row.se, row.share_percent});
+  return numbers;
+}
+
+}  // namespace
+
+std::string explanation_text(const Explanation& explanation) {
+  const bool is_difference = !explanation.base.empty();
+  const int digits = digits_for(explanation);
+  const auto rows = shown_rows(explanation);
+  std::size_t width = 11;
+  for (const auto& row : rows) width = std::max(width, name_of(row, is_difference).size());
+  std::string text = heading(explanation);
+  text += fmt::format("{:{}}", "", width);
+  for (const char* name : column_names) {
+    std::string words = name;
+    std::replace(words.begin(), words.end(), '_', ' ');
+    text += fmt::format("  {:>10}", words);
+  }
+  text += fmt::format("  {:>10}  {:>9}", "total", "± se");
+  text += is_difference ? fmt::format("  {:>8}\n", "share") : "\n";
+  for (const auto& row : rows) {
+    text += fmt::format("{:{}}", name_of(row, is_difference), width);
+    for (const double value : row.columns) text += fmt::format("  {:>10}", cell(value, digits));
+    text += fmt::format("  {:>10}  {:>9}", cell(row.total, digits), cell(row.se, digits));
+    if (is_difference && !std::isnan(row.share_percent))
+      text += fmt::format("  {:>6.1f} %", row.share_percent);
+    text += "\n";
+  }
+  for (const auto& note : explanation.notes) text += "note: " + note + "\n";
+  return text;
+}
+
+std::string explanation_csv(const Explanation& explanation) {
+  std::string text;
+  for (const auto& key : keys_of(explanation)) text += (text.empty() ? "" : ",") + key;
+  text += "\n";
+  for (const auto& row : explanation.rows) {
+    text += kind_name(row.kind) + "," + csv_text(row.name);
+    for (const double value : numbers_of(row)) text += "," + csv_number(value);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string explanation_json(const Explanation& explanation) {
+  const auto keys = keys_of(explanation);
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const auto& row : explanation.rows) {
+    nlohmann::ordered_json entry{{"row", kind_name(row.kind)}, {"name", row.name}};
+    const auto numbers = numbers_of(row);
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      entry[keys[k + 2]] = std::isnan(numbers[k]) ? nlohmann::ordered_json(nullptr)
+                                                  : nlohmann::ordered_json(numbers[k]);
+    rows.push_back(std::move(entry));
+  }
+  const auto or_null = [](const auto& value, bool is_known) {
+    return is_known ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+  };
+  const nlohmann::ordered_json document = {
+      {"study", explanation.study},
+      {"variant", explanation.variant},
+      {"against", or_null(explanation.base, !explanation.base.empty())},
+      {"place", explanation.place},
+      {"extent", explanation.extent},
+      {"units", explanation.units},
+      {"notes", explanation.notes},
+      {"rows", rows}};
+  return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace sunload

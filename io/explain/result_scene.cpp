@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/explain/result_scene.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "geo/base/check.h"
+#include "io/plan/rules_of_study.h"
+#include "io/study/study_text.h"
+
+namespace sunload {
+
+namespace {
+
+InputError other_state(const ResultReader& result, const std::string& why) {
+  return {{result.path()},
+          "cannot be explained: its study or a file of it is not what it was computed from",
+          why,
+          "name the folder of its study with --study-folder, or run the study again"};
+}
+
+VariantMesh mesh_of(const VariantPlan& plan) {
+  Watch watch;
+  return make_mesh(plan, watch);
+}
+
+}  // namespace
+
+ResultScene::ResultScene(const ResultReader& result, VariantPlan plan)
+    : plan_(std::move(plan)),
+      mesh_(mesh_of(plan_)),
+      traced_(
+          std::make_unique<const TracedScene>(plan_.built.scene, mesh_.mesh, solver_rules(plan_))),
+      lights_(plan_.study, plan_.built.site, traced_->grid),
+      period_(lights_, plan_.light) {
+  if (mesh_.mesh->area() != result.doubles("patch_area"))
+    throw other_state(result, "its patches differ");
+}
+
+struct ResultScenes::Opened {
+  Opened(const std::string& path, const std::string& yaml)
+      : file(study_of_text(path, yaml)), families(file, planner) {}
+  StudyFile file;
+  Planner planner;
+  MeshFamilies families;
+};
+
+std::unique_ptr<const ResultScene> ResultScenes::of(const ResultReader& result) {
+  const auto text = result.strings("study_yaml");
+  auto& opened = studies_[text.empty() ? "" : text.front()];
+  const std::string path =
+      (std::filesystem::path(folder_) / ("study of " + result.text_attribute("variant"))).string();
+  if (!opened) opened = std::make_shared<Opened>(path, text.empty() ? "" : text.front());
+  const auto& variants = opened->file.variants;
+  const auto study = std::find_if(variants.begin(), variants.end(), [&](const Study& s) {
+    return s.variant == result.text_attribute("variant");
+  });
+  if (study == variants.end()) throw other_state(result, "its variant is not in its study");
+  VariantPlan plan = opened->planner.plan(*study);
+  opened->families.join(plan);
+  plan.isa = usable_isa(result.text_attribute("isa"));
+  plan.content_hash = hash_with_isa(plan, plan.isa);
+  if (result.text_attribute("study_sha256") != plan.content_hash)
+    throw other_state(result, "its content hash differs");
+  return std::make_unique<const ResultScene>(result, std::move(plan));
+}
+
+}  // namespace sunload

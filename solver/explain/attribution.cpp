@@ -1,0 +1,314 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/explain/attribution.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "geo/base/check.h"
+#include "geo/base/units.h"
+#include "solver/base/threads.h"
+#include "solver/first_light/beam_raster.h"
+#include "solver/first_light/sun_beams.h"
+#include "solver/light/sun_samples.h"
+#include "solver/lines/line_follower.h"
+#include "solver/lines/patch_lines.h"
+
+namespace sunload {
+
+double Attribution::net(std::size_t object, std::size_t r) const {
+  return flow(object, Flow::reflects, r) + flow(object, Flow::mirrors, r) +
+         flow(object, Flow::shines, r) - flow(object, Flow::takes_sun, r) -
+         flow(object, Flow::takes_sky, r) - flow(object, Flow::takes_far_ground, r);
+}
+
+double Attribution::total(std::size_t r) const {
+  double sum = open(Open::sun, r) + open(Open::sky, r) + open(Open::far_ground, r);
+  for (std::size_t o = 0; o < objects(); ++o) sum += net(o, r);
+  return sum;
+}
+
+Attribution& Attribution::operator+=(const Attribution& other) {
+  SUNLOAD_EXPECT(flows_.size() == other.flows_.size(), "attributions of one scene");
+  for (std::size_t i = 0; i < open_.size(); ++i) open_[i] += other.open_[i];
+  for (std::size_t i = 0; i < flows_.size(); ++i) flows_[i] += other.flows_[i];
+  return *this;
+}
+
+namespace {
+
+/// Receivers that one thread takes at a time.
+constexpr std::size_t fewest_at_a_time = 16;
+/// Each part has sums for all objects.
+constexpr std::size_t most_parts = 64;
+
+/// What shines on the scene from outside, over the whole period.
+struct Outside {
+  std::vector<double> sky;  ///< π · radiance of each cell [J m-2]
+  double far_ground = 0;    ///< exitance [J m-2]
+  double seconds = 0;
+  std::vector<IntervalLight> suns;  ///< with power, without sky
+};
+
+Outside outside_of(const LitPeriod& period, const SkyGrid& grid) {
+  Outside outside;
+  outside.sky.assign(static_cast<std::size_t>(grid.cell_count()), 0);
+  for (std::size_t i = 0; i < period.intervals(); ++i) {
+    const IntervalLight light = period.of(i);
+    outside.seconds += light.length_s;
+    if (period.is_dark(i)) continue;
+    for (std::size_t c = 0; c < light.sky.size(); ++c)
+      outside.sky[c] += pi * light.sky[c] * light.length_s;
+    outside.far_ground += light.ground_exitance * light.length_s;
+    for (const auto& of_sample : suns_one_by_one({&light, 1}))
+      for (const IntervalLight& sun : of_sample)
+        if (sun.has_sun() && sun.dni > 0) outside.suns.push_back(sun);
+  }
+  return outside;
+}
+
+/// The ways of one sun by mirrors.
+struct Mirrored {
+  SunBeams beams;
+  std::vector<BeamRaster> rasters;  ///< of each beam
+};
+
+/// Coarse ones will do: what they do not exclude, rays do.
+constexpr int raster_size = 64;
+
+Mirrored mirrored(const TracedScene& traced, const IntervalLight& sun, bool is_for_sensors) {
+  const SolverRules& rules = traced.rules;
+  Mirrored by{SunBeams(traced.mirrors, sun,
+                       {rules.mirror_depth, rules.faint_glint, rules.most_sun_beams,
+                        traced.caster.offset_m()}),
+              {}};
+  if (is_for_sensors && by.beams.size() == 0)
+    by.beams = SunBeams(
+        traced.mirrors, sun,
+        {.mirror_depth = std::min(rules.mirror_depth, 1), .most_beams = rules.most_sensor_beams});
+  for (std::size_t b = 0; b < by.beams.size(); ++b)
+    by.rasters.emplace_back(by.beams[b].section, by.beams[b].image, by.beams.spread(), raster_size);
+  return by;
+}
+
+/// Looks along the ways to some receivers of the place.
+class Looks {
+ public:
+  Looks(const TracedScene& traced, const Outside& outside, const SentLight& sent,
+        const Place& place, Attribution& into)
+      : traced_(traced),
+        outside_(outside),
+        sent_(sent),
+        place_(place),
+        receivers_(place.is_of_sensors ? traced.sensors : traced.patches),
+        follower_(traced.scene, *traced.mesh, traced.caster, traced.grid,
+                  traced.rules.mirror_depth),
+        into_(into) {}
+
+  /// To the sun of an interval, and to its images.
+  void to_sun(std::size_t which, const IntervalLight& sun, const Mirrored* mirrors) {
+    const std::size_t receiver = place_.receivers[which];
+    const SunSampler& sampler = receivers_.sampler;
+    const auto geometry = sampler.geometry(receiver);
+    find_beams(receiver, geometry.normal, mirrors);
+    const double cos_theta = dot(geometry.normal, sun.direction);
+    if (cos_theta <= 0 && by_beams_.empty()) return;
+    const double samples_each =
+        static_cast<double>(sampler.samples()) / static_cast<double>(into_.realizations());
+    const double energy = place_.weight[which] * sun.dni * sun.length_s / samples_each;
+    sampler.seed(receiver, sun.number, seeds_);
+    for (std::size_t p = 0; p < sampler.packets(); ++p) {
+      const Packet origins = sampler.origins(geometry, seeds_, p);
+      const PacketDirections suns = sampler.directions(sun, seeds_, p);
+      const std::uint32_t active = sampler.active(p);
+      if (cos_theta > 0) see_sun(origins, suns, active, p, energy * cos_theta);
+      for (const std::size_t b : by_beams_)
+        for (std::size_t l = 0; l < packet_size; ++l)
+          if (active >> l & 1U)
+            see_image(mirrors->beams, b, at(origins, l), at(suns, l),
+                      sampler.realization(p * packet_size + l),
+                      energy * dot(geometry.normal, mirrors->beams[b].image));
+    }
+  }
+
+  /// Along the lines.
+  void along_lines(std::size_t which) {
+    const std::size_t receiver = place_.receivers[which];
+    const LineRules rules = line_rules(traced_.rules);
+    const auto R = static_cast<std::size_t>(rules.realizations);
+    const int of_receiver = place_.is_of_sensors ? rules.lines_per_patch : rules.lines_of(receiver);
+    const std::size_t each = static_cast<std::size_t>(of_receiver) / R;
+    for (std::size_t r = 0; r < R; ++r) {
+      const double share = place_.weight[which] / static_cast<double>(each);
+      RandomKey key = key_of(receiver);
+      key.realization = static_cast<std::uint32_t>(r);
+      if (place_.is_of_sensors)
+        sensor_lines(traced_.scene.sensors[receiver], key, each, share);
+      else
+        patch_lines(receiver, key, each, share);
+    }
+  }
+
+ private:
+  RandomKey key_of(std::size_t receiver) const {
+    const std::uint64_t element =
+        place_.is_of_sensors ? traced_.scene.sensors[receiver].key : traced_.mesh->key()[receiver];
+    return {.seed = traced_.rules.seed, .purpose = Purpose::lines, .element = element};
+  }
+
+  std::size_t object_of(std::int32_t triangle) const {
+    return traced_.scene.mesh.triangle_object[static_cast<std::size_t>(triangle)].index();
+  }
+
+  void find_beams(std::size_t receiver, Vec3 normal, const Mirrored* mirrors) {
+    by_beams_.clear();
+    if (mirrors == nullptr) return;
+    const auto corners = receivers_.sampler.corners(receiver);
+    for (std::size_t b = 0; b < mirrors->rasters.size(); ++b)
+      if (dot(normal, mirrors->beams[b].image) > 0 && mirrors->rasters[b].may_meet(corners))
+        by_beams_.push_back(b);
+  }
+
+  void see_sun(const Packet& origins, const PacketDirections& suns, std::uint32_t active,
+               std::size_t packet, double energy) {
+    const auto hits =
+        traced_.caster.first_hits(origins, suns, active, RayCaster::Coherence::parallel);
+    for (std::size_t l = 0; l < packet_size; ++l) {
+      if (!(active >> l & 1U)) continue;
+      const std::size_t r = receivers_.sampler.realization(packet * packet_size + l);
+      into_.add_open(Attribution::Open::sun, r, energy);
+      if (hits.triangle[l] >= 0)
+        into_.add_flow(object_of(hits.triangle[l]), Flow::takes_sun, r, energy);
+    }
+  }
+
+  /// Back from the mirror that is seen to the one that the sun shines on (MirrorSun).
+  void see_image(const SunBeams& beams, std::size_t last, Vec3 from, Vec3 sun, std::size_t r,
+                 double energy) {
+    std::optional<std::size_t> seen;
+    for (auto b = static_cast<std::int32_t>(last); b >= 0;
+         b = beams[static_cast<std::size_t>(b)].before) {
+      const SunBeam& beam = beams[static_cast<std::size_t>(b)];
+      const Vec3 w = beam.image_of(sun);
+      const Hit hit = traced_.caster.first_hit(from, w);
+      if (hit.left_scene() ||
+          traced_.mirrors.of_side(hit.triangle, hit.front) != static_cast<std::int32_t>(beam.group))
+        return;
+      if (!seen) seen = object_of(hit.triangle);
+      const Vec3 n = traced_.mirrors[beam.group].normal;
+      energy *= traced_.mirrors.weight_of_hit(hit.triangle, -dot(n, w));
+      from = lifted_point(traced_.scene.mesh, hit, n, traced_.caster.offset_m());
+    }
+    if (traced_.caster.first_hit(from, sun).left_scene())
+      into_.add_flow(*seen, Flow::mirrors, r, energy);
+  }
+
+  void patch_lines(std::size_t patch, RandomKey key, std::size_t count, double share) {
+    const PatchLines lines(*traced_.mesh, patch, traced_.caster.offset_m(),
+                           line_seeds(*traced_.mesh, patch, key.realization, key.seed));
+    for (std::size_t first = 0; first < count; first += packet_size) {
+      const LinePacket packet(lines, first, count);
+      const auto hits = packet.first_hits(traced_.caster);
+      for (std::size_t l = 0; l < packet.count; ++l)
+        along_line(packet.line[l].origin, packet.line[l].w, hits[l], key, first + l, share);
+    }
+  }
+
+  void sensor_lines(const Sensor& sensor, RandomKey key, std::size_t count, double share) {
+    const Vec3 origin = sensor.position + sensor.normal * traced_.caster.offset_m();
+    const Tangents axes = tangents(sensor.normal);
+    const auto seeds = random_words(key);
+    for (std::size_t l = 0; l < count; ++l) {
+      const auto index = static_cast<std::uint32_t>(l);
+      const Vec3 local =
+          sample_cosine(scrambled_sobol(index, 0, seeds), scrambled_sobol(index, 1, seeds));
+      const Vec3 w = axes.tangent * local.x + axes.bitangent * local.y + sensor.normal * local.z;
+      along_line(origin, w, traced_.caster.first_hit(origin, w), key, l, share);
+    }
+  }
+
+  void along_line(Vec3 origin, Vec3 w, const Hit& hit, RandomKey key, std::size_t line,
+                  double share) {
+    const std::size_t r = key.realization;
+    const bool is_up = w.z > 0;
+    const double behind =
+        share * (is_up ? outside_.sky[follower_.sky_cell(w)] : outside_.far_ground);
+    into_.add_open(is_up ? Attribution::Open::sky : Attribution::Open::far_ground, r, behind);
+    if (hit.left_scene()) return;
+    const std::size_t object = object_of(hit.triangle);
+    into_.add_flow(object, is_up ? Flow::takes_sky : Flow::takes_far_ground, r, behind);
+    key.purpose = Purpose::glossy;
+    key.sun = static_cast<std::uint32_t>(line);
+    met_.clear();
+    follower_.follow(origin, w, hit, key, met_);
+    const auto first = traced_.mesh->patch_at(hit.triangle, hit.u, hit.v, hit.front);
+    for (std::size_t k = 0; k < met_.patches.size(); ++k) {
+      const auto& [patch, weight] = met_.patches[k];
+      const double seen = share * static_cast<double>(weight);
+      if (k > 0 || static_cast<std::int32_t>(patch) != first) {
+        into_.add_flow(object, Flow::mirrors, r, seen * sent_[patch]);
+        continue;
+      }
+      const double shines = follower_.material_of_patch(patch).emission_w_m2 * outside_.seconds;
+      into_.add_flow(object, Flow::shines, r, seen * shines);
+      into_.add_flow(object, Flow::reflects, r, seen * (sent_[patch] - shines));
+    }
+    double mirrored = static_cast<double>(met_.ends.ground_by_mirror) * outside_.far_ground;
+    for (const auto& [cell, weight] : met_.sky_by_mirror)
+      mirrored += static_cast<double>(weight) * outside_.sky[cell];
+    into_.add_flow(object, Flow::mirrors, r, share * mirrored);
+  }
+
+  const TracedScene& traced_;
+  const Outside& outside_;
+  const SentLight& sent_;
+  const Place& place_;
+  const Receivers& receivers_;
+  LineFollower follower_;
+  Attribution& into_;
+  SunSampler::Seeds seeds_;
+  std::vector<std::size_t> by_beams_;
+  LineCollector met_;
+};
+
+/// Ways of so many suns are in memory at a time.
+constexpr std::size_t suns_at_a_time = 64;
+
+}  // namespace
+
+Attribution attribute_light(const TracedScene& traced, const LitPeriod& period,
+                            const SentLight& sent, const Place& place) {
+  SUNLOAD_EXPECT(sent.size() == traced.mesh->patch_count(), "light of every patch");
+  SUNLOAD_EXPECT(place.receivers.size() == place.weight.size(), "a weight of every receiver");
+  const Outside outside = outside_of(period, traced.grid);
+  const std::size_t count = place.receivers.size();
+  const std::size_t each = std::max(fewest_at_a_time, (count + most_parts - 1) / most_parts);
+  const Attribution none(traced.scene.mesh.object_names.size(),
+                         static_cast<std::size_t>(traced.rules.realizations));
+  std::vector<Attribution> parts((count + each - 1) / each, none);
+  const auto look = [&](const auto& at) {
+    parallel_chunks(count, each, [&](std::size_t begin, std::size_t end) {
+      Looks looks(traced, outside, sent, place, parts[begin / each]);
+      for (std::size_t i = begin; i < end; ++i) at(looks, i);
+    });
+  };
+  look([](Looks& looks, std::size_t i) { looks.along_lines(i); });
+  const bool has_mirrors = traced.mirrors.reflecting() > 0;
+  for (std::size_t first = 0; first < outside.suns.size(); first += suns_at_a_time) {
+    const std::size_t suns = std::min(suns_at_a_time, outside.suns.size() - first);
+    std::vector<std::optional<Mirrored>> ways(suns);
+    if (has_mirrors)
+      parallel_for(suns, [&](std::size_t k) {
+        ways[k] = mirrored(traced, outside.suns[first + k], place.is_of_sensors);
+      });
+    look([&](Looks& looks, std::size_t i) {
+      for (std::size_t k = 0; k < suns; ++k)
+        looks.to_sun(i, outside.suns[first + k], ways[k] ? &*ways[k] : nullptr);
+    });
+  }
+  Attribution sum = none;
+  for (const Attribution& part : parts) sum += part;
+  return sum;
+}
+
+}  // namespace sunload

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// sunload explain: rows that add up to the result, who changes what, refusals.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program.h"
+#include "tests/support/square_folder.h"
+#include "tests/support/statistics.h"
+
+namespace sunload::test {
+namespace {
+
+using nlohmann::json;
+
+json explained(const WorkFolder& folder, std::vector<std::string> words) {
+  words.insert(words.begin(), "explain");
+  words.emplace_back("--json");
+  const Ran ran = program(folder, words);
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  return ran.code == 0 ? json::parse(ran.out) : json();
+}
+
+json row_of(const json& explanation, const std::string& kind, const std::string& name = {}) {
+  for (const auto& row : explanation["rows"])
+    if (row["row"] == kind && row["name"] == name) return row;
+  ADD_FAILURE() << kind << " " << name;
+  return {};
+}
+
+constexpr const char* load = "total_kwh_m2";
+
+void expect_adds_up(const json& explanation) {
+  double sum = 0;
+  for (const auto& row : explanation["rows"]) {
+    const std::string kind = row["row"];
+    if (kind == "open" || kind == "object") sum += row[load].get<double>();
+  }
+  EXPECT_NEAR(sum, row_of(explanation, "sum")[load].get<double>(), 1e-9 * std::abs(sum));
+  const json rest = row_of(explanation, "remainder");
+  const double se = rest["se_kwh_m2"];
+  EXPECT_GT(se, 0);
+  // Series and pilots are float.
+  const double rounding = float_rounding * row_of(explanation, "result")[load].get<double>();
+  EXPECT_LE(std::abs(rest[load].get<double>()), accepted_t(16) * se + rounding)
+      << explanation.dump(1);
+}
+
+const std::string two_variants =
+    "sensors: {points: [{position_m: [0, -5, 1.5], normal: [0, 1, 0]}]}\n"
+    "variants:\n"
+    "  - {name: base, scene: {materials: {glass: {diffuse: 0.3, mirror: 0}}}}\n"
+    "  - {name: glazed}\n";
+
+TEST(Explain, AddsUpAndNamesWhoChangesWhat) {
+  const SquareFolder square(square_study() + two_variants);
+  const Ran ran = square.run("results");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const std::string base = square.result("results", "base"),
+                    glazed = square.result("results", "glazed");
+  expect_adds_up(explained(square.folder, {glazed, "--sensor", "0"}));
+  const json before = explained(square.folder, {base, "--object", "square"});
+  const json after = explained(square.folder, {glazed, "--object", "square"});
+  expect_adds_up(before);
+  expect_adds_up(after);
+  const json change = explained(square.folder, {glazed, "--object", "square", "--against", base});
+  EXPECT_EQ(change["against"], "base");
+  const json house = row_of(change, "object", "house");
+  EXPECT_NEAR(house[load].get<double>(),
+              row_of(after, "object", "house")[load].get<double>() -
+                  row_of(before, "object", "house")[load].get<double>(),
+              1e-12);
+  // Same lines, same shadows: what it takes did not change at all.
+  EXPECT_EQ(house["sun_kwh_m2"].get<double>(), 0);
+  EXPECT_EQ(house["sky_kwh_m2"].get<double>(), 0);
+  EXPECT_GT(house["mirrors_kwh_m2"].get<double>(), 0);
+  EXPECT_LT(house["se_kwh_m2"].get<double>(),
+            row_of(after, "object", "house")["se_kwh_m2"].get<double>());
+  double shares = 0;
+  for (const auto& row : change["rows"])
+    if (row["row"] == "object") shares += row["share_percent"].get<double>();
+  EXPECT_NEAR(shares, 100, 1e-6);
+  const Ran csv = program(square.folder, {"explain", glazed, "--object", "house", "--csv"});
+  EXPECT_EQ(csv.out.substr(0, csv.out.find('\n')),
+            "row,name,sun_kwh_m2,sky_kwh_m2,far_ground_kwh_m2,reflects_kwh_m2,mirrors_kwh_m2,"
+            "shines_kwh_m2,total_kwh_m2,se_kwh_m2,share_percent");
+}
+
+TEST(Explain, RefusesWhatItCannotTell) {
+  const SquareFolder square;
+  const Ran ran = square.run("results");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const std::string result = square.result("results");
+  const auto refusal = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"explain", result});
+    const Ran refused = program(square.folder, words);
+    EXPECT_EQ(refused.code, 2);
+    return refused.err;
+  };
+  EXPECT_NE(refusal({}).find("no place is named"), std::string::npos);
+  EXPECT_NE(refusal({"--object", "hause"}).find("house"), std::string::npos);
+  EXPECT_NE(refusal({"--object", "house", "--sensor", "0"}).find("sensor"), std::string::npos);
+  std::filesystem::create_directory(square.folder / "elsewhere");
+  EXPECT_NE(refusal({"--object", "house", "--study-folder", "elsewhere"}).find("square.obj"),
+            std::string::npos);
+  square.folder.write("square.obj", std::string(square_obj) + "v 0 0 9\n" + "f 1 2 19\n");
+  EXPECT_NE(refusal({"--object", "house"}).find("not what it was computed from"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace sunload::test
