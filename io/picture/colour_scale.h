@@ -33,10 +33,14 @@ inline double colour_share(ColourScale scale, double value, double least, double
 inline std::vector<double> logarithmic_ticks(double least, double largest) {
   constexpr double rounding = 1e-9;
   std::vector<double> ticks;
-  for (double power = std::pow(10.0, std::floor(std::log10(least))); power <= largest; power *= 10)
+  const auto exponent = [](double value) {
+    return static_cast<int>(std::floor(std::log10(value)));
+  };
+  for (int e = exponent(least); e <= exponent(largest * (1 + rounding)); ++e)
     for (const double digit : {1.0, 2.0, 5.0})
-      if (digit * power >= least * (1 - rounding) && digit * power <= largest * (1 + rounding))
-        ticks.push_back(digit * power);
+      if (const double tick = digit * std::pow(10.0, e);
+          tick >= least * (1 - rounding) && tick <= largest * (1 + rounding))
+        ticks.push_back(tick);
   return ticks;
 }
 

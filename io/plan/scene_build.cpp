@@ -191,9 +191,13 @@ void warn_of_gaps(const Study& study, BuiltScene& built) {
 
 BuiltScene scene_before_materials(const Study& study) {
   BuiltScene built;
-  const PolygonModel model = edited(read_models(study), study);
+  PolygonModel as_read = read_models(study);
+  // Steps that edit it leave the site where it is: variants have one sun, and stay paired.
+  const bool is_empty = as_read.vertices.empty();
+  if (!is_empty) built.site = resolve_site(study, as_read, built);
+  const PolygonModel model = edited(std::move(as_read), study);
+  if (is_empty) built.site = resolve_site(study, model, built);
   built.notes = model.notes;
-  built.site = resolve_site(study, model, built);
   built.crs = study.site.crs.empty() ? model.crs : study.site.crs;
   PreparedMesh prepared = prepare(model, prepare_rules(study, model, built.site));
   built.report = std::move(prepared.report);

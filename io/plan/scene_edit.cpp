@@ -89,9 +89,29 @@ class SceneEditor {
     return chosen;
   }
 
+  /// A place that is another frame's, or a slip: farther from the model than that is wide.
+  void refuse_far(Point2 place) const {
+    constexpr double surroundings_m = 1000;
+    std::vector<Vec3> corners;
+    for (const auto& extent : extents_of(model_))
+      if (!extent.is_empty()) corners.insert(corners.end(), {extent.box.low, extent.box.high});
+    if (corners.empty()) return;
+    const ObjectExtent whole{bounding_box(corners)};
+    const auto& [low, high] = whole.box;
+    const double away = distance_in_plan(whole, place);
+    if (away <= std::max(surroundings_m, std::hypot(high.x - low.x, high.y - low.y))) return;
+    refuse(
+        fmt::format("[{:.10g}, {:.10g}] is {:.0f} m away from the model", place.u, place.v, away),
+        fmt::format("that lies at x {:.10g} to {:.10g}, y {:.10g} to {:.10g} in the metres of its "
+                    "files",
+                    low.x, high.x, low.y, high.y),
+        "write the place in these");
+  }
+
   /// Of bounding boxes in plan: those within the distance, or the nearest.
   void keep_near(const std::vector<ObjectExtent>& extents, ChosenObjects& chosen) const {
     const ObjectsStudy& wanted = step_->objects;
+    refuse_far(*wanted.near);
     std::vector<double> away(chosen.size());
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t o = 0; o < chosen.size(); ++o) {
@@ -240,6 +260,7 @@ class SceneEditor {
         box.high = {std::max(box.high.x, p.u), std::max(box.high.y, p.v), 0};
       }
     const Vec3 middle = (box.low + box.high) * 0.5;
+    refuse_far({middle.x, middle.y});
     const double base = base_of(add.base_m, {middle.x, middle.y});
     const std::string name = free_name(add.name);
     add_prism(model_, areas, base, base + add.height_m, {name, kind_of("Building"), add.material});
@@ -260,6 +281,7 @@ class SceneEditor {
         places.push_back({add.at.u + share * x, add.at.v + share * y});
       }
     }
+    for (const Point2 at : {places.front(), places.back()}) refuse_far(at);
     std::vector<double> feet;  // of all before there are any: no tree stands on another
     feet.reserve(places.size());
     for (const Point2 at : places) feet.push_back(base_of(add.base_m, at));

@@ -352,9 +352,9 @@ json canonical(const MeasureParameters& measure) {
   for (const auto& [key, value] : numbers) canon[key] = value;
   for (const auto& [key, word] : words) canon[key] = word;
   if (date) canon["date"] = {date->year, date->month, date->day};
-  const json chosen{{"object", object}, {"facade", facade}, {"surface", surface}};
-  for (const auto& [key, pattern] : chosen.items())
-    if (pattern != "") canon["of"][key] = pattern;
+  for (const auto& [key, pattern] :
+       {std::pair{"object", object}, {"facade", facade}, {"surface", surface}})
+    if (!pattern.empty()) canon["of"][key] = pattern;
   return canon;
 }
 

@@ -5,7 +5,7 @@
 import csv
 import math
 
-WORST = 6  # rows of a section that the page shows
+WORST = 3, 12  # rows of a section that the page shows: nearest to their limit; farthest off where nothing decides
 
 HEAD = """# Validation
 
@@ -42,12 +42,16 @@ def detail(section):
     if not section.rows:
         return ""
     judged = any(row.limit is not None for row in section.rows)
-    rows = (sorted(section.rows, key=lambda row: -row.share_of_limit)[:WORST] if judged else section.rows)
+    if judged:
+        rows = sorted(section.rows, key=lambda row: -row.share_of_limit)[:WORST[0]]
+    else:
+        rows = sorted(section.rows, key=lambda row: -abs(row.off / row.reference))[:WORST[1]]
     title = f"\n## {section.name[0].upper()}{section.name[1:]}\n\n"
     if section.said:
         title += section.said + "\n\n"
     if len(rows) < len(section.rows):
-        title += f"The {len(rows)} nearest to their limit, of {len(section.rows)}.\n\n"
+        which = "nearest to their limit" if judged else "farthest off"
+        title += f"The {len(rows)} {which}, of {len(section.rows)}.\n\n"
     table = "| quantity | reference | ours | ± | off | z | |\n|---|---|---|---|---|---|---|\n"
     for row in rows:
         z = "" if row.z is None else f"{row.z:.2f}"

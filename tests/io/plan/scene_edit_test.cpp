@@ -99,6 +99,18 @@ TEST_F(SceneEdit, RefusesAStepThatMatchesNothing) {
   EXPECT_NE(said.find("s.yaml:5:"), said.npos) << said;
 }
 
+TEST_F(SceneEdit, RefusesPlacesOfAnotherFrame) {
+  for (const char* step :
+       {"{near: {position_m: [683000, 5511000]}, remove: true}",
+        "{add: {tree: {position_m: [683000, 5511000, 0], height_m: 9, crown_m: 5}}}"}) {
+    const auto told = refusal(step);
+    EXPECT_NE(told.find("m away from the model"), told.npos) << told;
+    EXPECT_NE(told.find("x 0 to 50"), told.npos) << told;
+  }
+  EXPECT_EQ(model("{near: {position_m: [900, 5]}, remove: true}").object_names,
+            (Names{"house_1", "house_2"}));
+}
+
 TEST_F(SceneEdit, StepsFollowEachOther) {
   const auto m = model(
       "{object: house_1, raise: {by_m: 3}}, {object: house_1, move_m: [0, 0, 1]}, {object: "
@@ -158,6 +170,25 @@ TEST_F(SceneEdit, MakesScenesThatArePreparedAsAnyOther) {
   EXPECT_TRUE(has_material("crown"));
   EXPECT_TRUE(has_material("wood"));
   EXPECT_TRUE(has_material("brick"));
+}
+
+TEST_F(SceneEdit, LeavesTheSiteWhereItIs) {
+  const auto site_with = [&](const std::string& steps) {
+    const auto path = folder_.write(
+        "on_map.yaml",
+        "format: sunload-study-1\nname: s\nsite: {timezone: UTC, crs: \"EPSG:25833\"}\nperiod: "
+        "{days: [2026-03-21]}\nscene: {files: [{file: town.obj, position_m: [390000, 5800000, "
+        "30]}], edit: [" +
+            steps + "]}\n");
+    return build_scene(read_study(path).variants.front()).site;
+  };
+  const Site before = site_with("{object: shed, turn: {by_deg: 90}}");
+  const Site after = site_with(
+      "{object: shed, remove: true}, {add: {tree: {position_m: [390200, 5800100], height_m: 9, "
+      "crown_m: 5}}}");
+  EXPECT_EQ(after.latitude_deg, before.latitude_deg);
+  EXPECT_EQ(after.longitude_deg, before.longitude_deg);
+  EXPECT_EQ(after.elevation_m, before.elevation_m);
 }
 
 TEST_F(SceneEdit, RefusesWhatCannotBeRaised) {
