@@ -51,7 +51,7 @@ scene:
   files: [{{file: {city}, material: wall}}]
   ground: none
   materials: {{wall: {{diffuse: {albedo}}}}}
-mesh: {{max_edge_m: 8}}
+mesh: {{max_edge_m: 8, oracle: none}}
 solver: {{lines_per_patch: 256, realizations: 16, direct_samples: 32}}
 variants:
   - {{name: gather}}
