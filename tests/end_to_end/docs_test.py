@@ -17,8 +17,8 @@ from skip import skip
 
 MOST_WORDS = 1500
 # Tables of keys and datasets, made from the schema or held against the program, are looked up, not read.
-REFERENCES = {"docs/study-file.md", "docs/result-file.md", "docs/materials.md", "docs/developer/dependencies.md",
-              "docs/developer/design.md", "docs/developer/method.md", "docs/developer/how-to-add.md"}
+REFERENCES = {"docs/study-file.md", "docs/validation.md", "docs/result-file.md", "docs/materials.md",
+              "docs/developer/dependencies.md", "docs/developer/design.md", "docs/developer/method.md", "docs/developer/how-to-add.md"}
 
 
 def pages(source):
