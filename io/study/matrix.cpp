@@ -90,7 +90,9 @@ YamlTree put(const YamlTree& node, const MatrixValue& value, std::size_t depth,
   if (depth == value.path.size())
     return node && value.value->kind != Kind::empty ? merge_yaml(node, value.value, appended, path)
                                                     : value.value;
-  const auto& [key, place] = value.path[depth];
+  const MatrixValue::Part& step = value.path[depth];
+  const std::string& key = step.key;
+  const std::size_t place = step.place;
   auto map = std::make_shared<YamlNode>();
   map->kind = Kind::map;
   map->where = value.where;

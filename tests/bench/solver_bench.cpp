@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How fast the solver is on a study: lines, shadow rays, sky and Jacobi, shots, per second.
 //   solver_bench STUDY.yaml [BATCHES]
-// The study's first variant on its own mesh, its first BATCHES batches (default 1). A speed is told
-// with version, commit and instruction set; compare two of them on one quiet machine, in turn.
+// The study's first variant on its own mesh, its first BATCHES batches (default 1). Beside each
+// stage stands what the ray caster alone does on the same scene in the same run: packets of 16 rays
+// from points of a patch to each sun that it faces, and packets of 16 lines to what they first
+// meet. Shares of those compare machines; a speed alone is told with version, commit and
+// instruction set.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +18,9 @@
 #include "io/plan/rules_of_study.h"
 #include "io/plan/variant_mesh.h"
 #include "io/plan/variant_plan.h"
+#include "solver/base/chunks.h"
+#include "solver/base/sampling.h"
+#include "solver/base/stopwatch.h"
 #include "solver/base/threads.h"
 #include "solver/solver.h"
 
@@ -30,6 +36,84 @@ void tell(const char* what, double count, double seconds, const char* unit) {
                count / seconds / million);
 }
 
+struct Bare {
+  double rays = 0, seconds = 0;
+  double rate() const { return seconds > 0 ? rays / seconds : 0; }
+};
+
+void tell_share(const char* what, double count, double seconds, const Bare& bare) {
+  if (count > 0 && seconds > 0 && bare.rate() > 0)
+    fmt::print("{:<24} {:10.2f} of the bare rate\n", what, count / seconds / bare.rate());
+}
+
+/// 16 rays for each pair of a patch and a sun that face each other, and nothing else.
+Bare bare_shadow_rays(const TracedScene& traced, std::span<const IntervalLight> suns) {
+  Bare bare;
+  {
+    const Stopwatch time(bare.seconds);
+    const SunSampler& sampler = traced.patches.sampler;
+    bare.rays = ordered_sum(traced.patches.count(), receivers_per_chunk, 0.0,
+                            [&](std::size_t begin, std::size_t end) {
+                              double rays = 0;
+                              std::uint32_t seen = 0;
+                              SunSampler::Seeds seeds;
+                              for (std::size_t i = begin; i < end; ++i) {
+                                const auto geometry = sampler.geometry(i);
+                                sampler.seed(i, 0, seeds);
+                                const Packet origins = sampler.origins(geometry, seeds, 0);
+                                for (const auto& sun : suns) {
+                                  if (!sun.has_sun() || dot(geometry.normal, sun.direction) <= 0)
+                                    continue;
+                                  seen ^= traced.caster.unoccluded(origins, sun.direction, 0xffffu);
+                                  rays += packet_size;
+                                }
+                              }
+                              return seen == 0x10000u ? 0 : rays;  // keeps the rays
+                            });
+  }
+  return bare;
+}
+
+/// As many lines as the study has, from points of the patch in directions spread by the cosine.
+Bare bare_lines(const TracedScene& traced) {
+  const std::size_t packets =
+      (static_cast<std::size_t>(traced.rules.lines_per_patch) + packet_size - 1) / packet_size;
+  std::vector<Vec3> local;
+  for (std::size_t l = 0; l < packets * packet_size; ++l)
+    local.push_back(
+        sample_cosine(static_cast<double>(uniform(sobol(static_cast<std::uint32_t>(l), 0))),
+                      static_cast<double>(uniform(sobol(static_cast<std::uint32_t>(l), 1)))));
+  Bare bare;
+  {
+    const Stopwatch time(bare.seconds);
+    const SunSampler& sampler = traced.patches.sampler;
+    bare.rays = ordered_sum(
+        traced.patches.count(), receivers_per_chunk, 0.0, [&](std::size_t begin, std::size_t end) {
+          double rays = 0;
+          std::int64_t met = 0;
+          SunSampler::Seeds seeds;
+          for (std::size_t i = begin; i < end; ++i) {
+            const auto geometry = sampler.geometry(i);
+            sampler.seed(i, 0, seeds);
+            const Packet origins = sampler.origins(geometry, seeds, 0);
+            const Tangents axes = tangents(geometry.normal);
+            for (std::size_t p = 0; p < packets; ++p) {
+              PacketDirections directions;
+              for (std::size_t r = 0; r < packet_size; ++r) {
+                const Vec3 w = local[p * packet_size + r];
+                put(directions, r,
+                    axes.tangent * w.x + axes.bitangent * w.y + geometry.normal * w.z);
+              }
+              met += traced.caster.first_hits(origins, directions, 0xffffu).triangle[0];
+              rays += packet_size;
+            }
+          }
+          return met == -1 ? 0 : rays;  // keeps the hits
+        });
+  }
+  return bare;
+}
+
 void bench(const std::string& path, std::size_t batches) {
   const VariantPlan plan = make_plan(read_study(path).variants.front());
   Watch watch;
@@ -38,25 +122,33 @@ void bench(const std::string& path, std::size_t batches) {
   const auto transport = transport_of(*traced);
   WorkDone work = traced->work;
   work += transport->work();
-  std::size_t suns = 0;
+  std::vector<IntervalLight> lit;
   const IntervalLights lights(plan.study, plan.built.site, traced->grid);
   for (std::size_t first = 0; first < std::min(plan.intervals(), batches * plan.batch_suns());
        first += plan.batch_suns()) {
     const auto light =
         lights.of(plan.light, first, std::min(plan.intervals() - first, plan.batch_suns()));
-    for (const auto& sun : light) suns += !sun.is_dark();
+    for (const auto& sun : light)
+      if (!sun.is_dark()) lit.push_back(sun);
     work += solve(*transport, light, watch).work;
   }
   const auto patches = static_cast<double>(traced->patches.count());
-  const auto lit = static_cast<double>(suns);
+  const Bare shadow_rays = bare_shadow_rays(*traced, lit), lines = bare_lines(*traced);
   fmt::print("sunload {} ({}), {}, {} threads; {} patches, {} lit suns, {} bounces\n", version,
-             commit, plan.isa, thread_count(), traced->patches.count(), suns, traced->bounces);
+             commit, plan.isa, thread_count(), traced->patches.count(), lit.size(),
+             traced->bounces);
   tell("lines", work[Work::line_rays], work[Work::lines_s], "rays");
   tell("direct and circumsolar", work[Work::direct_rays], work[Work::direct_s], "rays");
   tell("mirrored sun", work[Work::mirror_rays], work[Work::mirror_s], "rays");
-  tell("sky and Jacobi", patches * lit, work[Work::solve_s], "patches·suns");
+  tell("sky and Jacobi", patches * static_cast<double>(lit.size()), work[Work::solve_s],
+       "patches·suns");
   tell("realizations", patches * plan.study.solver.realizations, work[Work::realizations_s],
        "patches");
+  tell("bare rays to suns", shadow_rays.rays, shadow_rays.seconds, "rays");
+  tell("bare lines", lines.rays, lines.seconds, "rays");
+  // Rays that were not needed count as cast: what matters is the time for all that are asked for.
+  tell_share("direct sun", shadow_rays.rays, work[Work::direct_s], shadow_rays);
+  tell_share("lines", work[Work::line_rays], work[Work::lines_s], lines);
   tell("shots", work[Work::samples], work[Work::shoot_s], "samples");
 }
 

@@ -74,7 +74,7 @@ TEST(StrangeNames, GoThroughEveryListing) {
     EXPECT_EQ(ran.out.find('\x1B'), std::string::npos) << words[0];
   }
   const Ran json = program(strange().folder, {"compare", result, result, "--json"});
-  EXPECT_NO_THROW(nlohmann::json::parse(json.out));
+  EXPECT_TRUE(nlohmann::json::accept(json.out)) << json.out;
   const Ran csv = program(strange().folder, {"info", result, "--patches"});
   EXPECT_NE(csv.out.find(",\"'=HYPERLINK(\"\"x\"\")\","), std::string::npos);
   EXPECT_EQ(csv.out.find(",\"=HYPER"), std::string::npos);

@@ -143,12 +143,12 @@ TEST(DomeChart, IsAMapWithNorthUpAndEastRight) {
   const Picture picture(400, 400);
   for (const auto projection : {DomeProjection::stereographic, DomeProjection::equidistant}) {
     const DomeChart chart(picture, projection, 0);
-    const auto [cx, cy] = chart.centre();
+    const auto centre = chart.centre();
     const double R = chart.radius();
     const auto expect_at = [&](Horizontal place, double x, double y) {
       const PicturePoint p = chart.at(place);
-      EXPECT_NEAR(p.x, cx + x * R, 1e-9);
-      EXPECT_NEAR(p.y, cy + y * R, 1e-9);
+      EXPECT_NEAR(p.x, centre.x + x * R, 1e-9);
+      EXPECT_NEAR(p.y, centre.y + y * R, 1e-9);
     };
     expect_at({0, 90}, 0, 0);
     expect_at({0, 0}, 0, -1);
@@ -161,7 +161,7 @@ TEST(DomeChart, IsAMapWithNorthUpAndEastRight) {
     ASSERT_TRUE(back);
     EXPECT_NEAR(back->azimuth_deg, 123, 1e-9);
     EXPECT_NEAR(back->elevation_deg, 34, 1e-9);
-    EXPECT_FALSE(chart.place({cx + R * 1.001, cy}));
+    EXPECT_FALSE(chart.place({centre.x + R * 1.001, centre.y}));
   }
 }
 

@@ -44,7 +44,8 @@ struct Case {
 };
 
 TEST(ResultSoundness, OneWrongValueIsSaidWithItsPlace) {
-  constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::nan("");
+  constexpr double inf = std::numeric_limits<double>::infinity(),
+                   nan = std::numeric_limits<double>::quiet_NaN();
   for (const Case& c : {
            Case{"patch_vertices", 4, 100000, "dataset patch_vertices has 100000 at place 4 (0 … "},
            Case{"patch_vertices", 0, -1, "dataset patch_vertices has -1 at place 0"},

@@ -172,7 +172,7 @@ TEST(SunShafts, TellWhatRaysTellOfARealQuarter) {
       prepare(read_scene_file(shared_path("data/city/rotterdam_subset_v20.city.json"), {}), {})
           .mesh;
   scene.materials = {{"grey", 0.3, 0, 0}};
-  scene.material.assign(scene.mesh.triangle_count(), MaterialId(0));
+  scene.material.assign(scene.mesh.triangle_count(), MaterialId{0});
   expect_the_same(scene, 1.5, 8);
 }
 
