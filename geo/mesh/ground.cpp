@@ -166,6 +166,7 @@ class GroundMaker {
         if (level_z_)
           for (Vec3& end : edge) end.z = *level_z_;
         lines_.feet.push_back(edge);
+        lines_.foot_body.push_back(foot.body);
       }
     }
   }
@@ -302,6 +303,7 @@ class GroundMaker {
 
   void add_land() {
     const Land land = triangulate_land(lines_);
+    steepest_beyond_ = land.steepest_beyond;
     const PlanTriangles terrain(mesh_, terrain_);
     std::vector<std::size_t> floors;
     std::vector<Box> boxes;
@@ -361,6 +363,7 @@ class GroundMaker {
     GroundReport r;
     r.surface = rules_.surface;
     r.is_level = level_z_.has_value();
+    r.steepest_beyond = steepest_beyond_;
     r.low_m = infinity, r.high_m = -infinity;
     std::vector<std::size_t> all = terrain_;
     const auto plan = [&](std::size_t t) { return std::abs(mesh_.area_vector2(t).z) / 2; };
@@ -434,6 +437,7 @@ class GroundMaker {
   std::vector<double> drawn_m_;     // per foot
   std::vector<std::size_t> seals_;  // triangles
   LandLines lines_;
+  double steepest_beyond_ = 0;
   ObjectId object_;
   MaterialId material_ = MaterialId::none();
   std::int32_t vertex_base_ = 0;

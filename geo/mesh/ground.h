@@ -39,8 +39,9 @@ struct FootGap {
 /// The ground as it was made, and how bodies stand on it.
 struct GroundReport {
   GroundSurface surface = GroundSurface::feet;
-  bool is_level = false;               ///< asked for, or as all feet are
-  double low_m = 0, high_m = 0;        ///< heights of what was made, in the model's z
+  bool is_level = false;         ///< asked for, or as all feet are
+  double low_m = 0, high_m = 0;  ///< heights of what was made, in the model's z
+  double steepest_beyond = 0;    ///< tangent: how it goes on beyond the outermost feet, at most
   double made_m2 = 0, terrain_m2 = 0;  ///< area in plan: made, and the model's own
   std::size_t standing = 0;            ///< bodies with feet
   std::size_t on_others = 0;           ///< bodies that stand on other bodies: no feet
@@ -75,8 +76,8 @@ struct GroundMade {
 /// The terrain of the model (open land of kind ground) goes first: nothing is made where it lies,
 /// and what is made begins at its rim. Elsewhere lower edges of walls are constraints of a Delaunay
 /// triangulation in plan; where several meet the highest counts, so that no wall ends above the
-/// ground. Beyond the outermost of them the ground goes on level, at the height of the nearest,
-/// to the margin. What lies under a standing body is covered.
+/// ground. Beyond the outermost of them the ground goes on by their slope, where they lie on a
+/// plane, else level, to the margin (geo/mesh/land). What lies under a standing body is covered.
 ///
 /// Where a wall ends above the terrain, it is drawn down: triangles of its object and material,
 /// which end a little below the land, so that the land under the body can be told from the land

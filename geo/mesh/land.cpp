@@ -9,6 +9,7 @@
 #include "geo/base/check.h"
 #include "geo/mesh/box_tree.h"
 #include "geo/mesh/constrained_delaunay.h"
+#include "geo/mesh/land_slope.h"
 #include "geo/mesh/weld.h"
 
 namespace sunload {
@@ -49,7 +50,10 @@ BoxTree tree_of(const std::vector<Segment>& lines) {
 class LandMaker {
  public:
   explicit LandMaker(const LandLines& lines)
-      : lines_(lines), rim_tree_(tree_of(lines.rims)), foot_tree_(tree_of(lines.feet)) {}
+      : lines_(lines),
+        rim_tree_(tree_of(lines.rims)),
+        foot_tree_(tree_of(lines.feet)),
+        slopes_(lines) {}
 
   Land run() {
     find_points();
@@ -138,7 +142,7 @@ class LandMaker {
     }
   }
 
-  /// Level land outside of the hull: each point of the border is as high as the hull's nearest.
+  /// Land outside of the hull: on the border, and where it ceases to slope.
   void add_border() {
     std::vector<Segment> hull;
     double low = infinity, high = -infinity;
@@ -157,10 +161,24 @@ class LandMaker {
         hull.insert(hull.end(), lines->begin(), lines->end());
     }
     const int count = high - low > 0 ? border_points : 1;
-    const Vec3 corners[] = {{lines_.x0, lines_.y0, low},
-                            {lines_.x1, lines_.y0, low},
-                            {lines_.x1, lines_.y1, low},
-                            {lines_.x0, lines_.y1, low}};
+    const Box around = bounding_box(points_);
+    reach_ = std::min(slope_reach_m, std::hypot(around.high.x - around.low.x,  //
+                                                around.high.y - around.low.y));
+    const Box sloping = widened(around, reach_);
+    Box whole = sloping;
+    whole.low = {lines_.x0, lines_.y0, low};
+    whole.high = {lines_.x1, lines_.y1, low};
+    add_border(whole, count, hull);
+    if (count > 1 && sloping.low.x > lines_.x0 && sloping.low.y > lines_.y0 &&
+        sloping.high.x < lines_.x1 && sloping.high.y < lines_.y1)
+      add_border(sloping, count, hull);
+  }
+
+  void add_border(const Box& box, int count, const std::vector<Segment>& hull) {
+    const Vec3 corners[] = {{box.low.x, box.low.y, box.low.z},
+                            {box.high.x, box.low.y, box.low.z},
+                            {box.high.x, box.high.y, box.low.z},
+                            {box.low.x, box.high.y, box.low.z}};
     for (std::size_t k = 0; k < 4; ++k)
       for (int i = 0; i < count; ++i) {
         const Vec3 from = corners[k], to = corners[(k + 1) % 4];
@@ -170,11 +188,18 @@ class LandMaker {
 
   void add_border_point(Vec3 p, const std::vector<Segment>& hull) {
     Nearest best{infinity, 0, p.z};
+    Vec3 foot = p;
     for (const Segment& edge : hull) {
       const Nearest found = nearest(edge, p.x, p.y);
-      if (found.distance < best.distance) best = found;
+      if (found.distance >= best.distance) continue;
+      best = found;
+      foot = edge[0] + found.along * (edge[1] - edge[0]);
     }
     if (best.distance <= land_snap_m) return;  // without a margin the hull ends at the border
+    const LandSlope slope = slopes_.around(foot.x, foot.y);
+    steepest_beyond_ = std::max(steepest_beyond_, std::hypot(slope.x, slope.y));
+    const double part = std::min(1.0, reach_ / best.distance);
+    best.z += part * (slope.x * (p.x - foot.x) + slope.y * (p.y - foot.y));
     const auto handle = delaunay_.insert({p.x, p.y});
     handle->info().point = static_cast<std::int32_t>(points_.size());
     p.z = best.z;
@@ -184,6 +209,7 @@ class LandMaker {
   Land collect() const {
     Land land;
     land.points = points_;
+    land.steepest_beyond = steepest_beyond_;
     for (const auto face : delaunay_.finite_face_handles()) {
       std::array<std::int32_t, 3> t{};
       for (int k = 0; k < 3; ++k) t[static_cast<std::size_t>(k)] = face->vertex(k)->info().point;
@@ -196,6 +222,8 @@ class LandMaker {
 
   const LandLines& lines_;
   BoxTree rim_tree_, foot_tree_;
+  LandSlopes slopes_;
+  double reach_ = 0, steepest_beyond_ = 0;
   std::vector<Vec3> points_;
   Delaunay delaunay_;
   std::vector<Delaunay::Vertex_handle> handles_;

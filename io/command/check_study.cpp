@@ -80,6 +80,13 @@ std::string gaps_text(const std::vector<FootGap>& gaps, std::size_t most) {
   return text + (gaps.size() > most ? ", …" : "");
 }
 
+/// How the land goes on beyond the outermost feet, by the largest slope there (a tangent).
+std::string beyond_text(double steepest) {
+  constexpr double worth_telling = 0.005;
+  if (steepest < worth_telling) return "level beyond the outermost";
+  return fmt::format("beyond the outermost by their slope ({:.0f} % at most)", 100 * steepest);
+}
+
 /// How the ground was made, and how far bodies are above it or below.
 std::string ground_text(const GroundReport& g) {
   constexpr std::size_t most = 10;
@@ -91,9 +98,8 @@ std::string ground_text(const GroundReport& g) {
         fmt::format("{:.6g} m2, level at {:.2f} m{}", g.made_m2, g.low_m,
                     g.surface == GroundSurface::feet && g.standing > 0 ? " as all feet are" : "");
   else
-    text += fmt::format(
-        "{:.6g} m2 through the feet, from {:.2f} to {:.2f} m, level beyond the outermost",
-        g.made_m2, g.low_m, g.high_m);
+    text += fmt::format("{:.6g} m2 through the feet, from {:.2f} to {:.2f} m, {}", g.made_m2,
+                        g.low_m, g.high_m, beyond_text(g.steepest_beyond));
   if (g.terrain_m2 > 0)
     text += fmt::format("; the model's own terrain goes first, {:.6g} m2", g.terrain_m2);
   text += fmt::format("\n  feet      {} bodies stand on it, {} on other bodies", g.standing,

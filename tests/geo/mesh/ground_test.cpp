@@ -110,8 +110,44 @@ TEST(Ground, OfSlopingFeetIsTheSlope) {
   EXPECT_EQ(p.report.ground->standing, 16u);
   EXPECT_NEAR(p.report.ground->gap_m.back(), 0, rounding);
   EXPECT_NEAR(p.report.ground->gap_m.front(), 0, rounding);
-  for (const auto& [x, y] : {std::pair{15.0, 15.0}, {33.0, 50.0}, {62.0, 3.0}})
-    for (const double z : ground_at(p.mesh, x, y)) EXPECT_NEAR(z, 0.15 * x - 0.08 * y, rounding);
+  // Beside the houses, between them, and to the margin's rim.
+  for (const auto& [x, y] : {std::pair{15.0, 15.0},
+                             {33.0, 50.0},
+                             {62.0, 3.0},
+                             {-19.9, -19.9},
+                             {30.0, -19.0},
+                             {88.9, 90.9},
+                             {80.0, 30.0},
+                             {-12.0, 85.0}}) {
+    const auto heights = ground_at(p.mesh, x, y);
+    EXPECT_EQ(heights.size(), 1u);
+    for (const double z : heights) EXPECT_NEAR(z, 0.15 * x - 0.08 * y, rounding);
+  }
+  EXPECT_NEAR(p.report.ground->steepest_beyond, 0.17, 1e-6);
+}
+
+TEST(Ground, GoesOnByASlopeNoFartherThanFeetTellIt) {
+  auto builder = ModelBuilder();
+  for (int i = 0; i < 4; ++i)
+    builder.object("house_" + std::to_string(i)).box({20.0 * i, 0, 0}, {20.0 * i + 9, 11, 8});
+  builder.moved([](Vec3 v) { return Vec3{v.x, v.y, v.z + 0.1 * v.x}; });
+  const auto p = builder.prepared(on_feet(3000));
+  const double reach = std::hypot(69.0, 11.0);
+  for (const double z : ground_at(p.mesh, 69 + reach - 1, 5))
+    EXPECT_NEAR(z, 0.1 * (69 + reach - 1), 0.05);
+  for (const double z : ground_at(p.mesh, 3000, 5)) EXPECT_NEAR(z, 0.1 * (69 + reach), 0.05);
+}
+
+TEST(Ground, FeetNowHigherNowLowerTellNoSlope) {
+  auto builder = ModelBuilder();
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) {
+      const double z = std::fmod(0.618 * i + 0.755 * j, 1.0);
+      builder.object("house_" + std::to_string(6 * i + j))
+          .box({20.0 * i, 20.0 * j, z}, {20.0 * i + 9, 20.0 * j + 11, z + 8});
+    }
+  const auto p = builder.prepared(on_feet());
+  EXPECT_LT(p.report.ground->steepest_beyond, 1e-3);
 }
 
 TEST(Ground, AStepBetweenTwoHousesHidesTheLowerFoot) {
