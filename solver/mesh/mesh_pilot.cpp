@@ -24,9 +24,6 @@ constexpr std::size_t emitter_points_per_half = 8;
 constexpr double areas_per_packet = 256;
 constexpr std::size_t most_packets = 8;
 constexpr std::size_t halves_of_light = 2;
-/// In which a sun is looked for in mirrors; of more orientations so many are chosen, by the power
-/// that they send on.
-constexpr std::size_t most_images = 4;
 
 std::size_t packets_for(double area_m2, double min_area_m2) {
   if (min_area_m2 <= 0) return 1;
@@ -61,6 +58,7 @@ struct MeshPilot::Points {
   Tangents axes;
   RandomWords direction_seeds[halves_of_light];
   RandomWords emitter_seeds[halves_of_light];
+  RayCorners corners;
   std::vector<Packet> packets;
 
   Points(const ElementForest& forest, std::size_t element, std::uint8_t side, double offset_m,
@@ -69,6 +67,7 @@ struct MeshPilot::Points {
     const Vec3 ab = forest.corner(element, 1) - a, ac = forest.corner(element, 2) - a;
     normal = normalized(cross(ab, ac)) * (side == 0 ? 1.0 : -1.0);
     axes = tangents(normal);
+    corners = {a + normal * offset_m, a + ab + normal * offset_m, a + ac + normal * offset_m};
     const std::uint64_t key = mixed(forest.key(element), side);
     const auto words = [&](std::uint32_t realization) {
       return random_words({.seed = seed,
@@ -105,7 +104,7 @@ MeshPilot::MeshPilot(const ElementForest& forest, const Scene& scene, const RayC
       caster_(caster),
       light_(light),
       seed_(seed),
-      mirrors_(scene),
+      images_(scene, caster, light, seed),
       load_(2 * forest.elements().size(), 0.0f) {
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
     const double exitance = scene.material_of(t).emission_w_m2;
@@ -115,63 +114,6 @@ MeshPilot::MeshPilot(const ElementForest& forest, const Scene& scene, const RayC
     emitters_.push_back({static_cast<std::int32_t>(t), emitted_power_});
   }
   for (auto& emitter : emitters_) emitter.power_share /= emitted_power_;
-  for (std::size_t g = 0; g < mirrors_.size(); ++g) {
-    mirror_area_m2_.push_back(0);
-    for (const auto t : mirrors_[g].triangles)
-      mirror_area_m2_[g] += norm(scene.mesh.area_vector2(static_cast<std::size_t>(t))) / 2;
-  }
-  for (std::size_t h = 0; h < halves_of_light; ++h) {
-    add_images(light.suns, h);
-    add_images(light.samples[h], h);
-  }
-}
-
-void MeshPilot::add_images(const std::vector<PeriodSun>& suns, std::size_t half) {
-  for (std::size_t s = 0; s < suns.size(); ++s) {
-    std::vector<std::size_t> groups;
-    std::vector<double> powers;  // of them and all before
-    double power = 0;
-    for (std::size_t g = 0; g < mirrors_.size(); ++g) {
-      const double cos_theta = dot(mirrors_[g].normal, suns[s].direction);
-      if (cos_theta <= 0) continue;
-      const double own = mirrors_.strongest(g, cos_theta) * mirror_area_m2_[g] * cos_theta;
-      if (own <= 0) continue;
-      groups.push_back(g);
-      powers.push_back(power += own);
-    }
-    choose_images(suns[s], groups, powers, half, s);
-  }
-}
-
-void MeshPilot::choose_images(const PeriodSun& sun, const std::vector<std::size_t>& groups,
-                              const std::vector<double>& powers, std::size_t half,
-                              std::size_t number) {
-  const auto image = [&](std::size_t group, double probability) {
-    return Image{.direction = -mirrored(sun.direction, mirrors_[group].normal),
-                 .sun = sun.direction,
-                 .group = static_cast<std::int32_t>(group),
-                 .exposure = sun.exposure / probability};
-  };
-  const bool is_of_both = !light_.suns.empty();
-  if (groups.size() <= most_images) {
-    if (is_of_both && half > 0) return;
-    auto& images = is_of_both ? images_ : images_of_half_[half];
-    for (const auto group : groups) images.push_back(image(group, 1));
-    return;
-  }
-  const RandomWords words =
-      random_words({.seed = seed_,
-                    .purpose = Purpose::mesh_pilot,
-                    .realization = static_cast<std::uint32_t>(3 * halves_of_light + half),
-                    .element = number});
-  const double start = static_cast<double>(uniform(words[0]));
-  for (std::size_t i = 0; i < most_images; ++i) {
-    const double at = (static_cast<double>(i) + start) / most_images * powers.back();
-    const auto chosen = static_cast<std::size_t>(
-        std::lower_bound(powers.begin(), powers.end() - 1, at) - powers.begin());
-    const double own = powers[chosen] - (chosen > 0 ? powers[chosen - 1] : 0);
-    images_of_half_[half].push_back(image(groups[chosen], most_images * own / powers.back()));
-  }
 }
 
 void MeshPilot::set_load(std::size_t element, std::uint8_t side, double load) {
@@ -198,7 +140,8 @@ ElementLoad MeshPilot::load(std::size_t element, std::uint8_t side, double min_a
   for (std::size_t p = 0; p < packets; ++p) {
     double common[packet_size] = {}, common_glints[packet_size] = {};
     add_suns(points, light_.suns, points.normal, p, common, load);
-    add_mirrored(points, images_, p, common_glints);
+    images_.add(images_.of_both_halves(), points.corners, points.packets[p], points.normal,
+                common_glints);
     for (std::uint32_t h = 0; h < halves_of_light; ++h) {
       double* sum = &at_point[h][p * packet_size];
       std::copy_n(common, packet_size, sum);
@@ -207,7 +150,7 @@ ElementLoad MeshPilot::load(std::size_t element, std::uint8_t side, double min_a
       add_surroundings(points, p, h, sum);
       double* glint = &glints[h][p * packet_size];
       std::copy_n(common_glints, packet_size, glint);
-      add_mirrored(points, images_of_half_[h], p, glint);
+      images_.add(images_.of_half(h), points.corners, points.packets[p], points.normal, glint);
       for (std::size_t r = 0; r < packet_size; ++r) sum[r] += glint[r];
     }
   }
@@ -261,34 +204,6 @@ void MeshPilot::add_suns(const Points& points, const std::vector<PeriodSun>& sun
     load.sees_sun = true;
     load.largest_cosine = std::max(load.largest_cosine, cos_theta);
     for (; lit != 0; lit &= lit - 1) sum[std::countr_zero(lit)] += sun.exposure * cos_theta;
-  }
-}
-
-/// What a ray towards the image of a sun meets first is a mirror of that orientation, and sees the
-/// sun itself.
-void MeshPilot::add_mirrored(const Points& points, const std::vector<Image>& images,
-                             std::size_t packet, double* sum) const {
-  for (const Image& image : images) {
-    const double cos_theta = dot(points.normal, image.direction);
-    if (cos_theta <= 0) continue;
-    const PacketHits hits = caster_.first_hits(points.packets[packet], image.direction, all_rays);
-    Packet origins{};
-    std::uint32_t on_mirror = 0;
-    for (std::size_t r = 0; r < packet_size; ++r) {
-      const Hit hit = hits[r];
-      if (hit.left_scene() || mirrors_.of_side(hit.triangle, hit.front) != image.group) continue;
-      const Vec3 n = met_normal(scene_.mesh, hit);
-      put(origins, r, lifted_point(scene_.mesh, hit, n, caster_.offset_m()));
-      on_mirror |= 1u << r;
-    }
-    if (on_mirror == 0) continue;
-    for (auto lit = caster_.unoccluded(origins, image.sun, on_mirror); lit != 0; lit &= lit - 1) {
-      const auto r = static_cast<std::size_t>(std::countr_zero(lit));
-      const double cos_at_mirror =
-          dot(mirrors_[static_cast<std::size_t>(image.group)].normal, image.sun);
-      sum[r] +=
-          image.exposure * cos_theta * mirrors_.weight_of_hit(hits.triangle[r], cos_at_mirror);
-    }
   }
 }
 

@@ -10,33 +10,16 @@
 /// between the points are those of the light and not of its sampling.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "geo/sky/sky.h"
 #include "solver/mesh/element_forest.h"
-#include "solver/surface/mirror_groups.h"
+#include "solver/mesh/period_light.h"
+#include "solver/mesh/sun_images.h"
 #include "solver/surface/ray_caster.h"
 
 namespace sunload {
-
-/// A sun that stands for a part of the period.
-struct PeriodSun {
-  Vec3 direction;       ///< to the sun, unit
-  double exposure = 0;  ///< normal to it [J m-2]
-};
-
-/// Light of a period in short.
-struct PeriodLight {
-  /// Suns that are taken as they are.
-  std::vector<PeriodSun> suns;
-  /// Two samples of the suns, each standing for all of them, where there are too many.
-  std::array<std::vector<PeriodSun>, 2> samples;
-  std::vector<double> sky;  ///< per cell of a SkyGrid(): π·radiance·time [J m-2]
-  double ground = 0;        ///< exitance of the far ground · time [J m-2]
-  double lamp_time_s = 0;   ///< for which emitters of the scene shine
-};
 
 /// What one side of an element receives.
 struct ElementLoad {
@@ -76,17 +59,6 @@ class MeshPilot {
     std::int32_t triangle;
     double power_share;  ///< of this one and all before it
   };
-  /// A sun as it is seen in mirrors of one orientation.
-  struct Image {
-    Vec3 direction, sun;
-    std::int32_t group;
-    double exposure;  ///< normal to the sun, over the probability with which it was chosen
-  };
-  void add_images(const std::vector<PeriodSun>& suns, std::size_t half);
-  void choose_images(const PeriodSun& sun, const std::vector<std::size_t>& groups,
-                     const std::vector<double>& powers, std::size_t half, std::size_t number);
-  void add_mirrored(const Points& points, const std::vector<Image>& images, std::size_t packet,
-                    double* sum) const;
   void add_suns(const Points& points, const std::vector<PeriodSun>& suns, Vec3 normal,
                 std::size_t packet, double* sum, ElementLoad& load) const;
   void look_for_suns(const Points& points, ElementLoad& load) const;
@@ -104,10 +76,7 @@ class MeshPilot {
   SkyGrid grid_;
   std::vector<Emitter> emitters_;
   double emitted_power_ = 0;  ///< of all of them [W]
-  MirrorGroups mirrors_;
-  std::vector<double> mirror_area_m2_;  ///< per group
-  std::vector<Image> images_;           ///< in both halves
-  std::array<std::vector<Image>, 2> images_of_half_;
+  SunImages images_;
   std::vector<float> load_;  ///< [2·element + side] J m-2
 };
 

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/mesh/sun_images.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "solver/base/rng.h"
+#include "solver/base/sampling.h"
+
+namespace sunload {
+
+namespace {
+
+/// In which a sun is looked for in mirrors; of more orientations so many are chosen, by the power
+/// that they send on.
+constexpr std::size_t most_images = 4;
+/// Words of the pilot that its points, directions and emitters leave over begin here.
+constexpr std::uint32_t first_words = 6;
+/// By so many offsets of rays a box is wider than its mirrors: floats place both to a part of one.
+constexpr double box_offsets = 8;
+
+constexpr std::uint32_t all_rays = (1u << packet_size) - 1u;
+
+Vec3 along(const SunImage& image, Vec3 p) {
+  return {dot(p, image.axes.tangent), dot(p, image.axes.bitangent), dot(p, image.direction)};
+}
+
+void widen(Box& box, Vec3 p) {
+  box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+  box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+}
+
+Box empty_box() {
+  constexpr double most = std::numeric_limits<double>::max();
+  Box box;
+  box.low = {most, most, most};
+  box.high = {-most, -most, -most};
+  return box;
+}
+
+}  // namespace
+
+SunImages::SunImages(const Scene& scene, const RayCaster& caster, const PeriodLight& light,
+                     std::uint64_t seed)
+    : scene_(scene), caster_(caster), seed_(seed), mirrors_(scene) {
+  for (std::size_t g = 0; g < mirrors_.size(); ++g) {
+    mirror_area_m2_.push_back(0);
+    for (const auto t : mirrors_[g].triangles)
+      mirror_area_m2_[g] += norm(scene.mesh.area_vector2(static_cast<std::size_t>(t))) / 2;
+  }
+  for (std::size_t h = 0; h < of_half_.size(); ++h) {
+    add_images(light, light.suns, h);
+    add_images(light, light.samples[h], h);
+  }
+}
+
+SunImage SunImages::image(const PeriodSun& sun, std::size_t group, double probability) const {
+  SunImage made{.direction = -mirrored(sun.direction, mirrors_[group].normal),
+                .sun = sun.direction,
+                .group = static_cast<std::int32_t>(group),
+                .exposure = sun.exposure / probability,
+                .axes = {},
+                .mirrors = empty_box()};
+  made.axes = tangents(made.direction);
+  for (const auto t : mirrors_[group].triangles)
+    for (int k = 0; k < 3; ++k)
+      widen(made.mirrors, along(made, scene_.mesh.corner(static_cast<std::size_t>(t), k)));
+  made.mirrors = widened(made.mirrors, box_offsets * caster_.offset_m());
+  return made;
+}
+
+void SunImages::add_images(const PeriodLight& light, const std::vector<PeriodSun>& suns,
+                           std::size_t half) {
+  const bool is_of_both = !light.suns.empty();
+  for (std::size_t s = 0; s < suns.size(); ++s) {
+    std::vector<std::size_t> groups;
+    std::vector<double> powers;  // of them and all before
+    double power = 0;
+    for (std::size_t g = 0; g < mirrors_.size(); ++g) {
+      const double cos_theta = dot(mirrors_[g].normal, suns[s].direction);
+      if (cos_theta <= 0) continue;
+      const double own = mirrors_.strongest(g, cos_theta) * mirror_area_m2_[g] * cos_theta;
+      if (own <= 0) continue;
+      groups.push_back(g);
+      powers.push_back(power += own);
+    }
+    if (groups.size() <= most_images) {
+      if (is_of_both && half > 0) continue;
+      auto& images = is_of_both ? of_both_ : of_half_[half];
+      for (const auto group : groups) images.push_back(image(suns[s], group, 1));
+      continue;
+    }
+    const RandomWords words =
+        random_words({.seed = seed_,
+                      .purpose = Purpose::mesh_pilot,
+                      .realization = first_words + static_cast<std::uint32_t>(half),
+                      .element = s});
+    const double start = static_cast<double>(uniform(words[0]));
+    for (std::size_t i = 0; i < most_images; ++i) {
+      const double at = (static_cast<double>(i) + start) / most_images * powers.back();
+      const auto chosen = static_cast<std::size_t>(
+          std::lower_bound(powers.begin(), powers.end() - 1, at) - powers.begin());
+      const double own = powers[chosen] - (chosen > 0 ? powers[chosen - 1] : 0);
+      of_half_[half].push_back(image(suns[s], groups[chosen], most_images * own / powers.back()));
+    }
+  }
+}
+
+bool SunImages::can_be_seen(const SunImage& image, const RayCorners& corners) const {
+  Box box = empty_box();
+  for (const Vec3 corner : corners) widen(box, along(image, corner));
+  const Box& mirrors = image.mirrors;
+  return box.low.x <= mirrors.high.x && box.high.x >= mirrors.low.x &&
+         box.low.y <= mirrors.high.y && box.high.y >= mirrors.low.y && box.low.z <= mirrors.high.z;
+}
+
+/// What a ray towards the image of a sun meets first is a mirror of that orientation, and sees the
+/// sun itself.
+void SunImages::add(const std::vector<SunImage>& images, const RayCorners& corners,
+                    const Packet& points, Vec3 normal, double* sum) const {
+  for (const SunImage& image : images) {
+    const double cos_theta = dot(normal, image.direction);
+    if (cos_theta <= 0 || !can_be_seen(image, corners)) continue;
+    const PacketHits hits = caster_.first_hits(points, image.direction, all_rays);
+    Packet origins{};
+    std::uint32_t on_mirror = 0;
+    for (std::size_t r = 0; r < packet_size; ++r) {
+      const Hit hit = hits[r];
+      if (hit.left_scene() || mirrors_.of_side(hit.triangle, hit.front) != image.group) continue;
+      const Vec3 n = met_normal(scene_.mesh, hit);
+      put(origins, r, lifted_point(scene_.mesh, hit, n, caster_.offset_m()));
+      on_mirror |= 1u << r;
+    }
+    if (on_mirror == 0) continue;
+    for (auto lit = caster_.unoccluded(origins, image.sun, on_mirror); lit != 0; lit &= lit - 1) {
+      const auto r = static_cast<std::size_t>(std::countr_zero(lit));
+      const double cos_at_mirror =
+          dot(mirrors_[static_cast<std::size_t>(image.group)].normal, image.sun);
+      sum[r] +=
+          image.exposure * cos_theta * mirrors_.weight_of_hit(hits.triangle[r], cos_at_mirror);
+    }
+  }
+}
+
+}  // namespace sunload
