@@ -3,6 +3,7 @@
 """Runs studies in a temporary folder, as a user would, and opens their results."""
 
 import os
+import shutil
 import subprocess
 import tempfile
 
@@ -30,3 +31,6 @@ class Program:
         folder = os.path.join(self.folder.name, "results", name)
         return {os.path.splitext(file)[0]: h5py.File(os.path.join(folder, file))
                 for file in sorted(os.listdir(folder)) if file.endswith(".h5")}
+
+    def forget(self, name):
+        shutil.rmtree(os.path.join(self.folder.name, "results", name))

@@ -16,9 +16,10 @@ import measured  # noqa: E402
 import methods  # noqa: E402
 import page  # noqa: E402
 import reference_tests  # noqa: E402
+import seeds  # noqa: E402
 from program import Program  # noqa: E402
 
-KINDS = ("reference", "methods", "measured")
+KINDS = ("reference", "methods", "seeds", "measured")
 
 
 def main():
@@ -38,7 +39,7 @@ def main():
         if kind == "reference":
             sections += reference_tests.all_sections(build, tell)
         else:
-            sections += {"methods": methods, "measured": measured}[kind].sections(program, tell)
+            sections += {"methods": methods, "seeds": seeds, "measured": measured}[kind].sections(program, tell)
     page.write(sections, os.path.join(arguments.output, "validation.md"),
                os.path.join(arguments.output, "validation.csv"))
     failed = [s.name for s in sections if "FAILS" in s.verdict]
