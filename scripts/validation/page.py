@@ -5,7 +5,7 @@
 import csv
 import math
 
-WORST = 3, 12  # rows of a section that the page shows: nearest to their limit; farthest off where nothing decides
+WORST = 3, 24  # rows of a section that the page shows: nearest to their limit; farthest off where nothing decides
 
 HEAD = """# Validation
 
@@ -45,7 +45,7 @@ def detail(section):
     if judged:
         rows = sorted(section.rows, key=lambda row: -row.share_of_limit)[:WORST[0]]
     else:
-        rows = sorted(section.rows, key=lambda row: -abs(row.off / row.reference))[:WORST[1]]
+        rows = sorted(section.rows, key=lambda row: -abs(row.off / (row.reference or 1)))[:WORST[1]]
     title = f"\n## {section.name[0].upper()}{section.name[1:]}\n\n"
     if section.said:
         title += section.said + "\n\n"

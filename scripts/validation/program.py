@@ -11,8 +11,9 @@ import h5py
 
 
 class Program:
-    def __init__(self, path):
+    def __init__(self, path, pictures="."):
         self.path = os.path.abspath(path)
+        self.pictures = pictures  # folder of what sections draw
         self.folder = tempfile.TemporaryDirectory(prefix="validate-")
 
     def write(self, name, text):

@@ -28,6 +28,8 @@ SECTIONS = [
      "images; closed form"),
     ("scale, slivers, hidden emitters", "physics_tests", "Emission.*:Scale.*:Slivers.*:LargeExtent.*",
      "after Smits & Jensen 2000"),
+    ("points: form factors, sky, ground, lamps, mirrors", "physics_tests", "Sensor*",
+     "Howell's catalogue; own quadrature, after CIE 171"),
     ("shooting", "physics_tests", "Shooting.*", "closed form; gathering"),
     ("the year by modes against each hour", "physics_tests", "YearOfTheSquare.*", "the same solved for each hour"),
     ("error bars: 600 runs of each kind", "statistical_tests", "Coverage.*", "binomial law"),

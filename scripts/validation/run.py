@@ -12,6 +12,7 @@ sys.path.append(os.path.join(ROOT, "scripts", "plot"))
 
 import interpreter  # noqa: E402,F401  goes on with a Python that has h5py and numpy
 
+import cases  # noqa: E402
 import measured  # noqa: E402
 import methods  # noqa: E402
 import page  # noqa: E402
@@ -19,7 +20,7 @@ import reference_tests  # noqa: E402
 import seeds  # noqa: E402
 from program import Program  # noqa: E402
 
-KINDS = ("reference", "methods", "seeds", "measured")
+KINDS = ("reference", "cases", "methods", "seeds", "measured")
 
 
 def main():
@@ -33,13 +34,14 @@ def main():
     def tell(what):
         print(f"{time.monotonic() - begin:6.0f} s  {what}", file=sys.stderr, flush=True)
 
-    program = Program(os.path.join(build, "io", "sunload"))
+    program = Program(os.path.join(build, "io", "sunload"), arguments.output)
     sections = []
     for kind in arguments.only or KINDS:
         if kind == "reference":
             sections += reference_tests.all_sections(build, tell)
         else:
-            sections += {"methods": methods, "seeds": seeds, "measured": measured}[kind].sections(program, tell)
+            made = {"cases": cases, "methods": methods, "seeds": seeds, "measured": measured}[kind]
+            sections += made.sections(program, tell)
     page.write(sections, os.path.join(arguments.output, "validation.md"),
                os.path.join(arguments.output, "validation.csv"))
     failed = [s.name for s in sections if "FAILS" in s.verdict]

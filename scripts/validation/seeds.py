@@ -11,7 +11,7 @@ import numpy as np
 from rows import Row, Section
 
 # Solving a matrix anew takes three times as long.
-SEEDS = {"gather": 160, "shoot": 100, "matrix": 40}
+SEEDS = {"gather": 100, "shoot": 60, "matrix": 30}
 REALIZATIONS = 16
 CLAIM = 0.1  # spread / stated error is 1 within this, besides what chance does to it
 FAMILY_WISE = 0.01
