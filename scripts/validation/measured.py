@@ -39,13 +39,13 @@ GOTHENBURG = (
     "Means of hours, one point in a square. Told, not judged: the crowns' transmittance and the reflectances are not "
     "known.\n\n"
     "As the mast is said to stand, east is too bright and west too dark at Gustav Adolfs torg, and south at "
-    "Kronenhuset. What explains both: the mast was turned, its north some 14 deg towards west. One angle alone was "
+    "Kronenhuset. What explains both best: the mast was turned, its north some 14 deg towards west. One angle alone was "
     "fitted, to each day by itself; four days at two places find the same within 3 deg (below). At Gustav Adolfs torg "
-    "it takes the root mean square of the four sides from 65 to 35 W/m2. What does not explain it: clocks that are off "
+    "it takes the root mean square of the four sides from 65 to 35 W/m2. What explains it less or not: clocks that are off "
     "by half an hour or an hour (56 and 71 W/m2, and Kdown, which no turn of the mast moves, gets worse: 59 and 76 "
     "W/m2 in place of 51); reflectances, which act on all sides; crowns or rasters that are off, which would have to be so "
-    "at two places by the same angle. Kup is a quarter too bright at both sites: a ground of 0.16 in place of the 0.2 "
-    "that we assume.\n\n"
+    "at two places by the same angle. Not tried: the whole model turned, whose north follows from its CRS. Kup is a "
+    "quarter too bright at both sites, as by a ground of 0.16 in place of the 0.2 that we assume.\n\n"
     f"![Measured light and ours on each day]({PICTURE})")
 
 STUDY = """site: {{timezone: "+01:00", crs: "{crs}"}}

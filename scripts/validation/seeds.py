@@ -104,8 +104,15 @@ LABEL = {"light_load": "patches", "facade_light_load": "facades", "sensor_light_
 TERMS = ("sun", "sky", "ground", "absorbed", "escaped", "unshot", "estimated", "residual")
 
 
-def name_of(term):
-    return "ledger's residual" if term == "residual" else "ledger's terms"
+def ledger(result, when, value):
+    """`value` of a dataset: its sum over time, or each row. A residual that is rounding (shooting) has no spread."""
+    coming = np.sum([value(result[f"power_{term}"]) for term in TERMS[:3]])
+    for term in TERMS:
+        error = result[f"power_{term}_se"][()]
+        if term != "residual":
+            yield "ledger's terms" + when, np.ravel(value(result[f"power_{term}"])), np.ravel(error)
+        elif np.max(error) > ROUNDING * coming:
+            yield "ledger's residual" + when, np.ravel(value(result[f"power_{term}"])), np.ravel(error)
 
 
 def totals(result):
@@ -117,8 +124,7 @@ def totals(result):
         for part in ("direct", "sky", "mirror", "reflected"):
             if f"{name}_{part}_se" in result and result[f"{name}_{part}_se"][:].any():
                 yield f"{label}, {part} light", result[f"{name}_{part}"][:], result[f"{name}_{part}_se"][:]
-    for term in TERMS:
-        yield name_of(term), [result[f"power_{term}"].attrs["time_sum_kwh"]], [result[f"power_{term}_se"][()]]
+    yield from ledger(result, "", lambda power: power.attrs["time_sum_kwh"])
 
 
 def differences(base, other):
@@ -132,8 +138,7 @@ def differences(base, other):
 def instants(result):
     yield "patches, an instant", result["irradiance"][:], result["irradiance_se"][:]
     yield "sensors, an instant", result["sensor_irradiance"][:], result["sensor_irradiance_se"][:]
-    for term in TERMS:
-        yield name_of(term) + ", an instant", result[f"power_{term}"][:], result[f"power_{term}_se"][:]
+    yield from ledger(result, ", an instant", lambda power: power[:])
 
 
 def gathered(found):
