@@ -22,6 +22,11 @@ void each_corner(const PolygonModel& model, std::size_t polygon, const Visit& vi
       visit(static_cast<std::size_t>(k));
 }
 
+void include(Box& box, Vec3 v) {
+  box.low = {std::min(box.low.x, v.x), std::min(box.low.y, v.y), std::min(box.low.z, v.z)};
+  box.high = {std::max(box.high.x, v.x), std::max(box.high.y, v.y), std::max(box.high.z, v.z)};
+}
+
 Vec3 vertex(const PolygonModel& model, std::size_t place) {
   return model.vertices[static_cast<std::size_t>(model.ring_vertex[place])];
 }
@@ -67,12 +72,17 @@ std::vector<ObjectExtent> extents_of(const PolygonModel& model) {
   std::vector<ObjectExtent> extents(model.object_names.size());
   for (std::size_t p = 0; p < model.polygon_count(); ++p) {
     Box& box = extents[model.facts[p].object.index()].box;
-    each_corner(model, p, [&](std::size_t place) {
-      const Vec3 v = vertex(model, place);
-      box.low = {std::min(box.low.x, v.x), std::min(box.low.y, v.y), std::min(box.low.z, v.z)};
-      box.high = {std::max(box.high.x, v.x), std::max(box.high.y, v.y), std::max(box.high.z, v.z)};
-    });
+    each_corner(model, p, [&](std::size_t place) { include(box, vertex(model, place)); });
   }
+  return extents;
+}
+
+std::vector<ObjectExtent> extents_of(const Mesh& mesh) {
+  std::vector<ObjectExtent> extents(mesh.object_names.size());
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    for (const auto v : mesh.triangles[t])
+      include(extents[mesh.triangle_object[t].index()].box,
+              mesh.origin + mesh.vertices[static_cast<std::size_t>(v)]);
   return extents;
 }
 

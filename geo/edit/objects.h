@@ -49,8 +49,9 @@ struct ObjectExtent {
 };
 /// From a place to the box in plan; 0 above it.
 double distance_in_plan(const ObjectExtent& extent, Point2 place);
-/// One per object.
+/// One per object; of a mesh in the metres of its files, its origin added.
 std::vector<ObjectExtent> extents_of(const PolygonModel& model);
+std::vector<ObjectExtent> extents_of(const Mesh& mesh);
 
 /// The model without the chosen objects, their names and polygons. The others keep their order and
 /// every bit of their corners.

@@ -23,6 +23,7 @@
 #include "io/plan/planner.h"
 #include "io/plan/room.h"
 #include "io/plan/rules_of_study.h"
+#include "io/plan/selection.h"
 #include "io/plan/time_words.h"
 #include "io/plan/variant_mesh.h"
 #include "io/plan/variant_plan.h"
@@ -264,6 +265,25 @@ bool is_left_unrefined(const VariantPlan& plan, CheckMesh mesh) {
   return mesh == CheckMesh::unrefined && plan.study.mesh.oracle != Oracle::none;
 }
 
+/// What each selection chooses; `empty` gets a warning for those of nothing.
+std::string selections_text(const VariantPlan& plan, const Hierarchy& hierarchy,
+                            std::vector<std::string>& empty) {
+  std::string text;
+  for (const NamedSelection& selection : plan.study.selections) {
+    const ChosenParts chosen = selected_patches(selection, plan.built, hierarchy);
+    std::size_t count = 0;
+    double area_m2 = 0;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      if (chosen[i] == 0) continue;
+      ++count;
+      area_m2 += hierarchy.area()[i];
+    }
+    if (count == 0) empty.push_back(empty_selection_warning(selection.name));
+    text += fmt::format("  {}: {} patches, {:.1f} m2\n", selection.name, count, area_m2);
+  }
+  return text;
+}
+
 /// What is told of a variant, under headings; that of warnings is empty.
 struct CheckText {
   std::string head;
@@ -296,10 +316,12 @@ CheckText text_of(const VariantPlan& plan, const VariantMesh& made, const WorkEs
     mesh += "  not refined here (--no-refine): a run has these patches or more\n";
   mesh += "  largest   " + largest_patches_text(plan, *made.mesh) + "\n";
   add("mesh", mesh);
+  std::vector<std::string> empty_selections;
+  add("selections", selections_text(plan, *made.mesh, empty_selections));
   add("work", work_text(plan, work));
   std::string warnings;
-  for (const auto& list :
-       {plan.built.warnings, plan.light.notes, expected_error_warnings(plan, *made.mesh)})
+  for (const auto& list : {plan.built.warnings, plan.light.notes,
+                           expected_error_warnings(plan, *made.mesh), empty_selections})
     for (const auto& line : list) warnings += "warning: " + line + "\n";
   add("", warnings);
   return text;

@@ -98,7 +98,9 @@ const std::map<std::string, std::string> examples{
     {"export",
      "sunload export results/street/glazed.h5 --to csv --of facade -o facades.csv\n"
      "sunload export results/street/glazed.h5 --to glb -o glazed.glb"},
-    {"scene", "sunload scene street --set house_3=glazed -o street.obj"},
+    {"scene",
+     "sunload scene street --set house_3=glazed -o street.obj\n"
+     "sunload scene storeys.yaml --variant storeys-2 -o higher.city.json"},
     {"doctor", "sunload doctor"},
     {"manual", "sunload manual -o manual && man -l manual/man1/sunload-run.1"}};
 
@@ -446,9 +448,11 @@ class CommandLine {
     };
     add_table("--facades", What::facades, "table of the facades: what each of them receives");
     add_table("--objects", What::objects, "table of the objects");
+    add_table("--selections", What::selections, "table of the study's selections");
     add_table("--sensors", What::sensors, "table of the sensors");
     add_table("--measures", What::measures,
-              "table of the study's measures: values and verdicts of facades, objects, sensors");
+              "table of the study's measures: values and verdicts of facades, objects, "
+              "selections, sensors");
     add_table("--patches", What::patches, "every patch as CSV");
     add_named(sub, info_.parts, "only");
     sub->add_option("--sensor", info_.parts.sensors, "only the sensor of that number, from 0")
@@ -467,6 +471,9 @@ class CommandLine {
                         "(repeatable)")
         ->allow_extra_args(false);
     sub->add_option("--object", parts.objects, only + " the object of that name or pattern")
+        ->allow_extra_args(false);
+    sub->add_option("--selection", parts.selections,
+                    only + " the study's selection of that name or pattern")
         ->allow_extra_args(false);
   }
 
@@ -495,6 +502,10 @@ class CommandLine {
     sub->add_option("--least", compare_.least_percent,
                     "percent of the base: significant is what surely differs by more")
         ->check(CLI::Range(0.0, largest_share));
+    sub->add_option(
+           "--storey-m", compare_.storey_m,
+           "rows of storeys of that height, of walls and windows above their object's foot")
+        ->check(CLI::Range(1.0, 20.0));
     add_named(sub, compare_.parts, "only rows of");
     add_band(sub);
     add_period(sub);
@@ -640,11 +651,14 @@ class CommandLine {
   }
 
   void add_scene() {
-    CLI::App* sub = command("scene", "write a built-in scene as OBJ or CityJSON",
-                            [this] { return write_builtin(builtin_); });
+    CLI::App* sub = command(
+        "scene", "write a built-in scene, or a study's model with its edits, as OBJ or CityJSON",
+        [this] { return write_builtin(builtin_); });
     std::string names;
     for (const auto& name : builtin_scene_names()) names += (names.empty() ? "" : ", ") + name;
-    sub->add_option("NAME", builtin_.name, "one of: " + names)->required();
+    reads(sub->add_option("NAME", builtin_.name, "a study (.yaml), or one of: " + names))
+        ->required();
+    sub->add_option("--variant", builtin_.variant, "of a study (default: its first)");
     writes(sub->add_option("-o,--output", builtin_.path, "file to write (.obj, .city.json)"))
         ->required();
     sub->add_option("--set", builtin_.parameters, "parameter of the scene, e.g. house_3=glazed")

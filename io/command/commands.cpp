@@ -11,6 +11,8 @@
 #include "io/base/output_target.h"
 #include "io/base/standard_streams.h"
 #include "io/command/study_scenes.h"
+#include "io/plan/scene_edit.h"
+#include "io/plan/scene_models.h"
 #include "io/report/compare.h"
 #include "io/report/info.h"
 #include "io/report/measures.h"
@@ -20,6 +22,7 @@
 #include "io/scene/builtin.h"
 #include "io/scene/cityjson/write.h"
 #include "io/scene/mesh_files/obj_write.h"
+#include "io/study/named_files.h"
 
 namespace sunload {
 namespace {
@@ -78,6 +81,7 @@ InfoOptions::What table_asked_for(const InfoOptions& options) {
   std::vector<What> of_names;
   if (!options.parts.facades.empty()) of_names.push_back(What::facades);
   if (!options.parts.objects.empty()) of_names.push_back(What::objects);
+  if (!options.parts.selections.empty()) of_names.push_back(What::selections);
   if (!options.parts.sensors.empty()) of_names.push_back(What::sensors);
   if (of_names.size() > 1)
     throw InputError({}, "names of more than one kind", "there is a table for each kind",
@@ -90,7 +94,7 @@ InfoOptions::What asked_for(const InfoOptions& options) {
   const What what = table_asked_for(options);
   if (what == What::screen && options.format != InfoOptions::Format::text)
     throw InputError({}, "--csv and --json are of tables", "the screen is for people",
-                     "add --facades, --objects, --sensors, --measures or --patches");
+                     "add --facades, --objects, --selections, --sensors, --measures or --patches");
   if (what == What::patches && options.format == InfoOptions::Format::json)
     throw InputError({}, "--patches with --json", "it is CSV", "leave out --json");
   if (what == What::patches && !options.parts.sensors.empty())
@@ -152,6 +156,23 @@ void write_scene(const PolygonModel& model, const std::string& path) {
                    "let its name end in .obj or .city.json");
 }
 
+/// The model of a study's variant, with its steps done.
+int write_edited(const BuiltinOptions& options) {
+  if (!options.parameters.empty())
+    throw InputError({}, "--set " + options.parameters.front(), "the study says what its scene is",
+                     "change the study, or choose one of its variants with --variant");
+  const StudyFile file = read_study(options.name);
+  RunOptions chosen;
+  if (!options.variant.empty()) chosen.variants = {options.variant};
+  const Study study = chosen_variants(file, chosen).front();
+  expect_not_read(options.path, named_files(file));
+  PolygonModel model = edited(read_models(study), study);
+  if (!study.site.crs.empty()) model.crs = study.site.crs;
+  for (const auto& note : model.notes) tell("note: " + note);
+  write_scene(model, options.path);
+  return exit_code::done;
+}
+
 }  // namespace
 
 std::optional<std::size_t> chosen_band(const std::string& name) {
@@ -185,6 +206,9 @@ int print_info(const InfoOptions& options) {
     case What::objects:
       print_table(result, TableOf::objects, options);
       break;
+    case What::selections:
+      print_table(result, TableOf::selections, options);
+      break;
     case What::sensors:
       print_table(result, TableOf::sensors, options);
       break;
@@ -204,7 +228,9 @@ int compare(const CompareOptions& asked) {
   for (const auto& path : options.variants) {
     const auto read_variant = opened({path, options.band, options.period});
     const ResultReader& variant = *read_variant;
-    Comparison comparison = compare_results(base, variant, options.least_percent);
+    Comparison comparison =
+        compare_results(base, variant, options.least_percent,
+                        options.storey_m > 0 ? std::optional(options.storey_m) : std::nullopt);
     if (!options.differences.empty())
       write_comparison_hdf5(comparison, base, variant, options.differences);
     keep_named(comparison, options.parts, path);
@@ -236,6 +262,11 @@ int render(RenderOptions options) {
 }
 
 int write_builtin(const BuiltinOptions& options) {
+  const bool is_study = options.name.ends_with(".yaml") || options.name.ends_with(".yml");
+  if (!is_study && !options.variant.empty())
+    throw InputError({}, "--variant of a built-in scene", "variants are a study's",
+                     "write --set parameter=value, or a study (.yaml)");
+  if (is_study) return write_edited(options);
   BuiltinRules rules{options.name, {}};
   for (const auto& set : options.parameters) {
     const auto equals = set.find('=');

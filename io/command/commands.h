@@ -26,7 +26,7 @@ std::unique_ptr<const ResultReader> opened(const NamedResult& named, Opens opens
 
 struct InfoOptions {
   NamedResult result;
-  enum class What { screen, patches, facades, objects, sensors, measures };
+  enum class What { screen, patches, facades, objects, selections, sensors, measures };
   std::vector<What> what;  ///< that was asked for; empty: what the names are of, or the screen
   NamedParts parts;
   enum class Format { text, csv, json } format = Format::text;
@@ -42,6 +42,7 @@ struct CompareOptions {
   PeriodChoice period;
   NamedParts parts;          ///< rows of these alone; sensors are not compared
   double least_percent = 0;  ///< what matters, as share of the base
+  double storey_m = 0;       ///< height of a storey, for rows of storeys; 0: none
   enum class Format { table, csv, json } format = Format::table;
   std::string differences;  ///< HDF5 file of the differences, besides; empty: none
 };
@@ -81,11 +82,13 @@ struct ViewOptions {
 int view(const ViewOptions& options);
 
 struct BuiltinOptions {
-  std::string name;
+  std::string name;                     ///< of a built-in scene, or a study (.yaml)
+  std::string variant;                  ///< of the study; empty: its first
   std::vector<std::string> parameters;  ///< parameter=value
   std::string path;                     ///< .obj or .city.json
 };
-/// Writes a built-in scene to a file. Throws InputError.
+/// Writes a built-in scene, or the model of a study with its edits, as read and before it is
+/// prepared, to a file. Throws InputError.
 int write_builtin(const BuiltinOptions& options);
 
 /// Number of a named band; none of an empty name. Throws InputError.

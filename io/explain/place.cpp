@@ -37,6 +37,7 @@ std::string words_of(const NamedParts& parts) {
   };
   append(parts.facades, "");
   append(parts.objects, "");
+  append(parts.selections, "");
   append(parts.sensors, "sensor ");
   return words;
 }

@@ -67,6 +67,10 @@ std::vector<std::size_t> chosen_groups(const ResultReader& result, const ExportR
   const auto& parts = rules.parts;
   const auto facades = names_asked_for(result, parts, parts.facades, "facade_name", chosen_facades);
   const auto objects = names_asked_for(result, parts, parts.objects, "object_name", chosen_objects);
+  std::vector<std::string> selections;
+  if (!parts.selections.empty())
+    for (const auto k : chosen_selections(result, parts))
+      selections.push_back(selection_names(result)[k]);
   const auto is_one_of = [](const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
@@ -76,7 +80,8 @@ std::vector<std::size_t> chosen_groups(const ResultReader& result, const ExportR
     const bool is_of_kind = rules.of.empty() || group.kind == rules.of;
     const bool is_named = !parts.choose_patches() ||
                           (group.kind == "facade" && is_one_of(facades, group.name)) ||
-                          (group.kind == "object" && is_one_of(objects, group.name));
+                          (group.kind == "object" && is_one_of(objects, group.name)) ||
+                          (group.kind == "selection" && is_one_of(selections, group.name));
     if (is_of_kind && is_named) chosen.push_back(g);
   }
   return chosen;
@@ -126,8 +131,10 @@ std::optional<TableOf> table_of(const std::string& word) {
   if (word.empty() || word == "patch") return {};
   if (word == "facade") return TableOf::facades;
   if (word == "object") return TableOf::objects;
+  if (word == "selection") return TableOf::selections;
   if (word == "sensor") return TableOf::sensors;
-  throw InputError({}, "--of " + word, "no such table", "write patch, facade, object or sensor");
+  throw InputError({}, "--of " + word, "no such table",
+                   "write patch, facade, object, selection or sensor");
 }
 
 void expect_parts_of_patches(const ExportRules& rules) {

@@ -12,9 +12,10 @@
 
 namespace sunload {
 
-/// Patches that are measured: patterns of names (`*`, `?`) and a kind of surface; empty: any.
+/// Patches that are measured: patterns of names (`*`, `?`), a kind of surface and the name of a
+/// selection; empty: any.
 struct MeasureOf {
-  std::string object, facade, surface;
+  std::string object, facade, surface, selection;
 };
 
 struct MeasureParameters {

@@ -131,8 +131,9 @@ std::string title(const ResultReader& result) {
 /// "; facade house_3/*, object tower".
 std::string named_in_words(const NamedParts& parts) {
   std::string words;
-  for (const auto& [kind, names] :
-       {std::pair("facade", &parts.facades), {"object", &parts.objects}})
+  for (const auto& [kind, names] : {std::pair("facade", &parts.facades),
+                                    {"object", &parts.objects},
+                                    {"selection", &parts.selections}})
     for (const auto& name : *names)
       words += fmt::format("{} {} {}", words.empty() ? ";" : ",", kind, name);
   return words;

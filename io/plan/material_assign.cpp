@@ -28,12 +28,12 @@ bool says_nothing(const MaterialStudy& m) {
 
 bool says_nothing(const FileMaterial& m) { return !m.diffuse && !m.mirror; }
 
-/// Whether a rule names objects or materials of files, not just kinds of them.
+/// Whether a rule names objects, selections or materials of files, not just kinds of them.
 bool is_specific(const AssignRule& rule) {
   const auto chooses = [](const std::string& pattern) {
     return pattern.find_first_not_of('*') != std::string::npos;
   };
-  return chooses(rule.object) || chooses(rule.material_was);
+  return chooses(rule.object) || chooses(rule.material_was) || rule.selection;
 }
 
 std::string in_words(const AssignRule& rule) {
@@ -44,12 +44,15 @@ std::string in_words(const AssignRule& rule) {
                                      {"type", &rule.kind}})
     if (!pattern->empty())
       words += fmt::format("{}{} {}", words.empty() ? "" : ", ", key, *pattern);
+  if (rule.selection)
+    words += fmt::format("{}selection {}", words.empty() ? "" : ", ", rule.selection->name);
   return (words.empty() ? "all" : words) + ": " + rule.material;
 }
 
 class MaterialAssigner {
  public:
-  MaterialAssigner(const Study& study, Scene& scene, std::vector<std::string>& warnings)
+  MaterialAssigner(const Study& study, const SceneFrame& frame, Scene& scene,
+                   std::vector<std::string>& warnings)
       : study_(study),
         scene_(scene),
         warnings_(warnings),
@@ -57,7 +60,11 @@ class MaterialAssigner {
     for (const auto& m : scene.mesh.file_materials)
       if (!m.name.empty() && !m.is_reference) of_files_.insert({m.name, of_file(m)});
     for (const auto& m : study.scene.materials) by_name_[m.name] = completed(m);
-    for (const auto& rule : study.scene.assign) expect_known(rule.material, rule.where);
+    for (const auto& rule : study.scene.assign) {
+      expect_known(rule.material, rule.where);
+      selected_.push_back(rule.selection ? selected_faces(*rule.selection, scene.mesh, frame)
+                                         : ChosenParts());
+    }
     if (study.scene.ground && !study.scene.ground->material.empty())
       expect_known(study.scene.ground->material, study.scene.where);
     for (const auto& m : scene.mesh.file_materials)
@@ -160,7 +167,8 @@ class MaterialAssigner {
     for (std::size_t r = 0; r < study_.scene.assign.size(); ++r) {
       const auto& rule = study_.scene.assign[r];
       if (!matches(rule.object, object) || !matches(rule.surface, surface) ||
-          !matches(rule.kind, kind) || !matches(rule.material_was, file ? file->name : ""))
+          !matches(rule.kind, kind) || !matches(rule.material_was, file ? file->name : "") ||
+          (rule.selection && selected_[r][t] == 0))
         continue;
       ++used_[r].matched;
       (is_specific(rule) ? last.specific : last.by_kind) = r;
@@ -376,15 +384,16 @@ class MaterialAssigner {
   std::set<std::string> refused_;
   std::map<std::string, double> scaled_;  ///< material and file, factor
   std::vector<RuleUse> used_;
+  std::vector<ChosenParts> selected_;  ///< faces of every rule's selection; empty: it has none
   Problems problems_;
   std::array<double, surface_names.size()> defaulted_m2_{};
 };
 
 }  // namespace
 
-std::vector<RuleUse> assign_materials(const Study& study, Scene& scene,
+std::vector<RuleUse> assign_materials(const Study& study, const SceneFrame& frame, Scene& scene,
                                       std::vector<std::string>& warnings) {
-  return MaterialAssigner(study, scene, warnings).run();
+  return MaterialAssigner(study, frame, scene, warnings).run();
 }
 
 }  // namespace sunload

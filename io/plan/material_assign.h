@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "io/plan/selection.h"
 #include "io/study/study.h"
 #include "solver/surface/material.h"
 
@@ -22,19 +23,19 @@ struct RuleUse {
 /// Fills `scene.materials` and `scene.material`, and lets materials decide the sides of triangles.
 ///
 /// What is more specific goes first. The material of a triangle is that of the last rule of
-/// `scene.assign` that matches and names objects or materials of files; else the one that the study
-/// gives its file (`scene.files[].material`, crowns of rasters); else that of the last rule that
-/// matches and goes by kinds alone (surface, type, or nothing); else the study's material with the
-/// name that the file gives, else the file's own reflectance, else the default, with a warning.
-/// What a name means: a material of the study, else one of the files, else one of the table
-/// (io/study/material_table). A material of the study that says nothing of reflection takes that
-/// from the file's or the table's of its name.
+/// `scene.assign` that matches and names objects, selections or materials of files; else the one
+/// that the study gives its file (`scene.files[].material`, crowns of rasters); else that of the
+/// last rule that matches and goes by kinds alone (surface, type, or nothing); else the study's
+/// material with the name that the file gives, else the file's own reflectance, else the default,
+/// with a warning. What a name means: a material of the study, else one of the files, else one of
+/// the table (io/study/material_table). A material of the study that says nothing of reflection
+/// takes that from the file's or the table's of its name.
 ///
 /// `warnings` gets rules that match nothing, or everything though they choose, or whose faces all
 /// have their material from elsewhere, and the area left to the default.
 /// Returns what every rule did. Throws InputError for unknown names and for more light reflected
 /// than received.
-std::vector<RuleUse> assign_materials(const Study& study, Scene& scene,
+std::vector<RuleUse> assign_materials(const Study& study, const SceneFrame& frame, Scene& scene,
                                       std::vector<std::string>& warnings);
 
 /// Reflectance of a surface that neither file nor study says anything about:

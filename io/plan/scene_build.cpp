@@ -255,7 +255,7 @@ std::vector<std::uint8_t> covers_of(const Study& study, const BuiltScene& prepar
   Scene scene;
   scene.mesh = prepared.scene.mesh;
   std::vector<std::string> said_later;
-  assign_materials(study, scene, said_later);
+  assign_materials(study, {prepared.crs, prepared.site.north_deg}, scene, said_later);
   std::vector<std::uint8_t> covers;
   covers.reserve(scene.material.size());
   for (std::size_t t = 0; t < scene.material.size(); ++t) {
@@ -293,7 +293,8 @@ BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
 }
 
 void give_materials(const Study& study, BuiltScene& built) {
-  built.rules = assign_materials(study, built.scene, built.warnings);
+  built.rules =
+      assign_materials(study, {built.crs, built.site.north_deg}, built.scene, built.warnings);
   warn_of_reflectances(study, built);
   built.scene.parallel_sources = read_parallel_sources(study, built.scene.mesh.origin, built);
   built.scene.sensors =

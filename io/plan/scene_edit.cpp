@@ -14,6 +14,7 @@
 #include "geo/sun/site.h"
 #include "io/base/name_pattern.h"
 #include "io/plan/scene_models.h"
+#include "io/plan/selection.h"
 #include "io/study/file_place.h"
 
 namespace sunload {
@@ -38,29 +39,17 @@ class SceneEditor {
  private:
   [[noreturn]] void refuse(const std::string& what, const std::string& why,
                            const std::string& hint) const {
-    throw InputError(step_->where, fmt::format("scene.edit[{}]: {}", number_, what), why, hint);
+    throw InputError(step_->where, subject() + ": " + what, why, hint);
   }
 
   // --- what a step is about ---------------------------------------------------------------
 
   const std::string& crs() const { return study_.site.crs.empty() ? model_.crs : study_.site.crs; }
 
-  std::vector<PlanArea> in_scene(const AreasStudy& study) const {
-    if (!study.in_degrees || crs().empty()) return study.areas;
-    std::vector<PlanArea> areas = study.areas;
-    for (PlanArea& area : areas)
-      for (auto& ring : area)
-        for (Point2& p : ring) {
-          if (std::abs(p.u) > 180 || std::abs(p.v) > 90)
-            refuse(
-                fmt::format("[{:.10g}, {:.10g}] are no degrees", p.u, p.v),
-                "GeoJSON has longitude and latitude (RFC 7946) unless its member crs names a map "
-                "projection",
-                "write the corners in the scene's metres, or the file with its member crs");
-          const Vec3 on_map = map_position(crs(), p.v, p.u, 0);
-          p = {on_map.x, on_map.y};
-        }
-    return areas;
+  std::string subject() const { return fmt::format("scene.edit[{}]", number_); }
+
+  SceneObjects objects() const {
+    return {model_.object_names, model_.object_kinds, extents_of(model_)};
   }
 
   std::vector<std::string> names_of(const ChosenObjects& chosen) const {
@@ -71,77 +60,36 @@ class SceneEditor {
   }
 
   ChosenObjects chosen() const {
-    const ObjectsStudy& wanted = step_->objects;
-    const auto extents = extents_of(model_);
-    const auto areas = in_scene(wanted.polygon);
-    ChosenObjects chosen(model_.object_names.size(), 0);
-    for (std::size_t o = 0; o < chosen.size(); ++o) {
-      const Vec3 middle = extents[o].middle();
-      const std::string kind = o < model_.object_kinds.size() ? model_.object_kinds[o] : "";
-      const bool is_chosen =
-          !extents[o].is_empty() && matches(wanted.object, model_.object_names[o]) &&
-          matches(wanted.kind, kind) && (areas.empty() || lies_in(areas, {middle.x, middle.y}));
-      chosen[o] = is_chosen ? 1 : 0;
+    const SceneObjects all = objects();
+    const SceneFrame frame{crs()};
+    ChosenObjects chosen = Selector(step_->objects, frame, subject(), step_->where).objects(all);
+    if (step_->selection) {
+      const auto named =
+          Selector(step_->selection->of, frame, subject(), step_->where).objects(all);
+      for (std::size_t o = 0; o < chosen.size(); ++o)
+        if (named[o] == 0) chosen[o] = 0;
     }
-    if (wanted.near) keep_near(extents, chosen);
     if (std::none_of(chosen.begin(), chosen.end(), [](auto flag) { return flag != 0; }))
       refuse_unmatched();
     return chosen;
   }
 
-  /// A place that is another frame's, or a slip: farther from the model than that is wide.
-  void refuse_far(Point2 place) const {
-    constexpr double surroundings_m = 1000;
-    std::vector<Vec3> corners;
-    for (const auto& extent : extents_of(model_))
-      if (!extent.is_empty()) corners.insert(corners.end(), {extent.box.low, extent.box.high});
-    if (corners.empty()) return;
-    const ObjectExtent whole{bounding_box(corners)};
-    const auto& [low, high] = whole.box;
-    const double away = distance_in_plan(whole, place);
-    if (away <= std::max(surroundings_m, std::hypot(high.x - low.x, high.y - low.y))) return;
-    refuse(
-        fmt::format("[{:.10g}, {:.10g}] is {:.0f} m away from the model", place.u, place.v, away),
-        fmt::format("that lies at x {:.10g} to {:.10g}, y {:.10g} to {:.10g} in the metres of its "
-                    "files",
-                    low.x, high.x, low.y, high.y),
-        "write the place in these");
-  }
-
-  /// Of bounding boxes in plan: those within the distance, or the nearest.
-  void keep_near(const std::vector<ObjectExtent>& extents, ChosenObjects& chosen) const {
-    const ObjectsStudy& wanted = step_->objects;
-    refuse_far(*wanted.near);
-    std::vector<double> away(chosen.size());
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t o = 0; o < chosen.size(); ++o) {
-      if (chosen[o] == 0) continue;
-      away[o] = distance_in_plan(extents[o], *wanted.near);
-      nearest = std::min(nearest, away[o]);
-    }
-    bool is_taken = false;
-    for (std::size_t o = 0; o < chosen.size(); ++o) {
-      if (chosen[o] == 0) continue;
-      const bool is_near =
-          wanted.within_m ? away[o] <= *wanted.within_m : away[o] == nearest && !is_taken;
-      chosen[o] = is_near ? 1 : 0;
-      is_taken = is_taken || is_near;
-    }
-  }
-
   [[noreturn]] void refuse_unmatched() const {
-    const ObjectsStudy& wanted = step_->objects;
+    const SelectionStudy& wanted = step_->objects;
     std::string words;
     const auto add = [&](const std::string& text) { words += (words.empty() ? "" : ", ") + text; };
     if (!wanted.object.empty()) add("object '" + wanted.object + "'");
     if (!wanted.kind.empty()) add("type '" + wanted.kind + "'");
     if (!wanted.polygon.areas.empty()) add("polygon");
     if (wanted.near) add("near");
+    if (step_->selection) add("selection '" + step_->selection->name + "'");
     std::vector<std::string> kinds = model_.object_kinds;
     std::sort(kinds.begin(), kinds.end());
     kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
-    auto meant = wanted.object.empty() ? near_names(wanted.kind, kinds)
-                                       : near_names(wanted.object, model_.object_names);
+    const SelectionStudy& named = step_->selection ? step_->selection->of : wanted;
+    const std::string& object = wanted.object.empty() ? named.object : wanted.object;
+    const std::string& kind = wanted.kind.empty() ? named.kind : wanted.kind;
+    auto meant = object.empty() ? near_names(kind, kinds) : near_names(object, model_.object_names);
     meant.resize(std::min(meant.size(), most_told));
     refuse(fmt::format("no object matches {} (there are {})", words, model_.object_names.size()),
            "a step changes something",
@@ -252,7 +200,7 @@ class SceneEditor {
   }
 
   void apply(const AddPrismEdit& add) {
-    const auto areas = in_scene(add.areas);
+    const auto areas = areas_in_scene(add.areas, crs(), subject(), step_->where);
     Box box;
     for (const PlanArea& area : areas)
       for (const Point2 p : area.front()) {
@@ -260,7 +208,7 @@ class SceneEditor {
         box.high = {std::max(box.high.x, p.u), std::max(box.high.y, p.v), 0};
       }
     const Vec3 middle = (box.low + box.high) * 0.5;
-    refuse_far({middle.x, middle.y});
+    refuse_far({middle.x, middle.y}, extents_of(model_), subject(), step_->where);
     const double base = base_of(add.base_m, {middle.x, middle.y});
     const std::string name = free_name(add.name);
     add_prism(model_, areas, base, base + add.height_m, {name, kind_of("Building"), add.material});
@@ -281,7 +229,8 @@ class SceneEditor {
         places.push_back({add.at.u + share * x, add.at.v + share * y});
       }
     }
-    for (const Point2 at : {places.front(), places.back()}) refuse_far(at);
+    for (const Point2 at : {places.front(), places.back()})
+      refuse_far(at, extents_of(model_), subject(), step_->where);
     std::vector<double> feet;  // of all before there are any: no tree stands on another
     feet.reserve(places.size());
     for (const Point2 at : places) feet.push_back(base_of(add.base_m, at));

@@ -8,6 +8,7 @@
 #include "geo/base/units.h"
 #include "io/base/name_pattern.h"
 #include "io/measure/rules.h"
+#include "io/plan/selection.h"
 #include "solver/mesh/hierarchy.h"
 
 namespace sunload {
@@ -53,10 +54,16 @@ void fill_in_date(MeasureParameters& of, const MeasureRule& rule, const VariantP
   of.date = {zone.civil_from_utc(plan.light.intervals.front().when.begin).year, month, day};
 }
 
-std::vector<std::size_t> chosen_patches(const MeasureOf& of, const Mesh& mesh,
+std::vector<std::size_t> chosen_patches(const MeasureOf& of, const VariantPlan& plan,
                                         const Hierarchy& hierarchy) {
+  const Mesh& mesh = plan.built.scene.mesh;
+  ChosenParts selected(hierarchy.patch_count(), 1);
+  for (const NamedSelection& selection : plan.study.selections)
+    if (selection.name == of.selection)
+      selected = selected_patches(selection, plan.built, hierarchy);
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < hierarchy.patch_count(); ++i) {
+    if (selected[i] == 0) continue;
     const Patch& patch = hierarchy.patches()[i];
     const auto t = static_cast<std::size_t>(patch.triangle);
     const FacadeId facade = patch.side == 0 ? mesh.triangle_facade[t] : FacadeId::none();
@@ -98,7 +105,7 @@ StudyMeasures::StudyMeasures(const VariantPlan& plan, const Hierarchy& hierarchy
   for (const MeasureParameters& of : plan.study.measures) {
     StudyMeasure& m = all_.emplace_back(StudyMeasure{of, find_measure_rule(of.rule), {}, {}, {}});
     fill_in_date(m.parameters, *m.rule, plan);
-    m.patches = chosen_patches(of.of, scene.mesh, hierarchy);
+    m.patches = chosen_patches(of.of, plan, hierarchy);
     m.scene = std::make_unique<MeasuredScene>(MeasuredScene{{},
                                                             m.patches.size(),
                                                             *caster_,

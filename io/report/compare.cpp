@@ -40,8 +40,8 @@ struct Part {
   Place place;
 };
 
-Part part(const ResultReader& result, std::vector<double> area) {
-  PatchGroups groups(result, std::move(area));
+Part part(const ResultReader& result, std::vector<double> area, const MoreGroups& more) {
+  PatchGroups groups(result, std::move(area), more);
   return {groups, group_means(result, groups, "light_load"), places(groups)};
 }
 
@@ -58,10 +58,10 @@ void expect_load(const ResultReader& result) {
                      "compare finished results of sunload run");
 }
 
-Side side(const ResultReader& result, const std::vector<double>& common) {
+Side side(const ResultReader& result, const std::vector<double>& common, const MoreGroups& more) {
   std::vector<double> alone = result.doubles("patch_area");
   for (std::size_t i = 0; i < alone.size(); ++i) alone[i] -= common[i];
-  Side s{result, part(result, common), part(result, std::move(alone)), {}};
+  Side s{result, part(result, common, more), part(result, std::move(alone), more), {}};
   s.realizations = group_realizations(result, s.common.groups);
   return s;
 }
@@ -170,7 +170,7 @@ std::vector<std::string> notes_on(const Side& base, const Side& variant) {
 }  // namespace
 
 Comparison compare_results(const ResultReader& base, const ResultReader& variant,
-                           double least_percent) {
+                           double least_percent, std::optional<double> storey_m) {
   SUNLOAD_EXPECT(least_percent >= 0, "a share of the base");
   expect_load(base);
   expect_load(variant);
@@ -182,7 +182,8 @@ Comparison compare_results(const ResultReader& base, const ResultReader& variant
                      "the base has it in " + comparison.units,
                      "compare results of one light.quantity");
   const CommonArea common = common_area(base, variant);
-  const Side b = side(base, common.base), v = side(variant, common.variant);
+  const MoreGroups more{true, storey_m};
+  const Side b = side(base, common.base, more), v = side(variant, common.variant, more);
   comparison.base = base.text_attribute("variant");
   comparison.variant = variant.text_attribute("variant");
   comparison.base_realizations = realization_count(base);
@@ -233,6 +234,7 @@ void keep_named(Comparison& comparison, const NamedParts& parts, const std::stri
   };
   keep("facade", parts.facades);
   keep("object", parts.objects);
+  keep("selection", parts.selections);
   problems.throw_if_any();
   std::vector<ComparisonRow> rows;
   for (std::size_t i = 0; i < is_kept.size(); ++i)

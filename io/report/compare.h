@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// What changes between two results: differences of the light load with their
-/// significance, per facade, object, surface and on the whole.
+/// significance, per facade, object, selection, orientation, storey, surface and on the whole.
 ///
 /// Groups are matched by name and compared by the area-weighted mean light load of what both
 /// results have of them (io/result/common_area): new trees and storeys are in no mean of what was
@@ -24,7 +24,7 @@ namespace sunload {
 
 /// One group; loads are area-weighted means [kWh m-2, or klx h], NaN where not known.
 struct ComparisonRow {
-  std::string kind;  ///< whole | surface | object | facade
+  std::string kind;  ///< of io/result/patch_groups.h
   std::string name;
   double area_m2 = 0;  ///< that is compared; of a row of one result, that it has alone
   std::optional<double> base_kwh_m2, variant_kwh_m2;  ///< absent: a row of the other result alone
@@ -50,12 +50,14 @@ struct Comparison {
 };
 
 /// `least_percent`, 0 or above: significant is what is surely more than this share of the base.
+/// Rows of orientations always, of storeys where they have a height.
 /// Throws InputError where a result has no light load or the units differ.
 Comparison compare_results(const ResultReader& base, const ResultReader& variant,
-                           double least_percent = 0);
+                           double least_percent = 0, std::optional<double> storey_m = {});
 
-/// Keeps the rows of the facades and objects that are named (all where nothing is); p-values stay
-/// corrected for all groups of their kind. Throws InputError for names that neither result has.
+/// Keeps the rows of the facades, objects and selections that are named (all where nothing is);
+/// p-values stay corrected for all groups of their kind. Throws InputError for names that neither
+/// result has.
 void keep_named(Comparison& comparison, const NamedParts& parts, const std::string& path);
 
 /// Groups of a kind that surely gain or lose more than asked for, and the others that both have.

@@ -82,7 +82,8 @@ std::vector<ComparisonRow> rows_of_kind(const Comparison& comparison, const std:
   return rows;
 }
 
-constexpr std::array counted_kinds{"surface", "object", "facade"};
+constexpr std::array counted_kinds{"surface",   "object",      "facade",
+                                   "selection", "orientation", "storey"};
 
 /// `facade: 3 gain, 12 lose, 40 others`, a line for each kind.
 std::string counts_in_words(const Comparison& comparison) {
@@ -93,7 +94,7 @@ std::string counts_in_words(const Comparison& comparison) {
   std::string lines;
   for (const char* kind : counted_kinds)
     if (const auto [gain, lose, others] = change_counts(comparison, kind); gain + lose + others > 0)
-      lines += fmt::format("  {:<8} {} gain, {} lose, {} others\n", kind, gain, lose, others);
+      lines += fmt::format("  {:<11} {} gain, {} lose, {} others\n", kind, gain, lose, others);
   return lines.empty() ? lines : text + lines;
 }
 
@@ -119,7 +120,8 @@ std::string comparison_table(const Comparison& comparison) {
   for (const auto& note : comparison.notes) text += "note: " + note + "\n";
   std::size_t width = 0;
   for (const auto& row : comparison.rows) width = std::max(width, row.name.size());
-  for (const char* kind : {"whole", "surface", "object", "facade"}) {
+  for (const char* kind :
+       {"whole", "surface", "object", "facade", "selection", "orientation", "storey"}) {
     const auto rows = rows_of_kind(comparison, kind);
     if (rows.empty()) continue;
     text += "\n" + table_head(kind, width);

@@ -37,7 +37,7 @@ class TextColumn {
 };
 
 const char* word_of(TableOf of) {
-  constexpr std::array words{"facades", "objects", "sensors"};
+  constexpr std::array words{"facades", "objects", "selections", "sensors"};
   return words[static_cast<std::size_t>(of)];
 }
 

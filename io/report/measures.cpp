@@ -44,9 +44,10 @@ nlohmann::ordered_json json_number(double value) {
   return std::isnan(value) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(value);
 }
 
-/// Whether the rows are facades or sensors: what rules are about.
+/// Whether it is what rules are about: a facade, a selection, a sensor.
 bool is_judged(const MeasureRow& row) {
-  return !row.level.empty() && (row.kind == "facade" || row.kind == "sensor");
+  return !row.level.empty() &&
+         (row.kind == "facade" || row.kind == "selection" || row.kind == "sensor");
 }
 
 using Key = std::tuple<std::string, std::string, std::string>;
@@ -150,9 +151,12 @@ std::string measure_changes_text(const ResultReader& base, const ResultReader& v
     // Measured by another rule, or other limits.
     if (measure_words(variant, row.measure).parameters != words[row.measure].parameters) continue;
     auto& [of_base, of_variant, all] = passing[row.measure];
-    ++all;
-    of_base += found->second.level == "fail" ? 0 : 1;
-    of_variant += row.level == "fail" ? 0 : 1;
+    // Selections are made of what the others are.
+    if (row.kind != "selection") {
+      ++all;
+      of_base += found->second.level == "fail" ? 0 : 1;
+      of_variant += row.level == "fail" ? 0 : 1;
+    }
     if (row.level != found->second.level)
       changes[row.measure].push_back(fmt::format(
           "  {} {}: {} → {} ({:.2f} → {:.2f} {})\n", row.kind, row.name, found->second.level,

@@ -134,6 +134,7 @@ void ResultWriter::File::put_dimensions(const ResultGeometry& geometry) {
   put_labels("object", geometry.object_name);
   put_labels("facade", geometry.facade_name);
   put_labels("material", geometry.material_name);
+  if (!geometry.selection_name.empty()) put_labels("selection", geometry.selection_name);
   create_dimension("realization", options.realizations);
   if (!geometry.sensor_position.empty())
     create_dimension("sensor", geometry.sensor_position.size());
@@ -214,6 +215,13 @@ void ResultWriter::File::put_groups(const ResultGeometry& geometry) {
   put("material_name", geometry.material_name);
   put("facade_area", geometry.facade_area);
   put("facade_azimuth", geometry.facade_azimuth_deg);
+  if (geometry.selection_name.empty()) return;
+  put("selection_name", geometry.selection_name);
+  put("selection_area", geometry.selection_area);
+  std::vector<std::int32_t> flags;
+  for (const auto& of_patches : geometry.selected)
+    flags.insert(flags.end(), of_patches.begin(), of_patches.end());
+  put("patch_selected", flags);
 }
 
 void ResultWriter::File::put_sensors(const ResultGeometry& geometry) {

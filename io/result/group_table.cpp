@@ -21,7 +21,7 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 // Below this share of its length along the level a sensor looks straight up or down.
 constexpr double upright = 1e-6;
 
-/// What is known of every facade, object or sensor, by its place in the file.
+/// What is known of every facade, object, selection or sensor, by its place in the file.
 struct Values {
   std::vector<double> azimuth_deg, area, load, load_se, sun_hours, sky_view, largest;
   std::vector<Vec3> place;  ///< of sensors
@@ -30,9 +30,9 @@ struct Values {
 /// Area-weighted means over the patches of every entry, and the largest of their values.
 class OverPatches {
  public:
-  OverPatches(const ResultReader& result, const std::string& index, std::size_t count)
+  OverPatches(const ResultReader& result, std::vector<std::int32_t> entry, std::size_t count)
       : result_(result),
-        entry_(result.integers(index)),
+        entry_(std::move(entry)),
         area_(count, 0),
         means_(entry_, result.doubles("patch_area"), count) {
     const auto patch_area = result.doubles("patch_area");
@@ -98,9 +98,9 @@ void expect_load(const ResultReader& result, const char* dataset) {
                      "take a finished result of sunload run");
 }
 
-Values of_patches(const ResultReader& result, const std::string& index, std::size_t count) {
+Values of_patches(const ResultReader& result, std::vector<std::int32_t> entry, std::size_t count) {
   expect_load(result, "light_load");
-  const OverPatches patches(result, index, count);
+  const OverPatches patches(result, std::move(entry), count);
   Values v;
   v.azimuth_deg.assign(count, not_known);
   v.area = patches.area();
@@ -114,12 +114,24 @@ Values of_patches(const ResultReader& result, const std::string& index, std::siz
 
 Values of_facades(const ResultReader& result) {
   const std::size_t count = result.strings("facade_name").size();
-  Values v = of_patches(result, "patch_facade", count);
+  Values v = of_patches(result, result.integers("patch_facade"), count);
   v.azimuth_deg = result.doubles("facade_azimuth");
   if (result.has("facade_light_load")) v.load = result.doubles("facade_light_load");
   if (result.has("facade_light_load_realization"))
     v.load_se = errors_of_columns(result, "facade_light_load_realization");
   return v;
+}
+
+/// They may overlap: one after the other.
+Values of_selections(const ResultReader& result) {
+  Values all;
+  for (std::size_t k = 0; k < selection_names(result).size(); ++k) {
+    const Values one = of_patches(result, selection_entries(result, k), 1);
+    for (const auto member : {&Values::azimuth_deg, &Values::area, &Values::load, &Values::load_se,
+                              &Values::sun_hours, &Values::sky_view, &Values::largest})
+      (all.*member).push_back((one.*member).front());
+  }
+  return all;
 }
 
 /// Azimuth of the scene's +y axis: what north is turned by.
@@ -210,13 +222,14 @@ void expect_own_kind(TableOf of, const NamedParts& parts) {
   const auto refuse = [&](TableOf kind, const char* word, const auto& names) {
     if (of != kind && !names.empty())
       problems.add({}, fmt::format("--{} {} in another table", word, names.front()),
-                   "a table holds facades, objects or sensors",
+                   "a table holds facades, objects, selections or sensors",
                    fmt::format("choose the table of {0}s, or name its own rows, e.g. --facade "
                                "'house_3/*' among facades",
                                word));
   };
   refuse(TableOf::facades, "facade", parts.facades);
   refuse(TableOf::objects, "object", parts.objects);
+  refuse(TableOf::selections, "selection", parts.selections);
   refuse(TableOf::sensors, "sensor", parts.sensors);
   problems.throw_if_any();
 }
@@ -239,9 +252,12 @@ GroupTable group_table(const ResultReader& result, TableOf of, const NamedParts&
     case TableOf::objects: {
       const auto names = result.strings("object_name");
       return rows("objects", names, chosen_objects(result, parts), [&](const ResultReader& r) {
-        return of_patches(r, "patch_object", names.size());
+        return of_patches(r, r.integers("patch_object"), names.size());
       });
     }
+    case TableOf::selections:
+      return rows("selections (the study has no section selections)", selection_names(result),
+                  chosen_selections(result, parts), of_selections);
     case TableOf::sensors:
       break;
   }

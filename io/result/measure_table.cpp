@@ -76,6 +76,11 @@ std::vector<Group> chosen_groups(const ResultReader& result, const NamedParts& p
   if (parts.empty() || !parts.facades.empty())
     add(groups_of("facade", result.strings("facade_name"), result.integers("patch_facade"),
                   chosen_facades(result, parts)));
+  if (parts.empty() || !parts.selections.empty()) {
+    const auto names = selection_names(result);
+    for (const auto k : chosen_selections(result, parts))
+      add(groups_of("selection", {names[k]}, selection_entries(result, k), {0}));
+  }
   return groups;
 }
 

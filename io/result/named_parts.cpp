@@ -26,12 +26,29 @@ std::vector<std::string> sensor_names(const ResultReader& result) {
   return names;
 }
 
+std::vector<std::string> selection_names(const ResultReader& result) {
+  return result.has("patch_selected") && result.has("selection_name")
+             ? result.strings("selection_name")
+             : std::vector<std::string>();
+}
+
+std::vector<std::int32_t> selection_entries(const ResultReader& result, std::size_t selection) {
+  std::vector<std::int32_t> entries;
+  for (const double flag : result.row("patch_selected", selection))
+    entries.push_back(flag != 0 ? 0 : -1);
+  return entries;
+}
+
 std::vector<std::size_t> chosen_facades(const ResultReader& result, const NamedParts& parts) {
   return matching_names(parts.facades, result.strings("facade_name"), "facade", result.path());
 }
 
 std::vector<std::size_t> chosen_objects(const ResultReader& result, const NamedParts& parts) {
   return matching_names(parts.objects, result.strings("object_name"), "object", result.path());
+}
+
+std::vector<std::size_t> chosen_selections(const ResultReader& result, const NamedParts& parts) {
+  return matching_names(parts.selections, selection_names(result), "selection", result.path());
 }
 
 std::vector<std::size_t> chosen_sensors(const ResultReader& result, const NamedParts& parts) {
@@ -46,6 +63,9 @@ std::vector<std::size_t> chosen_patches(const ResultReader& result, const NamedP
   if (!parts.objects.empty())
     mark(result.integers("patch_object"), chosen_objects(result, parts),
          result.strings("object_name").size(), is_chosen);
+  if (!parts.selections.empty())
+    for (const auto k : chosen_selections(result, parts))
+      mark(selection_entries(result, k), {0}, 1, is_chosen);
   std::vector<std::size_t> patches;
   for (std::size_t p = 0; p < is_chosen.size(); ++p)
     if (is_chosen[p]) patches.push_back(p);

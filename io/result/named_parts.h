@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What a command's --facade, --object and --sensor choose of a result.
+/// What a command's --facade, --object, --selection and --sensor choose of a result.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,11 @@ namespace sunload {
 /// Names or patterns (`house_3/*`); of sensors their numbers, from 0.
 struct NamedParts {
   std::vector<std::string> facades, objects, sensors;
+  std::vector<std::string> selections = {};
 
-  bool choose_patches() const { return !facades.empty() || !objects.empty(); }
+  bool choose_patches() const {
+    return !facades.empty() || !objects.empty() || !selections.empty();
+  }
   bool empty() const { return !choose_patches() && sensors.empty(); }
 };
 
@@ -24,9 +28,14 @@ struct NamedParts {
 std::vector<std::size_t> chosen_facades(const ResultReader& result, const NamedParts& parts);
 std::vector<std::size_t> chosen_objects(const ResultReader& result, const NamedParts& parts);
 std::vector<std::size_t> chosen_sensors(const ResultReader& result, const NamedParts& parts);
-/// Patches of the facades and those of the objects, both sides.
+std::vector<std::size_t> chosen_selections(const ResultReader& result, const NamedParts& parts);
+/// Patches of the facades and those of the objects and selections, both sides.
 std::vector<std::size_t> chosen_patches(const ResultReader& result, const NamedParts& parts);
 
+/// Names of the study's selections; none where it has none.
+std::vector<std::string> selection_names(const ResultReader& result);
+/// Per patch 0 where it is of the selection, else -1.
+std::vector<std::int32_t> selection_entries(const ResultReader& result, std::size_t selection);
 /// "0", "1" …: what sensors are called.
 std::vector<std::string> sensor_names(const ResultReader& result);
 

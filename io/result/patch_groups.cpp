@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/result/patch_groups.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <map>
 
 #include "geo/base/check.h"
+#include "geo/base/units.h"
 #include "geo/mesh/mesh.h"
+#include "io/result/named_parts.h"
 
 namespace sunload {
 namespace {
@@ -18,12 +23,84 @@ struct Division {
   std::vector<std::int32_t> of_patch;
 };
 
-std::array<Division, 4> divisions(const ResultReader& result, std::size_t patches) {
-  return {
-      {{"whole", {"whole"}, std::vector<std::int32_t>(patches, 0)},
-       {"surface", {surface_names.begin(), surface_names.end()}, result.integers("patch_surface")},
-       {"object", result.strings("object_name"), result.integers("patch_object")},
-       {"facade", result.strings("facade_name"), result.integers("patch_facade")}}};
+std::vector<double> components(const ResultReader& result, const char* dataset,
+                               std::size_t component) {
+  const auto flat = result.doubles(dataset);
+  std::vector<double> values(flat.size() / 3);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = flat[3 * i + component];
+  return values;
+}
+
+/// Whether each patch is of a wall or of a window.
+std::vector<char> is_upright(const ResultReader& result) {
+  std::vector<char> upright;
+  for (const auto kind : result.integers("patch_surface")) {
+    const auto surface = static_cast<Surface>(kind);
+    upright.push_back(surface == Surface::wall || surface == Surface::window ? 1 : 0);
+  }
+  return upright;
+}
+
+Division orientations(const ResultReader& result) {
+  Division division{
+      "orientation",
+      {"north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west"},
+      {}};
+  const auto x = components(result, "patch_normal", 0), y = components(result, "patch_normal", 1);
+  const double north = result.number_attribute("north_deg");
+  const double turn_deg = std::isnan(north) ? 0 : north;
+  const auto upright = is_upright(result);
+  const double sector_deg = 360.0 / static_cast<double>(division.names.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double azimuth = horizontal({x[i], y[i], 0}).azimuth_deg + turn_deg;
+    const auto sector =
+        static_cast<std::int32_t>(wrapped_deg(azimuth + sector_deg / 2) / sector_deg);
+    division.of_patch.push_back(upright[i] != 0 ? sector : -1);
+  }
+  return division;
+}
+
+/// By the height of a patch's middle above the lowest corner of its object.
+Division storeys(const ResultReader& result, double storey_m) {
+  constexpr std::int32_t highest = 1000;
+  const auto object = result.integers("patch_object"), corners = result.integers("patch_vertices");
+  const auto height = components(result, "patch_centroid", 2),
+             z = components(result, "vertex_position", 2);
+  std::map<std::int32_t, double> foot;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const double low = z[static_cast<std::size_t>(corners[k])];
+    const auto [found, is_new] = foot.try_emplace(object[k / 3], low);
+    found->second = std::min(found->second, low);
+  }
+  Division division{"storey", {}, {}};
+  const auto upright = is_upright(result);
+  std::int32_t top = -1;
+  for (std::size_t i = 0; i < height.size(); ++i) {
+    const double above = std::max(0.0, height[i] - foot.at(object[i]));
+    const auto storey = upright[i] != 0
+                            ? static_cast<std::int32_t>(std::min<double>(highest, above / storey_m))
+                            : -1;
+    division.of_patch.push_back(storey);
+    top = std::max(top, storey);
+  }
+  for (std::int32_t k = 0; k <= top; ++k)
+    division.names.push_back(fmt::format("{:g}-{:g} m", k * storey_m, (k + 1) * storey_m));
+  return division;
+}
+
+std::vector<Division> divisions(const ResultReader& result, std::size_t patches,
+                                const MoreGroups& more) {
+  std::vector<Division> all{
+      {"whole", {"whole"}, std::vector<std::int32_t>(patches, 0)},
+      {"surface", {surface_names.begin(), surface_names.end()}, result.integers("patch_surface")},
+      {"object", result.strings("object_name"), result.integers("patch_object")},
+      {"facade", result.strings("facade_name"), result.integers("patch_facade")}};
+  const auto selections = selection_names(result);
+  for (std::size_t k = 0; k < selections.size(); ++k)
+    all.push_back({"selection", {selections[k]}, selection_entries(result, k)});
+  if (more.orientations) all.push_back(orientations(result));
+  if (more.storey_m) all.push_back(storeys(result, *more.storey_m));
+  return all;
 }
 
 }  // namespace
@@ -31,12 +108,14 @@ std::array<Division, 4> divisions(const ResultReader& result, std::size_t patche
 PatchGroups::PatchGroups(const ResultReader& result)
     : PatchGroups(result, result.doubles("patch_area")) {}
 
-PatchGroups::PatchGroups(const ResultReader& result, std::vector<double> area)
+PatchGroups::PatchGroups(const ResultReader& result, std::vector<double> area,
+                         const MoreGroups& more)
     : area_(std::move(area)) {
   if (area_.empty()) throw InputError({result.path()}, "the result has no patches");
-  group_of_.assign(area_.size() * kinds, -1);
-  const auto all = divisions(result, area_.size());
-  for (std::size_t kind = 0; kind < kinds; ++kind) {
+  const auto all = divisions(result, area_.size(), more);
+  divisions_ = all.size();
+  group_of_.assign(area_.size() * divisions_, -1);
+  for (std::size_t kind = 0; kind < divisions_; ++kind) {
     const auto& division = all[kind];
     SUNLOAD_EXPECT(division.of_patch.size() == area_.size(), division.kind);
     std::vector<std::int32_t> group_of_entry(division.names.size(), -1);
@@ -52,7 +131,7 @@ PatchGroups::PatchGroups(const ResultReader& result, std::vector<double> area)
     for (std::size_t i = 0; i < area_.size(); ++i) {
       if (division.of_patch[i] < 0 || area_[i] <= 0) continue;
       const auto group = group_of_entry[static_cast<std::size_t>(division.of_patch[i])];
-      group_of_[i * kinds + kind] = group;
+      group_of_[i * divisions_ + kind] = group;
       groups_[static_cast<std::size_t>(group)].area_m2 += area_[i];
     }
   }
@@ -61,8 +140,8 @@ PatchGroups::PatchGroups(const ResultReader& result, std::vector<double> area)
 std::vector<double> PatchGroups::means(const double* patch_values) const {
   std::vector<double> sums(groups_.size(), 0);
   for (std::size_t i = 0; i < area_.size(); ++i)
-    for (std::size_t kind = 0; kind < kinds; ++kind)
-      if (const auto group = group_of_[i * kinds + kind]; group >= 0)
+    for (std::size_t kind = 0; kind < divisions_; ++kind)
+      if (const auto group = group_of_[i * divisions_ + kind]; group >= 0)
         sums[static_cast<std::size_t>(group)] += area_[i] * patch_values[i];
   for (std::size_t g = 0; g < sums.size(); ++g) sums[g] /= groups_[g].area_m2;
   return sums;

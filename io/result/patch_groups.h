@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,20 +15,28 @@ namespace sunload {
 
 /// One named set of patches.
 struct PatchGroup {
-  std::string kind;  ///< whole | surface | object | facade
+  /// whole | surface | object | facade | selection | orientation | storey
+  std::string kind;
   std::string name;
   double area_m2 = 0;
+};
+
+/// Groups besides those that every result has.
+struct MoreGroups {
+  bool orientations = false;  ///< walls and windows by eight compass points: "south"
+  std::optional<double>
+      storey_m;  ///< walls and windows by height above their object's foot: "0-3 m"
 };
 
 /// Every group of a result, and the groups of each patch.
 class PatchGroups {
  public:
-  /// Order: the whole, then surfaces, objects and facades as the file lists
-  /// them; groups without patches are left out.
+  /// Order: the whole, then surfaces, objects, facades and selections as the file lists
+  /// them, then those besides; groups without patches are left out.
   /// Throws InputError for a result without patches.
   explicit PatchGroups(const ResultReader& result);
   /// The same with so much of each patch's area; groups of which nothing is left are left out.
-  PatchGroups(const ResultReader& result, std::vector<double> area);
+  PatchGroups(const ResultReader& result, std::vector<double> area, const MoreGroups& more = {});
 
   const std::vector<PatchGroup>& groups() const { return groups_; }
   std::size_t patch_count() const { return area_.size(); }
@@ -36,10 +45,10 @@ class PatchGroups {
   std::vector<double> means(const double* patch_values) const;
 
  private:
-  static constexpr std::size_t kinds = 4;
+  std::size_t divisions_ = 0;  ///< of the patches, each by its groups; a selection is one
   std::vector<PatchGroup> groups_;
   std::vector<double> area_;
-  /// Group of a patch for each kind, -1 for none: [patch × kinds + kind].
+  /// Group of a patch in each division, -1 for none: [patch × divisions + division].
   std::vector<std::int32_t> group_of_;
 };
 

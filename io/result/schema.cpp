@@ -39,6 +39,7 @@ constexpr std::array table{
     ResultVariable{"band", "band", text, "", coordinate, "band of the light: red, green, blue (solver.bands: rgb)"},
     ResultVariable{"object", "object", text, "", coordinate, "name of the object, as label of its dimension"},
     ResultVariable{"facade", "facade", text, "", coordinate, "name of the facade, as label of its dimension"},
+    ResultVariable{"selection", "selection", text, "", coordinate, "name of the selection, as label of its dimension"},
     ResultVariable{"material", "material", text, "", coordinate, "name of the material, as label of its dimension"},
 
     // Mesh: patches are the leaves of the frozen hierarchy.
@@ -63,6 +64,9 @@ constexpr std::array table{
     ResultVariable{"material_name", "material", text, "", geometry, "name of the material"},
     ResultVariable{"facade_area", "facade", float64, "m2", geometry, "area"},
     ResultVariable{"facade_azimuth", "facade", float64, "degree", geometry, "azimuth of the outward normal, clockwise from true north"},
+    ResultVariable{"selection_name", "selection", text, "", geometry, "name of the selection"},
+    ResultVariable{"selection_area", "selection", float64, "m2", geometry, "area"},
+    ResultVariable{"patch_selected", "selection,patch", flags, "", geometry, "1 where the patch is of the selection"},
 
     // Series: what falls on a patch, mean over the interval.
     ResultVariable{"irradiance", "time,patch", float32, w_m2, series, "incident irradiance, all light", "", interval_mean},
@@ -96,6 +100,9 @@ constexpr std::array table{
     ResultVariable{"facade_light_load", "facade", float64, kwh_m2, total, "light load, mean over the facade", "", "area: mean"},
     ResultVariable{"facade_light_load_se", "facade", float64, kwh_m2, total, "standard error of facade_light_load"},
     ResultVariable{"facade_light_load_realization", "realization,facade", float64, kwh_m2, total, "light load of the facade in each realization", "", "area: mean"},
+    ResultVariable{"selection_light_load", "selection", float64, kwh_m2, total, "light load, mean over the selection", "", "area: mean"},
+    ResultVariable{"selection_light_load_se", "selection", float64, kwh_m2, total, "standard error of selection_light_load"},
+    ResultVariable{"selection_light_load_realization", "realization,selection", float64, kwh_m2, total, "light load of the selection in each realization", "", "area: mean"},
 
     // Sensors: points that receive, where the study has any.
     ResultVariable{"sensor_position", "sensor,xyz", float64, "m", geometry, "position of the sensor in the scene frame, relative to the attribute origin"},
@@ -216,6 +223,7 @@ constexpr std::array table{
 constexpr std::array measure_table{
     ResultVariable{measure_prefix, "patch", float64, "", total, "measure, at the centre of the patch"},
     ResultVariable{"facade_measure_", "facade", float64, "", total, "measure, mean over what is measured of the facade", "", "area: mean"},
+    ResultVariable{"selection_measure_", "selection", float64, "", total, "measure, mean over what is measured of the selection", "", "area: mean"},
     ResultVariable{"sensor_measure_", "sensor", float64, "", total, "measure, at the sensor"},
 };
 

@@ -48,6 +48,7 @@ constexpr std::array pointers{
     Pointer{"patch_input_triangle", "input_triangle"},
     Pointer{"patch_surface", "", surface_names.size()},
     Pointer{"patch_side", "", 2},
+    Pointer{"patch_selected", "", 2},
 };
 
 /// What all values of a dataset must be.
@@ -67,6 +68,7 @@ constexpr std::array ranges{
     positions_in("sensor_position"),
     Range{"patch_area", 1e-300, largest_coordinate_m* largest_coordinate_m, "no area"},
     Range{"facade_area", 0, largest_coordinate_m* largest_coordinate_m, "no area"},
+    Range{"selection_area", 0, largest_coordinate_m* largest_coordinate_m, "no area"},
     Range{"facade_azimuth", -360, 360, "no azimuth"},
     Range{"time", first_time, last_time, "no time of the years 1 … 9999"},
     Range{"time_bounds", first_time, last_time, "no time of the years 1 … 9999"},
@@ -94,7 +96,7 @@ bool is_indispensable(const ResultVariable& variable) {
   return is_of_all_results && !is_label(variable) && variable.name != "mesh" &&
          !variable.name.starts_with("vertex_x") && !variable.name.starts_with("vertex_y") &&
          !variable.name.starts_with("vertex_z") && !variable.name.starts_with("sensor_") &&
-         !variable.name.ends_with("_illuminance");
+         !variable.dims.starts_with("selection") && !variable.name.ends_with("_illuminance");
 }
 
 /// Whether a comparison file has it, too: geometry and names of the base's patches.

@@ -139,7 +139,7 @@ void ResultWriter::File::put_attributes(const ResultAttributes& attributes) {
                                [](const auto& text) { return text.first == "pairing_id"; });
   if (id == attributes.text.end()) return;
   for (const char* name : {"light_load_realization", "facade_light_load_realization",
-                           "sensor_light_load_realization"}) {
+                           "selection_light_load_realization", "sensor_light_load_realization"}) {
     if (file->has(name)) file->dataset(name).set("pairing_id", id->second);
   }
 }

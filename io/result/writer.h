@@ -30,7 +30,10 @@ struct ResultGeometry {
   std::vector<std::array<std::int32_t, 3>> input_triangle_vertices;
   std::vector<std::string> object_name, facade_name, material_name;
   std::vector<double> facade_area, facade_azimuth_deg;  ///< azimuth from true north
-  std::vector<Vec3> sensor_position, sensor_normal;     ///< empty: a study without sensors
+  std::vector<std::string> selection_name;              ///< empty: a study without selections
+  std::vector<std::vector<std::uint8_t>> selected;      ///< [selection][patch], 1: it is of it
+  std::vector<double> selection_area;
+  std::vector<Vec3> sensor_position, sensor_normal;  ///< empty: a study without sensors
   Vec3 origin;
 };
 
@@ -61,14 +64,15 @@ struct ResultAttributes {
   std::vector<std::pair<std::string, std::int64_t>> integers;
 };
 
-/// A finished array per patch, facade, realization × patch, or scalar.
+/// A finished array per patch, facade, selection, realization × patch, or scalar.
 struct ResultArray {
   std::string name;            ///< must be in the table of result_schema.cpp for irradiance
   std::vector<double> values;  ///< row-major, stored in the type of the schema
 };
 
-/// Values of a measure per patch, facade or sensor, as the beginning of its name says:
-/// measure_NAME, facade_measure_NAME, sensor_measure_NAME; NaN where there is none.
+/// Values of a measure per patch, facade, selection or sensor, as the beginning of its name says:
+/// measure_NAME, facade_measure_NAME, selection_measure_NAME, sensor_measure_NAME; NaN where there
+/// is none.
 struct MeasureArray {
   std::string name, units;
   std::vector<double> values;

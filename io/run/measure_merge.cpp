@@ -73,6 +73,21 @@ std::vector<double> facade_means(const std::vector<double>& values, const Result
   return sum;
 }
 
+/// The same of selections.
+std::vector<double> selection_means(const std::vector<double>& values, const ResultGeometry& g) {
+  std::vector<double> means;
+  for (const auto& selected : g.selected) {
+    double sum = 0, area = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (selected[i] == 0 || std::isnan(values[i])) continue;
+      sum += g.patch_area[i] * values[i];
+      area += g.patch_area[i];
+    }
+    means.push_back(area > 0 ? sum / area : not_measured);
+  }
+  return means;
+}
+
 /// "2026-03-21T06:12:31Z/2026-03-21T08:40:02Z", one after the other (ISO 8601).
 std::string spans_text(const std::vector<SunSpan>& spans) {
   std::string text;
@@ -148,6 +163,9 @@ void MeasureMerge::write_one(ResultWriter& writer, const StudyMeasure& of) const
     writer.write_measure({name + suffix, units, patches}, attributes);
     if (suffix.empty() && !geometry_.facade_name.empty())
       writer.write_measure({"facade_" + name, units, facade_means(patches, geometry_)}, attributes);
+    if (suffix.empty() && !geometry_.selection_name.empty())
+      writer.write_measure({"selection_" + name, units, selection_means(patches, geometry_)},
+                           attributes);
     if (!geometry_.sensor_position.empty())
       writer.write_measure({sensor_prefix + name + suffix,
                             units,

@@ -3,6 +3,7 @@
 #include "io/run/merge.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geo/base/units.h"
 #include "io/base/bands.h"
@@ -19,6 +20,38 @@
 namespace sunload {
 
 namespace {
+
+/// Light loads of selections, which may overlap: one after the other.
+void write_selections(BandWriter& writer, const Totals& totals, const ResultGeometry& geometry,
+                      std::size_t realizations) {
+  const std::size_t count = geometry.selection_name.size();
+  if (count == 0) return;
+  std::vector<FacadeMeans> means;
+  for (const auto& flags : geometry.selected) {
+    std::vector<std::int32_t> entry;
+    for (const auto flag : flags) entry.push_back(flag != 0 ? 0 : -1);
+    means.emplace_back(std::move(entry), geometry.patch_area, 1);
+  }
+  const auto of_selections = [&](const std::string& array) {
+    const auto values = scaled(totals[array], kwh_per_joule);
+    std::vector<double> all(values.size() / geometry.patch_area.size() * count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto of_one = means[k].of(values, Divided::terms);
+      for (std::size_t row = 0; row < of_one.size(); ++row)
+        all[row * count + k] = geometry.selection_area[k] > 0 ? of_one[row] : std::nan("");
+    }
+    return all;
+  };
+  const auto of_realizations = [&](const std::string& band) {
+    return of_selections(band + batch_array::exposure);
+  };
+  writer.write("selection_light_load_realization", realizations, of_realizations);
+  writer.write("selection_light_load_se", 1,
+               [&](const std::string& band) { return errors_of(of_realizations(band), count); });
+  writer.write("selection_light_load", 1, [&](const std::string& band) {
+    return of_selections(band + sum_name(Part::total));
+  });
+}
 
 /// Totals of N patches or sensors; names begin with `prefix`.
 void write_received(BandWriter& writer, const Totals& totals, const std::string& prefix,
@@ -63,6 +96,7 @@ void write_loads(BandWriter& writer, const Totals& totals, const ResultGeometry&
   });
   if (const std::size_t S = geometry.sensor_position.size(); S > 0)
     write_received(writer, totals, sensor_prefix, S, realizations);
+  write_selections(writer, totals, geometry, realizations);
   if (F == 0) return;
   const FacadeMeans means(geometry.patch_facade, geometry.patch_area, F);
   const auto of_facades = [&](const std::string& band) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/run/result_attributes.h"
+#include "io/plan/selection.h"
 
 #include <fmt/format.h>
 
@@ -224,6 +225,9 @@ std::vector<std::string> result_warnings(const Totals& totals, const ResultGeome
         "{:.2g} % of the energy is lost at backs of one-sided surfaces; turn or close these "
         "surfaces, or make them two-sided (sides: two)",
         100 * share));
+  for (std::size_t k = 0; k < geometry.selection_name.size(); ++k)
+    if (geometry.selection_area[k] == 0)
+      warnings.push_back(empty_selection_warning(geometry.selection_name[k]));
   if (auto buried = buried_sensors(totals, geometry); !buried.empty())
     warnings.push_back(std::move(buried));
   return warnings;

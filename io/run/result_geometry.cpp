@@ -3,6 +3,7 @@
 #include "io/run/result_geometry.h"
 
 #include "geo/base/units.h"
+#include "io/plan/selection.h"
 #include "io/plan/variant_mesh.h"
 
 namespace sunload {
@@ -33,6 +34,13 @@ ResultGeometry result_geometry(const VariantPlan& plan, const Hierarchy& hierarc
     g.facade_name.push_back(f.name);
     g.facade_area.push_back(f.area_m2);
     g.facade_azimuth_deg.push_back(wrapped_deg(f.azimuth_deg + plan.built.site.north_deg));
+  }
+  for (const auto& selection : plan.study.selections) {
+    g.selection_name.push_back(selection.name);
+    g.selected.push_back(selected_patches(selection, plan.built, hierarchy));
+    double& area = g.selection_area.emplace_back(0);
+    for (std::size_t i = 0; i < g.patch_area.size(); ++i)
+      area += g.selected.back()[i] != 0 ? g.patch_area[i] : 0;
   }
   for (const auto& sensor : scene.sensors) {
     g.sensor_position.push_back(sensor.position);

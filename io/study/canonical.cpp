@@ -57,6 +57,7 @@ json canonical(const AssignRule& rule);
 json canonical(const SceneFileStudy& file);
 json canonical(const MeasureParameters& measure);
 json canonical(const EditStep& step);
+json canonical(const NamedSelection& selection);
 
 template <class T>
 json list_of(const std::vector<T>& values) {
@@ -159,12 +160,15 @@ json canonical(const MaterialStudy& material) {
 }
 
 json canonical(const AssignRule& rule) {
-  const auto& [object, surface, material_was, kind, material, where] = rule;
-  return {{"object", object},
-          {"surface", surface},
-          {"was", material_was},
-          {"type", kind},
-          {"material", material}};
+  const auto& [object, surface, material_was, kind, selection, material, where] = rule;
+  json all{{"object", object},
+           {"surface", surface},
+           {"was", material_was},
+           {"type", kind},
+           {"material", material}};
+  // By what it is, not by its name.
+  if (selection) all["selection"] = canonical(*selection)["of"];
+  return all;
 }
 
 json canonical(const GroundStudy& ground) {
@@ -217,13 +221,25 @@ json canonical(const AreasStudy& all) {
 
 json canonical(const std::optional<Point2>& p) { return p ? json{p->u, p->v} : json(); }
 
-json canonical(const ObjectsStudy& objects) {
-  const auto& [object, kind, polygon, near, within_m] = objects;
-  return {{"object", object},
-          {"type", kind},
-          {"polygon", canonical(polygon)},
-          {"near", canonical(near)},
-          {"within_m", maybe(within_m)}};
+json canonical(const SelectionStudy& chosen) {
+  const auto& [object, kind, polygon, near, within_m, facade, surface, azimuth_deg, height_m] =
+      chosen;
+  json all{{"object", object},
+           {"type", kind},
+           {"polygon", canonical(polygon)},
+           {"near", canonical(near)},
+           {"within_m", maybe(within_m)}};
+  if (!chosen.is_of_parts()) return all;
+  all.update({{"facade", facade},
+              {"surface", surface},
+              {"azimuth_deg", maybe(azimuth_deg)},
+              {"height_m", maybe(height_m)}});
+  return all;
+}
+
+json canonical(const NamedSelection& selection) {
+  const auto& [name, of, where] = selection;
+  return {{"name", name}, {"of", canonical(of)}};
 }
 
 json canonical(const RemoveEdit& /*has no values*/) { return {{"remove", true}}; }
@@ -267,9 +283,11 @@ json canonical(const AddTreesEdit& add) {
 }
 
 json canonical(const EditStep& step) {
-  const auto& [objects, action, where] = step;
-  return {{"objects", canonical(objects)},
-          {"action", std::visit([](const auto& kind) { return canonical(kind); }, action)}};
+  const auto& [objects, selection, action, where] = step;
+  json all{{"objects", canonical(objects)},
+           {"action", std::visit([](const auto& kind) { return canonical(kind); }, action)}};
+  if (selection) all["selection"] = canonical(*selection)["of"];
+  return all;
 }
 
 json canonical(const SceneStudy& scene) {
@@ -347,13 +365,15 @@ json canonical(const SolverStudy& solver, LightColour colour) {
 
 json canonical(const MeasureParameters& measure) {
   const auto& [name, rule, numbers, words, date, of, where] = measure;
-  const auto& [object, facade, surface] = of;
+  const auto& [object, facade, surface, selection] = of;
   json canon{{"name", name}, {"rule", rule}};
   for (const auto& [key, value] : numbers) canon[key] = value;
   for (const auto& [key, word] : words) canon[key] = word;
   if (date) canon["date"] = {date->year, date->month, date->day};
-  for (const auto& [key, pattern] :
-       {std::pair{"object", object}, {"facade", facade}, {"surface", surface}})
+  for (const auto& [key, pattern] : {std::pair{"object", object},
+                                     {"facade", facade},
+                                     {"surface", surface},
+                                     {"selection", selection}})
     if (!pattern.empty()) canon["of"][key] = pattern;
   return canon;
 }
@@ -363,13 +383,17 @@ json canonical(const MeasureParameters& measure) {
 std::string measure_text(const MeasureParameters& measure) { return canonical(measure).dump(); }
 
 std::string measures_text(const Study& study) {
+  if (!study.selections.empty())
+    return json{{"measures", list_of(study.measures)}, {"selections", list_of(study.selections)}}
+        .dump();
   return study.measures.empty() ? std::string() : list_of(study.measures).dump();
 }
 
 std::string canonical_text(const Study& study) {
-  // Sensors are hashed with the scene; measures are made of finished batches (measures_text).
+  // Sensors are hashed with the scene; measures and selections are made of finished batches
+  // (measures_text).
   const auto& [name, variant, site, period, sun, light, scene, mesh, solver, sensors, output,
-               measures] = study;
+               measures, selections] = study;
   const json all{{"site", canonical(site)},
                  {"period", canonical(period)},
                  {"sun", canonical(sun)},

@@ -15,12 +15,6 @@ namespace {
 
 using Needs = MeasureRule::Needs;
 
-bool is_name(const std::string& name) {
-  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-  });
-}
-
 std::vector<std::string> rule_words() {
   std::vector<std::string> words;
   for (const MeasureRule& rule : measure_rules()) words.push_back(rule.word);
@@ -32,6 +26,7 @@ MeasureOf read_of(YamlMap& map) {
   of.object = map.text("object", "");
   of.facade = map.text("facade", "");
   of.surface = map.word("surface", {"wall", "window", "roof", "ground", "other"}, "");
+  of.selection = map.text("selection", "");
   return of;
 }
 
@@ -99,7 +94,7 @@ MeasureParameters read_measure(const std::string& name, YamlMap& map) {
   MeasureParameters measure;
   measure.name = name;
   measure.where = map.where();
-  if (!is_name(name) && map.is_usable() && name != "*")
+  if (!is_dataset_name(name) && map.is_usable() && name != "*")
     map.reading().problem(map.where(), "'" + name + "' cannot be the name of a measure",
                           "it becomes part of the names of datasets",
                           "letters A to Z, digits and _ make names");

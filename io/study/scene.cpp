@@ -216,6 +216,7 @@ AssignRule read_rule(YamlMap& map) {
   rule.surface = map.word("surface", {surface_names.begin(), surface_names.end()}, rule.surface);
   rule.material_was = map.text("was", rule.material_was);
   rule.kind = map.text("type", rule.kind);
+  rule.selection = read_selection_name(map);
   map.require("material", "a rule assigns one");
   rule.material = map.text("material", rule.material);
   return rule;

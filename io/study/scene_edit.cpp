@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// List `edit` of section `scene` of a study, and areas in plan.
+// List `edit` of section `scene` of a study, section `selections`, and areas in plan.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "io/base/file_text.h"
+#include "io/base/key_names.h"
 #include "io/study/sections.h"
 
 namespace sunload::study_sections {
@@ -142,8 +143,8 @@ Standing read_standing(YamlMap& map) {
   return {};
 }
 
-ObjectsStudy read_objects(YamlMap& map, const std::string& folder) {
-  ObjectsStudy objects;
+SelectionStudy read_objects(YamlMap& map, const std::string& folder) {
+  SelectionStudy objects;
   objects.object = map.text("object", objects.object);
   objects.kind = map.text("type", objects.kind);
   objects.polygon = read_areas(map, "polygon", folder);
@@ -314,19 +315,100 @@ AreasStudy read_areas(YamlMap& map, const std::string& key, const std::string& f
   return {{{AreaReader(map.reading(), map.path(key)).ring(corners)}}, false};
 }
 
+namespace {
+
+/// Two numbers, the first below the second unless they lie on a circle.
+enum class Ends { on_a_line, on_a_circle };
+std::optional<std::array<double, 2>> read_ends(YamlMap& map, const std::string& key,
+                                               const Range& range, Ends kind) {
+  const auto ends = map.numbers(key, range);
+  if (!map.has(key)) return {};
+  if (ends.size() != 2 || ends[0] == ends[1] || (kind == Ends::on_a_line && ends[0] > ends[1])) {
+    map.problem(key, "must be two numbers, from and to",
+                kind == Ends::on_a_line ? "the first is the lower one"
+                                        : "clockwise from the first to the second",
+                kind == Ends::on_a_line ? "" : "[315, 45] is about north");
+    return {};
+  }
+  return std::array{ends[0], ends[1]};
+}
+
+}  // namespace
+
+NamedSelection read_selection(const std::string& name, YamlMap& map, const std::string& folder) {
+  NamedSelection selection{name, read_objects(map, folder), map.where()};
+  SelectionStudy& of = selection.of;
+  of.facade = map.text("facade", of.facade);
+  of.surface = map.word("surface", {surface_names.begin(), surface_names.end()}, of.surface);
+  of.azimuth_deg = read_ends(map, "azimuth_deg", turns_deg, Ends::on_a_circle);
+  of.height_m = read_ends(map, "height_m", heights_m, Ends::on_a_line);
+  if (!is_dataset_name(name) && map.is_usable() && name != "*")
+    map.reading().problem(map.where(), "'" + name + "' cannot be the name of a selection",
+                          "results have it", "letters A to Z, digits and _ make names");
+  if (!of.chooses() && map.is_usable())
+    map.reading().problem(map.where(), map.path("object") + ": the selection chooses nothing",
+                          "it needs object, type, facade, surface, azimuth_deg, height_m, polygon "
+                          "or near",
+                          "object: \"*\" chooses all");
+  return selection;
+}
+
+std::optional<NamedSelection> read_selection_name(YamlMap& map) {
+  const auto name = map.text("selection");
+  return name ? std::optional(NamedSelection{*name, {}, map.where("selection")}) : std::nullopt;
+}
+
+bool is_dataset_name(const std::string& name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
+void resolve_selections(YamlReading& reading, const std::vector<NamedSelection>& selections,
+                        SceneStudy& scene, const std::vector<MeasureParameters>& measures) {
+  std::vector<std::string> names;
+  for (const NamedSelection& selection : selections) names.push_back(selection.name);
+  const auto find = [&](const std::string& name, const Where& where) -> const SelectionStudy* {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end())
+      return &selections[static_cast<std::size_t>(found - names.begin())].of;
+    reading.problem(where, "no selection is called '" + name + "'", "",
+                    names.empty() ? "write it under selections" : key_hint(name, names));
+    return nullptr;
+  };
+  for (AssignRule& rule : scene.assign)
+    if (rule.selection)
+      if (const auto* of = find(rule.selection->name, rule.selection->where))
+        rule.selection->of = *of;
+  for (EditStep& step : scene.edit) {
+    if (!step.selection) continue;
+    const auto* of = find(step.selection->name, step.selection->where);
+    if (of && of->is_of_parts())
+      reading.problem(step.selection->where,
+                      "selection '" + step.selection->name + "' chooses parts of objects",
+                      "a step changes whole ones",
+                      "name one without facade, surface, azimuth_deg and height_m");
+    if (of) step.selection->of = *of;
+  }
+  for (const MeasureParameters& measure : measures)
+    if (!measure.of.selection.empty()) find(measure.of.selection, measure.where);
+}
+
 std::vector<EditStep> read_scene_edit(YamlMap& scene, const std::string& folder) {
   std::vector<EditStep> steps;
   scene.each("edit", [&](YamlMap& map) {
     EditStep step;
     step.where = map.where();
     step.objects = read_objects(map, folder);
+    step.selection = read_selection_name(map);
     step.action = read_action(map, folder);
-    if (map.has("add") && step.objects.chooses())
+    const bool chooses = step.objects.chooses() || step.selection;
+    if (map.has("add") && chooses)
       map.problem("add", "stands beside a choice of objects", "it changes none of them",
                   "write it as a step of its own");
-    if (!map.has("add") && !step.objects.chooses() && map.is_usable())
+    if (!map.has("add") && !chooses && map.is_usable())
       map.reading().problem(map.where(), "scene.edit: a step chooses no objects",
-                            "it needs object, type, polygon or near",
+                            "it needs object, type, polygon, near or selection",
                             "object: \"*\" chooses all of them");
     steps.push_back(std::move(step));
   });

@@ -41,6 +41,16 @@ std::vector<double> read_numbers(YamlMap& map, const std::string& key, std::size
                                  const std::string& in_words);
 /// `scene.edit`; paths are relative to `folder`.
 std::vector<EditStep> read_scene_edit(YamlMap& scene, const std::string& folder);
+/// Entry `name` of `selections`; paths are relative to `folder`.
+NamedSelection read_selection(const std::string& name, YamlMap& map, const std::string& folder);
+/// The key `selection` of a map that chooses: its name alone.
+std::optional<NamedSelection> read_selection_name(YamlMap& map);
+/// Gives every selection that rules, steps and measures name what it is; names that are none, and
+/// parts of objects where whole ones are wanted, are reported.
+void resolve_selections(YamlReading& reading, const std::vector<NamedSelection>& selections,
+                        SceneStudy& scene, const std::vector<MeasureParameters>& measures);
+/// What can be part of a dataset's name: letters A to Z, digits and _.
+bool is_dataset_name(const std::string& name);
 /// Corners [x, y], or a GeoJSON file relative to `folder`.
 AreasStudy read_areas(YamlMap& map, const std::string& key, const std::string& folder);
 MeshStudy read_mesh(YamlMap& map);

@@ -37,6 +37,7 @@ const std::map<std::string, std::string> common_sections{
     {"matrix", "a matrix makes variants"},
     {"sun", "all variants have the same sun path, or they could not be compared"},
     {"sensors", "all variants are measured at the same points"},
+    {"selections", "all variants have the same ones, or they could not be compared"},
     {"measures", "all variants are measured alike, or they could not be compared"},
     {"output", "all results of a study go to one place"},
     {"variants", "a variant has no variants"}};
@@ -274,6 +275,10 @@ Study read_values(YamlMap& root, const std::string& folder) {
   root.named("measures", [&](const std::string& name, YamlMap& map) {
     study.measures.push_back(read_measure(name, map));
   });
+  root.named("selections", [&](const std::string& name, YamlMap& map) {
+    study.selections.push_back(read_selection(name, map, folder));
+  });
+  resolve_selections(root.reading(), study.selections, study.scene, study.measures);
   check_together(root, study, site.place_written);
   check_measures(root, study, site.place_written);
   return study;
@@ -322,6 +327,11 @@ SceneStudy scene_of_text(const std::string& yaml, const std::string& variant) {
     if (each.name != variant) continue;
     YamlMap::read_all(merged(tree, each, reading), reading, [&](YamlMap& root) {
       root.section("scene", [&](YamlMap& map) { scene = read_scene(map, ""); });
+      std::vector<NamedSelection> selections;
+      root.named("selections", [&](const std::string& name, YamlMap& map) {
+        selections.push_back(read_selection(name, map, ""));
+      });
+      resolve_selections(root.reading(), selections, scene, {});
       root.keep_rest();
     });
   }

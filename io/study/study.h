@@ -123,10 +123,45 @@ struct MaterialStudy {
   double transmittance = 0;  ///< straight through
 };
 
+/// Areas in plan as written, or of a GeoJSON file.
+struct AreasStudy {
+  std::vector<PlanArea> areas;
+  bool in_degrees = false;  ///< longitude and latitude, where the scene has a CRS
+};
+
+/// What is chosen of a scene: whole objects, or faces and patches. All that is written must hold;
+/// what is empty chooses all. `*` and `?` are wildcards.
+struct SelectionStudy {
+  std::string object, kind;
+  AreasStudy polygon;          ///< holds the middle: of an object's bounding box, a face, a patch
+  std::optional<Point2> near;  ///< the nearest object, or all that come …
+  std::optional<double> within_m;
+  // Of faces and patches alone.
+  std::string facade = {}, surface = {};
+  /// From the first, clockwise, to before the second: of the outward normal, from true north.
+  std::optional<std::array<double, 2>> azimuth_deg = {};
+  /// From the first to below the second: of the middle above the lowest point of its object.
+  std::optional<std::array<double, 2>> height_m = {};
+
+  bool is_of_parts() const {
+    return !facade.empty() || !surface.empty() || azimuth_deg || height_m;
+  }
+  bool chooses() const {
+    return !object.empty() || !kind.empty() || near || !polygon.areas.empty() || is_of_parts();
+  }
+};
+/// An entry of `selections`, or where one is named.
+struct NamedSelection {
+  std::string name;
+  SelectionStudy of;
+  Where where;
+};
+
 /// One rule of `scene.assign`; empty pattern = any. `*` and `?` are wildcards.
 struct AssignRule {
   std::string object, surface, material_was, kind;
-  std::string material;  ///< name to be assigned
+  std::optional<NamedSelection> selection;  ///< that must hold besides
+  std::string material;                     ///< name to be assigned
   Where where;
 };
 
@@ -170,24 +205,6 @@ struct SceneFileStudy {
   bool is_placed() const { return position || earth_position || turn_deg != 0; }
 };
 
-/// Areas in plan as written, or of a GeoJSON file.
-struct AreasStudy {
-  std::vector<PlanArea> areas;
-  bool in_degrees = false;  ///< longitude and latitude, where the scene has a CRS
-};
-
-/// Objects that a step of `scene.edit` is about; what is empty chooses all.
-struct ObjectsStudy {
-  std::string object, kind;
-  AreasStudy polygon;          ///< that hold the middle of the object's bounding box
-  std::optional<Point2> near;  ///< the nearest object, or all that come …
-  std::optional<double> within_m;
-
-  bool chooses() const {
-    return !object.empty() || !kind.empty() || near || !polygon.areas.empty();
-  }
-};
-
 struct RemoveEdit {};
 struct RaiseEdit {
   double by_m = 0;
@@ -225,7 +242,8 @@ using EditAction = std::variant<RemoveEdit, RaiseEdit, MoveEdit, TurnEdit, Repla
                                 AddPrismEdit, AddTreesEdit>;
 /// One step of `scene.edit`.
 struct EditStep {
-  ObjectsStudy objects;  ///< not of what is added
+  SelectionStudy objects;                   ///< not of what is added
+  std::optional<NamedSelection> selection;  ///< that must hold besides
   EditAction action;
   Where where;
 };
@@ -320,6 +338,7 @@ struct Study {
   SensorsStudy sensors;
   OutputStudy output;
   std::vector<MeasureParameters> measures = {};
+  std::vector<NamedSelection> selections = {};  ///< of unique names
 };
 
 struct StudyFile {
@@ -344,8 +363,8 @@ SceneStudy scene_of_text(const std::string& yaml, const std::string& variant);
 /// which `solver.isa` only pins). Equal texts, equal results.
 std::string canonical_text(const Study& study);
 
-/// The same of the measures, which are no part of it: batches know nothing of them. Empty where
-/// there are none.
+/// The same of measures and selections, which are no part of it: batches know nothing of them.
+/// Empty where there are none.
 std::string measures_text(const Study& study);
 /// Of one of them.
 std::string measure_text(const MeasureParameters& measure);

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "io/result/reader.h"
+#include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"
@@ -34,6 +35,29 @@ std::string study(const std::string& plaster = "0.6") {
          "  - {name: first}\n"
          "  - {name: second, scene: {materials: {glass: {diffuse: 0.3, mirror: 0}}}}\n"
          "  - {name: third, scene: {materials: {paving: {diffuse: 0.2}}}}\n";
+}
+
+/// Studies of docs/examples-variants.md, coarser: each runs, with all of its variants.
+TEST(Examples, OfVariantsRun) {
+  const WorkFolder folder;
+  const auto configs = source_folder() + "/configs/";
+  for (const auto& [name, count] :
+       {std::pair{"storeys", 3}, std::pair{"courtyard", 12}, std::pair{"trees", 3}}) {
+    std::string text = bytes_of(configs + name + ".yaml");
+    for (const auto& [from, to] :
+         {std::pair{std::string("max_edge_m: [23]"), std::string("max_edge_m: 12")},
+          {"lines_per_patch: 128", "lines_per_patch: 16, direct_samples: 16"},
+          {"step_min: 60", "step_min: 240"},
+          {"models/", configs + "models/"}})
+      text = std::regex_replace(text, std::regex(from), to);
+    folder.write(std::string(name) + ".yaml", text);
+    const Ran ran = program(folder, {"run", std::string(name) + ".yaml"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder / ("results/" + std::string(name))),
+                            fs::directory_iterator()) -
+                  fs::exists(folder / ("results/" + std::string(name) + "/.work")),
+              count);
+  }
 }
 
 struct Three {

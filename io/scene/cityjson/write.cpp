@@ -117,11 +117,27 @@ class CityText {
     return !polygons.empty();
   }
 
+  /// The model's own type where it is one that stands alone and may have this geometry.
+  std::string type_of(std::size_t object, bool is_solid) const {
+    constexpr std::array bodies{
+        "Bridge", "Building", "CityFurniture", "OtherConstruction", "SolitaryVegetationObject",
+        "Tunnel"};
+    constexpr std::array lands{"LandUse",         "Railway",   "Road",
+                               "TransportSquare", "WaterBody", "Waterway"};
+    const std::string own =
+        object < model_.object_kinds.size() ? model_.object_kinds[object] : std::string();
+    const auto is_one_of = [&](const auto& types) {
+      return std::find(types.begin(), types.end(), own) != types.end();
+    };
+    if (is_one_of(bodies) || (!is_solid && is_one_of(lands))) return own;
+    return is_solid ? "Building" : "GenericCityObject";
+  }
+
   void add_object(std::size_t object) {
     const auto& polygons = polygons_[object];
     const bool is_solid = is_closed(polygons);
     add(R"({}:{{"type":"{}","geometry":[{{"type":"{}","lod":"2","boundaries":{})",
-        quoted(model_.object_names[object]), is_solid ? "Building" : "GenericCityObject",
+        quoted(model_.object_names[object]), type_of(object, is_solid),
         is_solid ? "Solid" : "MultiSurface", is_solid ? "[[" : "[");
     const char* between = "";
     for (const auto p : polygons) {

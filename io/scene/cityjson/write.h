@@ -12,7 +12,8 @@ namespace sunload {
 /// Writes `path` aside first and then renames it.
 ///
 /// One CityObject per object of the model: a Building with a Solid where its polygons close
-/// (every edge is walked once each way), else a GenericCityObject with a MultiSurface; LoD 2.
+/// (every edge is walked once each way), else a GenericCityObject with a MultiSurface; of the type
+/// that the model gives, where one stands alone (a BuildingPart does not); LoD 2.
 /// Kinds of surface as semantics where CityJSON has a name for them, materials with their
 /// reflectance as grey diffuseColor. Coordinates in metres, rounded to micrometres.
 /// CityJSON has no mirrors and no emitters. Throws MachineError where the file cannot be written.

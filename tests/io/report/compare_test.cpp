@@ -168,7 +168,7 @@ TEST(Compare, WhatMattersIsMoreThanTheLeastShare) {
   EXPECT_EQ(back.lose, 1u);
   const auto text = comparison_table(compare_results(base, paired, 1));
   EXPECT_NE(text.find("Surely more than 1 %:"), text.npos) << text;
-  EXPECT_NE(text.find("facade   1 gain, 0 lose, "), text.npos) << text;
+  EXPECT_NE(text.find("facade      1 gain, 0 lose, "), text.npos) << text;
 }
 
 TEST(Compare, EqualResultsDifferNowhere) {
@@ -285,8 +285,8 @@ TEST(Compare, CsvHeaderIsTheContract) {
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
             "group,name,area_m2,base_kwh_m2,variant_kwh_m2,difference_kwh_m2,difference_percent,"
             "se_kwh_m2,paired,p_value,p_corrected,significant,unmatched_area_m2");
-  // whole, 4 surfaces, 4 objects, 8 facades
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 1 + 4 + 4 + 8);
+  // whole, 4 surfaces, 4 objects, 8 facades, 4 orientations
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 1 + 4 + 4 + 8 + 4);
   EXPECT_EQ(csv.find("nan"), std::string::npos);
 }
 

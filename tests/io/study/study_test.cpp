@@ -127,6 +127,23 @@ TEST(StudyEdit, ReadsSteps) {
   EXPECT_EQ(std::get<AddTreesEdit>(study.scene.edit[3].action).base_m, 3);
 }
 
+TEST(StudySelections, AreResolvedWhereTheyAreNamed) {
+  auto keys = with(steps("{selection: ends, remove: true}"));
+  const Study study =
+      read_text(keys +
+                "selections: {ends: {object: 'house_?'}, south: {surface: wall, "
+                "azimuth_deg: [135, 225], height_m: [0, 4], near: {position_m: [1, 2], "
+                "within_m: 30}, polygon: [[0, 0], [9, 0], [0, 9]]}}\n")
+          .variants.front();
+  ASSERT_EQ(study.selections.size(), 2u);
+  EXPECT_EQ(study.scene.edit[0].selection->of.object, "house_?");
+  const SelectionStudy& south = study.selections[1].of;
+  EXPECT_EQ(south.azimuth_deg, (std::array{135.0, 225.0}));
+  EXPECT_EQ(south.height_m, (std::array{0.0, 4.0}));
+  EXPECT_EQ(south.within_m, 30);
+  EXPECT_EQ(south.polygon.areas[0][0].size(), 3u);
+}
+
 TEST(StudyEdit, VariantsAppendSteps) {
   const StudyFile file = read_text(with(steps("{object: a, remove: true}")) +
                                    "variants:\n  - {name: a}\n  - {name: b, scene: {edit: "
@@ -1230,11 +1247,16 @@ TEST(CanonicalText, SeesEveryKeyOfTheSchemaButThese) {
       "sensors.file", "sensors.points[].position_m", "sensors.points[].normal", "solver.isa",
       // Made of finished batches (measures_text).
       "measures.*.rule", "measures.*.of.object", "measures.*.of.facade", "measures.*.of.surface",
-      "measures.*.date", "measures.*.least_elevation_deg", "measures.*.least_angle_deg",
-      "measures.*.least_plan_angle_deg", "measures.*.least_span_min", "measures.*.least_dni_w_m2",
-      "measures.*.above_w_m2", "measures.*.above_lx", "measures.*.least_h", "measures.*.most_h",
-      "measures.*.least_percent", "measures.*.area_percent", "measures.*.count",
-      "measures.*.season", "measures.*.light",
+      "measures.*.of.selection", "measures.*.date", "measures.*.least_elevation_deg",
+      "measures.*.least_angle_deg", "measures.*.least_plan_angle_deg", "measures.*.least_span_min",
+      "measures.*.least_dni_w_m2", "measures.*.above_w_m2", "measures.*.above_lx",
+      "measures.*.least_h", "measures.*.most_h", "measures.*.least_percent",
+      "measures.*.area_percent", "measures.*.count", "measures.*.season", "measures.*.light",
+      // So are selections, but for what rules and steps that name one choose (selection_test).
+      "selections.*.object", "selections.*.type", "selections.*.facade", "selections.*.surface",
+      "selections.*.azimuth_deg", "selections.*.height_m", "selections.*.polygon",
+      "selections.*.near.position_m", "selections.*.near.within_m", "scene.assign[].selection",
+      "scene.edit[].selection",
       // So are the parts of the period that have totals.
       "output.standard_error", "output.significant_bits", "output.totals",
       // One word only, beside which no other period can stand; any parameter of built-in scenes.

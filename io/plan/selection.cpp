@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/plan/selection.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "geo/base/units.h"
+#include "geo/sun/site.h"
+#include "io/base/name_pattern.h"
+#include "io/plan/scene_build.h"
+#include "solver/mesh/hierarchy.h"
+
+namespace sunload {
+
+namespace {
+
+constexpr double level_deg = 1;        // flatter surfaces of files look nowhere: they are not true
+constexpr double rounding_deg = 1e-6;  // of azimuths: walls on the rim of a range are in it
+constexpr double rounding_m = 1e-6;    // the same of heights
+
+[[noreturn]] void refuse(const std::string& subject, const Where& where, const std::string& what,
+                         const std::string& why, const std::string& hint) {
+  throw InputError(where, subject + ": " + what, why, hint);
+}
+
+bool lies_between(double azimuth_deg, const std::array<double, 2>& ends) {
+  const double width = wrapped_deg(ends[1] - ends[0]);
+  return width == 0 || wrapped_deg(azimuth_deg - ends[0] + rounding_deg) < width;
+}
+
+SceneObjects objects_of(const Mesh& mesh) {
+  return {mesh.object_names, mesh.object_kinds, extents_of(mesh)};
+}
+
+std::string subject_of(const NamedSelection& selection) { return "selections." + selection.name; }
+
+}  // namespace
+
+std::vector<PlanArea> areas_in_scene(const AreasStudy& study, const std::string& crs,
+                                     const std::string& subject, const Where& where) {
+  if (!study.in_degrees || crs.empty()) return study.areas;
+  std::vector<PlanArea> areas = study.areas;
+  for (PlanArea& area : areas)
+    for (auto& ring : area)
+      for (Point2& p : ring) {
+        if (std::abs(p.u) > 180 || std::abs(p.v) > 90)
+          refuse(subject, where, fmt::format("[{:.10g}, {:.10g}] are no degrees", p.u, p.v),
+                 "GeoJSON has longitude and latitude (RFC 7946) unless its member crs names a map "
+                 "projection",
+                 "write the corners in the scene's metres, or the file with its member crs");
+        const Vec3 on_map = map_position(crs, p.v, p.u, 0);
+        p = {on_map.x, on_map.y};
+      }
+  return areas;
+}
+
+void refuse_far(Point2 place, const std::vector<ObjectExtent>& extents, const std::string& subject,
+                const Where& where) {
+  constexpr double surroundings_m = 1000;
+  std::vector<Vec3> corners;
+  for (const auto& extent : extents)
+    if (!extent.is_empty()) corners.insert(corners.end(), {extent.box.low, extent.box.high});
+  if (corners.empty()) return;
+  const ObjectExtent whole{bounding_box(corners)};
+  const auto& [low, high] = whole.box;
+  const double away = distance_in_plan(whole, place);
+  if (away <= std::max(surroundings_m, std::hypot(high.x - low.x, high.y - low.y))) return;
+  refuse(subject, where,
+         fmt::format("[{:.10g}, {:.10g}] is {:.0f} m away from the model", place.u, place.v, away),
+         fmt::format("that lies at x {:.10g} to {:.10g}, y {:.10g} to {:.10g} in the metres of its "
+                     "files",
+                     low.x, high.x, low.y, high.y),
+         "write the place in these");
+}
+
+ChosenObjects Selector::named_objects(const SceneObjects& all) const {
+  ChosenObjects chosen(all.names.size(), 0);
+  for (std::size_t o = 0; o < chosen.size(); ++o)
+    chosen[o] = !all.extents[o].is_empty() && matches(wanted_.object, all.names[o]) &&
+                        matches(wanted_.kind, o < all.kinds.size() ? all.kinds[o] : "")
+                    ? 1
+                    : 0;
+  return chosen;
+}
+
+void Selector::keep_nearest(const SceneObjects& all, ChosenObjects& chosen) const {
+  // Of several above the place the smallest in plan: a house, not the ground that it stands on.
+  const auto nearness = [&](std::size_t o) {
+    const Vec3 size = all.extents[o].box.high - all.extents[o].box.low;
+    return std::pair(distance_in_plan(all.extents[o], *wanted_.near), size.x * size.y);
+  };
+  std::size_t taken = chosen.size();
+  for (std::size_t o = 0; o < chosen.size(); ++o) {
+    if (chosen[o] == 0) continue;
+    if (taken == chosen.size() || nearness(o) < nearness(taken)) taken = o;
+    chosen[o] = 0;
+  }
+  if (taken < chosen.size()) chosen[taken] = 1;
+}
+
+ChosenObjects Selector::objects(const SceneObjects& all) const {
+  ChosenObjects chosen = named_objects(all);
+  const auto areas = areas_in_scene(wanted_.polygon, frame_.crs, subject_, where_);
+  if (!areas.empty())
+    for (std::size_t o = 0; o < chosen.size(); ++o)
+      if (chosen[o] != 0 && !lies_in(areas, in_plan(all.extents[o].middle()))) chosen[o] = 0;
+  if (!wanted_.near) return chosen;
+  refuse_far(*wanted_.near, all.extents, subject_, where_);
+  if (!wanted_.within_m) {
+    keep_nearest(all, chosen);
+    return chosen;
+  }
+  for (std::size_t o = 0; o < chosen.size(); ++o)
+    if (chosen[o] != 0 && distance_in_plan(all.extents[o], *wanted_.near) > *wanted_.within_m)
+      chosen[o] = 0;
+  return chosen;
+}
+
+Selector::Sight Selector::sight_of(const SceneObjects& all) const {
+  Sight sight{areas_in_scene(wanted_.polygon, frame_.crs, subject_, where_), named_objects(all)};
+  if (!wanted_.near) return sight;
+  refuse_far(*wanted_.near, all.extents, subject_, where_);
+  if (!wanted_.within_m) keep_nearest(all, sight.objects);
+  return sight;
+}
+
+bool Selector::holds(const Sight& sight, const SceneObjects& all,
+                     const std::vector<Facade>& facades, const Part& part) const {
+  if (sight.objects[part.object.index()] == 0) return false;
+  const Point2 at = in_plan(part.middle);
+  if (!sight.areas.empty() && !lies_in(sight.areas, at)) return false;
+  if (wanted_.near && wanted_.within_m &&
+      std::hypot(at.u - wanted_.near->u, at.v - wanted_.near->v) > *wanted_.within_m)
+    return false;
+  if (!wanted_.facade.empty() &&
+      (!part.facade.exists() || !matches(wanted_.facade, facades[part.facade.index()].name)))
+    return false;
+  if (!wanted_.surface.empty() &&
+      wanted_.surface != surface_names[static_cast<std::size_t>(part.surface)])
+    return false;
+  if (wanted_.azimuth_deg) {
+    const Vec3 n = part.normal;
+    if (std::hypot(n.x, n.y) < std::sin(radians(level_deg))) return false;
+    if (!lies_between(horizontal(n).azimuth_deg + frame_.north_deg, *wanted_.azimuth_deg))
+      return false;
+  }
+  if (!wanted_.height_m) return true;
+  const double height = part.middle.z - all.extents[part.object.index()].box.low.z + rounding_m;
+  return height >= (*wanted_.height_m)[0] && height < (*wanted_.height_m)[1];
+}
+
+std::string empty_selection_warning(const std::string& name) {
+  return "selection '" + name +
+         "' chooses no patch of this variant: nothing is told of it; sunload check tells what each "
+         "chooses";
+}
+
+ChosenParts selected_faces(const NamedSelection& selection, const Mesh& mesh,
+                           const SceneFrame& frame) {
+  const Selector selector(selection.of, frame, subject_of(selection), selection.where);
+  return selector.parts(objects_of(mesh), mesh.facades, mesh.triangle_count(), [&](std::size_t t) {
+    Vec3 sum;
+    for (const auto v : mesh.triangles[t]) sum += mesh.vertices[static_cast<std::size_t>(v)];
+    return Selector::Part{mesh.triangle_object[t], mesh.triangle_facade[t],
+                          mesh.triangle_surface[t], mesh.origin + sum / 3,
+                          normalized(mesh.area_vector2(t))};
+  });
+}
+
+ChosenParts selected_patches(const NamedSelection& selection, const BuiltScene& built,
+                             const Hierarchy& hierarchy) {
+  const Mesh& mesh = built.scene.mesh;
+  const SceneFrame frame{built.crs, built.site.north_deg};
+  const Selector selector(selection.of, frame, subject_of(selection), selection.where);
+  return selector.parts(
+      objects_of(mesh), mesh.facades, hierarchy.patch_count(), [&](std::size_t i) {
+        const Patch& patch = hierarchy.patches()[i];
+        const auto t = static_cast<std::size_t>(patch.triangle);
+        return Selector::Part{
+            mesh.triangle_object[t], patch.side == 0 ? mesh.triangle_facade[t] : FacadeId::none(),
+            mesh.triangle_surface[t], mesh.origin + hierarchy.centroid(i), hierarchy.normal(i)};
+      });
+}
+
+}  // namespace sunload
