@@ -24,6 +24,7 @@
 #include "io/plan/room.h"
 #include "io/plan/rules_of_study.h"
 #include "io/plan/selection.h"
+#include "io/plan/study_measures.h"
 #include "io/plan/time_words.h"
 #include "io/plan/variant_mesh.h"
 #include "io/plan/variant_plan.h"
@@ -318,6 +319,9 @@ CheckText text_of(const VariantPlan& plan, const VariantMesh& made, const WorkEs
   add("mesh", mesh);
   std::vector<std::string> empty_selections;
   add("selections", selections_text(plan, *made.mesh, empty_selections));
+  std::string measures;
+  for (const auto& line : measures_in_words(plan, *made.mesh)) measures += "  " + line + "\n";
+  add("measures", measures);
   add("work", work_text(plan, work));
   std::string warnings;
   for (const auto& list : {plan.built.warnings, plan.light.notes,

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/plan/study_measures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -119,6 +121,38 @@ StudyMeasures::StudyMeasures(const VariantPlan& plan, const Hierarchy& hierarchy
       m.scene->points.push_back({sensor.position, sensor.normal});
     m.measure = m.rule->start(m.parameters, *m.scene);
   }
+}
+
+std::vector<std::string> measures_in_words(const VariantPlan& plan, const Hierarchy& hierarchy) {
+  std::vector<std::string> lines;
+  const std::size_t sensors = plan.built.scene.sensors.size();
+  for (MeasureParameters of : plan.study.measures) {
+    const MeasureRule& rule = *find_measure_rule(of.rule);
+    fill_in_date(of, rule, plan);
+    std::string needs;
+    switch (rule.needs) {
+      case MeasureRule::Needs::geometry:
+        needs = "the scene alone, in any light";
+        break;
+      case MeasureRule::Needs::sun_path:
+        needs = fmt::format("the sun of {:04}-{:02}-{:02}, whatever the period", of.date->year,
+                            of.date->month, of.date->day);
+        break;
+      case MeasureRule::Needs::intervals:
+        needs = fmt::format("suns and weather of the period's {} intervals", plan.intervals());
+        break;
+      case MeasureRule::Needs::series:
+        needs = "the series that the run computes";
+        break;
+    }
+    lines.push_back(
+        fmt::format("{}: {} of {} patches{}; needs {}", of.name, of.rule,
+                    chosen_patches(of.of, plan, hierarchy).size(),
+                    sensors > 0 ? fmt::format(" and {} sensor{}", sensors, sensors == 1 ? "" : "s")
+                                : std::string(),
+                    needs));
+  }
+  return lines;
 }
 
 }  // namespace sunload

@@ -27,6 +27,9 @@ struct StudyMeasure {
   std::unique_ptr<Measure> measure;
 };
 
+/// A line for each measure of the plan's study: where it is measured, and what it needs.
+std::vector<std::string> measures_in_words(const VariantPlan& plan, const Hierarchy& hierarchy);
+
 class StudyMeasures {
  public:
   /// Plan and mesh must outlive it. Nothing is computed yet.

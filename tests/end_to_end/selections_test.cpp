@@ -95,6 +95,7 @@ TEST_F(Selections, CheckTellsWhatTheyChoose) {
   const Ran ran = run({"check", "square.yaml"});
   ASSERT_EQ(ran.code, 0) << ran.err;
   EXPECT_NE(ran.out.find("  upper: "), std::string::npos) << ran.out;
+  EXPECT_NE(ran.out.find("  sky: bre_209_vsc of "), std::string::npos) << ran.out;
   EXPECT_NE((ran.out + ran.err).find("selection 'nothing' chooses no patch"), std::string::npos);
 }
 

@@ -11,7 +11,9 @@
 #include <regex>
 #include <thread>
 
+#include "geo/edit/objects.h"
 #include "io/result/reader.h"
+#include "io/scene/file.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
@@ -58,6 +60,35 @@ TEST(Examples, OfVariantsRun) {
                   fs::exists(folder / ("results/" + std::string(name) + "/.work")),
               count);
   }
+}
+
+/// Written and read back: types, CRS, closed bodies, and what the steps did.
+TEST(Scene, WritesTheEditedModelOfAStudy) {
+  const WorkFolder folder;
+  const std::string study = source_folder() + "/configs/storeys.yaml";
+  const auto written = [&](const std::string& variant) {
+    const std::string name = variant + ".city.json";
+    const Ran ran = program(folder, {"scene", study, "--variant", variant, "-o", name});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return read_scene_file(folder / name, {});
+  };
+  const PolygonModel low = written("storeys-0"), high = written("storeys-2");
+  ASSERT_EQ(low.object_names, high.object_names);
+  EXPECT_EQ(low.object_kinds, high.object_kinds);
+  EXPECT_EQ(low.crs, high.crs);
+  EXPECT_FALSE(low.crs.empty());
+  const auto before = extents_of(low), after = extents_of(high);
+  for (std::size_t o = 0; o < before.size(); ++o) {
+    const double risen = after[o].box.high.z - before[o].box.high.z;
+    EXPECT_NEAR(risen, low.object_names[o] == "house_a3" ? 6 : 0, 2e-6) << low.object_names[o];
+  }
+  const auto lime = std::find(low.object_names.begin(), low.object_names.end(), "lime_1");
+  ASSERT_NE(lime, low.object_names.end());
+  EXPECT_EQ(low.object_kinds[static_cast<std::size_t>(lime - low.object_names.begin())],
+            "SolitaryVegetationObject");
+  EXPECT_EQ(program(folder, {"scene", study, "--variant", "storeys-9", "-o", "x.city.json"}).code,
+            2);
+  EXPECT_EQ(program(folder, {"scene", "street", "--variant", "a", "-o", "x.obj"}).code, 2);
 }
 
 struct Three {
