@@ -61,6 +61,10 @@ class SeriesLight : public LitPeriod {
   Vec3 direction(std::size_t interval) const override {
     return series_.intervals[interval].when.direction;
   }
+  std::vector<Vec3> suns(std::size_t interval) const override {
+    const SunInterval& when = series_.intervals[interval].when;
+    return when.sun_samples.empty() ? std::vector{when.direction} : when.sun_samples;
+  }
   IntervalLight of(std::size_t interval) const override {
     return lights_.of(series_.intervals[interval], interval);
   }

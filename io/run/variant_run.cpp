@@ -106,9 +106,11 @@ void VariantRun::read_or_trace() {
 
 void VariantRun::build(std::optional<Lines> ready) {
   if (!ready) progress_.advance(Stage::lines, 0);
-  traced_ = trace_scene(plan_.built.scene, mesh_, rules_, progress_, std::move(ready));
-  lights_.emplace(plan_.study, plan_.built.site, traced_->grid);
+  auto traced = trace_scene(plan_.built.scene, mesh_, rules_, progress_, std::move(ready));
+  lights_.emplace(plan_.study, plan_.built.site, traced->grid);
   period_.emplace(*lights_, plan_.light);
+  traced->expect(*period_);
+  traced_ = std::move(traced);
   transport_ = transport_of(*traced_, *period_);
   unwritten_ = traced_->work;
   unwritten_ += transport_->work();

@@ -280,8 +280,7 @@ class PatchSuns {
 
 std::uint64_t direct_sun(const RayCaster& caster, const SunSampler& sampler,
                          std::span<const IntervalLight> block, const RaySink& into, Columns& sunlit,
-                         const SunShafts* shafts) {
-  const auto sights = shafts ? shafts->sights(block) : std::vector<SunSight>();
+                         std::span<const SunSight> sights) {
   return ordered_sum(sampler.receivers(), receivers_per_chunk, std::uint64_t{0},
                      [&](std::size_t begin, std::size_t end) {
                        PatchSuns suns(caster, sampler, block, sights, into.realizations());

@@ -20,9 +20,9 @@
 #include "geo/base/units.h"
 #include "solver/base/rng.h"
 #include "solver/first_light/ray_light.h"
-#include "solver/first_light/sun_shafts.h"
 #include "solver/light/sun_block.h"
 #include "solver/mesh/hierarchy.h"
+#include "solver/sight/sun_sight.h"
 #include "solver/surface/ray_caster.h"
 
 namespace sunload {
@@ -140,10 +140,11 @@ class SunPoints {
 };
 
 /// Adds the direct sun of a block to `into`, and to `sunlit` ([N][block]) the share of each
-/// receiver that sees the sun, times `sun_share`, for every sun above the horizon. `shafts` of the
-/// same patches save rays and change no bit; null: rays tell all. Returns the rays cast.
+/// receiver that sees the sun, times `sun_share`, for every sun above the horizon. `sights` of the
+/// same receivers, [N][block], save rays and change no bit; empty: rays tell all. Returns the rays
+/// cast.
 std::uint64_t direct_sun(const RayCaster& caster, const SunSampler& sampler,
                          std::span<const IntervalLight> block, const RaySink& into, Columns& sunlit,
-                         const SunShafts* shafts = nullptr);
+                         std::span<const SunSight> sights = {});
 
 }  // namespace sunload

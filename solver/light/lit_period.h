@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "solver/light/sun_block.h"
 
@@ -21,6 +22,8 @@ class LitPeriod {
   virtual bool is_dark(std::size_t interval) const = 0;
   virtual bool has_sun(std::size_t interval) const = 0;
   virtual Vec3 direction(std::size_t interval) const = 0;
+  /// To all suns that stand for the interval: more than one where it has `sun_samples`.
+  virtual std::vector<Vec3> suns(std::size_t interval) const { return {direction(interval)}; }
   /// From any thread. Cost: some 0.1 ms for the sky.
   virtual IntervalLight of(std::size_t interval) const = 0;
 };

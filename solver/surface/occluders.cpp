@@ -16,31 +16,16 @@ Vec3 rounded(Vec3 p) {
   return {one(p.x), one(p.y), one(p.z)};
 }
 
-double along(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
-struct Bounds {
-  Vec3 low, high;
-  explicit Bounds(Vec3 p) : low(p), high(p) {}
-  void hold(Vec3 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  int longest_axis() const {
-    const Vec3 size = high - low;
-    if (size.x >= size.y && size.x >= size.z) return 0;
-    return size.y >= size.z ? 1 : 2;
-  }
-};
-
 }  // namespace
 
 Occluders::Occluders(const Mesh& mesh, std::span<const float> transmittance)
     : transmittance_(transmittance.begin(), transmittance.end()) {
   weld(mesh);
   find_edges();
-  ordered_.resize(corners_.size());
-  std::iota(ordered_.begin(), ordered_.end(), 0);
-  if (!ordered_.empty()) grow(0, static_cast<std::uint32_t>(ordered_.size()));
+  std::vector<BoxTree::Box> boxes;
+  for (std::size_t t = 0; t < corners_.size(); ++t)
+    boxes.push_back(BoxTree::box_about(std::array{corner(t, 0), corner(t, 1), corner(t, 2)}));
+  tree_ = BoxTree(boxes);
 }
 
 void Occluders::weld(const Mesh& mesh) {
@@ -81,36 +66,6 @@ void Occluders::find_edges() {
     at_edge_.push_back(static_cast<std::int32_t>(edges[i].triangle));
   }
   edge_begin_.push_back(static_cast<std::uint32_t>(edges.size()));
-}
-
-/// Boxes of the triangles [begin, end) of ordered_, halved at the median of their centres.
-void Occluders::grow(std::uint32_t begin, std::uint32_t end) {
-  constexpr std::uint32_t most_of_leaf = 4;
-  const auto centre3 = [&](std::int32_t t) {
-    const auto i = static_cast<std::size_t>(t);
-    return corner(i, 0) + corner(i, 1) + corner(i, 2);
-  };
-  Bounds all(corner(static_cast<std::size_t>(ordered_[begin]), 0)),
-      centres(centre3(ordered_[begin]));
-  for (std::uint32_t i = begin; i < end; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) all.hold(corner(static_cast<std::size_t>(ordered_[i]), k));
-    centres.hold(centre3(ordered_[i]));
-  }
-  const std::size_t node = nodes_.size();
-  const Box box{(all.low + all.high) * 0.5, (all.high - all.low) * 0.5};
-  nodes_.push_back({box, begin, end - begin});
-  if (end - begin <= most_of_leaf) return;
-  const int axis = centres.longest_axis();
-  const std::uint32_t middle = begin + (end - begin) / 2;
-  std::nth_element(ordered_.begin() + begin, ordered_.begin() + middle, ordered_.begin() + end,
-                   [&](std::int32_t a, std::int32_t b) {
-                     return std::pair(along(centre3(a), axis), a) <
-                            std::pair(along(centre3(b), axis), b);
-                   });
-  grow(begin, middle);
-  nodes_[node].first = static_cast<std::uint32_t>(nodes_.size());
-  nodes_[node].count = 0;
-  grow(middle, end);
 }
 
 std::span<const std::int32_t> Occluders::at_edge(std::size_t triangle, std::size_t k) const {

@@ -53,11 +53,11 @@ RaySink sink(const TracedScene& traced, Columns& pooled, std::vector<std::vector
 /// `sums`: null where nobody wants time integrals, here and below.
 std::uint64_t add_sun(const TracedScene& traced, const Receivers& receivers, Suns suns,
                       RayLight& rays, RaySums* sums) {
+  const auto sights = &receivers == &traced.patches ? traced.sights(suns) : std::vector<SunSight>();
   return direct_sun(
       traced.caster, receivers.sampler, suns,
       sink(traced, rays.pooled.direct, sums ? &sums->direct : nullptr, rays.of_realizations.direct),
-      rays.sunlit,
-      &receivers == &traced.patches && traced.sun_shafts ? &*traced.sun_shafts : nullptr);
+      rays.sunlit, sights);
 }
 
 std::uint64_t add_circumsolar(const TracedScene& traced, const BlockSources& sources,

@@ -140,6 +140,24 @@ bool TracedScene::has_part(Part part) const {
   return true;
 }
 
+void TracedScene::expect(const LitPeriod& period) {
+  // A view costs what rays to some hundred suns cost, of which it spares most.
+  constexpr std::size_t suns_that_pay = 256;
+  std::vector<Vec3> suns;
+  for (std::size_t k = 0; k < period.intervals(); ++k)
+    if (period.has_sun(k))
+      for (const Vec3 sun : period.suns(k)) suns.push_back(sun);
+  if (suns.size() < suns_that_pay) return;
+  const Stopwatch time(work[Work::direct_s]);
+  sun_views.emplace(scene, *mesh, caster.offset_m(), suns);
+}
+
+std::vector<SunSight> TracedScene::sights(std::span<const IntervalLight> block) const {
+  if (sun_views) return sun_views->sights(block);
+  if (sun_shafts) return sun_shafts->sights(block);
+  return {};
+}
+
 std::vector<double> TracedScene::sky_view_factor() const {
   std::vector<double> share;
   for (const auto& ends : patches.lines.pooled.ends) share.push_back(static_cast<double>(ends.sky));
@@ -155,10 +173,9 @@ LineRules line_rules(const SolverRules& rules) {
           .largest_link = rules.link_threshold / rules.lines_per_patch};
 }
 
-std::unique_ptr<const TracedScene> trace_scene(const Scene& scene,
-                                               std::shared_ptr<const Hierarchy> mesh,
-                                               const SolverRules& rules, Watch& watch,
-                                               std::optional<Lines> ready) {
+std::unique_ptr<TracedScene> trace_scene(const Scene& scene, std::shared_ptr<const Hierarchy> mesh,
+                                         const SolverRules& rules, Watch& watch,
+                                         std::optional<Lines> ready) {
   auto traced = std::make_unique<TracedScene>(scene, std::move(mesh), rules);
   traced->patches.lines = ready ? std::move(*ready) : lines_of_patches(*traced, watch);
   if (rules.transport == Transport::matrix) use_form_factors(*traced, watch);
@@ -169,9 +186,9 @@ std::unique_ptr<const TracedScene> trace_scene(const Scene& scene,
   return traced;
 }
 
-std::unique_ptr<const TracedScene> trace_scene(const Scene& scene, const SplitRules& split,
-                                               const SolverRules& rules, Watch& watch,
-                                               std::optional<Lines> ready) {
+std::unique_ptr<TracedScene> trace_scene(const Scene& scene, const SplitRules& split,
+                                         const SolverRules& rules, Watch& watch,
+                                         std::optional<Lines> ready) {
   return trace_scene(scene, std::make_shared<const Hierarchy>(scene, split), rules, watch,
                      std::move(ready));
 }

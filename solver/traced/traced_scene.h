@@ -14,12 +14,14 @@
 #include "solver/first_light/mirror_chains.h"
 #include "solver/first_light/mirror_sun.h"
 #include "solver/first_light/parallel_light.h"
-#include "solver/first_light/sun_shafts.h"
 #include "solver/gather/jacobi.h"
+#include "solver/light/lit_period.h"
 #include "solver/light/work.h"
 #include "solver/lines/lines.h"
 #include "solver/mesh/hierarchy.h"
 #include "solver/mesh/patch_optics.h"
+#include "solver/sight/sun_shafts.h"
+#include "solver/sight/sun_views.h"
 #include "solver/traced/rules.h"
 
 namespace sunload {
@@ -46,6 +48,11 @@ struct TracedScene {
   bool is_rgb() const { return rules.bands == Bands::rgb; }
   /// Parts of the irradiance that the scene can have.
   bool has_part(Part part) const;
+  /// Looks beforehand what patches see of the suns of this period, where these are so many that it
+  /// pays. Saves rays, and changes no bit of what they tell.
+  void expect(const LitPeriod& period);
+  /// Of patches and the suns of a block, [N][block], or empty: nothing is known.
+  std::vector<SunSight> sights(std::span<const IntervalLight> block) const;
   /// Directions in which the scene's mirrors face.
   std::size_t mirror_orientations() const { return mirrors.reflecting(); }
   /// Cosine-weighted share of the hemisphere above each patch that is sky.
@@ -60,6 +67,7 @@ struct TracedScene {
   std::vector<PatchOptics> optics_of_band;  ///< one where light is broadband
   Receivers patches, sensors;
   std::optional<SunShafts> sun_shafts;  ///< of patches; none where they do not pay
+  std::optional<SunViews> sun_views;    ///< of patches and the suns that are expected, or none
   MirrorGroups mirrors;
   MirrorSun mirror_sun;
   MirrorChains mirror_chains;
@@ -77,13 +85,12 @@ LineRules line_rules(const SolverRules& rules);
 /// Builds the ray caster and traces all lines, unless those of an equal scene are handed over
 /// (`ready`). `scene` must outlive the result. Cost: a ray for each line of every patch. Throws
 /// Interrupted.
-std::unique_ptr<const TracedScene> trace_scene(const Scene& scene,
-                                               std::shared_ptr<const Hierarchy> mesh,
-                                               const SolverRules& rules, Watch& watch,
-                                               std::optional<Lines> ready = {});
+std::unique_ptr<TracedScene> trace_scene(const Scene& scene, std::shared_ptr<const Hierarchy> mesh,
+                                         const SolverRules& rules, Watch& watch,
+                                         std::optional<Lines> ready = {});
 /// On a mesh that is split by edge length alone.
-std::unique_ptr<const TracedScene> trace_scene(const Scene& scene, const SplitRules& split,
-                                               const SolverRules& rules, Watch& watch,
-                                               std::optional<Lines> ready = {});
+std::unique_ptr<TracedScene> trace_scene(const Scene& scene, const SplitRules& split,
+                                         const SolverRules& rules, Watch& watch,
+                                         std::optional<Lines> ready = {});
 
 }  // namespace sunload

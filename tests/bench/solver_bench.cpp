@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How fast the solver is on a study: lines, shadow rays, sky and Jacobi, shots, per second.
 //   solver_bench STUDY.yaml [BATCHES]
-// The study's first variant on its own mesh, its first BATCHES batches (default 1). Beside each
+// The study's first variant on its own mesh, BATCHES of its batches (default 1), spread evenly
+// over the period. Beside each
 // stage stands what the ray caster alone does on the same scene in the same run: packets of 16 rays
 // from points of a patch to each sun that it faces, and packets of 16 lines to what they first
 // meet. Shares of those compare machines; a speed alone is told with version, commit and
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "geo/base/check.h"
@@ -34,6 +36,28 @@ void tell(const char* what, double count, double seconds, const char* unit) {
   if (count > 0 && seconds > 0)
     fmt::print("{:<24} {:10.3g} {:<14} {:8.3f} s  {:10.3g} million/s\n", what, count, unit, seconds,
                count / seconds / million);
+}
+
+void tell_seconds(const char* what, double seconds) {
+  if (seconds > 0) fmt::print("{:<24} {:36.3f} s\n", what, seconds);
+}
+
+/// How much of what suns and patches that face each other see is known without rays.
+void tell_sights(const TracedScene& traced, std::span<const IntervalLight> suns) {
+  std::array<std::uint64_t, 3> pairs{};
+  for (std::size_t first = 0; first < suns.size(); first += block_width) {
+    const auto block = suns.subspan(first, std::min(block_width, suns.size() - first));
+    const auto sights = traced.sights(block);
+    for (std::size_t i = 0; i < sights.size() / block_width; ++i)
+      for (std::size_t k = 0; k < block.size(); ++k)
+        if (block[k].has_sun() && dot(traced.hierarchy().normal(i), block[k].direction) > 0)
+          ++pairs[static_cast<std::size_t>(sights[i * block_width + k])];
+  }
+  const auto all = static_cast<double>(pairs[0] + pairs[1] + pairs[2]);
+  if (all > 0)
+    fmt::print("{:<24} {:9.1f} % lit, {:.1f} % dark of {:.3g} pairs\n", "known without rays",
+               100 * static_cast<double>(pairs[1]) / all, 100 * static_cast<double>(pairs[2]) / all,
+               all);
 }
 
 struct Bare {
@@ -118,14 +142,19 @@ void bench(const std::string& path, std::size_t batches) {
   const VariantPlan plan = make_plan(read_study(path).variants.front());
   Watch watch;
   const auto made = make_mesh(plan, watch);
-  const auto traced = trace_scene(plan.built.scene, made.mesh, solver_rules(plan), watch);
+  auto traced = trace_scene(plan.built.scene, made.mesh, solver_rules(plan), watch);
+  const IntervalLights lights(plan.study, plan.built.site, traced->grid);
+  const SeriesLight period(lights, plan.light);
+  traced->expect(period);
   const auto transport = transport_of(*traced);
   WorkDone work = traced->work;
+  tell_seconds("views", work[Work::direct_s]);
   work += transport->work();
   std::vector<IntervalLight> lit;
-  const IntervalLights lights(plan.study, plan.built.site, traced->grid);
-  for (std::size_t first = 0; first < std::min(plan.intervals(), batches * plan.batch_suns());
-       first += plan.batch_suns()) {
+  const std::size_t there_are = (plan.intervals() + plan.batch_suns() - 1) / plan.batch_suns();
+  const std::size_t some = std::min(batches, there_are);
+  for (std::size_t b = 0; b < some; ++b) {
+    const std::size_t first = (2 * b + 1) * there_are / (2 * some) * plan.batch_suns();
     const auto light =
         lights.of(plan.light, first, std::min(plan.intervals() - first, plan.batch_suns()));
     for (const auto& sun : light)
@@ -137,6 +166,7 @@ void bench(const std::string& path, std::size_t batches) {
   fmt::print("sunload {} ({}), {}, {} threads; {} patches, {} lit suns, {} bounces\n", version,
              commit, plan.isa, thread_count(), traced->patches.count(), lit.size(),
              traced->bounces);
+  tell_sights(*traced, lit);
   tell("lines", work[Work::line_rays], work[Work::lines_s], "rays");
   tell("direct and circumsolar", work[Work::direct_rays], work[Work::direct_s], "rays");
   tell("mirrored sun", work[Work::mirror_rays], work[Work::mirror_s], "rays");

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/first_light/shaft_walk.h"
+#include "solver/sight/shaft_walk.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,16 +10,10 @@ namespace sunload {
 
 namespace {
 
-// In offsets of the ray caster, which are more than twice what rounding may move a ray's origin by
-// (solver/surface/ray_caster.cpp). Its directions and its tests of edges add less than that again.
-constexpr double lateral = 2;
-/// Below the origins of all rays …
-constexpr double surely_below = 0.25;
-/// … and above them, where a surface faces the sun; as much more as it is seen edge-on.
+constexpr double lateral = lateral_offsets, surely_below = surely_below_offsets;
+/// Above the origins of all rays, in offsets, where a surface faces the sun; as much more as it is
+/// seen edge-on.
 constexpr double surely_above = 2;
-/// Sine of the angle by which a triangle must face the sun, and the sun a patch: beyond that the
-/// rounding of normals may turn them.
-constexpr double least_facing = 1e-3;
 /// Blockers of an element's shaft for each of its patches beyond which rays cost less.
 constexpr std::size_t most_per_patch = 16;
 
@@ -94,7 +88,7 @@ bool ShaftWalk::collect(Element group) {
     sides[i] = {n, absolute(n), line.offset};
   }
   const Vec3 up_width = absolute(normal_), depth_width = absolute(sun_);
-  const auto meets = [&](const Occluders::Box& box) {
+  const auto meets = [&](const BoxTree::Box& box) {
     const Vec3 d = box.centre - base_;
     if (dot(d, normal_) + dot(box.half, up_width) <= surely_below * offset) return false;
     const double farthest = dot(d, sun_) + dot(box.half, depth_width) - nearest_;
@@ -107,7 +101,7 @@ bool ShaftWalk::collect(Element group) {
   blockers_.clear();
   strips_.clear();
   const std::size_t most = most_per_patch * shafts_.patches_in(group);
-  if (!shafts_.occluders().collect(meets, most, triangles_)) return false;
+  if (!shafts_.occluders().tree().collect(meets, most, triangles_)) return false;
   std::sort(triangles_.begin(), triangles_.end());
   for (const auto triangle : triangles_) add_blocker(triangle);
   sheet_.resize(blockers_.size());

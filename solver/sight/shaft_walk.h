@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// One group of patches and one sun: what stands in its shaft, and which of its elements that
-/// leaves open or closes (solver/first_light/sun_shafts.h).
+/// leaves open or closes (solver/sight/sun_shafts.h).
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "solver/first_light/outline.h"
-#include "solver/first_light/sun_shafts.h"
+#include "solver/sight/outline.h"
+#include "solver/sight/sun_shafts.h"
 
 namespace sunload {
 

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What shafts tell of patches and suns is what all rays tell: the same bits, fewer rays.
-#include "solver/first_light/sun_shafts.h"
-
+/// What shafts and views tell of patches and suns is what all rays tell: the same bits, fewer rays.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,6 +12,8 @@
 #include "solver/base/rng.h"
 #include "solver/base/threads.h"
 #include "solver/first_light/direct_sun.h"
+#include "solver/sight/sun_shafts.h"
+#include "solver/sight/sun_views.h"
 #include "tests/support/real_models.h"
 #include "tests/support/scenes.h"
 
@@ -52,8 +52,25 @@ struct Sunlight {
   double seconds;
 };
 
+enum class Known { nothing, by_shafts, by_views };
+
+std::vector<Vec3> directions(const std::vector<IntervalLight>& block) {
+  std::vector<Vec3> all;
+  for (const auto& sun : block) all.push_back(sun.direction);
+  return all;
+}
+
+std::vector<SunSight> sights(Known known, const Scene& scene, const Hierarchy& mesh,
+                             const std::vector<IntervalLight>& block) {
+  const double offset = ray_offset_m(scene.mesh);
+  if (known == Known::by_shafts) return SunShafts(scene, mesh, offset).sights(block);
+  if (known == Known::by_views)
+    return SunViews(scene, mesh, offset, directions(block)).sights(block);
+  return {};
+}
+
 Sunlight sunlight(const Scene& scene, const SplitRules& split,
-                  const std::vector<IntervalLight>& block, bool with_shafts) {
+                  const std::vector<IntervalLight>& block, Known known) {
   const DirectRules rules;
   const Hierarchy mesh(scene, split);
   const RayCaster caster(scene.mesh, "auto", screens(scene));
@@ -61,29 +78,32 @@ Sunlight sunlight(const Scene& scene, const SplitRules& split,
   const auto realizations = static_cast<std::size_t>(rules.realizations);
   const std::size_t n = mesh.patch_count();
   Sunlight light{columns(n), columns(n), {realizations, std::vector<double>(n, 0)}, 0, 0};
-  const SunShafts shafts(scene, mesh, caster.offset_m());
   const auto start = std::clock();
   light.rays =
       direct_sun(caster, sampler, block, {light.pooled, realizations, &light.exposure, nullptr},
-                 light.sunlit, with_shafts ? &shafts : nullptr);
+                 light.sunlit, sights(known, scene, mesh, block));
   light.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   return light;
 }
 
-/// Rays with shafts for one without.
+/// Rays with what is known for one without, the more of both.
 double expect_the_same(const Scene& scene, double max_edge_m, std::size_t count,
                        double disk_half_angle = 0) {
   const auto block = suns(count, disk_half_angle);
   const SplitRules split{.max_edge_m = max_edge_m};
-  const Sunlight all = sunlight(scene, split, block, false);
-  const Sunlight few = sunlight(scene, split, block, true);
-  EXPECT_EQ(few.pooled, all.pooled);
-  EXPECT_EQ(few.sunlit, all.sunlit);
-  EXPECT_EQ(few.exposure, all.exposure);
-  const double rays = static_cast<double>(few.rays) / static_cast<double>(all.rays);
-  std::cout << all.rays << " rays, share left " << rays << ", processor time "
-            << few.seconds / all.seconds << " of " << all.seconds << " s\n";
-  return rays;
+  const Sunlight all = sunlight(scene, split, block, Known::nothing);
+  double most = 0;
+  for (const Known known : {Known::by_shafts, Known::by_views}) {
+    const Sunlight few = sunlight(scene, split, block, known);
+    EXPECT_EQ(few.pooled, all.pooled);
+    EXPECT_EQ(few.sunlit, all.sunlit);
+    EXPECT_EQ(few.exposure, all.exposure);
+    const double rays = static_cast<double>(few.rays) / static_cast<double>(all.rays);
+    std::cout << all.rays << " rays, share left " << rays << ", processor time "
+              << few.seconds / all.seconds << " of " << all.seconds << " s\n";
+    most = std::max(most, rays);
+  }
+  return most;
 }
 
 /// Houses, a mast of 10 cm, a roof on thin air, a hedge half sunk into the ground; turned so that
@@ -108,19 +128,19 @@ Scene turned(Scene scene) {
   return scene;
 }
 
-TEST(SunShafts, TellWhatRaysTellOfHouses) {
+TEST(Sights, TellWhatRaysTellOfHouses) {
   for (const double half_angle : {0.0, disk}) {
     EXPECT_LT(expect_the_same(quarter(0).scene(), 2, 16, half_angle), 0.5);
     EXPECT_LT(expect_the_same(turned(quarter(0).scene()), 2, 16, half_angle), 0.5);
   }
 }
 
-TEST(SunShafts, LeaveToRaysWhatLightPasses) {
+TEST(Sights, LeaveToRaysWhatLightPasses) {
   EXPECT_LT(expect_the_same(turned(quarter(0.4).scene()), 1.5, 16), 0.6);
 }
 
 /// Triangles that cut each other, none of them closed, with edges in common where they touch.
-TEST(SunShafts, TellWhatRaysTellOfSoups) {
+TEST(Sights, TellWhatRaysTellOfSoups) {
   for (std::uint32_t soup = 0; soup < 6; ++soup) {
     SceneBuilder b;
     const int grey = b.material({"grey", 0.3, 0, 0});
@@ -142,30 +162,42 @@ TEST(SunShafts, TellWhatRaysTellOfSoups) {
   }
 }
 
-TEST(SunShafts, AreTheSameForAnyNumberOfThreads) {
+TEST(Sights, AreTheSameForAnyNumberOfThreads) {
   const Scene scene = turned(quarter(0).scene());
   const Hierarchy mesh(scene, {.max_edge_m = 1.5});
-  const SunShafts shafts(scene, mesh, ray_offset_m(scene.mesh));
-  const int before = thread_count();
-  set_thread_count(1);
-  const auto one = shafts.sights(suns(16, 0));
-  set_thread_count(3);
-  EXPECT_EQ(shafts.sights(suns(16, 0)), one);
-  set_thread_count(before);
+  for (const Known known : {Known::by_shafts, Known::by_views}) {
+    const int before = thread_count();
+    set_thread_count(1);
+    const auto one = sights(known, scene, mesh, suns(16, 0));
+    set_thread_count(3);
+    EXPECT_EQ(sights(known, scene, mesh, suns(16, 0)), one);
+    set_thread_count(before);
+  }
 }
 
-/// A planted fault: occluders that have lost a house tell something else.
-TEST(SunShafts, ComparisonSeesAMissingHouse) {
+/// A planted fault: what has lost a house tells something else.
+TEST(Sights, ComparisonSeesAMissingHouse) {
   const Scene scene = quarter(0).scene();
   Scene without = scene;
   for (std::size_t t = 2; t < 14; ++t) without.mesh.triangles[t] = {0, 0, 0};
   const Hierarchy mesh(scene, {.max_edge_m = 1.5});
-  const double offset = ray_offset_m(scene.mesh);
-  EXPECT_NE(SunShafts(without, mesh, offset).sights(suns(16, 0)),
-            SunShafts(scene, mesh, offset).sights(suns(16, 0)));
+  for (const Known known : {Known::by_shafts, Known::by_views})
+    EXPECT_NE(sights(known, without, mesh, suns(16, 0)), sights(known, scene, mesh, suns(16, 0)));
 }
 
-TEST(SunShafts, TellWhatRaysTellOfARealQuarter) {
+/// Suns that nobody expected are left to rays.
+TEST(SunViews, KnowNothingOfOtherSuns) {
+  const Scene scene = quarter(0).scene();
+  const Hierarchy mesh(scene, {.max_edge_m = 3});
+  const auto expected = suns(4, 0);
+  std::vector<IntervalLight> others = suns(16, 0);
+  others.erase(others.begin(), others.begin() + 4);
+  const SunViews views(scene, mesh, ray_offset_m(scene.mesh), directions(expected));
+  EXPECT_EQ(views.sights(others),
+            std::vector<SunSight>(mesh.patch_count() * block_width, SunSight::unknown));
+}
+
+TEST(Sights, TellWhatRaysTellOfARealQuarter) {
   SUNLOAD_NEEDS_MODEL("data/city/rotterdam_subset_v20.city.json");
   Scene scene;
   scene.mesh =

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/first_light/sun_shafts.h"
+#include "solver/sight/sun_shafts.h"
 
 #include <algorithm>
 
 #include "geo/base/check.h"
 #include "solver/base/threads.h"
-#include "solver/first_light/shaft_walk.h"
+#include "solver/sight/shaft_walk.h"
 
 namespace sunload {
 

@@ -20,13 +20,11 @@
 
 #include "solver/light/sun_block.h"
 #include "solver/mesh/hierarchy.h"
+#include "solver/sight/sun_sight.h"
 #include "solver/surface/material.h"
 #include "solver/surface/occluders.h"
 
 namespace sunload {
-
-/// What is known of a patch and a sun.
-enum class SunSight : std::uint8_t { unknown, open, closed };
 
 class SunShafts {
  public:

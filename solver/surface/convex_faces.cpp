@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/surface/convex_faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace sunload {
+
+namespace {
+
+using Loop = std::vector<std::uint32_t>;  ///< numbers of points, counter-clockwise
+
+struct Plane {
+  Vec3 point, normal;
+  double above(Vec3 p) const { return dot(p - point, normal); }
+};
+
+/// The other triangle at an edge that just two opaque ones share; -1: there is none.
+std::int32_t across(const Occluders& occluders, std::size_t triangle, std::size_t k) {
+  const auto there = occluders.at_edge(triangle, k);
+  if (there.size() != 2) return -1;
+  const auto other = there[0] == static_cast<std::int32_t>(triangle) ? there[1] : there[0];
+  return occluders.is_opaque(static_cast<std::size_t>(other)) ? other : -1;
+}
+
+class Joining {
+ public:
+  Joining(const Occluders& occluders, double flat_m) : o_(occluders), flat_(flat_m) {
+    const std::size_t count = o_.triangle_count();
+    loops_.resize(count);
+    planes_.resize(count);
+    group_.resize(count);
+    std::iota(group_.begin(), group_.end(), std::size_t{0});
+    for (std::size_t t = 0; t < count; ++t) {
+      const Vec3 area2 =
+          cross(o_.corner(t, 1) - o_.corner(t, 0), o_.corner(t, 2) - o_.corner(t, 0));
+      if (!o_.is_opaque(t) || norm(area2) <= 0) continue;
+      loops_[t] = {o_.point(t, 0), o_.point(t, 1), o_.point(t, 2)};
+      planes_[t] = {o_.corner(t, 0), normalized(area2)};
+    }
+  }
+
+  std::vector<ConvexFace> run() {
+    const auto edges = longest_first();
+    for (bool joined = true; joined;) {
+      joined = false;
+      for (const Edge& edge : edges) joined = join(edge) || joined;
+    }
+    std::vector<ConvexFace> faces;
+    for (std::size_t t = 0; t < loops_.size(); ++t) {
+      if (group_[t] != t || loops_[t].empty()) continue;
+      ConvexFace face{{}, planes_[t].normal};
+      for (const auto p : loops_[t]) face.corners.push_back(o_.at(p));
+      faces.push_back(std::move(face));
+    }
+    return faces;
+  }
+
+ private:
+  struct Edge {
+    std::size_t a, b;        ///< triangles
+    std::uint32_t from, to;  ///< as a has it
+    double length;
+  };
+  std::vector<Edge> longest_first() const {
+    std::vector<Edge> edges;
+    for (std::size_t t = 0; t < loops_.size(); ++t)
+      for (std::size_t k = 0; !loops_[t].empty() && k < 3; ++k) {
+        const auto other = across(o_, t, k);
+        if (other <= static_cast<std::int32_t>(t)) continue;
+        if (loops_[static_cast<std::size_t>(other)].empty()) continue;
+        const double length = norm(o_.corner(t, (k + 1) % 3) - o_.corner(t, k));
+        edges.push_back(
+            {t, static_cast<std::size_t>(other), o_.point(t, k), o_.point(t, (k + 1) % 3), length});
+      }
+    std::stable_sort(edges.begin(), edges.end(),
+                     [](const Edge& x, const Edge& y) { return x.length > y.length; });
+    return edges;
+  }
+  std::size_t group(std::size_t t) {
+    while (group_[t] != t) t = group_[t] = group_[group_[t]];
+    return t;
+  }
+
+  bool join(const Edge& edge) {
+    const std::size_t a = group(edge.a), b = group(edge.b);
+    if (a == b || dot(planes_[a].normal, planes_[b].normal) <= 0) return false;
+    for (const auto p : loops_[b])
+      if (std::abs(planes_[a].above(o_.at(p))) > flat_) return false;
+    Loop both = spliced(loops_[a], loops_[b], edge);
+    if (both.size() < 3 || !is_convex(both, planes_[a].normal)) return false;
+    loops_[a] = std::move(both);
+    loops_[b].clear();
+    group_[b] = a;
+    return true;
+  }
+
+  /// a from the edge's end round to its beginning, then what b adds. Empty where the edge is in one
+  /// of them no more, or has the same direction in both.
+  static Loop spliced(const Loop& a, const Loop& b, const Edge& edge) {
+    const auto begin_of = [](const Loop& loop, std::uint32_t from, std::uint32_t to) {
+      for (std::size_t i = 0; i < loop.size(); ++i)
+        if (loop[i] == from && loop[(i + 1) % loop.size()] == to) return i;
+      return loop.size();
+    };
+    const std::size_t in_a = begin_of(a, edge.from, edge.to),
+                      in_b = begin_of(b, edge.to, edge.from);
+    if (in_a == a.size() || in_b == b.size()) return {};
+    Loop both;
+    for (std::size_t i = 1; i <= a.size(); ++i) both.push_back(a[(in_a + i) % a.size()]);
+    for (std::size_t i = 2; i < b.size(); ++i) both.push_back(b[(in_b + i) % b.size()]);
+    take_out_spikes(both);
+    Loop sorted = both;
+    std::sort(sorted.begin(), sorted.end());
+    return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end() ? both : Loop{};
+  }
+  /// Where they share a second edge next to the first, the loop goes there and back.
+  static void take_out_spikes(Loop& loop) {
+    for (std::size_t i = 0; loop.size() > 3 && i < loop.size();) {
+      const std::size_t n = loop.size();
+      if (loop[(i + n - 1) % n] != loop[(i + 1) % n]) {
+        ++i;
+        continue;
+      }
+      const std::size_t next = (i + 1) % n;
+      loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(std::max(i, next)));
+      loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(std::min(i, next)));
+      i = 0;
+    }
+  }
+  /// But for corners that lie inward of their neighbours by what flatness allows.
+  bool is_convex(const Loop& loop, Vec3 normal) const {
+    const std::size_t n = loop.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec3 p = o_.at(loop[i]), q = o_.at(loop[(i + 1) % n]), r = o_.at(loop[(i + 2) % n]);
+      const double turn = dot(cross(q - p, r - q), normal);
+      if (turn < -flat_ * norm(r - p)) return false;
+      if (turn < 0 && dot(q - p, r - q) < 0) return false;  // a spike, not a corner
+    }
+    return true;
+  }
+
+  const Occluders& o_;
+  double flat_;
+  std::vector<Loop> loops_;    ///< of groups; empty: joined to another, or no occluder
+  std::vector<Plane> planes_;  ///< of groups
+  std::vector<std::size_t> group_;
+};
+
+}  // namespace
+
+std::vector<ConvexFace> convex_faces(const Occluders& occluders, double flat_m) {
+  return Joining(occluders, flat_m).run();
+}
+
+double area_of(const ConvexFace& face) {
+  Vec3 area2{0, 0, 0};
+  for (std::size_t k = 2; k < face.corners.size(); ++k)
+    area2 += cross(face.corners[k - 1] - face.corners[0], face.corners[k] - face.corners[0]);
+  return norm(area2) / 2;
+}
+
+ConvexFace inset(const ConvexFace& face, double by_m) {
+  ConvexFace left = face;
+  for (std::size_t i = 0; i < face.corners.size(); ++i) {
+    const Vec3 a = face.corners[i], edge = face.corners[(i + 1) % face.corners.size()] - a;
+    if (norm(edge) <= 0) continue;
+    const Vec3 inward = normalized(cross(face.normal, edge));
+    const auto depth = [&](Vec3 p) { return dot(p - a, inward) - by_m; };
+    std::vector<Vec3> cut;
+    for (std::size_t k = 0; k < left.corners.size(); ++k) {
+      const Vec3 p = left.corners[k], q = left.corners[(k + 1) % left.corners.size()];
+      const double dp = depth(p), dq = depth(q);
+      if (dp >= 0) cut.push_back(p);
+      if ((dp < 0) != (dq < 0)) cut.push_back(p + (q - p) * (dp / (dp - dq)));
+    }
+    left.corners = std::move(cut);
+    if (left.corners.size() < 3) return {{}, face.normal};
+  }
+  return left;
+}
+
+}  // namespace sunload
