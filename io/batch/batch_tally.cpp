@@ -83,9 +83,9 @@ void add_received(BatchWriter& writer, const ReceiverTally& tally, std::size_t K
                  values.data());
   };
   for (std::size_t p = 0; p < part_count; ++p) {
-    if (tally.irradiance[p].empty()) continue;
+    if (tally.exposure[p].empty()) continue;
     const auto part = static_cast<Part>(p);
-    add_series(prefix + series_name(part), tally.irradiance[p]);
+    if (!tally.irradiance[p].empty()) add_series(prefix + series_name(part), tally.irradiance[p]);
     writer.add({prefix + sum_name(part), MergeRule::sum, ArrayType::float64, {N}},
                tally.exposure[p].data());
   }

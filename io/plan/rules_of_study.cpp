@@ -29,6 +29,15 @@ RefineRules refine_rules(const Study& study) {
           .t_vertices = study.mesh.t_vertices};
 }
 
+std::array<bool, part_count> kept_series(const OutputStudy& output) {
+  std::array<bool, part_count> kept{};
+  for (std::size_t p = 0; p < part_count; ++p)
+    kept[p] =
+        static_cast<Part>(p) == Part::total ||
+        std::find(output.series.begin(), output.series.end(), part_names[p]) != output.series.end();
+  return kept;
+}
+
 SolverRules solver_rules(const VariantPlan& plan) {
   const Study& study = plan.study;
   const SolverStudy& s = study.solver;
@@ -51,6 +60,7 @@ SolverRules solver_rules(const VariantPlan& plan) {
           .jacobi = s.jacobi,
           .power_per_sample_w = s.power_per_sample_w,
           .samples_per_patch = {},
+          .series = kept_series(study.output),
           .by_source = false};
 }
 

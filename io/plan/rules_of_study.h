@@ -14,6 +14,8 @@ namespace sunload {
 
 SplitRules split_rules(const Study& study);
 RefineRules refine_rules(const Study& study);
+/// Parts of the irradiance of which a batch holds the series: those of the study, and the total.
+std::array<bool, part_count> kept_series(const OutputStudy& output);
 /// With the study's own counts, which `accuracy` makes the least ones.
 SolverRules solver_rules(const VariantPlan& plan);
 /// The study's goal; only of a study that has one.

@@ -42,6 +42,7 @@ VariantPlan plan_of(const Study& study, BuiltScene built, LightSeries light) {
   plan.isa = usable_isa(study.solver.isa);
   plan.built = std::move(built);
   plan.light = std::move(light);
+  if (!study.solver.batch_suns) plan.study.solver.batch_suns = batch_suns_for(plan.intervals());
   plan.totals = part_totals(study, plan.light, plan.built.site.latitude_deg);
   refuse_lamps_in_lux(plan);
   expect_measurable(study, plan.built, plan.light);
@@ -49,6 +50,11 @@ VariantPlan plan_of(const Study& study, BuiltScene built, LightSeries light) {
   plan.content_hash = hash_with_isa(plan, plan.isa);
   plan.pairing_id = pairing_id(study, plan.light);
   return plan;
+}
+
+int batch_suns_for(std::size_t intervals) {
+  constexpr std::size_t long_period = 2048;
+  return intervals > long_period ? 256 : 64;
 }
 
 VariantPlan make_plan(const Study& study) {

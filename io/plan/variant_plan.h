@@ -17,7 +17,7 @@ namespace sunload {
 struct MeshFamily;
 
 struct VariantPlan {
-  Study study;
+  Study study;  ///< with a number of batch_suns
   BuiltScene built;
   LightSeries light;
   std::vector<PartTotals> totals;  ///< of parts of the period
@@ -30,9 +30,13 @@ struct VariantPlan {
   std::shared_ptr<const MeshFamily> family = {};
 
   std::size_t intervals() const { return light.intervals.size(); }
-  std::size_t batch_suns() const { return static_cast<std::size_t>(study.solver.batch_suns); }
+  std::size_t batch_suns() const { return static_cast<std::size_t>(*study.solver.batch_suns); }
   std::size_t batches() const { return (intervals() + batch_suns() - 1) / batch_suns(); }
 };
+
+/// `solver.batch_suns: auto`. Every batch has totals of all realizations: in a long period few and
+/// large ones cost less.
+int batch_suns_for(std::size_t intervals);
 
 /// Reads the scene, makes sun path and light, and hashes. Throws InputError.
 VariantPlan make_plan(const Study& study);

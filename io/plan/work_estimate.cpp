@@ -127,6 +127,9 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
                       has([](const Material& m) { return m.emission_w_m2 > 0; });
   // Total, direct, sky, reflected, and what the scene has besides.
   const double parts = 4.0 + (mirrors ? 1 : 0) + (lamps ? 1 : 0);
+  const auto series_of_study = kept_series(plan.study.output);
+  const double kept = std::min(
+      parts, static_cast<double>(std::count(series_of_study.begin(), series_of_study.end(), true)));
   const auto n = static_cast<double>(patches + plan.built.scene.sensors.size());
   const auto lit = static_cast<double>(lamps ? plan.intervals() : plan.light.lit_count());
   const auto suns = static_cast<double>(plan.light.sun_samples());
@@ -151,13 +154,16 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   WorkEstimate work;
   work.patches = patches;
   work.line_rays = static_cast<std::uint64_t>(lines);
-  const double rays = n * facing_share * suns * counts.direct_samples;
+  const bool has_views = suns >= suns_worth_views;
+  const double rays =
+      n * facing_share * suns * counts.direct_samples * (has_views ? share_beside_views : 1);
   work.direct_rays = static_cast<std::uint64_t>(rays);
   work.memory_bytes =
       program_bytes + lines * bytes_per_line +
       static_cast<double>(plan.intervals()) * bytes_per_interval +
-      n * (bands * (batch * parts * float_bytes + arrays_of_realizations * of_realizations) +
+      n * (bands * (batch * kept * float_bytes + arrays_of_realizations * of_realizations) +
            bytes_per_patch);
+  if (has_views) work.memory_bytes += n * bytes_per_view;
   // One batch is written while the next is computed.
   const double series =
       std::min(parts, static_cast<double>(plan.study.output.series.size())) + (of_instants ? 1 : 0);
@@ -199,7 +205,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   work.seconds =
       (s_to_start + n * s_per_patch +
        lines * (guided ? 1 + rays_by_guide : 1) * line_seconds(plan.built.scene, s.mirror_depth) +
-       rays * s_per_direct_ray +
+       rays * s_per_direct_ray + (has_views ? n * s_per_view : 0) +
        (mirrors ? n * mirrored_share * suns * counts.direct_samples * s_per_mirror_ray : 0) +
        (guided ? n * s_per_guided_patch : 0) +
        (by_matrix ? n * n * (s_per_form_factor + n * s.realizations * s_per_factor_solved) : 0) +

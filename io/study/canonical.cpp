@@ -342,7 +342,7 @@ json canonical(const SolverStudy& solver, LightColour colour) {
            {"direct_samples", direct_samples},
            {"realizations", realizations},
            {"mirror_depth", mirror_depth},
-           {"batch_suns", batch_suns},
+           {"batch_suns", maybe(batch_suns)},
            {"seed", seed}};
   if (bands == Bands::rgb) {
     all["bands"] = word_of(bands);

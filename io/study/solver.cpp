@@ -138,10 +138,11 @@ void expect_gathering(YamlMap& map, const SolverStudy& solver) {
 }
 
 /// Absent: auto.
-std::optional<int> read_sun_samples(YamlMap& map) {
-  const std::string key = "sun_samples_per_interval";
+std::optional<int> read_number_or_auto(YamlMap& map, const std::string& key, int most,
+                                       std::optional<int> otherwise) {
   if (map.kind(key) == YamlNode::Kind::text && map.text(key, "") == "auto") return {};
-  return map.integer(key, 1, static_cast<int>(most_sun_samples), 1);
+  const int number = map.integer(key, 1, most, otherwise.value_or(1));
+  return map.has(key) ? std::optional(number) : otherwise;
 }
 
 }  // namespace
@@ -156,14 +157,15 @@ SolverStudy read_solver(YamlMap& map) {
   solver.year = map.choice("year", solver.year);
   solver.lines_per_patch = map.integer("lines_per_patch", 1, most_lines, solver.lines_per_patch);
   solver.direct_samples = map.integer("direct_samples", 1, most_lines, solver.direct_samples);
-  solver.sun_samples_per_interval = read_sun_samples(map);
+  solver.sun_samples_per_interval =
+      read_number_or_auto(map, "sun_samples_per_interval", static_cast<int>(most_sun_samples), 1);
   const int unread = map.has("realizations") ? 0 : solver.realizations;
   const int realizations =
       map.integer("realizations", fewest_realizations, most_realizations, unread);
   solver.mirror_depth = map.integer("mirror_depth", 0, most_reflections, solver.mirror_depth);
   solver.bands = map.choice("bands", solver.bands);
   expect_gathering(map, solver);
-  solver.batch_suns = map.integer("batch_suns", 1, most_batch_suns, solver.batch_suns);
+  solver.batch_suns = read_number_or_auto(map, "batch_suns", most_batch_suns, {});
   solver.isa = map.word("isa", {"auto", "sse4.2", "avx2", "avx512"}, solver.isa);
   const auto seed = map.integer("seed", std::int64_t{0}, std::numeric_limits<std::int64_t>::max(),
                                 static_cast<std::int64_t>(solver.seed));

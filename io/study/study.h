@@ -298,8 +298,8 @@ struct SolverStudy {
   std::optional<int> sun_samples_per_interval = 1;  ///< absent: auto
   int realizations = 8;
   int mirror_depth = 8;
-  int batch_suns = 64;
-  std::string isa = "auto";  ///< auto | sse4.2 | avx2 | avx512
+  std::optional<int> batch_suns;  ///< absent: auto, by the length of the period
+  std::string isa = "auto";       ///< auto | sse4.2 | avx2 | avx512
   std::uint64_t seed = 1;
   std::optional<AccuracyStudy> accuracy;
   int max_lines_per_patch = 4096;  ///< of accuracy: the most lines, and the most direct samples

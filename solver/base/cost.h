@@ -34,6 +34,12 @@ inline constexpr double s_per_guided_patch = 2.1e-4;
 // Rays to the sun.
 inline constexpr double s_per_direct_ray = 3.5e-8;
 inline constexpr double facing_share = 0.62;  ///< of a sun's rays that need be cast
+/// Suns of a period from which on patches look at the sky beforehand (solver/sight/sun_views), what
+/// that costs a patch, and the rays that it leaves.
+inline constexpr double suns_worth_views = 256;
+inline constexpr double s_per_view = 2.2e-4;
+inline constexpr double share_beside_views = 0.45;
+inline constexpr double bytes_per_view = 500;
 inline constexpr double s_per_mirror_ray = 1.3e-7;
 inline constexpr double mirrored_share = 0.11;  ///< of them again, where there are mirrors
 

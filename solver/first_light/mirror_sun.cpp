@@ -7,11 +7,28 @@
 #include <bit>
 #include <limits>
 
+#include "solver/base/chunks.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
 
 namespace {
+
+struct Receiver {
+  Vec3 normal;
+  std::array<Vec3, 3> corners;
+};
+
+std::vector<Receiver> receivers_of(const SunSampler& sampler) {
+  std::vector<Receiver> all(sampler.receivers());
+  parallel_for(
+      all.size(),
+      [&](std::size_t i) {
+        all[i] = {sampler.normal(i), sampler.corners(i)};
+      },
+      receivers_per_chunk);
+  return all;
+}
 
 /// Consecutive receivers, which lie close together, in their common box.
 struct Cluster {
@@ -19,9 +36,9 @@ struct Cluster {
   std::array<Vec3, 8> corners;
 };
 
-std::vector<Cluster> clusters_of(const SunSampler& receivers) {
+std::vector<Cluster> clusters_of(const std::vector<Receiver>& receivers) {
   constexpr std::size_t patches_per_cluster = 64;
-  const std::size_t patches = receivers.receivers();
+  const std::size_t patches = receivers.size();
   std::vector<Cluster> clusters((patches + patches_per_cluster - 1) / patches_per_cluster);
   parallel_for(
       clusters.size(),
@@ -31,7 +48,7 @@ std::vector<Cluster> clusters_of(const SunSampler& receivers) {
         constexpr double infinite = std::numeric_limits<double>::infinity();
         Vec3 low{infinite, infinite, infinite}, high{-infinite, -infinite, -infinite};
         for (std::size_t i = clusters[c].begin; i < clusters[c].end; ++i)
-          for (const Vec3 p : receivers.corners(i)) {
+          for (const Vec3 p : receivers[i].corners) {
             low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
             high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
           }
@@ -166,7 +183,11 @@ class MirrorSun::PatchWork {
 std::uint64_t MirrorSun::add_light(const SunSampler& receivers,
                                    std::span<const IntervalLight> block,
                                    std::span<const SunBeams> beams, const RaySink& into) const {
-  const auto clusters = clusters_of(receivers);
+  const bool any = std::any_of(beams.begin(), beams.end(),
+                               [](const SunBeams& of_sun) { return of_sun.size() > 0; });
+  if (!any) return 0;
+  const auto all = receivers_of(receivers);
+  const auto clusters = clusters_of(all);
   // Few receivers (sensors) are work for all threads, too.
   const std::size_t clusters_per_task = std::clamp<std::size_t>(clusters.size() / 64, 1, 8);
   std::uint64_t rays = 0;
@@ -183,8 +204,7 @@ std::uint64_t MirrorSun::add_light(const SunSampler& receivers,
                               if (rasters[b].may_meet(clusters[c].corners)) near.push_back(b);
                             if (near.empty()) continue;
                             for (std::size_t i = clusters[c].begin; i < clusters[c].end; ++i) {
-                              const Vec3 n = receivers.normal(i);
-                              const auto corners = receivers.corners(i);
+                              const auto& [n, corners] = all[i];
                               by_beams.clear();
                               for (const auto b : near)
                                 if (dot(n, beams[k][b].image) > 0 && rasters[b].may_meet(corners))

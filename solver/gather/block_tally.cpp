@@ -36,8 +36,8 @@ void store_received(const BlockLight& light, std::span<const IntervalLight> bloc
   const std::size_t receivers = tally.sunlit_s.size();
   const auto put = [&](Part part, std::size_t i, std::size_t k, float value) {
     const auto p = static_cast<std::size_t>(part);
-    if (tally.irradiance[p].empty()) return;
-    tally.irradiance[p][(first_row + k) * receivers + i] = value;
+    if (tally.exposure[p].empty()) return;
+    if (!tally.irradiance[p].empty()) tally.irradiance[p][(first_row + k) * receivers + i] = value;
     tally.exposure[p][i] += static_cast<double>(value) * block[k].length_s;
   };
   parallel_for(

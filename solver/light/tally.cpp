@@ -52,7 +52,8 @@ void make_room(ReceiverTally& tally, std::size_t receivers, const TallyShape& sh
   const std::size_t values = shape.intervals * receivers;
   for (std::size_t p = 0; p < part_count; ++p) {
     if (!shape.parts[p]) continue;
-    tally.irradiance[p].assign(values, 0);
+    if (shape.series[p] || static_cast<Part>(p) == Part::total)
+      tally.irradiance[p].assign(values, 0);
     tally.exposure[p].assign(receivers, 0);
     if (static_cast<Part>(p) != Part::total)
       tally.part_realization[p].assign(shape.realizations, std::vector<double>(receivers, 0));

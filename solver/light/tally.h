@@ -19,6 +19,8 @@ inline constexpr std::size_t part_count = 6;
 inline constexpr std::array<const char*, part_count> part_names{"total",  "direct", "sky",
                                                                 "mirror", "lamps",  "reflected"};
 
+inline constexpr std::array<bool, part_count> all_parts{true, true, true, true, true, true};
+
 /// Terms of the energy ledger, every one estimated on its own.
 ///
 /// in = sun + sky + ground + emitted;  out = absorbed + transmitted + escaped + unshot
@@ -75,7 +77,7 @@ struct PartTally : PartOfBatch {
 /// What N receivers (patches or sensors) get in K consecutive intervals, R
 /// realizations. Energies are J m-2; a part that the scene cannot have is empty.
 struct ReceiverTally {
-  std::array<std::vector<float>, part_count> irradiance;  ///< [K][N] W m-2
+  std::array<std::vector<float>, part_count> irradiance;  ///< [K][N] W m-2, where it is kept
   std::vector<float> irradiance_se;                       ///< [K][N], if asked for
   std::array<std::vector<double>, part_count> exposure;   ///< [N] time sum of the series
   std::vector<std::vector<double>> exposure_realization;  ///< [R][N]
@@ -130,7 +132,8 @@ struct BatchTally : ReceiverTally {
 /// What a tally has room for.
 struct TallyShape {
   std::size_t patches = 0, sensors = 0, intervals = 0, realizations = 0;
-  std::array<bool, part_count> parts{};  ///< that the scene can have
+  std::array<bool, part_count> parts{};             ///< that the scene can have
+  std::array<bool, part_count> series = all_parts;  ///< of these, whose series are kept
   Errors errors = Errors::totals;
   bool by_source = false;
   Transport transport = Transport::gather;

@@ -3,6 +3,7 @@
 /// What a study decides of the solution: counts, bounces, transport.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -42,6 +43,8 @@ struct SolverRules {
   Jacobi jacobi = Jacobi::incremental;       ///< when shooting
   std::optional<double> power_per_sample_w;  ///< when shooting, ShootingRules
   std::optional<int> samples_per_patch;      ///< when shooting, ShootingRules
+  /// Parts whose series are kept; time sums there are of all, and the total is kept in any case.
+  std::array<bool, part_count> series = all_parts;
   /// BatchTally::by_source and, with errors per instant, se_by_source.
   bool by_source = false;
 };

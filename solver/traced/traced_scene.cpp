@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "geo/base/check.h"
+#include "solver/base/cost.h"
 #include "solver/base/stopwatch.h"
 #include "solver/gather/guide.h"
 #include "solver/gather/jacobi.h"
@@ -141,13 +142,11 @@ bool TracedScene::has_part(Part part) const {
 }
 
 void TracedScene::expect(const LitPeriod& period) {
-  // A view costs what rays to some hundred suns cost, of which it spares most.
-  constexpr std::size_t suns_that_pay = 256;
   std::vector<Vec3> suns;
   for (std::size_t k = 0; k < period.intervals(); ++k)
     if (period.has_sun(k))
       for (const Vec3 sun : period.suns(k)) suns.push_back(sun);
-  if (suns.size() < suns_that_pay) return;
+  if (static_cast<double>(suns.size()) < cost::suns_worth_views) return;
   const Stopwatch time(work[Work::direct_s]);
   sun_views.emplace(scene, *mesh, caster.offset_m(), suns);
 }

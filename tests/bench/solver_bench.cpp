@@ -5,8 +5,8 @@
 // The study's first variant on its own mesh, BATCHES of its batches (default 1), spread evenly
 // over the period. Beside each
 // stage stands what the ray caster alone does on the same scene in the same run: packets of 16 rays
-// from points of a patch to each sun that it faces, and packets of 16 lines to what they first
-// meet. Shares of those compare machines; a speed alone is told with version, commit and
+// from points of a patch to each shining sun that it faces, and packets of 16 lines to what they
+// first meet. Shares of those compare machines; a speed alone is told with version, commit and
 // instruction set.
 #include <fmt/format.h>
 
@@ -60,6 +60,14 @@ void tell_sights(const TracedScene& traced, std::span<const IntervalLight> suns)
                all);
 }
 
+double seconds_of(const WorkDone& work) {
+  double sum = 0;
+  for (const Work stage : {Work::lines_s, Work::direct_s, Work::mirror_s, Work::solve_s,
+                           Work::realizations_s, Work::shoot_s, Work::sensors_s})
+    sum += work[stage];
+  return sum;
+}
+
 struct Bare {
   double rays = 0, seconds = 0;
   double rate() const { return seconds > 0 ? rays / seconds : 0; }
@@ -70,30 +78,30 @@ void tell_share(const char* what, double count, double seconds, const Bare& bare
     fmt::print("{:<24} {:10.2f} of the bare rate\n", what, count / seconds / bare.rate());
 }
 
-/// 16 rays for each pair of a patch and a sun that face each other, and nothing else.
+/// 16 rays for each pair of a patch and a shining sun that face each other, and nothing else.
 Bare bare_shadow_rays(const TracedScene& traced, std::span<const IntervalLight> suns) {
   Bare bare;
   {
     const Stopwatch time(bare.seconds);
     const SunSampler& sampler = traced.patches.sampler;
-    bare.rays = ordered_sum(traced.patches.count(), receivers_per_chunk, 0.0,
-                            [&](std::size_t begin, std::size_t end) {
-                              double rays = 0;
-                              std::uint32_t seen = 0;
-                              SunSampler::Seeds seeds;
-                              for (std::size_t i = begin; i < end; ++i) {
-                                const auto geometry = sampler.geometry(i);
-                                sampler.seed(i, 0, seeds);
-                                const Packet origins = sampler.origins(geometry, seeds, 0);
-                                for (const auto& sun : suns) {
-                                  if (!sun.has_sun() || dot(geometry.normal, sun.direction) <= 0)
-                                    continue;
-                                  seen ^= traced.caster.unoccluded(origins, sun.direction, 0xffffu);
-                                  rays += packet_size;
-                                }
-                              }
-                              return seen == 0x10000u ? 0 : rays;  // keeps the rays
-                            });
+    bare.rays = ordered_sum(
+        traced.patches.count(), receivers_per_chunk, 0.0, [&](std::size_t begin, std::size_t end) {
+          double rays = 0;
+          std::uint32_t seen = 0;
+          SunSampler::Seeds seeds;
+          for (std::size_t i = begin; i < end; ++i) {
+            const auto geometry = sampler.geometry(i);
+            sampler.seed(i, 0, seeds);
+            const Packet origins = sampler.origins(geometry, seeds, 0);
+            for (const auto& sun : suns) {
+              if (!sun.has_sun() || sun.dni <= 0 || dot(geometry.normal, sun.direction) <= 0)
+                continue;
+              seen ^= traced.caster.unoccluded(origins, sun.direction, 0xffffu);
+              rays += packet_size;
+            }
+          }
+          return seen == 0x10000u ? 0 : rays;  // keeps the rays
+        });
   }
   return bare;
 }
@@ -146,10 +154,12 @@ void bench(const std::string& path, std::size_t batches) {
   const IntervalLights lights(plan.study, plan.built.site, traced->grid);
   const SeriesLight period(lights, plan.light);
   traced->expect(period);
-  const auto transport = transport_of(*traced);
   WorkDone work = traced->work;
-  tell_seconds("views", work[Work::direct_s]);
+  tell_seconds("looking at the sky", work[Work::direct_s]);
+  const auto transport = transport_of(*traced, period);
+  tell_seconds("nodes of the period", seconds_of(transport->work()));
   work += transport->work();
+  const double before_batches = seconds_of(work);
   std::vector<IntervalLight> lit;
   const std::size_t there_are = (plan.intervals() + plan.batch_suns() - 1) / plan.batch_suns();
   const std::size_t some = std::min(batches, there_are);
@@ -162,6 +172,7 @@ void bench(const std::string& path, std::size_t batches) {
     work += solve(*transport, light, watch).work;
   }
   const auto patches = static_cast<double>(traced->patches.count());
+  const auto all = static_cast<double>(there_are), computed = static_cast<double>(some);
   const Bare shadow_rays = bare_shadow_rays(*traced, lit), lines = bare_lines(*traced);
   fmt::print("sunload {} ({}), {}, {} threads; {} patches, {} lit suns, {} bounces\n", version,
              commit, plan.isa, thread_count(), traced->patches.count(), lit.size(),
@@ -178,6 +189,10 @@ void bench(const std::string& path, std::size_t batches) {
   tell("bare lines", lines.rays, lines.seconds, "rays");
   // Rays that were not needed count as cast: what matters is the time for all that are asked for.
   tell_share("direct sun", shadow_rays.rays, work[Work::direct_s], shadow_rays);
+  if (const double bare = shadow_rays.seconds * all / computed; bare > 0)
+    fmt::print("{:<24} {:10.2f} of the bare rays of the period ({:.1f} s)\n", "all of the period",
+               (before_batches + (seconds_of(work) - before_batches) * all / computed) / bare,
+               bare);
   tell_share("lines", work[Work::line_rays], work[Work::lines_s], lines);
   tell("shots", work[Work::samples], work[Work::shoot_s], "samples");
 }

@@ -11,6 +11,11 @@
 namespace sunload {
 namespace {
 
+TEST(Planner, LongPeriodsHaveLargeBatches) {
+  EXPECT_EQ(batch_suns_for(96), 64);
+  EXPECT_EQ(batch_suns_for(8760), 256);
+}
+
 TEST(Planner, PlansAreThoseMadeAlone) {
   const test::WorkFolder folder;
   folder.write("square.obj", test::square_obj);

@@ -41,6 +41,10 @@ TEST(CostModel, PageHasTheTimesOfTheProgram) {
                     facing_share, micro_s(s_per_direct_ray)),
         fmt::format("| {} of these (a street with glass) | {} |", mirrored_share,
                     micro_s(s_per_mirror_ray)),
+        fmt::format(
+            "| patches, where there are {} suns or more; then {} of the rays to the sun are "
+            "left | {} |",
+            suns_worth_views, share_beside_views, micro_s(s_per_view)),
         fmt::format("| lines · bounces · lit | {} |", nano_s(s_per_link_sun)),
         fmt::format("| patches · lit | {} |", micro_s(s_per_patch_sun)),
         fmt::format("| lit | {} |", micro_s(s_per_sun)),
@@ -61,7 +65,7 @@ TEST(CostModel, PageHasTheTimesOfTheProgram) {
 TEST(CostModel, PageHasTheSizesOfTheProgram) {
   const std::string page = scaling_page();
   for (const std::string& row :
-       {fmt::format("{} · intervals + {} MB + {} · lines + patches · ({} · parts · min(batch_suns, "
+       {fmt::format("{} · intervals + {} MB + {} · lines + patches · ({} · kept · min(batch_suns, "
                     "intervals) + {} "
                     "· realizations + {})",
                     bytes_per_interval, program_bytes / 1e6, bytes_per_line, float_bytes,

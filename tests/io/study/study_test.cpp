@@ -93,7 +93,7 @@ TEST(Study, FillsInDefaults) {
   EXPECT_EQ(study.site.latitude_deg, 50);
   EXPECT_FALSE(study.site.north_deg);
   EXPECT_EQ(std::get<DaysPeriod>(study.period.kind).days.size(), 1u);
-  EXPECT_EQ(study.solver.batch_suns, 64);
+  EXPECT_FALSE(study.solver.batch_suns);
   EXPECT_EQ(study.output.series.size(), 6u);
   EXPECT_TRUE(file.warnings.empty());
   EXPECT_EQ(file.yaml, with({}));
@@ -309,6 +309,15 @@ TEST(Study, ReadsTheShootingTransport) {
   for (const char* wrong : {"power_per_sample_w: 0", "power_per_sample_w: -1",
                             "power_per_sample_w: some", "jacobi: gauss", "transport: throw"})
     EXPECT_FALSE(problems_of(with({{"solver", std::string("{") + wrong + "}"}})).empty()) << wrong;
+}
+
+TEST(Study, ReadsHowManyIntervalsABatchHas) {
+  const auto batch = [](const std::string& keys) {
+    return read_text(with({{"solver", "{" + keys + "}"}})).variants[0].solver.batch_suns;
+  };
+  EXPECT_EQ(batch("batch_suns: 3"), 3);
+  EXPECT_FALSE(batch("batch_suns: auto"));
+  EXPECT_FALSE(batch("bounces: 1"));
 }
 
 TEST(Study, ReadsTheSunsOfAnInterval) {
