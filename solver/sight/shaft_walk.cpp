@@ -88,13 +88,13 @@ bool ShaftWalk::collect(Element group) {
     sides[i] = {n, absolute(n), line.offset};
   }
   const Vec3 up_width = absolute(normal_), depth_width = absolute(sun_);
-  const auto meets = [&](const BoxTree::Box& box) {
-    const Vec3 d = box.centre - base_;
-    if (dot(d, normal_) + dot(box.half, up_width) <= surely_below * offset) return false;
-    const double farthest = dot(d, sun_) + dot(box.half, depth_width) - nearest_;
+  const auto meets = [&](const Box& box) {
+    const Vec3 d = centre_of(box) - base_, half = half_of(box);
+    if (dot(d, normal_) + dot(half, up_width) <= surely_below * offset) return false;
+    const double farthest = dot(d, sun_) + dot(half, depth_width) - nearest_;
     const double reach = margin + spread_ * std::max(farthest, 0.0);
     for (const auto& side : sides)
-      if (dot(d, side.normal) - dot(box.half, side.width) - side.offset > reach) return false;
+      if (dot(d, side.normal) - dot(half, side.width) - side.offset > reach) return false;
     return true;
   };
   triangles_.clear();

@@ -29,14 +29,14 @@ double level_dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y; }
 Blockers blockers_of(const Mesh& mesh, std::span<const float> transmittance, double offset_m,
                      double least_face_m2) {
   Blockers all{Occluders(mesh, transmittance), {}, {}, offset_m};
-  std::vector<BoxTree::Box> boxes;
+  std::vector<Box> boxes;
   for (const ConvexFace& whole : convex_faces(all.triangles, flat_offsets * offset_m)) {
     ConvexFace face = inset(whole, drawn_in_offsets * offset_m);
     if (area_of(face) < least_face_m2) continue;
-    boxes.push_back(BoxTree::box_about(face.corners));
+    boxes.push_back(bounding_box(face.corners));
     all.faces.push_back(std::move(face));
   }
-  all.faces_tree = BoxTree(boxes);
+  all.faces_tree = BoxTree(std::move(boxes));
   return all;
 }
 
@@ -46,9 +46,10 @@ void SkyView::look(const std::array<Vec3, 3>& corners, Vec3 normal) {
   reached_.fill(0);
   closed_.fill(0);
   todo_ = before_;
-  const auto meets = [&](const BoxTree::Box& box) { return may_matter(box); };
-  blockers_.faces_tree.visit(centre_, meets, [&](std::size_t f) { cover(blockers_.faces[f]); });
-  blockers_.triangles.tree().visit(centre_, meets, [&](std::size_t t) { block(t); });
+  const auto meets = [&](const Box& box) { return may_matter(box); };
+  blockers_.faces_tree.visit_near_first(centre_, meets,
+                                        [&](std::size_t f) { cover(blockers_.faces[f]); });
+  blockers_.triangles.tree().visit_near_first(centre_, meets, [&](std::size_t t) { block(t); });
 }
 
 void SkyView::place(const std::array<Vec3, 3>& corners, Vec3 normal) {
@@ -100,12 +101,12 @@ void SkyView::leave_out_what_is_behind() {
 }
 
 /// Whether the box may reach into a cell that is not decided.
-bool SkyView::may_matter(const BoxTree::Box& box) const {
-  const Vec3 at = box.centre - centre_;
-  const Vec3 reach{box.half.x + half_.x + margin_, box.half.y + half_.y + margin_,
-                   box.half.z + half_.z + margin_};
-  const double up = std::abs(normal_.x) * box.half.x + std::abs(normal_.y) * box.half.y +
-                    std::abs(normal_.z) * box.half.z;
+bool SkyView::may_matter(const Box& box) const {
+  const Vec3 at = centre_of(box) - centre_, half = half_of(box);
+  const Vec3 reach{half.x + half_.x + margin_, half.y + half_.y + margin_,
+                   half.z + half_.z + margin_};
+  const double up =
+      std::abs(normal_.x) * half.x + std::abs(normal_.y) * half.y + std::abs(normal_.z) * half.z;
   if (dot(at, normal_) + up <= surely_below_offsets * blockers_.offset_m) return false;
   const double highest = at.z + reach.z;
   if (highest <= 0) return false;

@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
+#include "geo/mesh/box_tree.h"
 #include "solver/sight/sun_cells.h"
-#include "solver/surface/box_tree.h"
 #include "solver/surface/convex_faces.h"
 #include "solver/surface/occluders.h"
 
@@ -58,7 +58,7 @@ class SkyView {
 
   void place(const std::array<Vec3, 3>& corners, Vec3 normal);
   void leave_out_what_is_behind();
-  bool may_matter(const BoxTree::Box& box) const;
+  bool may_matter(const Box& box) const;
   Sectors sectors_of(const Polygon& thing, double aside) const;
   void cover(const ConvexFace& face);
   Extent covered_at(const ConvexFace& face, std::size_t side) const;

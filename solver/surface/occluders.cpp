@@ -22,10 +22,10 @@ Occluders::Occluders(const Mesh& mesh, std::span<const float> transmittance)
     : transmittance_(transmittance.begin(), transmittance.end()) {
   weld(mesh);
   find_edges();
-  std::vector<BoxTree::Box> boxes;
+  std::vector<Box> boxes;
   for (std::size_t t = 0; t < corners_.size(); ++t)
-    boxes.push_back(BoxTree::box_about(std::array{corner(t, 0), corner(t, 1), corner(t, 2)}));
-  tree_ = BoxTree(boxes);
+    boxes.push_back(box_around({corner(t, 0), corner(t, 1), corner(t, 2)}));
+  tree_ = BoxTree(std::move(boxes));
 }
 
 void Occluders::weld(const Mesh& mesh) {

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "geo/mesh/box_tree.h"
 #include "geo/mesh/mesh.h"
-#include "solver/surface/box_tree.h"
 
 namespace sunload {
 
