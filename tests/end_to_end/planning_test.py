@@ -79,6 +79,7 @@ def main():
         for words in (["--measure", "none"], ["--measure", "told"], ["--measure", "nothing"], [], ["--against", "none"], ["--against", "baseline"]):
             refused = check(program, source, folder, *words)
             assert refused.returncode == 2 and refused.stderr and "Traceback" not in refused.stderr, words
+            assert "Warning" not in refused.stderr, words
 
 
 main()

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import io
 import os
+import warnings
 from typing import Any, Optional, Union
 
 import numpy as np
@@ -21,7 +22,9 @@ def open(path: Union[str, os.PathLike]) -> xarray.Dataset:  # pylint: disable=re
     file is no result."""
     path = os.path.abspath(os.fspath(path))
     try:
-        result = xarray.open_dataset(path, engine="h5netcdf", decode_timedelta=False)
+        with warnings.catch_warnings():  # of NaN among times, which are NaT then: measures without any sun
+            warnings.filterwarnings("ignore", "invalid value encountered in cast", RuntimeWarning)
+            result = xarray.open_dataset(path, engine="h5netcdf", decode_timedelta=False)
     except (OSError, ValueError) as error:
         raise program.InputError(f"{path}: cannot be read ({error}); name a file that `sunload run` has written",
                                  2) from error
