@@ -528,11 +528,16 @@ class CommandLine {
         ->allow_extra_args(false);
     reads(sub->add_option("--against", explain_.against,
                           "result of the base: who brings which share of the difference"));
+    sub->add_flag_callback(
+           "--paint", [this] { explain_.what = ExplainOptions::What::painting; },
+           "instead: what 0.1 more of diffuse reflectance of each material and surface brings")
+        ->excludes("--against");
     sub->add_option("--study-folder", explain_.study_folder,
                     "folder of the study file, where its scene and weather are found from "
                     "(default: the working directory)");
     auto* csv = sub->add_flag("--csv", csv_, "all objects, for machines");
     sub->add_flag("--json", json_, "the same as JSON")->excludes(csv);
+    add_period(sub);
   }
 
   void add_render() {

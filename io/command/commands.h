@@ -55,6 +55,7 @@ struct ExplainOptions {
   std::string against;       ///< result of the base; empty: none
   std::string study_folder;  ///< that files named in the study are relative to; empty: this one
   NamedParts parts;          ///< the place
+  enum class What { rows, painting } what = What::rows;
   enum class Format { text, csv, json } format = Format::text;
 };
 /// Who takes and gives the light of a place, on stdout. Throws InputError.

@@ -10,6 +10,7 @@
 #include "geo/base/check.h"
 #include "geo/base/units.h"
 #include "io/base/statistics.h"
+#include "io/explain/light_of_part.h"
 #include "io/explain/place.h"
 
 namespace sunload {
@@ -104,10 +105,10 @@ ExplainedRow sum_row(const Attribution& a, const std::vector<ExplainedRow>& rows
 }
 
 void expect_explainable(const ResultReader& result) {
-  for (const char* needed : {"light_load", "power_load"})
-    if (!result.has(needed))
-      throw InputError({result.path()}, std::string("has no ") + needed, "it is what objects give",
-                       "run the study again");
+  const std::string needed = result.chosen().any() ? "light_load" : "power_load";
+  if (!result.has(needed))
+    throw InputError({result.path()}, "has no " + needed, "it is what objects give",
+                     "run the study again");
 }
 
 void note_what_is_left_out(const TracedScene& traced, Explanation& into) {
@@ -146,13 +147,13 @@ Explanation explained(const ResultReader& result, const ResultScene& scene,
   into.variant = result.text_attribute("variant");
   into.pairing_id = result.text_attribute("pairing_id");
   into.place = words_of(parts);
+  into.part = result.chosen().words();
   into.units = result.units("light_load");
   into.quantity = result.quantity();
   into.extent = extent_of(result, place);
 
-  SentLight sent = result.doubles("power_load");
-  for (double& value : sent) value *= joules_per_kwh;
-  const Attribution a = attribute_light(scene.traced(), scene.period(), sent, place);
+  const Attribution a = attribute_light(scene.traced(), scene.period(), sent_light(result, scene),
+                                        place, chosen_part(result));
   into.rows.push_back(open_row(a));
   const auto& names = scene.traced().scene.mesh.object_names;
   for (std::size_t o = 0; o < a.objects(); ++o) {

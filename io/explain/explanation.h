@@ -42,6 +42,7 @@ std::string kind_name(ExplainedRow::Kind kind);
 struct Explanation {
   std::string study, variant, base;  ///< base: of the result that it is compared with, or empty
   std::string place;                 ///< as it was named
+  std::string part;                  ///< of the period; empty: the whole
   std::string units, pairing_id;
   Quantity quantity = Quantity::irradiance;
   std::string extent;              ///< "388.22 m²", "2 sensors"

@@ -79,6 +79,7 @@ std::vector<ExplainedRow> shown_rows(const Explanation& explanation) {
 std::string heading(const Explanation& e) {
   std::string text =
       fmt::format("{} of {}, variant {} ({})", e.place, e.study, e.variant, e.extent);
+  if (!e.part.empty()) text += ", " + e.part;
   if (!e.base.empty()) text += fmt::format(": what differs from {}", e.base);
   return text + fmt::format(", light load in {}\n", display_units(e.units));
 }
@@ -162,6 +163,7 @@ std::string explanation_json(const Explanation& explanation) {
       {"variant", explanation.variant},
       {"against", or_null(explanation.base, !explanation.base.empty())},
       {"place", explanation.place},
+      {"part", or_null(explanation.part, !explanation.part.empty())},
       {"extent", explanation.extent},
       {"units", explanation.units},
       {"notes", explanation.notes},

@@ -11,8 +11,6 @@
 #include "solver/first_light/beam_raster.h"
 #include "solver/first_light/sun_beams.h"
 #include "solver/light/sun_samples.h"
-#include "solver/lines/line_follower.h"
-#include "solver/lines/patch_lines.h"
 
 namespace sunload {
 
@@ -50,11 +48,15 @@ struct Outside {
   std::vector<IntervalLight> suns;  ///< with power, without sky
 };
 
-Outside outside_of(const LitPeriod& period, const SkyGrid& grid) {
+Outside outside_of(const LitPeriod& period, const std::vector<double>& shares,
+                   const SkyGrid& grid) {
   Outside outside;
   outside.sky.assign(static_cast<std::size_t>(grid.cell_count()), 0);
   for (std::size_t i = 0; i < period.intervals(); ++i) {
-    const IntervalLight light = period.of(i);
+    const double share = shares.empty() ? 1 : shares[i];
+    if (share == 0) continue;
+    IntervalLight light = period.of(i);
+    light.length_s *= share;
     outside.seconds += light.length_s;
     if (period.is_dark(i)) continue;
     for (std::size_t c = 0; c < light.sky.size(); ++c)
@@ -100,6 +102,7 @@ class Looks {
         outside_(outside),
         sent_(sent),
         place_(place),
+        lines_(traced),
         receivers_(place.is_of_sensors ? traced.sensors : traced.patches),
         follower_(traced.scene, *traced.mesh, traced.caster, traced.grid,
                   traced.rules.mirror_depth),
@@ -134,28 +137,13 @@ class Looks {
   /// Along the lines.
   void along_lines(std::size_t which) {
     const std::size_t receiver = place_.receivers[which];
-    const LineRules rules = line_rules(traced_.rules);
-    const auto R = static_cast<std::size_t>(rules.realizations);
-    const int of_receiver = place_.is_of_sensors ? rules.lines_per_patch : rules.lines_of(receiver);
-    const std::size_t each = static_cast<std::size_t>(of_receiver) / R;
-    for (std::size_t r = 0; r < R; ++r) {
-      const double share = place_.weight[which] / static_cast<double>(each);
-      RandomKey key = key_of(receiver);
-      key.realization = static_cast<std::uint32_t>(r);
-      if (place_.is_of_sensors)
-        sensor_lines(traced_.scene.sensors[receiver], key, each, share);
-      else
-        patch_lines(receiver, key, each, share);
-    }
+    const auto kind = place_.is_of_sensors ? Receiver::sensor : Receiver::patch;
+    const double share = place_.weight[which] / static_cast<double>(lines_.count(receiver, kind));
+    for (std::size_t r = 0; r < lines_.realizations(); ++r)
+      lines_.cast(receiver, kind, r, [&](const CastLine& line) { along_line(line, r, share); });
   }
 
  private:
-  RandomKey key_of(std::size_t receiver) const {
-    const std::uint64_t element =
-        place_.is_of_sensors ? traced_.scene.sensors[receiver].key : traced_.mesh->key()[receiver];
-    return {.seed = traced_.rules.seed, .purpose = Purpose::lines, .element = element};
-  }
-
   std::size_t object_of(std::int32_t triangle) const {
     return traced_.scene.mesh.triangle_object[static_cast<std::size_t>(triangle)].index();
   }
@@ -203,33 +191,8 @@ class Looks {
       into_.add_flow(*seen, Flow::mirrors, r, energy);
   }
 
-  void patch_lines(std::size_t patch, RandomKey key, std::size_t count, double share) {
-    const PatchLines lines(*traced_.mesh, patch, traced_.caster.offset_m(),
-                           line_seeds(*traced_.mesh, patch, key.realization, key.seed));
-    for (std::size_t first = 0; first < count; first += packet_size) {
-      const LinePacket packet(lines, first, count);
-      const auto hits = packet.first_hits(traced_.caster);
-      for (std::size_t l = 0; l < packet.count; ++l)
-        along_line(packet.line[l].origin, packet.line[l].w, hits[l], key, first + l, share);
-    }
-  }
-
-  void sensor_lines(const Sensor& sensor, RandomKey key, std::size_t count, double share) {
-    const Vec3 origin = sensor.position + sensor.normal * traced_.caster.offset_m();
-    const Tangents axes = tangents(sensor.normal);
-    const auto seeds = random_words(key);
-    for (std::size_t l = 0; l < count; ++l) {
-      const auto index = static_cast<std::uint32_t>(l);
-      const Vec3 local =
-          sample_cosine(scrambled_sobol(index, 0, seeds), scrambled_sobol(index, 1, seeds));
-      const Vec3 w = axes.tangent * local.x + axes.bitangent * local.y + sensor.normal * local.z;
-      along_line(origin, w, traced_.caster.first_hit(origin, w), key, l, share);
-    }
-  }
-
-  void along_line(Vec3 origin, Vec3 w, const Hit& hit, RandomKey key, std::size_t line,
-                  double share) {
-    const std::size_t r = key.realization;
+  void along_line(const CastLine& line, std::size_t r, double share) {
+    const auto& [origin, w, hit, key] = line;
     const bool is_up = w.z > 0;
     const double behind =
         share * (is_up ? outside_.sky[follower_.sky_cell(w)] : outside_.far_ground);
@@ -237,8 +200,6 @@ class Looks {
     if (hit.left_scene()) return;
     const std::size_t object = object_of(hit.triangle);
     into_.add_flow(object, is_up ? Flow::takes_sky : Flow::takes_far_ground, r, behind);
-    key.purpose = Purpose::glossy;
-    key.sun = static_cast<std::uint32_t>(line);
     met_.clear();
     follower_.follow(origin, w, hit, key, met_);
     const auto first = traced_.mesh->patch_at(hit.triangle, hit.u, hit.v, hit.front);
@@ -263,6 +224,7 @@ class Looks {
   const Outside& outside_;
   const SentLight& sent_;
   const Place& place_;
+  PlaceLines lines_;
   const Receivers& receivers_;
   LineFollower follower_;
   Attribution& into_;
@@ -277,10 +239,12 @@ constexpr std::size_t suns_at_a_time = 64;
 }  // namespace
 
 Attribution attribute_light(const TracedScene& traced, const LitPeriod& period,
-                            const SentLight& sent, const Place& place) {
+                            const SentLight& sent, const Place& place,
+                            const std::vector<double>& shares) {
   SUNLOAD_EXPECT(sent.size() == traced.mesh->patch_count(), "light of every patch");
   SUNLOAD_EXPECT(place.receivers.size() == place.weight.size(), "a weight of every receiver");
-  const Outside outside = outside_of(period, traced.grid);
+  SUNLOAD_EXPECT(shares.empty() || shares.size() == period.intervals(), "a share of intervals");
+  const Outside outside = outside_of(period, shares, traced.grid);
   const std::size_t count = place.receivers.size();
   const std::size_t each = std::max(fewest_at_a_time, (count + most_parts - 1) / most_parts);
   const Attribution none(traced.scene.mesh.object_names.size(),

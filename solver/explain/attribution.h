@@ -19,17 +19,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/explain/place_lines.h"
 #include "solver/light/lit_period.h"
 #include "solver/traced/traced_scene.h"
 
 namespace sunload {
-
-/// Patches, or sensors, with their shares of the place's mean load.
-struct Place {
-  std::vector<std::size_t> receivers;
-  std::vector<double> weight;  ///< of each; add up to 1
-  bool is_of_sensors = false;
-};
 
 /// What an object does with the light of a place.
 enum class Flow {
@@ -84,10 +78,12 @@ class Attribution {
 /// Of each patch, over the period [J m-2, or lx s]: what it reflects and emits diffusely.
 using SentLight = std::vector<double>;
 
+/// `shares`: of each interval, which is looked at; empty: all. `sent` is of that part, too.
 /// `traced` needs no lines of its own. Objects are those of the scene's mesh. The same bits for any
 /// number of threads. Cost: a ray for each sun sample and line of the place, and as many for each
 /// mirror orientation that may show it the sun. Throws Interrupted.
 Attribution attribute_light(const TracedScene& traced, const LitPeriod& period,
-                            const SentLight& sent, const Place& place);
+                            const SentLight& sent, const Place& place,
+                            const std::vector<double>& shares = {});
 
 }  // namespace sunload

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// sunload explain: rows that add up to the result, who changes what, refusals.
+/// sunload explain: rows that add up to the result, or a part of it, who changes what, which
+/// surface is worth painting, refusals.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -50,6 +51,8 @@ void expect_adds_up(const json& explanation) {
       << explanation.dump(1);
 }
 
+std::string coarse_square() { return square_study("totals", "", "5"); }
+
 const std::string two_variants =
     "sensors: {points: [{position_m: [0, -5, 1.5], normal: [0, 1, 0]}]}\n"
     "variants:\n"
@@ -57,7 +60,7 @@ const std::string two_variants =
     "  - {name: glazed}\n";
 
 TEST(Explain, AddsUpAndNamesWhoChangesWhat) {
-  const SquareFolder square(square_study() + two_variants);
+  const SquareFolder square(coarse_square() + two_variants);
   const Ran ran = square.run("results");
   ASSERT_EQ(ran.code, 0) << ran.err;
   const std::string base = square.result("results", "base"),
@@ -84,14 +87,65 @@ TEST(Explain, AddsUpAndNamesWhoChangesWhat) {
   for (const auto& row : change["rows"])
     if (row["row"] == "object") shares += row["share_percent"].get<double>();
   EXPECT_NEAR(shares, 100, 1e-6);
+  // Hours of the day have stored parts; their lamps and suns are theirs.
+  const json morning = explained(square.folder, {glazed, "--object", "square", "--hours", "6-12"});
+  expect_adds_up(morning);
+  EXPECT_EQ(morning["part"], "hours 6-12");
+  const json afternoon =
+      explained(square.folder, {glazed, "--object", "square", "--hours", "12-18"});
+  for (const char* kind : {"open", "sum"})
+    EXPECT_NEAR(
+        row_of(morning, kind)[load].get<double>() + row_of(afternoon, kind)[load].get<double>(),
+        row_of(after, kind)[load].get<double>(),
+        float_rounding * row_of(after, kind)[load].get<double>());
   const Ran csv = program(square.folder, {"explain", glazed, "--object", "house", "--csv"});
   EXPECT_EQ(csv.out.substr(0, csv.out.find('\n')),
             "row,name,sun_kwh_m2,sky_kwh_m2,far_ground_kwh_m2,reflects_kwh_m2,mirrors_kwh_m2,"
             "shines_kwh_m2,total_kwh_m2,se_kwh_m2,share_percent");
 }
 
+double paint_change(const json& painting, const std::string& material, const json& object) {
+  for (const auto& row : painting["rows"])
+    if (row["material"] == material && row["object"] == object)
+      return row["change_kwh_m2"].get<double>();
+  ADD_FAILURE() << material;
+  return 0;
+}
+
+TEST(Explain, SaysWhichSurfaceIsWorthPainting) {
+  // The same lines, with walls that reflect a little more; no lamp, whose points are other lines.
+  constexpr double step = 0.02;
+  const auto walls = [&](const std::string& name, double diffuse) {
+    return "  - {name: " + name +
+           ", scene: {materials: {lamp: {emission_w_m2: 0}, plaster: {diffuse: " +
+           std::to_string(diffuse) + "}}}}\n";
+  };
+  const SquareFolder square(square_study("totals", ", bounces: 20, unshot: 0", "5") +
+                            "variants:\n" + walls("base", 0.6) + walls("darker", 0.6 - step) +
+                            walls("brighter", 0.6 + step));
+  const Ran ran = square.run("results");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto result = [&](const std::string& variant) { return square.result("results", variant); };
+  const json painting = explained(square.folder, {result("base"), "--object", "square", "--paint"});
+  const json change = explained(
+      square.folder, {result("brighter"), "--object", "square", "--against", result("darker")});
+  const double truth = 0.1 * row_of(change, "result")[load].get<double>() / (2 * step);
+  const double adjoint = paint_change(painting, "plaster", nullptr);
+  constexpr double asked = 0.02;  // of the derivative, by common random numbers
+  EXPECT_NEAR(adjoint, truth, asked * truth);
+  EXPECT_EQ(adjoint, paint_change(painting, "plaster", "house"));
+  EXPECT_GT(paint_change(painting, "paving", "square"), 0);
+  const Ran refused = program(square.folder, {"explain", result("base"), "--object", "square",
+                                              "--paint", "--against", result("darker")});
+  EXPECT_EQ(refused.code, 2) << refused.err;
+  const Ran csv =
+      program(square.folder, {"explain", result("base"), "--object", "square", "--paint", "--csv"});
+  EXPECT_EQ(csv.out.substr(0, csv.out.find('\n')),
+            "row,material,object,area_m2,reflectance,change_kwh_m2,se_kwh_m2,per_100_m2_kwh_m2");
+}
+
 TEST(Explain, RefusesWhatItCannotTell) {
-  const SquareFolder square;
+  const SquareFolder square(coarse_square());
   const Ran ran = square.run("results");
   ASSERT_EQ(ran.code, 0) << ran.err;
   const std::string result = square.result("results");

@@ -207,6 +207,7 @@ TEST(House, OneFileKnowsEachForeignLibrary) {
         "io/batch/file",
         "io/command/check_study",
         "io/explain/explanation_text",
+        "io/explain/painting_text",
         "io/export/cityjson",
         "io/export/cityjson_model",
         "io/export/glb",
