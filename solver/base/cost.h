@@ -36,7 +36,7 @@ inline constexpr double s_per_direct_ray = 3.5e-8;
 inline constexpr double facing_share = 0.62;  ///< of a sun's rays that need be cast
 /// Suns of a period from which on patches look at the sky beforehand (solver/sight/sun_views), what
 /// that costs a patch, and the rays that it leaves.
-inline constexpr double suns_worth_views = 256;
+inline constexpr double suns_worth_views = 2048;
 inline constexpr double s_per_view = 3.4e-4;
 inline constexpr double share_beside_views = 0.45;
 inline constexpr double bytes_per_view = 500;
