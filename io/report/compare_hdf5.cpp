@@ -149,7 +149,8 @@ void put_groups(ComparisonFile& file, const Comparison& comparison) {
     significant.push_back(row.significant ? 1 : 0);
   }
   file.dimension("group", rows.size());
-  file.put("group_kind", dims, h5::Type::text, "", "whole, surface, object or facade", kinds);
+  file.put("group_kind", dims, h5::Type::text, "",
+           "whole, surface, object, facade, selection, orientation or storey", kinds);
   file.put("group_name", dims, h5::Type::text, "", "name of the group", names);
   const auto put = [&](const std::string& name, const std::string& units, const std::string& what,
                        const auto& get) {
