@@ -367,6 +367,7 @@ bool is_dataset_name(const std::string& name) {
 void resolve_selections(YamlReading& reading, const std::vector<NamedSelection>& selections,
                         SceneStudy& scene, const std::vector<MeasureParameters>& measures) {
   std::vector<std::string> names;
+  names.reserve(selections.size());
   for (const NamedSelection& selection : selections) names.push_back(selection.name);
   const auto find = [&](const std::string& name, const Where& where) -> const SelectionStudy* {
     const auto found = std::find(names.begin(), names.end(), name);

@@ -42,7 +42,7 @@ class SunCells {
   static std::size_t sector_of(double x, double y) {
     const double turn = y / (std::abs(x) + std::abs(y));
     const double angle = x < 0 ? 2 - turn : (y < 0 ? 4 + turn : turn);
-    return std::min(sectors - 1, static_cast<std::size_t>(angle * (sectors / 4)));
+    return std::min(sectors - 1, static_cast<std::size_t>(angle * (sectors / 4.0)));
   }
   /// Of a tangent ≥ 0, infinity included.
   static std::size_t bin_of(double tangent) {
