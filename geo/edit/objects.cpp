@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "geo/base/check.h"
+#include "geo/mesh/box_tree.h"
 
 namespace sunload {
 
@@ -20,11 +21,6 @@ void each_corner(const PolygonModel& model, std::size_t polygon, const Visit& vi
     for (auto k = model.ring_begin[static_cast<std::size_t>(r)];
          k < model.ring_begin[static_cast<std::size_t>(r) + 1]; ++k)
       visit(static_cast<std::size_t>(k));
-}
-
-void include(Box& box, Vec3 v) {
-  box.low = {std::min(box.low.x, v.x), std::min(box.low.y, v.y), std::min(box.low.z, v.z)};
-  box.high = {std::max(box.high.x, v.x), std::max(box.high.y, v.y), std::max(box.high.z, v.z)};
 }
 
 Vec3 vertex(const PolygonModel& model, std::size_t place) {

@@ -12,18 +12,16 @@ namespace {
 constexpr std::uint32_t leaf_size = 4;
 constexpr double any_height = 1e300;  // as an empty Box begins: sums of two are finite
 
-void grow(Box& box, const Box& by) {
-  box.low = {std::min(box.low.x, by.low.x), std::min(box.low.y, by.low.y),
-             std::min(box.low.z, by.low.z)};
-  box.high = {std::max(box.high.x, by.high.x), std::max(box.high.y, by.high.y),
-              std::max(box.high.z, by.high.z)};
-}
-
 }  // namespace
+
+void include(Box& box, Vec3 p) {
+  box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+  box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+}
 
 Box box_around(std::initializer_list<Vec3> points) {
   Box box;
-  for (const Vec3 p : points) grow(box, {p, p});
+  for (const Vec3 p : points) include(box, p);
   return box;
 }
 
@@ -55,7 +53,10 @@ BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxe
 std::uint32_t BoxTree::build(std::uint32_t first, std::uint32_t last) {
   const auto n = static_cast<std::uint32_t>(nodes_.size());
   Box box;
-  for (std::uint32_t i = first; i < last; ++i) grow(box, boxes_[order_[i]]);
+  for (std::uint32_t i = first; i < last; ++i) {
+    include(box, boxes_[order_[i]].low);
+    include(box, boxes_[order_[i]].high);
+  }
   nodes_.push_back({box, first, last, 0});
   if (last - first <= leaf_size) return n;
   const Vec3 size = box.high - box.low;

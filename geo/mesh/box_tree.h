@@ -14,6 +14,8 @@ namespace sunload {
 
 /// Smallest box around the points.
 Box box_around(std::initializer_list<Vec3> points);
+/// Widens the box until the point is in it; a new Box is of nothing.
+void include(Box& box, Vec3 point);
 Box widened(Box box, double by);
 bool meet(const Box& a, const Box& b);
 inline Vec3 centre_of(const Box& box) { return (box.low + box.high) * 0.5; }

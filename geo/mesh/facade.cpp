@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "geo/base/units.h"
+#include "geo/mesh/box_tree.h"
 #include "geo/mesh/edge_table.h"
 
 namespace sunload {
@@ -38,10 +39,8 @@ struct Extent {
     area += other.area;
     area_vector += other.area_vector;
     moment += other.moment;
-    const Box &a = box, &b = other.box;
-    box = {
-        {std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
-        {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
+    include(box, other.box.low);
+    include(box, other.box.high);
   }
 };
 

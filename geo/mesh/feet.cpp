@@ -193,9 +193,7 @@ class FootFinder {
       for (const auto v : e.ends) {
         Box& box = feet_[b].box;
         const Vec3 p = at(v);
-        box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y),
-                    std::max(box.high.z, p.z)};
+        include(box, p);
       }
     }
   }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "geo/mesh/box_tree.h"
+
 namespace sunload {
 
 bool FileMaterial::set_diffuse(const std::array<double, 3>& rgb) {
@@ -38,8 +40,7 @@ void PolygonModel::add_triangle(std::int32_t a, std::int32_t b, std::int32_t c,
 Box bounding_box(const std::vector<Vec3>& points) {
   Box box;
   for (const auto& p : points) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+    include(box, p);
   }
   return box;
 }

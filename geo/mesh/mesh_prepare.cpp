@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "geo/base/check.h"
+#include "geo/mesh/box_tree.h"
 #include "geo/mesh/facade.h"
 #include "geo/mesh/mesh_clean.h"
 #include "geo/mesh/orient.h"
@@ -87,8 +88,7 @@ Placement place(const PolygonModel& model, const std::vector<std::uint8_t>& is_u
   for (std::size_t v = 0; v < is_used.size(); ++v) {
     if (!is_used[v]) continue;
     const Vec3 p = model.vertices[v];
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+    include(box, p);
   }
   const double extent = largest_component(box.high - box.low);
   if (!(extent <= largest_extent_m)) {

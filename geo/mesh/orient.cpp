@@ -8,6 +8,7 @@
 #include <span>
 
 #include "geo/base/units.h"
+#include "geo/mesh/box_tree.h"
 #include "geo/mesh/facing_links.h"
 
 namespace sunload {
@@ -18,11 +19,6 @@ namespace {
 constexpr double least_volume = 1e-9;
 constexpr double half = 0.5;                 // winding numbers are whole but for rounding
 constexpr double clear_majority = 1 + 1e-9;  // equal areas must not be decided by rounding
-
-void grow(Box& box, Vec3 p) {
-  box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-  box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-}
 
 /// Triangles of all bodies, body by body.
 struct Members {
@@ -111,7 +107,7 @@ class Orienter {
     double flipped_area = 0, volume6 = 0;
     bool is_consistent_as_read = true;
     for (const auto t : triangles) {
-      for (int k = 0; k < 3; ++k) grow(body.box, mesh_.corner(t, k));
+      for (int k = 0; k < 3; ++k) include(body.box, mesh_.corner(t, k));
       const Vec3 area_vector2 = mesh_.area_vector2(t);
       const double area = norm(area_vector2) / 2;
       const double part = dot(mesh_.corner(t, 0) - start, area_vector2);

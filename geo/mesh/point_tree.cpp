@@ -6,6 +6,8 @@
 #include <array>
 #include <utility>
 
+#include "geo/mesh/box_tree.h"
+
 namespace sunload {
 
 namespace {
@@ -49,8 +51,7 @@ std::uint32_t PointTree::build(std::uint32_t first, std::uint32_t last) {
   Box box{at(*begin), at(*begin)};
   for (auto v = begin; v != end; ++v) {
     const Vec3 p = at(*v);
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+    include(box, p);
   }
   const auto node = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back({box, first, last, 0});

@@ -12,28 +12,20 @@ namespace sunload {
 
 namespace {
 
-std::string text_of(const Explanation& explanation, ExplainOptions::Format format) {
+/// In the format that is asked for.
+template <class Made>
+std::string text_of(const Made& made, ExplainOptions::Format format,
+                    std::string (*text)(const Made&), std::string (*csv)(const Made&),
+                    std::string (*json)(const Made&)) {
   switch (format) {
     case ExplainOptions::Format::csv:
-      return explanation_csv(explanation);
+      return csv(made);
     case ExplainOptions::Format::json:
-      return explanation_json(explanation);
+      return json(made);
     case ExplainOptions::Format::text:
       break;
   }
-  return explanation_text(explanation);
-}
-
-std::string text_of(const Painting& painting, ExplainOptions::Format format) {
-  switch (format) {
-    case ExplainOptions::Format::csv:
-      return painting_csv(painting);
-    case ExplainOptions::Format::json:
-      return painting_json(painting);
-    case ExplainOptions::Format::text:
-      break;
-  }
-  return painting_text(painting);
+  return text(made);
 }
 
 }  // namespace
@@ -43,7 +35,8 @@ int explain(const ExplainOptions& options) {
   if (options.what == ExplainOptions::What::painting) {
     const auto result = opened(options.result);
     place_named(*result, options.parts);  // refuses before the work
-    std::cout << text_of(painted(*result, *scenes.of(*result), options.parts), options.format);
+    std::cout << text_of(painted(*result, *scenes.of(*result), options.parts), options.format,
+                         painting_text, painting_csv, painting_json);
     return exit_code::done;
   }
   const auto explanation_of = [&](const NamedResult& named) {
@@ -57,7 +50,8 @@ int explain(const ExplainOptions& options) {
     base.path = options.against;
     explanation = difference(explanation_of(base), explanation);
   }
-  std::cout << text_of(explanation, options.format);
+  std::cout << text_of(explanation, options.format, explanation_text, explanation_csv,
+                       explanation_json);
   return exit_code::done;
 }
 

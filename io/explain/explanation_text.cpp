@@ -133,9 +133,7 @@ std::string explanation_text(const Explanation& explanation) {
 }
 
 std::string explanation_csv(const Explanation& explanation) {
-  std::string text;
-  for (const auto& key : keys_of(explanation)) text += (text.empty() ? "" : ",") + key;
-  text += "\n";
+  std::string text = fmt::format("{}\n", fmt::join(keys_of(explanation), ","));
   for (const auto& row : explanation.rows) {
     text += kind_name(row.kind) + "," + csv_text(row.name);
     for (const double value : numbers_of(row)) text += "," + csv_number(value);

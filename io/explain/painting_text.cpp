@@ -73,9 +73,7 @@ std::string painting_text(const Painting& painting) {
 }
 
 std::string painting_csv(const Painting& painting) {
-  std::string text;
-  for (const auto& key : keys_of(painting)) text += (text.empty() ? "" : ",") + key;
-  text += "\n";
+  std::string text = fmt::format("{}\n", fmt::join(keys_of(painting), ","));
   for (const auto& row : painting.rows) {
     text += kind_name(row) + "," + csv_text(row.material) + "," + csv_text(row.object);
     for (const double value : numbers_of(row)) text += "," + csv_number(value);

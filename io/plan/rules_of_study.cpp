@@ -29,12 +29,16 @@ RefineRules refine_rules(const Study& study) {
           .t_vertices = study.mesh.t_vertices};
 }
 
+bool stores_series(const OutputStudy& output, Part part) {
+  const auto& names = output.series;
+  return std::find(names.begin(), names.end(), part_names[static_cast<std::size_t>(part)]) !=
+         names.end();
+}
+
 std::array<bool, part_count> kept_series(const OutputStudy& output) {
   std::array<bool, part_count> kept{};
   for (std::size_t p = 0; p < part_count; ++p)
-    kept[p] =
-        static_cast<Part>(p) == Part::total ||
-        std::find(output.series.begin(), output.series.end(), part_names[p]) != output.series.end();
+    kept[p] = static_cast<Part>(p) == Part::total || stores_series(output, static_cast<Part>(p));
   return kept;
 }
 

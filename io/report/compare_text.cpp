@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "io/base/statistics.h"
 #include "io/base/text.h"
@@ -82,8 +83,10 @@ std::vector<ComparisonRow> rows_of_kind(const Comparison& comparison, const std:
   return rows;
 }
 
-constexpr std::array counted_kinds{"surface",   "object",      "facade",
-                                   "selection", "orientation", "storey"};
+/// In the order of their tables.
+constexpr std::array kinds{"whole",     "surface",     "object", "facade",
+                           "selection", "orientation", "storey"};
+constexpr std::span counted_kinds = std::span(kinds).subspan<1>();
 
 /// `facade: 3 gain, 12 lose, 40 others`, a line for each kind.
 std::string counts_in_words(const Comparison& comparison) {
@@ -120,8 +123,7 @@ std::string comparison_table(const Comparison& comparison) {
   for (const auto& note : comparison.notes) text += "note: " + note + "\n";
   std::size_t width = 0;
   for (const auto& row : comparison.rows) width = std::max(width, row.name.size());
-  for (const char* kind :
-       {"whole", "surface", "object", "facade", "selection", "orientation", "storey"}) {
+  for (const char* kind : kinds) {
     const auto rows = rows_of_kind(comparison, kind);
     if (rows.empty()) continue;
     text += "\n" + table_head(kind, width);

@@ -59,32 +59,33 @@ std::vector<double> scattered(const std::vector<double>& values,
   return all;
 }
 
-/// Area-weighted means over what is measured of each facade.
-std::vector<double> facade_means(const std::vector<double>& values, const ResultGeometry& g) {
-  std::vector<double> sum(g.facade_name.size(), 0), area(g.facade_name.size(), 0);
+/// Area-weighted means over what is measured of each entry; -1: a patch is of none.
+template <class Entry>
+std::vector<double> entry_means(const std::vector<double>& values, const ResultGeometry& g,
+                                std::size_t count, const Entry& entry) {
+  std::vector<double> sum(count, 0), area(count, 0);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (g.patch_facade[i] < 0 || std::isnan(values[i])) continue;
-    const auto f = static_cast<std::size_t>(g.patch_facade[i]);
-    sum[f] += g.patch_area[i] * values[i];
-    area[f] += g.patch_area[i];
+    if (entry(i) < 0 || std::isnan(values[i])) continue;
+    const auto e = static_cast<std::size_t>(entry(i));
+    sum[e] += g.patch_area[i] * values[i];
+    area[e] += g.patch_area[i];
   }
-  for (std::size_t f = 0; f < sum.size(); ++f)
-    sum[f] = area[f] > 0 ? sum[f] / area[f] : not_measured;
+  for (std::size_t e = 0; e < count; ++e) sum[e] = area[e] > 0 ? sum[e] / area[e] : not_measured;
   return sum;
 }
 
-/// The same of selections.
+std::vector<double> facade_means(const std::vector<double>& values, const ResultGeometry& g) {
+  return entry_means(values, g, g.facade_name.size(),
+                     [&](std::size_t i) { return g.patch_facade[i]; });
+}
+
+/// One after the other: they may overlap.
 std::vector<double> selection_means(const std::vector<double>& values, const ResultGeometry& g) {
   std::vector<double> means;
-  for (const auto& selected : g.selected) {
-    double sum = 0, area = 0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (selected[i] == 0 || std::isnan(values[i])) continue;
-      sum += g.patch_area[i] * values[i];
-      area += g.patch_area[i];
-    }
-    means.push_back(area > 0 ? sum / area : not_measured);
-  }
+  for (const auto& selected : g.selected)
+    means.push_back(entry_means(values, g, 1, [&](std::size_t i) {
+                      return selected[i] != 0 ? 0 : -1;
+                    }).front());
   return means;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/run/result_attributes.h"
-#include "io/plan/selection.h"
 
 #include <fmt/format.h>
 
@@ -14,6 +13,7 @@
 #include "io/base/version.h"
 #include "io/batch/batch_tally.h"
 #include "io/plan/content_hash.h"
+#include "io/plan/selection.h"
 #include "io/run/measure_merge.h"
 #include "io/study/words.h"
 #include "solver/accuracy.h"

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/run/stored_series.h"
 
-#include <algorithm>
-
+#include "io/plan/rules_of_study.h"
 #include "io/plan/stored_bits.h"
 
 namespace sunload {
@@ -11,7 +10,7 @@ namespace sunload {
 std::vector<std::string> unwanted_series(const OutputStudy& output) {
   std::vector<std::string> unwanted;
   for (std::size_t p = 0; p < part_count; ++p)
-    if (std::find(output.series.begin(), output.series.end(), part_names[p]) == output.series.end())
+    if (!stores_series(output, static_cast<Part>(p)))
       for (const auto& prefix : {std::string(), sensor_prefix})
         unwanted.push_back(prefix + series_name(static_cast<Part>(p)));
   return unwanted;

@@ -333,8 +333,6 @@ std::optional<std::array<double, 2>> read_ends(YamlMap& map, const std::string& 
   return std::array{ends[0], ends[1]};
 }
 
-}  // namespace
-
 NamedSelection read_selection(const std::string& name, YamlMap& map, const std::string& folder) {
   NamedSelection selection{name, read_objects(map, folder), map.where()};
   SelectionStudy& of = selection.of;
@@ -351,6 +349,16 @@ NamedSelection read_selection(const std::string& name, YamlMap& map, const std::
                           "or near",
                           "object: \"*\" chooses all");
   return selection;
+}
+
+}  // namespace
+
+std::vector<NamedSelection> read_selections(YamlMap& root, const std::string& folder) {
+  std::vector<NamedSelection> selections;
+  root.named("selections", [&](const std::string& name, YamlMap& map) {
+    selections.push_back(read_selection(name, map, folder));
+  });
+  return selections;
 }
 
 std::optional<NamedSelection> read_selection_name(YamlMap& map) {

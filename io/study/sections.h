@@ -41,8 +41,8 @@ std::vector<double> read_numbers(YamlMap& map, const std::string& key, std::size
                                  const std::string& in_words);
 /// `scene.edit`; paths are relative to `folder`.
 std::vector<EditStep> read_scene_edit(YamlMap& scene, const std::string& folder);
-/// Entry `name` of `selections`; paths are relative to `folder`.
-NamedSelection read_selection(const std::string& name, YamlMap& map, const std::string& folder);
+/// Section `selections`; paths are relative to `folder`.
+std::vector<NamedSelection> read_selections(YamlMap& root, const std::string& folder);
 /// The key `selection` of a map that chooses: its name alone.
 std::optional<NamedSelection> read_selection_name(YamlMap& map);
 /// Gives every selection that rules, steps and measures name what it is; names that are none, and

@@ -275,9 +275,7 @@ Study read_values(YamlMap& root, const std::string& folder) {
   root.named("measures", [&](const std::string& name, YamlMap& map) {
     study.measures.push_back(read_measure(name, map));
   });
-  root.named("selections", [&](const std::string& name, YamlMap& map) {
-    study.selections.push_back(read_selection(name, map, folder));
-  });
+  study.selections = read_selections(root, folder);
   resolve_selections(root.reading(), study.selections, study.scene, study.measures);
   check_together(root, study, site.place_written);
   check_measures(root, study, site.place_written);
@@ -327,11 +325,7 @@ SceneStudy scene_of_text(const std::string& yaml, const std::string& variant) {
     if (each.name != variant) continue;
     YamlMap::read_all(merged(tree, each, reading), reading, [&](YamlMap& root) {
       root.section("scene", [&](YamlMap& map) { scene = read_scene(map, ""); });
-      std::vector<NamedSelection> selections;
-      root.named("selections", [&](const std::string& name, YamlMap& map) {
-        selections.push_back(read_selection(name, map, ""));
-      });
-      resolve_selections(root.reading(), selections, scene, {});
+      resolve_selections(root.reading(), read_selections(root, ""), scene, {});
       root.keep_rest();
     });
   }

@@ -27,19 +27,6 @@ Vec3 along(const SunImage& image, Vec3 p) {
   return {dot(p, image.axes.tangent), dot(p, image.axes.bitangent), dot(p, image.direction)};
 }
 
-void widen(Box& box, Vec3 p) {
-  box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-  box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-}
-
-Box empty_box() {
-  constexpr double most = std::numeric_limits<double>::max();
-  Box box;
-  box.low = {most, most, most};
-  box.high = {-most, -most, -most};
-  return box;
-}
-
 }  // namespace
 
 SunImages::SunImages(const Scene& scene, const RayCaster& caster, const PeriodLight& light,
@@ -62,11 +49,11 @@ SunImage SunImages::image(const PeriodSun& sun, std::size_t group, double probab
                 .group = static_cast<std::int32_t>(group),
                 .exposure = sun.exposure / probability,
                 .axes = {},
-                .mirrors = empty_box()};
+                .mirrors = {}};
   made.axes = tangents(made.direction);
   for (const auto t : mirrors_[group].triangles)
     for (int k = 0; k < 3; ++k)
-      widen(made.mirrors, along(made, scene_.mesh.corner(static_cast<std::size_t>(t), k)));
+      include(made.mirrors, along(made, scene_.mesh.corner(static_cast<std::size_t>(t), k)));
   made.mirrors = widened(made.mirrors, box_offsets * caster_.offset_m());
   return made;
 }
@@ -109,8 +96,8 @@ void SunImages::add_images(const PeriodLight& light, const std::vector<PeriodSun
 }
 
 bool SunImages::can_be_seen(const SunImage& image, const RayCorners& corners) const {
-  Box box = empty_box();
-  for (const Vec3 corner : corners) widen(box, along(image, corner));
+  Box box;
+  for (const Vec3 corner : corners) include(box, along(image, corner));
   const Box& mirrors = image.mirrors;
   return box.low.x <= mirrors.high.x && box.high.x >= mirrors.low.x &&
          box.low.y <= mirrors.high.y && box.high.y >= mirrors.low.y && box.low.z <= mirrors.high.z;

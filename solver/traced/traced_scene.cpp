@@ -149,6 +149,7 @@ void TracedScene::expect(const LitPeriod& period) {
   if (static_cast<double>(suns.size()) < cost::suns_worth_views) return;
   const Stopwatch time(work[Work::direct_s]);
   sun_views.emplace(scene, *mesh, caster.offset_m(), suns);
+  sun_shafts.reset();  // nobody asks them any more
 }
 
 std::vector<SunSight> TracedScene::sights(std::span<const IntervalLight> block) const {

@@ -78,8 +78,9 @@ void tell_share(const char* what, double count, double seconds, const Bare& bare
     fmt::print("{:<24} {:10.2f} of the bare rate\n", what, count / seconds / bare.rate());
 }
 
-/// 16 rays for each pair of a patch and a shining sun that face each other, and nothing else.
-Bare bare_shadow_rays(const TracedScene& traced, std::span<const IntervalLight> suns) {
+/// Rays and seconds of `rays_of(normal, origins)` on all patches and threads, and nothing else.
+template <class RaysOf>
+Bare bare_rays(const TracedScene& traced, const RaysOf& rays_of) {
   Bare bare;
   {
     const Stopwatch time(bare.seconds);
@@ -87,23 +88,30 @@ Bare bare_shadow_rays(const TracedScene& traced, std::span<const IntervalLight> 
     bare.rays = ordered_sum(
         traced.patches.count(), receivers_per_chunk, 0.0, [&](std::size_t begin, std::size_t end) {
           double rays = 0;
-          std::uint32_t seen = 0;
           SunSampler::Seeds seeds;
           for (std::size_t i = begin; i < end; ++i) {
             const auto geometry = sampler.geometry(i);
             sampler.seed(i, 0, seeds);
-            const Packet origins = sampler.origins(geometry, seeds, 0);
-            for (const auto& sun : suns) {
-              if (!sun.has_sun() || sun.dni <= 0 || dot(geometry.normal, sun.direction) <= 0)
-                continue;
-              seen ^= traced.caster.unoccluded(origins, sun.direction, 0xffffu);
-              rays += packet_size;
-            }
+            rays += rays_of(geometry.normal, sampler.origins(geometry, seeds, 0));
           }
-          return seen == 0x10000u ? 0 : rays;  // keeps the rays
+          return rays;
         });
   }
   return bare;
+}
+
+/// 16 rays for each pair of a patch and a shining sun that face each other.
+Bare bare_shadow_rays(const TracedScene& traced, std::span<const IntervalLight> suns) {
+  return bare_rays(traced, [&](Vec3 normal, const Packet& origins) {
+    double rays = 0;
+    std::uint32_t seen = 0;
+    for (const auto& sun : suns) {
+      if (!sun.has_sun() || sun.dni <= 0 || dot(normal, sun.direction) <= 0) continue;
+      seen ^= traced.caster.unoccluded(origins, sun.direction, 0xffffu);
+      rays += packet_size;
+    }
+    return seen == 0x10000u ? 0 : rays;  // keeps the rays
+  });
 }
 
 /// As many lines as the study has, from points of the patch in directions spread by the cosine.
@@ -115,35 +123,19 @@ Bare bare_lines(const TracedScene& traced) {
     local.push_back(
         sample_cosine(static_cast<double>(uniform(sobol(static_cast<std::uint32_t>(l), 0))),
                       static_cast<double>(uniform(sobol(static_cast<std::uint32_t>(l), 1)))));
-  Bare bare;
-  {
-    const Stopwatch time(bare.seconds);
-    const SunSampler& sampler = traced.patches.sampler;
-    bare.rays = ordered_sum(
-        traced.patches.count(), receivers_per_chunk, 0.0, [&](std::size_t begin, std::size_t end) {
-          double rays = 0;
-          std::int64_t met = 0;
-          SunSampler::Seeds seeds;
-          for (std::size_t i = begin; i < end; ++i) {
-            const auto geometry = sampler.geometry(i);
-            sampler.seed(i, 0, seeds);
-            const Packet origins = sampler.origins(geometry, seeds, 0);
-            const Tangents axes = tangents(geometry.normal);
-            for (std::size_t p = 0; p < packets; ++p) {
-              PacketDirections directions;
-              for (std::size_t r = 0; r < packet_size; ++r) {
-                const Vec3 w = local[p * packet_size + r];
-                put(directions, r,
-                    axes.tangent * w.x + axes.bitangent * w.y + geometry.normal * w.z);
-              }
-              met += traced.caster.first_hits(origins, directions, 0xffffu).triangle[0];
-              rays += packet_size;
-            }
-          }
-          return met == -1 ? 0 : rays;  // keeps the hits
-        });
-  }
-  return bare;
+  return bare_rays(traced, [&](Vec3 normal, const Packet& origins) {
+    std::int64_t met = 0;
+    const Tangents axes = tangents(normal);
+    for (std::size_t p = 0; p < packets; ++p) {
+      PacketDirections directions;
+      for (std::size_t r = 0; r < packet_size; ++r) {
+        const Vec3 w = local[p * packet_size + r];
+        put(directions, r, axes.tangent * w.x + axes.bitangent * w.y + normal * w.z);
+      }
+      met += traced.caster.first_hits(origins, directions, 0xffffu).triangle[0];
+    }
+    return met == -1 ? 0 : static_cast<double>(packets * packet_size);  // keeps the hits
+  });
 }
 
 void bench(const std::string& path, std::size_t batches) {
