@@ -49,12 +49,12 @@ void add_energy(std::span<const IntervalLight> batch, BatchTally& tally) {
 }  // namespace
 
 Solved solve(const LightTransport& transport, std::span<const IntervalLight> batch, Watch& watch,
-             std::span<const PartOfBatch> parts) {
+             std::span<const PartOfBatch> parts, RayRecord* record) {
   const TracedScene& traced = transport.traced();
   Solved solved;
   for (std::size_t b = 0; b < traced.optics_of_band.size(); ++b)
     solved.bands.push_back(tally_of(traced, batch.size(), parts));
-  const auto in_batch = transport.begin(solved.bands, solved.work);
+  const auto in_batch = transport.begin(solved.bands, solved.work, record);
   std::size_t done = 0;
   for (const Block& block : lit_blocks(traced, batch)) {
     const double rays_before = solved.work.rays();

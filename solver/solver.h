@@ -23,7 +23,8 @@ struct Solved {
 
 /// Light of consecutive intervals, and the totals of `parts` of their time (ReceiverTally::parts).
 /// With rgb every sun has its light in `bands`. Throws Interrupted.
+/// `record`: see LightTransport::begin.
 Solved solve(const LightTransport& transport, std::span<const IntervalLight> batch, Watch& watch,
-             std::span<const PartOfBatch> parts = {});
+             std::span<const PartOfBatch> parts = {}, RayRecord* record = nullptr);
 
 }  // namespace sunload

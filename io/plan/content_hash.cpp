@@ -132,6 +132,38 @@ void add_totals(Digest& digest, const std::vector<PartTotals>& totals) {
   }
 }
 
+/// Triangle by triangle what surfaces look like. Materials that look alike count as one, in the
+/// order in which they come.
+template <class LookOf>
+void add_looks(Digest& digest, const Scene& scene, const LookOf& look_of) {
+  std::map<std::string, std::uint32_t> number_of;
+  std::vector<std::uint32_t> number(scene.materials.size()), of_triangle;
+  for (std::size_t m = 0; m < scene.materials.size(); ++m)
+    number[m] = number_of.try_emplace(look_of(scene.materials[m]), static_cast<std::uint32_t>(m))
+                    .first->second;
+  std::map<std::uint32_t, std::uint32_t> order;
+  for (const MaterialId id : scene.material)
+    of_triangle.push_back(
+        order.try_emplace(number[id.index()], static_cast<std::uint32_t>(order.size()))
+            .first->second);
+  std::vector<std::string> looks(order.size());
+  for (const auto& [look, first] : number_of)
+    if (const auto place = order.find(first); place != order.end()) looks[place->second] = look;
+  digest.add(looks);
+  digest.add(of_triangle);
+}
+
+/// As rays take it. Whether a surface reflects diffusely at all decides whether lines lead to it.
+std::string look_to_rays(const Material& material) {
+  Material seen = material;
+  seen.name.clear();
+  if (!sends_on(material) && !is_fresnel(material)) seen.diffuse = material.diffuse > 0 ? 1 : 0;
+  if (!sends_on(material)) seen.diffuse_in_band.reset();
+  Digest digest;
+  add_material(digest, seen);
+  return digest.hex();
+}
+
 }  // namespace
 
 std::string content_hash(const Study& study, const BuiltScene& built, const LightSeries& light,
@@ -163,29 +195,15 @@ std::string geometry_digest(const Mesh& mesh) {
 
 std::string pilot_digest(const Scene& scene, const PeriodLight& light) {
   Digest digest;
-  // Materials that look alike to a pilot count as one, in the order in which they come.
-  std::map<std::string, std::uint32_t> number_of;
-  std::vector<std::uint32_t> number(scene.materials.size()), of_triangle;
-  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-    const Material& material = scene.materials[m];
+  add_looks(digest, scene, [](const Material& material) {
     Digest seen;
     // The share that meets no glass of a coated pane lowers its mirror.
     seen.add(is_fresnel(material) ? material.diffuse : 0.0);
     for (const double property : {material.mirror, material.emission_w_m2, material.transmittance})
       seen.add(property);
     std::visit([&](const auto& kind) { add_smooth(seen, kind); }, material.smooth);
-    number[m] = number_of.try_emplace(seen.hex(), static_cast<std::uint32_t>(m)).first->second;
-  }
-  std::map<std::uint32_t, std::uint32_t> order;
-  for (const MaterialId id : scene.material)
-    of_triangle.push_back(
-        order.try_emplace(number[id.index()], static_cast<std::uint32_t>(order.size()))
-            .first->second);
-  std::vector<std::string> kinds(order.size());
-  for (const auto& [text, first] : number_of)
-    if (const auto place = order.find(first); place != order.end()) kinds[place->second] = text;
-  digest.add(kinds);
-  digest.add(of_triangle);
+    return seen.hex();
+  });
   const auto& [suns, samples, sky, ground, lamp_time_s] = light;
   for (const auto* list : {&suns, &samples[0], &samples[1]}) {
     digest.add(list->size());
@@ -197,6 +215,26 @@ std::string pilot_digest(const Scene& scene, const PeriodLight& light) {
   digest.add(sky);
   digest.add(ground);
   digest.add(lamp_time_s);
+  return digest.hex();
+}
+
+std::string rays_digest(const Study& study, const BuiltScene& built, const LightSeries& light,
+                        const std::string& isa, const std::string& mesh_pilots) {
+  Study of_rays = study;
+  of_rays.scene = {};  // as built
+  Digest digest;
+  digest.add(canonical_text(of_rays));
+  digest.add(study.output.standard_error == StandardErrors::instants);
+  digest.add(isa);
+  digest.add(times_text(light));
+  digest.add(light.weather_sha256);
+  add_site(digest, built.site);
+  add_mesh(digest, built.scene.mesh);
+  add_looks(digest, built.scene, look_to_rays);
+  digest.add(built.scene.sensors.size());
+  for (const Sensor& each : built.scene.sensors) add_sensor(digest, each);
+  add_totals(digest, part_totals(study, light, built.site.latitude_deg));
+  digest.add(mesh_pilots);
   return digest.hex();
 }
 

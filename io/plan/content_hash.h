@@ -28,6 +28,12 @@ std::string geometry_digest(const Mesh& mesh);
 /// triangle, and the light.
 std::string pilot_digest(const Scene& scene, const PeriodLight& light);
 
+/// Of all that decides what rays tell, as long as nothing shines by itself: the scene but for the
+/// diffuse reflectance of surfaces that do nothing else, mesh, sun, sky and counts. `mesh_pilots`
+/// as in `content_hash`.
+std::string rays_digest(const Study& study, const BuiltScene& built, const LightSeries& light,
+                        const std::string& isa, const std::string& mesh_pilots);
+
 /// Equal where realizations share their random numbers: hash of times, seed and counts.
 std::string pairing_id(const Study& study, const LightSeries& light);
 

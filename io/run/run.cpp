@@ -16,6 +16,7 @@
 #include "io/plan/mesh_family.h"
 #include "io/plan/planner.h"
 #include "io/run/mpi_world.h"
+#include "io/run/shared_rays.h"
 #include "io/study/named_files.h"
 
 namespace sunload {
@@ -96,11 +97,13 @@ int run_study(const std::string& path, const RunOptions& options) {
   const StudyFile file = read_study(path);
   Progress progress(options.progress, options.time_limit_min);
   for (const auto& warning : file.warnings) progress.warn("warning: " + warning);
-  const StudyWork work{file, options, results_folder(file, options), progress};
+  SharedRays rays;
+  const StudyWork work{file, options, results_folder(file, options), progress, rays};
   std::list<VariantJob> jobs = planned_jobs(work, &VariantJob::expect_may_run);
   const auto world = joined_world(work);
   remove_left_over(work.folder, file.name);
   for (const auto& job : jobs) job.expect_room();
+  for (auto& job : jobs) job.announce();
   bool is_complete = true;
   for (auto& job : jobs) {
     if (run_twice_at_most(job, world.get()) == OwnBatches::lost) is_complete = false;
@@ -119,7 +122,8 @@ int merge_study(const std::string& path, const RunOptions& options, Merge merge)
   use_threads(options);
   const StudyFile file = read_study(path);
   Progress progress(options.progress);
-  const StudyWork work{file, options, results_folder(file, options), progress};
+  SharedRays rays;
+  const StudyWork work{file, options, results_folder(file, options), progress, rays};
   int code = exit_code::done;
   for (auto& job : planned_jobs(work, &VariantJob::expect_may_merge)) {
     if (job.merge_what_is_there(merge) == exit_code::unfinished) code = exit_code::unfinished;

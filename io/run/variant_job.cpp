@@ -19,6 +19,7 @@
 #include "io/result/reader.h"
 #include "io/run/merge.h"
 #include "io/run/mpi_world.h"
+#include "io/run/shared_rays.h"
 #include "io/run/variant_run.h"
 
 namespace sunload {
@@ -169,7 +170,8 @@ std::unique_ptr<VariantRun> VariantJob::start(MpiWorld* world) {
   expect_room();
   for (const auto& line : expected_error_warnings(plan_, *mesh_.mesh)) warn(line);
   folder_.make();
-  auto run = std::make_unique<VariantRun>(folder_, plan_, mesh_.mesh, work_.progress);
+  auto run = std::make_unique<VariantRun>(folder_, plan_, mesh_.mesh, work_.progress,
+                                          work_.rays.of(rays_key_));
   run->prepare(world);
   return run;
 }
@@ -211,6 +213,7 @@ void VariantJob::compute_missing(UnitQueue& units, MpiWorld* world) {
   if (!run) return;
   run->finish();
   run->report_work();
+  run->leave_lines();
 }
 
 OwnBatches VariantJob::merge_if_complete(MpiWorld* world) {
@@ -339,7 +342,13 @@ void VariantJob::remove_merged() const {
   if (was_merged_ && work_.options.batches == Batches::remove) folder_.remove_finished_work();
 }
 
+void VariantJob::announce() {
+  rays_key_ = rays_key(plan_);
+  work_.rays.expect(rays_key_);
+}
+
 void VariantJob::release() {
+  work_.rays.release(rays_key_);
   mesh_ = {};
   plan_.built = {};
   plan_.family.reset();

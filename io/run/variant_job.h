@@ -20,6 +20,7 @@
 
 namespace sunload {
 
+class SharedRays;
 class VariantRun;
 
 /// What the jobs of a study have in common; must outlive them.
@@ -28,6 +29,7 @@ struct StudyWork {
   const RunOptions& options;
   std::string folder;  ///< of all results
   Progress& progress;
+  SharedRays& rays;
 };
 
 enum class Merge { complete, partial };
@@ -36,7 +38,8 @@ enum class Merge { complete, partial };
 enum class OwnBatches { done, lost };
 
 /// One variant on behalf of one process: a whole run, a shard or a rank. The mesh is made when it
-/// is first needed, so that memory holds the mesh and the lines of one variant at a time.
+/// is first needed, so that memory holds the mesh and the lines of one variant at a time
+/// (beside what `SharedRays` keep).
 class VariantJob {
  public:
   VariantJob(const StudyWork& work, VariantPlan plan);
@@ -58,6 +61,8 @@ class VariantJob {
   /// Throws MachineError where memory or disk are too little: for the mesh, or before it is made
   /// for the fewest patches that it can have.
   void expect_room() const;
+  /// That it will be computed: others may share its rays.
+  void announce();
   /// Computes what is missing of this process' own batches. Throws Interrupted, MachineError.
   void compute(MpiWorld* world);
   /// Merges where all batches are there; otherwise lists those that others owe. Batches of this
@@ -98,6 +103,7 @@ class VariantJob {
   std::string name_;
   VariantPlan plan_;
   WorkFolder folder_;
+  std::string rays_key_;      ///< empty until it is known that it will be computed
   VariantMesh mesh_;          ///< empty until it is needed
   ResultStamp stamp_before_;  ///< of the result that was there when the work began
   bool was_merged_ = false;

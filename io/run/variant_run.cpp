@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "io/base/machine.h"
@@ -67,8 +68,9 @@ void refuse_too_much(double memory_bytes) {
 }  // namespace
 
 VariantRun::VariantRun(const WorkFolder& folder, const VariantPlan& plan,
-                       std::shared_ptr<const Hierarchy> mesh, Progress& progress)
-    : folder_(folder), plan_(plan), mesh_(std::move(mesh)), progress_(progress) {}
+                       std::shared_ptr<const Hierarchy> mesh, Progress& progress,
+                       TracedRays* shared)
+    : folder_(folder), plan_(plan), mesh_(std::move(mesh)), progress_(progress), shared_(shared) {}
 
 VariantRun::~VariantRun() {
   try {
@@ -83,10 +85,21 @@ void VariantRun::prepare(MpiWorld* world) {
   if (!world) return read_or_trace();
   if (world->is_first()) read_or_trace();
   world->wait_for_all();
-  if (!world->is_first()) build(read_prepared(folder_.prepared(), plan_.content_hash));
+  if (world->is_first()) return;
+  if (has_shared_lines()) return take_shared_lines();
+  build(read_prepared(folder_.prepared(), plan_.content_hash));
+}
+
+void VariantRun::take_shared_lines() {
+  if (shared_->traced_by != plan_.study.variant)
+    progress_.say(fmt::format("{}: rays tell of it what they told of {}; they are not cast again",
+                              plan_.study.variant, shared_->traced_by));
+  build(std::exchange(shared_->lines, {}));
+  unwritten_.add(Work::line_rays, traced_->patches.lines.rays);
 }
 
 void VariantRun::read_or_trace() {
+  if (has_shared_lines()) return take_shared_lines();
   const std::string path = folder_.prepared(), lock_path = folder_.prepared_lock();
   if (auto ready = read_prepared(path, plan_.content_hash)) return build(std::move(ready));
   if (folder_.batches_not_there().size() < 2) return build({});
@@ -109,7 +122,8 @@ void VariantRun::build(std::optional<Lines> ready) {
   auto traced = trace_scene(plan_.built.scene, mesh_, rules_, progress_, std::move(ready));
   lights_.emplace(plan_.study, plan_.built.site, traced->grid);
   period_.emplace(*lights_, plan_.light);
-  traced->expect(*period_);
+  traced->expect(*period_, shared_ ? shared_->views : nullptr);
+  if (shared_) shared_->views = traced->sun_views;
   traced_ = std::move(traced);
   transport_ = transport_of(*traced_, *period_);
   unwritten_ = traced_->work;
@@ -193,8 +207,8 @@ void VariantRun::compute(std::size_t batch) {
   const std::size_t first = batch * plan_.batch_suns();
   const std::size_t count = std::min(plan_.batch_suns(), plan_.intervals() - first);
   const BatchParts parts = parts_of_batch(plan_.totals, first, count);
-  const Solved solved =
-      solve(*transport_, lights_->of(plan_.light, first, count), progress_, parts.solved);
+  const Solved solved = solve(*transport_, lights_->of(plan_.light, first, count), progress_,
+                              parts.solved, record_of(batch));
   unwritten_ += solved.work;
   done_ += solved.work;
   const StoredSeries stored = stored_series(plan_.study);
@@ -225,7 +239,27 @@ void VariantRun::compute(std::size_t batch) {
   unwritten_ = {};
 }
 
+/// Where another variant is to come that takes it, or this one can take it.
+RayRecord* VariantRun::record_of(std::size_t batch) {
+  if (!shared_) return nullptr;
+  const auto kept = shared_->batches.find(batch);
+  if (kept != shared_->batches.end() && kept->second.state == RayRecord::State::whole)
+    return &kept->second;
+  if (!shared_->is_wanted_later) return nullptr;
+  RayRecord& record = shared_->batches[batch];
+  record.most_bytes = SharedRays::room_bytes();
+  return &record;
+}
+
 void VariantRun::finish() { writing_.finish(); }
+
+void VariantRun::leave_lines() {
+  if (!shared_ || !shared_->is_wanted_later || !traced_) return;
+  transport_.reset();
+  if (shared_->traced_by.empty()) shared_->traced_by = plan_.study.variant;
+  shared_->lines = std::move(traced_->patches.lines);
+  traced_.reset();
+}
 
 /// Another process that failed may have removed the folder, which was empty until now; who cleans
 /// up may remove it while this is written.

@@ -11,6 +11,7 @@
 #include "io/plan/interval_lights.h"
 #include "io/plan/variant_plan.h"
 #include "io/run/progress.h"
+#include "io/run/shared_rays.h"
 #include "io/run/work_folder.h"
 #include "io/run/writing_behind.h"
 #include "solver/solver.h"
@@ -21,8 +22,10 @@ class MpiWorld;
 
 class VariantRun {
  public:
+  /// `shared`: with variants of which rays tell the same, or null; must outlive it, as all but the
+  /// mesh.
   VariantRun(const WorkFolder& folder, const VariantPlan& plan,
-             std::shared_ptr<const Hierarchy> mesh, Progress& progress);
+             std::shared_ptr<const Hierarchy> mesh, Progress& progress, TracedRays* shared);
   /// Ends when the batch in hand is written, and warns where that fails.
   ~VariantRun();
   VariantRun(const VariantRun&) = delete;
@@ -38,11 +41,16 @@ class VariantRun {
   void compute(std::size_t batch);
   /// Waits until all batches are written. Throws MachineError.
   void finish();
+  /// Gives the lines to the variants that share them; no batch can be computed afterwards.
+  void leave_lines();
   /// Says what work was done and how long it took.
   void report_work() const;
 
  private:
   void read_or_trace();
+  bool has_shared_lines() const { return shared_ && shared_->lines; }
+  void take_shared_lines();
+  RayRecord* record_of(std::size_t batch);
   void build(std::optional<Lines> ready);
   void warn_of_sensors();
   void tell_reduction() const;
@@ -55,8 +63,9 @@ class VariantRun {
   const VariantPlan& plan_;
   std::shared_ptr<const Hierarchy> mesh_;
   Progress& progress_;
+  TracedRays* shared_;
   SolverRules rules_;  ///< of the solver, counts decided
-  std::unique_ptr<const TracedScene> traced_;
+  std::unique_ptr<TracedScene> traced_;
   std::optional<IntervalLights> lights_;  ///< on the sky grid of the traced scene
   std::optional<SeriesLight> period_;
   std::unique_ptr<const LightTransport> transport_;

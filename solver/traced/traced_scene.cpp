@@ -141,14 +141,15 @@ bool TracedScene::has_part(Part part) const {
   return true;
 }
 
-void TracedScene::expect(const LitPeriod& period) {
+void TracedScene::expect(const LitPeriod& period, std::shared_ptr<const SunViews> ready) {
   std::vector<Vec3> suns;
   for (std::size_t k = 0; k < period.intervals(); ++k)
     if (period.has_sun(k))
       for (const Vec3 sun : period.suns(k)) suns.push_back(sun);
   if (static_cast<double>(suns.size()) < cost::suns_worth_views) return;
   const Stopwatch time(work[Work::direct_s]);
-  sun_views.emplace(scene, *mesh, caster.offset_m(), suns);
+  sun_views = ready ? std::move(ready)
+                    : std::make_shared<const SunViews>(scene, *mesh, caster.offset_m(), suns);
   sun_shafts.reset();  // nobody asks them any more
 }
 

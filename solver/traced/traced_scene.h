@@ -49,8 +49,9 @@ struct TracedScene {
   /// Parts of the irradiance that the scene can have.
   bool has_part(Part part) const;
   /// Looks beforehand what patches see of the suns of this period, where these are so many that it
-  /// pays. Saves rays, and changes no bit of what they tell.
-  void expect(const LitPeriod& period);
+  /// pays. Saves rays, and changes no bit of what they tell. `ready`: the views of a scene of which
+  /// rays tell the same, or null.
+  void expect(const LitPeriod& period, std::shared_ptr<const SunViews> ready = {});
   /// Of patches and the suns of a block, [N][block], or empty: nothing is known.
   std::vector<SunSight> sights(std::span<const IntervalLight> block) const;
   /// Directions in which the scene's mirrors face.
@@ -67,7 +68,8 @@ struct TracedScene {
   std::vector<PatchOptics> optics_of_band;  ///< one where light is broadband
   Receivers patches, sensors;
   std::optional<SunShafts> sun_shafts;  ///< of patches; none where they do not pay
-  std::optional<SunViews> sun_views;    ///< of patches and the suns that are expected, or none
+  /// Of patches and the suns that are expected, or none.
+  std::shared_ptr<const SunViews> sun_views;
   MirrorGroups mirrors;
   MirrorSun mirror_sun;
   MirrorChains mirror_chains;

@@ -20,8 +20,9 @@ namespace {
 /// One batch.
 class GatheredBatch : public BatchTransport {
  public:
-  GatheredBatch(const TracedScene& traced, std::vector<BatchTally>& tallies, WorkDone& work)
-      : traced_(traced), tallies_(tallies), work_(work) {
+  GatheredBatch(const TracedScene& traced, std::vector<BatchTally>& tallies, WorkDone& work,
+                RayRecord* record)
+      : traced_(traced), tallies_(tallies), work_(work), rays_(traced, record) {
     for (std::size_t b = 0; b < tallies.size(); ++b) {
       sums_.push_back(empty_sums(traced));
       part_sums_.emplace_back(traced, b, tallies[b]);
@@ -32,13 +33,14 @@ class GatheredBatch : public BatchTransport {
     BlockSources sources(block.suns, static_cast<std::size_t>(traced_.grid.cell_count()));
     sources.split_sky(traced_.grid);
     if (traced_.is_rgb()) return light_in_bands(block, sources);
-    BlockRays rays = light_iteration(traced_, sources, kept(block), sums_.front(), work_);
+    BlockRays rays = rays_.next(sources, kept(block), sums_.front(), work_);
     part_sums_.front().add(block, sources, rays, whole_light());
     light_band(0, block, sources, std::move(rays));
   }
 
   void finish() override {
     const Stopwatch time(work_[Work::realizations_s]);
+    rays_.end(traced_.is_rgb() ? nullptr : &sums_.front(), work_);
     for (std::size_t b = 0; b < tallies_.size(); ++b) {
       solve_realizations(traced_, b, sums_[b], tallies_[b]);
       part_sums_[b].solve();
@@ -56,7 +58,7 @@ class GatheredBatch : public BatchTransport {
   /// Rays are traced once, for the mean of the bands.
   void light_in_bands(const Block& block, const BlockSources& sources) {
     TimeSums of_broadband = empty_sums(traced_);
-    const BlockRays rays = light_iteration(traced_, sources, kept(block), of_broadband, work_);
+    const BlockRays rays = rays_.next(sources, kept(block), of_broadband, work_);
     for (std::size_t b = 0; b < sums_.size(); ++b) {
       const auto suns = suns_in_band(block.suns, b);
       const BandFactors factors = band_factors(sources, suns, b);
@@ -164,15 +166,16 @@ class GatheredBatch : public BatchTransport {
   const TracedScene& traced_;
   std::vector<BatchTally>& tallies_;
   WorkDone& work_;
+  BatchRays rays_;
   std::vector<TimeSums> sums_;       ///< of each band
   std::vector<PartSums> part_sums_;  ///< likewise
 };
 
 }  // namespace
 
-std::unique_ptr<BatchTransport> Gathering::begin(std::vector<BatchTally>& tallies,
-                                                 WorkDone& work) const {
-  return std::make_unique<GatheredBatch>(traced_, tallies, work);
+std::unique_ptr<BatchTransport> Gathering::begin(std::vector<BatchTally>& tallies, WorkDone& work,
+                                                 RayRecord* record) const {
+  return std::make_unique<GatheredBatch>(traced_, tallies, work, record);
 }
 
 }  // namespace sunload

@@ -17,8 +17,8 @@ class Gathering : public LightTransport {
       : LightTransport(traced) {
     work_ = tried;
   }
-  std::unique_ptr<BatchTransport> begin(std::vector<BatchTally>& tallies,
-                                        WorkDone& work) const override;
+  std::unique_ptr<BatchTransport> begin(std::vector<BatchTally>& tallies, WorkDone& work,
+                                        RayRecord* record) const override;
 };
 
 }  // namespace sunload

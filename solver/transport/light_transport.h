@@ -11,6 +11,7 @@
 
 #include "solver/light/lit_period.h"
 #include "solver/light/work.h"
+#include "solver/traced/ray_record.h"
 #include "solver/traced/traced_scene.h"
 
 namespace sunload {
@@ -48,9 +49,10 @@ class LightTransport {
   LightTransport& operator=(const LightTransport&) = delete;
 
   const TracedScene& traced() const { return traced_; }
-  /// Begins a batch. `tallies`: one per band; they and `work` must outlive what is returned.
-  virtual std::unique_ptr<BatchTransport> begin(std::vector<BatchTally>& tallies,
-                                                WorkDone& work) const = 0;
+  /// Begins a batch. `tallies`: one per band. `record`: of the light of its rays, taken or written
+  /// by who gathers; or null. All three must outlive what is returned.
+  virtual std::unique_ptr<BatchTransport> begin(std::vector<BatchTally>& tallies, WorkDone& work,
+                                                RayRecord* record) const = 0;
   /// Work done before any batch, beside `TracedScene::work`.
   const WorkDone& work() const { return work_; }
   /// Null where each interval has its own solution.

@@ -261,8 +261,8 @@ Shooting::Shooting(const TracedScene& traced)
   work_[Work::wanted_samples] = shooter_.wanted();
 }
 
-std::unique_ptr<BatchTransport> Shooting::begin(std::vector<BatchTally>& tallies,
-                                                WorkDone& work) const {
+std::unique_ptr<BatchTransport> Shooting::begin(std::vector<BatchTally>& tallies, WorkDone& work,
+                                                RayRecord* /*none*/) const {
   return std::make_unique<ShotBatch>(traced_, shooter_, tallies.front(), work);
 }
 

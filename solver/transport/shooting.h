@@ -14,8 +14,8 @@ class Shooting : public LightTransport {
  public:
   /// Shoots the emitters' power.
   explicit Shooting(const TracedScene& traced);
-  std::unique_ptr<BatchTransport> begin(std::vector<BatchTally>& tallies,
-                                        WorkDone& work) const override;
+  std::unique_ptr<BatchTransport> begin(std::vector<BatchTally>& tallies, WorkDone& work,
+                                        RayRecord* record) const override;
 
  private:
   Shooter shooter_;

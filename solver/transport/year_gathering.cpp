@@ -172,19 +172,20 @@ class ReductionTest {
 /// One batch.
 class YearBatch : public BatchTransport {
  public:
-  YearBatch(const TracedScene& traced, const NodeLight& nodes, BatchTally& tally, WorkDone& work)
+  YearBatch(const TracedScene& traced, const NodeLight& nodes, BatchTally& tally, WorkDone& work,
+            RayRecord* record)
       : traced_(traced),
         nodes_(nodes),
         tally_(tally),
         work_(work),
+        rays_(traced, record),
         sums_(empty_sums(traced)),
         parts_(traced, 0, tally),
         shares_of_parts_(parts_.count()) {}
 
   void light(const Block& block) override {
     const BlockSources sources(block.suns, static_cast<std::size_t>(traced_.grid.cell_count()));
-    BlockRays rays =
-        light_iteration(traced_, sources, {.columns = parts_.wants(block)}, sums_, work_);
+    BlockRays rays = rays_.next(sources, {.columns = parts_.wants(block)}, sums_, work_);
     const Stopwatch time(work_[Work::solve_s]);
     const auto by_rays = ledger_of_rays(traced_, rays.on_patches.pooled.direct,
                                         rays.on_patches.pooled.mirror, block.suns.size());
@@ -203,6 +204,7 @@ class YearBatch : public BatchTransport {
 
   void finish() override {
     const Stopwatch time(work_[Work::realizations_s]);
+    rays_.end(&sums_, work_);
     nodes_.split_circumsolar(shares_, sums_);
     solve_realizations(traced_, 0, sums_, tally_);
     for (std::size_t p = 0; p < parts_.count(); ++p)
@@ -240,6 +242,7 @@ class YearBatch : public BatchTransport {
   const NodeLight& nodes_;
   BatchTally& tally_;
   WorkDone& work_;
+  BatchRays rays_;
   TimeSums sums_;
   PartSums parts_;
   std::vector<NodeSeconds> shares_;  ///< of each block of nodes
@@ -298,8 +301,8 @@ YearGathering::YearGathering(const TracedScene& traced, const LitPeriod& period)
 }
 
 std::unique_ptr<BatchTransport> YearGathering::begin(std::vector<BatchTally>& tallies,
-                                                     WorkDone& work) const {
-  return std::make_unique<YearBatch>(traced_, *nodes_, tallies.front(), work);
+                                                     WorkDone& work, RayRecord* record) const {
+  return std::make_unique<YearBatch>(traced_, *nodes_, tallies.front(), work, record);
 }
 
 std::unique_ptr<const LightTransport> year_where_it_pays(const TracedScene& traced,

@@ -19,8 +19,8 @@ class YearGathering : public LightTransport {
  public:
   /// Solves nodes. `traced` and `period` must outlive it. Throws Interrupted.
   YearGathering(const TracedScene& traced, const LitPeriod& period);
-  std::unique_ptr<BatchTransport> begin(std::vector<BatchTally>& tallies,
-                                        WorkDone& work) const override;
+  std::unique_ptr<BatchTransport> begin(std::vector<BatchTally>& tallies, WorkDone& work,
+                                        RayRecord* record) const override;
   const Reduction* reduction() const override { return &reduction_; }
 
  private:

@@ -39,6 +39,46 @@ std::string study(const std::string& plaster = "0.6") {
          "  - {name: third, scene: {materials: {paving: {diffuse: 0.2}}}}\n";
 }
 
+/// Variants of which rays tell the same have the bits of their own runs, and nobody else shares.
+TEST(Variants, ShareRaysWhereOnlyDiffuseReflectancesDiffer) {
+  const std::string without_lamp =
+      std::regex_replace(square_study(), std::regex("emission_w_m2: 200"), "emission_w_m2: 0") +
+      "sensors: {points: [{position_m: [0, 2.9, 2], normal: [0, -1, 0]}]}\n"
+      "variants:\n"
+      "  - {name: first}\n"
+      "  - {name: painted, scene: {materials: {paving: {diffuse: 0.2}, plaster: {diffuse: 0.3}}}}\n"
+      "  - {name: dimmer, scene: {materials: {glass: {diffuse: 0.05, mirror: 0.5}}}}\n"
+      "  - {name: black, scene: {materials: {paving: {diffuse: 0}}}}\n"
+      "  - {name: dark, scene: {materials: {paving: {diffuse: 0.1}}}}\n";
+  for (const auto& [errors, solver] :
+       {std::pair{"totals", ""}, std::pair{"instants", ""}, std::pair{"totals", ", year: modes"},
+        std::pair{"totals", ", bands: rgb"}}) {
+    const WorkFolder folder;
+    folder.write("square.obj", square_obj);
+    std::string text = std::regex_replace(without_lamp, std::regex("standard_error: totals"),
+                                          std::string("standard_error: ") + errors);
+    text = std::regex_replace(text, std::regex("batch_suns: 2"),
+                              "batch_suns: 2" + std::string(solver));
+    folder.write("square.yaml", text);
+    const Ran together = program(folder, {"run", "square.yaml", "--output", "together"});
+    ASSERT_EQ(together.code, 0) << together.err;
+    std::vector<std::string> sharing;
+    for (const std::string name : {"first", "painted", "dimmer", "black", "dark"}) {
+      if (together.err.find(name + ": rays tell of it what they told of first") !=
+          std::string::npos)
+        sharing.push_back(name);
+      const Ran alone =
+          program(folder, {"run", "square.yaml", "--variant", name, "--output", "alone"});
+      ASSERT_EQ(alone.code, 0) << alone.err;
+      EXPECT_EQ(different_data(folder / ("together/square/" + name + ".h5"),
+                               folder / ("alone/square/" + name + ".h5")),
+                Names{})
+          << name << " " << errors << solver;
+    }
+    EXPECT_EQ(sharing, (Names{"painted", "dark"})) << errors << solver;
+  }
+}
+
 /// Studies of docs/examples-variants.md, coarser: each runs, with all of its variants.
 TEST(Examples, OfVariantsRun) {
   const WorkFolder folder;

@@ -104,5 +104,48 @@ TEST(PairingId, StaysWhatItWas) {
   EXPECT_EQ(pairing_id(content.study, content.light), "2c58d3be793e26cc");
 }
 
+TEST(RaysDigest, SeesAllButDiffuseReflectances) {
+  const auto digest_of = [](const std::function<void(Content&)>& change) {
+    Content content;
+    content.built.scene.materials[0].diffuse = 0.3;
+    change(content);
+    return rays_digest(content.study, content.built, content.light, "avx2", "");
+  };
+  const auto material = [](auto member, auto value) {
+    return [=](Content& c) { c.built.scene.materials[0].*member = value; };
+  };
+  const std::string digest = digest_of([](Content&) {});
+  EXPECT_EQ(digest_of(material(&Material::diffuse, 0.6)), digest);
+  EXPECT_EQ(digest_of(material(&Material::name, "paint")), digest);
+  EXPECT_EQ(digest_of([](Content& c) { c.study.scene.builtin.emplace(); }), digest);
+  const std::vector<std::function<void(Content&)>> changes{
+      material(&Material::diffuse, 0.0),  // no line leads to it
+      material(&Material::mirror, 0.1),
+      material(&Material::glossy, 0.1),
+      material(&Material::transmittance, 0.1),
+      [](Content& c) { c.built.scene.materials[0].smooth = Panes{1.5}; },
+      [](Content& c) { c.built.scene.mesh.vertices[1].x = 2; },
+      [](Content& c) { c.built.scene.sensors[0].position.x = 2; },
+      [](Content& c) { c.built.site.north_deg = 5; },
+      [](Content& c) { c.study.solver.seed = 2; },
+      [](Content& c) { c.study.light.far_ground_albedo = 0.7; },
+      [](Content& c) { c.study.mesh.min_area_m2 = 0.5; },
+      [](Content& c) { c.light.intervals.emplace_back(); },
+  };
+  std::set<std::string> different{digest};
+  for (const auto& change : changes) different.insert(digest_of(change));
+  EXPECT_EQ(different.size(), changes.size() + 1);
+}
+
+TEST(RaysDigest, SeesTheCoatOfAMirror) {
+  const auto digest_of = [](double diffuse, double mirror) {
+    Content content;
+    content.built.scene.materials[0].diffuse = diffuse;
+    content.built.scene.materials[0].mirror = mirror;
+    return rays_digest(content.study, content.built, content.light, "avx2", "");
+  };
+  EXPECT_NE(digest_of(0.1, 0.5), digest_of(0.2, 0.5));
+}
+
 }  // namespace
 }  // namespace sunload

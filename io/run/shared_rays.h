@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What one variant has traced, kept for those after it that differ in diffuse reflectances alone:
+/// rays tell the same of them, bit for bit.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "io/plan/variant_plan.h"
+#include "solver/solver.h"
+
+namespace sunload {
+
+/// Of variants of one key.
+struct TracedRays {
+  std::string traced_by;       ///< the first variant; empty: nothing is traced yet
+  std::optional<Lines> lines;  ///< while no variant has them
+  std::shared_ptr<const SunViews> views;
+  std::map<std::size_t, RayRecord> batches;
+  bool is_wanted_later = false;  ///< by a variant after the one in hand
+};
+
+/// Equal where rays tell the same; empty: they depend on what shines, on counts that a pilot
+/// chooses, or are those of the variant's own samples.
+std::string rays_key(const VariantPlan& plan);
+
+/// Of the variants of one process.
+class SharedRays {
+ public:
+  /// A variant of this key is still to be computed.
+  void expect(const std::string& key);
+  /// That variant is done; what nobody waits for goes.
+  void release(const std::string& key);
+  /// What variants of this key share; null: there is no other.
+  TracedRays* of(const std::string& key);
+  /// Bytes that more of them may take: a share of the free memory.
+  static double room_bytes();
+
+ private:
+  struct Shared {
+    int variants = 0;  ///< to come
+    TracedRays rays;
+  };
+  std::map<std::string, Shared> shared_;
+};
+
+}  // namespace sunload

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/traced/ray_record.h"
+
+#include <array>
+#include <utility>
+
+#include "geo/base/check.h"
+
+namespace sunload {
+
+namespace {
+
+constexpr std::array counts{Work::direct_rays, Work::mirror_rays, Work::mirror_beams,
+                            Work::mirror_shots, Work::sensor_rays};
+
+double bytes_of(const Columns& columns) {
+  return static_cast<double>(columns.size() * sizeof(columns.front()));
+}
+
+double bytes_of(const std::vector<Columns>& of_realizations) {
+  double bytes = 0;
+  for (const Columns& columns : of_realizations) bytes += bytes_of(columns);
+  return bytes;
+}
+
+double bytes_of(const RayLight& light) {
+  const auto& [pooled, sunlit, of_realizations, by_samples] = light;
+  return bytes_of(pooled.direct) + bytes_of(pooled.mirror) + bytes_of(pooled.circumsolar) +
+         bytes_of(sunlit) + bytes_of(of_realizations.direct) + bytes_of(of_realizations.mirror) +
+         bytes_of(of_realizations.circumsolar) + bytes_of(by_samples);
+}
+
+void empty(RayRecord& record, RayRecord::State state) {
+  RayRecord nothing;
+  nothing.most_bytes = record.most_bytes;
+  nothing.state = state;
+  record = std::move(nothing);
+}
+
+}  // namespace
+
+BatchRays::BatchRays(const TracedScene& traced, RayRecord* record)
+    : traced_(traced), record_(record) {
+  if (record_ && !takes()) empty(*record_, RayRecord::State::written);
+}
+
+BlockRays BatchRays::next(const BlockSources& sources, const Kept& kept, TimeSums& sums,
+                          WorkDone& work) {
+  if (takes()) {
+    SUNLOAD_EXPECT(taken_ < record_->blocks.size(), "a record has every block of its batch");
+    return record_->blocks[taken_++];
+  }
+  if (!record_) return light_iteration(traced_, sources, kept, sums, work);
+  const WorkDone before = work;
+  BlockRays rays = light_iteration(traced_, sources, kept, sums, work);
+  for (const Work kind : counts) record_->work[kind] += work[kind] - before[kind];
+  keep(rays);
+  return rays;
+}
+
+void BatchRays::keep(const BlockRays& rays) {
+  if (record_->state != RayRecord::State::written) return;
+  record_->bytes += bytes_of(rays.on_patches) + bytes_of(rays.on_sensors);
+  if (record_->bytes > record_->most_bytes)
+    empty(*record_, RayRecord::State::given_up);
+  else
+    record_->blocks.push_back(rays);
+}
+
+void BatchRays::end(TimeSums* sums, WorkDone& work) {
+  if (!record_) return;
+  if (takes()) {
+    work += record_->work;
+    if (sums) sums->on_patches = record_->on_patches;
+    if (sums) sums->on_sensors = record_->on_sensors;
+  } else if (record_->state == RayRecord::State::written) {
+    if (sums) record_->on_patches = sums->on_patches;
+    if (sums) record_->on_sensors = sums->on_sensors;
+    record_->state = RayRecord::State::whole;
+  }
+}
+
+}  // namespace sunload
