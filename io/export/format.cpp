@@ -39,8 +39,7 @@ ShownQuantity export_quantity(const ResultReader& result, const ExportRules& rul
     throw InputError({}, "--time " + rules.time,
                      shown.dataset + " is of the whole period" +
                          (is_default ? " and what is exported without --quantity" : ""),
-                     "leave it out, or name a series, e.g. --quantity " +
-                         dataset_name("irradiance", result.quantity()));
+                     leave_out_or_name_a_series(result));
   return shown;
 }
 

@@ -172,8 +172,7 @@ void expect_time_matters(const ResultReader& result, const RenderRules& rules,
   const bool is_for_sky = rules.sky.value_or(SkyBackground::plain) != SkyBackground::plain;
   if (rules.time.empty() || shown.is_series || rules.view == View::sun || is_for_sky) return;
   throw InputError({}, "--time " + rules.time, shown.dataset + " is a total of the whole period",
-                   "leave it out, or name a series: --quantity " +
-                       dataset_name("irradiance", result.quantity()));
+                   leave_out_or_name_a_series(result));
 }
 
 bool is_of_kinds(PictureColours colours) {

@@ -38,6 +38,12 @@ std::string usual_quantity(const ResultReader& result) {
   return result.is_comparison() ? std::string(difference_dataset) : "light_load";
 }
 
+std::string leave_out_or_name_a_series(const ResultReader& result) {
+  const auto series = patch_datasets(result, PatchDatasets::series);
+  return series.empty() ? "leave it out: no series is stored (output.series of the study)"
+                        : "leave it out, or name a series: --quantity " + series.front();
+}
+
 std::vector<double> ShownQuantity::sizes() const {
   auto sizes = values;
   if (is_difference)

@@ -32,6 +32,9 @@ struct ShownQuantity {
 /// What is shown where nobody says: the light load, or of a comparison its difference.
 std::string usual_quantity(const ResultReader& result);
 
+/// What to try where a time is given for a quantity that is a total.
+std::string leave_out_or_name_a_series(const ResultReader& result);
+
 /// A dataset [patch] as it is, or the interval of a dataset [time, patch] that holds `time`
 /// (as in a study; empty: the brightest). Throws InputError that lists what there is.
 ShownQuantity shown_quantity(const ResultReader& result, const std::string& dataset,

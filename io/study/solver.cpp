@@ -40,6 +40,10 @@ std::vector<std::string> read_series(YamlMap& map, std::vector<std::string> abse
     return absent;
   }
   std::vector<std::string> series;
+  if (map.kind("series") == YamlNode::Kind::text) {
+    map.word("series", {"none"}, "none");
+    return series;
+  }
   for (const auto& [text, where] : map.texts("series")) {
     if (std::find(known.begin(), known.end(), text) == known.end()) {
       map.reading().problem(where, "output.series: '" + text + "' is not known",

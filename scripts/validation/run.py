@@ -16,11 +16,12 @@ import cases  # noqa: E402
 import measured  # noqa: E402
 import methods  # noqa: E402
 import page  # noqa: E402
+import pairs  # noqa: E402
 import reference_tests  # noqa: E402
 import seeds  # noqa: E402
 from program import Program  # noqa: E402
 
-KINDS = ("reference", "cases", "methods", "seeds", "measured")
+KINDS = ("reference", "cases", "methods", "seeds", "pairs", "measured")
 
 
 def main():
@@ -40,7 +41,8 @@ def main():
         if kind == "reference":
             sections += reference_tests.all_sections(build, tell)
         else:
-            made = {"cases": cases, "methods": methods, "seeds": seeds, "measured": measured}[kind]
+            made = {"cases": cases, "methods": methods, "seeds": seeds, "pairs": pairs,
+                    "measured": measured}[kind]
             sections += made.sections(program, tell)
     page.write(sections, os.path.join(arguments.output, "validation.md"),
                os.path.join(arguments.output, "validation.csv"))

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <regex>
+
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
@@ -148,6 +150,27 @@ TEST(Listings, LongerThanTheDiskTellsTheError) {
                       .wait();
   EXPECT_EQ(ran.code, 3) << ran.err;
   EXPECT_NE(ran.err.find("No space left on device"), std::string::npos) << ran.err;
+}
+
+TEST(Outputs, TotalsNeedNoSeries) {
+  const WorkFolder folder;
+  folder.write("square.obj", square_obj);
+  folder.write("square.yaml", square_study());
+  folder.write("none.yaml", std::regex_replace(square_study(), std::regex("output: \\{"),
+                                               "output: {series: none, "));
+  for (const char* study : {"square", "none"})
+    ASSERT_EQ(program(folder, {"run", std::string(study) + ".yaml", "--output", study}).code, 0);
+  const std::string all = folder / "square/square/baseline.h5";
+  const std::string none = folder / "none/square/baseline.h5";
+  for (const std::string& name : different_data(all, none))
+    EXPECT_EQ(name.find("light_load"), std::string::npos) << name;
+  const Ran table = program(folder, {"info", none, "--facades", "--hours", "8-10"});
+  EXPECT_EQ(table.code, 0) << table.err;
+  EXPECT_NE(table.out.find("house/south_1"), std::string::npos) << table.out;
+  const Ran instant =
+      program(folder, {"render", none, "--time", "2026-03-21T12:00", "-o", "a.png"});
+  EXPECT_EQ(instant.code, 2);
+  EXPECT_NE(instant.err.find("output.series"), std::string::npos) << instant.err;
 }
 
 }  // namespace

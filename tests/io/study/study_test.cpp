@@ -544,6 +544,7 @@ TEST(Study, ChecksLightSceneAndSolver) {
                  "is below the least counts");
   expect_problem({{"solver", "{bands: rgb, transport: shoot}"}}, "cannot go with transport: shoot");
   expect_problem({{"output", "{series: [total, totl]}"}}, "'totl' is not known");
+  expect_problem({{"output", "{series: all}"}}, "none");
   expect_problem({{"output", "{series: [sky, sky]}"}}, "is written twice");
   expect_problem({{"sensors", "{points: []}"}}, "the list is empty");
   expect_problem({{"light", "{sky: perez, sky_scale: absolute}"}}, "cannot go with sky: perez");
