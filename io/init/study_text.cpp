@@ -13,6 +13,7 @@
 #include "geo/time/time.h"
 #include "io/base/data_folder.h"
 #include "io/base/version.h"
+#include "io/init/clear_days.h"
 #include "io/init/proposals.h"
 #include "io/study/material_table.h"
 
@@ -130,19 +131,16 @@ std::string site_text(const InitRules& rules, const Findings& found) {
   return text + fmt::format("site: {{{}timezone: {}}}\n\n", keys, zone_text(rules, found));
 }
 
-/// Three days that the weather has, from its beginning, its middle and its end.
-std::string days_of(const WeatherFile& weather) {
-  std::string days;
-  const bool is_actual = years_of(weather.records) == WeatherYears::actual;
-  const std::size_t count = weather.records.size();
-  for (const std::size_t at : {count / 6, count / 2, count - 1 - count / 6}) {
-    const WeatherRecord& record = weather.records[at];
-    constexpr int last_of_all_months = 28;
-    days += fmt::format("{}{}-{:02}-{:02}", days.empty() ? "" : ", ",
-                        is_actual ? record.year : calendar_from_utc(now()).year, record.month,
-                        std::min(record.day, last_of_all_months));
-  }
-  return days;
+std::string days_of(const Findings& found) {
+  const auto& records = found.weather->records;
+  const bool is_actual = years_of(records) == WeatherYears::actual;
+  std::vector<std::string> days;
+  for (const CivilTime& day : clear_days(records, found.weather_source))
+    days.push_back(fmt::format("{}-{:02}-{:02}",
+                               is_actual ? day.year : calendar_from_utc(now()).year, day.month,
+                               day.day));
+  std::sort(days.begin(), days.end());  // months of a typical year are of different years
+  return fmt::format("{}", fmt::join(days, ", "));
 }
 
 std::string weather_text(const InitRules& rules, const Findings& found, const std::string& folder) {
@@ -183,10 +181,10 @@ std::string period_text(const InitRules& rules, const Findings& found, const std
   }
   if (found.weather)
     return fmt::format(
-               "# {} all of it, which takes longer than a first picture should: period: "
-               "{{year_of: weather}}\n"
+               "# Clear days of the weather. {} all of it, which takes longer than a first picture "
+               "should: period: {{year_of: weather}}\n"
                "period: {{days: [{}], step_min: 60}}\n",
-               mark, days_of(*found.weather)) +
+               mark, days_of(found)) +
            weather_text(rules, found, folder);
   return fmt::format(
       "# Spring, the longest day and the shortest, in civil time.\n"

@@ -337,6 +337,9 @@ class Renderer {
     camera_ = std::make_unique<Camera>(camera(interval, area));
     traced_ = std::make_unique<TracedPicture>(scene_, caster_, *camera_, area.width, area.height,
                                               rules_.mesh);
+    if (rules_.eye.empty() && !traced_->shows_anything())  // a room from outside
+      traced_ = std::make_unique<TracedPicture>(scene_, caster_, *camera_, area.width, area.height,
+                                                rules_.mesh, Backs::let_pass);
     expect_something_seen();
   }
 

@@ -148,11 +148,12 @@ Colour linear_light(Colour c) {
 }
 
 TracedPicture::TracedPicture(const PatchScene& scene, const RayCaster& caster, const Camera& camera,
-                             int width, int height, MeshLines mesh)
+                             int width, int height, MeshLines mesh, Backs backs)
     : scene_(scene),
       caster_(caster),
       camera_(camera),
       mesh_(mesh),
+      backs_(backs),
       width_(static_cast<std::size_t>(width)),
       height_(static_cast<std::size_t>(height)),
       columns_(width_ * samples),
@@ -227,8 +228,7 @@ void TracedPicture::trace_tiles(std::size_t first_row) {
       directions.y[k] = static_cast<float>(rays[k].direction.y);
       directions.z[k] = static_cast<float>(rays[k].direction.z);
     }
-    const auto hits =
-        caster_.first_hits(origins, directions, active, RayCaster::Coherence::parallel);
+    const PacketHits hits = first_hits(origins, directions, active);
     for (std::size_t k = 0; k < packet_size; ++k) {
       if (!(active >> k & 1U)) continue;
       auto& sample = samples_[(first_row + k / tile_size) * columns_ + first + k % tile_size];
@@ -242,6 +242,36 @@ void TracedPicture::trace_tiles(std::size_t first_row) {
                                                         static_cast<double>(hits.v[k]), rays[k]));
     }
   }
+}
+
+PacketHits TracedPicture::first_hits(Packet origins, const PacketDirections& directions,
+                                     std::uint32_t active) const {
+  PacketHits hits = caster_.first_hits(origins, directions, active, RayCaster::Coherence::parallel);
+  constexpr int most_backs = 64;
+  for (int passed = 0; backs_ == Backs::let_pass && passed < most_backs; ++passed) {
+    std::uint32_t on = 0;
+    for (std::size_t k = 0; k < packet_size; ++k) {
+      if (!(active >> k & 1U) || hits.triangle[k] < 0) continue;
+      if (scene_.patch_met(hits.triangle[k], hits.front[k]) >= 0) continue;
+      on |= 1U << k;
+      const float step = hits.distance[k] + static_cast<float>(caster_.offset_m());
+      origins.x[k] += step * directions.x[k];
+      origins.y[k] += step * directions.y[k];
+      origins.z[k] += step * directions.z[k];
+    }
+    if (on == 0) break;
+    const PacketHits next =
+        caster_.first_hits(origins, directions, on, RayCaster::Coherence::parallel);
+    for (std::size_t k = 0; k < packet_size; ++k) {
+      if (!(on >> k & 1U)) continue;
+      hits.triangle[k] = next.triangle[k];
+      hits.u[k] = next.u[k];
+      hits.v[k] = next.v[k];
+      hits.distance[k] = next.distance[k];
+      hits.front[k] = next.front[k];
+    }
+  }
+  return hits;
 }
 
 /// Strength of the nearest edge's line at barycentric weights (u, v).

@@ -79,12 +79,16 @@ struct Background {
   Vec3 sun{0, 0, 1};  ///< unit vector towards the sun
 };
 
+/// What rays do that meet the back of a surface that has one side: of closed rooms a camera outside
+/// sees nothing else.
+enum class Backs { stop, let_pass };
+
 /// What a camera sees of the scene, 2 × 2 rays for each pixel: traced once, coloured for many suns.
 class TracedPicture {
  public:
   /// Scene and caster must outlive this. `mesh`: whether patch lines will be wanted.
   TracedPicture(const PatchScene& scene, const RayCaster& caster, const Camera& camera, int width,
-                int height, MeshLines mesh);
+                int height, MeshLines mesh, Backs backs = Backs::stop);
   /// Whether any ray met a surface from the side that has values; of these patches alone.
   bool shows_anything() const;
   bool shows(const std::vector<std::size_t>& patches) const;
@@ -103,6 +107,8 @@ class TracedPicture {
 
  private:
   void trace_tiles(std::size_t first_row);
+  PacketHits first_hits(Packet origins, const PacketDirections& directions,
+                        std::uint32_t active) const;
   double mesh_line(std::size_t triangle, double u, double v, const CameraRay& ray) const;
   bool has_border(std::size_t sample, std::size_t other) const;
   bool is_border(std::size_t column, std::size_t row) const;
@@ -111,6 +117,7 @@ class TracedPicture {
   const RayCaster& caster_;
   Camera camera_;
   MeshLines mesh_;
+  Backs backs_;
   std::size_t width_, height_, columns_, rows_;
   std::vector<Sample> samples_;
 };

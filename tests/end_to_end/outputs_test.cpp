@@ -173,5 +173,25 @@ TEST(Outputs, TotalsNeedNoSeries) {
   EXPECT_NE(instant.err.find("output.series"), std::string::npos) << instant.err;
 }
 
+/// From outside a closed room shows its backs alone, which have no values.
+TEST(Outputs, AClosedRoomIsLookedInto) {
+  const WorkFolder folder;
+  folder.write("room.yaml",
+               "format: sunload-study-1\nname: room\nscene: {builtin: {name: room}}\n"
+               "period: {positions: [{azimuth_deg: 180, elevation_deg: 40}]}\n"
+               "light: {source: fixed, dni_w_m2: 700, dhi_w_m2: 120}\n"
+               "mesh: {oracle: none, max_edge_m: 2}\n"
+               "solver: {lines_per_patch: 32, realizations: 4}\n");
+  ASSERT_EQ(program(folder, {"run", "room.yaml"}).code, 0);
+  for (const char* camera : {"overview", "top"}) {
+    const Ran ran = program(folder, {"render", "results/room/baseline.h5", "--camera", camera, "-o",
+                                     "room.png", "--size", "320x320"});
+    EXPECT_EQ(ran.code, 0) << camera << " " << ran.err;
+  }
+  const Ran past = program(folder, {"render", "results/room/baseline.h5", "--eye", "20,20,20",
+                                    "--look", "40,40,40", "-o", "past.png"});
+  EXPECT_EQ(past.code, 2);
+}
+
 }  // namespace
 }  // namespace sunload::test
