@@ -18,6 +18,19 @@ namespace {
 
 using namespace cost;
 
+/// Runs of intervals with light that are solved side by side.
+std::size_t lit_blocks(const VariantPlan& plan) {
+  const bool lamps = has_lamps(plan);
+  std::size_t blocks = 0, in_block = 0;
+  for (std::size_t k = 0; k < plan.intervals(); ++k) {
+    if (k % plan.batch_suns() == 0 || in_block == block_width) in_block = 0;
+    const bool is_lit = lamps || !is_dark(plan.light.intervals[k]);
+    if (is_lit && in_block == 0) ++blocks;
+    in_block = is_lit ? in_block + 1 : 0;
+  }
+  return blocks;
+}
+
 /// Samples of all shots: those of the first reflection, then (incremental) less by what is
 /// absorbed, one at least of every patch. The light on a patch is taken as that on a sphere.
 double estimated_samples(const VariantPlan& plan, double patches, double blocks,
@@ -185,10 +198,10 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
         n * n *
         ((s.realizations + 1.0) * bytes_per_form_factor + thread_count() * bytes_per_factor_solved);
   if (s.transport == Transport::shoot) {
-    const double blocks = batches * std::ceil(batch / static_cast<double>(block_width));
+    const auto blocks = static_cast<double>(lit_blocks(plan));
     work.samples =
         static_cast<std::uint64_t>(estimated_samples(plan, n, blocks, counts.samples_per_patch));
-    const double per_shot = static_cast<double>(work.samples) / (blocks * std::max(1, s.bounces));
+    const double per_shot = static_cast<double>(work.samples) / std::max(1.0, blocks * s.bounces);
     work.memory_bytes +=
         n * (shooting_bytes_per_patch + of_realizations * columns_of_a_realization) +
         per_shot / s.realizations * bytes_per_sample;

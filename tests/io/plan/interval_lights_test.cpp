@@ -68,6 +68,20 @@ TEST(LitIntervals, AreWhatWorkIsEstimatedFor) {
   EXPECT_GT(estimate_work(plan, patches).disk_bytes, estimate_work(night, patches).disk_bytes);
 }
 
+TEST(LitIntervals, AreWhatIsShotFor) {
+  VariantPlan plan = day_with_twilight();
+  plan.study.solver.transport = Transport::shoot;
+  constexpr std::size_t patches = 1000;
+  const auto of_day = estimate_work(plan, patches).samples;
+  EXPECT_GT(of_day, 0u);
+  for (auto& interval : plan.light.intervals) {
+    interval.mean = {};
+    interval.when.sunlit_s = 0;
+  }
+  ASSERT_EQ(plan.light.lit_count(), 0u);
+  EXPECT_EQ(estimate_work(plan, patches).samples, 0u);
+}
+
 TEST(LitIntervals, AreAllWhereSomethingShines) {
   VariantPlan plan = day_with_twilight();
   plan.built.scene.materials.front().emission_w_m2 = 1;
