@@ -19,6 +19,7 @@
 #include "io/command/check_study.h"
 #include "io/command/commands.h"
 #include "io/command/doctor.h"
+#include "io/command/horizon_command.h"
 #include "io/command/manual.h"
 #include "io/export/export.h"
 #include "io/init/init.h"
@@ -77,6 +78,9 @@ const std::map<std::string, std::string> examples{
     {"merge", "sunload merge street.yaml\nsunload merge street.yaml --partial"},
     {"sun", "sunload sun street.yaml > sun.csv\nsunload sun street.yaml --image sun.png"},
     {"sky", "sunload sky street.yaml --time 2026-03-08T10:00 --image sky.png"},
+    {"horizon",
+     "sunload horizon dem.tif --study town.yaml -o hills.csv   # then site: {horizon: hills.csv}\n"
+     "sunload horizon dem.tif --at \"47.38 8.54\" --from-m 500 > hills.csv"},
     {"info",
      "sunload info results/street/glazed.h5\n"
      "sunload info results/street/glazed.h5 --facades --csv > facades.csv\n"
@@ -144,6 +148,7 @@ class CommandLine {
     add_merge();
     add_sun();
     add_sky();
+    add_horizon();
     add_info();
     add_compare();
     add_explain();
@@ -375,6 +380,30 @@ class CommandLine {
                             [this] { return print_sun(study_, picture_); });
     add_study(sub);
     add_picture(sub);
+  }
+
+  void add_horizon() {
+    CLI::App* sub = command("horizon", "the line of far hills of a site, from an elevation model",
+                            [this] { return horizon(horizon_); });
+    reads(
+        sub->add_option("DEM", horizon_.land, "raster of the land's height (GeoTIFF, ESRI ASCII)"))
+        ->required();
+    CLI::Option* study =
+        reads(sub->add_option("--study", horizon_.study, "study whose site it is"));
+    sub->add_option("--at", horizon_.at, "place, latitude first: \"47.38 8.54\", UTM or MGRS")
+        ->excludes(study);
+    sub->add_option("--crs", horizon_.crs, "map projection of a raster that names none");
+    sub->add_option("--unit-m", horizon_.unit_m, "length of the raster's unit [m] (default: 1)")
+        ->check(positive);
+    sub->add_option("--above-m", horizon_.above_m, "eye above the land of the place (default: 2)");
+    sub->add_option("--from-m", horizon_.from_m,
+                    "land nearer than this is left out: it is the scene's own (default: as far as "
+                    "the study's scene reaches; of --at: 0)");
+    sub->add_option("--to-m", horizon_.to_m, "how far is looked (default: 50000)")->check(positive);
+    sub->add_option("--step-deg", horizon_.step_deg, "between two azimuths (default: 1)")
+        ->check(CLI::Range(0.01, 30.0));
+    writes(sub->add_option("-o,--output", horizon_.output,
+                           "file to write (.csv; default: standard output)"));
   }
 
   void add_picture(CLI::App* sub) {
@@ -699,6 +728,7 @@ class CommandLine {
   SkyOptions sky_;
   ViewOptions view_;
   BuiltinOptions builtin_;
+  HorizonOptions horizon_;
   InitRules init_;
   std::string example_;
   Choices choices_;

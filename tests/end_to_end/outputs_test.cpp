@@ -193,5 +193,35 @@ TEST(Outputs, AClosedRoomIsLookedInto) {
   EXPECT_EQ(past.code, 2);
 }
 
+/// From an elevation model to a sun path without its first hours.
+TEST(Outputs, AHorizonIsReadByTheStudyItIsOf) {
+  const WorkFolder folder;
+  folder.write("square.obj", square_obj);
+  // 60 × 60 cells of 100 m about the site in UTM 33; a plateau of 1000 m from 2050 m eastwards,
+  // 998 m above the eye: atan(998 / 2050) = 25.96 deg.
+  std::string rows = "ncols 60\nnrows 60\nxllcorner 497000\nyllcorner 5497000\ncellsize 100\n";
+  for (int row = 0; row < 60; ++row) {
+    for (int column = 0; column < 60; ++column) rows += column < 50 ? "0 " : "1000 ";
+    rows += "\n";
+  }
+  folder.write("dem.asc", rows);
+  const std::string study = std::regex_replace(
+      square_study(), std::regex("latitude_deg: 49.7475, longitude_deg: 13.3776"),
+      "latitude_deg: 49.6535, longitude_deg: 15");
+  folder.write("square.yaml", study);
+  const Ran none = program(folder, {"horizon", "dem.asc", "--study", "square.yaml"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.err.find("--crs"), std::string::npos) << none.err;
+  const Ran ran = program(folder, {"horizon", "dem.asc", "--study", "square.yaml", "--crs",
+                                   "EPSG:32633", "-o", "hills.csv"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_NE(ran.err.find("the raster ends after"), std::string::npos) << ran.err;
+  folder.write("hills.yaml",
+               std::regex_replace(study, std::regex("site: \\{"), "site: {horizon: hills.csv, "));
+  const Ran checked = program(folder, {"check", "hills.yaml"});
+  EXPECT_EQ(checked.code, 0) << checked.err;
+  EXPECT_NE(checked.out.find("hills      360 points, up to 25.9"), std::string::npos) << checked.out;
+}
+
 }  // namespace
 }  // namespace sunload::test

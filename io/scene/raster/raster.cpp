@@ -74,6 +74,8 @@ class RasterReader {
     const std::array<const char*, 3> drivers{"GTiff", "AAIGrid", nullptr};
     dataset_.reset(GDALOpenEx(path_.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers.data(),
                               nullptr, nullptr));
+    std::error_code unreadable;
+    if (!dataset_ && !std::filesystem::exists(path_, unreadable)) fail("there is no such file");
     if (!dataset_) fail("cannot be read as a raster");
     raster_.columns = static_cast<std::size_t>(GDALGetRasterXSize(dataset_.get()));
     raster_.rows = static_cast<std::size_t>(GDALGetRasterYSize(dataset_.get()));
