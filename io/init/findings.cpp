@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "geo/base/check.h"
 #include "geo/sun/weather.h"
@@ -124,6 +125,9 @@ Findings findings_of(const InitRules& rules) {
   found.has_ground = found.area[static_cast<std::size_t>(Surface::ground)] > 0;
   found.is_raster = is_raster(rules.model);
   found.warnings = built.warnings;
+  std::copy_if(
+      built.notes.begin(), built.notes.end(), std::back_inserter(found.footprint_notes),
+      [](const std::string& note) { return note.find("footprints") != std::string::npos; });
   return found;
 }
 

@@ -57,6 +57,7 @@ struct Findings {
   bool is_raster = false;   ///< of heights, which are the ground, too
   bool has_excess = false;  ///< colours of VRML that reflect more than arrives
   std::vector<std::string> warnings;
+  std::vector<std::string> footprint_notes;  ///< what columns of plan data were taken
 
   std::optional<WeatherFile> weather;
   bool is_year_too_long = false;  ///< of the weather, for a first picture

@@ -332,8 +332,11 @@ std::string scene_text(const InitRules& rules, const Findings& found, const std:
                              "  vrml_excess: scale\n",
                              mark)
                        : "";
-  return found_text(found) + "scene:\n" + file_text(rules, folder) + excess + ground_text(found) +
-         assign_text(found) + "\n";
+  std::string columns;
+  for (const auto& note : found.footprint_notes)
+    columns += fmt::format("  # {} {} (keys: footprints, terrain)\n", mark, note);
+  return found_text(found) + "scene:\n" + columns + file_text(rules, folder) + excess +
+         ground_text(found) + assign_text(found) + "\n";
 }
 
 std::string cost_text(const FirstPicture& picture, const Findings& found) {

@@ -97,7 +97,7 @@ void give_material(PolygonModel& model, const std::string& name) {
 
 PolygonModel read_part(const SceneFileStudy& file, const SceneStudy& scene) {
   const auto rules = rules_of(file, scene);
-  PolygonModel part = file.terrain.empty()
+  PolygonModel part = file.terrain.empty() || is_of_footprints(file.path)
                           ? read_scene_file(file.path, rules)
                           : read_scene_blocks({.surface = file.path,
                                                .terrain = file.terrain,

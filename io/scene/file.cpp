@@ -14,6 +14,7 @@
 #include "io/scene/mesh_files/off.h"
 #include "io/scene/mesh_files/ply.h"
 #include "io/scene/mesh_files/stl.h"
+#include "io/scene/raster/footprints.h"
 #include "io/scene/raster/raster_scene.h"
 #include "io/scene/vrml/reader.h"
 
@@ -52,6 +53,10 @@ const std::vector<Format>& formats() {
        {".tif", ".tiff"},
        read_scene_raster},
       {"ESRI ASCII raster", {"ncols", "NCOLS"}, {".asc"}, read_scene_raster},
+      {"footprints (GeoJSON, GeoPackage, Shapefile)",
+       {},
+       {".geojson", ".gpkg", ".shp", ".fgb"},
+       read_scene_footprints},
   };
   return table;
 }
@@ -84,6 +89,7 @@ const Format* format_by_extension(const std::string& path) {
 
 /// The content is stronger than the name, but for JSON, which glTF is, too.
 const Format* format_of(const std::string& path, std::string_view head) {
+  if (is_footprint_file(path, head)) return &formats().back();
   const auto* by_mark = format_by_mark(head);
   const bool may_be_gltf = head.starts_with('{') && lower_extension(path) == ".gltf";
   return by_mark != nullptr && !may_be_gltf ? by_mark : format_by_extension(path);
@@ -98,6 +104,10 @@ std::string names_of_formats() {
 }
 
 }  // namespace
+
+bool is_of_footprints(const std::string& path) {
+  return is_footprint_file(path, without_leading_blanks(read_file_head(path, head_bytes)));
+}
 
 PolygonModel read_scene_file(const std::string& path, const SceneFileRules& rules) {
   const auto head = read_file_head(path, head_bytes);

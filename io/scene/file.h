@@ -18,4 +18,7 @@ namespace sunload {
 /// Throws InputError where the file is missing, of an unknown format, or wrong.
 PolygonModel read_scene_file(const std::string& path, const SceneFileRules& rules);
 
+/// Whether it is plan data: footprints, which may stand on a terrain.
+bool is_of_footprints(const std::string& path);
+
 }  // namespace sunload

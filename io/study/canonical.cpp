@@ -185,10 +185,21 @@ json canonical(const BuiltinStudy& builtin) {
   return {{"name", name}, {"parameters", parameters}};
 }
 
+json canonical(const FootprintRules& rules) {
+  const auto& [height, storeys, base, name, layer, storey_m, default_height_m, terrain] = rules;
+  return {{"height", height},
+          {"storeys", storeys},
+          {"base", base},
+          {"name", name},
+          {"layer", layer},
+          {"storey_m", storey_m},
+          {"default_height_m", maybe(default_height_m)}};  // terrain: see blocks
+}
+
 json canonical(const SceneFileStudy& file) {
   // Files are hashed by their bytes.
   const auto& [path, where, up, unit_m, lod, position, earth_position, turn_deg, material, terrain,
-               canopy, least_height_m, trunk_share] = file;
+               canopy, least_height_m, trunk_share, footprints] = file;
   json all{{"up", up == 0 ? std::string() : std::string(1, up)},
            {"unit_m", maybe(unit_m)},
            {"lod", lod},
@@ -202,6 +213,10 @@ json canonical(const SceneFileStudy& file) {
     all["blocks"] = {{"least_height_m", least_height_m},
                      {"trunk_share", trunk_share},
                      {"has_canopy", !canopy.empty()}};
+  // Studies without plan data keep their hashes.
+  if (const json of_footprints = canonical(footprints);
+      of_footprints != canonical(FootprintRules{}))
+    all["footprints"] = of_footprints;
   return all;
 }
 

@@ -22,8 +22,14 @@ Vec3 position_in(const SceneFileStudy& file, const std::string& crs) {
 }  // namespace
 
 SceneFileRules rules_of(const SceneFileStudy& file, const SceneStudy& scene) {
-  return {file.up == 0 ? scene.up : file.up, file.unit_m.value_or(scene.unit_m),
-          file.lod.empty() ? scene.lod : file.lod, scene.vrml_colour, scene.emission_scale_w};
+  SceneFileRules rules{file.up == 0 ? scene.up : file.up,
+                       file.unit_m.value_or(scene.unit_m),
+                       file.lod.empty() ? scene.lod : file.lod,
+                       scene.vrml_colour,
+                       scene.emission_scale_w,
+                       file.footprints};
+  rules.footprints.terrain = file.terrain;
+  return rules;
 }
 
 FilePlace file_place(Vec3 position, double turn_deg) {

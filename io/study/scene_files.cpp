@@ -19,6 +19,8 @@ constexpr Range coordinates_m{-1e9, 1e9};  // no map projection of the Earth goe
 constexpr Range turns_deg{-360, 360};
 constexpr Range heights_m{-1e4, 1e5};
 constexpr Range least_heights_m{0, 1000};
+constexpr Range storeys_m{0.1, 100};
+constexpr Range building_heights_m{0.01, 2000};
 constexpr Range trunk_shares{0, 0.99};  // crowns have a height
 
 void read_position(YamlMap& map, SceneFileStudy& file) {
@@ -54,6 +56,19 @@ void read_rasters(YamlMap& map, const std::string& folder, SceneFileStudy& file)
     map.warn("trunk_share", "is not used", "it belongs to canopy");
 }
 
+/// Columns of plan data.
+FootprintRules read_footprints(YamlMap& map) {
+  FootprintRules rules;
+  rules.height = map.text("height", rules.height);
+  rules.storeys = map.text("storeys", rules.storeys);
+  rules.storey_m = map.number("storey_m", storeys_m, rules.storey_m);
+  rules.base = map.text("base", rules.base);
+  rules.name = map.text("name", rules.name);
+  rules.layer = map.text("layer", rules.layer);
+  rules.default_height_m = map.number("default_height_m", building_heights_m);
+  return rules;
+}
+
 SceneFileStudy read_scene_file_entry(YamlMap& map, const std::string& folder) {
   SceneFileStudy file;
   file.where = map.where();
@@ -68,6 +83,7 @@ SceneFileStudy read_scene_file_entry(YamlMap& map, const std::string& folder) {
   file.turn_deg = map.number("turn_deg", turns_deg, file.turn_deg);
   file.material = map.text("material", file.material);
   read_rasters(map, folder, file);
+  map.section("footprints", [&](YamlMap& columns) { file.footprints = read_footprints(columns); });
   return file;
 }
 

@@ -196,11 +196,12 @@ struct SceneFileStudy {
   std::optional<EarthPosition> earth_position;  ///< the same by way of the scene's CRS
   double turn_deg = 0;   ///< about the file's origin, clockwise seen from above
   std::string material;  ///< of all its faces; empty: as the file says
-  /// Raster of bare ground: `path` is a raster of surfaces, made into blocks.
+  /// Raster of bare ground: `path` is a raster of surfaces, made into blocks; or of footprints.
   std::string terrain;
   std::string canopy;         ///< raster of heights of crowns above the ground
   double least_height_m = 2;  ///< of buildings in rasters
   double trunk_share = 0.25;  ///< of a crown's height, free below it
+  FootprintRules footprints;  ///< but for their terrain
 
   bool is_placed() const { return position || earth_position || turn_deg != 0; }
 };

@@ -220,7 +220,8 @@ TEST(Outputs, AHorizonIsReadByTheStudyItIsOf) {
                std::regex_replace(study, std::regex("site: \\{"), "site: {horizon: hills.csv, "));
   const Ran checked = program(folder, {"check", "hills.yaml"});
   EXPECT_EQ(checked.code, 0) << checked.err;
-  EXPECT_NE(checked.out.find("hills      360 points, up to 25.9"), std::string::npos) << checked.out;
+  EXPECT_NE(checked.out.find("hills      360 points, up to 25.9"), std::string::npos)
+      << checked.out;
 }
 
 }  // namespace

@@ -195,7 +195,7 @@ TEST(House, OneFileKnowsEachForeignLibrary) {
       {"openssl", {"io/base/base64", "io/base/hash"}},
       {"half.h", {"io/base/half_float"}},
       {"CLI/", {"io/command/command_line"}},
-      {"gdal", {"io/export/geopackage", "io/scene/raster/raster"}},
+      {"gdal", {"io/export/geopackage", "io/scene/raster/gdal_file"}},
       {"boost", {"io/base/statistics"}},
       {"CGAL", {"geo/mesh/constrained_delaunay", "geo/mesh/intersections"}},
       {"GeographicLib", {"geo/sun/site", "geo/sun/site_text"}},

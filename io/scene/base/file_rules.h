@@ -3,6 +3,7 @@
 /// How scene files are to be understood, whatever their format.
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace sunload {
@@ -12,6 +13,17 @@ enum class VrmlColour { mean, norm };
 /// Colours that reflect more than arrives: an error, or made smaller with their ratio kept.
 enum class VrmlExcess { refuse, scale };
 
+/// Columns of plan data (io/scene/raster/footprints.h); empty: found by their usual names.
+struct FootprintRules {
+  std::string height, storeys;  ///< of the building above its foot
+  std::string base;             ///< height of its foot
+  std::string name;
+  std::string layer;                       ///< empty: the only one of polygons
+  double storey_m = 3;                     ///< height of a storey
+  std::optional<double> default_height_m;  ///< where no column has one
+  std::string terrain;                     ///< raster of the land that feet stand on, or empty
+};
+
 /// How the coordinates and the levels of detail of a scene file are to be understood.
 struct SceneFileRules {
   char up = 0;        ///< axis of the file that points up: 'x', 'y', 'z'; 0 = default of the format
@@ -19,6 +31,7 @@ struct SceneFileRules {
   std::string lod = "highest";  ///< CityJSON: "highest", or a level such as "2" or "2.2"
   VrmlColour vrml_colour = VrmlColour::mean;
   double emission_scale_w = 1;  ///< power that a VRML emissiveColor of strength 1 stands for [W]
+  FootprintRules footprints = {};
 };
 
 }  // namespace sunload

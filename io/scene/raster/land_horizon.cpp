@@ -17,7 +17,6 @@ namespace {
 constexpr double earth_radius_m = 6371e3;
 constexpr double refraction_coefficient = 0.13;
 
-/// Heights between the middles of cells.
 class Land {
  public:
   Land(const Raster& raster, double unit_m) : raster_(raster), unit_m_(unit_m) {
@@ -27,27 +26,8 @@ class Land {
   }
   double half_cell_m() const { return half_cell_m_; }
 
-  /// None outside, and where a cell about it has no data.
   std::optional<double> height_m(double x_m, double y_m) const {
-    const auto& g = raster_.file_from_cell;
-    const double dx = x_m / unit_m_ - g[0], dy = y_m / unit_m_ - g[3];
-    // From middles of cells.
-    const double column = (dx * g[5] - dy * g[2]) / determinant_ - 0.5;
-    const double row = (dy * g[1] - dx * g[4]) / determinant_ - 0.5;
-    const auto last_column = static_cast<double>(raster_.columns) - 1;
-    const auto last_row = static_cast<double>(raster_.rows) - 1;
-    // Half a cell at the rim has the height of its cell.
-    if (!(column >= -0.5 && column <= last_column + 0.5 && row >= -0.5 && row <= last_row + 0.5))
-      return {};
-    const double c = std::clamp(column, 0.0, last_column), r = std::clamp(row, 0.0, last_row);
-    const auto c0 = static_cast<std::size_t>(c), r0 = static_cast<std::size_t>(r);
-    const std::size_t c1 = std::min(c0 + 1, raster_.columns - 1);
-    const std::size_t r1 = std::min(r0 + 1, raster_.rows - 1);
-    const double u = c - static_cast<double>(c0), v = r - static_cast<double>(r0);
-    const double height = (1 - v) * ((1 - u) * raster_.at(c0, r0) + u * raster_.at(c1, r0)) +
-                          v * ((1 - u) * raster_.at(c0, r1) + u * raster_.at(c1, r1));
-    if (std::isnan(height)) return {};
-    return height * unit_m_;
+    return height_between_cells(raster_, unit_m_, x_m, y_m);
   }
 
   /// Distance along the direction to the rim of the raster, from inside.

@@ -2,16 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/raster/raster.h"
 
-#include <cpl_conv.h>
-#include <cpl_error.h>
 #include <fmt/format.h>
-#include <gdal.h>
-#include <ogr_srs_api.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <memory>
-#include <mutex>
+
+#include "io/scene/raster/gdal_file.h"
 
 namespace sunload {
 
@@ -22,27 +19,6 @@ namespace {
 constexpr double lowest_elevation_m = -1000, highest_elevation_m = 9000;
 // Of what stands on land; rounding leaves small negative differences.
 constexpr double lowest_height_m = -1, highest_height_m = 2000;
-
-/// GDAL's messages of one reading; they do not reach the standard error.
-class GdalMessages {
- public:
-  GdalMessages() { CPLPushErrorHandlerEx(&note, this); }
-  ~GdalMessages() { CPLPopErrorHandler(); }
-  GdalMessages(const GdalMessages&) = delete;
-  GdalMessages& operator=(const GdalMessages&) = delete;
-  const std::string& first() const { return first_; }
-
- private:
-  static void CPL_STDCALL note(CPLErr, CPLErrorNum, const char* text) {
-    auto& self = *static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
-    if (self.first_.empty()) self.first_ = text;
-  }
-  std::string first_;
-};
-
-struct CloseDataset {
-  void operator()(void* dataset) const { GDALClose(dataset); }
-};
 
 class RasterReader {
  public:
@@ -63,17 +39,7 @@ class RasterReader {
   }
 
   void open() {
-    static std::once_flag registered;
-    std::call_once(registered, [] {
-      GDALAllRegister();
-      // Rows are read once; the default is 5 % of all memory.
-      constexpr GIntBig cache_bytes = 64'000'000;
-      GDALSetCacheMax64(cache_bytes);
-    });
-    // Only these two: other drivers may follow links to elsewhere.
-    const std::array<const char*, 3> drivers{"GTiff", "AAIGrid", nullptr};
-    dataset_.reset(GDALOpenEx(path_.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers.data(),
-                              nullptr, nullptr));
+    dataset_ = open_with_gdal(path_, GDAL_OF_RASTER, {"GTiff", "AAIGrid"});
     std::error_code unreadable;
     if (!dataset_ && !std::filesystem::exists(path_, unreadable)) fail("there is no such file");
     if (!dataset_) fail("cannot be read as a raster");
@@ -124,15 +90,7 @@ class RasterReader {
       fail("has coordinates in degrees", "distances are needed in metres",
            "project it first, for example with gdalwarp -t_srs EPSG:…");
     }
-    const char* authority = OSRGetAuthorityName(crs, nullptr);
-    const char* code = OSRGetAuthorityCode(crs, nullptr);
-    if (authority != nullptr && code != nullptr) {
-      raster_.crs = std::string(authority) + ":" + code;
-    } else {
-      char* text = nullptr;
-      if (OSRExportToWkt(crs, &text) == OGRERR_NONE && text != nullptr) raster_.crs = text;
-      CPLFree(text);
-    }
+    raster_.crs = crs_name(crs);
     char* unit = nullptr;
     if (const double metres = OSRGetLinearUnits(crs, &unit); metres != 1 && unit_m_ == 1) {
       notes_.say(
@@ -186,7 +144,7 @@ class RasterReader {
   RasterValues kind_;
   NoteCounter& notes_;
   GdalMessages messages_;
-  std::unique_ptr<void, CloseDataset> dataset_;
+  GdalDataset dataset_;
   Raster raster_;
 };
 
@@ -195,6 +153,30 @@ class RasterReader {
 Raster read_raster(const std::string& path, double unit_m, RasterValues values,
                    NoteCounter& notes) {
   return RasterReader(path, unit_m, values, notes).read();
+}
+
+std::optional<double> height_between_cells(const Raster& raster, double unit_m, double x_m,
+                                           double y_m) {
+  const auto& g = raster.file_from_cell;
+  const double determinant = g[1] * g[5] - g[2] * g[4];
+  const double dx = x_m / unit_m - g[0], dy = y_m / unit_m - g[3];
+  // From middles of cells.
+  const double column = (dx * g[5] - dy * g[2]) / determinant - 0.5;
+  const double row = (dy * g[1] - dx * g[4]) / determinant - 0.5;
+  const auto last_column = static_cast<double>(raster.columns) - 1;
+  const auto last_row = static_cast<double>(raster.rows) - 1;
+  // Half a cell at the rim has the height of its cell.
+  if (!(column >= -0.5 && column <= last_column + 0.5 && row >= -0.5 && row <= last_row + 0.5))
+    return {};
+  const double c = std::clamp(column, 0.0, last_column), r = std::clamp(row, 0.0, last_row);
+  const auto c0 = static_cast<std::size_t>(c), r0 = static_cast<std::size_t>(r);
+  const std::size_t c1 = std::min(c0 + 1, raster.columns - 1);
+  const std::size_t r1 = std::min(r0 + 1, raster.rows - 1);
+  const double u = c - static_cast<double>(c0), v = r - static_cast<double>(r0);
+  const double height = (1 - v) * ((1 - u) * raster.at(c0, r0) + u * raster.at(c1, r0)) +
+                        v * ((1 - u) * raster.at(c0, r1) + u * raster.at(c1, r1));
+  if (std::isnan(height)) return {};
+  return height * unit_m;
 }
 
 }  // namespace sunload

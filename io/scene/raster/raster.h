@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,5 +45,10 @@ struct Raster {
 /// coordinates in degrees, more than `most_raster_cells`, and values that no land has (a NODATA
 /// value that the file does not declare); `unit_m` is the length of one unit of the file.
 Raster read_raster(const std::string& path, double unit_m, RasterValues values, NoteCounter& notes);
+
+/// Height at a place on the raster's map [m], linear between the middles of cells; none outside,
+/// and where a cell about it has no data.
+std::optional<double> height_between_cells(const Raster& raster, double unit_m, double x_m,
+                                           double y_m);
 
 }  // namespace sunload

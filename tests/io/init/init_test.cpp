@@ -152,5 +152,19 @@ TEST(Init, AnExampleIsCopiedWithItsFiles) {
             std::string::npos);
 }
 
+TEST(Init, PlanDataTellsWhichColumnsItTook) {
+  const WorkFolder folder;
+  const auto [study, text] = begun(
+      folder,
+      {.model = folder.write(
+           "plan.geojson",
+           R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": )"
+           R"({"hoehe": 8}, "geometry": {"type": "Polygon", "coordinates": [[[15.001, 49.6535], )"
+           R"([15.002, 49.6535], [15.002, 49.654], [15.001, 49.6535]]]}}]})")});
+  EXPECT_NE(text.find("<<< heights of footprints from column hoehe"), std::string::npos) << text;
+  EXPECT_NE(text.find("EPSG:32633"), std::string::npos);
+  EXPECT_TRUE(std::holds_alternative<DaysPeriod>(study.period.kind));
+}
+
 }  // namespace
 }  // namespace sunload

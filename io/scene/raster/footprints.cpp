@@ -1,0 +1,350 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/scene/raster/footprints.h"
+
+#include <fmt/format.h>
+#include <ogr_api.h>
+#include <ogr_srs_api.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+#include "geo/edit/solids.h"
+#include "io/scene/base/from_file.h"
+#include "io/scene/raster/gdal_file.h"
+#include "io/scene/raster/raster.h"
+
+namespace sunload {
+
+namespace {
+
+constexpr double highest_m = 2000;  // no building is higher
+constexpr std::size_t most_named = 5;
+
+/// Usual names of columns, the more telling first; lower case.
+using Names = std::vector<std::string_view>;
+const Names heights{"height",     "height_m",       "building_height", "bldg_height",
+                    "heightroof", "measuredheight", "b_hoogte",        "hoogte",
+                    "hoehe",      "hoehe_m",        "hauteur",         "vyska",
+                    "h"};
+const Names storeys{"building:levels", "building_levels", "storeys", "stories",   "levels",
+                    "num_floors",      "floors",          "etages",  "geschosse", "podlazi"};
+const Names bases{"base_height", "base_m", "ground_height", "ground_elevation"};
+const Names names{"id", "gml_id", "osm_id", "fid", "egid", "ref", "name"};
+
+struct DestroyFeature {
+  void operator()(void* feature) const { OGR_F_Destroy(feature); }
+};
+struct DestroyTransform {
+  void operator()(void* transform) const { OCTDestroyCoordinateTransformation(transform); }
+};
+struct ReleaseCrs {
+  void operator()(void* crs) const { OSRRelease(crs); }
+};
+using Crs = std::unique_ptr<void, ReleaseCrs>;
+
+class FootprintReader {
+ public:
+  FootprintReader(const std::string& path, const SceneFileRules& rules)
+      : path_(path), rules_(rules.footprints), unit_m_(rules.unit_m) {}
+
+  PolygonModel read() {
+    dataset_ =
+        open_with_gdal(path_, GDAL_OF_VECTOR, {"GeoJSON", "GPKG", "ESRI Shapefile", "FlatGeobuf"});
+    if (!dataset_) fail("cannot be read as footprints");
+    layer_ = chosen_layer();
+    find_columns();
+    read_crs();
+    read_terrain();
+    model_.source = path_;
+    model_.is_city_format = true;
+    OGR_L_ResetReading(layer_);
+    while (const Feature feature{OGR_L_GetNextFeature(layer_)}) add(feature.get());
+    if (model_.object_names.empty()) fail("has no polygons", "footprints were expected");
+    refuse_without_height();
+    tell();
+    return std::move(model_);
+  }
+
+ private:
+  using Feature = std::unique_ptr<void, DestroyFeature>;
+
+  [[noreturn]] void fail(const std::string& what, const std::string& why = {},
+                         const std::string& hint = {}) const {
+    throw InputError({path_}, what, why.empty() ? messages_.first() : why, hint);
+  }
+
+  // ---- layer and columns
+
+  OGRLayerH chosen_layer() const {
+    std::string known;
+    OGRLayerH found = nullptr;
+    int polygons = 0;
+    for (int k = 0; k < GDALDatasetGetLayerCount(dataset_.get()); ++k) {
+      OGRLayerH layer = GDALDatasetGetLayer(dataset_.get(), k);
+      const std::string name = OGR_L_GetName(layer);
+      known += (known.empty() ? "" : ", ") + name;
+      if (!rules_.layer.empty()) {
+        if (name == rules_.layer) found = layer;
+        continue;
+      }
+      const auto type = wkbFlatten(OGR_L_GetGeomType(layer));
+      const bool may_be = type == wkbPolygon || type == wkbMultiPolygon || type == wkbUnknown ||
+                          type == wkbCurvePolygon || type == wkbMultiSurface;
+      if (!may_be) continue;
+      found = layer;
+      ++polygons;
+    }
+    if (polygons > 1)
+      fail("has several layers of polygons: " + known, "which are the buildings is not known",
+           "name one: footprints: {layer: …}");
+    if (found == nullptr)
+      fail(
+          rules_.layer.empty() ? "has no layer of polygons" : "has no layer '" + rules_.layer + "'",
+          "its layers: " + known);
+    return found;
+  }
+
+  std::vector<std::string> columns() const {
+    std::vector<std::string> all;
+    OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer_);
+    for (int k = 0; k < OGR_FD_GetFieldCount(definition); ++k)
+      all.emplace_back(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, k)));
+    return all;
+  }
+
+  /// -1: there is none.
+  int column(const std::string& wanted, const Names& usual, const char* what) {
+    const auto all = columns();
+    if (!wanted.empty()) {
+      const auto found = std::find(all.begin(), all.end(), wanted);
+      if (found == all.end())
+        fail(fmt::format("has no column '{}'", wanted),
+             all.empty() ? "it has no columns"
+                         : fmt::format("its columns: {}", fmt::join(all, ", ")));
+      return static_cast<int>(found - all.begin());
+    }
+    for (const auto name : usual)
+      for (std::size_t k = 0; k < all.size(); ++k)
+        if (lower_case(all[k]) == name) {
+          notes_.say(fmt::format("{} of footprints from column {}", what, all[k]));
+          return static_cast<int>(k);
+        }
+    return -1;
+  }
+
+  void find_columns() {
+    height_ = column(rules_.height, rules_.storeys.empty() ? heights : Names{}, "heights");
+    storeys_ =
+        column(rules_.storeys, rules_.height.empty() && height_ < 0 ? storeys : Names{}, "storeys");
+    base_ = column(rules_.base, rules_.terrain.empty() ? bases : Names{}, "feet");
+    name_ = column(rules_.name, names, "names");
+    if (height_ >= 0 || storeys_ >= 0 || rules_.default_height_m) return;
+    const auto all = columns();
+    fail("no column of heights is known",
+         all.empty() ? "it has no columns" : fmt::format("its columns: {}", fmt::join(all, ", ")),
+         "name one: footprints: {height: COLUMN} or {storeys: COLUMN}, or give {default_height_m: "
+         "…} for all");
+  }
+
+  // ---- place
+
+  void read_crs() {
+    OGRSpatialReferenceH crs = OGR_L_GetSpatialRef(layer_);
+    if (crs == nullptr) return notes_.say("the footprints name no CRS: site.crs may");
+    if (OSRIsGeographic(crs) == 0) {
+      model_.crs = crs_name(crs);
+      return;
+    }
+    OGREnvelope extent{};
+    if (OGR_L_GetExtent(layer_, &extent, 1) != OGRERR_NONE) fail("does not tell where it lies");
+    const double longitude = (extent.MinX + extent.MaxX) / 2,
+                 latitude = (extent.MinY + extent.MaxY) / 2;
+    constexpr double most_degrees = 3, half_turn = 180, zone_width = 6;
+    constexpr int zones = 60, north_code = 32600, south_code = 32700;
+    if (!(std::abs(latitude) < 90 && extent.MaxX - extent.MinX < most_degrees))
+      fail(fmt::format("lies between {:g} and {:g} degrees east, {:g} and {:g} north", extent.MinX,
+                       extent.MaxX, extent.MinY, extent.MaxY),
+           "that is no town", "are longitude and latitude exchanged?");
+    const int zone =
+        std::clamp(static_cast<int>((longitude + half_turn) / zone_width) + 1, 1, zones);
+    const Crs utm(OSRNewSpatialReference(nullptr)), degrees(OSRClone(crs));
+    OSRImportFromEPSG(utm.get(), (latitude < 0 ? south_code : north_code) + zone);
+    for (const auto* each : {&utm, &degrees})
+      OSRSetAxisMappingStrategy(each->get(), OAMS_TRADITIONAL_GIS_ORDER);
+    to_map_.reset(OCTNewCoordinateTransformation(degrees.get(), utm.get()));
+    if (!to_map_) fail("cannot be projected");
+    model_.crs = crs_name(utm.get());
+    notes_.say("degrees of the footprints are projected to " + model_.crs);
+  }
+
+  void read_terrain() {
+    if (rules_.terrain.empty()) return;
+    terrain_ = read_raster(rules_.terrain, unit_m_, RasterValues::elevations, notes_);
+    if (!terrain_->crs.empty() && !model_.crs.empty() && terrain_->crs != model_.crs)
+      fail(fmt::format("is on the map {}, its terrain on {}", model_.crs, terrain_->crs),
+           "feet would stand on land elsewhere",
+           fmt::format("project one of them, e.g. gdalwarp -t_srs {}", model_.crs));
+  }
+
+  // ---- features
+
+  std::optional<double> number(OGRFeatureH feature, int column) const {
+    if (column < 0 || OGR_F_IsFieldSetAndNotNull(feature, column) == 0) return {};
+    const std::string text = OGR_F_GetFieldAsString(feature, column);
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    // OpenStreetMap has units behind some: `12 m`.
+    while (*end == ' ' || *end == 'm') ++end;
+    if (text.empty() || *end != '\0' || !std::isfinite(value)) return {};
+    return value;
+  }
+
+  std::string title(OGRFeatureH feature) const {
+    if (name_ >= 0 && OGR_F_IsFieldSetAndNotNull(feature, name_) != 0)
+      if (std::string name = OGR_F_GetFieldAsString(feature, name_); !name.empty()) return name;
+    return fmt::format("building_{}", OGR_F_GetFID(feature) + 1);
+  }
+
+  std::optional<double> height_m(OGRFeatureH feature) const {
+    if (const auto height = number(feature, height_); height && *height > 0)
+      return *height * unit_m_;
+    if (const auto count = number(feature, storeys_); count && *count > 0)
+      return *count * rules_.storey_m;
+    return rules_.default_height_m;
+  }
+
+  void add(OGRFeatureH feature) {
+    OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
+    if (geometry == nullptr) return notes_.count("features without a footprint are left out");
+    const auto type = wkbFlatten(OGR_G_GetGeometryType(geometry));
+    if (type == wkbCurvePolygon || type == wkbMultiSurface) {
+      OGR_F_SetGeometryDirectly(feature, OGR_G_GetLinearGeometry(geometry, 0, nullptr));
+      geometry = OGR_F_GetGeometryRef(feature);
+    }
+    std::vector<PlanArea> areas;
+    double lowest_z = std::numeric_limits<double>::infinity();
+    if (wkbFlatten(OGR_G_GetGeometryType(geometry)) == wkbPolygon)
+      add_area(geometry, areas, lowest_z);
+    else if (wkbFlatten(OGR_G_GetGeometryType(geometry)) == wkbMultiPolygon)
+      for (int k = 0; k < OGR_G_GetGeometryCount(geometry); ++k)
+        add_area(OGR_G_GetGeometryRef(geometry, k), areas, lowest_z);
+    if (areas.empty()) return notes_.count("features that are no polygons are left out");
+    const std::string name = unique_(title(feature));
+    const auto height = height_m(feature);
+    if (!height) {
+      if (without_height_++ < most_named) named_ += (named_.empty() ? "" : ", ") + name;
+      return;
+    }
+    if (!(*height <= highest_m))
+      fail(fmt::format("{} is {:g} m high", name, *height), "no building is",
+           "is the column one of heights above the ground?");
+    const double foot = foot_m(feature, areas, lowest_z, name);
+    add_prism(model_, areas, foot, foot + *height,
+              {.name = name, .kind = "Building", .material = {}});
+  }
+
+  void add_area(OGRGeometryH polygon, std::vector<PlanArea>& areas, double& lowest_z) {
+    constexpr int least_corners = 4;  // the first one twice
+    PlanArea area;
+    for (int r = 0; r < OGR_G_GetGeometryCount(polygon); ++r) {
+      OGRGeometryH ring = OGR_G_GetGeometryRef(polygon, r);
+      const int count = OGR_G_GetPointCount(ring);
+      if (count < least_corners) {
+        if (r == 0) return;
+        continue;
+      }
+      const bool has_z = OGR_G_Is3D(ring) != 0;
+      std::vector<Point2> corners;
+      for (int k = 0; k < count; ++k) {
+        corners.push_back(on_map(OGR_G_GetX(ring, k), OGR_G_GetY(ring, k)));
+        if (has_z) lowest_z = std::min(lowest_z, OGR_G_GetZ(ring, k) * unit_m_);
+      }
+      area.push_back(std::move(corners));
+    }
+    corners_ += static_cast<std::size_t>(area.empty() ? 0 : area.front().size());
+    if (corners_ > most_corners_of(std::filesystem::file_size(path_)))
+      fail("has more corners than its size can hold", "is it damaged?");
+    if (!area.empty()) areas.push_back(std::move(area));
+  }
+
+  Point2 on_map(double x, double y) const {
+    if (to_map_ && OCTTransform(to_map_.get(), 1, &x, &y, nullptr) == 0)
+      fail(fmt::format("has the corner {:g}, {:g}", x, y), "it cannot be projected");
+    const double scale = to_map_ ? 1 : unit_m_;
+    const Vec3 place{x * scale, y * scale, 0};
+    if (!is_usable(place)) fail("lies beyond all coordinates on Earth", "", "is unit_m right?");
+    return {place.x, place.y};
+  }
+
+  double foot_m(OGRFeatureH feature, const std::vector<PlanArea>& areas, double lowest_z,
+                const std::string& name) {
+    if (const auto base = number(feature, base_)) return *base * unit_m_;
+    if (terrain_) {
+      double lowest = std::numeric_limits<double>::infinity();
+      for (const auto& area : areas)
+        for (const Point2 corner : area.front())
+          if (const auto land = height_between_cells(*terrain_, unit_m_, corner.u, corner.v))
+            lowest = std::min(lowest, *land);
+      if (std::isfinite(lowest)) return lowest;
+      fail(name + " lies outside of the terrain", rules_.terrain + " has no land below it",
+           "take a larger raster, or footprints: {base: COLUMN}");
+    }
+    if (std::isfinite(lowest_z)) return lowest_z;
+    notes_.say("footprints stand at the height 0: neither column nor terrain tells another");
+    return 0;
+  }
+
+  void refuse_without_height() const {
+    if (without_height_ == 0) return;
+    fail(fmt::format("{} of {} footprints have no height above 0 ({}{})", without_height_,
+                     without_height_ + model_.object_names.size(), named_,
+                     without_height_ > most_named ? ", …" : ""),
+         "neither height nor storeys are written there",
+         "footprints: {default_height_m: …} gives them one");
+  }
+
+  void tell() {
+    if (rules_.default_height_m)
+      notes_.say(
+          fmt::format("footprints without height are {:g} m high", *rules_.default_height_m));
+    if (storeys_ >= 0) notes_.say(fmt::format("a storey is {:g} m high", rules_.storey_m));
+    model_.notes = notes_.lines();
+  }
+
+  std::string path_;
+  FootprintRules rules_;
+  double unit_m_;
+  GdalMessages messages_;
+  GdalDataset dataset_;
+  OGRLayerH layer_ = nullptr;
+  int height_ = -1, storeys_ = -1, base_ = -1, name_ = -1;  ///< columns
+  std::unique_ptr<void, DestroyTransform> to_map_;  ///< of degrees; null: on the map already
+  std::optional<Raster> terrain_;
+  PolygonModel model_;
+  NoteCounter notes_;
+  UniqueNames unique_;
+  std::size_t without_height_ = 0, corners_ = 0;
+  std::string named_;  ///< the first of those without height
+};
+
+}  // namespace
+
+bool is_footprint_file(const std::string& path, std::string_view head) {
+  const std::string extension = lower_extension(path);
+  constexpr std::string_view shapefile("\0\0\x27\x0A", 4);
+  if (head.starts_with("SQLite format 3") || head.starts_with(shapefile) || head.starts_with("fgb"))
+    return true;
+  return head.starts_with('{') &&
+         (extension == ".geojson" || head.find("\"FeatureCollection\"") != std::string_view::npos);
+}
+
+PolygonModel read_scene_footprints(const std::string& path, const SceneFileRules& rules) {
+  return FootprintReader(path, rules).read();
+}
+
+}  // namespace sunload

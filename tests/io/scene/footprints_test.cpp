@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Plan data becomes closed buildings of the heights that its columns say.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "geo/sun/site.h"
+#include "tests/support/plan_file.h"
+#include "tests/support/refusal_of.h"
+#include "tests/support/scene_text.h"
+
+namespace sunload {
+namespace {
+
+using namespace sunload::test;
+
+constexpr const char* utm33 =
+    R"("crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32633"}}, )";
+
+std::string feature(const std::string& properties, const std::string& rings,
+                    const std::string& type = "Polygon") {
+  return R"({"type": "Feature", "properties": {)" + properties + R"(}, "geometry": {"type": ")" +
+         type + R"(", "coordinates": )" + rings + "}}";
+}
+
+std::string square(double x, double y, double size) {
+  return fmt::format("[[{0}, {1}], [{2}, {1}], [{2}, {3}], [{0}, {3}], [{0}, {1}]]", x, y, x + size,
+                     y + size);
+}
+
+std::string plan(const std::vector<std::string>& features, const std::string& crs = utm33) {
+  return R"({"type": "FeatureCollection", )" + crs + R"("features": [)" +
+         fmt::format("{}", fmt::join(features, ", ")) + "]}";
+}
+
+/// Heights of an object's lowest and highest corner.
+std::pair<double, double> extent(const PolygonModel& model, std::size_t object) {
+  double low = 1e300, high = -1e300;
+  for (std::size_t p = 0; p < model.polygon_count(); ++p) {
+    if (model.facts[p].object.index() != object) continue;
+    for (auto r = model.polygon_ring[p]; r < model.polygon_ring[p + 1]; ++r)
+      for (auto k = model.ring_begin[static_cast<std::size_t>(r)];
+           k < model.ring_begin[static_cast<std::size_t>(r) + 1]; ++k) {
+        const double z =
+            model.vertices[static_cast<std::size_t>(model.ring_vertex[static_cast<std::size_t>(k)])]
+                .z;
+        low = std::min(low, z);
+        high = std::max(high, z);
+      }
+  }
+  return {low, high};
+}
+
+TEST(Footprints, AreBuildingsOfTheirHeights) {
+  const auto model = read_text(
+      "plan.geojson",
+      plan({feature(R"("name": "town hall", "height": 12.5)",
+                    "[" + square(500000, 5500000, 20) + ", " + square(500005, 5500005, 5) + "]"),
+            feature(R"("name": "sheds", "height": "4 m")",
+                    "[[" + square(500050, 5500000, 5) + "], [" + square(500060, 5500000, 5) + "]]",
+                    "MultiPolygon")}));
+  EXPECT_EQ(model.object_names, (std::vector<std::string>{"town hall", "sheds"}));
+  EXPECT_EQ(model.object_kinds, (std::vector<std::string>{"Building", "Building"}));
+  EXPECT_EQ(model.crs, "EPSG:32633");
+  EXPECT_TRUE(model.is_city_format);
+  EXPECT_EQ(extent(model, 0), (std::pair{0.0, 12.5}));
+  EXPECT_EQ(extent(model, 1), (std::pair{0.0, 4.0}));
+  EXPECT_EQ(model.polygon_count(), (4u + 4 + 2) + 2 * (4u + 2));  // walls, those of the court, lids
+  EXPECT_TRUE(has_note(model, "heights of footprints from column height"));
+  EXPECT_EQ(broken_arrays(model), "");
+}
+
+TEST(Footprints, HaveStoreysADefaultAndFeet) {
+  SceneFileRules rules;
+  rules.footprints.height = "h";
+  rules.footprints.storeys = "n";
+  rules.footprints.base = "z";
+  rules.footprints.name = "id";
+  rules.footprints.storey_m = 3.5;
+  rules.footprints.default_height_m = 9;
+  const auto model = read_text(
+      "plan.geojson",
+      plan({feature(R"("id": 7, "h": null, "n": 2, "z": 100)", "[" + square(0, 0, 9) + "]"),
+            feature(R"("id": 7, "h": 0, "n": null, "z": 101)", "[" + square(20, 0, 9) + "]"),
+            feature(R"("id": 8, "h": 5, "n": 9, "z": 102)", "[" + square(40, 0, 9) + "]")}),
+      rules);
+  EXPECT_EQ(model.object_names, (std::vector<std::string>{"7", "7_2", "8"}));
+  EXPECT_EQ(extent(model, 0), (std::pair{100.0, 107.0}));
+  EXPECT_EQ(extent(model, 1), (std::pair{101.0, 110.0}));
+  EXPECT_EQ(extent(model, 2), (std::pair{102.0, 107.0}));
+}
+
+TEST(Footprints, InDegreesAreProjected) {
+  const auto model = read_text("plan.json", plan({feature(R"("height": 10)",
+                                                          "[[[15.001, 49.6535], [15.002, 49.6535], "
+                                                          "[15.002, 49.654], [15.001, 49.6535]]]")},
+                                                 ""));
+  EXPECT_EQ(model.crs, "EPSG:32633");
+  const Vec3 expected = map_position("EPSG:32633", 49.6535, 15.001, 0);
+  const bool is_there = std::any_of(model.vertices.begin(), model.vertices.end(), [&](Vec3 v) {
+    return std::hypot(v.x - expected.x, v.y - expected.y) < 0.001;  // both by PROJ
+  });
+  EXPECT_TRUE(is_there);
+}
+
+TEST(Footprints, StandOnTheLowestLandBelowThem) {
+  const WorkFolder folder;
+  SceneFileRules rules;
+  rules.footprints.terrain = folder.write(
+      "land.asc", "ncols 2\nnrows 2\nxllcorner -5\nyllcorner -5\ncellsize 10\n10 20\n10 20\n");
+  const auto model = read_text(
+      "plan.geojson", plan({feature(R"("height": 10)", "[" + square(2, 2, 6) + "]")}), rules);
+  EXPECT_EQ(extent(model, 0), (std::pair{12.0, 22.0}));  // 10 m at x = 0, 20 m at 10
+  const std::string refused = refusal_of([&] {
+    read_text("plan.geojson", plan({feature(R"("height": 10)", "[" + square(90, 2, 6) + "]")}),
+              rules);
+  });
+  EXPECT_NE(refused.find("lies outside of the terrain"), std::string::npos) << refused;
+}
+
+TEST(Footprints, SayWhatIsMissing) {
+  const std::string ring = "[" + square(0, 0, 9) + "]";
+  FootprintRules tall, layer_b;
+  tall.height = "tall";
+  layer_b.layer = "b";
+  struct Wrong {
+    std::string text;
+    FootprintRules rules;
+    const char* expected;
+  };
+  for (const Wrong& wrong :
+       {Wrong{plan({feature(R"("use": "barn")", ring)}), {}, "no column of heights is known"},
+        Wrong{plan({feature(R"("use": "barn")", ring)}), {}, "its columns: use"},
+        Wrong{plan({feature(R"("use": "barn")", ring)}), tall, "has no column 'tall'"},
+        Wrong{plan({feature(R"("id": "a", "height": 3)", ring),
+                    feature(R"("id": "b", "height": null)", ring)}),
+              {},
+              "1 of 2 footprints have no height above 0 (b)"},
+        Wrong{plan({feature(R"("height": 5000)", ring)}), {}, "5000 m high"},
+        Wrong{plan({feature(R"("height": 5)", "[1, 2]", "Point")}), {}, "has no "},
+        Wrong{plan({feature(R"("height": 5)", ring)}), layer_b, "has no layer 'b'"},
+        Wrong{R"({"type": "FeatureCollection", "features": [)",
+              {},
+              "cannot be read as footprints"}}) {
+    SceneFileRules rules;
+    rules.footprints = wrong.rules;
+    const std::string refused = refusal("plan.geojson", wrong.text, rules);
+    EXPECT_NE(refused.find(wrong.expected), std::string::npos) << wrong.expected << "\n" << refused;
+  }
+}
+
+/// The same plan in the files of GDAL's drivers.
+TEST(Footprints, OfEveryFormatAreTheSame) {
+  const WorkFolder folder;
+  const std::string text =
+      plan({feature(R"("name": "a", "height": 7)", "[" + square(500000, 5500000, 9) + "]"),
+            feature(R"("name": "b", "height": 8)", "[" + square(500020, 5500000, 9) + "]")});
+  const std::string source = folder.write("plan.geojson", text);
+  const auto expected = read_scene_file(source, {});
+  for (const auto& [driver, name] :
+       {std::pair{"GPKG", "plan.gpkg"}, {"ESRI Shapefile", "plan.shp"}}) {
+    const std::string path = folder / name;
+    ASSERT_TRUE(write_plan(source, driver, path)) << driver;
+    const auto model = read_scene_file(path, {});
+    EXPECT_EQ(model.object_names, expected.object_names) << driver;
+    EXPECT_EQ(model.vertices.size(), expected.vertices.size()) << driver;
+    EXPECT_EQ(extent(model, 1), (std::pair{0.0, 8.0})) << driver;
+    EXPECT_EQ(model.crs, "EPSG:32633") << driver;
+  }
+}
+
+}  // namespace
+}  // namespace sunload

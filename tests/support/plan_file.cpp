@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/plan_file.h"
+
+#include <gdal.h>
+
+namespace sunload::test {
+
+bool write_plan(const std::string& geojson, const std::string& driver, const std::string& path) {
+  GDALAllRegister();
+  GDALDatasetH from =
+      GDALOpenEx(geojson.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr);
+  if (!from) return false;
+  GDALDatasetH to =
+      GDALCreate(GDALGetDriverByName(driver.c_str()), path.c_str(), 0, 0, 0, GDT_Unknown, nullptr);
+  const bool is_written =
+      to && GDALDatasetCopyLayer(to, GDALDatasetGetLayer(from, 0), "plan", nullptr) != nullptr;
+  if (to) GDALClose(to);
+  GDALClose(from);
+  return is_written;
+}
+
+}  // namespace sunload::test
