@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -197,58 +198,50 @@ int compass_point(double azimuth_deg) {
   return static_cast<int>(wrapped_deg(deg + sector_deg / 2) / sector_deg) % count;
 }
 
-struct Found {
-  ObjectId object;
-  int compass;
-  Extent extent;
-  std::size_t group;
-  auto rank() const {
-    const Vec3 c = extent.centre();
-    return std::tuple(object.value, compass, -rounded(extent.area, area_digits),
-                      rounded(c.x, position_digits), rounded(c.y, position_digits),
-                      rounded(c.z, position_digits), group);
-  }
-};
+int compass_of(const FoundFacade& facade, double north_deg) {
+  return compass_point(facade.azimuth_deg + north_deg);
+}
 
-/// Facades in their final order.
-std::vector<Found> ranked(const Groups& groups, const std::vector<ObjectId>& object_of,
-                          double north_deg) {
-  std::vector<Found> found(groups.extents.size());
+/// Puts facades in their final order and names them.
+void order_and_name(std::vector<FoundFacade>& found, double north_deg,
+                    const std::vector<std::string>& object_names) {
+  const auto rank = [&](const FoundFacade& f) {
+    return std::tuple(f.object.value, compass_of(f, north_deg), -rounded(f.area_m2, area_digits),
+                      rounded(f.centre.x, position_digits), rounded(f.centre.y, position_digits),
+                      rounded(f.centre.z, position_digits), f.group);
+  };
+  std::sort(found.begin(), found.end(),
+            [&](const FoundFacade& a, const FoundFacade& b) { return rank(a) < rank(b); });
+  for (std::size_t i = 0, n = 0; i < found.size(); ++i) {
+    FoundFacade& f = found[i];
+    const int compass = compass_of(f, north_deg);
+    n = i > 0 && f.object == found[i - 1].object && compass == compass_of(found[i - 1], north_deg)
+            ? n + 1
+            : 1;
+    f.name = object_names[f.object.index()] + "/" +
+             compass_points[static_cast<std::size_t>(compass)] + "_" + std::to_string(n);
+  }
+}
+
+std::vector<FoundFacade> found_in(const Groups& groups, const std::vector<ObjectId>& object_of) {
+  std::vector<FoundFacade> found(groups.extents.size());
   for (std::size_t r = 0; r < object_of.size(); ++r) {
     const auto group = groups.group_of[r];
     if (group >= 0) found[static_cast<std::size_t>(group)].object = object_of[r];
   }
   for (std::size_t g = 0; g < found.size(); ++g) {
-    const Vec3 outward = groups.extents[g].area_vector;
-    found[g].extent = groups.extents[g];
-    found[g].compass = compass_point(horizontal(outward).azimuth_deg + north_deg);
+    const Extent& extent = groups.extents[g];
+    found[g].azimuth_deg = horizontal(extent.area_vector).azimuth_deg;
+    found[g].area_m2 = extent.area;
+    found[g].centre = extent.centre();
     found[g].group = g;
   }
-  std::sort(found.begin(), found.end(),
-            [](const Found& a, const Found& b) { return a.rank() < b.rank(); });
   return found;
-}
-
-std::vector<Facade> named(const std::vector<Found>& found,
-                          const std::vector<std::string>& object_names) {
-  std::vector<Facade> facades;
-  for (std::size_t i = 0, n = 0; i < found.size(); ++i) {
-    const Found& f = found[i];
-    n = i > 0 && f.object == found[i - 1].object && f.compass == found[i - 1].compass ? n + 1 : 1;
-    Facade facade;
-    facade.name = object_names[f.object.index()] + "/" +
-                  compass_points[static_cast<std::size_t>(f.compass)] + "_" + std::to_string(n);
-    facade.object = f.object;
-    facade.area_m2 = f.extent.area;
-    facade.azimuth_deg = horizontal(f.extent.area_vector).azimuth_deg;
-    facades.push_back(facade);
-  }
-  return facades;
 }
 
 }  // namespace
 
-void find_facades(Mesh& mesh, double north_deg) {
+std::vector<FoundFacade> find_facades(Mesh& mesh, double north_deg) {
   const auto faces = candidates(mesh);
   const Groups regions = find_regions(mesh, faces);
   std::vector<ObjectId> object_of(regions.extents.size());
@@ -258,8 +251,11 @@ void find_facades(Mesh& mesh, double north_deg) {
   const Groups groups = grow_groups(
       regions.extents, Neighbours(regions.extents.size(), near_pairs(regions.extents, object_of)),
       least_facade_area_m2);
-  const auto found = ranked(groups, object_of, north_deg);
-  mesh.facades = named(found, mesh.object_names);
+  auto found = found_in(groups, object_of);
+  order_and_name(found, north_deg, mesh.object_names);
+  mesh.facades.clear();
+  for (const FoundFacade& f : found)
+    mesh.facades.push_back({f.name, f.object, f.area_m2, f.azimuth_deg});
 
   std::vector<FacadeId> facade_of(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) facade_of[found[i].group] = make_id<FacadeId>(i);
@@ -268,6 +264,28 @@ void find_facades(Mesh& mesh, double north_deg) {
     const auto group = groups.group_of[static_cast<std::size_t>(regions.group_of[i])];
     if (group >= 0) mesh.triangle_facade[faces[i]] = facade_of[static_cast<std::size_t>(group)];
   }
+  return found;
+}
+
+void turn_facades(Mesh& mesh, std::vector<FoundFacade>& found, double north_deg) {
+  std::map<std::string, std::size_t> group_of;
+  for (const FoundFacade& f : found) group_of[f.name] = f.group;
+  order_and_name(found, north_deg, mesh.object_names);
+  std::vector<std::size_t> old_of(found.size(), mesh.facades.size());  // by group; past all: gone
+  for (std::size_t i = 0; i < mesh.facades.size(); ++i)
+    old_of[group_of.at(mesh.facades[i].name)] = i;
+  std::vector<Facade> turned;
+  std::vector<FacadeId> new_id(mesh.facades.size());
+  for (const FoundFacade& f : found) {
+    const std::size_t old = old_of[f.group];
+    if (old == mesh.facades.size()) continue;
+    new_id[old] = make_id<FacadeId>(turned.size());
+    turned.push_back(std::move(mesh.facades[old]));
+    turned.back().name = f.name;
+  }
+  mesh.facades = std::move(turned);
+  for (FacadeId& id : mesh.triangle_facade)
+    if (id.exists()) id = new_id[id.index()];
 }
 
 }  // namespace sunload

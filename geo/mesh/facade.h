@@ -3,6 +3,10 @@
 /// Facades: what a planner calls the north side of a house.
 #pragma once
 
+#include <cstddef>
+#include <string>
+#include <vector>
+
 #include "geo/mesh/mesh.h"
 
 namespace sunload {
@@ -21,6 +25,16 @@ inline constexpr double facade_gap_m = 1;
 /// Least area of the largest connected region of a facade.
 inline constexpr double least_facade_area_m2 = 1;
 
+/// What the order and the name of a facade follow from, beside north.
+struct FoundFacade {
+  ObjectId object;
+  double azimuth_deg;  ///< in the scene frame
+  double area_m2;
+  Vec3 centre;
+  std::size_t group;  ///< its number among those found
+  std::string name;
+};
+
 /// Finds the facades of each object and sets `triangle_facade` and `facades`.
 ///
 /// Two steps, both within one object. *Regions*: beginning with the largest
@@ -36,7 +50,11 @@ inline constexpr double least_facade_area_m2 = 1;
 /// the facade's mean normal, `north_deg` (azimuth of scene +y) added, and n
 /// from 1 in the order of decreasing area. `facades` is ordered by object,
 /// compass point (clockwise from north) and n. Facade::azimuth_deg is in the
-/// scene frame, without `north_deg`.
-void find_facades(Mesh& mesh, double north_deg);
+/// scene frame, without `north_deg`. Returns them as they were found, in that order.
+std::vector<FoundFacade> find_facades(Mesh& mesh, double north_deg);
+
+/// Names and orders them as they would have been found with another north. Of `mesh` some of
+/// `found`, in their order: what is covered may have been cut from them since.
+void turn_facades(Mesh& mesh, std::vector<FoundFacade>& found, double north_deg);
 
 }  // namespace sunload

@@ -313,7 +313,7 @@ PreparedMesh prepare(const PolygonModel& model, const PrepareRules& rules) {
   auto feet = settle(mesh, rules, model, weld_tolerance(rules.repair, placement.diagonal), report,
                      result.bodies);
   drop_degenerates(mesh, rules.repair, model.source, report, result.bodies, feet);
-  find_facades(mesh, rules.north_deg);
+  result.facades = find_facades(mesh, rules.north_deg);
   if (rules.ground) {
     auto made = add_ground(mesh, feet, *rules.ground);
     report.ground = std::move(made.report);

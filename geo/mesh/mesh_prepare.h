@@ -35,6 +35,7 @@
 #include <string>
 #include <vector>
 
+#include "geo/mesh/facade.h"
 #include "geo/mesh/ground.h"
 #include "geo/mesh/mesh.h"
 #include "geo/mesh/orient.h"
@@ -92,6 +93,7 @@ struct PreparedMesh {
   PrepareReport report;
   Bodies bodies;  ///< of the triangles of `mesh`; ground and walls drawn down to it are none
   std::vector<std::uint8_t> seals;  ///< of the ground: see GroundMade
+  std::vector<FoundFacade> facades;
 };
 
 /// Throws InputError where the model is empty or nothing of it is left, where a

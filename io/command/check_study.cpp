@@ -285,6 +285,22 @@ std::string selections_text(const VariantPlan& plan, const Hierarchy& hierarchy,
   return text;
 }
 
+/// The sun in words, made once for variants that have it in common.
+class SunTexts {
+ public:
+  const std::string& of(const VariantPlan& plan) {
+    const BuiltScene& built = plan.built;
+    const std::string key =
+        Planner::key_of_light(plan.study, built.site) + "\n" + built.site_source;
+    if (const std::string* known = made_.of(key)) return *known;
+    return made_.keep(key, time_words(plan.light, built.site, plan.study, built.site_source), 1);
+  }
+
+ private:
+  static constexpr double most = 4096;
+  RecentlyMade<std::string> made_{most};
+};
+
 /// What is told of a variant, under headings; that of warnings is empty.
 struct CheckText {
   std::string head;
@@ -292,7 +308,7 @@ struct CheckText {
 };
 
 CheckText text_of(const VariantPlan& plan, const VariantMesh& made, const WorkEstimate& work,
-                  const CheckRules& rules) {
+                  const CheckRules& rules, SunTexts& suns) {
   CheckText text{fmt::format("study {}, variant {} (content {})", plan.study.name,
                              plan.study.variant, plan.content_hash.substr(0, 12)),
                  {}};
@@ -309,7 +325,7 @@ CheckText text_of(const VariantPlan& plan, const VariantMesh& made, const WorkEs
                        parallel_sources_text(plan.built.scene.parallel_sources));
   if (const auto sensors = plan.built.scene.sensors.size(); sensors > 0)
     add("sensors", fmt::format("  {} points\n", sensors));
-  add("sun", time_words(plan.light, plan.built.site, plan.study, plan.built.site_source));
+  add("sun", suns.of(plan));
   std::string mesh;
   if (const auto refined = refine_text(made.report, plan.study); !refined.empty())
     mesh = "  " + refined + "\n";
@@ -526,6 +542,7 @@ int check_study(const std::string& path, const RunOptions& options, const CheckR
   const MeshFamilies families(file, planner);
   Meshes meshes(rules.mesh, options.progress);
   VariantTexts texts;
+  SunTexts suns;
   for (const auto& study : chosen_variants(file, options)) {
     try {
       VariantPlan plan = planner.plan(study);
@@ -540,7 +557,7 @@ int check_study(const std::string& path, const RunOptions& options, const CheckR
       json["variants"].push_back(as_json(plan, work, rules.mesh));
       json["batch_suns"] = plan.batch_suns();
       if (rules.format == CheckFormat::text)
-        texts.print(plan.study.variant, text_of(plan, made, work, rules));
+        texts.print(plan.study.variant, text_of(plan, made, work, rules, suns));
     } catch (const InputError& error) {
       problems.add(error);
     }

@@ -32,10 +32,10 @@ std::vector<double> chosen_part(const ResultReader& result) {
 namespace {
 
 /// Time of the chosen part [s].
-double seconds_of(const LitPeriod& period, const std::vector<double>& shares) {
+double seconds_of(const LightSeries& light, const std::vector<double>& shares) {
   double seconds = 0;
-  for (std::size_t i = 0; i < period.intervals(); ++i)
-    if (shares[i] > 0) seconds += shares[i] * period.of(i).length_s;
+  for (std::size_t i = 0; i < light.intervals.size(); ++i)
+    seconds += shares[i] * light.intervals[i].when.length_s();
   return seconds;
 }
 
@@ -51,7 +51,7 @@ SentLight sent_in_part(const ResultReader& result, const ResultScene& scene) {
                  static_cast<double>(readers.size());
   }
   if (!optics.any_emission) return sent;
-  const double seconds = seconds_of(scene.period(), chosen_part(result));
+  const double seconds = seconds_of(scene.light(), chosen_part(result));
   for (std::size_t i = 0; i < sent.size(); ++i)
     sent[i] += seconds * static_cast<double>(optics.emission[i]);
   return sent;

@@ -26,6 +26,7 @@ class ResultScene {
 
   const TracedScene& traced() const { return *traced_; }
   const LitPeriod& period() const { return period_; }
+  const LightSeries& light() const { return plan_.light; }
 
  private:
   VariantPlan plan_;

@@ -56,7 +56,8 @@ class MaterialAssigner {
       : study_(study),
         scene_(scene),
         warnings_(warnings),
-        emission_(emission_per_area(study.scene, scene.mesh)) {
+        emission_(emission_per_area(study.scene, scene.mesh)),
+        made_of_file_(scene.mesh.file_materials.size() + 1, nullptr) {
     for (const auto& m : scene.mesh.file_materials)
       if (!m.name.empty() && !m.is_reference) of_files_.insert({m.name, of_file(m)});
     for (const auto& m : study.scene.materials) by_name_[m.name] = completed(m);
@@ -75,8 +76,7 @@ class MaterialAssigner {
   std::vector<RuleUse> run() {
     const Mesh& mesh = scene_.mesh;
     for (const auto& rule : study_.scene.assign) used_.push_back({.rule = in_words(rule)});
-    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-      scene_.material.push_back(id_of(material_of(t), t));
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) scene_.material.push_back(given_to(t));
     problems_.throw_if_any();
     for (std::size_t r = 0; r < used_.size(); ++r) warn_of_rule(study_.scene.assign[r], used_[r]);
     warn_of_defaults();
@@ -160,10 +160,11 @@ class MaterialAssigner {
   };
   LastRules rules_for(std::size_t t, const FileMaterial* file) {
     const Mesh& mesh = scene_.mesh;
+    LastRules last;
+    if (study_.scene.assign.empty()) return last;
     const auto& object = mesh.object_names[mesh.triangle_object[t].index()];
     const auto& kind = mesh.object_kinds[mesh.triangle_object[t].index()];
     const std::string surface = surface_names[static_cast<std::size_t>(mesh.triangle_surface[t])];
-    LastRules last;
     for (std::size_t r = 0; r < study_.scene.assign.size(); ++r) {
       const auto& rule = study_.scene.assign[r];
       if (!matches(rule.object, object) || !matches(rule.surface, surface) ||
@@ -182,19 +183,50 @@ class MaterialAssigner {
     return named(study_.scene.assign[rule].material);
   }
 
-  Material material_of(std::size_t t) {
+  /// Of the study or the table what a triangle is made of; null: as its file says.
+  const MaterialStudy* source_of(std::size_t t) {
     const Mesh& mesh = scene_.mesh;
     const auto file_id = mesh.triangle_material[t];
     const FileMaterial* file = file_id.exists() ? &mesh.file_materials[file_id.index()] : nullptr;
     const LastRules rules = rules_for(t, file);
-    if (rules.specific) return from_study(given_by(*rules.specific, t), file_id, t);
-    if (file && file->is_reference) return from_study(named(file->name), file_id, t);
-    if (rules.by_kind) return from_study(given_by(*rules.by_kind, t), file_id, t);
+    if (rules.specific) return &given_by(*rules.specific, t);
+    if (file && file->is_reference) return &named(file->name);
+    if (rules.by_kind) return &given_by(*rules.by_kind, t);
     const auto& ground = study_.scene.ground;
     if (ground && !ground->material.empty() && file && file->name == "ground")
-      return from_study(named(ground->material), file_id, t);
-    if (file && by_name_.contains(file->name)) return from_study(named(file->name), file_id, t);
-    return from_file(file, file_id, t);
+      return &named(ground->material);
+    return file && by_name_.contains(file->name) ? &named(file->name) : nullptr;
+  }
+
+  struct Made {
+    MaterialId id;
+    std::optional<Sides> sides;
+    bool is_default = false;  ///< nobody says what it reflects
+  };
+
+  /// Made once of what the study and the file say; what depends on the triangle is done for each.
+  MaterialId given_to(std::size_t t) {
+    const Made& made = made_for(t);
+    if (made.sides) scene_.mesh.triangle_sides[t] = *made.sides;
+    if (made.is_default) add_default(t);
+    return made.id;
+  }
+
+  const Made& made_for(std::size_t t) {
+    const MaterialId file_id = scene_.mesh.triangle_material[t];
+    const Made*& without_rules = made_of_file_[file_id.exists() ? file_id.index() + 1 : 0];
+    if (without_rules != nullptr) return *without_rules;
+    const MaterialStudy* source = source_of(t);
+    const auto [place, is_new] = made_.try_emplace({source, file_id.value});
+    Made& made = place->second;
+    if (is_new) {
+      if (source) made.sides = source->sides;
+      made.id = id_of(source ? from_study(*source, file_id, made.is_default)
+                             : from_file(file_id, made.is_default),
+                      t);
+    }
+    if (study_.scene.assign.empty()) without_rules = &made;
+    return made;
   }
 
   void warn_of_rule(const AssignRule& rule, const RuleUse& use) {
@@ -218,8 +250,7 @@ class MaterialAssigner {
         message(rule.where, "this assignment of '" + rule.material + "' " + what, consequence));
   }
 
-  Material from_study(const MaterialStudy& study, MaterialId file_id, std::size_t t) {
-    if (study.sides) scene_.mesh.triangle_sides[t] = *study.sides;
+  Material from_study(const MaterialStudy& study, MaterialId file_id, bool& is_default) const {
     const FileMaterial* file =
         file_id.exists() && scene_.mesh.file_materials[file_id.index()].name == study.name
             ? &scene_.mesh.file_materials[file_id.index()]
@@ -228,8 +259,10 @@ class MaterialAssigner {
     m.name = study.name;
     m.diffuse = study.diffuse.value_or(file ? file->diffuse.value_or(0) : 0);
     // Nobody says what it reflects; lamps without reflectance are black.
-    if (says_nothing(study) && study.emission_w_m2 == 0 && !(file && !says_nothing(*file)))
-      m.diffuse = default_of(t);
+    if (says_nothing(study) && study.emission_w_m2 == 0 && !(file && !says_nothing(*file))) {
+      m.diffuse = default_reflectance;
+      is_default = true;
+    }
     m.emission_w_m2 = study.emission_w_m2;
     // A reflectance of the study's does not put out the file's lamps.
     if (m.emission_w_m2 == 0 && file) m.emission_w_m2 = emission_[file_id.index()];
@@ -244,7 +277,8 @@ class MaterialAssigner {
     return m;
   }
 
-  Material from_file(const FileMaterial* file, MaterialId id, std::size_t t) {
+  Material from_file(MaterialId id, bool& is_default) {
+    const FileMaterial* file = id.exists() ? &scene_.mesh.file_materials[id.index()] : nullptr;
     Material m;
     m.name = file && !file->name.empty() ? file->name : "default";
     if (file && (file->diffuse || file->mirror)) {
@@ -253,7 +287,8 @@ class MaterialAssigner {
       set_colour(m, file->diffuse_rgb);
       if (study_.scene.vrml_excess == VrmlExcess::scale && file->may_be_scaled) scale(m, *file);
     } else {
-      m.diffuse = default_of(t);
+      m.diffuse = default_reflectance;
+      is_default = true;
     }
     if (id.exists()) m.emission_w_m2 = emission_[id.index()];
     return m;
@@ -292,11 +327,10 @@ class MaterialAssigner {
     if (study_.solver.bands == Bands::rgb && m.glossy == 0) m.diffuse_in_band = rgb;
   }
 
-  double default_of(std::size_t t) {
+  void add_default(std::size_t t) {
     if (scene_.mesh.bears_patches(t))
       defaulted_m2_[static_cast<std::size_t>(scene_.mesh.triangle_surface[t])] +=
           norm(scene_.mesh.area_vector2(t)) / 2;
-    return default_reflectance;
   }
 
   /// Of what is no patch the reflectance is never asked for.
@@ -381,6 +415,8 @@ class MaterialAssigner {
   std::map<std::string, MaterialStudy> of_files_;  ///< of the scene files
   std::map<std::string, MaterialStudy> of_table_;  ///< rows that the study names
   std::map<std::string, MaterialId> ids_;
+  std::map<std::pair<const MaterialStudy*, std::int32_t>, Made> made_;  ///< by source and file's
+  std::vector<const Made*> made_of_file_;  ///< from 1 on, 0: of no file; null: rules decide
   std::set<std::string> refused_;
   std::map<std::string, double> scaled_;  ///< material and file, factor
   std::vector<RuleUse> used_;

@@ -47,7 +47,7 @@ MeshFamilies::MeshFamilies(const StudyFile& file, Planner& planner) {
   Problems problems;
   for (const Study& study : file.variants) {
     try {
-      if (is_refined(study)) add(planner.plan(study));
+      if (is_refined(study)) add(planner.unhashed_plan(study));
     } catch (const InputError& error) {
       problems.add(error);
     }
@@ -59,18 +59,26 @@ MeshFamilies::MeshFamilies(const StudyFile& file, Planner& planner) {
 }
 
 void MeshFamilies::add(const VariantPlan& plan) {
-  Members& members = members_[family_key(plan)];
+  const std::string& key = key_of_[plan.study.variant] = family_key(plan);
+  Members& members = members_[key];
   ++members.variants;
-  PeriodLight light = period_light(plan);
+  const auto light = light_of(plan);
   const Scene& scene = plan.built.scene;
-  const std::string digest = pilot_digest(scene, light);
-  members.pilots.try_emplace(digest,
-                             MeshPilotInput{scene.materials, scene.material, std::move(light)});
+  const std::string digest = pilot_digest(scene, *light);
+  members.pilots.try_emplace(digest, MeshPilotInput{scene.materials, scene.material, light});
+}
+
+std::shared_ptr<const PeriodLight> MeshFamilies::light_of(const VariantPlan& plan) {
+  const std::string key = Planner::key_of_light(plan.study, plan.built.site);
+  if (const auto* known = lights_.of(key)) return *known;
+  return lights_.keep(key, std::make_shared<const PeriodLight>(period_light(plan)), 1);
 }
 
 void MeshFamilies::join(VariantPlan& plan) const {
   if (families_.empty() || !is_refined(plan.study)) return;
-  const auto family = families_.find(family_key(plan));
+  const auto key = key_of_.find(plan.study.variant);
+  SUNLOAD_EXPECT(key != key_of_.end(), "a plan of another study asks for its mesh");
+  const auto family = families_.find(key->second);
   if (family == families_.end()) return;
   plan.family = family->second;
   plan.content_hash = hash_with_isa(plan, plan.isa);

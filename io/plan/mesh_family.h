@@ -20,7 +20,7 @@ namespace sunload {
 struct MeshPilotInput {
   std::vector<Material> materials;
   std::vector<MaterialId> material;  ///< per triangle
-  PeriodLight light;
+  std::shared_ptr<const PeriodLight> light;
 };
 
 /// Refining takes no more pilots than this; of more it takes some, evenly in the order of their
@@ -45,13 +45,17 @@ class MeshFamilies {
 
  private:
   void add(const VariantPlan& plan);
+  std::shared_ptr<const PeriodLight> light_of(const VariantPlan& plan);
 
   struct Members {
     std::size_t variants = 0;
     std::map<std::string, MeshPilotInput> pilots;  ///< by digest
   };
-  std::map<std::string, Members> members_;  ///< by what decides the mesh but light and materials
+  std::map<std::string, Members> members_;     ///< by what decides the mesh but light and materials
+  std::map<std::string, std::string> key_of_;  ///< of `members_`, by variant
   std::map<std::string, std::shared_ptr<const MeshFamily>> families_;
+  static constexpr double most_lights = 1024;  ///< 32 kB each
+  RecentlyMade<std::shared_ptr<const PeriodLight>> lights_{most_lights};
 };
 
 }  // namespace sunload

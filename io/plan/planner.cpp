@@ -9,10 +9,12 @@
 namespace sunload {
 namespace {
 
-/// Everything that reading and preparing the scene depends on: all but materials and their rules.
+/// Everything that reading and preparing the scene depends on: all but materials and their rules,
+/// and north.
 std::string key_of_scene(const Study& study) {
   Study key;
   key.site = study.site;
+  if (key.site.north_deg) key.site.north_deg = 0;
   key.scene = study.scene;
   key.scene.materials.clear();
   key.scene.assign.clear();
@@ -25,54 +27,78 @@ std::string key_of_scene(const Study& study) {
          "\n" + study.scene.where.file;
 }
 
-std::string key_of_light(const Study& study, const Site& site) {
+/// A scene with a CRS has a north of its own, which that of a study is compared with.
+std::string key_with_north(const std::string& key, const Study& study) {
+  return key + fmt::format("\nnorth {}", study.site.north_deg.value_or(0));
+}
+
+double weight_of(const BuiltScene& built) {
+  return static_cast<double>(built.scene.mesh.triangle_count());
+}
+
+}  // namespace
+
+std::string Planner::key_of_light(const Study& study, const Site& site) {
   Study key;
   key.site = study.site;
   key.period = study.period;
   key.sun = study.sun;
   key.light = study.light;
+  key.solver.sun_samples_per_interval = study.solver.sun_samples_per_interval;
   return canonical_text(key) + fmt::format("\n{} {} {} {} {}\n{}", site.latitude_deg,
                                            site.longitude_deg, site.elevation_m, site.north_deg,
                                            site.timezone, study.light.weather);
 }
 
-}  // namespace
-
-const BuiltScene& Planner::scene_before_materials(const Study& study) {
-  const std::string key = key_of_scene(study);
-  if (key == scene_key_) return scene_;
-  scene_key_.clear();
-  is_uncovered_ = false;
-  scene_ = sunload::scene_before_materials(study);
-  scene_key_ = key;
-  return scene_;
+/// `key` gets what it is kept by.
+const BuiltScene& Planner::scene_before_materials(const Study& study, std::string& key) {
+  const std::string of_any_north = key_of_scene(study);
+  key = of_any_north;
+  if (BuiltScene* turnable = scenes_.of(key)) {
+    turn_to_north(study, *turnable);
+    return *turnable;
+  }
+  key = key_with_north(of_any_north, study);
+  if (const BuiltScene* known = scenes_.of(key)) return *known;
+  BuiltScene built = sunload::scene_before_materials(study);
+  if (built.crs.empty()) key = of_any_north;
+  const double weight = weight_of(built);
+  return scenes_.keep(key, std::move(built), weight);
 }
 
 const BuiltScene& Planner::scene_uncovered(const Study& study) {
-  const BuiltScene& prepared = scene_before_materials(study);
-  auto covers = covers_of(study, prepared);
-  if (is_uncovered_ && covers == covers_) return uncovered_;
-  is_uncovered_ = false;
-  uncovered_ = sunload::scene_uncovered(study, prepared, covers);
-  covers_ = std::move(covers);
-  is_uncovered_ = true;
-  return uncovered_;
+  std::string key;
+  const BuiltScene& prepared = scene_before_materials(study, key);
+  const auto covers = covers_of(study, prepared);
+  key += '\n' + std::string(covers.begin(), covers.end());
+  if (BuiltScene* known = uncovered_.of(key)) {
+    if (known->crs.empty()) turn_to_north(study, *known);
+    return *known;
+  }
+  BuiltScene built = sunload::scene_uncovered(study, prepared, covers);
+  const double weight = weight_of(built);
+  return uncovered_.keep(key, std::move(built), weight);
 }
 
 const LightSeries& Planner::light(const Study& study, const Site& site) {
   const std::string key = key_of_light(study, site);
-  if (key == light_key_) return light_;
-  light_key_.clear();
-  light_ = light_series(study, site);
-  light_key_ = key;
-  return light_;
+  if (const LightSeries* known = lights_.of(key)) return *known;
+  LightSeries series = light_series(study, site);
+  const auto weight = static_cast<double>(series.intervals.size());
+  return lights_.keep(key, std::move(series), weight);
 }
 
-VariantPlan Planner::plan(const Study& study) {
+VariantPlan Planner::unhashed_plan(const Study& study) {
   BuiltScene built = scene_uncovered(study);
   give_materials(study, built);
   const LightSeries& of_period = light(study, built.site);
-  return plan_of(study, std::move(built), of_period);
+  return unhashed_plan_of(study, std::move(built), of_period);
+}
+
+VariantPlan Planner::plan(const Study& study) {
+  VariantPlan plan = unhashed_plan(study);
+  plan.content_hash = hash_with_isa(plan, plan.isa);
+  return plan;
 }
 
 }  // namespace sunload

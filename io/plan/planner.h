@@ -3,34 +3,36 @@
 /// Plans of the variants of a study, thousands of them perhaps.
 #pragma once
 
-#include <cstdint>
 #include <string>
-#include <vector>
 
+#include "io/plan/recently_made.h"
 #include "io/plan/variant_plan.h"
 
 namespace sunload {
 
-/// Makes plans one after the other. What a variant has in common with the one before is not done
-/// again: files read and prepared where the scene differs in its materials alone, what is covered
-/// cut out where light passes the same surfaces, sun path and
-/// light where these are of the same keys and the same place. A plan is the same as that of
-/// `make_plan`.
+/// Makes plans one after the other. What a variant has in common with one before is not done again,
+/// as long as memory holds it: files read and prepared where the scene differs in its materials
+/// alone (and in north, without a CRS), what is covered cut out where light passes the same
+/// surfaces, sun path and light where these are of the same keys and the same place. A plan is the
+/// same as that of `make_plan`.
 class Planner {
  public:
   /// As `make_plan`.
   VariantPlan plan(const Study& study);
+  /// Without its hash.
+  VariantPlan unhashed_plan(const Study& study);
+
+  /// All that the light of a plan's intervals follows from, but how it is counted in bands.
+  static std::string key_of_light(const Study& study, const Site& site);
 
  private:
-  const BuiltScene& scene_before_materials(const Study& study);
+  const BuiltScene& scene_before_materials(const Study& study, std::string& key);
   const BuiltScene& scene_uncovered(const Study& study);
   const LightSeries& light(const Study& study, const Site& site);
 
-  std::string scene_key_, light_key_;  ///< empty: nothing is there yet
-  BuiltScene scene_, uncovered_;
-  std::vector<std::uint8_t> covers_;  ///< that `uncovered_` was made by
-  bool is_uncovered_ = false;         ///< `uncovered_` is of `scene_`
-  LightSeries light_;
+  static constexpr double most_triangles = 1e6, most_intervals = 1e6;  // some 200 MB of either
+  RecentlyMade<BuiltScene> scenes_{most_triangles}, uncovered_{most_triangles};
+  RecentlyMade<LightSeries> lights_{most_intervals};
 };
 
 }  // namespace sunload

@@ -209,7 +209,15 @@ BuiltScene scene_before_materials(const Study& study) {
   if (const auto lying = lying_warning(study, built, model.is_city_format); !lying.empty())
     built.warnings.push_back(lying);
   built.seals = std::move(prepared.seals);
+  built.facades = std::move(prepared.facades);
   return built;
+}
+
+void turn_to_north(const Study& study, BuiltScene& built) {
+  const double north_deg = study.site.north_deg.value_or(0);
+  if (north_deg == built.site.north_deg) return;
+  built.site.north_deg = north_deg;
+  turn_facades(built.scene.mesh, built.facades, north_deg);
 }
 
 namespace {

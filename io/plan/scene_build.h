@@ -24,6 +24,7 @@ struct BuiltScene {
   std::vector<std::string> notes;     ///< what readers counted
   std::vector<std::string> warnings;  ///< each states its consequence
   std::vector<RuleUse> rules;         ///< of scene.assign, in their order
+  std::vector<FoundFacade> facades;   ///< that north may give other names
   Bodies bodies;                      ///< with `seals`: of the mesh, until what is covered is cut
   std::vector<std::uint8_t> seals;
 };
@@ -33,6 +34,8 @@ BuiltScene build_scene(const Study& study);
 
 /// Its steps. What is read and prepared, which materials and their rules have no part in …
 BuiltScene scene_before_materials(const Study& study);
+/// … turned to another north, as `study` gives it: a scene without CRS has nothing else of that …
+void turn_to_north(const Study& study, BuiltScene& built);
 /// … what they say of each triangle: whether light passes it or begins there, and on how many sides
 /// it is lit …
 std::vector<std::uint8_t> covers_of(const Study& study, const BuiltScene& prepared);

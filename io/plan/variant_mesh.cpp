@@ -15,6 +15,7 @@
 #include "io/plan/mesh_family.h"
 #include "io/plan/rules_of_study.h"
 #include "solver/base/rng.h"
+#include "solver/base/threads.h"
 #include "solver/matrix/form_factors.h"
 
 namespace sunload {
@@ -31,9 +32,19 @@ class PeriodSum {
     light_.sky.assign(static_cast<std::size_t>(grid_.cell_count()), 0);
   }
 
-  void add(std::size_t interval, double sun_weight, double sky_weight,
+  /// Few are made at once: each has its sky.
+  void add(const std::vector<std::size_t>& intervals, double sun_weight, double sky_weight,
            std::vector<PeriodSun>& suns) {
-    const IntervalLight sun = lights_.of(plan_.light.intervals[interval], interval);
+    std::vector<IntervalLight> lights(intervals.size());
+    parallel_for(intervals.size(), [&](std::size_t i) {
+      lights[i] = lights_.of(plan_.light.intervals[intervals[i]], intervals[i]);
+    });
+    for (const IntervalLight& sun : lights) add(sun, sun_weight, sky_weight, suns);
+  }
+
+ private:
+  void add(const IntervalLight& sun, double sun_weight, double sky_weight,
+           std::vector<PeriodSun>& suns) {
     if (sun.has_sun() && sun.dni > 0)
       suns.push_back({sun.direction, sun_weight * sun.dni * sun.length_s});
     const double time = sky_weight * sun.length_s;
@@ -41,7 +52,6 @@ class PeriodSum {
     light_.ground += sun.ground_exitance * time;
   }
 
- private:
   const VariantPlan& plan_;
   PeriodLight& light_;
   SkyGrid grid_;
@@ -68,7 +78,7 @@ PeriodLight period_light(const VariantPlan& plan) {
   for (const auto& interval : plan.light.intervals) light.lamp_time_s += interval.when.length_s();
   const auto lit = intervals_with_light(plan.light);
   if (lit.size() <= most_mesh_pilot_suns) {
-    for (const auto i : lit) sum.add(i, 1, 1, light.suns);
+    sum.add(lit, 1, 1, light.suns);
     return light;
   }
   // One interval at random of every stretch of the period: all hours and seasons come in.
@@ -79,13 +89,15 @@ PeriodLight period_light(const VariantPlan& plan) {
                          .element = stretch});
   };
   const double stretch_length = static_cast<double>(lit.size()) / suns_per_sample;
-  for (std::size_t sample = 0; sample < light.samples.size(); ++sample)
+  for (std::size_t sample = 0; sample < light.samples.size(); ++sample) {
+    std::vector<std::size_t> drawn;
     for (std::size_t s = 0; s < suns_per_sample; ++s) {
       const double at = static_cast<double>(s) + static_cast<double>(uniform(words(sample, s)[0]));
-      const auto chosen = std::min(static_cast<std::size_t>(at * stretch_length), lit.size() - 1);
-      sum.add(lit[chosen], stretch_length,
-              stretch_length / static_cast<double>(light.samples.size()), light.samples[sample]);
+      drawn.push_back(lit[std::min(static_cast<std::size_t>(at * stretch_length), lit.size() - 1)]);
     }
+    sum.add(drawn, stretch_length, stretch_length / static_cast<double>(light.samples.size()),
+            light.samples[sample]);
+  }
   return light;
 }
 
@@ -141,7 +153,7 @@ VariantMesh mesh_of_family(const VariantPlan& plan, Watch& watch) {
       casts.emplace_back(scene.mesh, plan.isa, passed);
       cast = std::prev(casts.end());
     }
-    views.push_back({scene, cast->caster, pilot.light});
+    views.push_back({scene, cast->caster, *pilot.light});
   }
   VariantMesh made;
   made.mesh = std::make_shared<const Hierarchy>(

@@ -36,7 +36,7 @@ void refuse_smooth_surfaces_in_a_matrix(const VariantPlan& plan) {
 
 }  // namespace
 
-VariantPlan plan_of(const Study& study, BuiltScene built, LightSeries light) {
+VariantPlan unhashed_plan_of(const Study& study, BuiltScene built, LightSeries light) {
   VariantPlan plan;
   plan.study = study;
   plan.isa = usable_isa(study.solver.isa);
@@ -47,8 +47,13 @@ VariantPlan plan_of(const Study& study, BuiltScene built, LightSeries light) {
   refuse_lamps_in_lux(plan);
   expect_measurable(study, plan.built, plan.light);
   refuse_smooth_surfaces_in_a_matrix(plan);
-  plan.content_hash = hash_with_isa(plan, plan.isa);
   plan.pairing_id = pairing_id(study, plan.light);
+  return plan;
+}
+
+VariantPlan plan_of(const Study& study, BuiltScene built, LightSeries light) {
+  VariantPlan plan = unhashed_plan_of(study, std::move(built), std::move(light));
+  plan.content_hash = hash_with_isa(plan, plan.isa);
   return plan;
 }
 

@@ -42,6 +42,8 @@ int batch_suns_for(std::size_t intervals);
 VariantPlan make_plan(const Study& study);
 /// The same of what was read and computed before. Throws InputError.
 VariantPlan plan_of(const Study& study, BuiltScene built, LightSeries light);
+/// Without its hash, for those who need many plans and few hashes.
+VariantPlan unhashed_plan_of(const Study& study, BuiltScene built, LightSeries light);
 
 /// Content hash that the plan would have with another instruction set.
 std::string hash_with_isa(const VariantPlan& plan, const std::string& isa);

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "geo/base/units.h"
+#include "geo/mesh/covered.h"
 #include "tests/geo/mesh/mesh_prepare_models.h"
 
 namespace sunload::test {
@@ -145,6 +146,39 @@ TEST(Facade, NamesFollowTrueNorthAndAzimuthsTheScene) {
   const auto f = facades(p);
   EXPECT_NEAR(f.at("h/east_1").azimuth_deg, 0, rounding);
   EXPECT_NEAR(f.at("h/east_1").area_m2, 8, rounding);
+}
+
+/// Of a star of houses, one of them against another: what is covered loses its facade.
+TEST(Facade, TurnedTheyAreThoseFoundWithThatNorth) {
+  auto builder = ModelBuilder().object("star");
+  for (int i = 0; i < 9; ++i) builder.box({3.0 * i, 0, 0}, {3.0 * i + 2, 1.0 + i % 3, 4});
+  builder.moved([](Vec3 p) { return Vec3{p.x * std::cos(p.x / 9), p.y + p.x * p.x / 30, p.z}; });
+  builder.object("left").box({-9, 0, 0}, {-6, 3, 4});
+  builder.object("glued").box({-6, 0, 0}, {-3, 3, 4});
+  const auto with_north = [&](double north_deg) {
+    auto p = builder.prepared({.repair = Repair::safe, .ground = {}, .north_deg = north_deg});
+    const std::vector<std::uint8_t> is_opaque(p.mesh.triangle_count(), 1);
+    cut_covered(p.mesh, p.bodies, is_opaque);
+    return p;
+  };
+  auto turned = with_north(0);
+  ASSERT_LT(turned.mesh.facades.size(), turned.facades.size());
+  std::set<std::string> orders;
+  for (const double north_deg : {33.0, 200.0, -71.5, 359.0, 0.0, 90.0}) {
+    turn_facades(turned.mesh, turned.facades, north_deg);
+    const auto found = with_north(north_deg);
+    ASSERT_EQ(turned.mesh.facades.size(), found.mesh.facades.size());
+    std::string order;
+    for (std::size_t f = 0; f < found.mesh.facades.size(); ++f) {
+      EXPECT_EQ(turned.mesh.facades[f].name, found.mesh.facades[f].name);
+      EXPECT_EQ(turned.mesh.facades[f].area_m2, found.mesh.facades[f].area_m2);
+      EXPECT_EQ(turned.mesh.facades[f].azimuth_deg, found.mesh.facades[f].azimuth_deg);
+      order += found.mesh.facades[f].name + " ";
+    }
+    EXPECT_EQ(turned.mesh.triangle_facade, found.mesh.triangle_facade);
+    orders.insert(order);
+  }
+  EXPECT_GT(orders.size(), 3u);
 }
 
 TEST(Facade, RecessedWindowsBelongToTheirWallAndRevealsDoNot) {

@@ -41,7 +41,9 @@ TEST(Planner, PlansAreThoseMadeAlone) {
     studies.push_back(file.variants.front());
     change(studies.back());
   };
-  add([](Study& s) { s.site.north_deg = 20; });
+  for (const double north_deg : {20, 200, 20, 0})
+    add([&](Study& s) { s.site.north_deg = north_deg; });
+  add([](Study& s) { s.solver.sun_samples_per_interval = 3; });
   add([](Study& s) { s.site.latitude_deg = 60; });
   add([](Study& s) { s.light.linke_turbidity.monthly.fill(5); });
   add([](Study& s) { s.sun.refraction = Refraction::none; });
