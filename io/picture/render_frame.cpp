@@ -53,6 +53,14 @@ void draw_title(Picture& picture, const std::string& title, const std::string& s
   picture.write({margin * u, subtitle_line * u}, subtitle, style);
 }
 
+std::string tick_text(double value, int decimals) {
+  constexpr int most_decimals = 5;
+  if (decimals <= most_decimals) return fmt::format("{:.{}f}", value, decimals);
+  std::string text = fmt::format("{:.3g}", value);
+  if (const auto padded = text.find("e-0"); padded != std::string::npos) text.erase(padded + 2, 1);
+  return text;
+}
+
 namespace {
 
 /// Values beside the bar, with their words.
@@ -66,11 +74,9 @@ std::vector<std::pair<double, std::string>> ticks_of(const Legend& legend) {
   const bool has_two_sides = legend.least < 0;
   const auto ticks = round_ticks(legend.largest, has_two_sides ? most_ticks / 2 : most_ticks);
   for (const double value : ticks.values) {
-    named.emplace_back(
-        value, fmt::format(fmt::runtime(has_two_sides && value != 0 ? "{:+.{}f}" : "{:.{}f}"),
-                           value, ticks.decimals));
-    if (has_two_sides && value > 0)
-      named.emplace_back(-value, fmt::format("{:+.{}f}", -value, ticks.decimals));
+    const bool has_negative = has_two_sides && value > 0;
+    named.emplace_back(value, (has_negative ? "+" : "") + tick_text(value, ticks.decimals));
+    if (has_negative) named.emplace_back(-value, tick_text(-value, ticks.decimals));
   }
   return named;
 }

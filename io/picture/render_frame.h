@@ -33,6 +33,9 @@ struct Legend {
   ColourScale scale = ColourScale::linear;
 };
 void draw_legend(Picture& picture, const Legend& legend);
+/// A value beside the bar with so many digits after the point; where these are more than there is
+/// room for, by a power of ten: "2.5e-8".
+std::string tick_text(double value, int decimals);
 
 /// A kind of surface or a material.
 struct KindEntry {

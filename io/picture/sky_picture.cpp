@@ -20,11 +20,6 @@ constexpr double legend_width = 150;
 constexpr Colour ink{0.13, 0.13, 0.15}, hills_in_colour{0.20, 0.22, 0.18};
 constexpr double candelas_per_kilocandela = 1000;
 
-/// Lumens per watt of the sky's light.
-double efficacy(const SkyDome& dome) {
-  return dome.light.of_the_sky.dhi > 0 ? efficacy_of(dome.light).diffuse : 0;
-}
-
 void paint_dome(Picture& picture, const DomeChart& chart,
                 const std::function<Colour(Horizontal)>& colour) {
   const auto left = static_cast<int>(chart.centre().x - chart.radius()) - 1;
@@ -52,7 +47,7 @@ double scale_end(const SkyDome& dome) {
 }
 
 void paint_luminance(Picture& picture, const DomeChart& chart, const SkyDome& dome) {
-  const double kcd_per_radiance = efficacy(dome) / candelas_per_kilocandela;
+  const double kcd_per_radiance = dome.efficacy() / candelas_per_kilocandela;
   const double end = scale_end(dome) * kcd_per_radiance;
   const double largest = end > 0 ? rounded_up(end) : 1;
   paint_dome(picture, chart, [&](Horizontal w) {

@@ -109,6 +109,21 @@ SkyDome sky_dome(const Study& study, const std::string& time) {
           notes};
 }
 
+namespace {
+
+SkyRow row_of(const SkyDome& dome, Vec3 middle, double radiance, double solid_angle,
+              double projected) {
+  const Horizontal at = horizontal(middle);
+  return {at.azimuth_deg, at.elevation_deg, radiance,
+          solid_angle,    projected,        radiance * dome.efficacy()};
+}
+
+}  // namespace
+
+double SkyDome::efficacy() const {
+  return light.of_the_sky.dhi > 0 ? efficacy_of(light).diffuse : 0;
+}
+
 std::vector<SkyRow> sky_rows(const SkyDome& dome, std::optional<Subdivision> subdivision) {
   std::vector<SkyRow> rows;
   if (!subdivision) {
@@ -117,32 +132,32 @@ std::vector<SkyRow> sky_rows(const SkyDome& dome, std::optional<Subdivision> sub
     const auto radiance = grid.mean_radiance(dome.sky, dome.light.mean.dhi);
     for (int cell = 0; cell < grid.cell_count(); ++cell) {
       const auto c = static_cast<std::size_t>(cell);
-      const Horizontal middle = horizontal(grid.direction(cell, 0.5, 0.5));
       const double share = open.empty() ? 1 : open[c];
-      rows.push_back({middle.azimuth_deg, middle.elevation_deg,
-                      share * radiance[c] + (1 - share) * dome.ground_radiance, grid.solid_angle(),
-                      grid.projected()[c]});
+      rows.push_back(row_of(dome, grid.direction(cell, 0.5, 0.5),
+                            share * radiance[c] + (1 - share) * dome.ground_radiance,
+                            grid.solid_angle(), grid.projected()[c]));
     }
     return rows;
   }
   const auto patches = sky_patches(*subdivision);
   const auto radiance = mean_radiance(patches, dome.sky);
   for (std::size_t p = 0; p < patches.size(); ++p) {
-    const Horizontal middle = horizontal(patches[p].direction);
     const double share = open_share(patches[p], dome.hills);
-    rows.push_back({middle.azimuth_deg, middle.elevation_deg,
-                    share * radiance[p] + (1 - share) * dome.ground_radiance,
-                    patches[p].solid_angle, patches[p].projected});
+    rows.push_back(row_of(dome, patches[p].direction,
+                          share * radiance[p] + (1 - share) * dome.ground_radiance,
+                          patches[p].solid_angle, patches[p].projected));
   }
   return rows;
 }
 
 std::string sky_csv(const std::vector<SkyRow>& rows) {
   std::string text =
-      "azimuth_deg,elevation_deg,radiance_w_m2_sr,solid_angle_sr,projected_solid_angle_sr\n";
+      "azimuth_deg,elevation_deg,radiance_w_m2_sr,solid_angle_sr,projected_solid_angle_sr,"
+      "luminance_cd_m2\n";
   for (const auto& row : rows)
-    text += fmt::format("{:.6f},{:.6f},{:.8g},{:.8g},{:.8g}\n", row.azimuth_deg, row.elevation_deg,
-                        row.radiance, row.solid_angle, row.projected);
+    text +=
+        fmt::format("{:.6f},{:.6f},{:.8g},{:.8g},{:.8g},{:.8g}\n", row.azimuth_deg,
+                    row.elevation_deg, row.radiance, row.solid_angle, row.projected, row.luminance);
   return text;
 }
 

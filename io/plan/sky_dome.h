@@ -26,6 +26,8 @@ struct SkyDome {
 
   /// Radiance of sky or hills [W m-2 sr-1] in a direction above the horizon.
   double radiance(Horizontal w) const;
+  /// Lumens per watt of the sky's light; 0 where it has none.
+  double efficacy() const;
 };
 
 /// Sky of a study's first variant at `time`, written as in a study: civil time of the site
@@ -38,11 +40,13 @@ struct SkyRow {
   double radiance = 0;                        ///< mean over the patch [W m-2 sr-1]
   double solid_angle = 0;                     ///< [sr]
   double projected = 0;  ///< ∫ sin(elevation) dω [sr]: times the radiance it is irradiance
+  double luminance = 0;  ///< by the efficacy of the sky's light [cd m-2]
 };
 /// Patches of a subdivision, or without one the 64 × 64 equal cells that the solver uses.
 /// Hills count by the share of a patch that they fill.
 std::vector<SkyRow> sky_rows(const SkyDome& dome, std::optional<Subdivision> subdivision);
-/// `azimuth_deg,elevation_deg,radiance_w_m2_sr,solid_angle_sr,projected_solid_angle_sr`
+/// Columns `azimuth_deg,elevation_deg,radiance_w_m2_sr,solid_angle_sr,projected_solid_angle_sr,
+/// luminance_cd_m2`.
 std::string sky_csv(const std::vector<SkyRow>& rows);
 
 /// luminance: false colour [kcd m-2], by Perez's luminous efficacy of the diffuse light.

@@ -15,6 +15,7 @@
 #include "io/base/scene_colours.h"
 #include "io/batch/chunk.h"
 #include "io/picture/camera.h"
+#include "io/picture/render_frame.h"
 #include "io/picture/render_scene.h"
 #include "io/picture/viewpoint.h"
 #include "solver/base/threads.h"
@@ -575,6 +576,16 @@ TEST(Render, RefusesWhatTheResultDoesNotHave) {
   EXPECT_THROW(render_png(result, with([](RenderRules& r) { r.width = r.height = 400; }),
                           picture_path("no_such_folder/x")),
                MachineError);
+}
+
+TEST(Legend, HasRoomForItsNumbers) {
+  EXPECT_EQ(tick_text(0, 3), "0.000");
+  EXPECT_EQ(tick_text(-0.0025, 4), "-0.0025");
+  EXPECT_EQ(tick_text(0.00001, 5), "0.00001");
+  EXPECT_EQ(tick_text(0, 8), "0");
+  EXPECT_EQ(tick_text(2.5e-8, 9), "2.5e-8");
+  EXPECT_EQ(tick_text(1.2e-6, 7), "1.2e-6");
+  EXPECT_EQ(tick_text(4e-11, 9), "4e-11");
 }
 
 }  // namespace

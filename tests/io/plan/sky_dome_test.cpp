@@ -63,7 +63,27 @@ TEST(SkyDome, TableHoldsTheDiffuseLight) {
   const std::string csv = sky_csv(sky_rows(dome, Subdivision::tregenza));
   EXPECT_TRUE(
       csv.starts_with("azimuth_deg,elevation_deg,radiance_w_m2_sr,solid_angle_sr,"
-                      "projected_solid_angle_sr\n0.0"));
+                      "projected_solid_angle_sr,luminance_cd_m2\n0.0"));
+}
+
+TEST(SkyDome, LuminanceGivesTheDiffuseIlluminance) {
+  const SkyDome dome = sky_dome(study_at_prague(), "2026-06-21T12:00");
+  double lux = 0;
+  for (const auto& row : sky_rows(dome, {})) lux += row.luminance * row.projected;
+  const double truth = source_means(dome.light, Quantity::illuminance).dhi;
+  constexpr double rounding = 1e-9;  // of sums over some thousand cells
+  EXPECT_NEAR(lux, truth, rounding * truth);
+}
+
+TEST(SkyDome, LuminanceOfTheZenithIsAsItIsGiven) {
+  constexpr double given = 3000;
+  Study study = study_at_prague();
+  study.light.sky = SkyModel::cie_clear;
+  study.light.sky_scale = SkyScale::absolute;
+  study.light.zenith_luminance_cd_m2 = given;
+  const auto rows = sky_rows(sky_dome(study, "2026-06-21T12:00"), Subdivision::reinhart_mf4);
+  // The last patch is a cap of some degrees about the zenith: its mean differs by their square.
+  EXPECT_NEAR(rows.back().luminance, given, 0.01 * given);
 }
 
 // By the exact projection no light is lost or won at the horizon, of a low sun either; what is
