@@ -14,6 +14,7 @@ import interpreter  # noqa: E402,F401  goes on with a Python that has h5py and n
 
 import cases  # noqa: E402
 import measured  # noqa: E402
+import meshes  # noqa: E402
 import methods  # noqa: E402
 import page  # noqa: E402
 import pairs  # noqa: E402
@@ -21,7 +22,7 @@ import reference_tests  # noqa: E402
 import seeds  # noqa: E402
 from program import Program  # noqa: E402
 
-KINDS = ("reference", "cases", "methods", "seeds", "pairs", "measured")
+KINDS = ("reference", "cases", "methods", "meshes", "seeds", "pairs", "measured")
 
 
 def main():
@@ -41,7 +42,7 @@ def main():
         if kind == "reference":
             sections += reference_tests.all_sections(build, tell)
         else:
-            made = {"cases": cases, "methods": methods, "seeds": seeds, "pairs": pairs,
+            made = {"cases": cases, "methods": methods, "meshes": meshes, "seeds": seeds, "pairs": pairs,
                     "measured": measured}[kind]
             sections += made.sections(program, tell)
     page.write(sections, os.path.join(arguments.output, "validation.md"),

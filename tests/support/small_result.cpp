@@ -166,6 +166,11 @@ std::string write_small_result(const SmallResult& result, const std::string& nam
   append_series(writer, load, path.string() + ".batch", options.chunk_intervals);
   writer.write({"light_load", load});
   writer.write({"light_load_se", se});
+  if (result.reflected_share > 0) {
+    std::vector<double> reflected(load);
+    for (double& value : reflected) value *= result.reflected_share;
+    writer.write({"light_load_reflected", reflected});
+  }
   writer.write({"light_load_realization", realization});
   writer.write({"sun_hours", hours});
   ResultAttributes attributes;

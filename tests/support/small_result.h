@@ -30,6 +30,7 @@ struct SmallResult {
   std::vector<SmallHouse> houses{{"house_1", {-12, 0, 0}, {-2, 8, 9}},
                                  {"house_2", {2, 0, 0}, {12, 8, 6}}};
   Vec3 origin{1000, 2000, 0};
+  double reflected_share = 0;  ///< of every load; 0: reflected light is not stored
   /// Light load [kWh m-2] of a patch of that object and normal, realization r.
   std::function<double(const std::string& object, Vec3 normal, std::size_t r)> load =
       [](const std::string&, Vec3 normal, std::size_t) { return 2 + normal.z - normal.y; };

@@ -48,6 +48,17 @@ TEST(Info, OneScreenSaysWhatWhenAndHowGood) {
   EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 24);  // a screen
 }
 
+TEST(Info, TellsWhatConstantReflectedLightPutsOff) {
+  const auto text = [](double reflected_share) {
+    SmallResult small;
+    small.reflected_share = reflected_share;
+    return info_text(ResultReader(write_small_result(small, "info_mesh")));
+  };
+  expect_in(text(0.25), "2.5 % of a facade's load (median), below 2.5 % on 95 %");
+  expect_in(text(0.5), "5 % of a facade's load (median), below 5 % on 95 %");
+  EXPECT_EQ(text(0).find("one value per patch"), std::string::npos);
+}
+
 TEST(Info, ASceneInTheDarkHasNoAccuracy) {
   SmallResult dark;
   dark.load = [](const std::string&, Vec3, std::size_t) { return 0; };
