@@ -112,7 +112,9 @@ class FootprintReader {
   std::vector<std::string> columns() const {
     std::vector<std::string> all;
     OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer_);
-    for (int k = 0; k < OGR_FD_GetFieldCount(definition); ++k)
+    const int count = OGR_FD_GetFieldCount(definition);
+    all.reserve(static_cast<std::size_t>(count));
+    for (int k = 0; k < count; ++k)
       all.emplace_back(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, k)));
     return all;
   }
