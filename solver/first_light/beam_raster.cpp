@@ -3,6 +3,7 @@
 #include "solver/first_light/beam_raster.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -23,11 +24,12 @@ float rounded_up(double value) {
 }  // namespace
 
 BeamRaster::BeamRaster(std::span<const ConvexPolygon> section, Vec3 w, double spread, int size)
-    : w_(w),
-      spread_(spread),
-      size_(size),
-      farthest_of_all_(nowhere),
-      farthest_(static_cast<std::size_t>(size * size), static_cast<float>(nowhere)) {
+    : w_(w), spread_(spread), size_(size), farthest_of_all_(nowhere) {
+  for (int cells = size;; cells = (cells + 1) / 2) {
+    levels_.push_back({cells, std::vector<float>(static_cast<std::size_t>(cells * cells),
+                                                 static_cast<float>(nowhere))});
+    if (cells == 1) break;
+  }
   const Tangents axes = tangents(w);
   x_axis_ = axes.tangent;
   y_axis_ = axes.bitangent;
@@ -50,8 +52,16 @@ BeamRaster::BeamRaster(std::span<const ConvexPolygon> section, Vec3 w, double sp
     const float reach = rounded_up(r.farthest);
     for (int y = r.y0; y <= r.y1; ++y)
       for (int x = r.x0; x <= r.x1; ++x) {
-        float& farthest = farthest_[static_cast<std::size_t>(y * size_ + x)];
+        float& farthest = levels_[0].at(x, y);
         farthest = std::max(farthest, reach);
+      }
+  }
+  for (std::size_t l = 1; l < levels_.size(); ++l) {
+    Level& finer = levels_[l - 1];
+    for (int y = 0; y < finer.size; ++y)
+      for (int x = 0; x < finer.size; ++x) {
+        float& farthest = levels_[l].at(x / 2, y / 2);
+        farthest = std::max(farthest, finer.at(x, y));
       }
   }
 }
@@ -78,10 +88,33 @@ BeamRaster::Range BeamRaster::range(std::span<const Vec3> points, double spread)
 
 bool BeamRaster::may_meet(std::span<const Vec3> points) const {
   const Range r = range(points, spread_);
-  for (int y = r.y0; y <= r.y1; ++y)
-    for (int x = r.x0; x <= r.x1; ++x)
-      if (static_cast<double>(farthest_[static_cast<std::size_t>(y * size_ + x)]) > r.nearest)
-        return true;
+  if (r.x0 > r.x1) return false;
+  // At most 2 × 2 blocks of this level hold the range; those that lie partly in it are
+  // looked at by their quarters.
+  int first = 0;
+  while ((r.x1 >> first) - (r.x0 >> first) > 1 || (r.y1 >> first) - (r.y0 >> first) > 1) ++first;
+  struct Block {
+    int level, x, y;
+  };
+  constexpr std::size_t most_levels = 32;
+  std::array<Block, 4 * most_levels> left;
+  std::size_t count = 0;
+  const auto add_in_range = [&](int level, int x0, int y0) {
+    for (int y = y0; y <= y0 + 1; ++y)
+      for (int x = x0; x <= x0 + 1; ++x)
+        if (x <= r.x1 >> level && x >= r.x0 >> level && y <= r.y1 >> level && y >= r.y0 >> level)
+          left[count++] = {level, x, y};
+  };
+  add_in_range(first, r.x0 >> first, r.y0 >> first);
+  while (count > 0) {
+    const auto [level, x, y] = left[--count];
+    const float farthest = levels_[static_cast<std::size_t>(level)].at(x, y);
+    if (!(static_cast<double>(farthest) > r.nearest)) continue;
+    const int x0 = x << level, x1 = ((x + 1) << level) - 1;
+    const int y0 = y << level, y1 = ((y + 1) << level) - 1;
+    if (x0 >= r.x0 && x1 <= r.x1 && y0 >= r.y0 && y1 <= r.y1) return true;
+    add_in_range(level - 1, 2 * x, 2 * y);
+  }
   return false;
 }
 

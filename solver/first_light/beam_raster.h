@@ -39,7 +39,15 @@ class BeamRaster {
   int size_;
   double x0_ = 0, y0_ = 0, cells_per_x_ = 0, cells_per_y_ = 0;
   double farthest_of_all_;
-  std::vector<float> farthest_;  ///< per cell: largest w·p of its polygons, -inf if none
+  /// Per cell the largest w·p of its polygons, -inf if none; a cell of the next level is the
+  /// largest of 2 × 2 of this one, up to one cell for all.
+  struct Level {
+    int size;
+    std::vector<float> farthest;
+    float& at(int x, int y) { return farthest[static_cast<std::size_t>(y * size + x)]; }
+    float at(int x, int y) const { return farthest[static_cast<std::size_t>(y * size + x)]; }
+  };
+  std::vector<Level> levels_;
 };
 
 }  // namespace sunload
