@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -393,6 +395,46 @@ TEST(Commands, InfoLeavesOutWhatRoundingMakesOfTheLedger) {
   // 12 hours of them.
   EXPECT_EQ(unshot_of("1000"), "unshot 12");
   EXPECT_EQ(unshot_of("-1000"), "unshot -12");
+}
+
+/// OBJ of a closed box of 2 x 3 x 4 m with a corner at (x, 0, 0), its first vertex numbered
+/// `first`.
+std::string box_at(const std::string& name, double x, int first) {
+  std::string text = "o " + name + "\n";
+  for (const int z : {0, 4})
+    for (const auto& [a, b] : {std::pair{0, 0}, {2, 0}, {2, 3}, {0, 3}})
+      text += fmt::format("v {} {} {}\n", x + a, b, z);
+  for (const std::array face : {std::array{3, 2, 1, 0},
+                                {4, 5, 6, 7},
+                                {0, 1, 5, 4},
+                                {1, 2, 6, 5},
+                                {2, 3, 7, 6},
+                                {3, 0, 4, 7}}) {
+    text += "f";
+    for (const int v : face) text += fmt::format(" {}", first + v);
+    text += "\n";
+  }
+  return text;
+}
+
+TEST(Commands, InfoTellsWhatIsCovered) {
+  const WorkFolder folder;
+  const auto covered_with_gap = [&](double gap_m) {
+    folder.write("pair.obj", box_at("left", 0, 1) + box_at("right", 2 + gap_m, 9));
+    folder.write("pair.yaml",
+                 "format: sunload-study-1\nname: pair\n"
+                 "site: {latitude_deg: 50, longitude_deg: 14, timezone: UTC}\n"
+                 "period: {days: [2026-03-21], from: \"11:00\", to: \"12:00\", step_min: 60}\n"
+                 "light: {source: clear_sky}\nscene: {files: [pair.obj]}\n"
+                 "mesh: {oracle: none, max_edge_m: 4}\n"
+                 "solver: {lines_per_patch: 16, realizations: 4}\n");
+    EXPECT_EQ(program(folder, {"run", "pair.yaml", "--overwrite"}).code, 0);
+    const std::string text = program(folder, {"info", "results/pair/baseline.h5"}).out;
+    const auto at = text.find("\ncovered ");
+    return at == std::string::npos ? "" : text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+  };
+  EXPECT_EQ(covered_with_gap(0), "covered      wall 24 m2");  // twice 3 m by 4 m
+  EXPECT_EQ(covered_with_gap(0.5), "");
 }
 
 }  // namespace
