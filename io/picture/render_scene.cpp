@@ -244,9 +244,10 @@ void TracedPicture::trace_tiles(std::size_t first_row) {
   }
 }
 
-PacketHits TracedPicture::first_hits(Packet origins, const PacketDirections& directions,
+PacketHits TracedPicture::first_hits(const Packet& from, const PacketDirections& directions,
                                      std::uint32_t active) const {
-  PacketHits hits = caster_.first_hits(origins, directions, active, RayCaster::Coherence::parallel);
+  PacketHits hits = caster_.first_hits(from, directions, active, RayCaster::Coherence::parallel);
+  Packet origins = from;
   constexpr int most_backs = 64;
   for (int passed = 0; backs_ == Backs::let_pass && passed < most_backs; ++passed) {
     std::uint32_t on = 0;

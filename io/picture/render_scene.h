@@ -107,7 +107,7 @@ class TracedPicture {
 
  private:
   void trace_tiles(std::size_t first_row);
-  PacketHits first_hits(Packet origins, const PacketDirections& directions,
+  PacketHits first_hits(const Packet& from, const PacketDirections& directions,
                         std::uint32_t active) const;
   double mesh_line(std::size_t triangle, double u, double v, const CameraRay& ray) const;
   bool has_border(std::size_t sample, std::size_t other) const;
