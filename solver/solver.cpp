@@ -8,7 +8,7 @@ namespace sunload {
 
 namespace {
 
-BatchTally tally_of(const TracedScene& traced, std::size_t intervals,
+TallyShape shape_of(const TracedScene& traced, std::size_t intervals,
                     std::span<const PartOfBatch> parts) {
   TallyShape shape{.patches = traced.patches.count(),
                    .sensors = traced.sensors.count(),
@@ -22,7 +22,7 @@ BatchTally tally_of(const TracedScene& traced, std::size_t intervals,
                    .periods = {parts.begin(), parts.end()}};
   for (std::size_t p = 0; p < part_count; ++p)
     shape.parts[p] = traced.has_part(static_cast<Part>(p));
-  return empty_tally(shape);
+  return shape;
 }
 
 /// Consecutive intervals with light, up to `block_width` side by side. Emitters shine always.
@@ -48,12 +48,17 @@ void add_energy(std::span<const IntervalLight> batch, BatchTally& tally) {
 
 }  // namespace
 
+int batch_suns_for(std::size_t intervals) {
+  constexpr std::size_t long_period = 2048;
+  return intervals > long_period ? 256 : 64;
+}
+
 Solved solve(const LightTransport& transport, std::span<const IntervalLight> batch, Watch& watch,
              std::span<const PartOfBatch> parts, RayRecord* record) {
   const TracedScene& traced = transport.traced();
   Solved solved;
   for (std::size_t b = 0; b < traced.optics_of_band.size(); ++b)
-    solved.bands.push_back(tally_of(traced, batch.size(), parts));
+    solved.bands.push_back(empty_tally(shape_of(traced, batch.size(), parts)));
   const auto in_batch = transport.begin(solved.bands, solved.work, record);
   std::size_t done = 0;
   for (const Block& block : lit_blocks(traced, batch)) {
@@ -67,6 +72,45 @@ Solved solve(const LightTransport& transport, std::span<const IntervalLight> bat
   for (BatchTally& tally : solved.bands) add_energy(batch, tally);
   in_batch->finish();
   return solved;
+}
+
+namespace {
+
+/// What is left of the batch's parts in intervals [first, first + count).
+std::vector<PartOfBatch> parts_within(std::span<const PartOfBatch> parts, std::size_t first,
+                                      std::size_t count) {
+  std::vector<PartOfBatch> within;
+  for (const PartOfBatch& part : parts) {
+    const auto begin = part.share.begin() + static_cast<std::ptrdiff_t>(first);
+    within.push_back({{begin, begin + static_cast<std::ptrdiff_t>(count)}, part.with_errors});
+  }
+  return within;
+}
+
+}  // namespace
+
+Solved solve_in_turns(std::span<const LightTransport* const> scenes,
+                      std::span<const Stretch> stretches, std::span<const IntervalLight> batch,
+                      Watch& watch, std::span<const PartOfBatch> parts) {
+  const TracedScene& first_scene = scenes.front()->traced();
+  TallyShape shape = shape_of(first_scene, batch.size(), parts);
+  for (const LightTransport* scene : scenes)
+    for (std::size_t p = 0; p < part_count; ++p)
+      shape.parts[p] = shape.parts[p] || scene->traced().has_part(static_cast<Part>(p));
+  Solved whole;
+  for (std::size_t b = 0; b < first_scene.optics_of_band.size(); ++b)
+    whole.bands.push_back(empty_tally(shape));
+  std::size_t first = 0;
+  for (const Stretch& stretch : stretches) {
+    const auto within = parts_within(parts, first, stretch.intervals);
+    const Solved solved =
+        solve(*scenes[stretch.scene], batch.subspan(first, stretch.intervals), watch, within);
+    for (std::size_t b = 0; b < whole.bands.size(); ++b)
+      put_stretch(solved.bands[b], first, whole.bands[b]);
+    whole.work += solved.work;
+    first += stretch.intervals;
+  }
+  return whole;
 }
 
 }  // namespace sunload

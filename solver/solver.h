@@ -21,10 +21,26 @@ struct Solved {
   WorkDone work;                  ///< of this batch
 };
 
+/// Suns of a batch that suit a period (`batch_suns: auto` of a study). Every batch has totals of
+/// all realizations: in a long period few and large ones cost less.
+int batch_suns_for(std::size_t intervals);
+
 /// Light of consecutive intervals, and the totals of `parts` of their time (ReceiverTally::parts).
 /// With rgb every sun has its light in `bands`. Throws Interrupted.
 /// `record`: see LightTransport::begin.
 Solved solve(const LightTransport& transport, std::span<const IntervalLight> batch, Watch& watch,
              std::span<const PartOfBatch> parts = {}, RayRecord* record = nullptr);
+
+/// Consecutive intervals of a batch with the same scene: the number of their transport.
+struct Stretch {
+  std::size_t scene = 0, intervals = 0;
+};
+
+/// The same where materials change in the course of time, so that scenes that differ in nothing
+/// else, each with its transport, take turns. `stretches` make up the batch. A part of light that
+/// any of the scenes can have is there in all batches.
+Solved solve_in_turns(std::span<const LightTransport* const> scenes,
+                      std::span<const Stretch> stretches, std::span<const IntervalLight> batch,
+                      Watch& watch, std::span<const PartOfBatch> parts = {});
 
 }  // namespace sunload

@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geo/sky/sky_subdivision.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+
+#include "geo/base/check.h"
 
 namespace sunload {
 
@@ -39,23 +43,46 @@ int division(Subdivision subdivision) {
   return 1;
 }
 
+/// Rows of a subdivision below its cap.
+struct Rows {
+  explicit Rows(Subdivision subdivision)
+      : n(division(subdivision)),
+        count(n * static_cast<int>(tregenza_rows.size())),
+        height_deg(90 / (count + 0.5)) {}
+  int patches_of(int row) const { return n * tregenza_rows[static_cast<std::size_t>(row / n)]; }
+  /// Number of the patch in a direction, in the order of `sky_patches`.
+  std::size_t patch_at(Vec3 w) const;
+
+  int n, count;
+  double height_deg;  ///< the cap reaches half a row from the zenith
+};
+
+std::size_t Rows::patch_at(Vec3 w) const {
+  const Horizontal h = horizontal(w);
+  const int row = std::clamp(static_cast<int>(h.elevation_deg / height_deg), 0, count);
+  int before = 0;
+  for (int below = 0; below < row; ++below) before += patches_of(below);
+  if (row == count) return static_cast<std::size_t>(before);
+  const int in_row = patches_of(row);
+  const int number =
+      before + static_cast<int>(std::floor(h.azimuth_deg * in_row / 360 + 0.5)) % in_row;
+  return static_cast<std::size_t>(number);
+}
+
 }  // namespace
 
 std::vector<SkyPatch> sky_patches(Subdivision subdivision) {
-  const int n = division(subdivision);
-  const int rows = n * static_cast<int>(tregenza_rows.size());
-  // The cap reaches half a row from the zenith.
-  const double height_deg = 90 / (rows + 0.5);
+  const Rows rows(subdivision);
   std::vector<SkyPatch> patches;
-  for (int row = 0; row < rows; ++row) {
-    const int count = n * tregenza_rows[static_cast<std::size_t>(row / n)];
+  for (int row = 0; row < rows.count; ++row) {
+    const int count = rows.patches_of(row);
     const double width_deg = 360.0 / count;
     for (int i = 0; i < count; ++i) {
-      patches.push_back(patch(row * height_deg, (row + 1) * height_deg, (i - 0.5) * width_deg,
-                              (i + 0.5) * width_deg));
+      patches.push_back(patch(row * rows.height_deg, (row + 1) * rows.height_deg,
+                              (i - 0.5) * width_deg, (i + 0.5) * width_deg));
     }
   }
-  patches.push_back(patch(rows * height_deg, 90, 0, 360));
+  patches.push_back(patch(rows.count * rows.height_deg, 90, 0, 360));
   return patches;
 }
 
@@ -81,6 +108,42 @@ std::vector<double> mean_radiance(const std::vector<SkyPatch>& patches, const Sk
     mean.push_back(sum / (n * n));
   }
   return mean;
+}
+
+PatchSkies::PatchSkies(Subdivision subdivision, const SkyGrid& grid)
+    : patches_(sky_patches(subdivision)), projected_(grid.projected()) {
+  constexpr int n = 8;  // points each way: a share is known to some hundredths of a cell
+  const Rows rows(subdivision);
+  for (int cell = 0; cell < grid.cell_count(); ++cell) {
+    std::map<std::size_t, int> points_in;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        ++points_in[rows.patch_at(grid.direction(cell, (i + 0.5) / n, (j + 0.5) / n))];
+    for (const auto& [patch, points] : points_in)
+      shares_.push_back({static_cast<std::uint32_t>(patch), static_cast<float>(points) / (n * n)});
+    first_.push_back(static_cast<std::uint32_t>(shares_.size()));
+  }
+}
+
+double PatchSkies::horizontal_irradiance(std::span<const double> of_patches) const {
+  SUNLOAD_EXPECT(of_patches.size() == patches_.size(), "one radiance per patch of the sky");
+  double sum = 0;
+  for (std::size_t p = 0; p < patches_.size(); ++p) sum += of_patches[p] * patches_[p].projected;
+  return sum;
+}
+
+std::vector<double> PatchSkies::on_grid(std::span<const double> of_patches) const {
+  const double wanted = horizontal_irradiance(of_patches);
+  std::vector<double> cells(projected_.size(), 0);
+  double sum = 0;
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    for (std::uint32_t s = first_[cell]; s < first_[cell + 1]; ++s)
+      cells[cell] += static_cast<double>(shares_[s].of_cell) * of_patches[shares_[s].patch];
+    sum += cells[cell] * projected_[cell];
+  }
+  if (sum > 0)
+    for (double& radiance : cells) radiance *= wanted / sum;
+  return cells;
 }
 
 }  // namespace sunload

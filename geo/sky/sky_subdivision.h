@@ -7,6 +7,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geo/sky/sky.h"
@@ -31,5 +33,28 @@ std::vector<SkyPatch> sky_patches(Subdivision subdivision);
 /// Mean radiance of each patch [W m-2 sr-1], ∫ L dω / ω, of a sky in the frame x east,
 /// y north.
 std::vector<double> mean_radiance(const std::vector<SkyPatch>& patches, const Sky& sky);
+
+/// Skies that are given by the radiance of patches, constant over each, as cells of a grid.
+class PatchSkies {
+ public:
+  PatchSkies(Subdivision subdivision, const SkyGrid& grid);
+  std::size_t patch_count() const { return patches_.size(); }
+  /// Horizontal irradiance ∫ L cosθ dω [W m-2] of radiances [W m-2 sr-1], one per patch, in the
+  /// order of `sky_patches`.
+  double horizontal_irradiance(std::span<const double> of_patches) const;
+  /// Radiance of the cells [W m-2 sr-1], of that horizontal irradiance to rounding: cells that lie
+  /// in several patches have each by its share.
+  std::vector<double> on_grid(std::span<const double> of_patches) const;
+
+ private:
+  struct Share {
+    std::uint32_t patch = 0;
+    float of_cell = 0;
+  };
+  std::vector<SkyPatch> patches_;
+  std::vector<double> projected_;        ///< of the grid's cells
+  std::vector<std::uint32_t> first_{0};  ///< per cell, into `shares_`
+  std::vector<Share> shares_;
+};
 
 }  // namespace sunload

@@ -13,9 +13,10 @@ namespace {
 using Pair = std::pair<std::string_view, std::string_view>;
 
 /// Longer ones first where one is part of another.
-constexpr std::array unit_pairs{Pair{"kWh m-2", "klx h"}, Pair{"kWh", "klm h"}, Pair{"W m-2", "lx"},
-                                Pair{"W", "lm"}};
-constexpr std::array name_pairs{Pair{"kwh_m2", "klx_h"}, Pair{"kwh", "klm_h"}, Pair{"w_m2", "lx"}};
+constexpr std::array unit_pairs{Pair{"kWh m-4", "klx h m-2"}, Pair{"kWh m-2", "klx h"},
+                                Pair{"kWh", "klm h"}, Pair{"W m-2", "lx"}, Pair{"W", "lm"}};
+constexpr std::array name_pairs{Pair{"kwh_m4", "klx_h_m2"}, Pair{"kwh_m2", "klx_h"},
+                                Pair{"kwh", "klm_h"}, Pair{"w_m2", "lx"}};
 constexpr std::array word_pairs{
     Pair{"irradiance", "illuminance"}, Pair{"incident energy per area", "luminous exposure"},
     Pair{"outgoing diffuse energy per area", "outgoing diffuse light per area"},

@@ -45,6 +45,10 @@ std::string csv_number(double value) {
 std::string display_units(const std::string& units) {
   if (units == "1") return {};
   if (units == "percent") return "%";
+  // Light of a place for each square metre of what gives it.
+  if (units == "kWh m-4") return "kWh/m² per m²";
+  if (units == "klx h m-2") return "klx h per m²";
+  if (units == "W m-2 sr-1") return "W/(m² sr)";
   const auto per_area = units.find(" m-2");
   return per_area == std::string::npos ? units : units.substr(0, per_area) + "/m²";
 }

@@ -111,13 +111,9 @@ void add_sunlit(BatchWriter& writer, const ReceiverTally& tally, const std::stri
 }
 
 /// What sensors have that is the same in all bands.
-void add_sensors(BatchWriter& writer, const BatchTally& tally, const TracedScene& traced) {
+void add_sensors(BatchWriter& writer, const BatchTally& tally, const SeenOnce& seen) {
   add_sunlit(writer, tally.sensors, sensor_prefix);
-  std::vector<double> sky, backs;
-  for (const auto& ends : traced.sensors.lines.pooled.ends) {
-    sky.push_back(static_cast<double>(ends.sky));
-    backs.push_back(static_cast<double>(ends.fate.backs));
-  }
+  const auto &sky = seen.sensor_sky_view_factor, &backs = seen.sensor_backs;
   writer.add(
       {sensor_prefix + batch_array::sky_view, MergeRule::maximum, ArrayType::float64, {sky.size()}},
       sky.data());
@@ -200,6 +196,32 @@ void add_counts(BatchWriter& writer, const SolverRules& rules) {
 
 }  // namespace
 
+SeenOnce seen_once(const TracedScene& traced) {
+  SeenOnce seen;
+  seen.sky_view_factor = traced.sky_view_factor();
+  for (const auto& ends : traced.sensors.lines.pooled.ends) {
+    seen.sensor_sky_view_factor.push_back(static_cast<double>(ends.sky));
+    seen.sensor_backs.push_back(static_cast<double>(ends.fate.backs));
+  }
+  seen.bounces = traced.bounces;
+  return seen;
+}
+
+SeenOnce mean_seen(const std::vector<SeenOnce>& scenes, const std::vector<double>& shares) {
+  SeenOnce mean;
+  const auto add = [](const std::vector<double>& values, double share, std::vector<double>& sum) {
+    sum.resize(values.size(), 0);
+    for (std::size_t i = 0; i < values.size(); ++i) sum[i] += share * values[i];
+  };
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    add(scenes[s].sky_view_factor, shares[s], mean.sky_view_factor);
+    add(scenes[s].sensor_sky_view_factor, shares[s], mean.sensor_sky_view_factor);
+    add(scenes[s].sensor_backs, shares[s], mean.sensor_backs);
+    mean.bounces = std::max(mean.bounces, scenes[s].bounces);
+  }
+  return mean;
+}
+
 std::string series_name(Part part) {
   return part == Part::total
              ? "irradiance"
@@ -239,9 +261,9 @@ WorkDone work_from(const std::vector<double>& values) {
 }
 
 void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
-                 const TracedScene& traced, const Mesh& mesh, const BatchParts& parts,
-                 const WorkDone& work, std::optional<double> irradiance_relative,
-                 const StoredSeries& stored) {
+                 const TracedScene& traced, const SeenOnce& seen, const Mesh& mesh,
+                 const BatchParts& parts, const WorkDone& work,
+                 std::optional<double> irradiance_relative, const StoredSeries& stored) {
   const Hierarchy& hierarchy = traced.hierarchy();
   const std::size_t N = hierarchy.patch_count();
   const auto prefixes = band_prefixes(traced.rules.bands);
@@ -249,10 +271,10 @@ void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
     add_band(writer, bands[b], hierarchy, mesh, prefixes[b], stored);
   for (const auto& source : parts.sources) add_part(writer, bands, prefixes, source);
   add_sunlit(writer, bands.front(), "");
-  if (!bands.front().sensors.sunlit_s.empty()) add_sensors(writer, bands.front(), traced);
+  if (!bands.front().sensors.sunlit_s.empty()) add_sensors(writer, bands.front(), seen);
   writer.add({batch_array::sky_view, MergeRule::maximum, ArrayType::float64, {N}},
-             traced.sky_view_factor().data());
-  const double bounces = traced.bounces;
+             seen.sky_view_factor.data());
+  const double bounces = seen.bounces;
   writer.add({batch_array::bounces, MergeRule::maximum, ArrayType::float64, {1}}, &bounces);
   add_counts(writer, traced.rules);
   if (irradiance_relative && bands.size() == 1 && !bands.front().irradiance_se.empty()) {

@@ -74,13 +74,24 @@ struct StoredSeries {
   int mantissa_bits = all_mantissa_bits;
 };
 
+/// What of a scene is the same for all suns. Where materials change in the course of time: means
+/// over it.
+struct SeenOnce {
+  std::vector<double> sky_view_factor, sensor_sky_view_factor;
+  std::vector<double> sensor_backs;  ///< share of a sensor's lines that met backs
+  int bounces = 0;                   ///< the most
+};
+SeenOnce seen_once(const TracedScene& traced);
+/// With their shares of time, which add up to 1.
+SeenOnce mean_seen(const std::vector<SeenOnce>& scenes, const std::vector<double>& shares);
+
 /// Everything of the tallies, one per band, into a batch file's arrays; `parts` are those that they
 /// were solved with; `work` is what this batch cost; `irradiance_relative` is the goal that the
 /// study has for its series, if it has one. Arrays of three bands have the prefixes of
 /// `band_prefixes`, but for those that are the same in all of them.
 void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
-                 const TracedScene& traced, const Mesh& mesh, const BatchParts& parts,
-                 const WorkDone& work, std::optional<double> irradiance_relative,
-                 const StoredSeries& stored = {});
+                 const TracedScene& traced, const SeenOnce& seen, const Mesh& mesh,
+                 const BatchParts& parts, const WorkDone& work,
+                 std::optional<double> irradiance_relative, const StoredSeries& stored = {});
 
 }  // namespace sunload

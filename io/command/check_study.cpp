@@ -307,6 +307,14 @@ struct CheckText {
   std::vector<std::pair<std::string, std::string>> sections;
 };
 
+std::string seasons_section(const VariantPlan& plan) {
+  std::string text = seasons_text(plan.seasons, plan.light);
+  if (!text.empty()) text = "  " + text + "; each is traced as a scene of its own\n";
+  for (const auto& [season, albedo, where] : plan.study.light.far_ground_seasons)
+    text += fmt::format("  far ground {:g} in {}\n", albedo, season);
+  return text;
+}
+
 CheckText text_of(const VariantPlan& plan, const VariantMesh& made, const WorkEstimate& work,
                   const CheckRules& rules, SunTexts& suns) {
   CheckText text{fmt::format("study {}, variant {} (content {})", plan.study.name,
@@ -323,6 +331,7 @@ CheckText text_of(const VariantPlan& plan, const VariantMesh& made, const WorkEs
   add("scene", scene);
   add("materials", materials_text(plan.built.scene) + rules_text(plan.built.rules) +
                        parallel_sources_text(plan.built.scene.parallel_sources));
+  add("seasons", seasons_section(plan));
   if (const auto sensors = plan.built.scene.sensors.size(); sensors > 0)
     add("sensors", fmt::format("  {} points\n", sensors));
   add("sun", suns.of(plan));
@@ -406,7 +415,8 @@ std::string whole_text(const CheckText& text) {
 std::string text_beside(const CheckText& first, const CheckText& text,
                         const std::string& first_name) {
   std::string words;
-  for (const char* heading : {"scene", "materials", "sensors", "sun", "mesh", "work", ""}) {
+  for (const char* heading :
+       {"scene", "materials", "seasons", "sensors", "sun", "mesh", "work", ""}) {
     const auto &theirs = section_of(first, heading), &own = section_of(text, heading);
     auto apart = changed_lines(theirs, own);
     if (std::string(heading) == "materials") apart += missing_subjects(theirs, own);

@@ -89,7 +89,7 @@ const std::map<std::string, std::string> examples{
      "sunload compare street.yaml glazed                 # with the study's first variant\n"
      "sunload compare results/street/baseline.h5 results/street/glazed.h5 --csv"},
     {"explain",
-     "sunload explain results/street/glazed.h5 --object pavement_north\n"
+     "sunload explain results/street/glazed.h5 --object pavement_north -o why.png\n"
      "sunload explain results/street/glazed.h5 --object 'pavement*' --against "
      "results/street/baseline.h5"},
     {"render",
@@ -101,7 +101,8 @@ const std::map<std::string, std::string> examples{
      "sunload view street.yaml -o scene.html"},
     {"export",
      "sunload export results/street/glazed.h5 --to csv --of facade -o facades.csv\n"
-     "sunload export results/street/glazed.h5 --to glb -o glazed.glb"},
+     "sunload export results/street/glazed.h5 --to glb -o glazed.glb\n"
+     "sunload export street.yaml --to form-factors --of object -o factors.h5"},
     {"scene",
      "sunload scene street --set house_3=glazed -o street.obj\n"
      "sunload scene storeys.yaml --variant storeys-2 -o higher.city.json"},
@@ -561,6 +562,14 @@ class CommandLine {
            "--paint", [this] { explain_.what = ExplainOptions::What::painting; },
            "instead: what 0.1 more of diffuse reflectance of each material and surface brings")
         ->excludes("--against");
+    writes(sub->add_option("-o,--output", explain_.picture,
+                           "waterfall of the rows, from the open to the result, as a picture "
+                           "(.png), besides"))
+        ->excludes("--paint");
+    writes(sub->add_option("--map", explain_.map,
+                           "file (.h5) of what each patch gives to the place and takes from it, "
+                           "besides; render and export take it"))
+        ->excludes("--paint", "--against");
     sub->add_option("--study-folder", explain_.study_folder,
                     "folder of the study file, where its scene and weather are found from "
                     "(default: the working directory)");
@@ -580,13 +589,15 @@ class CommandLine {
       return render(render_);
     });
     reads(sub->add_option("RESULT", results_,
-                          "result file (.h5), comparison file, or a study (.yaml), whose scene is "
+                          "result file (.h5), comparison file, map of a place, or a study (.yaml), "
+                          "whose scene is "
                           "drawn without light"))
         ->required()
         ->expected(1);
     writes(sub->add_option("-o,--output", render_.picture, "picture to write (.png)"))->required();
     sub->add_option("--quantity", render_.rules.quantity,
-                    "dataset to draw (default: light_load; animated: irradiance)");
+                    "dataset to draw (default: light_load; animated: irradiance), or radiance "
+                    "(luminance): of diffuse light, at --time or in the mean");
     sub->add_option("--time", render_.rules.time, "instant of a series, e.g. 2026-06-21T12:00");
     add_choice(sub, "--camera", render_.rules.view,
                {{"overview", View::overview}, {"sun", View::sun}, {"top", View::top}}, "view");
@@ -652,25 +663,36 @@ class CommandLine {
 
   void add_export() {
     CLI::App* sub = command("export", "a result in the format of another program", [this] {
-      export_result(*opened(result(), Opens::comparisons_too), export_, picture_);
+      if (export_.format == form_factors_word) return form_factors();
+      if (!factors_.variant.empty() || !factors_.study_folder.empty())
+        throw InputError({}, "--variant and --study-folder with --to " + export_.format,
+                         "they are of form factors", "leave them out");
+      export_result(*opened(result(), Opens::derived_too), export_, picture_);
       return exit_code::done;
     });
-    add_result(sub);
+    reads(sub->add_option("RESULT", results_,
+                          "result file (.h5), comparison file or map of a place; form-factors: or "
+                          "a study (.yaml)"))
+        ->required()
+        ->expected(1);
     sub->add_option("--to", export_.format, "format: " + export_formats())->required();
     writes(sub->add_option(
         "-o,--output", picture_,
-        "file to write (csv, vrml, cityjson, energyplus: default standard output)"));
+        "file to write (csv, vrml, cityjson, energyplus, form-factors as CSV: default standard "
+        "output)"));
     reads(sub->add_option(
         "--model", export_.model,
         "cityjson: the study's own model, whose surfaces and objects get the values as "
         "attributes"));
     sub->add_option("--of", export_.of,
-                    "csv: a row for every patch (default), facade, object or sensor");
+                    "csv: a row for every patch (default), facade, object or sensor; form-factors: "
+                    "between patches (default), facades, objects or kinds of surface");
     add_named(sub, export_.parts, "csv, gpkg, energyplus: only");
     sub->add_option("--sensor", export_.parts.sensors, "csv, gpkg: only the sensor of that number")
         ->allow_extra_args(false);
     sub->add_option("--quantity", export_.quantity,
-                    "dataset per patch (default: light_load; csv and xdmf: all); csv: series");
+                    "dataset per patch, or radiance (default: light_load; csv and xdmf: all); "
+                    "csv: series");
     sub->add_option("--time", export_.time,
                     "instant of a series, e.g. 2026-06-21T12:00 (default: the brightest)");
     add_choice<std::optional<Palette>>(sub, "--colour", export_.palette,
@@ -682,6 +704,24 @@ class CommandLine {
                   "colours of corners, not of patches (glb, vrml)");
     sub->add_option("--crease-angle", export_.crease_angle_deg,
                     "patches that turn by more are not interpolated [degrees, default 20]");
+    sub->add_option("--variant", factors_.variant, "form-factors: of a study (default: its first)");
+    sub->add_option("--study-folder", factors_.study_folder,
+                    "form-factors of a result: folder of its study file (default: the working "
+                    "directory)");
+  }
+
+  /// What chooses light says nothing of form factors.
+  int form_factors() {
+    const bool chooses_light = !export_.quantity.empty() || !export_.time.empty() ||
+                               period_.any() || !band_.empty() || export_.palette ||
+                               export_.largest || export_.interpolate || export_.crease_angle_deg;
+    if (chooses_light || !export_.parts.empty() || !export_.model.empty())
+      throw InputError({}, "--to form-factors takes --of, --variant and --study-folder alone",
+                       "they are geometry, of the whole scene", "leave out the other options");
+    factors_.input = results_.front();
+    factors_.of = export_.of;
+    factors_.output = picture_;
+    return export_form_factors(factors_);
   }
 
   void add_scene() {
@@ -725,6 +765,7 @@ class CommandLine {
   RenderOptions render_;
   std::optional<std::pair<PictureColours, Palette>> render_colours_;
   ExportRules export_;
+  FormFactorOptions factors_;
   SkyOptions sky_;
   ViewOptions view_;
   BuiltinOptions builtin_;

@@ -255,7 +255,7 @@ int render(RenderOptions options) {
   if (!rules.time.empty() && options.result.period.any())
     throw InputError({}, "--time with --" + options.result.period.words(),
                      "one is an instant, the other a part of the period", "leave out one");
-  const auto result = opened(options.result, Opens::comparisons_too);
+  const auto result = opened(options.result, Opens::derived_too);
   options.animate ? render_animation(*result, rules, options.picture)
                   : render_png(*result, rules, options.picture);
   return exit_code::done;

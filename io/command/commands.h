@@ -57,6 +57,8 @@ struct ExplainOptions {
   NamedParts parts;          ///< the place
   enum class What { rows, painting } what = What::rows;
   enum class Format { text, csv, json } format = Format::text;
+  std::string picture;  ///< waterfall of the rows (.png), besides; empty: none
+  std::string map;      ///< file of what each patch gives and takes (.h5), besides; empty: none
 };
 /// Who takes and gives the light of a place, on stdout. Throws InputError.
 int explain(const ExplainOptions& options);
@@ -81,6 +83,16 @@ struct ViewOptions {
 };
 /// Throws InputError, also for variants of what is no study.
 int view(const ViewOptions& options);
+
+struct FormFactorOptions {
+  std::string input;         ///< result file, or a study
+  std::string variant;       ///< of a study; empty: its first
+  std::string study_folder;  ///< that files named in a result's study are relative to
+  std::string of;            ///< rows and columns: patch (where left out), facade, object, surface
+  std::string output;        ///< .h5 or .csv; empty: the standard output
+};
+/// Form factors of a scene. Throws InputError.
+int export_form_factors(const FormFactorOptions& options);
 
 struct BuiltinOptions {
   std::string name;                     ///< of a built-in scene, or a study (.yaml)

@@ -7,6 +7,8 @@
 #include "io/explain/explanation.h"
 #include "io/explain/painting.h"
 #include "io/explain/place.h"
+#include "io/explain/place_map.h"
+#include "io/picture/waterfall.h"
 
 namespace sunload {
 
@@ -31,6 +33,8 @@ std::string text_of(const Made& made, ExplainOptions::Format format,
 }  // namespace
 
 int explain(const ExplainOptions& options) {
+  if (!options.picture.empty()) expect_picture_name(options.picture);  // before the work
+  if (!options.map.empty()) expect_map_name(options.map);
   ResultScenes scenes(options.study_folder);
   if (options.what == ExplainOptions::What::painting) {
     const auto result = opened(options.result);
@@ -42,7 +46,9 @@ int explain(const ExplainOptions& options) {
   const auto explanation_of = [&](const NamedResult& named) {
     const auto result = opened(named);
     place_named(*result, options.parts);  // refuses before the work
-    return explained(*result, *scenes.of(*result), options.parts);
+    const auto scene = scenes.of(*result);
+    if (!options.map.empty()) write_place_map(*result, *scene, options.parts, options.map);
+    return explained(*result, *scene, options.parts);
   };
   Explanation explanation = explanation_of(options.result);
   if (!options.against.empty()) {
@@ -50,6 +56,7 @@ int explain(const ExplainOptions& options) {
     base.path = options.against;
     explanation = difference(explanation_of(base), explanation);
   }
+  if (!options.picture.empty()) draw_waterfall(explanation, options.picture);
   std::cout << text_of(explanation, options.format, explanation_text, explanation_csv,
                        explanation_json);
   return exit_code::done;

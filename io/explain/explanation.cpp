@@ -104,13 +104,6 @@ ExplainedRow sum_row(const Attribution& a, const std::vector<ExplainedRow>& rows
   return sum;
 }
 
-void expect_explainable(const ResultReader& result) {
-  const std::string needed = result.chosen().any() ? "light_load" : "power_load";
-  if (!result.has(needed))
-    throw InputError({result.path()}, "has no " + needed, "it is what objects give",
-                     "run the study again");
-}
-
 void note_what_is_left_out(const TracedScene& traced, Explanation& into) {
   std::string ways;
   const auto append = [&](bool is_there, const char* words) {
@@ -133,6 +126,13 @@ void sort_objects(std::vector<ExplainedRow>& rows) {
 
 }  // namespace
 
+void expect_explainable(const ResultReader& result) {
+  const std::string needed = result.chosen().any() ? "light_load" : "power_load";
+  if (!result.has(needed))
+    throw InputError({result.path()}, "has no " + needed, "it is what objects give",
+                     "run the study again");
+}
+
 std::string kind_name(ExplainedRow::Kind kind) {
   constexpr std::array names{"open", "object", "sum", "result", "remainder"};
   return names[static_cast<std::size_t>(kind)];
@@ -141,6 +141,7 @@ std::string kind_name(ExplainedRow::Kind kind) {
 Explanation explained(const ResultReader& result, const ResultScene& scene,
                       const NamedParts& parts) {
   expect_explainable(result);
+  scene.expect_one_season();
   const Place place = place_named(result, parts);
   Explanation into;
   into.study = result.text_attribute("study");

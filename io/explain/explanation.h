@@ -50,6 +50,9 @@ struct Explanation {
   std::vector<std::string> notes;
 };
 
+/// Throws InputError for results that lack what it takes.
+void expect_explainable(const ResultReader& result);
+
 /// The mean over the facades and objects, or over the sensors, that are named. Throws InputError
 /// where nothing or things of two kinds are named, and for results that lack what it takes.
 Explanation explained(const ResultReader& result, const ResultScene& scene,
@@ -57,6 +60,11 @@ Explanation explained(const ResultReader& result, const ResultScene& scene,
 
 /// Row by row what `variant` has more than `base`, objects by their names.
 Explanation difference(const Explanation& base, const Explanation& variant);
+
+/// As people are shown it: the object's name, "in the open", "adds up to" …
+std::string row_words(const ExplainedRow& row, const Explanation& of);
+/// All rows, but of the objects the first `objects` and the others together, "3 others".
+std::vector<ExplainedRow> shown_rows(const Explanation& explanation, std::size_t objects);
 
 /// For people: objects of little weight are one row.
 std::string explanation_text(const Explanation& explanation);

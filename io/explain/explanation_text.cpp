@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "io/base/statistics.h"
 #include "io/base/text.h"
 #include "io/explain/explanation.h"
 
@@ -32,48 +34,18 @@ int digits_for(const Explanation& explanation) {
   return std::clamp(4 - static_cast<int>(std::floor(std::log10(largest))), 0, 9);
 }
 
-std::string name_of(const ExplainedRow& row, bool is_difference) {
-  switch (row.kind) {
-    case Kind::open:
-      return "in the open";
-    case Kind::object:
-      return row.name;
-    case Kind::sum:
-      return "adds up to";
-    case Kind::result:
-      return is_difference ? "the results" : "the result";
-    case Kind::remainder:
-      return "remainder";
-  }
-  return {};
-}
-
-/// Objects beyond a screen as one row.
-std::vector<ExplainedRow> shown_rows(const Explanation& explanation) {
-  std::vector<ExplainedRow> shown;
-  std::size_t objects = 0;
-  ExplainedRow others;
-  for (const auto& row : explanation.rows) {
-    if (row.kind != Kind::object) {
-      if (row.kind == Kind::sum && objects > objects_shown) {
-        others.name = fmt::format("{} others", objects - objects_shown);
-        shown.push_back(others);
-      }
-      shown.push_back(row);
-      continue;
-    }
-    if (++objects <= objects_shown) {
-      shown.push_back(row);
-    } else if (objects == objects_shown + 1) {
-      others = row;
-      others.se = std::numeric_limits<double>::quiet_NaN();
-    } else {
-      others.total += row.total;
-      others.share_percent += row.share_percent;
-      for (std::size_t c = 0; c < column_count; ++c) others.columns[c] += row.columns[c];
-    }
-  }
-  return shown;
+/// What two objects do.
+ExplainedRow together(ExplainedRow sum, const ExplainedRow& row) {
+  sum.total += row.total;
+  sum.share_percent += row.share_percent;
+  for (std::size_t c = 0; c < column_count; ++c) sum.columns[c] += row.columns[c];
+  const bool has_pairs = sum.realizations.size() == row.realizations.size();
+  for (std::size_t r = 0; r < row.realizations.size() && has_pairs; ++r)
+    sum.realizations[r] += row.realizations[r];
+  if (!has_pairs) sum.realizations.clear();
+  sum.se = sum.realizations.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                    : sample_mean(sum.realizations).se;
+  return sum;
 }
 
 std::string heading(const Explanation& e) {
@@ -105,12 +77,45 @@ std::vector<double> numbers_of(const ExplainedRow& row) {
 
 }  // namespace
 
+std::string row_words(const ExplainedRow& row, const Explanation& of) {
+  switch (row.kind) {
+    case Kind::open:
+      return "in the open";
+    case Kind::object:
+      return row.name;
+    case Kind::sum:
+      return "adds up to";
+    case Kind::result:
+      return of.base.empty() ? "the result" : "the results";
+    case Kind::remainder:
+      return "remainder";
+  }
+  return {};
+}
+
+std::vector<ExplainedRow> shown_rows(const Explanation& explanation, std::size_t objects) {
+  std::vector<ExplainedRow> shown;
+  std::optional<ExplainedRow> others;
+  std::size_t met = 0;
+  for (const auto& row : explanation.rows) {
+    if (row.kind == Kind::sum && others) {
+      others->name = fmt::format("{} others", met - objects);
+      shown.push_back(*others);
+    }
+    if (row.kind != Kind::object || ++met <= objects)
+      shown.push_back(row);
+    else
+      others = others ? together(*others, row) : row;
+  }
+  return shown;
+}
+
 std::string explanation_text(const Explanation& explanation) {
   const bool is_difference = !explanation.base.empty();
   const int digits = digits_for(explanation);
-  const auto rows = shown_rows(explanation);
+  const auto rows = shown_rows(explanation, objects_shown);
   std::size_t width = 11;
-  for (const auto& row : rows) width = std::max(width, name_of(row, is_difference).size());
+  for (const auto& row : rows) width = std::max(width, row_words(row, explanation).size());
   std::string text = heading(explanation);
   text += fmt::format("{:{}}", "", width);
   for (const char* name : column_names) {
@@ -121,7 +126,7 @@ std::string explanation_text(const Explanation& explanation) {
   text += fmt::format("  {:>10}  {:>9}", "total", "± se");
   text += is_difference ? fmt::format("  {:>8}\n", "share") : "\n";
   for (const auto& row : rows) {
-    text += fmt::format("{:{}}", name_of(row, is_difference), width);
+    text += fmt::format("{:{}}", row_words(row, explanation), width);
     for (const double value : row.columns) text += fmt::format("  {:>10}", cell(value, digits));
     text += fmt::format("  {:>10}  {:>9}", cell(row.total, digits), cell(row.se, digits));
     if (is_difference && !std::isnan(row.share_percent))

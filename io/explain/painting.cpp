@@ -84,6 +84,7 @@ PaintedRow row_of(const Surface& surface, const std::vector<std::size_t>& patche
 }  // namespace
 
 Painting painted(const ResultReader& result, const ResultScene& scene, const NamedParts& parts) {
+  scene.expect_one_season();
   const Place place = place_named(result, parts);
   Painting painting;
   painting.study = result.text_attribute("study");

@@ -14,10 +14,11 @@ namespace sunload {
 namespace {
 
 InputError other_state(const ResultReader& result, const std::string& why) {
-  return {{result.path()},
-          "cannot be explained: its study or a file of it is not what it was computed from",
-          why,
-          "name the folder of its study with --study-folder, or run the study again"};
+  return {
+      {result.path()},
+      "its scene cannot be made again: its study or a file of it is not what it was computed from",
+      why,
+      "name the folder of its study with --study-folder, or run the study again"};
 }
 
 VariantMesh mesh_of(const VariantPlan& plan) {
@@ -28,7 +29,8 @@ VariantMesh mesh_of(const VariantPlan& plan) {
 }  // namespace
 
 ResultScene::ResultScene(const ResultReader& result, VariantPlan plan)
-    : plan_(std::move(plan)),
+    : path_(result.path()),
+      plan_(std::move(plan)),
       mesh_(mesh_of(plan_)),
       traced_(
           std::make_unique<const TracedScene>(plan_.built.scene, mesh_.mesh, solver_rules(plan_))),
@@ -36,6 +38,13 @@ ResultScene::ResultScene(const ResultReader& result, VariantPlan plan)
       period_(lights_, plan_.light) {
   if (mesh_.mesh->area() != result.doubles("patch_area"))
     throw other_state(result, "its patches differ");
+}
+
+void ResultScene::expect_one_season() const {
+  if (!plan_.seasons.all.empty())
+    throw InputError({path_}, "cannot be explained: its materials change with the seasons",
+                     "light is followed back in one scene",
+                     "explain a study whose period lies within one of them");
 }
 
 struct ResultScenes::Opened {

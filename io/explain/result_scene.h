@@ -27,8 +27,12 @@ class ResultScene {
   const TracedScene& traced() const { return *traced_; }
   const LitPeriod& period() const { return period_; }
   const LightSeries& light() const { return plan_.light; }
+  /// Throws InputError where the scene's materials change in the course of the period.
+  void expect_one_season() const;
+  const VariantPlan& plan() const { return plan_; }
 
  private:
+  std::string path_;
   VariantPlan plan_;
   VariantMesh mesh_;
   std::unique_ptr<const TracedScene> traced_;  ///< without lines

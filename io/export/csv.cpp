@@ -26,7 +26,7 @@ void write_quantity(const ResultReader& result, const ExportRules& rules, std::o
   const auto facades = result.strings("facade_name");
   const auto facade = result.integers("patch_facade"), surface = result.integers("patch_surface"),
              side = result.integers("patch_side");
-  out << "index,object,facade,surface,side,area_m2," << column_name(result, shown.dataset)
+  out << "index,object,facade,surface,side,area_m2," << column_name(shown)
       << (shown.is_series ? ",time_utc\n" : "\n");
   const std::string when =
       shown.is_series ? "," + iso_utc(result.doubles("time").at(shown.interval)) : "";

@@ -76,16 +76,19 @@ void expect_heeded(const ExportFormat& format, const ExportRules& rules, const s
   problems.throw_if_any();
 }
 
-/// A comparison has patches, and neither times nor sums of what a result holds.
-void expect_fit_for_comparison(const ResultReader& result, const ExportFormat& format,
-                               const ExportRules& rules) {
-  if (!result.is_comparison()) return;
+/// What is derived has patches, and neither times nor sums of what a result holds.
+void expect_fit_for_derived(const ResultReader& result, const ExportFormat& format,
+                            const ExportRules& rules) {
+  if (!result.is_derived()) return;
+  const std::string what = result.is_comparison() ? "a comparison" : "a map of a place";
   if (format.write == export_xdmf || format.write == export_energyplus)
-    throw InputError({result.path()}, "--to " + std::string(format.word) + " of a comparison",
+    throw InputError({result.path()}, "--to " + std::string(format.word) + " of " + what,
                      "it has no series", "export to csv, gpkg, vtk, glb, vrml, ply or cityjson");
   if (!(rules.of.empty() || rules.of == "patch") || rules.quantity == "series")
-    throw InputError({result.path()}, "a table of groups of a comparison",
-                     "sunload compare --csv writes it", "leave out --of, or compare the results");
+    throw InputError({result.path()}, "a table of groups of " + what,
+                     result.is_comparison() ? "sunload compare --csv writes it"
+                                            : "sunload explain --csv writes that of objects",
+                     "leave out --of, or take the results");
 }
 
 }  // namespace
@@ -94,13 +97,13 @@ std::string export_formats() {
   std::string words;
   for (const auto& format : formats)
     words += (words.empty() ? "" : ", ") + std::string(format.word);
-  return words;
+  return words + ", " + std::string(form_factors_word);
 }
 
 void export_result(const ResultReader& result, const ExportRules& rules, const std::string& path) {
   const auto& format = chosen_format(rules.format);
   expect_heeded(format, rules, path);
-  expect_fit_for_comparison(result, format, rules);
+  expect_fit_for_derived(result, format, rules);
   if (path.empty()) return format.write(result, rules, {std::cout, path});
   FileAside file(path);
   errno = 0;

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "io/base/colour_map.h"
 #include "io/result/named_parts.h"
@@ -28,7 +29,10 @@ struct ExportRules {
   std::string model;  ///< cityjson: the study's own model, which gets its values back; empty: none
 };
 
-/// "csv, vtk, …": words for `--to`.
+/// The word of form factors, which are of a scene and not of its light: io/factors.
+inline constexpr std::string_view form_factors_word = "form-factors";
+
+/// "csv, vtk, …, form-factors": words for `--to`.
 std::string export_formats();
 
 /// Writes a result to a file that appears when it is complete; an empty `path` is the standard

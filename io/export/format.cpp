@@ -24,6 +24,14 @@ std::int32_t palette_step(double value, const ExportColours& scale) {
   return static_cast<std::int32_t>(std::lround(share * (export_palette_steps - 1)));
 }
 
+/// ("light_load", "kWh m-2") → "light_load_kwh_m2"
+std::string with_units(const std::string& dataset, std::string units) {
+  if (units == "1") return dataset;
+  for (char& c : units) c = c == ' ' ? '_' : static_cast<char>(std::tolower(c));
+  std::erase(units, '-');
+  return dataset + "_" + units;
+}
+
 }  // namespace
 
 Colour export_colour(Palette palette, std::int32_t step) {
@@ -69,11 +77,11 @@ ExportColours export_colours(const ResultReader& result, const ExportRules& rule
 }
 
 std::string column_name(const ResultReader& result, const std::string& dataset) {
-  std::string units = result.units(dataset);
-  if (units == "1") return dataset;
-  for (char& c : units) c = c == ' ' ? '_' : static_cast<char>(std::tolower(c));
-  std::erase(units, '-');
-  return dataset + "_" + units;
+  return with_units(dataset, result.units(dataset));
+}
+
+std::string column_name(const ShownQuantity& shown) {
+  return with_units(shown.dataset, shown.stored_units);
 }
 
 std::string export_caption(const ResultReader& result, const ShownQuantity& shown) {

@@ -46,6 +46,7 @@ ExportColours export_colours(const ResultReader& result, const ExportRules& rule
 
 /// Dataset and unit as the head of a column: "light_load" in "kWh m-2" → "light_load_kwh_m2".
 std::string column_name(const ResultReader& result, const std::string& dataset);
+std::string column_name(const ShownQuantity& shown);
 
 /// "result.h5: light load kWh/m², when": a line for a head or comment.
 std::string export_caption(const ResultReader& result, const ShownQuantity& shown);

@@ -230,7 +230,7 @@ class ResultLayers {
                {compared[1].first, compared[1].second[f]}});
       return;
     }
-    if (result_.is_comparison() || !rules_.quantity.empty()) {
+    if (result_.is_derived() || !rules_.quantity.empty()) {
       Layer rows(file_, "facades", crs_, wkbMultiPolygon25D, values_.names());
       for (const auto f : chosen_facades(result_, parts))
         if (!of_facade[f].empty()) add(rows, names[f], f, values_.of(of_facade[f]));
@@ -284,7 +284,7 @@ class ResultLayers {
 
   void styled(const char* layer, StyledAs as) {
     styles_.push_back({layer, shown_.name,
-                       qgis_style(sunload_name(column_name(result_, shown_.dataset)),
+                       qgis_style(sunload_name(column_name(shown_)),
                                   {shown_.scale_begin(largest_), largest_}, palette(), as)});
   }
 

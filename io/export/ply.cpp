@@ -32,7 +32,7 @@ std::vector<Property> face_properties(const ResultReader& result, const ShownQua
   std::vector<Property> properties;
   for (const auto& name : patch_datasets(result, PatchDatasets::totals))
     properties.push_back({name, result.doubles(name)});
-  if (shown.is_series) properties.push_back({shown.dataset, shown.values});
+  if (shown.is_series || shown.is_derived) properties.push_back({shown.dataset, shown.values});
   return properties;
 }
 

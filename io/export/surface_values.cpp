@@ -30,13 +30,15 @@ SurfaceValues::SurfaceValues(const ResultReader& result, const ExportRules& rule
   };
   if (!rules.quantity.empty()) {
     auto shown = export_quantity(result, rules);
-    columns_.push_back({name(shown.dataset), Kind::mean, std::move(shown.values)});
+    columns_.push_back({"sunload_" + column_name(shown), Kind::mean, std::move(shown.values)});
     return;
   }
   const std::string largest = dataset_name("irradiance_max", result.quantity());
   for (const auto& dataset : patch_datasets(result, PatchDatasets::totals)) {
     // Errors of patches hang together: those of a set's mean do not follow from them.
-    if (dataset == "patch_area" || dataset == "light_load_difference_se") continue;
+    if (dataset == "patch_area" || dataset == "light_load_difference_se" ||
+        dataset == "light_given_se")
+      continue;
     Column column{name(dataset), dataset == largest ? Kind::largest : Kind::mean, {}};
     if (dataset == "light_load_se") {
       if (!result.has("light_load_realization")) continue;

@@ -100,7 +100,8 @@ void export_vtk(const ResultReader& result, const ExportRules& rules, const Expo
     arrays.push_back(array_text(name, 1, result.integers(name), "int"));
   for (const auto& name : patch_datasets(result, PatchDatasets::totals))
     arrays.push_back(array_text(name, 1, result.doubles(name), "double"));
-  if (shown.is_series) arrays.push_back(array_text(shown.dataset, 1, shown.values, "double"));
+  if (shown.is_series || shown.is_derived)
+    arrays.push_back(array_text(shown.dataset, 1, shown.values, "double"));
 
   auto& out = target.stream;
   out << "# vtk DataFile Version 3.0\n"

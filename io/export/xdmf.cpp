@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "geo/base/check.h"
@@ -105,9 +106,10 @@ std::vector<std::string> chosen_series(const ResultReader& result, const ExportR
     throw InputError({}, "--time with --to xdmf", "the file holds all intervals", "leave it out");
   const auto all = patch_datasets(result, PatchDatasets::series);
   if (rules.quantity.empty()) return all;
-  if (shown_quantity(result, rules.quantity, "").is_series) return {rules.quantity};
+  if (std::find(all.begin(), all.end(), rules.quantity) != all.end()) return {rules.quantity};
+  shown_quantity(result, rules.quantity, "");  // refuses what is not known
   throw InputError({}, "--quantity " + rules.quantity + " with --to xdmf",
-                   "all totals are in the file; the option chooses one of the series",
+                   "all totals are in the file; the option chooses one of the stored series",
                    "leave it out");
 }
 

@@ -124,6 +124,9 @@ std::string title(const ResultReader& result) {
     return fmt::format("{} — {} minus {}", result.text_attribute("study"),
                        result.text_attribute("variant"), result.text_attribute("base"));
   const auto study = result.text_attribute("study");
+  if (result.is_place_map())
+    return fmt::format("{} — {}: where the light of {} comes from", study,
+                       result.text_attribute("variant"), result.text_attribute("place"));
   return fmt::format("{} — {}", study.empty() ? result.text_attribute("title") : study,
                      result.text_attribute("variant"));
 }
@@ -148,17 +151,23 @@ ScenePlace looked_at(const ResultReader& result, const std::string& look) {
   return *place;
 }
 
-void expect_fit_for_comparison(const ResultReader& result, const RenderRules& rules) {
-  if (!result.is_comparison()) return;
+void expect_fit_for_derived(const ResultReader& result, const RenderRules& rules) {
+  if (!result.is_derived()) return;
+  const std::string of = result.is_comparison() ? " of a comparison" : " of a map of a place";
   Problems problems;
   const auto refuse = [&](bool is_wrong, const std::string& what, const std::string& why,
                           const std::string& hint) {
-    if (is_wrong) problems.add({result.path()}, what + " of a comparison", why, hint);
+    if (is_wrong) problems.add({result.path()}, what + of, why, hint);
   };
   refuse(rules.view == View::sun, "--camera sun", "it has no sun", "use overview or top");
   refuse(rules.sky.value_or(SkyBackground::plain) != SkyBackground::plain, "--sky", "it has no sun",
          "leave it out");
   refuse(!rules.time.empty(), "--time", "it is of the whole period", "leave it out");
+  if (result.is_place_map()) {
+    refuse(rules.colours == PictureColours::of_bands, "--colour rgb",
+           "it has the mean of the bands", "leave it out");
+    return problems.throw_if_any();
+  }
   refuse(rules.scale == ColourScale::logarithmic, "--scale log", "differences are of either sign",
          "leave it out");
   refuse(rules.colours == PictureColours::of_bands || rules.palette != Palette::false_colour,
@@ -254,7 +263,7 @@ class Renderer {
     double end = scale_end(rules_.largest, shown.sizes(), scene_.area());
     for (const auto& path : rules_.same_scale) {
       ResultReader other(path, result_.band(),
-                         result_.is_comparison() ? Opens::comparisons_too : Opens::results);
+                         result_.is_derived() ? Opens::derived_too : Opens::results);
       other.choose(result_.chosen());
       const auto theirs = shown_quantity(other, shown.dataset, rules_.time);
       if (theirs.units != shown.units)
@@ -299,6 +308,9 @@ class Renderer {
     colours.scale = rules_.scale;
     colours.least = rules_.scale == ColourScale::logarithmic ? least_of_decades(largest)
                                                              : shown.scale_begin(largest);
+    if (result_.is_place_map())
+      for (const double weight : result_.doubles("place_weight"))
+        colours.marked.push_back(weight > 0 ? 1 : 0);
     const bool in_rgb = rules_.colours == PictureColours::of_bands;
     if (in_rgb) {
       auto bands =
@@ -316,7 +328,8 @@ class Renderer {
     draw_title(
         *picture, title(result_) + band_title(result_),
         shown.name + ", " + shown.when + named_in_words(rules_.parts) +
-            (in_rgb ? fmt::format(", in colour, white: {:.4g} {}", largest, shown.units) : ""));
+            (in_rgb ? fmt::format(", in colour, white: {:.4g} {}", largest, shown.units) : "") +
+            (result_.is_place_map() ? "; green: the place itself" : ""));
     const auto marked_where = [&](const auto& is_beyond) {
       return std::any_of(shown.values.begin(), shown.values.end(), is_beyond)
                  ? Legend::Above::marked
@@ -415,9 +428,9 @@ class Renderer {
           "take --camera top, --facade, or an --eye near it");
   }
 
-  /// Comparisons are of no instant: the sky behind them is plain.
+  /// What is derived is of no instant: the sky behind it is plain.
   Vec3 sun_behind(std::size_t interval) const {
-    return result_.is_comparison() ? Vec3{0, 0, 1} : sun_at(result_, interval);
+    return result_.is_derived() ? Vec3{0, 0, 1} : sun_at(result_, interval);
   }
 
   Camera sun_camera(std::size_t interval, PictureArea area) const {
@@ -461,9 +474,9 @@ ShownQuantity shown_at(const ResultReader& result, const std::string& dataset,
 void render_png(const ResultReader& result, const RenderRules& rules, const std::string& path) {
   expect_sense(rules);
   if (is_of_kinds(rules.colours)) {
-    if (result.is_comparison())
-      throw InputError({result.path()}, "--colour of a comparison", "it is of differences",
-                       "draw one of its results, or the study");
+    if (result.is_derived())
+      throw InputError({result.path()}, "--colour surface or material of what is derived",
+                       "it is of light", "draw one of its results, or the study");
     expect_fit_for_kinds(rules);
     Renderer(result, rules)
         .picture_of_kinds(rules.time.empty() ? brightest_interval(result)
@@ -471,7 +484,7 @@ void render_png(const ResultReader& result, const RenderRules& rules, const std:
         ->save(path);
     return;
   }
-  expect_fit_for_comparison(result, rules);
+  expect_fit_for_derived(result, rules);
   const std::string usual =
       rules.colours == PictureColours::of_bands ? "power_load" : usual_quantity(result);
   const auto shown =
@@ -484,8 +497,8 @@ void render_png(const ResultReader& result, const RenderRules& rules, const std:
 void render_animation(const ResultReader& result, const RenderRules& rules,
                       const std::string& path) {
   expect_sense(rules);
-  if (result.is_comparison())
-    throw InputError({result.path()}, "--animate of a comparison", "it is of no instant",
+  if (result.is_derived())
+    throw InputError({result.path()}, "--animate of what is derived", "it is of no instant",
                      "draw one picture of it, or animate the results");
   if (!rules.time.empty())
     throw InputError({}, "--time with --animate", "it shows all times", "use --day");

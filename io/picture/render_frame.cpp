@@ -44,10 +44,12 @@ PictureArea scene_area(const Picture& picture) {
 
 void draw_title(Picture& picture, const std::string& title, const std::string& subtitle) {
   const double u = unit(picture);
-  picture.write({margin * u, title_line * u}, title,
-                {title_size * u, Align::left, Weight::bold, ink});
-  TextStyle style{u, Align::left, Weight::normal, ink};
   const double room = picture.width() - 2 * margin * u;
+  TextStyle large{title_size * u, Align::left, Weight::bold, ink};
+  if (const double width = picture.text_width(title, large); width > room)
+    large.size *= room / width;
+  picture.write({margin * u, title_line * u}, title, large);
+  TextStyle style{u, Align::left, Weight::normal, ink};
   const double width = picture.text_width(subtitle, style);
   if (width > room) style.size *= room / width;
   picture.write({margin * u, subtitle_line * u}, subtitle, style);
@@ -89,7 +91,11 @@ void draw_legend(Picture& picture, const Legend& legend) {
   const double x = std::round(picture.width() - (legend_strip - margin) * u);
   const double top = std::round((title_strip + 3 * margin) * u);
   const double bottom = std::round(picture.height() - 2 * margin * u);
-  picture.write({x, top - 2 * margin * u}, legend.units, {u, Align::left, Weight::bold, ink});
+  TextStyle units{u, Align::left, Weight::bold, ink};
+  const double room = picture.width() - x - line_width * u;
+  if (const double width = picture.text_width(legend.units, units); width > room)
+    units.size *= room / width;
+  picture.write({x, top - 2 * margin * u}, legend.units, units);
   const int rows = static_cast<int>(bottom - top);
   for (int row = 0; row < rows; ++row)
     picture.fill_rectangle({x, bottom - row - 1}, bar_width * u, 1,
@@ -109,14 +115,21 @@ void draw_legend(Picture& picture, const Legend& legend) {
                       {x + bar_width * u, bar_top},
                       {x, bar_top}},
                      line_width * u, ink);
-  for (const auto& [value, text] : ticks_of(legend)) {
+  const auto ticks = ticks_of(legend);
+  const double end = x + (bar_width + tick_length) * u;
+  const double left = end + tick_length * u;
+  TextStyle numbers{u, Align::left, Weight::normal, ink};
+  double widest = 0;
+  for (const auto& [value, text] : ticks)
+    widest = std::max(widest, picture.text_width(text, numbers));
+  if (const double space = picture.width() - left - line_width * u; widest > space)
+    numbers.size *= space / widest;
+  for (const auto& [value, text] : ticks) {
     const double y =
         bottom - rows * colour_share(legend.scale, value, legend.least, legend.largest);
-    const double end = x + (bar_width + tick_length) * u;
     picture.draw_lines({{x + bar_width * u, y}, {end, y}}, line_width * u, ink);
     constexpr double half_digit = 0.36;  // digits are some 0.72 of the font's height
-    picture.write({end + tick_length * u, y + half_digit * u}, text,
-                  {u, Align::left, Weight::normal, ink});
+    picture.write({left, y + half_digit * numbers.size}, text, numbers);
   }
 }
 

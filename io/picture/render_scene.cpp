@@ -90,7 +90,8 @@ class Painter {
     const auto patch = scene_.patch_met(sample.triangle, sample.front);
     const double value =
         patch < 0 ? std::nan("") : value_at(sample, static_cast<std::size_t>(patch));
-    auto colour = std::isnan(value)      ? back_
+    auto colour = is_marked(patch)       ? mark_
+                  : std::isnan(value)    ? back_
                   : colours_.own.empty() ? of_value(value)
                                          : colours_.own[static_cast<std::size_t>(patch)];
     if (border) return lined(colour, border_strength);
@@ -100,6 +101,11 @@ class Painter {
   }
 
  private:
+  bool is_marked(std::int32_t patch) const {
+    return patch >= 0 && !colours_.marked.empty() &&
+           colours_.marked[static_cast<std::size_t>(patch)] != 0;
+  }
+
   Colour of_value(double value) const {
     const double share = colour_share(colours_.scale, value, colours_.least, colours_.largest);
     return palette_[static_cast<std::size_t>(
@@ -138,7 +144,7 @@ class Painter {
   const Background& background_;
   std::vector<Colour> palette_;
   Colour plain_ = linear_light(plain_sky), far_ground_ = linear_light(far_ground),
-         back_ = linear_light(back_colour);
+         back_ = linear_light(back_colour), mark_ = linear_light(mark_colour);
 };
 
 }  // namespace

@@ -71,7 +71,10 @@ struct PatchColours {
   double least = 0;              ///< value of the first colour
   std::vector<Colour> own = {};  ///< per patch, linear light; where given, in place of a palette's
   ColourScale scale = ColourScale::linear;
+  std::vector<char> marked = {};  ///< per patch, whether it has `mark_colour` instead; empty: none
 };
+/// sRGB; of no palette.
+inline constexpr Colour mark_colour{0.20, 0.78, 0.58};
 
 /// The sky behind the scene.
 struct Background {

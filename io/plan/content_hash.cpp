@@ -117,6 +117,17 @@ std::string times_text(const LightSeries& light) {
   return digest.hex();
 }
 
+/// Nothing where materials stay what they are: the hash is as it was.
+void add_seasons(Digest& digest, const SceneSeasons& seasons) {
+  const auto& [all, of_interval] = seasons;
+  for (const auto& [name, materials, material] : all) {
+    digest.add(materials.size());
+    for (const Material& each : materials) add_material(digest, each);
+    digest.add(material);
+  }
+  if (!of_interval.empty()) digest.add(of_interval);
+}
+
 /// Nothing where there are none, as most studies of one day have it: their hashes stay.
 void add_totals(Digest& digest, const std::vector<PartTotals>& totals) {
   for (const auto& [division, with_errors] : totals) {
@@ -167,7 +178,8 @@ std::string look_to_rays(const Material& material) {
 }  // namespace
 
 std::string content_hash(const Study& study, const BuiltScene& built, const LightSeries& light,
-                         const std::string& isa, const std::string& mesh_pilots) {
+                         const std::string& isa, const std::string& mesh_pilots,
+                         const SceneSeasons& seasons) {
   Digest digest;
   digest.add(numerics_version);
   digest.add(canonical_text(study));
@@ -182,6 +194,7 @@ std::string content_hash(const Study& study, const BuiltScene& built, const Ligh
   digest.add(light.weather_sha256);
   add_site(digest, built.site);
   add_scene(digest, built.scene);
+  add_seasons(digest, seasons);
   add_totals(digest, part_totals(study, light, built.site.latitude_deg));
   if (!mesh_pilots.empty()) digest.add(mesh_pilots);
   return digest.hex();

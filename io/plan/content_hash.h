@@ -7,6 +7,7 @@
 
 #include "io/plan/light_series.h"
 #include "io/plan/scene_build.h"
+#include "io/plan/scene_seasons.h"
 #include "io/study/study.h"
 #include "solver/mesh/mesh_pilot.h"
 
@@ -17,9 +18,11 @@ inline constexpr int numerics_version = 9;
 
 /// SHA-256 of everything that can change a number: the study's canonical text, the scene as
 /// prepared, times and weather, the instruction set that rays are traced with, `numerics_version`;
-/// the pilots of other variants that refine the same mesh, where there are any.
+/// the pilots of other variants that refine the same mesh, where there are any; what materials are
+/// in the seasons of the period, where they change.
 std::string content_hash(const Study& study, const BuiltScene& built, const LightSeries& light,
-                         const std::string& isa, const std::string& mesh_pilots = {});
+                         const std::string& isa, const std::string& mesh_pilots = {},
+                         const SceneSeasons& seasons = {});
 
 /// Of triangles, objects, kinds of surface and sides: equal meshes, equal patches before they are
 /// refined.

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "geo/sky/sky.h"
@@ -38,25 +40,35 @@ class IntervalLights {
  private:
   void put_hills(std::vector<double>& sky, double ground_exitance) const;
 
+  double far_ground_albedo_at(const SunInterval& when) const;
+
   LightStudy light_;
+  /// Where the far ground has seasons.
+  struct Seasons {
+    Study study;
+    TimeZone zone;
+  };
+  std::optional<Seasons> seasons_;
   SunDisk disk_;
   Bands bands_;
   const SkyGrid& grid_;
   std::vector<double> open_share_;  ///< per cell; empty with an open horizon
 };
 
-/// The light of a series; both must outlive it.
+/// The light of a series; both must outlive it. `counts`: of each interval, others are dark; empty:
+/// all count.
 class SeriesLight : public LitPeriod {
  public:
-  SeriesLight(const IntervalLights& lights, const LightSeries& series)
-      : lights_(lights), series_(series) {}
+  SeriesLight(const IntervalLights& lights, const LightSeries& series,
+              std::vector<std::uint8_t> counts = {})
+      : lights_(lights), series_(series), counts_(std::move(counts)) {}
   std::size_t intervals() const override { return series_.intervals.size(); }
   bool is_dark(std::size_t interval) const override {
-    return sunload::is_dark(series_.intervals[interval]);
+    return !does_count(interval) || sunload::is_dark(series_.intervals[interval]);
   }
   bool has_sun(std::size_t interval) const override {
     const SunInterval& when = series_.intervals[interval].when;
-    return when.sunlit_s > 0 && when.direction.z > 0;
+    return does_count(interval) && when.sunlit_s > 0 && when.direction.z > 0;
   }
   Vec3 direction(std::size_t interval) const override {
     return series_.intervals[interval].when.direction;
@@ -70,8 +82,11 @@ class SeriesLight : public LitPeriod {
   }
 
  private:
+  bool does_count(std::size_t interval) const { return counts_.empty() || counts_[interval] != 0; }
+
   const IntervalLights& lights_;
   const LightSeries& series_;
+  std::vector<std::uint8_t> counts_;
 };
 
 }  // namespace sunload

@@ -52,8 +52,9 @@ std::string in_words(const AssignRule& rule) {
 class MaterialAssigner {
  public:
   MaterialAssigner(const Study& study, const SceneFrame& frame, Scene& scene,
-                   std::vector<std::string>& warnings)
+                   std::vector<std::string>& warnings, const std::vector<std::string>& seasons)
       : study_(study),
+        seasons_(seasons),
         scene_(scene),
         warnings_(warnings),
         emission_(emission_per_area(study.scene, scene.mesh)),
@@ -70,6 +71,8 @@ class MaterialAssigner {
       expect_known(study.scene.ground->material, study.scene.where);
     for (const auto& m : scene.mesh.file_materials)
       if (m.is_reference) expect_known(m.name, study.scene.where);
+    for (const auto& m : study.scene.materials)
+      for (const auto& in : m.seasons) expect_known(in.material, in.where);
     problems_.throw_if_any();
   }
 
@@ -123,6 +126,7 @@ class MaterialAssigner {
     all.where = m.where;
     all.emission_w_m2 = m.emission_w_m2;
     if (m.sides) all.sides = m.sides;
+    all.seasons = m.seasons;
     return all;
   }
 
@@ -183,6 +187,16 @@ class MaterialAssigner {
     return named(study_.scene.assign[rule].material);
   }
 
+  /// What a material is in the seasons that are in force: by the last of them that it knows.
+  const MaterialStudy* in_season(const MaterialStudy* source) const {
+    if (source == nullptr || source->seasons.empty()) return source;
+    const MaterialStudy* now = source;
+    for (const std::string& season : seasons_)
+      for (const SeasonMaterial& in : source->seasons)
+        if (in.season == season) now = &named(in.material);
+    return now;
+  }
+
   /// Of the study or the table what a triangle is made of; null: as its file says.
   const MaterialStudy* source_of(std::size_t t) {
     const Mesh& mesh = scene_.mesh;
@@ -216,11 +230,12 @@ class MaterialAssigner {
     const MaterialId file_id = scene_.mesh.triangle_material[t];
     const Made*& without_rules = made_of_file_[file_id.exists() ? file_id.index() + 1 : 0];
     if (without_rules != nullptr) return *without_rules;
-    const MaterialStudy* source = source_of(t);
-    const auto [place, is_new] = made_.try_emplace({source, file_id.value});
+    const MaterialStudy* written = source_of(t);
+    const MaterialStudy* source = in_season(written);
+    const auto [place, is_new] = made_.try_emplace({written, file_id.value});
     Made& made = place->second;
     if (is_new) {
-      if (source) made.sides = source->sides;
+      if (source) made.sides = source->sides ? source->sides : written->sides;
       made.id = id_of(source ? from_study(*source, file_id, made.is_default)
                              : from_file(file_id, made.is_default),
                       t);
@@ -408,6 +423,7 @@ class MaterialAssigner {
   }
 
   const Study& study_;
+  const std::vector<std::string>& seasons_;
   Scene& scene_;
   std::vector<std::string>& warnings_;
   std::vector<double> emission_;
@@ -428,8 +444,9 @@ class MaterialAssigner {
 }  // namespace
 
 std::vector<RuleUse> assign_materials(const Study& study, const SceneFrame& frame, Scene& scene,
-                                      std::vector<std::string>& warnings) {
-  return MaterialAssigner(study, frame, scene, warnings).run();
+                                      std::vector<std::string>& warnings,
+                                      const std::vector<std::string>& seasons) {
+  return MaterialAssigner(study, frame, scene, warnings, seasons).run();
 }
 
 }  // namespace sunload

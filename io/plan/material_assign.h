@@ -33,10 +33,12 @@ struct RuleUse {
 ///
 /// `warnings` gets rules that match nothing, or everything though they choose, or whose faces all
 /// have their material from elsewhere, and the area left to the default.
+/// `seasons`: those in force, in which materials may be others (`scene.materials.NAME.seasons`).
 /// Returns what every rule did. Throws InputError for unknown names and for more light reflected
 /// than received.
 std::vector<RuleUse> assign_materials(const Study& study, const SceneFrame& frame, Scene& scene,
-                                      std::vector<std::string>& warnings);
+                                      std::vector<std::string>& warnings,
+                                      const std::vector<std::string>& seasons = {});
 
 /// Reflectance of a surface that neither file nor study says anything about:
 /// a mean of European facades and streets (Oke 1987, Boundary Layer Climates,

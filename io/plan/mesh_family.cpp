@@ -43,7 +43,10 @@ std::shared_ptr<const MeshFamily> family_of(std::map<std::string, MeshPilotInput
 }  // namespace
 
 MeshFamilies::MeshFamilies(const StudyFile& file, Planner& planner) {
-  if (std::count_if(file.variants.begin(), file.variants.end(), is_refined) < 2) return;
+  const auto changes = [](const Study& study) { return !study.seasons.empty(); };
+  if (std::count_if(file.variants.begin(), file.variants.end(), is_refined) < 2 &&
+      std::none_of(file.variants.begin(), file.variants.end(), changes))
+    return;
   Problems problems;
   for (const Study& study : file.variants) {
     try {
@@ -54,7 +57,8 @@ MeshFamilies::MeshFamilies(const StudyFile& file, Planner& planner) {
   }
   problems.throw_if_any();
   for (auto& [key, members] : members_)
-    if (members.variants > 1) families_[key] = family_of(std::move(members.pilots));
+    if (members.variants > 1 || members.pilots.size() > 1)
+      families_[key] = family_of(std::move(members.pilots));
   members_.clear();
 }
 
@@ -62,10 +66,14 @@ void MeshFamilies::add(const VariantPlan& plan) {
   const std::string& key = key_of_[plan.study.variant] = family_key(plan);
   Members& members = members_[key];
   ++members.variants;
-  const auto light = light_of(plan);
-  const Scene& scene = plan.built.scene;
-  const std::string digest = pilot_digest(scene, *light);
-  members.pilots.try_emplace(digest, MeshPilotInput{scene.materials, scene.material, light});
+  const auto add_pilot = [&](const Scene& scene, const std::shared_ptr<const PeriodLight>& light) {
+    const std::string digest = pilot_digest(scene, *light);
+    members.pilots.try_emplace(digest, MeshPilotInput{scene.materials, scene.material, light});
+  };
+  if (plan.seasons.all.empty()) return add_pilot(plan.built.scene, light_of(plan));
+  for (std::size_t s = 0; s < plan.seasons.all.size(); ++s)
+    add_pilot(scene_in(plan.built.scene, plan.seasons.all[s]),
+              std::make_shared<const PeriodLight>(period_light(plan, s)));
 }
 
 std::shared_ptr<const PeriodLight> MeshFamilies::light_of(const VariantPlan& plan) {

@@ -44,6 +44,7 @@ std::string Planner::key_of_light(const Study& study, const Site& site) {
   key.period = study.period;
   key.sun = study.sun;
   key.light = study.light;
+  if (!study.light.far_ground_seasons.empty()) key.seasons = study.seasons;
   key.solver.sun_samples_per_interval = study.solver.sun_samples_per_interval;
   return canonical_text(key) + fmt::format("\n{} {} {} {} {}\n{}", site.latitude_deg,
                                            site.longitude_deg, site.elevation_m, site.north_deg,

@@ -301,6 +301,7 @@ BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
 }
 
 void give_materials(const Study& study, BuiltScene& built) {
+  built.sides_of_files = built.scene.mesh.triangle_sides;
   built.rules =
       assign_materials(study, {built.crs, built.site.north_deg}, built.scene, built.warnings);
   warn_of_reflectances(study, built);

@@ -24,6 +24,7 @@ struct BuiltScene {
   std::vector<std::string> notes;     ///< what readers counted
   std::vector<std::string> warnings;  ///< each states its consequence
   std::vector<RuleUse> rules;         ///< of scene.assign, in their order
+  std::vector<Sides> sides_of_files;  ///< per triangle, before materials decided
   std::vector<FoundFacade> facades;   ///< that north may give other names
   Bodies bodies;                      ///< with `seals`: of the mesh, until what is covered is cut
   std::vector<std::uint8_t> seals;

@@ -60,9 +60,10 @@ class PeriodSum {
 
 /// Of the intervals that are not dark those that add light: a sun without power would take the
 /// place of one that has some.
-std::vector<std::size_t> intervals_with_light(const LightSeries& series) {
+std::vector<std::size_t> intervals_with_light(const LightSeries& series,
+                                              const std::vector<std::size_t>& wanted) {
   std::vector<std::size_t> lit;
-  for (std::size_t i = 0; i < series.intervals.size(); ++i) {
+  for (const std::size_t i : wanted) {
     const LitInterval& interval = series.intervals[i];
     const bool has_power = interval.mean.dni > 0 || interval.mean.dhi > 0;
     if (has_power && !is_dark(interval)) lit.push_back(i);
@@ -72,11 +73,14 @@ std::vector<std::size_t> intervals_with_light(const LightSeries& series) {
 
 }  // namespace
 
-PeriodLight period_light(const VariantPlan& plan) {
+PeriodLight period_light(const VariantPlan& plan, std::optional<std::size_t> season) {
   PeriodLight light;
   PeriodSum sum(plan, light);
-  for (const auto& interval : plan.light.intervals) light.lamp_time_s += interval.when.length_s();
-  const auto lit = intervals_with_light(plan.light);
+  std::vector<std::size_t> wanted;
+  for (std::size_t i = 0; i < plan.intervals(); ++i)
+    if (!season || plan.seasons.of(i) == *season) wanted.push_back(i);
+  for (const auto i : wanted) light.lamp_time_s += plan.light.intervals[i].when.length_s();
+  const auto lit = intervals_with_light(plan.light, wanted);
   if (lit.size() <= most_mesh_pilot_suns) {
     sum.add(lit, 1, 1, light.suns);
     return light;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "io/plan/variant_plan.h"
 #include "solver/mesh/refine.h"
@@ -13,8 +14,9 @@ namespace sunload {
 /// Up to so many suns the mesh pilot takes as they are; of more, two samples of half as many.
 inline constexpr std::size_t most_mesh_pilot_suns = 32;
 
-/// The light of a period in short, of its intervals that are not dark.
-PeriodLight period_light(const VariantPlan& plan);
+/// The light of a period in short, of its intervals that are not dark; `season`: of those in it
+/// alone (SceneSeasons).
+PeriodLight period_light(const VariantPlan& plan, std::optional<std::size_t> season = {});
 
 struct VariantMesh {
   std::shared_ptr<const Hierarchy> mesh;

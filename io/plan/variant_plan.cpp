@@ -8,6 +8,7 @@
 #include "io/plan/content_hash.h"
 #include "io/plan/mesh_family.h"
 #include "io/plan/study_measures.h"
+#include "solver/solver.h"
 #include "solver/surface/ray_caster.h"
 
 namespace sunload {
@@ -25,9 +26,8 @@ void refuse_lamps_in_lux(const VariantPlan& plan) {
 /// Form factors are those of opaque diffuse surfaces.
 void refuse_smooth_surfaces_in_a_matrix(const VariantPlan& plan) {
   if (plan.study.solver.transport != Transport::matrix) return;
-  const Scene& scene = plan.built.scene;
-  for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t)
-    if (const Material& material = scene.material_of(t); goes_on_straight(material))
+  for (const Material& material : materials_of(plan))
+    if (goes_on_straight(material))
       throw InputError(plan.study.scene.where,
                        "material '" + material.name + "' is a mirror, glass, glossy or lets pass",
                        "transport: matrix exchanges light between opaque diffuse surfaces",
@@ -42,6 +42,7 @@ VariantPlan unhashed_plan_of(const Study& study, BuiltScene built, LightSeries l
   plan.isa = usable_isa(study.solver.isa);
   plan.built = std::move(built);
   plan.light = std::move(light);
+  plan.seasons = take_seasons(study, plan.light, plan.built);
   if (!study.solver.batch_suns) plan.study.solver.batch_suns = batch_suns_for(plan.intervals());
   plan.totals = part_totals(study, plan.light, plan.built.site.latitude_deg);
   refuse_lamps_in_lux(plan);
@@ -57,11 +58,6 @@ VariantPlan plan_of(const Study& study, BuiltScene built, LightSeries light) {
   return plan;
 }
 
-int batch_suns_for(std::size_t intervals) {
-  constexpr std::size_t long_period = 2048;
-  return intervals > long_period ? 256 : 64;
-}
-
 VariantPlan make_plan(const Study& study) {
   BuiltScene built = build_scene(study);
   LightSeries light = light_series(study, built.site);
@@ -70,11 +66,18 @@ VariantPlan make_plan(const Study& study) {
 
 std::string hash_with_isa(const VariantPlan& plan, const std::string& isa) {
   return content_hash(plan.study, plan.built, plan.light, isa,
-                      plan.family ? plan.family->digest : std::string());
+                      plan.family ? plan.family->digest : std::string(), plan.seasons);
+}
+
+std::vector<Material> materials_of(const VariantPlan& plan) {
+  std::vector<Material> materials = plan.built.scene.materials;
+  for (const SceneSeason& season : plan.seasons.all)
+    materials.insert(materials.end(), season.materials.begin(), season.materials.end());
+  return materials;
 }
 
 bool has_lamps(const VariantPlan& plan) {
-  const auto& materials = plan.built.scene.materials;
+  const auto materials = materials_of(plan);
   return !plan.built.scene.parallel_sources.exitance.empty() ||
          std::any_of(materials.begin(), materials.end(),
                      [](const Material& m) { return m.emission_w_m2 > 0; });

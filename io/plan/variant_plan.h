@@ -10,6 +10,7 @@
 #include "io/plan/light_series.h"
 #include "io/plan/part_totals.h"
 #include "io/plan/scene_build.h"
+#include "io/plan/scene_seasons.h"
 #include "io/study/study.h"
 
 namespace sunload {
@@ -17,8 +18,9 @@ namespace sunload {
 struct MeshFamily;
 
 struct VariantPlan {
-  Study study;  ///< with a number of batch_suns
-  BuiltScene built;
+  Study study;       ///< with a number of batch_suns
+  BuiltScene built;  ///< with materials as written, where they change with the seasons
+  SceneSeasons seasons;
   LightSeries light;
   std::vector<PartTotals> totals;  ///< of parts of the period
   std::string isa;                 ///< that rays will be traced with
@@ -34,10 +36,6 @@ struct VariantPlan {
   std::size_t batches() const { return (intervals() + batch_suns() - 1) / batch_suns(); }
 };
 
-/// `solver.batch_suns: auto`. Every batch has totals of all realizations: in a long period few and
-/// large ones cost less.
-int batch_suns_for(std::size_t intervals);
-
 /// Reads the scene, makes sun path and light, and hashes. Throws InputError.
 VariantPlan make_plan(const Study& study);
 /// The same of what was read and computed before. Throws InputError.
@@ -48,6 +46,8 @@ VariantPlan unhashed_plan_of(const Study& study, BuiltScene built, LightSeries l
 /// Content hash that the plan would have with another instruction set.
 std::string hash_with_isa(const VariantPlan& plan, const std::string& isa);
 
+/// Of the scene in all its seasons; some may be there more than once.
+std::vector<Material> materials_of(const VariantPlan& plan);
 /// Whether something in the scene shines by itself: then dark intervals are computed too.
 bool has_lamps(const VariantPlan& plan);
 /// Sun positions of a batch that cost work: intervals that are not dark, all of them with lamps.

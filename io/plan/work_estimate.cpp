@@ -130,7 +130,9 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
 WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
                            const SampleCounts& counts) {
   const SolverStudy& s = plan.study.solver;
-  const auto& materials = plan.built.scene.materials;
+  const auto materials = materials_of(plan);
+  // Each is a scene of its own with its lines, and its own solutions of a year.
+  const double seasons = std::max<double>(1, static_cast<double>(plan.seasons.all.size()));
   const auto has = [&](auto property) {
     return std::any_of(materials.begin(), materials.end(), property);
   };
@@ -156,7 +158,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   const double bands = is_rgb ? static_cast<double>(band_count) : 1;
 
   const bool of_few = is_year_of_few(plan, lit);
-  const double solved = of_few ? std::min(lit, year_skies + year_suns + year_tests) : lit;
+  const double solved =
+      of_few ? std::min(lit, seasons * (year_skies + year_suns + year_tests)) : lit;
   const PartCost periods = part_cost(plan.totals, plan.batch_suns());
   // Solved side by side, as suns are, by every realization on its lines.
   const double suns_of_parts =
@@ -172,11 +175,11 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
       n * facing_share * suns * counts.direct_samples * (has_views ? share_beside_views : 1);
   work.direct_rays = static_cast<std::uint64_t>(rays);
   work.memory_bytes =
-      program_bytes + lines * bytes_per_line +
+      program_bytes + seasons * lines * bytes_per_line +
       static_cast<double>(plan.intervals()) * bytes_per_interval +
       n * (bands * (batch * kept * float_bytes + arrays_of_realizations * of_realizations) +
            bytes_per_patch);
-  if (has_views) work.memory_bytes += n * bytes_per_view;
+  if (has_views) work.memory_bytes += seasons * n * bytes_per_view;
   // One batch is written while the next is computed.
   const double series =
       std::min(parts, static_cast<double>(plan.study.output.series.size())) + (of_instants ? 1 : 0);
@@ -189,8 +192,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   if (is_rgb || of_instants || suns_of_parts > 0)
     work.memory_bytes += n * s.realizations * block_width * float_bytes * (mirrors ? 3.0 : 2.0);
   if (of_few)
-    work.memory_bytes +=
-        n * float_bytes * (year_suns + year_skies * (2.0 + (mirrors ? 1 : 0) + s.realizations));
+    work.memory_bytes += seasons * n * float_bytes *
+                         (year_suns + year_skies * (2.0 + (mirrors ? 1 : 0) + s.realizations));
   work.memory_bytes += bands * n * static_cast<double>(periods.most) *
                        (arrays_of_realizations * of_realizations + sums_of_part * double_bytes);
   if (by_matrix)
@@ -214,11 +217,12 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
                     bands * n * float_bytes *
                         (static_cast<double>(periods.parts) * values_of_part +
                          static_cast<double>(periods.parts_with_errors) * s.realizations) +
-                    (plan.batches() > 1 ? lines * kept_bytes_per_line : 0);
+                    (plan.batches() > 1 && seasons == 1 ? lines * kept_bytes_per_line : 0);
   work.seconds =
       (s_to_start + n * s_per_patch +
-       lines * (guided ? 1 + rays_by_guide : 1) * line_seconds(plan.built.scene, s.mirror_depth) +
-       rays * s_per_direct_ray + (has_views ? n * s_per_view : 0) +
+       seasons * lines * (guided ? 1 + rays_by_guide : 1) *
+           line_seconds(plan.built.scene, s.mirror_depth) +
+       rays * s_per_direct_ray + (has_views ? seasons * n * s_per_view : 0) +
        (mirrors ? n * mirrored_share * suns * counts.direct_samples * s_per_mirror_ray : 0) +
        (guided ? n * s_per_guided_patch : 0) +
        (by_matrix ? n * n * (s_per_form_factor + n * s.realizations * s_per_factor_solved) : 0) +

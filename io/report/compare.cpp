@@ -13,6 +13,7 @@
 #include "io/base/name_pattern.h"
 #include "io/base/statistics.h"
 #include "io/result/common_area.h"
+#include "io/result/mesh_error.h"
 #include "io/result/patch_groups.h"
 #include "io/result/time.h"
 
@@ -36,13 +37,22 @@ Place places(const PatchGroups& groups) {
 /// Groups of one result, of some of its area.
 struct Part {
   PatchGroups groups;
-  std::vector<double> load;  ///< per group
+  std::vector<double> load;        ///< per group
+  std::vector<double> mesh_error;  ///< per group, of unlike patches; NaN where it is not known
   Place place;
 };
 
-Part part(const ResultReader& result, std::vector<double> area, const MoreGroups& more) {
+Part part(const ResultReader& result, std::vector<double> area, const MoreGroups& more,
+          const std::vector<double>& unlike) {
   PatchGroups groups(result, std::move(area), more);
-  return {groups, group_means(result, groups, "light_load"), places(groups)};
+  std::vector<double> reflected(groups.groups().size(), not_known);
+  if (result.has("light_load_reflected")) {
+    auto of_patches = result.doubles("light_load_reflected");
+    for (std::size_t i = 0; i < of_patches.size(); ++i) of_patches[i] *= unlike[i];
+    reflected = groups.means(of_patches.data());
+  }
+  return {groups, group_means(result, groups, "light_load"), mesh_errors(std::move(reflected)),
+          places(groups)};
 }
 
 /// One result: what it has in common with the other, and what it has alone.
@@ -58,10 +68,12 @@ void expect_load(const ResultReader& result) {
                      "compare finished results of sunload run");
 }
 
-Side side(const ResultReader& result, const std::vector<double>& common, const MoreGroups& more) {
+Side side(const ResultReader& result, const std::vector<double>& common, const MoreGroups& more,
+          const std::vector<double>& unlike) {
   std::vector<double> alone = result.doubles("patch_area");
   for (std::size_t i = 0; i < alone.size(); ++i) alone[i] -= common[i];
-  Side s{result, part(result, common, more), part(result, std::move(alone), more), {}};
+  Side s{
+      result, part(result, common, more, unlike), part(result, std::move(alone), more, unlike), {}};
   s.realizations = group_realizations(result, s.common.groups);
   return s;
 }
@@ -135,7 +147,7 @@ ComparisonRow lonely_row(const Side& s, std::size_t g, Present where) {
   row.area_m2 = row.unmatched_area_m2 = group.area_m2;
   (where == Present::base ? row.base_kwh_m2 : row.variant_kwh_m2) = s.alone.load[g];
   row.difference_kwh_m2 = row.difference_percent = not_known;
-  row.se_kwh_m2 = row.p_value = row.p_corrected = not_known;
+  row.se_kwh_m2 = row.p_value = row.p_corrected = row.mesh_error_kwh_m2 = not_known;
   return row;
 }
 
@@ -183,7 +195,9 @@ Comparison compare_results(const ResultReader& base, const ResultReader& variant
                      "compare results of one light.quantity");
   const CommonArea common = common_area(base, variant);
   const MoreGroups more{true, storey_m};
-  const Side b = side(base, common.base, more), v = side(variant, common.variant, more);
+  const auto unlike_of_base = unlike_patches(base, variant);
+  const Side b = side(base, common.base, more, unlike_of_base),
+             v = side(variant, common.variant, more, unlike_patches(variant, base));
   comparison.base = base.text_attribute("variant");
   comparison.variant = variant.text_attribute("variant");
   comparison.base_realizations = realization_count(base);
@@ -192,11 +206,17 @@ Comparison compare_results(const ResultReader& base, const ResultReader& variant
   comparison.least_percent = least_percent;
   comparison.notes = notes_on(b, v);
   const auto& groups = b.common.groups.groups();
+  const auto unlike = b.common.groups.means(unlike_of_base.data());
   for (std::size_t g = 0; g < groups.size(); ++g)
     if (const auto found = v.common.place.find({groups[g].kind, groups[g].name});
-        found != v.common.place.end())
+        found != v.common.place.end()) {
       comparison.rows.push_back(
           matched_row(b, g, v, found->second, comparison.errors, least_percent));
+      if (unlike[g] == 0) continue;
+      comparison.have_same_mesh = false;
+      comparison.rows.back().mesh_error_kwh_m2 =
+          std::hypot(b.common.mesh_error[g], v.common.mesh_error[found->second]);
+    }
   for (std::size_t g = 0; g < b.alone.groups.groups().size(); ++g)
     comparison.rows.push_back(lonely_row(b, g, Present::base));
   for (std::size_t g = 0; g < v.alone.groups.groups().size(); ++g)

@@ -36,6 +36,8 @@ struct ComparisonRow {
   double p_corrected = 0;        ///< for the number of groups of the same kind
   bool significant = false;      ///< p_corrected < significance_level
   double unmatched_area_m2 = 0;  ///< of the group in both, without a counterpart in the other
+  /// What unlike meshes put the difference off (io/result/mesh_error), beside `se`; NaN: not known.
+  double mesh_error_kwh_m2 = 0;
 };
 
 struct Comparison {
@@ -45,6 +47,7 @@ struct Comparison {
   std::size_t base_realizations = 0, variant_realizations = 0;
   double least_percent = 0;  ///< of the base: smaller differences do not matter, however sure
   enum class Errors { paired, independent, unknown } errors = Errors::unknown;
+  bool have_same_mesh = true;      ///< in what both have, patch by patch
   std::vector<std::string> notes;  ///< what a reader must know, e.g. that the periods differ
   std::vector<ComparisonRow> rows;
 };

@@ -12,10 +12,9 @@
 #include "io/base/statistics.h"
 #include "io/report/compare.h"
 #include "io/result/common_area.h"
-#include "io/result/h5.h"
+#include "io/result/netcdf_file.h"
 #include "io/result/schema.h"
 #include "io/result/shown_quantity.h"
-#include "io/result/time.h"
 
 namespace sunload {
 namespace {
@@ -75,60 +74,6 @@ std::vector<double> column(const std::vector<std::vector<double>>& rows, std::si
   return values;
 }
 
-class ComparisonFile {
- public:
-  explicit ComparisonFile(const std::string& path) : file_(h5::File::create(path)) {}
-
-  void dimension(const std::string& name, std::size_t size) {
-    // The words by which netCDF-4 knows a dimension without a variable.
-    constexpr const char* no_variable = "This is a netCDF dimension but not a netCDF variable. ";
-    constexpr std::size_t digits = 10;
-    const auto number = std::to_string(size);
-    sizes_[name] = size;
-    auto scale = file_.create_dataset(name, {h5::Type::float32, {size}, {}, 0});
-    scale.make_scale(no_variable + std::string(digits - std::min(digits, number.size()), ' ') +
-                     number);
-    scales_.emplace(name, scale);
-  }
-
-  /// A dimension whose entries have names.
-  void labels(const std::string& name, const std::vector<std::string>& names) {
-    sizes_[name] = names.size();
-    const auto* of = find_result_variable(name);
-    auto scale = file_.create_dataset(name, {of->type, {names.size()}, {}, 0});
-    scale.make_scale(name);
-    scale.set("long_name", std::string(of->long_name));
-    scale.write(names);
-    scales_.emplace(name, scale);
-  }
-
-  template <class Value>
-  h5::Dataset put(const std::string& name, const std::vector<std::string>& dims, h5::Type type,
-                  const std::string& units, const std::string& long_name,
-                  const std::vector<Value>& values) {
-    h5::DatasetSpec spec{type, {}, {}, 0};
-    for (const auto& dim : dims) spec.shape.push_back(sizes_.at(dim));
-    auto dataset = file_.create_dataset(name, spec);
-    for (std::size_t i = 0; i < dims.size(); ++i) dataset.attach_scale(i, scales_.at(dims[i]));
-    if (type == h5::Type::float64) dataset.set("_FillValue", not_known, type);
-    dataset.set("long_name", long_name);
-    if (!units.empty()) dataset.set("units", units);
-    dataset.write(values);
-    return dataset;
-  }
-
-  h5::File& file() { return file_; }
-  void close() {
-    scales_.clear();
-    file_.close();
-  }
-
- private:
-  h5::File file_;
-  std::map<std::string, std::size_t> sizes_;
-  std::map<std::string, h5::Dataset> scales_;
-};
-
 /// A column of the groups' table.
 template <class Get>
 std::vector<double> numbers_of(const std::vector<ComparisonRow>& rows, const Get& get) {
@@ -138,7 +83,7 @@ std::vector<double> numbers_of(const std::vector<ComparisonRow>& rows, const Get
   return values;
 }
 
-void put_groups(ComparisonFile& file, const Comparison& comparison) {
+void put_groups(NetcdfFile& file, const Comparison& comparison) {
   const auto& rows = comparison.rows;
   const std::vector<std::string> dims{"group"};
   std::vector<std::string> kinds, names;
@@ -180,7 +125,7 @@ void put_groups(ComparisonFile& file, const Comparison& comparison) {
 }
 
 /// Rows of the facades of the base, in its order.
-void put_facades(ComparisonFile& file, const Comparison& comparison, const ResultReader& base) {
+void put_facades(NetcdfFile& file, const Comparison& comparison, const ResultReader& base) {
   const auto names = base.strings("facade_name");
   if (names.empty()) return;
   std::map<std::string, const ComparisonRow*> rows;
@@ -194,7 +139,7 @@ void put_facades(ComparisonFile& file, const Comparison& comparison, const Resul
     return list;
   };
   const std::vector<std::string> dims{"facade"};
-  file.labels("facade", names);
+  file.labels("facade", std::string(find_result_variable("facade")->long_name), names);
   file.put("facade_name", dims, h5::Type::text, "", "name of the facade", names);
   file.put("facade_light_load_difference", dims, h5::Type::float64, comparison.units,
            "variant minus base, area-weighted means",
@@ -204,39 +149,7 @@ void put_facades(ComparisonFile& file, const Comparison& comparison, const Resul
            values([](const ComparisonRow& r) { return r.se_kwh_m2; }));
 }
 
-void put_mesh(ComparisonFile& file, const ResultReader& base) {
-  constexpr std::size_t axes = 3;
-  file.dimension("xyz", axes);
-  file.dimension("corner", axes);
-  file.dimension("vertex", base.shape("vertex_position").front());
-  file.dimension("patch", base.shape("patch_area").front());
-  file.dimension("input_triangle", base.shape("input_triangle_vertices").front());
-  file.labels("object", base.strings("object_name"));
-  file.labels("material", base.strings("material_name"));
-  for (const char* name :
-       {"object_name", "material_name", "patch_material", "patch_input_triangle",
-        "input_triangle_vertices", "vertex_position", "vertex_x", "vertex_y", "vertex_z",
-        "patch_vertices", "patch_area", "patch_centroid", "patch_normal", "patch_object",
-        "patch_facade", "patch_surface", "patch_side"}) {
-    const auto* of = find_result_variable(name);
-    const auto dims = dimension_names(*of);
-    const std::string units(of->units), what(of->long_name);
-    if (of->type == h5::Type::text)
-      file.put(name, dims, of->type, units, what, base.strings(name));
-    else if (of->type == h5::Type::float64)
-      file.put(name, dims, of->type, units, what, base.doubles(name));
-    else
-      file.put(name, dims, of->type, units, what, base.integers(name));
-  }
-  auto mesh = file.put("mesh", {}, h5::Type::int32, "", "topology of the patches",
-                       std::vector<std::int32_t>{0});
-  mesh.set("cf_role", "mesh_topology");
-  mesh.set("topology_dimension", 2.0, h5::Type::int32);
-  mesh.set("node_coordinates", "vertex_x vertex_y vertex_z");
-  mesh.set("face_node_connectivity", "patch_vertices");
-}
-
-void put_patches(ComparisonFile& file, const Comparison& comparison, const ResultReader& base,
+void put_patches(NetcdfFile& file, const Comparison& comparison, const ResultReader& base,
                  const ResultReader& variant) {
   const auto match = matched_patches(base, variant);
   const auto overlaps = patch_overlaps(base, variant);
@@ -260,9 +173,7 @@ void put_patches(ComparisonFile& file, const Comparison& comparison, const Resul
            "index of the same patch in the variant, -1: none", match);
   const auto put = [&](const std::string& name, const std::string& what,
                        const std::vector<double>& values) {
-    auto dataset = file.put(name, dims, h5::Type::float64, comparison.units, what, values);
-    dataset.set("mesh", "mesh");
-    dataset.set("location", "face");
+    put_of_patches(file, name, comparison.units, what, values);
   };
   put("base_light_load", "light load of the base", own);
   put("variant_light_load", "light load of the variant", of_variant);
@@ -275,7 +186,6 @@ void put_attributes(h5::File& file, const Comparison& comparison, const ResultRe
   constexpr std::array errors{"paired", "independent", "unknown"};
   std::string notes;
   for (const auto& note : comparison.notes) notes += note + "\n";
-  const Vec3 origin = base.origin();
   file.set("title", "Light load: variant " + comparison.variant + " minus base " + comparison.base);
   file.set("Conventions", std::string(result_conventions));
   file.set("sunload_format", std::string(comparison_format));
@@ -289,13 +199,7 @@ void put_attributes(h5::File& file, const Comparison& comparison, const ResultRe
   if (comparison.least_percent > 0)
     file.set("least_percent", comparison.least_percent, h5::Type::float64);
   if (comparison.quantity == Quantity::illuminance) file.set("quantity", "illuminance");
-  for (const char* name : {"study", "timezone", "crs"})
-    if (const auto text = base.text_attribute(name); !text.empty()) file.set(name, text);
-  for (const char* name : {"latitude_deg", "longitude_deg", "elevation_m", "north_deg"})
-    if (const double number = base.number_attribute(name); std::isfinite(number))
-      file.set(name, number, h5::Type::float64);
-  file.set("period", period_in_words(base));
-  file.set("origin", {origin.x, origin.y, origin.z}, h5::Type::float64);
+  put_site(file, base);
   if (!notes.empty()) file.set("notes", notes);
 }
 
@@ -305,7 +209,7 @@ void write_comparison_hdf5(const Comparison& comparison, const ResultReader& bas
                            const ResultReader& variant, const std::string& path) {
   FileAside target(path);
   try {
-    ComparisonFile file(target.aside());
+    NetcdfFile file(target.aside());
     put_groups(file, comparison);
     put_facades(file, comparison, base);
     put_mesh(file, base);

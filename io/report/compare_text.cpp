@@ -12,6 +12,7 @@
 #include "io/base/statistics.h"
 #include "io/base/text.h"
 #include "io/report/compare.h"
+#include "io/result/mesh_error.h"
 
 namespace sunload {
 namespace {
@@ -50,23 +51,30 @@ std::string errors_in_words(const Comparison& c) {
   return "no standard errors: a result has fewer than 2 realizations";
 }
 
-std::string table_row(const ComparisonRow& row, std::size_t width) {
+/// Beside the standard error, where meshes differ.
+std::string mesh_cell(const Comparison& comparison, const std::string& text) {
+  return comparison.have_same_mesh ? std::string() : fmt::format(" {:>9}", text);
+}
+
+std::string table_row(const Comparison& comparison, const ComparisonRow& row, std::size_t width) {
   const char* state = row.significant ? "*" : "";
   if (!row.base_kwh_m2) state = "only in the variant";
   if (!row.variant_kwh_m2) state = "only in the base";
-  auto text =
-      fmt::format("  {:<{}} {:>10} {:>9} {:>9} {:>11} {:>9} {:>9} {:>7}  {}", row.name, width,
-                  cell(row.area_m2, "{:.1f}"), cell(or_nan(row.base_kwh_m2), "{:.4g}"),
-                  cell(or_nan(row.variant_kwh_m2), "{:.4g}"),
-                  cell(row.difference_kwh_m2, "{:+.4g}"), cell(row.difference_percent, "{:+.2f}%"),
-                  cell(row.se_kwh_m2, "{:.2g}"), p_in_words(row.p_corrected), state);
+  auto text = fmt::format(
+      "  {:<{}} {:>10} {:>9} {:>9} {:>11} {:>9} {:>9}{} {:>7}  {}", row.name, width,
+      cell(row.area_m2, "{:.1f}"), cell(or_nan(row.base_kwh_m2), "{:.4g}"),
+      cell(or_nan(row.variant_kwh_m2), "{:.4g}"), cell(row.difference_kwh_m2, "{:+.4g}"),
+      cell(row.difference_percent, "{:+.2f}%"), cell(row.se_kwh_m2, "{:.2g}"),
+      mesh_cell(comparison, cell(row.mesh_error_kwh_m2, "{:.2g}")), p_in_words(row.p_corrected),
+      state);
   text.erase(text.find_last_not_of(' ') + 1);
   return text + '\n';
 }
 
-std::string table_head(const std::string& kind, std::size_t width) {
-  return fmt::format("{:<{}} {:>10} {:>9} {:>9} {:>11} {:>9} {:>9} {:>7}\n", kind, width + 2,
-                     "area/m²", "base", "variant", "difference", "percent", "std.err.", "p");
+std::string table_head(const Comparison& comparison, const std::string& kind, std::size_t width) {
+  return fmt::format("{:<{}} {:>10} {:>9} {:>9} {:>11} {:>9} {:>9}{} {:>7}\n", kind, width + 2,
+                     "area/m²", "base", "variant", "difference", "percent", "std.err.",
+                     mesh_cell(comparison, "mesh"), "p");
 }
 
 /// Rows of one kind, largest difference first; groups of one side only at the end.
@@ -120,15 +128,20 @@ std::string comparison_table(const Comparison& comparison) {
           ? fmt::format(" of a difference of {:g} % at most", comparison.least_percent)
           : "",
       significance_level);
+  if (!comparison.have_same_mesh)
+    text += fmt::format(
+        "mesh: patches differ; beside the standard errors, one value of reflected light per patch "
+        "puts differences off by so much at most on nine groups in ten ({:g} % of that light)\n",
+        100 * mesh_error_of_reflected);
   for (const auto& note : comparison.notes) text += "note: " + note + "\n";
   std::size_t width = 0;
   for (const auto& row : comparison.rows) width = std::max(width, row.name.size());
   for (const char* kind : kinds) {
     const auto rows = rows_of_kind(comparison, kind);
     if (rows.empty()) continue;
-    text += "\n" + table_head(kind, width);
+    text += "\n" + table_head(comparison, kind, width);
     for (std::size_t i = 0; i < std::min(rows.size(), rows_shown); ++i)
-      text += table_row(rows[i], width);
+      text += table_row(comparison, rows[i], width);
     if (rows.size() > rows_shown)
       text += fmt::format("  … and {} more: see --csv\n", rows.size() - rows_shown);
   }
@@ -179,7 +192,8 @@ std::string comparison_json(const Comparison& comparison) {
                     {"p_value", json_number(row.p_value)},
                     {"p_corrected", json_number(row.p_corrected)},
                     {"significant", row.significant},
-                    {"unmatched_area_m2", json_number(row.unmatched_area_m2)}});
+                    {"unmatched_area_m2", json_number(row.unmatched_area_m2)},
+                    {key("mesh_error_kwh_m2"), json_number(row.mesh_error_kwh_m2)}});
   nlohmann::ordered_json counts;
   for (const char* kind : counted_kinds) {
     const auto [gain, lose, others] = change_counts(comparison, kind);

@@ -16,6 +16,7 @@
 #include "io/plan/time_words.h"
 #include "io/report/measures.h"
 #include "io/result/energy_text.h"
+#include "io/result/mesh_error.h"
 #include "io/result/part_of_period.h"
 #include "io/result/patch_groups.h"
 #include "io/result/time.h"
@@ -251,25 +252,22 @@ std::string facades(const ResultReader& result, const PatchGroups& groups,
          info_line("  most", best) + info_line("  least", worst);
 }
 
-/// What constant reflected light on each patch puts off, as docs/validation.md has measured it on
-/// the default mesh: nine facades in ten and more are within this share of it.
 std::string mesh_error(const ResultReader& result, const PatchGroups& groups,
                        const std::vector<double>& load) {
-  constexpr double share_of_reflected = 0.1;
   if (!result.has("light_load_reflected")) return {};
-  const auto reflected_load = result.doubles("light_load_reflected");
-  const auto mean = groups.means(load.data()), reflected = groups.means(reflected_load.data());
+  const auto reflected = result.doubles("light_load_reflected");
+  const auto mean = groups.means(load.data()), error = mesh_errors(groups.means(reflected.data()));
   std::vector<double> percent;
   for (std::size_t g = 0; g < groups.groups().size(); ++g)
     if (groups.groups()[g].kind == "facade" && mean[g] > 0)
-      percent.push_back(100 * share_of_reflected * reflected[g] / mean[g]);
+      percent.push_back(100 * error[g] / mean[g]);
   if (percent.empty()) return {};
   const std::vector<double> once(percent.size(), 1);
   return info_line(
       "mesh",
       fmt::format("reflected light is one value per patch, on the default mesh right within {:g} % "
                   "of it: {:.2g} % of a facade's load (median), below {:.2g} % on 95 %",
-                  100 * share_of_reflected, weighted_quantile(percent, once, median),
+                  100 * mesh_error_of_reflected, weighted_quantile(percent, once, median),
                   weighted_quantile(percent, once, upper_quantile)));
 }
 

@@ -13,6 +13,7 @@
 #include "io/base/statistics.h"
 #include "io/base/text.h"
 #include "io/batch/facade_means.h"
+#include "io/result/mesh_error.h"
 
 namespace sunload {
 namespace {
@@ -23,7 +24,7 @@ constexpr double upright = 1e-6;
 
 /// What is known of every facade, object, selection or sensor, by its place in the file.
 struct Values {
-  std::vector<double> azimuth_deg, area, load, load_se, sun_hours, sky_view, largest;
+  std::vector<double> azimuth_deg, area, load, load_se, mesh_error, sun_hours, sky_view, largest;
   std::vector<Vec3> place;  ///< of sensors
 };
 
@@ -68,6 +69,7 @@ class OverPatches {
         for (std::size_t k = 0; k < means.size(); ++k) samples[k].push_back(means[k]);
       }
     std::vector<double> errors;
+    errors.reserve(samples.size());
     for (const auto& of_entry : samples) errors.push_back(sample_mean(of_entry).se);
     return errors;
   }
@@ -106,6 +108,7 @@ Values of_patches(const ResultReader& result, std::vector<std::int32_t> entry, s
   v.area = patches.area();
   v.load = patches.mean("light_load");
   v.load_se = patches.error("light_load_realization");
+  v.mesh_error = mesh_errors(patches.mean("light_load_reflected"));
   v.sun_hours = patches.mean("sun_hours");
   v.sky_view = patches.mean("sky_view_factor");
   v.largest = patches.largest(dataset_name("irradiance_max", result.quantity()));
@@ -127,8 +130,9 @@ Values of_selections(const ResultReader& result) {
   Values all;
   for (std::size_t k = 0; k < selection_names(result).size(); ++k) {
     const Values one = of_patches(result, selection_entries(result, k), 1);
-    for (const auto member : {&Values::azimuth_deg, &Values::area, &Values::load, &Values::load_se,
-                              &Values::sun_hours, &Values::sky_view, &Values::largest})
+    for (const auto member :
+         {&Values::azimuth_deg, &Values::area, &Values::load, &Values::load_se, &Values::mesh_error,
+          &Values::sun_hours, &Values::sky_view, &Values::largest})
       (all.*member).push_back((one.*member).front());
   }
   return all;
@@ -174,6 +178,7 @@ std::vector<double> times(std::vector<double> values, const std::vector<double>&
 
 std::vector<double> component(const std::vector<Vec3>& places, double Vec3::*axis) {
   std::vector<double> values;
+  values.reserve(places.size());
   for (const Vec3& p : places) values.push_back(p.*axis);
   return values;
 }
@@ -192,7 +197,10 @@ std::vector<TableColumn> columns_of(const Values& v, Quantity quantity) {
       {"sky_view_factor", "sky view", "", "{:.3f}", v.sky_view},
       {quantity == Quantity::illuminance ? "illuminance_max_lx" : "irradiance_max_w_m2", "largest",
        units("W m-2"), "{:.4g}", v.largest}};
-  if (v.place.empty()) return columns;
+  if (v.place.empty()) {
+    columns.push_back({key("mesh_error_kwh_m2"), "mesh", units("kWh m-2"), "{:.2g}", v.mesh_error});
+    return columns;
+  }
   columns.push_back({"x_m", "x", "m", "{:.2f}", component(v.place, &Vec3::x)});
   columns.push_back({"y_m", "y", "m", "{:.2f}", component(v.place, &Vec3::y)});
   columns.push_back({"z_m", "z", "m", "{:.2f}", component(v.place, &Vec3::z)});

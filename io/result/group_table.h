@@ -31,11 +31,12 @@ struct GroupTable {
 /// A row for every facade, object, selection or sensor that `parts` chooses and that has area, in
 /// the order of the file. Columns: azimuth_deg (clockwise from north; none of objects and
 /// selections, and of sensors that look straight up or down), area_m2 (of an object both sides;
-/// none of sensors), the area-weighted mean light load with its standard error and both times the
-/// area, sun_hours_h and sky_view_factor (means), irradiance_max_w_m2 (largest of any patch at any
-/// instant); of sensors also x_m, y_m, z_m, absolute. Loads of facades are those of the file;
-/// standard errors come from the realizations. Throws InputError where the result has none of them
-/// or lacks what is named, and for names of another kind.
+/// none of sensors), the area-weighted mean light load with its standard error, that of the mesh
+/// (io/result/mesh_error; none of sensors), load and standard error times the area, sun_hours_h and
+/// sky_view_factor (means), irradiance_max_w_m2 (largest of any patch at any instant); of sensors
+/// also x_m, y_m, z_m, absolute. Loads of facades are those of the file; standard errors come from
+/// the realizations. Throws InputError where the result has none of them or lacks what is named,
+/// and for names of another kind.
 GroupTable group_table(const ResultReader& result, TableOf of, const NamedParts& parts);
 
 /// RFC 4180: `name` and the columns' keys, a row for each; what is not known is empty.

@@ -87,6 +87,9 @@ PartOfPeriod::PartOfPeriod(const ResultReader& result, const PeriodChoice& choic
     throw InputError({result.path()},
                      choice.words() + ": a comparison is of the period it was made of", "",
                      "compare the results with --" + choice.words() + " --hdf5 FILE");
+  if (result.is_place_map())
+    throw InputError({result.path()}, choice.words() + ": the map is of the period it was made of",
+                     "", "write it with explain --" + choice.words() + " --map FILE");
   length_s_ = interval_lengths(result);
   if (result.number_attribute("time_is_synthetic") > 0)
     throw InputError({result.path()}, choice.words() + ": its suns have no dates",
@@ -143,8 +146,7 @@ bool PartOfPeriod::tells(const std::string& dataset) const {
   if (is_whole_) return false;
   const ResultVariable* variable = find_result_variable(dataset, result_.quantity());
   if (!variable || variable->part != ResultPart::total) return false;
-  return dataset.find("_by_") == std::string::npos && !dataset.ends_with("sky_view_factor") &&
-         dataset != "patch_lines";
+  return dataset.find("_by_") == std::string::npos && !is_of_scene(dataset);
 }
 
 std::string PartOfPeriod::of_parts(const std::string& dataset) const {

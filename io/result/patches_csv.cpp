@@ -8,16 +8,22 @@
 
 #include "geo/mesh/mesh.h"
 #include "io/base/text.h"
+#include "io/result/schema.h"
 
 namespace sunload {
 namespace {
 
 /// A dataset [patch], or nothing where the result lacks it.
 struct Column {
-  const char* dataset;
-  const char* header;
+  std::string dataset;
+  std::string header;
   std::vector<double> values;
 };
+
+/// "light_given_kwh_m4"
+std::string header_of(const ResultVariable& variable) {
+  return std::string(variable.name) + (variable.units == "1" ? "" : "_kwh_m4");
+}
 
 std::vector<Column> value_columns(const ResultReader& result) {
   std::vector<Column> columns{{"light_load", "light_load_kwh_m2", {}},
@@ -34,6 +40,11 @@ std::vector<Column> value_columns(const ResultReader& result) {
                {"variant_light_load", "variant_kwh_m2", {}},
                {"light_load_difference", "difference_kwh_m2", {}},
                {"light_load_difference_se", "se_kwh_m2", {}}};
+  if (result.is_place_map()) {
+    columns.clear();
+    for (const auto& variable : place_map_schema())
+      columns.push_back({std::string(variable.name), header_of(variable), {}});
+  }
   for (auto& column : columns)
     if (result.has(column.dataset)) column.values = result.doubles(column.dataset);
   return columns;

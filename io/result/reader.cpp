@@ -131,8 +131,9 @@ h5::File opened(const std::string& path, Opens opens) {
     refuse_damage(end_problem(path, file));
     const auto format = file.text("sunload_format");
     if (!format) throw InputError({path}, "is not a result of sunload", "no sunload_format");
-    const bool is_wanted = *format == result_format ||
-                           (*format == comparison_format && opens == Opens::comparisons_too);
+    const bool is_wanted =
+        *format == result_format || (opens == Opens::derived_too &&
+                                     (*format == comparison_format || *format == place_map_format));
     if (!is_wanted) {
       throw InputError({path}, "has the format " + *format,
                        "this program reads " + std::string(result_format));
@@ -174,6 +175,10 @@ const std::string& ResultReader::path() const { return file_->path; }
 
 bool ResultReader::is_comparison() const {
   return text_attribute("sunload_format") == comparison_format;
+}
+
+bool ResultReader::is_place_map() const {
+  return text_attribute("sunload_format") == place_map_format;
 }
 
 bool ResultReader::has(const std::string& dataset) const {

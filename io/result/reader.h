@@ -23,9 +23,10 @@ namespace sunload {
 /// are the means of the bands, which is broadband light. (Of standard errors and of largest values
 /// these means are upper bounds: bands share their lines.) Shapes have no dimension `band` then.
 ///
-/// A comparison file (docs/comparison-file.md) is opened where the caller can do with one: it has
-/// the patches and names of its base, no times, and as totals the datasets of `comparison_schema`.
-enum class Opens { results, comparisons_too };
+/// What is derived from results, a comparison file (docs/comparison-file.md) or the map of a place
+/// (docs/explain.md), is opened where the caller can do with one: it has the patches and names of
+/// its base, no times, and as totals the datasets of `comparison_schema` or `place_map_schema`.
+enum class Opens { results, derived_too };
 class ResultReader {
  public:
   explicit ResultReader(const std::string& path, std::optional<std::size_t> band = {},
@@ -52,6 +53,9 @@ class ResultReader {
   double number_attribute(
       const std::string& name) const;  ///< of the root; NaN if absent or impossible
   bool is_comparison() const;
+  bool is_place_map() const;
+  /// One of both.
+  bool is_derived() const { return is_comparison() || is_place_map(); }
   Quantity quantity() const;
   Bands bands() const;
   /// Absolute position that positions in the file are relative to [m]; zero if absent.

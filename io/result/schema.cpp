@@ -13,6 +13,7 @@ using h5::Type;
 using enum ResultPart;
 
 constexpr std::string_view w_m2 = "W m-2", kwh_m2 = "kWh m-2", interval_mean = "time: mean";
+constexpr std::string_view kwh_m4 = "kWh m-4";
 constexpr std::string_view facade_mean = "time: mean area: mean";
 
 constexpr auto float32 = Type::float32;
@@ -97,6 +98,8 @@ constexpr std::array table{
     ResultVariable{"sky_view_factor", "patch", float64, "1", total, "cosine-weighted share of the hemisphere that is sky"},
     ResultVariable{"patch_lines", "patch", float64, "1", total, "lines that the patch cast, over all realizations"},
     ResultVariable{"power_load", "patch", float64, kwh_m2, total, "outgoing diffuse energy per area: reflected and emitted"},
+    ResultVariable{"diffuse_reflectance", "patch", float64, "1", total, "share of incident light that is reflected diffusely"},
+    ResultVariable{"emitted_exitance", "patch", float64, w_m2, total, "diffuse light that emitters send of their own, where there are any"},
     ResultVariable{"facade_light_load", "facade", float64, kwh_m2, total, "light load, mean over the facade", "", "area: mean"},
     ResultVariable{"facade_light_load_se", "facade", float64, kwh_m2, total, "standard error of facade_light_load"},
     ResultVariable{"facade_light_load_realization", "realization,facade", float64, kwh_m2, total, "light load of the facade in each realization", "", "area: mean"},
@@ -235,6 +238,19 @@ constexpr std::array comparison_table{
     ResultVariable{"facade_light_load_difference", "facade", float64, kwh_m2, total, "variant minus base, area-weighted means"},
     ResultVariable{"facade_light_load_difference_se", "facade", float64, kwh_m2, total, "standard error of the difference"},
 };
+
+constexpr std::array place_map_table{
+    ResultVariable{given_dataset, "patch", float64, kwh_m4, total, "what the place has by each square metre of the patch: reflected, mirrored and shone"},
+    ResultVariable{"light_given_se", "patch", float64, kwh_m4, total, "standard error of light_given"},
+    ResultVariable{"light_given_reflected", "patch", float64, kwh_m4, total, "the part that the patch reflects diffusely, seen straight"},
+    ResultVariable{"light_given_mirror", "patch", float64, kwh_m4, total, "the part that is seen by way of the patch as a mirror or pane"},
+    ResultVariable{"light_given_lamps", "patch", float64, kwh_m4, total, "the part that the patch shines by itself"},
+    ResultVariable{"light_taken", "patch", float64, kwh_m4, total, "what each square metre of the patch takes from the place by standing before sun, sky and far ground"},
+    ResultVariable{"light_taken_sun", "patch", float64, kwh_m4, total, "the part of the sun"},
+    ResultVariable{"light_taken_sky", "patch", float64, kwh_m4, total, "the part of the sky"},
+    ResultVariable{"light_taken_ground", "patch", float64, kwh_m4, total, "the part of the far ground"},
+    ResultVariable{"place_weight", "patch", float64, "1", total, "share of the place that the patch is, 0 outside of it"},
+};
 // clang-format on
 
 /// The table for illuminance, which owns its texts.
@@ -270,6 +286,11 @@ std::span<const ResultVariable> comparison_schema(Quantity quantity) {
   return quantity == Quantity::illuminance ? illuminance.rows() : comparison_table;
 }
 
+std::span<const ResultVariable> place_map_schema(Quantity quantity) {
+  static const IlluminanceTable illuminance(place_map_table);
+  return quantity == Quantity::illuminance ? illuminance.rows() : place_map_table;
+}
+
 const ResultVariable* find_result_variable(std::string_view name, Quantity quantity) {
   for (const auto& variable : result_schema(quantity)) {
     if (variable.name == name) return &variable;
@@ -294,10 +315,16 @@ std::vector<std::string> dimension_names(const ResultVariable& variable) {
   return names;
 }
 
+bool is_of_scene(std::string_view dataset) {
+  return dataset.ends_with("sky_view_factor") || dataset == "patch_lines" ||
+         dataset == "diffuse_reflectance" || dataset == "emitted_exitance";
+}
+
 bool has_bands(const ResultVariable& variable) {
   const std::string_view name = variable.name;
-  if (name.find("sun_hours") != std::string_view::npos || name.ends_with("sky_view_factor") ||
-      name == "patch_lines" || name.find(measure_prefix) != std::string_view::npos)
+  if (name == "diffuse_reflectance") return true;
+  if (name.find("sun_hours") != std::string_view::npos || is_of_scene(name) ||
+      name.find(measure_prefix) != std::string_view::npos)
     return false;
   return variable.part == ResultPart::series || variable.part == ResultPart::ledger ||
          variable.part == ResultPart::total;

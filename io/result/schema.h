@@ -52,8 +52,10 @@ const ResultVariable* find_result_variable(std::string_view name,
 bool is_coordinate_of_itself(const ResultVariable& variable);
 /// "time,patch" → {"time", "patch"}.
 std::vector<std::string> dimension_names(const ResultVariable& variable);
+/// Whether it is of the scene, whatever the time: the same of every part of the period.
+bool is_of_scene(std::string_view dataset);
 /// Whether there is a value per band in a result of light in bands: series, totals and the ledger,
-/// but for what is geometry (sun hours, sky view factors).
+/// but for what is the same in all of them (sun hours, sky view factors, emitters).
 bool has_bands(const ResultVariable& variable);
 /// The same dimensions with `band` put in: before those of patches, facades and sensors, else last.
 std::vector<std::string> with_band(std::vector<std::string> dimensions);
@@ -63,8 +65,14 @@ std::span<const ResultVariable> comparison_schema(Quantity quantity = Quantity::
 /// The dataset of differences: values on both sides of 0.
 inline constexpr std::string_view difference_dataset = "light_load_difference";
 
+/// What a map of a place has of the patches that give and take its light (docs/explain.md).
+std::span<const ResultVariable> place_map_schema(Quantity quantity = Quantity::irradiance);
+/// The dataset of it that is shown where nobody says which.
+inline constexpr std::string_view given_dataset = "light_given";
+
 inline constexpr std::string_view result_format = "sunload-result-1";
 inline constexpr std::string_view comparison_format = "sunload-comparison-1";
+inline constexpr std::string_view place_map_format = "sunload-place-map-1";
 inline constexpr std::string_view result_conventions = "CF-1.10 UGRID-1.0";
 inline constexpr std::string_view time_units = "seconds since 1970-01-01T00:00:00Z";
 

@@ -12,6 +12,7 @@
 #include "io/base/statistics.h"
 #include "io/base/text.h"
 #include "io/result/measure_table.h"
+#include "io/result/radiance.h"
 #include "io/result/schema.h"
 #include "io/result/time.h"
 
@@ -25,6 +26,7 @@ InputError unknown_quantity(const ResultReader& result, const std::string& quant
   for (const auto which : {PatchDatasets::totals, PatchDatasets::series})
     for (const auto& name : patch_datasets(result, which))
       known += (known.empty() ? "" : ", ") + name;
+  if (!result.is_derived()) known += ", " + radiance_name(result.quantity());
   return {{result.path()}, "no quantity " + quantity + " per patch", "", "choose one of " + known};
 }
 
@@ -32,9 +34,30 @@ bool is_one_of(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// Of all that is shown it alone is no dataset.
+bool is_radiance(const ResultReader& result, const std::string& quantity) {
+  return !result.is_derived() && quantity == radiance_name(result.quantity());
+}
+
+ShownQuantity shown_radiance(const ResultReader& result, const std::string& time) {
+  ShownQuantity s;
+  s.dataset = radiance_name(result.quantity());
+  s.name = s.dataset + " of diffuse light alone";
+  s.stored_units = radiance_units(result.quantity());
+  s.units = display_units(s.stored_units);
+  s.is_derived = true;
+  s.is_series = !time.empty();
+  s.interval = s.is_series ? interval_at(result, time) : brightest_interval(result);
+  s.values = s.is_series ? radiance_at(result, s.interval) : mean_radiance(result);
+  s.when = s.is_series ? "sun of " + interval_in_words(result, s.interval)
+                       : "mean of " + period_in_words(result);
+  return s;
+}
+
 }  // namespace
 
 std::string usual_quantity(const ResultReader& result) {
+  if (result.is_place_map()) return std::string(given_dataset);
   return result.is_comparison() ? std::string(difference_dataset) : "light_load";
 }
 
@@ -55,8 +78,9 @@ std::vector<std::string> patch_datasets(const ResultReader& result, PatchDataset
   const std::string_view dims = which == PatchDatasets::totals ? "patch" : "time,patch";
   const auto patches = result.shape("patch_area").front();
   std::vector<std::string> names;
-  const auto schema = result.is_comparison() ? comparison_schema(result.quantity())
-                                             : result_schema(result.quantity());
+  const auto schema = result.is_comparison()  ? comparison_schema(result.quantity())
+                      : result.is_place_map() ? place_map_schema(result.quantity())
+                                              : result_schema(result.quantity());
   for (const auto& variable : schema) {
     const std::string name(variable.name);
     if (variable.dims == dims && !variable.units.empty() && result.has(name) &&
@@ -71,15 +95,17 @@ std::vector<std::string> patch_datasets(const ResultReader& result, PatchDataset
 
 ShownQuantity shown_quantity(const ResultReader& result, const std::string& dataset,
                              const std::string& time) {
+  if (is_radiance(result, dataset)) return shown_radiance(result, time);
   ShownQuantity s;
   s.is_series = is_one_of(patch_datasets(result, PatchDatasets::series), dataset);
   if (!s.is_series && !is_one_of(patch_datasets(result, PatchDatasets::totals), dataset))
     throw unknown_quantity(result, dataset);
   s.dataset = s.name = dataset;
   std::replace(s.name.begin(), s.name.end(), '_', ' ');
-  s.units = display_units(result.units(dataset));
+  s.stored_units = result.units(dataset);
+  s.units = display_units(s.stored_units);
   s.is_difference = result.is_comparison() && dataset == difference_dataset;
-  if (!result.is_comparison())
+  if (!result.is_derived())
     s.interval = time.empty() ? brightest_interval(result) : interval_at(result, time);
   s.values = s.is_series ? result.row(dataset, s.interval) : result.doubles(dataset);
   s.when =

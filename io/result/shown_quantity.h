@@ -18,9 +18,11 @@ struct ShownQuantity {
   std::string dataset;
   std::string name;            ///< words: "light load"
   std::string units;           ///< as people write them
+  std::string stored_units;    ///< as files have them: "kWh m-2"
   std::string when;            ///< the whole period, or the interval in words
   std::size_t interval = 0;    ///< of the time asked for, or the brightest one
   bool is_series = false;      ///< values are those of `interval`
+  bool is_derived = false;     ///< made of datasets, and none itself
   bool is_difference = false;  ///< values lie on both sides of 0
 
   /// Value of the first colour of a scale that ends with `largest`.
@@ -36,7 +38,9 @@ std::string usual_quantity(const ResultReader& result);
 std::string leave_out_or_name_a_series(const ResultReader& result);
 
 /// A dataset [patch] as it is, or the interval of a dataset [time, patch] that holds `time`
-/// (as in a study; empty: the brightest). Throws InputError that lists what there is.
+/// (as in a study; empty: the brightest); or the radiance of what leaves diffusely (luminance, of a
+/// result of illuminance) in that interval, or where `time` is empty its mean
+/// (io/result/radiance.h). Throws InputError that lists what there is.
 ShownQuantity shown_quantity(const ResultReader& result, const std::string& dataset,
                              const std::string& time);
 

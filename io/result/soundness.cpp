@@ -99,8 +99,8 @@ bool is_indispensable(const ResultVariable& variable) {
          !variable.dims.starts_with("selection") && !variable.name.ends_with("_illuminance");
 }
 
-/// Whether a comparison file has it, too: geometry and names of the base's patches.
-bool is_of_compared_patches(const ResultVariable& variable) {
+/// Whether what is derived from a result has it, too: geometry and names of the base's patches.
+bool is_of_derived_patches(const ResultVariable& variable) {
   const bool is_of_patches = variable.dims.starts_with("patch") || variable.dims == "vertex,xyz";
   return (is_of_patches && is_indispensable(variable) && variable.name != "patch_input_triangle") ||
          variable.name == "object_name" || variable.name == "material_name";
@@ -129,7 +129,9 @@ class Examination {
     quantity_ = file.text("quantity").value_or("") == "illuminance" ? Quantity::illuminance
                                                                     : Quantity::irradiance;
     is_rgb_ = file.has("band");
-    is_comparison_ = file.text("sunload_format").value_or("") == comparison_format;
+    const auto format = file.text("sunload_format").value_or("");
+    if (format == comparison_format) derived_ = comparison_schema(quantity_);
+    if (format == place_map_format) derived_ = place_map_schema(quantity_);
   }
 
   void shapes() {
@@ -138,24 +140,23 @@ class Examination {
       if (file_.has(name) && is_bare_scale(variable)) continue;
       if (file_.has(name))
         shape(variable, file_.dataset(name));
-      else if (is_comparison_ ? is_of_compared_patches(variable) : is_indispensable(variable))
+      else if (is_derived() ? is_of_derived_patches(variable) : is_indispensable(variable))
         add("there is no dataset " + name, "every result has one");
     }
     for (const std::string& name : file_.names()) {
       const ResultVariable* of = find_result_variable(name, quantity_);
-      if (!of || of->name == name || is_comparison_) continue;
+      if (!of || of->name == name || is_derived()) continue;
       ResultVariable measure = *of;
       measure.name = name;
       if (name.ends_with(measure_spans_end)) measure.type = h5::Type::text;
       shape(measure, file_.dataset(name));
     }
-    if (!is_comparison_) return;
-    for (const auto& variable : comparison_schema(quantity_)) {
+    for (const auto& variable : derived_) {
       const std::string name(variable.name);
       if (file_.has(name))
         shape(variable, file_.dataset(name));
       else if (variable.dims == "patch")
-        add("there is no dataset " + name, "every comparison has one");
+        add("there is no dataset " + name, "every file of its format has one");
     }
   }
 
@@ -192,6 +193,8 @@ class Examination {
   void throw_if_any() const { problems_.throw_if_any(); }
 
  private:
+  bool is_derived() const { return !derived_.empty(); }
+
   void add(const std::string& what, const std::string& why) {
     problems_.add({path_}, what, why, "another program has changed it: run the study again");
   }
@@ -310,7 +313,8 @@ class Examination {
   const std::string& path_;
   const h5::File& file_;
   Quantity quantity_ = Quantity::irradiance;
-  bool is_rgb_ = false, is_comparison_ = false;
+  bool is_rgb_ = false;
+  std::span<const ResultVariable> derived_;  ///< of a comparison or a map of a place; else empty
   Problems problems_;
   std::set<std::string, std::less<>> sound_;  ///< datasets of the right kind and rank
   bool has_sizes_ = true;                     ///< dimensions agree

@@ -75,7 +75,7 @@ std::string interval_in_words(const ResultReader& result, std::size_t interval) 
 }
 
 std::string period_in_words(const ResultReader& result) {
-  if (result.is_comparison()) return result.text_attribute("period");
+  if (result.is_derived()) return result.text_attribute("period");
   const auto bounds = result.doubles("time_bounds");
   const auto shares = result.chosen_shares();
   std::vector<TimeSpan> intervals;

@@ -110,6 +110,19 @@ void write_loads(BandWriter& writer, const Totals& totals, const ResultGeometry&
   });
 }
 
+/// What makes of incident light the light that patches send diffusely. Nothing of it is known
+/// where materials change so with the seasons.
+void write_surfaces(BandWriter& writer, const VariantPlan& plan, const Hierarchy& hierarchy) {
+  if (!sends_alike_in_all_seasons(plan)) return;
+  writer.write("diffuse_reflectance", 1, [&](const std::string& band) {
+    return diffuse_reflectances(plan, hierarchy, band_array(band).band);
+  });
+  const auto exitance = emitted_exitances(plan, hierarchy);
+  const bool any_emits =
+      std::any_of(exitance.begin(), exitance.end(), [](double m) { return m > 0; });
+  if (any_emits) writer.write_once("emitted_exitance", exitance);
+}
+
 void write_ledger_errors(BandWriter& writer, const Totals& totals) {
   for (std::size_t line = 0; line < ledger_line_count; ++line) {
     const std::string name = ledger_line_names[line];
@@ -158,6 +171,7 @@ std::vector<std::string> merge_variant(const WorkFolder& folder, const VariantPl
   totals.add_means();
   BandWriter band_writer(writer, options.bands);
   write_loads(band_writer, totals, geometry, options.realizations);
+  write_surfaces(band_writer, plan, hierarchy);
   write_ledger_errors(band_writer, totals);
   measures.write(writer);
   writer.finish(result_attributes({plan, file, totals, geometry}), file.yaml);

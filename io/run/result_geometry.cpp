@@ -50,6 +50,52 @@ ResultGeometry result_geometry(const VariantPlan& plan, const Hierarchy& hierarc
   return g;
 }
 
+namespace {
+
+/// Of a triangle, in every season of the period.
+std::vector<const Material*> materials_of(const VariantPlan& plan, std::size_t triangle) {
+  if (plan.seasons.all.empty()) return {&plan.built.scene.material_of(triangle)};
+  std::vector<const Material*> materials;
+  for (const SceneSeason& season : plan.seasons.all)
+    materials.push_back(&season.materials[season.material[triangle].index()]);
+  return materials;
+}
+
+const Material& material_of(const VariantPlan& plan, const Patch& patch) {
+  return *materials_of(plan, static_cast<std::size_t>(patch.triangle)).front();
+}
+
+}  // namespace
+
+bool sends_alike_in_all_seasons(const VariantPlan& plan) {
+  for (std::size_t t = 0; t < plan.built.scene.mesh.triangles.size(); ++t) {
+    const auto materials = materials_of(plan, t);
+    for (const Material* material : materials)
+      if (material->diffuse != materials.front()->diffuse ||
+          material->diffuse_in_band != materials.front()->diffuse_in_band ||
+          material->emission_w_m2 != materials.front()->emission_w_m2)
+        return false;
+  }
+  return true;
+}
+
+std::vector<double> diffuse_reflectances(const VariantPlan& plan, const Hierarchy& hierarchy,
+                                         std::optional<std::size_t> band) {
+  std::vector<double> reflectance;
+  for (const Patch& patch : hierarchy.patches()) {
+    const Material& material = material_of(plan, patch);
+    reflectance.push_back(band ? diffuse_in(material, *band) : material.diffuse);
+  }
+  return reflectance;
+}
+
+std::vector<double> emitted_exitances(const VariantPlan& plan, const Hierarchy& hierarchy) {
+  std::vector<double> exitance;
+  for (const Patch& patch : hierarchy.patches())
+    exitance.push_back(material_of(plan, patch).emission_w_m2);
+  return exitance;
+}
+
 ResultTimes result_times(const VariantPlan& plan) {
   const Quantity quantity = plan.study.light.quantity;
   ResultTimes times;

@@ -3,6 +3,10 @@
 /// What of a result is known before any light: patches, tables, times.
 #pragma once
 
+#include <cstddef>
+#include <optional>
+#include <vector>
+
 #include "io/plan/variant_plan.h"
 #include "io/result/writer.h"
 
@@ -12,6 +16,13 @@ class Hierarchy;
 
 /// Geometry of the result: the frozen mesh with its tables.
 ResultGeometry result_geometry(const VariantPlan& plan, const Hierarchy& hierarchy);
+/// Whether reflectances and emissions below are those of all seasons.
+bool sends_alike_in_all_seasons(const VariantPlan& plan);
+/// Diffuse reflectance of every patch, in that band or of all light; in the first season.
+std::vector<double> diffuse_reflectances(const VariantPlan& plan, const Hierarchy& hierarchy,
+                                         std::optional<std::size_t> band);
+/// What every patch emits [W m-2], which is the same in all bands; in the first season.
+std::vector<double> emitted_exitances(const VariantPlan& plan, const Hierarchy& hierarchy);
 /// Its rows; with illuminances where the study asks for them.
 ResultTimes result_times(const VariantPlan& plan);
 

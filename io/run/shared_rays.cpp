@@ -9,6 +9,7 @@
 namespace sunload {
 
 std::string rays_key(const VariantPlan& plan) {
+  if (!plan.seasons.all.empty()) return {};
   const SolverStudy& solver = plan.study.solver;
   if (solver.transport != Transport::gather || solver.accuracy || has_lamps(plan)) return {};
   return rays_digest(plan.study, plan.built, plan.light, plan.isa,

@@ -82,6 +82,7 @@ VariantRun::~VariantRun() {
 
 void VariantRun::prepare(MpiWorld* world) {
   rules_ = decided_rules();
+  if (!plan_.seasons.all.empty()) return build_seasons();
   if (!world) return read_or_trace();
   if (world->is_first()) read_or_trace();
   world->wait_for_all();
@@ -95,7 +96,7 @@ void VariantRun::take_shared_lines() {
     progress_.say(fmt::format("{}: rays tell of it what they told of {}; they are not cast again",
                               plan_.study.variant, shared_->traced_by));
   build(std::exchange(shared_->lines, {}));
-  unwritten_.add(Work::line_rays, traced_->patches.lines.rays);
+  unwritten_.add(Work::line_rays, seasons_.front()->traced().patches.lines.rays);
 }
 
 void VariantRun::read_or_trace() {
@@ -114,27 +115,41 @@ void VariantRun::read_or_trace() {
     progress_.warn("warning: cannot lock " + lock_path + " (" + lock.problem() +
                    "); processes that start together each trace the lines");
   build(read_prepared(path, plan_.content_hash));
-  if (traced_->work[Work::line_rays] > 0) keep_lines(path);
+  if (unwritten_[Work::line_rays] > 0) keep_lines(path);
 }
 
 void VariantRun::build(std::optional<Lines> ready) {
   if (!ready) progress_.advance(Stage::lines, 0);
-  auto traced = trace_scene(plan_.built.scene, mesh_, rules_, progress_, std::move(ready));
-  lights_.emplace(plan_.study, plan_.built.site, traced->grid);
-  period_.emplace(*lights_, plan_.light);
-  traced->expect(*period_, shared_ ? shared_->views : nullptr);
-  if (shared_) shared_->views = traced->sun_views;
-  traced_ = std::move(traced);
-  transport_ = transport_of(*traced_, *period_);
-  unwritten_ = traced_->work;
-  unwritten_ += transport_->work();
-  done_ = unwritten_;
-  warn_of_sensors();
-  tell_reduction();
+  auto season = std::make_unique<TracedSeason>(plan_, 0, mesh_, rules_, progress_, std::move(ready),
+                                               shared_ ? shared_->views : nullptr);
+  if (shared_) shared_->views = season->traced().sun_views;
+  add(std::move(season));
+  seen_ = seen_once(seasons_.front()->traced());
 }
 
-void VariantRun::tell_reduction() const {
-  const Reduction* reduction = transport_->reduction();
+/// Every process traces them for itself: nothing is kept in the prepared file.
+void VariantRun::build_seasons() {
+  std::vector<SeenOnce> seen;
+  std::vector<double> shares;
+  for (std::size_t s = 0; s < plan_.seasons.all.size(); ++s) {
+    progress_.advance(Stage::lines, 0);
+    add(std::make_unique<TracedSeason>(plan_, s, mesh_, rules_, progress_));
+    seen.push_back(seen_once(seasons_.back()->traced()));
+    shares.push_back(seasons_.back()->share());
+  }
+  seen_ = mean_seen(seen, shares);
+}
+
+void VariantRun::add(std::unique_ptr<TracedSeason> season) {
+  unwritten_ += season->work();
+  done_ = unwritten_;
+  seasons_.push_back(std::move(season));
+  if (seasons_.size() == 1) warn_of_sensors();
+  tell_reduction(*seasons_.back());
+}
+
+void VariantRun::tell_reduction(const TracedSeason& season) const {
+  const Reduction* reduction = season.transport().reduction();
   if (!reduction) return;
   const double share = reduction->standard_error_w_m2 > 0
                            ? reduction->error_w_m2 / reduction->standard_error_w_m2
@@ -151,7 +166,7 @@ void VariantRun::tell_reduction() const {
 }
 
 void VariantRun::warn_of_sensors() {
-  const std::size_t orientations = traced_->mirror_orientations();
+  const std::size_t orientations = seasons_.front()->traced().mirror_orientations();
   const auto most = static_cast<std::size_t>(rules_.most_sensor_beams);
   if (plan_.built.scene.sensors.empty() || orientations <= most) return;
   warn(fmt::format(
@@ -164,7 +179,7 @@ void VariantRun::warn_of_sensors() {
 void VariantRun::keep_lines(const std::string& path) {
   try {
     folder_.make();
-    write_prepared(path, plan_.content_hash, traced_->patches.lines);
+    write_prepared(path, plan_.content_hash, seasons_.front()->traced().patches.lines);
   } catch (const MachineError& error) {
     warn(std::string("the traced lines are not kept (") + error.what() +
          "); who goes on with this work traces them again");
@@ -207,8 +222,7 @@ void VariantRun::compute(std::size_t batch) {
   const std::size_t first = batch * plan_.batch_suns();
   const std::size_t count = std::min(plan_.batch_suns(), plan_.intervals() - first);
   const BatchParts parts = parts_of_batch(plan_.totals, first, count);
-  const Solved solved = solve(*transport_, lights_->of(plan_.light, first, count), progress_,
-                              parts.solved, record_of(batch));
+  const Solved solved = this->solved(batch, parts);
   unwritten_ += solved.work;
   done_ += solved.work;
   const StoredSeries stored = stored_series(plan_.study);
@@ -223,20 +237,45 @@ void VariantRun::compute(std::size_t batch) {
                                                 .compression = plan_.study.output.compression,
                                                 .left_out = stored.left_out});
   const auto& accuracy = plan_.study.solver.accuracy;
-  add_tallies(*writer, solved.bands, *traced_, plan_.built.scene.mesh, parts, unwritten_,
-              accuracy ? accuracy->irradiance_relative : std::nullopt, stored);
-  if (const Reduction* reduction = transport_->reduction()) {
-    const std::array values{static_cast<double>(reduction->skies),
-                            static_cast<double>(reduction->suns), reduction->error_w_m2,
-                            reduction->standard_error_w_m2};
-    writer->add({batch_array::reduction, MergeRule::maximum, ArrayType::float64, {values.size()}},
-                values.data());
-  }
+  add_tallies(*writer, solved.bands, seasons_.front()->traced(), seen_, plan_.built.scene.mesh,
+              parts, unwritten_, accuracy ? accuracy->irradiance_relative : std::nullopt, stored);
+  add_reduction(*writer);
   writing_.begin([this, writer = std::move(writer), path = folder_.batch(batch)]() mutable {
     write(*writer, path);
     writer.reset();  // its memory; the thread's state lives until the next file
   });
   unwritten_ = {};
+}
+
+Solved VariantRun::solved(std::size_t batch, const BatchParts& parts) {
+  const std::size_t first = batch * plan_.batch_suns();
+  const std::size_t count = std::min(plan_.batch_suns(), plan_.intervals() - first);
+  const auto suns = seasons_.front()->lights().of(plan_.light, first, count);
+  if (seasons_.size() == 1)
+    return solve(seasons_.front()->transport(), suns, progress_, parts.solved, record_of(batch));
+  std::vector<const LightTransport*> scenes;
+  for (const auto& season : seasons_) scenes.push_back(&season->transport());
+  std::vector<Stretch> stretches;
+  for (const SeasonStretch& stretch : plan_.seasons.stretches(first, count))
+    stretches.push_back({stretch.season, stretch.count});
+  return solve_in_turns(scenes, stretches, suns, progress_, parts.solved);
+}
+
+/// The worst of all seasons.
+void VariantRun::add_reduction(BatchWriter& writer) const {
+  std::array<double, 4> values{};
+  bool is_there = false;
+  for (const auto& season : seasons_)
+    if (const Reduction* reduction = season->transport().reduction()) {
+      is_there = true;
+      const std::array of_season{static_cast<double>(reduction->skies),
+                                 static_cast<double>(reduction->suns), reduction->error_w_m2,
+                                 reduction->standard_error_w_m2};
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::max(values[i], of_season[i]);
+    }
+  if (is_there)
+    writer.add({batch_array::reduction, MergeRule::maximum, ArrayType::float64, {values.size()}},
+               values.data());
 }
 
 /// Where another variant is to come that takes it, or this one can take it.
@@ -254,11 +293,10 @@ RayRecord* VariantRun::record_of(std::size_t batch) {
 void VariantRun::finish() { writing_.finish(); }
 
 void VariantRun::leave_lines() {
-  if (!shared_ || !shared_->is_wanted_later || !traced_) return;
-  transport_.reset();
+  if (!shared_ || !shared_->is_wanted_later || seasons_.size() != 1) return;
   if (shared_->traced_by.empty()) shared_->traced_by = plan_.study.variant;
-  shared_->lines = std::move(traced_->patches.lines);
-  traced_.reset();
+  shared_->lines = seasons_.front()->leave_lines();
+  seasons_.clear();
 }
 
 /// Another process that failed may have removed the folder, which was empty until now; who cleans
@@ -276,8 +314,7 @@ void VariantRun::write(const BatchWriter& writer, const std::string& path) const
 
 void VariantRun::report_work() const {
   const WorkDone& w = done_;
-  std::string text =
-      fmt::format("{}: {} patches\n", plan_.study.variant, traced_->hierarchy().patch_count());
+  std::string text = fmt::format("{}: {} patches\n", plan_.study.variant, mesh_->patch_count());
   text += rays_text("lines", w[Work::line_rays], w[Work::lines_s]);
   text += rays_text("direct sun", w[Work::direct_rays], w[Work::direct_s]);
   text += rays_text("mirrored sun", w[Work::mirror_rays], w[Work::mirror_s]);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Computes batches of one variant and writes them: lines once, then any batch.
+/// Computes batches of one variant and writes them: lines once (of each season in which materials
+/// are others), then any batch.
 #pragma once
 
 #include <memory>
@@ -8,10 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "io/plan/interval_lights.h"
+#include "io/batch/batch_tally.h"
 #include "io/plan/variant_plan.h"
 #include "io/run/progress.h"
 #include "io/run/shared_rays.h"
+#include "io/run/traced_season.h"
 #include "io/run/work_folder.h"
 #include "io/run/writing_behind.h"
 #include "solver/solver.h"
@@ -52,8 +54,12 @@ class VariantRun {
   void take_shared_lines();
   RayRecord* record_of(std::size_t batch);
   void build(std::optional<Lines> ready);
+  void build_seasons();
+  void add(std::unique_ptr<TracedSeason> season);
   void warn_of_sensors();
-  void tell_reduction() const;
+  void tell_reduction(const TracedSeason& season) const;
+  Solved solved(std::size_t batch, const BatchParts& parts);
+  void add_reduction(BatchWriter& writer) const;
   void keep_lines(const std::string& path);
   SolverRules decided_rules();
   void write(const BatchWriter& writer, const std::string& path) const;
@@ -64,11 +70,9 @@ class VariantRun {
   std::shared_ptr<const Hierarchy> mesh_;
   Progress& progress_;
   TracedRays* shared_;
-  SolverRules rules_;  ///< of the solver, counts decided
-  std::unique_ptr<TracedScene> traced_;
-  std::optional<IntervalLights> lights_;  ///< on the sky grid of the traced scene
-  std::optional<SeriesLight> period_;
-  std::unique_ptr<const LightTransport> transport_;
+  SolverRules rules_;                                   ///< of the solver, counts decided
+  std::vector<std::unique_ptr<TracedSeason>> seasons_;  ///< one where materials stay
+  SeenOnce seen_;
   WorkDone unwritten_;     ///< work that no batch carries yet
   WorkDone done_;          ///< all of it
   WritingBehind writing_;  ///< of the batch before

@@ -58,6 +58,7 @@ json canonical(const SceneFileStudy& file);
 json canonical(const MeasureParameters& measure);
 json canonical(const EditStep& step);
 json canonical(const NamedSelection& selection);
+json canonical(const SeasonStudy& season);
 
 template <class T>
 json list_of(const std::vector<T>& values) {
@@ -109,8 +110,8 @@ json canonical(const SunStudy& sun) {
 
 json canonical(const LightStudy& light) {
   const auto& [source, model, linke_turbidity, dni_w_m2, dhi_w_m2, sky, sky_type, turbidity,
-               sky_scale, zenith_luminance_cd_m2, far_ground_albedo, quantity, weather, colour,
-               stamp, missing, decomposition] = light;
+               sky_scale, zenith_luminance_cd_m2, far_ground_albedo, far_ground_seasons, quantity,
+               weather, colour, stamp, missing, decomposition] = light;
   // The weather file is hashed by its bytes; the colour belongs to the solver's bands.
   json canon = {{"stamp", maybe(stamp)},       {"quantity", word_of(quantity)},
                 {"missing", word_of(missing)}, {"decomposition", word_of(decomposition)},
@@ -121,6 +122,8 @@ json canonical(const LightStudy& light) {
                 {"turbidity", turbidity}};
   // The usual scale has no key: hashes stay those of the time before there was another.
   if (sky_scale != SkyScale::diffuse) canon["sky_scale"] = word_of(sky_scale);
+  for (const auto& [season, albedo, place] : far_ground_seasons)
+    canon["far_ground_seasons"].push_back({season, albedo});
   if (zenith_luminance_cd_m2) canon["zenith_luminance_cd_m2"] = *zenith_luminance_cd_m2;
   return canon;
 }
@@ -146,7 +149,7 @@ json canonical(const Metal& metal) {
 json canonical(const MaterialStudy& material) {
   // A colour is hashed with the scene, where bands are asked for.
   const auto& [name, diffuse, mirror, diffuse_rgb, emission_w_m2, sides, where, smooth, glossy,
-               glossy_exponent, transmittance] = material;
+               glossy_exponent, transmittance, seasons] = material;
   json canon = {{"name", name},
                 {"diffuse", maybe(diffuse)},
                 {"mirror", maybe(mirror)},
@@ -156,7 +159,21 @@ json canonical(const MaterialStudy& material) {
                 {"glossy_exponent", glossy_exponent},
                 {"transmittance", transmittance}};
   canon.update(std::visit([](const auto& kind) { return canonical(kind); }, smooth));
+  for (const auto& [season, other, place] : seasons) canon["seasons"].push_back({season, other});
   return canon;
+}
+
+json canonical(const SeasonDate& date) {
+  const auto& [year, month, day] = date;
+  return {maybe(year), month, day};
+}
+
+json canonical(const SeasonStudy& season) {
+  const auto& [name, months, first, end_date, where] = season;
+  return {{"name", name},
+          {"months", months},
+          {"first", canonical(first)},
+          {"end", canonical(end_date)}};
 }
 
 json canonical(const AssignRule& rule) {
@@ -408,14 +425,15 @@ std::string canonical_text(const Study& study) {
   // Sensors are hashed with the scene; measures and selections are made of finished batches
   // (measures_text).
   const auto& [name, variant, site, period, sun, light, scene, mesh, solver, sensors, output,
-               measures, selections] = study;
-  const json all{{"site", canonical(site)},
-                 {"period", canonical(period)},
-                 {"sun", canonical(sun)},
-                 {"light", canonical(light)},
-                 {"scene", canonical(scene)},
-                 {"mesh", canonical(mesh)},
-                 {"solver", canonical(solver, light.colour)}};
+               measures, selections, seasons] = study;
+  json all{{"site", canonical(site)},
+           {"period", canonical(period)},
+           {"sun", canonical(sun)},
+           {"light", canonical(light)},
+           {"scene", canonical(scene)},
+           {"mesh", canonical(mesh)},
+           {"solver", canonical(solver, light.colour)}};
+  if (!seasons.empty()) all["seasons"] = list_of(seasons);
   return all.dump();
 }
 

@@ -135,6 +135,10 @@ LightStudy read_light(YamlMap& map, const std::string& folder) {
   light.zenith_luminance_cd_m2 = map.number("zenith_luminance_cd_m2", luminances_cd_m2);
   if (light.sky_scale == SkyScale::absolute) expect_absolute(map, light);
   light.far_ground_albedo = map.number("far_ground_albedo", albedos, light.far_ground_albedo);
+  map.section("far_ground_seasons", [&](YamlMap& section) {
+    for (const auto& [season, albedo, where] : section.other_numbers(albedos))
+      light.far_ground_seasons.push_back({season, albedo, where});
+  });
   read_weather(map, folder, light);
   light.quantity = map.choice("quantity", light.quantity);
   light.colour = map.choice("colour", light.colour);

@@ -203,6 +203,7 @@ MaterialStudy read_material(const std::string& name, YamlMap& map) {
     material.sides = map.choice("sides", Sides::one);
   }
   map.tree("sides");
+  material.seasons = read_season_materials(map);
   check_kind(map, material);
   check_sum(map, material);
   check_clear_glass(map, material);

@@ -43,6 +43,14 @@ std::vector<double> read_numbers(YamlMap& map, const std::string& key, std::size
 std::vector<EditStep> read_scene_edit(YamlMap& scene, const std::string& folder);
 /// Section `selections`; paths are relative to `folder`.
 std::vector<NamedSelection> read_selections(YamlMap& root, const std::string& folder);
+/// Section `seasons`.
+std::vector<SeasonStudy> read_seasons(YamlMap& root);
+/// The key `seasons` of a material: what it is in some of them.
+std::vector<SeasonMaterial> read_season_materials(YamlMap& material);
+/// That materials and the far ground name seasons of the study.
+void check_seasons(YamlMap& root, const Study& study);
+/// That each season is named in some variant.
+void warn_of_unused_seasons(YamlReading& reading, const std::vector<Study>& variants);
 /// The key `selection` of a map that chooses: its name alone.
 std::optional<NamedSelection> read_selection_name(YamlMap& map);
 /// Gives every selection that rules, steps and measures name what it is; names that are none, and

@@ -29,7 +29,7 @@ constexpr std::uintmax_t largest_study_bytes = 8'000'000;  // 400 000 instants
 constexpr std::size_t longest_name = 100;  // with suffixes below the 255 of file systems
 
 /// Sections that a variant may change, and why it may not change the others.
-const std::vector<std::string> variant_sections{"site",  "period", "scene",
+const std::vector<std::string> variant_sections{"site",  "period", "seasons", "scene",
                                                 "light", "mesh",   "solver"};
 const std::map<std::string, std::string> common_sections{
     {"format", "it belongs to the file"},
@@ -123,7 +123,7 @@ void refuse_common_keys(const MatrixValue& value, YamlReading& reading) {
     reason = same_place;
   else if (std::find(variant_sections.begin(), variant_sections.end(), section) ==
            variant_sections.end())
-    reason = "the sections of variants are site, period, scene, light, mesh and solver";
+    reason = "the sections of variants are site, period, seasons, scene, light, mesh and solver";
   else
     return;
   reading.problem(value.where,
@@ -275,10 +275,12 @@ Study read_values(YamlMap& root, const std::string& folder) {
   root.named("measures", [&](const std::string& name, YamlMap& map) {
     study.measures.push_back(read_measure(name, map));
   });
+  study.seasons = read_seasons(root);
   study.selections = read_selections(root, folder);
   resolve_selections(root.reading(), study.selections, study.scene, study.measures);
   check_together(root, study, site.place_written);
   check_measures(root, study, site.place_written);
+  check_seasons(root, study);
   return study;
 }
 
@@ -307,6 +309,7 @@ StudyFile study_of_text(const std::string& path, const std::string& yaml) {
     });
   }
   reading.throw_if_any();
+  warn_of_unused_seasons(reading, file.variants);
   file.name = file.variants.front().name;
   file.warnings = reading.warnings;
   return file;

@@ -91,6 +91,13 @@ enum class LightSource { clear_sky, weather, fixed };
 /// Strength of the sky: that of the source's diffuse irradiance, or the model's own luminance.
 enum class SkyScale { diffuse, absolute };
 
+/// The far ground in a season.
+struct SeasonAlbedo {
+  std::string season;
+  double albedo = 0;
+  Where where;
+};
+
 struct LightStudy {
   LightSource source = LightSource::clear_sky;
   ClearSkyModel model = ClearSkyModel::ineichen;
@@ -102,12 +109,35 @@ struct LightStudy {
   SkyScale sky_scale = SkyScale::diffuse;
   std::optional<double> zenith_luminance_cd_m2;  ///< of absolute skies; absent: by turbidity
   double far_ground_albedo = 0.2;
+  std::vector<SeasonAlbedo> far_ground_seasons = {};
   Quantity quantity = Quantity::irradiance;
   std::string weather;  ///< file, already resolved; the rest is of `weather` too
   LightColour colour = LightColour::sky;
   std::optional<Stamp> stamp;  ///< absent: the format's own
   Missing missing = Missing::refuse;
   Decomposition decomposition = Decomposition::erbs;
+};
+
+/// A date of every year, or of one.
+struct SeasonDate {
+  std::optional<int> year;
+  int month = 1, day = 1;
+};
+/// An entry of `seasons`: a stretch of time in which materials may be others.
+struct SeasonStudy {
+  std::string name;
+  std::vector<int> months;  ///< whole ones, of every year; empty: …
+  SeasonDate first,
+      end_date;  ///< … from the first date to before the other, over new year if need be
+  Where where;
+};
+/// Whether a civil time lies in the season.
+bool is_in(const SeasonStudy& season, const CivilTime& time);
+
+/// In a season a material is another one.
+struct SeasonMaterial {
+  std::string season, material;
+  Where where;
 };
 
 /// Optical properties as written; absent ones fall back as docs/developer/design.md, Study, says.
@@ -121,6 +151,7 @@ struct MaterialStudy {
   Smooth smooth;
   double glossy = 0, glossy_exponent = 0;
   double transmittance = 0;  ///< straight through
+  std::vector<SeasonMaterial> seasons = {};
 };
 
 /// Areas in plan as written, or of a GeoJSON file.
@@ -340,6 +371,7 @@ struct Study {
   OutputStudy output;
   std::vector<MeasureParameters> measures = {};
   std::vector<NamedSelection> selections = {};  ///< of unique names
+  std::vector<SeasonStudy> seasons = {};  ///< of unique names; of several at once the last rules
 };
 
 struct StudyFile {

@@ -218,6 +218,28 @@ std::vector<std::pair<std::string, PlacedText>> YamlMap::other_texts() {
   return result;
 }
 
+std::vector<YamlMap::PlacedList> YamlMap::other_lists() {
+  std::vector<PlacedList> lists;
+  reading_.keys.insert(pattern("*"));
+  if (!node_) return lists;
+  for (const auto& entry : node_->entries)
+    if (!asked_.contains(entry.key))
+      lists.push_back({entry.key, texts(entry.key), entry.value->where});
+  return lists;
+}
+
+std::vector<YamlMap::PlacedNumber> YamlMap::other_numbers(const Range& range) {
+  std::vector<PlacedNumber> numbers;
+  reading_.keys.insert(pattern("*"));
+  if (!node_) return numbers;
+  for (const auto& entry : node_->entries) {
+    if (asked_.contains(entry.key)) continue;
+    if (const auto value = number(entry.key, range))
+      numbers.push_back({entry.key, *value, entry.value->where});
+  }
+  return numbers;
+}
+
 void YamlMap::finish() {
   if (!node_) return;
   for (const auto& entry : node_->entries) {

@@ -130,6 +130,20 @@ class YamlMap {
   void keep_rest();
   /// All keys that were not asked for, as texts.
   std::vector<std::pair<std::string, PlacedText>> other_texts();
+  /// The same of lists of texts, with where each list is written.
+  struct PlacedList {
+    std::string key;
+    std::vector<PlacedText> texts;
+    Where where;
+  };
+  std::vector<PlacedList> other_lists();
+  /// The same of numbers.
+  struct PlacedNumber {
+    std::string key;
+    double number;
+    Where where;
+  };
+  std::vector<PlacedNumber> other_numbers(const Range& range);
 
   /// The key must be there.
   void require(const std::string& key, const std::string& why = {}, const std::string& hint = {});

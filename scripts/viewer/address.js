@@ -26,7 +26,7 @@ export function timeWord(result, k) {
 export function addressOf(state, usual, result, camera) {
   const words = [];
   const add = (name, value, isUsual = value === usual[name]) => isUsual || words.push(`${name}=${encodeURIComponent(value).replaceAll("%3A", ":").replaceAll("%2C", ",")}`);
-  for (const name of ["view", "quantity", "colours", "shading", "lines", "chart", "takes", "shade"]) add(name, state[name]);
+  for (const name of ["view", "quantity", "colours", "scale", "shading", "lines", "chart", "takes", "shade"]) add(name, state[name]);
   for (const name of ["edges", "path"]) add(name, Number(state[name]), state[name] === usual[name]);
   add("crease", state.crease);
   add("time", timeWord(result, state.k), state.k === usual.k);
@@ -52,6 +52,7 @@ export function readAddress(text, results, has) {
     if (at < 1) continue;
     if (["view", "quantity", "colours", "shading", "lines", "takes", "shade"].includes(name) && has(name, value)) asked[name] = value;
     else if (["edges", "path"].includes(name) && /^[01]$/.test(value)) asked[name] = value === "1";
+    else if (name === "scale" && ["linear", "log"].includes(value)) asked.scale = value;
     else if (name === "chart") asked.chart = value;
     else if (name === "crease" && Number(value) >= 0 && Number(value) <= 180) asked.crease = Number(value);
     else if (name === "fold") asked.folded = new Set(value.split(",").filter((one) => one === "left" || one === "foot"));

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the colours stand for: a scale of values, or kinds with a swatch each.
-import { deepestShade } from "./mesh.js";
+import { deepestShade, notKnown } from "./mesh.js";
 import { isShape, kinds, preview } from "./panels.js";
-import { scaleEnd, shown, ticks } from "./scale.js";
+import { colourShare, isPowerOfTen, leastOfDecades, logarithmicTicks, scaleEnd, shown, ticks } from "./scale.js";
 
 const mostSwatches = 40;
 
@@ -14,12 +14,30 @@ export function legendsOf(viewer) {
   if (isShape(quantity)) return [{ of: quantity, swatches: swatchesOf(viewer, parts) }];
   const isApart = (part) => viewer.isDifference(part), chosen = [parts.find((part) => !isApart(part)), parts.find(isApart)].filter(Boolean);
   return chosen.map((part, place) => {
-    const apart = isApart(part), high = limitOf(viewer, apart), low = apart ? -high : 0, key = limitKey(viewer, apart), units = viewer.results[0].units(quantity) || "share";
-    let largest = 0;
-    for (const one of parts) if (isApart(one) === apart) for (const value of viewer.meshes[one.mesh].value.array) if (value > largest) largest = value;
-    return { key, low, high, units: apart && chosen.length > 1 ? `± ${units}` : units, ticks: ticks(low, high), palette: viewer.palettes[apart ? "difference" : colours],
-      isShaded: shade === "all", isUsers: key in limits, isMain: place === 0, above: largest > high * (1 + 1e-6) ? `larger values, up to ${shown(largest)}, have the last colour` : "" };
+    const apart = isApart(part), scale = scaleOf(viewer, apart), { low, high, isLogarithmic } = scale;
+    const key = limitKey(viewer, apart), units = viewer.results[0].units(quantity) || "share";
+    return { ...scale, key, units: apart && chosen.length > 1 ? `± ${units}` : units, ticks: isLogarithmic ? logarithmicTicks(low, high) : ticks(low, high),
+      palette: viewer.palettes[apart ? "difference" : colours], isShaded: shade === "all", isUsers: key in limits, isMain: place === 0, isApart: apart,
+      beyond: beyondWords(viewer, parts.filter((one) => isApart(one) === apart), scale) };
   });
+}
+
+/** Values of the first and the last colour, and how those between lie: differences, of either sign, evenly. */
+export function scaleOf(viewer, isApart) {
+  const high = limitOf(viewer, isApart), isLogarithmic = !isApart && viewer.state.scale === "log";
+  return { low: isApart ? -high : isLogarithmic ? leastOfDecades(high) : 0, high, isLogarithmic };
+}
+
+/** What has the first or the last colour without being of its value, in sentences. */
+function beyondWords(viewer, parts, { low, high, isLogarithmic }) {
+  let largest = 0, isBelow = false;
+  for (const one of parts)
+    for (const value of viewer.meshes[one.mesh].value.array) {
+      if (value > largest) largest = value;
+      if (value < low && value > notKnown) isBelow = true;
+    }
+  const above = largest > high * (1 + 1e-6) ? [`larger values, up to ${shown(largest)}, have the last colour`] : [];
+  return isLogarithmic && isBelow ? [...above, `values below ${shown(low)} have the first colour`] : above;
 }
 
 function swatchesOf(viewer, parts) {
@@ -78,14 +96,17 @@ function element(name, text = "", properties = {}) {
   return Object.assign(document.createElement(name), { textContent: text, ...properties });
 }
 
-function scaleElement(legend, setLimit) {
+/** Of a logarithmic scale without the digits that round numbers do not need. */
+export function tickText({ isLogarithmic }, value) { return isLogarithmic ? String(value) : shown(value); }
+
+function scaleElement(legend, setLimit, change) {
   const box = element("div", "", { className: "scale" }), bar = element("div", "", { className: "bar" }), canvas = element("canvas");
   drawBarCanvas(canvas, legend);
   if (legend.isShaded) canvas.title = "below: the same colours where surfaces are shaded";
   const marks = element("div", "", { className: "ticks" });
   for (const value of legend.ticks) {
-    const tick = element("span", shown(value));
-    tick.style.left = `${(100 * (value - legend.low)) / (legend.high - legend.low)}%`;
+    const tick = element("span", tickText(legend, value), { className: legend.isLogarithmic && !isPowerOfTen(value) ? "minor" : "" });
+    tick.style.left = `${100 * colourShare(legend, value)}%`;
     marks.append(tick);
   }
   bar.append(canvas, marks);
@@ -96,9 +117,20 @@ function scaleElement(legend, setLimit) {
   automatic.addEventListener("click", () => setLimit(legend.key, null));
   if (legend.isMain) [limit.id, automatic.id, canvas.id] = ["limit", "automatic", "bar"];
   choice.append(limit, " ", automatic);
+  // Of differences there is no logarithm.
+  if (!legend.isApart) {
+    const switched = element("button", "log", { id: "scale", title: "logarithmic colours, over three powers of ten" });
+    switched.setAttribute("aria-pressed", legend.isLogarithmic);
+    switched.addEventListener("click", () => {
+      change({ scale: legend.isLogarithmic ? "linear" : "log" });
+      document.getElementById("scale")?.focus();
+    });
+    choice.append(" ", switched);
+  }
   box.append(element("span", legend.units, { className: "units" }), bar, choice);
   // Always there, so that the picture stays as high as it is.
-  box.append(element("p", legend.above || "\u00a0", { className: "above" }));
+  const beyond = legend.beyond.join("; ");
+  box.append(element("p", beyond || "\u00a0", { className: "beyond", title: beyond }));
   return box;
 }
 
@@ -114,6 +146,7 @@ function swatchElement({ swatches, of }) {
   return list;
 }
 
-export function showLegends(box, legends, setLimit) {
-  box.replaceChildren(...legends.map((legend) => (legend.swatches ? swatchElement(legend) : scaleElement(legend, setLimit))));
+/** `change` is told what of the state a legend's switches change. */
+export function showLegends(box, legends, setLimit, change) {
+  box.replaceChildren(...legends.map((legend) => (legend.swatches ? swatchElement(legend) : scaleElement(legend, setLimit, change))));
 }

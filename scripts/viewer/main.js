@@ -7,7 +7,7 @@ import { CameraMan } from "./camera.js";
 import { fillChoices, listen, showState } from "./controls.js";
 import { matchedMean, readPage } from "./data.js";
 import { knownNames } from "./find.js";
-import { legendsOf, limitOf, showLegends } from "./legend.js";
+import { legendsOf, limitOf, scaleOf, showLegends } from "./legend.js";
 import { PatchMesh, difference, paletteTexture } from "./mesh.js";
 import { $, isShape, kinds, materials, preview, tellSelection, tellTime } from "./panels.js";
 import { Picker } from "./picker.js";
@@ -30,7 +30,7 @@ class Viewer {
     this.known = knownNames(results);
     this.match = results.length > 1 ? results[0].matched(results[1]) : null;
     this.unmatchedShare = this.match ? this.lonelyShare() : 0;
-    this.state = { view: results.length > 1 ? "side" : "0", quantity: quantities(this)[0][0], k: this.brightest(results[0]), colours: "false",
+    this.state = { view: results.length > 1 ? "side" : "0", quantity: quantities(this)[0][0], k: this.brightest(results[0]), colours: "false", scale: "linear",
       shading: "constant", crease: 20, lines: "none", edges: true, shade: "shapes", path: true, takes: "patch", chart: "day", picked: [], limits: {}, folded: new Set() };
     this.buildScene();
     fillChoices(this);
@@ -153,23 +153,22 @@ class Viewer {
     const { quantity, shading, crease, lines, colours, edges, shade, path, picked, k } = this.state;
     for (const part of this.parts()) {
       if (!this.meshes[part.mesh]) this.addMesh(part.mesh, part.n);
-      const mesh = this.meshes[part.mesh], { uniforms } = mesh, isApart = this.isDifference(part), end = this.limit(isApart);
+      const mesh = this.meshes[part.mesh], { uniforms } = mesh, isApart = this.isDifference(part), scale = scaleOf(this, isApart);
       mesh.show(this.shownBy(part), shading === "smooth" && !isShape(quantity), crease);
       mesh.showAs(isShape(quantity), shade === "all" || (shade === "shapes" && isShape(quantity)));
       uniforms.kinds.value = quantity === materials || quantity === kinds;
       uniforms.palette.value = this.textures[isApart ? "difference" : uniforms.kinds.value ? quantity : colours];
-      uniforms.low.value = isApart ? -end : 0;
-      uniforms.high.value = end;
+      for (const [name, value] of Object.entries(scale)) uniforms[name].value = value;
       mesh.showLines(lines);
       mesh.foldLines.visible = edges;
       mesh.outline.show(this, picked, part.n);
-      this.showSensors(mesh, part, end);
+      this.showSensors(mesh, part, scale);
     }
     this.sky.show(k);
     if (path !== this.isPathShown) this.sky.object.visible = this.isPathShown = path;
     this.showCaptions();
     const legends = this.legends(), told = JSON.stringify(legends.map((legend) => ({ ...legend, palette: colours })));
-    if (told !== this.toldLegends) showLegends($("legend"), legends, (key, value) => this.setLimit(key, value));
+    if (told !== this.toldLegends) showLegends($("legend"), legends, (key, value) => this.setLimit(key, value), (what) => this.change(what));
     this.toldLegends = told;
     tellTime(this);
     tellSelection(this);
@@ -178,11 +177,11 @@ class Viewer {
   }
 
   /** Sensors have the colours of their values; in a difference, and where they lack the quantity, they are white. */
-  showSensors(mesh, part, end) {
+  showSensors(mesh, part, scale) {
     if (!mesh.sensors) return;
     const { quantity, colours, k } = this.state, result = this.results[part.n], own = part.n === 0 ? k : result.intervalAt(this.results[0].times[k]);
     const values = part.mesh === difference || isShape(quantity) ? null : result.sensors.values(quantity, own);
-    mesh.sensors.show(values, this.palettes[colours], 0, end);
+    mesh.sensors.show(values, this.palettes[colours], scale);
   }
 
   shapeCamera() {

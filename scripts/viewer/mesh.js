@@ -24,12 +24,14 @@ const lightFragmentShader = `
 uniform sampler2D palette;
 uniform float low;
 uniform float high;
+uniform bool isLogarithmic;
 varying float vValue;
 varying float vShade;
 void main() {
   vec3 colour = vec3(0.72);
   if (gl_FrontFacing && vValue > -1e29) {
-    float share = clamp((vValue - low) / (high - low), 0.0, 1.0);
+    float share = isLogarithmic ? log(max(vValue, low) / low) / log(high / low) : (vValue - low) / (high - low);
+    share = clamp(share, 0.0, 1.0);
     colour = texture2D(palette, vec2((share * 255.0 + 0.5) / 256.0, 0.5)).rgb;
   }
   gl_FragColor = vec4(colour * vShade, 1.0);
@@ -61,7 +63,8 @@ void main() {
   }
   gl_FragColor = vec4(colour, 1.0);
 }`;
-const notKnown = -1e30;
+/** In place of values that are not known. */
+export const notKnown = -1e30;
 /** Among meshes, that of the second result minus the first; before it come those of the results. */
 export const difference = 2;
 // Share of light that shading takes at most.
@@ -100,7 +103,7 @@ export class PatchMesh {
     geometry.setAttribute("value", this.value);
     if (twoSidedCorners > 0) geometry.addGroup(0, twoSidedCorners, 0);
     if (twoSidedCorners < corners) geometry.addGroup(twoSidedCorners, corners - twoSidedCorners, 1);
-    this.uniforms = { palette: { value: null }, low: { value: 0 }, high: { value: 1 }, kinds: { value: false },
+    this.uniforms = { palette: { value: null }, low: { value: 0 }, high: { value: 1 }, isLogarithmic: { value: false }, kinds: { value: false },
       shade: { value: 0 }, light: { value: new THREE.Vector3(0.4, -0.6, 0.7) } };
     const ofSides = (vertexShader, fragmentShader) => [THREE.FrontSide, THREE.DoubleSide].map((side) => new THREE.ShaderMaterial({
       vertexShader, fragmentShader, side, uniforms: this.uniforms, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is shown as one picture: title, scene with captions, legend and time.
-import { drawBarCanvas } from "./legend.js";
-import { shown } from "./scale.js";
+import { drawBarCanvas, tickText } from "./legend.js";
+import { colourShare, isPowerOfTen } from "./scale.js";
 import { caption, fileName, title } from "./words.js";
 
 const margin = 16, titleHeight = 40, captionHeight = 24, legendHeight = 64, barWidth = 320;
@@ -19,6 +19,17 @@ function flow(c, swatches, width, draw = () => {}) {
   return line + 1;
 }
 
+/** Numbers below a bar; of a logarithmic one those between powers of ten where they have room. */
+function drawTicks(c, legend, from, y) {
+  const taken = [], ticks = legend.isLogarithmic ? [...legend.ticks].sort((a, b) => isPowerOfTen(b) - isPowerOfTen(a)) : legend.ticks;
+  for (const value of ticks) {
+    const text = tickText(legend, value), width = c.measureText(text).width, left = from + colourShare(legend, value) * barWidth - width / 2;
+    if (legend.isLogarithmic && taken.some(([begin, end]) => left < end + 4 && left + width > begin - 4)) continue;
+    taken.push([left, left + width]);
+    c.fillText(text, left, y);
+  }
+}
+
 function drawScale(c, legend, x, y) {
   c.font = "bold 13px 'DejaVu Sans', Verdana, sans-serif";
   c.fillText(legend.units, x, y + 13);
@@ -28,12 +39,9 @@ function drawScale(c, legend, x, y) {
   c.strokeStyle = "#555";
   c.strokeRect(from - 0.5, y - 0.5, barWidth + 1, 17);
   c.font = "12px 'DejaVu Sans', Verdana, sans-serif";
-  for (const value of legend.ticks) {
-    const text = shown(value), at = from + ((value - legend.low) / (legend.high - legend.low)) * barWidth;
-    c.fillText(text, at - c.measureText(text).width / 2, y + 30);
-  }
+  drawTicks(c, legend, from, y + 30);
   c.fillStyle = "#555";
-  if (legend.above) c.fillText(legend.above, from, y + 46);
+  legend.beyond.forEach((words, line) => c.fillText(words, from, y + 44 + 14 * line));
   c.fillStyle = "#222";
   return from + barWidth + 40;
 }

@@ -35,6 +35,33 @@ export function ticks(low, high) {
   return list;
 }
 
+// As in `sunload render --scale log`.
+const decades = 3;
+
+/** Value of the first colour of a logarithmic scale. */
+export function leastOfDecades(high) { return high / 10 ** decades; }
+
+/** Place of a value between those of the first and the last colour: 0 to 1. */
+export function colourShare({ low, high, isLogarithmic }, value) {
+  if (isLogarithmic && value <= low) return 0;
+  const share = isLogarithmic ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
+  return Math.min(1, Math.max(0, share));
+}
+
+/** 1, 2 and 5 times powers of ten from low to high, both above 0. */
+export function logarithmicTicks(low, high) {
+  const list = [], exponent = (value) => Math.floor(Math.log10(value));
+  for (let e = exponent(low); e <= exponent(high * (1 + 1e-9)); ++e)
+    for (const digit of [1, 2, 5]) {
+      const tick = Number(`${digit}e${e}`);
+      if (tick >= low * (1 - 1e-9) && tick <= high * (1 + 1e-9)) list.push(tick);
+    }
+  return list;
+}
+
+/** Whether a tick is a power of ten: where there is little room, these alone have their numbers. */
+export function isPowerOfTen(value) { return Number(`1e${Math.round(Math.log10(value))}`) === value; }
+
 /** Some digits, as people write them. */
 export function shown(value, digits = 4) {
   if (!Number.isFinite(value)) return "not known";

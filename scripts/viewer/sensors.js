@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sensors: points that receive light, in the colour of their value.
 import * as THREE from "three";
+import { colourShare } from "./scale.js";
 
 const sizePixels = 9, pickPixels = 8;
 
@@ -21,11 +22,11 @@ export class SensorPoints {
     this.object.add(rim, points);
   }
 
-  /** Colours of values; white where there is none. `palette`: 256 sRGB colours. */
-  show(values, palette, low, high) {
+  /** Colours of values on a scale; white where there is none. `palette`: 256 sRGB colours. */
+  show(values, palette, scale) {
     const colour = new THREE.Color();
     for (let s = 0; s < this.sensors.count; ++s) {
-      const share = values ? Math.min(1, Math.max(0, (values[s] - low) / (high - low))) : NaN;
+      const share = values ? colourShare(scale, values[s]) : NaN;
       const at = 3 * Math.round(255 * share);
       if (Number.isFinite(share)) colour.setRGB(palette[at] / 255, palette[at + 1] / 255, palette[at + 2] / 255, THREE.SRGBColorSpace);
       else colour.setRGB(1, 1, 1);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <unordered_map>
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
@@ -26,18 +27,52 @@ double Attribution::total(std::size_t r) const {
   return sum;
 }
 
-Attribution& Attribution::operator+=(const Attribution& other) {
-  SUNLOAD_EXPECT(flows_.size() == other.flows_.size(), "attributions of one scene");
-  for (std::size_t i = 0; i < open_.size(); ++i) open_[i] += other.open_[i];
-  for (std::size_t i = 0; i < flows_.size(); ++i) flows_[i] += other.flows_[i];
-  return *this;
-}
-
 namespace {
+
+/// Sums over a part of the place. Of patches a part meets few: those have rows, in the order in
+/// which they are met.
+class PartSums {
+ public:
+  explicit PartSums(std::size_t realizations)
+      : realizations_(realizations), open_(Attribution::open_count * realizations, 0) {}
+  std::size_t realizations() const { return realizations_; }
+
+  void add_open(Attribution::Open source, std::size_t r, double value) {
+    open_[static_cast<std::size_t>(source) * realizations_ + r] += value;
+  }
+  /// Of nobody: `body` below 0.
+  void add_flow(std::int32_t body, Flow flow, std::size_t r, double value) {
+    if (body < 0) return;
+    flows_[(row_of(body) * flow_count + static_cast<std::size_t>(flow)) * realizations_ + r] +=
+        value;
+  }
+
+  void add_to(Attribution& sums) const {
+    for (std::size_t s = 0; s < Attribution::open_count; ++s)
+      for (std::size_t r = 0; r < realizations_; ++r)
+        sums.add_open(static_cast<Attribution::Open>(s), r, open_[s * realizations_ + r]);
+    for (const auto& [body, row] : rows_)
+      for (std::size_t f = 0; f < flow_count; ++f)
+        for (std::size_t r = 0; r < realizations_; ++r)
+          sums.add_flow(static_cast<std::size_t>(body), static_cast<Flow>(f), r,
+                        flows_[(row * flow_count + f) * realizations_ + r]);
+  }
+
+ private:
+  std::size_t row_of(std::int32_t body) {
+    const auto [found, is_new] = rows_.try_emplace(body, rows_.size());
+    if (is_new) flows_.resize(flows_.size() + flow_count * realizations_, 0);
+    return found->second;
+  }
+
+  std::size_t realizations_;
+  std::vector<double> open_, flows_;
+  std::unordered_map<std::int32_t, std::size_t> rows_;
+};
 
 /// Receivers that one thread takes at a time.
 constexpr std::size_t fewest_at_a_time = 16;
-/// Each part has sums for all objects.
+/// Each part has sums for all objects that it meets.
 constexpr std::size_t most_parts = 64;
 
 /// What shines on the scene from outside, over the whole period.
@@ -97,11 +132,12 @@ Mirrored mirrored(const TracedScene& traced, const IntervalLight& sun, bool is_f
 class Looks {
  public:
   Looks(const TracedScene& traced, const Outside& outside, const SentLight& sent,
-        const Place& place, Attribution& into)
+        const Place& place, Among among, PartSums& into)
       : traced_(traced),
         outside_(outside),
         sent_(sent),
         place_(place),
+        among_(among),
         lines_(traced),
         receivers_(place.is_of_sensors ? traced.sensors : traced.patches),
         follower_(traced.scene, *traced.mesh, traced.caster, traced.grid,
@@ -125,6 +161,7 @@ class Looks {
       const PacketDirections suns = sampler.directions(sun, seeds_, p);
       const std::uint32_t active = sampler.active(p);
       if (cos_theta > 0) see_sun(origins, suns, active, p, energy * cos_theta);
+      if (mirrors == nullptr) continue;
       for (const std::size_t b : by_beams_)
         for (std::size_t l = 0; l < packet_size; ++l)
           if (active >> l & 1U)
@@ -144,8 +181,11 @@ class Looks {
   }
 
  private:
-  std::size_t object_of(std::int32_t triangle) const {
-    return traced_.scene.mesh.triangle_object[static_cast<std::size_t>(triangle)].index();
+  /// The object or patch that is met; below 0: none.
+  std::int32_t body_of(const Hit& hit) const {
+    if (among_ == Among::patches)
+      return traced_.mesh->patch_at(hit.triangle, hit.u, hit.v, hit.front);
+    return traced_.scene.mesh.triangle_object[static_cast<std::size_t>(hit.triangle)].value;
   }
 
   void find_beams(std::size_t receiver, Vec3 normal, const Mirrored* mirrors) {
@@ -165,15 +205,14 @@ class Looks {
       if (!(active >> l & 1U)) continue;
       const std::size_t r = receivers_.sampler.realization(packet * packet_size + l);
       into_.add_open(Attribution::Open::sun, r, energy);
-      if (hits.triangle[l] >= 0)
-        into_.add_flow(object_of(hits.triangle[l]), Flow::takes_sun, r, energy);
+      if (hits.triangle[l] >= 0) into_.add_flow(body_of(hits[l]), Flow::takes_sun, r, energy);
     }
   }
 
   /// Back from the mirror that is seen to the one that the sun shines on (MirrorSun).
   void see_image(const SunBeams& beams, std::size_t last, Vec3 from, Vec3 sun, std::size_t r,
                  double energy) {
-    std::optional<std::size_t> seen;
+    std::optional<std::int32_t> seen;
     for (auto b = static_cast<std::int32_t>(last); b >= 0;
          b = beams[static_cast<std::size_t>(b)].before) {
       const SunBeam& beam = beams[static_cast<std::size_t>(b)];
@@ -182,7 +221,7 @@ class Looks {
       if (hit.left_scene() ||
           traced_.mirrors.of_side(hit.triangle, hit.front) != static_cast<std::int32_t>(beam.group))
         return;
-      if (!seen) seen = object_of(hit.triangle);
+      if (!seen) seen = body_of(hit);
       const Vec3 n = traced_.mirrors[beam.group].normal;
       energy *= traced_.mirrors.weight_of_hit(hit.triangle, -dot(n, w));
       from = lifted_point(traced_.scene.mesh, hit, n, traced_.caster.offset_m());
@@ -198,7 +237,7 @@ class Looks {
         share * (is_up ? outside_.sky[follower_.sky_cell(w)] : outside_.far_ground);
     into_.add_open(is_up ? Attribution::Open::sky : Attribution::Open::far_ground, r, behind);
     if (hit.left_scene()) return;
-    const std::size_t object = object_of(hit.triangle);
+    const std::int32_t object = body_of(hit);
     into_.add_flow(object, is_up ? Flow::takes_sky : Flow::takes_far_ground, r, behind);
     met_.clear();
     follower_.follow(origin, w, hit, key, met_);
@@ -224,10 +263,11 @@ class Looks {
   const Outside& outside_;
   const SentLight& sent_;
   const Place& place_;
+  Among among_;
   PlaceLines lines_;
   const Receivers& receivers_;
   LineFollower follower_;
-  Attribution& into_;
+  PartSums& into_;
   SunSampler::Seeds seeds_;
   std::vector<std::size_t> by_beams_;
   LineCollector met_;
@@ -240,19 +280,18 @@ constexpr std::size_t suns_at_a_time = 64;
 
 Attribution attribute_light(const TracedScene& traced, const LitPeriod& period,
                             const SentLight& sent, const Place& place,
-                            const std::vector<double>& shares) {
+                            const std::vector<double>& shares, Among among) {
   SUNLOAD_EXPECT(sent.size() == traced.mesh->patch_count(), "light of every patch");
   SUNLOAD_EXPECT(place.receivers.size() == place.weight.size(), "a weight of every receiver");
   SUNLOAD_EXPECT(shares.empty() || shares.size() == period.intervals(), "a share of intervals");
   const Outside outside = outside_of(period, shares, traced.grid);
   const std::size_t count = place.receivers.size();
   const std::size_t each = std::max(fewest_at_a_time, (count + most_parts - 1) / most_parts);
-  const Attribution none(traced.scene.mesh.object_names.size(),
-                         static_cast<std::size_t>(traced.rules.realizations));
-  std::vector<Attribution> parts((count + each - 1) / each, none);
+  const auto realizations = static_cast<std::size_t>(traced.rules.realizations);
+  std::vector<PartSums> parts((count + each - 1) / each, PartSums(realizations));
   const auto look = [&](const auto& at) {
     parallel_chunks(count, each, [&](std::size_t begin, std::size_t end) {
-      Looks looks(traced, outside, sent, place, parts[begin / each]);
+      Looks looks(traced, outside, sent, place, among, parts[begin / each]);
       for (std::size_t i = begin; i < end; ++i) at(looks, i);
     });
   };
@@ -270,8 +309,10 @@ Attribution attribute_light(const TracedScene& traced, const LitPeriod& period,
         looks.to_sun(i, outside.suns[first + k], ways[k] ? &*ways[k] : nullptr);
     });
   }
-  Attribution sum = none;
-  for (const Attribution& part : parts) sum += part;
+  const std::size_t bodies =
+      among == Among::patches ? traced.mesh->patch_count() : traced.scene.mesh.object_names.size();
+  Attribution sum(bodies, realizations);
+  for (const PartSums& part : parts) part.add_to(sum);
   return sum;
 }
 

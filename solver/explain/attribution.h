@@ -36,7 +36,11 @@ enum class Flow {
 };
 inline constexpr std::size_t flow_count = 6;
 
-/// Of every realization [J m-2, or lx s], means over the place.
+/// Whose doing the light is: that of whole objects, or of each patch. What no patch bears (floors,
+/// backs) is of objects alone: it takes and gives nothing.
+enum class Among { objects, patches };
+
+/// Of every realization [J m-2, or lx s], means over the place. `objects`: or patches.
 class Attribution {
  public:
   enum class Open { sun, sky, far_ground };
@@ -62,7 +66,6 @@ class Attribution {
   void add_flow(std::size_t object, Flow flow, std::size_t r, double value) {
     flows_[at(object, flow, r)] += value;
   }
-  Attribution& operator+=(const Attribution& other);
 
  private:
   std::size_t at(Open source, std::size_t r) const {
@@ -78,12 +81,13 @@ class Attribution {
 /// Of each patch, over the period [J m-2, or lx s]: what it reflects and emits diffusely.
 using SentLight = std::vector<double>;
 
-/// `shares`: of each interval, which is looked at; empty: all. `sent` is of that part, too.
+/// `shares`: of each interval, which is looked at; empty: all. `sent` is of that part, too. Sums of
+/// an object's patches are what the object has, but for what no patch bears.
 /// `traced` needs no lines of its own. Objects are those of the scene's mesh. The same bits for any
 /// number of threads. Cost: a ray for each sun sample and line of the place, and as many for each
 /// mirror orientation that may show it the sun. Throws Interrupted.
 Attribution attribute_light(const TracedScene& traced, const LitPeriod& period,
                             const SentLight& sent, const Place& place,
-                            const std::vector<double>& shares = {});
+                            const std::vector<double>& shares = {}, Among among = Among::objects);
 
 }  // namespace sunload

@@ -44,8 +44,12 @@ class BeamRaster {
   struct Level {
     int size;
     std::vector<float> farthest;
-    float& at(int x, int y) { return farthest[static_cast<std::size_t>(y * size + x)]; }
-    float at(int x, int y) const { return farthest[static_cast<std::size_t>(y * size + x)]; }
+    float& at(int x, int y) { return farthest[place_of(x, y)]; }
+    float at(int x, int y) const { return farthest[place_of(x, y)]; }
+    std::size_t place_of(int x, int y) const {
+      return static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
+             static_cast<std::size_t>(x);
+    }
   };
   std::vector<Level> levels_;
 };

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/light/tally.h"
 
+#include <algorithm>
+
 #include "geo/base/check.h"
 #include "solver/base/spread.h"
 
@@ -96,6 +98,64 @@ BatchTally empty_tally(const TallyShape& shape) {
   if (shape.errors == Errors::instants)
     tally.ledger_instants.assign(shape.realizations, std::vector<Ledger>(shape.intervals));
   return tally;
+}
+
+namespace {
+
+template <class Value>
+void put_rows(const std::vector<Value>& rows, std::size_t first, std::size_t width,
+              std::vector<Value>& whole) {
+  if (whole.empty()) return;
+  std::copy(rows.begin(), rows.end(), whole.begin() + static_cast<std::ptrdiff_t>(first * width));
+}
+
+void add_to(const std::vector<double>& values, std::vector<double>& sums) {
+  if (sums.empty()) return;
+  for (std::size_t i = 0; i < values.size(); ++i) sums[i] += values[i];
+}
+
+void add_to(const std::vector<std::vector<double>>& values,
+            std::vector<std::vector<double>>& sums) {
+  for (std::size_t r = 0; r < values.size() && r < sums.size(); ++r) add_to(values[r], sums[r]);
+}
+
+void put_received(const ReceiverTally& stretch, std::size_t first, ReceiverTally& whole) {
+  const std::size_t receivers = whole.sunlit_s.size();
+  for (std::size_t p = 0; p < part_count; ++p) {
+    put_rows(stretch.irradiance[p], first, receivers, whole.irradiance[p]);
+    add_to(stretch.exposure[p], whole.exposure[p]);
+    add_to(stretch.part_realization[p], whole.part_realization[p]);
+  }
+  put_rows(stretch.irradiance_se, first, receivers, whole.irradiance_se);
+  add_to(stretch.exposure_realization, whole.exposure_realization);
+  add_to(stretch.sunlit_s, whole.sunlit_s);
+  for (std::size_t i = 0; i < receivers; ++i)
+    whole.irradiance_max[i] = std::max(whole.irradiance_max[i], stretch.irradiance_max[i]);
+  for (std::size_t p = 0; p < whole.parts.size(); ++p) {
+    const PartTally& from = stretch.parts[p];
+    PartTally& to = whole.parts[p];
+    add_to(from.total, to.total);
+    add_to(from.direct, to.direct);
+    add_to(from.sunlit_s, to.sunlit_s);
+    add_to(from.exposure_realization, to.exposure_realization);
+  }
+}
+
+}  // namespace
+
+void put_stretch(const BatchTally& stretch, std::size_t first, BatchTally& whole) {
+  SUNLOAD_EXPECT(first + stretch.intervals <= whole.intervals, "a stretch within its batch");
+  SUNLOAD_EXPECT(whole.by_source.sun.empty() && whole.se_by_source.lines.empty(),
+                 "a tally that is not by source");
+  put_received(stretch, first, whole);
+  put_received(stretch.sensors, first, whole.sensors);
+  add_to(stretch.outgoing, whole.outgoing);
+  put_rows(stretch.ledger, first, 1, whole.ledger);
+  for (std::size_t r = 0; r < whole.ledger_realization.size(); ++r)
+    whole.ledger_realization[r] += stretch.ledger_realization[r];
+  whole.energy += stretch.energy;
+  for (std::size_t r = 0; r < whole.ledger_instants.size(); ++r)
+    put_rows(stretch.ledger_instants[r], first, 1, whole.ledger_instants[r]);
 }
 
 MeanError mean_error(const std::vector<double>& values) {

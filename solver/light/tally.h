@@ -143,6 +143,11 @@ struct TallyShape {
 /// likewise. When gathering exposures by source are empty: the sun's part is put there at the end.
 BatchTally empty_tally(const TallyShape& shape);
 
+/// Puts the tally of consecutive intervals of a batch, from interval `first` on, into that of the
+/// whole: series to their place, sums and largest values together. What a stretch lacks stays 0.
+/// Not for tallies by source.
+void put_stretch(const BatchTally& stretch, std::size_t first, BatchTally& whole);
+
 /// Mean and standard error of independent realizations.
 struct MeanError {
   double mean = 0, standard_error = 0;

@@ -307,9 +307,11 @@ std::unique_ptr<BatchTransport> YearGathering::begin(std::vector<BatchTally>& ta
 
 std::unique_ptr<const LightTransport> year_where_it_pays(const TracedScene& traced,
                                                          const LitPeriod& period, WorkDone& work) {
-  if (traced.rules.year == Year::modes) return std::make_unique<YearGathering>(traced, period);
   if (traced.rules.year == Year::each || !year_can_serve(traced.rules)) return nullptr;
   const auto lit = static_cast<double>(lit_intervals(traced, period).size());
+  // So many are tests that few would be left to choose from.
+  if (lit < static_cast<double>(2 * tests)) return nullptr;
+  if (traced.rules.year == Year::modes) return std::make_unique<YearGathering>(traced, period);
   // Before anything is solved or ranked: no period of fewer intervals gains by it.
   if (year_share_of_few * lit < static_cast<double>(8 * block_width)) return nullptr;
   auto year = std::make_unique<YearGathering>(traced, period);

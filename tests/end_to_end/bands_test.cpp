@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "geo/base/units.h"
+#include "geo/time/time.h"
 #include "io/result/reader.h"
+#include "io/result/shown_quantity.h"
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"
@@ -93,6 +97,41 @@ TEST(BandStudy, EveryBandOfWhiteLightOnGreyIsTheBroadbandResult) {
     for (std::size_t i = 0; i < a.size(); ++i)
       EXPECT_NEAR(a[i], b[i], 1e-6 * (mean.doubles("light_load")[0] + std::abs(b[i]))) << total;
   }
+}
+
+// Each band's light is reflected by that band's reflectance: the mean is of the products. At an
+// instant and over the period, from the series and from the totals.
+TEST(BandStudy, RadianceIsTheMeanOfTheBands) {
+  const Square square;
+  square.write(", bands: rgb");
+  ASSERT_EQ(square.run("rgb", {"--threads", "1"}).code, 0);
+  const std::string path = square.result("rgb"), noon = "2026-03-21T12:30";
+  const ResultReader result(path);
+  const auto at_noon = shown_quantity(result, "radiance", noon).values;
+  const auto material = result.integers("patch_material");
+  const auto names = result.strings("material_name");
+  std::vector<double> sum(at_noon.size(), 0);
+  const std::array<double, band_count> plaster{0.8, 0.6, 0.4};
+  for (std::size_t b = 0; b < band_count; ++b) {
+    const ResultReader band(path, b);
+    const auto irradiance = shown_quantity(band, "irradiance", noon).values,
+               radiance = shown_quantity(band, "radiance", noon).values;
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+      sum[i] += radiance[i];
+      if (names[static_cast<std::size_t>(material[i])] != "plaster") continue;
+      EXPECT_NEAR(radiance[i], plaster[b] * irradiance[i] / pi, 1e-6 * irradiance[i]);
+    }
+  }
+  for (std::size_t i = 0; i < sum.size(); ++i) EXPECT_NEAR(at_noon[i], sum[i] / 3, 1e-6 * sum[i]);
+  std::vector<double> of_series(sum.size(), 0);
+  const std::size_t hours = result.shape("time").front();
+  for (const double time : result.doubles("time")) {
+    const auto row = shown_quantity(result, "radiance", iso_utc(time)).values;
+    for (std::size_t i = 0; i < row.size(); ++i)
+      of_series[i] += row[i] / static_cast<double>(hours);
+  }
+  const auto mean = shown_quantity(result, "radiance", "").values;
+  for (std::size_t i = 0; i < mean.size(); ++i) EXPECT_NEAR(mean[i], of_series[i], 1e-5 * mean[i]);
 }
 
 // Transport is linear: on grey surfaces the mean of coloured bands is the broadband light,

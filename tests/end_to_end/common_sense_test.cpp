@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geo/base/units.h"
 #include "io/result/reader.h"
+#include "io/result/shown_quantity.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
@@ -131,6 +133,17 @@ TEST(CommonSense, BlackSurfacesReceiveAndSendNothing) {
   EXPECT_NEAR(patches.mean(power, of("paving")), 0.3 * patches.mean(load, of("paving")), 1e-5);
   // A lamp of 200 W/m² in 12 h, and what it reflects.
   EXPECT_NEAR(patches.mean(power, of("lamp")), 2.4 + 0.1 * patches.mean(load, of("lamp")), 1e-5);
+  // Whatever the light, diffuse light leaves in equal radiance: (rho E + M) / π.
+  const auto noon = shown_quantity(result, "radiance", "2026-03-21T12:30");
+  const auto irradiance = shown_quantity(result, "irradiance", "2026-03-21T12:30").values;
+  const auto mean = shown_quantity(result, "radiance", "").values;
+  for (std::size_t i = 0; i < mean.size(); ++i) {
+    const bool is_paving = patches.material[i] == "paving";
+    if (!is_paving && patches.material[i] != "lamp") continue;
+    const double sent = is_paving ? 0.3 * irradiance[i] : 0.1 * irradiance[i] + 200;
+    EXPECT_NEAR(noon.values[i], sent / pi, 1e-6 * sent);
+    EXPECT_NEAR(mean[i], 1000 * power[i] / 12 / pi, 1e-6 * mean[i]);
+  }
   // The mirror throws light on the ground south of the house, and nowhere behind it.
   const auto mirrored = result.doubles("light_load_mirror");
   const auto ground = [&](double from_y, double to_y) {

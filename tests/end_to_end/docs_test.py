@@ -98,6 +98,10 @@ def expect_python(source, environment):
     if subprocess.run(["/usr/bin/python3", "-c", probe], stderr=subprocess.DEVNULL, check=False).returncode != 0:
         skip("xarray, h5netcdf, pandas or matplotlib is missing")
     environment = dict(environment, PYTHONPATH=os.path.join(source, "io/python"), MPLBACKEND="Agg")
+    probe = "import sunload.native; sunload.native.module()"
+    if subprocess.run(["/usr/bin/python3", "-B", "-c", probe], stderr=subprocess.DEVNULL, env=environment,
+                      check=False).returncode != 0:
+        skip("this build has no module for Python (packages pybind11-dev, python3-dev)")
     with tempfile.TemporaryDirectory() as folder:
         os.mkdir(os.path.join(folder, "configs"))
         study = text_of(os.path.join(source, "configs/street.yaml"))

@@ -9,6 +9,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "io/picture/render_scene.h"
+#include "io/result/reader.h"
+#include "tests/support/png.h"
 #include "tests/support/program.h"
 #include "tests/support/square_folder.h"
 #include "tests/support/statistics.h"
@@ -144,6 +147,99 @@ TEST(Explain, SaysWhichSurfaceIsWorthPainting) {
             "row,material,object,area_m2,reflectance,change_kwh_m2,se_kwh_m2,per_100_m2_kwh_m2");
 }
 
+TEST(Explain, DrawsTheRowsBesidesTheTable) {
+  const SquareFolder square(coarse_square());
+  ASSERT_EQ(square.run("results").code, 0);
+  const std::vector<std::string> words{"explain", square.result("results"), "--object", "square"};
+  const Ran table = program(square.folder, words);
+  auto with_picture = words;
+  with_picture.insert(with_picture.end(), {"-o", "why.png"});
+  const Ran drawn = program(square.folder, with_picture);
+  EXPECT_EQ(drawn.code, 0) << drawn.err;
+  EXPECT_EQ(drawn.out, table.out);
+  const Png picture = read_png(square.folder / "why.png");
+  EXPECT_GT(picture.width, 500);
+  EXPECT_GT(count_of(picture, {0.93, 0.62, 0.10}), 1000u) << "sun";
+}
+
+/// Sum over the patches of an object, or of all: value × area.
+double sum_over(const ResultReader& map, const std::string& dataset,
+                const std::string& object = {}) {
+  const auto values = map.doubles(dataset), area = map.doubles("patch_area");
+  const auto names = map.strings("object_name");
+  const auto of = map.integers("patch_object");
+  double sum = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (object.empty() || names[static_cast<std::size_t>(of[i])] == object)
+      sum += values[i] * area[i];
+  return sum;
+}
+
+TEST(Explain, MapsWhichPatchesGiveAndTake) {
+  const SquareFolder square(coarse_square() + two_variants);
+  ASSERT_EQ(square.run("results").code, 0);
+  const std::string result = square.result("results", "glazed"), map = square.folder / "map.h5";
+  for (const std::vector<std::string>& place :
+       {std::vector<std::string>{"--object", "square"}, {"--sensor", "0"}, {"--object", "house"}}) {
+    std::vector<std::string> words{result, "--map", map};
+    words.insert(words.end(), place.begin(), place.end());
+    const json table = explained(square.folder, words);
+    const ResultReader file(map, {}, Opens::derived_too);
+    const double rounding = 1e-9 * row_of(table, "result")[load].get<double>();
+    for (const auto& row : table["rows"]) {
+      if (row["row"] != "object" && row["row"] != "sum") continue;
+      const std::string object = row["row"] == "sum" ? "" : row["name"];
+      const auto expect_sum = [&](const std::string& dataset, const std::string& column) {
+        EXPECT_NEAR(sum_over(file, dataset, object), row[column].get<double>(), rounding)
+            << place.back() << " " << dataset << " of " << object;
+      };
+      expect_sum("light_given_reflected", "reflects_kwh_m2");
+      expect_sum("light_given_mirror", "mirrors_kwh_m2");
+      expect_sum("light_given_lamps", "shines_kwh_m2");
+      // What adds up has the open in it; the house takes by its floor, which has no patches.
+      if (object.empty() || object == "house") continue;
+      EXPECT_NEAR(sum_over(file, "light_given", object) - sum_over(file, "light_taken", object),
+                  row[load].get<double>(), rounding)
+          << object;
+    }
+    double weight = 0;
+    for (const double of_patch : file.doubles("place_weight")) weight += of_patch;
+    EXPECT_NEAR(weight, place.front() == "--sensor" ? 0 : 1, 1e-12);
+    EXPECT_GT(sum_over(file, "light_given_reflected"), 1e4 * rounding) << "there is some";
+  }
+}
+
+TEST(Explain, ItsMapIsDrawnAndExported) {
+  const SquareFolder square(coarse_square());
+  ASSERT_EQ(square.run("results").code, 0);
+  const std::string result = square.result("results");
+  const auto done = [&](std::vector<std::string> words) {
+    const Ran ran = program(square.folder, words);
+    EXPECT_EQ(ran.code, 0) << words.front() << ": " << ran.err;
+    return ran.out;
+  };
+  const auto refused = [&](std::vector<std::string> words, const std::string& says) {
+    const Ran ran = program(square.folder, words);
+    EXPECT_EQ(ran.code, 2) << ran.err;
+    EXPECT_NE(ran.err.find(says), std::string::npos) << ran.err;
+  };
+  done({"explain", result, "--object", "square", "--map", "map.h5", "--hours", "8-12"});
+  done({"render", "map.h5", "-o", "map.png", "--camera", "top", "--size", "600x400"});
+  EXPECT_GT(count_of(read_png(square.folder / "map.png"), mark_colour), 1000u) << "the place";
+  done({"render", "map.h5", "-o", "taken.png", "--quantity", "light_taken_sky", "--scale", "log"});
+  const std::string csv = done({"export", "map.h5", "--to", "csv", "--object", "house"});
+  EXPECT_NE(csv.find("light_given_kwh_m4"), std::string::npos);
+  for (const char* format : {"vtk", "glb", "gpkg", "ply"})
+    done({"export", "map.h5", "--to", format, "-o", std::string("map.") + format});
+  refused({"info", "map.h5"}, "sunload-place-map-1");
+  refused({"export", "map.h5", "--to", "xdmf", "-o", "map.xdmf"}, "of a map of a place");
+  refused({"render", "map.h5", "-o", "a.png", "--camera", "sun"}, "of a map of a place");
+  refused({"render", "map.h5", "-o", "a.png", "--month", "3"}, "explain --month 3 --map");
+  refused({"explain", result, "--object", "square", "--map", "map.png"}, "render draws");
+  refused({"explain", result, "--object", "square", "--map", "map.h5", "--paint"}, "--paint");
+  refused({"explain", result, "--object", "square", "--map", result}, "baseline.h5");
+}
+
 TEST(Explain, RefusesWhatItCannotTell) {
   const SquareFolder square(coarse_square());
   const Ran ran = square.run("results");
@@ -157,6 +253,9 @@ TEST(Explain, RefusesWhatItCannotTell) {
   };
   EXPECT_NE(refusal({}).find("no place is named"), std::string::npos);
   EXPECT_NE(refusal({"--object", "hause"}).find("house"), std::string::npos);
+  EXPECT_NE(refusal({"--object", "house", "-o", "why.svg"}).find(".png"), std::string::npos);
+  EXPECT_NE(refusal({"--object", "house", "-o", "why.png", "--paint"}).find("--paint"),
+            std::string::npos);
   EXPECT_NE(refusal({"--object", "house", "--sensor", "0"}).find("sensor"), std::string::npos);
   std::filesystem::create_directory(square.folder / "elsewhere");
   EXPECT_NE(refusal({"--object", "house", "--study-folder", "elsewhere"}).find("square.obj"),

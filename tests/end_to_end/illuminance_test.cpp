@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "geo/base/units.h"
 #include "io/result/reader.h"
+#include "io/result/shown_quantity.h"
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
 
@@ -67,6 +69,9 @@ TEST_F(Fields, LevelGroundHasTheGlobalValue) {
   }
   const auto stored = light.doubles("light_load");
   for (std::size_t i = 0; i < load.size(); ++i) EXPECT_NEAR(stored[i], load[i], rounding * load[i]);
+  const auto noon = shown_quantity(light, "luminance", "2026-06-21T12:30");
+  EXPECT_EQ(noon.units, "cd/m²");
+  EXPECT_NEAR(noon.values[0], 0.2 * global[noon.interval] / pi, rounding * global[noon.interval]);
   EXPECT_EQ(light.doubles("sun_hours"), power.doubles("sun_hours"));
 }
 

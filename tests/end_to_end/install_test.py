@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The sunload authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What `cmake --install` leaves works where it is: an example found from the prefix, pages of man, completions, and a
-program of somebody else's that is built with find_package(sunload).
+"""What `cmake --install` leaves works where it is: an example found from the prefix, pages of man and of HTML,
+completions, the Python package with its module, and a program of somebody else's that is built with
+find_package(sunload).
 
 install_test.py SOURCE_FOLDER BUILD_FOLDER CMAKE
 """
@@ -57,6 +58,16 @@ def expect_completions(prefix):
             run([shell, "-n", os.path.join(prefix, "share", name)])
 
 
+def expect_html(prefix):
+    """All pages as one file, where Debian's Python has what makes it."""
+    has = subprocess.run(["/usr/bin/python3", "-c", "import markdown_it"], stderr=subprocess.DEVNULL, check=False).returncode == 0
+    page = os.path.join(prefix, "share/doc/sunload/html/sunload.html")
+    assert os.path.exists(page) == has, page
+    if has:
+        with open(page, encoding="utf-8") as file:
+            assert "<h1 id=\"tutorial\">" in file.read()
+
+
 def compiler_flags(build):
     """Of the build: archives with sanitizers want a program with them."""
     with open(os.path.join(build, "CMakeCache.txt"), encoding="utf-8") as cache:
@@ -78,6 +89,20 @@ def expect_consumer(prefix, folder, cmake, flags):
     assert min(values) == 0 and 566 + 50 < max(values) < 1.5 * (566 + 100), (min(values), max(values))
 
 
+def expect_python(prefix, build, folder):
+    """The package with its compiled module, where the build has one."""
+    if not glob.glob(os.path.join(build, "io/python/_native.*.so")):
+        return
+    script = ("import sunload; solved = sunload.solve([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], 0.3, [[180, 90, 500]]); "
+              "print(float(solved.irradiance[0, 0]), sunload.__file__)")
+    environment = dict(os.environ, PYTHONPATH=os.path.join(prefix, "lib/python3/dist-packages"), SUNLOAD="/nowhere/sunload")
+    ran = subprocess.run(["/usr/bin/python3", "-B", "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                         encoding="utf-8", env=environment, cwd=folder, check=False)
+    assert ran.returncode == 0, ran.stderr[-2000:]
+    value, place = ran.stdout.split()
+    assert abs(float(value) - 500) < 1e-3 and place.startswith(prefix), ran.stdout
+
+
 def main():
     source, build, cmake = sys.argv[1:4]
     with tempfile.TemporaryDirectory() as folder:
@@ -87,12 +112,14 @@ def main():
         expect_example(program, folder)
         expect_manual(prefix, program)
         expect_completions(prefix)
+        expect_html(prefix)
         for name in ("study.schema.json", "models/town.city.json"):
             installed = os.path.join(prefix, "share/sunload/configs", name)
             with open(installed, "rb") as one, open(os.path.join(source, "configs", name), "rb") as other:
                 assert one.read() == other.read()
         run(["/usr/bin/python3", os.path.join(prefix, "share/sunload/scripts/plot/report.py"), "--help"])
         run(["bash", "-n", os.path.join(prefix, "share/sunload/scripts/demo")])
+        expect_python(prefix, build, folder)
         expect_consumer(prefix, folder, cmake, compiler_flags(build))
 
 

@@ -16,7 +16,8 @@ from skip import SKIPPED
 
 ALLOWED = {"io/Sun.Table": "data/city of the real models is not here", "end_to_end/slurm": "slurmctld is not installed",
            "solver/surface/Every/RayCasterOn.Leaks/avx512": "avx512 is missing on this processor",
-           "end_to_end/Shards.RanksThatAreStoppedGoOn": "no mpirun (package openmpi-bin)"}
+           "end_to_end/Shards.RanksThatAreStoppedGoOn": "no mpirun (package openmpi-bin)",
+           "end_to_end/view": "node is not installed", "end_to_end/view_use": "chromium is not installed"}
 WRONG = {"end_to_end/export": "python3-h5py is not installed", "io/Sun.Other": "", "end_to_end/exportXvtk": "python3-vtk9 is not installed"}
 
 

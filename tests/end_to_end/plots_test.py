@@ -275,7 +275,7 @@ def test_wrong_input(plots, path, folder):
     for script, words, says in (
             ("series", ["missing.h5"], "missing.h5"),
             ("series", ["square.yaml"], "HDF5"),
-            ("facade_map", [path, "--quantity", "light_lode"], "choose one of irradiance_max, light_load"),
+            ("facade_map", [path, "--quantity", "light_lode"], "choose one of diffuse_reflectance, irradiance_max, light_load"),
             ("facade_map", [path, "--quantity", "irradiance", "--time", "2027-01-01T12:00"], "no interval"),
             ("facade_map", [path, "--quantity", "irradiance", "--time", "noon"], "ISO 8601"),
             ("facade_map", [path, "--facade", "tower*"], "house/"),

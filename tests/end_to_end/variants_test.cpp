@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <thread>
 
@@ -85,7 +86,7 @@ TEST(Examples, OfVariantsRun) {
   const WorkFolder folder;
   const auto configs = source_folder() + "/configs/";
   for (const auto& [name, count] :
-       {std::pair{"storeys", 3}, std::pair{"courtyard", 12}, std::pair{"trees", 3}}) {
+       {std::pair{"storeys", 3}, std::pair{"courtyard", 12}, std::pair{"trees", 4}}) {
     std::string text = bytes_of(configs + name + ".yaml");
     for (const auto& [from, to] :
          {std::pair{std::string("max_edge_m: [23]"), std::string("max_edge_m: 12")},
@@ -270,6 +271,39 @@ TEST(Variants, AllThatIsWrongIsSaidBeforeAnythingIsComputed) {
   for (const char* file : {"cut.obj", "nan.obj"})
     EXPECT_NE(ran.err.find(file), std::string::npos) << ran.err;
   EXPECT_FALSE(fs::exists(three.folder / "results"));
+}
+
+/// What reflected light is off by where patches are others, beside the standard errors.
+TEST(Variants, OfOtherPatchesHaveAnErrorOfTheMesh) {
+  const WorkFolder folder;
+  folder.write("square.obj", square_obj);
+  folder.write("square.yaml", square_study("totals", "", "3") +
+                                  "variants:\n  - {name: base}\n  - {name: dark, scene: "
+                                  "{materials: {paving: {diffuse: 0.1}}}}\n  - {name: coarse, "
+                                  "mesh: {max_edge_m: 6}}\n");
+  ASSERT_EQ(program(folder, {"run", "square.yaml"}).code, 0);
+  const auto compared = [&](const char* variant, const char* how) {
+    return program(folder, {"compare", "square.yaml", "base", variant, "--least", "1", how}).out;
+  };
+  for (const auto& row : nlohmann::json::parse(compared("dark", "--json"))["rows"])
+    EXPECT_EQ(row["mesh_error_kwh_m2"], 0) << row["name"];
+  EXPECT_EQ(compared("dark", "--storey-m=3").find("mesh:"), std::string::npos);
+
+  const auto reflected = [&](const char* variant) {
+    const ResultReader result(folder / ("results/square/" + std::string(variant) + ".h5"));
+    const auto area = result.doubles("patch_area"), load = result.doubles("light_load_reflected");
+    double sum = 0, all = 0;
+    for (std::size_t i = 0; i < area.size(); ++i) sum += area[i] * load[i], all += area[i];
+    return sum / all;
+  };
+  const auto rows = nlohmann::json::parse(compared("coarse", "--json"))["rows"];
+  const double told = rows[0]["mesh_error_kwh_m2"].get<double>();
+  EXPECT_EQ(rows[0]["group"], "whole");
+  EXPECT_NE(compared("coarse", "--storey-m=3").find("mesh:"), std::string::npos);
+  // A few small patches are the same in both.
+  const double of_all = 0.1 * std::hypot(reflected("base"), reflected("coarse"));
+  EXPECT_LE(told, of_all * (1 + 1e-6));
+  EXPECT_GT(told, 0.95 * of_all);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A page of `sunload view` in headless Chromium, drawn without a graphics card.
+// A page of `sunload view`, or the manual, in headless Chromium, drawn without a graphics card.
 import { createRequire } from "node:module";
 import { join } from "node:path";
 
@@ -14,13 +14,14 @@ export class Browser {
     return one;
   }
 
-  async open(address, options = {}) {
+  /** `loaded` tells in the page that it is ready; left out: that of `sunload view`. */
+  async open(address, { loaded = () => window.sunload, ...options } = {}) {
     const tab = await this.browser.newPage({ viewport: { width: 1280, height: 720 }, ...options });
     tab.on("console", (message) => ["error", "warning"].includes(message.type()) && this.seen.errors.push(message.text()));
     tab.on("pageerror", (error) => this.seen.errors.push(String(error)));
     tab.on("request", (request) => !/^(file|data|blob):/.test(request.url()) && this.seen.requests.push(request.url()));
     await tab.goto(address);
-    await tab.waitForFunction(() => window.sunload, null, { timeout: 240000 });
+    await tab.waitForFunction(loaded, null, { timeout: 240000 });
     return tab;
   }
 

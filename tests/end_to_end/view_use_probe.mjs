@@ -19,6 +19,7 @@ try {
   await address(tab);
   await saved(tab);
   await shaded(tab);
+  await logarithmic(tab);
   await keys(tab);
   await tab.close();
   await touched(await browser.open(`file://${page}`, { viewport: { width: 400, height: 760 }, hasTouch: true }));
@@ -62,7 +63,7 @@ async function settled(tab) {
 async function layouts(tab) {
   const states = {
     first: {}, chosen: { view: "0", picked: [{ of: "facade", name: facade }] }, side: { view: "side" }, all: { view: "all" },
-    kinds: { view: "side", quantity: "surfaces" }, folded: { folded: ["left", "foot"] },
+    kinds: { view: "side", quantity: "surfaces" }, logarithmic: { view: "all", scale: "log" }, folded: { folded: ["left", "foot"] },
   };
   for (const [width, height] of sizes) {
     await tab.setViewportSize({ width, height });
@@ -133,7 +134,7 @@ async function address(tab) {
   await tab.evaluate(() => document.activeElement.blur());
   await tab.evaluate(() => {
     const viewer = window.sunload;
-    viewer.change({ view: "all", k: 4, lines: "after", limits: { light_load: 3 }, chart: "months", picked: [...viewer.state.picked, { of: "pattern", name: "house/*" }] });
+    viewer.change({ view: "all", k: 4, scale: "log", lines: "after", limits: { light_load: 3 }, chart: "months", picked: [...viewer.state.picked, { of: "pattern", name: "house/*" }] });
     viewer.man.orbitBy(2, 1, 0.9);
   });
   await settled(tab);
@@ -144,9 +145,9 @@ async function address(tab) {
   const other = await browser.open(seen.address);
   await settled(other);
   await picture(other, "received");
-  await other.evaluate(() => { window.location.hash = "view=nonsense&quantity=none&time=never&camera=orbit,1,2&select=facade:none,patch:0:99999999&limit.light_load=-1&%E0=1&=&fold=x"; });
+  await other.evaluate(() => { window.location.hash = "view=nonsense&quantity=none&time=never&camera=orbit,1,2&select=facade:none,patch:0:99999999&limit.light_load=-1&%E0=1&=&fold=x&scale=cubic"; });
   await settled(other);
-  seen.nonsense = await other.evaluate(() => ({ view: window.sunload.state.view, quantity: window.sunload.state.quantity }));
+  seen.nonsense = await other.evaluate(() => (({ view, quantity, scale }) => ({ view, quantity, scale }))(window.sunload.state));
   await other.close();
 }
 
@@ -160,7 +161,7 @@ async function saved(tab) {
 async function shaded(tab) {
   await tab.evaluate(() => {
     window.sunload.man.home();
-    window.sunload.change({ view: "0", picked: [], limits: {}, lines: "none", edges: false, path: false, quantity: "light_load" });
+    window.sunload.change({ view: "0", picked: [], limits: {}, lines: "none", edges: false, path: false, quantity: "light_load", scale: "linear" });
   });
   await settled(tab);
   seen.shades = await tab.evaluate(() => {
@@ -176,6 +177,22 @@ async function shaded(tab) {
   await tab.selectOption("#shade", "all");
   await picture(tab, "shaded");
   await tab.selectOption("#shade", "shapes");
+}
+
+/** The switch of the legend, by the keyboard and back. */
+async function logarithmic(tab) {
+  await tab.focus("#scale");
+  await tab.keyboard.press("Enter");
+  await settled(tab);
+  seen.logarithmic = await tab.evaluate(() => ({ limit: window.sunload.limit(), focus: document.activeElement.id, pressed: document.getElementById("scale").getAttribute("aria-pressed"), address: window.sunload.address(),
+    ticks: [...document.querySelectorAll("#legend .ticks span")].map((tick) => [Number(tick.textContent), parseFloat(tick.style.left) / 100]), says: document.querySelector("#legend .beyond").textContent }));
+  await picture(tab, "logarithmic");
+  await tab.evaluate(() => { window.sunload.change({ view: "difference" }); });
+  seen.logarithmic.ofDifference = await tab.evaluate(() => ({ switches: document.querySelectorAll("#scale").length, ticks: [...document.querySelectorAll("#legend .ticks span")].map((tick) => Number(tick.textContent)) }));
+  await tab.evaluate(() => { window.sunload.change({ view: "0" }); });
+  await tab.click("#scale");
+  seen.logarithmic.after = await tab.evaluate(() => window.sunload.state.scale);
+  await picture(tab, "linear");
 }
 
 async function keys(tab) {

@@ -147,7 +147,7 @@ def test_address(seen, folder):
     value, other = part_of(sent, boxes[0]), part_of(sent, boxes[2])
     width = min(value.shape[1], other.shape[1])
     assert (np.abs(value[:, :width] - other[:, :width]) > 8).mean() > 0.02, "the difference looks like the values"
-    assert seen["nonsense"] == {"view": "all", "quantity": "light_load"}, seen["nonsense"]
+    assert seen["nonsense"] == {"view": "all", "quantity": "light_load", "scale": "log"}, seen["nonsense"]
 
 
 def test_saved(seen, folder):
@@ -181,6 +181,31 @@ def test_shades(seen, folder):
         assert (dark >= least - SHADE_STEPS).all() and (dark <= own + SHADE_STEPS).all(), (at, own, dark)
         assert is_level or (dark < own - 1).any(), f"{at} is not shaded"
     assert kinds == {True, False}
+
+
+def test_logarithmic(seen, folder, result):
+    """Three powers of ten below the limit, as in `sunload render --scale log`; differences stay as they are."""
+    said, limit = seen["logarithmic"], seen["logarithmic"]["limit"]
+    assert said["focus"] == "scale" and said["pressed"] == "true" and "scale=log" in said["address"], said
+    assert len(said["ticks"]) in (9, 10), said["ticks"]
+    for value, place in said["ticks"]:
+        digit = value / 10 ** np.floor(np.log10(value) + 1e-9)
+        assert min(abs(digit - d) for d in (1, 2, 5)) < 1e-9 and abs(place - (3 + np.log10(value / limit)) / 3) < 1e-6, (value, place, limit)
+    values = np.array([result["light_load"][at["patch"]] for at in seen["shades"]])
+    share = np.clip((3 + np.log10(np.maximum(values, 1e-30) / limit)) / 3, 0, 1)
+    assert ("first colour" in said["says"]) == (result["light_load"][...] < limit / 1000).any(), said["says"]
+    pictures = view_test.Pictures(folder)
+    # The helper wants a value and what it ends at: places on the scale are their own values.
+    view_test.assert_colours(pictures, "logarithmic", seen["shades"], "false", share, 1)
+    view_test.assert_colours(pictures, "linear", seen["shades"], "false", values, limit)
+    try:
+        view_test.assert_colours(pictures, "logarithmic", seen["shades"], "false", values, limit)
+    except AssertionError:
+        pass
+    else:
+        raise AssertionError("logarithmic colours are the linear ones")
+    assert said["ofDifference"]["switches"] == 0 and min(said["ofDifference"]["ticks"]) < 0, said["ofDifference"]
+    assert said["after"] == "linear"
 
 
 def test_keys(seen):
@@ -245,6 +270,7 @@ def test(sunload, source, packages, folder):
         test_values(seen, (base, bright), facade)
         test_charts(seen, (base, bright), facade)
         test_parts(seen, (base, bright))
+        test_logarithmic(seen, folder, base)
     test_address(seen, folder)
     test_saved(seen, folder)
     test_shades(seen, folder)

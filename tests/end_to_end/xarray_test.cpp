@@ -59,6 +59,7 @@ const nlohmann::json promised = {
     {"irradiance_max", {"patch", "W m-2"}},
     {"sky_view_factor", {"patch", "1"}},
     {"power_load", {"patch", "kWh m-2"}},
+    {"diffuse_reflectance", {"patch", "1"}},
     {"facade_irradiance", {"time facade", "W m-2"}},
     {"facade_light_load", {"facade", "kWh m-2"}},
     {"facade_light_load_se", {"facade", "kWh m-2"}},

@@ -184,6 +184,7 @@ TEST(House, OneFileKnowsEachForeignLibrary) {
       {"omp.h", {"solver/base/threads"}},
       {"Random123", {"solver/base/rng"}},
       {"mpi.h", {"io/run/mpi_world"}},
+      {"pybind11", {"io/python/native"}},
       {"regex", {"geo/base/pattern"}},  // seconds of building in each source
       {"hdf5", {"io/result/h5"}},
       {"netcdf", {}},

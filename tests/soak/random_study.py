@@ -64,6 +64,18 @@ def random_variants(random, study):
     return [{"name": "baseline"}, {"name": "changed", **random.choice(changes)}]
 
 
+def add_seasons(random, study):
+    """One material or two are others for a part of the year."""
+    materials = {name: m for name, m in study["scene"].get("materials", {}).items() if name != "panel"}
+    sides = random.choice([m.get("sides") for m in materials.values()])
+    alike = [name for name, m in materials.items() if m.get("sides") == sides]
+    months = sorted(random.sample(range(1, 13), random.randint(1, 6)))
+    dates = [f"{random.randint(1, 12):02}-{day}" for day in ("07", "21")]
+    study["seasons"] = {"first": months, "second": dates}
+    for name in alike[:2]:
+        materials[name]["seasons"] = {random.choice(["first", "second"]): random.choice(alike)}
+
+
 def random_sensors(random, folder, scene):
     def point():
         at = [round(random.uniform(scene.low[k], scene.high[k]), 3) for k in range(3)]
@@ -138,6 +150,8 @@ class RandomStudy:
             study["sensors"] = random_sensors(random, folder, scene)
         if random.random() < 0.25 and not self.is_measurable:
             study["variants"] = random_variants(random, study)
+        if random.random() < 0.15 and "positions" not in study["period"] and study["scene"].get("materials"):
+            add_seasons(random, study)
         self.tree = broken(random, study) if self.is_wrong else study
         self.variants = [v["name"] for v in self.tree.get("variants", [{"name": "baseline"}])]
         self.path = self.write("study.yaml", self.tree)

@@ -126,6 +126,23 @@ std::string facades_problem(const ResultReader& result) {
   return {};
 }
 
+/// What patches send diffusely is what they reflect and emit.
+std::string sent_light_problem(const ResultReader& result) {
+  if (!result.has("diffuse_reflectance")) return {};  // its materials change with the seasons
+  const auto load = result.doubles("light_load"), sent = result.doubles("power_load"),
+             reflectance = result.doubles("diffuse_reflectance");
+  auto emitted = std::vector<double>(load.size(), 0);
+  if (result.has("emitted_exitance")) emitted = result.doubles("emitted_exitance");
+  const auto lengths = lengths_of(result);
+  const double hours = std::accumulate(lengths.begin(), lengths.end(), 0.0) / joules_per_kwh;
+  for (std::size_t i = 0; i < load.size(); ++i) {
+    const double known = reflectance[i] * load[i] + emitted[i] * hours;
+    if (differ(sent[i], known, rounding_of(known)))
+      return fmt::format("patch {}: power_load {}, reflected and emitted {}", i, sent[i], known);
+  }
+  return {};
+}
+
 /// Parts of the period make up all of it.
 std::string parts_problem(const ResultReader& result) {
   for (const std::string kind : part_kind_names) {
@@ -196,8 +213,9 @@ std::string ledger_problem(const std::string& path, double lost_share) {
 
 std::string sums_problem(const std::string& path) {
   const ResultReader result(path);
-  for (const auto& problem : {series_problem(result), sun_hours_problem(result),
-                              facades_problem(result), parts_problem(result)})
+  for (const auto& problem :
+       {series_problem(result), sun_hours_problem(result), facades_problem(result),
+        parts_problem(result), sent_light_problem(result)})
     if (!problem.empty()) return path + ": " + problem;
   return {};
 }

@@ -28,7 +28,8 @@ std::string ledger_problem(const std::string& result, double lost_share = 0);
 
 /// Empty, or which of the promises of docs/developer/design.md, Result and ledger, that tie
 /// datasets together are broken: light_load = Σ irradiance · length = Σ of its parts; largest value
-/// of the series; sun hours within the daylight; facades = area-weighted patches.
+/// of the series; sun hours within the daylight; facades = area-weighted patches; what is sent is
+/// what is reflected and emitted.
 std::string sums_problem(const std::string& result);
 
 }  // namespace sunload::test

@@ -173,6 +173,12 @@ std::string write_small_result(const SmallResult& result, const std::string& nam
   }
   writer.write({"light_load_realization", realization});
   writer.write({"sun_hours", hours});
+  if (result.diffuse_reflectance) {
+    writer.write(
+        {"diffuse_reflectance", std::vector<double>(patches, *result.diffuse_reflectance)});
+    if (result.emitted_exitance > 0)
+      writer.write({"emitted_exitance", std::vector<double>(patches, result.emitted_exitance)});
+  }
   ResultAttributes attributes;
   attributes.text = {{"title", "small"},
                      {"variant", result.variant},

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,10 @@ struct SmallResult {
   std::vector<SmallHouse> houses{{"house_1", {-12, 0, 0}, {-2, 8, 9}},
                                  {"house_2", {2, 0, 0}, {12, 8, 6}}};
   Vec3 origin{1000, 2000, 0};
-  double reflected_share = 0;  ///< of every load; 0: reflected light is not stored
+  /// Of all patches; nothing: not stored, nor what they send, as of earlier versions.
+  std::optional<double> diffuse_reflectance = {};
+  double emitted_exitance = 0;  ///< [W m-2], of all patches; 0: not stored
+  double reflected_share = 0;   ///< of every load; 0: reflected light is not stored
   /// Light load [kWh m-2] of a patch of that object and normal, realization r.
   std::function<double(const std::string& object, Vec3 normal, std::size_t r)> load =
       [](const std::string&, Vec3 normal, std::size_t) { return 2 + normal.z - normal.y; };

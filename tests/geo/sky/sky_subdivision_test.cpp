@@ -63,5 +63,53 @@ TEST(SkySubdivision, MeanRadianceKeepsTheIrradiance) {
   }
 }
 
+/// Radiances of which no two are alike.
+std::vector<double> uneven(std::size_t count) {
+  std::vector<double> radiance(count);
+  for (std::size_t i = 0; i < count; ++i) radiance[i] = 20 + static_cast<double>(i * 37 % 101);
+  return radiance;
+}
+
+TEST(PatchSkies, KeepTheIrradianceOfTheirPatches) {
+  const SkyGrid grid;
+  for (const auto kind :
+       {Subdivision::tregenza, Subdivision::reinhart_mf2, Subdivision::reinhart_mf4}) {
+    const PatchSkies skies(kind, grid);
+    const auto radiance = uneven(skies.patch_count());
+    const auto cells = skies.on_grid(radiance);
+    double sum = 0;
+    for (std::size_t c = 0; c < cells.size(); ++c) sum += cells[c] * grid.projected()[c];
+    EXPECT_NEAR(sum / skies.horizontal_irradiance(radiance), 1, 1e-12);
+    for (const double cell : skies.on_grid(std::vector(skies.patch_count(), 3.0)))
+      EXPECT_NEAR(cell, 3, 1e-6);  // shares are floats
+  }
+}
+
+TEST(PatchSkies, LightTheCellsWherePatchesAre) {
+  const SkyGrid grid;
+  for (const auto kind : {Subdivision::tregenza, Subdivision::reinhart_mf4}) {
+    const PatchSkies skies(kind, grid);
+    const auto patches = sky_patches(kind);
+    for (std::size_t p = 0; p < patches.size(); p += 13) {
+      std::vector<double> radiance(patches.size(), 0);
+      radiance[p] = 1;
+      const auto cells = skies.on_grid(radiance);
+      const Vec3 middle = patches[p].direction;
+      EXPECT_GT(cells[static_cast<std::size_t>(grid.cell(middle))], 0) << p;
+      const double reach =
+          norm(patches[p].direction -
+               enu_direction({patches[p].azimuth_low_deg, patches[p].elevation_low_deg}));
+      constexpr double cell_width = 0.04;  // of 64 x 64, the diagonal
+      for (std::size_t c = 0; c < cells.size(); ++c) {
+        if (cells[c] > 0) {
+          EXPECT_LT(norm(grid.direction(static_cast<int>(c), 0.5, 0.5) - middle),
+                    1.2 * reach + cell_width)
+              << p;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sunload

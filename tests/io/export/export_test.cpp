@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "geo/base/check.h"
+#include "geo/base/units.h"
 #include "io/export/format.h"
 #include "io/scene/file.h"
 #include "tests/support/refusal_of.h"
@@ -116,6 +117,16 @@ TEST(Export, TablesHaveARowPerPatchOrTime) {
   EXPECT_EQ(rows.front(), "index,object,facade,surface,side,area_m2,irradiance_w_m2,time_utc");
   // The ground, 2 + 1 kWh/m²; a hundredfold in the first hour.
   EXPECT_EQ(rows.at(1), "0,ground,,ground,0,12.5,300,2026-06-21T09:30:00Z");
+
+  SmallResult seen;
+  seen.diffuse_reflectance = 0.5;
+  const auto reflecting = write_small_result(seen, "export_radiance");
+  rules.quantity = "radiance";
+  const auto radiances = lines_of(exported(reflecting, rules));
+  EXPECT_EQ(radiances.front(),
+            "index,object,facade,surface,side,area_m2,radiance_w_m2_sr1,time_utc");
+  EXPECT_EQ(radiances.at(1),
+            fmt::format("0,ground,,ground,0,12.5,{:.9g},2026-06-21T09:30:00Z", 150 / pi));
 
   rules.quantity = "series";
   rules.time = "";

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "solver/solver.h"
 #include "tests/support/small_study.h"
 #include "tests/support/work_folder.h"
 

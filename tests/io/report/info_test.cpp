@@ -155,8 +155,8 @@ TEST(InfoTables, TextCsvAndJsonHaveTheSameRows) {
   const auto csv = group_table_csv(table);
   expect_in(csv,
             "name,azimuth_deg,area_m2,light_load_kwh_m2,light_load_se_kwh_m2,energy_kwh,"
-            "energy_se_kwh,sun_hours_h,sky_view_factor,irradiance_max_w_m2\n");
-  expect_in(csv, "\"a, \"\"b\"\"/south_1\",180,90,3,0.0113389342,270,1.02050408,3,,\n");
+            "energy_se_kwh,sun_hours_h,sky_view_factor,irradiance_max_w_m2,mesh_error_kwh_m2\n");
+  expect_in(csv, "\"a, \"\"b\"\"/south_1\",180,90,3,0.0113389342,270,1.02050408,3,,,\n");
   const auto json = nlohmann::json::parse(group_table_json(result, table));
   ASSERT_EQ(json["rows"].size(), 4u);
   EXPECT_EQ(json["table"], "facades");

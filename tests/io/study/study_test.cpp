@@ -840,6 +840,8 @@ json study_around(const std::string& path) {
     study["period"] = {{"positions", json::array({sun})}};
     study["light"] = fixed;
   }
+  if (path == "scene.materials.*.seasons.*" || path == "light.far_ground_seasons.*")
+    study["seasons"]["m"] = {"11-01", "04-15"};
   if (path == "scene.ground.height_m") study["scene"]["ground"]["surface"] = "level";
   if (path == "site.timezone") study["site"].erase("timezone");
   if (path.starts_with("scene.edit")) study["scene"]["edit"] = json::array({step_around(path)});
@@ -1199,6 +1201,8 @@ std::vector<json> values_of(const std::string& path, const json& schema) {
       {"scene.parallel_sources", {file}},
       {"sensors.file", {file}},
       {"scene.builtin.name", {"street", "canyon"}},
+      {"scene.materials.*.seasons.*", {"m", "n"}},
+      {"seasons.*", {{"11-01", "04-15"}, {1, 2}}},
       {"scene.lod", {"1", "2.2"}},
       {"scene.assign[].object", {"a"}},
       {"scene.assign[].was", {"a"}},

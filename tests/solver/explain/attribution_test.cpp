@@ -186,5 +186,43 @@ TEST(Attribution, AddsUpToTheSolution) {
   EXPECT_FALSE(planted) << planted.text;
 }
 
+TEST(Attribution, OfPatchesAddsUpToThatOfTheirObjects) {
+  const Scene scene = court();
+  const auto mesh = std::make_shared<Hierarchy>(scene, SplitRules{.max_edge_m = 5});
+  SolverRules rules = test_rules();
+  rules.lines_per_patch = rules.realizations * 16;
+  const TracedScene traced(scene, mesh, rules);
+  const Period period(three_suns());
+  // Each patch sends something else, so that a patch in the place of another is seen.
+  SentLight sent;
+  for (std::size_t i = 0; i < mesh->patch_count(); ++i)
+    sent.push_back(10 + static_cast<double>(i % 17));
+  const auto object_of = [&](std::size_t i) {
+    return scene.mesh.triangle_object[static_cast<std::size_t>(mesh->patches()[i].triangle)]
+        .index();
+  };
+  Place place;
+  for (std::size_t i = 0; i < mesh->patch_count(); ++i)
+    if (object_of(i) == object_named(scene, "ground")) place.receivers.push_back(i);
+  place.weight.assign(place.receivers.size(), 1 / static_cast<double>(place.receivers.size()));
+  const Attribution objects = attribute_light(traced, period, sent, place),
+                    patches = attribute_light(traced, period, sent, place, {}, Among::patches);
+  ASSERT_EQ(patches.objects(), mesh->patch_count());
+  double by_mirror = 0;
+  for (std::size_t r = 0; r < objects.realizations(); ++r) {
+    EXPECT_EQ(patches.open(Attribution::Open::sky, r), objects.open(Attribution::Open::sky, r));
+    for (std::size_t f = 0; f < flow_count; ++f) {
+      const auto flow = static_cast<Flow>(f);
+      std::vector<double> sums(objects.objects(), 0);
+      for (std::size_t i = 0; i < patches.objects(); ++i)
+        sums[object_of(i)] += patches.flow(i, flow, r);
+      for (std::size_t o = 0; o < sums.size(); ++o)
+        EXPECT_NEAR(sums[o], objects.flow(o, flow, r), 1e-12 * objects.total(r)) << o << " " << f;
+    }
+    by_mirror += objects.flow(object_named(scene, "glass"), Flow::mirrors, r);
+  }
+  EXPECT_GT(by_mirror, 0);
+}
+
 }  // namespace
 }  // namespace sunload::test

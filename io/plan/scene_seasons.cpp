@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/plan/scene_seasons.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "geo/base/check.h"
+#include "geo/base/units.h"
+#include "io/plan/material_assign.h"
+
+namespace sunload {
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+constexpr std::size_t most_seasons = 16;  // each takes memory as a scene of its own
+
+/// Seasons of the study that change a material.
+std::vector<SeasonStudy> seasons_that_matter(const Study& study) {
+  std::vector<SeasonStudy> matter;
+  for (const SeasonStudy& season : study.seasons)
+    if (std::any_of(study.scene.materials.begin(), study.scene.materials.end(), [&](const auto& m) {
+          return std::any_of(m.seasons.begin(), m.seasons.end(),
+                             [&](const auto& in) { return in.season == season.name; });
+        }))
+      matter.push_back(season);
+  return matter;
+}
+
+Names in_force(const std::vector<SeasonStudy>& seasons, const CivilTime& time) {
+  Names names;
+  for (const SeasonStudy& season : seasons)
+    if (is_in(season, time)) names.push_back(season.name);
+  return names;
+}
+
+/// Of every interval, as numbers of `sets`, which are those that come.
+std::vector<std::uint8_t> seasons_of(const std::vector<SeasonStudy>& seasons, const Study& study,
+                                     const LightSeries& light, std::vector<Names>& sets) {
+  const TimeZone zone(study.site.timezone);
+  std::map<Names, std::uint8_t> number_of;
+  std::vector<std::uint8_t> of_interval;
+  for (const LitInterval& interval : light.intervals) {
+    const UnixTime middle = (interval.when.begin + interval.when.end) / 2;
+    const Names names = in_force(seasons, zone.civil_from_utc(middle));
+    const auto [place, is_new] =
+        number_of.try_emplace(names, static_cast<std::uint8_t>(sets.size()));
+    if (is_new) sets.push_back(names);
+    if (sets.size() > most_seasons)
+      throw InputError(
+          study.seasons.front().where,
+          fmt::format("more than {} seasons and overlaps of them lie in the period", most_seasons),
+          "each is computed as a scene of its own", "write fewer");
+    of_interval.push_back(place->second);
+  }
+  return of_interval;
+}
+
+/// Dates of another year, of another half of it: nothing would say that they are without effect.
+void warn_of_absent(const std::vector<SeasonStudy>& seasons, const std::vector<Names>& sets,
+                    std::vector<std::string>& warnings) {
+  for (const SeasonStudy& season : seasons)
+    if (std::none_of(sets.begin(), sets.end(), [&](const Names& set) {
+          return std::find(set.begin(), set.end(), season.name) != set.end();
+        }))
+      warnings.push_back(
+          message(season.where, "season '" + season.name + "' holds in no interval of the period",
+                  "its materials are never used", "dates without a year hold in every year"));
+}
+
+/// Numbers of the sets whose scenes are the same become one; the others move up.
+void join_equal(std::vector<SceneSeason>& all, std::vector<std::uint8_t>& of_interval) {
+  std::vector<SceneSeason> different;
+  std::vector<std::uint8_t> number;
+  for (SceneSeason& season : all) {
+    const auto same = std::find_if(different.begin(), different.end(), [&](const auto& other) {
+      return other.materials == season.materials && other.material == season.material;
+    });
+    number.push_back(static_cast<std::uint8_t>(same - different.begin()));
+    if (same == different.end()) different.push_back(std::move(season));
+  }
+  all = std::move(different);
+  for (std::uint8_t& season : of_interval) season = number[season];
+}
+
+std::string joined(const Names& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// Patches are the same in all seasons, those of both sides, too; and what opaque surfaces cover
+/// was cut out before.
+void expect_same_patches(const Study& study, const Scene& scene, const Scene& other,
+                         const std::string& season, std::vector<std::string>& warnings) {
+  std::size_t uncovered = 0;
+  for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
+    const Material &usual = scene.material_of(t), &now = other.material_of(t);
+    if (scene.mesh.triangle_sides[t] != other.mesh.triangle_sides[t])
+      throw InputError(study.scene.where,
+                       "material '" + usual.name + "' has " +
+                           (scene.mesh.triangle_sides[t] == Sides::two ? "two sides" : "one side") +
+                           ", and '" + now.name + "', which it is in season '" + season + "', not",
+                       "patches are the same in all seasons",
+                       "write `sides` for both of them under scene.materials");
+    if ((usual.transmittance > 0) != (now.transmittance > 0)) ++uncovered;
+  }
+  if (uncovered > 0)
+    warnings.push_back(fmt::format(
+        "{} triangles let light pass in season '{}' or out of it, not in both: what they cover "
+        "is what it is with the materials as written",
+        uncovered, season));
+}
+
+SceneSeason season_of(const Study& study, const Names& names, BuiltScene& built) {
+  Scene scene;
+  scene.mesh = built.scene.mesh;
+  scene.mesh.triangle_sides = built.sides_of_files;  // by which a file's lamps share their power
+  std::vector<std::string> said_before;
+  assign_materials(study, {built.crs, built.site.north_deg}, scene, said_before, names);
+  expect_same_patches(study, built.scene, scene, joined(names), built.warnings);
+  return {joined(names), std::move(scene.materials), std::move(scene.material)};
+}
+
+}  // namespace
+
+std::vector<SeasonStretch> SceneSeasons::stretches(std::size_t first, std::size_t count) const {
+  std::vector<SeasonStretch> stretches;
+  for (std::size_t i = first; i < first + count; ++i) {
+    if (stretches.empty() || stretches.back().season != of(i)) stretches.push_back({of(i), i, 0});
+    ++stretches.back().count;
+  }
+  return stretches;
+}
+
+SceneSeasons take_seasons(const Study& study, const LightSeries& light, BuiltScene& built) {
+  SceneSeasons seasons;
+  const auto matter = seasons_that_matter(study);
+  if (matter.empty() || light.times_are_synthetic) return seasons;
+  std::vector<Names> sets;
+  auto of_interval = seasons_of(matter, study, light, sets);
+  warn_of_absent(matter, sets, built.warnings);
+  for (const Names& names : sets) seasons.all.push_back(season_of(study, names, built));
+  join_equal(seasons.all, of_interval);
+  if (seasons.all.size() > 1) {
+    seasons.of_interval = std::move(of_interval);
+    return seasons;
+  }
+  for (SceneSeason& only : seasons.all) {
+    built.scene.materials = std::move(only.materials);
+    built.scene.material = std::move(only.material);
+  }
+  return {};
+}
+
+Scene scene_in(const Scene& scene, const SceneSeason& season) {
+  Scene now = scene;
+  now.materials = season.materials;
+  now.material = season.material;
+  return now;
+}
+
+double far_ground_albedo(const Study& study, const TimeZone& zone, UnixTime time) {
+  double albedo = study.light.far_ground_albedo;
+  if (study.light.far_ground_seasons.empty()) return albedo;
+  const CivilTime civil = zone.civil_from_utc(time);
+  for (const SeasonStudy& season : study.seasons)
+    for (const SeasonAlbedo& in : study.light.far_ground_seasons)
+      if (in.season == season.name && is_in(season, civil)) albedo = in.albedo;
+  return albedo;
+}
+
+std::string seasons_text(const SceneSeasons& seasons, const LightSeries& light) {
+  std::vector<double> hours(seasons.all.size(), 0);
+  for (std::size_t i = 0; i < seasons.of_interval.size(); ++i)
+    hours[seasons.of_interval[i]] += light.intervals[i].when.length_s() / seconds_per_hour;
+  std::string text;
+  for (std::size_t s = 0; s < hours.size(); ++s)
+    text += fmt::format("{}{} {:.6g} h", text.empty() ? "" : ", ",
+                        seasons.all[s].name.empty() ? "else" : seasons.all[s].name, hours[s]);
+  return text;
+}
+
+}  // namespace sunload

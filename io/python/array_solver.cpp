@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/python/array_solver.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <utility>
+
+#include "geo/base/check.h"
+#include "geo/mesh/mesh_prepare.h"
+#include "solver/base/threads.h"
+#include "solver/base/watch.h"
+#include "solver/light/lit_period.h"
+#include "solver/light/sun_block.h"
+#include "solver/solver.h"
+#include "solver/traced/traced_scene.h"
+
+namespace sunload {
+
+namespace {
+
+constexpr const char* object_name = "mesh";  // random numbers are addressed by it
+constexpr double kwh_per_joule = 1 / joules_per_kwh;
+
+/// Threads and cancellation are the process's: one solution at a time has them.
+class Alone {
+ public:
+  Alone(int threads, std::function<bool()> is_stopped) {
+    constexpr std::chrono::milliseconds patience{50};
+    while (!lock_.try_lock_for(patience))
+      if (is_stopped()) throw Interrupted("stopped on request");
+    threads_before_ = thread_count();
+    if (threads > 0) set_thread_count(threads);
+    set_cancellation(std::move(is_stopped));
+  }
+  ~Alone() {
+    set_cancellation({});
+    set_thread_count(threads_before_);
+  }
+  Alone(const Alone&) = delete;
+  Alone& operator=(const Alone&) = delete;
+
+ private:
+  inline static std::timed_mutex only_one_;
+  std::unique_lock<std::timed_mutex> lock_{only_one_, std::defer_lock};
+  int threads_before_ = 0;
+};
+
+PolygonModel model_of(const ArrayScene& scene) {
+  SUNLOAD_EXPECT(scene.material.size() == scene.triangles.size(), "one material per triangle");
+  SUNLOAD_EXPECT(scene.sides.size() == scene.materials.size(), "sides of every material");
+  const auto lies_in = [](std::int32_t index, std::size_t size) {
+    return index >= 0 && static_cast<std::size_t>(index) < size;
+  };
+  PolygonModel model;
+  model.source = "vertices and triangles";
+  model.object_names = {object_name};
+  model.object_kinds = {""};
+  model.vertices = scene.vertices;
+  for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+    const auto& corners = scene.triangles[t];
+    for (const auto v : corners)
+      SUNLOAD_EXPECT(lies_in(v, scene.vertices.size()), "vertex of a triangle");
+    SUNLOAD_EXPECT(lies_in(scene.material[t], scene.materials.size()), "material of a triangle");
+    // Not a floor, whatever its slope: floors would have no patches.
+    model.add_triangle(corners[0], corners[1], corners[2],
+                       {.object = ObjectId{0},
+                        .surface = Surface::wall,
+                        .sides = scene.sides[static_cast<std::size_t>(scene.material[t])]});
+  }
+  return model;
+}
+
+Scene scene_of(const ArrayScene& arrays) {
+  Scene scene{.mesh = prepare(model_of(arrays), {.repair = Repair::none,
+                                                 .ground = {},
+                                                 .orientation = Orientation::keep,
+                                                 .north_deg = 0})
+                          .mesh,
+              .materials = arrays.materials,
+              .material = {}};
+  SUNLOAD_EXPECT(scene.mesh.triangle_count() == arrays.triangles.size(),
+                 "every triangle is kept as it is");
+  for (const auto material : arrays.material) scene.material.push_back(MaterialId{material});
+  expect_valid(scene);
+  return scene;
+}
+
+/// The suns as intervals of a period.
+class ArrayPeriod : public LitPeriod {
+ public:
+  ArrayPeriod(const ArrayLight& light, const SkyGrid& grid) : light_(light), grid_(grid) {
+    if (light.subdivision) patches_.emplace(*light.subdivision, grid);
+    const std::size_t expected = light.radiance.empty() ? 0 : light.suns.size() * sky_size();
+    SUNLOAD_EXPECT(light.radiance.size() == expected, "radiances of every sky");
+  }
+
+  std::size_t intervals() const override { return light_.suns.size(); }
+  bool is_dark(std::size_t k) const override { return !has_sun(k) && dhi(k) <= 0; }
+  bool has_sun(std::size_t k) const override { return light_.suns[k].direction.z > 0; }
+  Vec3 direction(std::size_t k) const override { return light_.suns[k].direction; }
+  IntervalLight of(std::size_t k) const override;
+
+ private:
+  std::size_t sky_size() const {
+    return patches_ ? patches_->patch_count() : static_cast<std::size_t>(grid_.cell_count());
+  }
+  std::span<const double> radiance(std::size_t k) const {
+    return std::span(light_.radiance).subspan(k * sky_size(), sky_size());
+  }
+  double dhi(std::size_t k) const;
+  std::vector<double> cells(std::size_t k) const;
+
+  const ArrayLight& light_;
+  const SkyGrid& grid_;
+  std::optional<PatchSkies> patches_;
+};
+
+double ArrayPeriod::dhi(std::size_t k) const {
+  if (light_.radiance.empty()) return light_.suns[k].dhi;
+  if (patches_) return patches_->horizontal_irradiance(radiance(k));
+  double sum = 0;
+  for (std::size_t cell = 0; cell < sky_size(); ++cell)
+    sum += radiance(k)[cell] * grid_.projected()[cell];
+  return sum;
+}
+
+std::vector<double> ArrayPeriod::cells(std::size_t k) const {
+  if (!light_.radiance.empty()) {
+    const auto given = radiance(k);
+    return patches_ ? patches_->on_grid(given) : std::vector(given.begin(), given.end());
+  }
+  const ArrayLight::Sun& sun = light_.suns[k];
+  SkyInput sky = light_.sky;
+  sky.dhi = sun.dhi;
+  sky.dni = has_sun(k) ? sun.dni : 0;
+  sky.sun_zenith_deg = std::clamp(90 - sun.elevation_deg, 0.0, 90.0);
+  sky.sun_direction = sun.direction;
+  return grid_.mean_radiance(relative_sky(sky), sun.dhi);
+}
+
+IntervalLight ArrayPeriod::of(std::size_t k) const {
+  const ArrayLight::Sun& sun = light_.suns[k];
+  IntervalLight light;
+  light.number = static_cast<std::uint32_t>(k);
+  light.direction = sun.direction;
+  light.dni = has_sun(k) ? sun.dni : 0;
+  light.dhi = dhi(k);
+  const double ghi = light.dni * std::max(0.0, sun.direction.z) + light.dhi;
+  light.ground_exitance = light_.far_ground_albedo * ghi;
+  light.length_s = sun.hours * seconds_per_hour;
+  light.sunlit_s = has_sun(k) ? light.length_s : 0;
+  if (light.dhi > 0) light.sky = cells(k);
+  return light;
+}
+
+/// Adds up batches.
+class Sums {
+ public:
+  Sums(std::size_t suns, std::size_t patches) : suns_(suns), patches_(patches) {
+    result_.sun_hours.assign(patches, 0);
+  }
+  void add(BatchTally tally, std::size_t first);
+  ArrayResult finished();
+
+ private:
+  template <class Series>
+  void put(const Series& rows, std::size_t first, Series& all) const {
+    if (rows.empty()) return;
+    all.resize(suns_ * patches_);
+    std::ranges::copy(rows, all.begin() + static_cast<std::ptrdiff_t>(first * patches_));
+  }
+  static void add_to(std::vector<double>& sum, const std::vector<double>& more) {
+    if (sum.empty()) sum.assign(more.size(), 0);
+    for (std::size_t i = 0; i < more.size(); ++i) sum[i] += more[i];
+  }
+
+  std::size_t suns_, patches_;
+  ArrayResult result_;
+  std::array<std::vector<std::vector<double>>, part_count> realizations_;  ///< [R][N] J m-2
+};
+
+void Sums::add(BatchTally tally, std::size_t first) {
+  for (std::size_t p = 0; p < part_count; ++p) {
+    put(tally.irradiance[p], first, result_.irradiance[p]);
+    add_to(result_.light_load.mean[p], tally.exposure[p]);
+    const auto& of_part = static_cast<Part>(p) == Part::total ? tally.exposure_realization
+                                                              : tally.part_realization[p];
+    realizations_[p].resize(of_part.size());
+    for (std::size_t r = 0; r < of_part.size(); ++r) add_to(realizations_[p][r], of_part[r]);
+  }
+  put(tally.irradiance_se, first, result_.irradiance_se);
+  add_to(result_.sun_hours, tally.sunlit_s);
+}
+
+ArrayResult Sums::finished() {
+  for (std::size_t p = 0; p < part_count; ++p) {
+    for (double& load : result_.light_load.mean[p]) load *= kwh_per_joule;
+    const auto& rows = realizations_[p];
+    if (rows.empty()) continue;
+    auto& errors = result_.light_load.standard_error[p];
+    errors.resize(patches_);
+    std::vector<double> values(rows.size());
+    for (std::size_t i = 0; i < patches_; ++i) {
+      for (std::size_t r = 0; r < rows.size(); ++r) values[r] = rows[r][i] * kwh_per_joule;
+      errors[i] = mean_error(values).standard_error;
+    }
+  }
+  for (double& hours : result_.sun_hours) hours *= 1 / seconds_per_hour;
+  return std::move(result_);
+}
+
+}  // namespace
+
+ArrayResult solve_arrays(const ArrayScene& arrays, const ArrayLight& light, const ArrayRules& rules,
+                         std::function<bool()> is_stopped) {
+  const Alone alone(rules.threads, std::move(is_stopped));
+  const Scene scene = scene_of(arrays);
+  const SplitRules split{.max_edge_m = rules.max_edge_m};
+  Watch watch;
+  const auto traced = trace_scene(scene, split, rules.solver, watch);
+  const ArrayPeriod period(light, traced->grid);
+  traced->expect(period);
+  const auto transport = transport_of(*traced, period);
+  const auto batch_suns = static_cast<std::size_t>(batch_suns_for(period.intervals()));
+  Sums sums(period.intervals(), traced->patches.count());
+  for (std::size_t first = 0; first < period.intervals(); first += batch_suns) {
+    std::vector<IntervalLight> batch(std::min(batch_suns, period.intervals() - first));
+    parallel_for(batch.size(), [&](std::size_t k) { batch[k] = period.of(first + k); });
+    sums.add(std::move(solve(*transport, batch, watch).bands.front()), first);
+  }
+  ArrayResult result = sums.finished();
+  result.mesh = traced->mesh;
+  result.origin = scene.mesh.origin;
+  if (transport->reduction()) result.reduction = *transport->reduction();
+  return result;
+}
+
+}  // namespace sunload
