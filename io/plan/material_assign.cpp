@@ -235,7 +235,7 @@ class MaterialAssigner {
     const auto [place, is_new] = made_.try_emplace({written, file_id.value});
     Made& made = place->second;
     if (is_new) {
-      if (source) made.sides = source->sides ? source->sides : written->sides;
+      if (source && written) made.sides = source->sides ? source->sides : written->sides;
       made.id = id_of(source ? from_study(*source, file_id, made.is_default)
                              : from_file(file_id, made.is_default),
                       t);

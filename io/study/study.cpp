@@ -76,7 +76,7 @@ std::string lower(std::string text) {
 /// A name that can be part of a path on every system.
 std::string read_name(YamlMap& map) {
   map.require("name");
-  const std::string name = map.text("name", "");
+  std::string name = map.text("name", "");
   const bool allowed = std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-' || c == '.';
@@ -170,7 +170,7 @@ std::vector<Variant> read_variants(YamlMap& root) {
 /// study writes any, and the labels of the values.
 std::vector<Variant> read_all_variants(YamlMap& root) {
   const bool are_named = root.has("variants");
-  const std::vector<Variant> written = read_variants(root);
+  std::vector<Variant> written = read_variants(root);
   const auto axes = read_matrix(root);
   if (axes.empty()) return written;
   for (const auto& axis : axes) refuse_common_keys(axis.front(), root.reading());
