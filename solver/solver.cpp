@@ -6,10 +6,8 @@
 
 namespace sunload {
 
-namespace {
-
-TallyShape shape_of(const TracedScene& traced, std::size_t intervals,
-                    std::span<const PartOfBatch> parts) {
+TallyShape tally_shape(const TracedScene& traced, std::size_t intervals,
+                       std::span<const PartOfBatch> parts) {
   TallyShape shape{.patches = traced.patches.count(),
                    .sensors = traced.sensors.count(),
                    .intervals = intervals,
@@ -24,6 +22,8 @@ TallyShape shape_of(const TracedScene& traced, std::size_t intervals,
     shape.parts[p] = traced.has_part(static_cast<Part>(p));
   return shape;
 }
+
+namespace {
 
 /// Consecutive intervals with light, up to `block_width` side by side. Emitters shine always.
 std::vector<Block> lit_blocks(const TracedScene& traced, std::span<const IntervalLight> batch) {
@@ -58,7 +58,7 @@ Solved solve(const LightTransport& transport, std::span<const IntervalLight> bat
   const TracedScene& traced = transport.traced();
   Solved solved;
   for (std::size_t b = 0; b < traced.optics_of_band.size(); ++b)
-    solved.bands.push_back(empty_tally(shape_of(traced, batch.size(), parts)));
+    solved.bands.push_back(empty_tally(tally_shape(traced, batch.size(), parts)));
   const auto in_batch = transport.begin(solved.bands, solved.work, record);
   std::size_t done = 0;
   for (const Block& block : lit_blocks(traced, batch)) {
@@ -93,7 +93,7 @@ Solved solve_in_turns(std::span<const LightTransport* const> scenes,
                       std::span<const Stretch> stretches, std::span<const IntervalLight> batch,
                       Watch& watch, std::span<const PartOfBatch> parts) {
   const TracedScene& first_scene = scenes.front()->traced();
-  TallyShape shape = shape_of(first_scene, batch.size(), parts);
+  TallyShape shape = tally_shape(first_scene, batch.size(), parts);
   for (const LightTransport* scene : scenes)
     for (std::size_t p = 0; p < part_count; ++p)
       shape.parts[p] = shape.parts[p] || scene->traced().has_part(static_cast<Part>(p));

@@ -25,6 +25,10 @@ struct Solved {
 /// all realizations: in a long period few and large ones cost less.
 int batch_suns_for(std::size_t intervals);
 
+/// Room for what a scene gets in consecutive intervals, and in `parts` of their time.
+TallyShape tally_shape(const TracedScene& traced, std::size_t intervals,
+                       std::span<const PartOfBatch> parts = {});
+
 /// Light of consecutive intervals, and the totals of `parts` of their time (ReceiverTally::parts).
 /// With rgb every sun has its light in `bands`. Throws Interrupted.
 /// `record`: see LightTransport::begin.

@@ -6,7 +6,6 @@
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
-#include "io/base/file_aside.h"
 #include "io/base/statistics.h"
 #include "io/explain/explanation.h"
 #include "io/explain/light_of_part.h"
@@ -101,20 +100,14 @@ void write_place_map(const ResultReader& result, const ResultScene& scene, const
   const auto area = result.doubles("patch_area");
   MapColumns columns = columns_of(a, area);
   columns["place_weight"] = weights_of(place, area.size());
-  FileAside target(path);
-  try {
-    NetcdfFile file(target.aside());
+  write_netcdf(path, [&](NetcdfFile& file) {
     put_facades(file, result);
     put_mesh(file, result);
     for (const auto& variable : place_map_schema(result.quantity()))
       put_of_patches(file, std::string(variable.name), std::string(variable.units),
                      std::string(variable.long_name), columns.at(std::string(variable.name)));
     put_attributes(file.file(), result, parts, place);
-    file.close();
-  } catch (const h5::Error& error) {
-    throw MachineError("cannot write " + path + ": " + error.what());
-  }
-  target.publish();
+  });
 }
 
 }  // namespace sunload

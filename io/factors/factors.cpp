@@ -12,6 +12,7 @@
 #include "io/plan/rules_of_study.h"
 #include "solver/matrix/group_factors.h"
 #include "solver/surface/ray_caster.h"
+#include "solver/traced/traced_scene.h"
 
 namespace sunload {
 
@@ -152,11 +153,10 @@ FactorTable form_factor_table(const VariantPlan& plan, const Hierarchy& mesh,
   const Division division = without_empty(division_of(scene.mesh, mesh, between));
   expect_few(plan, between, division.names.size());
   const SolverRules solver = solver_rules(plan);
-  FormFactorRules rules{.realizations = solver.realizations, .seed = solver.seed};
-  rules.lines_per_patch = std::max(rules.lines_per_patch, solver.lines_per_patch);
   const RayCaster caster(scene.mesh, solver.isa);  // all that stands there, as solid
-  const GroupFactors factors = group_factors(
-      scene.mesh, mesh, caster, {division.of_patch, division.names.size()}, rules, watch);
+  const GroupFactors factors =
+      group_factors(scene.mesh, mesh, caster, {division.of_patch, division.names.size()},
+                    form_factor_rules(solver), watch);
 
   FactorTable table;
   table.between = between;

@@ -122,17 +122,11 @@ void put_attributes(h5::File& file, const FactorTable& table) {
 }
 
 void write_hdf5(const FactorTable& table, const std::string& path) {
-  FileAside target(path);
-  try {
-    NetcdfFile file(target.aside());
+  write_netcdf(path, [&](NetcdfFile& file) {
     put_rows(file, table);
     put_factors(file, table);
     put_attributes(file.file(), table);
-    file.close();
-  } catch (const h5::Error& error) {
-    throw MachineError("cannot write " + path + ": " + error.what());
-  }
-  target.publish();
+  });
 }
 
 }  // namespace

@@ -4,28 +4,17 @@
 
 #include "geo/sky/horizon.h"
 #include "io/plan/light_colour.h"
-#include "io/plan/scene_seasons.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
 
 IntervalLights::IntervalLights(const Study& study, const Site& site, const SkyGrid& grid)
     : light_(study.light),
+      far_ground_(study),
       disk_(study.sun.disk),
       bands_(study.solver.bands),
       grid_(grid),
-      open_share_(open_shares(grid, site.horizon, scene_from_enu(site))) {
-  if (light_.far_ground_seasons.empty()) return;
-  Study seasonal;
-  seasonal.light = study.light;
-  seasonal.seasons = study.seasons;
-  seasons_.emplace(Seasons{std::move(seasonal), TimeZone(study.site.timezone)});
-}
-
-double IntervalLights::far_ground_albedo_at(const SunInterval& when) const {
-  return seasons_ ? far_ground_albedo(seasons_->study, seasons_->zone, (when.begin + when.end) / 2)
-                  : light_.far_ground_albedo;
-}
+      open_share_(open_shares(grid, site.horizon, scene_from_enu(site))) {}
 
 /// Cells of the sky behind hills, which shine as the far ground does.
 void IntervalLights::put_hills(std::vector<double>& sky, double ground_exitance) const {
@@ -43,7 +32,7 @@ IntervalLight IntervalLights::of(const LitInterval& interval, std::size_t number
   const Irradiance source = source_means(interval, light_.quantity);
   sun.dni = source.dni;
   sun.dhi = source.dhi;
-  sun.ground_exitance = far_ground_albedo_at(when) * source.ghi;
+  sun.ground_exitance = far_ground_.albedo((when.begin + when.end) / 2) * source.ghi;
   sun.length_s = when.length_s();
   sun.sunlit_s = when.sunlit_s;
   sun.disk_half_angle = disk_half_angle(disk_, when.sun.distance_au);

@@ -4,12 +4,12 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "geo/sky/sky.h"
 #include "geo/sun/site.h"
+#include "io/plan/far_ground.h"
 #include "io/plan/light_series.h"
 #include "solver/light/lit_period.h"
 #include "solver/light/sun_block.h"
@@ -40,15 +40,8 @@ class IntervalLights {
  private:
   void put_hills(std::vector<double>& sky, double ground_exitance) const;
 
-  double far_ground_albedo_at(const SunInterval& when) const;
-
   LightStudy light_;
-  /// Where the far ground has seasons.
-  struct Seasons {
-    Study study;
-    TimeZone zone;
-  };
-  std::optional<Seasons> seasons_;
+  FarGround far_ground_;
   SunDisk disk_;
   Bands bands_;
   const SkyGrid& grid_;

@@ -164,16 +164,6 @@ Scene scene_in(const Scene& scene, const SceneSeason& season) {
   return now;
 }
 
-double far_ground_albedo(const Study& study, const TimeZone& zone, UnixTime time) {
-  double albedo = study.light.far_ground_albedo;
-  if (study.light.far_ground_seasons.empty()) return albedo;
-  const CivilTime civil = zone.civil_from_utc(time);
-  for (const SeasonStudy& season : study.seasons)
-    for (const SeasonAlbedo& in : study.light.far_ground_seasons)
-      if (in.season == season.name && is_in(season, civil)) albedo = in.albedo;
-  return albedo;
-}
-
 std::string seasons_text(const SceneSeasons& seasons, const LightSeries& light) {
   std::vector<double> hours(seasons.all.size(), 0);
   for (std::size_t i = 0; i < seasons.of_interval.size(); ++i)

@@ -48,10 +48,6 @@ SceneSeasons take_seasons(const Study& study, const LightSeries& light, BuiltSce
 /// The scene with the materials of a season.
 Scene scene_in(const Scene& scene, const SceneSeason& season);
 
-/// Albedo of the far ground at that time, in the study's zone: of the last season that holds and
-/// has one, else as always.
-double far_ground_albedo(const Study& study, const TimeZone& zone, UnixTime time);
-
 /// "leafless 4 032 h, else 4 728 h"; empty where nothing changes.
 std::string seasons_text(const SceneSeasons& seasons, const LightSeries& light);
 

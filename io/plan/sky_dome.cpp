@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/plan/far_ground.h"
 #include "io/plan/period.h"
 #include "io/plan/scene_build.h"
-#include "io/plan/scene_seasons.h"
 
 namespace sunload {
 
@@ -103,7 +103,7 @@ SkyDome sky_dome(const Study& study, const std::string& time) {
   return {light,
           sky_of(light, study.light),
           site.horizon,
-          far_ground_albedo(study, zone, utc) * light.mean.ghi / pi,
+          FarGround(study).albedo(utc) * light.mean.ghi / pi,
           study.name + (has_place ? ", " + position_text(site) : ""),
           sky_words(study.light),
           iso_local(utc, zone),

@@ -22,7 +22,6 @@ namespace sunload {
 namespace {
 
 constexpr const char* object_name = "mesh";  // random numbers are addressed by it
-constexpr double kwh_per_joule = 1 / joules_per_kwh;
 
 /// Threads and cancellation are the process's: one solution at a time has them.
 class Alone {
@@ -156,60 +155,32 @@ IntervalLight ArrayPeriod::of(std::size_t k) const {
   return light;
 }
 
-/// Adds up batches.
-class Sums {
- public:
-  Sums(std::size_t suns, std::size_t patches) : suns_(suns), patches_(patches) {
-    result_.sun_hours.assign(patches, 0);
-  }
-  void add(BatchTally tally, std::size_t first);
-  ArrayResult finished();
-
- private:
-  template <class Series>
-  void put(const Series& rows, std::size_t first, Series& all) const {
-    if (rows.empty()) return;
-    all.resize(suns_ * patches_);
-    std::ranges::copy(rows, all.begin() + static_cast<std::ptrdiff_t>(first * patches_));
-  }
-  static void add_to(std::vector<double>& sum, const std::vector<double>& more) {
-    if (sum.empty()) sum.assign(more.size(), 0);
-    for (std::size_t i = 0; i < more.size(); ++i) sum[i] += more[i];
-  }
-
-  std::size_t suns_, patches_;
-  ArrayResult result_;
-  std::array<std::vector<std::vector<double>>, part_count> realizations_;  ///< [R][N] J m-2
-};
-
-void Sums::add(BatchTally tally, std::size_t first) {
-  for (std::size_t p = 0; p < part_count; ++p) {
-    put(tally.irradiance[p], first, result_.irradiance[p]);
-    add_to(result_.light_load.mean[p], tally.exposure[p]);
-    const auto& of_part = static_cast<Part>(p) == Part::total ? tally.exposure_realization
-                                                              : tally.part_realization[p];
-    realizations_[p].resize(of_part.size());
-    for (std::size_t r = 0; r < of_part.size(); ++r) add_to(realizations_[p][r], of_part[r]);
-  }
-  put(tally.irradiance_se, first, result_.irradiance_se);
-  add_to(result_.sun_hours, tally.sunlit_s);
+const std::vector<std::vector<double>>& realizations_of(const BatchTally& tally, std::size_t part) {
+  return static_cast<Part>(part) == Part::total ? tally.exposure_realization
+                                                : tally.part_realization[part];
 }
 
-ArrayResult Sums::finished() {
+/// What the tally of all suns tells, in the units of results.
+ArrayResult result_of(BatchTally tally) {
+  ArrayResult result;
   for (std::size_t p = 0; p < part_count; ++p) {
-    for (double& load : result_.light_load.mean[p]) load *= kwh_per_joule;
-    const auto& rows = realizations_[p];
-    if (rows.empty()) continue;
-    auto& errors = result_.light_load.standard_error[p];
-    errors.resize(patches_);
-    std::vector<double> values(rows.size());
-    for (std::size_t i = 0; i < patches_; ++i) {
-      for (std::size_t r = 0; r < rows.size(); ++r) values[r] = rows[r][i] * kwh_per_joule;
-      errors[i] = mean_error(values).standard_error;
+    result.irradiance[p] = std::move(tally.irradiance[p]);
+    for (const double joules : tally.exposure[p])
+      result.light_load.mean[p].push_back(joules * (1 / joules_per_kwh));
+    if (realizations_of(tally, p).empty()) continue;
+    std::vector<double>& errors = result.light_load.standard_error[p];
+    std::vector<double> values;
+    for (std::size_t i = 0; i < tally.exposure[p].size(); ++i) {
+      values.clear();
+      for (const auto& row : realizations_of(tally, p))
+        values.push_back(row[i] * (1 / joules_per_kwh));
+      errors.push_back(mean_error(values).standard_error);
     }
   }
-  for (double& hours : result_.sun_hours) hours *= 1 / seconds_per_hour;
-  return std::move(result_);
+  result.irradiance_se = std::move(tally.irradiance_se);
+  for (const double seconds : tally.sunlit_s)
+    result.sun_hours.push_back(seconds * (1 / seconds_per_hour));
+  return result;
 }
 
 }  // namespace
@@ -225,13 +196,13 @@ ArrayResult solve_arrays(const ArrayScene& arrays, const ArrayLight& light, cons
   traced->expect(period);
   const auto transport = transport_of(*traced, period);
   const auto batch_suns = static_cast<std::size_t>(batch_suns_for(period.intervals()));
-  Sums sums(period.intervals(), traced->patches.count());
+  BatchTally all = empty_tally(tally_shape(*traced, period.intervals()));
   for (std::size_t first = 0; first < period.intervals(); first += batch_suns) {
     std::vector<IntervalLight> batch(std::min(batch_suns, period.intervals() - first));
     parallel_for(batch.size(), [&](std::size_t k) { batch[k] = period.of(first + k); });
-    sums.add(std::move(solve(*transport, batch, watch).bands.front()), first);
+    put_stretch(solve(*transport, batch, watch).bands.front(), first, all);
   }
-  ArrayResult result = sums.finished();
+  ArrayResult result = result_of(std::move(all));
   result.mesh = traced->mesh;
   result.origin = scene.mesh.origin;
   if (transport->reduction()) result.reduction = *transport->reduction();

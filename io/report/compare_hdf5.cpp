@@ -7,7 +7,6 @@
 #include <map>
 
 #include "geo/base/check.h"
-#include "io/base/file_aside.h"
 #include "io/base/light_quantity.h"
 #include "io/base/statistics.h"
 #include "io/report/compare.h"
@@ -207,19 +206,13 @@ void put_attributes(h5::File& file, const Comparison& comparison, const ResultRe
 
 void write_comparison_hdf5(const Comparison& comparison, const ResultReader& base,
                            const ResultReader& variant, const std::string& path) {
-  FileAside target(path);
-  try {
-    NetcdfFile file(target.aside());
+  write_netcdf(path, [&](NetcdfFile& file) {
     put_groups(file, comparison);
     put_facades(file, comparison, base);
     put_mesh(file, base);
     put_patches(file, comparison, base, variant);
     put_attributes(file.file(), comparison, base, variant);
-    file.close();
-  } catch (const h5::Error& error) {
-    throw MachineError("cannot write " + path + ": " + error.what());
-  }
-  target.publish();
+  });
 }
 
 }  // namespace sunload

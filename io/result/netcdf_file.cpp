@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "geo/base/check.h"
+#include "io/base/file_aside.h"
 #include "io/result/schema.h"
 #include "io/result/time.h"
 
@@ -50,6 +52,18 @@ void NetcdfFile::numbers(const std::string& name, const std::string& long_name, 
 void NetcdfFile::close() {
   scales_.clear();
   file_.close();
+}
+
+void write_netcdf(const std::string& path, const std::function<void(NetcdfFile&)>& put) {
+  FileAside target(path);
+  try {
+    NetcdfFile file(target.aside());
+    put(file);
+    file.close();
+  } catch (const h5::Error& error) {
+    throw MachineError("cannot write " + path + ": " + error.what());
+  }
+  target.publish();
 }
 
 void put_mesh(NetcdfFile& file, const ResultReader& of) {

@@ -4,6 +4,7 @@
 /// comparisons, form factors.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <map>
 #include <string>
@@ -55,6 +56,9 @@ class NetcdfFile {
   std::map<std::string, std::size_t> sizes_;
   std::map<std::string, h5::Dataset> scales_;
 };
+
+/// Writes such a file, whole or not at all: `put` fills it. Throws MachineError.
+void write_netcdf(const std::string& path, const std::function<void(NetcdfFile&)>& put);
 
 /// The patches of a result with their places, names and kinds, as its own file has them.
 void put_mesh(NetcdfFile& file, const ResultReader& of);

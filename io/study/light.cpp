@@ -136,8 +136,9 @@ LightStudy read_light(YamlMap& map, const std::string& folder) {
   if (light.sky_scale == SkyScale::absolute) expect_absolute(map, light);
   light.far_ground_albedo = map.number("far_ground_albedo", albedos, light.far_ground_albedo);
   map.section("far_ground_seasons", [&](YamlMap& section) {
-    for (const auto& [season, albedo, where] : section.other_numbers(albedos))
-      light.far_ground_seasons.push_back({season, albedo, where});
+    for (const auto& season : section.other_keys())
+      if (const auto albedo = section.number(season, albedos))
+        light.far_ground_seasons.push_back({season, *albedo, section.where(season)});
   });
   read_weather(map, folder, light);
   light.quantity = map.choice("quantity", light.quantity);

@@ -55,8 +55,9 @@ BuiltinStudy read_builtin(YamlMap& map) {
   builtin.where = map.where();
   map.require("name");
   builtin.name = map.text("name", builtin.name);
-  const auto parameters = map.other_texts();
-  for (const auto& [key, value] : parameters) builtin.parameters[key] = value.text;
+  const auto parameters = map.other_keys();
+  for (const auto& key : parameters)
+    if (auto value = map.text(key)) builtin.parameters[key] = std::move(*value);
   const auto names = builtin_scene_names();
   if (builtin.name.empty()) return builtin;
   if (std::find(names.begin(), names.end(), builtin.name) == names.end()) {
@@ -65,7 +66,7 @@ BuiltinStudy read_builtin(YamlMap& map) {
     return builtin;
   }
   const auto known = builtin_parameters(builtin.name);
-  for (const auto& [key, value] : parameters) {
+  for (const auto& key : parameters) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
     map.problem(key, builtin.name + " has no such parameter", "", key_hint(key, known));
   }

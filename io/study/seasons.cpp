@@ -82,11 +82,11 @@ void read_dates(YamlMap& map, const std::vector<PlacedText>& texts, SeasonStudy&
                 "the second date is the first day that is no more of it", what_to_write);
 }
 
-SeasonStudy read_season(YamlMap& map, const std::string& name, const Where& where,
-                        const std::vector<PlacedText>& texts) {
+SeasonStudy read_season(YamlMap& map, const std::string& name) {
+  const std::vector<PlacedText> texts = map.texts(name);
   SeasonStudy season;
   season.name = name;
-  season.where = where;
+  season.where = map.where(name);
   for (const PlacedText& text : texts)
     if (const auto month = month_of(text.text)) season.months.push_back(*month);
   const auto is_a_month = [](int m) { return m >= 1 && m <= months_of_a_year; };
@@ -107,8 +107,7 @@ SeasonStudy read_season(YamlMap& map, const std::string& name, const Where& wher
 std::vector<SeasonStudy> read_seasons(YamlMap& root) {
   std::vector<SeasonStudy> seasons;
   root.section("seasons", [&](YamlMap& map) {
-    for (const auto& [name, texts, where] : map.other_lists())
-      seasons.push_back(read_season(map, name, where, texts));
+    for (const auto& name : map.other_keys()) seasons.push_back(read_season(map, name));
   });
   return seasons;
 }
@@ -116,8 +115,9 @@ std::vector<SeasonStudy> read_seasons(YamlMap& root) {
 std::vector<SeasonMaterial> read_season_materials(YamlMap& material) {
   std::vector<SeasonMaterial> seasons;
   material.section("seasons", [&](YamlMap& map) {
-    for (const auto& [season, other] : map.other_texts())
-      seasons.push_back({season, other.text, other.where});
+    for (const auto& season : map.other_keys())
+      if (auto other = map.text(season))
+        seasons.push_back({season, std::move(*other), map.where(season)});
   });
   return seasons;
 }

@@ -205,39 +205,13 @@ void YamlMap::keep_rest() {
   for (const auto& entry : node_->entries) asked_.insert(entry.key);
 }
 
-std::vector<std::pair<std::string, PlacedText>> YamlMap::other_texts() {
-  std::vector<std::pair<std::string, PlacedText>> result;
+std::vector<std::string> YamlMap::other_keys() {
+  std::vector<std::string> keys;
   reading_.keys.insert(pattern("*"));
-  if (!node_) return result;
-  for (const auto& entry : node_->entries) {
-    if (!asked_.insert(entry.key).second) continue;
-    if (auto value = to_text(*entry.value, entry.key)) {
-      result.push_back({entry.key, {std::move(*value), entry.value->where}});
-    }
-  }
-  return result;
-}
-
-std::vector<YamlMap::PlacedList> YamlMap::other_lists() {
-  std::vector<PlacedList> lists;
-  reading_.keys.insert(pattern("*"));
-  if (!node_) return lists;
+  if (!node_) return keys;
   for (const auto& entry : node_->entries)
-    if (!asked_.contains(entry.key))
-      lists.push_back({entry.key, texts(entry.key), entry.value->where});
-  return lists;
-}
-
-std::vector<YamlMap::PlacedNumber> YamlMap::other_numbers(const Range& range) {
-  std::vector<PlacedNumber> numbers;
-  reading_.keys.insert(pattern("*"));
-  if (!node_) return numbers;
-  for (const auto& entry : node_->entries) {
-    if (asked_.contains(entry.key)) continue;
-    if (const auto value = number(entry.key, range))
-      numbers.push_back({entry.key, *value, entry.value->where});
-  }
-  return numbers;
+    if (!asked_.contains(entry.key)) keys.push_back(entry.key);
+  return keys;
 }
 
 void YamlMap::finish() {

@@ -128,22 +128,8 @@ class YamlMap {
   void named(const std::string& key, const std::function<void(const std::string&, YamlMap&)>& read);
   /// All keys that were not asked for are known, and read elsewhere.
   void keep_rest();
-  /// All keys that were not asked for, as texts.
-  std::vector<std::pair<std::string, PlacedText>> other_texts();
-  /// The same of lists of texts, with where each list is written.
-  struct PlacedList {
-    std::string key;
-    std::vector<PlacedText> texts;
-    Where where;
-  };
-  std::vector<PlacedList> other_lists();
-  /// The same of numbers.
-  struct PlacedNumber {
-    std::string key;
-    double number;
-    Where where;
-  };
-  std::vector<PlacedNumber> other_numbers(const Range& range);
+  /// The keys that were not asked for so far, where a map has names of the user: ask for each.
+  std::vector<std::string> other_keys();
 
   /// The key must be there.
   void require(const std::string& key, const std::string& why = {}, const std::string& hint = {});

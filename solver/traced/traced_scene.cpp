@@ -86,10 +86,8 @@ std::vector<std::vector<float>> beyond_of_bands(const TracedScene& traced) {
 void use_form_factors(TracedScene& traced, Watch& watch) {
   const Stopwatch time(traced.work[Work::lines_s]);
   const SolverRules& rules = traced.rules;
-  FormFactorRules of_factors{.realizations = rules.realizations, .seed = rules.seed};
-  of_factors.lines_per_patch = std::max(of_factors.lines_per_patch, rules.lines_per_patch);
   const FormFactors factors =
-      form_factors(traced.scene.mesh, *traced.mesh, traced.caster, of_factors, watch);
+      form_factors(traced.scene.mesh, *traced.mesh, traced.caster, form_factor_rules(rules), watch);
   const bool follows_all = rules.unfollowed == Unfollowed::estimate && rules.bounces > 0;
   put_form_factors(factors, traced.optics, follows_all ? Reflections::all : Reflections::counted,
                    traced.patches.lines);
@@ -172,6 +170,12 @@ LineRules line_rules(const SolverRules& rules) {
           .mirror_depth = rules.mirror_depth,
           .seed = rules.seed,
           .largest_link = rules.link_threshold / rules.lines_per_patch};
+}
+
+FormFactorRules form_factor_rules(const SolverRules& rules) {
+  FormFactorRules of_factors{.realizations = rules.realizations, .seed = rules.seed};
+  of_factors.lines_per_patch = std::max(of_factors.lines_per_patch, rules.lines_per_patch);
+  return of_factors;
 }
 
 std::unique_ptr<TracedScene> trace_scene(const Scene& scene, std::shared_ptr<const Hierarchy> mesh,

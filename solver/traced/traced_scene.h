@@ -18,6 +18,7 @@
 #include "solver/light/lit_period.h"
 #include "solver/light/work.h"
 #include "solver/lines/lines.h"
+#include "solver/matrix/form_factors.h"
 #include "solver/mesh/hierarchy.h"
 #include "solver/mesh/patch_optics.h"
 #include "solver/sight/sun_shafts.h"
@@ -83,6 +84,8 @@ struct TracedScene {
 
 /// Rules for lines that follow from a study's.
 LineRules line_rules(const SolverRules& rules);
+/// The same for form factors, which take no fewer lines than they need by default.
+FormFactorRules form_factor_rules(const SolverRules& rules);
 
 /// Builds the ray caster and traces all lines, unless those of an equal scene are handed over
 /// (`ready`). `scene` must outlive the result. Cost: a ray for each line of every patch. Throws

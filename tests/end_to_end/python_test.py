@@ -10,6 +10,7 @@ import os
 import sys
 import tempfile
 
+from raised import raised
 from skip import skip
 from small_study import SQUARE
 
@@ -21,14 +22,6 @@ try:
 except ImportError as error:
     skip(f"{error.name} is missing")
 matplotlib.use("Agg")
-
-
-def raised(kind, work):
-    try:
-        work()
-    except kind as error:
-        return str(error)
-    raise AssertionError(f"no {kind.__name__}")
 
 
 def study(**changes):

@@ -15,6 +15,7 @@ import tempfile
 import threading
 import time
 
+from raised import raised
 from skip import skip
 
 try:
@@ -30,14 +31,6 @@ REALIZATIONS = 16
 
 PLANE = ([[0, 0, 0], [10, 0, 0], [10, 10, 0], [0, 10, 0]], [[0, 1, 2], [0, 2, 3]])
 WALL = ([[0, 0, 0], [0, 10, 0], [0, 10, 10], [0, 0, 10]], [[0, 1, 2], [0, 2, 3]])  # faces east
-
-
-def raised(kind, work):
-    try:
-        work()
-    except kind as error:
-        return str(error)
-    raise AssertionError(f"no {kind.__name__}")
 
 
 def differs(values, errors, truth):

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The ground beyond the scene, which shines back below the horizon: how much, and when.
+#pragma once
+
+#include <vector>
+
+#include "geo/time/time.h"
+#include "io/study/study.h"
+
+namespace sunload {
+
+/// Albedo of the far ground as a study has it, with its seasons in civil time of the site.
+class FarGround {
+ public:
+  explicit FarGround(const Study& study);
+
+  /// Of the last season that holds then and has one, else as always.
+  double albedo(UnixTime time) const;
+
+ private:
+  struct Season {
+    SeasonStudy when;
+    double albedo;
+  };
+  double always_;
+  std::vector<Season> seasons_;  ///< in the order of the study's seasons
+  TimeZone zone_;
+};
+
+}  // namespace sunload
