@@ -59,6 +59,7 @@ def expect_result(sunload, result):
     assert months.dims == ("month", "facade")
     assert np.allclose(months.sum("month"), result.facade_light_load, rtol=1e-5)
     assert "water" in raised(ValueError, lambda: result.sunload.mean("light_load", surface_of="water"))
+    assert "did you mean 'light_load'" in raised(ValueError, lambda: result.sunload.mean("light_lode"))
     ax = result.sunload.plot_map()
     assert len(ax.collections[0].get_paths()) == int((result.patch_normal.values[:, 2] > 1e-6).sum())
 

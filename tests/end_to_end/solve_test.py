@@ -14,6 +14,7 @@ import sys
 import tempfile
 import threading
 import time
+import warnings
 
 from raised import raised
 from skip import skip
@@ -62,6 +63,15 @@ def expect_open_plane(sunload):
     assert np.allclose(result.light_load * 1000, result.irradiance.sum("sun"), rtol=1e-5)
     assert list(result.sun_hours) == [1, 1]
     assert np.isclose(result.sunload.mean("irradiance").sel(sun=0), result.irradiance[0].mean())
+    told = raised(ValueError, lambda: result.sunload.mean("irradiance", surface_of="wall"))
+    assert "surface_of" in told and "choose by material_of" in told, told
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        night = sunload.solve(*PLANE, 0.3, [[135, 10, 500], [0, -5, 1], [0, 0, 2]], 0, realizations=REALIZATIONS)
+        sunload.solve(*PLANE, 0.3, [[135, 10, 500], [0, -5, 0]], 0, realizations=REALIZATIONS)
+    assert len(caught) == 1 and "2 with dni_w_m2 above 0 not above the horizon, the first at [1]" in str(
+        caught[0].message) and caught[0].filename == __file__, [str(one.message) for one in caught]
+    assert not night.irradiance[1:].values.any()
 
 
 def expect_half_sky(sunload):

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import collections.abc
+import warnings
 from typing import Any, Dict, Mapping, Optional, Union
 
 import numpy as np
@@ -70,8 +71,17 @@ def solve(vertices: ArrayLike, triangles: ArrayLike, materials: Materials, suns:
     rules = _rules(problems, max_edge_m=max_edge_m, bounces=bounces, realizations=realizations, lines=lines,
                    samples=samples, seed=seed, threads=threads, standard_error=standard_error)
     problems.raise_if_any()
+    _warn_of_low_suns(light)
     module = native.module()
     return _dataset(module.solve(scene, light, rules), scene, light, rules, module.version)
+
+
+def _warn_of_low_suns(light: Mapping[str, Any]) -> None:
+    low = (light["elevation_deg"] <= 0) & (light["dni"] > 0)
+    if low.any():
+        warnings.warn(f"suns: {int(low.sum())} with dni_w_m2 above 0 not above the horizon, the first at "
+                      f"[{int(np.flatnonzero(low)[0])}] (they light nothing); elevation_deg is above the horizon, z points "
+                      "up", stacklevel=3)
 
 
 def _rules(problems: Problems, *, max_edge_m: Any, bounces: Any, realizations: Any, lines: Any, samples: Any, seed: Any,

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import difflib
 import io
 import os
 import warnings
@@ -83,17 +84,29 @@ class Accessor:
 
     def mean(self, quantity: str = "light_load", **by: str) -> xarray.DataArray:
         """Area-weighted mean over patches, for instance mean("irradiance", surface_of="wall"). Patches that light cannot
-        reach (patch_covered) do not count. Raises ValueError where no patch is left."""
+        reach (patch_covered) do not count. Raises ValueError where no patch is left, and for what the result does not have
+        of its patches: those of `sunload.solve` have no objects, facades and kinds of surface, but `material_of`."""
         result = self._result
         chosen = np.ones(result.sizes["patch"], dtype=bool)
         if "patch_covered" in result:
             chosen &= result["patch_covered"].values == 0
         for name, value in by.items():
-            chosen &= result[name].values == value
+            chosen &= self._of_patches(name).values == value
         if not chosen.any():
             raise ValueError(f"no patch with {by}")
-        kept = result[quantity].isel(patch=np.flatnonzero(chosen))
+        kept = self._of_patches(quantity).isel(patch=np.flatnonzero(chosen))
         return kept.weighted(result["patch_area"].isel(patch=np.flatnonzero(chosen))).mean("patch", keep_attrs=True)
+
+    def _of_patches(self, name: str) -> xarray.DataArray:
+        result = self._result
+        if name in result and "patch" in result[name].dims:
+            return result[name]
+        known = sorted(str(key) for key in result.variables if "patch" in result[key].dims)
+        near = difflib.get_close_matches(name, known, 1)
+        hint = f"did you mean {near[0]!r}?" if near else "there are " + ", ".join(known)
+        if name in ("object_of", "facade_of", "surface_of"):
+            hint = "a mesh given to sunload.solve has materials alone: name them, and choose by material_of"
+        raise ValueError(f"{name}: the result has no such values of its patches; {hint}")
 
     def months(self, quantity: str = "light_load") -> xarray.DataArray:
         """Totals of months per facade (area-weighted means of patches), dims (month, facade). Raises ValueError where
