@@ -35,8 +35,13 @@ class PatchLines {
   void packet(std::size_t first, Line (&lines)[packet_size]) const;
   /// That of a Sobol point's coordinates, which are scrambled here.
   Line line(std::uint32_t x0, std::uint32_t x1, std::uint32_t x2, std::uint32_t x3) const {
-    const Vec3 local = sample_cosine(scrambled(x0, seeds_[0]), scrambled(x1, seeds_[1]));
-    const Barycentric at = sample_triangle(scrambled(x2, seeds_[2]), scrambled(x3, seeds_[3]));
+    return at(scrambled(x0, seeds_[0]), scrambled(x1, seeds_[1]), scrambled(x2, seeds_[2]),
+              scrambled(x3, seeds_[3]));
+  }
+  /// That of a point of the unit cube: two numbers for the direction, two for the origin.
+  Line at(double u0, double u1, double u2, double u3) const {
+    const Vec3 local = sample_cosine(u0, u1);
+    const Barycentric at = sample_triangle(u2, u3);
     return {a_ * at.w0 + b_ * at.w1 + c_ * at.w2 + lift_,
             axes_.tangent * local.x + axes_.bitangent * local.y + n_ * local.z};
   }

@@ -32,7 +32,7 @@ variants:
   - {name: baseline}
   - {name: bright, scene: {materials: {paving: {diffuse: 0.8}}}}
 """
-SCRIPTS = ("facade_map", "series", "carpet", "months", "sun_path", "compare_bars", "report")
+SCRIPTS = ("facade_map", "series", "carpet", "months", "sun_path", "compare_bars", "samples", "report")
 
 
 class Plots:
@@ -205,6 +205,34 @@ def test_compare(plots, sunload, path, other):
             close(float(row["whisker_kwh_m2"]), compare_bars.student_t(7) * float(row["se_kwh_m2"]), 1e-4)
 
 
+def test_samples(plots, sunload, folder):
+    counts = (16, 64, 256, 1024)
+    with open(os.path.join(folder, "lines.yaml"), "w", encoding="utf-8") as file:
+        file.write(STUDY[:STUDY.index("variants")].replace("name: square", "name: lines") + f"matrix: {{solver.lines_per_patch: {list(counts)}}}\n")
+    subprocess.run([sunload, "run", "lines.yaml"], cwd=folder, check=True, stderr=subprocess.PIPE)
+    results = [os.path.join(folder, f"results/lines/lines_per_patch-{count}.h5") for count in counts]
+    # Errors that fall by a known law, and their noise.
+    with open(os.path.join(folder, "errors.csv"), "w", encoding="utf-8") as file:
+        file.write("sampler,what,samples,error\n" + "".join(f"random,flat,{n},{0.3 * n**-0.5}\n" for n in counts))
+    rows = plots.rows("samples", *results, "--quantity", "light_load_sky", "--errors", os.path.join(folder, "errors.csv"))
+    flat = [row for row in rows if row["what"] == "flat"]
+    close(column(flat, "slope"), -0.5)
+    close(column(flat, "slope_se"), 0)
+    ours = [row for row in rows if row["name"] == "lines"]
+    assert [int(row["samples"]) for row in ours] == list(counts)
+    for row, path in zip(ours, results):
+        with h5py.File(path, "r") as result:
+            area, load = result["patch_area"][...], result["light_load_sky"][...]
+            errors = result["light_load_sky_se"][...]
+        close(float(row["error_share"]), np.sqrt(np.average(errors**2, weights=area)) / np.average(load, weights=area))
+    # Scrambled Sobol points do better than random ones.
+    assert float(ours[0]["slope"]) < -0.55, ours[0]
+    few = plots.run("samples", *results[:2], "--quantity", "light_load_sky")
+    assert few.returncode == 2 and "needs 3" in few.stderr, few.stderr
+    none = plots.run("samples", *results, "--quantity", "light_load_lamps")
+    assert none.returncode == 2, none.stderr
+
+
 def test_report(plots, folder):
     page = os.path.join(folder, "report.html")
     ran = plots.run("report", os.path.join(folder, "results/square"), "-o", page)
@@ -319,6 +347,7 @@ def test(sunload, source, folder):
     test_compare(plots, sunload, path, other)
     test_report(plots, folder)
     test_wrong_input(plots, path, folder)
+    test_samples(plots, sunload, folder)
     test_bands(plots, sunload, folder)
     print("comparison, report and wrong input: as they should be")
 
