@@ -123,8 +123,13 @@ std::vector<TimeSpan> clock_hours(TimeSpan time, const TimeZone& zone) {
   return hours;
 }
 
-PeriodDivision divided(PartKind kind, const std::vector<TimeSpan>& intervals, const TimeZone& zone,
-                       double latitude_deg) {
+namespace {
+
+/// Parts in the order of their keys: `place_at(t)` is where an instant belongs, `empty_part(key,
+/// t)` the part that it begins.
+template <class PlaceAt, class EmptyPart>
+std::vector<PeriodPart> sorted_parts(const std::vector<TimeSpan>& intervals,
+                                     const PlaceAt& place_at, const EmptyPart& empty_part) {
   std::map<std::int64_t, PeriodPart> parts;
   Place place;
   UnixTime known_from = 0;  // `place` holds from here to its end
@@ -132,20 +137,54 @@ PeriodDivision divided(PartKind kind, const std::vector<TimeSpan>& intervals, co
     const auto [begin, end] = intervals[k];
     for (UnixTime t = begin; t < end;) {
       if (!(t >= known_from && t < place.end - instant_s)) {
-        place = place_of(kind, t, zone, latitude_deg);
+        place = place_at(t);
         known_from = t;
       }
       // What is left of a part beyond a rounding belongs to the interval.
       const UnixTime until = place.end > end - instant_s ? end : std::max(place.end, t + instant_s);
       auto [part, is_new] = parts.try_emplace(place.key);
-      if (is_new) part->second = named_part(kind, place.key, t, zone);
+      if (is_new) part->second = empty_part(place.key, t);
       add(part->second, k, until - t, end - begin);
       t = until;
     }
   }
-  PeriodDivision division{kind, {}};
-  for (auto& [key, part] : parts) division.parts.push_back(std::move(part));
-  return division;
+  std::vector<PeriodPart> sorted;
+  sorted.reserve(parts.size());
+  for (auto& [key, part] : parts) sorted.push_back(std::move(part));
+  return sorted;
+}
+
+/// The step of the day that an instant lies in.
+TimeSpan clock_step(double step_s, UnixTime t, const TimeZone& zone) {
+  const CivilTime at = zone.civil_from_utc(t + instant_s);
+  const UnixTime begin_of_day = midnight(at, 0, zone), end_of_day = midnight(at, 1, zone);
+  const UnixTime begin =
+      begin_of_day + std::floor((t + instant_s - begin_of_day) / step_s) * step_s;
+  return {begin, std::min(begin + step_s, end_of_day)};
+}
+
+}  // namespace
+
+PeriodDivision divided(PartKind kind, const std::vector<TimeSpan>& intervals, const TimeZone& zone,
+                       double latitude_deg) {
+  return {kind, sorted_parts(
+                    intervals, [&](UnixTime t) { return place_of(kind, t, zone, latitude_deg); },
+                    [&](std::int64_t key, UnixTime t) { return named_part(kind, key, t, zone); })};
+}
+
+std::vector<PeriodPart> clock_steps(double step_s, const std::vector<TimeSpan>& intervals,
+                                    const TimeZone& zone) {
+  return sorted_parts(
+      intervals,
+      [&](UnixTime t) {
+        const TimeSpan step = clock_step(step_s, t, zone);
+        return Place{static_cast<std::int64_t>(std::llround(step[0])), step[1]};
+      },
+      [&](std::int64_t, UnixTime t) {
+        PeriodPart part;
+        part.bounds = clock_step(step_s, t, zone);
+        return part;
+      });
 }
 
 }  // namespace sunload

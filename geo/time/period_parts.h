@@ -55,4 +55,9 @@ std::size_t season_of(int month, double latitude_deg);
 PeriodDivision divided(PartKind kind, const std::vector<TimeSpan>& intervals, const TimeZone& zone,
                        double latitude_deg);
 
+/// Steps of so many seconds of elapsed time, counted from every midnight of `zone`; the last of a
+/// day ends with it. Their labels are empty.
+std::vector<PeriodPart> clock_steps(double step_s, const std::vector<TimeSpan>& intervals,
+                                    const TimeZone& zone);
+
 }  // namespace sunload

@@ -10,6 +10,7 @@
 #include "io/base/bands.h"
 #include "io/batch/facade_means.h"
 #include "solver/accuracy.h"
+#include "solver/base/threads.h"
 
 namespace sunload {
 
@@ -38,14 +39,52 @@ std::vector<double> flattened(const std::vector<Row>& rows) {
   return flat;
 }
 
-void add_ledger(BatchWriter& writer, const BatchTally& tally, const std::string& prefix) {
+/// Sums over the batch's share of each step, [rows][n], of a series [K][n]: J m-2 of irradiance.
+template <class Value>
+std::vector<double> step_sums(const Value* series, std::size_t n, const BatchSteps& steps) {
+  constexpr std::size_t columns_at_once = 4096;
+  std::vector<double> sums(steps.rows.size() * n, 0);
+  parallel_chunks(n, columns_at_once, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = 0; row < steps.rows.size(); ++row)
+      for (std::size_t k = steps.rows[row].first; k < steps.rows[row].end; ++k)
+        for (std::size_t i = begin; i < end; ++i)
+          sums[row * n + i] += steps.length_s[k] * static_cast<double>(series[k * n + i]);
+  });
+  return sums;
+}
+
+/// A series of the batch's intervals, or what of its steps lies in them. The only place where
+/// intervals become steps.
+template <class Value>
+void add_rows(BatchWriter& writer, const std::string& prefix, const ArraySpec& spec,
+              const Value* series, const StoredSeries& stored) {
+  const auto is_kept = [&](const std::string& name) {
+    const auto& left_out = stored.left_out;
+    return std::find(left_out.begin(), left_out.end(), name) == left_out.end();
+  };
+  ArraySpec of = spec;
+  of.name = prefix + spec.name;
+  const auto& rows = stored.steps.rows;
+  if (is_kept(spec.name)) writer.add(of, series);
+  if (rows.empty() || !is_kept(step_prefix + spec.name)) return;
+  of.name = prefix + step_prefix + spec.name;
+  of.rule = MergeRule::step;
+  of.type = ArrayType::float64;
+  of.dims.front() = rows.size();
+  const std::size_t n = spec.dims.size() > 1 ? spec.dims.back() : 1;
+  writer.add(of, step_sums(series, n, stored.steps).data());
+}
+
+void add_ledger(BatchWriter& writer, const BatchTally& tally, const std::string& prefix,
+                const StoredSeries& stored) {
   const std::size_t K = tally.intervals, R = tally.ledger_realization.size();
   for (std::size_t line = 0; line < ledger_line_count; ++line) {
     const auto value = [&](const Ledger& l) { return ledger_line(l, line); };
-    const std::string name = prefix + "power_" + ledger_line_names[line];
+    const std::string name = std::string("power_") + ledger_line_names[line];
     std::vector<double> power, errors;
     for (const auto& ledger : tally.ledger) power.push_back(value(ledger));
-    writer.add({name, MergeRule::append, ArrayType::float64, {K}}, power.data());
+    add_rows(writer, prefix, {name, MergeRule::append, ArrayType::float64, {K}}, power.data(),
+             stored);
     if (tally.ledger_instants.empty()) continue;
     for (std::size_t k = 0; k < K; ++k) {
       std::vector<double> realizations;
@@ -53,7 +92,7 @@ void add_ledger(BatchWriter& writer, const BatchTally& tally, const std::string&
         realizations.push_back(value(tally.ledger_instants[r][k]));
       errors.push_back(mean_error(realizations).standard_error);
     }
-    writer.add({name + "_se", MergeRule::append, ArrayType::float64, {K}}, errors.data());
+    writer.add({prefix + name + "_se", MergeRule::append, ArrayType::float64, {K}}, errors.data());
   }
   std::vector<double> energies;
   for (const auto& ledger : tally.ledger_realization) {
@@ -68,28 +107,25 @@ void add_ledger(BatchWriter& writer, const BatchTally& tally, const std::string&
              energy.data());
 }
 
-bool is_stored(const std::string& name, const StoredSeries& stored) {
-  const auto& left_out = stored.left_out;
-  return std::find(left_out.begin(), left_out.end(), band_array(name).name) == left_out.end();
-}
-
 /// What receivers get: series, their time sums, and those of the realizations.
 void add_received(BatchWriter& writer, const ReceiverTally& tally, std::size_t K,
-                  const std::string& prefix, const StoredSeries& stored) {
+                  const std::string& band, const std::string& receiver,
+                  const StoredSeries& stored) {
   const std::size_t N = tally.sunlit_s.size(), R = tally.exposure_realization.size();
+  const std::string prefix = band + receiver;
   const auto add_series = [&](const std::string& name, const std::vector<float>& values) {
-    if (is_stored(name, stored))
-      writer.add({name, MergeRule::append, ArrayType::float32, {K, N}, stored.mantissa_bits},
-                 values.data());
+    add_rows(writer, band,
+             {receiver + name, MergeRule::append, ArrayType::float32, {K, N}, stored.mantissa_bits},
+             values.data(), stored);
   };
   for (std::size_t p = 0; p < part_count; ++p) {
     if (tally.exposure[p].empty()) continue;
     const auto part = static_cast<Part>(p);
-    if (!tally.irradiance[p].empty()) add_series(prefix + series_name(part), tally.irradiance[p]);
+    if (!tally.irradiance[p].empty()) add_series(series_name(part), tally.irradiance[p]);
     writer.add({prefix + sum_name(part), MergeRule::sum, ArrayType::float64, {N}},
                tally.exposure[p].data());
   }
-  if (!tally.irradiance_se.empty()) add_series(prefix + "irradiance_se", tally.irradiance_se);
+  if (!tally.irradiance_se.empty()) add_series("irradiance_se", tally.irradiance_se);
   writer.add({prefix + batch_array::exposure, MergeRule::sum, ArrayType::float64, {R, N}},
              flattened(tally.exposure_realization).data());
   for (std::size_t p = 0; p < part_count; ++p)
@@ -125,16 +161,14 @@ void add_sensors(BatchWriter& writer, const BatchTally& tally, const SeenOnce& s
 void add_band(BatchWriter& writer, const BatchTally& tally, const Hierarchy& hierarchy,
               const Mesh& mesh, const std::string& prefix, const StoredSeries& stored) {
   const std::size_t K = tally.intervals;
-  add_received(writer, tally, K, prefix, stored);
+  add_received(writer, tally, K, prefix, "", stored);
   if (!tally.sensors.sunlit_s.empty())
-    add_received(writer, tally.sensors, K, prefix + sensor_prefix, stored);
+    add_received(writer, tally.sensors, K, prefix, sensor_prefix, stored);
   if (!mesh.facades.empty())
-    writer.add({prefix + "facade_irradiance",
-                MergeRule::append,
-                ArrayType::float32,
-                {K, mesh.facades.size()}},
-               facade_series(tally, hierarchy, mesh).data());
-  add_ledger(writer, tally, prefix);
+    add_rows(writer, prefix,
+             {"facade_irradiance", MergeRule::append, ArrayType::float32, {K, mesh.facades.size()}},
+             facade_series(tally, hierarchy, mesh).data(), stored);
+  add_ledger(writer, tally, prefix, stored);
   writer.add({prefix + batch_array::outgoing,
               MergeRule::sum,
               ArrayType::float64,
@@ -166,9 +200,9 @@ void add_part(BatchWriter& writer, const std::vector<BatchTally>& bands,
   const std::string of_part = part_prefix(source.part);
   const bool has_sensors = !bands.front().sensors.sunlit_s.empty();
   for (std::size_t b = 0; b < bands.size(); ++b) {
-    add_part(writer, bands[b], source, prefixes[b] + of_part);
-    if (has_sensors)
-      add_part(writer, bands[b].sensors, source, prefixes[b] + of_part + sensor_prefix);
+    const std::string prefix = prefixes[b] + of_part;
+    add_part(writer, bands[b], source, prefix);
+    if (has_sensors) add_part(writer, bands[b].sensors, source, prefix + sensor_prefix);
   }
   const auto add_sunlit = [&](const ReceiverTally& tally, const std::string& prefix) {
     const auto& sunlit = source.solved ? tally.parts[*source.solved].sunlit_s : tally.sunlit_s;

@@ -67,11 +67,24 @@ std::string part_exposure_name(Part part);
 std::vector<double> work_values(const WorkDone& work);
 WorkDone work_from(const std::vector<double>& values);
 
+/// Begins the names of series that are sums over steps, behind the band: `step/irradiance`.
+inline const std::string step_prefix = "step/";
+
+/// What a batch has of the steps that series are means over.
+struct BatchSteps {
+  struct Row {
+    std::size_t first = 0, end = 0;  ///< intervals within the batch
+  };
+  std::vector<Row> rows;         ///< none: series are of intervals
+  std::vector<double> length_s;  ///< of the batch's intervals
+};
+
 /// What is stored of the series of patches and sensors. Means of facades keep all bits: many
 /// patches make them surer than any of these.
 struct StoredSeries {
   std::vector<std::string> left_out;  ///< names, as in BatchHeader
   int mantissa_bits = all_mantissa_bits;
+  BatchSteps steps = {};
 };
 
 /// What of a scene is the same for all suns. Where materials change in the course of time: means

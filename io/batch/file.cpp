@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<const char*, 3> rule_names{"append", "sum", "maximum"};
+constexpr std::array<const char*, 4> rule_names{"append", "sum", "maximum", "step"};
 constexpr std::array<const char*, 2> type_names{"float32", "float64"};
 
 template <class Enum, std::size_t n>
@@ -161,7 +161,8 @@ void BatchWriter::write(const std::string& path) const {
                       {"type", name_of(block->spec.type, type_names)},
                       {"dims", block->spec.dims},
                       {"chunk_bytes", block->chunk_bytes()}});
-    if (!block->chunks.empty()) tables.back()["mantissa_bits"] = block->spec.mantissa_bits;
+    if (!block->chunks.empty() || block->spec.rule == MergeRule::step)
+      tables.back()["mantissa_bits"] = block->spec.mantissa_bits;
     blocks.push_back(block->pieces());
   }
   write_container(path, {{"batch", to_json(header_)}, {"arrays", tables}}, blocks);

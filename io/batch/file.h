@@ -19,7 +19,9 @@
 
 namespace sunload {
 
-enum class MergeRule : std::uint8_t { append, sum, maximum };
+/// `step`: rows are those of steps of the series, which may go on in the next batch: its first row
+/// then is added to the last one.
+enum class MergeRule : std::uint8_t { append, sum, maximum, step };
 enum class ArrayType : std::uint8_t { float32, float64 };
 
 /// Shape of the chunks of series in result and batch files.
@@ -29,8 +31,9 @@ struct ArraySpec {
   std::string name;
   MergeRule rule = MergeRule::append;
   ArrayType type = ArrayType::float64;
-  std::vector<std::size_t> dims;          ///< `append`: the first is time within the batch
-  int mantissa_bits = all_mantissa_bits;  ///< that a chunked array keeps; others keep all
+  std::vector<std::size_t> dims;  ///< `append`: the first is time within the batch
+  /// That a chunked array keeps, and that the result of steps is to keep; others keep all.
+  int mantissa_bits = all_mantissa_bits;
 };
 
 struct BatchHeader {

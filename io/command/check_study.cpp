@@ -31,6 +31,7 @@
 #include "io/plan/work_estimate.h"
 #include "io/run/progress.h"
 #include "io/study/named_files.h"
+#include "io/study/words.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
@@ -251,6 +252,9 @@ std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
   const std::string shot =
       work.samples > 0 ? fmt::format(", {:.3g} samples shot", static_cast<double>(work.samples))
                        : "";
+  if (!plan.steps.empty())
+    text += fmt::format("  series are means over {} steps: {}\n", plan.steps.size(),
+                        word_of(plan.study.output.series_step));
   return text + fmt::format(
                     "  {} patches, {} intervals ({} with light) in {} batches\n"
                     "  {:.3g} lines, about {:.3g} shadow rays{}; estimated {:.0f} MiB memory, "

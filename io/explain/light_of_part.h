@@ -18,8 +18,9 @@ std::vector<std::unique_ptr<const ResultReader>> readers_of_bands(const ResultRe
 /// Diffuse reflectance of the patches in each band; of broadband light once.
 std::vector<std::vector<float>> reflectances_of_bands(const ResultScene& scene);
 
-/// Share of every interval that is chosen; empty: the whole period.
-std::vector<double> chosen_part(const ResultReader& result);
+/// Share of every interval of the study that is chosen, whatever the series' steps; empty: the
+/// whole period.
+std::vector<double> chosen_part(const ResultReader& result, const ResultScene& scene);
 
 /// What patches send diffusely: as the result has it of the whole period, else ρ E and what shines.
 SentLight sent_light(const ResultReader& result, const ResultScene& scene);

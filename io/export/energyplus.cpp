@@ -30,6 +30,10 @@ struct Year {
 
 /// EnergyPlus wants every step of a year, in local standard time, a whole number in an hour.
 Year expected_year(const ResultReader& result) {
+  if (const std::string step = series_step(result); !step.empty())
+    throw InputError({result.path()}, "series are means over steps: " + step,
+                     "sunlit fractions are those of the sun of each interval",
+                     "run the study with output.series_step: interval");
   const InputError not_a_year(
       {result.path()}, "the intervals are not those of a year of EnergyPlus",
       "it needs all of 365 or 366 days from 1 January 00:00 local standard time, in equal steps "

@@ -69,6 +69,13 @@ const std::vector<RuleWords>& measure_word_keys() {
   return all;
 }
 
+std::string watched_light(const MeasureRule& rule, const MeasureParameters& parameters) {
+  if (rule.needs != MeasureRule::Needs::series) return {};
+  const auto word = parameters.words.find("light");
+  if (word != parameters.words.end()) return word->second;
+  return rule.word == "glint_hours" ? "mirror" : "total";
+}
+
 std::vector<MeasureLevel> levels_of(const MeasureRule& rule, const MeasureParameters& parameters) {
   return rule.levels ? rule.levels(parameters) : std::vector<MeasureLevel>();
 }

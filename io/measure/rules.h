@@ -25,6 +25,9 @@ const std::vector<MeasureKey>& measure_keys();
 /// Keys with words, and all words that a rule knows for it.
 const std::vector<RuleWords>& measure_word_keys();
 
+/// Part of the light whose series a measure watches: total, direct, …; empty: none.
+std::string watched_light(const MeasureRule& rule, const MeasureParameters& parameters);
+
 /// Levels of a measure; none: it has no verdict.
 std::vector<MeasureLevel> levels_of(const MeasureRule& rule, const MeasureParameters& parameters);
 

@@ -175,6 +175,19 @@ void expect_fit_for_derived(const ResultReader& result, const RenderRules& rules
   problems.throw_if_any();
 }
 
+void expect_fit_for_steps(const ResultReader& result, const RenderRules& rules) {
+  if (!has_long_steps(result)) return;
+  Problems problems;
+  const auto refuse = [&](bool is_wrong, const std::string& what, const std::string& hint) {
+    if (is_wrong)
+      problems.add({result.path()}, what + " of series of steps: " + series_step(result),
+                   "no one sun stands for such a step", hint);
+  };
+  refuse(rules.view == View::sun, "--camera sun", "use overview or top");
+  refuse(rules.sky.value_or(SkyBackground::plain) != SkyBackground::plain, "--sky", "leave it out");
+  problems.throw_if_any();
+}
+
 /// A time that nothing in the picture depends on is a slip: the user wants another quantity.
 void expect_time_matters(const ResultReader& result, const RenderRules& rules,
                          const ShownQuantity& shown) {
@@ -237,6 +250,7 @@ SunTrack sun_track(const ResultReader& result) {
   const auto azimuth = result.doubles("sun_azimuth"), elevation = result.doubles("sun_elevation"),
              time = result.doubles("time");
   SunTrack path;
+  if (has_long_steps(result)) return path;
   for (std::size_t k = 0; k < azimuth.size(); ++k) {
     path.places.push_back({azimuth[k], elevation[k]});
     path.breaks.push_back(k > 0 && time[k] - time[k - 1] > longest_gap_s ? 1 : 0);
@@ -321,8 +335,8 @@ class Renderer {
     if (patches_)
       colours.corner_values = corner_values(*patches_, shown.values,
                                             rules_.crease_angle_deg.value_or(default_crease_deg));
-    const auto kind =
-        rules_.sky.value_or(shown.is_series ? SkyBackground::second : SkyBackground::plain);
+    const auto kind = rules_.sky.value_or(
+        shown.is_series && !has_long_steps(result_) ? SkyBackground::second : SkyBackground::plain);
     picture->paint(area.x, area.y, area.width,
                    traced_->pixels(colours, {kind, sun_behind(shown.interval)}));
     draw_title(
@@ -452,7 +466,7 @@ class Renderer {
   std::unique_ptr<TracedPicture> traced_;
 };
 
-/// Intervals that are chosen with the sun above the horizon.
+/// Rows that are chosen with the sun above the horizon at some time.
 std::vector<std::size_t> sunny_intervals(const ResultReader& result) {
   const auto elevation = result.doubles("sun_elevation"), shares = result.chosen_shares();
   std::vector<std::size_t> sunny;
@@ -473,6 +487,7 @@ ShownQuantity shown_at(const ResultReader& result, const std::string& dataset,
 
 void render_png(const ResultReader& result, const RenderRules& rules, const std::string& path) {
   expect_sense(rules);
+  expect_fit_for_steps(result, rules);
   if (is_of_kinds(rules.colours)) {
     if (result.is_derived())
       throw InputError({result.path()}, "--colour surface or material of what is derived",
@@ -497,6 +512,7 @@ void render_png(const ResultReader& result, const RenderRules& rules, const std:
 void render_animation(const ResultReader& result, const RenderRules& rules,
                       const std::string& path) {
   expect_sense(rules);
+  expect_fit_for_steps(result, rules);
   if (result.is_derived())
     throw InputError({result.path()}, "--animate of what is derived", "it is of no instant",
                      "draw one picture of it, or animate the results");

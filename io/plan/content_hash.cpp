@@ -9,6 +9,7 @@
 #include "io/base/hash.h"
 #include "io/plan/part_totals.h"
 #include "io/plan/stored_bits.h"
+#include "io/study/words.h"
 
 namespace sunload {
 
@@ -188,6 +189,10 @@ std::string content_hash(const Study& study, const BuiltScene& built, const Ligh
   if (const int bits = stored_bits(study); bits < float_mantissa_bits) {
     digest.add(std::string("significant bits"));
     digest.add(bits);
+  }
+  if (!study.output.series_step.is_interval()) {
+    digest.add(std::string("series step"));
+    digest.add(word_of(study.output.series_step));
   }
   digest.add(isa);
   digest.add(times_text(light));

@@ -4,6 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "io/measure/rules.h"
+
 namespace sunload {
 
 namespace {
@@ -33,6 +37,13 @@ bool stores_series(const OutputStudy& output, Part part) {
   const auto& names = output.series;
   return std::find(names.begin(), names.end(), part_names[static_cast<std::size_t>(part)]) !=
          names.end();
+}
+
+bool is_watched(const Study& study, Part part) {
+  return std::any_of(study.measures.begin(), study.measures.end(), [&](const auto& measure) {
+    return watched_light(*find_measure_rule(measure.rule), measure) ==
+           part_names[static_cast<std::size_t>(part)];
+  });
 }
 
 std::array<bool, part_count> kept_series(const OutputStudy& output) {

@@ -16,6 +16,8 @@ SplitRules split_rules(const Study& study);
 RefineRules refine_rules(const Study& study);
 /// Whether the study stores the series of that part of the irradiance.
 bool stores_series(const OutputStudy& output, Part part);
+/// Whether a measure asks for every interval of that series.
+bool is_watched(const Study& study, Part part);
 /// Parts of the irradiance of which a batch holds the series: those of the study, and the total.
 std::array<bool, part_count> kept_series(const OutputStudy& output);
 /// With the study's own counts, which `accuracy` makes the least ones.

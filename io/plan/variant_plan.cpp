@@ -45,6 +45,7 @@ VariantPlan unhashed_plan_of(const Study& study, BuiltScene built, LightSeries l
   plan.seasons = take_seasons(study, plan.light, plan.built);
   if (!study.solver.batch_suns) plan.study.solver.batch_suns = batch_suns_for(plan.intervals());
   plan.totals = part_totals(study, plan.light, plan.built.site.latitude_deg);
+  plan.steps = series_steps(study, plan.light);
   refuse_lamps_in_lux(plan);
   expect_measurable(study, plan.built, plan.light);
   refuse_smooth_surfaces_in_a_matrix(plan);

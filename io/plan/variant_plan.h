@@ -11,6 +11,7 @@
 #include "io/plan/part_totals.h"
 #include "io/plan/scene_build.h"
 #include "io/plan/scene_seasons.h"
+#include "io/plan/series_steps.h"
 #include "io/study/study.h"
 
 namespace sunload {
@@ -23,6 +24,7 @@ struct VariantPlan {
   SceneSeasons seasons;
   LightSeries light;
   std::vector<PartTotals> totals;  ///< of parts of the period
+  std::vector<SeriesStep> steps;   ///< of stored series; none: they are of intervals
   std::string isa;                 ///< that rays will be traced with
   std::string content_hash;        ///< SHA-256 of everything that can change a number
   /// Equal where realizations share their random numbers. Counts that an accuracy has raised are no

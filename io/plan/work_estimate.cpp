@@ -88,6 +88,30 @@ bool is_year_of_few(const VariantPlan& plan, double lit) {
          year_share_of_few * lit > year_skies + year_suns;
 }
 
+/// What series take, per patch and band.
+struct SeriesBytes {
+  double of_batch = 0, of_merge = 0, on_disk = 0;
+};
+
+/// In batches and in the result; of dark intervals next to nothing. Sums over steps are doubles,
+/// beside the series of intervals that measures watch; merge holds a row of chunks.
+SeriesBytes series_bytes(const VariantPlan& plan, double series, double value_bytes) {
+  const bool lamps = has_lamps(plan);
+  const auto lit = static_cast<double>(lamps ? plan.intervals() : plan.light.lit_count());
+  const auto batch = static_cast<double>(std::min(plan.batch_suns(), plan.intervals()));
+  if (plan.steps.empty()) return {batch * series * value_bytes, 0, 2 * lit * series * value_bytes};
+  const auto steps = static_cast<double>(plan.steps.size()),
+             batches = static_cast<double>(plan.batches());
+  // A batch begins and ends within steps.
+  const double of_steps = series * double_bytes * (steps / batches + 1);
+  double watched = 0;
+  for (std::size_t p = 0; p < part_count; ++p)
+    watched += is_watched(plan.study, static_cast<Part>(p)) ? 1 : 0;
+  return {of_steps + watched * batch * value_bytes,
+          series * (static_cast<double>(series_step_rows) * float_bytes + double_bytes),
+          batches * of_steps + watched * lit * value_bytes + steps * series * value_bytes};
+}
+
 double line_seconds(const Scene& scene, int mirror_depth) {
   const auto triangles = static_cast<double>(std::max<std::size_t>(scene.mesh.triangle_count(), 1));
   return rays_per_line(scene, mirror_depth) * s_per_line_ray(triangles);
@@ -186,8 +210,10 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   constexpr double float_bits = 32, sign_and_exponent = float_bits - float_mantissa_bits;
   const double value_bytes =
       stored_bytes_per_value * (sign_and_exponent + stored_bits(plan.study)) / float_bits;
+  const SeriesBytes stored = series_bytes(plan, series, value_bytes);
   const double batch_sums = parts * of_realizations + batch_bytes_per_patch;
-  work.memory_bytes += bands * n * (batch * series * value_bytes + batch_sums);
+  work.memory_bytes += bands * n * (stored.of_batch + batch_sums);
+  work.memory_bytes += bands * n * stored.of_merge;
   // The sun's light of each realization, straight and circumsolar, and by mirrors.
   if (is_rgb || of_instants || suns_of_parts > 0)
     work.memory_bytes += n * s.realizations * block_width * float_bytes * (mirrors ? 3.0 : 2.0);
@@ -209,7 +235,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
         n * (shooting_bytes_per_patch + of_realizations * columns_of_a_realization) +
         per_shot / s.realizations * bytes_per_sample;
   }
-  work.disk_bytes = bands * n * lit * value_bytes * 2 * series + bands * n * batches * batch_sums +
+  work.disk_bytes = bands * n * stored.on_disk + bands * n * batches * batch_sums +
                     bands * n * (of_realizations + result_bytes_per_patch) +
                     bands * n *
                         (static_cast<double>(periods.stored) * sums_of_part * double_bytes +

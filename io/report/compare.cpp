@@ -167,7 +167,14 @@ void correct_within_kinds(std::vector<ComparisonRow>& rows) {
 
 std::vector<std::string> notes_on(const Side& base, const Side& variant) {
   std::vector<std::string> notes;
-  if (base.result.doubles("time_bounds") != variant.result.doubles("time_bounds"))
+  const auto step = [](const Side& s) {
+    const std::string word = series_step(s.result);
+    return word.empty() ? std::string("interval") : word;
+  };
+  if (step(base) != step(variant))
+    notes.push_back("the two results have series of other steps: " + step(base) + " and " +
+                    step(variant));
+  else if (base.result.doubles("time_bounds") != variant.result.doubles("time_bounds"))
     notes.push_back("the two results cover different intervals of time: " +
                     period_in_words(base.result) + " and " + period_in_words(variant.result));
   if (base.result.chosen().any())

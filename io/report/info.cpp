@@ -46,11 +46,16 @@ std::string period(const ResultReader& result) {
     hours += shares[k] * lengths[k] / seconds_per_hour;
   }
   if (chosen.empty()) return info_line("period", "no intervals");
-  auto text = info_line("period", fmt::format("{} interval{}, {:.5g} h in all", chosen.size(),
+  const std::string step = series_step(result);
+  auto text = info_line("period", fmt::format("{} {}{}, {:.5g} h in all", chosen.size(),
+                                              step.empty() ? "interval" : "step",
                                               chosen.size() == 1 ? "" : "s", hours));
   if (result.number_attribute("time_is_synthetic") > 0)
     return text + info_line("", "sun positions without a date");
   text += info_line("  days", period_in_words(result));
+  if (!step.empty())
+    return text + info_line("  steps", "series are means over steps: " + step +
+                                           "; largest values are those of intervals");
   text += info_line("  first sun", interval_in_words(result, chosen.front()));
   if (chosen.size() > 1) text += info_line("  last sun", interval_in_words(result, chosen.back()));
   return text;
@@ -164,7 +169,7 @@ std::string lighting_analysis(const ResultReader& result, const PatchGroups& gro
     text += analysis(with_units(series, series) + " (1)", result.row(series, brightest), groups);
     if (result.has("sun_hours"))
       text += analysis("sun hours, h", result.doubles("sun_hours"), groups);
-    text += "  (1) brightest interval: sun of " + interval_in_words(result, brightest) + "\n";
+    text += "  (1) brightest row: " + row_in_words(result, brightest) + "\n";
   } else if (result.has("sun_hours")) {
     text += analysis("sun hours, h", result.doubles("sun_hours"), groups);
   }

@@ -152,6 +152,10 @@ void ResultWriter::File::put_times(const ResultTimes& times) {
   time.set("calendar", "standard");
   time.set("axis", "T");
   if (options.times_are_synthetic) time.set("time_is_synthetic", std::int64_t{1});
+  if (!options.series_step.empty()) {
+    time.set("long_name", "instant of the sun half way through the sunlit time of the step");
+    time.set("series_step", options.series_step);
+  }
   put("time_bounds", flat(times.bounds));
   put("sun_azimuth", times.sun_azimuth_deg);
   put("sun_elevation", times.sun_elevation_deg);

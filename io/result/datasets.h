@@ -90,6 +90,11 @@ struct ResultWriter::File {
   void make_series(const ArraySpec& spec);
   void append_series(const BatchReader& batch, const ArraySpec& spec);
   void append_ledger(const BatchReader& batch, const ArraySpec& spec);
+  /// One row of chunks of the dataset that an array of that name goes to, from a first row on.
+  void write_chunk(const std::string& array, std::size_t first, std::size_t chunk,
+                   std::span<const unsigned char> bytes);
+  void write_values(const std::string& array, std::size_t first, const std::vector<float>& values,
+                    std::size_t columns, int mantissa_bits);
   void put_time_sums();
   void put_attributes(const ResultAttributes& attributes);
 };

@@ -60,7 +60,7 @@ std::vector<double> standard_errors(const std::vector<double>& realizations, std
 std::string asked_totals(const PeriodChoice& choice) {
   const int words = !choice.month.empty() + !choice.season.empty() + !choice.day.empty() +
                     !choice.hours.empty() + (!choice.from.empty() || !choice.to.empty());
-  const std::string series = "output.series: [total]";
+  std::string series = "output.series: [total]";
   if (words > 1) return series;
   const auto totals = [&](const char* kind) {
     return fmt::format("output.totals: [{}] or {}", kind, series);
@@ -107,6 +107,12 @@ PartOfPeriod::PartOfPeriod(const ResultReader& result, const PeriodChoice& choic
   for (const PartKind kind :
        {PartKind::month, PartKind::season, PartKind::day, PartKind::hour_of_day})
     if (find_parts(kind, hours, shares_of_hours, zone, latitude)) return;
+  const std::string step = series_step(result);
+  if (!step.empty() && std::any_of(shares_.begin(), shares_.end(),
+                                   [](double share) { return share > 0 && share < 1; }))
+    throw InputError({result.path()}, choice.words() + " cuts steps of the series",
+                     "they are means over steps: " + step,
+                     "choose whole steps, or run the study with a shorter output.series_step");
   if (!of_series(std::string(load_word)).empty()) return;
   throw InputError({result.path()}, "has nothing of " + choice.words(),
                    "its stored totals of parts do not make it up, and it has no series",
@@ -162,6 +168,8 @@ std::string PartOfPeriod::of_series(const std::string& dataset) const {
   constexpr std::string_view largest_end = "_max";
   if (const auto load = name.find(load_word); load != std::string::npos)
     name.replace(load, load_word.size(), series);
+  else if (name.ends_with(largest_end) && !series_step(result_).empty())
+    return {};  // means of steps do not tell the largest value of an interval
   else if (name.ends_with(largest_end))
     name = without_end(name, largest_end);
   const ResultVariable* variable = find_result_variable(name, result_.quantity());

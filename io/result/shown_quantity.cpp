@@ -49,8 +49,7 @@ ShownQuantity shown_radiance(const ResultReader& result, const std::string& time
   s.is_series = !time.empty();
   s.interval = s.is_series ? interval_at(result, time) : brightest_interval(result);
   s.values = s.is_series ? radiance_at(result, s.interval) : mean_radiance(result);
-  s.when = s.is_series ? "sun of " + interval_in_words(result, s.interval)
-                       : "mean of " + period_in_words(result);
+  s.when = s.is_series ? row_in_words(result, s.interval) : "mean of " + period_in_words(result);
   return s;
 }
 
@@ -108,8 +107,7 @@ ShownQuantity shown_quantity(const ResultReader& result, const std::string& data
   if (!result.is_derived())
     s.interval = time.empty() ? brightest_interval(result) : interval_at(result, time);
   s.values = s.is_series ? result.row(dataset, s.interval) : result.doubles(dataset);
-  s.when =
-      s.is_series ? "sun of " + interval_in_words(result, s.interval) : period_in_words(result);
+  s.when = s.is_series ? row_in_words(result, s.interval) : period_in_words(result);
   if (dataset.starts_with(measure_prefix))
     if (const auto day = result.text_attribute(dataset, "when"); !day.empty()) s.when = day;
   return s;

@@ -35,6 +35,13 @@ TimeZone result_zone(const ResultReader& result) {
   return TimeZone(name.empty() ? "UTC" : name);
 }
 
+std::string series_step(const ResultReader& result) { return result.text_attribute("series_step"); }
+
+bool has_long_steps(const ResultReader& result) {
+  const std::string step = series_step(result);
+  return step == "day" || step == "month";
+}
+
 std::size_t brightest_interval(const ResultReader& result) {
   const auto shares = result.chosen_shares();
   const auto largest = [&](const std::vector<double>& values) {
@@ -72,6 +79,14 @@ std::string interval_in_words(const ResultReader& result, std::size_t interval) 
       "{} for {} … {} ({} for {} … {})", local_sun, clock(iso_local(bounds.at(0), zone), local_sun),
       clock(iso_local(bounds.at(1), zone), local_sun), iso_utc(sun),
       clock(iso_utc(bounds[0]), iso_utc(sun)), clock(iso_utc(bounds[1]), iso_utc(sun)));
+}
+
+std::string row_in_words(const ResultReader& result, std::size_t row) {
+  if (series_step(result).empty()) return "sun of " + interval_in_words(result, row);
+  const auto zone = result_zone(result);
+  const auto bounds = result.row("time_bounds", row);
+  const std::string begin = iso_local(bounds.at(0), zone);
+  return "mean of " + begin + " … " + clock(iso_local(bounds.at(1), zone), begin);
 }
 
 std::string period_in_words(const ResultReader& result) {

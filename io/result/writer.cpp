@@ -56,36 +56,43 @@ void ResultWriter::File::make_series(const ArraySpec& spec) {
                  "bits of series " + spec.name);
 }
 
+void ResultWriter::File::write_chunk(const std::string& array, std::size_t first, std::size_t chunk,
+                                     std::span<const unsigned char> bytes) {
+  const BandArray of = band_array(array);
+  h5::Dataset dataset = series_dataset(of.name);
+  const ChunkShape shape = chunk_shape(dataset.shape().back());
+  const bool is_plain = bytes.size() == shape.bytes();
+  std::vector<std::size_t> offset{first};
+  if (of.band) offset.push_back(*of.band);
+  offset.push_back(chunk * shape.columns);
+  dataset.write_chunk(offset, bytes, is_plain ? h5::ChunkCoding::plain : h5::ChunkCoding::deflated);
+}
+
+void ResultWriter::File::write_values(const std::string& array, std::size_t first,
+                                      const std::vector<float>& values, std::size_t columns,
+                                      int mantissa_bits) {
+  const auto chunks = encoded_chunks(values.data(), values.size() / columns, columns,
+                                     chunk_shape(columns), options.compression, mantissa_bits);
+  for (std::size_t c = 0; c < chunks.size(); ++c) write_chunk(array, first, c, chunks[c]);
+}
+
 /// A [time, n] array: one row of chunks, copied where the batch has them.
 void ResultWriter::File::append_series(const BatchReader& batch, const ArraySpec& spec) {
-  const BandArray array = band_array(spec.name);
-  h5::Dataset dataset = series_dataset(array.name);
-  SUNLOAD_EXPECT(spec.dims.size() == 2 && spec.dims[1] == dataset.shape().back(),
-                 "size of series " + spec.name);
-  const std::size_t columns = spec.dims[1];
+  const std::size_t columns = spec.dims.size() == 2 ? spec.dims[1] : 0;
+  SUNLOAD_EXPECT(
+      spec.dims.size() == 2 && columns == series_dataset(band_array(spec.name).name).shape().back(),
+      "size of series " + spec.name);
   if (columns == 0) return;
-  const ChunkShape shape = chunk_shape(columns);
-  const auto put_chunk = [&](std::size_t c, std::span<const unsigned char> bytes) {
-    const bool is_plain = bytes.size() == shape.bytes();
-    std::vector<std::size_t> offset{batch.header().first_interval};
-    if (array.band) offset.push_back(*array.band);
-    offset.push_back(c * shape.columns);
-    dataset.write_chunk(offset, bytes,
-                        is_plain ? h5::ChunkCoding::plain : h5::ChunkCoding::deflated);
-  };
-  if (batch.chunk_count(spec.name) > 0) {
-    SUNLOAD_EXPECT(batch.chunk_count(spec.name) == shape.count(columns), "chunks of " + spec.name);
-    for (std::size_t c = 0; c < shape.count(columns); ++c) {
-      const auto chunk = batch.chunk(spec.name, c);
-      put_chunk(c, {chunk.data, chunk.bytes});
-    }
-  } else {
-    const auto values = batch.doubles(spec.name);
-    const std::vector<float> narrowed(values.begin(), values.end());
-    const auto chunks =
-        encoded_chunks(narrowed.data(), spec.dims[0], columns, shape, options.compression);
-    for (std::size_t c = 0; c < chunks.size(); ++c) put_chunk(c, chunks[c]);
+  const std::size_t first = batch.header().first_interval, chunks = batch.chunk_count(spec.name);
+  SUNLOAD_EXPECT(chunks == 0 || chunks == chunk_shape(columns).count(columns),
+                 "chunks of " + spec.name);
+  for (std::size_t c = 0; c < chunks; ++c) {
+    const auto chunk = batch.chunk(spec.name, c);
+    write_chunk(spec.name, first, c, {chunk.data, chunk.bytes});
   }
+  if (chunks > 0) return;
+  const auto values = batch.doubles(spec.name);
+  write_values(spec.name, first, {values.begin(), values.end()}, columns, all_mantissa_bits);
 }
 
 /// A [time] array: ledger terms, or their standard errors per instant. Those of all bands come
@@ -135,6 +142,7 @@ void ResultWriter::File::put_attributes(const ResultAttributes& attributes) {
   file->set("sunload_format", std::string(result_format));
   if (options.quantity == Quantity::illuminance) file->set("quantity", "illuminance");
   if (options.times_are_synthetic) file->set("time_is_synthetic", std::int64_t{1});
+  if (!options.series_step.empty()) file->set("series_step", options.series_step);
   const auto id = std::find_if(attributes.text.begin(), attributes.text.end(),
                                [](const auto& text) { return text.first == "pairing_id"; });
   if (id == attributes.text.end()) return;
@@ -194,6 +202,36 @@ void ResultWriter::append(const BatchReader& batch) {
       } else {
         file_->append_ledger(batch, spec);
       }
+    }
+    file_->series.end = file_->file->end();
+    file_->target.start_flushing();
+  });
+}
+
+void ResultWriter::append(const StepRows& rows) {
+  SUNLOAD_EXPECT(rows.first % file_->chunk_rows() == 0 && rows.count <= file_->chunk_rows(),
+                 "rows of steps are a row of chunks");
+  file_->writing([&] {
+    for (const auto& of : rows.series)
+      file_->make_series({of.name, MergeRule::append, ArrayType::float32, {}, of.mantissa_bits});
+    for (const auto& of : rows.ledger) file_->series_dataset(band_array(of.name).name);
+    if (file_->series.begin == 0) file_->series.begin = file_->file->end();
+    for (const auto& of : rows.series)
+      if (of.columns > 0)
+        file_->write_values(of.name, rows.first, of.values, of.columns, of.mantissa_bits);
+    const auto prefixes = band_prefixes(file_->options.bands);
+    for (const auto& of : rows.ledger) {
+      const BandArray array = band_array(of.name);
+      if (array.band.value_or(0) != 0) continue;
+      std::vector<std::vector<double>> bands;
+      bands.reserve(prefixes.size());
+      for (const auto& prefix : prefixes)
+        bands.push_back(
+            std::find_if(rows.ledger.begin(), rows.ledger.end(), [&](const auto& other) {
+              return other.name == prefix + array.name;
+            })->values);
+      file_->series_dataset(array.name)
+          .write_rows(rows.first, rows.count, side_by_side(std::move(bands), rows.count).data());
     }
     file_->series.end = file_->file->end();
     file_->target.start_flushing();

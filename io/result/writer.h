@@ -37,7 +37,7 @@ struct ResultGeometry {
   Vec3 origin;
 };
 
-/// One row per interval.
+/// One row per interval, or per step of the series.
 struct ResultTimes {
   std::vector<double> time;  ///< UTC s since 1970, the sun's instant
   std::vector<std::array<double, 2>> bounds;
@@ -62,6 +62,23 @@ struct ResultAttributes {
   std::vector<std::pair<std::string, std::string>> text;
   std::vector<std::pair<std::string, double>> numbers;
   std::vector<std::pair<std::string, std::int64_t>> integers;
+};
+
+/// Rows of series that are no batch's own: means over steps. Names are those of batches' arrays.
+struct StepRows {
+  struct Series {
+    std::string name;
+    int mantissa_bits = all_mantissa_bits;
+    std::size_t columns = 0;
+    std::vector<float> values;  ///< [count][columns]
+  };
+  struct Ledger {
+    std::string name;
+    std::vector<double> values;  ///< [count]
+  };
+  std::size_t first = 0, count = 0;  ///< a row of chunks
+  std::vector<Series> series;
+  std::vector<Ledger> ledger;
 };
 
 /// A finished array per patch, facade, selection, realization × patch, or scalar.
@@ -94,6 +111,7 @@ class ResultWriter {
     int compression = 4;
     std::size_t realizations = 8;
     bool times_are_synthetic = false;
+    std::string series_step;            ///< word of it; empty: series are of intervals
     std::vector<std::string> left_out;  ///< arrays of the batches that the result does not get
     /// Batches and totals come with the names of irradiance, and are stored as this.
     Quantity quantity = Quantity::irradiance;
@@ -108,6 +126,8 @@ class ResultWriter {
   /// An array "irradiance_direct" of the batch becomes the dataset of that name, or
   /// "illuminance_direct".
   void append(const BatchReader& batch);
+  /// The same of steps.
+  void append(const StepRows& rows);
   /// Time integrals and other arrays without time: name must be in the schema.
   void write(const ResultArray& array);
   void write_measure(const MeasureArray& array, const MeasureAttributes& attributes);

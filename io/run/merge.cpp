@@ -14,8 +14,10 @@
 #include "io/run/part_merge.h"
 #include "io/run/result_attributes.h"
 #include "io/run/result_geometry.h"
+#include "io/run/step_merge.h"
 #include "io/run/stored_series.h"
 #include "io/run/totals.h"
+#include "io/study/words.h"
 
 namespace sunload {
 
@@ -135,11 +137,12 @@ void write_ledger_errors(BandWriter& writer, const Totals& totals) {
 
 ResultWriter::Options writer_options(const VariantPlan& plan) {
   ResultWriter::Options options;
-  options.chunk_intervals = plan.batch_suns();
+  options.chunk_intervals = plan.steps.empty() ? plan.batch_suns() : series_step_rows;
+  if (!plan.steps.empty()) options.series_step = word_of(plan.study.output.series_step);
   options.compression = plan.study.output.compression;
   options.realizations = static_cast<std::size_t>(plan.study.solver.realizations);
   options.times_are_synthetic = plan.light.times_are_synthetic;
-  options.left_out = unwanted_series(plan.study.output);
+  options.left_out = unwanted_series(plan.study);
   options.quantity = plan.study.light.quantity;
   options.bands = plan.study.solver.bands;
   options.divisions = result_divisions(plan);
@@ -158,16 +161,21 @@ std::vector<std::string> merge_variant(const WorkFolder& folder, const VariantPl
   Totals totals;
   PartMerge parts(writer, plan, geometry);
   MeasureMerge measures(plan, hierarchy, geometry);
+  StepMerge steps(writer, plan);
   for (std::size_t b = 0; b < plan.batches(); ++b) {
     if (std::find(left_out.begin(), left_out.end(), b) != left_out.end()) continue;
     const BatchReader batch(folder.batch(b));
     expect_series(batch, options.left_out);
-    writer.append(batch);
+    if (plan.steps.empty())
+      writer.append(batch);
+    else
+      steps.add(batch);
     totals.add(batch);
     parts.add(batch);
     measures.add(batch);
   }
   parts.finish();
+  steps.finish();
   totals.add_means();
   BandWriter band_writer(writer, options.bands);
   write_loads(band_writer, totals, geometry, options.realizations);

@@ -96,23 +96,65 @@ std::vector<double> emitted_exitances(const VariantPlan& plan, const Hierarchy& 
   return exitance;
 }
 
+namespace {
+
+/// Means over some intervals; of one its own values.
+class MeanLight {
+ public:
+  void add(const Irradiance& of, double length_s) {
+    only_ = of;
+    ++count_;
+    sum_.dni += of.dni * length_s;
+    sum_.dhi += of.dhi * length_s;
+    sum_.ghi += of.ghi * length_s;
+    length_s_ += length_s;
+  }
+  void put_into(std::vector<double>& dni, std::vector<double>& dhi,
+                std::vector<double>& ghi) const {
+    const bool is_one = count_ == 1;
+    dni.push_back(is_one ? only_.dni : sum_.dni / length_s_);
+    dhi.push_back(is_one ? only_.dhi : sum_.dhi / length_s_);
+    ghi.push_back(is_one ? only_.ghi : sum_.ghi / length_s_);
+  }
+
+ private:
+  Irradiance sum_{}, only_{};
+  int count_ = 0;
+  double length_s_ = 0;
+};
+
+/// Every interval as a step of its own.
+std::vector<SeriesStep> intervals_as_steps(const VariantPlan& plan) {
+  std::vector<SeriesStep> steps;
+  for (std::size_t k = 0; k < plan.intervals(); ++k) {
+    const SunInterval& when = plan.light.intervals[k].when;
+    steps.push_back({{when.begin, when.end}, k, 1, k});
+  }
+  return steps;
+}
+
+}  // namespace
+
 ResultTimes result_times(const VariantPlan& plan) {
   const Quantity quantity = plan.study.light.quantity;
   ResultTimes times;
-  for (const auto& i : plan.light.intervals) {
-    times.time.push_back(i.when.sun_time);
-    times.bounds.push_back({i.when.begin, i.when.end});
-    times.sun_azimuth_deg.push_back(i.when.sun.azimuth_deg);
-    times.sun_elevation_deg.push_back(i.when.sun.elevation_deg);
-    times.sun_direction.push_back(i.when.direction);
-    times.dni.push_back(i.mean.dni);
-    times.dhi.push_back(i.mean.dhi);
-    times.ghi.push_back(i.mean.ghi);
-    if (quantity == Quantity::irradiance) continue;
-    const Irradiance lux = source_means(i, quantity);
-    times.direct_illuminance.push_back(lux.dni);
-    times.diffuse_illuminance.push_back(lux.dhi);
-    times.global_illuminance.push_back(lux.ghi);
+  for (const SeriesStep& step : plan.steps.empty() ? intervals_as_steps(plan) : plan.steps) {
+    const SunInterval& sun = plan.light.intervals[step.sun].when;
+    times.time.push_back(sun.sun_time);
+    times.bounds.push_back(step.bounds);
+    times.sun_azimuth_deg.push_back(sun.sun.azimuth_deg);
+    times.sun_elevation_deg.push_back(sun.sun.elevation_deg);
+    times.sun_direction.push_back(sun.direction);
+    MeanLight mean, lux;
+    for (std::size_t k = step.first; k < step.end(); ++k) {
+      const LitInterval& interval = plan.light.intervals[k];
+      mean.add(interval.mean, interval.when.length_s());
+      if (quantity == Quantity::illuminance)
+        lux.add(source_means(interval, quantity), interval.when.length_s());
+    }
+    mean.put_into(times.dni, times.dhi, times.ghi);
+    if (quantity == Quantity::illuminance)
+      lux.put_into(times.direct_illuminance, times.diffuse_illuminance, times.global_illuminance);
   }
   return times;
 }

@@ -7,14 +7,17 @@
 #include <vector>
 
 #include "io/batch/batch_tally.h"
-#include "io/study/study.h"
+#include "io/plan/variant_plan.h"
 
 namespace sunload {
 
-/// Series of patches and sensors that the study does not want in its result.
-std::vector<std::string> unwanted_series(const OutputStudy& output);
+/// Arrays of series that batches of the study do not hold. With steps these are those of intervals,
+/// too, but for what measures watch.
+std::vector<std::string> unwanted_series(const Study& study);
+/// Number of the step that a batch begins in.
+std::size_t first_step(const VariantPlan& plan, std::size_t batch);
 
-/// What batches hold of the series.
-StoredSeries stored_series(const Study& study);
+/// What a batch holds of the series.
+StoredSeries stored_series(const VariantPlan& plan, std::size_t batch);
 
 }  // namespace sunload

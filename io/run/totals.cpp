@@ -11,7 +11,8 @@ namespace sunload {
 
 void Totals::add(const BatchReader& batch) {
   for (const auto& spec : batch.arrays()) {
-    if (spec.rule != MergeRule::append && !part_array(spec.name).part)
+    const bool is_total = spec.rule == MergeRule::sum || spec.rule == MergeRule::maximum;
+    if (is_total && !part_array(spec.name).part)
       add(spec.name, spec.rule, batch.doubles(spec.name));
   }
 }

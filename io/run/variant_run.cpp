@@ -225,7 +225,7 @@ void VariantRun::compute(std::size_t batch) {
   const Solved solved = this->solved(batch, parts);
   unwritten_ += solved.work;
   done_ += solved.work;
-  const StoredSeries stored = stored_series(plan_.study);
+  const StoredSeries stored = stored_series(plan_, batch);
   auto writer =
       std::make_shared<BatchWriter>(BatchHeader{.content_hash = plan_.content_hash,
                                                 .variant = plan_.study.variant,

@@ -74,7 +74,7 @@ WorkFolder::WorkFolder(const std::string& folder, const Study& study, std::strin
       wanted_hash_(with_measures(content_hash_, measures_hash(study))),
       result_(result_path(folder, study)),
       path_(work_ + "/" + variant_ + "-" + content_hash_),
-      unwanted_(unwanted_series(study.output)),
+      unwanted_(unwanted_series(study)),
       batches_(batches) {}
 
 WorkFolder WorkFolder::with_hash(const std::string& content_hash) const {

@@ -141,9 +141,7 @@ void check_measures(YamlMap& root, const Study& study, PlaceWritten placed) {
       refuse(measure, std::string("needs ") + wanted,
              lux ? "light.quantity is illuminance" : "light.quantity is irradiance",
              std::string("write ") + wanted + " alone, above 0");
-    const auto word = measure.words.find("light");
-    const std::string own = rule->word == "glint_hours" ? "mirror" : "total";
-    const std::string light = word == measure.words.end() ? own : word->second;
+    const std::string light = watched_light(*rule, measure);
     const auto& series = study.output.series;
     if (std::find(series.begin(), series.end(), light) == series.end())
       refuse(measure, "watches the series " + light, "output.series leaves it out",

@@ -197,6 +197,52 @@ std::optional<int> read_significant_bits(YamlMap& map) {
 
 }  // namespace
 
+namespace {
+
+/// "60 min": its number; none of other texts.
+std::optional<int> minutes_of(const std::string& text) {
+  constexpr std::string_view unit = " min";
+  constexpr std::size_t most_digits = 4;
+  if (!text.ends_with(unit)) return {};
+  const std::string digits = text.substr(0, text.size() - unit.size());
+  const bool is_number =
+      !digits.empty() && digits.size() <= most_digits && digits.front() != '0' &&
+      std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return is_number ? std::optional(std::stoi(digits)) : std::nullopt;
+}
+
+SeriesStepStudy read_series_step(YamlMap& map) {
+  using Unit = SeriesStepStudy::Unit;
+  constexpr int minutes_of_day = 1440;
+  const std::string key = "series_step";
+  SeriesStepStudy step;
+  step.where = map.where(key);
+  const std::string text = map.text(key, "interval");
+  if (text == "interval") return step;
+  if (text == "day" || text == "month") {
+    step.unit = text == "day" ? Unit::day : Unit::month;
+    return step;
+  }
+  const auto minutes = minutes_of(text);
+  if (!minutes) {
+    map.reading().problem(step.where, "output.series_step: '" + text + "' is not known", "",
+                          "write interval, day, month or minutes as 60 min");
+    return step;
+  }
+  if (*minutes >= minutes_of_day || minutes_of_day % *minutes != 0) {
+    map.reading().problem(step.where, "output.series_step: " + text + " does not divide a day",
+                          "steps begin at midnight",
+                          *minutes >= minutes_of_day ? "write day, month, or 60 min"
+                                                     : "write 15 min, 30 min, 60 min or 120 min");
+    return step;
+  }
+  step.unit = Unit::minutes;
+  step.minutes = *minutes;
+  return step;
+}
+
+}  // namespace
+
 OutputStudy read_output(YamlMap& map) {
   OutputStudy output;
   output.folder = map.text("folder", output.folder);
@@ -205,6 +251,12 @@ OutputStudy read_output(YamlMap& map) {
   output.compression = map.integer("compression", 0, strongest_compression, output.compression);
   output.totals = read_totals(map);
   output.totals_where = map.where("totals");
+  output.series_step = read_series_step(map);
+  if (!output.series_step.is_interval() && output.standard_error == StandardErrors::instants)
+    map.problem("series_step", "cannot go with standard_error: instants",
+                "suns share lines: errors of a step do not follow from those of its instants",
+                "write standard_error: totals (totals: [month] and [day] have errors of their "
+                "own), or series_step: interval");
   output.significant_bits = read_significant_bits(map);
   return output;
 }

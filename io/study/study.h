@@ -339,6 +339,14 @@ struct SolverStudy {
 
 inline constexpr int float_mantissa_bits = 23;
 enum class StandardErrors { none, totals, instants };
+/// What values of stored series are means over: intervals, or steps of the site's clock.
+struct SeriesStepStudy {
+  enum class Unit { interval, minutes, day, month } unit = Unit::interval;
+  int minutes = 0;  ///< of a step in minutes: a divisor of a day
+  Where where = {};
+
+  bool is_interval() const { return unit == Unit::interval; }
+};
 struct OutputStudy {
   std::string folder = "results";
   std::vector<std::string> series{"total", "direct", "sky", "mirror", "lamps", "reflected"};
@@ -347,6 +355,7 @@ struct OutputStudy {
   /// Parts of the period that get totals of their own; absent: auto (io/plan/part_totals.h).
   std::optional<std::vector<PartKind>> totals;
   Where totals_where;
+  SeriesStepStudy series_step;
   /// Of the mantissa, in stored series: 1 … 23, all of a float (off); none: auto.
   std::optional<int> significant_bits = float_mantissa_bits;
 };

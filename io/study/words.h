@@ -13,6 +13,21 @@
 
 namespace sunload {
 
+/// As a study writes it: `interval`, `60 min`, `day`, `month`.
+inline std::string word_of(const SeriesStepStudy& step) {
+  switch (step.unit) {
+    case SeriesStepStudy::Unit::interval:
+      return "interval";
+    case SeriesStepStudy::Unit::minutes:
+      return std::to_string(step.minutes) + " min";
+    case SeriesStepStudy::Unit::day:
+      return "day";
+    case SeriesStepStudy::Unit::month:
+      break;
+  }
+  return "month";
+}
+
 template <class E>
 using Words = std::vector<std::pair<std::string, E>>;
 

@@ -236,6 +236,8 @@ json view_data(const ResultReader& result, std::size_t step, ViewBlocks& blocks)
           {"is_synthetic", result.number_attribute("time", "time_is_synthetic") > 0},
           {"intervals", result.shape("time").at(0)},
           {"step", step},
+          {"has_sun", !has_long_steps(result)},
+          {"series_step", series_step(result)},
           {"times", times(result, step)},
           {"geometry", geometry(result, blocks)},
           {"totals", totals(result, blocks)},

@@ -64,6 +64,9 @@ def draw(result, arguments):
     if result.is_synthetic:
         raise InputError(f"{result.path}: its suns have no dates (period.positions), so that there is no day "
                          "and hour; use series.py")
+    if result.has_long_steps:
+        raise InputError(f"{result.path}: its series are means over steps: {result.series_step}, which say nothing of "
+                         "hours; use series.py or months.py, or run the study with output.series_step: 60 min")
     quantity = arguments.quantity or result.main_series()
     targets = result.targets(arguments.facade, arguments.patch, arguments.sensor, most=4)
     values = result.series(quantity, targets)

@@ -83,6 +83,15 @@ class Result:
         return self.attribute("timezone") or "UTC"
 
     @property
+    def series_step(self):
+        """What rows of series are means over where these are steps: 60 min, day, month; else empty."""
+        return self.attribute("series_step")
+
+    @property
+    def has_long_steps(self):
+        return self.series_step in ("day", "month")
+
+    @property
     def title(self):
         return f"{self.attribute('study') or self.attribute('title')} — {self.attribute('variant')}" \
                + (", mean of the bands" if self.attribute("bands") else "")
@@ -212,6 +221,8 @@ class Result:
             return f"sun at azimuth {self.numbers('sun_azimuth')[index]:.0f}°, " \
                    f"elevation {self.numbers('sun_elevation')[index]:.0f}°"
         begin, end = (self.civil(s) for s in self.bounds()[index])
+        if self.has_long_steps:
+            return f"mean of {begin:%Y-%m-%d %H:%M} … {end:%Y-%m-%d %H:%M} {self.zone_name}"
         return f"{begin:%Y-%m-%d %H:%M} … {end:%H:%M} {self.zone_name} (UTC{begin:%z})"
 
     # Facades, patches, sensors.

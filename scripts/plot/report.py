@@ -60,7 +60,8 @@ def facts(result):
     load, area = result.numbers("light_load"), result.numbers("patch_area")
     units = result.units("light_load")
     rows = [("period", result.period()),
-            ("intervals", f"{len(result.bounds())}, sun above the horizon in "
+            ("steps of the series: " + result.series_step if result.series_step else "intervals",
+             f"{len(result.bounds())}, sun above the horizon in "
                           f"{int((result.numbers('sun_elevation') > 0).sum())}"),
             ("site", f"latitude {result.attribute('latitude_deg', np.nan):.4f}°, longitude "
                      f"{result.attribute('longitude_deg', np.nan):.4f}°; scene +y points to "
@@ -177,11 +178,11 @@ def pictures(results, program):
                 result, SimpleNamespace(**{**vars(chosen), "quantity": "light_load", "max": largest}))[0]
         yield f"{name}: time series", series.draw(result, chosen)[0]
         if not result.is_synthetic:
-            if len(carpet.columns(result)[0]) >= LEAST_DAYS_OF_CARPET:
+            if not result.has_long_steps and len(carpet.columns(result)[0]) >= LEAST_DAYS_OF_CARPET:
                 yield f"{name}: day and hour", carpet.draw(result, chosen)[0]
             if len(months.month_shares(result)[0]) >= LEAST_MONTHS:
                 yield f"{name}: months", months.draw(result, chosen)[0]
-        if result.has("irradiance_direct") and (result.numbers("sun_elevation") > 0).any():
+        if not result.series_step and result.has("irradiance_direct") and (result.numbers("sun_elevation") > 0).any():
             yield f"{name}: hours in the sun", sun_path.draw(result, chosen)[0]
 
 

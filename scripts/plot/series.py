@@ -14,6 +14,7 @@ import numpy as np
 
 import drawing
 from drawing import plt
+from reading import InputError
 
 MOST_PANELS = 8
 # Longer periods are drawn by the day: single hours could not be seen.
@@ -49,9 +50,14 @@ def draw(result, arguments):
     quantity = arguments.quantity or result.main_series()
     targets = result.targets(arguments.facade, arguments.patch, arguments.sensor, most=6)
     values, bounds, units = result.series(quantity, targets), result.bounds(), result.units(quantity)
-    caption, what = result.caption(quantity), "means over intervals"
+    caption, what = result.caption(quantity), "means over " + (f"steps: {result.series_step}" if result.series_step
+                                                               else "intervals")
     is_long = len(runs_of_time(bounds)) > MOST_PANELS or result.hours().sum() > 24 * MOST_DAYS_OF_INTERVALS
-    is_daily = not result.is_synthetic and (arguments.step == "day" or arguments.step == "auto" and is_long)
+    if result.series_step == "month" and arguments.step == "day":
+        raise InputError(f"{result.path}: its series are means over months, which say nothing of days; "
+                         "leave --step away")
+    has_days = not result.is_synthetic and result.series_step != "month"
+    is_daily = has_days and (arguments.step == "day" or arguments.step == "auto" and is_long)
     if is_daily:
         bounds, values = by_day(result, values, units)
         what = "sums" if units in drawing.TIME_SUMS else "means"

@@ -145,6 +145,9 @@ def chosen_target(result, arguments):
 
 
 def draw(result, arguments):
+    if result.series_step:
+        raise InputError(f"{result.path}: its series are means over steps: {result.series_step}, for which no one sun "
+                         "stands; run the study with output.series_step: interval")
     target = chosen_target(result, arguments)
     azimuth, elevation = result.numbers("sun_azimuth"), result.numbers("sun_elevation")
     is_up = elevation > 0

@@ -13,6 +13,9 @@ const dayOf = (time) => time.local_begin.slice(0, 10), monthOf = (time) => time.
 export function chartsOf(result) {
   if (result.is_synthetic) return ["day"];
   const days = new Set(result.times.map(dayOf)).size, months = new Set(result.times.map(monthOf)).size;
+  // Means of days and months say nothing of hours.
+  if (result.series_step === "month") return ["months"];
+  if (result.series_step === "day") return ["days", ...(months > 1 ? ["months"] : [])];
   return ["day", "hours", ...(days > 1 ? ["days"] : []), ...(months > 1 ? ["months"] : [])];
 }
 

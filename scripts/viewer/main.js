@@ -71,7 +71,7 @@ class Viewer {
     const { box } = this.meshes[0], focus = this.meshes[0].focus(), radius = 0.5 * box.getSize(new THREE.Vector3()).length();
     const middle = focus.getCenter(new THREE.Vector3()), north = sceneNorth(result.times), size = focus.getSize(new THREE.Vector3());
     this.lowest = box.min.z;
-    this.sky = new Sky(result.times, pathBeyond * Math.hypot(size.x / 2, size.y / 2, size.z), middle.clone().setZ(focus.min.z));
+    this.sky = new Sky(result.times, pathBeyond * Math.hypot(size.x / 2, size.y / 2, size.z), middle.clone().setZ(focus.min.z), result.has_sun);
     this.scene.add(this.sky.object);
     focus.expandByVector(new THREE.Vector3(aroundHeight * size.z, aroundHeight * size.z, 0));
     this.rays = new THREE.Raycaster();

@@ -14,7 +14,9 @@ export function tellTime(viewer) {
   const result = viewer.results[0], time = result.times[viewer.state.k];
   const sun = `sun ${time.azimuth.toFixed(0)}° from north, ${time.elevation.toFixed(1)}° high`;
   const dark = time.elevation > 0 ? sun : "sun below the horizon";
-  $("clock").textContent = `${clockText(result, viewer.state.k)}, ${dark}`;
+  // No one sun stands for a day or a month.
+  const told = result.has_sun ? `, ${dark}` : ", mean";
+  $("clock").textContent = clockText(result, viewer.state.k) + told;
   $("slider").value = viewer.state.k;
   $("slider").setAttribute("aria-valuetext", $("clock").textContent);
 }
@@ -22,7 +24,12 @@ export function tellTime(viewer) {
 export function clockText(result, k) {
   const time = result.times[k];
   return result.is_synthetic ? `position ${k * result.step + 1}` :
-    `${time.local_begin.slice(0, 16).replace("T", " ")} – ${time.local_end.slice(11, 16)} ${result.timezone}`;
+    `${time.local_begin.slice(0, 16).replace("T", " ")} – ${endText(result, time)} ${result.timezone}`;
+}
+
+/** Its hour, or of days and months all of it. */
+function endText(result, time) {
+  return result.has_sun ? time.local_end.slice(11, 16) : time.local_end.slice(0, 16).replace("T", " ");
 }
 
 export function tellSelection(viewer) {

@@ -33,8 +33,9 @@ function line(points, colour) {
 
 export class Sky {
   /** Around a point of the ground. */
-  constructor(times, radius, middle) {
+  constructor(times, radius, middle, hasSun) {
     this.times = times;
+    this.hasSun = hasSun;
     this.radius = radius;
     this.object = new THREE.Group();
     this.object.position.copy(middle);
@@ -56,7 +57,8 @@ export class Sky {
   /** The sun of interval k and the arc of its day. */
   show(k) {
     const now = this.times[k], direction = new THREE.Vector3(...now.sun);
-    this.sun.visible = this.ray.visible = now.elevation > 0;
+    this.sun.visible = this.ray.visible = this.hasSun && now.elevation > 0;
+    if (!this.hasSun) return;
     this.sun.position.copy(direction).multiplyScalar(this.radius);
     this.ray.geometry.setFromPoints([this.sun.position, direction.clone().multiplyScalar(0.5 * this.radius)]);
     const day = now.local_begin.slice(0, 10);

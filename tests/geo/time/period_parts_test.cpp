@@ -53,6 +53,22 @@ TEST(PeriodParts, AYearHasItsMonthsAndDaysWhateverTheClocksDo) {
       for (const auto& share : part.intervals) ASSERT_EQ(share.share, 1);
 }
 
+TEST(PeriodParts, StepsOfTheClockBeginAtMidnight) {
+  const auto days = steps(at(3, 28, 0), at(3, 31, 0), seconds_per_hour);
+  const auto hours = clock_steps(4 * seconds_per_hour, days, prague);
+  ASSERT_EQ(hours.size(), 18U);
+  // Clocks go forward at 2:00 on the 29th, whose last step ends with the day.
+  EXPECT_EQ(hours[6].bounds, (TimeSpan{at(3, 29, 0), at(3, 29, 5)}));
+  EXPECT_EQ(hours[11].bounds, (TimeSpan{at(3, 29, 21), at(3, 30, 0)}));
+  EXPECT_EQ(hours[11].duration_s, 3 * seconds_per_hour);
+  EXPECT_EQ(hours[12].intervals.front().interval, 47U);
+  // An interval over a step's end gives each its share.
+  const auto shared =
+      clock_steps(seconds_per_hour, {{at(6, 1, 5) + 2700, at(6, 1, 6) + 900}}, prague);
+  ASSERT_EQ(shared.size(), 2U);
+  EXPECT_DOUBLE_EQ(shared[1].intervals[0].share, 0.5);
+}
+
 TEST(PeriodParts, SeasonsAreWholeMonthsAndTurnWithTheHemisphere) {
   const auto noons = [&](int month) { return TimeSpan{at(month, 9, 12), at(month, 9, 13)}; };
   const std::vector<TimeSpan> days{noons(1), noons(2), noons(3), noons(7), noons(12)};

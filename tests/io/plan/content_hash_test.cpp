@@ -71,6 +71,8 @@ TEST(ContentHash, SeesWhatFilesAndTablesBring) {
       [](Content& c) { c.study.output.standard_error = StandardErrors::instants; },
       [](Content& c) { c.study.output.significant_bits = 9; },
       [](Content& c) { c.study.output.significant_bits = 10; },
+      [](Content& c) { c.study.output.series_step.unit = SeriesStepStudy::Unit::day; },
+      [](Content& c) { c.study.output.series_step.unit = SeriesStepStudy::Unit::month; },
       material(&Material::name, "glass"),
       material(&Material::diffuse, 0.1),
       material(&Material::mirror, 0.1),

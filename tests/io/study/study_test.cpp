@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Studies: every rule of their keys, the schema, variants, and the canonical text.
 #include "io/study/study.h"
+#include "io/study/words.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -276,6 +277,23 @@ TEST(Study, ReadsSignificantBits) {
   for (const char* wrong : {"0", "24", "many", "2.5", "[9]"})
     expect_problem({{"output", std::string("{significant_bits: ") + wrong + "}"}},
                    "significant_bits");
+}
+
+TEST(Study, ReadsStepsOfSeries) {
+  const auto step = [](const std::string& value) {
+    return word_of(read_text(with({{"output", "{series_step: " + value + "}"}}))
+                       .variants[0]
+                       .output.series_step);
+  };
+  for (const char* word : {"interval", "day", "month", "5 min", "60 min", "720 min"})
+    EXPECT_EQ(step(word), word);
+  for (const char* wrong : {"60", "hour", "0 min", "-5 min", "1.5 min", "060 min", "60 minutes",
+                            "7 min", "1440 min", "99999 min", "[day]"})
+    expect_problem({{"output", std::string("{series_step: ") + wrong + "}"}}, "series_step");
+  expect_problem({{"output", "{series_step: 7 min}"}}, "does not divide a day");
+  expect_problem({{"output", "{series_step: 2000 min}"}}, "write day, month");
+  expect_problem({{"output", "{series_step: day, standard_error: instants}"}},
+                 "cannot go with standard_error: instants");
 }
 
 TEST(Study, ReadsPartsOfThePeriod) {
@@ -935,6 +953,7 @@ TEST(StudySchema, HasTheDefaultsOfTheReader) {
     EXPECT_EQ(absent.output.compression, written.output.compression);
     EXPECT_EQ(absent.output.totals, written.output.totals);
     EXPECT_EQ(absent.output.significant_bits, written.output.significant_bits);
+    EXPECT_EQ(word_of(absent.output.series_step), word_of(written.output.series_step));
   });
   EXPECT_GT(defaults, 30);
 }
@@ -1280,7 +1299,7 @@ TEST(CanonicalText, SeesEveryKeyOfTheSchemaButThese) {
       "selections.*.near.position_m", "selections.*.near.within_m", "scene.assign[].selection",
       "scene.edit[].selection",
       // So are the parts of the period that have totals.
-      "output.standard_error", "output.significant_bits", "output.totals",
+      "output.standard_error", "output.significant_bits", "output.totals", "output.series_step",
       // One word only, beside which no other period can stand; any parameter of built-in scenes.
       "period.year_of", "scene.edit[].remove", "scene.builtin.*",
       // Of files that are edited in, the mesh has the bytes; what a matrix says becomes variants.
