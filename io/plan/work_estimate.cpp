@@ -11,6 +11,7 @@
 #include "io/plan/variant_mesh.h"
 #include "solver/base/cost.h"
 #include "solver/base/threads.h"
+#include "solver/light/sun_samples.h"
 
 namespace sunload {
 
@@ -72,6 +73,16 @@ double rays_per_line(const Scene& scene, int mirror_depth) {
   double rays = 1, of_depth = 1;
   for (int depth = 0; depth < mirror_depth; ++depth) rays += of_depth *= again;
   return rays;
+}
+
+/// Suns above the horizon that bring no direct light, all those that stand for one interval
+/// counted.
+double clouded_suns(const LightSeries& light) {
+  double count = 0;
+  for (const LitInterval& interval : light.intervals)
+    if (interval.when.sunlit_s > 0 && interval.mean.dni <= 0)
+      count += static_cast<double>(std::max<std::size_t>(interval.when.sun_samples.size(), 1));
+  return count;
 }
 
 /// Rays of the mesh pilot.
@@ -172,6 +183,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   const auto n = static_cast<double>(patches + plan.built.scene.sensors.size());
   const auto lit = static_cast<double>(lamps ? plan.intervals() : plan.light.lit_count());
   const auto suns = static_cast<double>(plan.light.sun_samples());
+  const double shining = suns - clouded_suns(plan.light);
   const auto batch = static_cast<double>(std::min(plan.batch_suns(), plan.intervals()));
   const auto batches = static_cast<double>(plan.batches());
   const bool by_matrix = s.transport == Transport::matrix;
@@ -196,7 +208,10 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   work.line_rays = static_cast<std::uint64_t>(lines);
   const bool has_views = suns >= suns_worth_views;
   const double rays =
-      n * facing_share * suns * counts.direct_samples * (has_views ? share_beside_views : 1);
+      n * facing_share *
+      (shining * counts.direct_samples +
+       (suns - shining) * static_cast<double>(net_size(counts.direct_samples, s.realizations))) *
+      (has_views ? share_beside_views : 1);
   work.direct_rays = static_cast<std::uint64_t>(rays);
   work.memory_bytes =
       program_bytes + seasons * lines * bytes_per_line +
@@ -249,7 +264,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
        seasons * lines * (guided ? 1 + rays_by_guide : 1) *
            line_seconds(plan.built.scene, s.mirror_depth) +
        rays * s_per_direct_ray + (has_views ? seasons * n * s_per_view : 0) +
-       (mirrors ? n * mirrored_share * suns * counts.direct_samples * s_per_mirror_ray : 0) +
+       (mirrors ? n * mirrored_share * shining * counts.direct_samples * s_per_mirror_ray : 0) +
        (guided ? n * s_per_guided_patch : 0) +
        (by_matrix ? n * n * (s_per_form_factor + n * s.realizations * s_per_factor_solved) : 0) +
        (s.transport != Transport::shoot

@@ -10,6 +10,7 @@
 #include "solver/base/chunks.h"
 #include "solver/base/sampling.h"
 #include "solver/base/threads.h"
+#include "solver/light/sun_samples.h"
 
 namespace sunload {
 
@@ -71,6 +72,9 @@ SunSampler::SunSampler(const Hierarchy* hierarchy, const std::vector<Sensor>* se
     disk_u_.push_back(sobol(static_cast<std::uint32_t>(s % each), 2));
     disk_v_.push_back(sobol(static_cast<std::uint32_t>(s % each), 3));
   }
+  const auto points = static_cast<std::uint32_t>(net_size(rules.samples, rules.realizations));
+  for (std::uint32_t s = 0; s < points; ++s)
+    net_.push_back({sobol(s, 0), sobol(s, 1), sobol(s, 2), sobol(s, 3)});
 }
 
 std::size_t SunSampler::receivers() const {
@@ -108,9 +112,13 @@ SunSampler::Geometry SunSampler::geometry(std::size_t receiver) const {
   return g;
 }
 
+std::uint64_t SunSampler::key(std::size_t receiver) const {
+  return sensors_ ? (*sensors_)[receiver].key : hierarchy_->key()[receiver];
+}
+
 void SunSampler::seed(std::size_t receiver, std::uint32_t sun, Seeds& seeds,
                       Purpose purpose) const {
-  const std::uint64_t element = sensors_ ? (*sensors_)[receiver].key : hierarchy_->key()[receiver];
+  const std::uint64_t element = key(receiver);
   const auto count = static_cast<std::size_t>(rules_.realizations);
   const std::size_t groups = (count + lanes - 1) / lanes;
   seeds.u.resize(groups * lanes);
@@ -204,6 +212,35 @@ std::uint32_t SunSampler::active(std::size_t packet) const {
   return static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
 }
 
+SunSampler::NetRays SunSampler::net_rays(std::size_t receiver, const Geometry& g,
+                                         const IntervalLight& sun, std::size_t first) const {
+  const RandomWords words = random_words({.seed = rules_.seed,
+                                          .purpose = Purpose::clouded_sun,
+                                          .element = key(receiver),
+                                          .sun = sun.number});
+  ScrambledPoints on_receiver, on_disk, seeds, disk_seeds;
+  for (std::size_t l = 0; l < packet_size; ++l) {
+    const auto& point = net_[std::min(first + l, net_.size() - 1)];
+    on_receiver.u[l] = point[0];
+    on_receiver.v[l] = point[1];
+    on_disk.u[l] = point[2];
+    on_disk.v[l] = point[3];
+    seeds.u[l] = words[0];
+    seeds.v[l] = words[1];
+    disk_seeds.u[l] = words[2];
+    disk_seeds.v[l] = words[3];
+  }
+  NetRays rays;
+  place(g, on_receiver.u, on_receiver.v, seeds.u, seeds.v, rays.origins);
+  if (sun.disk_half_angle <= 0) {
+    rays.to_sun = same_for_all(sun.direction);
+  } else {
+    scramble(disk_seeds, on_disk);
+    rays.to_sun = to_points(sun, on_disk);
+  }
+  return rays;
+}
+
 LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const IntervalLight& sun,
                        const SunSampler::Geometry& geometry, const SunSampler::Seeds& seeds,
                        std::size_t packet) {
@@ -215,7 +252,87 @@ LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const
 
 namespace {
 
-/// The work of one patch for all suns of a block.
+bool is_clouded(const IntervalLight& sun) { return sun.has_sun() && sun.dni <= 0; }
+
+/// Suns behind clouds, and consecutive receivers: rays of neighbours fill a packet together.
+class CloudedSuns {
+ public:
+  CloudedSuns(const RayCaster& caster, const SunSampler& sampler,
+              std::span<const IntervalLight> block, std::span<const SunSight> sights)
+      : caster_(caster), sampler_(sampler), block_(block), sights_(sights) {}
+
+  /// Returns the rays cast.
+  std::uint64_t run(std::size_t begin, std::size_t end, Columns& sunlit) {
+    rays_ = 0;
+    if (std::none_of(block_.begin(), block_.end(), is_clouded)) return 0;
+    begin_ = begin;
+    geometries_.clear();
+    for (std::size_t i = begin; i < end; ++i) geometries_.push_back(sampler_.geometry(i));
+    for (std::size_t k = 0; k < block_.size(); ++k)
+      if (is_clouded(block_[k])) add(k, sunlit);
+    return rays_;
+  }
+
+ private:
+  void add(std::size_t k, Columns& sunlit) {
+    const IntervalLight& sun = block_[k];
+    seen_.assign(geometries_.size(), 0);
+    for (std::size_t g = 0; g < geometries_.size(); ++g) {
+      if (dot(geometries_[g].normal, sun.direction) <= 0) continue;
+      const SunSight sight =
+          sights_.empty() ? SunSight::unknown : sights_[(begin_ + g) * block_width + k];
+      if (sight == SunSight::unknown) ask(g, sun);
+      if (sight == SunSight::open) seen_[g] = sampler_.net_points();
+    }
+    cast();
+    const auto n = static_cast<double>(sampler_.net_points());
+    for (std::size_t g = 0; g < seen_.size(); ++g)
+      if (seen_[g] > 0)
+        sunlit[(begin_ + g) * block_width + k] +=
+            static_cast<float>(sun.sun_share * static_cast<double>(seen_[g]) / n);
+  }
+  void ask(std::size_t g, const IntervalLight& sun) {
+    for (std::size_t first = 0; first < sampler_.net_points(); first += packet_size) {
+      const auto of_net = sampler_.net_rays(begin_ + g, geometries_[g], sun, first);
+      const std::size_t count = std::min(packet_size, sampler_.net_points() - first);
+      for (std::size_t l = 0; l < count; ++l) {
+        if (waiting_ == packet_size) cast();
+        copy(of_net.origins, l, origins_);
+        copy(of_net.to_sun, l, to_sun_);
+        receiver_[waiting_++] = g;
+      }
+    }
+  }
+  void copy(const Packet& from, std::size_t ray, Packet& to) const {
+    to.x[waiting_] = from.x[ray];
+    to.y[waiting_] = from.y[ray];
+    to.z[waiting_] = from.z[ray];
+  }
+  /// All rays that wait.
+  void cast() {
+    if (waiting_ == 0) return;
+    const auto active = static_cast<std::uint32_t>((std::uint64_t{1} << waiting_) - 1);
+    rays_ += waiting_;
+    for (auto lit = caster_.unoccluded_each(origins_, to_sun_, active); lit != 0; lit &= lit - 1)
+      ++seen_[receiver_[static_cast<std::size_t>(std::countr_zero(lit))]];
+    waiting_ = 0;
+  }
+
+  Packet origins_{};  ///< of rays that wait
+  PacketDirections to_sun_{};
+  const RayCaster& caster_;
+  const SunSampler& sampler_;
+  std::span<const IntervalLight> block_;
+  std::span<const SunSight> sights_;  ///< empty: unknown
+  std::size_t begin_ = 0;
+  std::vector<SunSampler::Geometry> geometries_;
+  std::vector<std::size_t> seen_;  ///< points of each receiver's net that see the sun
+  std::array<std::size_t, packet_size> receiver_{};
+  std::size_t waiting_ = 0;
+  std::uint64_t rays_ = 0;
+};
+
+/// The work of one patch for all suns of a block that shine.
 class PatchSuns {
  public:
   PatchSuns(const RayCaster& caster, const SunSampler& sampler,
@@ -228,7 +345,7 @@ class PatchSuns {
     for (std::size_t k = 0; k < block_.size(); ++k) {
       const IntervalLight& sun = block_[k];
       const double cos_theta = dot(geometry.normal, sun.direction);
-      if (!sun.has_sun() || cos_theta <= 0) continue;
+      if (!sun.has_sun() || sun.dni <= 0 || cos_theta <= 0) continue;
       const int visible = visible_samples(geometry, patch, k);
       if (visible == 0) continue;
       const auto n = static_cast<double>(sampler_.samples());
@@ -285,7 +402,8 @@ std::uint64_t direct_sun(const RayCaster& caster, const SunSampler& sampler,
                      [&](std::size_t begin, std::size_t end) {
                        PatchSuns suns(caster, sampler, block, sights, into.realizations());
                        for (std::size_t i = begin; i < end; ++i) suns.run(i, into, sunlit);
-                       return suns.rays;
+                       CloudedSuns clouded(caster, sampler, block, sights);
+                       return suns.rays + clouded.run(begin, end, sunlit);
                      });
 }
 

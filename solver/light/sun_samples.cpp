@@ -3,6 +3,7 @@
 #include "solver/light/sun_samples.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geo/base/check.h"
 
@@ -40,6 +41,11 @@ std::vector<std::vector<IntervalLight>> suns_one_by_one(std::span<const Interval
       suns[s].push_back(sun_sample(interval, s));
     }
   return suns;
+}
+
+std::size_t net_size(int samples, int realizations) {
+  constexpr double rounding = 1e-6;  // of the power
+  return static_cast<std::size_t>(std::ceil(samples / std::cbrt(realizations) - rounding));
 }
 
 }  // namespace sunload

@@ -20,4 +20,8 @@ inline constexpr std::size_t most_sun_samples = 256, most_intervals_of_samples =
 /// of the interval. The sky is left out. One span where no interval has more than one sun.
 std::vector<std::vector<IntervalLight>> suns_one_by_one(std::span<const IntervalLight> block);
 
+/// Points of one net by which the share of a receiver that sees a sun errs no more than by so many
+/// samples, which realizations share equally (solver/first_light/direct_sun.h).
+std::size_t net_size(int samples, int realizations);
+
 }  // namespace sunload

@@ -40,6 +40,7 @@ std::vector<IntervalLight> suns(std::size_t count, double disk_half_angle) {
                                 std::cos(height) * std::sin(azimuth), std::sin(height)},
                                1000));
     block.back().number = k;
+    if (k % 5 == 1) block.back().dni = 0;  // behind clouds
     block.back().disk_half_angle = disk_half_angle;
   }
   return block;
