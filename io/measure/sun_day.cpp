@@ -70,16 +70,19 @@ class SunDay : public Measure {
 
 SunCourse sun_course(const MeasuredScene& scene, const CivilTime& date,
                      double least_elevation_deg) {
-  const SunSpan day = civil_day(date, scene.site.timezone);
-  const auto sun =
-      std::make_shared<const SunEphemeris>(day.begin, day.end, scene.site, scene.refraction,
-                                           scene.ut1, standard_air(scene.site.elevation_m));
-  const Rotation scene_axes = scene_from_enu(scene.site);
+  return sun_course(scene.site, scene.refraction, scene.ut1, date, least_elevation_deg);
+}
+
+SunCourse sun_course(const Site& site, Refraction refraction, Ut1 ut1, const CivilTime& date,
+                     double least_elevation_deg) {
+  const SunSpan day = civil_day(date, site.timezone);
+  const auto sun = std::make_shared<const SunEphemeris>(day.begin, day.end, site, refraction, ut1,
+                                                        standard_air(site.elevation_m));
+  const Rotation scene_axes = scene_from_enu(site);
   const auto counts = [&](UnixTime t) {
     const SunPosition at = (*sun)(t);
     return at.elevation_deg > 0 && at.elevation_deg >= least_elevation_deg &&
-           (scene.site.horizon.is_open() ||
-            scene.site.horizon.is_above({at.azimuth_deg, at.elevation_deg}));
+           (site.horizon.is_open() || site.horizon.is_above({at.azimuth_deg, at.elevation_deg}));
   };
   SunCourse course;
   course.direction = [sun, scene_axes](double t) {

@@ -10,6 +10,7 @@
 #include "geo/base/units.h"
 #include "io/base/name_pattern.h"
 #include "io/measure/rules.h"
+#include "io/measure/sun_day.h"
 #include "io/plan/selection.h"
 #include "solver/mesh/hierarchy.h"
 
@@ -123,6 +124,28 @@ StudyMeasures::StudyMeasures(const VariantPlan& plan, const Hierarchy& hierarchy
   }
 }
 
+namespace {
+
+/// When the sun stands high enough in the open: "from 07:31 to 16:52 (13 deg and higher)".
+std::string counted_sun_in_words(const MeasureParameters& of, const VariantPlan& plan) {
+  const auto key = of.numbers.find("least_elevation_deg");
+  const double least_deg = key == of.numbers.end() ? 0 : key->second;
+  const Site& site = plan.built.site;
+  const auto spans =
+      sun_course(site, plan.study.sun.refraction, plan.study.sun.ut1_utc, *of.date, least_deg)
+          .counted;
+  if (spans.empty()) return fmt::format("it stays below {:g} deg, and nothing has any", least_deg);
+  const TimeZone zone(site.timezone);
+  const auto clock = [&](UnixTime t) {
+    const CivilTime at = zone.civil_from_utc(t);
+    return fmt::format("{:02}:{:02}", at.hour, at.minute);
+  };
+  return fmt::format("from {} to {} ({:g} deg and higher)", clock(spans.front().begin),
+                     clock(spans.back().end), least_deg);
+}
+
+}  // namespace
+
 std::vector<std::string> measures_in_words(const VariantPlan& plan, const Hierarchy& hierarchy) {
   std::vector<std::string> lines;
   const std::size_t sensors = plan.built.scene.sensors.size();
@@ -135,8 +158,8 @@ std::vector<std::string> measures_in_words(const VariantPlan& plan, const Hierar
         needs = "the scene alone, in any light";
         break;
       case MeasureRule::Needs::sun_path:
-        needs = fmt::format("the sun of {:04}-{:02}-{:02}, whatever the period", of.date->year,
-                            of.date->month, of.date->day);
+        needs = fmt::format("the sun of {:04}-{:02}-{:02}, whatever the period: {}", of.date->year,
+                            of.date->month, of.date->day, counted_sun_in_words(of, plan));
         break;
       case MeasureRule::Needs::intervals:
         needs = fmt::format("suns and weather of the period's {} intervals", plan.intervals());

@@ -74,8 +74,8 @@ void read_parameters(YamlMap& map, const MeasureRule* rule, MeasureParameters& m
     if (is_of_all) measure.numbers.try_emplace(key.key, usual_area_percent);
     if (known == rule->keys.end()) continue;
     if (!known->absent)
-      map.require(key.key, "the standard tabulates it by place",
-                  "take it from the standard's table");
+      map.require(key.key, "the standard tabulates it by capital",
+                  "take it from the standard's table: 13 for the Czech Republic");
     measure.numbers.try_emplace(key.key, known->absent.value_or(0));
   }
   for (const RuleWords& key : measure_word_keys()) {
