@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geo/base/check.h"
 
+#include <algorithm>
+
 namespace sunload {
 
 std::string message(const Where& where, const std::string& what, const std::string& why,
@@ -32,7 +34,8 @@ void Problems::add(const Where& where, const std::string& what, const std::strin
 }
 
 void Problems::add(const InputError& error) {
-  list_.insert(list_.end(), error.problems().begin(), error.problems().end());
+  for (const std::string& problem : error.problems())
+    if (std::find(list_.begin(), list_.end(), problem) == list_.end()) list_.push_back(problem);
 }
 
 void Problems::throw_if_any() const {

@@ -23,6 +23,7 @@
 #include "io/plan/planner.h"
 #include "io/plan/room.h"
 #include "io/plan/rules_of_study.h"
+#include "io/plan/seasons_of_plan.h"
 #include "io/plan/selection.h"
 #include "io/plan/study_measures.h"
 #include "io/plan/time_words.h"
@@ -424,6 +425,7 @@ std::string text_beside(const CheckText& first, const CheckText& text,
     const auto &theirs = section_of(first, heading), &own = section_of(text, heading);
     auto apart = changed_lines(theirs, own);
     if (std::string(heading) == "materials") apart += missing_subjects(theirs, own);
+    if (std::string(heading) == "seasons" && own.empty() && !theirs.empty()) apart = "  none\n";
     if (apart.empty()) continue;
     words += (*heading == '\0' ? "" : std::string(heading) + "\n") + apart;
   }
@@ -449,6 +451,15 @@ class VariantTexts {
   std::string first_name_;
 };
 
+/// The scenes that the period has one after the other, and what is traced of each.
+nlohmann::ordered_json seasons_json(const VariantPlan& plan) {
+  auto list = nlohmann::ordered_json::array();
+  const auto hours = season_hours(plan.seasons, plan.light);
+  for (std::size_t s = 0; s < hours.size(); ++s)
+    list.push_back({{"name", words_of(plan.seasons.all[s])}, {"hours", hours[s]}});
+  return list;
+}
+
 nlohmann::ordered_json as_json(const VariantPlan& plan, const WorkEstimate& work, CheckMesh mesh) {
   nlohmann::ordered_json told{{"name", plan.study.variant},
                               {"hash", plan.content_hash},
@@ -459,7 +470,8 @@ nlohmann::ordered_json as_json(const VariantPlan& plan, const WorkEstimate& work
                               {"lines", work.line_rays},
                               {"memory_bytes", static_cast<std::uint64_t>(work.memory_bytes)},
                               {"disk_bytes", static_cast<std::uint64_t>(work.disk_bytes)},
-                              {"seconds", work.seconds}};
+                              {"seconds", work.seconds},
+                              {"seasons", seasons_json(plan)}};
   if (mesh == CheckMesh::unrefined) told["refined"] = !is_left_unrefined(plan, mesh);
   return told;
 }

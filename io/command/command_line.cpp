@@ -452,7 +452,7 @@ class CommandLine {
       sub->add_option(option, words, meaning)->group(group);
     };
     add("--month", period_.month, "totals of a month: 1 to 12, or 2026-06");
-    add("--season", period_.season, "of spring, summer, autumn or winter");
+    add("--season", period_.season, "of a season of the study, or spring, summer, autumn, winter");
     add("--day", period_.day, "of a day: 2026-06-21");
     add("--hours", period_.hours, "of hours of day: 8-12, from 8:00 to 12:00");
     add("--from", period_.from, "from a date or time on: 2026-06-01, 2026-06-21T12:00");

@@ -9,6 +9,7 @@
 #include "io/explain/place.h"
 #include "io/explain/place_map.h"
 #include "io/picture/waterfall.h"
+#include "io/result/time.h"
 
 namespace sunload {
 
@@ -55,6 +56,9 @@ int explain(const ExplainOptions& options) {
     NamedResult base = options.result;
     base.path = options.against;
     explanation = difference(explanation_of(base), explanation);
+    if (auto times = different_times_in_words(*opened(base), *opened(options.result));
+        !times.empty())
+      explanation.notes.push_back(std::move(times));
   }
   if (!options.picture.empty()) draw_waterfall(explanation, options.picture);
   std::cout << text_of(explanation, options.format, explanation_text, explanation_csv,

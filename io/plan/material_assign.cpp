@@ -49,6 +49,26 @@ std::string in_words(const AssignRule& rule) {
   return (words.empty() ? "all" : words) + ": " + rule.material;
 }
 
+/// Materials of what is added.
+std::vector<std::string> materials_in(const EditAction& action) {
+  if (const auto* trees = std::get_if<AddTreesEdit>(&action))
+    return {trees->shape.leaves, trees->shape.trunk};
+  if (const auto* prism = std::get_if<AddPrismEdit>(&action)) return {prism->material};
+  if (const auto* added = std::get_if<AddFileEdit>(&action)) return {added->file.material};
+  if (const auto* other = std::get_if<ReplaceEdit>(&action)) return {other->file.material};
+  return {};
+}
+
+/// The first file or step of the study that gives this material to its faces.
+Where where_named(const SceneStudy& study, const std::string& material) {
+  for (const SceneFileStudy& file : study.files)
+    if (file.material == material) return file.where;
+  for (const EditStep& step : study.edit)
+    for (const std::string& name : materials_in(step.action))
+      if (name == material) return step.where;
+  return study.where;
+}
+
 class MaterialAssigner {
  public:
   MaterialAssigner(const Study& study, const SceneFrame& frame, Scene& scene,
@@ -68,9 +88,11 @@ class MaterialAssigner {
                                          : ChosenParts());
     }
     if (study.scene.ground && !study.scene.ground->material.empty())
-      expect_known(study.scene.ground->material, study.scene.where);
+      expect_known(study.scene.ground->material, study.scene.where, "scene.ground: ");
+    std::set<std::string> references;  // each tree has its own
     for (const auto& m : scene.mesh.file_materials)
-      if (m.is_reference) expect_known(m.name, study.scene.where);
+      if (m.is_reference && references.insert(m.name).second)
+        expect_known(m.name, where_named(study.scene, m.name));
     for (const auto& m : study.scene.materials)
       for (const auto& in : m.seasons) expect_known(in.material, in.where);
     problems_.throw_if_any();
@@ -131,7 +153,7 @@ class MaterialAssigner {
   }
 
   /// Makes sure that the name stands for something, from the table if need be.
-  void expect_known(const std::string& name, const Where& where) {
+  void expect_known(const std::string& name, const Where& where, const std::string& key = {}) {
     if (by_name_.contains(name)) return;
     const auto of_file = of_files_.find(name);
     if (of_file != of_files_.end() && !says_nothing(of_file->second)) return;
@@ -145,7 +167,7 @@ class MaterialAssigner {
     for (const auto& [other, m] : of_files_) known.push_back(other);
     const std::string hint = key_hint(name, known);
     problems_.add(
-        where, "material '" + name + "' is not known",
+        where, key + "material '" + name + "' is not known",
         "neither scene.materials nor the scene files define it, and the table has no such row",
         hint.starts_with("did you mean")
             ? hint

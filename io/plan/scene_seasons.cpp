@@ -8,8 +8,9 @@
 #include <map>
 
 #include "geo/base/check.h"
-#include "geo/base/units.h"
+#include "geo/mesh/covered.h"
 #include "io/plan/material_assign.h"
+#include "io/plan/seasons_of_plan.h"
 
 namespace sunload {
 
@@ -93,36 +94,109 @@ std::string joined(const Names& names) {
   return text;
 }
 
-/// Patches are the same in all seasons, those of both sides, too; and what opaque surfaces cover
-/// was cut out before.
+/// Patches are the same in all seasons, those of both sides, too.
 void expect_same_patches(const Study& study, const Scene& scene, const Scene& other,
-                         const std::string& season, std::vector<std::string>& warnings) {
-  std::size_t uncovered = 0;
+                         const std::string& season) {
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
-    const Material &usual = scene.material_of(t), &now = other.material_of(t);
-    if (scene.mesh.triangle_sides[t] != other.mesh.triangle_sides[t])
-      throw InputError(study.scene.where,
-                       "material '" + usual.name + "' has " +
-                           (scene.mesh.triangle_sides[t] == Sides::two ? "two sides" : "one side") +
-                           ", and '" + now.name + "', which it is in season '" + season + "', not",
-                       "patches are the same in all seasons",
-                       "write `sides` for both of them under scene.materials");
-    if ((usual.transmittance > 0) != (now.transmittance > 0)) ++uncovered;
+    if (scene.mesh.triangle_sides[t] == other.mesh.triangle_sides[t]) continue;
+    throw InputError(study.scene.where,
+                     "material '" + scene.material_of(t).name + "' has " +
+                         (scene.mesh.triangle_sides[t] == Sides::two ? "two sides" : "one side") +
+                         ", and '" + other.material_of(t).name + "', which it is in season '" +
+                         season + "', not",
+                     "patches are the same in all seasons",
+                     "write `sides` for both of them under scene.materials");
   }
-  if (uncovered > 0)
-    warnings.push_back(fmt::format(
-        "{} triangles let light pass in season '{}' or out of it, not in both: what they cover "
-        "is what it is with the materials as written",
-        uncovered, season));
 }
 
-SceneSeason season_of(const Study& study, const Names& names, BuiltScene& built) {
+void widen(Box& box, const Vec3& point) {
+  box.low = {std::min(box.low.x, point.x), std::min(box.low.y, point.y),
+             std::min(box.low.z, point.z)};
+  box.high = {std::max(box.high.x, point.x), std::max(box.high.y, point.y),
+              std::max(box.high.z, point.z)};
+}
+
+bool holds(const Box& box, const Vec3& point) {
+  const Vec3 above = point - box.low, below = box.high - point;
+  return std::min({above.x, above.y, above.z, below.x, below.y, below.z}) >= -contact_m;
+}
+
+/// Surfaces of one object that let light pass in some seasons and stop it in others, as written.
+struct Changing {
+  std::size_t object = 0;
+  bool covers = false;  ///< with the materials as written
+  Box box;
+};
+
+/// In the order of their boxes along x.
+std::vector<Changing> changing_objects(const Mesh& mesh, const std::vector<std::uint8_t>& changes,
+                                       const Scene& written) {
+  std::map<std::pair<std::size_t, bool>, Changing> by_object;
+  for (std::size_t t = 0; t < changes.size(); ++t) {
+    if (changes[t] == 0) continue;
+    const std::size_t object = mesh.triangle_object[t].index();
+    const bool covers = written.material_of(t).transmittance == 0;
+    Changing& one = by_object[{object, covers}];
+    one.object = object;
+    one.covers = covers;
+    for (int k = 0; k < 3; ++k) widen(one.box, mesh.corner(t, k));
+  }
+  std::vector<Changing> objects;
+  objects.reserve(by_object.size());
+  for (const auto& [key, one] : by_object) objects.push_back(one);
+  std::sort(objects.begin(), objects.end(),
+            [](const Changing& a, const Changing& b) { return a.box.low.x < b.box.low.x; });
+  return objects;
+}
+
+/// Whether something of another object lies where changing surfaces cover it, or would: within
+/// their box, and covered where they are opaque as written, or not where they are not.
+bool any_is_covered(const Mesh& mesh, const std::vector<Changing>& objects) {
+  double widest = 0;
+  for (const Changing& one : objects) widest = std::max(widest, one.box.high.x - one.box.low.x);
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const double x = mesh.corner(t, 0).x, first_x = x - widest - contact_m;
+    auto one = std::lower_bound(objects.begin(), objects.end(), first_x,
+                                [](const Changing& a, double low) { return a.box.low.x < low; });
+    for (; one != objects.end() && one->box.low.x <= x + contact_m; ++one)
+      if (one->object != mesh.triangle_object[t].index() && one->covers == mesh.is_covered(t) &&
+          holds(one->box, mesh.corner(t, 0)) && holds(one->box, mesh.corner(t, 1)) &&
+          holds(one->box, mesh.corner(t, 2)))
+        return true;
+  }
+  return false;
+}
+
+/// What opaque surfaces cover was cut out with the materials as written.
+void warn_of_uncovered(const std::vector<SceneSeason>& all, BuiltScene& built) {
+  const Scene& written = built.scene;
+  std::vector<std::uint8_t> changes(written.mesh.triangle_count(), 0);
+  std::string names;
+  for (const SceneSeason& season : all) {
+    bool any = false;
+    for (std::size_t t = 0; t < changes.size(); ++t) {
+      const Material& now = season.materials[season.material[t].index()];
+      if ((written.material_of(t).transmittance > 0) == (now.transmittance > 0)) continue;
+      changes[t] = 1;
+      any = true;
+    }
+    if (any) names += (names.empty() ? "'" : ", '") + season.name + "'";
+  }
+  if (names.empty()) return;
+  if (!any_is_covered(written.mesh, changing_objects(written.mesh, changes, written))) return;
+  built.warnings.push_back(fmt::format(
+      "{} triangles let light pass in season {} or out of it, not in both: what they cover is "
+      "what it is with the materials as written",
+      std::count(changes.begin(), changes.end(), 1), names));
+}
+
+SceneSeason season_of(const Study& study, const Names& names, const BuiltScene& built) {
   Scene scene;
   scene.mesh = built.scene.mesh;
   scene.mesh.triangle_sides = built.sides_of_files;  // by which a file's lamps share their power
   std::vector<std::string> said_before;
   assign_materials(study, {built.crs, built.site.north_deg}, scene, said_before, names);
-  expect_same_patches(study, built.scene, scene, joined(names), built.warnings);
+  expect_same_patches(study, built.scene, scene, joined(names));
   return {joined(names), std::move(scene.materials), std::move(scene.material)};
 }
 
@@ -145,6 +219,7 @@ SceneSeasons take_seasons(const Study& study, const LightSeries& light, BuiltSce
   auto of_interval = seasons_of(matter, study, light, sets);
   warn_of_absent(matter, sets, built.warnings);
   for (const Names& names : sets) seasons.all.push_back(season_of(study, names, built));
+  warn_of_uncovered(seasons.all, built);
   join_equal(seasons.all, of_interval);
   if (seasons.all.size() > 1) {
     seasons.of_interval = std::move(of_interval);
@@ -165,13 +240,11 @@ Scene scene_in(const Scene& scene, const SceneSeason& season) {
 }
 
 std::string seasons_text(const SceneSeasons& seasons, const LightSeries& light) {
-  std::vector<double> hours(seasons.all.size(), 0);
-  for (std::size_t i = 0; i < seasons.of_interval.size(); ++i)
-    hours[seasons.of_interval[i]] += light.intervals[i].when.length_s() / seconds_per_hour;
+  const auto hours = season_hours(seasons, light);
   std::string text;
   for (std::size_t s = 0; s < hours.size(); ++s)
-    text += fmt::format("{}{} {:.6g} h", text.empty() ? "" : ", ",
-                        seasons.all[s].name.empty() ? "else" : seasons.all[s].name, hours[s]);
+    text +=
+        fmt::format("{}{} {:.6g} h", text.empty() ? "" : ", ", words_of(seasons.all[s]), hours[s]);
   return text;
 }
 

@@ -7,6 +7,7 @@
 
 #include "io/plan/mesh_family.h"
 #include "io/plan/rules_of_study.h"
+#include "io/plan/seasons_of_plan.h"
 #include "io/plan/stored_bits.h"
 #include "io/plan/variant_mesh.h"
 #include "solver/base/cost.h"
@@ -34,13 +35,13 @@ std::size_t lit_blocks(const VariantPlan& plan) {
 
 /// Samples of all shots: those of the first reflection, then (incremental) less by what is
 /// absorbed, one at least of every patch. The light on a patch is taken as that on a sphere.
-double estimated_samples(const VariantPlan& plan, double patches, double blocks,
-                         int samples_per_patch) {
+double estimated_samples(const VariantPlan& plan, const MaterialsOfScene& of_season, double patches,
+                         double blocks, int samples_per_patch) {
   const SolverStudy& s = plan.study.solver;
   const Scene& scene = plan.built.scene;
   double area = 0, reflecting = 0, emitted_w = 0, brightest_w_m2 = 0;
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
-    const Material& m = scene.material_of(t);
+    const Material& m = of_season.of(t);
     const double a = norm(scene.mesh.area_vector2(t)) / 2;
     area += a;
     reflecting += a * m.diffuse;
@@ -62,12 +63,12 @@ double estimated_samples(const VariantPlan& plan, double patches, double blocks,
 
 /// Rays that a line is made of where mirrors send it on: of what it meets, as much as there is
 /// mirror, glass, metal and gloss among the surfaces.
-double rays_per_line(const Scene& scene, int mirror_depth) {
+double rays_per_line(const Mesh& mesh, const MaterialsOfScene& of_season, int mirror_depth) {
   double area = 0, mirrors = 0;
-  for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
-    const double of_triangle = norm(scene.mesh.area_vector2(t));
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const double of_triangle = norm(mesh.area_vector2(t));
     area += of_triangle;
-    if (sends_on(scene.material_of(t))) mirrors += of_triangle;
+    if (sends_on(of_season.of(t))) mirrors += of_triangle;
   }
   const double again = area > 0 ? share_that_meets * mirrors / area : 0;
   double rays = 1, of_depth = 1;
@@ -123,9 +124,21 @@ SeriesBytes series_bytes(const VariantPlan& plan, double series, double value_by
           batches * of_steps + watched * lit * value_bytes + steps * series * value_bytes};
 }
 
-double line_seconds(const Scene& scene, int mirror_depth) {
-  const auto triangles = static_cast<double>(std::max<std::size_t>(scene.mesh.triangle_count(), 1));
-  return rays_per_line(scene, mirror_depth) * s_per_line_ray(triangles);
+template <class Value>
+double mean_over_seasons(const VariantPlan& plan, const Value& value) {
+  const auto seasons = materials_by_season(plan);
+  double sum = 0;
+  for (const MaterialsOfScene& season : seasons) sum += value(season);
+  return sum / static_cast<double>(seasons.size());
+}
+
+double line_seconds(const VariantPlan& plan) {
+  const Mesh& mesh = plan.built.scene.mesh;
+  const auto triangles = static_cast<double>(std::max<std::size_t>(mesh.triangle_count(), 1));
+  return s_per_line_ray(triangles) *
+         mean_over_seasons(plan, [&](const MaterialsOfScene& of_season) {
+           return rays_per_line(mesh, of_season, plan.study.solver.mirror_depth);
+         });
 }
 
 }  // namespace
@@ -205,7 +218,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
 
   WorkEstimate work;
   work.patches = patches;
-  work.line_rays = static_cast<std::uint64_t>(lines);
+  work.line_rays = static_cast<std::uint64_t>(seasons * lines);
   const bool has_views = suns >= suns_worth_views;
   const double rays =
       n * facing_share *
@@ -219,6 +232,10 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
       n * (bands * (batch * kept * float_bytes + arrays_of_realizations * of_realizations) +
            bytes_per_patch);
   if (has_views) work.memory_bytes += seasons * n * bytes_per_view;
+  work.memory_bytes +=
+      (seasons - 1) *
+      (n * season_bytes_per_patch +
+       static_cast<double>(plan.built.scene.mesh.triangle_count()) * season_bytes_per_triangle);
   // One batch is written while the next is computed.
   const double series =
       std::min(parts, static_cast<double>(plan.study.output.series.size())) + (of_instants ? 1 : 0);
@@ -239,12 +256,14 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
                        (arrays_of_realizations * of_realizations + sums_of_part * double_bytes);
   if (by_matrix)
     work.memory_bytes +=
-        n * n *
+        seasons * n * n *
         ((s.realizations + 1.0) * bytes_per_form_factor + thread_count() * bytes_per_factor_solved);
   if (s.transport == Transport::shoot) {
     const auto blocks = static_cast<double>(lit_blocks(plan));
     work.samples =
-        static_cast<std::uint64_t>(estimated_samples(plan, n, blocks, counts.samples_per_patch));
+        static_cast<std::uint64_t>(mean_over_seasons(plan, [&](const MaterialsOfScene& of_season) {
+          return estimated_samples(plan, of_season, n, blocks, counts.samples_per_patch);
+        }));
     const double per_shot = static_cast<double>(work.samples) / std::max(1.0, blocks * s.bounces);
     work.memory_bytes +=
         n * (shooting_bytes_per_patch + of_realizations * columns_of_a_realization) +
@@ -261,12 +280,12 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
                     (plan.batches() > 1 && seasons == 1 ? lines * kept_bytes_per_line : 0);
   work.seconds =
       (s_to_start + n * s_per_patch +
-       seasons * lines * (guided ? 1 + rays_by_guide : 1) *
-           line_seconds(plan.built.scene, s.mirror_depth) +
+       seasons * lines * (guided ? 1 + rays_by_guide : 1) * line_seconds(plan) +
        rays * s_per_direct_ray + (has_views ? seasons * n * s_per_view : 0) +
        (mirrors ? n * mirrored_share * shining * counts.direct_samples * s_per_mirror_ray : 0) +
-       (guided ? n * s_per_guided_patch : 0) +
-       (by_matrix ? n * n * (s_per_form_factor + n * s.realizations * s_per_factor_solved) : 0) +
+       (guided ? seasons * n * s_per_guided_patch : 0) +
+       (by_matrix ? seasons * n * n * (s_per_form_factor + n * s.realizations * s_per_factor_solved)
+                  : 0) +
        (s.transport != Transport::shoot
             ? bands * (links * solved * s_per_link_sun + links * batches * s_per_link_batch +
                        links * suns_of_parts * s_per_link_sun +

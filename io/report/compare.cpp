@@ -174,9 +174,8 @@ std::vector<std::string> notes_on(const Side& base, const Side& variant) {
   if (step(base) != step(variant))
     notes.push_back("the two results have series of other steps: " + step(base) + " and " +
                     step(variant));
-  else if (base.result.doubles("time_bounds") != variant.result.doubles("time_bounds"))
-    notes.push_back("the two results cover different intervals of time: " +
-                    period_in_words(base.result) + " and " + period_in_words(variant.result));
+  else if (auto times = different_times_in_words(base.result, variant.result); !times.empty())
+    notes.push_back(std::move(times));
   if (base.result.chosen().any())
     notes.push_back("a part of the period: " + period_in_words(base.result));
   const auto version = [](const Side& s) { return s.result.text_attribute("source"); };

@@ -17,6 +17,7 @@
 #include "io/report/measures.h"
 #include "io/result/energy_text.h"
 #include "io/result/mesh_error.h"
+#include "io/result/own_seasons.h"
 #include "io/result/part_of_period.h"
 #include "io/result/patch_groups.h"
 #include "io/result/time.h"
@@ -37,6 +38,20 @@ std::string heading(const ResultReader& result) {
                      result.text_attribute("variant"));
 }
 
+/// "snow 312 h, leafless 1200 h": of the study's own, which may overlap.
+std::string own_seasons_in_words(const ResultReader& result) {
+  const OwnSeasons own = own_seasons(result);
+  const auto lengths = interval_lengths(result), shares = result.chosen_shares();
+  std::string text;
+  for (std::size_t s = 0; s < own.names.size(); ++s) {
+    double hours = 0;
+    for (std::size_t k = 0; k < own.flags.size(); ++k)
+      if ((own.flags[k] >> s & 1) != 0) hours += shares[k] * lengths[k] / seconds_per_hour;
+    text += fmt::format("{}{} {:.5g} h", text.empty() ? "" : ", ", own.names[s], hours);
+  }
+  return text;
+}
+
 std::string period(const ResultReader& result) {
   const auto lengths = interval_lengths(result), shares = result.chosen_shares();
   std::vector<std::size_t> chosen;
@@ -53,6 +68,8 @@ std::string period(const ResultReader& result) {
   if (result.number_attribute("time_is_synthetic") > 0)
     return text + info_line("", "sun positions without a date");
   text += info_line("  days", period_in_words(result));
+  if (const std::string seasons = own_seasons_in_words(result); !seasons.empty())
+    text += info_line("  seasons", seasons);
   if (!step.empty())
     return text + info_line("  steps", "series are means over steps: " + step +
                                            "; largest values are those of intervals");

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "io/base/bands.h"
+#include "io/result/own_seasons.h"
 
 namespace sunload {
 namespace {
@@ -163,10 +164,24 @@ void ResultWriter::File::put_times(const ResultTimes& times) {
   put("dni", times.dni);
   put("dhi", times.dhi);
   put("ghi", times.ghi);
+  put_study_seasons(times);
   if (options.quantity != Quantity::illuminance) return;
   put("direct_normal_illuminance", times.direct_illuminance);
   put("diffuse_horizontal_illuminance", times.diffuse_illuminance);
   put("global_horizontal_illuminance", times.global_illuminance);
+}
+
+void ResultWriter::File::put_study_seasons(const ResultTimes& times) {
+  if (times.season_names.empty()) return;
+  h5::Dataset seasons = put("study_seasons", times.study_seasons);
+  std::vector<double> masks;
+  std::string words;
+  for (const std::string& name : times.season_names) {
+    words += (words.empty() ? "" : " ") + flag_word(name);
+    masks.push_back(masks.empty() ? 1 : 2 * masks.back());
+  }
+  seasons.set("flag_masks", masks, h5::Type::int32);
+  seasons.set("flag_meanings", words);
 }
 
 void ResultWriter::File::put_vertices(const ResultGeometry& geometry) {

@@ -75,6 +75,7 @@ struct ResultWriter::File {
   // What is known before the first batch.
   void put_dimensions(const ResultGeometry& geometry);
   void put_times(const ResultTimes& times);
+  void put_study_seasons(const ResultTimes& times);
   void put_vertices(const ResultGeometry& geometry);
   void put_mesh_topology();
   void put_patches(const ResultGeometry& geometry);

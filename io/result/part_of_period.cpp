@@ -9,6 +9,7 @@
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
+#include "io/result/own_seasons.h"
 #include "io/result/reader.h"
 #include "io/result/schema.h"
 #include "io/result/time.h"
@@ -57,11 +58,11 @@ std::vector<double> standard_errors(const std::vector<double>& realizations, std
 }
 
 /// What to write into the study for such a choice.
-std::string asked_totals(const PeriodChoice& choice) {
+std::string asked_totals(const PeriodChoice& choice, const OwnSeasons& own) {
   const int words = !choice.month.empty() + !choice.season.empty() + !choice.day.empty() +
                     !choice.hours.empty() + (!choice.from.empty() || !choice.to.empty());
   std::string series = "output.series: [total]";
-  if (words > 1) return series;
+  if (words > 1 || own.has(choice.season)) return series;
   const auto totals = [&](const char* kind) {
     return fmt::format("output.totals: [{}] or {}", kind, series);
   };
@@ -97,13 +98,14 @@ PartOfPeriod::PartOfPeriod(const ResultReader& result, const PeriodChoice& choic
   const auto intervals = intervals_of(result);
   const TimeZone zone = result_zone(result);
   const double latitude = result.number_attribute("latitude_deg");
-  shares_ = chosen_shares(choice, intervals, zone, latitude);
+  const OwnSeasons own = own_seasons(result);
+  shares_ = chosen_shares(choice, intervals, zone, latitude, own);
   is_whole_ = std::all_of(shares_.begin(), shares_.end(), [](double share) { return share == 1; });
   if (is_whole_) return;
   std::vector<TimeSpan> hours;
   for (const TimeSpan& interval : intervals)
     for (const TimeSpan& hour : clock_hours(interval, zone)) hours.push_back(hour);
-  const auto shares_of_hours = chosen_shares(choice, hours, zone, latitude);
+  const auto shares_of_hours = chosen_shares(choice, hours, zone, latitude, own);
   for (const PartKind kind :
        {PartKind::month, PartKind::season, PartKind::day, PartKind::hour_of_day})
     if (find_parts(kind, hours, shares_of_hours, zone, latitude)) return;
@@ -116,7 +118,7 @@ PartOfPeriod::PartOfPeriod(const ResultReader& result, const PeriodChoice& choic
   if (!of_series(std::string(load_word)).empty()) return;
   throw InputError({result.path()}, "has nothing of " + choice.words(),
                    "its stored totals of parts do not make it up, and it has no series",
-                   "run the study with " + asked_totals(choice));
+                   "run the study with " + asked_totals(choice, own));
 }
 
 /// Divisions are computed as when the result was written; parts without errors do where there are

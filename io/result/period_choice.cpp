@@ -11,6 +11,7 @@
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
+#include "io/result/own_seasons.h"
 
 namespace sunload {
 
@@ -29,7 +30,11 @@ std::optional<int> number(const std::string& text) {
   throw InputError({}, fmt::format("--{} {}", option, text), "not understood", "write " + hint);
 }
 
-using Holds = std::function<bool(const CivilTime&)>;
+struct Instant {
+  UnixTime utc = 0;
+  CivilTime civil;
+};
+using Holds = std::function<bool(const Instant&)>;
 
 Holds month_holds(const std::string& text) {
   const auto dash = text.find('-');
@@ -38,15 +43,21 @@ Holds month_holds(const std::string& text) {
   constexpr int months = 12;
   if (!month || *month < 1 || *month > months || (dash != std::string::npos && !year))
     refuse("month", text, "1 to 12, or year and month as 2026-06");
-  return [=](const CivilTime& at) { return at.month == *month && (!year || at.year == *year); };
+  return [=](const Instant& at) {
+    return at.civil.month == *month && (!year || at.civil.year == *year);
+  };
 }
 
-Holds season_holds(const std::string& text, double latitude_deg) {
+Holds season_holds(const std::string& text, double latitude_deg, const OwnSeasons& own) {
+  if (own.has(text)) return [&own, text](const Instant& at) { return own.holds(text, at.utc); };
   const auto name = std::find(season_names.begin(), season_names.end(), text);
-  if (name == season_names.end())
-    refuse("season", text, fmt::format("{}", fmt::join(season_names, ", ")));
+  if (name == season_names.end()) {
+    std::vector<std::string> known = own.names;
+    known.insert(known.end(), season_names.begin(), season_names.end());
+    refuse("season", text, fmt::format("{}", fmt::join(known, ", ")));
+  }
   const auto season = static_cast<std::size_t>(name - season_names.begin());
-  return [=](const CivilTime& at) { return season_of(at.month, latitude_deg) == season; };
+  return [=](const Instant& at) { return season_of(at.civil.month, latitude_deg) == season; };
 }
 
 ParsedTime parsed(const char* option, const std::string& text, const std::string& hint) {
@@ -61,8 +72,9 @@ Holds day_holds(const std::string& text) {
   const std::string hint = "a date as 2026-06-21";
   const ParsedTime day = parsed("day", text, hint);
   if (day.has_time || day.has_offset) refuse("day", text, hint);
-  return [=](const CivilTime& at) {
-    return at.year == day.civil.year && at.month == day.civil.month && at.day == day.civil.day;
+  return [=](const Instant& at) {
+    return at.civil.year == day.civil.year && at.civil.month == day.civil.month &&
+           at.civil.day == day.civil.day;
   };
 }
 
@@ -73,8 +85,9 @@ Holds hours_hold(const std::string& text) {
   const auto to = dash == std::string::npos ? std::nullopt : number(text.substr(dash + 1));
   if (!from || !to || *from >= last || *to > last || *from == *to)
     refuse("hours", text, "whole hours of the clock as 8-12, for 8:00 to 12:00");
-  return [=](const CivilTime& at) {
-    return *from < *to ? at.hour >= *from && at.hour < *to : at.hour >= *from || at.hour < *to;
+  return [=](const Instant& at) {
+    const int hour = at.civil.hour;
+    return *from < *to ? hour >= *from && hour < *to : hour >= *from || hour < *to;
   };
 }
 
@@ -85,10 +98,11 @@ UnixTime instant(const char* option, const std::string& text, const TimeZone& zo
 }
 
 /// What is chosen by the clock and the calendar.
-std::vector<Holds> conditions(const PeriodChoice& choice, double latitude_deg) {
+std::vector<Holds> conditions(const PeriodChoice& choice, double latitude_deg,
+                              const OwnSeasons& own) {
   std::vector<Holds> all;
   if (!choice.month.empty()) all.push_back(month_holds(choice.month));
-  if (!choice.season.empty()) all.push_back(season_holds(choice.season, latitude_deg));
+  if (!choice.season.empty()) all.push_back(season_holds(choice.season, latitude_deg, own));
   if (!choice.day.empty()) all.push_back(day_holds(choice.day));
   if (!choice.hours.empty()) all.push_back(hours_hold(choice.hours));
   return all;
@@ -113,10 +127,16 @@ std::string PeriodChoice::words() const {
 std::vector<double> chosen_shares(const PeriodChoice& choice,
                                   const std::vector<TimeSpan>& intervals, const TimeZone& zone,
                                   double latitude_deg) {
+  return chosen_shares(choice, intervals, zone, latitude_deg, {});
+}
+
+std::vector<double> chosen_shares(const PeriodChoice& choice,
+                                  const std::vector<TimeSpan>& intervals, const TimeZone& zone,
+                                  double latitude_deg, const OwnSeasons& own) {
   constexpr double always = std::numeric_limits<double>::infinity();
   const double from = choice.from.empty() ? -always : instant("from", choice.from, zone);
   const double to = choice.to.empty() ? always : instant("to", choice.to, zone);
-  const auto all = conditions(choice, latitude_deg);
+  const auto all = conditions(choice, latitude_deg, own);
   std::vector<double> shares(intervals.size(), 0);
   bool is_any = false;
   for (std::size_t k = 0; k < intervals.size(); ++k) {
@@ -124,7 +144,8 @@ std::vector<double> chosen_shares(const PeriodChoice& choice,
     for (const auto& [begin, end] : clock_hours(intervals[k], zone)) {
       const double begin_in = std::max(begin, from), end_in = std::min(end, to);
       if (!(begin_in < end_in)) continue;
-      const CivilTime at = zone.civil_from_utc((begin + end) / 2);
+      const UnixTime middle = (begin + end) / 2;
+      const Instant at{middle, zone.civil_from_utc(middle)};
       if (std::all_of(all.begin(), all.end(), [&](const Holds& holds) { return holds(at); }))
         chosen_s += end_in - begin_in;
     }

@@ -134,6 +134,12 @@ h5::File opened(const std::string& path, Opens opens) {
     const bool is_wanted =
         *format == result_format || (opens == Opens::derived_too &&
                                      (*format == comparison_format || *format == place_map_format));
+    for (const auto& [derived, words] :
+         {std::pair{comparison_format, "a comparison"}, {place_map_format, "a map of a place"}})
+      if (!is_wanted && *format == derived)
+        throw InputError({path}, std::string("is ") + words + ", no result",
+                         "it has a value per patch, and no suns and times",
+                         "render and export show it; name the result that it was made of");
     if (!is_wanted) {
       throw InputError({path}, "has the format " + *format,
                        "this program reads " + std::string(result_format));

@@ -37,6 +37,8 @@ constexpr std::array table{
     ResultVariable{"diffuse_horizontal_illuminance", "time", float64, "lx", sun, "diffuse horizontal illuminance (light.quantity: illuminance)", "", interval_mean},
     ResultVariable{"global_horizontal_illuminance", "time", float64, "lx", sun, "global horizontal illuminance (light.quantity: illuminance)", "", interval_mean},
 
+    ResultVariable{"study_seasons", "time", int32, "", sun, "seasons of the study that hold in the interval, a bit each (seasons)"},
+
     ResultVariable{"band", "band", text, "", coordinate, "band of the light: red, green, blue (solver.bands: rgb)"},
     ResultVariable{"object", "object", text, "", coordinate, "name of the object, as label of its dimension"},
     ResultVariable{"facade", "facade", text, "", coordinate, "name of the facade, as label of its dimension"},

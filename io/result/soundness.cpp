@@ -94,9 +94,10 @@ bool is_indispensable(const ResultVariable& variable) {
                                  variable.part == ResultPart::geometry ||
                                  variable.part == ResultPart::sun;
   return is_of_all_results && !is_label(variable) && variable.name != "mesh" &&
-         !variable.name.starts_with("vertex_x") && !variable.name.starts_with("vertex_y") &&
-         !variable.name.starts_with("vertex_z") && !variable.name.starts_with("sensor_") &&
-         !variable.dims.starts_with("selection") && !variable.name.ends_with("_illuminance");
+         variable.name != "study_seasons" && !variable.name.starts_with("vertex_x") &&
+         !variable.name.starts_with("vertex_y") && !variable.name.starts_with("vertex_z") &&
+         !variable.name.starts_with("sensor_") && !variable.dims.starts_with("selection") &&
+         !variable.name.ends_with("_illuminance");
 }
 
 /// Whether what is derived from a result has it, too: geometry and names of the base's patches.

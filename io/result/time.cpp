@@ -111,6 +111,12 @@ std::string period_in_words(const ResultReader& result) {
   return chosen.empty() ? words : chosen + ": " + words;
 }
 
+std::string different_times_in_words(const ResultReader& base, const ResultReader& variant) {
+  if (base.doubles("time_bounds") == variant.doubles("time_bounds")) return {};
+  return "the two results cover different intervals of time: " + period_in_words(base) + " and " +
+         period_in_words(variant);
+}
+
 std::vector<double> interval_lengths(const ResultReader& result) {
   const auto bounds = result.doubles("time_bounds");
   std::vector<double> lengths(bounds.size() / 2);

@@ -42,6 +42,9 @@ std::string row_in_words(const ResultReader& result, std::size_t row);
 /// where there is no gap.
 std::string period_in_words(const ResultReader& result);
 
+/// What to tell of two results that are not of the same intervals; empty: they are.
+std::string different_times_in_words(const ResultReader& base, const ResultReader& variant);
+
 /// Lengths of the intervals [s].
 std::vector<double> interval_lengths(const ResultReader& result);
 

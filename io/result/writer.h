@@ -46,6 +46,8 @@ struct ResultTimes {
   std::vector<double> dni, dhi, ghi;
   /// [lx]; empty unless the result is of illuminance.
   std::vector<double> direct_illuminance, diffuse_illuminance, global_illuminance;
+  std::vector<std::string> season_names = {};    ///< of the study; empty: it has none
+  std::vector<std::int32_t> study_seasons = {};  ///< bits in the order of the names
 };
 
 /// A division of the period whose parts have totals of their own.

@@ -3,6 +3,7 @@
 #include "io/run/result_geometry.h"
 
 #include "geo/base/units.h"
+#include "io/plan/seasons_of_plan.h"
 #include "io/plan/selection.h"
 #include "io/plan/variant_mesh.h"
 
@@ -54,10 +55,10 @@ namespace {
 
 /// Of a triangle, in every season of the period.
 std::vector<const Material*> materials_of(const VariantPlan& plan, std::size_t triangle) {
-  if (plan.seasons.all.empty()) return {&plan.built.scene.material_of(triangle)};
+  const auto seasons = materials_by_season(plan);
   std::vector<const Material*> materials;
-  for (const SceneSeason& season : plan.seasons.all)
-    materials.push_back(&season.materials[season.material[triangle].index()]);
+  materials.reserve(seasons.size());
+  for (const MaterialsOfScene& season : seasons) materials.push_back(&season.of(triangle));
   return materials;
 }
 
@@ -138,6 +139,8 @@ std::vector<SeriesStep> intervals_as_steps(const VariantPlan& plan) {
 ResultTimes result_times(const VariantPlan& plan) {
   const Quantity quantity = plan.study.light.quantity;
   ResultTimes times;
+  const auto of_intervals = study_seasons(plan.study, plan.light);
+  bool are_whole = !of_intervals.empty();  // a step in several has none that is its own
   for (const SeriesStep& step : plan.steps.empty() ? intervals_as_steps(plan) : plan.steps) {
     const SunInterval& sun = plan.light.intervals[step.sun].when;
     times.time.push_back(sun.sun_time);
@@ -152,10 +155,19 @@ ResultTimes result_times(const VariantPlan& plan) {
       if (quantity == Quantity::illuminance)
         lux.add(source_means(interval, quantity), interval.when.length_s());
     }
+    if (!of_intervals.empty()) {
+      times.study_seasons.push_back(of_intervals[step.first]);
+      for (std::size_t k = step.first; k < step.end(); ++k)
+        are_whole = are_whole && of_intervals[k] == of_intervals[step.first];
+    }
     mean.put_into(times.dni, times.dhi, times.ghi);
     if (quantity == Quantity::illuminance)
       lux.put_into(times.direct_illuminance, times.diffuse_illuminance, times.global_illuminance);
   }
+  if (!are_whole)
+    times.study_seasons.clear();
+  else
+    for (const SeasonStudy& season : plan.study.seasons) times.season_names.push_back(season.name);
   return times;
 }
 

@@ -39,6 +39,7 @@ namespace study_sections {
 namespace {
 
 constexpr int months_of_a_year = 12;
+constexpr std::size_t most_seasons = 31;
 constexpr int leap_year = 2000;  // in which every date of any year exists
 const std::string what_to_write =
     "[11-01, 04-15] is from 1 November to 14 April of every year, [2026-01-10, 2026-01-25] a "
@@ -108,6 +109,9 @@ std::vector<SeasonStudy> read_seasons(YamlMap& root) {
   std::vector<SeasonStudy> seasons;
   root.section("seasons", [&](YamlMap& map) {
     for (const auto& name : map.other_keys()) seasons.push_back(read_season(map, name));
+    if (seasons.size() > most_seasons)
+      root.problem("seasons", "has more than " + std::to_string(most_seasons),
+                   "results have a bit for each", "write fewer");
   });
   return seasons;
 }
@@ -130,18 +134,30 @@ std::vector<std::string> used_seasons(const Study& study) {
   return used;
 }
 
-void check_seasons(YamlMap& root, const Study& study) {
-  std::vector<std::string> names;
-  for (const SeasonStudy& season : study.seasons) names.push_back(season.name);
+namespace {
+
+void leave_out_absent_seasons(Study& study) {
+  const auto is_absent = [&](const auto& in) {
+    return std::none_of(study.seasons.begin(), study.seasons.end(),
+                        [&](const SeasonStudy& season) { return season.name == in.season; });
+  };
+  for (MaterialStudy& material : study.scene.materials) std::erase_if(material.seasons, is_absent);
+  std::erase_if(study.light.far_ground_seasons, is_absent);
+}
+
+}  // namespace
+
+void settle_seasons(YamlMap& root, Study& study, const std::set<std::string>& names) {
   const auto expect_known = [&](const std::string& season, const Where& where) {
-    if (std::find(names.begin(), names.end(), season) != names.end()) return;
+    if (names.contains(season)) return;
     root.reading().problem(where, "'" + season + "' is no season of the study", "",
                            names.empty() ? "write seasons: {" + season + ": [11-01, 04-15]}"
-                                         : key_hint(season, names));
+                                         : key_hint(season, {names.begin(), names.end()}));
   };
   for (const MaterialStudy& material : study.scene.materials)
     for (const SeasonMaterial& in : material.seasons) expect_known(in.season, in.where);
   for (const SeasonAlbedo& in : study.light.far_ground_seasons) expect_known(in.season, in.where);
+  leave_out_absent_seasons(study);
   if (!used_seasons(study).empty() && std::holds_alternative<PositionsPeriod>(study.period.kind))
     root.reading().problem(study.period.where, "positions have no seasons",
                            "suns that are put somewhere have no date",

@@ -3,6 +3,7 @@
 /// Readers of the sections of a study, for io/study/study.cpp alone.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -47,8 +48,9 @@ std::vector<NamedSelection> read_selections(YamlMap& root, const std::string& fo
 std::vector<SeasonStudy> read_seasons(YamlMap& root);
 /// The key `seasons` of a material: what it is in some of them.
 std::vector<SeasonMaterial> read_season_materials(YamlMap& material);
-/// That materials and the far ground name seasons of the study.
-void check_seasons(YamlMap& root, const Study& study);
+/// Materials and the far ground must name seasons of the file, `names`; of those that this variant
+/// does not have nothing is left.
+void settle_seasons(YamlMap& root, Study& study, const std::set<std::string>& names);
 /// That each season is named in some variant.
 void warn_of_unused_seasons(YamlReading& reading, const std::vector<Study>& variants);
 /// The key `selection` of a map that chooses: its name alone.

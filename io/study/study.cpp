@@ -131,6 +131,12 @@ void refuse_common_keys(const MatrixValue& value, YamlReading& reading) {
                   reason);
 }
 
+YamlTree no_value(const Where& where) {
+  YamlNode none;
+  none.where = where;
+  return std::make_shared<const YamlNode>(std::move(none));
+}
+
 Variant read_variant(YamlMap& map) {
   Variant variant;
   variant.name = read_name(map);
@@ -138,7 +144,9 @@ Variant read_variant(YamlMap& map) {
   over->kind = YamlNode::Kind::map;
   over->where = map.where();
   for (const auto& section : variant_sections) {
-    const YamlTree value = map.tree(section);
+    // Without a value: without seasons, as keys within sections are taken away.
+    const bool is_none = section == "seasons" && map.is_none(section);
+    const YamlTree value = is_none ? no_value(map.where(section)) : map.tree(section);
     if (value) over->entries.push_back({section, value->where, value});
   }
   variant.over = std::move(over);
@@ -248,7 +256,18 @@ void check_together(YamlMap& root, const Study& study, PlaceWritten placed) {
   }
 }
 
-Study read_values(YamlMap& root, const std::string& folder) {
+/// Of the file and all its variants: materials may name seasons that a variant takes away.
+std::set<std::string> seasons_named_in(const std::vector<YamlTree>& variants) {
+  std::set<std::string> names;
+  for (const YamlTree& tree : variants) {
+    const YamlEntry* seasons = tree ? tree->find("seasons") : nullptr;
+    if (!seasons) continue;
+    for (const YamlEntry& season : seasons->value->entries) names.insert(season.key);
+  }
+  return names;
+}
+
+Study read_values(YamlMap& root, const std::string& folder, const std::set<std::string>& seasons) {
   Study study;
   root.require("format", "", "write format: " + format_name);
   root.word("format", {format_name}, format_name);
@@ -280,7 +299,7 @@ Study read_values(YamlMap& root, const std::string& folder) {
   resolve_selections(root.reading(), study.selections, study.scene, study.measures);
   check_together(root, study, site.place_written);
   check_measures(root, study, site.place_written);
-  check_seasons(root, study);
+  settle_seasons(root, study, seasons);
   return study;
 }
 
@@ -300,14 +319,17 @@ StudyFile study_of_text(const std::string& path, const std::string& yaml) {
     variants = read_all_variants(root);
     root.keep_rest();  // read with each variant's changes below
   });
-  for (const auto& variant : variants) {
-    YamlMap::read_all(merged(tree, variant, reading), reading, [&](YamlMap& root) {
+  std::vector<YamlTree> trees;
+  trees.reserve(variants.size());
+  for (const Variant& variant : variants) trees.push_back(merged(tree, variant, reading));
+  const auto seasons = seasons_named_in(trees);
+  for (std::size_t v = 0; v < variants.size(); ++v)
+    YamlMap::read_all(trees[v], reading, [&](YamlMap& root) {
       root.tree("variants");
       root.tree("matrix");
-      file.variants.push_back(read_values(root, folder));
-      file.variants.back().variant = variant.name;
+      file.variants.push_back(read_values(root, folder, seasons));
+      file.variants.back().variant = variants[v].name;
     });
-  }
   reading.throw_if_any();
   warn_of_unused_seasons(reading, file.variants);
   file.name = file.variants.front().name;
@@ -339,7 +361,7 @@ std::vector<std::string> study_keys() {
   YamlReading reading(later_keys(), YamlReading::Purpose::describe);
   YamlMap::read_all(nullptr, reading, [](YamlMap& root) {
     read_all_variants(root);
-    read_values(root, "");
+    read_values(root, "", {});
   });
   return {reading.keys.begin(), reading.keys.end()};
 }

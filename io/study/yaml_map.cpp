@@ -117,6 +117,12 @@ const YamlNode* YamlMap::ask(const std::string& key) {
   return nullptr;
 }
 
+bool YamlMap::is_none(const std::string& key) {
+  const bool is_there = has(key) && kind(key) == Kind::empty;
+  if (is_there) asked_.insert(key);
+  return is_there;
+}
+
 YamlTree YamlMap::tree(const std::string& key) {
   return ask(key) ? node_->find(key)->value : nullptr;
 }

@@ -89,6 +89,9 @@ class YamlMap {
   /// `site.latitude_deg`: for messages.
   std::string path(const std::string& key) const;
   bool has(const std::string& key) const;
+  /// Whether the file has the key without a value (`~`), where that says something: asking is
+  /// enough to make the key a known one, and only then.
+  bool is_none(const std::string& key);
   /// False where something else stands in place of the map (which is reported).
   bool is_usable() const { return state_ != State::no_map; }
   /// Kind of the value; `empty` where the key is absent.

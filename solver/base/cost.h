@@ -71,6 +71,8 @@ inline constexpr double s_per_form_factor = 1.5e-6, s_per_factor_solved = 3e-10;
 inline constexpr double double_bytes = 8, float_bytes = 4;
 inline constexpr double program_bytes = 3.6e7, bytes_per_line = 12.2, bytes_per_patch = 1400;
 inline constexpr double bytes_per_interval = 500;
+/// Of each season after the first, beside its lines: a scene of its own (Delft, 2 seasons).
+inline constexpr double season_bytes_per_patch = 680, season_bytes_per_triangle = 240;
 inline constexpr double bytes_per_form_factor = 12;       ///< of one realization: it and its link
 inline constexpr double bytes_per_factor_solved = 40;     ///< of one thread
 inline constexpr double bytes_per_sample = 40;            ///< of one realization and iteration

@@ -162,6 +162,22 @@ TEST(Explain, DrawsTheRowsBesidesTheTable) {
   EXPECT_GT(count_of(picture, {0.93, 0.62, 0.10}), 1000u) << "sun";
 }
 
+TEST(Explain, TellsWhereTimesDiffer) {
+  const SquareFolder square(coarse_square() +
+                            "variants:\n  - {name: march}\n  - {name: june, period: {days: "
+                            "[2026-06-21]}}\n");
+  const Ran ran = square.run("results");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto notes = [&](const char* base) {
+    return program(square.folder, {"explain", square.result("results", "june"), "--object",
+                                   "square", "--against", square.result("results", base)})
+        .out;
+  };
+  EXPECT_NE(notes("march").find("cover different intervals of time: 2026-03-21"), std::string::npos)
+      << notes("march");
+  EXPECT_EQ(notes("june").find("different intervals"), std::string::npos);
+}
+
 /// Sum over the patches of an object, or of all: value × area.
 double sum_over(const ResultReader& map, const std::string& dataset,
                 const std::string& object = {}) {
@@ -231,7 +247,8 @@ TEST(Explain, ItsMapIsDrawnAndExported) {
   EXPECT_NE(csv.find("light_given_kwh_m4"), std::string::npos);
   for (const char* format : {"vtk", "glb", "gpkg", "ply"})
     done({"export", "map.h5", "--to", format, "-o", std::string("map.") + format});
-  refused({"info", "map.h5"}, "sunload-place-map-1");
+  refused({"info", "map.h5"}, "is a map of a place, no result");
+  refused({"view", "map.h5", "-o", "map.html"}, "render and export show it");
   refused({"export", "map.h5", "--to", "xdmf", "-o", "map.xdmf"}, "of a map of a place");
   refused({"render", "map.h5", "-o", "a.png", "--camera", "sun"}, "of a map of a place");
   refused({"render", "map.h5", "-o", "a.png", "--month", "3"}, "explain --month 3 --map");

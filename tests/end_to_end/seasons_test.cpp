@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
@@ -268,11 +270,113 @@ TEST_F(Seasons, ThatChangeNothingAreNone) {
       << past.out << past.err;
 }
 
+/// Whether anything of it changes a material or not.
+TEST_F(Seasons, OfEveryIntervalAreInTheResult) {
+  const std::string more =
+      "seasons: {thin: [1, 3], \"deep winter\": [01-15, 02-15], winter: [6]}\n";
+  const ResultReader result(run("named",
+                                "    paving: {diffuse: 0.3, seasons: {thin: snow}}\n"
+                                "    snow: {diffuse: 0.8}\n    canvas: {diffuse: 0.5}\n",
+                                more));
+  const auto flags = result.integers("study_seasons");
+  ASSERT_EQ(flags.size(), 3 * hours_of_a_day);
+  constexpr std::array<int, 3> of_days{1 + 2, 1, 4};
+  for (std::size_t k = 0; k < flags.size(); ++k)
+    EXPECT_EQ(flags[k], of_days[k / hours_of_a_day]) << k;
+  EXPECT_EQ(result.text_attribute("study_seasons", "flag_meanings"), "thin deep_winter winter");
+  EXPECT_EQ(result.number_attributes("study_seasons", "flag_masks"),
+            (std::vector<double>{1, 2, 4}));
+  const auto info = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> all{"info", result.path()};
+    all.insert(all.end(), words.begin(), words.end());
+    return program(folder_, all);
+  };
+  EXPECT_NE(info({}).out.find("thin 16 h, deep_winter 8 h, winter 8 h"), std::string::npos)
+      << info({}).out;
+  // Months are stored, and make up the seasons of the study; its own winter goes first.
+  for (const auto& [season, month] : {std::pair{"deep winter", "1"}, {"winter", "6"}})
+    EXPECT_EQ(info({"--objects", "--csv", "--season", season}).out,
+              info({"--objects", "--csv", "--month", month}).out)
+        << season;
+  EXPECT_NE(info({"--objects", "--csv", "--season", "autumn"}).err.find("no such time"),
+            std::string::npos);
+  const Ran wrong = info({"--season", "wintre"});
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.err.find("thin, deep_winter, winter, spring"), std::string::npos) << wrong.err;
+}
+
+/// `~` takes all of them away, or one.
+TEST_F(Seasons, CanBeTakenAwayByAVariant) {
+  const auto with_variants = [&](const std::string& variants) {
+    return study("variants", of_seasons, seasons) + "variants:\n" + variants;
+  };
+  folder_.write("variants.yaml", with_variants("  - {name: all}\n  - {name: none, seasons: ~}\n"
+                                               "  - {name: no_winter, seasons: {winter: ~}}\n"));
+  const Ran ran = program(folder_, {"run", "variants.yaml"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto result = [&](const char* name) {
+    return ResultReader(folder_ / ("results/variants/" + std::string(name) + ".h5"));
+  };
+  const ResultReader all = result("all"), none = result("none"), no_winter = result("no_winter");
+  const ResultReader summer(run("summer", usual)), spring(run("spring", in_spring));
+  EXPECT_FALSE(none.has("study_seasons"));
+  for (std::size_t day = 0; day < 3; ++day)
+    EXPECT_EQ(day_difference(none, summer, "irradiance", day), 0) << day;
+  EXPECT_EQ(day_difference(no_winter, spring, "irradiance", 0), 0);
+  EXPECT_EQ(day_difference(no_winter, all, "irradiance", 1), 0);
+  EXPECT_GT(day_difference(no_winter, all, "irradiance", 0), 0);
+  for (const auto& [variants, words] :
+       {std::pair{"  - {name: a, light: ~}\n", "light has no value"},
+        {"  - {name: a, scene: {materials: {paving: {seasons: {wintre: snow}}}}}\n",
+         "'wintre' is no season of the study"}}) {
+    folder_.write("wrong.yaml", with_variants(variants));
+    const Ran wrong = program(folder_, {"check", "wrong.yaml"});
+    EXPECT_EQ(wrong.code, 2);
+    EXPECT_NE(wrong.err.find(words), std::string::npos) << wrong.err;
+  }
+}
+
+/// What an opaque body covers is cut out with the materials as written: told once, and only where
+/// there is something.
+TEST_F(Seasons, TellOfWhatTheyWouldUncover) {
+  const std::string materials =
+      "    paving: {diffuse: 0.3}\n"
+      "    canvas: {diffuse: 0.5, sides: two, seasons: {thin: gauze, winter: air}}\n"
+      "    gauze: {diffuse: 0.2, transmittance: 0.4, sides: two}\n"
+      "    air: {diffuse: 0, transmittance: 1, sides: two}\n";
+  const auto warned = [&](const std::string& name, const std::string& box) {
+    std::string text = study(name, materials, seasons);
+    const std::string files = "  files: [square.obj]\n";
+    if (!box.empty())
+      text.insert(text.find(files) + files.size(),
+                  "  edit:\n    - {add: {name: tent, material: canvas, box: {position_m: [10, -10, "
+                  "2], size_m: [4, 4, 3]}}}\n    - {add: {name: table, material: plaster, box: "
+                  "{position_m: " +
+                      box + ", size_m: [1, 1, 1]}}}\n");
+    folder_.write(name + ".yaml", text);
+    const Ran ran = program(folder_, {"check", name + ".yaml"});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    const std::string words = "triangles let light pass in season ";
+    const auto first = ran.out.find(words);
+    if (first == std::string::npos) return std::string();
+    EXPECT_EQ(ran.out.find(words, first + 1), std::string::npos) << ran.out;
+    return ran.out.substr(first, ran.out.find('\n', first) - first);
+  };
+  EXPECT_EQ(warned("awning", ""), "");
+  EXPECT_EQ(warned("beside", "[5, -10, 0]"), "");
+  EXPECT_NE(warned("within", "[10, -10, 3]").find("'thin, winter', 'thin'"), std::string::npos);
+}
+
 TEST_F(Seasons, AreToldByCheckAndNotExplained) {
   folder_.write("told.yaml", study("told", of_seasons, seasons));
   const Ran check = program(folder_, {"check", "told.yaml"});
   EXPECT_EQ(check.code, 0) << check.err;
   EXPECT_NE(check.out.find("thin, winter 8 h, thin 8 h, else 8 h"), std::string::npos) << check.out;
+  const Ran listed = program(folder_, {"check", "told.yaml", "--json"});
+  EXPECT_EQ(
+      nlohmann::json::parse(listed.out).at("variants").at(0).at("seasons"),
+      nlohmann::json::parse("[{\"name\": \"thin, winter\", \"hours\": 8}, {\"name\": \"thin\", "
+                            "\"hours\": 8}, {\"name\": \"else\", \"hours\": 8}]"));
   ASSERT_EQ(program(folder_, {"run", "told.yaml"}).code, 0);
   const Ran factors = program(
       folder_, {"export", "results/told/baseline.h5", "--to", "form-factors", "--of", "object"});

@@ -76,6 +76,8 @@ TEST(CostModel, PageHasTheSizesOfTheProgram) {
         fmt::format("patches · batches · ({} · parts · realizations + {})", double_bytes,
                     batch_bytes_per_patch),
         fmt::format("patches · ({} · realizations + {})", double_bytes, result_bytes_per_patch),
+        fmt::format("{} · patches + {} · input triangles for each season after the first",
+                    season_bytes_per_patch, season_bytes_per_triangle),
         fmt::format("{} · lines for the prepared file", kept_bytes_per_line)})
     EXPECT_NE(page.find(row), std::string::npos) << row;
 }
@@ -111,6 +113,33 @@ TEST(CostModel, LinesGoOnFromPanesMetalsAndGlossAsFromMirrors) {
        {"refractive_index: 1.5", "refractive_index: 1.4, extinction_coefficient: 5",
         "normal_transmittance: 0.8", "glossy: 0.3, glossy_exponent: 10"})
     EXPECT_EQ(estimated_seconds(material), mirror) << material;
+}
+
+/// Of a street in a winter's and a summer's hour, whose plaster is another in winter.
+WorkEstimate estimated_with(const std::string& plaster, const std::string& seasons) {
+  const VariantPlan plan =
+      test::plan_of("format: sunload-study-1\nname: t\n" + seasons +
+                    "site: {latitude_deg: 50, longitude_deg: 14, timezone: UTC}\n"
+                    "scene: {builtin: {name: street}, materials: {all: {" +
+                    plaster +
+                    "}, other: {mirror: 0.3}}, assign: [{material: all}]}\n"
+                    "period: {days: [2026-01-21, 2026-06-21], from: \"12:00\", to: \"13:00\"}\n"
+                    "light: {source: clear_sky}\n");
+  return estimate_work(plan, 100'000);
+}
+
+// Each season is traced as a scene of its own, with its own mirrors.
+TEST(CostModel, SeasonsCostTheirLines) {
+  const auto always = estimated_with("diffuse: 0.3", ""),
+             mirrors = estimated_with("mirror: 0.3", "");
+  const auto both =
+      estimated_with("diffuse: 0.3, seasons: {cold: other}", "seasons: {cold: [1]}\n");
+  EXPECT_EQ(both.line_rays, 2 * always.line_rays);
+  EXPECT_GT(both.memory_bytes - always.memory_bytes,
+            season_bytes_per_patch * static_cast<double>(both.patches));
+  // As many lines of either kind.
+  const double of_lines = mirrors.seconds - always.seconds;
+  EXPECT_GT(both.seconds, always.seconds + of_lines);
 }
 
 }  // namespace

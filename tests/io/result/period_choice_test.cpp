@@ -9,6 +9,7 @@
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
+#include "io/result/own_seasons.h"
 
 namespace sunload {
 namespace {
@@ -52,6 +53,29 @@ TEST(PeriodChoice, ChoosesWhatItsWordsSay) {
   EXPECT_EQ(hours({.from = "2026-06-21T06:30", .to = "2026-06-21T08:00"}), 1.5);
   EXPECT_EQ(hours({.to = "2026-06-21T00:30Z"}), 2.5);  // summer time
   EXPECT_EQ(hours({.from = "2000-01-01"}), 48);
+}
+
+/// The first twelve hours of June, and all of December.
+OwnSeasons two_seasons() {
+  OwnSeasons own{{"my_days", "winter"}, {}, two_days()};
+  for (std::size_t k = 0; k < own.intervals.size(); ++k)
+    own.flags.push_back(k < 12 ? 1 : k < 24 ? 0 : 1 + 2);
+  return own;
+}
+
+TEST(PeriodChoice, KnowsTheSeasonsOfTheStudyBeforeThoseOfTheCalendar) {
+  const OwnSeasons own = two_seasons();
+  const auto hours_of = [&](const PeriodChoice& choice, double latitude) {
+    const auto shares = chosen_shares(choice, two_days(), zone, latitude, own);
+    return std::accumulate(shares.begin(), shares.end(), 0.0);
+  };
+  EXPECT_EQ(hours_of({.season = "my_days"}, 50), 36);
+  EXPECT_EQ(hours_of({.season = "my days"}, 50), 36);
+  EXPECT_EQ(hours_of({.month = "6", .season = "my_days"}, 50), 12);
+  EXPECT_EQ(hours_of({.season = "winter"}, -50), 24);  // December, in the south too
+  EXPECT_EQ(hours_of({.season = "winter", .hours = "8-12"}, -50), 4);
+  EXPECT_EQ(hours_of({.season = "summer"}, 50), 24);
+  EXPECT_THROW(hours_of({.season = "snow"}, 50), InputError);
 }
 
 TEST(PeriodChoice, RefusesWhatSaysNothing) {
