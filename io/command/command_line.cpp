@@ -704,6 +704,8 @@ class CommandLine {
                   "colours of corners, not of patches (glb, vrml)");
     sub->add_option("--crease-angle", export_.crease_angle_deg,
                     "patches that turn by more are not interpolated [degrees, default 20]");
+    sub->add_flag("--lightmap", export_.light_map,
+                  "colours in a texture, a block of texels for each patch (glb)");
     sub->add_option("--variant", factors_.variant, "form-factors: of a study (default: its first)");
     sub->add_option("--study-folder", factors_.study_folder,
                     "form-factors of a result: folder of its study file (default: the working "
@@ -714,7 +716,8 @@ class CommandLine {
   int form_factors() {
     const bool chooses_light = !export_.quantity.empty() || !export_.time.empty() ||
                                period_.any() || !band_.empty() || export_.palette ||
-                               export_.largest || export_.interpolate || export_.crease_angle_deg;
+                               export_.largest || export_.interpolate || export_.crease_angle_deg ||
+                               export_.light_map;
     if (chooses_light || !export_.parts.empty() || !export_.model.empty())
       throw InputError({}, "--to form-factors takes --of, --variant and --study-folder alone",
                        "they are geometry, of the whole scene", "leave out the other options");

@@ -63,6 +63,8 @@ void expect_heeded(const ExportFormat& format, const ExportRules& rules, const s
   if (rules.crease_angle_deg && !(*rules.crease_angle_deg >= 0 && *rules.crease_angle_deg <= 180))
     problems.add({}, fmt::format("--crease-angle {}", *rules.crease_angle_deg),
                  "must lie in [0, 180] degrees", "20 joins the facets of round towers");
+  if (rules.light_map && format.write != export_glb)
+    problems.add({}, "--lightmap with " + to, "it has no texture", "use --to glb");
   if (!rules.model.empty() && format.write != export_cityjson)
     problems.add({}, "--model with " + to, "only city models get values back", "use --to cityjson");
   if (!rules.of.empty() && format.write != export_csv)

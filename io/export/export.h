@@ -24,8 +24,9 @@ struct ExportRules {
   /// corner that turn by no more than the crease angle (20° where left out).
   bool interpolate = false;
   std::optional<double> crease_angle_deg;
-  std::string of;     ///< csv: rows of what: patch (where left out), facade, object, sensor
-  NamedParts parts;   ///< csv, gpkg, energyplus: of these alone
+  bool light_map = false;  ///< glb: colours in a texture, not of vertices
+  std::string of;          ///< csv: rows of what: patch (where left out), facade, object, sensor
+  NamedParts parts;        ///< csv, gpkg, energyplus: of these alone
   std::string model;  ///< cityjson: the study's own model, which gets its values back; empty: none
 };
 

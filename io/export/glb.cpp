@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "geo/base/check.h"
 #include "io/base/byte_text.h"
 #include "io/base/version.h"
 #include "io/export/format.h"
+#include "io/export/light_map.h"
 
 namespace sunload {
 namespace {
@@ -20,6 +22,7 @@ using nlohmann::json;
 constexpr std::uint32_t file_magic = 0x46546C67, file_version = 2;
 constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 constexpr int type_float = 5126, type_unsigned_short = 5123, target_vertices = 34962;
+constexpr int filter_linear = 9729, wrap_clamp = 33071;
 constexpr std::size_t alignment = 4, head_bytes = 12;
 constexpr double largest_short = 65535;
 
@@ -33,13 +36,14 @@ std::uint16_t linear_short(double channel) {
   return static_cast<std::uint16_t>(std::lround(largest_short * linear_from_srgb(channel)));
 }
 
-/// Positions and colours of the corners of one object, which share nothing.
+/// Positions of the corners of one object, which share nothing, and their colours or their places
+/// in the texture.
 struct ObjectMesh {
-  std::string positions, colours;
+  std::string positions, colours, places;
   std::array<float, 3> low{}, high{};
   std::size_t corners = 0;
 
-  void add(Vec3 p, Colour c) {
+  void add(Vec3 p) {
     // y is up: (x, y, z) → (x, z, −y), which turns no face.
     const std::array<float, 3> place{static_cast<float>(p.x), static_cast<float>(p.z),
                                      static_cast<float>(0.0 - p.y)};
@@ -48,21 +52,31 @@ struct ObjectMesh {
       high[axis] = corners == 0 ? place[axis] : std::max(high[axis], place[axis]);
       append(positions, place[axis]);
     }
+    ++corners;
+  }
+  void add_colour(Colour c) {
     for (const double channel : {c.red, c.green, c.blue}) append(colours, linear_short(channel));
     append(colours, std::uint16_t{65535});
-    ++corners;
+  }
+  void add_place(const std::array<float, 2>& place) {
+    for (const float share : place) append(places, share);
   }
 };
 
-std::vector<ObjectMesh> object_meshes(const ResultPatches& patches, const ExportColours& colours) {
+std::vector<ObjectMesh> object_meshes(const ResultPatches& patches, const ExportColours& colours,
+                                      const std::optional<LightMap>& light_map) {
   std::vector<ObjectMesh> meshes(patches.object_names.size());
   for (std::size_t i = 0; i < patches.corners.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
+      auto& mesh = meshes.at(static_cast<std::size_t>(patches.object[i]));
+      mesh.add(patches.vertices[static_cast<std::size_t>(patches.corners[i][k])]);
+      if (light_map) {
+        mesh.add_place(light_map->place(i, k));
+        continue;
+      }
       const auto step =
           colours.corner_step.empty() ? colours.patch_step[i] : colours.corner_step[i][k];
-      meshes.at(static_cast<std::size_t>(patches.object[i]))
-          .add(patches.vertices[static_cast<std::size_t>(patches.corners[i][k])],
-               export_colour(colours.palette, step));
+      mesh.add_colour(export_colour(colours.palette, step));
     }
   return meshes;
 }
@@ -74,34 +88,51 @@ class Scene {
   std::string buffer;
 
   void add(const std::string& name, const ObjectMesh& mesh) {
-    json position{{"bufferView", view(mesh.positions)},
+    json position{{"bufferView", view(mesh.positions, target_vertices)},
                   {"componentType", type_float},
                   {"count", mesh.corners},
                   {"type", "VEC3"},
                   {"min", mesh.low},
                   {"max", mesh.high}};
-    json colour{{"bufferView", view(mesh.colours)},
-                {"componentType", type_unsigned_short},
-                {"normalized", true},
-                {"count", mesh.corners},
-                {"type", "VEC4"}};
+    const bool textured = !mesh.places.empty();
+    json shown{{"bufferView", view(textured ? mesh.places : mesh.colours, target_vertices)},
+               {"componentType", textured ? type_float : type_unsigned_short},
+               {"count", mesh.corners},
+               {"type", textured ? "VEC2" : "VEC4"}};
+    if (!textured) shown["normalized"] = true;
     const auto first = tree["accessors"].size(), node = tree["nodes"].size();
     tree["accessors"].push_back(std::move(position));
-    tree["accessors"].push_back(std::move(colour));
-    json primitive{{"attributes", {{"POSITION", first}, {"COLOR_0", first + 1}}}, {"material", 0}};
+    tree["accessors"].push_back(std::move(shown));
+    json primitive{
+        {"attributes", {{"POSITION", first}, {textured ? "TEXCOORD_0" : "COLOR_0", first + 1}}},
+        {"material", 0}};
     tree["meshes"].push_back({{"name", name}, {"primitives", json::array({std::move(primitive)})}});
     tree["nodes"].push_back({{"name", name}, {"mesh", node}});
     tree["scenes"][0]["nodes"].push_back(node);
   }
 
+  /// The texture of all objects. Neither smaller copies of it, which would mix patches, nor
+  /// repeats.
+  void add(const LightMap& map) {
+    tree["images"].push_back({{"bufferView", view(map.png())}, {"mimeType", "image/png"}});
+    tree["samplers"].push_back({{"magFilter", filter_linear},
+                                {"minFilter", filter_linear},
+                                {"wrapS", wrap_clamp},
+                                {"wrapT", wrap_clamp}});
+    tree["textures"].push_back({{"sampler", 0}, {"source", 0}});
+    tree["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+    tree["asset"]["extras"]["light_map"] = {
+        {"width", map.width()}, {"height", map.height()}, {"block", map.block()}};
+  }
+
  private:
-  std::size_t view(const std::string& bytes) {
+  std::size_t view(const std::string& bytes, int target = 0) {
     const auto index = tree["bufferViews"].size();
-    tree["bufferViews"].push_back({{"buffer", 0},
-                                   {"byteOffset", buffer.size()},
-                                   {"byteLength", bytes.size()},
-                                   {"target", target_vertices}});
+    json about{{"buffer", 0}, {"byteOffset", buffer.size()}, {"byteLength", bytes.size()}};
+    if (target != 0) about["target"] = target;
+    tree["bufferViews"].push_back(std::move(about));
     buffer += bytes;
+    buffer.resize((buffer.size() + alignment - 1) / alignment * alignment);
     return index;
   }
 };
@@ -139,9 +170,12 @@ void export_glb(const ResultReader& result, const ExportRules& rules, const Expo
   scene.tree["extensionsUsed"] = json::array({"KHR_materials_unlit"});
   scene.tree["materials"] = json::array({unlit_material()});
   scene.tree["scene"] = 0;
-  const auto meshes = object_meshes(patches, colours);
+  std::optional<LightMap> light_map;
+  if (rules.light_map) light_map.emplace(colours, result.path());
+  const auto meshes = object_meshes(patches, colours, light_map);
   for (std::size_t k = 0; k < meshes.size(); ++k)
     if (meshes[k].corners > 0) scene.add(patches.object_names[k], meshes[k]);
+  if (light_map) scene.add(*light_map);
   scene.tree["buffers"] = json::array({json{{"byteLength", scene.buffer.size()}}});
 
   std::string chunks;

@@ -7,6 +7,7 @@ export_test.py SUNLOAD [PROGRAM]     PROGRAM: vtk or assimp, whose tests may be 
 """
 
 import csv
+import io
 import json
 import os
 import re
@@ -175,13 +176,42 @@ def test_glb(exports, result):
         refuses(expect_scale, colours, values, 1.01 * largest)
 
 
+def test_light_map(exports, result):
+    """The texture, where the corners say, has the colours of the vertices of the same model without it."""
+    import matplotlib.image
+    for words in ((), ("--interpolate",)):
+        plain, plain_buffer = glb_parts(exports.file("plain.glb", "glb", *words))
+        tree, buffer = glb_parts(exports.file("mapped.glb", "glb", "--lightmap", *words))
+        view = tree["bufferViews"][tree["images"][0]["bufferView"]]
+        texture = matplotlib.image.imread(io.BytesIO(buffer[view["byteOffset"]:view["byteOffset"] + view["byteLength"]]))
+        about = tree["asset"]["extras"]["light_map"]
+        assert texture.shape[:2] == (about["height"], about["width"]) and about["block"] in (4, 8)
+        assert tree["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] == {"index": 0}
+        for mesh, without in zip(tree["meshes"], plain["meshes"]):
+            here, there = mesh["primitives"][0]["attributes"], without["primitives"][0]["attributes"]
+            assert set(here) == {"POSITION", "TEXCOORD_0"}
+            same(accessor(tree, buffer, here["POSITION"]), accessor(plain, plain_buffer, there["POSITION"]))
+            places = accessor(tree, buffer, here["TEXCOORD_0"])
+            assert places.min() > 0 and places.max() < 1
+            x, y = (places * [about["width"], about["height"]]).T.round().astype(int)
+            # The four texels around a corner, filtered.
+            found = np.mean([texture[y - j, x - i, :3] for i in (0, 1) for j in (0, 1)], axis=0)
+            expected = accessor(plain, plain_buffer, there["COLOR_0"])[:, :3] / 65535
+            off = np.abs(linear(found) - expected).max()
+            assert off < (0.2 if words else 0.005), off
+    said = exports.run("export", RESULT, "--to", "vrml", "--lightmap")
+    assert said.returncode == WRONG_INPUT and "--to glb" in said.stderr, said.stderr
+
+
 def test_assimp(exports, result):
     if not shutil.which("assimp"):
         skip("assimp-utils is not installed")
-    path = exports.file("a.glb", "glb")
-    said = subprocess.run(["assimp", "info", path], stdout=subprocess.PIPE, encoding="utf-8")
     patches = len(result["patch_area"])
-    assert said.returncode == 0 and f"Faces:              {patches}\n" in said.stdout, said.stdout
+    for words, textures in (((), 0), (("--lightmap",), 1)):
+        path = exports.file("a.glb", "glb", *words)
+        said = subprocess.run(["assimp", "info", path], stdout=subprocess.PIPE, encoding="utf-8")
+        assert said.returncode == 0 and f"Faces:              {patches}\n" in said.stdout, said.stdout
+        assert f"Textures (embed.):  {textures}\n" in said.stdout, said.stdout
 
 
 def numbers_within(text, field, kind):
@@ -547,7 +577,7 @@ def main():
         assert ran.returncode == 0, ran.stderr
         with h5py.File(os.path.join(folder, RESULT), "r") as result:
             of_program = {"vtk": [test_vtk], "assimp": [test_assimp]}
-            tests = of_program[sys.argv[2]] if len(sys.argv) > 2 else [test_csv, test_xdmf, test_glb, test_vrml, test_ply]
+            tests = of_program[sys.argv[2]] if len(sys.argv) > 2 else [test_csv, test_xdmf, test_glb, test_light_map, test_vrml, test_ply]
             for test in tests:
                 test(exports, result)
                 print(test.__name__, "passed")

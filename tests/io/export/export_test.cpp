@@ -7,12 +7,15 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
 #include "io/export/format.h"
+#include "io/export/light_map.h"
 #include "io/scene/file.h"
+#include "tests/support/png.h"
 #include "tests/support/refusal_of.h"
 #include "tests/support/small_result.h"
 #include "tests/support/work_folder.h"
@@ -99,6 +102,126 @@ TEST(Export, GltfHasANodePerObject) {
   export_result(ResultReader(path), rules, path_of("nodes.glb"));
   const auto model = read_scene_file(path_of("nodes.glb"), {});
   EXPECT_EQ(model.object_names, ResultReader(path).strings("object_name"));
+}
+
+/// The texture of a light map, as a viewer reads it.
+test::Png texture_of(const LightMap& map, const std::string& name) {
+  std::ofstream(path_of(name), std::ios::binary) << map.png();
+  return test::read_png(path_of(name));
+}
+
+/// What a viewer shows at these weights of a patch's corners: between the four nearest texels in
+/// proportion.
+Colour filtered(const test::Png& texture, const LightMap& map, std::size_t patch,
+                std::array<double, 3> weights) {
+  double u = 0, v = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    u += weights[k] * static_cast<double>(map.place(patch, k)[0]) * texture.width;
+    v += weights[k] * static_cast<double>(map.place(patch, k)[1]) * texture.height;
+  }
+  const double left = std::floor(u - 0.5), top = std::floor(v - 0.5);
+  Colour sum;
+  for (const double i : {0.0, 1.0})
+    for (const double j : {0.0, 1.0}) {
+      const Colour texel = texture.at(left + i, top + j);
+      const double share = (1 - std::abs(u - 0.5 - left - i)) * (1 - std::abs(v - 0.5 - top - j));
+      sum.red += share * texel.red;
+      sum.green += share * texel.green;
+      sum.blue += share * texel.blue;
+    }
+  return sum;
+}
+
+/// Corners, and points along edges and inside.
+constexpr std::array<std::array<double, 3>, 6> points_of_patch{
+    {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0.5, 0}, {0, 0.25, 0.75}, {0.3, 0.3, 0.4}}};
+constexpr double half_a_byte = 0.51 / 255;
+
+TEST(LightMap, EveryPatchHasItsOwnColourRightUpToItsEdges) {
+  ExportColours colours;
+  for (int i = 0; i < 23; ++i) colours.patch_step.push_back(i % 2 == 0 ? 0 : 1023);
+  colours.patch_step.back() = -1;
+  const LightMap map(colours, "result.h5");
+  const auto texture = texture_of(map, "constant.png");
+  ASSERT_EQ(texture.width, map.width());
+  ASSERT_EQ(texture.height, map.height());
+  for (std::size_t i = 0; i < colours.patch_step.size(); ++i)
+    for (const auto& weights : points_of_patch)
+      EXPECT_LE(test::difference(filtered(texture, map, i, weights),
+                                 export_colour(colours.palette, colours.patch_step[i])),
+                half_a_byte)
+          << i;
+}
+
+TEST(LightMap, StepsRunEvenlyBetweenCorners) {
+  ExportColours colours;
+  colours.patch_step = {0, 0, 0, 0, 0};
+  colours.corner_step = {{0, 1023, 512}, {1023, 0, 0}, {700, 700, 700}, {-1, 300, 900}, {5, 4, 3}};
+  const LightMap map(colours, "result.h5");
+  const auto texture = texture_of(map, "interpolated.png");
+  for (const std::size_t patch : {0, 1, 2, 4})
+    for (const auto& weights : points_of_patch) {
+      const auto& steps = colours.corner_step[patch];
+      const double step = weights[0] * steps[0] + weights[1] * steps[1] + weights[2] * steps[2];
+      // Texels are flat and steps end at those of the corners: half a texel of the slope.
+      EXPECT_LE(test::difference(filtered(texture, map, patch, weights),
+                                 export_colour(colours.palette, std::lround(step))),
+                0.13)
+          << patch << " " << step;
+    }
+  // Colours in the middle are those of the scale, not mixed ones: half-way from first to last.
+  EXPECT_LE(test::difference(filtered(texture, map, 1, {0.5, 0.25, 0.25}),
+                             export_colour(colours.palette, 512)),
+            0.03);
+  // A corner of which nothing is known is grey; the others are as they are.
+  EXPECT_LE(test::difference(filtered(texture, map, 3, {1, 0, 0}), back_colour), half_a_byte);
+  EXPECT_LE(
+      test::difference(filtered(texture, map, 3, {0, 1, 0}), export_colour(colours.palette, 300)),
+      half_a_byte);
+}
+
+TEST(LightMap, PlacesAreTheSameWhateverItShows) {
+  ExportColours some, others;
+  some.patch_step.assign(1000, 1);
+  others.patch_step.assign(1000, 900);
+  const LightMap one(some, "a.h5"), other(others, "b.h5");
+  for (const std::size_t i : {0, 31, 32, 999})
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(one.place(i, k), other.place(i, k));
+      EXPECT_GT(one.place(i, k)[0], 0);
+      EXPECT_LT(one.place(i, k)[1], 1);
+    }
+}
+
+TEST(LightMap, RefusesMorePatchesThanATextureHolds) {
+  ExportColours colours;
+  colours.patch_step.assign(2048 * 2048 + 1, 0);
+  EXPECT_NE(test::refusal_of([&] { LightMap(colours, "big.h5"); }).find("4194304"),
+            std::string::npos);
+  colours.patch_step.assign(2048 * 2048, 0);
+  EXPECT_EQ(LightMap(colours, "big.h5").width(), 8192);
+}
+
+TEST(Export, GltfWithALightMapIsTheSameModel) {
+  const auto path = write_small_result(awkward_names(), "export_lightmap");
+  ExportRules rules;
+  rules.format = "glb";
+  export_result(ResultReader(path), rules, path_of("plain.glb"));
+  for (const bool interpolate : {false, true}) {
+    rules.light_map = true;
+    rules.interpolate = interpolate;
+    export_result(ResultReader(path), rules, path_of("lightmap.glb"));
+    const auto plain = read_scene_file(path_of("plain.glb"), {});
+    const auto mapped = read_scene_file(path_of("lightmap.glb"), {});
+    EXPECT_EQ(mapped.object_names, plain.object_names);
+    ASSERT_EQ(mapped.polygon_count(), plain.polygon_count());
+    for (std::size_t i = 0; i < plain.polygon_count(); ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_EQ(corner_read(mapped, i, k), corner_read(plain, i, k));
+    EXPECT_EQ(count_of(bytes_of(path_of("lightmap.glb")), "COLOR_0"), 0u);
+  }
+  EXPECT_NE(refusal({.format = "vrml", .light_map = true}, path_of("a.wrl")).find("--to glb"),
+            std::string::npos);
 }
 
 TEST(Export, TablesHaveARowPerPatchOrTime) {
