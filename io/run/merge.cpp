@@ -31,6 +31,7 @@ void write_selections(BandWriter& writer, const Totals& totals, const ResultGeom
   std::vector<FacadeMeans> means;
   for (const auto& flags : geometry.selected) {
     std::vector<std::int32_t> entry;
+    entry.reserve(flags.size());
     for (const auto flag : flags) entry.push_back(flag != 0 ? 0 : -1);
     means.emplace_back(std::move(entry), geometry.patch_area, 1);
   }

@@ -159,13 +159,14 @@ TEST(LightMap, StepsRunEvenlyBetweenCorners) {
   colours.corner_step = {{0, 1023, 512}, {1023, 0, 0}, {700, 700, 700}, {-1, 300, 900}, {5, 4, 3}};
   const LightMap map(colours, "result.h5");
   const auto texture = texture_of(map, "interpolated.png");
-  for (const std::size_t patch : {0, 1, 2, 4})
+  for (const std::size_t patch : {0u, 1u, 2u, 4u})
     for (const auto& weights : points_of_patch) {
       const auto& steps = colours.corner_step[patch];
       const double step = weights[0] * steps[0] + weights[1] * steps[1] + weights[2] * steps[2];
       // Texels are flat and steps end at those of the corners: half a texel of the slope.
-      EXPECT_LE(test::difference(filtered(texture, map, patch, weights),
-                                 export_colour(colours.palette, std::lround(step))),
+      EXPECT_LE(test::difference(
+                    filtered(texture, map, patch, weights),
+                    export_colour(colours.palette, static_cast<std::int32_t>(std::lround(step)))),
                 0.13)
           << patch << " " << step;
     }
@@ -185,7 +186,7 @@ TEST(LightMap, PlacesAreTheSameWhateverItShows) {
   some.patch_step.assign(1000, 1);
   others.patch_step.assign(1000, 900);
   const LightMap one(some, "a.h5"), other(others, "b.h5");
-  for (const std::size_t i : {0, 31, 32, 999})
+  for (const std::size_t i : {0u, 31u, 32u, 999u})
     for (std::size_t k = 0; k < 3; ++k) {
       EXPECT_EQ(one.place(i, k), other.place(i, k));
       EXPECT_GT(one.place(i, k)[0], 0);
@@ -220,8 +221,10 @@ TEST(Export, GltfWithALightMapIsTheSameModel) {
         EXPECT_EQ(corner_read(mapped, i, k), corner_read(plain, i, k));
     EXPECT_EQ(count_of(bytes_of(path_of("lightmap.glb")), "COLOR_0"), 0u);
   }
-  EXPECT_NE(refusal({.format = "vrml", .light_map = true}, path_of("a.wrl")).find("--to glb"),
-            std::string::npos);
+  ExportRules as_vrml;
+  as_vrml.format = "vrml";
+  as_vrml.light_map = true;
+  EXPECT_NE(refusal(as_vrml, path_of("a.wrl")).find("--to glb"), std::string::npos);
 }
 
 TEST(Export, TablesHaveARowPerPatchOrTime) {
