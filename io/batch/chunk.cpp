@@ -115,7 +115,30 @@ void shuffled(const Piece& piece, Bytes& planes) {
   }
 }
 
-/// What makes it not worth while to deflate a plane.
+/// Part of a plane: bytes that are all alike, as of nights and of padding, or others.
+struct Stretch {
+  std::size_t begin = 0, end = 0;
+  bool is_run = false;
+};
+
+/// A plane from begin to end, looked at in pieces: what repeats less long is nothing to gain from.
+std::vector<Stretch> stretches_of(const unsigned char* plane, std::size_t count) {
+  constexpr std::size_t piece = 512;
+  std::vector<Stretch> found;
+  for (std::size_t begin = 0; begin < count; begin += piece) {
+    const std::size_t end = std::min(count, begin + piece);
+    const bool is_run = std::memcmp(plane + begin, plane + begin + 1, end - begin - 1) == 0;
+    const bool goes_on = !found.empty() && found.back().is_run == is_run &&
+                         (!is_run || plane[begin] == plane[begin - 1]);
+    if (goes_on)
+      found.back().end = end;
+    else
+      found.push_back({begin, end, is_run});
+  }
+  return found;
+}
+
+/// What makes it not worth while to deflate a plane: of what is no run in it.
 struct NoiseRule {
   double least_bits;    ///< of entropy per byte
   double most_repeats;  ///< share of bytes that are their neighbour's
@@ -123,32 +146,34 @@ struct NoiseRule {
 };
 
 /// Where deflate gains at most 2.5 %: bytes are nearly equally frequent and hardly ever repeat
-/// their neighbour (noise: 1 / 256; the rest may be dark rows), as the last bits of a Monte Carlo
-/// estimate are.
+/// their neighbour (noise: 1 / 256), as the last bits of a Monte Carlo estimate are.
 constexpr NoiseRule pure_noise{7.8, 1.0 / 32, 1};
 /// As long as one waits for it: the plane of a mantissa's first bits costs half of all the time for
-/// 5 % of the size (measured on a street, 8 realizations). Rows without light, of many repeats, are
-/// still deflated.
+/// 5 % of the size (measured on a street, 8 realizations).
 constexpr NoiseRule mostly_noise{7.5, 1.0 / 4, 4};
 constexpr int patient_level = 6;
 /// libdeflate's fastest, below it: its level 4 takes twice as long for planes that are no noise,
 /// and saves 0.5 % of the size.
 constexpr int quick_level = 1;
 
-bool is_noise(const unsigned char* plane, std::size_t count, NoiseRule rule) {
+bool is_noise(const unsigned char* plane, const std::vector<Stretch>& stretches, NoiseRule rule) {
   constexpr std::size_t piece = 200;  // no divisor of a row: other columns in every row
   // Four counts at a time: equal bytes in a row would wait for each other.
   constexpr std::size_t lanes = 4;
   std::array<std::array<std::uint32_t, 256>, lanes> frequency{};
   std::size_t repeats = 0, looked_at = 0;
-  for (std::size_t begin = 0; begin < count; begin += rule.one_of * piece) {
-    const unsigned char* from = plane + begin;
-    const std::size_t length = std::min(piece, count - begin);
-    for (std::size_t k = 0; k < length; ++k) ++frequency[k % lanes][from[k]];
-    for (std::size_t k = 1; k < length; ++k) repeats += from[k] == from[k - 1];
-    looked_at += length;
+  for (const Stretch& stretch : stretches) {
+    if (stretch.is_run) continue;
+    for (std::size_t begin = stretch.begin; begin < stretch.end; begin += rule.one_of * piece) {
+      const unsigned char* from = plane + begin;
+      const std::size_t length = std::min(piece, stretch.end - begin);
+      for (std::size_t k = 0; k < length; ++k) ++frequency[k % lanes][from[k]];
+      for (std::size_t k = 1; k < length; ++k) repeats += from[k] == from[k - 1];
+      looked_at += length;
+    }
   }
-  double bits = 0;  // Shannon's entropy
+  if (looked_at == 0) return true;  // runs, which take no room
+  double bits = 0;                  // Shannon's entropy
   for (std::size_t byte = 0; byte < frequency[0].size(); ++byte) {
     std::uint32_t f = 0;
     for (const auto& lane : frequency) f += lane[byte];
@@ -194,7 +219,85 @@ unsigned char* put_stored(unsigned char* to, const unsigned char* from, std::siz
   return to;
 }
 
-/// A zlib stream (RFC 1950) that stores the leading planes of noise, where
+/// Bits of a deflate block, one code after another (RFC 1951, 3.1.1).
+class BitWriter {
+ public:
+  explicit BitWriter(unsigned char* to) : to_(to) {}
+
+  /// The lowest bit comes first, as of numbers.
+  void number(unsigned value, int bits) {
+    room_ |= std::uint64_t{value} << count_;
+    for (count_ += bits; count_ >= 8; count_ -= 8, room_ >>= 8)
+      *to_++ = static_cast<unsigned char>(room_);
+  }
+  /// The highest bit comes first, as of Huffman codes.
+  void code(unsigned value, int bits) {
+    for (int bit = bits - 1; bit >= 0; --bit) number((value >> bit) & 1U, 1);
+  }
+  /// Where whole bytes go on.
+  unsigned char* end_of_byte() {
+    if (count_ > 0) number(0, 8 - count_);
+    return to_;
+  }
+
+ private:
+  unsigned char* to_;
+  std::uint64_t room_ = 0;
+  int count_ = 0;
+};
+
+/// A block of fixed Huffman codes (RFC 1951, 3.2.6), not the last one, that stands for `count`
+/// times `byte`: it once, then copies of what is one byte before. An empty stored block ends it
+/// with a whole byte. Where it ends; it takes less than `count` / 64 + 64 bytes.
+unsigned char* put_run(unsigned char* to, unsigned char byte, std::size_t count) {
+  constexpr unsigned fixed_codes = 1, end_of_block = 0, one_byte_before = 0;
+  constexpr std::size_t longest = 258;               // the longest copy, of code 285
+  constexpr std::size_t shortest = 3, of_code = 10;  // copies of codes 257 … 264
+  BitWriter bits(to);
+  const auto literal = [&] {
+    byte < 144 ? bits.code(0x30U + byte, 8) : bits.code(0x190U + byte - 144U, 9);
+  };
+  const auto copy = [&](std::size_t length) {
+    length == longest ? bits.code(0xc5, 8)
+                      : bits.code(static_cast<unsigned>(length - shortest + 1), 7);
+    bits.code(one_byte_before, 5);
+  };
+  bits.number(fixed_codes << 1U, 3);
+  literal();
+  std::size_t left = count - 1;
+  for (; left >= longest; left -= longest) copy(longest);
+  for (; left >= of_code; left -= of_code) copy(of_code);
+  if (left >= shortest)
+    copy(left);
+  else
+    for (; left > 0; --left) literal();
+  bits.code(end_of_block, 7);
+  bits.number(0, 3);
+  to = put_number(bits.end_of_byte(), 0, 2, std::endian::little);
+  return put_number(to, 0xffff, 2, std::endian::little);
+}
+
+/// A plane that is not searched for matches: its runs, and the rest as it is.
+unsigned char* put_plane(unsigned char* to, const unsigned char* plane,
+                         const std::vector<Stretch>& stretches) {
+  for (const Stretch& of : stretches)
+    to = of.is_run ? put_run(to, plane[of.begin], of.end - of.begin)
+                   : put_stored(to, plane + of.begin, of.end - of.begin);
+  return to;
+}
+
+/// Bytes that `put_plane` takes at most.
+std::size_t most_bytes(const std::vector<Stretch>& stretches) {
+  constexpr std::size_t of_run = 64;
+  std::size_t bytes = 0;
+  for (const Stretch& of : stretches) {
+    const std::size_t count = of.end - of.begin;
+    bytes += of.is_run ? count / 64 + of_run : count + stored_head * (count / longest_stored + 1);
+  }
+  return bytes;
+}
+
+/// A zlib stream (RFC 1950) that stores the leading planes of noise, but for their runs, where
 /// matching costs most and gains least, and deflates the rest. Empty where it
 /// would not be shorter than the planes.
 Bytes zlib_stream(const Bytes& planes, std::size_t values, int level) {
@@ -202,19 +305,22 @@ Bytes zlib_stream(const Bytes& planes, std::size_t values, int level) {
   constexpr std::size_t check_bytes = 4;
   const bool is_patient = level >= patient_level;
   const NoiseRule rule = is_patient ? pure_noise : mostly_noise;
-  std::size_t stored = 0;
-  while (stored + values < planes.size() && is_noise(planes.data() + stored, values, rule))
-    stored += values;
-
   thread_local Bytes stream;  // fresh memory of a megabyte costs more than what is done with it
-  stream.resize(std::max(stream.size(),
-                         planes.size() + stored_head * (planes.size() / longest_stored + 1) + 2));
-  unsigned char* to = stream.data();
-  *to++ = method_and_window;
-  *to++ = check_bits;
-  to = put_stored(to, planes.data(), stored);
-  const auto head = static_cast<std::size_t>(to - stream.data());
+  stream.resize(std::max<std::size_t>(stream.size(), 2));
+  stream[0] = method_and_window;
+  stream[1] = check_bits;
+  std::size_t stored = 0, head = 2;
+  for (; stored + values < planes.size(); stored += values) {
+    const unsigned char* plane = planes.data() + stored;
+    const auto stretches = stretches_of(plane, values);
+    if (!is_noise(plane, stretches, rule)) break;
+    stream.resize(std::max(stream.size(), head + most_bytes(stretches)));
+    head =
+        static_cast<std::size_t>(put_plane(stream.data() + head, plane, stretches) - stream.data());
+  }
   if (head + check_bytes >= planes.size()) return {};
+  stream.resize(std::max(stream.size(), planes.size()));
+  unsigned char* to = stream.data() + head;
   const Compressor compressor(is_patient ? level : quick_level);
   const std::size_t length =
       libdeflate_deflate_compress(compressor.get(), planes.data() + stored, planes.size() - stored,

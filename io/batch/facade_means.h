@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "solver/base/threads.h"
+
 namespace sunload {
 
 /// What the area of a facade divides: every patch's term, or their sum. The two differ by a
@@ -29,13 +31,14 @@ class FacadeMeans {
     const std::size_t N = facade_.size(), F = area_.size();
     const std::size_t rows = N > 0 ? values.size() / N : 0;
     std::vector<double> means(rows * F, 0);
-    for (std::size_t row = 0; row < rows; ++row)
+    parallel_for(rows, [&](std::size_t row) {
       for (std::size_t i = 0; i < N; ++i)
         if (facade_[i] >= 0) {
           const auto f = static_cast<std::size_t>(facade_[i]);
           const double term = patch_area_[i] * static_cast<double>(values[row * N + i]);
           means[row * F + f] += divided == Divided::terms ? term / area_[f] : term;
         }
+    });
     if (divided == Divided::sums)
       for (std::size_t at = 0; at < means.size(); ++at)
         if (area_[at % F] > 0) means[at] /= area_[at % F];

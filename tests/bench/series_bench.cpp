@@ -3,7 +3,8 @@
 // How fast series become chunks, batch files and a result; processor time, as others may use the
 // machine:
 //   series_bench RESULT.h5 [FOLDER] [BATCHES]
-// Rows of the result's irradiance with light, repeated to 60 000 patches and batches of 64 suns.
+// Rows of the result's irradiance with light, repeated to 60 000 patches and batches of 64 suns;
+// of chunks also rows as they come, with those of the nights.
 // FOLDER: where files go (default: none are written). A second on N processors is N seconds of
 // processor time.
 #include <fmt/format.h>
@@ -57,19 +58,38 @@ void tell(const std::string& what, std::size_t bytes, Spent time, const std::str
              static_cast<double>(bytes) / mega / time.wall_s, more);
 }
 
-std::vector<float> lit_rows(const ResultReader& result) {
+enum class Rows { lit, all };
+
+/// Rows of a quarter of the period on (of a year, of days as long as their nights).
+std::vector<float> rows_of(const ResultReader& result, Rows rows) {
   const auto shape = result.shape("irradiance");
-  const auto all = result.rows("irradiance", 0, std::min(suns, shape[0]));
-  std::vector<std::vector<double>> lit;
+  const std::size_t count = std::min(suns, shape[0]);
+  const auto all = result.rows("irradiance", std::min(shape[0] / 4, shape[0] - count), count);
+  std::vector<std::vector<double>> chosen;
   for (auto row = all.begin(); row != all.end(); row += static_cast<std::ptrdiff_t>(shape[1]))
     if (const auto end = row + static_cast<std::ptrdiff_t>(shape[1]);
-        std::any_of(row, end, [](double v) { return v > 0; }))
-      lit.emplace_back(row, end);
+        rows == Rows::all || std::any_of(row, end, [](double v) { return v > 0; }))
+      chosen.emplace_back(row, end);
   std::vector<float> values(suns * patches);
   for (std::size_t k = 0; k < suns; ++k)
     for (std::size_t p = 0; p < patches; ++p)
-      values[k * patches + p] = static_cast<float>(lit[k % lit.size()][p % shape[1]]);
+      values[k * patches + p] = static_cast<float>(chosen[k % chosen.size()][p % shape[1]]);
   return values;
+}
+
+void tell_chunks(const std::vector<float>& values, const std::string& of) {
+  const std::size_t bytes = values.size() * sizeof(float);
+  for (const int level : {0, 1, 4, 6}) {
+    std::size_t size = 0;
+    const auto time = best([&] {
+      size = 0;
+      for (const auto& chunk :
+           encoded_chunks(values.data(), suns, patches, {suns, patches_per_chunk}, level))
+        size += chunk.size();
+    });
+    tell(fmt::format("{}, chunks at level {}", of, level), bytes, time,
+         fmt::format("({:.2f}:1)", static_cast<double>(bytes) / static_cast<double>(size)));
+  }
 }
 
 ArraySpec series(std::size_t rows) {
@@ -135,22 +155,14 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "series_bench RESULT.h5 [FOLDER] [BATCHES]\n");
     return 2;
   }
-  const auto values = lit_rows(ResultReader(argv[1]));
+  const ResultReader result(argv[1]);
+  const auto values = rows_of(result, Rows::lit);
   const std::size_t bytes = values.size() * sizeof(float);
   std::vector<float> copy(values.size());
   tell("memcpy", bytes, best([&] { std::memcpy(copy.data(), values.data(), bytes); }),
        fmt::format("({} threads)", thread_count()));
-  const ChunkShape shape{suns, patches_per_chunk};
-  for (const int level : {0, 1, 4, 6}) {
-    std::size_t size = 0;
-    const auto time = best([&] {
-      size = 0;
-      for (const auto& chunk : encoded_chunks(values.data(), suns, patches, shape, level))
-        size += chunk.size();
-    });
-    tell(fmt::format("chunks at level {}", level), bytes, time,
-         fmt::format("({:.2f}:1)", static_cast<double>(bytes) / static_cast<double>(size)));
-  }
+  tell_chunks(values, "lit");
+  tell_chunks(rows_of(result, Rows::all), "days and nights");
   constexpr std::size_t usual_batches = 16;
   if (argc > 2) write_year(values, argv[2], argc > 3 ? std::stoul(argv[3]) : usual_batches);
   return 0;

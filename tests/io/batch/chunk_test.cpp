@@ -55,6 +55,61 @@ TEST(Chunk, RoundTripAndPadding) {
   }
 }
 
+/// Rows of days and nights, the light of an instant much the same on all patches.
+std::vector<float> days_and_nights(std::size_t rows, std::size_t columns) {
+  std::mt19937 random(5);
+  std::vector<float> values;
+  for (std::size_t i = 0; i < rows * columns; ++i) {
+    const std::size_t hour = i / columns % 24;
+    const bool is_dark = hour < 7 || hour > 17;
+    const float noise = static_cast<float>(random()) * 0x1p-32F;
+    values.push_back(is_dark ? 0.0F : (1.0F + noise) * 100.0F);
+  }
+  return values;
+}
+
+TEST(Chunk, NightsTakeNoRoom) {
+  constexpr std::size_t rows = 64, dark_rows = 29, lit_rows = rows - dark_rows;
+  for (const std::size_t columns : {std::size_t{4096}, std::size_t{2469}, std::size_t{5000}}) {
+    const auto values = days_and_nights(rows, columns);
+    const ChunkShape of{rows, std::min(shape.columns, columns)};
+    for (const int level : {1, 4, 6, 9}) {
+      const auto chunks = encoded_chunks(values.data(), rows, columns, of, level);
+      // The last bits of the mantissa are noise, the exponent's byte has two values.
+      EXPECT_LT(chunks.front().size(), lit_rows * of.columns * 13 / 4);
+      for (std::size_t c = 0; c < chunks.size(); ++c) {
+        const auto back = decoded_chunk(chunks[c], of);
+        for (std::size_t i = 0; i < back.size(); ++i) {
+          const std::size_t column = c * of.columns + i % of.columns;
+          if (column < columns) {
+            ASSERT_EQ(back[i], values[i / of.columns * columns + column]);
+          } else {
+            ASSERT_TRUE(std::isnan(back[i]));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Chunk, RunsOfAnyLengthAndByte) {
+  // Noise, then a run of any length: it begins and ends anywhere within the pieces looked at.
+  std::mt19937 random(6);
+  for (const std::uint32_t byte : {0x00U, 0x8fU, 0x90U, 0xffU})
+    for (std::size_t run = 3500; run < 3800; ++run) {
+      const ChunkShape row{1, 16'384};
+      std::vector<float> values;
+      for (std::size_t i = 0; i < row.columns; ++i) {
+        const bool is_run = i >= row.columns - run;
+        const std::uint32_t noise = static_cast<std::uint32_t>(random()) & 0xffffffU;
+        values.push_back(std::bit_cast<float>(0x42000000U | (is_run ? byte * 0x10101U : noise)));
+      }
+      const auto chunk = encoded_chunks(values.data(), 1, row.columns, row, 4).at(0);
+      EXPECT_LT(chunk.size(), 3 * (row.columns - run) + 2400);
+      ASSERT_EQ(decoded_chunk(chunk, row), values);
+    }
+}
+
 /// Nearest value of so many bits by doubles, halves to even.
 float nearest(float value, int bits) {
   if (value == 0 || !std::isfinite(value)) return value;
