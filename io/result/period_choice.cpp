@@ -54,7 +54,12 @@ Holds season_holds(const std::string& text, double latitude_deg, const OwnSeason
   if (name == season_names.end()) {
     std::vector<std::string> known = own.names;
     known.insert(known.end(), season_names.begin(), season_names.end());
-    refuse("season", text, fmt::format("{}", fmt::join(known, ", ")));
+    // Steps of a series that lie in several seasons leave the result without the study's own.
+    refuse("season", text,
+           fmt::format("{}{}", fmt::join(known, ", "),
+                       own.names.empty() ? "; or one of the study's own seasons, where it has such "
+                                           "and no step of its series lies in two of them"
+                                         : ""));
   }
   const auto season = static_cast<std::size_t>(name - season_names.begin());
   return [=](const Instant& at) { return season_of(at.civil.month, latitude_deg) == season; };

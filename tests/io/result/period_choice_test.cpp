@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <string>
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
@@ -76,6 +77,21 @@ TEST(PeriodChoice, KnowsTheSeasonsOfTheStudyBeforeThoseOfTheCalendar) {
   EXPECT_EQ(hours_of({.season = "winter", .hours = "8-12"}, -50), 4);
   EXPECT_EQ(hours_of({.season = "summer"}, 50), 24);
   EXPECT_THROW(hours_of({.season = "snow"}, 50), InputError);
+}
+
+/// Where the study had seasons and the result has none, its steps are why.
+TEST(PeriodChoice, TellsWhySeasonsOfTheStudyMayBeMissing) {
+  const auto refusal = [](const OwnSeasons& own) {
+    try {
+      chosen_shares({.season = "snow"}, two_days(), zone, 50, own);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal({}).find("no step of its series lies in two of them"), std::string::npos);
+  EXPECT_NE(refusal(two_seasons()).find("my_days"), std::string::npos);
+  EXPECT_EQ(refusal(two_seasons()).find("step"), std::string::npos);
 }
 
 TEST(PeriodChoice, RefusesWhatSaysNothing) {
