@@ -337,7 +337,7 @@ Closure closure(const std::vector<DatedWeather>& weather, const SunPath& path,
   ShiftedClosure shifted(sun);
   Closure result;
   for (std::size_t i = 0; i < path.size(); ++i) {
-    const auto& [dni, dhi, ghi] = weather[i].values;
+    const auto& [dni, dhi, ghi, albedo] = weather[i].values;
     if (!dni || !dhi || !ghi || path[i].up_s <= 0) continue;
     const double residual = *dni * sine_of_elevation(path[i].sun.elevation_deg) + *dhi - *ghi;
     ++result.intervals;

@@ -24,6 +24,7 @@ enum class Stamp { start, middle, end };
 /// What a file says about one stretch; absent: no such column, or a missing value.
 struct WeatherValues {
   std::optional<double> dni, dhi, ghi;
+  std::optional<double> albedo{};  ///< of the ground, in (0, 1)
 };
 
 /// One row of a weather file, in local standard time.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geo/time/time.h"
+#include "io/plan/light_series.h"
 #include "io/study/study.h"
 
 namespace sunload {
@@ -15,8 +16,9 @@ class FarGround {
  public:
   explicit FarGround(const Study& study);
 
-  /// Of the last season that holds then and has one, else as always.
-  double albedo(UnixTime time) const;
+  /// Of the last season that holds in the middle of the interval and has one, else as always, or
+  /// as the weather says, which must tell it (io/plan/weather_albedo.h).
+  double albedo(const LitInterval& interval) const;
 
  private:
   struct Season {
@@ -24,6 +26,7 @@ class FarGround {
     double albedo;
   };
   double always_;
+  bool is_of_weather_;
   std::vector<Season> seasons_;  ///< in the order of the study's seasons
   TimeZone zone_;
 };

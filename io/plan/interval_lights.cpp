@@ -32,7 +32,7 @@ IntervalLight IntervalLights::of(const LitInterval& interval, std::size_t number
   const Irradiance source = source_means(interval, light_.quantity);
   sun.dni = source.dni;
   sun.dhi = source.dhi;
-  sun.ground_exitance = far_ground_.albedo((when.begin + when.end) / 2) * source.ghi;
+  sun.ground_exitance = far_ground_.albedo(interval) * source.ghi;
   sun.length_s = when.length_s();
   sun.sunlit_s = when.sunlit_s;
   sun.disk_half_angle = disk_half_angle(disk_, when.sun.distance_au);

@@ -214,6 +214,11 @@ void add_weather(const Study& study, const Site& site, LightSeries& series) {
   const auto means = weather.means(path);
   for (std::size_t i = 0; i < path.size(); ++i)
     series.intervals.push_back(measured_light(path[i], means[i]));
+  const DayAlbedos albedos = weather.albedos(path);
+  for (std::size_t i = 0; i < albedos.of_interval.size(); ++i)
+    series.intervals[i].albedo = albedos.of_interval[i];
+  series.days = albedos.days;
+  series.days_without_albedo = albedos.filled;
   series.weather = weather.words();
   series.notes.insert(series.notes.end(), weather.warnings().begin(), weather.warnings().end());
   series.weather_sha256 = sha256_of_file(study.light.weather);

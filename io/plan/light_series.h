@@ -21,6 +21,8 @@ struct LitInterval {
   Irradiance of_the_sky;  ///< what the sky's shape follows from: DNI while the sun is up
   /// Given where a model's luminance was made into irradiance by it.
   std::optional<LuminousEfficacy> lm_per_w{};
+  /// Of the ground on that day, in (0, 1), where a weather file tells it.
+  std::optional<double> albedo{};
 };
 
 /// Whether neither sun nor sky shines: the solver passes such intervals over unless something in
@@ -33,7 +35,9 @@ struct LightSeries {
   bool times_are_synthetic = false;  ///< `positions`: time counts from 2000-01-01T12:00Z
   std::vector<std::string> weather;  ///< the weather file in words; empty without one
   std::string weather_sha256;        ///< of its bytes
-  std::vector<std::string> notes;    ///< what happened at clock changes, table ends, …
+  /// Days with sun, and those of them whose albedo is that of the nearest day that has one.
+  std::size_t days = 0, days_without_albedo = 0;
+  std::vector<std::string> notes;  ///< what happened at clock changes, table ends, …
   /// Intervals in [begin, end) that are not dark.
   std::size_t lit_count(std::size_t begin, std::size_t end) const;
   std::size_t lit_count() const { return lit_count(0, intervals.size()); }

@@ -22,8 +22,8 @@ constexpr double rounding = 1e-9;  // of sums of shares
 
 /// Whether a study's material leaves reflection to what the file or the table says of its name.
 bool says_nothing(const MaterialStudy& m) {
-  return !m.diffuse && !m.mirror && std::holds_alternative<ConstantShares>(m.smooth) &&
-         m.glossy == 0 && m.transmittance == 0;
+  return !m.diffuse && !m.diffuse_of_weather && !m.mirror &&
+         std::holds_alternative<ConstantShares>(m.smooth) && m.glossy == 0 && m.transmittance == 0;
 }
 
 bool says_nothing(const FileMaterial& m) { return !m.diffuse && !m.mirror; }
@@ -72,9 +72,9 @@ Where where_named(const SceneStudy& study, const std::string& material) {
 class MaterialAssigner {
  public:
   MaterialAssigner(const Study& study, const SceneFrame& frame, Scene& scene,
-                   std::vector<std::string>& warnings, const std::vector<std::string>& seasons)
+                   std::vector<std::string>& warnings, const MaterialsWhen& when)
       : study_(study),
-        seasons_(seasons),
+        when_(when),
         scene_(scene),
         warnings_(warnings),
         emission_(emission_per_area(study.scene, scene.mesh)),
@@ -213,7 +213,7 @@ class MaterialAssigner {
   const MaterialStudy* in_season(const MaterialStudy* source) const {
     if (source == nullptr || source->seasons.empty()) return source;
     const MaterialStudy* now = source;
-    for (const std::string& season : seasons_)
+    for (const std::string& season : when_.seasons)
       for (const SeasonMaterial& in : source->seasons)
         if (in.season == season) now = &named(in.material);
     return now;
@@ -294,7 +294,9 @@ class MaterialAssigner {
             : nullptr;
     Material m;
     m.name = study.name;
-    m.diffuse = study.diffuse.value_or(file ? file->diffuse.value_or(0) : 0);
+    m.diffuse = study.diffuse_of_weather
+                    ? when_.albedo
+                    : study.diffuse.value_or(file ? file->diffuse.value_or(0) : 0);
     // Nobody says what it reflects; lamps without reflectance are black.
     if (says_nothing(study) && study.emission_w_m2 == 0 && !(file && !says_nothing(*file))) {
       m.diffuse = default_reflectance;
@@ -310,6 +312,7 @@ class MaterialAssigner {
     m.glossy = study.glossy;
     m.glossy_exponent = study.glossy_exponent;
     m.transmittance = study.transmittance;
+    if (study.diffuse_of_weather) return m;
     set_colour(m, study.diffuse ? study.diffuse_rgb : file ? file->diffuse_rgb : std::nullopt);
     return m;
   }
@@ -445,7 +448,7 @@ class MaterialAssigner {
   }
 
   const Study& study_;
-  const std::vector<std::string>& seasons_;
+  const MaterialsWhen& when_;
   Scene& scene_;
   std::vector<std::string>& warnings_;
   std::vector<double> emission_;
@@ -467,8 +470,8 @@ class MaterialAssigner {
 
 std::vector<RuleUse> assign_materials(const Study& study, const SceneFrame& frame, Scene& scene,
                                       std::vector<std::string>& warnings,
-                                      const std::vector<std::string>& seasons) {
-  return MaterialAssigner(study, frame, scene, warnings, seasons).run();
+                                      const MaterialsWhen& when) {
+  return MaterialAssigner(study, frame, scene, warnings, when).run();
 }
 
 }  // namespace sunload

@@ -20,6 +20,17 @@ struct RuleUse {
   double given_m2 = 0;
 };
 
+/// Reflectance of a surface that neither file nor study says anything about:
+/// a mean of European facades and streets (Oke 1987, Boundary Layer Climates,
+/// table 8.2: urban areas 0.10 … 0.27, mean of the range's upper half).
+inline constexpr double default_reflectance = 0.2;
+
+/// What materials depend on besides the scene: when it is.
+struct MaterialsWhen {
+  std::vector<std::string> seasons = {};  ///< in force (`scene.materials.NAME.seasons`)
+  double albedo = default_reflectance;    ///< of materials that reflect as the weather says
+};
+
 /// Fills `scene.materials` and `scene.material`, and lets materials decide the sides of triangles.
 ///
 /// What is more specific goes first. The material of a triangle is that of the last rule of
@@ -33,16 +44,10 @@ struct RuleUse {
 ///
 /// `warnings` gets rules that match nothing, or everything though they choose, or whose faces all
 /// have their material from elsewhere, and the area left to the default.
-/// `seasons`: those in force, in which materials may be others (`scene.materials.NAME.seasons`).
 /// Returns what every rule did. Throws InputError for unknown names and for more light reflected
 /// than received.
 std::vector<RuleUse> assign_materials(const Study& study, const SceneFrame& frame, Scene& scene,
                                       std::vector<std::string>& warnings,
-                                      const std::vector<std::string>& seasons = {});
-
-/// Reflectance of a surface that neither file nor study says anything about:
-/// a mean of European facades and streets (Oke 1987, Boundary Layer Climates,
-/// table 8.2: urban areas 0.10 … 0.27, mean of the range's upper half).
-inline constexpr double default_reflectance = 0.2;
+                                      const MaterialsWhen& when = {});
 
 }  // namespace sunload

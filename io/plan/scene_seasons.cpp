@@ -6,17 +6,30 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "geo/base/check.h"
 #include "geo/mesh/covered.h"
 #include "io/plan/material_assign.h"
 #include "io/plan/seasons_of_plan.h"
+#include "io/plan/weather_albedo.h"
 
 namespace sunload {
 
 namespace {
 
 using Names = std::vector<std::string>;
+
+/// What tells scenes of one period apart: seasons of the study, and how bright the weather says
+/// that the ground is.
+struct Moment {
+  Names seasons;
+  std::optional<int> albedo_step = {};  ///< where a material asks for it
+
+  friend bool operator<(const Moment& a, const Moment& b) {
+    return std::tie(a.seasons, a.albedo_step) < std::tie(b.seasons, b.albedo_step);
+  }
+};
 
 constexpr std::size_t most_seasons = 16;  // each takes memory as a scene of its own
 
@@ -39,34 +52,53 @@ Names in_force(const std::vector<SeasonStudy>& seasons, const CivilTime& time) {
   return names;
 }
 
-/// Of every interval, as numbers of `sets`, which are those that come.
-std::vector<std::uint8_t> seasons_of(const std::vector<SeasonStudy>& seasons, const Study& study,
-                                     const LightSeries& light, std::vector<Names>& sets) {
+/// Of every interval, as numbers of `moments`, which are those that come.
+std::vector<std::uint8_t> moments_of(const std::vector<SeasonStudy>& seasons, const Study& study,
+                                     const LightSeries& light, std::vector<Moment>& moments) {
   const TimeZone zone(study.site.timezone);
-  std::map<Names, std::uint8_t> number_of;
+  const bool by_albedo = has_material_of_weather(study);
+  std::map<Moment, std::uint8_t> number_of;
   std::vector<std::uint8_t> of_interval;
   for (const LitInterval& interval : light.intervals) {
     const UnixTime middle = (interval.when.begin + interval.when.end) / 2;
-    const Names names = in_force(seasons, zone.civil_from_utc(middle));
+    Moment moment{in_force(seasons, zone.civil_from_utc(middle))};
+    if (by_albedo) moment.albedo_step = albedo_step(interval);
     const auto [place, is_new] =
-        number_of.try_emplace(names, static_cast<std::uint8_t>(sets.size()));
-    if (is_new) sets.push_back(names);
-    if (sets.size() > most_seasons)
+        number_of.try_emplace(moment, static_cast<std::uint8_t>(moments.size()));
+    if (is_new) moments.push_back(std::move(moment));
+    if (moments.size() > most_seasons)
       throw InputError(
-          study.seasons.front().where,
-          fmt::format("more than {} seasons and overlaps of them lie in the period", most_seasons),
+          seasons.empty() ? study.scene.where : seasons.front().where,
+          fmt::format("more than {} seasons and overlaps of them{} lie in the period", most_seasons,
+                      by_albedo ? ", with steps of the weather's albedo," : ""),
           "each is computed as a scene of its own", "write fewer");
     of_interval.push_back(place->second);
   }
   return of_interval;
 }
 
+/// Of the intervals of each moment, weighted by their light on level ground; the mean of their
+/// reflected light is then what it would be with every day's own albedo, but for second bounces.
+std::vector<double> mean_albedos(const LightSeries& light,
+                                 const std::vector<std::uint8_t>& of_interval, std::size_t count) {
+  constexpr double of_darkness = 1e-6;  // so that moments without light have a mean, too
+  std::vector<double> weight(count, 0), mean(count, 0);
+  for (std::size_t i = 0; i < of_interval.size(); ++i) {
+    const LitInterval& interval = light.intervals[i];
+    const double energy = (interval.mean.ghi + of_darkness) * interval.when.length_s();
+    weight[of_interval[i]] += energy;
+    mean[of_interval[i]] += energy * *interval.albedo;
+  }
+  for (std::size_t m = 0; m < count; ++m) mean[m] /= weight[m];
+  return mean;
+}
+
 /// Dates of another year, of another half of it: nothing would say that they are without effect.
-void warn_of_absent(const std::vector<SeasonStudy>& seasons, const std::vector<Names>& sets,
+void warn_of_absent(const std::vector<SeasonStudy>& seasons, const std::vector<Moment>& moments,
                     std::vector<std::string>& warnings) {
   for (const SeasonStudy& season : seasons)
-    if (std::none_of(sets.begin(), sets.end(), [&](const Names& set) {
-          return std::find(set.begin(), set.end(), season.name) != set.end();
+    if (std::none_of(moments.begin(), moments.end(), [&](const Moment& moment) {
+          return std::ranges::find(moment.seasons, season.name) != moment.seasons.end();
         }))
       warnings.push_back(
           message(season.where, "season '" + season.name + "' holds in no interval of the period",
@@ -190,14 +222,22 @@ void warn_of_uncovered(const std::vector<SceneSeason>& all, BuiltScene& built) {
       std::count(changes.begin(), changes.end(), 1), names));
 }
 
-SceneSeason season_of(const Study& study, const Names& names, const BuiltScene& built) {
+/// "leafless, snow, albedo 0.31".
+std::string in_words(const MaterialsWhen& when, bool by_albedo) {
+  Names words = when.seasons;
+  if (by_albedo) words.push_back(fmt::format("albedo {:.2f}", when.albedo));
+  return joined(words);
+}
+
+SceneSeason season_of(const Study& study, const MaterialsWhen& when, const BuiltScene& built) {
   Scene scene;
   scene.mesh = built.scene.mesh;
   scene.mesh.triangle_sides = built.sides_of_files;  // by which a file's lamps share their power
   std::vector<std::string> said_before;
-  assign_materials(study, {built.crs, built.site.north_deg}, scene, said_before, names);
-  expect_same_patches(study, built.scene, scene, joined(names));
-  return {joined(names), std::move(scene.materials), std::move(scene.material)};
+  assign_materials(study, {built.crs, built.site.north_deg}, scene, said_before, when);
+  const std::string name = in_words(when, has_material_of_weather(study));
+  expect_same_patches(study, built.scene, scene, name);
+  return {name, std::move(scene.materials), std::move(scene.material)};
 }
 
 }  // namespace
@@ -214,11 +254,18 @@ std::vector<SeasonStretch> SceneSeasons::stretches(std::size_t first, std::size_
 SceneSeasons take_seasons(const Study& study, const LightSeries& light, BuiltScene& built) {
   SceneSeasons seasons;
   const auto matter = seasons_that_matter(study);
-  if (matter.empty() || light.times_are_synthetic) return seasons;
-  std::vector<Names> sets;
-  auto of_interval = seasons_of(matter, study, light, sets);
-  warn_of_absent(matter, sets, built.warnings);
-  for (const Names& names : sets) seasons.all.push_back(season_of(study, names, built));
+  const bool by_albedo = has_material_of_weather(study);
+  if ((matter.empty() && !by_albedo) || light.times_are_synthetic) return seasons;
+  std::vector<Moment> moments;
+  auto of_interval = moments_of(matter, study, light, moments);
+  warn_of_absent(matter, moments, built.warnings);
+  const auto albedos =
+      by_albedo ? mean_albedos(light, of_interval, moments.size()) : std::vector<double>();
+  for (std::size_t m = 0; m < moments.size(); ++m) {
+    MaterialsWhen when{moments[m].seasons};
+    if (by_albedo) when.albedo = albedos[m];
+    seasons.all.push_back(season_of(study, when, built));
+  }
   warn_of_uncovered(seasons.all, built);
   join_equal(seasons.all, of_interval);
   if (seasons.all.size() > 1) {

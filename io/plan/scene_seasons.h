@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What a scene is made of in the seasons of its period: leaves fall, snow lies.
+/// What a scene is made of in the seasons of its period, and by the albedo of its weather: leaves
+/// fall, snow lies.
 ///
 /// Geometry, patches and suns stay; lines and light are those of a scene of its own in each of
 /// them. Which season an interval lies in is decided by its middle, in civil time of the site.
@@ -19,7 +20,7 @@ namespace sunload {
 
 /// Stretches of time in which the same seasons of the study are in force.
 struct SceneSeason {
-  std::string name;                  ///< "leafless, snow"; "" where materials are as written
+  std::string name;  ///< "leafless, snow, albedo 0.31"; "" where materials are as written
   std::vector<Material> materials;   ///< as in `Scene`
   std::vector<MaterialId> material;  ///< per triangle
 };

@@ -10,6 +10,7 @@
 #include "io/plan/far_ground.h"
 #include "io/plan/period.h"
 #include "io/plan/scene_build.h"
+#include "io/plan/weather_albedo.h"
 
 namespace sunload {
 
@@ -35,6 +36,7 @@ LitInterval light_at(const Study& study, const Site& site, UnixTime utc,
   moment.period.kind = InstantsPeriod{{{calendar_from_utc(utc), true, true, 0}}, moment_min};
   const LightSeries light = light_series(moment, site);
   notes.insert(notes.end(), light.notes.begin(), light.notes.end());
+  expect_albedos(study, light, notes);
   return light.intervals.front();
 }
 
@@ -103,7 +105,7 @@ SkyDome sky_dome(const Study& study, const std::string& time) {
   return {light,
           sky_of(light, study.light),
           site.horizon,
-          FarGround(study).albedo(utc) * light.mean.ghi / pi,
+          FarGround(study).albedo(light) * light.mean.ghi / pi,
           study.name + (has_place ? ", " + position_text(site) : ""),
           sky_words(study.light),
           iso_local(utc, zone),

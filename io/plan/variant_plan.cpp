@@ -8,6 +8,7 @@
 #include "io/plan/content_hash.h"
 #include "io/plan/mesh_family.h"
 #include "io/plan/study_measures.h"
+#include "io/plan/weather_albedo.h"
 #include "solver/solver.h"
 #include "solver/surface/ray_caster.h"
 
@@ -42,6 +43,7 @@ VariantPlan unhashed_plan_of(const Study& study, BuiltScene built, LightSeries l
   plan.isa = usable_isa(study.solver.isa);
   plan.built = std::move(built);
   plan.light = std::move(light);
+  expect_albedos(study, plan.light, plan.built.warnings);
   plan.seasons = take_seasons(study, plan.light, plan.built);
   if (!study.solver.batch_suns) plan.study.solver.batch_suns = batch_suns_for(plan.intervals());
   plan.totals = part_totals(study, plan.light, plan.built.site.latitude_deg);

@@ -162,6 +162,10 @@ std::vector<Irradiance> StudyWeather::means(const SunPath& path) {
   return resampled.mean;
 }
 
+DayAlbedos StudyWeather::albedos(const SunPath& path) const {
+  return day_albedos(dated_, path, TimeZone(study_.site.timezone));
+}
+
 void StudyWeather::say_file() {
   const WeatherRecord& first = file_.records.front();
   const double offset = offset_s(first_year());

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "geo/sun/day_albedo.h"
 #include "geo/sun/site.h"
 #include "geo/sun/weather.h"
 #include "io/study/study.h"
@@ -27,6 +28,9 @@ class StudyWeather {
   /// Means over the intervals of `path`, which are the own steps or any others. InputError
   /// where the weather does not reach.
   std::vector<Irradiance> means(const SunPath& path);
+
+  /// Of the ground in the intervals of `path`, after `means`: by days of the site's clock.
+  DayAlbedos albedos(const SunPath& path) const;
 
   const std::vector<std::string>& words() const { return words_; }
   const std::vector<std::string>& warnings() const { return warnings_; }

@@ -110,8 +110,9 @@ json canonical(const SunStudy& sun) {
 
 json canonical(const LightStudy& light) {
   const auto& [source, model, linke_turbidity, dni_w_m2, dhi_w_m2, sky, sky_type, turbidity,
-               sky_scale, zenith_luminance_cd_m2, far_ground_albedo, far_ground_seasons, quantity,
-               weather, colour, stamp, missing, decomposition] = light;
+               sky_scale, zenith_luminance_cd_m2, far_ground_albedo, far_ground_of_weather,
+               far_ground_seasons, quantity, weather, colour, stamp, missing, decomposition] =
+      light;
   // The weather file is hashed by its bytes; the colour belongs to the solver's bands.
   json canon = {{"stamp", maybe(stamp)},       {"quantity", word_of(quantity)},
                 {"missing", word_of(missing)}, {"decomposition", word_of(decomposition)},
@@ -122,6 +123,7 @@ json canonical(const LightStudy& light) {
                 {"turbidity", turbidity}};
   // The usual scale has no key: hashes stay those of the time before there was another.
   if (sky_scale != SkyScale::diffuse) canon["sky_scale"] = word_of(sky_scale);
+  if (far_ground_of_weather) canon["far_ground_albedo"] = "weather";
   for (const auto& [season, albedo, place] : far_ground_seasons)
     canon["far_ground_seasons"].push_back({season, albedo});
   if (zenith_luminance_cd_m2) canon["zenith_luminance_cd_m2"] = *zenith_luminance_cd_m2;
@@ -149,7 +151,7 @@ json canonical(const Metal& metal) {
 json canonical(const MaterialStudy& material) {
   // A colour is hashed with the scene, where bands are asked for.
   const auto& [name, diffuse, mirror, diffuse_rgb, emission_w_m2, sides, where, smooth, glossy,
-               glossy_exponent, transmittance, seasons] = material;
+               glossy_exponent, transmittance, seasons, diffuse_of_weather] = material;
   json canon = {{"name", name},
                 {"diffuse", maybe(diffuse)},
                 {"mirror", maybe(mirror)},
@@ -158,6 +160,7 @@ json canonical(const MaterialStudy& material) {
                 {"glossy", glossy},
                 {"glossy_exponent", glossy_exponent},
                 {"transmittance", transmittance}};
+  if (diffuse_of_weather) canon["diffuse"] = "weather";
   canon.update(std::visit([](const auto& kind) { return canonical(kind); }, smooth));
   for (const auto& [season, other, place] : seasons) canon["seasons"].push_back({season, other});
   return canon;

@@ -113,6 +113,10 @@ void read_weather(YamlMap& map, const std::string& folder, LightStudy& light) {
 
 }  // namespace
 
+bool is_of_weather(YamlMap& map, const std::string& key) {
+  return map.kind(key) == YamlNode::Kind::text && map.text(key, "") == "weather";
+}
+
 SunStudy read_sun(YamlMap& map) {
   SunStudy sun;
   sun.refraction = map.choice("refraction", sun.refraction);
@@ -134,7 +138,9 @@ LightStudy read_light(YamlMap& map, const std::string& folder) {
   light.sky_scale = map.choice("sky_scale", light.sky_scale);
   light.zenith_luminance_cd_m2 = map.number("zenith_luminance_cd_m2", luminances_cd_m2);
   if (light.sky_scale == SkyScale::absolute) expect_absolute(map, light);
-  light.far_ground_albedo = map.number("far_ground_albedo", albedos, light.far_ground_albedo);
+  light.far_ground_of_weather = is_of_weather(map, "far_ground_albedo");
+  if (!light.far_ground_of_weather)
+    light.far_ground_albedo = map.number("far_ground_albedo", albedos, light.far_ground_albedo);
   map.section("far_ground_seasons", [&](YamlMap& section) {
     for (const auto& season : section.other_keys())
       if (const auto albedo = section.number(season, albedos))

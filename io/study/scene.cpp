@@ -153,6 +153,8 @@ void check_clear_glass(YamlMap& map, const MaterialStudy& material) {
 /// One share, or its red, green and blue.
 void read_diffuse(YamlMap& map, MaterialStudy& material) {
   const std::string key = "diffuse";
+  material.diffuse_of_weather = is_of_weather(map, key);
+  if (material.diffuse_of_weather) return;
   if (map.kind(key) != YamlNode::Kind::list) {
     material.diffuse = map.number(key, shares);
     return;

@@ -44,6 +44,8 @@ std::vector<double> read_numbers(YamlMap& map, const std::string& key, std::size
 std::vector<EditStep> read_scene_edit(YamlMap& scene, const std::string& folder);
 /// Section `selections`; paths are relative to `folder`.
 std::vector<NamedSelection> read_selections(YamlMap& root, const std::string& folder);
+/// Whether a key says `weather` in place of a number.
+bool is_of_weather(YamlMap& map, const std::string& key);
 /// Section `seasons`.
 std::vector<SeasonStudy> read_seasons(YamlMap& root);
 /// The key `seasons` of a material: what it is in some of them.

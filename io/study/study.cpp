@@ -256,6 +256,18 @@ void check_together(YamlMap& root, const Study& study, PlaceWritten placed) {
   }
 }
 
+/// Only a weather file tells an albedo.
+void check_albedos(YamlMap& root, const Study& study) {
+  if (study.light.source == LightSource::weather) return;
+  const auto refuse = [&](const Where& where, const std::string& what) {
+    root.reading().problem(where, what + ": weather needs light.source: weather",
+                           "the albedo of each day is read from its file", "write a number");
+  };
+  if (study.light.far_ground_of_weather) refuse(root.where("light"), "far_ground_albedo");
+  for (const MaterialStudy& material : study.scene.materials)
+    if (material.diffuse_of_weather) refuse(material.where, "diffuse");
+}
+
 /// Of the file and all its variants: materials may name seasons that a variant takes away.
 std::set<std::string> seasons_named_in(const std::vector<YamlTree>& variants) {
   std::set<std::string> names;
@@ -298,6 +310,7 @@ Study read_values(YamlMap& root, const std::string& folder, const std::set<std::
   study.selections = read_selections(root, folder);
   resolve_selections(root.reading(), study.selections, study.scene, study.measures);
   check_together(root, study, site.place_written);
+  check_albedos(root, study);
   check_measures(root, study, site.place_written);
   settle_seasons(root, study, seasons);
   return study;

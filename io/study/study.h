@@ -109,6 +109,7 @@ struct LightStudy {
   SkyScale sky_scale = SkyScale::diffuse;
   std::optional<double> zenith_luminance_cd_m2;  ///< of absolute skies; absent: by turbidity
   double far_ground_albedo = 0.2;
+  bool far_ground_of_weather = false;  ///< in place of the albedo: that of each day of the file
   std::vector<SeasonAlbedo> far_ground_seasons = {};
   Quantity quantity = Quantity::irradiance;
   std::string weather;  ///< file, already resolved; the rest is of `weather` too
@@ -152,6 +153,7 @@ struct MaterialStudy {
   double glossy = 0, glossy_exponent = 0;
   double transmittance = 0;  ///< straight through
   std::vector<SeasonMaterial> seasons = {};
+  bool diffuse_of_weather = false;  ///< in place of `diffuse`: the ground's albedo of each day
 };
 
 /// Areas in plan as written, or of a GeoJSON file.

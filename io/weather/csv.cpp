@@ -224,8 +224,12 @@ WeatherFile read_weather_csv(const WeatherText& text, std::optional<Stamp> stamp
       return column == head.columns.end() ? std::nullopt
                                           : irradiance(fields[column->second], line, name);
     };
+    const auto albedo = head.columns.find("albedo");
     rows.push_back(
-        {stamps(fields, line), {value("dni"), value("dhi"), value("ghi")}, static_cast<int>(line)});
+        {stamps(fields, line),
+         {value("dni"), value("dhi"), value("ghi"),
+          albedo == head.columns.end() ? std::nullopt : ground_albedo(fields[albedo->second])},
+         static_cast<int>(line)});
   }
   file.records = records_of(text, rows, *stamp);
   if (stamps.are_utc()) file.offset_s = 0;

@@ -17,7 +17,17 @@ namespace sunload {
 namespace {
 
 // Fields of a data line, counted from 0 (N1, N2, … of the dictionary).
-enum Field : std::size_t { year, month, day, hour, minute, ghi = 13, dni = 14, dhi = 15 };
+enum Field : std::size_t {
+  year,
+  month,
+  day,
+  hour,
+  minute,
+  ghi = 13,
+  dni = 14,
+  dhi = 15,
+  albedo = 32
+};
 constexpr std::size_t fewest_fields = 16;  // up to the diffuse irradiance
 constexpr double missing_from = 9999;
 constexpr int hours_per_day = 24, most_records_per_hour = 60;
@@ -191,6 +201,7 @@ WeatherFile read_epw(const WeatherText& text) {
     r.values = {irradiance(fields[Field::dni], line, "direct normal radiation"),
                 irradiance(fields[Field::dhi], line, "diffuse horizontal radiation"),
                 irradiance(fields[Field::ghi], line, "global horizontal radiation")};
+    if (fields.size() > Field::albedo) r.values.albedo = ground_albedo(fields[Field::albedo]);
     r.line = static_cast<int>(line);
     file.records.push_back(r);
   }

@@ -129,6 +129,13 @@ void IrradianceReader::add_notes(std::vector<std::string>& notes) const {
                     raised_, least_measured_w_m2));
 }
 
+std::optional<double> ground_albedo(std::string_view field) {
+  double albedo = 0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), albedo);
+  const bool is_number = error == std::errc() && end == field.data() + field.size();
+  return is_number && albedo > 0 && albedo < 1 ? std::optional(albedo) : std::nullopt;
+}
+
 void check_day(const WeatherText& text, std::size_t line, const RowStamp& stamp) {
   const std::chrono::year_month_day date{
       std::chrono::year{stamp.year == 0 ? leap_year : stamp.year},

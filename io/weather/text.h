@@ -61,6 +61,10 @@ class IrradianceReader {
   std::size_t raised_ = 0;
 };
 
+/// Albedo of the ground; absent for everything that no ground has: 0, which fills the column of
+/// many files, codes of missing values, and text.
+std::optional<double> ground_albedo(std::string_view field);
+
 /// Date and time of day of a row; `second` may be that of 24:00.
 struct RowStamp {
   int year = 0, month = 1, day = 1;

@@ -20,7 +20,7 @@ constexpr std::string_view date_name = "date (mm/dd/yyyy)", time_name = "time (h
 
 /// Numbers of the columns that are read; absent where the file has none of that name.
 struct Columns {
-  std::optional<std::size_t> date, time, ghi, dni, dhi;
+  std::optional<std::size_t> date, time, ghi, dni, dhi, albedo;
   std::size_t count = 0;
 };
 
@@ -35,6 +35,7 @@ Columns columns_of(const WeatherText& text) {
     if (name == "ghi (w/m^2)") columns.ghi = i;
     if (name == "dni (w/m^2)") columns.dni = i;
     if (name == "dhi (w/m^2)") columns.dhi = i;
+    if (name == "alb (unitless)") columns.albedo = i;
   }
   return columns;
 }
@@ -103,7 +104,8 @@ WeatherFile read_tmy3(const WeatherText& text, std::optional<Stamp> stamp) {
     };
     rows.push_back(
         {stamp_of(text, line, fields[*columns.date], fields[*columns.time]),
-         {value(columns.dni, "DNI"), value(columns.dhi, "DHI"), value(columns.ghi, "GHI")},
+         {value(columns.dni, "DNI"), value(columns.dhi, "DHI"), value(columns.ghi, "GHI"),
+          columns.albedo ? ground_albedo(fields[*columns.albedo]) : std::nullopt},
          static_cast<int>(line)});
   }
   file.records = records_of(text, rows, stamp.value_or(Stamp::end));

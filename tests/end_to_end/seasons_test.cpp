@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Materials that change with the seasons: every interval has the light of a study whose materials
 /// are always those of its season.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -215,6 +216,42 @@ TEST_F(Seasons, ChangeTheFarGround) {
   EXPECT_EQ(day_difference(snow, white, "irradiance", 0), 0);
   EXPECT_EQ(day_difference(snow, grey, "irradiance", 1), 0);
   EXPECT_GT(day_difference(snow, grey, "irradiance", 0), 1);
+}
+
+/// A ground that follows the weather file has every day the light of a ground of that reflectance.
+TEST_F(Seasons, FollowTheAlbedoOfTheWeather) {
+  std::string weather = "time,ghi_w_m2,dhi_w_m2,albedo\n";
+  const std::array<std::pair<const char*, const char*>, 3> days{
+      {{"2026-01-20", "0.8"}, {"2026-03-21", "0.2"}, {"2026-06-21", "0.2"}}};
+  for (const auto& [date, albedo] : days)
+    for (int hour = 0; hour < 24; ++hour)
+      weather += fmt::format("{}T{:02}:00,{},60,{}\n", date, hour, 60 + 20 * hour, albedo);
+  folder_.write("albedo.csv", weather);
+  std::vector<std::unique_ptr<ResultReader>> results;
+  for (const auto& [name, reflects] :
+       {std::pair{"file", "weather"}, {"white", "0.8"}, {"grey", "0.2"}}) {
+    std::string text = study(name, fmt::format("    paving: {{diffuse: {}}}\n"
+                                               "    canvas: {{diffuse: 0.5, sides: two}}\n",
+                                               reflects));
+    const std::string plain = "light: {source: clear_sky}";
+    text.replace(text.find(plain), plain.size(),
+                 fmt::format("light: {{source: weather, weather: albedo.csv, stamp: start, "
+                             "far_ground_albedo: {}}}",
+                             reflects));
+    folder_.write(std::string(name) + ".yaml", text);
+    const Ran ran = program(folder_, {"run", std::string(name) + ".yaml"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    results.push_back(std::make_unique<ResultReader>(
+        folder_ / ("results/" + std::string(name) + "/baseline.h5")));
+  }
+  const ResultReader &file = *results[0], &white = *results[1], &grey = *results[2];
+  for (const char* series : {"irradiance", "facade_irradiance"}) {
+    EXPECT_EQ(day_difference(file, white, series, 0), 0) << series;
+    EXPECT_EQ(day_difference(file, grey, series, 1), 0) << series;
+    EXPECT_EQ(day_difference(file, grey, series, 2), 0) << series;
+    EXPECT_GT(day_difference(file, white, series, 1), 0) << series;
+  }
+  EXPECT_EQ(sums_problem(file.path()), "");
 }
 
 /// A file's lamps share their power by the sides that the file has, in all seasons.

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geo/sun/day_albedo.h"
+
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "geo/base/units.h"
+
+namespace sunload {
+
+namespace {
+
+using Day = std::int64_t;  // of the calendar, counted through
+
+Day civil_day(UnixTime begin, UnixTime end, const TimeZone& zone) {
+  const UnixTime civil = utc_from_calendar(zone.civil_from_utc((begin + end) / 2));
+  return static_cast<Day>(std::floor(civil / seconds_per_day));
+}
+
+std::map<Day, double> means_by_day(const std::vector<DatedWeather>& weather, const TimeZone& zone) {
+  struct Sum {
+    double weight = 0, albedo = 0;
+  };
+  std::map<Day, Sum> sums;
+  for (const DatedWeather& record : weather) {
+    const WeatherValues& values = record.values;
+    const double light = values.ghi.value_or(values.dhi.value_or(0));
+    if (!values.albedo || light <= 0) continue;
+    Sum& sum = sums[civil_day(record.begin, record.end, zone)];
+    const double weight = light * (record.end - record.begin);
+    sum.weight += weight;
+    sum.albedo += weight * *values.albedo;
+  }
+  std::map<Day, double> means;
+  for (const auto& [day, sum] : sums) means[day] = sum.albedo / sum.weight;
+  return means;
+}
+
+double of_nearest(const std::map<Day, double>& means, Day day) {
+  const auto next = means.lower_bound(day);
+  if (next == means.begin()) return next->second;
+  const auto before = std::prev(next);
+  if (next == means.end() || day - before->first <= next->first - day) return before->second;
+  return next->second;
+}
+
+}  // namespace
+
+DayAlbedos day_albedos(const std::vector<DatedWeather>& weather, const SunPath& path,
+                       const TimeZone& zone) {
+  DayAlbedos albedos;
+  const auto means = means_by_day(weather, zone);
+  if (means.empty()) return albedos;
+  std::set<Day> with_sun;
+  albedos.of_interval.reserve(path.size());
+  for (const SunInterval& interval : path) {
+    const Day day = civil_day(interval.begin, interval.end, zone);
+    albedos.of_interval.push_back(of_nearest(means, day));
+    if (interval.up_s <= 0 || !with_sun.insert(day).second) continue;
+    ++albedos.days;
+    if (!means.contains(day)) ++albedos.filled;
+  }
+  return albedos;
+}
+
+}  // namespace sunload

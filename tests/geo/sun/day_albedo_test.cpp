@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The ground's albedo day by day: weights, gaps, civil days.
+#include "geo/sun/day_albedo.h"
+
+#include <gtest/gtest.h>
+
+namespace sunload {
+namespace {
+
+constexpr double hour = seconds_per_hour;
+const UnixTime new_year = utc_from_calendar({2026, 1, 1, 0, 0, 0});
+
+DatedWeather record(double hours, double ghi, std::optional<double> albedo) {
+  return {new_year + hours * hour, new_year + (hours + 1) * hour, {{}, {}, ghi, albedo}, 0};
+}
+
+/// An hour, with sun.
+SunInterval interval(double hours) {
+  SunInterval i;
+  i.begin = new_year + hours * hour;
+  i.end = i.begin + hour;
+  i.up_s = hour;
+  return i;
+}
+
+const TimeZone utc("UTC");
+
+TEST(DayAlbedo, IsTheMeanOfTheLightThatFalls) {
+  const std::vector<DatedWeather> weather{record(9, 100, 0.8), record(12, 300, 0.4),
+                                          record(13, 500, {}), record(22, 0, 0.9)};
+  const auto albedos = day_albedos(weather, {interval(8), interval(15), interval(23)}, utc);
+  EXPECT_EQ(albedos.of_interval, std::vector<double>(3, (100 * 0.8 + 300 * 0.4) / 400));
+  EXPECT_EQ(albedos.days, 1u);
+  EXPECT_EQ(albedos.filled, 0u);
+}
+
+TEST(DayAlbedo, GoesByDiffuseLightWhereThatIsAll) {
+  std::vector<DatedWeather> weather{record(9, 0, 0.2), record(12, 0, 0.5)};
+  weather[0].values.ghi.reset();
+  weather[0].values.dhi = 50;
+  const auto albedos = day_albedos(weather, {interval(8)}, utc);
+  EXPECT_EQ(albedos.of_interval, std::vector<double>{0.2});
+}
+
+TEST(DayAlbedo, OfADayWithoutIsThatOfTheNearest) {
+  const std::vector<DatedWeather> weather{record(24 + 12, 1, 0.2), record(4 * 24 + 12, 1, 0.7)};
+  SunPath path;
+  for (int day = 0; day < 6; ++day) path.push_back(interval(24 * day + 12));
+  path[5].up_s = 0;  // polar night lacks nothing
+  const auto albedos = day_albedos(weather, path, utc);
+  EXPECT_EQ(albedos.of_interval, (std::vector<double>{0.2, 0.2, 0.2, 0.7, 0.7, 0.7}));
+  EXPECT_EQ(albedos.days, 5u);
+  EXPECT_EQ(albedos.filled, 3u);
+}
+
+TEST(DayAlbedo, DaysAreThoseOfTheClock) {
+  const std::vector<DatedWeather> weather{record(12, 1, 0.2), record(36, 1, 0.6)};
+  const SunPath late{interval(22)};  // the morning of the next day in Tokyo
+  EXPECT_EQ(day_albedos(weather, late, utc).of_interval.front(), 0.2);
+  EXPECT_EQ(day_albedos(weather, late, TimeZone("Asia/Tokyo")).of_interval.front(), 0.6);
+}
+
+TEST(DayAlbedo, IsUnknownWithoutAny) {
+  const auto albedos = day_albedos({record(12, 100, {})}, {interval(12)}, utc);
+  EXPECT_TRUE(albedos.of_interval.empty());
+}
+
+}  // namespace
+}  // namespace sunload
