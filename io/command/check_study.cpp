@@ -30,6 +30,7 @@
 #include "io/plan/variant_mesh.h"
 #include "io/plan/variant_plan.h"
 #include "io/plan/work_estimate.h"
+#include "io/plan/work_probe.h"
 #include "io/run/progress.h"
 #include "io/study/named_files.h"
 #include "io/study/words.h"
@@ -260,11 +261,11 @@ std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
                     "  {} patches, {} intervals ({} with light) in {} batches\n"
                     "  {:.3g} lines, about {:.3g} shadow rays{}; estimated {:.0f} MiB memory, "
                     "{:.0f} MiB disk, "
-                    "{:.0f} s on {} threads\n",
+                    "{:.0f} s on {} threads{}\n",
                     work.patches, plan.intervals(), plan.light.lit_count(), plan.batches(),
                     static_cast<double>(work.line_rays), static_cast<double>(work.direct_rays),
                     shot, work.memory_bytes / mib, work.disk_bytes / mib, work.seconds,
-                    thread_count());
+                    thread_count(), work.is_of_this_machine ? ", by a trial on this machine" : "");
 }
 
 bool is_left_unrefined(const VariantPlan& plan, CheckMesh mesh) {
@@ -548,6 +549,16 @@ void expect_meshable(const VariantPlan& plan) {
   if (const auto problem = memory_problem(least); !problem.empty()) throw MachineError(problem);
 }
 
+/// By what this machine takes for a little of the work; of patches that a run refines, or that have
+/// no room here, by the cost model alone.
+WorkEstimate estimated(const VariantPlan& plan, const VariantMesh& made, CheckMesh kind,
+                       StudyPaces& paces) {
+  const std::size_t patches = made.mesh->patch_count();
+  const WorkEstimate by_model = estimate_work(plan, patches);
+  if (is_left_unrefined(plan, kind) || !memory_problem(by_model).empty()) return by_model;
+  return estimate_work(plan, patches, paces.of(plan, made.mesh));
+}
+
 /// To the standard error: what was asked for goes to stdout.
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const auto& warning : warnings) tell("warning: " + warning);
@@ -567,6 +578,7 @@ int check_study(const std::string& path, const RunOptions& options, const CheckR
   Planner planner;
   const MeshFamilies families(file, planner);
   Meshes meshes(rules.mesh, options.progress);
+  StudyPaces paces;
   VariantTexts texts;
   SunTexts suns;
   for (const auto& study : chosen_variants(file, options)) {
@@ -575,7 +587,7 @@ int check_study(const std::string& path, const RunOptions& options, const CheckR
       families.join(plan);
       expect_meshable(plan);
       const VariantMesh& made = meshes.of(plan);
-      const WorkEstimate work = estimate_work(plan, made.mesh->patch_count());
+      const WorkEstimate work = estimated(plan, made, rules.mesh, paces);
       // A warning: the machine that runs it may be another.
       for (const auto& problem : {memory_problem(work), disk_problem(work, folder)})
         if (!problem.empty()) tell("warning: " + plan.study.variant + ": " + problem);

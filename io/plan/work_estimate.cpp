@@ -92,12 +92,19 @@ double refinement_rays(double patches, double lit) {
          (std::min(lit, static_cast<double>(most_mesh_pilot_suns)) + other_directions);
 }
 
-/// Whether few solutions will serve the period, as far as that is known before they are tried.
-bool is_year_of_few(const VariantPlan& plan, double lit) {
-  const SolverRules rules = solver_rules(plan);
-  if (rules.year == Year::modes) return true;
-  return rules.year == Year::automatic && year_can_serve(rules) &&
-         year_share_of_few * lit > year_skies + year_suns;
+/// Intervals with light, which are all where lamps shine.
+double lit_intervals(const VariantPlan& plan) {
+  return static_cast<double>(has_lamps(plan) ? plan.intervals() : plan.light.lit_count());
+}
+
+/// Of rays to the sun, cast by panes and the like. Sums are of one core.
+double mirror_seconds(double patches, double suns, double samples) {
+  return patches * mirrored_share * suns * samples * s_per_mirror_ray;
+}
+
+/// Each of so many suns solved on links.
+double solution_seconds(double patches, double links, double suns) {
+  return links * suns * s_per_link_sun + patches * suns * s_per_patch_sun;
 }
 
 /// What series take, per patch and band.
@@ -141,7 +148,35 @@ double line_seconds(const VariantPlan& plan) {
          });
 }
 
+/// Patches and sensors.
+double receivers(const VariantPlan& plan, std::size_t patches) {
+  return static_cast<double>(patches + plan.built.scene.sensors.size());
+}
+
+double band_factor(const VariantPlan& plan) {
+  return plan.study.solver.bands == Bands::rgb ? static_cast<double>(band_count) : 1;
+}
+
 }  // namespace
+
+bool is_year_of_few(const VariantPlan& plan) {
+  const SolverRules rules = solver_rules(plan);
+  if (rules.year == Year::modes) return true;
+  return rules.year == Year::automatic && year_can_serve(rules) &&
+         year_share_of_few * lit_intervals(plan) > year_skies + year_suns;
+}
+
+WorkSeconds modelled_seconds(const VariantPlan& plan, std::size_t patches,
+                             const BlockCounts& counts) {
+  const double n = receivers(plan, patches), lines = n * counts.lines_per_patch;
+  const double threads = thread_count();
+  return {lines * line_seconds(plan) / threads,
+          n * facing_share * counts.suns * counts.direct_samples * s_per_direct_ray / threads,
+          mirror_seconds(n, counts.suns, counts.direct_samples) / threads,
+          // A block that is not full takes as long.
+          band_factor(plan) * solution_seconds(n, lines * plan.study.solver.bounces, block_width) /
+              threads};
+}
 
 double accuracy_pilot_memory_bytes(const VariantPlan& plan, std::size_t patches) {
   const bool of_instants = plan.study.solver.accuracy->irradiance_relative.has_value();
@@ -170,13 +205,14 @@ std::pair<double, double> refinement_seconds(const VariantPlan& plan, std::size_
   return {least * seconds, most * seconds};
 }
 
-WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches) {
+WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const WorkPace& pace) {
   const SolverStudy& s = plan.study.solver;
-  return estimate_work(plan, patches, {s.lines_per_patch, s.direct_samples, s.lines_per_patch});
+  return estimate_work(plan, patches, {s.lines_per_patch, s.direct_samples, s.lines_per_patch},
+                       pace);
 }
 
-WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
-                           const SampleCounts& counts) {
+WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const SampleCounts& counts,
+                           const WorkPace& pace) {
   const SolverStudy& s = plan.study.solver;
   const auto materials = materials_of(plan);
   // Each is a scene of its own with its lines, and its own solutions of a year.
@@ -193,8 +229,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   const auto series_of_study = kept_series(plan.study.output);
   const double kept = std::min(
       parts, static_cast<double>(std::count(series_of_study.begin(), series_of_study.end(), true)));
-  const auto n = static_cast<double>(patches + plan.built.scene.sensors.size());
-  const auto lit = static_cast<double>(lamps ? plan.intervals() : plan.light.lit_count());
+  const double n = receivers(plan, patches), lit = lit_intervals(plan);
   const auto suns = static_cast<double>(plan.light.sun_samples());
   const double shining = suns - clouded_suns(plan.light);
   const auto batch = static_cast<double>(std::min(plan.batch_suns(), plan.intervals()));
@@ -204,9 +239,9 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
   const double of_realizations = double_bytes * s.realizations;
   const bool of_instants = plan.study.output.standard_error == StandardErrors::instants;
   const bool is_rgb = s.bands == Bands::rgb;
-  const double bands = is_rgb ? static_cast<double>(band_count) : 1;
+  const double bands = band_factor(plan);
 
-  const bool of_few = is_year_of_few(plan, lit);
+  const bool of_few = is_year_of_few(plan);
   const double solved =
       of_few ? std::min(lit, seasons * (year_skies + year_suns + year_tests)) : lit;
   const PartCost periods = part_cost(plan.totals, plan.batch_suns());
@@ -278,29 +313,33 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
                         (static_cast<double>(periods.parts) * values_of_part +
                          static_cast<double>(periods.parts_with_errors) * s.realizations) +
                     (plan.batches() > 1 && seasons == 1 ? lines * kept_bytes_per_line : 0);
-  work.seconds =
-      (s_to_start + n * s_per_patch +
-       seasons * lines * (guided ? 1 + rays_by_guide : 1) * line_seconds(plan) +
-       rays * s_per_direct_ray + (has_views ? seasons * n * s_per_view : 0) +
-       (mirrors ? n * mirrored_share * shining * counts.direct_samples * s_per_mirror_ray : 0) +
-       (guided ? seasons * n * s_per_guided_patch : 0) +
-       (by_matrix ? seasons * n * n * (s_per_form_factor + n * s.realizations * s_per_factor_solved)
-                  : 0) +
-       (s.transport != Transport::shoot
-            ? bands * (links * solved * s_per_link_sun + links * batches * s_per_link_batch +
-                       links * suns_of_parts * s_per_link_sun +
-                       n * suns_of_parts * s.realizations * s_per_patch_sun_realization +
-                       (of_instants ? links * lit * s_per_link_sun +
-                                          n * lit * s.realizations * s_per_patch_sun_realization
-                                    : 0))
-            : static_cast<double>(work.samples) * s_per_sample) +
-       (plan.study.mesh.oracle == Oracle::none ? 0 : refinement_rays(n, lit) * s_per_direct_ray) +
-       bands * (lit * s_per_sun + n * solved * s_per_patch_sun +
-                (of_few ? n * lit * s_per_patch_interval_of_year : 0) +
-                n * (batches + static_cast<double>(periods.stored_with_errors)) * s.realizations *
-                    s_per_patch_batch_realization +
-                n * static_cast<double>(plan.intervals()) * s_per_value)) /
-      thread_count();
+  WorkSeconds core;  // of one core
+  core.lines =
+      seasons * lines * (guided ? 1 + rays_by_guide : 1) * line_seconds(plan) +
+      (guided ? seasons * n * s_per_guided_patch : 0) +
+      (plan.study.mesh.oracle == Oracle::none ? 0 : refinement_rays(n, lit) * s_per_direct_ray);
+  core.direct = rays * s_per_direct_ray + (has_views ? seasons * n * s_per_view : 0) +
+                static_cast<double>(work.samples) * s_per_sample;
+  core.mirror = mirrors ? mirror_seconds(n, shining, counts.direct_samples) : 0;
+  if (by_matrix)
+    core.solve += seasons * n * n * (s_per_form_factor + n * s.realizations * s_per_factor_solved);
+  if (s.transport != Transport::shoot)
+    core.solve += bands * (links * batches * s_per_link_batch + links * solved * s_per_link_sun +
+                           links * suns_of_parts * s_per_link_sun +
+                           n * suns_of_parts * s.realizations * s_per_patch_sun_realization +
+                           (of_instants ? links * lit * s_per_link_sun +
+                                              n * lit * s.realizations * s_per_patch_sun_realization
+                                        : 0));
+  core.solve += bands * (lit * s_per_sun + n * solved * s_per_patch_sun +
+                         (of_few ? n * lit * s_per_patch_interval_of_year : 0) +
+                         n * (batches + static_cast<double>(periods.stored_with_errors)) *
+                             s.realizations * s_per_patch_batch_realization);
+  const double files =
+      bands * n * static_cast<double>(plan.intervals()) * s_per_value + n * s_per_patch;
+  work.is_of_this_machine = pace.is_measured;
+  work.seconds = (s_to_start + files + core.lines * pace.lines + core.direct * pace.direct +
+                  core.mirror * pace.mirror + core.solve * pace.solve) /
+                 thread_count();
   return work;
 }
 

@@ -11,17 +11,40 @@
 
 namespace sunload {
 
+/// How long a machine takes for what takes 1 by the cost model (solver/base/cost.h).
+struct WorkPace {
+  double lines = 1, direct = 1, mirror = 1, solve = 1;
+  bool is_measured = false;  ///< io/plan/work_probe.h
+};
+
 struct WorkEstimate {
   std::size_t patches = 0;
   std::uint64_t line_rays = 0, direct_rays = 0;
   std::uint64_t samples = 0;  ///< that are shot
   double memory_bytes = 0, disk_bytes = 0, seconds = 0;
+  bool is_of_this_machine = false;  ///< the time
 };
 /// With the study's own counts, and the mesh of so many patches.
-WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches);
+WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const WorkPace& pace = {});
 /// The same with other counts.
-WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches,
-                           const SampleCounts& counts);
+WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const SampleCounts& counts,
+                           const WorkPace& pace = {});
+
+/// Whether few solutions will serve the period, as far as that is known before they are tried.
+bool is_year_of_few(const VariantPlan& plan);
+
+/// One block of suns, each interval solved by gathering, on few lines.
+struct BlockCounts {
+  int lines_per_patch = 0, direct_samples = 0;
+  double suns = 0;  ///< that shine, all those that stand for one interval counted
+};
+/// Of the stages that `WorkDone` has times of.
+struct WorkSeconds {
+  double lines = 0, direct = 0, mirror = 0, solve = 0;
+};
+/// What the cost model says of one block of the plan, on the threads that are used.
+WorkSeconds modelled_seconds(const VariantPlan& plan, std::size_t patches,
+                             const BlockCounts& counts);
 
 /// Between which times refining the mesh of so many patches takes [s]: how many it makes, the light
 /// decides.

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What this machine takes for a little of a variant's own work.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "io/plan/variant_plan.h"
+#include "io/plan/work_estimate.h"
+#include "solver/mesh/hierarchy.h"
+
+namespace sunload {
+
+/// Traces a few lines per patch, solves some suns of the period on them, and compares the time with
+/// what the cost model says of the same. Takes a fraction of a second, and some seconds with a
+/// million patches; memory as a run of few lines. Nothing where no interval has light. What else
+/// runs on the machine counts, too. Throws Interrupted.
+std::optional<WorkPace> measured_pace(const VariantPlan& plan,
+                                      const std::shared_ptr<const Hierarchy>& mesh);
+
+/// Paces of a study's variants: measured of one that has mirrors and of one that has none. The
+/// others are of the same scene, or much like it, and some studies have thousands.
+class StudyPaces {
+ public:
+  /// 1 where there is nothing to measure. Throws Interrupted.
+  WorkPace of(const VariantPlan& plan, const std::shared_ptr<const Hierarchy>& mesh);
+
+ private:
+  std::optional<WorkPace> with_mirrors_, without_;
+};
+
+}  // namespace sunload

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// A little of a variant's work, by which its time is estimated.
+#include "io/plan/work_probe.h"
+
+#include <gtest/gtest.h>
+
+#include "io/plan/variant_mesh.h"
+#include "tests/support/study_plan.h"
+
+namespace sunload {
+namespace {
+
+std::string study(const std::string& house, const std::string& period) {
+  return "format: sunload-study-1\nname: t\n"
+         "site: {latitude_deg: 50, longitude_deg: 14, timezone: Europe/Prague}\n"
+         "period: {" +
+         period +
+         "}\nlight: {source: clear_sky}\n"
+         "scene: {builtin: {name: street, house_3: " +
+         house +
+         "}}\n"
+         "mesh: {max_edge_m: 20, oracle: none}\nsolver: {bounces: 2}\n";
+}
+const std::string day = "days: [2026-06-21], step_min: 60",
+                  night = "days: [2026-06-21], from: \"00:00\", to: \"01:00\", step_min: 60";
+
+TEST(WorkProbe, MeasuresEveryStageThatThereIs) {
+  const auto glazed = test::plan_of(study("glazed", day));
+  const auto pace = measured_pace(glazed, unrefined_mesh(glazed).mesh);
+  ASSERT_TRUE(pace);
+  EXPECT_TRUE(pace->is_measured);
+  for (const double stage : {pace->lines, pace->direct, pace->mirror, pace->solve}) {
+    EXPECT_GT(stage, 0);
+    EXPECT_NE(stage, 1);  // which stands for what was not measured
+  }
+}
+
+TEST(WorkProbe, HasNothingToMeasureAtNight) {
+  const auto dark = test::plan_of(study("brick", night));
+  const auto mesh = unrefined_mesh(dark).mesh;
+  EXPECT_FALSE(measured_pace(dark, mesh));
+  EXPECT_FALSE(StudyPaces().of(dark, mesh).is_measured);
+}
+
+TEST(WorkProbe, IsMadeOnceForVariantsThatAreMuchAlike) {
+  StudyPaces paces;
+  const auto first = test::plan_of(study("glazed", day)),
+             second = test::plan_of(study("brick", day));
+  const WorkPace a = paces.of(first, unrefined_mesh(first).mesh);
+  const WorkPace b = paces.of(second, unrefined_mesh(second).mesh);  // its windows are mirrors, too
+  EXPECT_EQ(a.lines, b.lines);
+  EXPECT_EQ(a.direct, b.direct);
+}
+
+/// Every stage of the estimate takes as much longer as the trial did; starting and files do not.
+TEST(WorkProbe, ScalesTheStagesOfTheEstimate) {
+  const auto plan = test::plan_of(study("glazed", day));
+  constexpr std::size_t patches = 100'000;
+  const auto seconds = [&](const WorkPace& pace) {
+    return estimate_work(plan, patches, pace).seconds;
+  };
+  const double usual = seconds({});
+  const WorkPace all{.lines = 2, .direct = 2, .mirror = 2, .solve = 2};
+  double stages = 0;
+  for (double WorkPace::*stage :
+       {&WorkPace::lines, &WorkPace::direct, &WorkPace::mirror, &WorkPace::solve}) {
+    WorkPace slow;
+    slow.*stage = 2;
+    const double more = seconds(slow) - usual;
+    EXPECT_GT(more, 0);
+    stages += more;
+  }
+  EXPECT_NEAR(seconds(all) - usual, stages, 1e-9 * usual);
+  EXPECT_LT(stages, usual);
+  EXPECT_GT(stages, 0.9 * usual);
+}
+
+}  // namespace
+}  // namespace sunload
