@@ -206,14 +206,20 @@ unsigned char* put_number(unsigned char* to, std::size_t value, std::size_t byte
   return to;
 }
 
-/// Deflate blocks of type "stored" (RFC 1951, 3.2.4), none of them the last; where they end.
+/// What a stored deflate block (RFC 1951, 3.2.4) says of its length, from a whole byte on; where
+/// that ends.
+unsigned char* put_stored_length(unsigned char* to, std::size_t length) {
+  to = put_number(to, length, 2, std::endian::little);
+  return put_number(to, ~length, 2, std::endian::little);
+}
+
+/// Stored blocks, none of them the last; where they end.
 constexpr std::size_t longest_stored = 0xffff, stored_head = 5;
 unsigned char* put_stored(unsigned char* to, const unsigned char* from, std::size_t count) {
   for (std::size_t begin = 0; begin < count; begin += longest_stored) {
     const std::size_t length = std::min(longest_stored, count - begin);
     *to++ = 0;
-    to = put_number(to, length, 2, std::endian::little);
-    to = put_number(to, ~length, 2, std::endian::little);
+    to = put_stored_length(to, length);
     to = std::copy_n(from + begin, length, to);
   }
   return to;
@@ -246,9 +252,12 @@ class BitWriter {
   int count_ = 0;
 };
 
+/// Bytes that `put_run` takes at most: 13 bits for each 258, and what begins and ends it.
+constexpr std::size_t most_bytes_of_run(std::size_t count) { return count / 64 + 64; }
+
 /// A block of fixed Huffman codes (RFC 1951, 3.2.6), not the last one, that stands for `count`
 /// times `byte`: it once, then copies of what is one byte before. An empty stored block ends it
-/// with a whole byte. Where it ends; it takes less than `count` / 64 + 64 bytes.
+/// with a whole byte. Where it ends.
 unsigned char* put_run(unsigned char* to, unsigned char byte, std::size_t count) {
   constexpr unsigned fixed_codes = 1, end_of_block = 0, one_byte_before = 0;
   constexpr std::size_t longest = 258;               // the longest copy, of code 285
@@ -273,8 +282,7 @@ unsigned char* put_run(unsigned char* to, unsigned char byte, std::size_t count)
     for (; left > 0; --left) literal();
   bits.code(end_of_block, 7);
   bits.number(0, 3);
-  to = put_number(bits.end_of_byte(), 0, 2, std::endian::little);
-  return put_number(to, 0xffff, 2, std::endian::little);
+  return put_stored_length(bits.end_of_byte(), 0);
 }
 
 /// A plane that is not searched for matches: its runs, and the rest as it is.
@@ -288,11 +296,11 @@ unsigned char* put_plane(unsigned char* to, const unsigned char* plane,
 
 /// Bytes that `put_plane` takes at most.
 std::size_t most_bytes(const std::vector<Stretch>& stretches) {
-  constexpr std::size_t of_run = 64;
   std::size_t bytes = 0;
   for (const Stretch& of : stretches) {
     const std::size_t count = of.end - of.begin;
-    bytes += of.is_run ? count / 64 + of_run : count + stored_head * (count / longest_stored + 1);
+    bytes +=
+        of.is_run ? most_bytes_of_run(count) : count + stored_head * (count / longest_stored + 1);
   }
   return bytes;
 }

@@ -421,8 +421,8 @@ std::string whole_text(const CheckText& text) {
 std::string text_beside(const CheckText& first, const CheckText& text,
                         const std::string& first_name) {
   std::string words;
-  for (const char* heading :
-       {"scene", "materials", "seasons", "sensors", "sun", "mesh", "work", ""}) {
+  for (const char* heading : {"scene", "materials", "seasons", "sensors", "sun", "mesh",
+                              "selections", "measures", "work", ""}) {
     const auto &theirs = section_of(first, heading), &own = section_of(text, heading);
     auto apart = changed_lines(theirs, own);
     if (std::string(heading) == "materials") apart += missing_subjects(theirs, own);

@@ -182,6 +182,19 @@ TEST(Commands, CheckTellsOfVariantsWhatDiffers) {
   EXPECT_LT(rest.size(), first_part.size() / 2) << rest;
 }
 
+/// Each is found anew in the variant's own model.
+TEST(Commands, CheckTellsWhatSelectionsChooseInLaterVariants) {
+  const Square square(
+      "selections: {south: {surface: wall, azimuth_deg: [135, 225]}, paving: {object: square}}\n"
+      "variants:\n  - {name: as_is}\n"
+      "  - {name: higher, scene: {edit: [{object: house, raise: {by_m: 3}}]}}\n");
+  const Ran ran = square.run({"check", "--no-refine"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto rest = ran.out.substr(ran.out.find("variant higher"));
+  EXPECT_NE(rest.find("\nselections\n  south: "), std::string::npos) << rest;
+  EXPECT_EQ(rest.find("  paving: "), std::string::npos) << rest;
+}
+
 TEST(Commands, PicturesOfAStudyNeedNoRun) {
   const Square square(two_variants);
   const auto render = [&](std::vector<std::string> more) {
