@@ -223,6 +223,8 @@ Vec3 map_position(const std::string& crs, double latitude_deg, double longitude_
   return MapToEarth(crs).back(latitude_deg, longitude_deg, height_m);
 }
 
+std::string area_of_use_words(const std::string& crs) { return MapToEarth(crs).area_of_use().name; }
+
 std::string area_of_use_warning(const std::string& crs, Vec3 position) {
   const MapToEarth earth_from_map(crs);
   const auto area = earth_from_map.area_of_use();

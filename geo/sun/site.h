@@ -63,6 +63,9 @@ std::string position_text(const Site& site);
 
 /// What to warn about where the point lies outside of the projection's area of
 /// use by more than 0.2° (usually the wrong projection); empty otherwise. Throws as above.
+/// Where a map projection is meant to be used, in words of PROJ's database, countries among them;
+/// empty where it does not say. Throws InputError for a name that is none.
+std::string area_of_use_words(const std::string& crs);
 std::string area_of_use_warning(const std::string& crs, Vec3 position);
 
 }  // namespace sunload

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/command/command_line.h"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -23,6 +24,7 @@
 #include "io/command/manual.h"
 #include "io/export/export.h"
 #include "io/init/init.h"
+#include "io/init/measure_text.h"
 #include "io/run/progress.h"
 #include "io/run/run.h"
 #include "io/scene/builtin.h"
@@ -69,6 +71,7 @@ const std::map<std::string, std::string> examples{
      "sunload init house.obj weather.epw                 # a year of weather\n"
      "sunload init house.obj --at \"52.01 4.36\"          # three days of clear sky\n"
      "sunload init dsm.tif --terrain dem.tif -o square.yaml\n"
+     "sunload init house.obj --at \"50.09 14.42\" --rule en17037 --rule bre209vsc\n"
      "sunload init --example street                      # a study that comes with the program"},
     {"check", "sunload check street.yaml\nsunload check street.yaml --json --no-refine"},
     {"run",
@@ -297,6 +300,10 @@ class CommandLine {
                           "raster of bare ground, beside a raster of surfaces"));
     reads(sub->add_option("--canopy", init_.canopy,
                           "raster of crowns' heights, beside a raster of surfaces"));
+    choices_[sub->add_option("--rule", init_.measures,
+                             fmt::format("rule of planning to measure by (repeatable): {}",
+                                         fmt::join(offered_rules(), ", ")))
+                 ->allow_extra_args(false)] = offered_rules();
     sub->add_option("--example", example_, "copy a study that comes with the program instead")
         ->excludes(model);
   }

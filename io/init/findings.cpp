@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <limits>
 
 #include "geo/base/check.h"
 #include "geo/sun/weather.h"
@@ -69,11 +70,45 @@ void look_at_site(const InitRules& rules, const BuiltScene& built, Findings& fou
   const std::optional<double> offset =
       found.weather ? found.weather->offset_s : std::optional<double>();
   if (found.site)
-    found.zone = guessed_zone(found.site->latitude_deg, found.site->longitude_deg, offset);
+    found.zone = guessed_zone(found.site->latitude_deg, found.site->longitude_deg, offset,
+                              found.crs.empty() ? "" : area_of_use_words(found.crs));
   if (has_station && found.site && !found.is_at_station)
     found.station_away_m =
         distance_m(*found.site, {.latitude_deg = found.weather->place->latitude_deg,
                                  .longitude_deg = found.weather->place->longitude_deg});
+}
+
+/// Faces that look along an axis, as shares of the side of the box about the model across it: those
+/// at its low end, and all others.
+struct Covered {
+  double foot = 0, above = 0;
+};
+
+Covered covered_along(const Mesh& mesh, const PrepareReport& report, double Vec3::*axis) {
+  constexpr double share_of_height = 0.1;
+  const Vec3 size = report.bounds.high - report.bounds.low;
+  const double top = report.bounds.low.*axis + share_of_height * size.*axis;
+  const double volume = size.x * size.y * size.z;
+  Covered covered;
+  for (std::size_t t = 0; t < mesh.triangle_count() && volume > 0; ++t) {
+    const bool is_at_foot = mesh.corner(t, 0).*axis <= top && mesh.corner(t, 1).*axis <= top &&
+                            mesh.corner(t, 2).*axis <= top;
+    const double share = std::max(0.0, mesh.area_vector2(t).*axis / 2) * (size.*axis) / volume;
+    (is_at_foot ? covered.foot : covered.above) += share;
+  }
+  return covered;
+}
+
+/// Ground with or without what stands on it; the floor of a house is under its roof.
+bool is_ground(const Covered& covered) {
+  constexpr double least = 0.2, most = 1.8;
+  return covered.foot > least && covered.foot + covered.above < most;
+}
+
+/// Formats that do not say which axis points up, where z is taken for it.
+bool may_be_on_its_side(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  return ending == ".obj" || ending == ".ply" || ending == ".stl" || ending == ".off";
 }
 
 void look_at_surfaces(const Mesh& mesh, Findings& found) {
@@ -123,6 +158,12 @@ Findings findings_of(const InitRules& rules) {
   found.middle = built.scene.mesh.origin + (report.bounds.high + report.bounds.low) / 2;
   found.is_city_format = report.ground.has_value();
   found.has_ground = found.area[static_cast<std::size_t>(Surface::ground)] > 0;
+  const Covered upward = covered_along(built.scene.mesh, report, &Vec3::z);
+  if (is_ground(upward)) found.foot_share = upward.foot;
+  constexpr double hardly_any = 0.02;
+  found.is_on_its_side = rules.up.empty() && may_be_on_its_side(rules.model) &&
+                         upward.foot < hardly_any &&
+                         is_ground(covered_along(built.scene.mesh, report, &Vec3::y));
   found.is_raster = is_raster(rules.model);
   found.warnings = built.warnings;
   std::copy_if(

@@ -25,10 +25,12 @@ struct InitRules {
   std::string weather = {};               ///< empty: clear sky
   std::string terrain = {}, canopy = {};  ///< rasters beside a raster of surfaces
   std::string crs = {};                   ///< empty: what the model names
-  std::string at = {};    ///< latitude and longitude in words (site_from_text); empty: unknown
-  std::string zone = {};  ///< empty: a guess
-  std::string up = {};    ///< x, y, z; empty: of the format
+  std::string at = {};         ///< latitude and longitude in words (site_from_text); empty: unknown
+  std::string zone = {};       ///< empty: a guess
+  std::string up = {};         ///< x, y, z; empty: of the format
+  bool is_up_guessed = false;  ///< by what lies at the foot
   double unit_m = 1;
+  std::vector<std::string> measures = {};  ///< rules of planning, by their words
 };
 
 /// Areas of the surfaces that could be patches [m2].
@@ -54,8 +56,11 @@ struct Findings {
   Areas area{}, undetermined{};              ///< … of it: no reflectance in the file
   std::vector<FoundMaterial> materials;
   bool has_ground = false, is_city_format = false;
-  bool is_raster = false;   ///< of heights, which are the ground, too
-  bool has_excess = false;  ///< colours of VRML that reflect more than arrives
+  /// Of the model's plan, covered by faces at its foot that may be its ground; 0: there are none.
+  double foot_share = 0;
+  bool is_on_its_side = false;  ///< such faces look along +y, none along z, which no one has chosen
+  bool is_raster = false;       ///< of heights, which are the ground, too
+  bool has_excess = false;      ///< colours of VRML that reflect more than arrives
   std::vector<std::string> warnings;
   std::vector<std::string> footprint_notes;  ///< what columns of plan data were taken
 

@@ -4,8 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -15,6 +19,7 @@
 #include "io/base/exit_code.h"
 #include "io/base/file_aside.h"
 #include "io/base/standard_streams.h"
+#include "io/init/measure_text.h"
 #include "io/init/study_text.h"
 #include "io/plan/planner.h"
 #include "io/plan/rules_of_study.h"
@@ -30,7 +35,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // What a first picture may cost: most of a minute is left for reading, writing and drawing.
-constexpr double most_seconds = 12, most_disk_bytes = 5e8;
+constexpr double most_seconds = 8, most_disk_bytes = 5e8;
 constexpr double most_patches = 60'000;
 constexpr std::array<double, 10> edges_m{0.25, 0.5, 1, 2, 3, 5, 10, 20, 50, 100};
 
@@ -44,6 +49,18 @@ void expect_free(const std::string& path) {
   if (fs::exists(fs::symlink_status(path, unknown)))
     throw InputError({path, 0, 0}, "is there already", "init replaces no file",
                      "remove it, or write another name with -o");
+}
+
+/// Before anything is read, which takes time.
+void expect_writable(const std::string& path) {
+  const fs::path folder = folder_of(path);
+  std::error_code unknown;
+  if (!fs::is_directory(folder, unknown))
+    throw MachineError("cannot write " + path + ": there is no folder " + folder.string() +
+                       "; make it first, or write another name with -o");
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
+    throw MachineError("cannot write " + path + ": " + std::strerror(errno) +
+                       "; write another name with -o, or go into a folder of yours");
 }
 
 /// The same, with each `from` in it as `to`.
@@ -95,7 +112,7 @@ std::string affordable_text(const std::string& name, const InitRules& rules, Fin
   };
   VariantPlan plan = plan_of_text();
   auto edge = affordable_edge_m(plan);
-  if (!edge && first_period(found) == FirstPeriod::year) {
+  if (!edge && first_period(found) == FirstPeriod::year && !is_year_needed(rules.measures)) {
     found.is_year_too_long = true;
     plan = plan_of_text();
     edge = affordable_edge_m(plan);
@@ -130,7 +147,8 @@ std::string word_of_shell(const std::string& text) {
   return out + "'";
 }
 
-void print_next(const std::string& path, const std::string& name, const std::string& variant) {
+void print_next(const std::string& path, const std::string& name, const std::string& variant,
+                const std::vector<std::string>& measures = {}) {
   const std::string study = word_of_shell(path);
   const std::string result = fmt::format("results/{}/{}.h5", name, variant);
   std::cout << fmt::format(
@@ -140,6 +158,7 @@ void print_next(const std::string& path, const std::string& name, const std::str
       "  sunload render {1} -o {2}.png\n"
       "  sunload view {1} -o {2}.html\n",
       study, result, name);
+  if (!measures.empty()) std::cout << fmt::format("  sunload info {} --measures\n", result);
 }
 
 std::vector<std::string> example_names(const fs::path& folder) {
@@ -159,21 +178,30 @@ std::string listed(const std::vector<std::string>& words) {
 
 }  // namespace
 
-int init_study(const InitRules& rules, const std::string& wanted) {
+int init_study(const InitRules& given, const std::string& wanted) {
+  InitRules rules = given;
+  rules.measures = rules_of_words(given.measures);
   const std::string name = study_name(wanted.empty() ? rules.model : wanted);
   const std::string path = wanted.empty() ? name + ".yaml" : wanted;
   if (!path.ends_with(".yaml") && !path.ends_with(".yml"))
     throw InputError({path, 0, 0}, "is no name of a study", "commands tell studies by it",
                      "let it end in .yaml");
   expect_free(path);
-  const Findings found = findings_of(rules);
+  expect_writable(path);
+  Findings found = findings_of(rules);
+  if (found.is_on_its_side) {
+    rules.up = "y";
+    rules.is_up_guessed = true;
+    found = findings_of(rules);
+  }
+  expect_measurable(rules.measures, found);
   const std::string text = affordable_text(name, rules, found, path);
   const StudyFile study = read_text(text, path);
   expect_free(path);
   write_file(path, text);
   for (const auto& warning : found.warnings) tell("warning: " + warning);
   tell_marked(text, path);
-  print_next(path, name, study.variants.front().variant);
+  print_next(path, name, study.variants.front().variant, rules.measures);
   return exit_code::done;
 }
 

@@ -14,6 +14,7 @@
 #include "io/base/data_folder.h"
 #include "io/base/version.h"
 #include "io/init/clear_days.h"
+#include "io/init/measure_text.h"
 #include "io/init/proposals.h"
 #include "io/study/material_table.h"
 
@@ -234,6 +235,10 @@ std::string file_text(const InitRules& rules, const std::string& folder) {
       rules.terrain.empty() && rules.canopy.empty() && rules.up.empty() && rules.unit_m == 1;
   if (is_plain) return fmt::format("  files: [{}]\n", path_from(folder, rules.model));
   std::string text = fmt::format("  files:\n    - file: {}\n", path_from(folder, rules.model));
+  if (rules.is_up_guessed)
+    text += fmt::format(
+        "      # {} up: y, by what looks like ground; up: z where the model lies as it should\n",
+        mark);
   if (!rules.terrain.empty())
     text += fmt::format("      terrain: {}\n", path_from(folder, rules.terrain));
   if (!rules.canopy.empty())
@@ -249,6 +254,13 @@ std::string ground_text(const Findings& found) {
            "  ground: {margin_m: 30, material: paving}\n";
   if (found.has_ground || found.is_raster)
     return "  # The file has its own ground.\n  ground: none\n";
+  constexpr double percent = 100;
+  if (found.foot_share > 0)
+    return fmt::format(
+        "  # {} ground: faces at the model's foot, {:.0f} % of its plan, are taken for it; if they "
+        "are not, e.g. ground: {{margin_m: 30}}\n"
+        "  ground: none\n",
+        mark, percent * found.foot_share);
   return fmt::format(
       "  # {} ground: a plane below the model; `ground: none` leaves it out\n"
       "  ground: {{margin_m: {:.0f}, material: paving}}\n",
@@ -339,7 +351,7 @@ std::string scene_text(const InitRules& rules, const Findings& found, const std:
          ground_text(found) + assign_text(found) + "\n";
 }
 
-std::string cost_text(const FirstPicture& picture, const Findings& found) {
+std::string cost_text(const InitRules& rules, const FirstPicture& picture, const Findings& found) {
   std::string text = fmt::format(
       "# Coarse and quick, for a first picture; `sunload info` tells its error. For results: a "
       "shorter edge,\n"
@@ -349,9 +361,10 @@ std::string cost_text(const FirstPicture& picture, const Findings& found) {
       "solver: {{lines_per_patch: 64, direct_samples: 8, realizations: 8}}\n",
       picture.max_edge_m);
   if (first_period(found) == FirstPeriod::year)
-    text +=
+    text += fmt::format(
         "# Of every hour the sum alone: parts are in the totals. Nine bits: 0.1 % of a value.\n"
-        "output: {series: [total], significant_bits: 9}\n";
+        "output: {{series: [total{}], significant_bits: 9}}\n",
+        watched_series(rules.measures));
   return text + "\n";
 }
 
@@ -377,7 +390,8 @@ FirstPeriod first_period(const Findings& found) {
 std::string study_text(const std::string& name, const InitRules& rules, const Findings& found,
                        const FirstPicture& picture, const std::string& folder) {
   return head_text(name, rules) + site_text(rules, found) + period_text(rules, found, folder) +
-         scene_text(rules, found, folder) + cost_text(picture, found) + variants_text(found);
+         scene_text(rules, found, folder) + measure_text(rules.measures, found) +
+         cost_text(rules, picture, found) + variants_text(found);
 }
 
 std::string study_name(const std::string& path) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/init/zone_guess.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -36,11 +38,28 @@ bool has_offset(const std::string& zone, double offset_s) {
   }
 }
 
+/// Code of the country that an area of use is of (`Sweden - onshore and offshore.`); empty where it
+/// is of several, or of none that iso3166.tab has by that name.
+std::string country_of(const std::string& area) {
+  const std::string name = area.substr(0, std::min(area.find(" - "), area.find('.')));
+  std::ifstream table("/usr/share/zoneinfo/iso3166.tab");
+  for (std::string line; std::getline(table, line);) {
+    const std::size_t tab = line.find('\t');
+    if (tab != std::string::npos && line.front() != '#' && line.substr(tab + 1) == name)
+      return line.substr(0, tab);
+  }
+  return {};
+}
+
 }  // namespace
 
 std::optional<ZoneGuess> guessed_zone(double latitude_deg, double longitude_deg,
-                                      std::optional<double> standard_offset_s) {
-  std::optional<ZoneGuess> nearest, nearest_of_offset;
+                                      std::optional<double> standard_offset_s,
+                                      const std::string& area) {
+  const std::string country_meant = area.empty() ? std::string() : country_of(area);
+  // From the least that is asked to the most.
+  enum Asked { nothing, of_country, of_offset, of_both, count };
+  std::array<std::optional<ZoneGuess>, count> nearest;
   std::ifstream table("/usr/share/zoneinfo/zone.tab");
   for (std::string line; std::getline(table, line);) {
     if (line.empty() || line.front() == '#') continue;
@@ -52,15 +71,25 @@ std::optional<ZoneGuess> guessed_zone(double latitude_deg, double longitude_deg,
     const double away = distance_m({.latitude_deg = latitude_deg, .longitude_deg = longitude_deg},
                                    {.latitude_deg = degrees_of(place.substr(0, second), 2),
                                     .longitude_deg = degrees_of(place.substr(second), 3)});
-    const auto keep = [&](std::optional<ZoneGuess>& best) {
-      if (!best || away < best->away_m) best = ZoneGuess{zone, away};
+    const auto is_nearer = [&](Asked asked) {
+      return !nearest[asked] || away < nearest[asked]->away_m;
     };
-    const bool is_nearer = !nearest_of_offset || away < nearest_of_offset->away_m;
-    if (standard_offset_s && is_nearer && has_offset(zone, *standard_offset_s))
-      keep(nearest_of_offset);
-    keep(nearest);
+    const auto keep = [&](Asked asked) {
+      if (is_nearer(asked)) nearest[asked] = ZoneGuess{zone, away};
+    };
+    const bool is_named = country == country_meant;
+    // Reading a zone takes time: only those that could be chosen.
+    const bool may_have_offset =
+        standard_offset_s && (is_nearer(of_offset) || (is_named && is_nearer(of_both)));
+    keep(nothing);
+    if (is_named) keep(of_country);
+    if (!may_have_offset || !has_offset(zone, *standard_offset_s)) continue;
+    keep(of_offset);
+    if (is_named) keep(of_both);
   }
-  return nearest_of_offset ? nearest_of_offset : nearest;
+  const auto best = std::find_if(nearest.rbegin(), nearest.rend(),
+                                 [](const auto& guess) { return guess.has_value(); });
+  return best == nearest.rend() ? std::nullopt : *best;
 }
 
 }  // namespace sunload

@@ -14,9 +14,12 @@ struct ZoneGuess {
 };
 
 /// The zone whose place (`zone.tab`: one for each zone and country) is nearest; of those with that
-/// standard offset from UTC [s], where one is given and any has it. A guess: zones end at borders,
-/// which the database does not have. Nothing where the system has no such table.
+/// standard offset from UTC [s], where one is given and any has it; of those of the
+/// country that `area` is of (area_of_use_words), where it is of one and any zone is left. A guess:
+/// zones end at borders, which the database does not have. Nothing where the system has no such
+/// table.
 std::optional<ZoneGuess> guessed_zone(double latitude_deg, double longitude_deg,
-                                      std::optional<double> standard_offset_s = {});
+                                      std::optional<double> standard_offset_s = {},
+                                      const std::string& area = {});
 
 }  // namespace sunload

@@ -16,6 +16,8 @@ import tempfile
 from skip import skip
 
 MOST_WORDS = 1500
+# Of a table: what is to be read at a glance. Longer notes go below it.
+LONGEST_ROW = 300
 # Tables of keys and datasets, made from the schema or held against the program, are looked up, not read.
 REFERENCES = {"docs/study-file.md", "docs/validation.md", "docs/result-file.md", "docs/materials.md",
               "docs/developer/dependencies.md", "docs/developer/design.md", "docs/developer/method.md", "docs/developer/how-to-add.md"}
@@ -64,6 +66,8 @@ def expect_links(source):
     for page in pages(source):
         name = os.path.relpath(page, source)
         words = len(without_code(text_of(page)).split())
+        rows = [line for line in text_of(page).splitlines() if line.startswith("|")]
+        assert max(map(len, rows), default=0) <= LONGEST_ROW, f"{name}: {max(rows, key=len)}"
         if name.startswith("docs/") and name not in REFERENCES:
             assert words <= MOST_WORDS, f"{name}: {words} words"
     with tempfile.TemporaryDirectory() as folder:  # a fault that must be seen

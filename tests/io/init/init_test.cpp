@@ -8,8 +8,10 @@
 #include <iostream>
 #include <sstream>
 
+#include "io/init/measure_text.h"
 #include "io/init/proposals.h"
 #include "io/init/study_text.h"
+#include "io/measure/rules.h"
 #include "io/plan/planner.h"
 #include "io/study/material_table.h"
 #include "io/study/study.h"
@@ -114,6 +116,59 @@ TEST(Init, EveryProposedMaterialIsInTheTable) {
     EXPECT_TRUE(tabled_material(*proposed_for_kind(kind))) << kind;
 }
 
+/// A square of ground with a block on it, whose up is z.
+std::string block_on_ground() {
+  std::string text = "v 0 0 0\nv 40 0 0\nv 40 40 0\nv 0 40 0\nf 1 2 3 4\n";
+  for (const int z : {0, 9})
+    text += fmt::format("v 10 10 {0}\nv 20 10 {0}\nv 20 20 {0}\nv 10 20 {0}\n", z);
+  return text + "f 9 10 11 12\nf 5 6 10 9\nf 6 7 11 10\nf 7 8 12 11\nf 8 5 9 12\n";
+}
+
+/// The same with y up, as some programs write it: (x, y, z) becomes (x, z, -y).
+std::string block_on_its_side() {
+  std::string text = "v 0 0 0\nv 40 0 0\nv 40 0 -40\nv 0 0 -40\nf 1 2 3 4\n";
+  for (const int z : {0, 9})
+    text += fmt::format("v 10 {0} -10\nv 20 {0} -10\nv 20 {0} -20\nv 10 {0} -20\n", z);
+  return text + "f 9 10 11 12\nf 5 6 10 9\nf 6 7 11 10\nf 7 8 12 11\nf 8 5 9 12\n";
+}
+
+TEST(Init, AModelOnItsOwnGroundGetsNoOther) {
+  const WorkFolder folder;
+  const auto [study, text] =
+      begun(folder, {.model = folder.write("block.obj", block_on_ground()), .at = "52 4"});
+  EXPECT_NE(text.find("ground: none"), std::string::npos) << text;
+  EXPECT_NE(text.find("<<< ground: faces at the model's foot, 100 % of its plan"),
+            std::string::npos)
+      << text;
+  const WorkFolder other;
+  const auto [of_box, box_text] =
+      begun(other, {.model = other.write("box.obj", box), .at = "52 4"});
+  EXPECT_EQ(box_text.find("ground: none\n"), std::string::npos) << "a house stands on none";
+}
+
+TEST(Init, AModelThatLiesOnItsSideIsStoodUp) {
+  const WorkFolder folder;
+  const auto [study, text] =
+      begun(folder, {.model = folder.write("block.obj", block_on_its_side()), .at = "52 4"});
+  EXPECT_NE(text.find("      up: y\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("<<< up: y"), std::string::npos);
+  const WorkFolder other;
+  const auto [as_said, told] = begun(
+      other, {.model = other.write("block.obj", block_on_its_side()), .at = "52 4", .up = "z"});
+  EXPECT_EQ(told.find("up: y"), std::string::npos) << "what is said is not guessed";
+}
+
+TEST(Init, WritesOnlyWhereThereIsAFolder) {
+  const WorkFolder folder;
+  const InitRules rules{.model = folder.write("box.obj", box)};
+  try {
+    init_study(rules, folder / "none/study.yaml");
+    FAIL() << "it has written into no folder";
+  } catch (const MachineError& error) {
+    EXPECT_NE(std::string(error.what()).find("there is no folder"), std::string::npos);
+  }
+}
+
 TEST(Init, ReplacesNoFile) {
   const WorkFolder folder;
   folder.write("study.yaml", "mine");
@@ -138,6 +193,47 @@ TEST(Init, ZonesAreThoseOfTheNearestPlaceWithTheOffset) {
   // A station that keeps the time of India is in India, however near Nepal it lies.
   EXPECT_EQ(guessed_zone(27.7, 85.3)->name, "Asia/Kathmandu");
   EXPECT_EQ(guessed_zone(27.7, 85.3, 5.5 * 3600)->name, "Asia/Kolkata");
+  // Gothenburg is nearer to Copenhagen; a map of Sweden is of places in Sweden.
+  EXPECT_EQ(guessed_zone(57.7, 12.0)->name, "Europe/Copenhagen");
+  EXPECT_EQ(guessed_zone(57.7, 12.0, {}, "Sweden - onshore and offshore.")->name,
+            "Europe/Stockholm");
+  EXPECT_EQ(guessed_zone(50.1, 14.4, {}, "Czechia; Slovakia.")->name, "Europe/Prague");
+}
+
+TEST(Init, RulesOfPlanningAreWrittenReadyToRun) {
+  const WorkFolder folder;
+  const auto [study, text] = begun(folder, {.model = folder.write("box.obj", box),
+                                            .at = "50.09 14.42",
+                                            .measures = {"EN17037", "bre-209-garden", "en_17037"}});
+  ASSERT_EQ(study.measures.size(), 2u) << "a rule that is named twice is one rule";
+  EXPECT_EQ(study.measures[0].rule, "en_17037");
+  EXPECT_EQ(study.measures[0].of.facade, "*");
+  EXPECT_EQ(study.measures[1].of.surface, "ground");
+  EXPECT_NE(text.find("<<< 13 degrees are the Czech Republic's"), std::string::npos);
+}
+
+TEST(Init, EveryRuleOfPlanningIsOfferedAndMakesAStudyOfAYear) {
+  EXPECT_EQ(offered_rules().size(), measure_rules().size());
+  for (const MeasureRule& rule : measure_rules()) {
+    const WorkFolder folder;
+    const auto [study, text] = begun(folder, {.model = folder.write("box.obj", box),
+                                              .weather = folder.write("w.epw", test::small_epw()),
+                                              .measures = {rule.word}});
+    ASSERT_EQ(study.measures.size(), 1u) << rule.word;
+    EXPECT_EQ(study.measures.front().rule, rule.word);
+  }
+}
+
+TEST(Init, ARuleThatNeedsWhatIsNotThereSaysWhatToAdd) {
+  const WorkFolder folder;
+  const std::string model = folder.write("box.obj", box);
+  const auto refusal = [&](const std::string& rule) {
+    return refusal_of(
+        [&] { init_study({.model = model, .measures = {rule}}, folder / "study.yaml"); });
+  };
+  EXPECT_NE(refusal("en_17037").find("--at"), std::string::npos);
+  EXPECT_NE(refusal("roof_potential").find("WEATHER"), std::string::npos);
+  EXPECT_NE(refusal("en_1").find("write one of: en_17037, csn_73_4301"), std::string::npos);
 }
 
 TEST(Init, AnExampleIsCopiedWithItsFiles) {
