@@ -79,9 +79,9 @@ void look_at_site(const InitRules& rules, const BuiltScene& built, Findings& fou
 }
 
 /// Faces that look along an axis, as shares of the side of the box about the model across it: those
-/// at its low end, and all others.
+/// at its low end, and all others; and those that look against it.
 struct Covered {
-  double foot = 0, above = 0;
+  double foot = 0, above = 0, against = 0;
 };
 
 Covered covered_along(const Mesh& mesh, const PrepareReport& report, double Vec3::*axis) {
@@ -93,8 +93,11 @@ Covered covered_along(const Mesh& mesh, const PrepareReport& report, double Vec3
   for (std::size_t t = 0; t < mesh.triangle_count() && volume > 0; ++t) {
     const bool is_at_foot = mesh.corner(t, 0).*axis <= top && mesh.corner(t, 1).*axis <= top &&
                             mesh.corner(t, 2).*axis <= top;
-    const double share = std::max(0.0, mesh.area_vector2(t).*axis / 2) * (size.*axis) / volume;
-    (is_at_foot ? covered.foot : covered.above) += share;
+    const double share = mesh.area_vector2(t).*axis / 2 * (size.*axis) / volume;
+    if (share < 0)
+      covered.against -= share;
+    else
+      (is_at_foot ? covered.foot : covered.above) += share;
   }
   return covered;
 }
@@ -103,6 +106,14 @@ Covered covered_along(const Mesh& mesh, const PrepareReport& report, double Vec3
 bool is_ground(const Covered& covered) {
   constexpr double least = 0.2, most = 1.8;
   return covered.foot > least && covered.foot + covered.above < most;
+}
+
+/// Whether land seems to look along +y: a sheet that covers the box about it once and shows nothing
+/// the other way, while along z there are faces both ways.
+bool lies_on_its_side(const Covered& along_z, const Covered& along_y) {
+  constexpr double hardly_any = 0.02, once = 0.9;
+  return is_ground(along_y) && along_y.foot + along_y.above > once &&
+         along_y.against < hardly_any && along_z.against > hardly_any;
 }
 
 /// Formats that do not say which axis points up, where z is taken for it.
@@ -160,10 +171,9 @@ Findings findings_of(const InitRules& rules) {
   found.has_ground = found.area[static_cast<std::size_t>(Surface::ground)] > 0;
   const Covered upward = covered_along(built.scene.mesh, report, &Vec3::z);
   if (is_ground(upward)) found.foot_share = upward.foot;
-  constexpr double hardly_any = 0.02;
-  found.is_on_its_side = rules.up.empty() && may_be_on_its_side(rules.model) &&
-                         upward.foot < hardly_any &&
-                         is_ground(covered_along(built.scene.mesh, report, &Vec3::y));
+  found.is_on_its_side =
+      rules.up.empty() && may_be_on_its_side(rules.model) &&
+      lies_on_its_side(upward, covered_along(built.scene.mesh, report, &Vec3::y));
   found.is_raster = is_raster(rules.model);
   found.warnings = built.warnings;
   std::copy_if(

@@ -58,7 +58,7 @@ struct Findings {
   bool has_ground = false, is_city_format = false;
   /// Of the model's plan, covered by faces at its foot that may be its ground; 0: there are none.
   double foot_share = 0;
-  bool is_on_its_side = false;  ///< such faces look along +y, none along z, which no one has chosen
+  bool is_on_its_side = false;  ///< land seems to look along +y, and no one has chosen z
   bool is_raster = false;       ///< of heights, which are the ground, too
   bool has_excess = false;      ///< colours of VRML that reflect more than arrives
   std::vector<std::string> warnings;
