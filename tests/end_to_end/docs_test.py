@@ -14,6 +14,7 @@ import sys
 import tempfile
 
 from skip import skip
+from small_year import wea
 
 MOST_WORDS = 1500
 # Of a table: what is to be read at a glance. Longer notes go below it.
@@ -120,6 +121,30 @@ def expect_python(source, environment):
             assert found, page
             run(["/usr/bin/python3", "-B", "-c", "\n".join(found)], folder, environment)
         assert os.path.getsize(os.path.join(folder, "map.png")) > 0
+    expect_recipes(source, environment)
+
+
+def expect_recipes(source, environment):
+    """Files of other tools, in and out."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in (("weather.wea", wea()), ("grid.pts", "6 0 1.5 1 0 0\n0 -6 1.5 0 -1 0\n-6 -6 0 0 0 1\n")):
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                file.write(text)
+        found = blocks(os.path.join(source, "docs/recipes.md"), "python")
+        assert len(found) >= 5
+        run(["/usr/bin/python3", "-B", "-c", "\n".join(found)], folder, environment)
+        lines = lambda name: text_of(os.path.join(folder, name)).splitlines()
+        matrix = lines("grid.mtx")
+        assert matrix[1:3] == ["NROWS=3", "NCOLS=8760"] and [len(row.split()) for row in matrix[6:]] == 3 * [8760]
+        rows = lines("facades.csv")
+        assert len(rows) == 8761 and rows[1].startswith("1,1,1,") and rows[-1].startswith("12,31,24,")
+        hours = lines("annual_irradiance/results/total/sun-up-hours.txt")
+        values = lines("annual_irradiance/results/total/grid.ill")
+        assert len(values) == 3 and {len(row.split()) for row in values} == {len(hours)}
+        # Level ground at noon of 21 June: the sun of the weather, and its sky.
+        noon = float(values[2].split()[hours.index(f"{(171 * 24) + 12.5}")])
+        assert 700 < noon < 950, noon
+        assert len(lines("shading.csv")) == 8761
 
 
 def main():
