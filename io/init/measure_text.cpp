@@ -84,6 +84,7 @@ bool needs_year(const MeasureRule& rule) { return rule.spans != MeasureRule::Spa
 
 std::vector<std::string> offered_rules() {
   std::vector<std::string> words;
+  words.reserve(offers.size());
   for (const Offer& offer : offers) words.emplace_back(offer.rule);
   return words;
 }
