@@ -154,7 +154,7 @@ Explanation explained(const ResultReader& result, const ResultScene& scene,
   into.extent = extent_of(result, place);
 
   const Attribution a = attribute_light(scene.traced(), scene.period(), sent_light(result, scene),
-                                        place, chosen_part(result, scene));
+                                        place, chosen_part(result, scene.light()));
   into.rows.push_back(open_row(a));
   const auto& names = scene.traced().scene.mesh.object_names;
   for (std::size_t o = 0; o < a.objects(); ++o) {

@@ -3,6 +3,7 @@
 #include "io/explain/light_of_part.h"
 
 #include "geo/base/units.h"
+#include "io/result/own_seasons.h"
 #include "io/result/time.h"
 
 namespace sunload {
@@ -26,13 +27,13 @@ std::vector<std::vector<float>> reflectances_of_bands(const ResultScene& scene) 
   return of_bands;
 }
 
-std::vector<double> chosen_part(const ResultReader& result, const ResultScene& scene) {
+std::vector<double> chosen_part(const ResultReader& result, const LightSeries& light) {
   if (!result.chosen().any()) return {};
   std::vector<TimeSpan> intervals;
-  for (const LitInterval& interval : scene.light().intervals)
+  for (const LitInterval& interval : light.intervals)
     intervals.push_back({interval.when.begin, interval.when.end});
   return chosen_shares(result.chosen(), intervals, result_zone(result),
-                       result.number_attribute("latitude_deg"));
+                       result.number_attribute("latitude_deg"), own_seasons(result));
 }
 
 namespace {
@@ -57,7 +58,7 @@ SentLight sent_in_part(const ResultReader& result, const ResultScene& scene) {
                  static_cast<double>(readers.size());
   }
   if (!optics.any_emission) return sent;
-  const double seconds = seconds_of(scene.light(), chosen_part(result, scene));
+  const double seconds = seconds_of(scene.light(), chosen_part(result, scene.light()));
   for (std::size_t i = 0; i < sent.size(); ++i)
     sent[i] += seconds * static_cast<double>(optics.emission[i]);
   return sent;

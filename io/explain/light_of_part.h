@@ -20,7 +20,7 @@ std::vector<std::vector<float>> reflectances_of_bands(const ResultScene& scene);
 
 /// Share of every interval of the study that is chosen, whatever the series' steps; empty: the
 /// whole period.
-std::vector<double> chosen_part(const ResultReader& result, const ResultScene& scene);
+std::vector<double> chosen_part(const ResultReader& result, const LightSeries& light);
 
 /// What patches send diffusely: as the result has it of the whole period, else ρ E and what shines.
 SentLight sent_light(const ResultReader& result, const ResultScene& scene);

@@ -96,7 +96,7 @@ void write_place_map(const ResultReader& result, const ResultScene& scene, const
   scene.expect_one_season();
   const Place place = place_named(result, parts);
   const Attribution a = attribute_light(scene.traced(), scene.period(), sent_light(result, scene),
-                                        place, chosen_part(result, scene), Among::patches);
+                                        place, chosen_part(result, scene.light()), Among::patches);
   const auto area = result.doubles("patch_area");
   MapColumns columns = columns_of(a, area);
   columns["place_weight"] = weights_of(place, area.size());

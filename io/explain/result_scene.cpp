@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "geo/base/check.h"
+#include "io/explain/light_of_part.h"
 #include "io/plan/rules_of_study.h"
+#include "io/plan/scene_seasons.h"
 #include "io/study/study_text.h"
 
 namespace sunload {
@@ -26,14 +29,37 @@ VariantMesh mesh_of(const VariantPlan& plan) {
   return make_mesh(plan, watch);
 }
 
+/// The season in which all of the chosen part of the period lies, if there is one.
+std::optional<std::size_t> only_season(const ResultReader& result, const VariantPlan& plan) {
+  const auto shares = chosen_part(result, plan.light);
+  std::optional<std::size_t> only;
+  for (std::size_t i = 0; i < plan.intervals(); ++i) {
+    if (!shares.empty() && shares[i] <= 0) continue;
+    const std::size_t season = plan.seasons.of(i);
+    if (only && *only != season) return {};
+    only = season;
+  }
+  return only;
+}
+
+/// What the scene is made of then. The mesh is that of all seasons, and is made before.
+const Scene& scene_of_chosen(const ResultReader& result, VariantPlan& plan) {
+  if (plan.seasons.all.empty()) return plan.built.scene;
+  if (const auto season = only_season(result, plan)) {
+    plan.built.scene = scene_in(plan.built.scene, plan.seasons.all[*season]);
+    plan.seasons = {};
+  }
+  return plan.built.scene;
+}
+
 }  // namespace
 
 ResultScene::ResultScene(const ResultReader& result, VariantPlan plan)
     : path_(result.path()),
       plan_(std::move(plan)),
       mesh_(mesh_of(plan_)),
-      traced_(
-          std::make_unique<const TracedScene>(plan_.built.scene, mesh_.mesh, solver_rules(plan_))),
+      traced_(std::make_unique<const TracedScene>(scene_of_chosen(result, plan_), mesh_.mesh,
+                                                  solver_rules(plan_))),
       lights_(plan_.study, plan_.built.site, traced_->grid),
       period_(lights_, plan_.light) {
   if (mesh_.mesh->area() != result.doubles("patch_area"))
@@ -44,7 +70,7 @@ void ResultScene::expect_one_season() const {
   if (!plan_.seasons.all.empty())
     throw InputError({path_}, "cannot be explained: its materials change with the seasons",
                      "light is followed back in one scene",
-                     "explain a study whose period lies within one of them");
+                     "choose a part of the period within one of them: --season, --month, --day");
 }
 
 struct ResultScenes::Opened {

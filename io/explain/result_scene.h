@@ -19,7 +19,9 @@ namespace sunload {
 /// Everything refers to the plan, hence stays where it is.
 class ResultScene {
  public:
-  /// Throws InputError where this is not what `result` was computed from.
+  /// Throws InputError where this is not what `result` was computed from. Where materials change
+  /// with the seasons and the part of the period that is chosen lies in one of them, the scene is
+  /// made of what it is then.
   ResultScene(const ResultReader& result, VariantPlan plan);
   ResultScene(const ResultScene&) = delete;
   ResultScene& operator=(const ResultScene&) = delete;
@@ -27,7 +29,7 @@ class ResultScene {
   const TracedScene& traced() const { return *traced_; }
   const LitPeriod& period() const { return period_; }
   const LightSeries& light() const { return plan_.light; }
-  /// Throws InputError where the scene's materials change in the course of the period.
+  /// Throws InputError where the scene's materials change in the course of what is chosen.
   void expect_one_season() const;
   const VariantPlan& plan() const { return plan_; }
 

@@ -30,7 +30,8 @@ OwnSeasons own_seasons(const ResultReader& result);
 /// A name as one of `flag_meanings` (CF 3.5), which have no blanks.
 std::string flag_word(std::string name);
 
-/// `chosen_shares` of a study that may have seasons.
+/// Share of every interval that is chosen. Throws InputError for words that say nothing, and where
+/// nothing of the intervals is chosen. `own`: empty where the study has no seasons.
 std::vector<double> chosen_shares(const PeriodChoice& choice,
                                   const std::vector<TimeSpan>& intervals, const TimeZone& zone,
                                   double latitude_deg, const OwnSeasons& own);

@@ -131,12 +131,6 @@ std::string PeriodChoice::words() const {
 
 std::vector<double> chosen_shares(const PeriodChoice& choice,
                                   const std::vector<TimeSpan>& intervals, const TimeZone& zone,
-                                  double latitude_deg) {
-  return chosen_shares(choice, intervals, zone, latitude_deg, {});
-}
-
-std::vector<double> chosen_shares(const PeriodChoice& choice,
-                                  const std::vector<TimeSpan>& intervals, const TimeZone& zone,
                                   double latitude_deg, const OwnSeasons& own) {
   constexpr double always = std::numeric_limits<double>::infinity();
   const double from = choice.from.empty() ? -always : instant("from", choice.from, zone);

@@ -24,12 +24,6 @@ struct PeriodChoice {
   std::string words() const;
 };
 
-/// Share of every interval that is chosen. Throws InputError for words that say nothing, and where
-/// nothing of the intervals is chosen.
-std::vector<double> chosen_shares(const PeriodChoice& choice,
-                                  const std::vector<TimeSpan>& intervals, const TimeZone& zone,
-                                  double latitude_deg);
-
 /// Days of these intervals: "2026-06-21, 2026-12-21", "2026-06-01 … 2026-08-31",
 /// "12 days of 2026-01-21 … 2026-12-21".
 std::string days_in_words(const std::vector<TimeSpan>& intervals, const TimeZone& zone);

@@ -62,6 +62,40 @@ const std::string two_variants =
     "  - {name: base, scene: {materials: {glass: {diffuse: 0.3, mirror: 0}}}}\n"
     "  - {name: glazed}\n";
 
+/// In January the square is white.
+TEST(Explain, FollowsLightInTheSeasonThatIsChosen) {
+  std::string study = coarse_square();
+  const auto put = [&](const std::string& from, const std::string& to) {
+    ASSERT_NE(study.find(from), std::string::npos) << from;
+    study.replace(study.find(from), from.size(), to);
+  };
+  put("days: [2026-03-21]", "days: [2026-01-21, 2026-06-21]");
+  put("paving: {diffuse: 0.3}",
+      "paving: {diffuse: 0.3, seasons: {snow: white}}\n    white: {diffuse: 0.8}");
+  put("totals: [season, ", "totals: [month, ");
+  const SquareFolder square(study + "seasons: {snow: [12, 1, 2]}\n");
+  const Ran ran = square.run("results");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const std::string result = square.result("results", "baseline");
+  const json january = explained(square.folder, {result, "--object", "house", "--month", "1"}),
+             june = explained(square.folder, {result, "--object", "house", "--month", "6"});
+  expect_adds_up(january);
+  expect_adds_up(june);
+  // As a square that is always white gives: its intervals have the same bits.
+  put("paving: {diffuse: 0.3, seasons: {snow: white}}", "paving: {diffuse: 0.8}");
+  const SquareFolder white(study);
+  const Ran ran_white = white.run("results");
+  ASSERT_EQ(ran_white.code, 0) << ran_white.err;
+  EXPECT_EQ(explained(white.folder, {white.result("results", "baseline"), "--object", "house",
+                                     "--month", "1"})["rows"],
+            january["rows"]);
+  EXPECT_EQ(explained(square.folder, {result, "--object", "house", "--season", "snow"})["rows"],
+            january["rows"]);
+  const Ran all = program(square.folder, {"explain", result, "--object", "house"});
+  EXPECT_EQ(all.code, 2);
+  EXPECT_NE(all.err.find("--season, --month, --day"), std::string::npos) << all.err;
+}
+
 TEST(Explain, AddsUpAndNamesWhoChangesWhat) {
   const SquareFolder square(coarse_square() + two_variants);
   const Ran ran = square.run("results");

@@ -29,7 +29,7 @@ std::vector<TimeSpan> two_days() {
 }
 
 std::vector<double> chosen(const PeriodChoice& choice, double latitude = 50) {
-  return chosen_shares(choice, two_days(), zone, latitude);
+  return chosen_shares(choice, two_days(), zone, latitude, {});
 }
 
 double hours(const PeriodChoice& choice, double latitude = 50) {
