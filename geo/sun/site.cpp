@@ -3,18 +3,14 @@
 // Frames by GeographicLib, map projections by PROJ.
 #include "geo/sun/site.h"
 
-#include <proj.h>
-
 #include <GeographicLib/Geocentric.hpp>
 #include <GeographicLib/Math.hpp>
-#include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "geo/base/check.h"
+#include "geo/sun/proj_objects.h"
 
 namespace sunload {
 
@@ -45,49 +41,9 @@ LocalFrame local_frame(const Site& site) {
   return frame;
 }
 
-// ---- PROJ. Each call of ours has a context of its own: contexts are not thread-safe.
-
-struct ProjDeleter {
-  void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
-  void operator()(PJ* object) const { proj_destroy(object); }
-};
-using Context = std::unique_ptr<PJ_CONTEXT, ProjDeleter>;
-using Object = std::unique_ptr<PJ, ProjDeleter>;
-
-Context make_context() {
-  Context context(proj_context_create());
-  SUNLOAD_EXPECT(context != nullptr, "PROJ context");
-  proj_log_level(context.get(), PJ_LOG_NONE);
-  proj_context_set_enable_network(context.get(), 0);  // the same answer with and without network
-  return context;
-}
-
-// A bare number is an EPSG code.
-std::string canonical_name(const std::string& crs) {
-  const bool is_number = !crs.empty() && std::all_of(crs.begin(), crs.end(), [](unsigned char c) {
-    return std::isdigit(c) != 0;
-  });
-  return is_number ? "EPSG:" + crs : crs;
-}
-
-// Part of a coordinate reference system that places points on the map.
-Object horizontal_part(PJ_CONTEXT* context, Object crs) {
-  while (crs) {
-    const PJ_TYPE type = proj_get_type(crs.get());
-    if (type == PJ_TYPE_COMPOUND_CRS) {
-      crs.reset(proj_crs_get_sub_crs(context, crs.get(), 0));
-    } else if (type == PJ_TYPE_BOUND_CRS) {
-      crs.reset(proj_get_source_crs(context, crs.get()));
-    } else {
-      break;
-    }
-  }
-  return crs;
-}
-
-Object map_projection(PJ_CONTEXT* context, const std::string& crs) {
-  Object object(proj_create(context, canonical_name(crs).c_str()));
-  if (!object || !proj_is_crs(object.get())) {
+ProjObject map_projection(PJ_CONTEXT* context, const std::string& crs) {
+  ProjObject object = crs_of_name(context, crs);
+  if (!object) {
     throw InputError({}, "unknown coordinate reference system '" + crs + "'",
                      "not in PROJ's database",
                      "use the code of a map projection such as EPSG:28992");
@@ -104,7 +60,7 @@ Object map_projection(PJ_CONTEXT* context, const std::string& crs) {
 
 // Length of the projection's own unit, e.g. a US survey foot.
 double metres_per_unit(PJ_CONTEXT* context, const PJ* projection) {
-  const Object axes(proj_crs_get_coordinate_system(context, projection));
+  const ProjObject axes(proj_crs_get_coordinate_system(context, projection));
   double factor = 0;
   const bool known = axes && proj_cs_get_axis_info(context, axes.get(), 0, nullptr, nullptr,
                                                    nullptr, &factor, nullptr, nullptr, nullptr);
@@ -116,14 +72,11 @@ double metres_per_unit(PJ_CONTEXT* context, const PJ* projection) {
 class MapToEarth {
  public:
   explicit MapToEarth(const std::string& crs)
-      : name_(crs), context_(make_context()), projection_(map_projection(context_.get(), crs)) {
+      : name_(crs),
+        context_(make_proj_context()),
+        projection_(map_projection(context_.get(), crs)) {
     metres_per_unit_ = metres_per_unit(context_.get(), projection_.get());
-    const Object wgs84(proj_create(context_.get(), "EPSG:4326"));
-    const Object as_defined(proj_create_crs_to_crs_from_pj(context_.get(), projection_.get(),
-                                                           wgs84.get(), nullptr, nullptr));
-    if (as_defined) {
-      earth_from_map_.reset(proj_normalize_for_visualization(context_.get(), as_defined.get()));
-    }
+    earth_from_map_ = earth_from_crs(context_.get(), projection_.get());
     if (!earth_from_map_) fail("PROJ knows no way from it to WGS84");
   }
 
@@ -151,22 +104,7 @@ class MapToEarth {
     return {map.xy.x * metres_per_unit_, map.xy.y * metres_per_unit_, height_m};
   }
 
-  /// Bounds in degrees; nothing where the database has none.
-  struct AreaOfUse {
-    bool known = false;
-    double west = 0, south = 0, east = 0, north = 0;
-    std::string name;
-  };
-  AreaOfUse area_of_use() const {
-    AreaOfUse area;
-    const char* name = nullptr;
-    constexpr double unknown = -1000;  // PROJ's own mark
-    area.known = proj_get_area_of_use(context_.get(), projection_.get(), &area.west, &area.south,
-                                      &area.east, &area.north, &name) != 0 &&
-                 area.west > unknown;
-    if (name) area.name = name;
-    return area;
-  }
+  AreaOfUse area() const { return area_of_use(context_.get(), projection_.get()); }
 
   [[noreturn]] void fail(const std::string& why) const {
     throw InputError({}, "coordinate reference system '" + name_ + "' cannot be used", why,
@@ -175,9 +113,9 @@ class MapToEarth {
 
  private:
   std::string name_;
-  Context context_;
-  Object projection_;
-  Object earth_from_map_;
+  ProjContext context_;
+  ProjObject projection_;
+  ProjObject earth_from_map_;
   double metres_per_unit_ = 1;
 };
 
@@ -223,21 +161,14 @@ Vec3 map_position(const std::string& crs, double latitude_deg, double longitude_
   return MapToEarth(crs).back(latitude_deg, longitude_deg, height_m);
 }
 
-std::string area_of_use_words(const std::string& crs) { return MapToEarth(crs).area_of_use().name; }
+std::string area_of_use_words(const std::string& crs) { return MapToEarth(crs).area().name; }
 
 std::string area_of_use_warning(const std::string& crs, Vec3 position) {
   const MapToEarth earth_from_map(crs);
-  const auto area = earth_from_map.area_of_use();
+  const auto area = earth_from_map.area();
   if (!area.known) return {};
   const Site site = earth_from_map(position);
-  constexpr double margin_deg = 0.2;                            // maps serve the neighbourhood, too
-  const double width_deg = wrapped_deg(area.east - area.west);  // may cross the date line
-  const bool all_around = area.east - area.west >= 360;
-  const bool inside = site.latitude_deg >= area.south - margin_deg &&
-                      site.latitude_deg <= area.north + margin_deg &&
-                      (all_around || wrapped_deg(site.longitude_deg - area.west + margin_deg) <=
-                                         width_deg + 2 * margin_deg);
-  if (inside) return {};
+  if (area.contains(site.latitude_deg, site.longitude_deg)) return {};
   return message({},
                  "the scene at latitude " + std::to_string(site.latitude_deg) + ", longitude " +
                      std::to_string(site.longitude_deg) + " lies outside of the area of use of '" +

@@ -8,6 +8,7 @@
 
 #include "io/scene/base/from_file.h"
 #include "io/scene/base/plain_names.h"
+#include "io/scene/citygml/reader.h"
 #include "io/scene/cityjson/reader.h"
 #include "io/scene/mesh_files/gltf.h"
 #include "io/scene/mesh_files/obj.h"
@@ -35,10 +36,14 @@ struct Format {
   Reader read;
 };
 
-// A format is added by its row. The mark 1F 8B is gzip's: only VRML is packed by custom.
+// A format is added by its row. The mark 1F 8B is gzip's: VRML, but for names of CityGML.
 const std::vector<Format>& formats() {
   static const std::vector<Format> table{
       {"CityJSON", {"{"}, {".city.json", ".city.jsonl", ".json", ".jsonl"}, read_scene_cityjson},
+      {"CityGML",
+       {"<"},
+       {".gml", ".citygml", ".xml", ".gml.gz", ".citygml.gz", ".xml.gz"},
+       read_scene_citygml},
       {"OBJ", {}, {".obj"}, read_scene_obj},
       {"VRML",
        {"#VRML", "#Inventor", "\x1F\x8B"},
@@ -87,12 +92,16 @@ const Format* format_by_extension(const std::string& path) {
   return nullptr;
 }
 
-/// The content is stronger than the name, but for JSON, which glTF is, too.
+/// The content is stronger than the name, but for JSON, which glTF is, too, and for what gzip
+/// hides.
 const Format* format_of(const std::string& path, std::string_view head) {
   if (is_footprint_file(path, head)) return &formats().back();
   const auto* by_mark = format_by_mark(head);
   const bool may_be_gltf = head.starts_with('{') && lower_extension(path) == ".gltf";
-  return by_mark != nullptr && !may_be_gltf ? by_mark : format_by_extension(path);
+  const auto* by_extension = format_by_extension(path);
+  const bool is_packed_gml = head.starts_with("\x1F\x8B") && by_extension != nullptr &&
+                             by_extension->read == read_scene_citygml;
+  return by_mark != nullptr && !may_be_gltf && !is_packed_gml ? by_mark : by_extension;
 }
 
 std::string names_of_formats() {

@@ -44,6 +44,8 @@ FileKind kind_of(const std::string& path, std::string_view head) {
   if (head.starts_with('{') && (has("\"CityJSON\"") || has("\"CityJSONFeature\"") ||
                                 has("\"CityObjects\"") || ends_with({".jsonl"})))
     return FileKind::city;
+  if (head.starts_with('<') && (has(":CityModel") || has("<CityModel") || has("/citygml/")))
+    return FileKind::city;
   if (head.starts_with("#VRML") || head.starts_with("glTF") || head.starts_with("ply\n") ||
       head.starts_with("ply\r") ||
       ends_with({".obj", ".stl", ".STL", ".gltf", ".glb", ".wrl", ".ply", ".off", ".tif", ".asc"}))

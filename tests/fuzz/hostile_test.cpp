@@ -72,6 +72,40 @@ TEST(HostileFiles, ManyInstances) {
   expect_refused("nodes.gltf", mesh + nodes + "{\"mesh\":0}]," + accessor, "too many");
 }
 
+TEST(HostileFiles, ManyLinks) {
+  const auto city = [](const std::string& members) {
+    return "<CityModel>" + members + "</CityModel>";
+  };
+  // Buildings that all have the same thousands of polygons; trees that all have the same crown.
+  const std::string polygon =
+      "<surfaceMember><Polygon><exterior><LinearRing><posList>0 0 0 1 0 0 0 1 0</posList>"
+      "</LinearRing></exterior></Polygon></surfaceMember>";
+  const std::string surface = "<MultiSurface id='s'>" + times(3500, polygon) + "</MultiSurface>";
+  const auto building = [](const std::string& geometry) {
+    return "<cityObjectMember><Building><lod2MultiSurface" + geometry +
+           "</Building></cityObjectMember>";
+  };
+  expect_refused(
+      "walls.gml",
+      city(building(">" + surface + "</lod2MultiSurface>") + times(5000, building(" href='#s'/>"))),
+      "once too often");
+  const std::string tree =
+      "<cityObjectMember><PlantCover><lod1ImplicitRepresentation><ImplicitGeometry>"
+      "<relativeGMLGeometry href='#s'/><referencePoint><Point><pos>0 0 0</pos></Point>"
+      "</referencePoint></ImplicitGeometry></lod1ImplicitRepresentation></PlantCover>"
+      "</cityObjectMember>";
+  expect_refused("trees.gml",
+                 city(building(">" + surface + "</lod2MultiSurface>") + times(2000, tree)),
+                 "once too often");
+  expect_refused("deep.gml", city(times(40000, "<cityObjectMember><a>")), "no well-formed XML");
+  const std::string parts = "<consistsOfBuildingPart><BuildingPart>";
+  expect_refused("parts.gml",
+                 city("<cityObjectMember><Building>" + times(5000, parts) +
+                      times(5000, "</BuildingPart></consistsOfBuildingPart>") +
+                      "</Building></cityObjectMember>"),
+                 "nest too deep");
+}
+
 TEST(HostileFiles, LongNames) {
   expect_refused("names.gltf",
                  R"({"asset":{"version":"2.0"},"meshes":[{"name":")" + std::string(400'000, 'n') +

@@ -28,7 +28,7 @@ struct FootprintRules {
 struct SceneFileRules {
   char up = 0;        ///< axis of the file that points up: 'x', 'y', 'z'; 0 = default of the format
   double unit_m = 1;  ///< length of one unit of the file [m]
-  std::string lod = "highest";  ///< CityJSON: "highest", or a level such as "2" or "2.2"
+  std::string lod = "highest";  ///< city models: "highest", or a level such as "2" or "2.2"
   VrmlColour vrml_colour = VrmlColour::mean;
   double emission_scale_w = 1;  ///< power that a VRML emissiveColor of strength 1 stands for [W]
   FootprintRules footprints = {};

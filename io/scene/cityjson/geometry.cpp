@@ -7,6 +7,8 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "io/scene/base/city_types.h"
+
 namespace sunload {
 
 namespace {
@@ -21,36 +23,6 @@ const std::unordered_map<std::string_view, int>& levels_around_surfaces() {
                                                                {"MultiSolid", 2},
                                                                {"CompositeSolid", 2}};
   return table;
-}
-
-/// What a semantic surface is for light; no `kind`: nothing, light passes.
-struct SurfaceRule {
-  std::optional<Surface> kind = Surface::other;
-  bool is_known = true;
-};
-
-SurfaceRule surface_rule(std::string_view type) {
-  static const std::unordered_map<std::string_view, SurfaceRule> table{
-      {"WallSurface", {Surface::wall}},
-      {"Door", {Surface::wall}},
-      {"RoofSurface", {Surface::roof}},
-      {"Window", {Surface::window}},
-      {"GroundSurface", {Surface::floor}},
-      {"WaterGroundSurface", {Surface::floor}},
-      {"WaterSurface", {Surface::ground}},
-      {"TrafficArea", {Surface::ground}},
-      {"AuxiliaryTrafficArea", {Surface::ground}},
-      {"TransportationMarking", {Surface::ground}},
-      {"TransportationHole", {Surface::ground}},
-      {"OuterCeilingSurface", {Surface::other}},
-      {"OuterFloorSurface", {Surface::other}},
-      {"InteriorWallSurface", {Surface::other}},
-      {"CeilingSurface", {Surface::other}},
-      {"FloorSurface", {Surface::other}},
-      {"ClosureSurface", {std::nullopt}},
-      {"WaterClosureSurface", {std::nullopt}}};
-  const auto found = table.find(type);
-  return found == table.end() ? SurfaceRule{Surface::other, false} : found->second;
 }
 
 /// Element of a list that may be shorter than it should be, or missing, or null.
@@ -133,7 +105,7 @@ class GeometryReader {
     for (const auto& surface : *surfaces) {
       const auto* type = surface.is_object() ? find_member(surface, "type") : nullptr;
       const bool is_text = type != nullptr && type->is_string();
-      rules_.push_back(surface_rule(is_text ? type->get_ref<const std::string&>() : ""));
+      rules_.push_back(semantic_surface(is_text ? type->get_ref<const std::string&>() : ""));
       if (!rules_.back().is_known) {
         notes_.count("semantic surfaces of unknown type: kind of surface by slope");
       }
@@ -178,7 +150,7 @@ class GeometryReader {
     return !surface.empty();
   }
 
-  const SurfaceRule& semantic_rule(const json& value) const {
+  const SemanticSurface& semantic_rule(const json& value) const {
     const auto index = whole_number(value);
     if (!index || *index >= rules_.size()) {
       place_.fail_at_surface(surface_, "semantic surface index " + shown(value),
@@ -205,7 +177,7 @@ class GeometryReader {
   NoteCounter& notes_;
   ThemeValues theme_;
   const json* semantic_values_ = nullptr;
-  std::vector<SurfaceRule> rules_;
+  std::vector<SemanticSurface> rules_;
   std::size_t surface_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "io/base/json_text.h"
+#include "io/scene/base/city_types.h"
 #include "io/scene/base/from_file.h"
 #include "io/scene/base/words.h"
 #include "io/scene/cityjson/geometry.h"

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/cityjson/select.h"
 
-#include <algorithm>
 #include <optional>
-#include <string_view>
-#include <unordered_set>
 
+#include "io/scene/base/city_types.h"
 #include "io/scene/base/words.h"
 #include "io/scene/cityjson/geometry.h"
 
@@ -16,46 +14,17 @@ namespace {
 
 using nlohmann::json;
 using Choices = std::map<std::string, GeometryChoice>;
-using TypeSet = std::unordered_set<std::string_view>;
-
-const TypeSet& terrain_types() {
-  static const TypeSet types{"LandUse",  "Road",      "Railway",   "TransportSquare",
-                             "Waterway", "TINRelief", "WaterBody", "PlantCover"};
-  return types;
-}
-
-const TypeSet& interior_types() {
-  static const TypeSet types{"BuildingRoom",      "BuildingStorey", "BuildingUnit",
-                             "BuildingFurniture", "BridgeRoom",     "BridgeFurniture",
-                             "TunnelHollowSpace", "TunnelFurniture"};
-  return types;
-}
-
-const TypeSet& other_types() {
-  static const TypeSet types{"Building",
-                             "BuildingPart",
-                             "BuildingInstallation",
-                             "BuildingConstructiveElement",
-                             "Bridge",
-                             "BridgePart",
-                             "BridgeInstallation",
-                             "BridgeConstructionElement",
-                             "BridgeConstructiveElement",
-                             "CityFurniture",
-                             "CityObjectGroup",
-                             "GenericCityObject",
-                             "OtherConstruction",
-                             "SolitaryVegetationObject",
-                             "Tunnel",
-                             "TunnelPart",
-                             "TunnelInstallation",
-                             "TunnelConstructiveElement"};
-  return types;
-}
 
 std::string text_member(const json& object, const char* name) {
   const auto* member = find_member(object, name);
   return member != nullptr && member->is_string() ? member->get<std::string>() : std::string();
+}
+
+/// CityJSON 1.0 has numbers, later versions text.
+Lod lod_of_geometry(const json& geometry) {
+  const auto* lod = find_member(geometry, "lod");
+  if (lod == nullptr || !(lod->is_string() || lod->is_number())) return {};
+  return lod_of(lod->is_string() ? lod->get<std::string>() : lod->dump());
 }
 
 /// Rank of one geometry, or nothing where it has no surfaces that could be read.
@@ -71,7 +40,7 @@ std::optional<LodRank> geometry_rank(const json& geometry, const std::string& ob
                     : "geometries of unknown type '" + shortened(type) + "' ignored");
     return std::nullopt;
   }
-  return wish.rank(lod_of(find_member(shape, "lod")));
+  return wish.rank(lod_of_geometry(shape));
 }
 
 GeometryChoice choose_of_object(const std::string& id, const json& object, const LodWish& wish,
@@ -81,11 +50,11 @@ GeometryChoice choose_of_object(const std::string& id, const json& object, const
   if (choice.type.empty()) {
     throw InputError(where, "CityObject '" + id + "' has no type", "every CityObject has one");
   }
-  if (interior_types().contains(choice.type)) {
+  if (is_interior(choice.type)) {
     notes.count("interior objects (" + choice.type + ") left out");
     return choice;
   }
-  if (!terrain_types().contains(choice.type) && !other_types().contains(choice.type)) {
+  if (!is_city_object_type(choice.type)) {
     notes.count("objects of unknown type '" + shortened(choice.type) + "' read like any other");
   }
   const auto* list = find_member(object, "geometry");
@@ -133,16 +102,12 @@ void unstack_whole_and_parts(Choices& choices, NoteCounter& notes) {
     auto parts = listed(choices, find_member(*whole.object, "children"));
     std::erase_if(parts, [](const auto* part) { return !part->type.ends_with("Part"); });
     if (parts.empty()) continue;
-    const auto best = (*std::max_element(parts.begin(), parts.end(), [](auto* a, auto* b) {
-                        return a->rank < b->rank;
-                      }))->rank;
-    if (whole.rank < best) {
-      notes.count("objects whose parts have a better level of detail: their own geometry left out");
-      whole.geometries.clear();
-    } else if (whole.rank > best) {
+    std::vector<LodRank> ranks;
+    for (const auto* part : parts) ranks.push_back(part->rank);
+    const auto read = unstacked(whole.rank, ranks, notes);
+    if (read == WholeOrParts::parts) whole.geometries.clear();
+    if (read == WholeOrParts::whole)
       for (auto* part : parts) part->geometries.clear();
-      notes.count("parts of objects with a better level of detail left out", parts.size());
-    }
   }
 }
 
@@ -160,8 +125,6 @@ void unstack_groups(Choices& choices, NoteCounter& notes) {
 }
 
 }  // namespace
-
-bool is_terrain(const std::string& object_type) { return terrain_types().contains(object_type); }
 
 Choices choose_geometries(const json& city_objects, const LodWish& wish,
                           const TemplateOf& template_of, const Where& where, NoteCounter& notes) {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "io/scene/base/from_file.h"
-#include "io/scene/cityjson/lod.h"
+#include "io/scene/base/lod.h"
 
 namespace sunload {
 
@@ -32,8 +32,5 @@ std::map<std::string, GeometryChoice> choose_geometries(const nlohmann::json& ci
                                                         const LodWish& wish,
                                                         const TemplateOf& template_of,
                                                         const Where& where, NoteCounter& notes);
-
-/// Land use, roads, water and their like: surfaces that are the ground.
-bool is_terrain(const std::string& object_type);
 
 }  // namespace sunload

@@ -10,6 +10,7 @@
 
 #include "geo/mesh/mesh.h"
 #include "io/scene/base/from_file.h"
+#include "io/scene/base/placed_shape.h"
 #include "io/scene/cityjson/geometry.h"
 
 namespace sunload {
@@ -34,8 +35,7 @@ class CityTemplates {
   const PolygonModel& model_of(std::size_t index, const GeometryPlace& place, NoteCounter& notes);
 
   std::string path_;
-  SceneFromFile scene_from_file_;
-  std::size_t corners_left_;
+  ShapePlacer placer_;
   const nlohmann::json* list_ = nullptr;
   const nlohmann::json* vertices_ = nullptr;
   CityMaterials materials_;

@@ -33,6 +33,7 @@ class Sunload(CMakePackage):
     depends_on("coin3d@4:")
     depends_on("gdal@3.6:")
     depends_on("libdeflate")
+    depends_on("pugixml@1.11:")
     depends_on("cairo +png")
     depends_on("howard-hinnant-date +tzdb")
     depends_on("random123")

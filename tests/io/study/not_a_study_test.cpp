@@ -19,6 +19,7 @@ TEST(NotAStudy, SaysWhatAFileIsAndHowToBegin) {
   for (const Case& c :
        {Case{"town.city.json", "{\"type\":\"CityJSON\",\"CityObjects\":{}}", "city model"},
         Case{"town.jsonl", "\xef\xbb\xbf{\"type\":\"CityJSONFeature\"}", "city model"},
+        Case{"town.gml", "<?xml version='1.0'?>\n<core:CityModel>", "city model"},
         Case{"house.obj", "v 0 0 0\n", "is a model"},
         Case{"room", "#VRML V2.0 utf8\n", "is a model"},
         Case{"berlin.epw", "LOCATION,Berlin\n", "weather file"},

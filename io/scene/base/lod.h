@@ -1,11 +1,15 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Levels of detail: which geometries of an object are read, so that none are stacked.
+/// Levels of detail of city models: which geometries of an object are read, so that none are
+/// stacked.
 #pragma once
 
 #include <array>
-#include <nlohmann/json.hpp>
+#include <span>
 #include <string>
+#include <string_view>
+
+#include "io/base/file_text.h"
 
 namespace sunload {
 
@@ -17,8 +21,8 @@ struct Lod {
   friend auto operator<=>(const Lod&, const Lod&) = default;
 };
 
-/// `null` for none; CityJSON 1.0 has numbers, later versions text.
-Lod lod_of(const nlohmann::json* value);
+/// Of "2" or "2.2"; none where it is anything else.
+Lod lod_of(std::string_view text);
 
 /// How well a level meets what is asked for; greater is better, lexicographically.
 using LodRank = std::array<int, 3>;
@@ -39,5 +43,12 @@ class LodWish {
   bool any_minor_ = false;
   Lod lod_;
 };
+
+/// Whose geometry is read of a whole and its parts.
+enum class WholeOrParts { both, whole, parts };
+
+/// A whole and its parts at different levels would lie inside each other: the side with the better
+/// one is read, and noted. With equal levels they complete each other. `parts` are not empty.
+WholeOrParts unstacked(const LodRank& whole, std::span<const LodRank> parts, NoteCounter& notes);
 
 }  // namespace sunload

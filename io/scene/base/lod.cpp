@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/scene/cityjson/lod.h"
+#include "io/scene/base/lod.h"
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <string_view>
@@ -34,10 +35,8 @@ std::optional<ParsedLod> parse_lod(std::string_view text) {
 
 }  // namespace
 
-Lod lod_of(const nlohmann::json* value) {
-  if (value == nullptr || !(value->is_string() || value->is_number())) return {};
-  const auto parsed =
-      parse_lod(value->is_string() ? value->get_ref<const std::string&>() : value->dump());
+Lod lod_of(std::string_view text) {
+  const auto parsed = parse_lod(text);
   return parsed ? parsed->lod : Lod{};
 }
 
@@ -60,5 +59,18 @@ LodRank LodWish::rank(Lod lod) const {
 }
 
 bool LodWish::is_met_by(const LodRank& rank) const { return rank[0] == met; }
+
+WholeOrParts unstacked(const LodRank& whole, std::span<const LodRank> parts, NoteCounter& notes) {
+  const LodRank best = *std::max_element(parts.begin(), parts.end());
+  if (whole < best) {
+    notes.count("objects whose parts have a better level of detail: their own geometry left out");
+    return WholeOrParts::parts;
+  }
+  if (best < whole) {
+    notes.count("parts of objects with a better level of detail left out", parts.size());
+    return WholeOrParts::whole;
+  }
+  return WholeOrParts::both;
+}
 
 }  // namespace sunload
