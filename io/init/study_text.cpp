@@ -396,7 +396,8 @@ std::string study_text(const std::string& name, const InitRules& rules, const Fi
 
 std::string study_name(const std::string& path) {
   std::string name = fs::path(path).filename().string();
-  for (const char* ending : {".city.json", ".city.jsonl", ".wrl.gz"})
+  for (const char* ending :
+       {".city.json", ".city.jsonl", ".wrl.gz", ".gml.gz", ".citygml.gz", ".xml.gz"})
     if (name.ends_with(ending)) name.resize(name.size() - std::string(ending).size());
   if (name == fs::path(path).filename().string()) name = fs::path(path).stem().string();
   for (char& letter : name)

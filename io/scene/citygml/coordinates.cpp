@@ -167,6 +167,11 @@ const std::vector<Vec3>& CityCoordinates::ring(XmlElement ring) {
   return corners_;
 }
 
+bool CityCoordinates::has_heights(XmlElement ring) {
+  const auto first = ring.first_child();
+  return !first || dimension_of(first) == "3";
+}
+
 Vec3 CityCoordinates::point(XmlElement point) {
   corners_.clear();
   gather(point, 0);

@@ -21,6 +21,8 @@ class CityCoordinates {
   /// of the file; the last one does not repeat the first. The result lives until the next call.
   /// Throws InputError for what is no number, and for positions of two numbers.
   const std::vector<Vec3>& ring(XmlElement ring);
+  /// Whether the file says that positions of a ring have three numbers, or nothing.
+  static bool has_heights(XmlElement ring);
   /// The position of a gml:Point.
   Vec3 point(XmlElement point);
   /// All numbers of an element's text.

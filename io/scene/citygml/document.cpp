@@ -61,7 +61,9 @@ void CityDocument::check_root() const {
   if (why.empty())
     why = is_collection ? "it is GML of another schema"
                         : "its first element is '" + shortened(first.name()) + "', not CityModel";
-  file_.fail(first, "is no CityGML", why, "convert it to CityGML, CityJSON, OBJ or glTF");
+  file_.fail(first, "is no CityGML", why,
+             is_collection ? "plan data are read from GeoJSON, GeoPackage and Shapefile"
+                           : "convert it to CityGML, CityJSON, OBJ or glTF");
 }
 
 void CityDocument::survey() {

@@ -63,6 +63,7 @@ void add_object(XmlElement object, CityCoordinates& coordinates, Sample& sample)
     if (at.name() != "LinearRing" && at.name() != "Ring") continue;
     const auto side = at.parent().name();
     if (side != "exterior" && side != "outerBoundaryIs") continue;
+    if (!CityCoordinates::has_heights(at)) continue;  // refused where it is read
     const auto& ring = coordinates.ring(at);
     if (ring.empty()) continue;
     if (!sample.first) sample.first = ring.front();
@@ -132,6 +133,7 @@ CityFrame::CityFrame(const CityDocument& document, CityCoordinates& coordinates,
     document.file().fail(
         document.srs_element(), "positions are in '" + shortened(document.srs_name()) + "'",
         "it is geocentric: up is nowhere z", "convert the model to a map projection such as UTM");
+  if (!axes.is_north_first() && !axes.is_in_degrees()) return;
   const Sample sample = sample_of(document, coordinates);
   is_north_first_ = is_north_first(axes, name, sample, notes);
   if (!axes.is_in_degrees() || !sample.first) return;

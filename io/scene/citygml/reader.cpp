@@ -12,6 +12,7 @@
 
 #include "io/scene/base/from_file.h"
 #include "io/scene/base/placed_shape.h"
+#include "io/scene/base/words.h"
 #include "io/scene/citygml/appearance.h"
 #include "io/scene/citygml/coordinates.h"
 #include "io/scene/citygml/document.h"
@@ -50,7 +51,8 @@ class CityReader {
         if (is_left_out(feature, notes_)) continue;
         const auto object = city_object(feature, document_, wish_, notes_);
         if (!is_city_object_type(object.type) && object.type != "ReliefFeature")
-          notes_.count("objects of unknown type '" + object.type + "' read like any other");
+          notes_.count("objects of unknown type '" + shortened(object.type) +
+                       "' read like any other");
         read_object(object);
       }
     }

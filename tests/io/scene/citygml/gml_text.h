@@ -3,6 +3,9 @@
 /// Small CityGML files, piece by piece.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -99,6 +102,43 @@ inline std::string building(const std::string& id, const std::string& inside) {
 
 inline const std::string triangle = "0 0 0 1 0 0 0 1 0 0 0 0";
 inline const std::string other_triangle = "0 0 5 1 0 5 0 1 5 0 0 5";
+
+/// A model of polygons without holes as CityGML of LoD2, its kinds of surface as semantics.
+inline std::string city_gml_of(const PolygonModel& model, const std::string& srs) {
+  const auto type_of = [](Surface surface) -> std::string {
+    return surface == Surface::wall    ? "WallSurface"
+           : surface == Surface::roof  ? "RoofSurface"
+           : surface == Surface::floor ? "GroundSurface"
+                                       : "";
+  };
+  std::vector<std::string> boundaries(model.object_names.size()), own(model.object_names.size());
+  for (std::size_t p = 0; p < model.polygon_count(); ++p) {
+    std::string positions;
+    for (std::int64_t k = 0; k <= ring_size(model, p, 0); ++k) {
+      const Vec3 at = corner(model, p, 0, k % ring_size(model, p, 0));
+      std::array<char, 100> line{};
+      std::snprintf(line.data(), line.size(), "%.17g %.17g %.17g ", at.x, at.y, at.z);
+      positions += line.data();
+    }
+    const auto object = model.facts[p].object.index();
+    const auto type = type_of(model.facts[p].surface);
+    if (type.empty())
+      own[object] += element("gml:surfaceMember", polygon(positions));
+    else
+      boundaries[object] += element(
+          "bldg:boundedBy", element("bldg:" + type, element("bldg:lod2MultiSurface",
+                                                            multi_surface({polygon(positions)}))));
+  }
+  std::string members;
+  for (std::size_t o = 0; o < model.object_names.size(); ++o) {
+    const auto surface =
+        own[o].empty() ? std::string()
+                       : element("bldg:lod2MultiSurface", element("gml:MultiSurface", own[o]));
+    members += member(element("bldg:" + model.object_kinds[o], boundaries[o] + surface,
+                              "gml:id=\"" + model.object_names[o] + "\""));
+  }
+  return city_gml(members, envelope(srs));
+}
 
 inline std::vector<Surface> surfaces_of(const PolygonModel& model) {
   std::vector<Surface> kinds;

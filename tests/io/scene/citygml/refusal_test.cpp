@@ -60,6 +60,22 @@ TEST(SceneCityGmlRefusals, Positions) {
             std::string::npos);
 }
 
+TEST(SceneCityGmlRefusals, PlanDataOfALevelThatIsNotRead) {
+  const auto flat = element(
+      "gml:Polygon",
+      element("gml:exterior",
+              element("gml:LinearRing", element("gml:posList", "35 139 35 140 36 139 35 139",
+                                                "srsDimension=\"2\""))));
+  const auto text = city_gml(
+      building("b",
+               element("bldg:lod0FootPrint", multi_surface({flat})) +
+                   element("bldg:lod1MultiSurface",
+                           multi_surface({polygon("35.6 139.7 0 35.7 139.7 0 35.6 139.8 0")}))),
+      envelope("EPSG:6697"));
+  EXPECT_EQ(read_text("plan.gml", text).polygon_count(), 1u);
+  EXPECT_NE(refusal("plan.gml", text, {0, 1, "0"}).find("srsDimension"), std::string::npos);
+}
+
 TEST(SceneCityGmlRefusals, ThinFacesAreLeftOut) {
   const auto model = read_text("thin.gml", with_ring("0 0 0 1 0 0 0 0 0"));
   EXPECT_EQ(model.polygon_count(), 0u);
@@ -149,39 +165,8 @@ TEST(SceneCityGml, PackedAndInOtherEncodings) {
 TEST(SceneCityGml, IsTheSameTownAsInCityJson) {
   const auto town =
       read_scene_file(source_folder() + std::string("/configs/models/town.city.json"), {});
-  const auto name_of = [](Surface surface) {
-    return surface == Surface::wall    ? "WallSurface"
-           : surface == Surface::roof  ? "RoofSurface"
-           : surface == Surface::floor ? "GroundSurface"
-                                       : "";
-  };
-  std::string members;
-  for (std::size_t o = 0; o < town.object_names.size(); ++o) {
-    std::string boundaries, own;
-    for (std::size_t p = 0; p < town.polygon_count(); ++p) {
-      if (town.facts[p].object.index() != o) continue;
-      std::string positions;
-      for (std::int64_t k = 0; k <= ring_size(town, p, 0); ++k) {
-        const Vec3 at = corner(town, p, 0, k % ring_size(town, p, 0));
-        char line[100];
-        std::snprintf(line, sizeof line, "%.17g %.17g %.17g ", at.x, at.y, at.z);
-        positions += line;
-      }
-      const std::string type = name_of(town.facts[p].surface);
-      if (type.empty())
-        own += element("gml:surfaceMember", polygon(positions));
-      else
-        boundaries +=
-            element("bldg:boundedBy",
-                    element("bldg:" + type,
-                            element("bldg:lod2MultiSurface", multi_surface({polygon(positions)}))));
-    }
-    if (!own.empty()) own = element("bldg:lod2MultiSurface", element("gml:MultiSurface", own));
-    members += member(element("bldg:" + town.object_kinds[o], boundaries + own,
-                              "gml:id=\"" + town.object_names[o] + "\""));
-  }
-  const auto model = read_text(
-      "town.gml", city_gml(members, envelope("http://www.opengis.net/def/crs/EPSG/0/25833")));
+  const auto model =
+      read_text("town.gml", city_gml_of(town, "http://www.opengis.net/def/crs/EPSG/0/25833"));
   EXPECT_EQ(model.object_names, town.object_names);
   EXPECT_EQ(model.object_kinds, town.object_kinds);
   EXPECT_EQ(model.crs, "EPSG:25833");
