@@ -27,6 +27,8 @@ class MapAxes {
   bool is_in_degrees() const;
   /// Northing (or latitude, or southing) is the first axis.
   bool is_north_first() const;
+  /// Length of the unit of a map projection [m]; 1 for all else.
+  double unit_m() const;
   /// `EPSG:25832`: the code of the horizontal part; the name asked for where it has none.
   const std::string& name() const;
   /// Whether a point, east (longitude) first, in the unit of the CRS, lies where the CRS is used;

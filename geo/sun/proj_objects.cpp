@@ -42,6 +42,15 @@ ProjObject horizontal_part(PJ_CONTEXT* context, ProjObject crs) {
   return crs;
 }
 
+double unit_of(PJ_CONTEXT* context, const PJ* crs) {
+  const ProjObject axes(proj_crs_get_coordinate_system(context, crs));
+  double factor = 0;
+  const bool known = axes && proj_cs_get_axis_info(context, axes.get(), 0, nullptr, nullptr,
+                                                   nullptr, &factor, nullptr, nullptr, nullptr);
+  SUNLOAD_EXPECT(known && factor > 0, "unit of a coordinate system");
+  return factor;
+}
+
 ProjObject earth_from_crs(PJ_CONTEXT* context, const PJ* crs) {
   const ProjObject wgs84(proj_create(context, "EPSG:4326"));
   const ProjObject as_defined(

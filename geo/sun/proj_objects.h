@@ -26,6 +26,9 @@ ProjObject crs_of_name(PJ_CONTEXT* context, const std::string& name);
 /// The part of a CRS that places points on the map.
 ProjObject horizontal_part(PJ_CONTEXT* context, ProjObject crs);
 
+/// Length of a map projection's own unit [m], e.g. a US survey foot; of degrees in radians.
+double unit_of(PJ_CONTEXT* context, const PJ* crs);
+
 /// To WGS84, longitude first, from the CRS, east first; null where PROJ knows no way.
 ProjObject earth_from_crs(PJ_CONTEXT* context, const PJ* crs);
 

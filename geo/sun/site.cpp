@@ -58,16 +58,6 @@ ProjObject map_projection(PJ_CONTEXT* context, const std::string& crs) {
   return object;
 }
 
-// Length of the projection's own unit, e.g. a US survey foot.
-double metres_per_unit(PJ_CONTEXT* context, const PJ* projection) {
-  const ProjObject axes(proj_crs_get_coordinate_system(context, projection));
-  double factor = 0;
-  const bool known = axes && proj_cs_get_axis_info(context, axes.get(), 0, nullptr, nullptr,
-                                                   nullptr, &factor, nullptr, nullptr, nullptr);
-  SUNLOAD_EXPECT(known && factor > 0, "unit of a map projection");
-  return factor;
-}
-
 /// From the map [m, east and north first] to WGS84.
 class MapToEarth {
  public:
@@ -75,7 +65,7 @@ class MapToEarth {
       : name_(crs),
         context_(make_proj_context()),
         projection_(map_projection(context_.get(), crs)) {
-    metres_per_unit_ = metres_per_unit(context_.get(), projection_.get());
+    metres_per_unit_ = unit_of(context_.get(), projection_.get());
     earth_from_map_ = earth_from_crs(context_.get(), projection_.get());
     if (!earth_from_map_) fail("PROJ knows no way from it to WGS84");
   }

@@ -21,6 +21,7 @@ class SceneFromFile {
   /// `default_up` is that of the format. Throws InputError for rules that make no sense.
   SceneFromFile(const SceneFileRules& rules, char default_up, const std::string& file);
   Vec3 operator()(Vec3 p) const;
+  double unit_m() const { return unit_m_; }
 
  private:
   char up_;

@@ -18,7 +18,10 @@ struct Lod {
   int major = -1;
   int minor = 0;
 
-  friend auto operator<=>(const Lod&, const Lod&) = default;
+  friend bool operator==(const Lod&, const Lod&) = default;
+  friend bool operator<(const Lod& a, const Lod& b) {
+    return a.major != b.major ? a.major < b.major : a.minor < b.minor;
+  }
 };
 
 /// Of "2" or "2.2"; none where it is anything else.

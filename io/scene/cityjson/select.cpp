@@ -103,6 +103,7 @@ void unstack_whole_and_parts(Choices& choices, NoteCounter& notes) {
     std::erase_if(parts, [](const auto* part) { return !part->type.ends_with("Part"); });
     if (parts.empty()) continue;
     std::vector<LodRank> ranks;
+    ranks.reserve(parts.size());
     for (const auto* part : parts) ranks.push_back(part->rank);
     const auto read = unstacked(whole.rank, ranks, notes);
     if (read == WholeOrParts::parts) whole.geometries.clear();

@@ -40,6 +40,12 @@ TEST(MapAxes, KnowWhereTheSystemIsUsed) {
   EXPECT_FALSE(japan.is_in_use_at(1e9, NAN));
 }
 
+TEST(MapAxes, TellTheirUnit) {
+  EXPECT_NEAR(MapAxes("EPSG:2263").unit_m(), 1200.0 / 3937, 1e-12);
+  EXPECT_EQ(MapAxes("EPSG:25832").unit_m(), 1);
+  EXPECT_EQ(MapAxes("EPSG:4326").unit_m(), 1);
+}
+
 TEST(MapAxes, UtmZones) {
   EXPECT_EQ(utm_at(35.7, 139.7), "EPSG:32654");
   EXPECT_EQ(utm_at(-33.9, 151.2), "EPSG:32756");
