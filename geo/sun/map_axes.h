@@ -35,10 +35,6 @@ class MapAxes {
   /// true where the database does not say.
   bool is_in_use_at(double east, double north) const;
 
-  /// The UTM zone (WGS84) of a point, longitude first, in degrees of a CRS in degrees:
-  /// `EPSG:32654`.
-  std::string utm_at(double longitude_deg, double latitude_deg) const;
-
  private:
   struct Parts;
   std::unique_ptr<Parts> parts_;

@@ -25,6 +25,9 @@ Where place_in_text(const std::string& file, std::string_view text, std::size_t 
 
 std::string lower_case(std::string text);
 
+/// Without blanks and ends of lines around it.
+std::string_view trimmed(std::string_view text);
+
 /// Extension in lower case with its dot, or nothing.
 std::string lower_extension(const std::string& path);
 

@@ -307,7 +307,8 @@ class SunTexts {
   RecentlyMade<std::string> made_{most};
 };
 
-/// What is told of a variant, under headings; that of warnings is empty.
+/// What is told of a variant, under headings, all of them in order whether they have words or not;
+/// that of warnings is empty.
 struct CheckText {
   std::string head;
   std::vector<std::pair<std::string, std::string>> sections;
@@ -327,7 +328,7 @@ CheckText text_of(const VariantPlan& plan, const VariantMesh& made, const WorkEs
                              plan.study.variant, plan.content_hash.substr(0, 12)),
                  {}};
   const auto add = [&](const char* heading, std::string words) {
-    if (!words.empty()) text.sections.emplace_back(heading, std::move(words));
+    text.sections.emplace_back(heading, std::move(words));
   };
   std::string scene =
       counts_text(plan.built.report) + extent_text(plan.built.scene.mesh, plan.built.report.bounds);
@@ -338,8 +339,8 @@ CheckText text_of(const VariantPlan& plan, const VariantMesh& made, const WorkEs
   add("materials", materials_text(plan.built.scene) + rules_text(plan.built.rules) +
                        parallel_sources_text(plan.built.scene.parallel_sources));
   add("seasons", seasons_section(plan));
-  if (const auto sensors = plan.built.scene.sensors.size(); sensors > 0)
-    add("sensors", fmt::format("  {} points\n", sensors));
+  const std::size_t sensors = plan.built.scene.sensors.size();
+  add("sensors", sensors > 0 ? fmt::format("  {} points\n", sensors) : "");
   add("sun", suns.of(plan));
   std::string mesh;
   if (const auto refined = refine_text(made.report, plan.study); !refined.empty())
@@ -411,7 +412,7 @@ const std::string& section_of(const CheckText& text, const std::string& heading)
 std::string whole_text(const CheckText& text) {
   std::string words = text.head + "\n";
   for (const auto& [heading, lines] : text.sections) {
-    if (!heading.empty()) words += heading + "\n";
+    if (!heading.empty() && !lines.empty()) words += heading + "\n";
     words += lines;
   }
   return words;
@@ -421,14 +422,13 @@ std::string whole_text(const CheckText& text) {
 std::string text_beside(const CheckText& first, const CheckText& text,
                         const std::string& first_name) {
   std::string words;
-  for (const char* heading : {"scene", "materials", "seasons", "sensors", "sun", "mesh",
-                              "selections", "measures", "work", ""}) {
-    const auto &theirs = section_of(first, heading), &own = section_of(text, heading);
+  for (const auto& [heading, own] : text.sections) {
+    const auto& theirs = section_of(first, heading);
     auto apart = changed_lines(theirs, own);
-    if (std::string(heading) == "materials") apart += missing_subjects(theirs, own);
-    if (std::string(heading) == "seasons" && own.empty() && !theirs.empty()) apart = "  none\n";
+    if (heading == "materials") apart += missing_subjects(theirs, own);
+    if (heading == "seasons" && own.empty() && !theirs.empty()) apart = "  none\n";
     if (apart.empty()) continue;
-    words += (*heading == '\0' ? "" : std::string(heading) + "\n") + apart;
+    words += (heading.empty() ? "" : heading + "\n") + apart;
   }
   return text.head + (words.empty() ? ": as " + first_name + "\n"
                                     : ": as " + first_name + ", but for\n" + words);

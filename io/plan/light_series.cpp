@@ -10,6 +10,7 @@
 
 #include "io/base/hash.h"
 #include "io/plan/period.h"
+#include "io/plan/weather_albedo.h"
 #include "io/plan/weather_light.h"
 
 namespace sunload {
@@ -206,6 +207,13 @@ LitInterval measured_light(const SunInterval& when, const Irradiance& open) {
   return interval;
 }
 
+void put_albedos(const DayAlbedos& albedos, LightSeries& series) {
+  for (std::size_t i = 0; i < albedos.of_interval.size(); ++i)
+    series.intervals[i].albedo = albedos.of_interval[i];
+  series.days = albedos.days;
+  series.days_without_albedo = albedos.filled;
+}
+
 void add_weather(const Study& study, const Site& site, LightSeries& series) {
   StudyWeather weather(study, site);
   const SunPath path = std::holds_alternative<WeatherPeriod>(study.period.kind)
@@ -214,11 +222,7 @@ void add_weather(const Study& study, const Site& site, LightSeries& series) {
   const auto means = weather.means(path);
   for (std::size_t i = 0; i < path.size(); ++i)
     series.intervals.push_back(measured_light(path[i], means[i]));
-  const DayAlbedos albedos = weather.albedos(path);
-  for (std::size_t i = 0; i < albedos.of_interval.size(); ++i)
-    series.intervals[i].albedo = albedos.of_interval[i];
-  series.days = albedos.days;
-  series.days_without_albedo = albedos.filled;
+  if (asks_for_albedos(study)) put_albedos(weather.albedos(path), series);
   series.weather = weather.words();
   series.notes.insert(series.notes.end(), weather.warnings().begin(), weather.warnings().end());
   series.weather_sha256 = sha256_of_file(study.light.weather);

@@ -21,7 +21,7 @@ struct LitInterval {
   Irradiance of_the_sky;  ///< what the sky's shape follows from: DNI while the sun is up
   /// Given where a model's luminance was made into irradiance by it.
   std::optional<LuminousEfficacy> lm_per_w{};
-  /// Of the ground on that day, in (0, 1), where a weather file tells it.
+  /// Of the ground on that day, in (0, 1), where the study asks for it and the weather tells it.
   std::optional<double> albedo{};
 };
 

@@ -295,7 +295,7 @@ class MaterialAssigner {
     Material m;
     m.name = study.name;
     m.diffuse = study.diffuse_of_weather
-                    ? when_.albedo
+                    ? when_.albedo.value_or(default_reflectance)
                     : study.diffuse.value_or(file ? file->diffuse.value_or(0) : 0);
     // Nobody says what it reflects; lamps without reflectance are black.
     if (says_nothing(study) && study.emission_w_m2 == 0 && !(file && !says_nothing(*file))) {

@@ -3,6 +3,7 @@
 /// Which material every triangle has.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,8 @@ inline constexpr double default_reflectance = 0.2;
 /// What materials depend on besides the scene: when it is.
 struct MaterialsWhen {
   std::vector<std::string> seasons = {};  ///< in force (`scene.materials.NAME.seasons`)
-  double albedo = default_reflectance;    ///< of materials that reflect as the weather says
+  /// Of materials that reflect as the weather says; absent: the default reflectance.
+  std::optional<double> albedo = {};
 };
 
 /// Fills `scene.materials` and `scene.material`, and lets materials decide the sides of triangles.

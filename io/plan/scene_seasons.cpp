@@ -223,9 +223,9 @@ void warn_of_uncovered(const std::vector<SceneSeason>& all, BuiltScene& built) {
 }
 
 /// "leafless, snow, albedo 0.31".
-std::string in_words(const MaterialsWhen& when, bool by_albedo) {
+std::string in_words(const MaterialsWhen& when) {
   Names words = when.seasons;
-  if (by_albedo) words.push_back(fmt::format("albedo {:.2f}", when.albedo));
+  if (when.albedo) words.push_back(fmt::format("albedo {:.2f}", *when.albedo));
   return joined(words);
 }
 
@@ -235,7 +235,7 @@ SceneSeason season_of(const Study& study, const MaterialsWhen& when, const Built
   scene.mesh.triangle_sides = built.sides_of_files;  // by which a file's lamps share their power
   std::vector<std::string> said_before;
   assign_materials(study, {built.crs, built.site.north_deg}, scene, said_before, when);
-  const std::string name = in_words(when, has_material_of_weather(study));
+  const std::string name = in_words(when);
   expect_same_patches(study, built.scene, scene, name);
   return {name, std::move(scene.materials), std::move(scene.material)};
 }

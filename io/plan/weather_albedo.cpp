@@ -15,9 +15,13 @@ bool has_material_of_weather(const Study& study) {
                      [](const MaterialStudy& material) { return material.diffuse_of_weather; });
 }
 
+bool asks_for_albedos(const Study& study) {
+  return study.light.far_ground_of_weather || has_material_of_weather(study);
+}
+
 void expect_albedos(const Study& study, const LightSeries& light,
                     std::vector<std::string>& warnings) {
-  if (!study.light.far_ground_of_weather && !has_material_of_weather(study)) return;
+  if (!asks_for_albedos(study)) return;
   if (!light.intervals.front().albedo)
     throw InputError({study.light.weather}, "tells no albedo of the ground",
                      "the study takes a reflectance from it; values of 0 and of 1 or more count "

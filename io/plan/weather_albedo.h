@@ -14,6 +14,9 @@ namespace sunload {
 /// Whether a material of the study reflects as the file's ground (`diffuse: weather`).
 bool has_material_of_weather(const Study& study);
 
+/// Whether a material or the far ground does.
+bool asks_for_albedos(const Study& study);
+
 /// Where the study asks for albedos, a material or the far ground: throws InputError for a file
 /// that tells none, and for days without one where light.missing refuses; else `warnings` says
 /// how many take that of the nearest day.

@@ -324,13 +324,14 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   if (by_matrix)
     core.solve += seasons * n * n * (s_per_form_factor + n * s.realizations * s_per_factor_solved);
   if (s.transport != Transport::shoot)
-    core.solve += bands * (links * batches * s_per_link_batch + links * solved * s_per_link_sun +
-                           links * suns_of_parts * s_per_link_sun +
-                           n * suns_of_parts * s.realizations * s_per_patch_sun_realization +
-                           (of_instants ? links * lit * s_per_link_sun +
-                                              n * lit * s.realizations * s_per_patch_sun_realization
-                                        : 0));
-  core.solve += bands * (lit * s_per_sun + n * solved * s_per_patch_sun +
+    core.solve +=
+        bands * (links * batches * s_per_link_batch + links * suns_of_parts * s_per_link_sun +
+                 n * suns_of_parts * s.realizations * s_per_patch_sun_realization +
+                 (of_instants ? links * lit * s_per_link_sun +
+                                    n * lit * s.realizations * s_per_patch_sun_realization
+                              : 0));
+  const double solved_links = s.transport != Transport::shoot ? links : 0;
+  core.solve += bands * (lit * s_per_sun + solution_seconds(n, solved_links, solved) +
                          (of_few ? n * lit * s_per_patch_interval_of_year : 0) +
                          n * (batches + static_cast<double>(periods.stored_with_errors)) *
                              s.realizations * s_per_patch_batch_realization);

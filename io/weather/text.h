@@ -37,7 +37,6 @@ class WeatherText {
   std::vector<std::string_view> lines_;
 };
 
-std::string_view trimmed(std::string_view text);
 /// Trimmed fields; quotes keep separators together and are taken off.
 std::vector<std::string_view> fields_of(std::string_view line, char separator);
 /// Printable and short, for messages.

@@ -8,6 +8,7 @@
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
+#include "io/base/file_text.h"
 
 namespace sunload {
 

@@ -24,13 +24,6 @@ std::string_view without_prefix(const char* name) {
   return colon == whole.npos ? whole : whole.substr(colon + 1);
 }
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n";
-  const auto begin = text.find_first_not_of(blanks);
-  if (begin == text.npos) return {};
-  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
-
 XmlElement element_from(pugi::xml_node node) {
   while (node && node.type() != pugi::node_element) node = node.next_sibling();
   return XmlElement(node.internal_object());
