@@ -21,7 +21,11 @@ async function measured(tab, media, width) {
 
 try {
   const tab = await browser.open(`file://${page}#study-file`, { loaded: () => document.readyState === "complete" });
-  await tab.waitForFunction(() => document.querySelector("nav .here"));
+  // What the top of the page shows is marked first, and the mark follows the jump to the address some frames later.
+  await tab.waitForFunction(() => {
+    const marked = document.querySelector("nav .here > details > summary");
+    return marked && document.getElementById("study-file").getBoundingClientRect().top < 60 && marked.textContent === "The study file";
+  });
   seen.marked = await tab.evaluate(() => [...document.querySelectorAll("nav .here > details > summary")].map((entry) => entry.textContent));
   seen.top = await tab.evaluate(() => document.getElementById("study-file").getBoundingClientRect().top);
   await tab.fill("#filter", "Shadow");
