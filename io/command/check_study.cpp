@@ -428,7 +428,8 @@ std::string text_beside(const CheckText& first, const CheckText& text,
     if (heading == "materials") apart += missing_subjects(theirs, own);
     if (heading == "seasons" && own.empty() && !theirs.empty()) apart = "  none\n";
     if (apart.empty()) continue;
-    words += (heading.empty() ? "" : heading + "\n") + apart;
+    if (!heading.empty()) words += heading + "\n";
+    words += apart;
   }
   return text.head + (words.empty() ? ": as " + first_name + "\n"
                                     : ": as " + first_name + ", but for\n" + words);
