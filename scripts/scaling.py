@@ -84,7 +84,7 @@ def work_of(run):
     return {"start": 1.0,
             "patch": run["patches"],
             "line": run["lines"], "line_depth": run["lines"] * depth,
-            "direct_ray": run["direct_rays"], "direct_depth": run["direct_rays"] * depth,
+            "lit_share": run["patches"] * run["lit"] * FACING, "direct_ray": run["direct_rays"],
             "mirror_ray": run["mirror_rays"],
             "link_sun": links * run["lit"], "link_depth": links * run["lit"] * depth,
             "link_batch": links * run["batches"],
@@ -93,7 +93,7 @@ def work_of(run):
 
 
 # Which constants a stage is made of, and the stage's time in the result file.
-STAGES = {"lines": ("line", "line_depth"), "direct": ("direct_ray", "direct_depth"),
+STAGES = {"lines": ("line", "line_depth"), "direct": ("lit_share", "direct_ray"),
           "mirror": ("mirror_ray",), "solve": ("link_sun", "link_depth", "patch_sun"), "realizations": ("link_batch",),
           "rest": ("start", "patch", "value")}
 

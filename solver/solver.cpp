@@ -3,6 +3,9 @@
 #include "solver/solver.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "geo/base/units.h"
 
 namespace sunload {
 
@@ -25,19 +28,19 @@ TallyShape tally_shape(const TracedScene& traced, std::size_t intervals,
 
 namespace {
 
-/// Consecutive intervals with light, up to `block_width` side by side. Emitters shine always.
-std::vector<Block> lit_blocks(const TracedScene& traced, std::span<const IntervalLight> batch) {
-  const auto is_lit = [&](const IntervalLight& sun) {
-    return traced.optics.any_emission || !sun.is_dark();
+/// Places in the batch of intervals with light (emitters shine always), those whose suns stand
+/// close together side by side: what one of them sees, the others nearly do.
+std::vector<std::size_t> lit_rows(const TracedScene& traced, std::span<const IntervalLight> batch) {
+  std::vector<std::size_t> rows;
+  for (std::size_t k = 0; k < batch.size(); ++k)
+    if (traced.optics.any_emission || !batch[k].is_dark()) rows.push_back(k);
+  const auto azimuth = [&](std::size_t k) {
+    constexpr double behind_all = 2 * pi;
+    return batch[k].has_sun() ? std::atan2(batch[k].direction.x, batch[k].direction.y) : behind_all;
   };
-  std::vector<Block> blocks;
-  for (std::size_t begin = 0; begin < batch.size();) {
-    std::size_t end = begin;
-    while (end < std::min(batch.size(), begin + block_width) && is_lit(batch[end])) ++end;
-    if (end > begin) blocks.push_back({batch.subspan(begin, end - begin), begin});
-    begin = std::max(end, begin + 1);
-  }
-  return blocks;
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](auto a, auto b) { return azimuth(a) < azimuth(b); });
+  return rows;
 }
 
 /// Time sums of the ledger's series.
@@ -60,15 +63,19 @@ Solved solve(const LightTransport& transport, std::span<const IntervalLight> bat
   for (std::size_t b = 0; b < traced.optics_of_band.size(); ++b)
     solved.bands.push_back(empty_tally(tally_shape(traced, batch.size(), parts)));
   const auto in_batch = transport.begin(solved.bands, solved.work, record);
-  std::size_t done = 0;
-  for (const Block& block : lit_blocks(traced, batch)) {
+  const std::vector<std::size_t> rows = lit_rows(traced, batch);
+  std::vector<IntervalLight> suns;
+  for (std::size_t done = 0; done < rows.size();) {
+    const auto of_block = std::span(rows).subspan(done, std::min(block_width, rows.size() - done));
+    suns.clear();
+    for (const auto row : of_block) suns.push_back(batch[row]);
     const double rays_before = solved.work.rays();
-    in_batch->light(block);  // E = E_0 + G rho E
-    done = block.first_row + block.suns.size();
+    in_batch->light({suns, of_block});  // E = E_0 + G rho E
+    done += of_block.size();
     watch.cast(solved.work.rays() - rays_before);
-    watch.advance(Stage::light, static_cast<double>(done) / static_cast<double>(batch.size()));
+    watch.advance(Stage::light, static_cast<double>(done) / static_cast<double>(rows.size()));
   }
-  if (done < batch.size()) watch.advance(Stage::light, 1);  // the rest is dark
+  if (rows.empty()) watch.advance(Stage::light, 1);
   for (BatchTally& tally : solved.bands) add_energy(batch, tally);
   in_batch->finish();
   return solved;

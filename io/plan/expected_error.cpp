@@ -87,6 +87,13 @@ std::vector<std::string> coarse_warnings(const MeshStudy& rules, const Hierarchy
       std::floor(fine_enough_m2 / step) * step)};
 }
 
+/// The sun on patches that a shadow's edge crosses is told by rays at some of them.
+bool asks_rays_at_edges(const VariantPlan& plan) {
+  const auto materials = materials_of(plan);
+  return plan.study.sun.disk == SunDisk::finite ||
+         std::any_of(materials.begin(), materials.end(), goes_on_straight);
+}
+
 }  // namespace
 
 std::vector<std::string> expected_error_warnings(const VariantPlan& plan, const Hierarchy& mesh) {
@@ -107,10 +114,12 @@ std::vector<std::string> expected_error_warnings(const VariantPlan& plan, const 
         "than {:.0f} %",
         s.lines_per_patch, 100 * error, count_for(of_lines, tolerable_of_lines),
         100 * tolerable_of_lines));
-  if (const double error = of_samples / std::sqrt(s.direct_samples); error > tolerable_of_samples)
+  if (const double error = of_samples / std::sqrt(s.direct_samples);
+      error > tolerable_of_samples && asks_rays_at_edges(plan))
     warnings.push_back(fmt::format(
         "solver.direct_samples {} lets expect a standard error of up to {:.0f} % of the sun on "
-        "patches that a shadow's edge crosses; {} would give at most {:.0f} %",
+        "patches that a shadow's edge crosses and rays look from (mirrors, panes, gloss; behind "
+        "screens; where the sun has a disk); {} would give at most {:.0f} %",
         s.direct_samples, 100 * error, count_for(of_samples, tolerable_of_samples),
         100 * tolerable_of_samples));
   if (s.transport != Transport::shoot) return warnings;

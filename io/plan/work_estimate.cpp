@@ -20,15 +20,14 @@ namespace {
 
 using namespace cost;
 
-/// Runs of intervals with light that are solved side by side.
+/// Blocks of intervals with light that are solved side by side.
 std::size_t lit_blocks(const VariantPlan& plan) {
   const bool lamps = has_lamps(plan);
-  std::size_t blocks = 0, in_block = 0;
+  std::size_t blocks = 0, lit = 0;
   for (std::size_t k = 0; k < plan.intervals(); ++k) {
-    if (k % plan.batch_suns() == 0 || in_block == block_width) in_block = 0;
-    const bool is_lit = lamps || !is_dark(plan.light.intervals[k]);
-    if (is_lit && in_block == 0) ++blocks;
-    in_block = is_lit ? in_block + 1 : 0;
+    if (k % plan.batch_suns() == 0) lit = 0;
+    if (!lamps && is_dark(plan.light.intervals[k])) continue;
+    if (lit++ % block_width == 0) ++blocks;
   }
   return blocks;
 }
@@ -61,16 +60,23 @@ double estimated_samples(const VariantPlan& plan, const MaterialsOfScene& of_sea
   return blocks * samples + (emitted_w > 0 ? samples_of(emitted_w) : 0);
 }
 
-/// Rays that a line is made of where mirrors send it on: of what it meets, as much as there is
-/// mirror, glass, metal and gloss among the surfaces.
-double rays_per_line(const Mesh& mesh, const MaterialsOfScene& of_season, int mirror_depth) {
-  double area = 0, mirrors = 0;
+/// Of the surfaces' area.
+template <class Property>
+double share_of_surfaces(const Mesh& mesh, const MaterialsOfScene& of_season,
+                         const Property& property) {
+  double area = 0, with_it = 0;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const double of_triangle = norm(mesh.area_vector2(t));
     area += of_triangle;
-    if (sends_on(of_season.of(t))) mirrors += of_triangle;
+    if (property(of_season.of(t))) with_it += of_triangle;
   }
-  const double again = area > 0 ? share_that_meets * mirrors / area : 0;
+  return area > 0 ? with_it / area : 0;
+}
+
+/// Rays that a line is made of where mirrors send it on: of what it meets, as much as there is
+/// mirror, glass, metal and gloss among the surfaces.
+double rays_per_line(const Mesh& mesh, const MaterialsOfScene& of_season, int mirror_depth) {
+  const double again = share_that_meets * share_of_surfaces(mesh, of_season, sends_on);
   double rays = 1, of_depth = 1;
   for (int depth = 0; depth < mirror_depth; ++depth) rays += of_depth *= again;
   return rays;
@@ -157,6 +163,27 @@ double band_factor(const VariantPlan& plan) {
   return plan.study.solver.bands == Bands::rgb ? static_cast<double>(band_count) : 1;
 }
 
+/// Patches that look at the bright sky about the sun by rays; shooting leaves it to lines.
+double circumsolar_receivers(const VariantPlan& plan, std::size_t patches) {
+  return plan.study.solver.transport == Transport::shoot ? 0 : static_cast<double>(patches);
+}
+
+/// Patches and sensors to which rays tell of the sun: geometry does not of what sends light on, of
+/// disks of which a part is hidden, and behind screens.
+double asked_by_rays(const VariantPlan& plan, std::size_t patches) {
+  const double share = mean_over_seasons(plan, [&](const MaterialsOfScene& of_season) {
+    const Mesh& mesh = plan.built.scene.mesh;
+    const double sending = share_of_surfaces(mesh, of_season, sends_on);
+    const auto lets_pass = [](const Material& m) { return m.transmittance > 0; };
+    const bool screens = share_of_surfaces(mesh, of_season, lets_pass) > 0;
+    double left = screens ? share_behind_screens : 0;
+    if (plan.study.sun.disk == SunDisk::finite) left = std::max(left, share_in_penumbra);
+    return sending + (1 - sending) * left;
+  });
+  return share * static_cast<double>(patches) +
+         static_cast<double>(plan.built.scene.sensors.size());
+}
+
 }  // namespace
 
 bool is_year_of_few(const VariantPlan& plan) {
@@ -171,7 +198,11 @@ WorkSeconds modelled_seconds(const VariantPlan& plan, std::size_t patches,
   const double n = receivers(plan, patches), lines = n * counts.lines_per_patch;
   const double threads = thread_count();
   return {lines * line_seconds(plan) / threads,
-          n * facing_share * counts.suns * counts.direct_samples * s_per_direct_ray / threads,
+          facing_share * counts.suns *
+              (static_cast<double>(patches) * s_per_lit_share +
+               (asked_by_rays(plan, patches) + circumsolar_receivers(plan, patches)) *
+                   counts.direct_samples * s_per_direct_ray) /
+              threads,
           mirror_seconds(n, counts.suns, counts.direct_samples) / threads,
           // A block that is not full takes as long.
           band_factor(plan) * solution_seconds(n, lines * plan.study.solver.bounces, block_width) /
@@ -254,19 +285,19 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   WorkEstimate work;
   work.patches = patches;
   work.line_rays = static_cast<std::uint64_t>(seasons * lines);
-  const bool has_views = suns >= suns_worth_views;
   const double rays =
-      n * facing_share *
-      (shining * counts.direct_samples +
-       (suns - shining) * static_cast<double>(net_size(counts.direct_samples, s.realizations))) *
-      (has_views ? share_beside_views : 1);
+      facing_share *
+      (asked_by_rays(plan, patches) *
+           (shining * counts.direct_samples +
+            (suns - shining) *
+                static_cast<double>(net_size(counts.direct_samples, s.realizations))) +
+       circumsolar_receivers(plan, patches) * std::min(solved, shining) * counts.direct_samples);
   work.direct_rays = static_cast<std::uint64_t>(rays);
   work.memory_bytes =
       program_bytes + seasons * lines * bytes_per_line +
       static_cast<double>(plan.intervals()) * bytes_per_interval +
       n * (bands * (batch * kept * float_bytes + arrays_of_realizations * of_realizations) +
            bytes_per_patch);
-  if (has_views) work.memory_bytes += seasons * n * bytes_per_view;
   work.memory_bytes +=
       (seasons - 1) *
       (n * season_bytes_per_patch +
@@ -282,7 +313,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   work.memory_bytes += bands * n * (stored.of_batch + batch_sums);
   work.memory_bytes += bands * n * stored.of_merge;
   // The sun's light of each realization, straight and circumsolar, and by mirrors.
-  if (is_rgb || of_instants || suns_of_parts > 0)
+  if (is_rgb || of_instants)
     work.memory_bytes += n * s.realizations * block_width * float_bytes * (mirrors ? 3.0 : 2.0);
   if (of_few)
     work.memory_bytes += seasons * n * float_bytes *
@@ -318,7 +349,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
       seasons * lines * (guided ? 1 + rays_by_guide : 1) * line_seconds(plan) +
       (guided ? seasons * n * s_per_guided_patch : 0) +
       (plan.study.mesh.oracle == Oracle::none ? 0 : refinement_rays(n, lit) * s_per_direct_ray);
-  core.direct = rays * s_per_direct_ray + (has_views ? seasons * n * s_per_view : 0) +
+  core.direct = rays * s_per_direct_ray +
+                static_cast<double>(patches) * facing_share * suns * s_per_lit_share +
                 static_cast<double>(work.samples) * s_per_sample;
   core.mirror = mirrors ? mirror_seconds(n, shining, counts.direct_samples) : 0;
   if (by_matrix)

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -18,7 +17,6 @@ namespace sunload {
 struct TracedRays {
   std::string traced_by;       ///< the first variant; empty: nothing is traced yet
   std::optional<Lines> lines;  ///< while no variant has them
-  std::shared_ptr<const SunViews> views;
   std::map<std::size_t, RayRecord> batches;
   bool is_wanted_later = false;  ///< by a variant after the one in hand
 };

@@ -17,10 +17,9 @@ namespace sunload {
 class TracedSeason {
  public:
   /// `season`: place in the plan's seasons, 0 where there are none. `ready`: lines of an equal
-  /// scene, or none; `views`: of one of which rays tell the same, or null. Throws Interrupted.
+  /// scene, or none. Throws Interrupted.
   TracedSeason(const VariantPlan& plan, std::size_t season, std::shared_ptr<const Hierarchy> mesh,
-               const SolverRules& rules, Watch& watch, std::optional<Lines> ready = {},
-               std::shared_ptr<const SunViews> views = {});
+               const SolverRules& rules, Watch& watch, std::optional<Lines> ready = {});
   TracedSeason(const TracedSeason&) = delete;
   TracedSeason& operator=(const TracedSeason&) = delete;
 

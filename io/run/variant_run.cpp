@@ -120,10 +120,7 @@ void VariantRun::read_or_trace() {
 
 void VariantRun::build(std::optional<Lines> ready) {
   if (!ready) progress_.advance(Stage::lines, 0);
-  auto season = std::make_unique<TracedSeason>(plan_, 0, mesh_, rules_, progress_, std::move(ready),
-                                               shared_ ? shared_->views : nullptr);
-  if (shared_) shared_->views = season->traced().sun_views;
-  add(std::move(season));
+  add(std::make_unique<TracedSeason>(plan_, 0, mesh_, rules_, progress_, std::move(ready)));
   seen_ = seen_once(seasons_.front()->traced());
 }
 

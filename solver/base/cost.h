@@ -31,15 +31,13 @@ inline constexpr double rays_by_guide = 1;
 /// … and every patch has its part in finding out which of them it sees (solver/gather/guide.cpp).
 inline constexpr double s_per_guided_patch = 2.1e-4;
 
-// Rays to the sun.
+// The sun: what share of a patch sees it, by geometry; rays where that does not tell, and to the
+// bright sky about it.
+inline constexpr double facing_share = 0.62;  ///< of patches, that a sun stands before
+inline constexpr double s_per_lit_share = 2.0e-7;
 inline constexpr double s_per_direct_ray = 3.5e-8;
-inline constexpr double facing_share = 0.62;  ///< of a sun's rays that need be cast
-/// Suns of a period from which on patches look at the sky beforehand (solver/sight/sun_views), what
-/// that costs a patch, and the rays that it leaves.
-inline constexpr double suns_worth_views = 2048;
-inline constexpr double s_per_view = 3.4e-4;
-inline constexpr double share_beside_views = 0.45;
-inline constexpr double bytes_per_view = 500;
+/// Of patches that a sun stands before: where a part of its disk is hidden, and behind screens.
+inline constexpr double share_in_penumbra = 0.15, share_behind_screens = 0.1;
 inline constexpr double s_per_mirror_ray = 1.3e-7;
 inline constexpr double mirrored_share = 0.11;  ///< of them again, where there are mirrors
 

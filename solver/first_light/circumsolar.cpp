@@ -28,8 +28,7 @@ class PatchSkies {
     for (std::size_t k = 0; k < block_.size(); ++k) {
       const CircumsolarView* view = view_of(k);
       if (!view || !sum_seen(geometry, patch, block_[k].number, *view)) continue;
-      into.add_all(patch, k, block_[k].length_s,
-                   [&](std::size_t r) { return view->irradiance() * sum_[r] / each; });
+      into.add_all(patch, k, [&](std::size_t r) { return view->irradiance() * sum_[r] / each; });
     }
   }
   std::uint64_t rays = 0;

@@ -11,6 +11,7 @@
 #include "solver/base/sampling.h"
 #include "solver/base/threads.h"
 #include "solver/light/sun_samples.h"
+#include "solver/sight/lit_shares.h"
 
 namespace sunload {
 
@@ -254,20 +255,32 @@ namespace {
 
 bool is_clouded(const IntervalLight& sun) { return sun.has_sun() && sun.dni <= 0; }
 
-/// Suns behind clouds, and consecutive receivers: rays of neighbours fill a packet together.
+/// Shares of receivers that see the suns, [N][block], or nothing.
+class Known {
+ public:
+  explicit Known(const Columns& shares) : shares_(shares) {}
+  /// Below 0: rays must tell.
+  float share(std::size_t receiver, std::size_t k) const {
+    return shares_.empty() ? LitShares::by_rays : shares_[receiver * block_width + k];
+  }
+
+ private:
+  const Columns& shares_;
+};
+
+/// Suns behind clouds, and consecutive receivers whose shares are not known: rays of neighbours
+/// fill a packet together.
 class CloudedSuns {
  public:
   CloudedSuns(const RayCaster& caster, const SunSampler& sampler,
-              std::span<const IntervalLight> block, std::span<const SunSight> sights)
-      : caster_(caster), sampler_(sampler), block_(block), sights_(sights) {}
+              std::span<const IntervalLight> block, Known known)
+      : caster_(caster), sampler_(sampler), block_(block), known_(known) {}
 
   /// Returns the rays cast.
   std::uint64_t run(std::size_t begin, std::size_t end, Columns& sunlit) {
     rays_ = 0;
-    if (std::none_of(block_.begin(), block_.end(), is_clouded)) return 0;
     begin_ = begin;
-    geometries_.clear();
-    for (std::size_t i = begin; i < end; ++i) geometries_.push_back(sampler_.geometry(i));
+    end_ = end;
     for (std::size_t k = 0; k < block_.size(); ++k)
       if (is_clouded(block_[k])) add(k, sunlit);
     return rays_;
@@ -276,14 +289,10 @@ class CloudedSuns {
  private:
   void add(std::size_t k, Columns& sunlit) {
     const IntervalLight& sun = block_[k];
-    seen_.assign(geometries_.size(), 0);
-    for (std::size_t g = 0; g < geometries_.size(); ++g) {
-      if (dot(geometries_[g].normal, sun.direction) <= 0) continue;
-      const SunSight sight =
-          sights_.empty() ? SunSight::unknown : sights_[(begin_ + g) * block_width + k];
-      if (sight == SunSight::unknown) ask(g, sun);
-      if (sight == SunSight::open) seen_[g] = sampler_.net_points();
-    }
+    seen_.assign(end_ - begin_, 0);
+    for (std::size_t g = 0; g < seen_.size(); ++g)
+      if (known_.share(begin_ + g, k) < 0 && dot(sampler_.normal(begin_ + g), sun.direction) > 0)
+        ask(g, sun);
     cast();
     const auto n = static_cast<double>(sampler_.net_points());
     for (std::size_t g = 0; g < seen_.size(); ++g)
@@ -292,8 +301,9 @@ class CloudedSuns {
             static_cast<float>(sun.sun_share * static_cast<double>(seen_[g]) / n);
   }
   void ask(std::size_t g, const IntervalLight& sun) {
+    const auto geometry = sampler_.geometry(begin_ + g);
     for (std::size_t first = 0; first < sampler_.net_points(); first += packet_size) {
-      const auto of_net = sampler_.net_rays(begin_ + g, geometries_[g], sun, first);
+      const auto of_net = sampler_.net_rays(begin_ + g, geometry, sun, first);
       const std::size_t count = std::min(packet_size, sampler_.net_points() - first);
       for (std::size_t l = 0; l < count; ++l) {
         if (waiting_ == packet_size) cast();
@@ -323,56 +333,62 @@ class CloudedSuns {
   const RayCaster& caster_;
   const SunSampler& sampler_;
   std::span<const IntervalLight> block_;
-  std::span<const SunSight> sights_;  ///< empty: unknown
-  std::size_t begin_ = 0;
-  std::vector<SunSampler::Geometry> geometries_;
+  Known known_;
+  std::size_t begin_ = 0, end_ = 0;
   std::vector<std::size_t> seen_;  ///< points of each receiver's net that see the sun
   std::array<std::size_t, packet_size> receiver_{};
   std::size_t waiting_ = 0;
   std::uint64_t rays_ = 0;
 };
 
-/// The work of one patch for all suns of a block that shine.
-class PatchSuns {
+/// The work of one receiver for all suns of a block: those that shine, and all whose shares are
+/// known.
+class ReceiverSuns {
  public:
-  PatchSuns(const RayCaster& caster, const SunSampler& sampler,
-            std::span<const IntervalLight> block, std::span<const SunSight> sights,
-            std::size_t realizations)
-      : caster_(caster), sampler_(sampler), block_(block), sights_(sights), seen_(realizations) {}
+  ReceiverSuns(const RayCaster& caster, const SunSampler& sampler,
+               std::span<const IntervalLight> block, Known known, std::size_t realizations)
+      : caster_(caster), sampler_(sampler), block_(block), known_(known), seen_(realizations) {}
 
-  void run(std::size_t patch, const RaySink& into, Columns& sunlit) {
-    const auto geometry = sampler_.geometry(patch);
+  void run(std::size_t receiver, const RaySink& into, Columns& sunlit) {
+    const Vec3 normal = sampler_.normal(receiver);
+    std::array<double, block_width> alike{};  // that all realizations have [W m-2]
+    bool any = false;
     for (std::size_t k = 0; k < block_.size(); ++k) {
       const IntervalLight& sun = block_[k];
-      const double cos_theta = dot(geometry.normal, sun.direction);
-      if (!sun.has_sun() || sun.dni <= 0 || cos_theta <= 0) continue;
-      const int visible = visible_samples(geometry, patch, k);
-      if (visible == 0) continue;
-      const auto n = static_cast<double>(sampler_.samples());
-      sunlit[patch * block_width + k] += static_cast<float>(sun.sun_share * visible / n);
-      into.add_pooled(patch, k, sun.dni * cos_theta * visible / n);
-      const double n_each = n / static_cast<double>(seen_.size());
-      for (std::size_t r = 0; r < seen_.size(); ++r)
-        into.add(r, patch, k, sun.dni * cos_theta * seen_[r] / n_each, sun.length_s);
+      const double cos_theta = dot(normal, sun.direction);
+      if (!sun.has_sun() || cos_theta <= 0) continue;
+      const auto share = static_cast<double>(known_.share(receiver, k));
+      if (share < 0) {
+        if (sun.dni > 0) add_by_rays(receiver, k, into, sunlit);
+        continue;
+      }
+      sunlit[receiver * block_width + k] += static_cast<float>(sun.sun_share * share);
+      alike[k] = sun.dni * cos_theta * share;
+      any = any || alike[k] > 0;
     }
+    if (any) into.add_alike(receiver, alike);
   }
   std::uint64_t rays = 0;
 
  private:
-  /// Visible samples in all, and per realization in seen_.
-  int visible_samples(const SunSampler::Geometry& geometry, std::size_t patch, std::size_t k) {
-    const SunSight sight = sights_.empty() ? SunSight::unknown : sights_[patch * block_width + k];
-    if (sight == SunSight::unknown) return count_visible(geometry, patch, block_[k]);
-    if (sight == SunSight::closed) return 0;
-    const auto n = static_cast<int>(sampler_.samples());
-    std::fill(seen_.begin(), seen_.end(), n / static_cast<int>(seen_.size()));
-    return n;
+  void add_by_rays(std::size_t receiver, std::size_t k, const RaySink& into, Columns& sunlit) {
+    const IntervalLight& sun = block_[k];
+    const auto geometry = sampler_.geometry(receiver);
+    const double cos_theta = dot(geometry.normal, sun.direction);
+    const int visible = count_visible(geometry, receiver, sun);
+    if (visible == 0 || cos_theta <= 0) return;
+    const auto n = static_cast<double>(sampler_.samples());
+    sunlit[receiver * block_width + k] += static_cast<float>(sun.sun_share * visible / n);
+    into.add_pooled(receiver, k, sun.dni * cos_theta * visible / n);
+    const double n_each = n / static_cast<double>(seen_.size());
+    for (std::size_t r = 0; r < seen_.size(); ++r)
+      into.add(r, receiver, k, sun.dni * cos_theta * seen_[r] / n_each);
   }
-  /// The same by rays.
-  int count_visible(const SunSampler::Geometry& geometry, std::size_t patch,
+  /// Samples that see the sun, in all, and per realization in seen_.
+  int count_visible(const SunSampler::Geometry& geometry, std::size_t receiver,
                     const IntervalLight& sun) {
     std::fill(seen_.begin(), seen_.end(), 0);
-    sampler_.seed(patch, sun.number, seeds_);
+    sampler_.seed(receiver, sun.number, seeds_);
     int visible = 0;
     for (std::size_t p = 0; p < sampler_.packets(); ++p) {
       const LitSamples samples = lit_samples(sampler_, caster_, sun, geometry, seeds_, p);
@@ -388,7 +404,7 @@ class PatchSuns {
   const RayCaster& caster_;
   const SunSampler& sampler_;
   std::span<const IntervalLight> block_;
-  std::span<const SunSight> sights_;  ///< empty: unknown
+  Known known_;
   SunSampler::Seeds seeds_;
   std::vector<int> seen_;
 };
@@ -397,12 +413,13 @@ class PatchSuns {
 
 std::uint64_t direct_sun(const RayCaster& caster, const SunSampler& sampler,
                          std::span<const IntervalLight> block, const RaySink& into, Columns& sunlit,
-                         std::span<const SunSight> sights) {
+                         const Columns& shares) {
+  const Known known(shares);
   return ordered_sum(sampler.receivers(), receivers_per_chunk, std::uint64_t{0},
                      [&](std::size_t begin, std::size_t end) {
-                       PatchSuns suns(caster, sampler, block, sights, into.realizations());
+                       ReceiverSuns suns(caster, sampler, block, known, into.realizations());
                        for (std::size_t i = begin; i < end; ++i) suns.run(i, into, sunlit);
-                       CloudedSuns clouded(caster, sampler, block, sights);
+                       CloudedSuns clouded(caster, sampler, block, known);
                        return suns.rays + clouded.run(begin, end, sunlit);
                      });
 }

@@ -1,10 +1,15 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Zeroth light iteration, the sun's part: direct sun by stratified shadow rays.
+/// Zeroth light iteration, the sun's part: by the share of each receiver that sees the sun,
+///
+///     E_0[i][k] = dni[k] * cosθ * lit area / area
+///
+/// where geometry tells it (solver/sight/lit_shares.h), the same in all realizations; else by
+/// stratified shadow rays,
 ///
 ///     E_0[i][k] = dni[k] * cosθ * (visible samples / samples)
 ///
-/// Every realization has its own randomised points, addressed by patch and sun.
+/// of which every realization has its own randomised points, addressed by patch and sun.
 ///
 /// A sun with a disk (`IntervalLight::disk_half_angle`) is seen by each sample at a point of its
 /// own, uniform on the disk (no limb darkening): shadows have penumbrae. cosθ stays that of the
@@ -28,7 +33,6 @@
 #include "solver/first_light/ray_light.h"
 #include "solver/light/sun_block.h"
 #include "solver/mesh/hierarchy.h"
-#include "solver/sight/sun_sight.h"
 #include "solver/surface/ray_caster.h"
 
 namespace sunload {
@@ -122,8 +126,8 @@ struct LitSamples {
   std::uint32_t active,
       lit;  ///< bits: that the packet really holds, and of these what sees the sun
 };
-/// All that asks for the direct sun of a receiver asks here, so that what surfaces receive and what
-/// they send on rests on the same rays. `seeds`: of this receiver and sun.
+/// All that asks rays for the direct sun of a receiver asks here, so that what surfaces receive and
+/// what they send on rests on the same rays. `seeds`: of this receiver and sun.
 LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const IntervalLight& sun,
                        const SunSampler::Geometry& geometry, const SunSampler::Seeds& seeds,
                        std::size_t packet);
@@ -158,11 +162,10 @@ class SunPoints {
 };
 
 /// Adds the direct sun of a block to `into`, and to `sunlit` ([N][block]) the share of each
-/// receiver that sees the sun, times `sun_share`, for every sun above the horizon. `sights` of the
-/// same receivers, [N][block], save rays and change no bit; empty: rays tell all. Returns the rays
-/// cast.
+/// receiver that sees the sun, times `sun_share`, for every sun above the horizon. `shares`: what
+/// is known of the same receivers (LitShares::of); empty: rays tell all. Returns the rays cast.
 std::uint64_t direct_sun(const RayCaster& caster, const SunSampler& sampler,
                          std::span<const IntervalLight> block, const RaySink& into, Columns& sunlit,
-                         std::span<const SunSight> sights = {});
+                         const Columns& shares = {});
 
 }  // namespace sunload

@@ -148,8 +148,7 @@ std::uint64_t GlossySun::add_light(const Lines& lines, const LobeImages* of_sens
           for (std::size_t i = begin; i < end; ++i) {
             const int lines_of = of_sensors ? rules_.lines_per_patch : rules_.lines_of(i);
             const double lines_each = lines_of / R;
-            into.add_all(i, k, sun.length_s,
-                         [&](std::size_t r) { return chunk.sum(i, r) / lines_each; });
+            into.add_all(i, k, [&](std::size_t r) { return chunk.sum(i, r) / lines_each; });
           }
         }
         return rays;

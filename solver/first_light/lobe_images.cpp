@@ -201,7 +201,7 @@ std::uint64_t LobeImages::add_light(std::span<const IntervalLight> block,
                 receiver.look_for(o, of_realization);
             rays += receiver.rays;
             if (receiver.rays == 0) continue;
-            into.add_all(i, k, block[k].length_s, [&](std::size_t r) { return of_realization[r]; });
+            into.add_all(i, k, [&](std::size_t r) { return of_realization[r]; });
           }
         return rays;
       });

@@ -159,7 +159,7 @@ class MirrorChains::Task {
 };
 
 MirrorChains::SentOn MirrorChains::follow(std::span<const IntervalLight> block,
-                                          std::span<const SunBeams> beams,
+                                          std::span<const SunBeams> beams, const Columns& shares,
                                           const RaySink& into) const {
   // Arrivals are added in rounds, so that no more of them wait than these mirrors make.
   constexpr std::size_t mirrors_per_task = 64, mirrors_per_round = 256 * mirrors_per_task;
@@ -173,7 +173,8 @@ MirrorChains::SentOn MirrorChains::follow(std::span<const IntervalLight> block,
     parallel_chunks(mirrors, mirrors_per_task, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
         for (std::size_t k = 0; k < block.size(); ++k)
-          if (block[k].has_sun() && block[k].dni > 0)
+          if (block[k].has_sun() && block[k].dni > 0 &&
+              shares[mirrors_[round + i] * block_width + k] != 0)
             tasks[begin / mirrors_per_task].send_on(block[k], k, beams[k], mirrors_[round + i]);
     });
     for (const auto& task : tasks) {
@@ -182,12 +183,25 @@ MirrorChains::SentOn MirrorChains::follow(std::span<const IntervalLight> block,
       for (std::size_t r = 0; r < realizations; ++r) sent.fates[r] += task.fates[r];
       for (const auto& [patch, realization, k, power] : task.arrivals) {
         const double E = power / hierarchy_.area()[patch];
-        into.add(realization, patch, k, E, block[k].length_s);
+        into.add(realization, patch, k, E);
         into.add_pooled(patch, k, E / static_cast<double>(realizations));
       }
     }
   }
   return sent;
+}
+
+std::vector<std::uint8_t> MirrorChains::dark_mirrors(const IntervalLight& sun, std::size_t k,
+                                                     const Columns& shares) const {
+  std::vector<std::uint8_t> dark(groups_.scene().mesh.triangle_count(), 0);
+  const auto mark = [&](std::size_t patch, bool is_dark) {
+    if (dot(hierarchy_.normal(patch), sun.direction) > 0 &&
+        (shares[patch * block_width + k] == 0) == is_dark)
+      dark[static_cast<std::size_t>(hierarchy_.patches()[patch].triangle)] = is_dark ? 1 : 0;
+  };
+  for (const auto patch : mirrors_) mark(patch, true);
+  for (const auto patch : mirrors_) mark(patch, false);
+  return dark;
 }
 
 }  // namespace sunload

@@ -35,9 +35,12 @@ class MirrorChains {
     std::uint64_t shots = 0;  ///< arrivals that no beam stands for
   };
   /// Follows the direct sun that mirror patches receive; adds to `into` what no
-  /// beam brings.
+  /// beam brings. `shares`: of patches that see the suns (LitShares::of).
   SentOn follow(std::span<const IntervalLight> block, std::span<const SunBeams> beams,
-                const RaySink& into) const;
+                const Columns& shares, const RaySink& into) const;
+  /// Of each triangle of the scene, that it is a mirror's and none of its patches sees sun k.
+  std::vector<std::uint8_t> dark_mirrors(const IntervalLight& sun, std::size_t k,
+                                         const Columns& shares) const;
 
  private:
   class Task;

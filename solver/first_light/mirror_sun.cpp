@@ -121,7 +121,7 @@ class MirrorSun::PatchWork {
     }
     const auto R = static_cast<double>(of_realization_.size());
     const double samples_each = static_cast<double>(sampler_.samples()) / R;
-    into_.add_all(patch, k_, sun_.length_s,
+    into_.add_all(patch, k_,
                   [&](std::size_t r) { return sun_.dni * of_realization_[r] / samples_each; });
   }
 

@@ -4,6 +4,12 @@
 
 namespace sunload {
 
+SunSeconds lengths_of(std::span<const IntervalLight> block) {
+  SunSeconds seconds{};
+  for (std::size_t k = 0; k < block.size(); ++k) seconds[k] = block[k].length_s;
+  return seconds;
+}
+
 std::vector<Columns> summed(const SunColumns& columns) {
   std::vector<Columns> sums = columns.direct;
   for (const auto* part : {&columns.mirror, &columns.circumsolar})

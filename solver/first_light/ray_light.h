@@ -4,7 +4,10 @@
 /// what comes by lines.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/light/sun_block.h"
@@ -29,40 +32,66 @@ struct SunColumns {
 /// The sum of all columns of each realization.
 std::vector<Columns> summed(const SunColumns& columns);
 
+/// Seconds that each sun of a block counts.
+using SunSeconds = std::array<double, block_width>;
+/// Its whole interval.
+SunSeconds lengths_of(std::span<const IntervalLight> block);
+
+/// Irradiance that is added up over time into `exposure`, [R][N] J m-2.
+struct TimeIntegral {
+  std::vector<std::vector<double>>* exposure;
+  SunSeconds seconds;
+};
+
 /// Where one kind of rays leaves what it brings to N receivers: pooled, and where they are wanted
-/// the time integrals and the columns of every realization.
+/// time integrals and columns of every realization.
 class RaySink {
  public:
-  /// `exposure`: [R][N] J m-2, or null. `of_realizations`: [R] columns, or null or none. All of
-  /// them must outlive it, and have room.
-  RaySink(Columns& pooled, std::size_t realizations, std::vector<std::vector<double>>* exposure,
-          std::vector<Columns>* of_realizations)
+  /// `of_realizations`: [R] columns, or null or none. All of them must outlive it, and have room.
+  RaySink(Columns& pooled, std::size_t realizations, std::vector<TimeIntegral> integrals = {},
+          std::vector<Columns>* of_realizations = nullptr)
       : pooled_(pooled),
         realizations_(realizations),
-        exposure_(exposure),
+        integrals_(std::move(integrals)),
         of_realizations_(of_realizations && !of_realizations->empty() ? of_realizations : nullptr) {
   }
 
   std::size_t realizations() const { return realizations_; }
   /// Adds irradiance E [W m-2] by sun k of the block, as one realization has it; the pooled one is
   /// for the caller to add.
-  void add(std::size_t realization, std::size_t receiver, std::size_t k, double E,
-           double length_s) const {
-    if (exposure_) (*exposure_)[realization][receiver] += E * length_s;
+  void add(std::size_t realization, std::size_t receiver, std::size_t k, double E) const {
+    for (const TimeIntegral& integral : integrals_)
+      (*integral.exposure)[realization][receiver] += E * integral.seconds[k];
     if (of_realizations_)
       (*of_realizations_)[realization][receiver * block_width + k] += static_cast<float>(E);
   }
   void add_pooled(std::size_t receiver, std::size_t k, double E) const {
     pooled_[receiver * block_width + k] += static_cast<float>(E);
   }
+  /// Adds what all realizations have alike, and the pooled one, by all suns of the block.
+  void add_alike(std::size_t receiver, const std::array<double, block_width>& E) const {
+    const std::size_t begin = receiver * block_width;
+    for (std::size_t k = 0; k < block_width; ++k) pooled_[begin + k] += static_cast<float>(E[k]);
+    if (of_realizations_)
+      for (Columns& columns : *of_realizations_)
+        for (std::size_t k = 0; k < block_width; ++k)
+          columns[begin + k] += static_cast<float>(E[k]);
+    for (const TimeIntegral& integral : integrals_) {
+      double sum = 0;
+      for (std::size_t k = 0; k < block_width; ++k) sum += E[k] * integral.seconds[k];
+      if (sum <= 0) continue;
+      for (std::vector<double>& of_realization : *integral.exposure)
+        of_realization[receiver] += sum;
+    }
+  }
   /// Adds `E(r)` of all realizations, and their mean to the pooled one.
   template <class Irradiance>
-  void add_all(std::size_t receiver, std::size_t k, double length_s, const Irradiance& E) const {
+  void add_all(std::size_t receiver, std::size_t k, const Irradiance& E) const {
     double mean = 0;
     for (std::size_t r = 0; r < realizations_; ++r) {
       const double of_realization = E(r);
       mean += of_realization / static_cast<double>(realizations_);
-      add(r, receiver, k, of_realization, length_s);
+      add(r, receiver, k, of_realization);
     }
     add_pooled(receiver, k, mean);
   }
@@ -70,7 +99,7 @@ class RaySink {
  private:
   Columns& pooled_;
   std::size_t realizations_;
-  std::vector<std::vector<double>>* exposure_;
+  std::vector<TimeIntegral> integrals_;
   std::vector<Columns>* of_realizations_;
 };
 

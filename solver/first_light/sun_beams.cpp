@@ -25,10 +25,11 @@ Rotation followed_by_image(const Rotation& before, Vec3 n) {
 
 }  // namespace
 
-SunBeams::SunBeams(const MirrorGroups& groups, const IntervalLight& sun, const BeamRules& rules)
+SunBeams::SunBeams(const MirrorGroups& groups, const IntervalLight& sun, const BeamRules& rules,
+                   std::span<const std::uint8_t> dark)
     : groups_(&groups), rules_(rules), spread_(std::tan(sun.disk_half_angle)) {
   if (!sun.has_sun() || sun.dni <= 0 || rules.mirror_depth < 1) return;
-  std::vector<SunBeam> level = first_level(sun);
+  std::vector<SunBeam> level = first_level(sun, dark);
   while (!level.empty() &&
          beams_.size() + level.size() <= static_cast<std::size_t>(rules.most_beams)) {
     const std::size_t begin = beams_.size();
@@ -45,12 +46,18 @@ std::int32_t SunBeams::next(std::int32_t beam, std::size_t group) const {
   return -1;
 }
 
-std::vector<SunBeam> SunBeams::first_level(const IntervalLight& sun) const {
+std::vector<SunBeam> SunBeams::first_level(const IntervalLight& sun,
+                                           std::span<const std::uint8_t> dark) const {
   std::vector<SunBeam> level;
+  const auto is_lit = [&](std::int32_t triangle) {
+    return dark.empty() || dark[static_cast<std::size_t>(triangle)] == 0;
+  };
   // Of mirrors; clear glass may reflect nothing.
   const auto strongest = [&](std::size_t g) {
     const double cos_theta = dot(sun.direction, (*groups_)[g].normal);
-    return cos_theta > least_cosine ? groups_->strongest(g, cos_theta) : 0;
+    const auto& triangles = (*groups_)[g].triangles;
+    const bool any = std::any_of(triangles.begin(), triangles.end(), is_lit);
+    return any && cos_theta > least_cosine ? groups_->strongest(g, cos_theta) : 0;
   };
   std::size_t facing = 0;
   for (std::size_t g = 0; g < groups_->size(); ++g)
@@ -62,6 +69,7 @@ std::vector<SunBeam> SunBeams::first_level(const IntervalLight& sun) const {
     SunBeam beam{g, -1, 1, followed_by_image({}, n), {}, reflected, {}, {}};
     beam.image = beam.image_of(sun.direction);
     for (const auto t : (*groups_)[g].triangles) {
+      if (!is_lit(t)) continue;
       const Mesh& mesh = groups_->scene().mesh;
       const auto i = static_cast<std::size_t>(t);
       beam.section.push_back({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)});

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -50,7 +51,9 @@ class SunBeams {
  public:
   /// None.
   explicit SunBeams(const MirrorGroups& groups) : groups_(&groups) {}
-  SunBeams(const MirrorGroups& groups, const IntervalLight& sun, const BeamRules& rules);
+  /// `dark`: of each triangle, that nothing of it sees the sun; empty: of none is that known.
+  SunBeams(const MirrorGroups& groups, const IntervalLight& sun, const BeamRules& rules,
+           std::span<const std::uint8_t> dark = {});
   std::size_t size() const { return beams_.size(); }
   const SunBeam& operator[](std::size_t beam) const { return beams_[beam]; }
   double spread() const { return spread_; }
@@ -58,7 +61,8 @@ class SunBeams {
   std::int32_t next(std::int32_t beam, std::size_t group) const;
 
  private:
-  std::vector<SunBeam> first_level(const IntervalLight& sun) const;
+  std::vector<SunBeam> first_level(const IntervalLight& sun,
+                                   std::span<const std::uint8_t> dark) const;
   std::vector<SunBeam> next_level(std::size_t begin) const;
   void append(std::vector<SunBeam> level);
 

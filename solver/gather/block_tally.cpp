@@ -32,12 +32,13 @@ void add_to_parts(const BlockLight& light, const IntervalLight& sun, std::size_t
 }  // namespace
 
 void store_received(const BlockLight& light, std::span<const IntervalLight> block,
-                    std::size_t first_row, const Columns& sunlit, ReceiverTally& tally) {
+                    std::span<const std::size_t> rows, const Columns& sunlit,
+                    ReceiverTally& tally) {
   const std::size_t receivers = tally.sunlit_s.size();
   const auto put = [&](Part part, std::size_t i, std::size_t k, float value) {
     const auto p = static_cast<std::size_t>(part);
     if (tally.exposure[p].empty()) return;
-    if (!tally.irradiance[p].empty()) tally.irradiance[p][(first_row + k) * receivers + i] = value;
+    if (!tally.irradiance[p].empty()) tally.irradiance[p][rows[k] * receivers + i] = value;
     tally.exposure[p][i] += static_cast<double>(value) * block[k].length_s;
   };
   parallel_for(
@@ -58,7 +59,7 @@ void store_received(const BlockLight& light, std::span<const IntervalLight> bloc
           put(Part::reflected, i, k, light.reflected[at]);
           tally.sunlit_s[i] += static_cast<double>(sunlit[at]) * block[k].sunlit_s;
           tally.irradiance_max[i] = std::max(tally.irradiance_max[i], total);
-          add_to_parts(light, block[k], first_row + k, i, k, static_cast<double>(sunlit[at]),
+          add_to_parts(light, block[k], rows[k], i, k, static_cast<double>(sunlit[at]),
                        tally.parts);
         }
       },
@@ -66,9 +67,9 @@ void store_received(const BlockLight& light, std::span<const IntervalLight> bloc
 }
 
 void store_patches(const PatchOptics& optics, const BlockLight& light,
-                   std::span<const IntervalLight> block, std::size_t first_row,
+                   std::span<const IntervalLight> block, std::span<const std::size_t> rows,
                    const Columns& sunlit, BatchTally& tally) {
-  store_received(light, block, first_row, sunlit, tally);
+  store_received(light, block, rows, sunlit, tally);
   parallel_for(
       tally.outgoing.size(),
       [&](std::size_t i) {

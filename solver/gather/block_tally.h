@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Puts the light of a block of suns into a batch's tally, from its row `first_row` on.
+/// Puts the light of a block of suns into a batch's tally.
 #pragma once
 
 #include <span>
@@ -11,13 +11,14 @@
 
 namespace sunload {
 
-/// What receivers get; `sunlit`: share of each that sees the sun ([N][block]).
+/// What receivers get; `rows`: of each sun in the tally; `sunlit`: share of each receiver that sees
+/// the sun ([N][block]).
 void store_received(const BlockLight& light, std::span<const IntervalLight> block,
-                    std::size_t first_row, const Columns& sunlit, ReceiverTally& tally);
+                    std::span<const std::size_t> rows, const Columns& sunlit, ReceiverTally& tally);
 
 /// What patches get and what leaves them.
 void store_patches(const PatchOptics& optics, const BlockLight& light,
-                   std::span<const IntervalLight> block, std::size_t first_row,
+                   std::span<const IntervalLight> block, std::span<const std::size_t> rows,
                    const Columns& sunlit, BatchTally& tally);
 
 }  // namespace sunload

@@ -32,6 +32,12 @@ struct TimeSums {
   std::vector<Ledger> sent_on;  ///< [R] the sun's light that mirrors sent on
 };
 
+/// Sums that a block's light is added to, for so many seconds of each of its suns.
+struct TimedSums {
+  TimeSums* sums;
+  SunSeconds seconds;
+};
+
 /// What the rows of one realization's lines receive otherwise than by these.
 struct ExposureByRays {
   const std::vector<double>&direct, &by_mirror;  ///< [J m-2]

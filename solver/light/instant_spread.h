@@ -3,6 +3,8 @@
 /// Standard error of every patch or sensor and sun of a block, from the realizations.
 #pragma once
 
+#include <numeric>
+#include <span>
 #include <vector>
 
 #include "solver/base/chunks.h"
@@ -38,14 +40,22 @@ class InstantSpread {
         },
         receivers_per_chunk);
   }
-  /// Writes s / √R to the rows [K][N] from `first_row` on.
-  void store(std::size_t first_row, std::vector<float>& errors) const {
+  /// s / √R of all suns, [K][N].
+  std::vector<float> errors() const {
+    std::vector<std::size_t> rows(suns_);
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    std::vector<float> all(suns_ * receivers_);
+    store(rows, all);
+    return all;
+  }
+  /// The same to these rows of [K][N], one for each sun.
+  void store(std::span<const std::size_t> rows, std::vector<float>& errors) const {
     parallel_for(
         receivers_,
         [&](std::size_t i) {
           for (std::size_t k = 0; k < suns_; ++k) {
             const std::size_t at = i * block_width + k;
-            errors[(first_row + k) * receivers_ + i] = static_cast<float>(standard_error(
+            errors[rows[k] * receivers_ + i] = static_cast<float>(standard_error(
                 variance_by_sums(realizations_, sum_[at], squares_[at]), realizations_));
           }
         },
@@ -73,10 +83,10 @@ class InstantSpreadBySource {
              static_cast<double>(by_shots(i, k));
     });
   }
-  void store(std::size_t first_row, ErrorsBySource& errors) const {
-    samples_.store(first_row, errors.samples);
-    shots_.store(first_row, errors.shots);
-    lines_.store(first_row, errors.lines);
+  void store(std::span<const std::size_t> rows, ErrorsBySource& errors) const {
+    samples_.store(rows, errors.samples);
+    shots_.store(rows, errors.shots);
+    lines_.store(rows, errors.lines);
   }
 
  private:

@@ -3,6 +3,7 @@
 /// Suns that are computed side by side, and per-patch columns for them.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -41,6 +42,8 @@ struct IntervalLight {
   };
   std::vector<Band> bands;  ///< red, green, blue; empty where bands are not asked for
 
+  /// Tangent of the half-angle of the disk.
+  double disk_spread() const { return disk_half_angle > 0 ? std::tan(disk_half_angle) : 0; }
   bool has_sun() const { return sunlit_s > 0 && direction.z > 0; }
   bool is_dark() const { return !has_sun() && dhi <= 0; }
 };

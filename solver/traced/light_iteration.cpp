@@ -14,14 +14,18 @@ namespace {
 
 using Suns = std::span<const IntervalLight>;
 
-/// The beams of each sun by way of mirrors; none where the scene has no mirrors.
-std::vector<SunBeams> beams_of(const TracedScene& traced, Suns suns) {
+/// The beams of each sun by way of mirrors; none where the scene has no mirrors. `shares`: of
+/// patches that see the suns.
+std::vector<SunBeams> beams_of(const TracedScene& traced, Suns suns, const Columns& shares) {
   if (traced.mirrors.size() == 0) return {};
   const BeamRules rules{traced.rules.mirror_depth, traced.rules.faint_glint,
                         traced.rules.most_sun_beams, traced.caster.offset_m()};
   std::vector<SunBeams> beams(suns.size(), SunBeams(traced.mirrors));
-  parallel_for(suns.size(),
-               [&](std::size_t k) { beams[k] = SunBeams(traced.mirrors, suns[k], rules); });
+  parallel_for(suns.size(), [&](std::size_t k) {
+    if (suns[k].dni > 0)
+      beams[k] = SunBeams(traced.mirrors, suns[k], rules,
+                          traced.mirror_chains.dark_mirrors(suns[k], k, shares));
+  });
   return beams;
 }
 
@@ -45,42 +49,68 @@ RayLight empty_rays(const TracedScene& traced, std::size_t receivers, bool keep_
   return rays;
 }
 
-RaySink sink(const TracedScene& traced, Columns& pooled, std::vector<std::vector<double>>* exposure,
+/// What kinds of rays bring to patches, or to sensors, over time.
+class RayIntegrals {
+ public:
+  RayIntegrals(std::span<const TimedSums> sums, RaySums TimeSums::*receivers)
+      : sums_(sums), receivers_(receivers) {}
+  using Kind = std::vector<std::vector<double>> RaySums::*;
+  std::vector<TimeIntegral> of(Kind kind) const {
+    std::vector<TimeIntegral> all;
+    for (const auto& [sums, seconds] : sums_) all.push_back({&(sums->*receivers_.*kind), seconds});
+    return all;
+  }
+  std::vector<TimeIntegral> of_gloss() const {
+    std::vector<TimeIntegral> all;
+    for (const auto& [sums, seconds] : sums_) {
+      RaySums& rays = sums->*receivers_;
+      all.push_back({rays.gloss.empty() ? &rays.mirror : &rays.gloss, seconds});
+    }
+    return all;
+  }
+
+ private:
+  std::span<const TimedSums> sums_;
+  RaySums TimeSums::*receivers_;
+};
+
+RaySink sink(const TracedScene& traced, Columns& pooled, std::vector<TimeIntegral> integrals,
              std::vector<Columns>& of_realizations) {
-  return {pooled, static_cast<std::size_t>(traced.rules.realizations), exposure, &of_realizations};
+  return {pooled, static_cast<std::size_t>(traced.rules.realizations), std::move(integrals),
+          &of_realizations};
 }
 
-/// `sums`: null where nobody wants time integrals, here and below.
+/// `shares`: of receivers that see the suns, or empty.
 std::uint64_t add_sun(const TracedScene& traced, const Receivers& receivers, Suns suns,
-                      RayLight& rays, RaySums* sums) {
-  const auto sights = &receivers == &traced.patches ? traced.sights(suns) : std::vector<SunSight>();
+                      const Columns& shares, RayLight& rays, const RayIntegrals& integrals) {
   return direct_sun(
       traced.caster, receivers.sampler, suns,
-      sink(traced, rays.pooled.direct, sums ? &sums->direct : nullptr, rays.of_realizations.direct),
-      rays.sunlit, sights);
+      sink(traced, rays.pooled.direct, integrals.of(&RaySums::direct), rays.of_realizations.direct),
+      rays.sunlit, shares);
 }
 
 std::uint64_t add_circumsolar(const TracedScene& traced, const BlockSources& sources,
-                              RayLight& rays, RaySums& sums) {
+                              RayLight& rays, const RayIntegrals& integrals) {
   if (!any_circumsolar(sources.circumsolar)) return 0;
   rays.pooled.circumsolar = columns(traced.patches.count());
   return circumsolar_light(
       traced.caster, traced.patches.sampler, sources.suns, sources.circumsolar,
-      sink(traced, rays.pooled.circumsolar, &sums.circumsolar, rays.of_realizations.circumsolar));
+      sink(traced, rays.pooled.circumsolar, integrals.of(&RaySums::circumsolar),
+           rays.of_realizations.circumsolar));
 }
 
-RaySink mirrored(const TracedScene& traced, RayLight& rays,
-                 std::vector<std::vector<double>>* exposure) {
-  return sink(traced, rays.pooled.mirror, exposure, rays.of_realizations.mirror);
+RaySink mirrored(const TracedScene& traced, RayLight& rays, std::vector<TimeIntegral> integrals) {
+  return sink(traced, rays.pooled.mirror, std::move(integrals), rays.of_realizations.mirror);
 }
 
 void add_mirrors(const TracedScene& traced, Suns suns, const std::vector<SunBeams>& beams,
-                 BlockRays& rays, RaySums& sums, WorkDone& work) {
+                 const Columns& shares, BlockRays& rays, const RayIntegrals& integrals,
+                 WorkDone& work) {
   if (beams.empty()) return;
-  const RaySink into = mirrored(traced, rays.on_patches, &sums.mirror);
+  const RaySink into = mirrored(traced, rays.on_patches, integrals.of(&RaySums::mirror));
   work.add(Work::mirror_rays,
            traced.mirror_sun.add_light(traced.patches.sampler, suns, beams, into));
-  const auto chains = traced.mirror_chains.follow(suns, beams, into);
+  const auto chains = traced.mirror_chains.follow(suns, beams, shares, into);
   work.add(Work::mirror_rays, chains.rays);
   work.add(Work::mirror_shots, chains.shots);
   for (const auto& of_sun : beams) work.add(Work::mirror_beams, of_sun.size());
@@ -88,13 +118,13 @@ void add_mirrors(const TracedScene& traced, Suns suns, const std::vector<SunBeam
   for (std::size_t r = 0; r < chains.fates.size(); ++r) rays.sent_on[r] += chains.fates[r];
 }
 
-void add_gloss(const TracedScene& traced, Suns suns, BlockRays& rays, RaySums& sums,
+void add_gloss(const TracedScene& traced, Suns suns, BlockRays& rays, const RayIntegrals& integrals,
                WorkDone& work) {
   if (!traced.optics.any_glossy) return;
   const Stopwatch time(work[Work::mirror_s]);
   work.add(Work::mirror_rays,
            traced.glossy_sun.add_light(traced.patches.lines, suns,
-                                       mirrored(traced, rays.on_patches, &sums.gloss)));
+                                       mirrored(traced, rays.on_patches, integrals.of_gloss())));
   rays.sent_on.resize(static_cast<std::size_t>(traced.rules.realizations));
   traced.glossy_sun.follow_light(suns, rays.sent_on);
 }
@@ -103,12 +133,12 @@ void add_gloss(const TracedScene& traced, Suns suns, BlockRays& rays, RaySums& s
 std::uint64_t light_sensors(const TracedScene& traced,
                             const std::vector<std::vector<IntervalLight>>& suns,
                             std::vector<std::vector<SunBeams>> beams, RayLight& rays,
-                            RaySums* sums) {
+                            const RayIntegrals& integrals) {
   const Receivers& sensors = traced.sensors;
-  const RaySink into = mirrored(traced, rays, sums ? &sums->mirror : nullptr);
+  const RaySink into = mirrored(traced, rays, integrals.of(&RaySums::mirror));
   std::uint64_t cast = 0;
   for (std::size_t s = 0; s < suns.size(); ++s) {
-    cast += add_sun(traced, sensors, suns[s], rays, sums);
+    cast += add_sun(traced, sensors, suns[s], {}, rays, integrals);
     if (!beams[s].empty())
       cast += traced.mirror_sun.add_light(
           sensors.sampler, suns[s], with_first_reflections(traced, std::move(beams[s]), suns[s]),
@@ -121,38 +151,45 @@ std::uint64_t light_sensors(const TracedScene& traced,
   return cast;
 }
 
+/// Nobody wants any.
+RayIntegrals no_integrals() { return {{}, &TimeSums::on_patches}; }
+
 }  // namespace
 
 BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources, const Kept& kept,
-                          TimeSums& sums, WorkDone& work) {
+                          std::span<const TimedSums> sums, WorkDone& work) {
   const auto suns = suns_one_by_one(sources.suns);
+  const RayIntegrals of_patches(sums, &TimeSums::on_patches),
+      of_sensors(sums, &TimeSums::on_sensors);
   BlockRays rays;
   rays.on_patches = empty_rays(traced, traced.patches.count(), kept.columns);
   // Nothing comes by mirrors that are not there.
   if (!kept.all_parts && traced.mirrors.size() == 0 && !traced.optics.any_glossy)
     rays.on_patches.of_realizations.mirror.clear();
+  std::vector<Columns> shares;
   {
     const Stopwatch time(work[Work::direct_s]);
-    for (const auto& of_intervals : suns)
-      work.add(Work::direct_rays,
-               add_sun(traced, traced.patches, of_intervals, rays.on_patches, &sums.on_patches));
-    work.add(Work::direct_rays, add_circumsolar(traced, sources, rays.on_patches, sums.on_patches));
+    for (const auto& of_intervals : suns) {
+      shares.push_back(traced.lit_shares.of(of_intervals));
+      work.add(Work::direct_rays, add_sun(traced, traced.patches, of_intervals, shares.back(),
+                                          rays.on_patches, of_patches));
+    }
+    work.add(Work::direct_rays, add_circumsolar(traced, sources, rays.on_patches, of_patches));
   }
   std::vector<std::vector<SunBeams>> beams;
   beams.reserve(suns.size());
-  for (const auto& of_intervals : suns) {
+  for (std::size_t s = 0; s < suns.size(); ++s) {
     const Stopwatch time(work[Work::mirror_s]);
-    beams.push_back(beams_of(traced, of_intervals));
-    add_mirrors(traced, of_intervals, beams.back(), rays, sums.on_patches, work);
+    beams.push_back(beams_of(traced, suns[s], shares[s]));
+    add_mirrors(traced, suns[s], beams.back(), shares[s], rays, of_patches, work);
   }
   if (kept.by_samples) rays.on_patches.by_samples = summed(rays.on_patches.of_realizations);
-  for (const auto& of_intervals : suns)
-    add_gloss(traced, of_intervals, rays, sums.on_patches, work);
+  for (const auto& of_intervals : suns) add_gloss(traced, of_intervals, rays, of_patches, work);
   if (traced.sensors.count() == 0) return rays;
   const Stopwatch time(work[Work::sensors_s]);
   rays.on_sensors = empty_rays(traced, traced.sensors.count(), kept.columns);
   work.add(Work::sensor_rays,
-           light_sensors(traced, suns, std::move(beams), rays.on_sensors, &sums.on_sensors));
+           light_sensors(traced, suns, std::move(beams), rays.on_sensors, of_sensors));
   return rays;
 }
 
@@ -163,7 +200,8 @@ RayLight direct_on_patches(const TracedScene& traced, const BlockSources& source
   rays.pooled.direct = rays.sunlit = columns(traced.patches.count());
   rays.of_realizations.direct.assign(realizations, columns(traced.patches.count()));
   for (const auto& suns : suns_one_by_one(sources.suns))
-    work.add(Work::direct_rays, add_sun(traced, traced.patches, suns, rays, nullptr));
+    work.add(Work::direct_rays, add_sun(traced, traced.patches, suns, traced.lit_shares.of(suns),
+                                        rays, no_integrals()));
   return rays;
 }
 
@@ -173,8 +211,11 @@ RayLight rays_on_sensors(const TracedScene& traced, const BlockSources& sources,
   const auto suns = suns_one_by_one(sources.suns);
   std::vector<std::vector<SunBeams>> beams;
   beams.reserve(suns.size());
-  for (const auto& of_intervals : suns) beams.push_back(beams_of(traced, of_intervals));
-  work.add(Work::sensor_rays, light_sensors(traced, suns, std::move(beams), rays, nullptr));
+  for (const auto& of_intervals : suns)
+    beams.push_back(
+        beams_of(traced, of_intervals,
+                 traced.mirrors.size() > 0 ? traced.lit_shares.of(of_intervals) : Columns()));
+  work.add(Work::sensor_rays, light_sensors(traced, suns, std::move(beams), rays, no_integrals()));
   return rays;
 }
 

@@ -27,9 +27,10 @@ struct BlockRays {
   std::vector<SunFates> sent_on;  ///< [R] by mirrors and gloss, where the scene has any
 };
 
-/// Traces a block whose sky is split; adds its time integrals to `sums`.
+/// Traces a block whose sky is split; adds what its rays bring over time to `sums`, by gloss onto
+/// patches to the mirrors' where those have no sums of gloss.
 BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources, const Kept& kept,
-                          TimeSums& sums, WorkDone& work);
+                          std::span<const TimedSums> sums, WorkDone& work);
 
 /// The same of the sun alone, straight, on patches: the columns of the realizations.
 RayLight direct_on_patches(const TracedScene& traced, const BlockSources& sources, WorkDone& work);

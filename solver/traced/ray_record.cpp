@@ -31,6 +31,14 @@ double bytes_of(const RayLight& light) {
          bytes_of(of_realizations.circumsolar) + bytes_of(by_samples);
 }
 
+double bytes_of(const RaySums& sums) {
+  double bytes = 0;
+  for (const auto* kind : {&sums.direct, &sums.mirror, &sums.circumsolar, &sums.gloss})
+    for (const auto& of_realization : *kind)
+      bytes += static_cast<double>(of_realization.size() * sizeof(of_realization.front()));
+  return bytes;
+}
+
 void empty(RayRecord& record, RayRecord::State state) {
   RayRecord nothing;
   nothing.most_bytes = record.most_bytes;
@@ -45,8 +53,8 @@ BatchRays::BatchRays(const TracedScene& traced, RayRecord* record)
   if (record_ && !takes()) empty(*record_, RayRecord::State::written);
 }
 
-BlockRays BatchRays::next(const BlockSources& sources, const Kept& kept, TimeSums& sums,
-                          WorkDone& work) {
+BlockRays BatchRays::next(const BlockSources& sources, const Kept& kept,
+                          std::span<const TimedSums> sums, WorkDone& work) {
   if (takes()) {
     SUNLOAD_EXPECT(taken_ < record_->blocks.size(), "a record has every block of its batch");
     return record_->blocks[taken_++];
@@ -68,17 +76,29 @@ void BatchRays::keep(const BlockRays& rays) {
     record_->blocks.push_back(rays);
 }
 
-void BatchRays::end(TimeSums* sums, WorkDone& work) {
+void BatchRays::end(std::span<TimeSums* const> sums, WorkDone& work) {
   if (!record_) return;
   if (takes()) {
+    SUNLOAD_EXPECT(sums.size() == record_->on_patches.size(), "a record has every sum over time");
     work += record_->work;
-    if (sums) sums->on_patches = record_->on_patches;
-    if (sums) sums->on_sensors = record_->on_sensors;
+    for (std::size_t s = 0; s < sums.size(); ++s) {
+      sums[s]->on_patches = record_->on_patches[s];
+      sums[s]->on_sensors = record_->on_sensors[s];
+    }
   } else if (record_->state == RayRecord::State::written) {
-    if (sums) record_->on_patches = sums->on_patches;
-    if (sums) record_->on_sensors = sums->on_sensors;
-    record_->state = RayRecord::State::whole;
+    keep(sums);
   }
+}
+
+void BatchRays::keep(std::span<TimeSums* const> sums) {
+  for (const TimeSums* of : sums)
+    record_->bytes += bytes_of(of->on_patches) + bytes_of(of->on_sensors);
+  if (record_->bytes > record_->most_bytes) return empty(*record_, RayRecord::State::given_up);
+  for (const TimeSums* of : sums) {
+    record_->on_patches.push_back(of->on_patches);
+    record_->on_sensors.push_back(of->on_sensors);
+  }
+  record_->state = RayRecord::State::whole;
 }
 
 }  // namespace sunload

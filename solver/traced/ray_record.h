@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "solver/traced/light_iteration.h"
@@ -15,8 +16,8 @@ namespace sunload {
 struct RayRecord {
   double most_bytes = 0;  ///< a larger one is given up
   std::vector<BlockRays> blocks;
-  RaySums on_patches, on_sensors;  ///< time integrals of the whole batch
-  WorkDone work;                   ///< rays and beams; no seconds
+  std::vector<RaySums> on_patches, on_sensors;  ///< of the whole batch, of all sums over time
+  WorkDone work;                                ///< rays and beams; no seconds
   double bytes = 0;
   enum class State { written, whole, given_up } state = State::written;
 };
@@ -28,14 +29,16 @@ class BatchRays {
   /// `record`: null where nothing is kept; a whole one is taken from, another is written, from
   /// nothing. It must outlive this.
   BatchRays(const TracedScene& traced, RayRecord* record);
-  /// As `light_iteration`; the integrals in `sums` may come with `end` only.
-  BlockRays next(const BlockSources& sources, const Kept& kept, TimeSums& sums, WorkDone& work);
-  /// After the last block. `sums`: those of all blocks; null where they were not the same.
-  void end(TimeSums* sums, WorkDone& work);
+  /// As `light_iteration`; what goes into `sums` may come with `end` only.
+  BlockRays next(const BlockSources& sources, const Kept& kept, std::span<const TimedSums> sums,
+                 WorkDone& work);
+  /// After the last block. `sums`: all that any block had, in the same order for all who take it.
+  void end(std::span<TimeSums* const> sums, WorkDone& work);
 
  private:
   bool takes() const { return record_ && record_->state == RayRecord::State::whole; }
   void keep(const BlockRays& rays);
+  void keep(std::span<TimeSums* const> sums);
 
   const TracedScene& traced_;
   RayRecord* record_;

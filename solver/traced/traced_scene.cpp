@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "geo/base/check.h"
-#include "solver/base/cost.h"
 #include "solver/base/stopwatch.h"
 #include "solver/gather/guide.h"
 #include "solver/gather/jacobi.h"
@@ -98,15 +97,6 @@ DirectRules direct_rules(const SolverRules& rules) {
   return {.samples = rules.direct_samples, .realizations = rules.realizations, .seed = rules.seed};
 }
 
-/// Shafts pay where triangles are divided into many patches. With 5 patches of a triangle (street)
-/// they cost a quarter more than the rays that they spare, with 28 (city) as much; with more, less.
-std::optional<SunShafts> shafts_where_they_pay(const Scene& scene, const Hierarchy& mesh,
-                                               const RayCaster& caster) {
-  constexpr std::size_t patches_of_a_triangle = 32;
-  if (mesh.patch_count() < patches_of_a_triangle * scene.mesh.triangle_count()) return {};
-  return std::optional<SunShafts>(std::in_place, scene, mesh, caster.offset_m());
-}
-
 }  // namespace
 
 // Members are made in the order in which the header has them: each needs those before it.
@@ -120,7 +110,7 @@ TracedScene::TracedScene(const Scene& whole, std::shared_ptr<const Hierarchy> fr
       optics_of_band(optics_of_bands(whole, *mesh, optics, of_study.bands)),
       patches(SunSampler(*mesh, caster, direct_rules(of_study))),
       sensors(SunSampler(whole.sensors, caster, direct_rules(of_study))),
-      sun_shafts(shafts_where_they_pay(whole, *mesh, caster)),
+      lit_shares(whole, *mesh, caster.offset_m()),
       mirrors(whole),
       mirror_sun(caster, mirrors),
       mirror_chains(*mesh, caster, patches.sampler, mirrors,
@@ -137,24 +127,6 @@ bool TracedScene::has_part(Part part) const {
   if (part == Part::mirror) return optics.any_mirror;
   if (part == Part::lamps) return optics.any_emission;
   return true;
-}
-
-void TracedScene::expect(const LitPeriod& period, std::shared_ptr<const SunViews> ready) {
-  std::vector<Vec3> suns;
-  for (std::size_t k = 0; k < period.intervals(); ++k)
-    if (period.has_sun(k))
-      for (const Vec3 sun : period.suns(k)) suns.push_back(sun);
-  if (static_cast<double>(suns.size()) < cost::suns_worth_views) return;
-  const Stopwatch time(work[Work::direct_s]);
-  sun_views = ready ? std::move(ready)
-                    : std::make_shared<const SunViews>(scene, *mesh, caster.offset_m(), suns);
-  sun_shafts.reset();  // nobody asks them any more
-}
-
-std::vector<SunSight> TracedScene::sights(std::span<const IntervalLight> block) const {
-  if (sun_views) return sun_views->sights(block);
-  if (sun_shafts) return sun_shafts->sights(block);
-  return {};
 }
 
 std::vector<double> TracedScene::sky_view_factor() const {

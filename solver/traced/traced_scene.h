@@ -15,14 +15,12 @@
 #include "solver/first_light/mirror_sun.h"
 #include "solver/first_light/parallel_light.h"
 #include "solver/gather/jacobi.h"
-#include "solver/light/lit_period.h"
 #include "solver/light/work.h"
 #include "solver/lines/lines.h"
 #include "solver/matrix/form_factors.h"
 #include "solver/mesh/hierarchy.h"
 #include "solver/mesh/patch_optics.h"
-#include "solver/sight/sun_shafts.h"
-#include "solver/sight/sun_views.h"
+#include "solver/sight/lit_shares.h"
 #include "solver/traced/rules.h"
 
 namespace sunload {
@@ -49,12 +47,6 @@ struct TracedScene {
   bool is_rgb() const { return rules.bands == Bands::rgb; }
   /// Parts of the irradiance that the scene can have.
   bool has_part(Part part) const;
-  /// Looks beforehand what patches see of the suns of this period, where these are so many that it
-  /// pays. Saves rays, and changes no bit of what they tell. `ready`: the views of a scene of which
-  /// rays tell the same, or null.
-  void expect(const LitPeriod& period, std::shared_ptr<const SunViews> ready = {});
-  /// Of patches and the suns of a block, [N][block], or empty: nothing is known.
-  std::vector<SunSight> sights(std::span<const IntervalLight> block) const;
   /// Directions in which the scene's mirrors face.
   std::size_t mirror_orientations() const { return mirrors.reflecting(); }
   /// Cosine-weighted share of the hemisphere above each patch that is sky.
@@ -68,9 +60,7 @@ struct TracedScene {
   PatchOptics optics;                       ///< broadband
   std::vector<PatchOptics> optics_of_band;  ///< one where light is broadband
   Receivers patches, sensors;
-  std::optional<SunShafts> sun_shafts;  ///< of patches; none where they do not pay
-  /// Of patches and the suns that are expected, or none.
-  std::shared_ptr<const SunViews> sun_views;
+  LitShares lit_shares;  ///< of patches
   MirrorGroups mirrors;
   MirrorSun mirror_sun;
   MirrorChains mirror_chains;

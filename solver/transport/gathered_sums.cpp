@@ -19,12 +19,17 @@ void book_sent_on(const TracedScene& traced, const Block& block,
   for (std::size_t r = 0; r < sent_on.size(); ++r)
     for (std::size_t k = 0; k < block.suns.size(); ++k) {
       const Ledger fate = booked(sent_on[r][k]);
-      tally.ledger[block.first_row + k] += scaled(fate, of_one);
+      tally.ledger[block.rows[k]] += scaled(fate, of_one);
       sums.sent_on[r] += scaled(fate, block.suns[k].length_s);
     }
   for (const Ledger& of_realization : traced.patches.lamps.ledger)
     for (std::size_t k = 0; k < block.suns.size(); ++k)
-      tally.ledger[block.first_row + k] += scaled(of_realization, of_one);
+      tally.ledger[block.rows[k]] += scaled(of_realization, of_one);
+}
+
+void put_rows(const std::vector<Ledger>& of_block, const Block& block,
+              std::vector<Ledger>& ledger) {
+  for (std::size_t k = 0; k < of_block.size(); ++k) ledger[block.rows[k]] = of_block[k];
 }
 
 RayColumns taken(SunColumns& columns, std::size_t r) {

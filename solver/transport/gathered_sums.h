@@ -16,6 +16,9 @@ TimeSums empty_sums(const TracedScene& traced);
 void book_sent_on(const TracedScene& traced, const Block& block,
                   const std::vector<SunFates>& sent_on, TimeSums& sums, BatchTally& tally);
 
+/// Ledgers of the block's suns, to their places in the batch.
+void put_rows(const std::vector<Ledger>& of_block, const Block& block, std::vector<Ledger>& ledger);
+
 /// The columns of realization r, which are not needed afterwards.
 RayColumns taken(SunColumns& columns, std::size_t r);
 

@@ -33,14 +33,16 @@ class GatheredBatch : public BatchTransport {
     BlockSources sources(block.suns, static_cast<std::size_t>(traced_.grid.cell_count()));
     sources.split_sky(traced_.grid);
     if (traced_.is_rgb()) return light_in_bands(block, sources);
-    BlockRays rays = rays_.next(sources, kept(block), sums_.front(), work_);
-    part_sums_.front().add(block, sources, rays, whole_light());
+    std::vector<TimedSums> sums = part_sums_.front().timed(block);
+    sums.push_back({&sums_.front(), lengths_of(block.suns)});
+    BlockRays rays = rays_.next(sources, kept(), sums, work_);
+    part_sums_.front().add_sources(block, sources);
     light_band(0, block, sources, std::move(rays));
   }
 
   void finish() override {
     const Stopwatch time(work_[Work::realizations_s]);
-    rays_.end(traced_.is_rgb() ? nullptr : &sums_.front(), work_);
+    rays_.end(sums_over_time(), work_);
     for (std::size_t b = 0; b < tallies_.size(); ++b) {
       solve_realizations(traced_, b, sums_[b], tallies_[b]);
       part_sums_[b].solve();
@@ -49,23 +51,30 @@ class GatheredBatch : public BatchTransport {
 
  private:
   bool of_instants() const { return traced_.rules.errors == Errors::instants; }
-  Kept kept(const Block& block) const {
-    return {.columns = of_instants() || traced_.is_rgb() || part_sums_.front().wants(block),
+  /// Those that rays are added to as they are traced.
+  std::vector<TimeSums*> sums_over_time() {
+    if (traced_.is_rgb()) return {};
+    std::vector<TimeSums*> all = part_sums_.front().all();
+    all.push_back(&sums_.front());
+    return all;
+  }
+  Kept kept() const {
+    return {.columns = of_instants() || traced_.is_rgb(),
             .all_parts = of_instants(),
             .by_samples = traced_.rules.by_source};
   }
 
   /// Rays are traced once, for the mean of the bands.
   void light_in_bands(const Block& block, const BlockSources& sources) {
-    TimeSums of_broadband = empty_sums(traced_);
-    const BlockRays rays = rays_.next(sources, kept(block), of_broadband, work_);
+    const BlockRays rays = rays_.next(sources, kept(), {}, work_);
     for (std::size_t b = 0; b < sums_.size(); ++b) {
       const auto suns = suns_in_band(block.suns, b);
       const BandFactors factors = band_factors(sources, suns, b);
       add_exposures(rays, factors, suns, sums_[b]);
-      const Block of_band{suns, block.first_row};
+      const Block of_band{suns, block.rows};
       const BlockSources of_band_sources = sources_in_band(sources, suns, factors);
-      part_sums_[b].add(of_band, of_band_sources, rays, factors);
+      part_sums_[b].add_rays(of_band, rays, factors);
+      part_sums_[b].add_sources(of_band, of_band_sources);
       light_band(b, of_band, of_band_sources, in_band(rays, factors, traced_.rules.errors));
     }
   }
@@ -92,8 +101,8 @@ class GatheredBatch : public BatchTransport {
         block_light(traced_.hierarchy(), lines, optics, sources, std::move(rays.pooled),
                     traced_.patches.lamps.pooled, traced_.bounce_rules(band));
     const auto ledger = block_ledger(lines, optics, traced_.hierarchy().area(), sources, light);
-    std::copy(ledger.begin(), ledger.end(), row(tally.ledger, block));
-    store_patches(optics, light, block.suns, block.first_row, rays.sunlit, tally);
+    put_rows(ledger, block, tally.ledger);
+    store_patches(optics, light, block.suns, block.rows, rays.sunlit, tally);
     return seen_radiosity(traced_.hierarchy(), optics, light);
   }
 
@@ -103,7 +112,7 @@ class GatheredBatch : public BatchTransport {
     const BlockLight light =
         sensor_light(traced_.sensors.lines.pooled, optics, sources, std::move(rays.pooled),
                      traced_.sensors.lamps.pooled, radiosity);
-    store_received(light, block.suns, block.first_row, rays.sunlit, tally);
+    store_received(light, block.suns, block.rows, rays.sunlit, tally);
   }
 
   /// Every realization of the block for itself.
@@ -120,7 +129,7 @@ class GatheredBatch : public BatchTransport {
                                      taken(rays.on_patches.of_realizations, r), parallel,
                                      traced_.bounce_rules(band));
       const auto ledger = block_ledger(lines, optics, traced_.hierarchy().area(), sources, light);
-      std::copy(ledger.begin(), ledger.end(), row(tally.ledger_instants[r], block));
+      put_rows(ledger, block, tally.ledger_instants[r]);
       patches.add(total_of(light));
       by_source.add(
           total_of(light),
@@ -131,9 +140,9 @@ class GatheredBatch : public BatchTransport {
           [](std::size_t, std::size_t) { return 0; });
       sensors.add(total_of(sensors_of(r, optics, sources, rays.on_sensors, light)));
     }
-    patches.store(block.first_row, tally.irradiance_se);
-    sensors.store(block.first_row, tally.sensors.irradiance_se);
-    by_source.store(block.first_row, tally.se_by_source);
+    patches.store(block.rows, tally.irradiance_se);
+    sensors.store(block.rows, tally.sensors.irradiance_se);
+    by_source.store(block.rows, tally.se_by_source);
     book_instants(block, rays.sent_on, tally);
   }
 
@@ -151,16 +160,11 @@ class GatheredBatch : public BatchTransport {
                      BatchTally& tally) const {
     for (std::size_t r = 0; r < sent_on.size(); ++r)
       for (std::size_t k = 0; k < block.suns.size(); ++k)
-        tally.ledger_instants[r][block.first_row + k] += booked(sent_on[r][k]);
+        tally.ledger_instants[r][block.rows[k]] += booked(sent_on[r][k]);
     const auto& of_lamps = traced_.patches.lamps.ledger;
     for (std::size_t r = 0; r < of_lamps.size(); ++r)
       for (std::size_t k = 0; k < block.suns.size(); ++k)
-        tally.ledger_instants[r][block.first_row + k] += of_lamps[r];
-  }
-
-  /// Where the block's rows begin.
-  static std::vector<Ledger>::iterator row(std::vector<Ledger>& ledger, const Block& block) {
-    return ledger.begin() + static_cast<std::ptrdiff_t>(block.first_row);
+        tally.ledger_instants[r][block.rows[k]] += of_lamps[r];
   }
 
   const TracedScene& traced_;

@@ -16,10 +16,10 @@
 
 namespace sunload {
 
-/// Consecutive intervals with light that are solved side by side, at most `block_width`.
+/// Intervals with light that are solved side by side, at most `block_width`.
 struct Block {
   std::span<const IntervalLight> suns;
-  std::size_t first_row = 0;  ///< of them in the batch
+  std::span<const std::size_t> rows;  ///< the place of each in the batch
 };
 
 /// Light of one batch of suns: its blocks in order, then the end.

@@ -220,17 +220,24 @@ void NodeLight::split_circumsolar(const std::vector<NodeSeconds>& seconds, TimeS
         sums.sky_of_lines[c] -= seconds[b][j] * all[b]->circumsolar_sky[j][c];
   // Where the nodes have a little more than the sky there is nothing left.
   for (double& left : sums.sky_of_lines) left = std::max(left, 0.0);
+  std::vector<std::size_t> shining;  // blocks with circumsolar light in this time
+  for (std::size_t b = 0; b < seconds.size(); ++b)
+    if (!all[b]->circumsolar.empty() &&
+        std::any_of(seconds[b].begin(), seconds[b].end(), [](double s) { return s != 0; }))
+      shining.push_back(b);
+  if (shining.empty()) return;
   for (std::size_t r = 0; r < sums.on_patches.circumsolar.size(); ++r) {
     std::vector<double>& exposure = sums.on_patches.circumsolar[r];
     parallel_for(
         exposure.size(),
         [&](std::size_t i) {
-          for (std::size_t b = 0; b < seconds.size(); ++b) {
-            if (all[b]->circumsolar.empty()) continue;
+          std::array<double, block_width> of_lanes{};  // sums that need not wait for each other
+          for (const auto b : shining) {
             const float* of_nodes = all[b]->circumsolar[r].data() + i * block_width;
             for (std::size_t j = 0; j < block_width; ++j)
-              exposure[i] += seconds[b][j] * static_cast<double>(of_nodes[j]);
+              of_lanes[j] += seconds[b][j] * static_cast<double>(of_nodes[j]);
           }
+          for (const double sum : of_lanes) exposure[i] += sum;
           exposure[i] = std::max(exposure[i], 0.0);
         },
         receivers_per_chunk);
@@ -251,8 +258,7 @@ Ledger NodeLight::ledger(const std::vector<NodeWeights>& weights, std::size_t in
 NodeBlock NodeLight::solve(std::span<const IntervalLight> suns, WorkDone& work) const {
   BlockSources sources(suns, static_cast<std::size_t>(traced_.grid.cell_count()));
   sources.split_sky(traced_.grid);
-  TimeSums unwanted = empty_sums(traced_);
-  BlockRays rays = light_iteration(traced_, sources, {.columns = true}, unwanted, work);
+  BlockRays rays = light_iteration(traced_, sources, {.columns = true}, {}, work);
   const Stopwatch time(work[Work::solve_s]);
   const Columns by_mirrors = rays.on_patches.pooled.mirror;
   NodeBlock block;

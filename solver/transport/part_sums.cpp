@@ -29,19 +29,41 @@ PartSums::PartSums(const TracedScene& traced, std::size_t band, BatchTally& tall
 }
 
 std::vector<double> PartSums::shares(std::size_t part, const Block& block) const {
-  const auto first =
-      tally_.parts[parts_[part].part].share.begin() + static_cast<std::ptrdiff_t>(block.first_row);
-  return {first, first + static_cast<std::ptrdiff_t>(block.suns.size())};
+  std::vector<double> of_suns;
+  for (const auto row : block.rows) of_suns.push_back(tally_.parts[parts_[part].part].share[row]);
+  return of_suns;
 }
 
-bool PartSums::wants(const Block& block) const {
-  for (std::size_t p = 0; p < count(); ++p)
-    if (any(shares(p, block))) return true;
-  return false;
+std::vector<TimedSums> PartSums::timed(const Block& block) {
+  std::vector<TimedSums> sums_in_block;
+  for (std::size_t p = 0; p < count(); ++p) {
+    const auto of_suns = shares(p, block);
+    if (!any(of_suns)) continue;
+    SunSeconds seconds = lengths_of(block.suns);
+    for (std::size_t k = 0; k < of_suns.size(); ++k) seconds[k] *= of_suns[k];
+    sums_in_block.push_back({&sums(p), seconds});
+  }
+  return sums_in_block;
 }
 
-void PartSums::add(const Block& block, const BlockSources& sources, const BlockRays& rays,
-                   const BandFactors& factors, Sky sky) {
+std::vector<TimeSums*> PartSums::all() {
+  std::vector<TimeSums*> of_parts;
+  for (OfPart& part : parts_) of_parts.push_back(&part.sums);
+  return of_parts;
+}
+
+void PartSums::add_sources(const Block& block, const BlockSources& sources, Sky sky) {
+  for (std::size_t p = 0; p < count(); ++p) {
+    const auto of_suns = shares(p, block);
+    if (!any(of_suns)) continue;
+    if (sky == Sky::split)
+      sums(p).add_sources(sources, of_suns);
+    else
+      sums(p).add_whole_sources(sources, of_suns);
+  }
+}
+
+void PartSums::add_rays(const Block& block, const BlockRays& rays, const BandFactors& factors) {
   for (std::size_t p = 0; p < count(); ++p) {
     const auto of_suns = shares(p, block);
     if (!any(of_suns)) continue;
@@ -50,11 +72,7 @@ void PartSums::add(const Block& block, const BlockSources& sources, const BlockR
       of_part.sun[k] *= of_suns[k];
       of_part.circumsolar[k] *= of_suns[k];
     }
-    add_exposures(rays, of_part, sources.suns, sums(p));
-    if (sky == Sky::split)
-      sums(p).add_sources(sources, of_suns);
-    else
-      sums(p).add_whole_sources(sources, of_suns);
+    add_exposures(rays, of_part, block.suns, sums(p));
   }
 }
 
@@ -123,13 +141,6 @@ void PartSums::keep(const Parts& block, std::size_t r, const BlockLight& light,
     for (std::size_t i = 0; i < exposure.size(); ++i)
       exposure[i] = static_cast<double>(light.total(i, k)) * block[k]->sums.length_s;
   }
-}
-
-BandFactors whole_light() {
-  BandFactors factors;
-  factors.sun.fill(1);
-  factors.circumsolar.fill(1);
-  return factors;
 }
 
 }  // namespace sunload

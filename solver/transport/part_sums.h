@@ -17,13 +17,16 @@ class PartSums {
  public:
   /// Parts of the tally with errors; `tally` must outlive it.
   PartSums(const TracedScene& traced, std::size_t band, BatchTally& tally);
-  /// Whether a part has time in the block: then rays must have columns of realizations (`Kept`).
-  bool wants(const Block& block) const;
-  /// `rays` are those traced for all bands, `factors` of the band relative to them; `sources` have
-  /// its light.
+  /// Of those parts that have time in the block: light_iteration adds to them.
+  std::vector<TimedSums> timed(const Block& block);
+  /// Of all parts.
+  std::vector<TimeSums*> all();
+  /// What is no estimate of a realization.
   enum class Sky { split, whole };  ///< of `sources`
-  void add(const Block& block, const BlockSources& sources, const BlockRays& rays,
-           const BandFactors& factors, Sky sky = Sky::split);
+  void add_sources(const Block& block, const BlockSources& sources, Sky sky = Sky::split);
+  /// What light_iteration has left in columns of the realizations: `rays` are those traced for all
+  /// bands, `factors` of the band relative to them; the block has its light.
+  void add_rays(const Block& block, const BlockRays& rays, const BandFactors& factors);
   std::size_t count() const { return parts_.size(); }
   /// Of the time of the block's suns.
   std::vector<double> shares(std::size_t part, const Block& block) const;
@@ -49,8 +52,5 @@ class PartSums {
   BatchTally& tally_;
   std::vector<OfPart> parts_;
 };
-
-/// Of light that is traced as it is.
-BandFactors whole_light();
 
 }  // namespace sunload

@@ -92,8 +92,7 @@ void add_exposure(const Light& light, const Lamps& lamps, const Block& block, st
   for (PartTally& period : tally.parts) {
     if (!period.with_errors) continue;
     Times times = lengths_s;
-    for (std::size_t k = 0; k < block.suns.size(); ++k)
-      times[k] *= period.share[block.first_row + k];
+    for (std::size_t k = 0; k < block.suns.size(); ++k) times[k] *= period.share[block.rows[k]];
     add_times(period.exposure_realization[r], total_of(light), times);
   }
 }
@@ -191,13 +190,13 @@ class ShotBatch : public BatchTransport {
       sensor_spread.add(total_of(received));
       add_exposure(received, received.lamps, block, r, tally_.sensors);
     }
-    store_patches(traced_.optics, mean.in_float(), block.suns, block.first_row, sun.sunlit, tally_);
+    store_patches(traced_.optics, mean.in_float(), block.suns, block.rows, sun.sunlit, tally_);
     if (sensors > 0)
-      store_received(on_sensors.in_float(), block.suns, block.first_row, of_sensors.sunlit,
+      store_received(on_sensors.in_float(), block.suns, block.rows, of_sensors.sunlit,
                      tally_.sensors);
-    spread.store(block.first_row, tally_.irradiance_se);
-    sensor_spread.store(block.first_row, tally_.sensors.irradiance_se);
-    by_source.store(block.first_row, tally_.se_by_source);
+    spread.store(block.rows, tally_.irradiance_se);
+    sensor_spread.store(block.rows, tally_.sensors.irradiance_se);
+    by_source.store(block.rows, tally_.se_by_source);
   }
 
   FirstMirrored::SentSuns send_sun(const Block& block) {
@@ -232,11 +231,11 @@ class ShotBatch : public BatchTransport {
       add_by_source(r, light, traced_.patches.lamps.of(r), block.suns, tally_.by_source);
     for (std::size_t k = 0; k < block.suns.size(); ++k) {
       const Ledger& ledger = light.ledger[k];
-      tally_.ledger[block.first_row + k] +=
+      tally_.ledger[block.rows[k]] +=
           scaled(ledger, 1.0 / static_cast<double>(tally_.exposure_realization.size()));
       tally_.ledger_realization[r] += scaled(ledger, block.suns[k].length_s);
       if (traced_.rules.errors == Errors::instants)
-        tally_.ledger_instants[r][block.first_row + k] = ledger;
+        tally_.ledger_instants[r][block.rows[k]] = ledger;
     }
   }
 

@@ -86,8 +86,7 @@ class ReductionTest {
         suns_(std::make_unique<const std::vector<IntervalLight>>(std::move(suns))),
         sources_(*suns_, static_cast<std::size_t>(traced.grid.cell_count())) {
     sources_.split_sky(traced.grid);
-    TimeSums unwanted = empty_sums(traced);
-    rays_ = light_iteration(traced, sources_, {.columns = true, .all_parts = true}, unwanted, work)
+    rays_ = light_iteration(traced, sources_, {.columns = true, .all_parts = true}, {}, work)
                 .on_patches;
     const Stopwatch time(work[Work::solve_s]);
     RayColumns pooled = rays_.pooled;
@@ -101,8 +100,7 @@ class ReductionTest {
           {rays_.of_realizations.direct[r], rays_.of_realizations.mirror[r],
            has_circumsolar() ? rays_.of_realizations.circumsolar[r] : Columns()},
           traced.patches.lamps.of(r), traced.bounce_rules(0))));
-    standard_error_.resize(suns_->size() * traced.patches.count());
-    spread.store(0, standard_error_);
+    standard_error_ = spread.errors();
     rays_.of_realizations.direct.clear();
     rays_.of_realizations.mirror.clear();
   }
@@ -145,8 +143,7 @@ class ReductionTest {
   /// [interval][patch]: both solutions have it, and it says nothing of the nodes.
   std::vector<float> noise_of_samples(const NodeLight& nodes,
                                       const std::vector<NodeWeights>& weights) const {
-    std::vector<float> noise(standard_error_.size(), 0);
-    if (!has_circumsolar()) return noise;
+    if (!has_circumsolar()) return std::vector<float>(standard_error_.size(), 0);
     InstantSpread spread(traced_.patches.count(), suns_->size());
     for (std::size_t r = 0; r < rays_.of_realizations.circumsolar.size(); ++r) {
       Columns difference = columns(traced_.patches.count());
@@ -157,8 +154,7 @@ class ReductionTest {
         return difference[at] - of_test[at];
       });
     }
-    spread.store(0, noise);
-    return noise;
+    return spread.errors();
   }
 
   const TracedScene& traced_;
@@ -185,14 +181,15 @@ class YearBatch : public BatchTransport {
 
   void light(const Block& block) override {
     const BlockSources sources(block.suns, static_cast<std::size_t>(traced_.grid.cell_count()));
-    BlockRays rays = rays_.next(sources, {.columns = parts_.wants(block)}, sums_, work_);
+    std::vector<TimedSums> sums = parts_.timed(block);
+    sums.push_back({&sums_, lengths_of(block.suns)});
+    BlockRays rays = rays_.next(sources, {}, sums, work_);
     const Stopwatch time(work_[Work::solve_s]);
     const auto by_rays = ledger_of_rays(traced_, rays.on_patches.pooled.direct,
                                         rays.on_patches.pooled.mirror, block.suns.size());
     const auto weights = nodes_.weights(block.suns, by_rays);
-    std::copy(by_rays.begin(), by_rays.end(),
-              tally_.ledger.begin() + static_cast<std::ptrdiff_t>(block.first_row));
-    parts_.add(block, sources, rays, whole_light(), PartSums::Sky::whole);
+    put_rows(by_rays, block, tally_.ledger);
+    parts_.add_sources(block, sources, PartSums::Sky::whole);
     for (std::size_t p = 0; p < parts_.count(); ++p)
       add_shares(block, weights, parts_.shares(p, block), shares_of_parts_[p]);
     light_patches(block, weights, rays.on_patches);
@@ -204,7 +201,9 @@ class YearBatch : public BatchTransport {
 
   void finish() override {
     const Stopwatch time(work_[Work::realizations_s]);
-    rays_.end(&sums_, work_);
+    std::vector<TimeSums*> sums = parts_.all();
+    sums.push_back(&sums_);
+    rays_.end(sums, work_);
     nodes_.split_circumsolar(shares_, sums_);
     solve_realizations(traced_, 0, sums_, tally_);
     for (std::size_t p = 0; p < parts_.count(); ++p)
@@ -217,14 +216,14 @@ class YearBatch : public BatchTransport {
     const BlockLight light =
         light_of_nodes(traced_.patches, &NodeBlock::patches, nodes_, weights, rays);
     for (std::size_t k = 0; k < block.suns.size(); ++k)
-      tally_.ledger[block.first_row + k] += nodes_.ledger(weights, k);
-    store_patches(traced_.optics, light, block.suns, block.first_row, rays.sunlit, tally_);
+      tally_.ledger[block.rows[k]] += nodes_.ledger(weights, k);
+    store_patches(traced_.optics, light, block.suns, block.rows, rays.sunlit, tally_);
   }
 
   void light_sensors(const Block& block, const std::vector<NodeWeights>& weights, RayLight& rays) {
     const BlockLight light =
         light_of_nodes(traced_.sensors, &NodeBlock::sensors, nodes_, weights, rays);
-    store_received(light, block.suns, block.first_row, rays.sunlit, tally_.sensors);
+    store_received(light, block.suns, block.rows, rays.sunlit, tally_.sensors);
   }
 
   /// Time that each node shines, in all intervals together, of each so much of its time.

@@ -42,22 +42,33 @@ void tell_seconds(const char* what, double seconds) {
   if (seconds > 0) fmt::print("{:<24} {:36.3f} s\n", what, seconds);
 }
 
-/// How much of what suns and patches that face each other see is known without rays.
-void tell_sights(const TracedScene& traced, std::span<const IntervalLight> suns) {
-  std::array<std::uint64_t, 3> pairs{};
+/// How many pairs of a sun and a patch that face each other are told without rays.
+void tell_shares(const TracedScene& traced, std::span<const IntervalLight> suns) {
+  std::array<std::uint64_t, 4> pairs{};  // by rays, dark, lit, in part
+  double seconds = 0;
   for (std::size_t first = 0; first < suns.size(); first += block_width) {
     const auto block = suns.subspan(first, std::min(block_width, suns.size() - first));
-    const auto sights = traced.sights(block);
-    for (std::size_t i = 0; i < sights.size() / block_width; ++i)
+    const Columns shares = [&] {
+      const Stopwatch time(seconds);
+      return traced.lit_shares.of(block);
+    }();
+    for (std::size_t i = 0; i < traced.patches.count(); ++i)
       for (std::size_t k = 0; k < block.size(); ++k)
-        if (block[k].has_sun() && dot(traced.hierarchy().normal(i), block[k].direction) > 0)
-          ++pairs[static_cast<std::size_t>(sights[i * block_width + k])];
+        if (block[k].has_sun() && dot(traced.hierarchy().normal(i), block[k].direction) > 0) {
+          const float share = shares[i * block_width + k];
+          ++pairs[share < 0 ? 0 : share == 0 ? 1 : share == 1 ? 2 : 3];
+        }
   }
-  const auto all = static_cast<double>(pairs[0] + pairs[1] + pairs[2]);
+  const auto all = static_cast<double>(pairs[0] + pairs[1] + pairs[2] + pairs[3]);
+  const auto percent = [&](std::size_t kind) {
+    return 100 * static_cast<double>(pairs[kind]) / all;
+  };
   if (all > 0)
-    fmt::print("{:<24} {:9.1f} % lit, {:.1f} % dark of {:.3g} pairs\n", "known without rays",
-               100 * static_cast<double>(pairs[1]) / all, 100 * static_cast<double>(pairs[2]) / all,
-               all);
+    fmt::print(
+        "{:<24} {:10.3g} {:<14} {:8.3f} s  {:10.3g} million/s: {:.1f} % lit, {:.1f} dark, {:.1f} "
+        "in part, {:.2f} by rays\n",
+        "sunlit shares", all, "pairs", seconds, all / seconds / million, percent(2), percent(1),
+        percent(3), percent(0));
 }
 
 double seconds_of(const WorkDone& work) {
@@ -145,9 +156,7 @@ void bench(const std::string& path, std::size_t batches) {
   auto traced = trace_scene(plan.built.scene, made.mesh, solver_rules(plan), watch);
   const IntervalLights lights(plan.study, plan.built.site, traced->grid);
   const SeriesLight period(lights, plan.light);
-  traced->expect(period);
   WorkDone work = traced->work;
-  tell_seconds("looking at the sky", work[Work::direct_s]);
   const auto transport = transport_of(*traced, period);
   tell_seconds("nodes of the period", seconds_of(transport->work()));
   work += transport->work();
@@ -169,7 +178,7 @@ void bench(const std::string& path, std::size_t batches) {
   fmt::print("sunload {} ({}), {}, {} threads; {} patches, {} lit suns, {} bounces\n", version,
              commit, plan.isa, thread_count(), traced->patches.count(), lit.size(),
              traced->bounces);
-  tell_sights(*traced, lit);
+  tell_shares(*traced, lit);
   tell("lines", work[Work::line_rays], work[Work::lines_s], "rays");
   tell("direct and circumsolar", work[Work::direct_rays], work[Work::direct_s], "rays");
   tell("mirrored sun", work[Work::mirror_rays], work[Work::mirror_s], "rays");

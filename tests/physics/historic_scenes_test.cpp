@@ -138,15 +138,17 @@ TEST(HistoricScenes, HaveTheSourcesSizesByItsOracle) {
 }
 
 TEST(HistoricScenes, BadParametersAreWarnedAboutWithTheErrorToExpect) {
-  const auto warnings = [](const std::string& solver) {
+  const auto warnings = [](const std::string& solver, const std::string& sun = "") {
     const VariantPlan plan = plan_of(day_study(
         "box_on_plane", "{days: [2026-06-21], from: \"08:00\", to: \"18:00\", step_min: 60}",
-        "mesh: {oracle: none, max_edge_m: 2}\nsolver: {realizations: 2, " + solver + "}\n"));
+        sun + "mesh: {oracle: none, max_edge_m: 2}\nsolver: {realizations: 2, " + solver + "}\n"));
     Watch watch;
     return expected_error_warnings(plan, *make_mesh(plan, watch).mesh);
   };
   EXPECT_TRUE(warnings("lines_per_patch: 256, direct_samples: 16").empty());
-  const auto few = warnings("lines_per_patch: 8, direct_samples: 2");
+  // Geometry tells of a sun without a disk, and of few samples nothing is to be said.
+  EXPECT_EQ(warnings("lines_per_patch: 8, direct_samples: 2").size(), 1u);
+  const auto few = warnings("lines_per_patch: 8, direct_samples: 2", "sun: {disk: finite}\n");
   ASSERT_EQ(few.size(), 2u);
   EXPECT_NE(few[0].find("lines_per_patch 8"), std::string::npos) << few[0];
   EXPECT_NE(few[0].find("21 %"), std::string::npos) << few[0];

@@ -54,8 +54,9 @@ std::vector<std::vector<double>> sunlit(const Edge& edge, const std::vector<doub
   light.disk_half_angle = sun_half_angle;
   std::vector<std::vector<double>> exposure(realizations, std::vector<double>(patches, 0));
   Columns pooled = columns(patches), sunlit = columns(patches);
-  direct_sun(caster, sampler, std::vector<IntervalLight>{light},
-             {pooled, realizations, &exposure, nullptr}, sunlit);
+  const std::vector<IntervalLight> block{light};
+  direct_sun(caster, sampler, block, {pooled, realizations, {{&exposure, lengths_of(block)}}},
+             sunlit);
   std::vector<std::vector<double>> share(middles_y.size(), std::vector<double>(realizations));
   for (std::size_t strip = 0; strip < middles_y.size(); ++strip)
     for (std::size_t r = 0; r < realizations; ++r)

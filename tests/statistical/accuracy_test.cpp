@@ -48,8 +48,9 @@ void expect_enough(const std::vector<int>& counts, const std::vector<double>& ne
   }
 }
 
-/// Errors of 8 realizations are known to 27 %: the variance that a goal of 10 % of 100 leaves.
-constexpr double allowed = 10 / 1.27 * (10 / 1.27);
+/// Errors of 8 realizations are known to 27 %, 19 of 20 to 44 %: the variance that a goal of 10 %
+/// of 100 leaves.
+constexpr double allowed = 10 / 1.44 * (10 / 1.44);
 
 TEST(NeededCounts, AreTheLeastWhereTheGoalIsMetAlready) {
   const auto counts = needed_counts(spread_of({16 * 100}, {0}), rules_of(64, 8), {0.1, 4096}, 10);
@@ -84,7 +85,7 @@ TEST(NeededCounts, StopAtTheMostAndSayWhatShareIsMet) {
   EXPECT_EQ(counts.direct_samples, 8);  // which samples do nothing for
   EXPECT_EQ(counts.share, 0.5);
   const auto all =
-      needed_counts(spread_of({500 * 100, 600 * 100}, {0, 0}), rules_of(64, 8), {0.1, 1003}, 10);
+      needed_counts(spread_of({400 * 100, 480 * 100}, {0, 0}), rules_of(64, 8), {0.1, 1003}, 10);
   EXPECT_EQ(all.lines_per_patch, 1000);  // the most that 8 can share
   EXPECT_EQ(all.share, 1);
   // The least counts stand, even above the most.
@@ -110,11 +111,11 @@ TEST(NeededCounts, LeaveOutWhatReceivesNextToNothing) {
 }
 
 TEST(NeededCounts, GiveEveryPatchTheLinesThatItNeeds) {
-  // A variance of 62.
+  // A variance of 48.
   const auto rules = rules_of(64, 8);
   const auto counts =
-      needed_counts(spread_of({100, 64 * 61, 64 * 63, 9e4}, {0, 0, 0, 0}), rules, {0.1, 4096}, 10);
-  expect_enough(counts.lines_of_patch, {1, 64 * 61 / allowed, 64 * 63 / allowed, 9e4 / allowed});
+      needed_counts(spread_of({100, 64 * 47, 64 * 49, 9e4}, {0, 0, 0, 0}), rules, {0.1, 4096}, 10);
+  expect_enough(counts.lines_of_patch, {1, 64 * 47 / allowed, 64 * 49 / allowed, 9e4 / allowed});
   const auto all = std::accumulate(counts.lines_of_patch.begin(), counts.lines_of_patch.end(), 0);
   EXPECT_EQ(counts.mean_lines(), all / 4.0);
   EXPECT_GE(counts.lines_per_patch, counts.mean_lines());  // of sensors
@@ -124,7 +125,7 @@ TEST(NeededCounts, GiveEveryPatchTheLinesThatItNeeds) {
   SampleCounts mean = counts;
   mean.lines_of_patch.clear();
   EXPECT_EQ(
-      share_met(spread_of({100, 64 * 61, 64 * 63, 9e4}, {0, 0, 0, 0}), {0.1 / 1.27, 4096}, mean),
+      share_met(spread_of({100, 64 * 47, 64 * 49, 9e4}, {0, 0, 0, 0}), {0.1 / 1.44, 4096}, mean),
       0.75);
   // Where samples leave no room, lines are not to blame for the rest.
   const auto shadowed =
@@ -135,7 +136,7 @@ TEST(NeededCounts, GiveEveryPatchTheLinesThatItNeeds) {
 TEST(NeededCounts, MeetTheGoalOfEveryInstant) {
   auto spread = spread_of({100, 100}, {0, 0});
   for (const double worse : {9.0, 1.0}) {
-    Spread of_sun = spread_of({64 * 6 * worse, 64 * 60}, {0, 0}).load;
+    Spread of_sun = spread_of({64 * 6 * worse, 64 * 45}, {0, 0}).load;
     of_sun.value = {10, 100};  // the same error is more of less light
     spread.irradiance.push_back(of_sun);
   }
@@ -143,10 +144,10 @@ TEST(NeededCounts, MeetTheGoalOfEveryInstant) {
   AccuracyGoal goal{{}, 4096, 0.1};
   const auto counts = needed_counts(spread, rules, goal, 10);
   EXPECT_EQ(counts.lines_of_patch, (std::vector{4096, 64}));
-  goal.irradiance_relative = 0.3;  // a variance of 5.6 and 560
+  goal.irradiance_relative = 0.3;  // a variance of 4.3 and 430
   expect_enough(needed_counts(spread, rules, goal, 10).lines_of_patch,
-                {64 * 6 * 9 / (0.09 * allowed), 64 * 60 / (9 * allowed)});
-  goal.light_load_relative = 0.003;  // 0.056 of the load
+                {64 * 6 * 9 / (0.09 * allowed), 64 * 45 / (9 * allowed)});
+  goal.light_load_relative = 0.003;  // 0.043 of the load
   const double of_load = 100 / (0.03 * 0.03 * allowed);
   expect_enough(needed_counts(spread, rules, goal, 10).lines_of_patch, {of_load, of_load});
   // What is dark for an instant does not count then.
@@ -204,12 +205,14 @@ Scene courtyard() {
   return builder.scene();
 }
 
+/// A sun with a wide disk: its penumbrae are what direct samples are for.
 std::vector<IntervalLight> day() {
   std::vector<IntervalLight> suns;
   for (int k = 0; k < 8; ++k) {
     const double a = 0.35 * (k - 3.5);
     suns.push_back(with_uniform_sky(one_second({std::sin(a), -0.6, std::cos(a)}, 700), 120));
     suns.back().number = static_cast<std::uint32_t>(k);
+    suns.back().disk_half_angle = 0.03;
     suns.back().ground_exitance = 50;
   }
   return suns;
@@ -295,7 +298,7 @@ void expect_kept(const SolverRules& least, const AccuracyGoal& goal, const Split
   // Planted fault: the least counts as they are.
   EXPECT_LT(share_that_keeps(split, least, goal, runs), share_to_be_met);
   // Not many times more than it takes: doublings, the errors' own errors, and what is
-  // let pass above make 2 · 1.27² · 1.2², so that an eighth of both is too little.
+  // let pass above make 2 · 1.44² · 1.2², so that an eighth of both is too little.
   const auto eighth = [&](int& count) { count = std::max(least.realizations, count / 8); };
   eighth(raised.lines_per_patch);
   for (int& lines : raised.lines_of_patch) eighth(lines);

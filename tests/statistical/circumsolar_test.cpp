@@ -176,9 +176,9 @@ TEST(Circumsolar, OnOpenPlatesIsExact) {
     std::vector<std::vector<double>> exposure(64, std::vector<double>(2, 0));
     Columns direct = columns(2), circumsolar_sum = columns(2), sunlit = columns(2);
     const std::vector<IntervalLight> block{light};
-    direct_sun(traced->caster, sampler, block, {direct, 64, nullptr, nullptr}, sunlit);
+    direct_sun(traced->caster, sampler, block, {direct, 64}, sunlit);
     circumsolar_light(traced->caster, sampler, block, {sky},
-                      {circumsolar_sum, 64, &exposure, nullptr});
+                      {circumsolar_sum, 64, {{&exposure, lengths_of(block)}}});
     std::vector<double> means;
     for (const auto& E : exposure) means.push_back((E[0] + E[1]) / 2);
     const double truth = unshaded(circumsolar, n);
@@ -263,11 +263,11 @@ TEST(Circumsolar, LowersTheErrorOfTheStreet) {
     std::vector<Columns> circumsolar(realizations, columns(patches));
     Columns pooled = columns(patches), sunlit = columns(patches);
     const auto start = std::clock();
-    const auto direct_rays = direct_sun(traced->caster, sampler, block,
-                                        {pooled, realizations, nullptr, nullptr}, sunlit);
+    const auto direct_rays =
+        direct_sun(traced->caster, sampler, block, {pooled, realizations}, sunlit);
     const auto middle = std::clock();
     const auto rays = circumsolar_light(traced->caster, sampler, block, sources.circumsolar,
-                                        {pooled, realizations, nullptr, &circumsolar});
+                                        {pooled, realizations, {}, &circumsolar});
     const auto end = std::clock();
     std::cout << "processor time circumsolar / direct sun: "
               << static_cast<double>(end - middle) / static_cast<double>(middle - start)

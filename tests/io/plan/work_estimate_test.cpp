@@ -37,14 +37,14 @@ TEST(CostModel, PageHasTheTimesOfTheProgram) {
                     micro_s(s_per_direct_ray)),
         fmt::format("| {} + {} · log2(input triangles) |", micro_s(s_per_line),
                     micro_s(s_per_level)),
-        fmt::format("| patches · suns · direct_samples · {} (share that faces the sun) | {} |",
-                    facing_share, micro_s(s_per_direct_ray)),
-        fmt::format("| {} of these (a street with glass) | {} |", mirrored_share,
-                    micro_s(s_per_mirror_ray)),
-        fmt::format(
-            "| patches, where there are {} suns or more; then {} of the rays to the sun are "
-            "left | {} |",
-            suns_worth_views, share_beside_views, micro_s(s_per_view)),
+        fmt::format("| patches · suns · {} (share that faces the sun) | {} |", facing_share,
+                    micro_s(s_per_lit_share)),
+        fmt::format("| {} · direct_samples · (patches · *lit* that shine; and sensors, mirrors' "
+                    "patches, of others {} by screens or {} by a disk, · suns) | {} |",
+                    facing_share, share_behind_screens, share_in_penumbra,
+                    micro_s(s_per_direct_ray)),
+        fmt::format("| {} of patches · suns · direct_samples (a street with glass) | {} |",
+                    mirrored_share, micro_s(s_per_mirror_ray)),
         fmt::format("| lines · bounces · lit | {} |", nano_s(s_per_link_sun)),
         fmt::format("| patches · lit | {} |", micro_s(s_per_patch_sun)),
         fmt::format("| lit | {} |", micro_s(s_per_sun)),

@@ -51,8 +51,7 @@ Estimates estimates(const Scene& scene, Vec3 sun, double dni, const DirectRules&
       block[k].number = static_cast<std::uint32_t>(b * block_width + k);
     Columns pooled = columns(hierarchy.patch_count()), sunlit = pooled;
     all.rays += direct_sun(caster, sampler, block,
-                           {pooled, static_cast<std::size_t>(rules.realizations), nullptr, nullptr},
-                           sunlit);
+                           {pooled, static_cast<std::size_t>(rules.realizations)}, sunlit);
     for (std::size_t k = 0; k < block_width; ++k)
       all.share.push_back(static_cast<double>(sunlit[k] + sunlit[block_width + k]) /
                           2);  // two triangles

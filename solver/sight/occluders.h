@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The triangles that cast shadows, as the ray caster has them (coordinates rounded to float), with
-/// their neighbours across edges and a tree of boxes.
+/// The triangles that cast shadows, with their neighbours across edges.
 #pragma once
 
 #include <array>
@@ -9,14 +8,14 @@
 #include <span>
 #include <vector>
 
-#include "geo/mesh/box_tree.h"
 #include "geo/mesh/mesh.h"
 
 namespace sunload {
 
 class Occluders {
  public:
-  /// `transmittance`: of each triangle; empty where all are opaque.
+  /// `transmittance`: of each triangle; empty where all are opaque. Vertices in one place are one
+  /// point.
   Occluders(const Mesh& mesh, std::span<const float> transmittance);
 
   std::size_t triangle_count() const { return corners_.size(); }
@@ -30,10 +29,6 @@ class Occluders {
   }
   /// Triangles that have both ends of the edge from corner k to the next, it among them.
   std::span<const std::int32_t> at_edge(std::size_t triangle, std::size_t k) const;
-  /// The corner of a triangle that is neither of the two ends of an edge of another.
-  Vec3 beside_edge(std::size_t of, std::size_t triangle, std::size_t k) const;
-
-  const BoxTree& tree() const { return tree_; }  ///< of triangles
 
  private:
   void weld(const Mesh& mesh);
@@ -45,7 +40,6 @@ class Occluders {
   std::vector<std::array<std::uint32_t, 3>> edge_;  ///< per triangle, three numbers of edges
   std::vector<std::uint32_t> edge_begin_;           ///< per edge, into
   std::vector<std::int32_t> at_edge_;
-  BoxTree tree_;
 };
 
 }  // namespace sunload

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/surface/convex_faces.h"
+#include "solver/sight/convex_faces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,8 @@ std::int32_t across(const Occluders& occluders, std::size_t triangle, std::size_
 
 class Joining {
  public:
-  Joining(const Occluders& occluders, double flat_m) : o_(occluders), flat_(flat_m) {
+  Joining(const Occluders& occluders, double flat_m, std::size_t most_corners)
+      : o_(occluders), flat_(flat_m), most_corners_(most_corners) {
     const std::size_t count = o_.triangle_count();
     loops_.resize(count);
     planes_.resize(count);
@@ -49,12 +50,15 @@ class Joining {
       for (const Edge& edge : edges) joined = join(edge) || joined;
     }
     std::vector<ConvexFace> faces;
+    std::vector<std::size_t> face_of(loops_.size());
     for (std::size_t t = 0; t < loops_.size(); ++t) {
       if (group_[t] != t || loops_[t].empty()) continue;
-      ConvexFace face{{}, planes_[t].normal};
-      for (const auto p : loops_[t]) face.corners.push_back(o_.at(p));
-      faces.push_back(std::move(face));
+      face_of[t] = faces.size();
+      faces.push_back({corners_of(loops_[t]), planes_[t].normal, {}});
     }
+    for (std::size_t t = 0; t < loops_.size(); ++t)
+      if (const std::size_t root = group(t); !loops_[root].empty())
+        faces[face_of[root]].triangles.push_back(static_cast<std::uint32_t>(t));
     return faces;
   }
 
@@ -91,6 +95,7 @@ class Joining {
       if (std::abs(planes_[a].above(o_.at(p))) > flat_) return false;
     Loop both = spliced(loops_[a], loops_[b], edge);
     if (both.size() < 3 || !is_convex(both, planes_[a].normal)) return false;
+    if (both.size() > most_corners_ && corners_of(both).size() > most_corners_) return false;
     loops_[a] = std::move(both);
     loops_[b].clear();
     group_[b] = a;
@@ -142,8 +147,22 @@ class Joining {
     return true;
   }
 
+  /// Without points on a line between their neighbours.
+  std::vector<Vec3> corners_of(const Loop& loop) const {
+    std::vector<Vec3> corners;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Vec3 p = corners.empty() ? o_.at(loop.back()) : corners.back(), q = o_.at(loop[i]),
+                 r = o_.at(loop[(i + 1) % loop.size()]);
+      const bool is_between =
+          norm(cross(q - p, r - p)) <= flat_ * norm(r - p) && dot(q - p, r - q) > 0;
+      if (!is_between) corners.push_back(q);
+    }
+    return corners;
+  }
+
   const Occluders& o_;
   double flat_;
+  std::size_t most_corners_;
   std::vector<Loop> loops_;    ///< of groups; empty: joined to another, or no occluder
   std::vector<Plane> planes_;  ///< of groups
   std::vector<std::size_t> group_;
@@ -151,35 +170,9 @@ class Joining {
 
 }  // namespace
 
-std::vector<ConvexFace> convex_faces(const Occluders& occluders, double flat_m) {
-  return Joining(occluders, flat_m).run();
-}
-
-double area_of(const ConvexFace& face) {
-  Vec3 area2{0, 0, 0};
-  for (std::size_t k = 2; k < face.corners.size(); ++k)
-    area2 += cross(face.corners[k - 1] - face.corners[0], face.corners[k] - face.corners[0]);
-  return norm(area2) / 2;
-}
-
-ConvexFace inset(const ConvexFace& face, double by_m) {
-  ConvexFace left = face;
-  for (std::size_t i = 0; i < face.corners.size(); ++i) {
-    const Vec3 a = face.corners[i], edge = face.corners[(i + 1) % face.corners.size()] - a;
-    if (norm(edge) <= 0) continue;
-    const Vec3 inward = normalized(cross(face.normal, edge));
-    const auto depth = [&](Vec3 p) { return dot(p - a, inward) - by_m; };
-    std::vector<Vec3> cut;
-    for (std::size_t k = 0; k < left.corners.size(); ++k) {
-      const Vec3 p = left.corners[k], q = left.corners[(k + 1) % left.corners.size()];
-      const double dp = depth(p), dq = depth(q);
-      if (dp >= 0) cut.push_back(p);
-      if ((dp < 0) != (dq < 0)) cut.push_back(p + (q - p) * (dp / (dp - dq)));
-    }
-    left.corners = std::move(cut);
-    if (left.corners.size() < 3) return {{}, face.normal};
-  }
-  return left;
+std::vector<ConvexFace> convex_faces(const Occluders& occluders, double flat_m,
+                                     std::size_t most_corners) {
+  return Joining(occluders, flat_m, most_corners).run();
 }
 
 }  // namespace sunload

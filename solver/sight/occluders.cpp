@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/surface/occluders.h"
+#include "solver/sight/occluders.h"
 
 #include <algorithm>
 #include <numeric>
@@ -8,28 +8,15 @@
 
 namespace sunload {
 
-namespace {
-
-/// As a ray caster in single precision has it; zeros have no sign.
-Vec3 rounded(Vec3 p) {
-  const auto one = [](double c) { return static_cast<double>(static_cast<float>(c) + 0.0f); };
-  return {one(p.x), one(p.y), one(p.z)};
-}
-
-}  // namespace
-
 Occluders::Occluders(const Mesh& mesh, std::span<const float> transmittance)
     : transmittance_(transmittance.begin(), transmittance.end()) {
   weld(mesh);
   find_edges();
-  std::vector<Box> boxes;
-  for (std::size_t t = 0; t < corners_.size(); ++t)
-    boxes.push_back(box_around({corner(t, 0), corner(t, 1), corner(t, 2)}));
-  tree_ = BoxTree(std::move(boxes));
 }
 
 void Occluders::weld(const Mesh& mesh) {
-  for (const Vec3 p : mesh.vertices) point_.push_back(rounded(p));
+  // Zeros have no sign.
+  for (const Vec3 p : mesh.vertices) point_.push_back({p.x + 0.0, p.y + 0.0, p.z + 0.0});
   const auto key = [&](std::uint32_t i) {
     return std::tuple(point_[i].x, point_[i].y, point_[i].z);
   };
@@ -71,13 +58,6 @@ void Occluders::find_edges() {
 std::span<const std::int32_t> Occluders::at_edge(std::size_t triangle, std::size_t k) const {
   const std::uint32_t edge = edge_[triangle][k];
   return std::span(at_edge_).subspan(edge_begin_[edge], edge_begin_[edge + 1] - edge_begin_[edge]);
-}
-
-Vec3 Occluders::beside_edge(std::size_t of, std::size_t triangle, std::size_t k) const {
-  const std::uint32_t a = corners_[triangle][k], b = corners_[triangle][(k + 1) % 3];
-  for (std::size_t c = 0; c < 3; ++c)
-    if (corners_[of][c] != a && corners_[of][c] != b) return corner(of, c);
-  return corner(of, 0);
 }
 
 }  // namespace sunload

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/sight/closed_bodies.h"
+
+#include <numeric>
+
+namespace sunload {
+
+namespace {
+
+/// Triangles that hang together by edges, each known by one of them.
+class Together {
+ public:
+  explicit Together(const Occluders& o) : first_(o.triangle_count()) {
+    std::iota(first_.begin(), first_.end(), std::size_t{0});
+    for (std::size_t t = 0; t < first_.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k)
+        for (const auto other : o.at_edge(t, k))
+          first_[of(static_cast<std::size_t>(other))] = of(t);
+  }
+  std::size_t of(std::size_t t) {
+    while (first_[t] != t) t = first_[t] = first_[first_[t]];
+    return t;
+  }
+
+ private:
+  std::vector<std::size_t> first_;
+};
+
+/// How much more often the triangles at an edge pass it as this one does than the other way.
+int balance_at(const Occluders& o, std::size_t triangle, std::size_t k) {
+  const auto from = o.point(triangle, k), to = o.point(triangle, (k + 1) % 3);
+  int balance = 0;
+  for (const auto other : o.at_edge(triangle, k))
+    for (std::size_t l = 0; l < 3; ++l) {
+      const auto t = static_cast<std::size_t>(other);
+      const auto a = o.point(t, l), b = o.point(t, (l + 1) % 3);
+      balance += (a == from && b == to) - (a == to && b == from);
+    }
+  return balance;
+}
+
+}  // namespace
+
+std::vector<Closed> closed_bodies(const Occluders& o) {
+  const std::size_t count = o.triangle_count();
+  Together body(o);
+  std::vector<double> volume(count, 0);  // times 6
+  std::vector<bool> has_hole(count, false);
+  for (std::size_t t = 0; t < count; ++t) {
+    const std::size_t b = body.of(t);
+    const Vec3 from = o.corner(b, 0);  // near, so that little is lost
+    volume[b] += dot(o.corner(t, 0) - from, cross(o.corner(t, 1) - from, o.corner(t, 2) - from));
+    if (!o.is_opaque(t)) has_hole[b] = true;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (o.point(t, k) == o.point(t, (k + 1) % 3) || balance_at(o, t, k) != 0) has_hole[b] = true;
+  }
+  std::vector<Closed> bodies(count, Closed::no);
+  for (std::size_t t = 0; t < count; ++t)
+    if (const std::size_t b = body.of(t); !has_hole[b] && volume[b] != 0)
+      bodies[t] = volume[b] > 0 ? Closed::outward : Closed::inward;
+  return bodies;
+}
+
+}  // namespace sunload

@@ -1,0 +1,266 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/sight/group_shares.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sunload {
+
+namespace {
+
+/// Sine of the angle by which a patch must face the sun: less brings no light.
+constexpr double least_facing = 1e-6;
+/// Shades of one patch beyond which rays cost less.
+constexpr std::size_t most_shades = 32;
+/// What overlaps by less touches [m]: a thousand roundings of a coordinate of a kilometre.
+constexpr double touching_m = 1e-9;
+
+}  // namespace
+
+void NumbersSeen::forget_all() {
+  count_ = 0;
+  if (++round_ != 0) return;
+  slots_.assign(slots_.size(), {});
+  round_ = 1;
+}
+
+std::size_t NumbersSeen::place_of(std::uint32_t number) const {
+  constexpr std::uint32_t golden = 2654435769u;  // Knuth (1973), The art of computer programming 3
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t at = number * golden & mask;
+  while (slots_[at].round == round_ && slots_[at].number != number) at = (at + 1) & mask;
+  return at;
+}
+
+bool NumbersSeen::add(std::uint32_t number) {
+  if (2 * (count_ + 1) > slots_.size()) {
+    std::vector<Slot> old(2 * slots_.size());
+    old.swap(slots_);
+    for (const Slot& slot : old)
+      if (slot.round == round_) slots_[place_of(slot.number)] = slot;
+  }
+  Slot& slot = slots_[place_of(number)];
+  if (slot.round == round_) return false;
+  slot = {number, round_};
+  ++count_;
+  return true;
+}
+
+GroupShares::GroupShares(const LitShares& shares, std::span<const IntervalLight> block,
+                         Columns& out)
+    : shares_(shares), block_(block), out_(out) {
+  for (const auto& sun : block) frames_.emplace_back(sun.direction);
+}
+
+void GroupShares::tell(const LitShares::Group& group, const SunView& view) {
+  group_ = &group;
+  view_ = &view;
+  lift_ = group.normal * shares_.offset_m();
+  facing_.clear();
+  const SunCluster& suns = view.suns();
+  for (std::size_t k = suns.first; k < suns.first + suns.count; ++k)
+    if (dot(group.normal, block_[k].direction) > block_[k].disk_spread() + least_facing)
+      facing_.push_back(k);
+  Seen seen;
+  if (facing_.empty() || !see(group.vertices, suns.frame, seen)) return;
+  const double drift = suns.drift_x + suns.drift_y;
+  faces_all_ = dot(group.normal, suns.frame.to_sun) > drift;
+  const Overlap shaded = find_shades(seen);
+  for (const auto patch : shares_.patches_of(group)) {
+    if (shaded == Overlap::some)
+      tell_patch(patch);
+    else
+      tell(patch, shaded == Overlap::none ? 1 : 0);
+  }
+}
+
+bool GroupShares::see(const Vertices& vertices, const ViewFrame& frame, Seen& seen) const {
+  std::array<ViewPoint, 3> p;
+  seen.lowest = {1e300, 1e300};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Vec3 v = shares_.hierarchy().vertices()[static_cast<std::size_t>(vertices[c])] + lift_;
+    p[c] = frame(v);
+    seen.lowest = {std::min(seen.lowest.z, v.z), std::min(seen.lowest.along, p[c].h)};
+  }
+  const double turn = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
+  if (turn == 0) return false;
+  if (turn < 0) std::swap(p[1], p[2]);
+  seen.polygon.clear();
+  seen.box = {};
+  for (const ViewPoint& corner : p) {
+    seen.polygon.add({corner.x, corner.y});
+    seen.box.include({corner.x, corner.y});
+  }
+  return true;
+}
+
+/// All that may shade some of the group, from any of the suns.
+GroupShares::Overlap GroupShares::find_shades(const Seen& group) {
+  const SunView& view = *view_;
+  const SunCluster& suns = view.suns();
+  const double rise = std::max(0.0, view.rise(group.lowest, view.highest()));
+  const auto cells = view.cells(group.box, suns.drift_x * rise, suns.drift_y * rise);
+  asked_.forget_all();
+  found_.clear();
+  for (std::size_t r = cells.row0; r <= cells.row1; ++r)
+    for (std::size_t c = cells.column0; c <= cells.column1; ++c)
+      for (const auto face : view.faces_in(c, r)) {
+        const SunView::Bounds& bounds = view.bounds(face);
+        const double face_rise = view.rise(group.lowest, bounds.highest);
+        if (face_rise <= 0) continue;
+        const double wider_x = suns.drift_x * face_rise, wider_y = suns.drift_y * face_rise;
+        if (bounds.box.is_apart_from(group.box, wider_x, wider_y) || !asked_.add(face)) continue;
+        if (shades_.size() == found_.size()) shades_.emplace_back();
+        Shade& shade = shades_[found_.size()];
+        shade.wider_x = wider_x;
+        shade.wider_y = wider_y;
+        if (!outline(face, suns.frame, shade)) continue;
+        const Overlap shaded = overlap(group, shade);
+        if (shaded == Overlap::all && faces_all_) return Overlap::all;
+        if (shaded != Overlap::none) found_.push_back(face);
+      }
+  if (found_.empty()) return Overlap::none;
+  is_made_.assign(found_.size() * suns.count, 0);
+  if (suns.count > 1 && of_suns_.size() < is_made_.size()) of_suns_.resize(is_made_.size());
+  return Overlap::some;
+}
+
+/// False where no part of the face is before the plane of the group.
+bool GroupShares::outline(std::uint32_t face, const ViewFrame& frame, Shade& shade) const {
+  const SunFaces& faces = shares_.faces();
+  const Vec3 normal = group_->normal;
+  const double offset = group_->plane_offset + shares_.offset_m();
+  const SunFaces::Sphere& sphere = faces.sphere(face);
+  if (dot(normal, sphere.centre) + sphere.radius <= offset) return false;
+  const auto corners = faces.corners(face);
+  const std::size_t n = corners.size();
+  std::array<double, SunFaces::most_corners> before;
+  bool any = false;
+  for (std::size_t k = 0; k < n; ++k)
+    any = (before[k] = dot(normal, corners[k]) - offset) > 0 || any;
+  if (!any) return false;
+  shade.is_solid = !faces.is_screen(face);
+  shade.polygon.clear();
+  shade.box = {};
+  const auto add = [&](const Vec3& p) {
+    const ViewCorner corner{dot(p, frame.x), dot(p, frame.y)};
+    shade.polygon.add(corner);
+    shade.box.include(corner);
+  };
+  const bool from_behind = dot(faces.normal(face), frame.to_sun) < 0;
+  const auto in_turn = [&](std::size_t k) { return from_behind ? n - 1 - k : k; };
+  std::size_t p = in_turn(n - 1);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t q = in_turn(k);
+    if ((before[p] > 0) != (before[q] > 0))
+      add(corners[p] + (corners[q] - corners[p]) * (before[p] / (before[p] - before[q])));
+    if (before[q] > 0) add(corners[q]);
+    p = q;
+  }
+  return shade.polygon.has_area();
+}
+
+GroupShares::Overlap GroupShares::overlap(const Seen& seen, const Shade& shade) {
+  if (shade.box.is_apart_from(seen.box, shade.wider_x - touching_m, shade.wider_y - touching_m))
+    return Overlap::none;
+  // Lines have normals as long as edges, and no root is taken where a bound will do.
+  const auto wider = [&](const ViewLine& line) {
+    return std::abs(line.x) * shade.wider_x + std::abs(line.y) * shade.wider_y;
+  };
+  const auto touching = [](const ViewLine& line) {
+    return touching_m * (std::abs(line.x) + std::abs(line.y));
+  };
+  const ViewPolygon &triangle = seen.polygon, &outline = shade.polygon;
+  bool all = shade.is_solid;
+  std::size_t p = outline.size() - 1;
+  for (std::size_t q = 0; q < outline.size(); p = q++) {
+    const ViewLine line = line_through(outline[p], outline[q]);
+    const double a = line.beyond(triangle[0]), b = line.beyond(triangle[1]),
+                 c = line.beyond(triangle[2]);
+    if (std::min(std::min(a, b), c) > wider(line) - touching(line)) return Overlap::none;
+    all = all && std::max(std::max(a, b), c) <= -wider(line);
+  }
+  if (all) return Overlap::all;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const ViewLine line = line_through(triangle[k], triangle[k < 2 ? k + 1 : 0]);
+    double nearest = line.beyond(outline[0]);
+    for (std::size_t i = 1; i < outline.size(); ++i)
+      nearest = std::min(nearest, line.beyond(outline[i]));
+    if (nearest > wider(line) - touching(line)) return Overlap::none;
+  }
+  return Overlap::some;
+}
+
+void GroupShares::tell_patch(std::uint32_t patch) {
+  Seen seen;
+  const SunCluster& suns = view_->suns();
+  if (!see(shares_.hierarchy().patches()[patch].vertices, suns.frame, seen)) return;
+  chosen_.clear();
+  for (std::uint32_t number = 0; number < found_.size(); ++number) {
+    const Overlap shaded = overlap(seen, shades_[number]);
+    if (shaded == Overlap::all && faces_all_) return tell(patch, 0);
+    if (shaded != Overlap::none) chosen_.push_back(number);
+  }
+  if (chosen_.empty()) return tell(patch, 1);
+  if (suns.count > 1) {
+    for (const auto k : facing_) out_[patch * block_width + k] = share_at(patch, k);
+    return;
+  }
+  kept_.clear();
+  for (const auto number : chosen_) kept_.push_back(&shades_[number]);
+  tell(patch, share(seen));
+}
+
+float GroupShares::share_at(std::uint32_t patch, std::size_t k) {
+  Seen seen;
+  if (!see(shares_.hierarchy().patches()[patch].vertices, frames_[k], seen))
+    return LitShares::by_rays;
+  kept_.clear();
+  for (const auto number : chosen_) {
+    const Shade& shade = shade_at(number, k);
+    if (!shade.polygon.has_area()) continue;
+    const Overlap shaded = overlap(seen, shade);
+    if (shaded == Overlap::all) return 0;
+    if (shaded == Overlap::some) kept_.push_back(&shade);
+  }
+  return share(seen);
+}
+
+const GroupShares::Shade& GroupShares::shade_at(std::uint32_t number, std::size_t k) {
+  const SunCluster& suns = view_->suns();
+  const std::size_t at = number * suns.count + (k - suns.first);
+  Shade& shade = of_suns_[at];
+  if (is_made_[at] != 0) return shade;
+  is_made_[at] = 1;
+  const double disk = block_[k].disk_spread();
+  // A disk drifts no more than all of the suns do.
+  shade.wider_x = disk > 0 ? shades_[number].wider_x : 0;
+  shade.wider_y = disk > 0 ? shades_[number].wider_y : 0;
+  if (!shares_.faces().is_needed(found_[number], frames_[k].to_sun, 2 * disk) ||
+      !outline(found_[number], frames_[k], shade))
+    shade.polygon.clear();
+  return shade;
+}
+
+/// That the kept shades leave of a patch.
+float GroupShares::share(const Seen& patch) {
+  if (kept_.empty()) return 1;
+  if (group_->sends_on || kept_.size() > most_shades || block_[facing_.front()].disk_half_angle > 0)
+    return LitShares::by_rays;
+  cover_.clear();
+  for (const Shade* shade : kept_) {
+    if (!shade->is_solid) return LitShares::by_rays;
+    cover_.push_back(&shade->polygon);
+  }
+  const auto lit = area_.share(patch.polygon, cover_);
+  return lit ? static_cast<float>(*lit) : LitShares::by_rays;
+}
+
+/// Of all suns that the group faces.
+void GroupShares::tell(std::uint32_t patch, float share) {
+  for (const auto k : facing_) out_[patch * block_width + k] = share;
+}
+
+}  // namespace sunload

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What share of the patches of a group suns reach that stand close together
+/// (solver/sight/lit_shares.h).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/sight/lit_area.h"
+#include "solver/sight/lit_shares.h"
+#include "solver/sight/sun_view.h"
+
+namespace sunload {
+
+/// Numbers that have been seen before.
+class NumbersSeen {
+ public:
+  void forget_all();
+  /// False where it has been added before.
+  bool add(std::uint32_t number);
+
+ private:
+  struct Slot {
+    std::uint32_t number = 0, round = 0;
+  };
+  /// Of the number, or where it belongs.
+  std::size_t place_of(std::uint32_t number) const;
+
+  std::vector<Slot> slots_ = std::vector<Slot>(64);  ///< as many as a power of two
+  std::uint32_t round_ = 1;
+  std::size_t count_ = 0;
+};
+
+class GroupShares {
+ public:
+  /// Puts what it finds into `out`, LitShares::of.
+  GroupShares(const LitShares& shares, std::span<const IntervalLight> block, Columns& out);
+  void tell(const LitShares::Group& group, const SunView& view);
+
+ private:
+  using Vertices = std::array<std::int32_t, 3>;
+  /// What may be shaded: the group's triangle, or a patch, as the sun sees it.
+  struct Seen {
+    ViewPolygon polygon;
+    ViewBox box;
+    SunView::Height lowest;
+  };
+  /// What may stand before it: the part of a face before the plane of the group.
+  struct Shade {
+    ViewPolygon polygon;
+    ViewBox box;
+    double wider_x = 0, wider_y = 0;  ///< what is nearer to it than that may be shaded or not [m]
+    bool is_solid = true;
+  };
+  enum class Overlap { none, some, all };
+  using Numbers = std::vector<std::uint32_t>;
+
+  bool see(const Vertices& vertices, const ViewFrame& frame, Seen& seen) const;
+  Overlap find_shades(const Seen& group);
+  bool outline(std::uint32_t face, const ViewFrame& frame, Shade& shade) const;
+  static Overlap overlap(const Seen& seen, const Shade& shade);
+  void tell_patch(std::uint32_t patch);
+  float share_at(std::uint32_t patch, std::size_t k);
+  const Shade& shade_at(std::uint32_t number, std::size_t k);
+  float share(const Seen& patch);
+  void tell(std::uint32_t patch, float share);
+
+  const LitShares& shares_;
+  std::span<const IntervalLight> block_;
+  Columns& out_;
+  std::vector<ViewFrame> frames_;  ///< of each sun
+  // The group and the suns at hand:
+  const LitShares::Group* group_ = nullptr;
+  const SunView* view_ = nullptr;
+  Vec3 lift_{};                      ///< from the group to where rays of it start
+  std::vector<std::size_t> facing_;  ///< suns that the group faces
+  bool faces_all_ = false;
+  NumbersSeen asked_;
+  Numbers found_;               ///< faces that may shade the group, from any of the suns
+  std::vector<Shade> shades_;   ///< these, seen from the middle of the suns; and more room
+  std::vector<Shade> of_suns_;  ///< as each sun sees them, [found][suns]; and more room
+  std::vector<std::uint8_t> is_made_;
+  // The patch at hand:
+  Numbers chosen_;  ///< which of the shades it may be in
+  std::vector<const Shade*> kept_;
+  std::vector<const ViewPolygon*> cover_;
+  LitArea area_;
+};
+
+}  // namespace sunload

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What of a polygon lies in none of the polygons that shade it.
+///
+/// Sutherland & Hodgman (1974), Reentrant polygon clipping; Weiler & Atherton (1977), Hidden
+/// surface removal using polygon area sorting. For shadows of buildings first Groth & Lokmanhekim
+/// (1969), Shadow: a new technique for the calculation of shadow shapes and areas by digital
+/// computer.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "solver/sight/view_polygon.h"
+
+namespace sunload {
+
+class LitArea {
+ public:
+  /// Share of its area, exact but for rounding. Nothing where the pieces become too many.
+  std::optional<double> share(const ViewPolygon& polygon,
+                              std::span<const ViewPolygon* const> shades);
+
+ private:
+  bool take_away(const ViewPolygon& shade);
+  bool split(const ViewPolygon& piece, const ViewPolygon& shade);
+
+  double negligible_ = 0;  ///< area of what is rounding
+  std::vector<ViewPolygon> left_, next_;
+};
+
+}  // namespace sunload

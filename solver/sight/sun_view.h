@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The scene as suns that stand close together see it: which faces may shade what lies in each cell
+/// of a grid across their light.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solver/sight/sun_clusters.h"
+#include "solver/sight/sun_faces.h"
+#include "solver/sight/view_polygon.h"
+
+namespace sunload {
+
+class SunView {
+ public:
+  /// Of all that receives light, and the size of cells that suits it.
+  struct Extent {
+    Vec3 centre;
+    double radius_m, cell_m;
+  };
+  /// `faces` and `suns` must outlive it. Cost: some nanoseconds for each face and cell that it
+  /// reaches into.
+  SunView(const SunFaces& faces, const Extent& extent, const SunCluster& suns);
+
+  const SunCluster& suns() const { return suns_; }
+  /// How far light rises at the most, along the middle of the suns, from what is no lower than
+  /// that to what is no higher [m]; 0 or below: it does not reach it.
+  struct Height {
+    double z, along;
+  };
+  double rise(const Height& lowest, const Height& highest) const {
+    return std::min(highest.along - lowest.along, (highest.z - lowest.z) / suns_.lowest_sine);
+  }
+  struct Bounds {
+    ViewBox box;
+    Height highest;
+  };
+  const Bounds& bounds(std::size_t face) const { return bounds_[face]; }
+  const Height& highest() const { return highest_; }  ///< of all faces
+
+  /// Inclusive. Cells at the rim stand for all beyond.
+  struct Cells {
+    std::size_t column0, column1, row0, row1;
+  };
+  /// Those that a box meets that is so much wider.
+  Cells cells(const ViewBox& box, double wider_x, double wider_y) const {
+    return {place(box.x0 - wider_x - x0_), place(box.x1 + wider_x - x0_),
+            place(box.y0 - wider_y - y0_), place(box.y1 + wider_y - y0_)};
+  }
+  /// Faces that reach into a cell.
+  std::span<const std::uint32_t> faces_in(std::size_t column, std::size_t row) const {
+    const std::size_t cell = row * across_ + column;
+    return std::span(face_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
+  }
+
+ private:
+  std::size_t place(double along_m) const {
+    const double at = along_m * cells_per_m_;
+    return at > 0 ? std::min(static_cast<std::size_t>(at), across_ - 1) : 0;
+  }
+  void project_faces();
+  void list_faces();
+
+  const SunFaces& faces_;
+  const SunCluster& suns_;
+  double x0_, y0_, cells_per_m_;
+  std::size_t across_;
+  Height highest_{-1e300, -1e300};
+  std::vector<ViewCorner> corner_;  ///< of all faces
+  std::vector<Bounds> bounds_;
+  std::vector<std::uint32_t> needed_;
+  std::vector<std::uint32_t> first_, face_;
+};
+
+}  // namespace sunload
