@@ -168,8 +168,8 @@ double circumsolar_receivers(const VariantPlan& plan, std::size_t patches) {
   return plan.study.solver.transport == Transport::shoot ? 0 : static_cast<double>(patches);
 }
 
-/// Patches and sensors to which rays tell of the sun: geometry does not of what sends light on, of
-/// disks of which a part is hidden, and behind screens.
+/// Patches and sensors to which rays tell of the sun: where edges of shadows cross what sends light
+/// on, or the sun has a disk, and behind screens.
 double asked_by_rays(const VariantPlan& plan, std::size_t patches) {
   const double share = mean_over_seasons(plan, [&](const MaterialsOfScene& of_season) {
     const Mesh& mesh = plan.built.scene.mesh;
@@ -177,8 +177,8 @@ double asked_by_rays(const VariantPlan& plan, std::size_t patches) {
     const auto lets_pass = [](const Material& m) { return m.transmittance > 0; };
     const bool screens = share_of_surfaces(mesh, of_season, lets_pass) > 0;
     double left = screens ? share_behind_screens : 0;
-    if (plan.study.sun.disk == SunDisk::finite) left = std::max(left, share_in_penumbra);
-    return sending + (1 - sending) * left;
+    if (plan.study.sun.disk == SunDisk::finite) left = std::max(left, share_at_edges);
+    return sending * std::max(left, share_at_edges) + (1 - sending) * left;
   });
   return share * static_cast<double>(patches) +
          static_cast<double>(plan.built.scene.sensors.size());
@@ -197,16 +197,17 @@ WorkSeconds modelled_seconds(const VariantPlan& plan, std::size_t patches,
                              const BlockCounts& counts) {
   const double n = receivers(plan, patches), lines = n * counts.lines_per_patch;
   const double threads = thread_count();
-  return {lines * line_seconds(plan) / threads,
-          facing_share * counts.suns *
-              (static_cast<double>(patches) * s_per_lit_share +
-               (asked_by_rays(plan, patches) + circumsolar_receivers(plan, patches)) *
-                   counts.direct_samples * s_per_direct_ray) /
-              threads,
-          mirror_seconds(n, counts.suns, counts.direct_samples) / threads,
-          // A block that is not full takes as long.
-          band_factor(plan) * solution_seconds(n, lines * plan.study.solver.bounces, block_width) /
-              threads};
+  return {
+      lines * line_seconds(plan) / threads,
+      facing_share * counts.suns *
+          (static_cast<double>(patches) * s_per_lit_share +
+           counts.direct_samples * (asked_by_rays(plan, patches) * s_per_direct_ray +
+                                    circumsolar_receivers(plan, patches) * s_per_circumsolar_ray)) /
+          threads,
+      mirror_seconds(n, counts.suns, counts.direct_samples) / threads,
+      // A block that is not full takes as long.
+      band_factor(plan) * solution_seconds(n, lines * plan.study.solver.bounces, block_width) /
+          threads};
 }
 
 double accuracy_pilot_memory_bytes(const VariantPlan& plan, std::size_t patches) {
@@ -285,14 +286,13 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   WorkEstimate work;
   work.patches = patches;
   work.line_rays = static_cast<std::uint64_t>(seasons * lines);
-  const double rays =
-      facing_share *
-      (asked_by_rays(plan, patches) *
-           (shining * counts.direct_samples +
-            (suns - shining) *
-                static_cast<double>(net_size(counts.direct_samples, s.realizations))) +
-       circumsolar_receivers(plan, patches) * std::min(solved, shining) * counts.direct_samples);
-  work.direct_rays = static_cast<std::uint64_t>(rays);
+  const double rays_to_sun =
+      facing_share * asked_by_rays(plan, patches) *
+      (shining * counts.direct_samples +
+       (suns - shining) * static_cast<double>(net_size(counts.direct_samples, s.realizations)));
+  const double circumsolar_rays = facing_share * circumsolar_receivers(plan, patches) *
+                                  std::min(solved, shining) * counts.direct_samples;
+  work.direct_rays = static_cast<std::uint64_t>(rays_to_sun + circumsolar_rays);
   work.memory_bytes =
       program_bytes + seasons * lines * bytes_per_line +
       static_cast<double>(plan.intervals()) * bytes_per_interval +
@@ -349,7 +349,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
       seasons * lines * (guided ? 1 + rays_by_guide : 1) * line_seconds(plan) +
       (guided ? seasons * n * s_per_guided_patch : 0) +
       (plan.study.mesh.oracle == Oracle::none ? 0 : refinement_rays(n, lit) * s_per_direct_ray);
-  core.direct = rays * s_per_direct_ray +
+  core.direct = rays_to_sun * s_per_direct_ray + circumsolar_rays * s_per_circumsolar_ray +
                 static_cast<double>(patches) * facing_share * suns * s_per_lit_share +
                 static_cast<double>(work.samples) * s_per_sample;
   core.mirror = mirrors ? mirror_seconds(n, shining, counts.direct_samples) : 0;

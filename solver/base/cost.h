@@ -34,10 +34,11 @@ inline constexpr double s_per_guided_patch = 2.1e-4;
 // The sun: what share of a patch sees it, by geometry; rays where that does not tell, and to the
 // bright sky about it.
 inline constexpr double facing_share = 0.62;  ///< of patches, that a sun stands before
-inline constexpr double s_per_lit_share = 2.0e-7;
+inline constexpr double s_per_lit_share = 4.0e-7;
 inline constexpr double s_per_direct_ray = 3.5e-8;
-/// Of patches that a sun stands before: where a part of its disk is hidden, and behind screens.
-inline constexpr double share_in_penumbra = 0.15, share_behind_screens = 0.1;
+inline constexpr double s_per_circumsolar_ray = 1.0e-7;
+/// Of patches that a sun stands before: that edges of shadows cross, and that are behind screens.
+inline constexpr double share_at_edges = 0.15, share_behind_screens = 0.1;
 inline constexpr double s_per_mirror_ray = 1.3e-7;
 inline constexpr double mirrored_share = 0.11;  ///< of them again, where there are mirrors
 

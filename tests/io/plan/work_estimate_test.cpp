@@ -39,10 +39,11 @@ TEST(CostModel, PageHasTheTimesOfTheProgram) {
                     micro_s(s_per_level)),
         fmt::format("| patches · suns · {} (share that faces the sun) | {} |", facing_share,
                     micro_s(s_per_lit_share)),
-        fmt::format("| {} · direct_samples · (patches · *lit* that shine; and sensors, mirrors' "
-                    "patches, of others {} by screens or {} by a disk, · suns) | {} |",
-                    facing_share, share_behind_screens, share_in_penumbra,
-                    micro_s(s_per_direct_ray)),
+        fmt::format("| {} · patches · *lit* that shine · direct_samples | {} |", facing_share,
+                    micro_s(s_per_circumsolar_ray)),
+        fmt::format("| {0} · suns · direct_samples · (sensors, {1} of mirrors' patches; {1} of all "
+                    "by a disk, {2} by screens) | {3} |",
+                    facing_share, share_at_edges, share_behind_screens, micro_s(s_per_direct_ray)),
         fmt::format("| {} of patches · suns · direct_samples (a street with glass) | {} |",
                     mirrored_share, micro_s(s_per_mirror_ray)),
         fmt::format("| lines · bounces · lit | {} |", nano_s(s_per_link_sun)),
