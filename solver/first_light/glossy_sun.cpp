@@ -107,6 +107,8 @@ class GlossySun::Chunk {
     return (glimpse.receiver - first_) * realizations_ + glimpse.realization;
   }
 
+  Packet origins_{};  ///< of rays that wait
+  PacketDirections to_sun_{};
   const GlossySun& g_;
   const LobeImages* images_;
   const IntervalLight& sun_;
@@ -116,8 +118,6 @@ class GlossySun::Chunk {
   std::uint32_t taken_ = 0;
   std::size_t first_, realizations_;
   std::vector<double> sum_;
-  Packet origins_{};
-  PacketDirections to_sun_{};
   std::size_t slot_[packet_size];
   double brings_[packet_size];
   std::size_t waiting_ = 0;
