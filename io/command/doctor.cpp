@@ -139,7 +139,7 @@ period: {positions: [{azimuth_deg: 120, elevation_deg: 25, interval_min: 60},
                      {azimuth_deg: 240, elevation_deg: 25, interval_min: 60}]}
 light: {source: fixed, dni_w_m2: 700, dhi_w_m2: 120}
 scene: {builtin: {name: street}}
-mesh: {max_edge_m: 2.4, oracle: none}
+mesh: {max_edge_m: 3, oracle: none}
 )";
 
 /// Study → scene → rays → result file. The ledger's residual is an estimate of zero.
