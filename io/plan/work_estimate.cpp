@@ -108,6 +108,12 @@ double mirror_seconds(double patches, double suns, double samples) {
   return patches * mirrored_share * suns * samples * s_per_mirror_ray;
 }
 
+/// Shares of patches that see the suns, and rays.
+double sun_seconds(double patches, double suns, double rays_to_sun, double circumsolar_rays) {
+  return patches * facing_share * suns * s_per_lit_share + rays_to_sun * s_per_direct_ray +
+         circumsolar_rays * s_per_circumsolar_ray;
+}
+
 /// Each of so many suns solved on links.
 double solution_seconds(double patches, double links, double suns) {
   return links * suns * s_per_link_sun + patches * suns * s_per_patch_sun;
@@ -199,10 +205,10 @@ WorkSeconds modelled_seconds(const VariantPlan& plan, std::size_t patches,
   const double threads = thread_count();
   return {
       lines * line_seconds(plan) / threads,
-      facing_share * counts.suns *
-          (static_cast<double>(patches) * s_per_lit_share +
-           counts.direct_samples * (asked_by_rays(plan, patches) * s_per_direct_ray +
-                                    circumsolar_receivers(plan, patches) * s_per_circumsolar_ray)) /
+      sun_seconds(static_cast<double>(patches), counts.suns,
+                  facing_share * counts.suns * counts.direct_samples * asked_by_rays(plan, patches),
+                  facing_share * counts.suns * counts.direct_samples *
+                      circumsolar_receivers(plan, patches)) /
           threads,
       mirror_seconds(n, counts.suns, counts.direct_samples) / threads,
       // A block that is not full takes as long.
@@ -349,8 +355,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
       seasons * lines * (guided ? 1 + rays_by_guide : 1) * line_seconds(plan) +
       (guided ? seasons * n * s_per_guided_patch : 0) +
       (plan.study.mesh.oracle == Oracle::none ? 0 : refinement_rays(n, lit) * s_per_direct_ray);
-  core.direct = rays_to_sun * s_per_direct_ray + circumsolar_rays * s_per_circumsolar_ray +
-                static_cast<double>(patches) * facing_share * suns * s_per_lit_share +
+  core.direct = sun_seconds(static_cast<double>(patches), suns, rays_to_sun, circumsolar_rays) +
                 static_cast<double>(work.samples) * s_per_sample;
   core.mirror = mirrors ? mirror_seconds(n, shining, counts.direct_samples) : 0;
   if (by_matrix)

@@ -145,9 +145,7 @@ inline Vec3 sun_before(Vec3 normal, const IntervalLight& sun, Vec3 to_sun) {
 class SunPoints {
  public:
   explicit SunPoints(const IntervalLight& sun)
-      : centre_(sun.direction),
-        axes_(tangents(sun.direction)),
-        radius_(std::tan(sun.disk_half_angle)) {}
+      : centre_(sun.direction), axes_(tangents(sun.direction)), radius_(sun.disk_spread()) {}
   /// Direction to that of (u, v) in the unit square, of length 1 along the centre.
   Vec3 at(double u, double v) const {
     const double radius = radius_ * std::sqrt(u), angle = 2 * pi * v;

@@ -27,7 +27,7 @@ Rotation followed_by_image(const Rotation& before, Vec3 n) {
 
 SunBeams::SunBeams(const MirrorGroups& groups, const IntervalLight& sun, const BeamRules& rules,
                    std::span<const std::uint8_t> dark)
-    : groups_(&groups), rules_(rules), spread_(std::tan(sun.disk_half_angle)) {
+    : groups_(&groups), rules_(rules), spread_(sun.disk_spread()) {
   if (!sun.has_sun() || sun.dni <= 0 || rules.mirror_depth < 1) return;
   std::vector<SunBeam> level = first_level(sun, dark);
   while (!level.empty() &&

@@ -2,30 +2,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/sight/closed_bodies.h"
 
-#include <numeric>
+#include "solver/sight/together.h"
 
 namespace sunload {
 
 namespace {
 
-/// Triangles that hang together by edges, each known by one of them.
-class Together {
- public:
-  explicit Together(const Occluders& o) : first_(o.triangle_count()) {
-    std::iota(first_.begin(), first_.end(), std::size_t{0});
-    for (std::size_t t = 0; t < first_.size(); ++t)
-      for (std::size_t k = 0; k < 3; ++k)
-        for (const auto other : o.at_edge(t, k))
-          first_[of(static_cast<std::size_t>(other))] = of(t);
-  }
-  std::size_t of(std::size_t t) {
-    while (first_[t] != t) t = first_[t] = first_[first_[t]];
-    return t;
-  }
-
- private:
-  std::vector<std::size_t> first_;
-};
+/// Triangles that hang together by edges.
+Together bodies_of(const Occluders& o) {
+  Together bodies(o.triangle_count());
+  for (std::size_t t = 0; t < o.triangle_count(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const auto other : o.at_edge(t, k)) bodies.join(t, static_cast<std::size_t>(other));
+  return bodies;
+}
 
 /// How much more often the triangles at an edge pass it as this one does than the other way.
 int balance_at(const Occluders& o, std::size_t triangle, std::size_t k) {
@@ -44,7 +34,7 @@ int balance_at(const Occluders& o, std::size_t triangle, std::size_t k) {
 
 std::vector<Closed> closed_bodies(const Occluders& o) {
   const std::size_t count = o.triangle_count();
-  Together body(o);
+  Together body = bodies_of(o);
   std::vector<double> volume(count, 0);  // times 6
   std::vector<bool> has_hole(count, false);
   for (std::size_t t = 0; t < count; ++t) {

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "solver/sight/together.h"
 
 namespace sunload {
 
@@ -28,12 +29,13 @@ std::int32_t across(const Occluders& occluders, std::size_t triangle, std::size_
 class Joining {
  public:
   Joining(const Occluders& occluders, double flat_m, std::size_t most_corners)
-      : o_(occluders), flat_(flat_m), most_corners_(most_corners) {
+      : o_(occluders),
+        flat_(flat_m),
+        most_corners_(most_corners),
+        groups_(occluders.triangle_count()) {
     const std::size_t count = o_.triangle_count();
     loops_.resize(count);
     planes_.resize(count);
-    group_.resize(count);
-    std::iota(group_.begin(), group_.end(), std::size_t{0});
     for (std::size_t t = 0; t < count; ++t) {
       const Vec3 area2 =
           cross(o_.corner(t, 1) - o_.corner(t, 0), o_.corner(t, 2) - o_.corner(t, 0));
@@ -52,12 +54,12 @@ class Joining {
     std::vector<ConvexFace> faces;
     std::vector<std::size_t> face_of(loops_.size());
     for (std::size_t t = 0; t < loops_.size(); ++t) {
-      if (group_[t] != t || loops_[t].empty()) continue;
+      if (groups_.of(t) != t || loops_[t].empty()) continue;
       face_of[t] = faces.size();
       faces.push_back({corners_of(loops_[t]), planes_[t].normal, {}});
     }
     for (std::size_t t = 0; t < loops_.size(); ++t)
-      if (const std::size_t root = group(t); !loops_[root].empty())
+      if (const std::size_t root = groups_.of(t); !loops_[root].empty())
         faces[face_of[root]].triangles.push_back(static_cast<std::uint32_t>(t));
     return faces;
   }
@@ -83,13 +85,9 @@ class Joining {
                      [](const Edge& x, const Edge& y) { return x.length > y.length; });
     return edges;
   }
-  std::size_t group(std::size_t t) {
-    while (group_[t] != t) t = group_[t] = group_[group_[t]];
-    return t;
-  }
 
   bool join(const Edge& edge) {
-    const std::size_t a = group(edge.a), b = group(edge.b);
+    const std::size_t a = groups_.of(edge.a), b = groups_.of(edge.b);
     if (a == b || dot(planes_[a].normal, planes_[b].normal) <= 0) return false;
     for (const auto p : loops_[b])
       if (std::abs(planes_[a].above(o_.at(p))) > flat_) return false;
@@ -98,7 +96,7 @@ class Joining {
     if (both.size() > most_corners_ && corners_of(both).size() > most_corners_) return false;
     loops_[a] = std::move(both);
     loops_[b].clear();
-    group_[b] = a;
+    groups_.join(a, b);
     return true;
   }
 
@@ -165,7 +163,7 @@ class Joining {
   std::size_t most_corners_;
   std::vector<Loop> loops_;    ///< of groups; empty: joined to another, or no occluder
   std::vector<Plane> planes_;  ///< of groups
-  std::vector<std::size_t> group_;
+  Together groups_;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
+#include "geo/mesh/box_tree.h"
 #include "solver/base/threads.h"
 #include "solver/sight/group_shares.h"
 
@@ -29,18 +30,15 @@ constexpr double widest_cluster = 2 * radians_per_degree;
 
 SunView::Extent extent_of(const Hierarchy& hierarchy) {
   if (hierarchy.patch_count() == 0) return {{0, 0, 0}, 1, 1};
-  Vec3 low{1e300, 1e300, 1e300}, high = -low;
-  for (const Vec3& p : hierarchy.vertices()) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
+  Box box;
+  for (const Vec3& p : hierarchy.vertices()) include(box, p);
   std::vector<double> area = hierarchy.area();
   const auto median = area.begin() + static_cast<std::ptrdiff_t>(area.size() / 2);
   std::nth_element(area.begin(), median, area.end());
-  const double radius = norm(high - low) / 2;
+  const double radius = norm(box.high - box.low) / 2;
   const double cells =
       std::clamp(most_cells_for_patch * static_cast<double>(area.size()), fewest_cells, most_cells);
-  return {(low + high) * 0.5, radius,
+  return {centre_of(box), radius,
           std::max(cell_of_patch * std::sqrt(*median), 2 * radius / std::sqrt(cells))};
 }
 

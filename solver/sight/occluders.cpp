@@ -3,32 +3,23 @@
 #include "solver/sight/occluders.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
+#include <utility>
+
+#include "geo/mesh/weld.h"
 
 namespace sunload {
 
 Occluders::Occluders(const Mesh& mesh, std::span<const float> transmittance)
     : transmittance_(transmittance.begin(), transmittance.end()) {
-  weld(mesh);
-  find_edges();
-}
-
-void Occluders::weld(const Mesh& mesh) {
-  // Zeros have no sign.
-  for (const Vec3 p : mesh.vertices) point_.push_back({p.x + 0.0, p.y + 0.0, p.z + 0.0});
-  const auto key = [&](std::uint32_t i) {
-    return std::tuple(point_[i].x, point_[i].y, point_[i].z);
+  Welded welded = weld(mesh.vertices, std::vector<std::uint8_t>(mesh.vertices.size(), 1), 0);
+  const auto number = [&](std::int32_t vertex) {
+    return static_cast<std::uint32_t>(welded.new_index[static_cast<std::size_t>(vertex)]);
   };
-  std::vector<std::uint32_t> order(point_.size()), same(point_.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    same[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? same[order[i - 1]] : order[i];
   for (const auto& t : mesh.triangles)
-    corners_.push_back({same[static_cast<std::size_t>(t[0])], same[static_cast<std::size_t>(t[1])],
-                        same[static_cast<std::size_t>(t[2])]});
+    corners_.push_back({number(t[0]), number(t[1]), number(t[2])});
+  point_ = std::move(welded.vertices);
+  find_edges();
 }
 
 void Occluders::find_edges() {

@@ -31,7 +31,6 @@ class Occluders {
   std::span<const std::int32_t> at_edge(std::size_t triangle, std::size_t k) const;
 
  private:
-  void weld(const Mesh& mesh);
   void find_edges();
 
   std::vector<Vec3> point_;

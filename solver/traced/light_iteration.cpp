@@ -166,14 +166,12 @@ BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources
   // Nothing comes by mirrors that are not there.
   if (!kept.all_parts && traced.mirrors.size() == 0 && !traced.optics.any_glossy)
     rays.on_patches.of_realizations.mirror.clear();
-  std::vector<Columns> shares;
+  const auto shares = shares_of_patches(traced, sources, work);
   {
     const Stopwatch time(work[Work::direct_s]);
-    for (const auto& of_intervals : suns) {
-      shares.push_back(traced.lit_shares.of(of_intervals));
-      work.add(Work::direct_rays, add_sun(traced, traced.patches, of_intervals, shares.back(),
-                                          rays.on_patches, of_patches));
-    }
+    for (std::size_t s = 0; s < suns.size(); ++s)
+      work.add(Work::direct_rays,
+               add_sun(traced, traced.patches, suns[s], shares[s], rays.on_patches, of_patches));
     work.add(Work::direct_rays, add_circumsolar(traced, sources, rays.on_patches, of_patches));
   }
   std::vector<std::vector<SunBeams>> beams;
@@ -193,28 +191,38 @@ BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources
   return rays;
 }
 
-RayLight direct_on_patches(const TracedScene& traced, const BlockSources& sources, WorkDone& work) {
+std::vector<Columns> shares_of_patches(const TracedScene& traced, const BlockSources& sources,
+                                       WorkDone& work) {
+  const Stopwatch time(work[Work::direct_s]);
+  std::vector<Columns> shares;
+  for (const auto& suns : suns_one_by_one(sources.suns))
+    shares.push_back(traced.lit_shares.of(suns));
+  return shares;
+}
+
+RayLight direct_on_patches(const TracedScene& traced, const BlockSources& sources,
+                           const std::vector<Columns>& shares, WorkDone& work) {
   const Stopwatch time(work[Work::direct_s]);
   const auto realizations = static_cast<std::size_t>(traced.rules.realizations);
   RayLight rays;
   rays.pooled.direct = rays.sunlit = columns(traced.patches.count());
   rays.of_realizations.direct.assign(realizations, columns(traced.patches.count()));
-  for (const auto& suns : suns_one_by_one(sources.suns))
-    work.add(Work::direct_rays, add_sun(traced, traced.patches, suns, traced.lit_shares.of(suns),
-                                        rays, no_integrals()));
+  const auto suns = suns_one_by_one(sources.suns);
+  for (std::size_t s = 0; s < suns.size(); ++s)
+    work.add(Work::direct_rays,
+             add_sun(traced, traced.patches, suns[s], shares[s], rays, no_integrals()));
   return rays;
 }
 
-RayLight rays_on_sensors(const TracedScene& traced, const BlockSources& sources, WorkDone& work) {
+RayLight rays_on_sensors(const TracedScene& traced, const BlockSources& sources,
+                         const std::vector<Columns>& shares, WorkDone& work) {
   const Stopwatch time(work[Work::sensors_s]);
   RayLight rays = empty_rays(traced, traced.sensors.count(), true);
   const auto suns = suns_one_by_one(sources.suns);
   std::vector<std::vector<SunBeams>> beams;
   beams.reserve(suns.size());
-  for (const auto& of_intervals : suns)
-    beams.push_back(
-        beams_of(traced, of_intervals,
-                 traced.mirrors.size() > 0 ? traced.lit_shares.of(of_intervals) : Columns()));
+  for (std::size_t s = 0; s < suns.size(); ++s)
+    beams.push_back(beams_of(traced, suns[s], shares[s]));
   work.add(Work::sensor_rays, light_sensors(traced, suns, std::move(beams), rays, no_integrals()));
   return rays;
 }

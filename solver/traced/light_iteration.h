@@ -32,9 +32,15 @@ struct BlockRays {
 BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources, const Kept& kept,
                           std::span<const TimedSums> sums, WorkDone& work);
 
-/// The same of the sun alone, straight, on patches: the columns of the realizations.
-RayLight direct_on_patches(const TracedScene& traced, const BlockSources& sources, WorkDone& work);
+/// LitShares::of the block, one for each of `suns_one_by_one`.
+std::vector<Columns> shares_of_patches(const TracedScene& traced, const BlockSources& sources,
+                                       WorkDone& work);
+/// The same as `light_iteration` of the sun alone, straight, on patches: the columns of the
+/// realizations. `shares`: shares_of_patches.
+RayLight direct_on_patches(const TracedScene& traced, const BlockSources& sources,
+                           const std::vector<Columns>& shares, WorkDone& work);
 /// Of the sun on sensors, straight, by mirrors and by gloss: as part of `light_iteration`.
-RayLight rays_on_sensors(const TracedScene& traced, const BlockSources& sources, WorkDone& work);
+RayLight rays_on_sensors(const TracedScene& traced, const BlockSources& sources,
+                         const std::vector<Columns>& shares, WorkDone& work);
 
 }  // namespace sunload

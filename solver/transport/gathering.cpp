@@ -33,9 +33,8 @@ class GatheredBatch : public BatchTransport {
     BlockSources sources(block.suns, static_cast<std::size_t>(traced_.grid.cell_count()));
     sources.split_sky(traced_.grid);
     if (traced_.is_rgb()) return light_in_bands(block, sources);
-    std::vector<TimedSums> sums = part_sums_.front().timed(block);
-    sums.push_back({&sums_.front(), lengths_of(block.suns)});
-    BlockRays rays = rays_.next(sources, kept(), sums, work_);
+    BlockRays rays =
+        rays_.next(sources, kept(), part_sums_.front().timed(block, sums_.front()), work_);
     part_sums_.front().add_sources(block, sources);
     light_band(0, block, sources, std::move(rays));
   }
@@ -54,9 +53,7 @@ class GatheredBatch : public BatchTransport {
   /// Those that rays are added to as they are traced.
   std::vector<TimeSums*> sums_over_time() {
     if (traced_.is_rgb()) return {};
-    std::vector<TimeSums*> all = part_sums_.front().all();
-    all.push_back(&sums_.front());
-    return all;
+    return part_sums_.front().all(sums_.front());
   }
   Kept kept() const {
     return {.columns = of_instants() || traced_.is_rgb(),

@@ -34,8 +34,8 @@ std::vector<double> PartSums::shares(std::size_t part, const Block& block) const
   return of_suns;
 }
 
-std::vector<TimedSums> PartSums::timed(const Block& block) {
-  std::vector<TimedSums> sums_in_block;
+std::vector<TimedSums> PartSums::timed(const Block& block, TimeSums& whole) {
+  std::vector<TimedSums> sums_in_block{{&whole, lengths_of(block.suns)}};
   for (std::size_t p = 0; p < count(); ++p) {
     const auto of_suns = shares(p, block);
     if (!any(of_suns)) continue;
@@ -46,10 +46,10 @@ std::vector<TimedSums> PartSums::timed(const Block& block) {
   return sums_in_block;
 }
 
-std::vector<TimeSums*> PartSums::all() {
-  std::vector<TimeSums*> of_parts;
-  for (OfPart& part : parts_) of_parts.push_back(&part.sums);
-  return of_parts;
+std::vector<TimeSums*> PartSums::all(TimeSums& whole) {
+  std::vector<TimeSums*> every{&whole};
+  for (OfPart& part : parts_) every.push_back(&part.sums);
+  return every;
 }
 
 void PartSums::add_sources(const Block& block, const BlockSources& sources, Sky sky) {

@@ -17,10 +17,11 @@ class PartSums {
  public:
   /// Parts of the tally with errors; `tally` must outlive it.
   PartSums(const TracedScene& traced, std::size_t band, BatchTally& tally);
-  /// Of those parts that have time in the block: light_iteration adds to them.
-  std::vector<TimedSums> timed(const Block& block);
-  /// Of all parts.
-  std::vector<TimeSums*> all();
+  /// The sums of the whole, and of those parts that have time in the block: what light_iteration
+  /// adds to.
+  std::vector<TimedSums> timed(const Block& block, TimeSums& whole);
+  /// The sums of the whole and of all parts.
+  std::vector<TimeSums*> all(TimeSums& whole);
   /// What is no estimate of a realization.
   enum class Sky { split, whole };  ///< of `sources`
   void add_sources(const Block& block, const BlockSources& sources, Sky sky = Sky::split);

@@ -155,9 +155,10 @@ class ShotBatch : public BatchTransport {
 
   void light(const Block& block) override {
     const BlockSources sources(block.suns, static_cast<std::size_t>(traced_.grid.cell_count()));
-    const RayLight sun = direct_on_patches(traced_, sources, work_);
+    const auto shares = shares_of_patches(traced_, sources, work_);
+    const RayLight sun = direct_on_patches(traced_, sources, shares, work_);
     RayLight on_sensors;
-    if (traced_.sensors.count() > 0) on_sensors = rays_on_sensors(traced_, sources, work_);
+    if (traced_.sensors.count() > 0) on_sensors = rays_on_sensors(traced_, sources, shares, work_);
     const FirstMirrored::SentSuns sent = send_sun(block);
     const Stopwatch time(work_[Work::shoot_s]);
     shoot(block, sources, sun, std::move(on_sensors), sent);

@@ -181,9 +181,7 @@ class YearBatch : public BatchTransport {
 
   void light(const Block& block) override {
     const BlockSources sources(block.suns, static_cast<std::size_t>(traced_.grid.cell_count()));
-    std::vector<TimedSums> sums = parts_.timed(block);
-    sums.push_back({&sums_, lengths_of(block.suns)});
-    BlockRays rays = rays_.next(sources, {}, sums, work_);
+    BlockRays rays = rays_.next(sources, {}, parts_.timed(block, sums_), work_);
     const Stopwatch time(work_[Work::solve_s]);
     const auto by_rays = ledger_of_rays(traced_, rays.on_patches.pooled.direct,
                                         rays.on_patches.pooled.mirror, block.suns.size());
@@ -201,9 +199,7 @@ class YearBatch : public BatchTransport {
 
   void finish() override {
     const Stopwatch time(work_[Work::realizations_s]);
-    std::vector<TimeSums*> sums = parts_.all();
-    sums.push_back(&sums_);
-    rays_.end(sums, work_);
+    rays_.end(parts_.all(sums_), work_);
     nodes_.split_circumsolar(shares_, sums_);
     solve_realizations(traced_, 0, sums_, tally_);
     for (std::size_t p = 0; p < parts_.count(); ++p)
