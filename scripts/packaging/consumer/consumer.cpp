@@ -38,7 +38,7 @@ int main() {
     for (const auto& exposure : received.exposure_realization)
       realizations.push_back(exposure[p] / noon.length_s);
     const MeanError of_patch = mean_error(realizations);
-    std::printf("%zu,%.4f,%.2f,%.2f\n", p, traced->hierarchy().area()[p], of_patch.mean,
-                of_patch.standard_error);
+    const double area = traced->hierarchy().area()[p];
+    std::printf("%zu,%.4f,%.2f,%.2f\n", p, area, of_patch.mean, of_patch.standard_error);
   }
 }
