@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/lines/line_bundle.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "solver/base/counting_sort.h"
+#include "solver/mesh/linked_element.h"
 
 namespace sunload {
 
@@ -38,7 +40,13 @@ std::uint8_t direction_cell(Vec3 w) {
 
 }  // namespace
 
-void LineBundle::add(const PatchLines& lines, std::size_t count) {
+void LineBundle::clear() {
+  lines_.clear();
+  largest_link_.clear();
+}
+
+void LineBundle::add(const PatchLines& lines, std::size_t count, double largest_link) {
+  largest_link_.insert(largest_link_.end(), count, largest_link);
   PatchLines::Line packet[packet_size];
   for (std::size_t first = 0; first < count; first += packet_size) {
     lines.packet(first, packet);
@@ -54,9 +62,9 @@ void LineBundle::sort_by_direction() {
   sort_by_byte(in_order_, order_, [this](std::uint32_t line) { return cell_[line]; });
 }
 
-void LineBundle::cast(const RayCaster& caster) {
+void LineBundle::cast(const RayCaster& caster, const Hierarchy& hierarchy) {
   sort_by_direction();
-  hits_.resize(lines_.size());
+  met_.resize(lines_.size());
   Packet origins{};
   PacketDirections directions{};
   for (std::size_t first = 0; first < order_.size(); first += packet_size) {
@@ -67,8 +75,28 @@ void LineBundle::cast(const RayCaster& caster) {
     }
     const PacketHits hits =
         caster.first_hits(origins, directions, (1u << count) - 1u, RayCaster::Coherence::parallel);
-    for (std::size_t l = 0; l < count; ++l) hits_[order_[first + l]] = hits[l];
+    put_met(hits, std::span(order_).subspan(first, count), hierarchy);
   }
+}
+
+void LineBundle::put_met(const PacketHits& hits, std::span<const std::uint32_t> lines,
+                         const Hierarchy& hierarchy) {
+  LinkedPoints points;
+  std::uint32_t element[packet_size];
+  hierarchy.patches_at(hits, points.patch);
+  for (std::size_t l = 0; l < packet_size; ++l) {
+    const std::size_t i = lines[std::min(l, lines.size() - 1)];
+    const auto distance_m = static_cast<double>(hits.distance[l]);
+    const Vec3 at = lines_[i].origin + lines_[i].w * distance_m;
+    points.x[l] = at.x;
+    points.y[l] = at.y;
+    points.z[l] = at.z;
+    points.path_m[l] = distance_m;
+    points.largest_link[l] = largest_link_[i];
+  }
+  linked_elements(hierarchy, points, element);
+  for (std::size_t l = 0; l < lines.size(); ++l)
+    met_[lines[l]] = {hits[l], points.patch[l], element[l]};
 }
 
 }  // namespace sunload

@@ -83,22 +83,36 @@ void LineFollower::link_outside(Vec3 w, double weight, int reflections, LineColl
   }
 }
 
-std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first, const RandomKey& line,
+std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& hit, const RandomKey& line,
                                    LineCollector& into, double share_of_first) const {
+  FirstMeeting first{hit, walk_.patch_of(hit)};
+  if (first.patch >= 0)
+    first.element = linked_element(hierarchy_, static_cast<std::size_t>(first.patch),
+                                   origin + w * hit.distance_m, hit.distance_m, into.largest_link);
+  return follow(origin, w, first, line, into, share_of_first);
+}
+
+std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const FirstMeeting& first,
+                                   const RandomKey& line, LineCollector& into,
+                                   double share_of_first) const {
   double weight = 1, path_m = 0;
-  Hit hit = first;
+  Hit hit = first.hit;
+  std::int32_t patch_of_hit = first.patch;
   RandomKey key = line;
   for (int reflections = 0;; ++reflections) {  // as many rays, too
-    const auto met = walk_.meet(hit, weight, into.ends.fate);
+    const auto met = walk_.meet(hit, patch_of_hit, weight, into.ends.fate);
     if (hit.left_scene()) link_outside(w, weight, reflections, into);
     if (!met) return static_cast<std::uint64_t>(reflections);
     const auto& [patch, material] = *met;
     path_m += hit.distance_m;
     const double counted = reflections == 0 ? weight * share_of_first : weight;
-    if (material.diffuse > 0 || material.emission_w_m2 > 0)
-      into.patches.push_back({linked_element(hierarchy_, patch, origin + w * hit.distance_m, path_m,
-                                             into.largest_link),
-                              static_cast<float>(counted)});
+    if (material.diffuse > 0 || material.emission_w_m2 > 0) {
+      const auto element = reflections == 0
+                               ? first.element
+                               : linked_element(hierarchy_, patch, origin + w * hit.distance_m,
+                                                path_m, into.largest_link);
+      into.patches.push_back({element, static_cast<float>(counted)});
+    }
     into.lamps += counted * material.emission_w_m2;
     if (!sends_on(material)) return static_cast<std::uint64_t>(reflections);
     const Vec3 n = walk_.normal(hit);
@@ -114,6 +128,7 @@ std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& first, const 
     origin = walk_.point(hit, n);
     w = on.direction;
     hit = walk_.first_hit(origin, w);
+    patch_of_hit = walk_.patch_of(hit);
   }
 }
 

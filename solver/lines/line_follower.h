@@ -41,10 +41,13 @@ class LineFollower {
   LineFollower(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
                const SkyGrid& grid, int mirror_depth);
 
-  /// A line that left its patch from `origin` along the unit vector `w` and met `hit`; adds
+  /// A line that left its patch from `origin` along the unit vector `w` and met `first`; adds
   /// its links, its end, and the emitters that it sees. Of what it meets straight it counts
   /// `share_of_first`; the rest is seen by points (solver/lines/bright_view.h). `line` addresses
   /// the random numbers of glossy surfaces (its `block` is set here). Returns the rays cast.
+  std::uint64_t follow(Vec3 origin, Vec3 w, const FirstMeeting& first, const RandomKey& line,
+                       LineCollector& into, double share_of_first = 1) const;
+  /// The same of a line that met `hit`.
   std::uint64_t follow(Vec3 origin, Vec3 w, const Hit& hit, const RandomKey& line,
                        LineCollector& into, double share_of_first = 1) const;
   /// Adds the link to a point of a bright surface, and the emitter that it is.

@@ -144,8 +144,8 @@ class BlockTracer {
       for (std::size_t r = 0; r < static_cast<std::size_t>(rules_.realizations); ++r)
         bundle.add(PatchLines(hierarchy_, patch, caster_.offset_m(),
                               line_seeds(hierarchy_, patch, r, rules_.seed)),
-                   lines_per_realization(patch));
-    bundle.cast(caster_);
+                   lines_per_realization(patch), rules_.largest_link_of(patch));
+    bundle.cast(caster_, hierarchy_);
   }
 
   /// Its lines are those of the bundle from number `at` on.
@@ -176,12 +176,12 @@ class BlockTracer {
     const std::size_t count = lines_per_realization(patch);
     output.rays += count;
     for (std::size_t l = 0; l < count; ++l) {
-      const Hit hit = bundle.hit(at + l);
+      const FirstMeeting& met = bundle.met(at + l);
       const auto& [origin, w] = bundle.line(at + l);
       key.sun = static_cast<std::uint32_t>(l);
-      output.rays += follower_.follow(origin, w, hit, key, row.own,
-                                      row.view.share_of_line(hierarchy_, hit, w, dot(w, normal)));
-      if (hit.left_scene() && sends_light_on)
+      const double share = row.view.share_of_line(hierarchy_, met.hit, w, dot(w, normal));
+      output.rays += follower_.follow(origin, w, met, key, row.own, share);
+      if (met.hit.left_scene() && sends_light_on)
         output.rays += book_mirrored(origin, w, patch, key, output.mirrored_fates[realization]);
     }
     if (!row.view.any()) return;

@@ -30,6 +30,13 @@ struct Followed {
   }
 };
 
+/// What a line met first, and its link: where the line was cast with others, found with theirs.
+struct FirstMeeting {
+  Hit hit;
+  std::int32_t patch = -1;    ///< -1: it left the scene or met a back
+  std::uint32_t element = 0;  ///< that a link leads to which met a patch (`linked_element`)
+};
+
 class SurfaceWalk {
  public:
   /// Everything must outlive it. What was sent on `mirror_depth` times is cut.
@@ -44,16 +51,25 @@ class SurfaceWalk {
     std::size_t patch;
     const Material& material;
   };
+  /// Patch that was met; -1 where the light has left the scene or met a back.
+  std::int32_t patch_of(const Hit& hit) const {
+    return hit.left_scene() ? -1 : hierarchy_.patch_at(hit.triangle, hit.u, hit.v, hit.front);
+  }
   /// What a ray has met that carries `weight`, which becomes that of the light that arrives: rays
   /// are stopped by 1 - T of it. None where the light has left the scene or met a back, which
   /// `fate` books.
   template <class T>
   std::optional<Meeting> meet(const Hit& hit, double& weight, Fate<T>& fate) const {
+    return meet(hit, patch_of(hit), weight, fate);
+  }
+  /// The same where the patch is known already.
+  template <class T>
+  std::optional<Meeting> meet(const Hit& hit, std::int32_t patch, double& weight,
+                              Fate<T>& fate) const {
     if (hit.left_scene()) {
       fate.escaped += static_cast<T>(weight);
       return {};
     }
-    const auto patch = hierarchy_.patch_at(hit.triangle, hit.u, hit.v, hit.front);
     if (patch < 0) {
       fate.backs += static_cast<T>(weight);
       return {};

@@ -89,6 +89,12 @@ struct Weights {
   double w[3];
 };
 /// Child that holds a point of its parent, and the point's weights there.
-std::int32_t descend(std::int32_t first_child, std::uint8_t apex, Weights& x);
+inline std::int32_t descend(std::int32_t first_child, std::uint8_t apex, Weights& x) {
+  const double p = x.w[(apex + 1) % 3], q = x.w[(apex + 2) % 3], r = x.w[apex];
+  // Child 0 is (p, m, r), child 1 is (m, q, r), m the midpoint of pq.
+  const bool second = q > p;
+  x = second ? Weights{{2 * p, q - p, r}} : Weights{{p - q, 2 * q, r}};
+  return first_child + (second ? 1 : 0);
+}
 
 }  // namespace sunload

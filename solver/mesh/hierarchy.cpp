@@ -13,6 +13,8 @@ namespace sunload {
 
 namespace {
 
+constexpr std::size_t most_elements = std::size_t{1} << 29;
+
 /// Trees split by edge length, refused before they are built where they would be too many.
 ElementForest split_evenly(const Scene& scene, const SplitRules& rules) {
   expect_splittable(scene, rules);
@@ -49,17 +51,18 @@ Hierarchy::Hierarchy(const Scene& scene, const SplitRules& rules)
 
 Hierarchy::Hierarchy(const ElementForest& forest) : vertices_(forest.vertices()) {
   const Mesh& mesh = forest.scene().mesh;
-  nodes_.reserve(forest.elements().size());
-  for (const auto& e : forest.elements()) nodes_.push_back({e.first_child, -1, e.apex});
+  SUNLOAD_EXPECT(forest.elements().size() <= most_elements, "numbers of elements fit their splits");
+  split_.reserve(forest.elements().size());
+  for (const auto& e : forest.elements()) split_.push_back(4 * e.first_child + e.apex);
   patches_.reserve(forest.patch_count());
   area_.reserve(forest.patch_count());
   key_.reserve(forest.patch_count());
   parent_.assign(forest.patch_count(), -1);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    root_.push_back(forest.root(t));
-    two_sided_.push_back(mesh.triangle_sides[t] == Sides::two);
-    if (root_[t] < 0) continue;
-    add_tree(forest, static_cast<std::size_t>(root_[t]));
+    const auto root = forest.root(t);
+    root_.push_back(root < 0 ? -1 : 2 * root + (mesh.triangle_sides[t] == Sides::two ? 1 : 0));
+    if (root < 0) continue;
+    add_tree(forest, static_cast<std::size_t>(root));
     first_inner_.push_back(halves_.size());
   }
 }
@@ -77,7 +80,7 @@ Hierarchy::Sides2 Hierarchy::add_tree(const ElementForest& forest, std::size_t e
 
 Hierarchy::Sides2 Hierarchy::add_leaf(const ElementForest& forest, std::size_t element) {
   const auto& e = forest.elements()[element];
-  nodes_[element].first_patch = static_cast<std::int32_t>(patches_.size());
+  split_[element] = -1 - static_cast<std::int32_t>(patches_.size());
   const auto& c = e.vertices;
   Sides2 sides{-1, -1};
   for (std::uint8_t side = 0; side < (forest.is_two_sided(element) ? 2 : 1); ++side) {
@@ -117,13 +120,67 @@ Vec3 Hierarchy::centroid(std::size_t patch) const {
 }
 
 std::int32_t Hierarchy::patch_at(std::int32_t triangle, double u, double v, bool front) const {
-  const auto t = static_cast<std::size_t>(triangle);
-  if (root_[t] < 0 || (!front && !two_sided_[t])) return -1;
+  const auto root = root_[static_cast<std::size_t>(triangle)];
+  if (root < 0 || (!front && root % 2 == 0)) return -1;
   Weights x{{1 - u - v, u, v}};
-  const Node* node = &nodes_[static_cast<std::size_t>(root_[t])];
-  while (node->first_child >= 0)
-    node = &nodes_[static_cast<std::size_t>(descend(node->first_child, node->apex, x))];
-  return node->first_patch + (front ? 0 : 1);
+  Split split = split_[static_cast<std::size_t>(root / 2)];
+  while (split >= 0) {
+    const auto child = descend(split / 4, static_cast<std::uint8_t>(split % 4), x);
+    split = split_[static_cast<std::size_t>(child)];
+  }
+  return -1 - split + (front ? 0 : 1);
+}
+
+namespace {
+
+/// A point of an element, by the weights of its corners.
+struct Point {
+  std::int32_t split;  ///< of the element
+  double w[3];
+};
+
+/// To the half that holds it, as `descend`: without branches, which would be guessed wrong half of
+/// the time.
+inline void step_down(const std::int32_t* split, Point& point) {
+  constexpr std::uint8_t next[3] = {1, 2, 0};
+  const auto apex = static_cast<std::size_t>(point.split & 3);
+  const double p = point.w[next[apex]], q = point.w[next[next[apex]]], r = point.w[apex];
+  const std::int32_t second = q > p ? 1 : 0;
+  point.w[second] = std::abs(p - q);
+  point.w[1 - second] = 2 * std::min(p, q);
+  point.w[2] = r;
+  point.split = split[(point.split >> 2) + second];
+}
+
+}  // namespace
+
+void Hierarchy::patches_at(const PacketHits& hits, std::int32_t (&patch)[packet_size]) const {
+  Point point[packet_size];
+  std::uint8_t below[packet_size];  // rays whose points are not in leaves yet
+  std::size_t count = 0;
+  for (std::size_t l = 0; l < packet_size; ++l) {
+    const auto root = hits.triangle[l] < 0 ? -1 : root_[static_cast<std::size_t>(hits.triangle[l])];
+    patch[l] = -1;
+    if (root < 0 || (!hits.front[l] && root % 2 == 0)) continue;
+    patch[l] = hits.front[l] ? 0 : 1;
+    const auto u = static_cast<double>(hits.u[l]), v = static_cast<double>(hits.v[l]);
+    point[l] = {split_[static_cast<std::size_t>(root / 2)], {1 - u - v, u, v}};
+    below[count] = static_cast<std::uint8_t>(l);
+    count += point[l].split >= 0 ? 1 : 0;
+  }
+  // Side by side: what one of them waits for, others have already.
+  while (count > 0) {
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto l = below[i];
+      step_down(split_.data(), point[l]);
+      below[left] = l;
+      left += point[l].split >= 0 ? 1 : 0;
+    }
+    count = left;
+  }
+  for (std::size_t l = 0; l < packet_size; ++l)
+    if (patch[l] >= 0) patch[l] += -1 - point[l].split;
 }
 
 }  // namespace sunload

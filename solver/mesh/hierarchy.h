@@ -15,6 +15,7 @@
 
 #include "solver/mesh/element_forest.h"
 #include "solver/surface/material.h"
+#include "solver/surface/ray_caster.h"
 
 namespace sunload {
 
@@ -55,12 +56,16 @@ class Hierarchy {
   /// Patch at the barycentric weights (u, v of corners 1 and 2) of an input
   /// triangle, or -1 where that side has none.
   std::int32_t patch_at(std::int32_t triangle, double u, double v, bool front) const;
+  /// The same where the rays of a packet have met triangles, side by side; -1 for those that have
+  /// met none.
+  void patches_at(const PacketHits& hits, std::int32_t (&patch)[packet_size]) const;
 
   /// Elements are numbered patches first, then inner ones, children before parents and tree by
   /// tree. Each side of a two-sided element is one of its own.
   std::size_t element_count() const { return patches_.size() + halves_.size(); }
   /// Element whose half this one is; -1 for roots.
   std::int32_t parent(std::size_t element) const { return parent_[element]; }
+  const std::vector<std::int32_t>& parents() const { return parent_; }
   /// Elements whose union is inner element number patch_count() + i.
   const std::array<std::uint32_t, 2>& halves_of(std::size_t i) const { return halves_[i]; }
   std::size_t tree_count() const { return first_inner_.size() - 1; }
@@ -73,11 +78,10 @@ class Hierarchy {
   const Sphere& sphere(std::size_t i) const { return sphere_[i]; }
 
  private:
-  struct Node {
-    std::int32_t first_child = -1;  ///< its sibling follows; -1 for a leaf
-    std::int32_t first_patch = -1;
-    std::uint8_t apex = 0;  ///< corner opposite of the split edge
-  };
+  /// How an element is split, small enough for many of them to stay near the processor: of inner
+  /// ones 4 · first child (its sibling follows) + the corner opposite of the split edge; of leaves
+  /// -1 - their first patch.
+  using Split = std::int32_t;
   /// Numbers of an element's two sides; -1 where it has but one.
   using Sides2 = std::array<std::int32_t, 2>;
   Sides2 add_tree(const ElementForest& forest, std::size_t element);
@@ -85,9 +89,9 @@ class Hierarchy {
   std::int32_t add_inner(const ElementForest& forest, std::size_t element, std::int32_t half,
                          std::int32_t other_half);
 
-  std::vector<Node> nodes_;
-  std::vector<std::int32_t> root_;  ///< per input triangle, -1: no patches
-  std::vector<bool> two_sided_;     ///< per input triangle
+  std::vector<Split> split_;        ///< per element of the forest
+  std::vector<std::int32_t> root_;  ///< per input triangle: 2 · its element, + 1 where it has two
+                                    ///< sides; -1: no patches
   std::vector<Patch> patches_;
   std::vector<Vec3> vertices_;
   std::vector<double> area_;

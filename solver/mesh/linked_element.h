@@ -14,4 +14,14 @@ namespace sunload {
 std::uint32_t linked_element(const Hierarchy& hierarchy, std::size_t patch, Vec3 point,
                              double path_m, double largest_link);
 
+/// Where the rays of a packet have met patches.
+struct LinkedPoints {
+  std::int32_t patch[packet_size];  ///< -1: none
+  alignas(64) double x[packet_size], y[packet_size], z[packet_size];
+  alignas(64) double path_m[packet_size], largest_link[packet_size];
+};
+/// The same of each of them, side by side; where no patch was met it means nothing.
+void linked_elements(const Hierarchy& hierarchy, const LinkedPoints& points,
+                     std::uint32_t (&element)[packet_size]);
+
 }  // namespace sunload

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "solver/lines/lines.h"
+#include "solver/mesh/linked_element.h"
 #include "tests/support/scenes.h"
 
 namespace sunload::test {
@@ -17,7 +18,7 @@ namespace {
 
 using Facing = SceneBuilder::Facing;
 
-/// Blocks on a plane, some of them two-sided sheets.
+/// Blocks on a plane, and sheets of two sides and of one.
 const Scene& blocks() {
   static SceneBuilder builder = [] {
     SceneBuilder b;
@@ -30,6 +31,8 @@ const Scene& blocks() {
     }
     b.object("sheet").sides(Sides::two);
     b.triangle({-8, -60, 1}, {-8, 60, 1}, {-8, 0, 12}, m);
+    b.object("sheet with a back").sides(Sides::one);
+    b.triangle({18, -60, 1}, {18, 60, 1}, {18, 0, 12}, m);
     return b;
   }();
   return builder.scene();
@@ -52,36 +55,50 @@ TEST(PatchLines, PacketsAreTheLinesOfTheirNumbers) {
   }
 }
 
-TEST(LineBundle, HitsAreThoseOfEachLineAlone) {
+TEST(LineBundle, MeetsWhatEachLineMeetsAlone) {
   const Scene& scene = blocks();
   const Hierarchy mesh(scene, {.max_edge_m = 6});
   constexpr std::size_t count = 40, patches = 7;  // packets that are not full, too
+  constexpr double largest_links[] = {0, 1e-3, 0.03};
   for (const char* isa : {"sse4.2", "auto"}) {
     const RayCaster caster(scene.mesh, isa);
-    std::size_t compared = 0, left = 0;
+    std::size_t compared = 0, left = 0, backs = 0, above = 0;
     LineBundle bundle;
     for (std::size_t first = 0; first + patches <= mesh.patch_count(); first += patches) {
       bundle.clear();
       const auto lines_of = [&](std::size_t patch) {
         return PatchLines(mesh, patch, caster.offset_m(), line_seeds(mesh, patch, 0, 1));
       };
-      for (std::size_t p = 0; p < patches; ++p) bundle.add(lines_of(first + p), count);
-      bundle.cast(caster);
+      for (std::size_t p = 0; p < patches; ++p)
+        bundle.add(lines_of(first + p), count, largest_links[p % 3]);
+      bundle.cast(caster, mesh);
       for (std::size_t p = 0; p < patches; ++p) {
         const PatchLines lines = lines_of(first + p);
         for (std::size_t at = 0; at < count; at += packet_size) {
           const LinePacket packet(lines, at, count);
           const PacketHits hits = packet.first_hits(caster);
           for (std::size_t l = 0; l < packet.count; ++l, ++compared) {
-            const Hit alone = hits[l], together = bundle.hit(p * count + at + l);
+            const auto& [together, patch, element] = bundle.met(p * count + at + l);
+            const Hit alone = hits[l];
             ASSERT_EQ(bundle.line(p * count + at + l).w, packet.line[l].w);
             ASSERT_EQ(together.triangle, alone.triangle);
-            left += alone.left_scene();
-            if (alone.left_scene()) continue;
+            if (alone.left_scene()) {
+              ASSERT_EQ(patch, -1);
+              ++left;
+              continue;
+            }
             ASSERT_EQ(together.u, alone.u);
             ASSERT_EQ(together.v, alone.v);
             ASSERT_EQ(together.distance_m, alone.distance_m);
             ASSERT_EQ(together.front, alone.front);
+            ASSERT_EQ(patch, mesh.patch_at(alone.triangle, alone.u, alone.v, alone.front));
+            backs += patch < 0;
+            if (patch < 0) continue;
+            const PatchLines::Line& line = packet.line[l];
+            ASSERT_EQ(element, linked_element(mesh, static_cast<std::size_t>(patch),
+                                              line.origin + line.w * alone.distance_m,
+                                              alone.distance_m, largest_links[p % 3]));
+            above += element >= mesh.patch_count();
           }
         }
       }
@@ -89,6 +106,8 @@ TEST(LineBundle, HitsAreThoseOfEachLineAlone) {
     EXPECT_GT(compared, 100'000u);
     EXPECT_GT(left, compared / 10);
     EXPECT_LT(left, compared * 9 / 10);
+    EXPECT_GT(backs, 0u);
+    EXPECT_GT(above, 1000u);
   }
 }
 
