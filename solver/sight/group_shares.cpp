@@ -17,6 +17,12 @@ constexpr std::size_t most_shades = 32;
 /// What overlaps by less touches [m]: a thousand roundings of a coordinate of a kilometre.
 constexpr double touching_m = 1e-9;
 
+// Lines have normals as long as edges, and no root is taken where a bound will do.
+double wider(const ViewLine& line, double by_x, double by_y) {
+  return std::abs(line.x) * by_x + std::abs(line.y) * by_y;
+}
+double touching(const ViewLine& line) { return wider(line, touching_m, touching_m); }
+
 }  // namespace
 
 void NumbersSeen::forget_all() {
@@ -108,15 +114,17 @@ GroupShares::Overlap GroupShares::find_shades(const Seen& group) {
     for (std::size_t c = cells.column0; c <= cells.column1; ++c)
       for (const auto face : view.faces_in(c, r)) {
         const SunView::Bounds& bounds = view.bounds(face);
+        if (bounds.highest.along <= group.lowest.along) break;  // and so are all that follow
         const double face_rise = view.rise(group.lowest, bounds.highest);
         if (face_rise <= 0) continue;
         const double wider_x = suns.drift_x * face_rise, wider_y = suns.drift_y * face_rise;
         if (bounds.box.is_apart_from(group.box, wider_x, wider_y) || !asked_.add(face)) continue;
-        if (shades_.size() == found_.size()) shades_.emplace_back();
+        if (shades_.size() == found_.size()) shades_.emplace_back(), before_.emplace_back();
         Shade& shade = shades_[found_.size()];
         shade.wider_x = wider_x;
         shade.wider_y = wider_y;
-        if (!outline(face, suns.frame, shade)) continue;
+        if (!measure(face, before_[found_.size()])) continue;
+        if (!outline(face, before_[found_.size()], suns.frame, shade)) continue;
         const Overlap shaded = overlap(group, shade);
         if (shaded == Overlap::all && faces_all_) return Overlap::all;
         if (shaded != Overlap::none) found_.push_back(face);
@@ -127,20 +135,30 @@ GroupShares::Overlap GroupShares::find_shades(const Seen& group) {
   return Overlap::some;
 }
 
-/// False where no part of the face is before the plane of the group.
-bool GroupShares::outline(std::uint32_t face, const ViewFrame& frame, Shade& shade) const {
+/// How far the face's corners are before the plane of the group; false where none is.
+bool GroupShares::measure(std::uint32_t face, Before& before) const {
   const SunFaces& faces = shares_.faces();
   const Vec3 normal = group_->normal;
   const double offset = group_->plane_offset + shares_.offset_m();
   const SunFaces::Sphere& sphere = faces.sphere(face);
   if (dot(normal, sphere.centre) + sphere.radius <= offset) return false;
   const auto corners = faces.corners(face);
-  const std::size_t n = corners.size();
-  std::array<double, SunFaces::most_corners> before;
   bool any = false;
-  for (std::size_t k = 0; k < n; ++k)
-    any = (before[k] = dot(normal, corners[k]) - offset) > 0 || any;
-  if (!any) return false;
+  before.all = true;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    before.by[k] = dot(normal, corners[k]) - offset;
+    any = any || before.by[k] > 0;
+    before.all = before.all && before.by[k] > 0;
+  }
+  return any;
+}
+
+/// False where what of the face is before the plane of the group has no area.
+bool GroupShares::outline(std::uint32_t face, const Before& before, const ViewFrame& frame,
+                          Shade& shade) const {
+  const SunFaces& faces = shares_.faces();
+  const auto corners = faces.corners(face);
+  const std::size_t n = corners.size();
   shade.is_solid = !faces.is_screen(face);
   shade.polygon.clear();
   shade.box = {};
@@ -151,46 +169,55 @@ bool GroupShares::outline(std::uint32_t face, const ViewFrame& frame, Shade& sha
   };
   const bool from_behind = dot(faces.normal(face), frame.to_sun) < 0;
   const auto in_turn = [&](std::size_t k) { return from_behind ? n - 1 - k : k; };
+  if (before.all) {
+    for (std::size_t k = 0; k < n; ++k) add(corners[in_turn(k)]);
+    return true;
+  }
   std::size_t p = in_turn(n - 1);
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t q = in_turn(k);
-    if ((before[p] > 0) != (before[q] > 0))
-      add(corners[p] + (corners[q] - corners[p]) * (before[p] / (before[p] - before[q])));
-    if (before[q] > 0) add(corners[q]);
+    const double before_p = before.by[p], before_q = before.by[q];
+    if ((before_p > 0) != (before_q > 0))
+      add(corners[p] + (corners[q] - corners[p]) * (before_p / (before_p - before_q)));
+    if (before_q > 0) add(corners[q]);
     p = q;
   }
   return shade.polygon.has_area();
 }
 
 GroupShares::Overlap GroupShares::overlap(const Seen& seen, const Shade& shade) {
+  const Overlap shaded = overlap_by_outline(seen, shade);
+  return shaded == Overlap::some && is_beside(seen, shade) ? Overlap::none : shaded;
+}
+
+/// By the edges of the shade: some may be none.
+GroupShares::Overlap GroupShares::overlap_by_outline(const Seen& seen, const Shade& shade) {
   if (shade.box.is_apart_from(seen.box, shade.wider_x - touching_m, shade.wider_y - touching_m))
     return Overlap::none;
-  // Lines have normals as long as edges, and no root is taken where a bound will do.
-  const auto wider = [&](const ViewLine& line) {
-    return std::abs(line.x) * shade.wider_x + std::abs(line.y) * shade.wider_y;
-  };
-  const auto touching = [](const ViewLine& line) {
-    return touching_m * (std::abs(line.x) + std::abs(line.y));
-  };
   const ViewPolygon &triangle = seen.polygon, &outline = shade.polygon;
   bool all = shade.is_solid;
   std::size_t p = outline.size() - 1;
   for (std::size_t q = 0; q < outline.size(); p = q++) {
     const ViewLine line = line_through(outline[p], outline[q]);
     const double a = line.beyond(triangle[0]), b = line.beyond(triangle[1]),
-                 c = line.beyond(triangle[2]);
-    if (std::min(std::min(a, b), c) > wider(line) - touching(line)) return Overlap::none;
-    all = all && std::max(std::max(a, b), c) <= -wider(line);
+                 c = line.beyond(triangle[2]), by = wider(line, shade.wider_x, shade.wider_y);
+    if (std::min(std::min(a, b), c) > by - touching(line)) return Overlap::none;
+    all = all && std::max(std::max(a, b), c) <= -by;
   }
-  if (all) return Overlap::all;
+  return all ? Overlap::all : Overlap::some;
+}
+
+/// All of the shade lies beyond an edge of what may be shaded.
+bool GroupShares::is_beside(const Seen& seen, const Shade& shade) {
+  const ViewPolygon &triangle = seen.polygon, &outline = shade.polygon;
   for (std::size_t k = 0; k < 3; ++k) {
     const ViewLine line = line_through(triangle[k], triangle[k < 2 ? k + 1 : 0]);
     double nearest = line.beyond(outline[0]);
     for (std::size_t i = 1; i < outline.size(); ++i)
       nearest = std::min(nearest, line.beyond(outline[i]));
-    if (nearest > wider(line) - touching(line)) return Overlap::none;
+    if (nearest > wider(line, shade.wider_x, shade.wider_y) - touching(line)) return true;
   }
-  return Overlap::some;
+  return false;
 }
 
 void GroupShares::tell_patch(std::uint32_t patch) {
@@ -199,7 +226,8 @@ void GroupShares::tell_patch(std::uint32_t patch) {
   if (!see(shares_.hierarchy().patches()[patch].vertices, suns.frame, seen)) return;
   chosen_.clear();
   for (std::uint32_t number = 0; number < found_.size(); ++number) {
-    const Overlap shaded = overlap(seen, shades_[number]);
+    // A patch that is the group has been asked already.
+    const Overlap shaded = group_->count > 1 ? overlap(seen, shades_[number]) : Overlap::some;
     if (shaded == Overlap::all && faces_all_) return tell(patch, 0);
     if (shaded != Overlap::none) chosen_.push_back(number);
   }
@@ -221,7 +249,7 @@ float GroupShares::share_at(std::uint32_t patch, std::size_t k) {
   for (const auto number : chosen_) {
     const Shade& shade = shade_at(number, k);
     if (!shade.polygon.has_area()) continue;
-    const Overlap shaded = overlap(seen, shade);
+    const Overlap shaded = overlap_by_outline(seen, shade);
     if (shaded == Overlap::all) return 0;
     if (shaded == Overlap::some) kept_.push_back(&shade);
   }
@@ -239,21 +267,27 @@ const GroupShares::Shade& GroupShares::shade_at(std::uint32_t number, std::size_
   shade.wider_x = disk > 0 ? shades_[number].wider_x : 0;
   shade.wider_y = disk > 0 ? shades_[number].wider_y : 0;
   if (!shares_.faces().is_needed(found_[number], frames_[k].to_sun, 2 * disk) ||
-      !outline(found_[number], frames_[k], shade))
+      !outline(found_[number], before_[number], frames_[k], shade))
     shade.polygon.clear();
   return shade;
 }
 
 /// That the kept shades leave of a patch.
 float GroupShares::share(const Seen& patch) {
-  if (kept_.empty()) return 1;
-  if (group_->sends_on || kept_.size() > most_shades || block_[facing_.front()].disk_half_angle > 0)
-    return LitShares::by_rays;
-  cover_.clear();
-  for (const Shade* shade : kept_) {
-    if (!shade->is_solid) return LitShares::by_rays;
-    cover_.push_back(&shade->polygon);
+  const auto is_for_rays = [&] {
+    return group_->sends_on || kept_.size() > most_shades ||
+           block_[facing_.front()].disk_half_angle > 0 ||
+           std::any_of(kept_.begin(), kept_.end(),
+                       [](const Shade* shade) { return !shade->is_solid; });
+  };
+  if (is_for_rays()) {
+    // What lies beside the patch changes no area, but must not send it to rays.
+    std::erase_if(kept_, [&](const Shade* shade) { return is_beside(patch, *shade); });
+    if (!kept_.empty() && is_for_rays()) return LitShares::by_rays;
   }
+  if (kept_.empty()) return 1;
+  cover_.clear();
+  for (const Shade* shade : kept_) cover_.push_back(&shade->polygon);
   const auto lit = area_.share(patch.polygon, cover_);
   return lit ? static_cast<float>(*lit) : LitShares::by_rays;
 }

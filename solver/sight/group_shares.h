@@ -53,13 +53,22 @@ class GroupShares {
     double wider_x = 0, wider_y = 0;  ///< what is nearer to it than that may be shaded or not [m]
     bool is_solid = true;
   };
+  /// How far the corners of a face are before the plane of the group [m].
+  struct Before {
+    std::array<double, SunFaces::most_corners> by;
+    bool all;  ///< of them are
+  };
   enum class Overlap { none, some, all };
   using Numbers = std::vector<std::uint32_t>;
 
   bool see(const Vertices& vertices, const ViewFrame& frame, Seen& seen) const;
   Overlap find_shades(const Seen& group);
-  bool outline(std::uint32_t face, const ViewFrame& frame, Shade& shade) const;
+  bool measure(std::uint32_t face, Before& before) const;
+  bool outline(std::uint32_t face, const Before& before, const ViewFrame& frame,
+               Shade& shade) const;
   static Overlap overlap(const Seen& seen, const Shade& shade);
+  static Overlap overlap_by_outline(const Seen& seen, const Shade& shade);
+  static bool is_beside(const Seen& seen, const Shade& shade);
   void tell_patch(std::uint32_t patch);
   float share_at(std::uint32_t patch, std::size_t k);
   const Shade& shade_at(std::uint32_t number, std::size_t k);
@@ -79,6 +88,7 @@ class GroupShares {
   NumbersSeen asked_;
   Numbers found_;               ///< faces that may shade the group, from any of the suns
   std::vector<Shade> shades_;   ///< these, seen from the middle of the suns; and more room
+  std::vector<Before> before_;  ///< of the same
   std::vector<Shade> of_suns_;  ///< as each sun sees them, [found][suns]; and more room
   std::vector<std::uint8_t> is_made_;
   // The patch at hand:

@@ -23,7 +23,7 @@ constexpr std::size_t most_of_group = 32;
 constexpr std::size_t groups_per_chunk = 64;
 
 /// Width of cells in those of a patch, unless there were more than so many of them for each patch.
-constexpr double cell_of_patch = 4, most_cells_for_patch = 1;
+constexpr double cell_of_patch = 4, most_cells_for_patch = 4;
 constexpr double fewest_cells = 256, most_cells = 1 << 22;
 /// Radius of a cluster of suns.
 constexpr double widest_cluster = 2 * radians_per_degree;

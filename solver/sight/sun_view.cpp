@@ -41,6 +41,10 @@ void SunView::project_faces() {
       needed_.push_back(static_cast<std::uint32_t>(f));
   }
   highest_.z = faces_.top();
+  std::sort(needed_.begin(), needed_.end(), [this](std::uint32_t a, std::uint32_t b) {
+    const double of_a = bounds_[a].highest.along, of_b = bounds_[b].highest.along;
+    return of_a != of_b ? of_a > of_b : a < b;
+  });
 }
 
 void SunView::list_faces() {

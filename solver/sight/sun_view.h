@@ -51,7 +51,7 @@ class SunView {
     return {place(box.x0 - wider_x - x0_), place(box.x1 + wider_x - x0_),
             place(box.y0 - wider_y - y0_), place(box.y1 + wider_y - y0_)};
   }
-  /// Faces that reach into a cell.
+  /// Faces that reach into a cell, by what of them is highest along the light: the highest first.
   std::span<const std::uint32_t> faces_in(std::size_t column, std::size_t row) const {
     const std::size_t cell = row * across_ + column;
     return std::span(face_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
@@ -72,7 +72,7 @@ class SunView {
   Height highest_{-1e300, -1e300};
   std::vector<ViewCorner> corner_;  ///< of all faces
   std::vector<Bounds> bounds_;
-  std::vector<std::uint32_t> needed_;
+  std::vector<std::uint32_t> needed_;  ///< in the same order
   std::vector<std::uint32_t> first_, face_;
 };
 
