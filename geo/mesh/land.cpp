@@ -9,6 +9,7 @@
 #include "geo/base/check.h"
 #include "geo/mesh/box_tree.h"
 #include "geo/mesh/constrained_delaunay.h"
+#include "geo/mesh/land_points.h"
 #include "geo/mesh/land_slope.h"
 #include "geo/mesh/weld.h"
 
@@ -59,6 +60,7 @@ class LandMaker {
     find_points();
     insert_lines();
     add_border();
+    fill_open_land();
     return collect();
   }
 
@@ -165,6 +167,9 @@ class LandMaker {
     reach_ = std::min(slope_reach_m, std::hypot(around.high.x - around.low.x,  //
                                                 around.high.y - around.low.y));
     const Box sloping = widened(around, reach_);
+    near_lines_.low = {std::max(sloping.low.x, lines_.x0), std::max(sloping.low.y, lines_.y0), 0};
+    near_lines_.high = {std::min(sloping.high.x, lines_.x1), std::min(sloping.high.y, lines_.y1),
+                        0};
     Box whole = sloping;
     whole.low = {lines_.x0, lines_.y0, low};
     whole.high = {lines_.x1, lines_.y1, low};
@@ -206,6 +211,35 @@ class LandMaker {
     points_.push_back(p);
   }
 
+  /// Points between the lines, on the triangles that are there.
+  void fill_open_land() {
+    std::vector<Vec3> open = open_land_points(lines_, near_lines_);
+    Delaunay::Face_handle near{};
+    for (Vec3& p : open) {
+      near = delaunay_.locate({p.x, p.y}, near);
+      p.z = delaunay_.is_infinite(near) ? -infinity : height_on(near, p.x, p.y);
+    }
+    near = {};
+    for (const Vec3 p : open) {
+      if (p.z == -infinity) continue;
+      const auto handle = delaunay_.insert({p.x, p.y}, near);
+      handle->info().point = static_cast<std::int32_t>(points_.size());
+      points_.push_back(p);
+      near = handle->face();
+    }
+  }
+
+  double height_on(Delaunay::Face_handle face, double x, double y) const {
+    const auto corner = [&](int k) {
+      return points_[static_cast<std::size_t>(face->vertex(k)->info().point)];
+    };
+    const Vec3 a = corner(0), b = corner(1), c = corner(2);
+    const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    const double u = ((x - a.x) * (c.y - a.y) - (y - a.y) * (c.x - a.x)) / area;
+    const double v = ((b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x)) / area;
+    return a.z + std::clamp(u, 0.0, 1.0) * (b.z - a.z) + std::clamp(v, 0.0, 1.0) * (c.z - a.z);
+  }
+
   Land collect() const {
     Land land;
     land.points = points_;
@@ -224,6 +258,7 @@ class LandMaker {
   BoxTree rim_tree_, foot_tree_;
   LandSlopes slopes_;
   double reach_ = 0, steepest_beyond_ = 0;
+  Box near_lines_;  ///< of the rectangle, as far as land slopes
   std::vector<Vec3> points_;
   Delaunay delaunay_;
   std::vector<Delaunay::Vertex_handle> handles_;

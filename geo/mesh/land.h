@@ -30,11 +30,12 @@ struct Land {
   double steepest_beyond = 0;  ///< slope by which it goes on beyond the lines, at most: a tangent
 };
 
-/// Triangles between all lines, which are edges of theirs. Beyond the convex hull of the lines, up
-/// to the rectangle around them, the land goes on from the hull's nearest point by the slope of the
-/// lines around (geo/mesh/land_slope), for as far as that reaches, but not farther than the lines
-/// extend; then level.
-/// Equal lines give equal bits. Throws InputError where lines cross without end.
+/// Triangles between all lines, which are edges of theirs, with points on open land so that none is
+/// a needle (geo/mesh/land_points): their heights are interpolated between the lines. Beyond the
+/// convex hull of the lines, up to the rectangle around them, the land goes on from the hull's
+/// nearest point by the slope of the lines around (geo/mesh/land_slope), for as far as that
+/// reaches, but not farther than the lines extend; then level. Equal lines give equal bits. Throws
+/// InputError where lines cross without end.
 Land triangulate_land(const LandLines& lines);
 
 }  // namespace sunload
