@@ -8,6 +8,7 @@
 
 #include "geo/base/check.h"
 #include "io/explain/light_of_part.h"
+#include "io/plan/content_hash.h"
 #include "io/plan/rules_of_study.h"
 #include "io/plan/scene_seasons.h"
 #include "io/study/study_text.h"
@@ -22,6 +23,17 @@ InputError other_state(const ResultReader& result, const std::string& why) {
       "its scene cannot be made again: its study or a file of it is not what it was computed from",
       why,
       "name the folder of its study with --study-folder, or run the study again"};
+}
+
+/// Of another state, or by a program whose numbers are others for the same state.
+void expect_same_state(const ResultReader& result, const VariantPlan& plan) {
+  if (result.text_attribute("study_sha256") == plan.content_hash) return;
+  if (result.number_attribute("numerics_version") == numerics_version)
+    throw other_state(result, "its content hash differs");
+  throw InputError({result.path()}, "was computed by another version of the program",
+                   "by " + result.text_attribute("source") +
+                       ": its scene, made again, would not be what it was computed from",
+                   "run the study again, or explain the result by that version");
 }
 
 VariantMesh mesh_of(const VariantPlan& plan) {
@@ -96,8 +108,7 @@ std::unique_ptr<const ResultScene> ResultScenes::of(const ResultReader& result) 
   opened->families.join(plan);
   plan.isa = usable_isa(result.text_attribute("isa"));
   plan.content_hash = hash_with_isa(plan, plan.isa);
-  if (result.text_attribute("study_sha256") != plan.content_hash)
-    throw other_state(result, "its content hash differs");
+  expect_same_state(result, plan);
   return std::make_unique<const ResultScene>(result, std::move(plan));
 }
 

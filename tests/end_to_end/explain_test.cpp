@@ -13,6 +13,7 @@
 #include "io/result/reader.h"
 #include "tests/support/png.h"
 #include "tests/support/program.h"
+#include "tests/support/result_change.h"
 #include "tests/support/square_folder.h"
 #include "tests/support/statistics.h"
 
@@ -313,6 +314,9 @@ TEST(Explain, RefusesWhatItCannotTell) {
             std::string::npos);
   square.folder.write("square.obj", std::string(square_obj) + "v 0 0 9\n" + "f 1 2 19\n");
   EXPECT_NE(refusal({"--object", "house"}).find("not what it was computed from"),
+            std::string::npos);
+  ChangedResult(result).set({.dataset = "", .attribute = "numerics_version", .shape = {}}, 1);
+  EXPECT_NE(refusal({"--object", "house"}).find("another version of the program"),
             std::string::npos);
 }
 
