@@ -83,7 +83,8 @@ Hierarchy::Sides2 Hierarchy::add_leaf(const ElementForest& forest, std::size_t e
   split_[element] = -1 - static_cast<std::int32_t>(patches_.size());
   const auto& c = e.vertices;
   Sides2 sides{-1, -1};
-  for (std::uint8_t side = 0; side < (forest.is_two_sided(element) ? 2 : 1); ++side) {
+  const std::uint8_t count = forest.is_two_sided(element) ? 2 : 1;
+  for (std::uint8_t side = 0; side < count; ++side) {
     sides[side] = static_cast<std::int32_t>(patches_.size());
     patches_.push_back({side == 0 ? c : Corners{c[0], c[2], c[1]}, e.triangle, side});
     area_.push_back(forest.area(element));
