@@ -32,17 +32,55 @@ std::string levels_text(const MeasureWords& words) {
   return text;
 }
 
+using Json = nlohmann::ordered_json;
+
+/// Of what a study can write; results of others may hold anything.
+std::string value_text(const Json& value, int depth = 0) {
+  constexpr int deepest = 4;
+  if (depth > deepest) return "...";
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number()) return fmt::format("{:g}", value.get<double>());
+  if (!value.is_structured()) return value.dump();
+  std::string text;
+  for (const auto& [key, part] : value.items())
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", value.is_object() ? key : "",
+                        value_text(part, depth + 1));
+  return text;
+}
+
+/// [year, month, day].
+bool is_date(const Json& value) {
+  return value.is_array() && value.size() == 3 &&
+         std::all_of(value.begin(), value.end(),
+                     [](const Json& part) { return part.is_number_integer(); });
+}
+std::string date_text(const Json& date) {
+  return fmt::format("{:04}-{:02}-{:02}", date[0].get<int>(), date[1].get<int>(),
+                     date[2].get<int>());
+}
+
+/// As a study writes them, but for what stands in the heading already.
+std::string parameters_text(const MeasureWords& words) {
+  Json parameters = Json::parse(words.parameters, nullptr, false);
+  if (!parameters.is_object()) return words.parameters;
+  if (Json& date = parameters["date"]; is_date(date))
+    date = date_text(date);
+  else
+    parameters.erase("date");
+  parameters.erase("name");
+  parameters.erase("rule");
+  return value_text(parameters);
+}
+
 std::string heading(const MeasureWords& words) {
   std::string text = fmt::format("\n{}: {}\n  {}\n  {}\n", words.name, words.definition,
-                                 words.source, words.parameters);
+                                 words.source, parameters_text(words));
   if (!words.levels.empty())
     text += fmt::format("  {}, on {:g} % of the area\n", levels_text(words), words.area_percent);
   return text;
 }
 
-nlohmann::ordered_json json_number(double value) {
-  return std::isnan(value) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(value);
-}
+Json json_number(double value) { return std::isnan(value) ? Json(nullptr) : Json(value); }
 
 /// Whether it is what rules are about: a facade, a selection, a sensor.
 bool is_judged(const MeasureRow& row) {
@@ -81,7 +119,6 @@ std::string measure_table_text(const ResultReader& result, const std::vector<Mea
 }
 
 std::string measure_table_json(const ResultReader& result, const std::vector<MeasureRow>& rows) {
-  using Json = nlohmann::ordered_json;
   Json measures = Json::array(), list = Json::array();
   for (const auto& name : measure_names(result)) {
     const MeasureWords words = measure_words(result, name);
