@@ -48,6 +48,20 @@ GOTHENBURG = (
     "quarter too bright at both sites, as by a ground of 0.16 in place of the 0.2 that we assume.\n\n"
     f"![Measured light and ours on each day]({PICTURE})")
 
+# Root mean square off the same measurements [W m-2], anisotropic sky: solweig 0.1.0b82 (UMEP), its report of
+# validation, April 2026 (github.com/UMEP-dev/solweig, VALIDATION.md).
+SOLWEIG = {
+    "20051007": {"Kdown": 51.5, "Kup": 7.6},
+    "20051011": {"Kdown": 48.0, "Kup": 8.8},
+    "20060726": {"Kdown": 60.3, "Kup": 14.8},
+    "20060801": {"Kdown": 157.0, "Kup": 22.2},
+}
+BESIDE = (
+    "\n\nBeside it the program that these data were measured for: root mean square off the measured, W/m2, as the report "
+    "of validation of solweig 0.1.0b82 (UMEP, April 2026, anisotropic sky) has them, which takes the stations' hours as "
+    "they are stamped. Of the four sides it has none.\n\n"
+    "| site, day | Kdown, solweig | Kdown, ours | Kup, solweig | Kup, ours |\n|---|--:|--:|--:|--:|\n")
+
 STUDY = """site: {{timezone: "+01:00", crs: "{crs}"}}
 period: {{days: [{day}], from: "{begin:02d}:00", to: "{end:02d}:00", step_min: 60}}
 light: {{source: weather, weather: {weather}, stamp: start}}
@@ -163,6 +177,21 @@ def of_all_days(site, name, days, turn, when):
                seen.mean(), ours.mean(), None, None)
 
 
+def rms_of(day, name):
+    _, seen, ours = day
+    return math.sqrt(np.mean((ours[0][name] - seen[name]) ** 2))
+
+
+def beside_solweig(sites):
+    """A table."""
+    table = BESIDE
+    for site, found in sites:
+        for day in found:
+            cells = [f"{value:.1f}" for name, theirs in SOLWEIG[day].items() for value in (theirs, rms_of(found[day], name))]
+            table += f"| {site[0][11:]}, {day[:4]}-{day[4:6]}-{day[6:]} | {' | '.join(cells)} |\n"
+    return table.rstrip("\n")
+
+
 def draw(sites, folder):
     """A row of pictures for each day: measured, ours, and ours of a mast that is turned."""
     import matplotlib
@@ -204,7 +233,7 @@ def gothenburg(program):
     for row in rows:
         row.section = name
     draw(sites, program.pictures)
-    return Section(name, "Lindberg, Holmer & Thorsson 2008", rows, said=GOTHENBURG)
+    return Section(name, "Lindberg, Holmer & Thorsson 2008", rows, said=GOTHENBURG + beside_solweig(sites))
 
 
 PLANES = {"e_90": (90, 90), "s_90": (180, 90), "w_90": (270, 90), "n_90": (0, 90), "45_e_90": (135, 90),
