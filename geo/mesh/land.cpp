@@ -11,6 +11,7 @@
 #include "geo/mesh/constrained_delaunay.h"
 #include "geo/mesh/land_points.h"
 #include "geo/mesh/land_slope.h"
+#include "geo/mesh/plan_lines.h"
 #include "geo/mesh/weld.h"
 
 namespace sunload {
@@ -27,34 +28,12 @@ struct PointInfo {
 };
 using Delaunay = ConstrainedDelaunay<PointInfo>;
 
-/// The point of a line that is nearest in plan: how far it is, where along the line and how high.
-struct Nearest {
-  double distance, along, z;
-};
-Nearest nearest(const Segment& line, double x, double y) {
-  const auto& [a, b] = line;
-  const double ex = b.x - a.x, ey = b.y - a.y, length2 = ex * ex + ey * ey;
-  const double s =
-      length2 > 0 ? std::clamp(((x - a.x) * ex + (y - a.y) * ey) / length2, 0.0, 1.0) : 0;
-  return {std::hypot(x - a.x - s * ex, y - a.y - s * ey), s, a.z + s * (b.z - a.z)};
-}
-
 Box box_near(const Segment& line) { return widened(box_around({line[0], line[1]}), land_snap_m); }
-
-BoxTree tree_of(const std::vector<Segment>& lines) {
-  std::vector<Box> boxes;
-  boxes.reserve(lines.size());
-  for (const Segment& line : lines) boxes.push_back(in_plan(box_near(line)));
-  return BoxTree(std::move(boxes));
-}
 
 class LandMaker {
  public:
   explicit LandMaker(const LandLines& lines)
-      : lines_(lines),
-        rim_tree_(tree_of(lines.rims)),
-        foot_tree_(tree_of(lines.feet)),
-        slopes_(lines) {}
+      : lines_(lines), rims_(lines.rims), feet_(lines.feet), slopes_(lines) {}
 
   Land run() {
     find_points();
@@ -67,12 +46,10 @@ class LandMaker {
  private:
   /// Rims first; else the highest of the feet here; nothing away from all lines.
   double height(double x, double y) const {
-    for (const bool is_rim : {true, false}) {
+    for (const PlanLines* lines : {&rims_, &feet_}) {
       double highest = -infinity;
-      const auto& lines = is_rim ? lines_.rims : lines_.feet;
-      (is_rim ? rim_tree_ : foot_tree_).visit_column(x, y, [&](std::size_t i) {
-        const Nearest found = nearest(lines[i], x, y);
-        if (found.distance <= land_snap_m) highest = std::max(highest, found.z);
+      lines->visit_within(x, y, land_snap_m, [&](const NearestOnLine& found) {
+        highest = std::max(highest, found.z);
       });
       if (highest > -infinity) return highest;
     }
@@ -134,7 +111,7 @@ class LandMaker {
   void insert_line(const Segment& line, const BoxTree& tree) {
     std::vector<std::pair<double, std::size_t>> on;
     tree.visit_meeting(upright(box_near(line)), [&](std::size_t p) {
-      const Nearest found = nearest(line, points_[p].x, points_[p].y);
+      const NearestOnLine found = nearest_in_plan(line, points_[p].x, points_[p].y);
       if (found.distance <= land_snap_m) on.emplace_back(found.along, p);
     });
     std::sort(on.begin(), on.end());
@@ -192,10 +169,10 @@ class LandMaker {
   }
 
   void add_border_point(Vec3 p, const std::vector<Segment>& hull) {
-    Nearest best{infinity, 0, p.z};
+    NearestOnLine best{infinity, 0, p.z};
     Vec3 foot = p;
     for (const Segment& edge : hull) {
-      const Nearest found = nearest(edge, p.x, p.y);
+      const NearestOnLine found = nearest_in_plan(edge, p.x, p.y);
       if (found.distance >= best.distance) continue;
       best = found;
       foot = edge[0] + found.along * (edge[1] - edge[0]);
@@ -229,6 +206,7 @@ class LandMaker {
     }
   }
 
+  /// Where `height_at` would refuse what rounding puts beside an edge.
   double height_on(Delaunay::Face_handle face, double x, double y) const {
     const auto corner = [&](int k) {
       return points_[static_cast<std::size_t>(face->vertex(k)->info().point)];
@@ -255,7 +233,7 @@ class LandMaker {
   }
 
   const LandLines& lines_;
-  BoxTree rim_tree_, foot_tree_;
+  PlanLines rims_, feet_;
   LandSlopes slopes_;
   double reach_ = 0, steepest_beyond_ = 0;
   Box near_lines_;  ///< of the rectangle, as far as land slopes

@@ -5,16 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geo/mesh/plan_lines.h"
+
 namespace sunload {
 
 namespace {
-
-BoxTree tree_of(const std::vector<Segment>& lines) {
-  std::vector<Box> boxes;
-  boxes.reserve(lines.size());
-  for (const auto& [a, b] : lines) boxes.push_back(in_plan(box_around({a, b})));
-  return BoxTree(std::move(boxes));
-}
 
 double mean_length(const std::vector<Segment>& lines) {
   double sum = 0;
@@ -27,8 +22,8 @@ class QuadTree {
   QuadTree(const LandLines& lines, const Box& rectangle)
       : rectangle_(rectangle),
         finest_(std::max(finest_land_m, mean_length(lines.feet))),
-        from_feet_(lines.feet),
-        from_rims_(lines.rims) {}
+        feet_(lines.feet),
+        rims_(lines.rims) {}
 
   std::vector<Vec3> run() {
     const Vec3 size = 2 * half_of(rectangle_), middle = centre_of(rectangle_);
@@ -48,7 +43,7 @@ class QuadTree {
     }
   }
   bool has_lines_within(Vec3 p, double distance_m) const {
-    return from_feet_.is_within(p.x, p.y, distance_m) || from_rims_.is_within(p.x, p.y, distance_m);
+    return feet_.any_within(p.x, p.y, distance_m) || rims_.any_within(p.x, p.y, distance_m);
   }
   /// So far from all lines and from the border.
   bool is_open(Vec3 p, double distance_m) const {
@@ -59,27 +54,11 @@ class QuadTree {
 
   Box rectangle_;
   double finest_;
-  LandDistance from_feet_, from_rims_;
+  PlanLines feet_, rims_;
   std::vector<Vec3> points_;
 };
 
 }  // namespace
-
-LandDistance::LandDistance(const std::vector<Segment>& lines)
-    : lines_(lines), tree_(tree_of(lines)) {}
-
-bool LandDistance::is_within(double x, double y, double distance_m) const {
-  bool found = false;
-  tree_.visit_meeting(upright(widened({{x, y, 0}, {x, y, 0}}, distance_m)), [&](std::size_t i) {
-    if (found) return;
-    const auto& [a, b] = lines_[i];
-    const double ex = b.x - a.x, ey = b.y - a.y, length2 = ex * ex + ey * ey;
-    const double s =
-        length2 > 0 ? std::clamp(((x - a.x) * ex + (y - a.y) * ey) / length2, 0.0, 1.0) : 0;
-    found = std::hypot(x - a.x - s * ex, y - a.y - s * ey) <= distance_m;
-  });
-  return found;
-}
 
 std::vector<Vec3> open_land_points(const LandLines& lines, const Box& rectangle) {
   if (lines.feet.empty()) return {};

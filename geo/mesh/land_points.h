@@ -11,19 +11,6 @@
 
 namespace sunload {
 
-/// Lines and how far a point is from them in plan.
-class LandDistance {
- public:
-  /// `lines` must outlive it.
-  explicit LandDistance(const std::vector<Segment>& lines);
-  /// Whether one of them is no farther away than that.
-  bool is_within(double x, double y, double distance_m) const;
-
- private:
-  const std::vector<Segment>& lines_;
-  BoxTree tree_;
-};
-
 /// No two points are nearer to each other than that, nor to a line than half of it.
 inline constexpr double finest_land_m = 2;
 

@@ -43,7 +43,7 @@ std::string value_text(const Json& value, int depth = 0) {
   if (!value.is_structured()) return value.dump();
   std::string text;
   for (const auto& [key, part] : value.items())
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", value.is_object() ? key : "",
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", value.is_object() ? key + " " : "",
                         value_text(part, depth + 1));
   return text;
 }

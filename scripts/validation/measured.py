@@ -114,9 +114,17 @@ def ground_below(result, x, y):
     return centre[np.argmin(np.hypot(centre[:, 0] - x, centre[:, 1] - y)), 2]
 
 
+def date_of(day):
+    return f"{day[:4]}-{day[4:6]}-{day[6:]}"
+
+
+def rms(off):
+    return math.sqrt(np.mean(off ** 2))
+
+
 def study_of(site, folder, day, hours, sensors):
     surface, terrain, crowns = (os.path.join(folder, name) for name in site[1])
-    return STUDY.format(crs=site[2], day=f"{day[:4]}-{day[4:6]}-{day[6:]}", begin=min(hours), end=max(hours) + 1,
+    return STUDY.format(crs=site[2], day=date_of(day), begin=min(hours), end=max(hours) + 1,
                         weather="forcing.csv", surface=surface, terrain=terrain, canopy=crowns,
                         sensors=", ".join(
                             "{position_m: [%.3f, %.3f, %.3f], normal: [%.6f, %.6f, %.6f]}" % (*at, *look)
@@ -154,15 +162,15 @@ def measured_site(program, site):
 def rms_of_walls(days, turn):
     """Of the four directions that look to the sides."""
     off = [ours[turn][name] - seen[name] for _, seen, ours in days for name in WALLS]
-    return math.sqrt(np.mean(np.concatenate(off) ** 2))
+    return rms(np.concatenate(off))
 
 
 def best_turn(days):
     """The lowest point of a parabola through the best of the turns and its two neighbours [deg]."""
-    rms = [rms_of_walls(days, turn) for turn in TURNS_DEG]
-    k = min(max(int(np.argmin(rms)), 1), len(rms) - 2)
-    bend = rms[k - 1] - 2 * rms[k] + rms[k + 1]
-    return TURNS_DEG[k] + TURN_STEP_DEG * (rms[k - 1] - rms[k + 1]) / (2 * bend)
+    off = [rms_of_walls(days, turn) for turn in TURNS_DEG]
+    k = min(max(int(np.argmin(off)), 1), len(off) - 2)
+    bend = off[k - 1] - 2 * off[k] + off[k + 1]
+    return TURNS_DEG[k] + TURN_STEP_DEG * (off[k - 1] - off[k + 1]) / (2 * bend)
 
 
 def nearest_turn(turn):
@@ -172,23 +180,18 @@ def nearest_turn(turn):
 def of_all_days(site, name, days, turn, when):
     seen = np.concatenate([seen[name] for _, seen, _ in days])
     ours = np.concatenate([ours[turn][name] for _, _, ours in days])
-    rms, r2 = math.sqrt(np.mean((ours - seen) ** 2)), np.corrcoef(seen, ours)[0, 1] ** 2
-    return Row("", f"{site[0][11:]} {name}{when}, mean of {len(seen)} hours, W/m2 (rms {rms:.0f}, R2 {r2:.2f})",
+    r2 = np.corrcoef(seen, ours)[0, 1] ** 2
+    return Row("", f"{site[0][11:]} {name}{when}, mean of {len(seen)} hours, W/m2 (rms {rms(ours - seen):.0f}, R2 {r2:.2f})",
                seen.mean(), ours.mean(), None, None)
-
-
-def rms_of(day, name):
-    _, seen, ours = day
-    return math.sqrt(np.mean((ours[0][name] - seen[name]) ** 2))
 
 
 def beside_solweig(sites):
     """A table."""
     table = BESIDE
     for site, found in sites:
-        for day in found:
-            cells = [f"{value:.1f}" for name, theirs in SOLWEIG[day].items() for value in (theirs, rms_of(found[day], name))]
-            table += f"| {site[0][11:]}, {day[:4]}-{day[4:6]}-{day[6:]} | {' | '.join(cells)} |\n"
+        for day, (_, seen, ours) in found.items():
+            cells = [f"{theirs:.1f} | {rms(ours[0][name] - seen[name]):.1f}" for name, theirs in SOLWEIG[day].items()]
+            table += f"| {site[0][11:]}, {date_of(day)} | {' | '.join(cells)} |\n"
     return table.rstrip("\n")
 
 
@@ -205,7 +208,7 @@ def draw(sites, folder):
             cell.plot(hours, seen[name], "k.-", label="measured")
             cell.plot(hours, ours[0][name], color="tab:blue", label="ours")
             cell.plot(hours, ours[turn][name], "--", color="tab:orange", label="ours, the mast turned as fits best")
-        line[0].set_ylabel(f"{site[0][11:]}\n{day[:4]}-{day[4:6]}-{day[6:]}\nW/m²", fontsize=8)
+        line[0].set_ylabel(f"{site[0][11:]}\n{date_of(day)}\nW/m²", fontsize=8)
     for cell, name in zip(axes[0], DIRECTIONS):
         cell.set_title(name, fontsize=9)
     axes[0][0].legend(fontsize=6)
