@@ -12,7 +12,9 @@ sys.path.append(os.path.join(ROOT, "scripts", "plot"))
 
 import interpreter  # noqa: E402,F401  goes on with a Python that has h5py and numpy
 
+import boxes  # noqa: E402
 import cases  # noqa: E402
+import furnaces  # noqa: E402
 import measured  # noqa: E402
 import meshes  # noqa: E402
 import methods  # noqa: E402
@@ -22,7 +24,7 @@ import reference_tests  # noqa: E402
 import seeds  # noqa: E402
 from program import Program  # noqa: E402
 
-KINDS = ("reference", "cases", "methods", "meshes", "seeds", "pairs", "measured")
+KINDS = ("reference", "cases", "furnaces", "boxes", "methods", "meshes", "seeds", "pairs", "measured")
 
 
 def main():
@@ -42,8 +44,8 @@ def main():
         if kind == "reference":
             sections += reference_tests.all_sections(build, tell)
         else:
-            made = {"cases": cases, "methods": methods, "meshes": meshes, "seeds": seeds, "pairs": pairs,
-                    "measured": measured}[kind]
+            made = {"cases": cases, "furnaces": furnaces, "boxes": boxes, "methods": methods, "meshes": meshes,
+                    "seeds": seeds, "pairs": pairs, "measured": measured}[kind]
             sections += made.sections(program, tell)
     page.write(sections, os.path.join(arguments.output, "validation.md"),
                os.path.join(arguments.output, "validation.csv"))

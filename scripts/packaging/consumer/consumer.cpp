@@ -20,10 +20,7 @@ int main() {
   Scene scene{.mesh = prepare(model, {}).mesh, .materials = {{"plaster", 0.5}}, .material = {}};
   scene.material.assign(scene.mesh.triangle_count(), MaterialId{0});
 
-  IntervalLight noon;  // one hour of it
-  noon.direction = normalized(Vec3{0, -1, 1});
-  noon.dni = 800;
-  noon.dhi = 100;
+  IntervalLight noon{.direction = normalized(Vec3{0, -1, 1}), .dni = 800, .dhi = 100};
   noon.length_s = noon.sunlit_s = 3600;
   noon.sky.assign(static_cast<std::size_t>(SkyGrid().cell_count()), noon.dhi / pi);
 
@@ -31,14 +28,13 @@ int main() {
   const auto traced = trace_scene(scene, SplitRules{.max_edge_m = 1}, SolverRules{}, watch);
   const Solved solved = solve(*transport_of(*traced), {&noon, 1}, watch);
 
-  const BatchTally& received = solved.bands.front();
   std::printf("patch,area_m2,irradiance_w_m2,standard_error_w_m2\n");
-  for (std::size_t p = 0; p < traced->hierarchy().patches().size(); ++p) {
-    std::vector<double> realizations;
-    for (const auto& exposure : received.exposure_realization)
-      realizations.push_back(exposure[p] / noon.length_s);
-    const MeanError of_patch = mean_error(realizations);
-    const double area = traced->hierarchy().area()[p];
-    std::printf("%zu,%.4f,%.2f,%.2f\n", p, area, of_patch.mean, of_patch.standard_error);
+  const std::vector<double>& area = traced->hierarchy().area();
+  for (std::size_t p = 0; p < area.size(); ++p) {
+    std::vector<double> of_patch;
+    for (const auto& realization : solved.bands.front().exposure_realization)
+      of_patch.push_back(realization[p] / noon.length_s);
+    const MeanError irradiance = mean_error(of_patch);
+    std::printf("%zu,%.4f,%.2f,%.2f\n", p, area[p], irradiance.mean, irradiance.standard_error);
   }
 }
