@@ -126,13 +126,20 @@ GroupShares::Overlap GroupShares::find_shades(const Seen& group) {
         if (!measure(face, before_[found_.size()])) continue;
         if (!outline(face, before_[found_.size()], suns.frame, shade)) continue;
         const Overlap shaded = overlap(group, shade);
-        if (shaded == Overlap::all && faces_all_) return Overlap::all;
+        if (shaded == Overlap::all && hides_all_suns(face)) return Overlap::all;
         if (shaded != Overlap::none) found_.push_back(face);
       }
   if (found_.empty()) return Overlap::none;
   is_made_.assign(found_.size() * suns.count, 0);
-  if (suns.count > 1 && of_suns_.size() < is_made_.size()) of_suns_.resize(is_made_.size());
+  if (of_suns_.size() < is_made_.size()) of_suns_.resize(is_made_.size());
   return Overlap::some;
+}
+
+/// Of a face before all that is looked at: that each sun by itself would find it so.
+bool GroupShares::hides_all_suns(std::uint32_t face) const {
+  return faces_all_ && std::all_of(facing_.begin(), facing_.end(), [&](std::size_t k) {
+           return shares_.faces().is_needed(face, frames_[k].to_sun, 2 * block_[k].disk_spread());
+         });
 }
 
 /// How far the face's corners are before the plane of the group; false where none is.
@@ -228,17 +235,14 @@ void GroupShares::tell_patch(std::uint32_t patch) {
   for (std::uint32_t number = 0; number < found_.size(); ++number) {
     // A patch that is the group has been asked already.
     const Overlap shaded = group_->count > 1 ? overlap(seen, shades_[number]) : Overlap::some;
-    if (shaded == Overlap::all && faces_all_) return tell(patch, 0);
+    if (shaded == Overlap::all && hides_all_suns(found_[number])) return tell(patch, 0);
     if (shaded != Overlap::none) chosen_.push_back(number);
   }
   if (chosen_.empty()) return tell(patch, 1);
-  if (suns.count > 1) {
-    for (const auto k : facing_) out_[patch * block_width + k] = share_at(patch, k);
-    return;
-  }
-  kept_.clear();
-  for (const auto number : chosen_) kept_.push_back(&shades_[number]);
-  tell(patch, share(seen));
+  // Polygons are taken away in an order, and so rounded, that no other sun has a part in.
+  std::sort(chosen_.begin(), chosen_.end(),
+            [this](std::uint32_t a, std::uint32_t b) { return found_[a] < found_[b]; });
+  for (const auto k : facing_) out_[patch * block_width + k] = share_at(patch, k);
 }
 
 float GroupShares::share_at(std::uint32_t patch, std::size_t k) {
@@ -249,7 +253,7 @@ float GroupShares::share_at(std::uint32_t patch, std::size_t k) {
   for (const auto number : chosen_) {
     const Shade& shade = shade_at(number, k);
     if (!shade.polygon.has_area()) continue;
-    const Overlap shaded = overlap_by_outline(seen, shade);
+    const Overlap shaded = overlap(seen, shade);
     if (shaded == Overlap::all) return 0;
     if (shaded == Overlap::some) kept_.push_back(&shade);
   }
@@ -263,7 +267,7 @@ const GroupShares::Shade& GroupShares::shade_at(std::uint32_t number, std::size_
   if (is_made_[at] != 0) return shade;
   is_made_[at] = 1;
   const double disk = block_[k].disk_spread();
-  // A disk drifts no more than all of the suns do.
+  // Suns with a disk are looked at one by one (solver/sight/sun_clusters.h).
   shade.wider_x = disk > 0 ? shades_[number].wider_x : 0;
   shade.wider_y = disk > 0 ? shades_[number].wider_y : 0;
   if (!shares_.faces().is_needed(found_[number], frames_[k].to_sun, 2 * disk) ||
@@ -274,18 +278,12 @@ const GroupShares::Shade& GroupShares::shade_at(std::uint32_t number, std::size_
 
 /// That the kept shades leave of a patch.
 float GroupShares::share(const Seen& patch) {
-  const auto is_for_rays = [&] {
-    return group_->sends_on || kept_.size() > most_shades ||
-           block_[facing_.front()].disk_half_angle > 0 ||
-           std::any_of(kept_.begin(), kept_.end(),
-                       [](const Shade* shade) { return !shade->is_solid; });
-  };
-  if (is_for_rays()) {
-    // What lies beside the patch changes no area, but must not send it to rays.
-    std::erase_if(kept_, [&](const Shade* shade) { return is_beside(patch, *shade); });
-    if (!kept_.empty() && is_for_rays()) return LitShares::by_rays;
-  }
   if (kept_.empty()) return 1;
+  const bool is_for_rays =
+      group_->sends_on || kept_.size() > most_shades ||
+      block_[facing_.front()].disk_half_angle > 0 ||
+      std::any_of(kept_.begin(), kept_.end(), [](const Shade* shade) { return !shade->is_solid; });
+  if (is_for_rays) return LitShares::by_rays;
   cover_.clear();
   for (const Shade* shade : kept_) cover_.push_back(&shade->polygon);
   const auto lit = area_.share(patch.polygon, cover_);

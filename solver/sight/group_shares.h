@@ -63,6 +63,7 @@ class GroupShares {
 
   bool see(const Vertices& vertices, const ViewFrame& frame, Seen& seen) const;
   Overlap find_shades(const Seen& group);
+  bool hides_all_suns(std::uint32_t face) const;
   bool measure(std::uint32_t face, Before& before) const;
   bool outline(std::uint32_t face, const Before& before, const ViewFrame& frame,
                Shade& shade) const;

@@ -45,7 +45,9 @@ std::vector<SunCluster> sun_clusters(std::span<const IntervalLight> block, doubl
   const double limit = std::tan(widest);
   for (std::size_t k = 0; k < block.size(); ++k) {
     if (!block[k].has_sun()) continue;
-    if (!clusters.empty() && clusters.back().first + clusters.back().count == k) {
+    const bool is_next = !clusters.empty() && clusters.back().first + clusters.back().count == k;
+    if (is_next && block[k].disk_half_angle <= 0 &&
+        block[clusters.back().first].disk_half_angle <= 0) {
       const SunCluster with_it =
           cluster_of(block, clusters.back().first, clusters.back().count + 1);
       if (std::max(with_it.drift_x, with_it.drift_y) <= limit) {

@@ -35,7 +35,8 @@ struct SunCluster {
 };
 
 /// All suns of the block that are above the horizon, in their order; none farther than `widest`
-/// (radians) from the middle of its cluster.
+/// (radians) from the middle of its cluster. Suns with a disk stand alone: what of the disk may be
+/// hidden is told within bounds, which must not depend on the suns beside it.
 std::vector<SunCluster> sun_clusters(std::span<const IntervalLight> block, double widest);
 
 }  // namespace sunload
