@@ -11,6 +11,7 @@
 
 #include "io/base/exit_code.h"
 #include "io/base/merge_lock.h"
+#include "io/plan/content_hash.h"
 #include "io/plan/expected_error.h"
 #include "io/plan/room.h"
 #include "io/plan/rules_of_study.h"
@@ -33,6 +34,12 @@ void expect_room_for(const WorkEstimate& work, const std::string& folder, double
 }
 
 InputError of_another_state(const WorkFolder& folder, const std::string& hash, const char* hint) {
+  const ResultReader result(folder.result());
+  if (result.number_attribute("numerics_version") != numerics_version)
+    return {{folder.result()},
+            "is the result of another version of the program",
+            "by " + result.text_attribute("source") + ", whose numbers are others",
+            hint};
   const bool is_of_this_light = hash.starts_with(folder.content_hash());
   return {{folder.result()},
           "is the result of another state of the study",

@@ -14,6 +14,7 @@
 #include "io/base/waiting_lock.h"
 #include "tests/support/child_process.h"
 #include "tests/support/program.h"
+#include "tests/support/result_change.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"
 
@@ -113,6 +114,13 @@ TEST(Shards, ByHandForAnyNumberOfVariants) {
   EXPECT_EQ(other.code, 2) << other.err;
   EXPECT_NE(other.err.find("is the result of another state of the study"), std::string::npos)
       << other.err;
+  for (const auto& name : files(folder, ".h5"))
+    ChangedResult(folder / ("results/" + name))
+        .set({.dataset = "", .attribute = "numerics_version", .shape = {}}, 1);
+  const Ran older = run("1/3");
+  EXPECT_EQ(older.code, 2) << older.err;
+  EXPECT_NE(older.err.find("is the result of another version of the program"), std::string::npos)
+      << older.err;
 }
 
 TEST(Shards, AtTheSameTimeGiveTheSameBits) {
