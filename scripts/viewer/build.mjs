@@ -47,7 +47,8 @@ function page() {
 function pieces(name, text) {
   const list = [];
   for (let k = 0; k < text.length; k += pieceLength)
-    list.push(`R"sunload~(${text.slice(k, k + pieceLength)})sunload~"`);
+    // With their length: to count it is more than Clang does of constants.
+    list.push(`R"sunload~(${text.slice(k, k + pieceLength)})sunload~"sv`);
   const array = list.length ? `  static constexpr std::string_view pieces[] = {\n${list.join(",\n")}};\n  return pieces;` : "  return {};";
   return `std::span<const std::string_view> ${name}() {\n${array}\n}\n`;
 }
@@ -62,5 +63,5 @@ try {
 if (why) console.error(`viewer: built without its page, because npm could not install its packages (to try again, remove ${target} and build):\n${why}`);
 else parts = page();
 mkdirSync(dirname(target), { recursive: true });
-writeFileSync(target, `#include "io/view/page.h"\n\nnamespace sunload {\n\n${pieces("viewer_page_head", parts[0])}
+writeFileSync(target, `#include "io/view/page.h"\n\nnamespace sunload {\n\nusing namespace std::string_view_literals;\n\n${pieces("viewer_page_head", parts[0])}
 ${pieces("viewer_page_tail", parts[1])}\n}  // namespace sunload\n`);
