@@ -42,15 +42,22 @@ double bytes_of(const RaySums& sums) {
 void empty(RayRecord& record, RayRecord::State state) {
   RayRecord nothing;
   nothing.most_bytes = record.most_bytes;
+  nothing.suns_sky = record.suns_sky;
   nothing.state = state;
   record = std::move(nothing);
 }
 
 }  // namespace
 
-BatchRays::BatchRays(const TracedScene& traced, RayRecord* record)
+BatchRays::BatchRays(const TracedScene& traced, SunsSky suns_sky, RayRecord* record)
     : traced_(traced), record_(record) {
-  if (record_ && !takes()) empty(*record_, RayRecord::State::written);
+  if (!record_) return;
+  if (!takes()) {
+    record_->suns_sky = suns_sky;
+    empty(*record_, RayRecord::State::written);
+  } else if (record_->suns_sky != suns_sky) {
+    record_ = nullptr;
+  }
 }
 
 BlockRays BatchRays::next(const BlockSources& sources, const Kept& kept,

@@ -12,9 +12,13 @@
 
 namespace sunload {
 
+/// Whether rays are cast to the bright sky about the sun: some transports solve it elsewhere.
+enum class SunsSky { by_rays, elsewhere };
+
 /// Of one batch, in the order of its blocks.
 struct RayRecord {
   double most_bytes = 0;  ///< a larger one is given up
+  SunsSky suns_sky = SunsSky::by_rays;
   std::vector<BlockRays> blocks;
   std::vector<RaySums> on_patches, on_sensors;  ///< of the whole batch, of all sums over time
   WorkDone work;                                ///< rays and beams; no seconds
@@ -26,9 +30,9 @@ struct RayRecord {
 /// it gets the same bits either way.
 class BatchRays {
  public:
-  /// `record`: null where nothing is kept; a whole one is taken from, another is written, from
-  /// nothing. It must outlive this.
-  BatchRays(const TracedScene& traced, RayRecord* record);
+  /// `record`: null where nothing is kept; a whole one is taken from where its rays are those that
+  /// are wanted, and else left alone; another is written, from nothing. It must outlive this.
+  BatchRays(const TracedScene& traced, SunsSky suns_sky, RayRecord* record);
   /// As `light_iteration`; what goes into `sums` may come with `end` only.
   BlockRays next(const BlockSources& sources, const Kept& kept, std::span<const TimedSums> sums,
                  WorkDone& work);

@@ -22,7 +22,7 @@ class GatheredBatch : public BatchTransport {
  public:
   GatheredBatch(const TracedScene& traced, std::vector<BatchTally>& tallies, WorkDone& work,
                 RayRecord* record)
-      : traced_(traced), tallies_(tallies), work_(work), rays_(traced, record) {
+      : traced_(traced), tallies_(tallies), work_(work), rays_(traced, SunsSky::by_rays, record) {
     for (std::size_t b = 0; b < tallies.size(); ++b) {
       sums_.push_back(empty_sums(traced));
       part_sums_.emplace_back(traced, b, tallies[b]);

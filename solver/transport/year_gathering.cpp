@@ -174,7 +174,7 @@ class YearBatch : public BatchTransport {
         nodes_(nodes),
         tally_(tally),
         work_(work),
-        rays_(traced, record),
+        rays_(traced, SunsSky::elsewhere, record),
         sums_(empty_sums(traced)),
         parts_(traced, 0, tally),
         shares_of_parts_(parts_.count()) {}

@@ -180,5 +180,35 @@ TEST_F(YearOfTheSquare, WrongNodesAreNoticed) {
   EXPECT_GT(wrong.reduction()->error_w_m2, 3 * solutions->modes.reduction->error_w_m2);
 }
 
+/// Variants of which rays tell the same share what is traced: but rays of a year, whose sky about
+/// the sun its nodes have, are none of solutions of each interval, nor the other way.
+TEST_F(YearOfTheSquare, SharesNoRaysWithSolutionsOfEachInterval) {
+  const VariantPlan& plan = solutions->each.plan;
+  Watch watch;
+  SolverRules rules = solver_rules(plan);
+  rules.errors = Errors::totals;
+  const auto traced = trace_scene(plan.built.scene, solutions->each.made.mesh, rules, watch);
+  const IntervalLights lights(plan.study, plan.built.site, traced->grid);
+  const SeriesLight period(lights, plan.light);
+  const YearGathering year(*traced, period);
+  const auto each = transport_of(*traced);
+  std::vector<IntervalLight> day = suns_of(plan, traced->grid);
+  std::erase_if(day, [](const IntervalLight& light) { return !light.has_sun(); });
+  day.resize(20);
+  const auto loads = [&](const LightTransport& transport, RayRecord* record) {
+    return solve(transport, day, watch, {}, record).bands.front().exposure_realization;
+  };
+  const LightTransport* const both[] = {&year, each.get()};
+  for (const LightTransport* writer : both) {
+    RayRecord record;
+    record.most_bytes = 1e9;
+    loads(*writer, &record);
+    ASSERT_EQ(record.state, RayRecord::State::whole);
+    for (const LightTransport* taker : both)
+      EXPECT_EQ(loads(*taker, &record), loads(*taker, nullptr));
+    EXPECT_EQ(record.state, RayRecord::State::whole);
+  }
+}
+
 }  // namespace
 }  // namespace sunload::test
