@@ -188,7 +188,7 @@ std::string period_text(const InitRules& rules, const Findings& found, const std
                mark, days_of(found)) +
            weather_text(rules, found, folder);
   return fmt::format(
-      "# Spring, the longest day and the shortest, in civil time.\n"
+      "# An equinox and both solstices, in civil time.\n"
       "period: {{days: [{0}-03-21, {0}-06-21, {0}-12-21], step_min: 60}}\n"
       "# Cloudless. With measured or typical weather (EPW, TMY3, WEA, CSV): source: weather, "
       "weather: FILE\n"

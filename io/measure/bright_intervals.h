@@ -10,8 +10,9 @@ namespace sunload {
 /// 120 W m-2: what the World Meteorological Organization calls sunshine.
 inline constexpr double sunshine_w_m2 = 120;
 
-/// Stretches of the intervals whose DNI while sunlit is at least so much; `in_winter`: those that
-/// begin from 21 September up to 21 March alone (UTC).
+/// Stretches of the intervals whose DNI while sunlit is at least so much; in winter: those alone
+/// whose middle lies from 21 September up to 21 March by the site's clock, the other half of the
+/// year south of the equator.
 enum class InSeason { year, winter };
 std::vector<SunStretch> bright_stretches(const MeasuredScene& scene, double least_dni,
                                          InSeason season = InSeason::year);

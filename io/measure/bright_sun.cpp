@@ -1,26 +1,47 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Hours of sunshine as weather stations count them, where nothing stands before the sun.
+#include <optional>
+#include <utility>
+
 #include "geo/base/units.h"
 #include "io/measure/all_rules.h"
 #include "io/measure/bright_intervals.h"
 
 namespace sunload {
 
+namespace {
+
+/// From the equinox of autumn to that of spring, as British practice takes them, by the site's
+/// clock.
+class Winter {
+ public:
+  explicit Winter(const Site& site) : zone_(site.timezone), is_south_(site.latitude_deg < 0) {}
+  bool has(const MeasuredInterval& interval) const {
+    constexpr int march = 3, september = 9, day_of_equinox = 21;
+    const UnixTime middle = interval.begin + (interval.end - interval.begin) / 2;
+    const CivilTime date = zone_.civil_from_utc(middle);
+    const auto place = std::pair(date.month, date.day);
+    const bool is_northern_summer =
+        place >= std::pair(march, day_of_equinox) && place < std::pair(september, day_of_equinox);
+    return is_northern_summer == is_south_;
+  }
+
+ private:
+  TimeZone zone_;
+  bool is_south_;
+};
+
+}  // namespace
+
 std::vector<SunStretch> bright_stretches(const MeasuredScene& scene, double least_dni,
                                          InSeason season) {
-  // Equinoxes, as British practice takes them.
-  constexpr int march = 3, september = 9, day_of_equinox = 21;
+  std::optional<Winter> winter;
+  if (season == InSeason::winter) winter.emplace(scene.site);
   std::vector<SunStretch> suns;
-  for (const MeasuredInterval& interval : scene.intervals) {
-    if (interval.dni < least_dni) continue;
-    const CivilTime date = calendar_from_utc(interval.begin);
-    const auto place = std::pair(date.month, date.day);
-    const bool is_summer =
-        place >= std::pair(march, day_of_equinox) && place < std::pair(september, day_of_equinox);
-    if (season == InSeason::winter && is_summer) continue;
-    suns.insert(suns.end(), interval.suns.begin(), interval.suns.end());
-  }
+  for (const MeasuredInterval& interval : scene.intervals)
+    if (interval.dni >= least_dni && (!winter || winter->has(interval)))
+      suns.insert(suns.end(), interval.suns.begin(), interval.suns.end());
   return suns;
 }
 

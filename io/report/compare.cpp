@@ -182,6 +182,19 @@ std::vector<std::string> notes_on(const Side& base, const Side& variant) {
   if (version(base) != version(variant))
     notes.push_back("the two results come from different versions: " + version(base) + " and " +
                     version(variant));
+  const auto differ = [&](const char* attribute) {
+    return std::abs(base.result.number_attribute(attribute) -
+                    variant.result.number_attribute(attribute)) > 0;
+  };
+  if (differ("bounces"))
+    notes.push_back(fmt::format(
+        "{} reflections are followed in one result and {} in the other, and the rest is estimated: "
+        "small differences may be of that; solver.unshot: 0 follows as many in both",
+        base.result.number_attribute("bounces"), variant.result.number_attribute("bounces")));
+  if (differ("north_deg"))
+    notes.push_back(
+        "the scenes are turned against each other: facades and orientations are named by their "
+        "azimuth, and one name may be of two walls; objects are the same");
   return notes;
 }
 

@@ -48,7 +48,8 @@ std::string errors_in_words(const Comparison& c) {
     case Comparison::Errors::unknown:
       break;
   }
-  return "no standard errors: a result has fewer than 2 realizations";
+  return "no standard errors: a result has fewer than 2 realizations, or none of this part of the "
+         "period, which output.totals would store";
 }
 
 /// Beside the standard error, where meshes differ.

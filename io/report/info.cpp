@@ -200,8 +200,9 @@ std::string sensors(const ResultReader& result) {
   const auto [least, largest] = std::minmax_element(load.begin(), load.end());
   const double mean =
       std::accumulate(load.begin(), load.end(), 0.0) / static_cast<double>(load.size());
-  auto text = info_line("sensors", fmt::format("{}: light load {:.4g} … {:.4g} kWh/m², mean {:.4g}",
-                                               load.size(), *least, *largest, mean));
+  auto text = info_line(
+      "sensors", fmt::format("{}: light load {:.4g} … {:.4g} {}, mean {:.4g}", load.size(), *least,
+                             *largest, display_units(result.units("sensor_light_load")), mean));
   if (!result.has("sensor_light_load_se")) return text;
   const auto se = result.doubles("sensor_light_load_se");
   std::vector<double> relative, weight;

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "geo/base/check.h"
+#include "io/base/table_line.h"
 #include "io/scene/base/from_file.h"
 
 namespace sunload {
@@ -20,22 +21,9 @@ namespace {
 
 constexpr std::array<std::string_view, 6> column_names{"x", "y", "z", "nx", "ny", "nz"};
 constexpr std::size_t most_problems = 20;  // of a file with another meaning, the first will do
-constexpr std::string_view separators = ",; \t\r";
 
 using Fields = std::vector<std::string_view>;
 using Columns = std::array<std::size_t, column_names.size()>;
-
-Fields fields_of(std::string_view line) {
-  line = line.substr(0, line.find('#'));
-  Fields fields;
-  while (true) {
-    const auto begin = line.find_first_not_of(separators);
-    if (begin == line.npos) return fields;
-    const auto end = std::min(line.find_first_of(separators, begin), line.size());
-    fields.push_back(line.substr(begin, end - begin));
-    line.remove_prefix(end);
-  }
-}
 
 std::optional<double> number_of(std::string_view field) {
   if (field.starts_with('+')) field.remove_prefix(1);
@@ -62,7 +50,12 @@ class SensorTable {
     if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
     for (int line = 1; !text.empty() && problems_.list().size() < most_problems; ++line) {
       const auto end = std::min(text.find('\n'), text.size());
-      if (const auto fields = fields_of(text.substr(0, end)); !fields.empty()) row(line, fields);
+      const std::string_view written = text.substr(0, end);
+      const Fields fields = table_fields(written);
+      if (may_have_decimal_commas(written))
+        problems_.add(decimal_commas({path_, line}));
+      else if (!fields.empty())
+        row(line, fields);
       text.remove_prefix(std::min(end + 1, text.size()));
     }
     if (points_.empty() && problems_.empty())
@@ -76,12 +69,11 @@ class SensorTable {
     const bool is_first = !columns_;
     if (is_first) columns_ = header(line, fields);
     if (is_first && !number_of(fields[0])) return;
-    const std::size_t needed = *std::max_element(columns_->begin(), columns_->end()) + 1;
-    if (has_header_ ? fields.size() < needed : fields.size() != needed) {
-      problems_.add({path_, line},
-                    fmt::format("the row has {} fields, not {}", fields.size(), needed),
-                    "a sensor is x y z nx ny nz",
-                    fields.size() > needed ? "decimal commas are not read: write points" : "");
+    if (!has_all_columns(fields)) {
+      problems_.add(
+          {path_, line}, fmt::format("the row has {} fields, not {}", fields.size(), column_count_),
+          "a sensor is x y z nx ny nz",
+          fields.size() > column_count_ ? "decimal commas are not read: write points" : "");
       return;
     }
     std::array<double, column_names.size()> values{};
@@ -97,11 +89,21 @@ class SensorTable {
     add(line, {{values[0], values[1], values[2]}, {values[3], values[4], values[5]}});
   }
 
+  /// Below a header names may have blanks in them; more numbers than it has columns are none of it.
+  bool has_all_columns(const Fields& fields) const {
+    if (!has_header_) return fields.size() == column_count_;
+    const std::size_t needed = *std::max_element(columns_->begin(), columns_->end()) + 1;
+    return fields.size() >= needed &&
+           (fields.size() <= column_count_ ||
+            !std::all_of(fields.begin(), fields.end(), [](auto f) { return number_of(f); }));
+  }
+
   /// Columns of a first row; without a header they follow one another.
   Columns header(int line, const Fields& fields) {
     Columns columns{0, 1, 2, 3, 4, 5};
     if (number_of(fields[0])) return columns;
     has_header_ = true;
+    column_count_ = fields.size();
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const auto found = std::find_if(fields.begin(), fields.end(),
                                       [&](auto f) { return plain(f) == column_names[c]; });
@@ -126,6 +128,7 @@ class SensorTable {
   std::string path_;
   std::optional<Columns> columns_;
   bool has_header_ = false;
+  std::size_t column_count_ = column_names.size();  ///< as the header has them
   std::vector<SensorPoint> points_;
   Problems problems_;
 };

@@ -324,7 +324,7 @@ struct SolverStudy {
   std::optional<double> power_per_sample_w;  ///< absent: auto
   Bands bands = Bands::broadband;
   int bounces = 5;
-  double unshot = 1e-3;
+  double unshot = 1e-4;
   Unfollowed unfollowed = Unfollowed::estimate;
   Year year = Year::automatic;
   int lines_per_patch = 256;

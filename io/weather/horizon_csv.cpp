@@ -11,6 +11,7 @@
 
 #include "geo/base/check.h"
 #include "io/base/file_text.h"
+#include "io/base/table_line.h"
 
 namespace sunload {
 
@@ -21,20 +22,9 @@ constexpr std::size_t fewest_points = 2;
 
 struct Line {
   int number = 0;
-  std::vector<std::string> fields;
+  std::string_view text;
+  std::vector<std::string_view> fields;
 };
-
-std::vector<std::string> fields_of(std::string_view line) {
-  line = line.substr(0, line.find('#'));
-  std::vector<std::string> fields;
-  while (true) {
-    const auto begin = line.find_first_not_of(",; \t\r");
-    if (begin == line.npos) return fields;
-    const auto end = std::min(line.find_first_of(",; \t\r", begin), line.size());
-    fields.emplace_back(line.substr(begin, end - begin));
-    line.remove_prefix(end);
-  }
-}
 
 std::vector<Line> lines_of(std::string_view text) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
@@ -42,7 +32,8 @@ std::vector<Line> lines_of(std::string_view text) {
   std::vector<Line> lines;
   for (int number = 1; !text.empty(); ++number) {
     const auto end = std::min(text.find('\n'), text.size());
-    lines.push_back({number, fields_of(text.substr(0, end))});
+    const std::string_view line = text.substr(0, end);
+    lines.push_back({number, line, table_fields(line)});
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return lines;
@@ -70,18 +61,19 @@ std::optional<Header> header_in(const Line& line) {
 }
 
 double number_in(const std::string& path, const Line& line, std::size_t column) {
-  const std::string& field = line.fields[column];
+  const std::string_view field = line.fields[column];
   double value = 0;
   const char* begin = field.data() + (field.starts_with('+') ? 1 : 0);
   const char* end = field.data() + field.size();
   const auto result = std::from_chars(begin, end, value);
   if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value))
-    throw InputError({path, line.number}, "'" + field + "' is no number",
+    throw InputError({path, line.number}, "'" + std::string(field) + "' is no number",
                      "the rows below the header are azimuth and elevation in degrees");
   return value;
 }
 
 Horizontal point_in(const std::string& path, const Line& line, const Header& header) {
+  if (may_have_decimal_commas(line.text)) throw decimal_commas({path, line.number});
   const std::size_t last = std::max(header.azimuth, header.elevation);
   if (line.fields.size() <= last)
     throw InputError({path, line.number}, "the row is too short",
@@ -95,7 +87,8 @@ Horizontal point_in(const std::string& path, const Line& line, const Header& hea
 Horizon read_horizon_csv(const std::string& path) {
   std::optional<Header> header;
   std::vector<Horizontal> points;
-  for (const Line& line : lines_of(read_whole_file(path))) {
+  const std::string text = read_whole_file(path);
+  for (const Line& line : lines_of(text)) {
     if (!header) {
       header = header_in(line);
     } else if (!line.fields.empty()) {

@@ -70,7 +70,8 @@ void GroupShares::tell(const LitShares::Group& group, const SunView& view) {
     if (dot(group.normal, block_[k].direction) > block_[k].disk_spread() + least_facing)
       facing_.push_back(k);
   Seen seen;
-  if (facing_.empty() || !see(group.vertices, suns.frame, seen)) return;
+  if (facing_.empty()) return;
+  see(group.vertices, suns.frame, seen);
   const double drift = suns.drift_x + suns.drift_y;
   faces_all_ = dot(group.normal, suns.frame.to_sun) > drift;
   const Overlap shaded = find_shades(seen);
@@ -82,6 +83,7 @@ void GroupShares::tell(const LitShares::Group& group, const SunView& view) {
   }
 }
 
+/// False where it is seen from the side, without area.
 bool GroupShares::see(const Vertices& vertices, const ViewFrame& frame, Seen& seen) const {
   std::array<ViewPoint, 3> p;
   seen.lowest = {1e300, 1e300};
@@ -91,7 +93,6 @@ bool GroupShares::see(const Vertices& vertices, const ViewFrame& frame, Seen& se
     seen.lowest = {std::min(seen.lowest.z, v.z), std::min(seen.lowest.along, p[c].h)};
   }
   const double turn = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
-  if (turn == 0) return false;
   if (turn < 0) std::swap(p[1], p[2]);
   seen.polygon.clear();
   seen.box = {};
@@ -99,7 +100,7 @@ bool GroupShares::see(const Vertices& vertices, const ViewFrame& frame, Seen& se
     seen.polygon.add({corner.x, corner.y});
     seen.box.include({corner.x, corner.y});
   }
-  return true;
+  return turn != 0;
 }
 
 /// All that may shade some of the group, from any of the suns.
@@ -230,7 +231,7 @@ bool GroupShares::is_beside(const Seen& seen, const Shade& shade) {
 void GroupShares::tell_patch(std::uint32_t patch) {
   Seen seen;
   const SunCluster& suns = view_->suns();
-  if (!see(shares_.hierarchy().patches()[patch].vertices, suns.frame, seen)) return;
+  see(shares_.hierarchy().patches()[patch].vertices, suns.frame, seen);
   chosen_.clear();
   for (std::uint32_t number = 0; number < found_.size(); ++number) {
     // A patch that is the group has been asked already.

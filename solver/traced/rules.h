@@ -18,7 +18,7 @@ namespace sunload {
 struct SolverRules {
   int bounces = 5;  ///< light reflected diffusely 1 … bounces times is followed
   /// Fewer bounces (and mirrors of the sun) where less than this is left.
-  double unshot = 1e-3;
+  double unshot = 1e-4;
   /// Whether the light that bounces do not follow is estimated and added (Unfollowed).
   Unfollowed unfollowed = Unfollowed::estimate;
   int lines_per_patch = 256;             ///< over all realizations

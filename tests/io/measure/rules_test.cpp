@@ -26,6 +26,7 @@ class TwoPoints {
                 SceneBuilder::Facing::outward);
     scene_ = builder.scene();
     caster_ = std::make_unique<RayCaster>(scene_.mesh);
+    site.timezone = "UTC";
   }
   void add(const CivilTime& begin, double hours, double dni, Vec3 sun) {
     const UnixTime t = utc_from_calendar(begin);
@@ -35,15 +36,15 @@ class TwoPoints {
     return {{{{0, 0, 1}, {0, -1, 0}}, {{0, 0, 1}, {0, 0, 1}}},
             2,
             *caster_,
-            site_,
+            site,
             Refraction::none,
             Ut1::table,
             intervals_};
   }
+  Site site{};
 
  private:
   Scene scene_;
-  Site site_;
   std::unique_ptr<RayCaster> caster_;
   std::vector<MeasuredInterval> intervals_;
 };
@@ -80,6 +81,20 @@ TEST(BrightSun, WinterLastsFromEquinoxToEquinox) {
   points.add({2026, 9, 21, 10}, 1, 500, south);
   EXPECT_EQ(bright_stretches(points.scene(), sunshine_w_m2, InSeason::winter).size(), 2u);
   EXPECT_EQ(bright_stretches(points.scene(), sunshine_w_m2).size(), 4u);
+}
+
+TEST(BrightSun, WinterIsTheSitesOwn) {
+  TwoPoints points;
+  points.add({2026, 3, 20, 21}, 1, 500, south);  // the morning of 21 March in Sydney
+  points.add({2026, 6, 21, 2}, 1, 500, south);
+  points.site.timezone = "Australia/Sydney";
+  const auto winter = [&] {
+    return bright_stretches(points.scene(), sunshine_w_m2, InSeason::winter).size();
+  };
+  points.site.latitude_deg = 33.9;
+  EXPECT_EQ(winter(), 0u) << "by the clock of the site it is the equinox";
+  points.site.latitude_deg = -33.9;
+  EXPECT_EQ(winter(), 2u);
 }
 
 TEST(LightHours, CountsIntervalsAboveAThreshold) {

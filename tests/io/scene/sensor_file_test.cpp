@@ -59,7 +59,12 @@ TEST(SensorFile, SaysWhatIsWrongAndWhere) {
                      "grid.csv:4: the normal has no length (it tells where the sensor looks)"}));
   EXPECT_EQ(
       problems("1,5;2,0;3,0;0;0;1\n"),
-      (Strings{"grid.csv:1: the row has 9 fields, not 6 (a sensor is x y z nx ny nz); decimal "
+      (Strings{"grid.csv:1: semicolons and commas stand in one row (a decimal comma would make two "
+               "numbers of one); write decimal points"}));
+  EXPECT_EQ(problems("x;y;z;nx;ny;nz\n1,5;2,5;10,25;0;0,5;1\n").size(), 1u);
+  EXPECT_EQ(
+      problems("x,y,z,nx,ny,nz\n1,5,2,0,0,0,1\n"),
+      (Strings{"grid.csv:2: the row has 7 fields, not 6 (a sensor is x y z nx ny nz); decimal "
                "commas are not read: write points"}));
   EXPECT_EQ(
       problems("\nx,y,z,nx,ny\n1,2,3,0,0\n"),

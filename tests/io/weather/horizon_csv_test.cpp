@@ -56,6 +56,7 @@ void expect_refused(const std::string& text, const std::string& part) {
 }
 
 TEST(HorizonCsv, TellsWhatIsWrong) {
+  expect_refused("azimuth_deg;elevation_deg\n0;15,5\n90;1\n", "decimal points");
   expect_refused("", "no horizon file");
   expect_refused("0,1\n90,2\n", "azimuth_deg and elevation_deg, or A and H_hor");
   expect_refused("azimuth_deg,elevation_deg\n0,1\n90,x\n", ".csv:3: 'x' is no number");
