@@ -48,25 +48,42 @@ class ClearSky {
 
   /// Mean while the sun is up, hills or not.
   Irradiance mean_while_up(const SunInterval& when) const {
-    return mean(when, when.up_begin, when.up_end, Horizon());
+    return mean(when, {when.up_begin, when.up_end, when.up_s}, Horizon());
   }
 
   /// Mean while no hill hides the sun.
   Irradiance mean_while_sunlit(const SunInterval& when) const {
-    return mean(when, when.sunlit_begin, when.sunlit_end, site_.horizon);
+    return mean(when, {when.sunlit_begin, when.sunlit_end, when.sunlit_s}, site_.horizon);
   }
 
  private:
-  Irradiance mean(const SunInterval& when, UnixTime begin, UnixTime end,
-                  const Horizon& hills) const {
+  /// The hull of the part or parts of an interval with sun, and their length.
+  struct WithSun {
+    UnixTime begin, end;
+    double length_s;
+    double hull_s() const { return end - begin; }
+  };
+
+  /// Panels of Gauss' rule: more where light begins or ends at the horizon, and where there is
+  /// night in between, whose bounds lie within panels.
+  static int panels_of(const SunInterval& when, const WithSun& part) {
+    constexpr int fewest_at_the_horizon = 3, times_finer_with_night = 32;
+    constexpr double a_second = 1;
+    if (part.length_s < part.hull_s() - a_second)
+      return static_cast<int>(std::ceil(times_finer_with_night * part.hull_s() / panel_s));
+    const auto panels = static_cast<int>(std::ceil(part.hull_s() / panel_s));
+    const bool is_all = part.hull_s() >= when.length_s() - a_second;
+    return is_all ? panels : std::max(panels, fewest_at_the_horizon);
+  }
+
+  Irradiance mean(const SunInterval& when, const WithSun& part, const Horizon& hills) const {
     if (when.length_s() <= one_sun_is_enough_s) return at(when.sun_time, when.sun);
-    const double hull = end - begin;
-    const auto panels = static_cast<int>(std::ceil(hull / panel_s));
+    const int panels = panels_of(when, part);
     Irradiance sum;
     double lit = 0;
     for (int p = 0; p < panels; ++p)
       for (const auto& g : gauss) {
-        const UnixTime t = begin + hull * (p + g.at) / panels;
+        const UnixTime t = part.begin + part.hull_s() * (p + g.at) / panels;
         const SunPosition sun = sun_(t);
         if (!hills.is_above({sun.azimuth_deg, sun.elevation_deg})) continue;
         const Irradiance now = at(t, sun);

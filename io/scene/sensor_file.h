@@ -22,7 +22,8 @@ inline constexpr double shortest_normal = 1e-9;
 /// blanks, so that CSV and the .pts files of Radiance (rtrace, Ladybug, Honeybee) both
 /// serve; # begins a comment, empty lines are skipped. A first row that is no numbers is a
 /// header, which names these six columns, in any order and among others; without one,
-/// every row is six numbers. Decimal commas are refused. Throws InputError with file:line for every row that is wrong.
+/// every row is six numbers. Decimal commas are refused. Throws InputError with file:line for every
+/// row that is wrong.
 std::vector<SensorPoint> read_sensor_file(const std::string& path);
 
 }  // namespace sunload
