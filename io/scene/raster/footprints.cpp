@@ -141,8 +141,7 @@ class FootprintReader {
 
   void find_columns() {
     height_ = column(rules_.height, rules_.storeys.empty() ? heights : Names{}, "heights");
-    storeys_ =
-        column(rules_.storeys, rules_.height.empty() && height_ < 0 ? storeys : Names{}, "storeys");
+    storeys_ = column(rules_.storeys, storeys, "storeys");
     base_ = column(rules_.base, rules_.terrain.empty() ? bases : Names{}, "feet");
     name_ = column(rules_.name, names, "names");
     if (height_ >= 0 || storeys_ >= 0 || rules_.default_height_m) return;

@@ -92,6 +92,19 @@ TEST(Footprints, HaveStoreysADefaultAndFeet) {
   EXPECT_EQ(extent(model, 2), (std::pair{102.0, 107.0}));
 }
 
+/// OpenStreetMap has heights of some buildings and storeys of others.
+TEST(Footprints, WithoutAHeightTakeStoreysOfTheUsualNames) {
+  const std::string text =
+      plan({feature(R"("height": 8, "building:levels": 9)", "[" + square(0, 0, 9) + "]"),
+            feature(R"("building:levels": 2)", "[" + square(20, 0, 9) + "]")});
+  const auto found = read_text("plan.geojson", text);
+  EXPECT_EQ(extent(found, 0), (std::pair{0.0, 8.0}));
+  EXPECT_EQ(extent(found, 1), (std::pair{0.0, 6.0}));
+  SceneFileRules rules;
+  rules.footprints.height = "height";
+  EXPECT_EQ(extent(read_text("plan.geojson", text, rules), 1), (std::pair{0.0, 6.0}));
+}
+
 TEST(Footprints, InDegreesAreProjected) {
   const auto model = read_text("plan.json", plan({feature(R"("height": 10)",
                                                           "[[[15.001, 49.6535], [15.002, 49.6535], "
