@@ -79,9 +79,10 @@ void look_at_site(const InitRules& rules, const BuiltScene& built, Findings& fou
 }
 
 /// Faces that look along an axis, as shares of the side of the box about the model across it: those
-/// at its low end, and all others; and those that look against it.
+/// at its low end, and all others; and those that look against it, all of them and without those at
+/// the low end, which bodies may stand on.
 struct Covered {
-  double foot = 0, above = 0, against = 0;
+  double foot = 0, above = 0, against = 0, against_above = 0;
 };
 
 Covered covered_along(const Mesh& mesh, const PrepareReport& report, double Vec3::*axis) {
@@ -94,10 +95,12 @@ Covered covered_along(const Mesh& mesh, const PrepareReport& report, double Vec3
     const bool is_at_foot = mesh.corner(t, 0).*axis <= top && mesh.corner(t, 1).*axis <= top &&
                             mesh.corner(t, 2).*axis <= top;
     const double share = mesh.area_vector2(t).*axis / 2 * (size.*axis) / volume;
-    if (share < 0)
+    if (share < 0) {
       covered.against -= share;
-    else
+      if (!is_at_foot) covered.against_above -= share;
+    } else {
       (is_at_foot ? covered.foot : covered.above) += share;
+    }
   }
   return covered;
 }
@@ -109,11 +112,11 @@ bool is_ground(const Covered& covered) {
 }
 
 /// Whether land seems to look along +y: a sheet that covers the box about it once and shows nothing
-/// the other way, while along z there are faces both ways.
+/// the other way but what bodies stand on, while along z there are faces both ways.
 bool lies_on_its_side(const Covered& along_z, const Covered& along_y) {
   constexpr double hardly_any = 0.02, once = 0.9;
   return is_ground(along_y) && along_y.foot + along_y.above > once &&
-         along_y.against < hardly_any && along_z.against > hardly_any;
+         along_y.against_above < hardly_any && along_z.against > hardly_any;
 }
 
 /// Formats that do not say which axis points up, where z is taken for it.

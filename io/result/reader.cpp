@@ -147,7 +147,8 @@ h5::File opened(const std::string& path, Opens opens) {
     expect_sound(path, file);
     return file;
   } catch (const h5::Error& problem) {
-    throw InputError({path}, "is not a readable HDF5 file", problem.what());
+    throw InputError({path}, "is not a readable HDF5 file", problem.what(),
+                     "name a result of sunload run; sunload check reads studies and models");
   }
 }
 

@@ -14,7 +14,7 @@ row. *z*: off in standard errors of our own; over many rows its root mean square
 and larger where the reference has roundings or the model a known bias, which the limit holds. *Limit*: Student's t of
 the suite's false-alarm budget times the standard error, and the model's own bias from a formula
 ([design](developer/design.md), Tests), or the tolerance that the reference states. *Told*: nothing decides; both
-numbers are here for the reader.
+numbers are here for the reader. Scenes of the sources, with pictures beside what must be seen: [figures](figures.md).
 
 """
 

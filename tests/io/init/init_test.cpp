@@ -152,6 +152,11 @@ TEST(Init, AModelThatLiesOnItsSideIsStoodUp) {
       begun(folder, {.model = folder.write("block.obj", block_on_its_side()), .at = "52 4"});
   EXPECT_NE(text.find("      up: y\n"), std::string::npos) << text;
   EXPECT_NE(text.find("<<< up: y"), std::string::npos);
+  const WorkFolder closed;
+  const std::string with_bottom = block_on_its_side() + "f 8 7 6 5\n";
+  const std::string of_closed =
+      begun(closed, {.model = closed.write("block.obj", with_bottom), .at = "52 4"}).second;
+  EXPECT_NE(of_closed.find("      up: y\n"), std::string::npos) << of_closed;
   const WorkFolder other;
   const auto [as_said, told] = begun(
       other, {.model = other.write("block.obj", block_on_its_side()), .at = "52 4", .up = "z"});
