@@ -160,6 +160,14 @@ double line_seconds(const VariantPlan& plan) {
          });
 }
 
+bool emits(const Material& material) { return material.emission_w_m2 > 0; }
+
+/// Of n receivers with so many lines in all; `guided`: they look for bright surfaces.
+double tracing_seconds(const VariantPlan& plan, double n, double lines, bool guided) {
+  return lines * (guided ? 1 + rays_by_guide : 1) * line_seconds(plan) +
+         (guided ? n * s_per_guided_patch : 0);
+}
+
 /// Patches and sensors.
 double receivers(const VariantPlan& plan, std::size_t patches) {
   return static_cast<double>(patches + plan.built.scene.sensors.size());
@@ -203,8 +211,10 @@ WorkSeconds modelled_seconds(const VariantPlan& plan, std::size_t patches,
                              const BlockCounts& counts) {
   const double n = receivers(plan, patches), lines = n * counts.lines_per_patch;
   const double threads = thread_count();
+  const auto materials = materials_of(plan);
+  const bool guided = std::any_of(materials.begin(), materials.end(), emits);  // by who gathers
   return {
-      lines * line_seconds(plan) / threads,
+      tracing_seconds(plan, n, lines, guided) / threads,
       sun_seconds(static_cast<double>(patches), counts.suns,
                   facing_share * counts.suns * counts.direct_samples * asked_by_rays(plan, patches),
                   facing_share * counts.suns * counts.direct_samples *
@@ -260,8 +270,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   };
   const bool mirrors = has([](const Material& m) { return sends_on(m); });
   const bool lamps = has_lamps(plan);
-  const bool guided = s.transport == Transport::gather &&
-                      has([](const Material& m) { return m.emission_w_m2 > 0; });
+  const bool guided =
+      s.transport == Transport::gather && has([](const Material& m) { return emits(m); });
   // Total, direct, sky, reflected, and what the scene has besides.
   const double parts = 4.0 + (mirrors ? 1 : 0) + (lamps ? 1 : 0);
   const auto series_of_study = kept_series(plan.study.output);
@@ -352,11 +362,10 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
                     (plan.batches() > 1 && seasons == 1 ? lines * kept_bytes_per_line : 0);
   WorkSeconds core;  // of one core
   core.lines =
-      seasons * lines * (guided ? 1 + rays_by_guide : 1) * line_seconds(plan) +
-      (guided ? seasons * n * s_per_guided_patch : 0) +
+      seasons * tracing_seconds(plan, n, lines, guided) +
+      static_cast<double>(work.samples) * s_per_sample +  // a shot meets surfaces as a line does
       (plan.study.mesh.oracle == Oracle::none ? 0 : refinement_rays(n, lit) * s_per_direct_ray);
-  core.direct = sun_seconds(static_cast<double>(patches), suns, rays_to_sun, circumsolar_rays) +
-                static_cast<double>(work.samples) * s_per_sample;
+  core.direct = sun_seconds(static_cast<double>(patches), suns, rays_to_sun, circumsolar_rays);
   core.mirror = mirrors ? mirror_seconds(n, shining, counts.direct_samples) : 0;
   if (by_matrix)
     core.solve += seasons * n * n * (s_per_form_factor + n * s.realizations * s_per_factor_solved);

@@ -53,6 +53,18 @@ TEST(WorkProbe, IsMadeOnceForVariantsThatAreMuchAlike) {
   EXPECT_EQ(a.direct, b.direct);
 }
 
+/// Gathered lines look for lamps: a trial that forgot it would take them for slow.
+TEST(WorkProbe, KnowsWhatLampsCost) {
+  const std::string brick = study("brick", day);
+  std::string lamps = brick;
+  lamps.replace(lamps.find("scene: {"), 8,
+                "scene: {materials: {brick: {diffuse: 0.3, emission_w_m2: 5}}, ");
+  constexpr std::size_t patches = 10'000;
+  const BlockCounts counts{.lines_per_patch = 64, .direct_samples = 16, .suns = 16};
+  const double without = modelled_seconds(test::plan_of(brick), patches, counts).lines;
+  EXPECT_GT(modelled_seconds(test::plan_of(lamps), patches, counts).lines, 1.5 * without);
+}
+
 /// Every stage of the estimate takes as much longer as the trial did; starting and files do not.
 TEST(WorkProbe, ScalesTheStagesOfTheEstimate) {
   const auto plan = test::plan_of(study("glazed", day));
