@@ -3,6 +3,8 @@
 #include "io/base/table_line.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 
 namespace sunload {
 
@@ -23,6 +25,14 @@ std::vector<std::string_view> table_fields(std::string_view line) {
     fields.push_back(line.substr(begin, end - begin));
     line.remove_prefix(end);
   }
+}
+
+std::optional<double> table_number(std::string_view field) {
+  if (field.starts_with('+')) field.remove_prefix(1);
+  double value = 0;
+  const auto result = std::from_chars(field.data(), field.data() + field.size(), value);
+  const bool is_whole = result.ec == std::errc() && result.ptr == field.data() + field.size();
+  return is_whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 bool may_have_decimal_commas(std::string_view line) {

@@ -4,6 +4,7 @@
 /// tabs or blanks; # begins a comment.
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +13,8 @@
 namespace sunload {
 
 std::vector<std::string_view> table_fields(std::string_view line);
+/// Finite, of all of the field, a sign of either kind; or nothing.
+std::optional<double> table_number(std::string_view field);
 
 /// Semicolons and commas in one line: `1,5;2,5` is two numbers of some programs and four here.
 bool may_have_decimal_commas(std::string_view line);

@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -24,14 +22,6 @@ constexpr std::size_t most_problems = 20;  // of a file with another meaning, th
 
 using Fields = std::vector<std::string_view>;
 using Columns = std::array<std::size_t, column_names.size()>;
-
-std::optional<double> number_of(std::string_view field) {
-  if (field.starts_with('+')) field.remove_prefix(1);
-  double value = 0;
-  const auto result = std::from_chars(field.data(), field.data() + field.size(), value);
-  const bool is_whole = result.ec == std::errc() && result.ptr == field.data() + field.size();
-  return is_whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
 
 /// Without quotes, in lower case.
 std::string plain(std::string_view field) {
@@ -68,7 +58,7 @@ class SensorTable {
   void row(int line, const Fields& fields) {
     const bool is_first = !columns_;
     if (is_first) columns_ = header(line, fields);
-    if (is_first && !number_of(fields[0])) return;
+    if (is_first && !table_number(fields[0])) return;
     if (!has_all_columns(fields)) {
       problems_.add(
           {path_, line}, fmt::format("the row has {} fields, not {}", fields.size(), column_count_),
@@ -79,7 +69,7 @@ class SensorTable {
     std::array<double, column_names.size()> values{};
     for (std::size_t c = 0; c < values.size(); ++c) {
       const auto field = fields[(*columns_)[c]];
-      const auto value = number_of(field);
+      const auto value = table_number(field);
       if (!value) {
         problems_.add({path_, line}, fmt::format("{}: '{}' is no number", column_names[c], field));
         return;
@@ -95,13 +85,13 @@ class SensorTable {
     const std::size_t needed = *std::max_element(columns_->begin(), columns_->end()) + 1;
     return fields.size() >= needed &&
            (fields.size() <= column_count_ ||
-            !std::all_of(fields.begin(), fields.end(), [](auto f) { return number_of(f); }));
+            !std::all_of(fields.begin(), fields.end(), [](auto f) { return table_number(f); }));
   }
 
   /// Columns of a first row; without a header they follow one another.
   Columns header(int line, const Fields& fields) {
     Columns columns{0, 1, 2, 3, 4, 5};
-    if (number_of(fields[0])) return columns;
+    if (table_number(fields[0])) return columns;
     has_header_ = true;
     column_count_ = fields.size();
     for (std::size_t c = 0; c < columns.size(); ++c) {

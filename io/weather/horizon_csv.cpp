@@ -3,8 +3,6 @@
 #include "io/weather/horizon_csv.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -62,14 +60,11 @@ std::optional<Header> header_in(const Line& line) {
 
 double number_in(const std::string& path, const Line& line, std::size_t column) {
   const std::string_view field = line.fields[column];
-  double value = 0;
-  const char* begin = field.data() + (field.starts_with('+') ? 1 : 0);
-  const char* end = field.data() + field.size();
-  const auto result = std::from_chars(begin, end, value);
-  if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value))
+  const auto value = table_number(field);
+  if (!value)
     throw InputError({path, line.number}, "'" + std::string(field) + "' is no number",
                      "the rows below the header are azimuth and elevation in degrees");
-  return value;
+  return *value;
 }
 
 Horizontal point_in(const std::string& path, const Line& line, const Header& header) {

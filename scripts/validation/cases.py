@@ -76,9 +76,13 @@ def square(x, y, side):
     return [(x - h, y - h, 3), (x - h, y + h, 3), (x + h, y + h, 3), (x + h, y - h, 3)]
 
 
-def obj(rectangles, material):
-    lines = ["o surfaces", f"usemtl {material}"] + ["v %g %g %g" % p for r in rectangles for p in r]
-    lines += ["f %d %d %d %d" % tuple(4 * k + 1 + i for i in range(4)) for k in range(len(rectangles))]
+def obj(bodies):
+    """Of (name, material, rectangles)."""
+    lines, first = [], 0
+    for name, material, rectangles in bodies:
+        lines += [f"o {name}", f"usemtl {material}"] + ["v %g %g %g" % p for r in rectangles for p in r]
+        lines += ["f %d %d %d %d" % tuple(4 * (first + k) + 1 + i for i in range(4)) for k in range(len(rectangles))]
+        first += len(rectangles)
     return "\n".join(lines) + "\n"
 
 
@@ -141,7 +145,7 @@ def files():
     table.writeheader()
     table.writerows(own_rows() + published_rows())
     return {"points.csv": text.getvalue()} | {
-        f"{name}.obj": obj(made(), "lamp" if name.startswith("lamp_") else "surface") for name, made in MODELS.items()}
+        f"{name}.obj": obj([("surfaces", "lamp" if name.startswith("lamp_") else "surface", made())]) for name, made in MODELS.items()}
 
 
 def sky_keys(word):

@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Furnaces: where the radiance is the same from everywhere, no body changes what is received, whatever reflects and how."""
 
+import itertools
 import math
 
 import numpy as np
 
+from cases import obj
 from rows import Row, Section
 
 GLOW = 100.0  # what every surface must receive [W m-2]
@@ -61,24 +63,14 @@ SHAPES = {
 }
 
 
-def obj(bodies, materials):
-    """Materials by turns."""
-    text, count = "", 0
-    for number, rectangles in enumerate(bodies):
-        text += f"o body_{number}\nusemtl {materials[number % len(materials)].replace(' ', '_')}\n"
-        for rectangle in rectangles:
-            text += "".join("v %g %g %g\n" % corner for corner in rectangle)
-            text += "f %d %d %d %d\n" % tuple(count + k for k in range(1, 5))
-            count += 4
-    return text
-
-
 def run(program, name, kind, materials, transports):
-    program.write(f"{name}.obj", obj(SHAPES[kind], [*materials]))
+    words = {material: material.replace(" ", "_") for material in materials}
+    by_turns = itertools.cycle(words.values())
+    program.write(f"{name}.obj", obj([(f"body_{k}", next(by_turns), body) for k, body in enumerate(SHAPES[kind])]))
     dark = kind == "closed"
     return program.results(name, STUDY.format(
         sky=0 if dark else GLOW, ground=0 if dark else 1, model=name,
-        materials=", ".join(f"{key.replace(' ', '_')}: {{{keys}}}" for key, keys in materials.items()),
+        materials=", ".join(f"{words[key]}: {{{keys}}}" for key, keys in materials.items()),
         variants=", ".join(f"{{name: {transport}, solver: {{transport: {transport}}}}}" for transport in transports)))
 
 

@@ -166,36 +166,45 @@ class Mirrored : public LitPeriod {
   const LitPeriod& period_;
 };
 
+/// The scene of a solution, traced for totals, and the light of its period.
+struct TracedSquare {
+  explicit TracedSquare(const SolvedPlan& solved)
+      : plan(solved.plan),
+        traced(trace_scene(plan.built.scene, solved.made.mesh, rules(plan), watch)),
+        lights(plan.study, plan.built.site, traced->grid),
+        period(lights, plan.light) {}
+  static SolverRules rules(const VariantPlan& plan) {
+    SolverRules rules = solver_rules(plan);
+    rules.errors = Errors::totals;
+    return rules;
+  }
+
+  const VariantPlan& plan;
+  Watch watch;
+  std::unique_ptr<TracedScene> traced;
+  IntervalLights lights;
+  SeriesLight period;
+};
+
 // The twin: nodes in the wrong places are noticed by the error that is measured.
 TEST_F(YearOfTheSquare, WrongNodesAreNoticed) {
-  const VariantPlan& plan = solutions->each.plan;
-  Watch watch;
-  SolverRules rules = solver_rules(plan);
-  rules.errors = Errors::totals;
-  const auto traced = trace_scene(plan.built.scene, solutions->each.made.mesh, rules, watch);
-  const IntervalLights lights(plan.study, plan.built.site, traced->grid);
-  const SeriesLight period(lights, plan.light);
-  const Mirrored mirrored(period);
-  const YearGathering wrong(*traced, mirrored);
+  const TracedSquare square(solutions->each);
+  const Mirrored mirrored(square.period);
+  const YearGathering wrong(*square.traced, mirrored);
   EXPECT_GT(wrong.reduction()->error_w_m2, 3 * solutions->modes.reduction->error_w_m2);
 }
 
 /// Variants of which rays tell the same share what is traced: but rays of a year, whose sky about
 /// the sun its nodes have, are none of solutions of each interval, nor the other way.
 TEST_F(YearOfTheSquare, SharesNoRaysWithSolutionsOfEachInterval) {
-  const VariantPlan& plan = solutions->each.plan;
-  Watch watch;
-  SolverRules rules = solver_rules(plan);
-  rules.errors = Errors::totals;
-  const auto traced = trace_scene(plan.built.scene, solutions->each.made.mesh, rules, watch);
-  const IntervalLights lights(plan.study, plan.built.site, traced->grid);
-  const SeriesLight period(lights, plan.light);
-  const YearGathering year(*traced, period);
-  const auto each = transport_of(*traced);
-  std::vector<IntervalLight> day = suns_of(plan, traced->grid);
+  const TracedSquare square(solutions->each);
+  const YearGathering year(*square.traced, square.period);
+  const auto each = transport_of(*square.traced);
+  std::vector<IntervalLight> day = suns_of(square.plan, square.traced->grid);
   std::erase_if(day, [](const IntervalLight& light) { return !light.has_sun(); });
   day.resize(20);
   const auto loads = [&](const LightTransport& transport, RayRecord* record) {
+    Watch watch;
     return solve(transport, day, watch, {}, record).bands.front().exposure_realization;
   };
   const LightTransport* const both[] = {&year, each.get()};
