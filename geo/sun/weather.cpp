@@ -198,16 +198,33 @@ double overlap(double a_begin, double a_end, double b_begin, double b_end) {
   return std::max(0.0, std::min(a_end, b_end) - std::max(a_begin, b_begin));
 }
 
+bool has_night_inside(const SunInterval& when) {
+  return when.up_s < when.up_end - when.up_begin - rounding_s;
+}
+
+/// Time that both have in common while the sun is up. Of two sunlit parts with a night between them
+/// only the ends are known, and how long they are together.
+double common_sunlit_s(const SunInterval& a, const SunInterval& b) {
+  const double hulls = overlap(a.up_begin, a.up_end, b.up_begin, b.up_end);
+  if (!has_night_inside(a) && !has_night_inside(b)) return hulls;
+  const auto holds = [](const SunInterval& outer, const SunInterval& inner) {
+    return outer.begin <= inner.begin + rounding_s && inner.end <= outer.end + rounding_s;
+  };
+  if (holds(a, b)) return b.up_s;
+  if (holds(b, a)) return a.up_s;
+  return std::min({hulls, a.up_s, b.up_s});
+}
+
 }  // namespace
 
 WeatherYears years_of(const std::vector<WeatherRecord>& records) {
   for (std::size_t i = 0; i < records.size(); ++i) {
     const WeatherRecord& now = records[i];
     if (now.year == 0) return WeatherYears::typical;
-    if (i == 0 || now.year == records[i - 1].year) continue;
-    const bool is_new_year =
-        now.year == records[i - 1].year + 1 && now.month < records[i - 1].month;
-    if (!is_new_year) return WeatherYears::typical;
+    if (i == 0) continue;
+    const bool begins_again = now.month < records[i - 1].month;
+    const int later = now.year - records[i - 1].year;
+    if (later != (begins_again ? 1 : 0)) return WeatherYears::typical;
   }
   return WeatherYears::actual;
 }
@@ -225,6 +242,11 @@ std::vector<DatedWeather> dated(const std::vector<WeatherRecord>& records,
     const UnixTime midnight = utc_from_calendar({year, r.month, r.day, 0, 0, 0}) - offset_s;
     weather.push_back({midnight + r.begin_s, midnight + r.end_s, r.values, r.line});
   }
+  // A typical year may be written from any month on; all of it is of one year.
+  if (is_typical)
+    std::stable_sort(
+        weather.begin(), weather.end(),
+        [](const DatedWeather& a, const DatedWeather& b) { return a.begin < b.begin; });
   return weather;
 }
 
@@ -316,9 +338,8 @@ Resampled resample(const std::vector<SunnyWeather>& weather, const SunPath& path
       const double time = overlap(w.begin, w.end, to.begin, to.end);
       covered += time;
       // Of the record's beam as much as of its sunlit part lies in this one's.
-      const double lit = w.up_end - w.up_begin;
-      const double beam_time =
-          lit > 0 ? w.length_s() / lit * overlap(w.up_begin, w.up_end, to.up_begin, to.up_end) : 0;
+      const double lit = has_night_inside(w) ? w.up_s : w.up_end - w.up_begin;
+      const double beam_time = lit > 0 ? w.length_s() / lit * common_sunlit_s(w, to) : 0;
       sum.dni += from->mean.dni * beam_time;
       sum.dhi += from->mean.dhi * time;
       sum.ghi +=

@@ -216,8 +216,10 @@ SunPath dated_path(const Study& study, const Site& site, LightSeries& series) {
 LitInterval measured_light(const SunInterval& when, const Irradiance& open) {
   LitInterval interval{when, open, {0, open.dhi, open.ghi}};
   if (when.up_s <= 0) return interval;
+  // The sky while the sun is up: nearly all of the diffuse light falls then, too.
+  interval.of_the_sky = scaled({open.dni, open.dhi, open.ghi}, when.length_s() / when.up_s);
   interval.of_the_sky.dni =
-      std::min(open.dni * when.length_s() / when.up_s, extraterrestrial(when.sun.distance_au));
+      std::min(interval.of_the_sky.dni, extraterrestrial(when.sun.distance_au));
   if (when.sunlit_s == when.up_s) return interval;
   const double free = when.sunlit_s / when.up_s;
   interval.mean = {open.dni * free, open.dhi, open.dhi + (open.ghi - open.dhi) * free};

@@ -33,21 +33,36 @@ SunPath path_of(const std::vector<DatedWeather>& weather, const Site& site = pra
   return sun_path(steps, site, Refraction::spa, Ut1::table);
 }
 
-SunPath steps_of(UnixTime begin, UnixTime end, double step) {
+SunPath steps_of(UnixTime begin, UnixTime end, double step, const Site& site = prague) {
   std::vector<PeriodStep> steps;
   for (UnixTime t = begin; t < end; t += step) steps.push_back({t, t + step, t + step / 2, {}});
-  return sun_path(steps, prague, Refraction::spa, Ut1::table);
+  return sun_path(steps, site, Refraction::spa, Ut1::table);
 }
 
 TEST(WeatherYears, TypicalOnesMixYearsActualOnesFollow) {
+  EXPECT_EQ(years_of(hours(2016, 6, 30, 48, {})), WeatherYears::actual);
   auto records = hours(2016, 12, 31, 48, {});
-  EXPECT_EQ(years_of(records), WeatherYears::actual);
+  EXPECT_EQ(years_of(records), WeatherYears::typical) << "January of the same year follows";
   for (std::size_t i = 24; i < 48; ++i) records[i].year = 2017;
   EXPECT_EQ(years_of(records), WeatherYears::actual);
   for (std::size_t i = 24; i < 48; ++i) records[i].year = 1999;
   EXPECT_EQ(years_of(records), WeatherYears::typical);
   for (auto& r : records) r.year = 0;
   EXPECT_EQ(years_of(records), WeatherYears::typical);
+}
+
+// As it comes from the south: from July to June.
+TEST(WeatherYears, TypicalOnesMayBeginInAnyMonth) {
+  auto records = hours(2013, 12, 31, 24, {1, 2, 3});
+  const auto january = hours(2006, 1, 1, 24, {4, 5, 6});
+  records.insert(records.end(), january.begin(), january.end());
+  const auto weather = dated(records, 2001, 0);
+  ASSERT_EQ(weather.size(), 48u);
+  EXPECT_EQ(first_out_of_order(weather), weather.size());
+  EXPECT_EQ(iso_utc(weather.front().begin), "2001-01-01T00:00:00Z");
+  EXPECT_EQ(weather.front().values.dni, 4);
+  EXPECT_EQ(iso_utc(weather.back().end), "2002-01-01T00:00:00Z");
+  EXPECT_EQ(weather.back().values.dni, 1);
 }
 
 TEST(WeatherYears, StandardTimeWithHalfHoursAndLeapDays) {
@@ -209,6 +224,29 @@ TEST(Resample, BeamComesWhileTheSunIsUp) {
       // In the hours of sunrise and sunset the same energy comes in a shorter time.
       EXPECT_GE(fine.mean[i].dni, 600 - 1e-6);
     }
+  }
+}
+
+// A day by UTC in Tokyo has sun at its beginning and at its end.
+TEST(Resample, ANightInsideOfARecordTakesNoBeam) {
+  const Site tokyo{.latitude_deg = 35.68, .longitude_deg = 139.77};
+  auto weather = dated(hours(2001, 3, 20, 72, {150, 60, {}}), 2001, 0);
+  weather = {{weather[0].begin, weather[23].end, weather[0].values, 1},
+             {weather[24].begin, weather[47].end, weather[0].values, 2},
+             {weather[48].begin, weather[71].end, weather[0].values, 3}};
+  const auto light = with_sun(weather, path_of(weather, tokyo), WeatherSource::dni_and_dhi,
+                              Decomposition::erbs, 0);
+  for (const double step : {hour / 4, hour, 6 * hour}) {
+    const auto path = steps_of(weather.front().begin, weather.back().end, step, tokyo);
+    double dni = 0;
+    const auto means = resample(light.intervals, path).mean;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      dni += means[i].dni * step;
+      if (path[i].up_s <= 0) {
+        EXPECT_EQ(means[i].dni, 0);
+      }
+    }
+    EXPECT_NEAR(dni, 150 * 72 * hour, 1e-4 * 150 * 72 * hour) << step;
   }
 }
 
