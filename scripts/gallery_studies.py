@@ -20,6 +20,11 @@ GROUPS = {
          "commands": ["sunload render results/skyscrapers/mirror.h5 --quantity light_load_mirror -o skyscrapers.png"],
          "see": "Light by way of the mirror tower alone, summed over a day in March and one in June: it fans out over the ground, "
                 "where it adds to the sun, and climbs the tower at the right."},
+        {"study": "night",
+         "title": "A street at night",
+         "commands": ["sunload render results/night/lanterns.h5 --quantity illuminance --scale log --sky plain -o night.png"],
+         "see": "Two rows of lanterns by their photometry, in lux on a logarithmic scale: bright below and along the street, dark behind the "
+                "houses, and half a lux to two on the upper windows."},
         {"study": "colours",
          "title": "A street in evening light",
          "commands": ["sunload render results/colours/baseline.h5 --colour rgb -o colours.png"],

@@ -17,6 +17,7 @@
 #include "io/base/machine.h"
 #include "io/base/output_target.h"
 #include "io/base/standard_streams.h"
+#include "io/picture/picture.h"
 #include "io/picture/sun_diagram.h"
 #include "io/plan/expected_error.h"
 #include "io/plan/mesh_family.h"
@@ -217,6 +218,11 @@ std::string parallel_sources_text(const ParallelSources& sources) {
                      sources.exitance.size(), area, power);
 }
 
+std::string luminaires_text(const Luminaires& luminaires) {
+  if (!luminaires.any()) return {};
+  return fmt::format("  luminaires {} send {:.6g} lm\n", luminaires.all.size(), luminaires.flux());
+}
+
 /// How many suns stand for intervals; what more of them would do where one is coarse. Empty where
 /// every interval has its one sun, and is short.
 std::string suns_text(const VariantPlan& plan) {
@@ -262,7 +268,8 @@ std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
                     "  {:.3g} lines, about {:.3g} shadow rays{}; estimated {:.0f} MiB memory, "
                     "{:.0f} MiB disk, "
                     "{:.0f} s on {} threads{}\n",
-                    work.patches, plan.intervals(), plan.light.lit_count(), plan.batches(),
+                    work.patches, plan.intervals(),
+                    has_lamps(plan) ? plan.intervals() : plan.light.lit_count(), plan.batches(),
                     static_cast<double>(work.line_rays), static_cast<double>(work.direct_rays),
                     shot, work.memory_bytes / mib, work.disk_bytes / mib, work.seconds,
                     thread_count(), work.is_of_this_machine ? ", by a trial on this machine" : "");
@@ -337,7 +344,8 @@ CheckText text_of(const VariantPlan& plan, const VariantMesh& made, const WorkEs
   for (const auto& note : plan.built.notes) scene += "  note      " + note + "\n";
   add("scene", scene);
   add("materials", materials_text(plan.built.scene) + rules_text(plan.built.rules) +
-                       parallel_sources_text(plan.built.scene.parallel_sources));
+                       parallel_sources_text(plan.built.scene.parallel_sources) +
+                       luminaires_text(plan.built.scene.luminaires));
   add("seasons", seasons_section(plan));
   const std::size_t sensors = plan.built.scene.sensors.size();
   add("sensors", sensors > 0 ? fmt::format("  {} points\n", sensors) : "");
@@ -608,6 +616,7 @@ int check_study(const std::string& path, const RunOptions& options, const CheckR
 }
 
 int print_sun(const std::string& path, const std::string& picture) {
+  expect_picture_name(picture);
   const StudyFile file = read_study(path);
   expect_not_read(picture, named_files(file));
   print_warnings(file.warnings);
@@ -629,6 +638,7 @@ int print_sun(const std::string& path, const std::string& picture) {
 }
 
 int print_sky(const std::string& path, const SkyOptions& options) {
+  expect_picture_name(options.picture);
   const StudyFile file = read_study(path);
   expect_not_read(options.picture, named_files(file));
   print_warnings(file.warnings);

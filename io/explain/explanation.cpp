@@ -111,6 +111,7 @@ void note_what_is_left_out(const TracedScene& traced, Explanation& into) {
   };
   append(traced.optics.any_glossy, "the sun by glossy surfaces");
   append(!traced.scene.parallel_sources.exitance.empty(), "parallel sources");
+  append(traced.scene.luminaires.any(), "luminaires");
   append(traced.mirror_orientations() > static_cast<std::size_t>(traced.rules.most_sun_beams),
          "the sun by mirrors of more orientations than are followed back");
   if (!ways.empty()) into.notes.push_back("the remainder holds what is not looked for: " + ways);

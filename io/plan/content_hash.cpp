@@ -87,8 +87,22 @@ void add_sensor(Digest& digest, const Sensor& sensor) {
   digest.add(key);
 }
 
+/// Nothing where there are none: hashes of other studies stay.
+void add_luminaires(Digest& digest, const Luminaires& luminaires) {
+  const auto& [webs, all] = luminaires;
+  if (all.empty()) return;
+  for (const auto& [planes_deg, gammas_deg, intensities] : webs)
+    for (const auto* values : {&planes_deg, &gammas_deg, &intensities}) digest.add(*values);
+  for (const auto& [position, axis, plane_0, plane_90, web, scale, key] : all) {
+    for (const Vec3& v : {position, axis, plane_0, plane_90}) digest.add(v);
+    digest.add(web);
+    digest.add(scale);
+    digest.add(key);
+  }
+}
+
 void add_scene(Digest& digest, const Scene& scene) {
-  const auto& [mesh, materials, material, parallel_sources, sensors] = scene;
+  const auto& [mesh, materials, material, parallel_sources, luminaires, sensors] = scene;
   add_mesh(digest, mesh);
   digest.add(materials.size());
   for (const Material& each : materials) add_material(digest, each);
@@ -97,6 +111,7 @@ void add_scene(Digest& digest, const Scene& scene) {
   digest.add(sources.vertices);  // the rest of their mesh is empty
   digest.add(sources.triangles);
   digest.add(exitance);
+  add_luminaires(digest, luminaires);
   digest.add(sensors.size());
   for (const Sensor& each : sensors) add_sensor(digest, each);
 }
@@ -222,6 +237,7 @@ std::string pilot_digest(const Scene& scene, const PeriodLight& light) {
     std::visit([&](const auto& kind) { add_smooth(seen, kind); }, material.smooth);
     return seen.hex();
   });
+  add_luminaires(digest, scene.luminaires);
   const auto& [suns, samples, sky, ground, lamp_time_s] = light;
   for (const auto* list : {&suns, &samples[0], &samples[1]}) {
     digest.add(list->size());

@@ -68,7 +68,8 @@ void MeshFamilies::add(const VariantPlan& plan) {
   ++members.variants;
   const auto add_pilot = [&](const Scene& scene, const std::shared_ptr<const PeriodLight>& light) {
     const std::string digest = pilot_digest(scene, *light);
-    members.pilots.try_emplace(digest, MeshPilotInput{scene.materials, scene.material, light});
+    members.pilots.try_emplace(
+        digest, MeshPilotInput{scene.materials, scene.material, scene.luminaires, light});
   };
   if (plan.seasons.all.empty()) return add_pilot(plan.built.scene, light_of(plan));
   for (std::size_t s = 0; s < plan.seasons.all.size(); ++s)

@@ -20,6 +20,7 @@ namespace sunload {
 struct MeshPilotInput {
   std::vector<Material> materials;
   std::vector<MaterialId> material;  ///< per triangle
+  Luminaires luminaires;
   std::shared_ptr<const PeriodLight> light;
 };
 

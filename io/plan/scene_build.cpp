@@ -9,6 +9,8 @@
 #include "geo/mesh/covered.h"
 #include "geo/mesh/overlap.h"
 #include "geo/sun/weather.h"
+#include "io/plan/far_places.h"
+#include "io/plan/luminaires.h"
 #include "io/plan/material_assign.h"
 #include "io/plan/scene_doubts.h"
 #include "io/plan/scene_edit.h"
@@ -25,26 +27,15 @@ std::vector<Sensor> place_sensors(const SensorsStudy& study, const Mesh& mesh, c
                                   std::vector<std::string>& warnings) {
   std::vector<Sensor> sensors;
   sensors.reserve(study.points.size());
-  const double diagonal = norm(bounds.high - bounds.low);
-  std::size_t far = 0, first_far = 0;
+  FarPlaces far(mesh.origin, bounds);
   for (const auto& point : study.points) {
     const Vec3 at = point.position - mesh.origin;
-    sensors.push_back({at, normalized(point.normal), sensor_key(point.position, point.normal)});
-    const double beyond =
-        std::max({bounds.low.x - at.x, at.x - bounds.high.x, bounds.low.y - at.y,
-                  at.y - bounds.high.y, bounds.low.z - at.z, at.z - bounds.high.z});
-    if (beyond > diagonal && far++ == 0) first_far = sensors.size() - 1;
+    sensors.push_back({at, normalized(point.normal), key_of_place(point.position, point.normal)});
+    far.look_at(at);
   }
-  if (far > 0) {
-    const Vec3 p = study.points[first_far].position;
-    warnings.push_back(message(
-        study.where,
-        fmt::format("{} of {} sensors stand farther from the scene than it is wide, the first of "
-                    "them sensor {} at ({:.10g}, {:.10g}, {:.10g})",
-                    far, sensors.size(), first_far, p.x, p.y, p.z),
-        "they see little of it",
-        "positions are metres in the scene's frame, z up, not relative to its local origin"));
-  }
+  if (far.any())
+    warnings.push_back(message(study.where, far.words("sensors", "sensor"), "they see little of it",
+                               FarPlaces::hint));
   return sensors;
 }
 
@@ -146,7 +137,7 @@ ParallelSources read_parallel_sources(const Study& study, Vec3 origin, BuiltScen
     const FileMaterial& file = mesh.file_materials[id.index()];
     const auto named = std::find_if(scene.materials.begin(), scene.materials.end(),
                                     [&](const MaterialStudy& m) { return m.name == file.name; });
-    return named != scene.materials.end() ? named->emission_w_m2
+    return named != scene.materials.end() ? emission_of(*named, study.light.quantity)
                                           : file.emitted_power_w / area[id.index()];
   };
   ParallelSources sources;
@@ -306,6 +297,8 @@ void give_materials(const Study& study, BuiltScene& built) {
       assign_materials(study, {built.crs, built.site.north_deg}, built.scene, built.warnings);
   warn_of_reflectances(study, built);
   built.scene.parallel_sources = read_parallel_sources(study, built.scene.mesh.origin, built);
+  built.scene.luminaires = place_luminaires(study.scene.luminaires, built.scene.mesh,
+                                            built.report.bounds, built.warnings);
   built.scene.sensors =
       place_sensors(study.sensors, built.scene.mesh, built.report.bounds, built.warnings);
 }

@@ -13,6 +13,7 @@
 #include "geo/edit/solids.h"
 #include "geo/sun/site.h"
 #include "io/base/name_pattern.h"
+#include "io/plan/row_places.h"
 #include "io/plan/scene_models.h"
 #include "io/plan/selection.h"
 #include "io/study/file_place.h"
@@ -219,15 +220,12 @@ class SceneEditor {
     std::vector<Point2> places{add.at};
     if (add.to) {
       const double x = add.to->u - add.at.u, y = add.to->v - add.at.v, length = std::hypot(x, y);
-      constexpr double rounding = 1e-9;
-      const auto steps = static_cast<std::size_t>(length / add.every_m + rounding);
-      if (steps > most_trees)
-        refuse(fmt::format("a row of {} trees is too long", steps + 1),
+      if (length / add.every_m > most_trees)
+        refuse(fmt::format("a row of {:.0f} trees is too long", length / add.every_m + 1),
                fmt::format("it has at most {}", most_trees), "");
-      for (std::size_t s = 1; s <= steps; ++s) {
-        const double share = static_cast<double>(s) * add.every_m / length;
+      places.clear();
+      for (const double share : row_shares(length, add.every_m))
         places.push_back({add.at.u + share * x, add.at.v + share * y});
-      }
     }
     for (const Point2 at : {places.front(), places.back()})
       refuse_far(at, extents_of(model_), subject(), step_->where);
@@ -247,7 +245,7 @@ class SceneEditor {
   /// Types are of cities alone: in plain files all are decided by shape.
   std::string kind_of(const char* kind) const { return model_.is_city_format ? kind : ""; }
 
-  static constexpr std::size_t most_trees = 10'000;
+  static constexpr double most_trees = 10'000;
 
   PolygonModel model_;
   const Study& study_;

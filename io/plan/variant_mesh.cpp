@@ -149,6 +149,7 @@ VariantMesh mesh_of_family(const VariantPlan& plan, Watch& watch) {
     scene.mesh = plan.built.scene.mesh;
     scene.materials = pilot.materials;
     scene.material = pilot.material;
+    scene.luminaires = pilot.luminaires;
     const Screens passed = screens(scene);
     auto cast = std::find_if(casts.begin(), casts.end(), [&](const Cast& c) {
       return c.transmittance == passed.transmittance;

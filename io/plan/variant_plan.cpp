@@ -16,12 +16,21 @@ namespace sunload {
 
 namespace {
 
-/// Lamps are given by their power, and watts of a lamp say nothing of its lumens.
-void refuse_lamps_in_lux(const VariantPlan& plan) {
-  if (plan.study.light.quantity == Quantity::irradiance || !has_lamps(plan)) return;
-  throw InputError(plan.study.scene.where, "the scene has surfaces that emit light",
-                   "their emission is in W/m2, and how much of it the eye sees is not known",
-                   "set their emission_w_m2 to 0, or light.quantity to irradiance");
+/// Lamps of a file are given by their power, and watts of a lamp say nothing of its lumens.
+void refuse_watts_in_lux(const VariantPlan& plan) {
+  if (plan.study.light.quantity == Quantity::irradiance) return;
+  const auto has_lumens = [&](const std::string& name) {
+    return std::any_of(
+        plan.study.scene.materials.begin(), plan.study.scene.materials.end(),
+        [&](const MaterialStudy& m) { return m.name == name && m.emission_lm_m2 > 0; });
+  };
+  for (const Material& material : materials_of(plan))
+    if (material.emission_w_m2 > 0 && !has_lumens(material.name))
+      throw InputError(plan.study.scene.where,
+                       "material '" + material.name + "' emits light by its file",
+                       "in W/m2, and how much of it the eye sees is not known",
+                       "write scene.materials: {" + material.name +
+                           ": {emission_lm_m2: …}}, or light.quantity: irradiance");
 }
 
 /// Form factors are those of opaque diffuse surfaces.
@@ -48,7 +57,7 @@ VariantPlan unhashed_plan_of(const Study& study, BuiltScene built, LightSeries l
   if (!study.solver.batch_suns) plan.study.solver.batch_suns = batch_suns_for(plan.intervals());
   plan.totals = part_totals(study, plan.light, plan.built.site.latitude_deg);
   plan.steps = series_steps(study, plan.light);
-  refuse_lamps_in_lux(plan);
+  refuse_watts_in_lux(plan);
   expect_measurable(study, plan.built, plan.light);
   refuse_smooth_surfaces_in_a_matrix(plan);
   plan.pairing_id = pairing_id(study, plan.light);
@@ -81,7 +90,7 @@ std::vector<Material> materials_of(const VariantPlan& plan) {
 
 bool has_lamps(const VariantPlan& plan) {
   const auto materials = materials_of(plan);
-  return !plan.built.scene.parallel_sources.exitance.empty() ||
+  return plan.built.scene.any_lamp_beside_surfaces() ||
          std::any_of(materials.begin(), materials.end(),
                      [](const Material& m) { return m.emission_w_m2 > 0; });
 }

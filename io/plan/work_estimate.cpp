@@ -93,9 +93,10 @@ double clouded_suns(const LightSeries& light) {
 }
 
 /// Rays of the mesh pilot.
-double refinement_rays(double patches, double lit) {
+double refinement_rays(const VariantPlan& plan, double patches, double lit) {
   return patches * elements_per_leaf * points_per_element *
-         (std::min(lit, static_cast<double>(most_mesh_pilot_suns)) + other_directions);
+         (std::min(lit, static_cast<double>(most_mesh_pilot_suns)) + other_directions +
+          luminaires_seen * static_cast<double>(plan.built.scene.luminaires.all.size()));
 }
 
 /// Intervals with light, which are all where lamps shine.
@@ -246,10 +247,10 @@ std::pair<double, double> refinement_seconds(const VariantPlan& plan, std::size_
   constexpr double least = 0.5, most = 4;
   const auto triangles = static_cast<double>(plan.built.scene.mesh.triangle_count());
   const double pilots = plan.family ? static_cast<double>(plan.family->pilots.size()) : 1;
-  const double seconds =
-      pilots *
-      refinement_rays(static_cast<double>(patches), static_cast<double>(plan.light.lit_count())) *
-      s_per_line_ray(std::max(triangles, 1.0)) / thread_count();
+  const double seconds = pilots *
+                         refinement_rays(plan, static_cast<double>(patches),
+                                         static_cast<double>(plan.light.lit_count())) *
+                         s_per_line_ray(std::max(triangles, 1.0)) / thread_count();
   return {least * seconds, most * seconds};
 }
 
@@ -308,7 +309,9 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
        (suns - shining) * static_cast<double>(net_size(counts.direct_samples, s.realizations)));
   const double circumsolar_rays = facing_share * circumsolar_receivers(plan, patches) *
                                   std::min(solved, shining) * counts.direct_samples;
-  work.direct_rays = static_cast<std::uint64_t>(rays_to_sun + circumsolar_rays);
+  const double luminaire_rays = seasons * n * luminaires_seen * counts.direct_samples *
+                                static_cast<double>(plan.built.scene.luminaires.all.size());
+  work.direct_rays = static_cast<std::uint64_t>(rays_to_sun + circumsolar_rays + luminaire_rays);
   work.memory_bytes =
       program_bytes + seasons * lines * bytes_per_line +
       static_cast<double>(plan.intervals()) * bytes_per_interval +
@@ -364,8 +367,10 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   core.lines =
       seasons * tracing_seconds(plan, n, lines, guided) +
       static_cast<double>(work.samples) * s_per_sample +  // a shot meets surfaces as a line does
-      (plan.study.mesh.oracle == Oracle::none ? 0 : refinement_rays(n, lit) * s_per_direct_ray);
-  core.direct = sun_seconds(static_cast<double>(patches), suns, rays_to_sun, circumsolar_rays);
+      (plan.study.mesh.oracle == Oracle::none ? 0
+                                              : refinement_rays(plan, n, lit) * s_per_direct_ray);
+  core.direct = sun_seconds(static_cast<double>(patches), suns, rays_to_sun, circumsolar_rays) +
+                luminaire_rays * s_per_luminaire_ray;
   core.mirror = mirrors ? mirror_seconds(n, shining, counts.direct_samples) : 0;
   if (by_matrix)
     core.solve += seasons * n * n * (s_per_form_factor + n * s.realizations * s_per_factor_solved);

@@ -57,6 +57,7 @@ json canonical(const AssignRule& rule);
 json canonical(const SceneFileStudy& file);
 json canonical(const MeasureParameters& measure);
 json canonical(const EditStep& step);
+json canonical(const LuminaireStudy& luminaire);
 json canonical(const NamedSelection& selection);
 json canonical(const SeasonStudy& season);
 
@@ -150,8 +151,9 @@ json canonical(const Metal& metal) {
 
 json canonical(const MaterialStudy& material) {
   // A colour is hashed with the scene, where bands are asked for.
-  const auto& [name, diffuse, mirror, diffuse_rgb, emission_w_m2, sides, where, smooth, glossy,
-               glossy_exponent, transmittance, seasons, diffuse_of_weather] = material;
+  const auto& [name, diffuse, mirror, diffuse_rgb, emission_w_m2, emission_lm_m2, sides, where,
+               smooth, glossy, glossy_exponent, transmittance, seasons, diffuse_of_weather] =
+      material;
   json canon = {{"name", name},
                 {"diffuse", maybe(diffuse)},
                 {"mirror", maybe(mirror)},
@@ -160,6 +162,7 @@ json canonical(const MaterialStudy& material) {
                 {"glossy", glossy},
                 {"glossy_exponent", glossy_exponent},
                 {"transmittance", transmittance}};
+  if (emission_lm_m2 != 0) canon["emission_lm_m2"] = emission_lm_m2;
   if (diffuse_of_weather) canon["diffuse"] = "weather";
   canon.update(std::visit([](const auto& kind) { return canonical(kind); }, smooth));
   for (const auto& [season, other, place] : seasons) canon["seasons"].push_back({season, other});
@@ -325,9 +328,24 @@ json canonical(const EditStep& step) {
   return all;
 }
 
+/// Files by the intensities in them, which the scene has.
+json canonical(const LuminaireStudy& luminaire) {
+  const auto& [position, to, every_m, towards, turn_deg, file, beam_deg, intensity_cd, flux_lm,
+               where] = luminaire;
+  return {{"position", {position.x, position.y, position.z}},
+          {"to", to ? json{to->x, to->y, to->z} : json()},
+          {"every_m", every_m},
+          {"towards", {towards.x, towards.y, towards.z}},
+          {"turn_deg", turn_deg},
+          {"file", !file.empty()},
+          {"beam_deg", beam_deg},
+          {"intensity_cd", maybe(intensity_cd)},
+          {"flux_lm", maybe(flux_lm)}};
+}
+
 json canonical(const SceneStudy& scene) {
-  const auto& [files, builtin, parallel_sources, parallel_sources_where, up, unit_m, lod,
-               vrml_colour, vrml_excess, emission_scale_w, repair, orient, materials, assign,
+  const auto& [files, builtin, parallel_sources, parallel_sources_where, luminaires, up, unit_m,
+               lod, vrml_colour, vrml_excess, emission_scale_w, repair, orient, materials, assign,
                ground, edit, where] = scene;
   json canon{{"builtin", builtin ? canonical(*builtin) : json()},
              {"files", list_of(files)},
@@ -342,6 +360,7 @@ json canonical(const SceneStudy& scene) {
              {"assign", list_of(assign)},
              {"ground", ground ? canonical(*ground) : json()}};
   if (!edit.empty()) canon["edit"] = list_of(edit);
+  if (!luminaires.empty()) canon["luminaires"] = list_of(luminaires);
   // What most studies refuse has no key: their hashes stay.
   if (vrml_excess != VrmlExcess::refuse) canon["vrml_excess"] = word_of(vrml_excess);
   return canon;

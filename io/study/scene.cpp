@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr Range shares{0, 1};
 constexpr Range emissions_w_m2{0, 1e7};  // the surface of the sun has 6.3e7
-constexpr Range powers_w{0, 1e15};       // of a light in a file: to the sun's on a thousand km2
+constexpr Range emissions_lm_m2{0, 1e10};
+constexpr Range powers_w{0, 1e15};  // of a light in a file: to the sun's on a thousand km2
 constexpr Range refractive_indices{0.01, 10};  // silver has 0.05 in green, germanium 5
 constexpr Range extinctions{0, 100, Range::Low::excluded,
                             "glass has no such key: it has absorption_per_m"};
@@ -198,6 +199,10 @@ MaterialStudy read_material(const std::string& name, YamlMap& map) {
   read_diffuse(map, material);
   material.mirror = map.number("mirror", shares);
   material.emission_w_m2 = map.number("emission_w_m2", emissions_w_m2, material.emission_w_m2);
+  material.emission_lm_m2 = map.number("emission_lm_m2", emissions_lm_m2, material.emission_lm_m2);
+  if (map.has("emission_w_m2") && map.has("emission_lm_m2"))
+    map.problem("emission_lm_m2", "stands beside emission_w_m2",
+                "light.quantity decides which of them is meant", "leave one of them out");
   material.smooth = read_smooth(map);
   material.glossy = map.number("glossy", shares, material.glossy);
   material.glossy_exponent = map.number("glossy_exponent", exponents, material.glossy_exponent);
@@ -270,6 +275,7 @@ SceneStudy read_scene(YamlMap& map, const std::string& folder) {
   scene.where = map.where();
   scene.files = read_scene_files(map, folder);
   read_parallel_sources(map, folder, scene);
+  scene.luminaires = read_luminaires(map, folder);
   const bool describe = map.reading().purpose == YamlReading::Purpose::describe;
   map.tree("builtin");
   if (map.has("builtin") || describe) {

@@ -40,6 +40,8 @@ std::string read_path(YamlMap& map, const std::string& key, const std::string& f
 /// As many numbers as that; empty where the key is absent or wrong, which is reported.
 std::vector<double> read_numbers(YamlMap& map, const std::string& key, std::size_t count,
                                  const std::string& in_words);
+/// `scene.luminaires`; paths are relative to `folder`.
+std::vector<LuminaireStudy> read_luminaires(YamlMap& scene, const std::string& folder);
 /// `scene.edit`; paths are relative to `folder`.
 std::vector<EditStep> read_scene_edit(YamlMap& scene, const std::string& folder);
 /// Section `selections`; paths are relative to `folder`.

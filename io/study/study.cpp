@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/study/study.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -217,6 +219,18 @@ bool is_without_crs(const std::string& path) {
                      [&](const char* ending) { return name.ends_with(ending); });
 }
 
+void check_emission(YamlMap& root, const Study& study, const MaterialStudy& material) {
+  const bool lux = study.light.quantity == Quantity::illuminance;
+  if ((lux ? material.emission_w_m2 : material.emission_lm_m2) <= 0) return;
+  root.reading().problem(
+      material.where,
+      fmt::format("material '{}' has emission_{} where light.quantity is {}", material.name,
+                  lux ? "w_m2" : "lm_m2", lux ? "illuminance" : "irradiance"),
+      "how much of its watts the eye sees is not known",
+      fmt::format("write emission_{}, or light.quantity: {}", lux ? "lm_m2" : "w_m2",
+                  lux ? "irradiance" : "illuminance"));
+}
+
 /// What sections have to do with each other.
 void check_together(YamlMap& root, const Study& study, PlaceWritten placed) {
   const bool positions = std::holds_alternative<PositionsPeriod>(study.period.kind);
@@ -234,6 +248,12 @@ void check_together(YamlMap& root, const Study& study, PlaceWritten placed) {
     root.reading().problem(root.where("solver"), "solver.bands: rgb cannot go with illuminance",
                            "lux are weighted by the eye's own response to the whole spectrum",
                            "write light.quantity: irradiance, or leave solver.bands away");
+  for (const MaterialStudy& material : study.scene.materials) check_emission(root, study, material);
+  if (!study.scene.luminaires.empty() && study.light.quantity != Quantity::illuminance)
+    root.reading().problem(study.scene.luminaires.front().where,
+                           "scene.luminaires need light.quantity: illuminance",
+                           "their photometry tells lumens, and watts do not follow from them",
+                           "write light: {quantity: illuminance}");
   if (study.solver.year == Year::modes && study.output.standard_error == StandardErrors::instants)
     root.reading().problem(root.where("solver"),
                            "solver.year: modes cannot go with standard_error: instants",

@@ -147,6 +147,7 @@ struct MaterialStudy {
   std::optional<double> diffuse, mirror;
   std::optional<BandShares> diffuse_rgb;  ///< where written as colour, with `diffuse` its mean
   double emission_w_m2 = 0;               ///< diffuse exitance of an emitter
+  double emission_lm_m2 = 0;              ///< the same of a study of illuminance
   std::optional<Sides> sides;
   Where where;
   Smooth smooth;
@@ -155,6 +156,11 @@ struct MaterialStudy {
   std::vector<SeasonMaterial> seasons = {};
   bool diffuse_of_weather = false;  ///< in place of `diffuse`: the ground's albedo of each day
 };
+
+/// In what the study computes.
+inline double emission_of(const MaterialStudy& material, Quantity quantity) {
+  return quantity == Quantity::illuminance ? material.emission_lm_m2 : material.emission_w_m2;
+}
 
 /// Areas in plan as written, or of a GeoJSON file.
 struct AreasStudy {
@@ -282,11 +288,25 @@ struct EditStep {
   Where where;
 };
 
+/// A point that sends light, or a row of them.
+struct LuminaireStudy {
+  Vec3 position;
+  std::optional<Vec3> to;  ///< of a row
+  double every_m = 0;
+  Vec3 towards{0, 0, -1};  ///< of any length
+  double turn_deg = 0;     ///< clockwise seen from above
+  std::string file;        ///< its photometry, already resolved; empty: even within the beam
+  double beam_deg = 360;
+  std::optional<double> intensity_cd, flux_lm;  ///< one of them at most
+  Where where;
+};
+
 struct SceneStudy {
   std::vector<SceneFileStudy> files;
   std::optional<BuiltinStudy> builtin;
   std::string parallel_sources;  ///< file of parallel emitters, already resolved; empty: none
   Where parallel_sources_where;
+  std::vector<LuminaireStudy> luminaires;
   char up = 0;  ///< 'x', 'y', 'z' or 0: default of the format
   double unit_m = 1;
   std::string lod = "highest";

@@ -39,6 +39,8 @@ inline constexpr double s_per_direct_ray = 3.5e-8;
 inline constexpr double s_per_circumsolar_ray = 1.0e-7;
 /// Of patches that a sun stands before: that edges of shadows cross, and that are behind screens.
 inline constexpr double share_at_edges = 0.15, share_behind_screens = 0.1;
+inline constexpr double s_per_luminaire_ray = 1.0e-7;
+inline constexpr double luminaires_seen = 0.5;  ///< of a patch: before it, and sending towards it
 inline constexpr double s_per_mirror_ray = 1.3e-7;
 inline constexpr double mirrored_share = 0.11;  ///< of them again, where there are mirrors
 

@@ -35,7 +35,8 @@ constexpr bool are_disjoint(const std::array<RandomBlocks, N>& ranges) {
 inline constexpr std::uint32_t blocks_of_chain = 1024;
 static_assert(blocks_of_chain > most_reflections);
 
-/// Of a line, or of a sample that a mirror receives: Purpose::glossy, parallel_light, glossy_sun.
+/// Of a line, or of a sample that a mirror receives: Purpose::glossy, parallel_light, luminaires,
+/// glossy_sun.
 namespace line_blocks {
 inline constexpr RandomBlocks of_line{0, blocks_of_chain};
 /// What the surface that it leaves sends on, where the line says from where light arrives.

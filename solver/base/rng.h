@@ -26,6 +26,7 @@ enum class Purpose : std::uint32_t {
   sun_disk = 12,  ///< points of it that glossy surfaces ask
   form_factors = 13,
   clouded_sun = 14,  ///< of which only is asked how much of a patch would see it
+  luminaires = 15,
   shooting = 16,
 };
 

@@ -62,6 +62,7 @@ class SunSampler {
   std::array<Vec3, 3> corners(std::size_t receiver) const;
   Vec3 normal(std::size_t receiver) const;
 
+  double offset_m() const { return offset_m_; }  ///< of the ray caster
   std::size_t samples() const { return realization_.size(); }
   std::uint64_t study_seed() const { return rules_.seed; }
   std::size_t packets() const { return (samples() + packet_size - 1) / packet_size; }

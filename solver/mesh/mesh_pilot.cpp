@@ -140,6 +140,7 @@ ElementLoad MeshPilot::load(std::size_t element, std::uint8_t side, double min_a
   for (std::size_t p = 0; p < packets; ++p) {
     double common[packet_size] = {}, common_glints[packet_size] = {};
     add_suns(points, light_.suns, points.normal, p, common, load);
+    add_luminaires(points, p, common);
     images_.add(images_.of_both_halves(), points.corners, points.packets[p], points.normal,
                 common_glints);
     for (std::uint32_t h = 0; h < halves_of_light; ++h) {
@@ -264,6 +265,29 @@ void MeshPilot::add_emitters(const Points& points, std::size_t packet, std::uint
       sum[r] += weight * kernel[r];
       load.lamp_form_factor = std::max(load.lamp_form_factor, kernel[r] * area_m2);
     }
+  }
+}
+
+/// E(x) = I cosθ V / r².
+void MeshPilot::add_luminaires(const Points& points, std::size_t packet, double* sum) const {
+  if (light_.lamp_time_s <= 0) return;
+  const Packet& origins = points.packets[packet];
+  for (const Luminaire& luminaire : scene_.luminaires.all) {
+    PacketDirections ways{};
+    double E[packet_size] = {};
+    std::uint32_t facing = 0;
+    for (std::size_t r = 0; r < packet_size; ++r) {
+      const Vec3 way = luminaire.position - at(origins, r);
+      const double cos_r = dot(points.normal, way), r2 = dot(way, way), length = std::sqrt(r2);
+      if (cos_r <= 0) continue;
+      E[r] = scene_.luminaires.intensity(luminaire, -way / length) * cos_r / (length * r2);
+      if (E[r] <= 0) continue;
+      put(ways, r, way);
+      facing |= 1u << r;
+    }
+    if (facing == 0) continue;
+    for (auto lit = caster_.unoccluded_up_to(origins, ways, facing); lit != 0; lit &= lit - 1)
+      sum[std::countr_zero(lit)] += light_.lamp_time_s * E[std::countr_zero(lit)];
   }
 }
 

@@ -64,6 +64,7 @@ class MeshPilot {
   void look_for_suns(const Points& points, ElementLoad& load) const;
   void add_emitters(const Points& points, std::size_t packet, std::uint32_t half, double area_m2,
                     double* sum, ElementLoad& load) const;
+  void add_luminaires(const Points& points, std::size_t packet, double* sum) const;
   void add_surroundings(const Points& points, std::size_t packet, std::uint32_t half,
                         double* sum) const;
   double radiosity(const PacketHits& hits, std::size_t ray) const;

@@ -6,7 +6,7 @@ namespace sunload {
 
 PatchOptics patch_optics(const Scene& scene, const Hierarchy& hierarchy) {
   PatchOptics optics;
-  optics.any_emission = !scene.parallel_sources.exitance.empty();
+  optics.any_emission = scene.any_lamp_beside_surfaces();
   for (const auto& patch : hierarchy.patches()) {
     const Material& m = scene.material_of(patch.triangle);
     optics.diffuse.push_back(static_cast<float>(m.diffuse));

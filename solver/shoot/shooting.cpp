@@ -54,9 +54,8 @@ DoubleColumns ground_exitance(const BlockSources& sources) {
 
 Shooter::Shooter(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
                  const SunSampler& sampler, const SkyGrid& grid, const PatchOptics& optics,
-                 const Lines& lines, const ParallelLight& parallel,
-                 const std::vector<float>& beyond, const LineRules& line_rules,
-                 const ShootingRules& rules)
+                 const Lines& lines, const LampLight& parallel, const std::vector<float>& beyond,
+                 const LineRules& line_rules, const ShootingRules& rules)
     : hierarchy_(hierarchy),
       caster_(caster),
       lines_(lines),
@@ -223,7 +222,7 @@ void Shooter::shoot_emitters() {
 }
 
 /// Its ledger holds what meets the scene and what mirrors send on, not what patches absorb of it.
-void Shooter::add_parallel(const ParallelLight& parallel, const PatchOptics& optics) {
+void Shooter::add_parallel(const LampLight& parallel, const PatchOptics& optics) {
   for (std::size_t r = 0; r < emitters_.size(); ++r) {
     OfEmitters& of = emitters_[r];
     of.parallel = parallel.ledger[r];

@@ -25,7 +25,7 @@
 #include <span>
 #include <vector>
 
-#include "solver/first_light/parallel_light.h"
+#include "solver/first_light/lamp_light.h"
 #include "solver/gather/block_light.h"
 #include "solver/light/tally.h"
 #include "solver/light/transport.h"
@@ -73,7 +73,7 @@ class Shooter {
   /// `beyond`: light_beyond, or empty.
   Shooter(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
           const SunSampler& sampler, const SkyGrid& grid, const PatchOptics& optics,
-          const Lines& lines, const ParallelLight& parallel, const std::vector<float>& beyond,
+          const Lines& lines, const LampLight& parallel, const std::vector<float>& beyond,
           const LineRules& line_rules, const ShootingRules& rules);
 
   /// The sun's light that mirrors send on, for all realizations of a block at once.
@@ -98,7 +98,7 @@ class Shooter {
     std::uint64_t samples = 0, rays = 0;
   };
   struct OfEmitters {
-    std::vector<double> irradiance;  ///< parallel sources included
+    std::vector<double> irradiance;  ///< lamps that are no surfaces included
     Fate<double> fate;               ///< of diffuse emitters' power [W]
     Ledger parallel;                 ///< [W]
   };
@@ -114,7 +114,7 @@ class Shooter {
   class Task;
   Shot shoot(const DoubleColumns& power, double samples, const Address& address) const;
   void shoot_emitters();
-  void add_parallel(const ParallelLight& parallel, const PatchOptics& optics);
+  void add_parallel(const LampLight& parallel, const PatchOptics& optics);
   Reflected reflect(const DoubleColumns& first, std::size_t realization, std::uint32_t sun) const;
   DoubleColumns light_beyond_last(const DoubleColumns& last) const;
   DoubleColumns reflected_power(const DoubleColumns& received) const;

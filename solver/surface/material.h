@@ -10,6 +10,7 @@
 
 #include "geo/mesh/mesh.h"
 #include "solver/light/band.h"
+#include "solver/surface/luminaire.h"
 #include "solver/surface/sensor.h"
 #include "solver/surface/smooth.h"
 
@@ -94,8 +95,13 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<MaterialId> material;  ///< per triangle, into `materials`
   ParallelSources parallel_sources = {};
+  Luminaires luminaires = {};
   std::vector<Sensor> sensors = {};  ///< receive light without disturbing the rest
 
+  /// Lamps that are no surfaces of it.
+  bool any_lamp_beside_surfaces() const {
+    return !parallel_sources.exitance.empty() || luminaires.any();
+  }
   const Material& material_of(std::size_t triangle) const {
     return materials[material[triangle].index()];
   }

@@ -8,7 +8,7 @@
 
 namespace sunload {
 
-std::uint64_t sensor_key(Vec3 absolute_position, Vec3 normal) {
+std::uint64_t key_of_place(Vec3 absolute_position, Vec3 normal) {
   std::uint64_t key = 0x73656e736f72;  // "sensor": apart from the keys of patches
   for (const Vec3& v : {absolute_position, normal})
     for (const double x : {v.x, v.y, v.z}) key = mixed(key, std::bit_cast<std::uint64_t>(x + 0.0));

@@ -15,8 +15,8 @@ struct Sensor {
   std::uint64_t key = 0;  ///< stable address of its random numbers
 };
 
-/// Key of a sensor from where it stands (absolute, so that variants share it) and
-/// where it looks: other sensors of a study make no difference to it.
-std::uint64_t sensor_key(Vec3 absolute_position, Vec3 normal);
+/// Key of a sensor or luminaire from where it stands (absolute, so that variants share it) and
+/// where it looks: others of a study make no difference to it.
+std::uint64_t key_of_place(Vec3 absolute_position, Vec3 normal);
 
 }  // namespace sunload

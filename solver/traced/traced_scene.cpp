@@ -48,13 +48,13 @@ Lines lines_of_sensors(TracedScene& traced) {
   return lines;
 }
 
-void add_parallel_light(TracedScene& traced) {
+void add_lamp_light(TracedScene& traced) {
   const auto realizations = static_cast<std::size_t>(traced.rules.realizations);
   traced.patches.lamps =
-      parallel_light(traced.scene, *traced.mesh, traced.caster, traced.patches.sampler,
-                     traced.optics, realizations, traced.rules.mirror_depth);
+      lamp_light(traced.scene, *traced.mesh, traced.caster, traced.patches.sampler, traced.optics,
+                 realizations, traced.rules.mirror_depth);
   traced.sensors.lamps =
-      parallel_light_on_sensors(traced.scene, traced.caster, traced.sensors.sampler, realizations);
+      lamp_light_on_sensors(traced.scene, traced.caster, traced.sensors.sampler, realizations);
   traced.work.add(Work::direct_rays, traced.patches.lamps.rays);
 }
 
@@ -157,7 +157,7 @@ std::unique_ptr<TracedScene> trace_scene(const Scene& scene, std::shared_ptr<con
   traced->patches.lines = ready ? std::move(*ready) : lines_of_patches(*traced, watch);
   if (rules.transport == Transport::matrix) use_form_factors(*traced, watch);
   traced->sensors.lines = lines_of_sensors(*traced);
-  add_parallel_light(*traced);
+  add_lamp_light(*traced);
   traced->bounces = bounces_of_bands(*traced);
   traced->beyond_of_band = beyond_of_bands(*traced);
   return traced;

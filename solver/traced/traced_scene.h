@@ -11,9 +11,9 @@
 
 #include "solver/base/watch.h"
 #include "solver/first_light/glossy_sun.h"
+#include "solver/first_light/lamp_light.h"
 #include "solver/first_light/mirror_chains.h"
 #include "solver/first_light/mirror_sun.h"
-#include "solver/first_light/parallel_light.h"
 #include "solver/gather/jacobi.h"
 #include "solver/light/work.h"
 #include "solver/lines/lines.h"
@@ -28,9 +28,9 @@ namespace sunload {
 /// What receives light: the patches, or the sensors.
 struct Receivers {
   explicit Receivers(SunSampler points) : sampler(std::move(points)) {}
-  SunSampler sampler;   ///< points from which the sun is looked for
-  Lines lines;          ///< no rows where there are no receivers
-  ParallelLight lamps;  ///< by parallel sources, constant in time
+  SunSampler sampler;  ///< points from which the sun is looked for
+  Lines lines;         ///< no rows where there are no receivers
+  LampLight lamps;     ///< that are no surfaces
 
   std::size_t count() const { return sampler.receivers(); }
 };

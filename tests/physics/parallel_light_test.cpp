@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Parallel emitters: beams of known cross-section on plates, boxes and mirrors.
 
-#include "solver/first_light/parallel_light.h"
+#include "solver/first_light/lamp_light.h"
 
 #include <gtest/gtest.h>
 

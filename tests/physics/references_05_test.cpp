@@ -124,7 +124,7 @@ TEST(ConvergedBox, MeansOfFacesAndTheirCentres) {
                                                            {{x / 2, y, z / 2}, {0, -1, 0}},
                                                            {{x / 2, y / 2, 0}, {0, 0, 1}},
                                                            {{x / 2, y / 2, z}, {0, 0, -1}}}};
-    for (const auto& [p, n] : centre) scene.sensors.push_back({p, n, sensor_key(p, n)});
+    for (const auto& [p, n] : centre) scene.sensors.push_back({p, n, key_of_place(p, n)});
     const int bounces = bounces_until(1e-3, most(c["reflectance"]));
     const auto with = [&](double edges) {
       return solve(scene, {night}, diffuse_rules(64, bounces),

@@ -98,7 +98,7 @@ void add_parallel_source(Scene& scene, Vec3 p, Vec3 x, Vec3 y, double exitance) 
 }
 
 Sensor sensor_at(Vec3 position, Vec3 normal) {
-  return {position, normalized(normal), sensor_key(position, normal)};
+  return {position, normalized(normal), key_of_place(position, normal)};
 }
 
 IntervalLight one_second(Vec3 sun_direction, double dni) {
@@ -182,6 +182,9 @@ std::vector<Solved> solved_bands(const Scene& scene, const std::vector<IntervalL
     Solved solved;
     solved.area = traced->hierarchy().area();
     solved.patches = traced->hierarchy().patches();
+    for (std::size_t i = 0; i < solved.patches.size(); ++i)
+      solved.corners.push_back({traced->hierarchy().corner(i, 0), traced->hierarchy().corner(i, 1),
+                                traced->hierarchy().corner(i, 2)});
     solved.tally = std::move(tally);
     solved.sky_view = traced->sky_view_factor();
     solved.bounces = traced->bounces;

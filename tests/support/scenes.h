@@ -3,6 +3,7 @@
 /// Small scenes made of triangles, and one solve of them.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -56,6 +57,7 @@ inline const IntervalLight night = one_second({0, 0, -1}, 0);
 struct Solved {
   std::vector<double> area;
   std::vector<Patch> patches;
+  std::vector<std::array<Vec3, 3>> corners;  ///< of patches
   BatchTally tally;
   std::vector<double> sky_view;
   int bounces = 0;

@@ -842,6 +842,17 @@ json step_around(const std::string& path) {
   return step;
 }
 
+/// A luminaire with what a key of it needs beside it.
+json luminaire_around(const std::string& path) {
+  json luminaire = {{"position_m", {0, 0, 5}}, {"intensity_cd", 100}};
+  if (path.ends_with(".to_m")) luminaire["every_m"] = 5;
+  if (path.ends_with(".every_m")) luminaire["to_m"] = {50, 0, 5};
+  if (path.ends_with(".file")) luminaire = {{"position_m", {0, 0, 5}}, {"flux_lm", 1000}};
+  if (path.ends_with(".flux_lm"))
+    luminaire = {{"position_m", {0, 0, 5}}, {"file", test::source_folder() + "/LICENSE"}};
+  return luminaire;
+}
+
 /// A study in which the key can stand.
 json study_around(const std::string& path) {
   json study = json::parse(R"({"format": "sunload-study-1", "name": "test",
@@ -863,6 +874,10 @@ json study_around(const std::string& path) {
   if (path == "scene.ground.height_m") study["scene"]["ground"]["surface"] = "level";
   if (path == "site.timezone") study["site"].erase("timezone");
   if (path.starts_with("scene.edit")) study["scene"]["edit"] = json::array({step_around(path)});
+  if (path.starts_with("scene.luminaires") || path.ends_with("emission_lm_m2"))
+    study["light"]["quantity"] = "illuminance";
+  if (path.starts_with("scene.luminaires"))
+    study["scene"]["luminaires"] = json::array({luminaire_around(path)});
   if (path.starts_with("scene.files")) {
     study["scene"].erase("builtin");
     study["scene"]["files"] = json::array({{{"file", test::source_folder() + "/LICENSE"}}});
@@ -1218,6 +1233,7 @@ std::vector<json> values_of(const std::string& path, const json& schema) {
       {"scene.files[].canopy", {file}},
       {"scene.files[].file", {file, test::source_folder() + "/README.md"}},
       {"scene.parallel_sources", {file}},
+      {"scene.luminaires[].file", {file}},
       {"sensors.file", {file}},
       {"scene.builtin.name", {"street", "canyon"}},
       {"scene.materials.*.seasons.*", {"m", "n"}},
