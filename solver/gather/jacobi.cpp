@@ -91,9 +91,10 @@ void count_all_as_gathered(const Hierarchy& mesh, const PatchOptics& optics, con
 
 Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                   const Columns& base, const Columns& ground, int bounces) {
-  Reflected out{ground, columns(mesh.element_count()), {}};
+  Reflected out{ground, columns(mesh.element_count()), {}, {}};
   for (int b = 1; b <= passes(lines, bounces); ++b) {
     set_radiosity(mesh, optics, base, out);
+    out.two_before.swap(out.before);
     out.before.swap(out.irradiance);
     out.irradiance = ground;
     gather(lines.patches, out.gathered_radiosity, out.irradiance, Into::add);
@@ -105,9 +106,10 @@ Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics
 ReflectedExposure reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                           const std::vector<double>& base, const std::vector<double>& ground,
                           int bounces) {
-  ReflectedExposure out{ground, std::vector<double>(mesh.element_count(), 0), {}};
+  ReflectedExposure out{ground, std::vector<double>(mesh.element_count(), 0), {}, {}};
   for (int b = 1; b <= passes(lines, bounces); ++b) {
     set_radiosity(mesh, optics, base, out);
+    out.two_before.swap(out.before);
     out.before.swap(out.irradiance);
     out.irradiance = ground;
     gather(lines.patches, out.gathered_radiosity, out.irradiance, Into::add);
@@ -116,26 +118,57 @@ ReflectedExposure reflect(const Hierarchy& mesh, const LineSet& lines, const Pat
   return out;
 }
 
+namespace {
+
+/// A place may miss so many times the share that the whole may: what is left is estimated, and the
+/// estimate leaves a tenth of it and less (solver/gather/unfollowed.h).
+constexpr double share_of_a_place = 100;
+/// Of the patches, that may miss more: cracks and cavities, which have next to no light.
+constexpr double few = 1e-3;
+
+/// Light of a uniform sky, bounce by bounce.
+struct BouncedSky {
+  std::vector<double> last, all;  ///< that the last bounce brought, and all until then; per patch
+
+  double reflected(const std::vector<double>& area, const PatchOptics& optics) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < last.size(); ++i)
+      sum += area[i] * (static_cast<double>(optics.diffuse[i]) * last[i]);
+    return sum;
+  }
+  /// Patches to which the next bounce brings more than that share of what they have.
+  std::size_t missing(const std::vector<double>& next, double share) const {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < next.size(); ++i)
+      if (next[i] > share * all[i]) ++count;
+    return count;
+  }
+};
+
+}  // namespace
+
 int bounces_needed(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                    int bounces, double unshot) {
-  if (lines.all_reflections) return bounces;
-  const std::vector<double>& area = mesh.area();
-  const std::size_t patches = area.size();
-  std::vector<double> received(patches), radiosity(mesh.element_count());
+  if (lines.all_reflections || optics.any_emission) return bounces;
+  const std::size_t patches = mesh.patch_count();
+  BouncedSky sky;
+  for (const LineEnds& ends : lines.ends)
+    sky.last.push_back(static_cast<double>(ends.fate.escaped));
+  sky.all = sky.last;
   double in = 0;
-  for (std::size_t i = 0; i < patches; ++i) {
-    received[i] = static_cast<double>(lines.ends[i].fate.escaped);
-    in += area[i] * received[i];
-  }
+  for (std::size_t i = 0; i < patches; ++i) in += mesh.area()[i] * sky.last[i];
+  std::vector<double> radiosity(mesh.element_count()), next(patches);
   for (int b = 0; b < bounces; ++b) {
-    double left = 0;
-    for (std::size_t i = 0; i < patches; ++i) {
-      radiosity[i] = static_cast<double>(optics.diffuse[i]) * received[i];
-      left += area[i] * radiosity[i];
-    }
-    if (left <= unshot * in && !optics.any_emission) return b;
+    for (std::size_t i = 0; i < patches; ++i)
+      radiosity[i] = static_cast<double>(optics.diffuse[i]) * sky.last[i];
     pull_up(mesh, radiosity);
-    gather(lines.patches, radiosity, received, Into::replace);
+    gather(lines.patches, radiosity, next, Into::replace);
+    const bool is_enough_of_all = sky.reflected(mesh.area(), optics) <= unshot * in;
+    if (is_enough_of_all && static_cast<double>(sky.missing(next, share_of_a_place * unshot)) <=
+                                few * static_cast<double>(patches))
+      return b;
+    sky.last = next;
+    for (std::size_t i = 0; i < patches; ++i) sky.all[i] += next[i];
   }
   return bounces;
 }

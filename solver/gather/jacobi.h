@@ -41,6 +41,7 @@ struct Reflected {
   Columns irradiance;  ///< [N][block]: everything after a diffuse reflection, and the far ground
   Columns gathered_radiosity;  ///< [elements][block]: radiosity rho E^(n-1) that was gathered last
   Columns before;              ///< `irradiance` one bounce earlier; empty without a bounce
+  Columns two_before;          ///< the same of two bounces
 };
 /// base: irradiance that arrives without diffuse reflection (direct, sky, mirror,
 /// lamps); ground: that of the far ground.
@@ -49,15 +50,16 @@ Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics
 
 struct ReflectedExposure {
   std::vector<double> irradiance, gathered_radiosity;
-  std::vector<double> before;
+  std::vector<double> before, two_before;
 };
 /// The same for time-integrated irradiance of one realization [J m-2].
 ReflectedExposure reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                           const std::vector<double>& base, const std::vector<double>& ground,
                           int bounces);
 
-/// Bounces after which less than `unshot` of the light of a uniform sky would
-/// remain unfollowed, at most `bounces`: decided once per variant.
+/// Bounces after which less than `unshot` of the light of a uniform sky would remain unfollowed,
+/// and of nearly every patch's own light less than a hundred times that, at most `bounces`: decided
+/// once per variant.
 int bounces_needed(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                    int bounces, double unshot);
 

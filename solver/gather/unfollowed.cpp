@@ -62,8 +62,12 @@ std::vector<float> light_beyond(const Hierarchy& mesh, const LineSet& lines,
                                 const PatchOptics& optics, int bounces) {
   if (bounces == 0) return {};
   Bouncing light(mesh, lines, optics);
-  for (int b = 0; b < bounces; ++b) light.bounce();
-  const std::vector<double> last = light.received;
+  std::vector<double> last(lines.ends.size(), 0);  // that the last two bring
+  for (int b = 0; b < bounces; ++b) {
+    light.bounce();
+    if (b + 2 < bounces) continue;
+    for (std::size_t i = 0; i < last.size(); ++i) last[i] += light.received[i];
+  }
   const double power_of_last = light.power();
 
   std::vector<double> sum(last.size(), 0);
@@ -86,14 +90,25 @@ std::vector<float> light_beyond(const Hierarchy& mesh, const LineSet& lines,
   return beyond;
 }
 
+namespace {
+
+/// What was there before the last two bounces, or the only one.
+template <class Light>
+const auto& before_last(const Light& reflected) {
+  return reflected.two_before.empty() ? reflected.before : reflected.two_before;
+}
+
+}  // namespace
+
 Columns unfollowed(const Reflected& reflected, const std::vector<float>& beyond) {
   Columns out = columns(beyond.size());
-  if (reflected.before.empty()) return out;  // no bounce
+  const Columns& before = before_last(reflected);
+  if (before.empty()) return out;  // no bounce
   parallel_for(
       beyond.size(),
       [&](std::size_t i) {
         for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k)
-          out[k] = beyond[i] * std::max(0.0f, reflected.irradiance[k] - reflected.before[k]);
+          out[k] = beyond[i] * std::max(0.0f, reflected.irradiance[k] - before[k]);
       },
       receivers_per_chunk);
   return out;
@@ -102,10 +117,10 @@ Columns unfollowed(const Reflected& reflected, const std::vector<float>& beyond)
 std::vector<double> unfollowed(const ReflectedExposure& reflected,
                                const std::vector<float>& beyond) {
   std::vector<double> out(beyond.size(), 0);
-  if (reflected.before.empty()) return out;
+  const std::vector<double>& before = before_last(reflected);
+  if (before.empty()) return out;
   for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = static_cast<double>(beyond[i]) *
-             std::max(0.0, reflected.irradiance[i] - reflected.before[i]);
+    out[i] = static_cast<double>(beyond[i]) * std::max(0.0, reflected.irradiance[i] - before[i]);
   return out;
 }
 

@@ -4,14 +4,17 @@
 ///
 /// With d_b = E^(b) - E^(b-1), what bounce b brings, all of the light is E^(n) + Σ_{b>n} d_b. After
 /// some bounces what is left has nearly the same shape whatever shone first, that of the largest
-/// eigenvectors of G rho; so each patch receives as many times its d_n as it does under a uniform
-/// sky, for which the iteration goes on once and for all,
+/// eigenvectors of G rho. Between walls that face each other these come in pairs, λ and -λ: what
+/// one wall has now the other has next, and d_n alone tells the one only. Two bounces tell both:
+/// the sum of all that follow is λ² / (1 - λ²) (d_n + d_(n-1)) of either. So each patch receives as
+/// many times its last two as it does under a uniform sky, for which the iteration goes on once and
+/// for all,
 ///
-///     E^(∞) - E^(n) ≈ t d_n ,   t = Σ_{b>n} d_b / d_n  of the uniform sky.
+///     E^(∞) - E^(n) ≈ t (d_n + d_(n-1)) ,   t = Σ_{b>n} d_b / (d_n + d_(n-1)) of the uniform sky;
 ///
-/// One ratio for all patches (Aitken 1926, by the power that they reflect) leaves a fifth of this
-/// light in a courtyard, where t leaves less than a tenth; ratios patch by patch are worse than
-/// none, since single patches are far from their limit after few bounces.
+/// after one bounce t d_n. One ratio for all patches (Aitken 1926, by the power that they reflect)
+/// leaves a fifth of this light in a courtyard, where t leaves less than a tenth; ratios patch by
+/// patch are worse than none, since single patches are far from their limit after few bounces.
 #pragma once
 
 #include <vector>

@@ -234,6 +234,7 @@ void Shooter::add_parallel(const LampLight& parallel, const PatchOptics& optics)
   }
 }
 
+/// `last`: what the last two bounces brought, or the only one.
 DoubleColumns Shooter::light_beyond_last(const DoubleColumns& last) const {
   DoubleColumns estimated(last.size());
   parallel_for(
@@ -264,6 +265,7 @@ Shooter::Reflected Shooter::reflect(const DoubleColumns& first, std::size_t real
   DoubleColumns power = reflected_power(first);
   const SunTotals first_total = total_power(power);
   SunTotals total = first_total, sent{};
+  DoubleColumns one_before;  // what the bounce before brought
   const auto any = [](const SunTotals& of) {
     return std::any_of(of.begin(), of.end(), [](double P) { return P > 0; });
   };
@@ -280,7 +282,11 @@ Shooter::Reflected Shooter::reflect(const DoubleColumns& first, std::size_t real
       power = reflected_power(shot.irradiance);
       add(out.irradiance, shot.irradiance);
       out.fates += shot.fates;
-      if (!beyond_.empty()) out.estimated = light_beyond_last(shot.irradiance);
+      if (!beyond_.empty()) {
+        if (b > 1) add(one_before, shot.irradiance);
+        out.estimated = light_beyond_last(b > 1 ? one_before : shot.irradiance);
+        one_before = std::move(shot.irradiance);
+      }
     } else {
       sent = total;
       out.shot_radiosity = std::move(power);
