@@ -11,6 +11,7 @@
 #include "io/base/output_target.h"
 #include "io/base/standard_streams.h"
 #include "io/command/study_scenes.h"
+#include "io/picture/picture.h"
 #include "io/plan/scene_edit.h"
 #include "io/plan/scene_models.h"
 #include "io/report/compare.h"
@@ -248,6 +249,7 @@ int render(RenderOptions options) {
   RenderRules& rules = options.rules;
   if (std::sscanf(options.size.c_str(), "%dx%d", &rules.width, &rules.height) != 2)
     throw InputError({}, "--size " + options.size, "not a size", "write e.g. 1600x1000");
+  expect_picture_name(options.picture);
   if (is_study(options.result.path)) return render_study(options);
   if (!options.variant.empty())
     throw InputError({}, "--variant without a study", "a result is of one variant",

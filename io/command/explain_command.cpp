@@ -8,6 +8,7 @@
 #include "io/explain/painting.h"
 #include "io/explain/place.h"
 #include "io/explain/place_map.h"
+#include "io/picture/picture.h"
 #include "io/picture/waterfall.h"
 #include "io/result/time.h"
 
@@ -34,7 +35,7 @@ std::string text_of(const Made& made, ExplainOptions::Format format,
 }  // namespace
 
 int explain(const ExplainOptions& options) {
-  if (!options.picture.empty()) expect_picture_name(options.picture);  // before the work
+  expect_picture_name(options.picture);  // before the work
   if (!options.map.empty()) expect_map_name(options.map);
   ResultScenes scenes(options.study_folder);
   if (options.what == ExplainOptions::What::painting) {

@@ -93,12 +93,29 @@ struct ResultScenes::Opened {
   MeshFamilies families;
 };
 
-std::unique_ptr<const ResultScene> ResultScenes::of(const ResultReader& result) {
-  const auto text = result.strings("study_yaml");
-  auto& opened = studies_[text.empty() ? "" : text.front()];
+/// A result does not know where its study lay.
+std::shared_ptr<ResultScenes::Opened> ResultScenes::open(const ResultReader& result,
+                                                         const std::string& yaml) const {
   const std::string path =
       (std::filesystem::path(folder_) / ("study of " + result.text_attribute("variant"))).string();
-  if (!opened) opened = std::make_shared<Opened>(path, text.empty() ? "" : text.front());
+  try {
+    return std::make_shared<Opened>(path, yaml);
+  } catch (const InputError& error) {
+    if (!folder_.empty()) throw;
+    Problems problems;
+    problems.add(error);
+    problems.add({result.path()}, "its study is not read as it was",
+                 "its files are sought from the working directory",
+                 "name the folder of its study with --study-folder");
+    throw InputError(problems.list());
+  }
+}
+
+std::unique_ptr<const ResultScene> ResultScenes::of(const ResultReader& result) {
+  const auto text = result.strings("study_yaml");
+  const std::string yaml = text.empty() ? "" : text.front();
+  auto& opened = studies_[yaml];
+  if (!opened) opened = open(result, yaml);
   const auto& variants = opened->file.variants;
   const auto study = std::find_if(variants.begin(), variants.end(), [&](const Study& s) {
     return s.variant == result.text_attribute("variant");

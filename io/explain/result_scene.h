@@ -54,6 +54,8 @@ class ResultScenes {
 
  private:
   struct Opened;
+  std::shared_ptr<Opened> open(const ResultReader& result, const std::string& yaml) const;
+
   std::string folder_;
   std::map<std::string, std::shared_ptr<Opened>> studies_;  ///< by text
 };

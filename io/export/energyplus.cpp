@@ -38,7 +38,8 @@ Year expected_year(const ResultReader& result) {
       {result.path()}, "the intervals are not those of a year of EnergyPlus",
       "it needs all of 365 or 366 days from 1 January 00:00 local standard time, in equal steps "
       "of which a whole number fits into an hour",
-      "run a study with period: {start: YYYY-01-01T00:00, end: …, step_min: 60}");
+      "run a study with period: {start: YYYY-01-01T00:00, end: …, step_min: 60}; where clocks are "
+      "put forward on 1 January, with site.timezone as a fixed offset, e.g. \"+09:30\"");
   const auto bounds = result.doubles("time_bounds");
   const std::size_t count = bounds.size() / 2;
   if (count == 0) throw not_a_year;

@@ -12,19 +12,17 @@ namespace sunload {
 
 namespace {
 
-/// From the equinox of autumn to that of spring, as British practice takes them, by the site's
-/// clock.
+/// From the equinox of autumn to that of spring, as British practice takes them, both days
+/// included, by the site's clock.
 class Winter {
  public:
   explicit Winter(const Site& site) : zone_(site.timezone), is_south_(site.latitude_deg < 0) {}
   bool has(const MeasuredInterval& interval) const {
-    constexpr int march = 3, september = 9, day_of_equinox = 21;
+    constexpr std::pair march{3, 21}, september{9, 21};
     const UnixTime middle = interval.begin + (interval.end - interval.begin) / 2;
     const CivilTime date = zone_.civil_from_utc(middle);
     const auto place = std::pair(date.month, date.day);
-    const bool is_northern_summer =
-        place >= std::pair(march, day_of_equinox) && place < std::pair(september, day_of_equinox);
-    return is_northern_summer == is_south_;
+    return is_south_ ? place >= march && place <= september : place <= march || place >= september;
   }
 
  private:

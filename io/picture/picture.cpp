@@ -14,6 +14,7 @@
 #include "io/base/byte_text.h"
 #include "io/base/deflate.h"
 #include "io/base/file_aside.h"
+#include "io/base/file_text.h"
 
 namespace sunload {
 namespace {
@@ -50,6 +51,13 @@ void follow(cairo_t* context, const std::vector<PicturePoint>& points) {
 void choose(cairo_t* context, Colour c) { cairo_set_source_rgb(context, c.red, c.green, c.blue); }
 
 }  // namespace
+
+void expect_picture_name(const std::string& path) {
+  const std::string format = lower_extension(path);
+  if (!format.empty() && format != ".png")
+    throw InputError({path}, "is the name of no picture", "pictures are written as PNG",
+                     "let it end in .png");
+}
 
 struct Picture::Canvas {
   cairo_surface_t* surface;

@@ -15,6 +15,9 @@
 
 namespace sunload {
 
+/// Throws InputError for a file name that promises another format, as .jpg does.
+void expect_picture_name(const std::string& path);
+
 struct PicturePoint {
   double x = 0, y = 0;
 };

@@ -311,12 +311,6 @@ class Waterfall {
 
 }  // namespace
 
-void expect_picture_name(const std::string& path) {
-  if (!path.ends_with(".png"))
-    throw InputError({path}, "is no name of a picture", "it is written as PNG",
-                     "let it end in .png");
-}
-
 void draw_waterfall(const Explanation& explanation, const std::string& path) {
   Waterfall(explanation).draw(path);
 }

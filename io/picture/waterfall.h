@@ -9,9 +9,6 @@
 
 namespace sunload {
 
-/// Throws InputError for a path that does not end in .png.
-void expect_picture_name(const std::string& path);
-
 /// A row for each of the table's, from what the place would have in the open to what it has. An
 /// object's bars begin where those before it ended: to the left what it takes, below it to the
 /// right what it gives, in the colours of the ways of light; objects of little weight are one row.

@@ -69,6 +69,9 @@ Where where_named(const SceneStudy& study, const std::string& material) {
   return study.where;
 }
 
+/// What is called so that no file and no rule gives a material; a study may say what it reflects.
+const std::string nameless = "default";
+
 class MaterialAssigner {
  public:
   MaterialAssigner(const Study& study, const SceneFrame& frame, Scene& scene,
@@ -147,6 +150,7 @@ class MaterialAssigner {
     MaterialStudy all = *of_table;
     all.where = m.where;
     all.emission_w_m2 = m.emission_w_m2;
+    all.emission_lm_m2 = m.emission_lm_m2;
     if (m.sides) all.sides = m.sides;
     all.seasons = m.seasons;
     return all;
@@ -231,7 +235,8 @@ class MaterialAssigner {
     const auto& ground = study_.scene.ground;
     if (ground && !ground->material.empty() && file && file->name == "ground")
       return &named(ground->material);
-    return file && by_name_.contains(file->name) ? &named(file->name) : nullptr;
+    const std::string& name = file && !file->name.empty() ? file->name : nameless;
+    return by_name_.contains(name) ? &named(name) : nullptr;
   }
 
   struct Made {
@@ -298,11 +303,11 @@ class MaterialAssigner {
                     ? when_.albedo.value_or(default_reflectance)
                     : study.diffuse.value_or(file ? file->diffuse.value_or(0) : 0);
     // Nobody says what it reflects; lamps without reflectance are black.
-    if (says_nothing(study) && study.emission_w_m2 == 0 && !(file && !says_nothing(*file))) {
+    m.emission_w_m2 = emission_of(study, study_.light.quantity);
+    if (says_nothing(study) && m.emission_w_m2 == 0 && !(file && !says_nothing(*file))) {
       m.diffuse = default_reflectance;
       is_default = true;
     }
-    m.emission_w_m2 = study.emission_w_m2;
     // A reflectance of the study's does not put out the file's lamps.
     if (m.emission_w_m2 == 0 && file) m.emission_w_m2 = emission_[file_id.index()];
     m.smooth = study.smooth;
@@ -320,7 +325,7 @@ class MaterialAssigner {
   Material from_file(MaterialId id, bool& is_default) {
     const FileMaterial* file = id.exists() ? &scene_.mesh.file_materials[id.index()] : nullptr;
     Material m;
-    m.name = file && !file->name.empty() ? file->name : "default";
+    m.name = file && !file->name.empty() ? file->name : nameless;
     if (file && (file->diffuse || file->mirror)) {
       m.diffuse = file->diffuse.value_or(0);
       m.mirror = file->mirror.value_or(0);

@@ -92,8 +92,9 @@ class Judge {
                    const std::vector<double>& area) const {
     double whole = 0;
     for (const double a : area) whole += a;
-    const double share = words_.levels.empty() ? half : words_.area_percent / percent;
-    row.reached = weighted_quantile(values, area, words_.more_is_better ? 1 - share : share);
+    const double share =
+        (words_.levels.empty() ? half : words_.area_percent / percent) * (1 - rounding);
+    row.reached = reached_by(share, values, area);
     row.margin = row.passing_percent = not_known;
     if (words_.levels.empty()) return;
     row.level = "fail";
@@ -103,13 +104,20 @@ class Judge {
         if (reaches(values[i], words_.level_values[l])) reaching += area[i];
       if (l == 0) row.passing_percent = percent * reaching / whole;
       // Of nothing but 0 any share is enough.
-      if (reaching > 0 && reaching >= share * whole * (1 - rounding)) row.level = words_.levels[l];
+      if (reaching > 0 && reaching >= share * whole) row.level = words_.levels[l];
     }
     row.margin = (row.reached - words_.level_values.front()) * (words_.more_is_better ? 1 : -1);
   }
 
  private:
   static constexpr double rounding = 1e-12;  // of sums of areas
+  /// The best value that so much of the area has or betters.
+  double reached_by(double share, std::vector<double> values,
+                    const std::vector<double>& area) const {
+    if (!words_.more_is_better) return weighted_quantile(values, area, share);
+    for (double& value : values) value = -value;
+    return -weighted_quantile(values, area, share);
+  }
   bool reaches(double value, double threshold) const {
     return words_.more_is_better ? value >= threshold : value <= threshold;
   }
@@ -189,12 +197,12 @@ MeasureWords measure_words(const ResultReader& result, const std::string& measur
 std::vector<MeasureRow> measure_table(const ResultReader& result, const NamedParts& parts) {
   const auto names = measure_names(result);
   if (names.empty())
-    throw InputError({result.path()}, "the result has no measures",
-                     result.chosen().any() ? "they are of the whole period"
-                                           : "its study has no section measures",
-                     result.chosen().any()
-                         ? "leave out the part of the period"
-                         : "write one, e.g. measures: {sun: {rule: csn_73_4301}}");
+    throw result.chosen().any()
+        ? InputError({result.path()}, "there are no measures of a part of the period",
+                     "each is of the time that its rule says", "leave out the part of the period")
+        : InputError({result.path()}, "the result has no measures",
+                     "its study has no section measures",
+                     "write one, e.g. measures: {sun: {rule: csn_73_4301}}");
   const auto groups = chosen_groups(result, parts);
   std::vector<MeasureRow> rows;
   for (const auto& name : names) {

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Measures of a study: values and verdicts on the command line, other measures, variants.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "io/result/measure_table.h"
@@ -46,6 +48,31 @@ MeasureRow row_of(const ResultReader& result, const std::string& measure,
     if (row.measure == measure) return row;
   ADD_FAILURE() << measure << " of " << facade;
   return {};
+}
+
+// Also where exactly half of a wall, one of two triangles, is enough.
+TEST(Measures, VerdictsAgreeWithWhatIsReached) {
+  const WorkFolder folder;
+  std::string more = "measures:\n";
+  for (int p = 1; p < 40; ++p)
+    more += fmt::format(
+        "  sky_{}: {{rule: bre_209_vsc, least_percent: {}, of: {{surface: wall}}}}\n", p, p);
+  folder.write("square.obj", square_obj);
+  folder.write("tower.obj", tower);
+  folder.write("square.yaml", square_study("totals", "", "1000") + more + variants);
+  const Ran ran = program(folder, {"run", "square.yaml"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  int halves = 0, judged = 0;
+  for (const char* path : {base, "results/square/towered.h5"})
+    for (const MeasureRow& row : measure_table(ResultReader(folder / path), {})) {
+      if (row.level.empty()) continue;
+      ++judged;
+      if (std::abs(row.passing_percent - 50) < 1e-6) ++halves;
+      EXPECT_EQ(row.level == "fail", row.margin < 0)
+          << row.measure << " of " << row.name << ": " << row.passing_percent << " %";
+    }
+  EXPECT_GT(judged, 100);
+  EXPECT_GT(halves, 5);
 }
 
 TEST(Measures, HaveVerdictsAndTellWhoLoses) {

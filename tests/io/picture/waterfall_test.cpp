@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "io/picture/picture.h"
 #include "tests/support/png.h"
 #include "tests/support/refusal_of.h"
 #include "tests/support/work_folder.h"
@@ -137,8 +138,13 @@ TEST(Waterfall, StandsNamesOfAnyLengthAndLightOfNone) {
     each.total = each.se = 0;
   }
   EXPECT_GT(drawn(dark).height, 0);
-  EXPECT_NE(test::refusal_of([] { expect_picture_name("why.txt"); }).find(".png"),
-            std::string::npos);
+}
+
+TEST(Picture, NamesOfOtherFormatsAreRefused) {
+  for (const char* path : {"why.txt", "a.png/b.JPG"})
+    EXPECT_NE(test::refusal_of([&] { expect_picture_name(path); }).find(".png"), std::string::npos);
+  for (const char* path : {"", "a.png", "a.PNG", "/dev/stdout"})
+    EXPECT_NO_THROW(expect_picture_name(path)) << path;
 }
 
 }  // namespace
