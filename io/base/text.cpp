@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -28,7 +30,7 @@ bool is_formula(const std::string& text) {
 }  // namespace
 
 std::string csv_text(const std::string& given) {
-  const std::string text = (is_formula(given) ? "'" : "") + given;
+  std::string text = (is_formula(given) ? "'" : "") + given;
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) {
@@ -40,6 +42,25 @@ std::string csv_text(const std::string& given) {
 
 std::string csv_number(double value) {
   return std::isnan(value) ? std::string() : fmt::format("{:.9g}", value);
+}
+
+std::string spaced(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string capitalized(std::string words) {
+  if (!words.empty())
+    words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
+  return words;
+}
+
+std::string with_units(const std::string& name, std::string units) {
+  if (units == "1") return name;
+  for (char& c : units)
+    c = c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  std::erase(units, '-');
+  return name + "_" + units;
 }
 
 std::string display_units(const std::string& units) {

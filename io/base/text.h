@@ -14,6 +14,13 @@ std::string csv_text(const std::string& text);
 /// Nine digits: more than float values carry. Empty for NaN.
 std::string csv_number(double value);
 
+/// A name in words: "light_load" → "light load".
+std::string spaced(std::string name);
+/// With a capital letter at its begin.
+std::string capitalized(std::string words);
+/// A name with its unit behind it: ("light_load", "kWh m-2") → "light_load_kwh_m2".
+std::string with_units(const std::string& name, std::string units);
+
 /// Units of a dataset as people write them: "kWh m-2" → "kWh/m²", "1" → "".
 std::string display_units(const std::string& units);
 

@@ -90,7 +90,8 @@ const std::map<std::string, std::string> examples{
      "sunload info results/street/glazed.h5 --facade 'house_3/*'"},
     {"compare",
      "sunload compare street.yaml glazed                 # with the study's first variant\n"
-     "sunload compare results/street/baseline.h5 results/street/glazed.h5 --csv"},
+     "sunload compare results/street/baseline.h5 results/street/glazed.h5 --csv\n"
+     "sunload compare street.yaml glazed --quantity sun_hours --least 5"},
     {"explain",
      "sunload explain results/street/glazed.h5 --object pavement_north -o why.png\n"
      "sunload explain results/street/glazed.h5 --object 'pavement*' --against "
@@ -519,8 +520,8 @@ class CommandLine {
   }
 
   void add_compare() {
-    CLI::App* sub =
-        command("compare", "differences of the light load with their significance", [this] {
+    CLI::App* sub = command(
+        "compare", "differences of two results, of the light load with significance", [this] {
           compare_.band = band_;
           compare_.period = period_;
           if (json_) compare_.format = CompareOptions::Format::json;
@@ -535,9 +536,13 @@ class CommandLine {
     sub->add_option("--output", compare_.output, "folder of the study's results");
     auto* csv = sub->add_flag("--csv", csv_, "one row per group, for machines");
     sub->add_flag("--json", json_, "the same as JSON")->excludes(csv);
+    sub->add_option("--quantity", compare_.quantity,
+                    "dataset per patch to compare (default: light_load), e.g. sun_hours or "
+                    "measure_NAME");
     constexpr double largest_share = 1000;  // ten times the base
     sub->add_option("--least", compare_.least_percent,
-                    "percent of the base: significant is what surely differs by more")
+                    "percent of the base: significant is what surely differs by more; what has no "
+                    "errors is counted by it")
         ->check(CLI::Range(0.0, largest_share));
     sub->add_option(
            "--storey-m", compare_.storey_m,

@@ -229,18 +229,22 @@ int compare(const CompareOptions& asked) {
   for (const auto& path : options.variants) {
     const auto read_variant = opened({path, options.band, options.period});
     const ResultReader& variant = *read_variant;
-    Comparison comparison =
-        compare_results(base, variant, options.least_percent,
-                        options.storey_m > 0 ? std::optional(options.storey_m) : std::nullopt);
+    Comparison comparison = compare_results(
+        base, variant,
+        {.dataset = options.quantity,
+         .least_percent = options.least_percent,
+         .storey_m = options.storey_m > 0 ? std::optional(options.storey_m) : std::nullopt});
     if (!options.differences.empty())
       write_comparison_hdf5(comparison, base, variant, options.differences);
     keep_named(comparison, options.parts, path);
+    if (options.format != CompareOptions::Format::csv)
+      comparison.measures = measure_changes(base, variant, options.parts);
     // The table and JSON have them among what they tell.
     if (options.format == CompareOptions::Format::csv)
       for (const auto& note : comparison.notes) tell("note: " + note);
     std::cout << text_of(comparison, options.format);
     if (options.format == CompareOptions::Format::table)
-      std::cout << measure_changes_text(base, variant, options.parts);
+      std::cout << measure_changes_text(comparison.measures);
   }
   return exit_code::done;
 }

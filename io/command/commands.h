@@ -11,6 +11,7 @@
 
 #include "io/picture/render.h"
 #include "io/result/named_parts.h"
+#include "io/result/schema.h"
 #include "io/view/view.h"
 
 namespace sunload {
@@ -40,6 +41,7 @@ struct CompareOptions {
   std::string output;                 ///< folder of the study's results; empty: as it says
   std::string band;
   PeriodChoice period;
+  std::string quantity = std::string(usual_compared);  ///< dataset per patch
   NamedParts parts;          ///< rows of these alone; sensors are not compared
   double least_percent = 0;  ///< what matters, as share of the base
   double storey_m = 0;       ///< height of a storey, for rows of storeys; 0: none

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
@@ -14,6 +13,7 @@
 #include "geo/base/check.h"
 #include "geo/base/units.h"
 #include "io/base/colour_map.h"
+#include "io/base/text.h"
 
 namespace sunload {
 namespace {
@@ -22,14 +22,6 @@ std::int32_t palette_step(double value, const ExportColours& scale) {
   if (std::isnan(value)) return -1;
   const double share = std::clamp((value - scale.least) / (scale.largest - scale.least), 0.0, 1.0);
   return static_cast<std::int32_t>(std::lround(share * (export_palette_steps - 1)));
-}
-
-/// ("light_load", "kWh m-2") → "light_load_kwh_m2"
-std::string with_units(const std::string& dataset, std::string units) {
-  if (units == "1") return dataset;
-  for (char& c : units) c = c == ' ' ? '_' : static_cast<char>(std::tolower(c));
-  std::erase(units, '-');
-  return dataset + "_" + units;
 }
 
 }  // namespace

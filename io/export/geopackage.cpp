@@ -19,6 +19,7 @@
 #include "io/export/qgis_style.h"
 #include "io/export/surface_values.h"
 #include "io/result/group_table.h"
+#include "io/result/schema.h"
 
 namespace sunload {
 namespace {
@@ -245,12 +246,12 @@ class ResultLayers {
 
   /// Differences of a comparison over the area that both have, and their standard errors.
   std::array<std::pair<std::string, std::vector<double>>, 2> compared_facades() const {
-    const auto key = [&](const char* name) {
-      return sunload_name(unit_names(name, result_.quantity()));
+    const std::string difference = difference_dataset(result_.compared());
+    const auto column = [&](const std::string& dataset) {
+      return std::pair(sunload_name(column_name(result_, dataset)),
+                       result_.doubles("facade_" + dataset));
     };
-    return {{{key("light_load_difference_kwh_m2"), result_.doubles("facade_light_load_difference")},
-             {key("light_load_difference_se_kwh_m2"),
-              result_.doubles("facade_light_load_difference_se")}}};
+    return {column(difference), column(difference + "_se")};
   }
 
   /// Their own totals, whatever quantity of patches was asked for.

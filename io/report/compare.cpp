@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/report/compare.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,10 +10,10 @@
 #include "geo/base/check.h"
 #include "io/base/name_pattern.h"
 #include "io/base/statistics.h"
+#include "io/report/compared.h"
 #include "io/result/common_area.h"
 #include "io/result/mesh_error.h"
 #include "io/result/patch_groups.h"
-#include "io/result/time.h"
 
 namespace sunload {
 namespace {
@@ -34,24 +32,30 @@ Place places(const PatchGroups& groups) {
   return place;
 }
 
+/// What is asked for of both results alike.
+struct Asked {
+  std::string dataset;
+  MoreGroups groups;
+};
+
 /// Groups of one result, of some of its area.
 struct Part {
   PatchGroups groups;
-  std::vector<double> load;        ///< per group
+  std::vector<double> load;        ///< per group, or what is compared in its place
   std::vector<double> mesh_error;  ///< per group, of unlike patches; NaN where it is not known
   Place place;
 };
 
-Part part(const ResultReader& result, std::vector<double> area, const MoreGroups& more,
+Part part(const ResultReader& result, std::vector<double> area, const Asked& asked,
           const std::vector<double>& unlike) {
-  PatchGroups groups(result, std::move(area), more);
+  PatchGroups groups(result, std::move(area), asked.groups);
   std::vector<double> reflected(groups.groups().size(), not_known);
-  if (result.has("light_load_reflected")) {
+  if (has_mesh_error(asked.dataset) && result.has("light_load_reflected")) {
     auto of_patches = result.doubles("light_load_reflected");
     for (std::size_t i = 0; i < of_patches.size(); ++i) of_patches[i] *= unlike[i];
     reflected = groups.means(of_patches.data());
   }
-  return {groups, group_means(result, groups, "light_load"), mesh_errors(std::move(reflected)),
+  return {groups, group_means(result, groups, asked.dataset), mesh_errors(std::move(reflected)),
           places(groups)};
 }
 
@@ -62,30 +66,30 @@ struct Side {
   std::vector<std::vector<double>> realizations;  ///< of `common`, [group][realization]
 };
 
-void expect_load(const ResultReader& result) {
-  if (!result.has("light_load"))
-    throw InputError({result.path()}, "no dataset light_load", "there is nothing to compare",
-                     "compare finished results of sunload run");
-}
-
-Side side(const ResultReader& result, const std::vector<double>& common, const MoreGroups& more,
-          const std::vector<double>& unlike) {
+/// `counted`: 1 or 0 per patch; empty: all.
+Side side(const ResultReader& result, const std::vector<double>& common,
+          const std::vector<char>& counted, const Asked& asked, const std::vector<double>& unlike) {
   std::vector<double> alone = result.doubles("patch_area");
-  for (std::size_t i = 0; i < alone.size(); ++i) alone[i] -= common[i];
-  Side s{
-      result, part(result, common, more, unlike), part(result, std::move(alone), more, unlike), {}};
-  s.realizations = group_realizations(result, s.common.groups);
+  for (std::size_t i = 0; i < alone.size(); ++i)
+    alone[i] = counted.empty() || counted[i] != 0 ? alone[i] - common[i] : 0;
+  Side s{result,
+         part(result, common, asked, unlike),
+         part(result, std::move(alone), asked, unlike),
+         {}};
+  s.realizations = group_realizations(result, s.common.groups, realizations_of(asked.dataset));
   return s;
 }
 
-/// Realizations that a result keeps of its light load.
-std::size_t realization_count(const ResultReader& result) {
-  return result.has("light_load_realization") ? result.shape("light_load_realization").front() : 0;
+/// Realizations that a result keeps of what is compared.
+std::size_t realization_count(const ResultReader& result, const std::string& dataset) {
+  const std::string rows = realizations_of(dataset);
+  return !rows.empty() && result.has(rows) ? result.shape(rows).front() : 0;
 }
 
-Comparison::Errors error_kind(const Side& base, const Side& variant) {
-  const auto base_count = realization_count(base.result);
-  const auto variant_count = realization_count(variant.result);
+Comparison::Errors error_kind(const Side& base, const Side& variant, const std::string& dataset) {
+  if (realizations_of(dataset).empty()) return Comparison::Errors::none;
+  const auto base_count = realization_count(base.result, dataset);
+  const auto variant_count = realization_count(variant.result, dataset);
   if (base_count < 2 || variant_count < 2) return Comparison::Errors::unknown;
   const auto pairing = base.result.text_attribute("pairing_id");
   const bool paired = !pairing.empty() && base_count == variant_count &&
@@ -97,6 +101,12 @@ Comparison::Errors error_kind(const Side& base, const Side& variant) {
 double area_alone(const Side& s, const PatchGroup& group) {
   const auto found = s.alone.place.find({group.kind, group.name});
   return found == s.alone.place.end() ? 0 : s.alone.groups.groups()[found->second].area_m2;
+}
+
+/// Differences of group means that are no larger, either way, are none.
+double least_difference(double base_load, double variant_load, double least_percent) {
+  const double rounding = rounding_share * std::max(std::abs(base_load), std::abs(variant_load));
+  return std::max(rounding, std::abs(base_load) * least_percent / 100);
 }
 
 /// Two-sided p-value of a true difference at the rim of what does not matter, which is the largest
@@ -126,13 +136,12 @@ ComparisonRow matched_row(const Side& base, std::size_t b, const Side& variant, 
   row.difference_percent = base_load == 0 ? not_known : row.difference_kwh_m2 / base_load * 100;
   row.unmatched_area_m2 = area_alone(base, group) + area_alone(variant, group);
   row.se_kwh_m2 = row.p_value = row.p_corrected = not_known;
-  if (errors == Comparison::Errors::unknown) return row;
+  if (errors == Comparison::Errors::unknown || errors == Comparison::Errors::none) return row;
   const auto error = errors == Comparison::Errors::paired
                          ? paired_error(base.realizations[b], variant.realizations[v])
                          : welch_error(base.realizations[b], variant.realizations[v]);
   row.se_kwh_m2 = error.se;
-  const double rounding = rounding_share * std::max(std::abs(base_load), std::abs(variant_load));
-  const double least = std::max(rounding, std::abs(base_load) * least_percent / 100);
+  const double least = least_difference(base_load, variant_load, least_percent);
   row.p_value = std::abs(row.difference_kwh_m2) <= least ? 1 : p_beyond(row, least_percent, error);
   return row;
 }
@@ -165,72 +174,38 @@ void correct_within_kinds(std::vector<ComparisonRow>& rows) {
   }
 }
 
-std::vector<std::string> notes_on(const Side& base, const Side& variant) {
-  std::vector<std::string> notes;
-  const auto step = [](const Side& s) {
-    const std::string word = series_step(s.result);
-    return word.empty() ? std::string("interval") : word;
-  };
-  if (step(base) != step(variant))
-    notes.push_back("the two results have series of other steps: " + step(base) + " and " +
-                    step(variant));
-  else if (auto times = different_times_in_words(base.result, variant.result); !times.empty())
-    notes.push_back(std::move(times));
-  if (base.result.chosen().any())
-    notes.push_back("a part of the period: " + period_in_words(base.result));
-  const auto version = [](const Side& s) { return s.result.text_attribute("source"); };
-  if (version(base) != version(variant))
-    notes.push_back("the two results come from different versions: " + version(base) + " and " +
-                    version(variant));
-  const auto differ = [&](const char* attribute) {
-    return std::abs(base.result.number_attribute(attribute) -
-                    variant.result.number_attribute(attribute)) > 0;
-  };
-  if (differ("bounces"))
-    notes.push_back(fmt::format(
-        "{} reflections are followed in one result and {} in the other, and the rest is estimated: "
-        "small differences may be of that; solver.unshot: 0 follows as many in both",
-        base.result.number_attribute("bounces"), variant.result.number_attribute("bounces")));
-  if (differ("north_deg"))
-    notes.push_back(
-        "the scenes are turned against each other: facades and orientations are named by their "
-        "azimuth, and one name may be of two walls; objects are the same");
-  return notes;
-}
-
 }  // namespace
 
 Comparison compare_results(const ResultReader& base, const ResultReader& variant,
-                           double least_percent, std::optional<double> storey_m) {
-  SUNLOAD_EXPECT(least_percent >= 0, "a share of the base");
-  expect_load(base);
-  expect_load(variant);
+                           const CompareRules& rules) {
+  SUNLOAD_EXPECT(rules.least_percent >= 0, "a share of the base");
+  const std::string& dataset = rules.dataset;
+  expect_comparable(base, variant, dataset);
   Comparison comparison;
-  comparison.units = base.units("light_load");
+  comparison.dataset = dataset;
+  comparison.units = base.units(dataset);
   comparison.quantity = base.quantity();
-  if (comparison.units != variant.units("light_load"))
-    throw InputError({variant.path()}, "light_load is in " + variant.units("light_load"),
-                     "the base has it in " + comparison.units,
-                     "compare results of one light.quantity");
-  const CommonArea common = common_area(base, variant);
-  const MoreGroups more{true, storey_m};
+  const CountedPatches counted = counted_patches(base, variant, dataset);
+  const CommonArea common = common_area(base, variant, counted);
+  const Asked asked{dataset, {true, rules.storey_m}};
   const auto unlike_of_base = unlike_patches(base, variant);
-  const Side b = side(base, common.base, more, unlike_of_base),
-             v = side(variant, common.variant, more, unlike_patches(variant, base));
+  const Side b = side(base, common.base, counted.base, asked, unlike_of_base),
+             v = side(variant, common.variant, counted.variant, asked,
+                      unlike_patches(variant, base));
   comparison.base = base.text_attribute("variant");
   comparison.variant = variant.text_attribute("variant");
-  comparison.base_realizations = realization_count(base);
-  comparison.variant_realizations = realization_count(variant);
-  comparison.errors = error_kind(b, v);
-  comparison.least_percent = least_percent;
-  comparison.notes = notes_on(b, v);
+  comparison.base_realizations = realization_count(base, dataset);
+  comparison.variant_realizations = realization_count(variant, dataset);
+  comparison.errors = error_kind(b, v, dataset);
+  comparison.least_percent = rules.least_percent;
+  comparison.notes = notes_on(base, variant, dataset);
   const auto& groups = b.common.groups.groups();
   const auto unlike = b.common.groups.means(unlike_of_base.data());
   for (std::size_t g = 0; g < groups.size(); ++g)
     if (const auto found = v.common.place.find({groups[g].kind, groups[g].name});
         found != v.common.place.end()) {
       comparison.rows.push_back(
-          matched_row(b, g, v, found->second, comparison.errors, least_percent));
+          matched_row(b, g, v, found->second, comparison.errors, rules.least_percent));
       if (unlike[g] == 0) continue;
       comparison.have_same_mesh = false;
       comparison.rows.back().mesh_error_kwh_m2 =
@@ -245,10 +220,15 @@ Comparison compare_results(const ResultReader& base, const ResultReader& variant
 }
 
 ChangeCounts change_counts(const Comparison& comparison, const std::string& kind) {
+  const auto changes = [&](const ComparisonRow& row) {
+    if (comparison.errors != Comparison::Errors::none) return row.significant;
+    return std::abs(row.difference_kwh_m2) >
+           least_difference(*row.base_kwh_m2, *row.variant_kwh_m2, comparison.least_percent);
+  };
   ChangeCounts counts;
   for (const auto& row : comparison.rows)
     if (row.kind == kind && row.base_kwh_m2 && row.variant_kwh_m2)
-      ++(!row.significant ? counts.others : row.difference_kwh_m2 > 0 ? counts.gain : counts.lose);
+      ++(!changes(row) ? counts.others : row.difference_kwh_m2 > 0 ? counts.gain : counts.lose);
   return counts;
 }
 

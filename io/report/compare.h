@@ -1,28 +1,33 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What changes between two results: differences of the light load with their
-/// significance, per facade, object, selection, orientation, storey, surface and on the whole.
+/// What changes between two results: differences of the light load, or of another total per patch,
+/// with their significance, per facade, object, selection, orientation, storey, surface and on the
+/// whole.
 ///
-/// Groups are matched by name and compared by the area-weighted mean light load of what both
-/// results have of them (io/result/common_area): new trees and storeys are in no mean of what was
+/// Groups are matched by name and compared by the area-weighted mean of what both results have of
+/// them (io/result/common_area): new trees and storeys are in no mean of what was
 /// there before. What only one of the two has stands in rows of its own. Where both results carry
 /// the same `pairing_id` and number of realizations, realization r of both used the same random
 /// numbers: the standard error is that of the per-realization differences of the group means, with
 /// R − 1 degrees of freedom (patches need not match one to one, so that variants may differ in
 /// geometry). Otherwise both errors add up (Welch). p-values are corrected by Holm within each kind
-/// of group.
+/// of group. Of a total without realizations differences have no errors and no p-values; what
+/// changes is then what changes by more than a share of the base.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "io/report/measures.h"
 #include "io/result/named_parts.h"
 #include "io/result/reader.h"
+#include "io/result/schema.h"
 
 namespace sunload {
 
-/// One group; loads are area-weighted means [kWh m-2, or klx h], NaN where not known.
+/// One group; loads are area-weighted means [kWh m-2, klx h, or the unit of what is compared], NaN
+/// where not known.
 struct ComparisonRow {
   std::string kind;  ///< of io/result/patch_groups.h
   std::string name;
@@ -42,28 +47,40 @@ struct ComparisonRow {
 
 struct Comparison {
   std::string base, variant;  ///< names of the variants
-  std::string units;          ///< of the light load, as the files state it
+  std::string dataset = std::string(usual_compared);
+  std::string units;  ///< of the dataset, as the files state it
   Quantity quantity = Quantity::irradiance;
   std::size_t base_realizations = 0, variant_realizations = 0;
   double least_percent = 0;  ///< of the base: smaller differences do not matter, however sure
-  enum class Errors { paired, independent, unknown } errors = Errors::unknown;
+  /// unknown: a result lacks realizations; none: no result keeps any of this dataset.
+  enum class Errors { paired, independent, unknown, none } errors = Errors::unknown;
   bool have_same_mesh = true;      ///< in what both have, patch by patch
   std::vector<std::string> notes;  ///< what a reader must know, e.g. that the periods differ
   std::vector<ComparisonRow> rows;
+  std::vector<MeasureChange> measures;  ///< that JSON lists, too
+
+  bool is_of_light_load() const { return dataset == usual_compared; }
+  bool has_errors() const { return errors == Errors::paired || errors == Errors::independent; }
 };
 
-/// `least_percent`, 0 or above: significant is what is surely more than this share of the base.
-/// Rows of orientations always, of storeys where they have a height.
-/// Throws InputError where a result has no light load or the units differ.
+struct CompareRules {
+  std::string dataset = std::string(usual_compared);  ///< a total per patch of both results
+  double least_percent = 0;  ///< significant is what is surely more than this share of the base
+  std::optional<double> storey_m = {};  ///< height of storeys, which have rows then
+};
+
+/// Rows of orientations always. A measure is compared where both results have it measured.
+/// Throws InputError where a result does not have the dataset or the units differ.
 Comparison compare_results(const ResultReader& base, const ResultReader& variant,
-                           double least_percent = 0, std::optional<double> storey_m = {});
+                           const CompareRules& rules = {});
 
 /// Keeps the rows of the facades, objects and selections that are named (all where nothing is);
 /// p-values stay corrected for all groups of their kind. Throws InputError for names that neither
 /// result has.
 void keep_named(Comparison& comparison, const NamedParts& parts, const std::string& path);
 
-/// Groups of a kind that surely gain or lose more than asked for, and the others that both have.
+/// Groups of a kind that surely gain or lose more than asked for, and the others that both have; of
+/// a dataset without errors those that gain or lose more than `least_percent`.
 struct ChangeCounts {
   std::size_t gain = 0, lose = 0, others = 0;
 };
@@ -72,7 +89,8 @@ ChangeCounts change_counts(const Comparison& comparison, const std::string& kind
 /// Table for people: significant differences first within each kind.
 std::string comparison_table(const Comparison& comparison);
 /// Header and rows for machines (docs/developer/design.md, Commands and exit codes; of illuminance
-/// `klx_h` instead of `kwh_m2`); fields without a value are empty.
+/// `klx_h` instead of `kwh_m2`, of other datasets than the light load no unit in the names but one
+/// in a last column); fields without a value are empty.
 std::string comparison_csv(const Comparison& comparison);
 /// The same as JSON: one object per row, null where a value is not known.
 std::string comparison_json(const Comparison& comparison);

@@ -9,6 +9,7 @@
 #include "geo/base/check.h"
 #include "io/base/light_quantity.h"
 #include "io/base/statistics.h"
+#include "io/base/text.h"
 #include "io/report/compare.h"
 #include "io/result/common_area.h"
 #include "io/result/netcdf_file.h"
@@ -58,11 +59,13 @@ std::vector<std::int32_t> matched_patches(const ResultReader& base, const Result
   return match;
 }
 
-std::vector<std::vector<double>> realizations(const ResultReader& result) {
+std::vector<std::vector<double>> realizations(const ResultReader& result,
+                                              const std::string& total) {
   std::vector<std::vector<double>> rows;
-  if (!result.has("light_load_realization")) return rows;
-  for (std::size_t r = 0; r < result.shape("light_load_realization").front(); ++r)
-    rows.push_back(result.row("light_load_realization", r));
+  const std::string dataset = realizations_of(total);
+  if (dataset.empty() || !result.has(dataset)) return rows;
+  for (std::size_t r = 0; r < result.shape(dataset).front(); ++r)
+    rows.push_back(result.row(dataset, r));
   return rows;
 }
 
@@ -101,11 +104,13 @@ void put_groups(NetcdfFile& file, const Comparison& comparison) {
     file.put(name, dims, h5::Type::float64, units, what, numbers_of(rows, get));
   };
   const auto& load = comparison.units;
+  const std::string words = spaced(comparison.dataset);
   put("group_area", "m2", "area that is compared; of a group in one result alone, its area there",
       [](const ComparisonRow& r) { return r.area_m2; });
-  put("group_base_light_load", load, "area-weighted mean light load of the base",
+  put("group_base_" + comparison.dataset, load, "area-weighted mean " + words + " of the base",
       [](const ComparisonRow& r) { return r.base_kwh_m2.value_or(not_known); });
-  put("group_variant_light_load", load, "area-weighted mean light load of the variant",
+  put("group_variant_" + comparison.dataset, load,
+      "area-weighted mean " + words + " of the variant",
       [](const ComparisonRow& r) { return r.variant_kwh_m2.value_or(not_known); });
   put("group_difference", load, "variant minus base",
       [](const ComparisonRow& r) { return r.difference_kwh_m2; });
@@ -140,10 +145,11 @@ void put_facades(NetcdfFile& file, const Comparison& comparison, const ResultRea
   const std::vector<std::string> dims{"facade"};
   file.labels("facade", std::string(find_result_variable("facade")->long_name), names);
   file.put("facade_name", dims, h5::Type::text, "", "name of the facade", names);
-  file.put("facade_light_load_difference", dims, h5::Type::float64, comparison.units,
+  const std::string difference = "facade_" + difference_dataset(comparison.dataset);
+  file.put(difference, dims, h5::Type::float64, comparison.units,
            "variant minus base, area-weighted means",
            values([](const ComparisonRow& r) { return r.difference_kwh_m2; }));
-  file.put("facade_light_load_difference_se", dims, h5::Type::float64, comparison.units,
+  file.put(difference + "_se", dims, h5::Type::float64, comparison.units,
            "standard error of the difference",
            values([](const ComparisonRow& r) { return r.se_kwh_m2; }));
 }
@@ -152,16 +158,17 @@ void put_patches(NetcdfFile& file, const Comparison& comparison, const ResultRea
                  const ResultReader& variant) {
   const auto match = matched_patches(base, variant);
   const auto overlaps = patch_overlaps(base, variant);
-  const auto own = base.doubles("light_load");
-  const auto of_variant = means_on_base(overlaps, variant.doubles("light_load"));
-  const auto own_rows = realizations(base);
-  auto their_rows = realizations(variant);
+  const std::string& dataset = comparison.dataset;
+  const auto own = base.doubles(dataset);
+  const auto of_variant = means_on_base(overlaps, variant.doubles(dataset));
+  const auto own_rows = realizations(base, dataset);
+  auto their_rows = realizations(variant, dataset);
   for (auto& row : their_rows) row = means_on_base(overlaps, row);
   std::vector<double> difference(own.size(), not_known), se(own.size(), not_known);
   for (std::size_t p = 0; p < own.size(); ++p) {
     if (std::isnan(of_variant[p])) continue;
     difference[p] = of_variant[p] - own[p];
-    if (comparison.errors == Comparison::Errors::unknown) continue;
+    if (!comparison.has_errors()) continue;
     const auto a = column(own_rows, p), b = column(their_rows, p);
     se[p] =
         (comparison.errors == Comparison::Errors::paired ? paired_error(a, b) : welch_error(a, b))
@@ -174,18 +181,20 @@ void put_patches(NetcdfFile& file, const Comparison& comparison, const ResultRea
                        const std::vector<double>& values) {
     put_of_patches(file, name, comparison.units, what, values);
   };
-  put("base_light_load", "light load of the base", own);
-  put("variant_light_load", "light load of the variant", of_variant);
-  put("light_load_difference", "variant minus base", difference);
-  put("light_load_difference_se", "standard error of the difference", se);
+  const std::string words = spaced(dataset), name = difference_dataset(dataset);
+  put("base_" + dataset, words + " of the base", own);
+  put("variant_" + dataset, words + " of the variant", of_variant);
+  put(name, "variant minus base", difference);
+  put(name + "_se", "standard error of the difference", se);
 }
 
 void put_attributes(h5::File& file, const Comparison& comparison, const ResultReader& base,
                     const ResultReader& variant) {
-  constexpr std::array errors{"paired", "independent", "unknown"};
+  constexpr std::array errors{"paired", "independent", "unknown", "none"};
   std::string notes;
   for (const auto& note : comparison.notes) notes += note + "\n";
-  file.set("title", "Light load: variant " + comparison.variant + " minus base " + comparison.base);
+  file.set("title", capitalized(spaced(comparison.dataset)) + ": variant " + comparison.variant +
+                        " minus base " + comparison.base);
   file.set("Conventions", std::string(result_conventions));
   file.set("sunload_format", std::string(comparison_format));
   file.set("base", comparison.base);
@@ -198,6 +207,7 @@ void put_attributes(h5::File& file, const Comparison& comparison, const ResultRe
   if (comparison.least_percent > 0)
     file.set("least_percent", comparison.least_percent, h5::Type::float64);
   if (comparison.quantity == Quantity::illuminance) file.set("quantity", "illuminance");
+  if (!comparison.is_of_light_load()) file.set("compared", comparison.dataset);
   put_site(file, base);
   if (!notes.empty()) file.set("notes", notes);
 }

@@ -12,6 +12,7 @@
 #include "io/base/statistics.h"
 #include "io/base/text.h"
 #include "io/report/compare.h"
+#include "io/report/compared.h"
 #include "io/result/mesh_error.h"
 
 namespace sunload {
@@ -45,6 +46,8 @@ std::string errors_in_words(const Comparison& c) {
       return fmt::format(
           "standard errors of both results added, {} and {} independent realizations (Welch t)",
           c.base_realizations, c.variant_realizations);
+    case Comparison::Errors::none:
+      return "no standard errors: results keep no realizations of it";
     case Comparison::Errors::unknown:
       break;
   }
@@ -52,30 +55,39 @@ std::string errors_in_words(const Comparison& c) {
          "period, which output.totals would store";
 }
 
-/// Beside the standard error, where meshes differ.
-std::string mesh_cell(const Comparison& comparison, const std::string& text) {
-  return comparison.have_same_mesh ? std::string() : fmt::format(" {:>9}", text);
+bool shows_mesh_error(const Comparison& comparison) {
+  return !comparison.have_same_mesh && has_mesh_error(comparison.dataset);
+}
+
+/// Standard error, beside it where meshes differ what these put off, and p-value; nothing where no
+/// group has them.
+std::string error_cells(const Comparison& comparison, const std::string& se,
+                        const std::string& mesh, const std::string& p) {
+  std::string of_mesh = shows_mesh_error(comparison) ? fmt::format(" {:>9}", mesh) : std::string();
+  if (comparison.errors == Comparison::Errors::none) return of_mesh;
+  return fmt::format(" {:>9}{} {:>7}", se, of_mesh, p);
 }
 
 std::string table_row(const Comparison& comparison, const ComparisonRow& row, std::size_t width) {
   const char* state = row.significant ? "*" : "";
   if (!row.base_kwh_m2) state = "only in the variant";
   if (!row.variant_kwh_m2) state = "only in the base";
-  auto text = fmt::format(
-      "  {:<{}} {:>10} {:>9} {:>9} {:>11} {:>9} {:>9}{} {:>7}  {}", row.name, width,
-      cell(row.area_m2, "{:.1f}"), cell(or_nan(row.base_kwh_m2), "{:.4g}"),
-      cell(or_nan(row.variant_kwh_m2), "{:.4g}"), cell(row.difference_kwh_m2, "{:+.4g}"),
-      cell(row.difference_percent, "{:+.2f}%"), cell(row.se_kwh_m2, "{:.2g}"),
-      mesh_cell(comparison, cell(row.mesh_error_kwh_m2, "{:.2g}")), p_in_words(row.p_corrected),
-      state);
+  auto text =
+      fmt::format("  {:<{}} {:>10} {:>9} {:>9} {:>11} {:>9}{}  {}", row.name, width,
+                  cell(row.area_m2, "{:.1f}"), cell(or_nan(row.base_kwh_m2), "{:.4g}"),
+                  cell(or_nan(row.variant_kwh_m2), "{:.4g}"),
+                  cell(row.difference_kwh_m2, "{:+.4g}"), cell(row.difference_percent, "{:+.2f}%"),
+                  error_cells(comparison, cell(row.se_kwh_m2, "{:.2g}"),
+                              cell(row.mesh_error_kwh_m2, "{:.2g}"), p_in_words(row.p_corrected)),
+                  state);
   text.erase(text.find_last_not_of(' ') + 1);
   return text + '\n';
 }
 
 std::string table_head(const Comparison& comparison, const std::string& kind, std::size_t width) {
-  return fmt::format("{:<{}} {:>10} {:>9} {:>9} {:>11} {:>9} {:>9}{} {:>7}\n", kind, width + 2,
-                     "area/m²", "base", "variant", "difference", "percent", "std.err.",
-                     mesh_cell(comparison, "mesh"), "p");
+  return fmt::format("{:<{}} {:>10} {:>9} {:>9} {:>11} {:>9}{}\n", kind, width + 2, "area/m²",
+                     "base", "variant", "difference", "percent",
+                     error_cells(comparison, "std.err.", "mesh", "p"));
 }
 
 /// Rows of one kind, largest difference first; groups of one side only at the end.
@@ -97,12 +109,19 @@ constexpr std::array kinds{"whole",     "surface",     "object", "facade",
                            "selection", "orientation", "storey"};
 constexpr std::span counted_kinds = std::span(kinds).subspan<1>();
 
+/// Whether anything tells what gains and loses: errors, or without them a share that matters.
+bool is_counted(const Comparison& comparison) {
+  return comparison.has_errors() ||
+         (comparison.errors == Comparison::Errors::none && comparison.least_percent > 0);
+}
+
 /// `facade: 3 gain, 12 lose, 40 others`, a line for each kind.
 std::string counts_in_words(const Comparison& comparison) {
-  if (comparison.errors == Comparison::Errors::unknown) return {};
-  std::string text = comparison.least_percent > 0
-                         ? fmt::format("\nSurely more than {:g} %:\n", comparison.least_percent)
-                         : "\nSurely different:\n";
+  if (!is_counted(comparison)) return {};
+  std::string text = "\nSurely different:\n";
+  if (comparison.least_percent > 0)
+    text = fmt::format("\n{} than {:g} %:\n", comparison.has_errors() ? "Surely more" : "More",
+                       comparison.least_percent);
   std::string lines;
   for (const char* kind : counted_kinds)
     if (const auto [gain, lose, others] = change_counts(comparison, kind); gain + lose + others > 0)
@@ -117,22 +136,66 @@ nlohmann::ordered_json json_number(double value) {
   return std::isnan(value) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(value);
 }
 
+/// What is compared, in which unit, and how sure it is.
+std::string heading(const Comparison& comparison) {
+  const std::string units = display_units(comparison.units);
+  std::string text =
+      fmt::format("{} of {} (variant) against {} (base){}\n{}",
+                  capitalized(spaced(comparison.dataset)), comparison.variant, comparison.base,
+                  units.empty() ? "" : " [" + units + "]", errors_in_words(comparison));
+  if (comparison.errors == Comparison::Errors::none) return text + "\n";
+  return text + fmt::format(
+                    ";\n* p{}, corrected for the number of groups of a kind (Holm), is below {}\n",
+                    comparison.least_percent > 0 ? fmt::format(" of a difference of {:g} % at most",
+                                                               comparison.least_percent)
+                                                 : "",
+                    significance_level);
+}
+
+/// Names of columns end in the unit of the light load; others say theirs apart.
+std::string column_names(const Comparison& comparison, std::string names) {
+  if (comparison.is_of_light_load()) return unit_names(std::move(names), comparison.quantity);
+  constexpr std::string_view unit = "_kwh_m2";
+  for (auto at = names.find(unit); at != std::string::npos; at = names.find(unit, at))
+    names.erase(at, unit.size());
+  return names;
+}
+
+nlohmann::ordered_json counts_json(const Comparison& comparison) {
+  nlohmann::ordered_json counts;
+  if (comparison.errors == Comparison::Errors::none && !is_counted(comparison)) return counts;
+  for (const char* kind : counted_kinds) {
+    const auto [gain, lose, others] = change_counts(comparison, kind);
+    counts[kind] = {{"gain", gain}, {"lose", lose}, {"others", others}};
+  }
+  return counts;
+}
+
+nlohmann::ordered_json measures_json(const Comparison& comparison) {
+  constexpr std::array changes{"same", "better", "worse"};
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const auto& change : comparison.measures)
+    list.push_back({{"measure", change.measure},
+                    {"group", change.kind},
+                    {"name", change.name},
+                    {"units", change.units},
+                    {"base_reached", json_number(change.base_reached)},
+                    {"variant_reached", json_number(change.variant_reached)},
+                    {"base_level", change.base_level},
+                    {"variant_level", change.variant_level},
+                    {"change", changes[static_cast<std::size_t>(change.to)]}});
+  return list;
+}
+
 }  // namespace
 
 std::string comparison_table(const Comparison& comparison) {
-  std::string text = fmt::format(
-      "Light load of {} (variant) against {} (base) [{}]\n{};\n* p{}, corrected for the number of "
-      "groups of a kind (Holm), is below {}\n",
-      comparison.variant, comparison.base, display_units(comparison.units),
-      errors_in_words(comparison),
-      comparison.least_percent > 0
-          ? fmt::format(" of a difference of {:g} % at most", comparison.least_percent)
-          : "",
-      significance_level);
-  if (!comparison.have_same_mesh)
+  std::string text = heading(comparison);
+  if (shows_mesh_error(comparison))
     text += fmt::format(
-        "mesh: patches differ; beside the standard errors, one value of reflected light per patch "
+        "mesh: patches differ; {}one value of reflected light per patch "
         "puts differences off by so much at most on nine groups in ten ({:g} % of that light)\n",
+        comparison.errors == Comparison::Errors::none ? "" : "beside the standard errors, ",
         100 * mesh_error_of_reflected);
   for (const auto& note : comparison.notes) text += "note: " + note + "\n";
   std::size_t width = 0;
@@ -162,24 +225,26 @@ std::string comparison_table(const Comparison& comparison) {
 }
 
 std::string comparison_csv(const Comparison& comparison) {
-  std::string text = unit_names(
+  const std::string units = comparison.is_of_light_load() ? std::string() : "," + comparison.units;
+  std::string text = column_names(
+      comparison,
       "group,name,area_m2,base_kwh_m2,variant_kwh_m2,difference_kwh_m2,difference_percent,"
-      "se_kwh_m2,paired,p_value,p_corrected,significant,unmatched_area_m2\n",
-      comparison.quantity);
+      "se_kwh_m2,paired,p_value,p_corrected,significant,unmatched_area_m2");
+  text += units.empty() ? "\n" : ",units\n";
   for (const auto& row : comparison.rows)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.kind, csv_text(row.name),
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}{}\n", row.kind, csv_text(row.name),
                         csv_number(row.area_m2), csv_number(or_nan(row.base_kwh_m2)),
                         csv_number(or_nan(row.variant_kwh_m2)), csv_number(row.difference_kwh_m2),
                         csv_number(row.difference_percent), csv_number(row.se_kwh_m2),
                         is_paired(comparison, row), csv_number(row.p_value),
                         csv_number(row.p_corrected), row.significant,
-                        csv_number(row.unmatched_area_m2));
+                        csv_number(row.unmatched_area_m2), units);
   return text;
 }
 
 std::string comparison_json(const Comparison& comparison) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  const auto key = [&](const char* name) { return unit_names(name, comparison.quantity); };
+  const auto key = [&](const char* name) { return column_names(comparison, name); };
   for (const auto& row : comparison.rows)
     rows.push_back({{"group", row.kind},
                     {"name", row.name},
@@ -195,18 +260,14 @@ std::string comparison_json(const Comparison& comparison) {
                     {"significant", row.significant},
                     {"unmatched_area_m2", json_number(row.unmatched_area_m2)},
                     {key("mesh_error_kwh_m2"), json_number(row.mesh_error_kwh_m2)}});
-  nlohmann::ordered_json counts;
-  for (const char* kind : counted_kinds) {
-    const auto [gain, lose, others] = change_counts(comparison, kind);
-    counts[kind] = {{"gain", gain}, {"lose", lose}, {"others", others}};
-  }
-  const nlohmann::ordered_json document = {{"base", comparison.base},
-                                           {"variant", comparison.variant},
-                                           {"units", comparison.units},
-                                           {"least_percent", comparison.least_percent},
-                                           {"notes", comparison.notes},
-                                           {"counts", counts},
-                                           {"rows", rows}};
+  nlohmann::ordered_json document = {{"base", comparison.base}, {"variant", comparison.variant}};
+  if (!comparison.is_of_light_load()) document["quantity"] = comparison.dataset;
+  document["units"] = comparison.units;
+  document["least_percent"] = comparison.least_percent;
+  document["notes"] = comparison.notes;
+  document["counts"] = counts_json(comparison);
+  document["rows"] = rows;
+  if (!comparison.measures.empty()) document["measures"] = measures_json(comparison);
   // Paths may be anything.
   return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }

@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "io/base/name_pattern.h"
 #include "io/base/text.h"
 
 namespace sunload {
@@ -90,6 +92,68 @@ bool is_judged(const MeasureRow& row) {
 
 using Key = std::tuple<std::string, std::string, std::string>;
 Key key_of(const MeasureRow& row) { return {row.measure, row.kind, row.name}; }
+
+/// In the order of their tables.
+constexpr std::array compared_kinds{"object", "facade", "selection", "sensor"};
+
+bool has_verdict(const MeasureRow& row) {
+  return !row.level.empty() &&
+         std::find(compared_kinds.begin(), compared_kinds.end(), row.kind) != compared_kinds.end();
+}
+
+/// Names that one of two results lacks are no error here.
+bool is_chosen(const MeasureRow& row, const NamedParts& parts) {
+  if (parts.empty()) return true;
+  const auto& patterns = row.kind == "object"      ? parts.objects
+                         : row.kind == "facade"    ? parts.facades
+                         : row.kind == "selection" ? parts.selections
+                                                   : parts.sensors;
+  return std::any_of(patterns.begin(), patterns.end(),
+                     [&](const std::string& pattern) { return matches(pattern, row.name); });
+}
+
+MeasureChange::To change(const MeasureWords& words, const std::string& before,
+                         const std::string& after) {
+  if (before == after) return MeasureChange::To::same;
+  const auto rank = [&](const std::string& level) {  // "fail" is none of the levels
+    const auto found = std::find(words.levels.begin(), words.levels.end(), level);
+    return found == words.levels.end() ? -1 : found - words.levels.begin();
+  };
+  return rank(after) > rank(before) ? MeasureChange::To::better : MeasureChange::To::worse;
+}
+
+/// `4 → 3 of 4 facades, 1 → 1 of 1 sensor`: of the kinds that the measure has.
+std::string passing_text(const std::vector<MeasureChange>& changes) {
+  std::string text;
+  for (const std::string kind : compared_kinds) {
+    std::size_t before = 0, after = 0, all = 0;
+    for (const auto& change : changes) {
+      if (change.kind != kind) continue;
+      ++all;
+      if (change.base_level != "fail") ++before;
+      if (change.variant_level != "fail") ++after;
+    }
+    if (all > 0)
+      text += fmt::format("{}{} → {} of {} {}{}", text.empty() ? "" : ", ", before, after, all,
+                          kind, all == 1 ? "" : "s");
+  }
+  return text;
+}
+
+std::string levels_changed_text(const std::vector<MeasureChange>& changes) {
+  std::vector<std::string> lines;
+  for (const auto& change : changes)
+    if (change.to != MeasureChange::To::same)
+      lines.push_back(fmt::format("  {} {}: {} → {} ({:.2f} → {:.2f} {})\n", change.kind,
+                                  change.name, change.base_level, change.variant_level,
+                                  change.base_reached, change.variant_reached,
+                                  display_units(change.units)));
+  std::string text;
+  for (std::size_t i = 0; i < std::min(lines.size(), rows_shown); ++i) text += lines[i];
+  if (lines.size() > rows_shown)
+    text += fmt::format("  … and {} more: see --json\n", lines.size() - rows_shown);
+  return text;
+}
 
 }  // namespace
 
@@ -173,41 +237,39 @@ std::string measures_line(const ResultReader& result) {
   return text;
 }
 
-std::string measure_changes_text(const ResultReader& base, const ResultReader& variant,
-                                 const NamedParts& parts) {
-  if (measure_names(base).empty() || measure_names(variant).empty()) return {};
+std::vector<MeasureChange> measure_changes(const ResultReader& base, const ResultReader& variant,
+                                           const NamedParts& parts) {
+  std::vector<MeasureChange> changes;
+  if (measure_names(base).empty() || measure_names(variant).empty()) return changes;
+  std::map<std::string, MeasureWords> before_words, after_words;
+  for (const auto& name : measure_names(base)) before_words[name] = measure_words(base, name);
+  for (const auto& name : measure_names(variant)) after_words[name] = measure_words(variant, name);
   std::map<Key, MeasureRow> before;
-  std::map<std::string, MeasureWords> words;
-  for (const auto& name : measure_names(base)) words[name] = measure_words(base, name);
-  for (const MeasureRow& row : measure_table(base, parts)) before.emplace(key_of(row), row);
-  std::map<std::string, std::vector<std::string>> changes;
-  std::map<std::string, std::array<int, 3>> passing;  // before, after, of all
-  for (const MeasureRow& row : measure_table(variant, parts)) {
+  for (const MeasureRow& row : measure_table(base, {})) before.emplace(key_of(row), row);
+  for (const MeasureRow& row : measure_table(variant, {})) {
     const auto found = before.find(key_of(row));
-    if (!is_judged(row) || found == before.end()) continue;
+    if (found == before.end() || !has_verdict(row) || !is_chosen(row, parts)) continue;
+    const MeasureWords& words = after_words[row.measure];
     // Measured by another rule, or other limits.
-    if (measure_words(variant, row.measure).parameters != words[row.measure].parameters) continue;
-    auto& [of_base, of_variant, all] = passing[row.measure];
-    // Selections are made of what the others are.
-    if (row.kind != "selection") {
-      ++all;
-      of_base += found->second.level == "fail" ? 0 : 1;
-      of_variant += row.level == "fail" ? 0 : 1;
-    }
-    if (row.level != found->second.level)
-      changes[row.measure].push_back(fmt::format(
-          "  {} {}: {} → {} ({:.2f} → {:.2f} {})\n", row.kind, row.name, found->second.level,
-          row.level, found->second.reached, row.reached, display_units(words[row.measure].units)));
+    if (words.parameters != before_words[row.measure].parameters) continue;
+    changes.push_back({row.measure, words.units, row.kind, row.name, found->second.reached,
+                       row.reached, found->second.level, row.level,
+                       change(words, found->second.level, row.level)});
   }
+  return changes;
+}
+
+std::string measure_changes_text(const std::vector<MeasureChange>& changes) {
+  std::vector<std::string> measures;
+  for (const auto& change : changes)
+    if (measures.empty() || measures.back() != change.measure) measures.push_back(change.measure);
   std::string text;
-  for (const auto& [measure, counts] : passing) {
-    text += fmt::format("\n{}: of {} facades and sensors {} pass in the base, {} in the variant\n",
-                        measure, counts[2], counts[0], counts[1]);
-    const auto& lines = changes[measure];
-    for (std::size_t i = 0; i < std::min(lines.size(), rows_shown); ++i) text += lines[i];
-    if (lines.size() > rows_shown)
-      text +=
-          fmt::format("  … and {} more: see info --measures --csv\n", lines.size() - rows_shown);
+  for (const auto& measure : measures) {
+    std::vector<MeasureChange> of_measure;
+    std::copy_if(changes.begin(), changes.end(), std::back_inserter(of_measure),
+                 [&](const MeasureChange& change) { return change.measure == measure; });
+    text += "\n" + measure + ": pass in the base → in the variant: " + passing_text(of_measure) +
+            "\n" + levels_changed_text(of_measure);
   }
   return text;
 }

@@ -18,9 +18,19 @@ std::string measure_table_json(const ResultReader& result, const std::vector<Mea
 /// One line per measure: the whole, and how many facades and sensors reach which level.
 std::string measures_line(const ResultReader& result);
 
-/// Facades and sensors that reach another level in the variant; empty where the two have no
-/// measure in common.
-std::string measure_changes_text(const ResultReader& base, const ResultReader& variant,
-                                 const NamedParts& parts);
+/// What a rule says of a group, or of a sensor, in two results.
+struct MeasureChange {
+  std::string measure, units;  ///< units as the files state them
+  std::string kind, name;      ///< kind: object, facade, selection, sensor
+  double base_reached = 0, variant_reached = 0;
+  std::string base_level, variant_level;
+  enum class To { same, better, worse } to = To::same;  ///< by levels
+};
+/// Of all that have a verdict in both results by the same rule, and that `parts` chooses (all where
+/// it chooses nothing).
+std::vector<MeasureChange> measure_changes(const ResultReader& base, const ResultReader& variant,
+                                           const NamedParts& parts);
+/// Per measure how many of each kind pass before and after, and what reaches another level.
+std::string measure_changes_text(const std::vector<MeasureChange>& changes);
 
 }  // namespace sunload

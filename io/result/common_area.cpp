@@ -104,12 +104,17 @@ PatchOverlaps patch_overlaps(const ResultReader& base, const ResultReader& varia
   return overlaps;
 }
 
-CommonArea common_area(const ResultReader& base, const ResultReader& variant) {
+CommonArea common_area(const ResultReader& base, const ResultReader& variant,
+                       const CountedPatches& counted) {
+  const auto counts = [](const std::vector<char>& patches, std::size_t p) {
+    return patches.empty() || patches[p] != 0;
+  };
   const PatchOverlaps overlaps = patch_overlaps(base, variant);
   const auto &own = overlaps.base_area, &theirs = overlaps.variant_area;
   CommonArea common{std::vector<double>(own.size(), 0), std::vector<double>(theirs.size(), 0)};
   for (std::size_t b = 0; b < own.size(); ++b)
     for (const auto& [v, area] : overlaps.of_base[b]) {
+      if (!counts(counted.base, b) || !counts(counted.variant, v)) continue;
       common.base[b] += area;
       common.variant[v] += area;
     }

@@ -34,7 +34,13 @@ PatchOverlaps patch_overlaps(const ResultReader& base, const ResultReader& varia
 std::vector<double> means_on_base(const PatchOverlaps& overlaps,
                                   const std::vector<double>& of_variant);
 
-/// Some microseconds a patch; nothing where both have the same mesh.
-CommonArea common_area(const ResultReader& base, const ResultReader& variant);
+/// Patches of two results that count, 1 or 0 each; empty: all.
+struct CountedPatches {
+  std::vector<char> base, variant;
+};
+
+/// What counts of both. Some microseconds a patch; nothing where both have the same mesh.
+CommonArea common_area(const ResultReader& base, const ResultReader& variant,
+                       const CountedPatches& counted = {});
 
 }  // namespace sunload

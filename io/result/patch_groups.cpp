@@ -155,12 +155,13 @@ std::vector<double> group_means(const ResultReader& result, const PatchGroups& g
 }
 
 std::vector<std::vector<double>> group_realizations(const ResultReader& result,
-                                                    const PatchGroups& groups) {
+                                                    const PatchGroups& groups,
+                                                    const std::string& dataset) {
   std::vector<std::vector<double>> by_group(groups.groups().size());
-  if (!result.has("light_load_realization")) return by_group;
-  const auto realizations = result.shape("light_load_realization").front();
+  if (dataset.empty() || !result.has(dataset)) return by_group;
+  const auto realizations = result.shape(dataset).front();
   for (std::size_t r = 0; r < realizations; ++r) {
-    const auto means = groups.means(result.row("light_load_realization", r).data());
+    const auto means = groups.means(result.row(dataset, r).data());
     for (std::size_t g = 0; g < means.size(); ++g) by_group[g].push_back(means[g]);
   }
   return by_group;

@@ -56,9 +56,10 @@ class PatchGroups {
 std::vector<double> group_means(const ResultReader& result, const PatchGroups& groups,
                                 const std::string& dataset);
 
-/// As above for every realization of light_load_realization: [group][realization];
-/// no realizations where the file keeps none.
-std::vector<std::vector<double>> group_realizations(const ResultReader& result,
-                                                    const PatchGroups& groups);
+/// As above for every row of a dataset [realization, patch]: [group][realization]; no realizations
+/// where the file keeps none or no dataset is named.
+std::vector<std::vector<double>> group_realizations(
+    const ResultReader& result, const PatchGroups& groups,
+    const std::string& dataset = "light_load_realization");
 
 }  // namespace sunload

@@ -35,11 +35,15 @@ std::vector<Column> value_columns(const ResultReader& result) {
                               {"light_load_reflected", "light_load_reflected_kwh_m2", {}},
                               {"sun_hours", "sun_hours_h", {}},
                               {"power_load", "power_load_kwh_m2", {}}};
-  if (result.is_comparison())
-    columns = {{"base_light_load", "base_kwh_m2", {}},
-               {"variant_light_load", "variant_kwh_m2", {}},
-               {"light_load_difference", "difference_kwh_m2", {}},
-               {"light_load_difference_se", "se_kwh_m2", {}}};
+  if (result.is_comparison()) {
+    const std::string compared = result.compared(), difference = difference_dataset(compared);
+    columns.clear();
+    for (const auto& [dataset, header] : {std::pair{"base_" + compared, "base"},
+                                          {"variant_" + compared, "variant"},
+                                          {difference, "difference"},
+                                          {difference + "_se", "se"}})
+      columns.push_back({dataset, with_units(header, result.units(dataset)), {}});
+  }
   if (result.is_place_map()) {
     columns.clear();
     for (const auto& variable : place_map_schema())

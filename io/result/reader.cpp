@@ -184,6 +184,11 @@ bool ResultReader::is_comparison() const {
   return text_attribute("sunload_format") == comparison_format;
 }
 
+std::string ResultReader::compared() const {
+  const std::string other = text_attribute("compared");
+  return other.empty() ? std::string(usual_compared) : other;
+}
+
 bool ResultReader::is_place_map() const {
   return text_attribute("sunload_format") == place_map_format;
 }

@@ -53,6 +53,8 @@ class ResultReader {
   double number_attribute(
       const std::string& name) const;  ///< of the root; NaN if absent or impossible
   bool is_comparison() const;
+  /// The dataset of results that a comparison is of.
+  std::string compared() const;
   bool is_place_map() const;
   /// One of both.
   bool is_derived() const { return is_comparison() || is_place_map(); }

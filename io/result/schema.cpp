@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <map>
+#include <mutex>
+#include <utility>
 
 namespace sunload {
 namespace {
@@ -235,7 +238,7 @@ constexpr std::array measure_table{
 constexpr std::array comparison_table{
     ResultVariable{"base_light_load", "patch", float64, kwh_m2, total, "light load of the base"},
     ResultVariable{"variant_light_load", "patch", float64, kwh_m2, total, "light load of the variant"},
-    ResultVariable{difference_dataset, "patch", float64, kwh_m2, total, "variant minus base"},
+    ResultVariable{"light_load_difference", "patch", float64, kwh_m2, total, "variant minus base"},
     ResultVariable{"light_load_difference_se", "patch", float64, kwh_m2, total, "standard error of the difference"},
     ResultVariable{"facade_light_load_difference", "facade", float64, kwh_m2, total, "variant minus base, area-weighted means"},
     ResultVariable{"facade_light_load_difference_se", "facade", float64, kwh_m2, total, "standard error of the difference"},
@@ -255,16 +258,24 @@ constexpr std::array place_map_table{
 };
 // clang-format on
 
-/// The table for illuminance, which owns its texts.
-class IlluminanceTable {
+/// A table for illuminance, or of another dataset than the light load, which owns its texts.
+class OwnTable {
  public:
-  explicit IlluminanceTable(std::span<const ResultVariable> of_irradiance) {
+  explicit OwnTable(std::span<const ResultVariable> of_irradiance) {
     for (ResultVariable row : of_irradiance) {
       if (row.part != sun) {
         row.name = kept(dataset_name(std::string(row.name), Quantity::illuminance));
         row.units = kept(light_units(row.units, Quantity::illuminance));
         row.long_name = kept(light_words(std::string(row.long_name), Quantity::illuminance));
       }
+      rows_.push_back(row);
+    }
+  }
+  OwnTable(std::span<const ResultVariable> of_light_load, const std::string& compared) {
+    for (ResultVariable row : of_light_load) {
+      std::string name(row.name);
+      name.replace(name.find(usual_compared), usual_compared.size(), compared);
+      row.name = kept(std::move(name));
       rows_.push_back(row);
     }
   }
@@ -279,17 +290,30 @@ class IlluminanceTable {
 }  // namespace
 
 std::span<const ResultVariable> result_schema(Quantity quantity) {
-  static const IlluminanceTable illuminance(table);
+  static const OwnTable illuminance(table);
   return quantity == Quantity::illuminance ? illuminance.rows() : table;
 }
 
-std::span<const ResultVariable> comparison_schema(Quantity quantity) {
-  static const IlluminanceTable illuminance(comparison_table);
-  return quantity == Quantity::illuminance ? illuminance.rows() : comparison_table;
+std::span<const ResultVariable> comparison_schema(Quantity quantity, const std::string& compared) {
+  static const OwnTable illuminance(comparison_table);
+  if (compared == usual_compared)
+    return quantity == Quantity::illuminance ? illuminance.rows() : comparison_table;
+  static std::mutex one_at_a_time;
+  static std::map<std::string, OwnTable> others;
+  const std::lock_guard lock(one_at_a_time);
+  return others.try_emplace(compared, comparison_table, compared).first->second.rows();
+}
+
+std::string difference_dataset(const std::string& compared) { return compared + "_difference"; }
+
+std::string realizations_of(const std::string& total) {
+  const std::string name = total + "_realization";
+  const ResultVariable* found = find_result_variable(name);
+  return found && found->name == name ? name : std::string();
 }
 
 std::span<const ResultVariable> place_map_schema(Quantity quantity) {
-  static const IlluminanceTable illuminance(place_map_table);
+  static const OwnTable illuminance(place_map_table);
   return quantity == Quantity::illuminance ? illuminance.rows() : place_map_table;
 }
 

@@ -60,10 +60,17 @@ bool has_bands(const ResultVariable& variable);
 /// The same dimensions with `band` put in: before those of patches, facades and sensors, else last.
 std::vector<std::string> with_band(std::vector<std::string> dimensions);
 
-/// What a comparison file has of its patches (docs/comparison-file.md), of the whole period.
-std::span<const ResultVariable> comparison_schema(Quantity quantity = Quantity::irradiance);
-/// The dataset of differences: values on both sides of 0.
-inline constexpr std::string_view difference_dataset = "light_load_difference";
+/// The total that is compared where nobody names another.
+inline constexpr std::string_view usual_compared = "light_load";
+/// What a comparison file has of its patches (docs/comparison-file.md), of the whole period: of the
+/// light load, or of the dataset `compared` in its place.
+std::span<const ResultVariable> comparison_schema(
+    Quantity quantity = Quantity::irradiance,
+    const std::string& compared = std::string(usual_compared));
+/// The dataset of differences of the compared one: values on both sides of 0.
+std::string difference_dataset(const std::string& compared);
+/// The dataset of the realizations of a total; empty where results keep none of it.
+std::string realizations_of(const std::string& total);
 
 /// What a map of a place has of the patches that give and take its light (docs/explain.md).
 std::span<const ResultVariable> place_map_schema(Quantity quantity = Quantity::irradiance);

@@ -21,13 +21,12 @@ namespace {
 
 constexpr double scale_share = 0.995;  // of the area, below the end of the scale
 
-InputError unknown_quantity(const ResultReader& result, const std::string& quantity) {
-  std::string known;
-  for (const auto which : {PatchDatasets::totals, PatchDatasets::series})
-    for (const auto& name : patch_datasets(result, which))
-      known += (known.empty() ? "" : ", ") + name;
-  if (!result.is_derived()) known += ", " + radiance_name(result.quantity());
-  return {{result.path()}, "no quantity " + quantity + " per patch", "", "choose one of " + known};
+/// All that can be shown of a result.
+std::vector<std::string> shown_names(const ResultReader& result) {
+  auto names = patch_datasets(result, PatchDatasets::totals);
+  for (auto& name : patch_datasets(result, PatchDatasets::series)) names.push_back(std::move(name));
+  if (!result.is_derived()) names.push_back(radiance_name(result.quantity()));
+  return names;
 }
 
 bool is_one_of(const std::vector<std::string>& names, const std::string& name) {
@@ -57,7 +56,7 @@ ShownQuantity shown_radiance(const ResultReader& result, const std::string& time
 
 std::string usual_quantity(const ResultReader& result) {
   if (result.is_place_map()) return std::string(given_dataset);
-  return result.is_comparison() ? std::string(difference_dataset) : "light_load";
+  return result.is_comparison() ? difference_dataset(result.compared()) : "light_load";
 }
 
 std::string leave_out_or_name_a_series(const ResultReader& result) {
@@ -77,7 +76,8 @@ std::vector<std::string> patch_datasets(const ResultReader& result, PatchDataset
   const std::string_view dims = which == PatchDatasets::totals ? "patch" : "time,patch";
   const auto patches = result.shape("patch_area").front();
   std::vector<std::string> names;
-  const auto schema = result.is_comparison()  ? comparison_schema(result.quantity())
+  const auto schema = result.is_comparison()
+                          ? comparison_schema(result.quantity(), result.compared())
                       : result.is_place_map() ? place_map_schema(result.quantity())
                                               : result_schema(result.quantity());
   for (const auto& variable : schema) {
@@ -98,12 +98,12 @@ ShownQuantity shown_quantity(const ResultReader& result, const std::string& data
   ShownQuantity s;
   s.is_series = is_one_of(patch_datasets(result, PatchDatasets::series), dataset);
   if (!s.is_series && !is_one_of(patch_datasets(result, PatchDatasets::totals), dataset))
-    throw unknown_quantity(result, dataset);
-  s.dataset = s.name = dataset;
-  std::replace(s.name.begin(), s.name.end(), '_', ' ');
+    throw unknown_quantity(result, dataset, shown_names(result), {});
+  s.dataset = dataset;
+  s.name = spaced(dataset);
   s.stored_units = result.units(dataset);
   s.units = display_units(s.stored_units);
-  s.is_difference = result.is_comparison() && dataset == difference_dataset;
+  s.is_difference = result.is_comparison() && dataset == difference_dataset(result.compared());
   if (!result.is_derived())
     s.interval = time.empty() ? brightest_interval(result) : interval_at(result, time);
   s.values = s.is_series ? result.row(dataset, s.interval) : result.doubles(dataset);
@@ -111,6 +111,14 @@ ShownQuantity shown_quantity(const ResultReader& result, const std::string& data
   if (dataset.starts_with(measure_prefix))
     if (const auto day = result.text_attribute(dataset, "when"); !day.empty()) s.when = day;
   return s;
+}
+
+InputError unknown_quantity(const ResultReader& result, const std::string& quantity,
+                            const std::vector<std::string>& known, const std::string& why) {
+  return {{result.path()},
+          "no quantity " + quantity + " per patch",
+          why,
+          fmt::format("choose one of {}", fmt::join(known, ", "))};
 }
 
 double scale_end(const std::optional<double>& largest, const std::vector<double>& values,

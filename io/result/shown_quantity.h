@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "geo/base/vec.h"
+#include "geo/base/check.h"
 #include "io/result/reader.h"
 
 namespace sunload {
@@ -48,6 +48,10 @@ ShownQuantity shown_quantity(const ResultReader& result, const std::string& data
 /// those of the whole period, or the series.
 enum class PatchDatasets { totals, series };
 std::vector<std::string> patch_datasets(const ResultReader& result, PatchDatasets which);
+
+/// What to say of a quantity that is none of `known`.
+InputError unknown_quantity(const ResultReader& result, const std::string& quantity,
+                            const std::vector<std::string>& known, const std::string& why);
 
 /// Value of the last colour: `largest` where given (InputError unless above 0), else a round
 /// number above which at most 0.5 % of the area lie, so that a few glints do not darken the rest.

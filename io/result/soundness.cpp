@@ -131,7 +131,9 @@ class Examination {
                                                                     : Quantity::irradiance;
     is_rgb_ = file.has("band");
     const auto format = file.text("sunload_format").value_or("");
-    if (format == comparison_format) derived_ = comparison_schema(quantity_);
+    if (format == comparison_format)
+      derived_ =
+          comparison_schema(quantity_, file.text("compared").value_or(std::string(usual_compared)));
     if (format == place_map_format) derived_ = place_map_schema(quantity_);
   }
 

@@ -48,8 +48,10 @@ def dims_of(data):
     return data.name.strip("/") if data.attrs.get("CLASS") == b"DIMENSION_SCALE" else ",".join(dim[0].name.strip("/") for dim in data.dims)
 
 
-def test_page(source, file):
-    table = documented(source)
+def test_page(source, file, compared="light_load", of_compared="kWh m-2"):
+    table = {name.replace("light_load", compared):
+             [dims, kind, of_compared if units == "kWh m-2" else units, meaning.replace("light load", compared.replace("_", " "))]
+             for name, (dims, kind, units, meaning) in documented(source).items()}
     for name, (dims, kind, units, meaning) in table.items():
         data = file[name]
         mine = [dims_of(data), kind_of(data), data.attrs.get("units", ""), data.attrs["long_name"]]
@@ -110,6 +112,36 @@ def test_drawn_and_exported(sunload, comparison, folder):
         run([sunload, *command], 2)
 
 
+def test_another_quantity(sunload, source, results, folder):
+    """Of a total without realizations: differences without errors, drawn and exported like those of the light load."""
+    def at(name):
+        return os.path.join(folder, name)
+
+    pair = [results["baseline"], results["dark"]]
+    for name, units in (("sun_hours", "h"), ("light_load_reflected", "kWh m-2"), ("sky_view_factor", "1")):
+        words = [sunload, "compare", *pair, "--quantity", name]
+        rows = list(csv.DictReader(io.StringIO(run([*words, "--csv", "--hdf5", at("q.h5")]))))
+        with h5py.File(at("q.h5")) as file, h5py.File(pair[0]) as base, h5py.File(pair[1]) as variant:
+            test_page(source, file, name, units)
+            assert file.attrs["compared"] == name and file.attrs["errors"] == "none"
+            apart = file[name + "_difference"][()]
+            assert np.array_equal(apart, variant[name][()] - base[name][()])
+            assert name != "light_load_reflected" or (apart < 0).any()
+            area = file["patch_area"][()]
+            assert np.isclose(float(rows[0]["difference"]), (apart * area).sum() / area.sum(), rtol=1e-6, atol=1e-12)
+            for column in (name + "_difference_se", "group_difference_se", "group_p_value"):
+                assert np.isnan(file[column][()]).all(), column
+        assert {row["units"] for row in rows} == {units} and {row["se"] for row in rows} == {""}
+        run([sunload, "render", at("q.h5"), "-o", at("q.png"), "--size", "400x320"])
+        for form in ("vtk", "gpkg"):
+            run([sunload, "export", at("q.h5"), "--to", form, "-o", at("q." + form)])
+        assert "std.err." not in run(words)
+    columns = [row[1] for row in sqlite3.connect(at("q.gpkg")).execute("PRAGMA table_info(facades)")]
+    assert "sunload_sky_view_factor_difference" in columns, columns
+    run([sunload, "compare", *pair, "--quantity", "sky_view"], 2)
+    run([sunload, "compare", *pair, "--quantity", "sky_view_factor", "--hours", "8-12"], 2)
+
+
 def test(sunload, source, folder):
     write_study(folder, 2, 4)
     study = os.path.join(folder, "square.yaml")
@@ -136,6 +168,7 @@ def test(sunload, source, folder):
         found = match >= 0
         assert np.allclose(file["patch_centroid"][()][found], coarse["patch_centroid"][()][match[found]], atol=1e-4)
     test_drawn_and_exported(sunload, target, folder)
+    test_another_quantity(sunload, source, results, folder)
     run([sunload, "compare", *results.values(), "--hdf5", target], 2)
     run([sunload, "compare", results["baseline"], results["dark"], "--hdf5", os.path.join(folder, "no/such.h5")], 3)
     import xarray

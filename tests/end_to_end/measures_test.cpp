@@ -117,6 +117,12 @@ TEST(Measures, HaveVerdictsAndTellWhoLoses) {
   const Ran compared = program(folder, {"compare", base, "results/square/towered.h5"});
   EXPECT_NE(compared.out.find("facade house/south_1: high → fail"), std::string::npos)
       << compared.out;
+  // Of what a measure has values for: nothing of this model is a ground.
+  for (const char* counts :
+       {"exposure: pass in the base → in the variant: 1 → 0 of 1 object, 3 → 2 "
+        "of 4 facades, 1 → 1 of 1 sensor\n",
+        "glints: pass in the base → in the variant: 1 → 1 of 1 sensor\n"})
+    EXPECT_NE(compared.out.find(counts), std::string::npos) << counts << compared.out;
   for (const char* quantity : {"measure_exposure", "measure_sky"}) {
     const Ran drawn = program(
         folder, {"render", base, "-o", "a.png", "--size", "320x320", "--quantity", quantity});

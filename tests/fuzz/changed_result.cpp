@@ -14,6 +14,7 @@
 #include "io/picture/render.h"
 #include "io/report/compare.h"
 #include "io/report/info.h"
+#include "io/report/measures.h"
 #include "io/result/patches_csv.h"
 #include "io/result/reader.h"
 #include "io/run/run.h"
@@ -224,12 +225,18 @@ std::size_t read_by_all(const std::string& path, Valid which) {
                                               }};
   for (const auto& [a, b] : {std::pair(&base, &result), {&result, &base}})
     commands.emplace_back([a = a, b = b] {
-      const Comparison comparison = compare_results(*a, *b);
+      Comparison comparison = compare_results(*a, *b);
+      comparison.measures = measure_changes(*a, *b, {});
       comparison_table(comparison);
       comparison_csv(comparison);
       comparison_json(comparison);
       write_comparison_hdf5(comparison, *a, *b, file_of("", "comparison.h5"));
     });
+  commands.emplace_back([&] {
+    for (const auto& measure : measure_names(result))
+      write_comparison_hdf5(compare_results(base, result, {.dataset = "measure_" + measure}), base,
+                            result, file_of("", "comparison.h5"));
+  });
   const auto exports = [&](const ExportRules& rules) {
     commands.emplace_back(
         [&result, rules] { export_result(result, rules, file_of("", "exported")); });

@@ -140,6 +140,27 @@ void append_series(ResultWriter& writer, const std::vector<double>& load, const 
   std::filesystem::remove(path);
 }
 
+/// A value for each patch by its object and normal.
+template <class Get>
+std::vector<double> of_patches(const ResultGeometry& geometry, const Get& get) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < geometry.patch_area.size(); ++i)
+    values.push_back(get(geometry.object_name[static_cast<std::size_t>(geometry.patch_object[i])],
+                         geometry.patch_normal[i]));
+  return values;
+}
+
+void write_measure(ResultWriter& writer, const SmallResult& result,
+                   const ResultGeometry& geometry) {
+  MeasureAttributes attributes;
+  attributes.text = {{"rule", "sun_hours"},       {"definition", "hours"},
+                     {"source", "a test"},        {"parameters", result.measure_parameters},
+                     {"level_words", "low high"}, {"better", "more"}};
+  attributes.level_values = {1, 3};
+  attributes.area_percent = 50;
+  writer.write_measure({"measure_sun", "h", of_patches(geometry, result.measure)}, attributes);
+}
+
 }  // namespace
 
 std::string write_small_result(const SmallResult& result, const std::string& name) {
@@ -150,12 +171,12 @@ std::string write_small_result(const SmallResult& result, const std::string& nam
   ResultWriter writer(path.string(), geometry, times(), options);
 
   const std::size_t patches = geometry.patch_area.size();
-  std::vector<double> realization, load(patches), se(patches), hours(patches, 3);
+  std::vector<double> realization, load(patches), se(patches);
   for (std::size_t r = 0; r < result.realizations; ++r)
-    for (std::size_t i = 0; i < patches; ++i)
-      realization.push_back(
-          result.load(geometry.object_name[static_cast<std::size_t>(geometry.patch_object[i])],
-                      geometry.patch_normal[i], r));
+    for (const double value : of_patches(geometry, [&](const std::string&object, Vec3 normal) {
+           return result.load(object, normal, r);
+         }))
+      realization.push_back(value);
   for (std::size_t i = 0; i < patches; ++i) {
     std::vector<double> samples;
     for (std::size_t r = 0; r < result.realizations; ++r)
@@ -172,7 +193,8 @@ std::string write_small_result(const SmallResult& result, const std::string& nam
     writer.write({"light_load_reflected", reflected});
   }
   writer.write({"light_load_realization", realization});
-  writer.write({"sun_hours", hours});
+  writer.write({"sun_hours", of_patches(geometry, result.hours)});
+  if (result.measure) write_measure(writer, result, geometry);
   if (result.diffuse_reflectance) {
     writer.write(
         {"diffuse_reflectance", std::vector<double>(patches, *result.diffuse_reflectance)});
@@ -185,6 +207,7 @@ std::string write_small_result(const SmallResult& result, const std::string& nam
                      {"source", "a test"},
                      {"timezone", "Europe/Prague"},
                      {"pairing_id", result.pairing_id}};
+  if (result.measure) attributes.text.emplace_back("measures", "sun");
   writer.finish(attributes, "name: small\n");
   return path.string();
 }

@@ -35,6 +35,13 @@ struct SmallResult {
   std::optional<double> diffuse_reflectance = {};
   double emitted_exitance = 0;  ///< [W m-2], of all patches; 0: not stored
   double reflected_share = 0;   ///< of every load; 0: reflected light is not stored
+  /// Hours of sun of a patch of that object and normal.
+  std::function<double(const std::string& object, Vec3 normal)> hours = [](const std::string&,
+                                                                           Vec3) { return 3.0; };
+  /// A measure `sun` [h] of patches, NaN where it is not taken, with levels `low` from 1 h and
+  /// `high` from 3 h on half of the area; nothing: no measure.
+  std::function<double(const std::string& object, Vec3 normal)> measure = {};
+  std::string measure_parameters = "{}";
   /// Light load [kWh m-2] of a patch of that object and normal, realization r.
   std::function<double(const std::string& object, Vec3 normal, std::size_t r)> load =
       [](const std::string&, Vec3 normal, std::size_t) { return 2 + normal.z - normal.y; };

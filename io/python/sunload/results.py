@@ -123,11 +123,11 @@ class Accessor:
         return xarray.DataArray(sums, dims=("month", "facade"), name=name, attrs=dict(result[name].attrs),
                                 coords={"month": result["month"].values, "facade": result["facade"].values})
 
-    def compare(self, other: Union[xarray.Dataset, str, os.PathLike]) -> pandas.DataFrame:
-        """Differences of `other` to this result per facade, object and surface, with errors and significance: what
-        `sunload compare --csv` tells (docs/tables.md)."""
+    def compare(self, other: Union[xarray.Dataset, str, os.PathLike], quantity: str = "light_load") -> pandas.DataFrame:
+        """Differences of `other` to this result per facade, object and surface, of the light load with errors and
+        significance: what `sunload compare --csv` tells (docs/variants.md)."""
         path = other.sunload.path if isinstance(other, xarray.Dataset) else os.fspath(other)
-        return pandas.read_csv(io.StringIO(program.run(["compare", self.path, path, "--csv"])))
+        return pandas.read_csv(io.StringIO(program.run(["compare", self.path, path, "--quantity", quantity, "--csv"])))
 
     def plot_map(self, quantity: str = "light_load", time: Optional[Any] = None, ax: Optional[Any] = None,
                  **options: Any) -> Any:

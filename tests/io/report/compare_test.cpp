@@ -150,7 +150,8 @@ TEST(Compare, WhatMattersIsMoreThanTheLeastShare) {
   const ResultReader base(write_small_result(noisy("baseline", "same"), "compare_base"));
   const ResultReader paired(write_small_result(noisy("other", "same"), "compare_paired"));
   const auto south = [&](double least_percent) {
-    return row(compare_results(base, paired, least_percent), "facade", "house_1/south_1");
+    return row(compare_results(base, paired, {.least_percent = least_percent}), "facade",
+               "house_1/south_1");
   };
   const double percent = south(0).difference_percent;
   EXPECT_TRUE(south(0.9 * percent).significant);
@@ -160,13 +161,15 @@ TEST(Compare, WhatMattersIsMoreThanTheLeastShare) {
   EXPECT_GT(south(0.9999 * percent).p_value, 0.3);
   EXPECT_GE(south(0.5 * percent).p_value, south(0).p_value);
 
-  const auto counts = change_counts(compare_results(base, paired, 0.5 * percent), "facade");
+  const auto counts =
+      change_counts(compare_results(base, paired, {.least_percent = 0.5 * percent}), "facade");
   EXPECT_EQ(counts.gain, 1u);
   EXPECT_EQ(counts.lose, 0u);
   EXPECT_GT(counts.others, 0u);
-  const auto back = change_counts(compare_results(paired, base, 0.5 * percent), "facade");
+  const auto back =
+      change_counts(compare_results(paired, base, {.least_percent = 0.5 * percent}), "facade");
   EXPECT_EQ(back.lose, 1u);
-  const auto text = comparison_table(compare_results(base, paired, 1));
+  const auto text = comparison_table(compare_results(base, paired, {.least_percent = 1}));
   EXPECT_NE(text.find("Surely more than 1 %:"), text.npos) << text;
   EXPECT_NE(text.find("facade      1 gain, 0 lose, "), text.npos) << text;
 }
