@@ -343,7 +343,7 @@ class Renderer {
         *picture, title(result_) + band_title(result_),
         shown.name + ", " + shown.when + named_in_words(rules_.parts) +
             (in_rgb ? fmt::format(", in colour, white: {:.4g} {}", largest, shown.units) : "") +
-            (result_.is_place_map() ? "; green: the place itself" : ""));
+            (result_.is_place_map() ? "; green: the place itself" : "") + grey_in_words(shown));
     const auto marked_where = [&](const auto& is_beyond) {
       return std::any_of(shown.values.begin(), shown.values.end(), is_beyond)
                  ? Legend::Above::marked
@@ -360,6 +360,14 @@ class Renderer {
   }
 
  private:
+  /// What surfaces without a value are.
+  static std::string grey_in_words(const ShownQuantity& shown) {
+    if (std::none_of(shown.values.begin(), shown.values.end(),
+                     [](double value) { return std::isnan(value); }))
+      return "";
+    return shown.is_difference ? "; grey: no counterpart" : "; grey: not measured";
+  }
+
   void trace(std::size_t interval, PictureArea area) {
     camera_ = std::make_unique<Camera>(camera(interval, area));
     traced_ = std::make_unique<TracedPicture>(scene_, caster_, *camera_, area.width, area.height,

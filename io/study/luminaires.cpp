@@ -36,8 +36,8 @@ void check_strength(YamlMap& map) {
                     "leave it out; flux_lm scales the file");
   } else if (map.has("intensity_cd") == map.has("flux_lm") && map.is_usable()) {
     map.reading().problem(map.where(),
-                          map.has("flux_lm") ? "has intensity_cd and flux_lm"
-                                             : "has no file, intensity_cd or flux_lm",
+                          map.has("flux_lm") ? "the luminaire has intensity_cd and flux_lm"
+                                             : "the luminaire has no file, intensity_cd or flux_lm",
                           "one of them tells how bright it is");
   }
 }
