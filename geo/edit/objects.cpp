@@ -27,6 +27,21 @@ Vec3 vertex(const PolygonModel& model, std::size_t place) {
   return model.vertices[static_cast<std::size_t>(model.ring_vertex[place])];
 }
 
+/// The families of the objects that stay, by their new numbers; what belonged to others belongs to
+/// nothing.
+Families renumbered_families(const Families& families, const std::vector<ObjectId>& renumbered) {
+  const auto now = [&](Owner owner) {
+    if (owner.object.exists()) owner.object = renumbered[owner.object.index()];
+    return owner;
+  };
+  Families rest;
+  for (std::size_t o = 0; o < families.of_object.size(); ++o)
+    if (renumbered[o].exists()) rest.of_object.push_back(now(families.of_object[o]));
+  rest.bare = families.bare;
+  for (BareObject& bare : rest.bare) bare.owner = now(bare.owner);
+  return rest;
+}
+
 }  // namespace
 
 LooseFace face_of(const PolygonModel& model, std::size_t polygon) {
@@ -97,6 +112,7 @@ PolygonModel without_objects(const PolygonModel& model, const ChosenObjects& cho
     rest.object_names.push_back(model.object_names[o]);
     rest.object_kinds.push_back(o < model.object_kinds.size() ? model.object_kinds[o] : "");
   }
+  rest.families = renumbered_families(model.families, renumbered);
   std::vector<std::int32_t> moved(model.vertices.size(), -1);
   for (std::size_t p = 0; p < model.polygon_count(); ++p) {
     auto facts = model.facts[p];

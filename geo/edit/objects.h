@@ -54,7 +54,7 @@ std::vector<ObjectExtent> extents_of(const PolygonModel& model);
 std::vector<ObjectExtent> extents_of(const Mesh& mesh);
 
 /// The model without the chosen objects, their names and polygons. The others keep their order and
-/// every bit of their corners.
+/// every bit of their corners; what belonged to a chosen one belongs to nothing.
 PolygonModel without_objects(const PolygonModel& model, const ChosenObjects& chosen);
 
 /// Puts every corner of the chosen objects where `place` says; corners that they share with others

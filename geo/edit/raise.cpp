@@ -142,6 +142,29 @@ bool is_cut(const LooseFace& face, double cut) {
   return above && below;
 }
 
+/// Whether what is lifted stays above what is not.
+bool has_room(const std::vector<LooseFace>& faces, const Levels& levels, double level_m,
+              double by_m) {
+  double highest_left = levels.foot, lowest_lifted = levels.top;
+  for (const auto& face : faces)
+    for (const auto& ring : face.rings)
+      for (const Vec3 v : ring)
+        if (v.z >= level_m)
+          lowest_lifted = std::min(lowest_lifted, v.z);
+        else
+          highest_left = std::max(highest_left, v.z);
+  return lowest_lifted + by_m > highest_left + levels.touching();
+}
+
+/// Every corner of the object that is so high.
+void lift(PolygonModel& model, ObjectId object, double level_m, double by_m) {
+  ChosenObjects chosen(model.object_names.size(), 0);
+  chosen[object.index()] = 1;
+  displace_objects(model, chosen, [&](Vec3 v) {
+    return v.z >= level_m ? Vec3{v.x, v.y, v.z + by_m} : v;
+  });
+}
+
 }  // namespace
 
 std::optional<double> eaves_of(const std::vector<LooseFace>& faces) {
@@ -176,29 +199,34 @@ RaisedObject raise_object(PolygonModel& model, ObjectId object, double by_m,
     return refuse("begins to rise at its foot", "there is no wall to be extended below its roofs");
   if (cut > levels.top) return refuse("ends below from_m", "nothing of it would be lifted");
   // Corners within the rounding of files are of one level.
-  const double level = cut - touching;
+  raised.level_m = cut - touching;
   for (const Leaning* roof : roofs)
-    if (is_cut(*roof->face, level))
+    if (is_cut(*roof->face, raised.level_m))
       return refuse("has a roof that from_m cuts", "roofs are lifted whole");
-  double highest_left = levels.foot, lowest_lifted = levels.top;
-  for (const auto& face : faces) {
-    if (face.facts.surface == Surface::window && is_cut(face, level)) ++raised.windows_cut;
-    for (const auto& ring : face.rings)
-      for (const Vec3 v : ring)
-        if (v.z >= level)
-          lowest_lifted = std::min(lowest_lifted, v.z);
-        else
-          highest_left = std::max(highest_left, v.z);
-  }
-  if (lowest_lifted + by_m <= highest_left + touching)
+  if (!has_room(faces, levels, raised.level_m, by_m))
     return refuse("is not high enough to be lowered so far",
                   "what is lifted would come below what stays");
-  ChosenObjects chosen(model.object_names.size(), 0);
-  chosen[object.index()] = 1;
-  displace_objects(model, chosen, [&](Vec3 v) {
-    return v.z >= level ? Vec3{v.x, v.y, v.z + by_m} : v;
-  });
+  for (const auto& face : faces)
+    if (face.facts.surface == Surface::window && is_cut(face, raised.level_m)) ++raised.windows_cut;
+  lift(model, object, raised.level_m, by_m);
   return raised;
+}
+
+bool lift_with(PolygonModel& model, ObjectId object, const RaisedObject& body, double by_m) {
+  const auto faces = faces_of(model, object);
+  const Levels levels = levels_of(faces);
+  if (levels.top < body.level_m) return false;
+  const auto leaning = leaning_of(faces);
+  const bool leans_there = std::any_of(leaning.begin(), leaning.end(), [&](const Leaning& each) {
+    return is_cut(*each.face, body.level_m);
+  });
+  if (!leans_there && has_room(faces, levels, body.level_m, by_m)) {
+    lift(model, object, body.level_m, by_m);
+    return true;
+  }
+  if ((levels.foot + levels.top) / 2 < body.level_m) return false;
+  lift(model, object, levels.foot, by_m);
+  return true;
 }
 
 }  // namespace sunload

@@ -22,6 +22,7 @@ std::optional<double> eaves_of(const std::vector<LooseFace>& faces);
 
 struct RaisedObject {
   double cut_m = 0;             ///< height that walls are extended at, absolute
+  double level_m = 0;           ///< corners at and above are lifted: `cut_m` less rounding of files
   std::size_t windows_cut = 0;  ///< faces of kind window that become higher
   std::string refusal, reason;  ///< what cannot be done, and why; empty: it is done
 };
@@ -32,5 +33,10 @@ struct RaisedObject {
 /// roof, or, with `by_m` below 0, walls that would vanish.
 RaisedObject raise_object(PolygonModel& model, ObjectId object, double by_m,
                           std::optional<double> cut_m);
+
+/// Lifts what sits on a raised body (dormers, chimneys): all of it that is at or above the body's
+/// `level_m`, extended like walls below; what cannot be extended so is lifted or left whole, by its
+/// middle. False where none of it is lifted.
+bool lift_with(PolygonModel& model, ObjectId object, const RaisedObject& body, double by_m);
 
 }  // namespace sunload

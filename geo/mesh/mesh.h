@@ -11,6 +11,7 @@
 
 #include "geo/base/ids.h"
 #include "geo/base/vec.h"
+#include "geo/mesh/families.h"
 
 namespace sunload {
 
@@ -61,6 +62,7 @@ struct PolygonModel {
 
   std::vector<std::string> object_names;  ///< unique
   std::vector<std::string> object_kinds;  ///< CityJSON type or empty
+  Families families;
   std::vector<FileMaterial> materials;
 
   std::string source;              ///< file name for messages
@@ -101,6 +103,7 @@ struct Mesh {
 
   std::vector<std::string> object_names;
   std::vector<std::string> object_kinds;
+  Families families;
   std::vector<FileMaterial> file_materials;
   std::vector<Facade> facades;
   Vec3 origin;  ///< absolute position of the local origin

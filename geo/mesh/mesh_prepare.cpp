@@ -127,6 +127,7 @@ Mesh triangles_of(const PolygonModel& model, const PrepareRules& rules, const Pl
   mesh.object_names = model.object_names;
   mesh.object_kinds = model.object_kinds;
   mesh.object_kinds.resize(mesh.object_names.size());
+  mesh.families = model.families;
   mesh.file_materials = model.materials;
   const auto counts = triangulate(model, welded.new_index, mesh);
   report.polygons_with_holes = counts.with_holes;

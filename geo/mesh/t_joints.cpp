@@ -122,6 +122,7 @@ void replace(Mesh& mesh, std::vector<std::pair<std::uint32_t, std::vector<std::i
   mesh.vertices = std::move(old.vertices);
   mesh.object_names = std::move(old.object_names);
   mesh.object_kinds = std::move(old.object_kinds);
+  mesh.families = std::move(old.families);
   mesh.file_materials = std::move(old.file_materials);
   mesh.origin = old.origin;
   auto next = found.begin();

@@ -21,10 +21,11 @@ inline constexpr bool is_plain<BandShares> = sizeof(BandShares) == band_count * 
 namespace {
 
 void add_mesh(Digest& digest, const Mesh& mesh) {
-  // What files say of materials, and kinds of objects, have become materials of the scene by now.
+  // What files say of materials, kinds and families of objects, have become materials of the scene
+  // by now.
   const auto& [vertices, triangles, triangle_object, triangle_material, triangle_facade,
                triangle_surface, triangle_sides, triangle_covered, object_names, object_kinds,
-               file_materials, facades, origin] = mesh;
+               families, file_materials, facades, origin] = mesh;
   digest.add(origin);
   digest.add(vertices);
   digest.add(triangles);

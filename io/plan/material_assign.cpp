@@ -89,6 +89,7 @@ class MaterialAssigner {
       expect_known(rule.material, rule.where);
       selected_.push_back(rule.selection ? selected_faces(*rule.selection, scene.mesh, frame)
                                          : ChosenParts());
+      named_.push_back(objects_named(rule.object, scene.mesh));
     }
     if (study.scene.ground && !study.scene.ground->material.empty())
       expect_known(study.scene.ground->material, study.scene.where, "scene.ground: ");
@@ -192,13 +193,13 @@ class MaterialAssigner {
     const Mesh& mesh = scene_.mesh;
     LastRules last;
     if (study_.scene.assign.empty()) return last;
-    const auto& object = mesh.object_names[mesh.triangle_object[t].index()];
-    const auto& kind = mesh.object_kinds[mesh.triangle_object[t].index()];
+    const std::size_t object = mesh.triangle_object[t].index();
+    const auto& kind = mesh.object_kinds[object];
     const std::string surface = surface_names[static_cast<std::size_t>(mesh.triangle_surface[t])];
     for (std::size_t r = 0; r < study_.scene.assign.size(); ++r) {
       const auto& rule = study_.scene.assign[r];
-      if (!matches(rule.object, object) || !matches(rule.surface, surface) ||
-          !matches(rule.kind, kind) || !matches(rule.material_was, file ? file->name : "") ||
+      if (named_[r][object] == 0 || !matches(rule.surface, surface) || !matches(rule.kind, kind) ||
+          !matches(rule.material_was, file ? file->name : "") ||
           (rule.selection && selected_[r][t] == 0))
         continue;
       ++used_[r].matched;
@@ -466,6 +467,7 @@ class MaterialAssigner {
   std::set<std::string> refused_;
   std::map<std::string, double> scaled_;  ///< material and file, factor
   std::vector<RuleUse> used_;
+  std::vector<ChosenObjects> named_;   ///< by every rule, themselves or what they belong to
   std::vector<ChosenParts> selected_;  ///< faces of every rule's selection; empty: it has none
   Problems problems_;
   std::array<double, surface_names.size()> defaulted_m2_{};

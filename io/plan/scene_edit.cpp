@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "geo/edit/carriers.h"
 #include "geo/edit/objects.h"
 #include "geo/edit/raise.h"
 #include "geo/edit/solids.h"
@@ -49,9 +50,8 @@ class SceneEditor {
 
   std::string subject() const { return fmt::format("scene.edit[{}]", number_); }
 
-  SceneObjects objects() const {
-    return {model_.object_names, model_.object_kinds, extents_of(model_)};
-  }
+  FamilyTree tree() const { return {model_.object_names, model_.object_kinds, model_.families}; }
+  SceneObjects objects() const { return {tree(), extents_of(model_)}; }
 
   std::vector<std::string> names_of(const ChosenObjects& chosen) const {
     std::vector<std::string> names;
@@ -90,12 +90,33 @@ class SceneEditor {
     const SelectionStudy& named = step_->selection ? step_->selection->of : wanted;
     const std::string& object = wanted.object.empty() ? named.object : wanted.object;
     const std::string& kind = wanted.kind.empty() ? named.kind : wanted.kind;
-    auto meant = object.empty() ? near_names(kind, kinds) : near_names(object, model_.object_names);
+    const FamilyTree all = tree();
+    const std::string what =
+        fmt::format("no object matches {} (there are {})", words, model_.object_names.size());
+    if (const auto bare = bare_named(object, all); !bare.empty())
+      refuse(what,
+             fmt::format("{} is in the files, but nothing is read of it or of what belongs to it",
+                         bare),
+             "it may have points, lines or rooms alone, or be removed by a step before; sunload "
+             "check without the step lists what is there");
+    auto meant =
+        object.empty() ? near_names(kind, kinds) : near_names(object, names_with_surfaces(all));
     meant.resize(std::min(meant.size(), most_told));
-    refuse(fmt::format("no object matches {} (there are {})", words, model_.object_names.size()),
-           "a step changes something",
+    refuse(what, "a step changes something",
            meant.empty() ? "sunload check without the step lists what is there"
                          : fmt::format("did you mean '{}'?", fmt::join(meant, "', '")));
+  }
+
+  /// The first object of that name of which nothing is read, where there are no others; else empty.
+  static std::string bare_named(const std::string& object, const FamilyTree& all) {
+    const auto has_surfaces = with_surfaces(all);
+    std::string first;
+    for (std::size_t place = all.size(); place-- > 0;) {
+      if (object.empty() || !matches(object, all.name(place))) continue;
+      if (has_surfaces[place] != 0) return {};
+      first = all.name(place);
+    }
+    return first;
   }
 
   void tell(const std::string& what, const std::vector<std::string>& names) {
@@ -116,31 +137,59 @@ class SceneEditor {
   }
 
   void apply(const RaiseEdit& raise) {
-    const ChosenObjects all = chosen();
-    const auto extents = extents_of(model_);
+    ChosenObjects all = chosen();
     if (raise.by_m == 0) return tell("raises by 0 m", names_of(all));
-    Problems problems;
+    const auto carriers = carriers_of(tree(), extents_of(model_), all);
+    ChosenObjects bodies = all;
+    for (std::size_t o = 0; o < all.size(); ++o)
+      if (carriers[o]) bodies[o] = 0;
+    const auto raised = raise_bodies(raise, bodies);
     std::size_t windows = 0;
     for (std::size_t o = 0; o < all.size(); ++o) {
       if (all[o] == 0) continue;
-      std::optional<double> cut;
-      if (raise.from_m) cut = extents[o].box.low.z + *raise.from_m;
-      const auto raised = raise_object(model_, make_id<ObjectId>(o), raise.by_m, cut);
-      windows += raised.windows_cut;
-      if (!raised.refusal.empty())
-        problems.add(
-            step_->where,
-            fmt::format("scene.edit[{}]: {} {}", number_, model_.object_names[o], raised.refusal),
-            raised.reason,
-            "choose it out, or write raise.from_m: a height above its foot where its walls "
-            "are upright");
+      const RaisedObject& body = raised[carriers[o].value_or(o)];
+      const bool stays =
+          !body.refusal.empty() ||
+          (carriers[o] && !lift_with(model_, make_id<ObjectId>(o), body, raise.by_m));
+      if (stays) all[o] = 0;
+      windows += raised[o].windows_cut;
     }
-    problems.throw_if_any();
     tell(fmt::format("raises by {:g} m", raise.by_m), names_of(all));
     if (windows > 0)
       model_.notes.push_back(fmt::format(
           "scene.edit[{}]: {} window face{} where the walls are extended become{} higher", number_,
           windows, windows == 1 ? "" : "s", windows == 1 ? "s" : ""));
+  }
+
+  /// Throws where one cannot be raised, but for parts of buildings that end below from_m while
+  /// others rise.
+  std::vector<RaisedObject> raise_bodies(const RaiseEdit& raise, const ChosenObjects& bodies) {
+    const auto extents = extents_of(model_);
+    std::vector<RaisedObject> raised(bodies.size());
+    Problems problems, of_low_parts;
+    bool is_any_raised = false;
+    for (std::size_t o = 0; o < bodies.size(); ++o) {
+      if (bodies[o] == 0) continue;
+      std::optional<double> cut;
+      if (raise.from_m) cut = extents[o].box.low.z + *raise.from_m;
+      raised[o] = raise_object(model_, make_id<ObjectId>(o), raise.by_m, cut);
+      if (raised[o].refusal.empty()) {
+        is_any_raised = true;
+        continue;
+      }
+      const bool is_low_part =
+          cut && *cut > extents[o].box.high.z && is_part_of_body(tree().kind(o));
+      (is_low_part ? of_low_parts : problems)
+          .add(step_->where,
+               fmt::format("scene.edit[{}]: {} {}", number_, model_.object_names[o],
+                           raised[o].refusal),
+               raised[o].reason,
+               "choose it out, or write raise.from_m: a height above its foot where its walls "
+               "are upright");
+    }
+    problems.throw_if_any();
+    if (!is_any_raised) of_low_parts.throw_if_any();
+    return raised;
   }
 
   void apply(const MoveEdit& move) {

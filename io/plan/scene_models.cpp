@@ -19,22 +19,50 @@ std::string short_name(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
 
+/// The name, with a number where it is taken; it is taken then.
+std::string free_name(const std::string& wanted, std::set<std::string>& taken) {
+  std::string name = wanted;
+  for (int n = 2; !taken.insert(name).second; ++n) name = wanted + "_" + std::to_string(n);
+  return name;
+}
+
 /// Names that the scene has already get a number; they are noted.
 void add_object_names(PolygonModel& into, const PolygonModel& from) {
   std::set<std::string> taken(into.object_names.begin(), into.object_names.end());
   std::size_t renamed = 0;
   std::string first;
   for (const auto& base : from.object_names) {
-    std::string name = base;
-    for (int n = 2; taken.contains(name); ++n) name = base + "_" + std::to_string(n);
-    if (name != base && renamed++ == 0) first = "'" + base + "' is '" + name + "'";
-    taken.insert(name);
+    const std::string name = free_name(base, taken);
+    if (name != base && renamed++ == 0) first = fmt::format("'{}' is '{}'", base, name);
     into.object_names.push_back(name);
   }
   if (renamed > 0)
     into.notes.push_back(fmt::format(
         "{}: {} object{} named as in an earlier file, kept apart: {}{}", short_name(from.source),
         renamed, renamed == 1 ? " is" : "s are", first, renamed == 1 ? "" : ", …"));
+}
+
+/// Numbers of `from` count behind those that `into` has; names of bare objects that are taken get a
+/// number.
+void add_families(PolygonModel& into, const Families& from, std::size_t objects_before) {
+  Families& families = into.families;
+  const std::size_t bare_before = families.bare.size();
+  const auto behind = [&](Owner owner) {
+    if (owner.object.exists())
+      owner.object = make_id<ObjectId>(owner.object.index() + objects_before);
+    if (owner.bare.exists()) owner.bare = make_id<BareId>(owner.bare.index() + bare_before);
+    return owner;
+  };
+  if (!from.of_object.empty()) families.of_object.resize(objects_before);
+  for (const Owner& owner : from.of_object) families.of_object.push_back(behind(owner));
+  if (from.bare.empty()) return;
+  std::set<std::string> taken(into.object_names.begin(), into.object_names.end());
+  for (const BareObject& bare : families.bare) taken.insert(bare.name);
+  for (BareObject bare : from.bare) {
+    bare.name = free_name(bare.name, taken);
+    bare.owner = behind(bare.owner);
+    families.bare.push_back(std::move(bare));
+  }
 }
 
 }  // namespace
@@ -61,6 +89,7 @@ void append(PolygonModel& into, const PolygonModel& from) {
   into.object_kinds.insert(into.object_kinds.end(), from.object_kinds.begin(),
                            from.object_kinds.end());
   into.object_kinds.resize(into.object_names.size());
+  add_families(into, from.families, static_cast<std::size_t>(object_base));
   into.materials.insert(into.materials.end(), from.materials.begin(), from.materials.end());
   into.notes.insert(into.notes.end(), from.notes.begin(), from.notes.end());
   into.is_city_format = into.is_city_format || from.is_city_format;

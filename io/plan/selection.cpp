@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "geo/base/units.h"
+#include "geo/mesh/box_tree.h"
 #include "geo/sun/site.h"
 #include "io/base/name_pattern.h"
 #include "io/plan/scene_build.h"
@@ -33,7 +34,17 @@ bool lies_between(double azimuth_deg, const std::array<double, 2>& ends) {
 }
 
 SceneObjects objects_of(const Mesh& mesh) {
-  return {mesh.object_names, mesh.object_kinds, extents_of(mesh)};
+  return {{mesh.object_names, mesh.object_kinds, mesh.families}, extents_of(mesh)};
+}
+
+/// By place in the tree: it, or something that it belongs to, is named so.
+ChosenParts places_named(const std::string& pattern, const FamilyTree& tree) {
+  ChosenParts named(tree.size(), 0);
+  for (const std::size_t place : tree.owners_first()) {
+    const auto owner = tree.owner(place);
+    named[place] = matches(pattern, tree.name(place)) || (owner && named[*owner] != 0) ? 1 : 0;
+  }
+  return named;
 }
 
 std::string subject_of(const NamedSelection& selection) { return "selections." + selection.name; }
@@ -77,54 +88,93 @@ void refuse_far(Point2 place, const std::vector<ObjectExtent>& extents, const st
          "write the place in these");
 }
 
-ChosenObjects Selector::named_objects(const SceneObjects& all) const {
-  ChosenObjects chosen(all.names.size(), 0);
-  for (std::size_t o = 0; o < chosen.size(); ++o)
-    chosen[o] = !all.extents[o].is_empty() && matches(wanted_.object, all.names[o]) &&
-                        matches(wanted_.kind, o < all.kinds.size() ? all.kinds[o] : "")
-                    ? 1
-                    : 0;
+ChosenObjects objects_named(const std::string& pattern, const Mesh& mesh) {
+  ChosenObjects chosen =
+      places_named(pattern, {mesh.object_names, mesh.object_kinds, mesh.families});
+  chosen.resize(mesh.object_names.size());
   return chosen;
 }
 
-void Selector::keep_nearest(const SceneObjects& all, ChosenObjects& chosen) const {
-  // Of several above the place the smallest in plan: a house, not the ground that it stands on.
-  const auto nearness = [&](std::size_t o) {
-    const Vec3 size = all.extents[o].box.high - all.extents[o].box.low;
-    return std::pair(distance_in_plan(all.extents[o], *wanted_.near), size.x * size.y);
-  };
-  std::size_t taken = chosen.size();
-  for (std::size_t o = 0; o < chosen.size(); ++o) {
-    if (chosen[o] == 0) continue;
-    if (taken == chosen.size() || nearness(o) < nearness(taken)) taken = o;
-    chosen[o] = 0;
+Selector::ChosenFamilies Selector::families_of(const SceneObjects& all) const {
+  const FamilyTree& tree = all.tree;
+  const ChosenParts named = places_named(wanted_.object, tree);
+  ChosenFamilies families{std::vector<std::optional<std::size_t>>(tree.size()),
+                          std::vector<ObjectExtent>(tree.size()), ChosenParts(tree.size(), 0)};
+  ChosenParts chosen(tree.size(), 0);
+  for (const std::size_t place : tree.owners_first()) {
+    const auto owner = tree.owner(place);
+    const bool stands_apart = owner && holds_others_apart(tree.kind(*owner));
+    chosen[place] = named[place] != 0 && matches(wanted_.kind, tree.kind(place)) ? 1 : 0;
+    if (stands_apart && chosen[*owner] != 0) chosen[place] = 1;
+    if (owner && !stands_apart) families.head[place] = families.head[*owner];
+    if (!families.head[place] && chosen[place] != 0) families.head[place] = place;
   }
-  if (taken < chosen.size()) chosen[taken] = 1;
+  for (std::size_t o = 0; o < tree.object_count(); ++o) {
+    if (!families.head[o] || all.extents[o].is_empty()) continue;
+    const std::size_t head = *families.head[o];
+    include(families.extents[head].box, all.extents[o].box.low);
+    include(families.extents[head].box, all.extents[o].box.high);
+    families.kept[head] = 1;
+  }
+  return families;
+}
+
+void Selector::keep_nearest(ChosenFamilies& families) const {
+  // Of several above the place the smallest in plan: a house, not the ground that it stands on.
+  const auto nearness = [&](std::size_t head) {
+    const ObjectExtent& extent = families.extents[head];
+    const Vec3 size = extent.box.high - extent.box.low;
+    return std::pair(distance_in_plan(extent, *wanted_.near), size.x * size.y);
+  };
+  std::optional<std::size_t> taken;
+  for (std::size_t head = 0; head < families.kept.size(); ++head) {
+    if (families.kept[head] == 0) continue;
+    if (!taken || nearness(head) < nearness(*taken)) taken = head;
+    families.kept[head] = 0;
+  }
+  if (taken) families.kept[*taken] = 1;
+}
+
+ChosenObjects Selector::members_of_kept(const ChosenFamilies& families, const SceneObjects& all) {
+  ChosenObjects members(all.tree.object_count(), 0);
+  for (std::size_t o = 0; o < members.size(); ++o)
+    if (families.head[o] && families.kept[*families.head[o]] != 0 && !all.extents[o].is_empty())
+      members[o] = 1;
+  return members;
 }
 
 ChosenObjects Selector::objects(const SceneObjects& all) const {
-  ChosenObjects chosen = named_objects(all);
+  ChosenFamilies families = families_of(all);
+  const auto keep_if = [&](const auto& holds) {
+    for (std::size_t head = 0; head < families.kept.size(); ++head)
+      if (families.kept[head] != 0 && !holds(families.extents[head])) families.kept[head] = 0;
+  };
   const auto areas = areas_in_scene(wanted_.polygon, frame_.crs, subject_, where_);
   if (!areas.empty())
-    for (std::size_t o = 0; o < chosen.size(); ++o)
-      if (chosen[o] != 0 && !lies_in(areas, in_plan(all.extents[o].middle()))) chosen[o] = 0;
-  if (!wanted_.near) return chosen;
-  refuse_far(*wanted_.near, all.extents, subject_, where_);
-  if (!wanted_.within_m) {
-    keep_nearest(all, chosen);
-    return chosen;
+    keep_if([&](const ObjectExtent& of) { return lies_in(areas, in_plan(of.middle())); });
+  if (wanted_.near) {
+    refuse_far(*wanted_.near, all.extents, subject_, where_);
+    if (wanted_.within_m)
+      keep_if([&](const ObjectExtent& of) {
+        return distance_in_plan(of, *wanted_.near) <= *wanted_.within_m;
+      });
+    else
+      keep_nearest(families);
   }
-  for (std::size_t o = 0; o < chosen.size(); ++o)
-    if (chosen[o] != 0 && distance_in_plan(all.extents[o], *wanted_.near) > *wanted_.within_m)
-      chosen[o] = 0;
-  return chosen;
+  return members_of_kept(families, all);
 }
 
 Selector::Sight Selector::sight_of(const SceneObjects& all) const {
-  Sight sight{areas_in_scene(wanted_.polygon, frame_.crs, subject_, where_), named_objects(all)};
-  if (!wanted_.near) return sight;
-  refuse_far(*wanted_.near, all.extents, subject_, where_);
-  if (!wanted_.within_m) keep_nearest(all, sight.objects);
+  Sight sight{areas_in_scene(wanted_.polygon, frame_.crs, subject_, where_), {}};
+  ChosenFamilies families = families_of(all);
+  if (wanted_.near) {
+    refuse_far(*wanted_.near, all.extents, subject_, where_);
+    if (!wanted_.within_m) keep_nearest(families);
+  }
+  sight.objects = members_of_kept(families, all);
+  // A face is of its own object's type.
+  for (std::size_t o = 0; o < sight.objects.size(); ++o)
+    if (!matches(wanted_.kind, all.tree.kind(o))) sight.objects[o] = 0;
   return sight;
 }
 

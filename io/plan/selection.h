@@ -4,10 +4,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "geo/edit/objects.h"
+#include "geo/mesh/families.h"
 #include "geo/mesh/mesh.h"
 #include "io/study/study.h"
 
@@ -25,12 +27,14 @@ struct SceneFrame {
 /// One flag per thing: 1 is chosen.
 using ChosenParts = std::vector<std::uint8_t>;
 
-/// Objects by name and type, and where they are in the metres of the scene's files.
+/// Objects by name, type and family, and where they are in the metres of the scene's files.
 struct SceneObjects {
-  const std::vector<std::string>& names;
-  const std::vector<std::string>& kinds;  ///< may be fewer than names: of no type
+  FamilyTree tree;
   std::vector<ObjectExtent> extents;
 };
+
+/// Objects whose name, or that of something that they belong to, matches the pattern.
+ChosenObjects objects_named(const std::string& pattern, const Mesh& mesh);
 
 class Selector {
  public:
@@ -38,9 +42,11 @@ class Selector {
   Selector(const SelectionStudy& wanted, const SceneFrame& frame, std::string subject, Where where)
       : wanted_(wanted), frame_(frame), subject_(std::move(subject)), where_(std::move(where)) {}
 
-  /// Whole objects: the middle of their bounding boxes lies in the polygon, the boxes come as near
-  /// in plan as asked for. What chooses parts has no say. Throws InputError for places of another
-  /// frame: degrees that are none, and farther away than the scene is wide.
+  /// Whole objects, each with all that belongs to it. A place is asked of the topmost that name and
+  /// type choose, a house rather than its parts: the middle of the bounding box about the family
+  /// lies in the polygon, the box comes as near in plan as asked for. What chooses parts of objects
+  /// has no say. Throws InputError for places of another frame: degrees that are none, and farther
+  /// away than the scene is wide.
   ChosenObjects objects(const SceneObjects& all) const;
 
   /// A face or a patch.
@@ -69,8 +75,15 @@ class Selector {
   Sight sight_of(const SceneObjects& all) const;
   bool holds(const Sight& sight, const SceneObjects& all, const std::vector<Facade>& facades,
              const Part& part) const;
-  ChosenObjects named_objects(const SceneObjects& all) const;
-  void keep_nearest(const SceneObjects& all, ChosenObjects& chosen) const;
+  /// Families of what is chosen by name and type; by place in the tree.
+  struct ChosenFamilies {
+    std::vector<std::optional<std::size_t>> head;  ///< none: it is not chosen
+    std::vector<ObjectExtent> extents;             ///< of heads: the family's; of others empty
+    ChosenParts kept;                              ///< 1: a head that place, too, chooses
+  };
+  ChosenFamilies families_of(const SceneObjects& all) const;
+  void keep_nearest(ChosenFamilies& families) const;
+  static ChosenObjects members_of_kept(const ChosenFamilies& families, const SceneObjects& all);
 
   const SelectionStudy& wanted_;
   const SceneFrame& frame_;

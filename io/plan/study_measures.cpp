@@ -64,6 +64,7 @@ std::vector<std::size_t> chosen_patches(const MeasureOf& of, const VariantPlan& 
   for (const NamedSelection& selection : plan.study.selections)
     if (selection.name == of.selection)
       selected = selected_patches(selection, plan.built, hierarchy);
+  const ChosenObjects named = objects_named(of.object, mesh);
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < hierarchy.patch_count(); ++i) {
     if (selected[i] == 0) continue;
@@ -75,7 +76,7 @@ std::vector<std::size_t> chosen_patches(const MeasureOf& of, const VariantPlan& 
         (!facade.exists() || !matches(of.facade, mesh.facades[facade.index()].name)))
       continue;
     if (!of.surface.empty() && of.surface != surface) continue;
-    if (matches(of.object, mesh.object_names[mesh.triangle_object[t].index()])) chosen.push_back(i);
+    if (named[mesh.triangle_object[t].index()] != 0) chosen.push_back(i);
   }
   return chosen;
 }
@@ -89,9 +90,11 @@ void expect_measurable(const Study& study, const BuiltScene& built, const LightS
       light.intervals.begin(), light.intervals.end(), 0.0,
       [](double sum, const LitInterval& interval) { return sum + interval.when.length_s(); });
   Problems problems;
-  const auto facades = facade_names(built.scene.mesh);
+  const Mesh& mesh = built.scene.mesh;
+  const auto objects = names_with_surfaces({mesh.object_names, mesh.object_kinds, mesh.families});
+  const auto facades = facade_names(mesh);
   for (const MeasureParameters& of : study.measures) {
-    expect_one(of.of.object, built.scene.mesh.object_names, "object", of, problems);
+    expect_one(of.of.object, objects, "object", of, problems);
     expect_one(of.of.facade, facades, "facade", of, problems);
     if (find_measure_rule(of.rule)->spans != MeasureRule::Spans::any_period && length_s < year_s)
       problems.add(of.where, "measure " + of.name + " needs a whole year",

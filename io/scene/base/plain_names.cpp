@@ -59,6 +59,10 @@ void make_names_plain(PolygonModel& model) {
   for (auto& name : model.object_names) names.make_plain(name);
   if (model.object_names != objects_before) make_unique(model.object_names);
   for (auto& kind : model.object_kinds) names.make_plain(kind);
+  for (auto& bare : model.families.bare) {
+    names.make_plain(bare.name);
+    names.make_plain(bare.kind);
+  }
   for (auto& material : model.materials) names.make_plain(material.name);
   names.make_plain(model.crs);
   names.tell(model.notes);

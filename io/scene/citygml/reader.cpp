@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -53,24 +54,28 @@ class CityReader {
         if (!is_city_object_type(object.type) && object.type != "ReliefFeature")
           notes_.count("objects of unknown type '" + shortened(object.type) +
                        "' read like any other");
-        read_object(object);
+        read_object(object, std::nullopt);
       }
     }
+    add_families();
     for (auto& line : notes_.lines()) model_.notes.push_back(std::move(line));
     return std::move(model_);
   }
 
  private:
   /// Parts first: what they have of the whole's polygons is theirs. Returns the geometries met.
-  MetGeometry read_object(const CityObject& object) {
+  MetGeometry read_object(const CityObject& object, std::optional<std::size_t> owner) {
+    const std::size_t place = relatives_.size();
+    relatives_.push_back({object.element, object.type, owner, ObjectId::none()});
     MetGeometry of_children;
-    for (const auto& child : object.children) of_children.add_all_of(read_object(child));
+    for (const auto& child : object.children) of_children.add_all_of(read_object(child, place));
     if (object.geometries.empty()) return of_children;
     const auto polygons_before = model_.polygon_count();
     const auto id = make_id<ObjectId>(model_.object_names.size());
     MetGeometry met = append_geometries(object, id, std::move(of_children));
     if (model_.polygon_count() > polygons_before) {
-      model_.object_names.push_back(unique_(name_of(object)));
+      relatives_[place].object = id;
+      model_.object_names.push_back(unique_(name_of(object.element, object.type)));
       model_.object_kinds.push_back(object.type);
     }
     return met;
@@ -194,11 +199,40 @@ class CityReader {
     return reference;
   }
 
-  std::string name_of(const CityObject& object) {
-    const auto id = object.element.attribute("id");
+  std::string name_of(XmlElement element, const std::string& type) {
+    const auto id = element.attribute("id");
     if (!id.empty()) return std::string(id);
-    return object.type + "_" + std::to_string(++anonymous_[object.type]);
+    return type + "_" + std::to_string(++anonymous_[type]);
   }
+
+  /// Those of which nothing is read get their names behind all others.
+  void add_families() {
+    auto& [of_object, bare] = model_.families;
+    std::vector<Owner> as_owner;
+    for (const Relative& each : relatives_) {
+      if (each.object.exists()) {
+        as_owner.push_back({.object = each.object});
+        continue;
+      }
+      as_owner.push_back({.bare = make_id<BareId>(bare.size())});
+      bare.push_back({unique_(name_of(each.element, each.type)), each.type});
+    }
+    for (std::size_t r = 0; r < relatives_.size(); ++r) {
+      if (!relatives_[r].owner) continue;
+      const Owner owner = as_owner[*relatives_[r].owner];
+      of_object.resize(model_.object_names.size());
+      (as_owner[r].bare.exists() ? bare[as_owner[r].bare.index()].owner
+                                 : of_object[as_owner[r].object.index()]) = owner;
+    }
+  }
+
+  /// An object of the file as it is read.
+  struct Relative {
+    XmlElement element;
+    std::string type;
+    std::optional<std::size_t> owner;  ///< of relatives_
+    ObjectId object;
+  };
 
   NoteCounter notes_;
   PolygonModel model_;
@@ -212,6 +246,7 @@ class CityReader {
   ShapePlacer placer_;
   UniqueNames unique_;
   std::map<std::string, int> anonymous_;
+  std::vector<Relative> relatives_;
   std::unordered_map<const void*, std::unique_ptr<PolygonModel>> shapes_;
 };
 

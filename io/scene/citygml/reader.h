@@ -15,7 +15,8 @@ namespace sunload {
 ///
 /// - Objects are named by their gml:id, in the order of the file, those without one by type and
 ///   number (`Building_1`); those without polygons are left out. Parts, installations and the like
-///   are objects of their own. Types are those of CityJSON (`Square` is `TransportSquare`).
+///   are objects of their own, which belong to what they stand in. Types are those of CityJSON
+///   (`Square` is `TransportSquare`).
 /// - Geometry: solids, surfaces and their aggregates down to polygons, triangles and patches, by
 ///   `xlink:href="#id"`, too. Of an object each polygon is read once, with the semantics of the
 ///   boundary surface that holds it, whether by link or written again; a building leaves

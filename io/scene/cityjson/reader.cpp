@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include "io/base/json_text.h"
 #include "io/scene/base/city_types.h"
@@ -60,6 +61,7 @@ class CityReader {
   }
 
   PolygonModel finish() {
+    add_families();
     for (auto& line : notes_.lines()) model_.notes.push_back(std::move(line));
     return std::move(model_);
   }
@@ -156,6 +158,8 @@ class CityReader {
                           {path_, line, "", 0});
     for (const auto& [id, choice] : choices) {
       read_object(id, choice, vertices, materials, line);
+      if (!choice.owner.empty() || !object_ids_.contains(id))
+        relatives_.push_back({id, choice.type, choice.owner});
     }
   }
 
@@ -188,6 +192,35 @@ class CityReader {
     }
   }
 
+  /// Objects that belong to others, and those of which nothing is read.
+  void add_families() {
+    std::unordered_map<std::string, BareId> bare_ids;
+    auto& [of_object, bare] = model_.families;
+    for (const Relative& each : relatives_) {
+      if (object_ids_.contains(each.id)) continue;
+      if (bare_ids.try_emplace(each.id, make_id<BareId>(bare.size())).second)
+        bare.push_back({each.id, each.type});
+    }
+    for (const Relative& each : relatives_) {
+      if (each.owner.empty()) continue;
+      Owner owner;
+      if (const auto found = object_ids_.find(each.owner); found != object_ids_.end())
+        owner.object = found->second;
+      else
+        owner.bare = bare_ids.at(each.owner);
+      if (const auto found = object_ids_.find(each.id); found == object_ids_.end()) {
+        bare[bare_ids.at(each.id).index()].owner = owner;
+      } else {
+        of_object.resize(model_.object_names.size());
+        of_object[found->second.index()] = owner;
+      }
+    }
+  }
+
+  struct Relative {
+    std::string id, type, owner;
+  };
+
   std::string path_;
   SceneFromFile scene_from_file_;
   LodWish wish_;
@@ -199,6 +232,7 @@ class CityReader {
   CityMaterials header_materials_;
   std::unordered_map<std::string, ObjectId> object_ids_;
   std::unordered_map<std::string, MaterialId> material_ids_;
+  std::vector<Relative> relatives_;
 };
 
 bool is_blank(std::string_view text) { return text.find_first_not_of(" \t\r\n") == text.npos; }

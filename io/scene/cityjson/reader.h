@@ -24,6 +24,8 @@ namespace sunload {
 ///   floor; others by their slope. ClosureSurface and its like are no matter and left out.
 ///   Without semantics surfaces of land use, roads, railways, relief, water bodies and plant
 ///   cover are ground, unless the geometry is a solid.
+/// - Families by `parents` or `children`, whichever is there; of several that an object belongs to
+///   the first that is no CityObjectGroup. Objects without polygons are known as bare ones.
 /// - Rooms, storeys, furniture and other interior objects are left out.
 /// - Materials: the file's default theme, else the first in alphabetical order; diffuse
 ///   reflectance is the mean of diffuseColor; specularColor is a highlight, no mirror.

@@ -95,6 +95,39 @@ std::vector<GeometryChoice*> listed(Choices& choices, const json* ids) {
   return found;
 }
 
+/// The list in which an object names those that belong to it; null: there is none.
+const json* members_of(const GeometryChoice& choice) {
+  const auto* members = find_member(*choice.object, "children");
+  if (members == nullptr && choice.type == "CityObjectGroup")
+    members = find_member(*choice.object, "members");  // CityJSON 1.0
+  return members;
+}
+
+/// Who belongs to whom, by either's list. A group goes behind every other owner.
+void find_owners(Choices& choices) {
+  const auto note = [&](GeometryChoice& member, const std::string& owner) {
+    const auto found = choices.find(owner);
+    if (found == choices.end() || &found->second == &member) return;
+    const bool is_better =
+        member.owner.empty() || (choices.at(member.owner).type == "CityObjectGroup" &&
+                                 found->second.type != "CityObjectGroup");
+    if (is_better) member.owner = owner;
+  };
+  const auto each_id = [](const json* ids, const auto& visit) {
+    if (ids == nullptr || !ids->is_array()) return;
+    for (const auto& id : *ids)
+      if (id.is_string()) visit(id.get_ref<const std::string&>());
+  };
+  for (auto& [id, choice] : choices) {
+    each_id(find_member(*choice.object, "parents"),
+            [&, &member = choice](const std::string& owner) { note(member, owner); });
+    each_id(members_of(choice), [&, &owner = id](const std::string& member) {
+      if (const auto found = choices.find(member); found != choices.end())
+        note(found->second, owner);
+    });
+  }
+}
+
 /// A whole and its parts at different levels would lie inside each other.
 void unstack_whole_and_parts(Choices& choices, NoteCounter& notes) {
   for (auto& [id, whole] : choices) {
@@ -116,9 +149,7 @@ void unstack_whole_and_parts(Choices& choices, NoteCounter& notes) {
 void unstack_groups(Choices& choices, NoteCounter& notes) {
   for (auto& [id, group] : choices) {
     if (group.geometries.empty() || group.type != "CityObjectGroup") continue;
-    const auto* members = find_member(*group.object, "children");
-    if (members == nullptr) members = find_member(*group.object, "members");  // CityJSON 1.0
-    if (listed(choices, members).empty()) continue;
+    if (listed(choices, members_of(group)).empty()) continue;
     notes.count("geometries of groups left out: they repeat their members",
                 group.geometries.size());
     group.geometries.clear();
@@ -136,6 +167,7 @@ Choices choose_geometries(const json& city_objects, const LodWish& wish,
   }
   unstack_whole_and_parts(choices, notes);
   unstack_groups(choices, notes);
+  find_owners(choices);
   for (const auto& [id, choice] : choices) {
     if (!choice.geometries.empty() && !wish.is_met_by(choice.rank)) {
       notes.count("objects without LoD " + wish.text() + ": the nearest one read");

@@ -21,6 +21,7 @@ struct GeometryChoice {
   std::string type;
   std::vector<std::size_t> geometries;  ///< places in the list `geometry` of the object
   LodRank rank{};
+  std::string owner = {};  ///< id of the object that it belongs to; empty: to none of the document
 };
 
 /// The template that a GeometryInstance shows; throws InputError if there is none.

@@ -41,9 +41,20 @@ const char* semantic_of(Surface surface) {
 class CityText {
  public:
   explicit CityText(const PolygonModel& model)
-      : model_(model), polygons_(model.object_names.size()) {
+      : model_(model),
+        tree_(model.object_names, model.object_kinds, model.families),
+        polygons_(model.object_names.size()),
+        members_(tree_.size()) {
     for (std::size_t p = 0; p < model.polygon_count(); ++p)
       polygons_[model.facts[p].object.index()].push_back(p);
+    for (std::size_t object = 0; object < polygons_.size(); ++object)
+      is_solid_.push_back(is_closed(polygons_[object]));
+    type_.resize(tree_.size());
+    for (const std::size_t place : tree_.owners_first()) type_[place] = type_of(place);
+    const auto& order = tree_.owners_first();
+    for (auto place = order.rbegin(); place != order.rend(); ++place)
+      if (is_written(*place) && is_member(*place)) members_[*tree_.owner(*place)].push_back(*place);
+    for (auto& members : members_) std::sort(members.begin(), members.end());
   }
 
   std::string text() {
@@ -56,6 +67,12 @@ class CityText {
     for (std::size_t object = 0; object < polygons_.size(); ++object) {
       text_ += std::exchange(between, ",\n");
       add_object(object);
+    }
+    for (std::size_t bare = polygons_.size(); bare < tree_.size(); ++bare) {
+      if (!is_written(bare)) continue;
+      text_ += std::exchange(between, ",\n");
+      add_head(bare);
+      text_ += '}';
     }
     text_ += "},\n\"vertices\":[";
     between = "";
@@ -117,27 +134,58 @@ class CityText {
     return !polygons.empty();
   }
 
-  /// The model's own type where it is one that stands alone and may have this geometry.
-  std::string type_of(std::size_t object, bool is_solid) const {
+  /// Objects, and what of bare ones they belong to.
+  bool is_written(std::size_t place) const {
+    return place < polygons_.size() || !members_[place].empty();
+  }
+
+  /// Whether it is written as a member of what it belongs to.
+  bool is_member(std::size_t place) const {
+    const auto owner = tree_.owner(place);
+    if (!owner) return false;
+    constexpr std::array bodies{"Building", "Bridge", "Tunnel"};
+    constexpr std::array rest{"Part", "Installation", "ConstructiveElement"};
+    const std::string& own = tree_.kind(place);
+    for (const std::string body : bodies)
+      for (const std::string end : rest)
+        if (own == body + end && (type_[*owner] == body || type_[*owner] == body + "Part"))
+          return true;
+    return false;
+  }
+
+  /// The model's own type where it is one that stands alone, or beside what it belongs to, and may
+  /// have this geometry.
+  std::string type_of(std::size_t place) const {
     constexpr std::array bodies{
         "Bridge", "Building", "CityFurniture", "OtherConstruction", "SolitaryVegetationObject",
         "Tunnel"};
     constexpr std::array lands{"LandUse",         "Railway",   "Road",
                                "TransportSquare", "WaterBody", "Waterway"};
-    const std::string own =
-        object < model_.object_kinds.size() ? model_.object_kinds[object] : std::string();
+    const std::string& own = tree_.kind(place);
     const auto is_one_of = [&](const auto& types) {
       return std::find(types.begin(), types.end(), own) != types.end();
     };
-    if (is_one_of(bodies) || (!is_solid && is_one_of(lands))) return own;
+    const bool is_solid = place < is_solid_.size() && is_solid_[place];
+    if (is_one_of(bodies) || (!is_solid && is_one_of(lands)) || is_member(place)) return own;
     return is_solid ? "Building" : "GenericCityObject";
+  }
+
+  /// Name, type and family, with the brace left open.
+  void add_head(std::size_t place) {
+    add(R"({}:{{"type":"{}")", quoted(tree_.name(place)), type_[place]);
+    if (is_member(place)) add(R"(,"parents":[{}])", quoted(tree_.name(*tree_.owner(place))));
+    if (members_[place].empty()) return;
+    const char* between = ",\"children\":[";
+    for (const std::size_t member : members_[place])
+      add("{}{}", std::exchange(between, ","), quoted(tree_.name(member)));
+    text_ += ']';
   }
 
   void add_object(std::size_t object) {
     const auto& polygons = polygons_[object];
-    const bool is_solid = is_closed(polygons);
-    add(R"({}:{{"type":"{}","geometry":[{{"type":"{}","lod":"2","boundaries":{})",
-        quoted(model_.object_names[object]), type_of(object, is_solid),
+    const bool is_solid = is_solid_[object];
+    add_head(object);
+    add(R"(,"geometry":[{{"type":"{}","lod":"2","boundaries":{})",
         is_solid ? "Solid" : "MultiSurface", is_solid ? "[[" : "[");
     const char* between = "";
     for (const auto p : polygons) {
@@ -193,7 +241,11 @@ class CityText {
   }
 
   const PolygonModel& model_;
+  FamilyTree tree_;
   std::vector<std::vector<std::size_t>> polygons_;  ///< of each object
+  std::vector<bool> is_solid_;                      ///< the same
+  std::vector<std::vector<std::size_t>> members_;   ///< objects, by place in the tree
+  std::vector<std::string> type_;                   ///< as written, by place in the tree
   std::vector<std::array<std::int32_t, 3>> edges_;
   std::string text_;
 };

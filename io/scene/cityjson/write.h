@@ -13,7 +13,9 @@ namespace sunload {
 ///
 /// One CityObject per object of the model: a Building with a Solid where its polygons close
 /// (every edge is walked once each way), else a GenericCityObject with a MultiSurface; of the type
-/// that the model gives, where one stands alone (a BuildingPart does not); LoD 2.
+/// that the model gives, where one stands alone; parts and installations of buildings, bridges and
+/// tunnels keep theirs where what they belong to is written with them: an object, or one of which
+/// no surface was read, without geometry. LoD 2.
 /// Kinds of surface as semantics where CityJSON has a name for them, materials with their
 /// reflectance as grey diffuseColor. Coordinates in metres, rounded to micrometres.
 /// CityJSON has no mirrors and no emitters. Throws MachineError where the file cannot be written.

@@ -57,6 +57,37 @@ double highest_of(const PolygonModel& model, Surface surface) {
   return highest;
 }
 
+/// Height ranges of an object that stands from `low` to `high` beside a body raised from 5 m on.
+std::pair<double, double> lifted(ModelBuilder builder, double by_m) {
+  PolygonModel model = builder.model();
+  RaisedObject body;
+  body.level_m = 5;
+  lift_with(model, make_id<ObjectId>(0), body, by_m);
+  const Box box = extents_of(model)[0].box;
+  return {box.low.z, box.high.z};
+}
+
+TEST(Raise, LiftsWhatSitsOnABody) {
+  using Range = std::pair<double, double>;
+  const auto box = [](double low, double high) {
+    ModelBuilder builder;
+    builder.object("chimney").box({0, 0, low}, {1, 1, high});
+    return builder;
+  };
+  EXPECT_EQ(lifted(box(5, 7), 3), (Range{8, 10}));
+  EXPECT_EQ(lifted(box(1, 4), 3), (Range{1, 4}));
+  EXPECT_EQ(lifted(box(1, 7), 3), (Range{1, 10})) << "walls are extended";
+  EXPECT_EQ(lifted(box(5, 7), -2), (Range{3, 5}));
+  EXPECT_EQ(lifted(box(4, 7), -4), (Range{0, 3})) << "no wall is left to be shortened";
+  const auto leaning = [](double low, double high) {
+    ModelBuilder builder;
+    builder.object("awning").ring({{0, 0, high}, {1, 0, high}, {1, 1, low}, {0, 1, low}});
+    return builder;
+  };
+  EXPECT_EQ(lifted(leaning(4.8, 6), 3), (Range{7.8, 9})) << "what leans is lifted whole";
+  EXPECT_EQ(lifted(leaning(3, 5.5), 3), (Range{3, 5.5}));
+}
+
 TEST(Raise, LiftsTheRoofWholeAndExtendsTheWalls) {
   PolygonModel model = house().model();
   expect_closed(model, 1, volume_of_house);
@@ -124,6 +155,8 @@ TEST(Raise, TakesWhatHangsUnderTheRoofAlongAndLeavesBalconies) {
     builder.polygon({{ring(1, 9)[i], ring(1, 9)[j], ring(1, 9.3)[j], ring(1, 9.3)[i]}});
   }
   PolygonModel model = builder.model();
+  RaisedObject body;
+  body.level_m = 5;
   add_prism(model, {rectangle_in_plan({5, -1.6}, 3, 1, 0)}, 3, 3.2, {"balcony", "", ""});
   expect_closed(model, 2, 10 * 10 * 9 + 12 * 12 * 0.3 + 3 * 0.2);
   const auto faces = faces_of(model, make_id<ObjectId>(0));

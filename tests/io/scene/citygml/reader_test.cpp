@@ -228,6 +228,30 @@ TEST(SceneCityGml, WholesAndPartsAreNotStacked) {
   EXPECT_EQ(shared.polygon_count(), 1u);
 }
 
+TEST(SceneCityGml, FamiliesOfWhatStandsInside) {
+  const auto block = element("bldg:lod2Solid", box_solid(0, 0, 0, 1, 1, 1));
+  const auto inside = [](const std::string& property, const std::string& type,
+                         const std::string& more, const std::string& id = {}) {
+    return element("bldg:" + property,
+                   element("bldg:" + type, more, id.empty() ? "" : "gml:id=\"" + id + "\""));
+  };
+  const auto model = read_text(
+      "families.gml",
+      city_gml(building("b", inside("consistsOfBuildingPart", "BuildingPart",
+                                    block + inside("outerBuildingInstallation",
+                                                   "BuildingInstallation", block, "i"),
+                                    "p")) +
+               building("", inside("consistsOfBuildingPart", "BuildingPart", block, "q")) +
+               building("", block) + building("alone", "")));
+  EXPECT_EQ(model.object_names, (std::vector<std::string>{"i", "p", "q", "Building_1"}));
+  const FamilyTree tree(model.object_names, model.object_kinds, model.families);
+  std::vector<std::string> owners;
+  for (std::size_t place = 0; place < tree.size(); ++place)
+    owners.push_back(tree.owner(place) ? tree.name(*tree.owner(place)) : "");
+  EXPECT_EQ(owners, (std::vector<std::string>{"p", "b", "Building_2", "", "", "", ""}));
+  EXPECT_EQ(tree.name(6), "alone");
+}
+
 TEST(SceneCityGml, TypesOfObjects) {
   const auto of = [](const std::string& type, const std::string& property = "lod1MultiSurface",
                      const std::string& geometry = multi_surface({polygon(triangle)})) {

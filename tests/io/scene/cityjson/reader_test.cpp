@@ -153,6 +153,33 @@ TEST(SceneCityJson, GroupsAndInteriorsAreNotStacked) {
   EXPECT_TRUE(has_note(model, "1 objects of unknown type '+Noise'"));
 }
 
+TEST(SceneCityJson, FamiliesByEitherList) {
+  const auto model =
+      read_text("families.json",
+                city(object("g", "CityObjectGroup", "", R"("children":["b","i","t"])") + "," +
+                     object("b", "Building", "", R"("children":["p"],"parents":["g"])") + "," +
+                     object("p", "BuildingPart", surfaces("2", triangle)) + "," +
+                     object("i", "BuildingInstallation", surfaces("2", triangle),
+                            R"("parents":["g","p","lost"])") +
+                     "," + object("t", "CityFurniture", surfaces("2", triangle)) + "," +
+                     object("x", "Building", surfaces("2", triangle), R"("parents":["y"])") + "," +
+                     object("y", "Building", surfaces("2", triangle), R"("parents":["x","y"])")));
+  const FamilyTree tree(model.object_names, model.object_kinds, model.families);
+  const auto owner_of = [&](const std::string& name) -> std::string {
+    for (std::size_t place = 0; place < tree.size(); ++place)
+      if (tree.name(place) == name)
+        return tree.owner(place) ? tree.name(*tree.owner(place)) : "nothing";
+    return "no such name";
+  };
+  EXPECT_EQ(owner_of("p"), "b");
+  EXPECT_EQ(owner_of("i"), "p") << "a building goes before a group";
+  EXPECT_EQ(owner_of("b"), "g");
+  EXPECT_EQ(owner_of("t"), "g");
+  EXPECT_EQ(owner_of("g"), "nothing");
+  EXPECT_TRUE(owner_of("x") == "nothing" || owner_of("y") == "nothing") << "circles are cut";
+  EXPECT_EQ(tree.owners_first().size(), tree.size());
+}
+
 TEST(SceneCityJson, Materials) {
   const std::string appearance =
       R"("appearance":{"materials":[{"name":"brick","diffuseColor":[0.3,0.2,0.1],
