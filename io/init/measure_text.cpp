@@ -30,7 +30,7 @@ struct Offer {
   std::string_view keys = {}, remark = {};
 };
 
-constexpr std::array<Offer, 11> offers{{
+constexpr std::array<Offer, 12> offers{{
     {"en_17037", Measured::facades, "least_elevation_deg: 13",
      "13 degrees are the Czech Republic's: table A.6 of EN 17037 has those of your capital"},
     {"csn_73_4301", Measured::facades},
@@ -42,6 +42,7 @@ constexpr std::array<Offer, 11> offers{{
     {"bright_sun", Measured::facades},
     {"light_hours", Measured::facades, "above_w_m2: 200", "the threshold"},
     {"glint_hours", Measured::ground, "above_w_m2: 100, most_h: 1", "the threshold, and the hours"},
+    {"daylight_factor", Measured::facades},
     {"peak_light", Measured::facades},
     {"roof_potential", Measured::roofs},
 }};

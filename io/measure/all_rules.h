@@ -16,6 +16,7 @@ MeasureRule bre_209_probable_sun();
 MeasureRule bright_sun();
 MeasureRule light_hours();
 MeasureRule glint_hours();
+MeasureRule daylight_factor();
 MeasureRule peak_light();
 MeasureRule roof_potential();
 

@@ -21,6 +21,7 @@ namespace sunload {
 struct MeasuredInterval {
   UnixTime begin = 0, end = 0;
   double dni = 0;                ///< while it is sunlit [W m-2]
+  double dhi = 0;                ///< on open level ground, in the unit of the series
   std::vector<SunStretch> suns;  ///< of its sunlit part; empty in the dark
 };
 

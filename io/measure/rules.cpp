@@ -32,10 +32,10 @@ std::string range_words(const MeasureRule& rule) {
 
 const std::vector<MeasureRule>& measure_rules() {
   static const std::vector<MeasureRule> all{
-      rules::sun_hours(),      rules::en_17037(),      rules::csn_73_4301(),
-      rules::bre_209_garden(), rules::bre_209_vsc(),   rules::bre_209_probable_sun(),
-      rules::bright_sun(),     rules::light_hours(),   rules::glint_hours(),
-      rules::peak_light(),     rules::roof_potential()};
+      rules::sun_hours(),       rules::en_17037(),    rules::csn_73_4301(),
+      rules::bre_209_garden(),  rules::bre_209_vsc(), rules::bre_209_probable_sun(),
+      rules::bright_sun(),      rules::light_hours(), rules::glint_hours(),
+      rules::daylight_factor(), rules::peak_light(),  rules::roof_potential()};
   return all;
 }
 

@@ -37,7 +37,8 @@ void expect_one(const std::string& pattern, const std::vector<std::string>& name
 }
 
 MeasuredInterval measured(const LitInterval& lit) {
-  MeasuredInterval interval{lit.when.begin, lit.when.end, 0, {}};
+  const double lm_per_w = lit.lm_per_w ? lit.lm_per_w->diffuse : 1;
+  MeasuredInterval interval{lit.when.begin, lit.when.end, 0, lit.mean.dhi * lm_per_w, {}};
   if (lit.when.sunlit_s <= 0) return interval;
   // Means are over the whole interval.
   interval.dni = lit.mean.dni * lit.when.length_s() / lit.when.sunlit_s;

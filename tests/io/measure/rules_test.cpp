@@ -28,9 +28,9 @@ class TwoPoints {
     caster_ = std::make_unique<RayCaster>(scene_.mesh);
     site.timezone = "UTC";
   }
-  void add(const CivilTime& begin, double hours, double dni, Vec3 sun) {
+  void add(const CivilTime& begin, double hours, double dni, Vec3 sun, double dhi = 0) {
     const UnixTime t = utc_from_calendar(begin);
-    intervals_.push_back({t, t + 3600 * hours, dni, {{normalized(sun), 3600 * hours}}});
+    intervals_.push_back({t, t + 3600 * hours, dni, dhi, {{normalized(sun), 3600 * hours}}});
   }
   MeasuredScene scene() const {
     return {{{{0, 0, 1}, {0, -1, 0}}, {{0, 0, 1}, {0, 0, 1}}},
@@ -115,6 +115,28 @@ TEST(LightHours, CountsIntervalsAboveAThreshold) {
   const auto found = measure->values();
   EXPECT_DOUBLE_EQ(found.value[0], 1 + 4);
   EXPECT_DOUBLE_EQ(found.value[1], 2);
+}
+
+TEST(DaylightFactor, IsOfIntervalsWithoutSun) {
+  TwoPoints points;
+  points.add({2026, 1, 1, 10}, 1, 0, south, 200);
+  points.add({2026, 1, 1, 11}, 2, 0, south, 100);
+  points.add({2026, 1, 1, 13}, 4, 50, south, 300);  // the sun shines: it does not count
+  const MeasuredScene scene = points.scene();
+  MeasureParameters of;
+  of.numbers = {{"least_percent", 0}};
+  of.words = {{"light", "total"}};
+  const auto measure = find_measure_rule("daylight_factor")->start(of, scene);
+  const std::vector<double> none, all{100, 20, 40, 10, 300, 300};
+  measure->watch({0, 3, all, none});
+  const auto found = measure->values();
+  EXPECT_DOUBLE_EQ(found.value[0], 100 * (100 + 2 * 40.0) / (200 + 2 * 100.0));
+  EXPECT_DOUBLE_EQ(found.value[1], 100 * (20 + 2 * 10.0) / 400);
+  TwoPoints sunny;
+  sunny.add({2026, 1, 1, 13}, 4, 50, south, 300);
+  const MeasuredScene bright = sunny.scene();
+  const auto never = find_measure_rule("daylight_factor")->start(of, bright);
+  EXPECT_TRUE(std::isnan(never->values().value[0]));
 }
 
 TEST(PeakLight, TellsTheFirstIntervalOfTheLargest) {
