@@ -616,9 +616,9 @@ int check_study(const std::string& path, const RunOptions& options, const CheckR
 }
 
 int print_sun(const std::string& path, const std::string& picture) {
-  expect_picture_name(picture);
   const StudyFile file = read_study(path);
   expect_not_read(picture, named_files(file));
+  expect_picture_name(picture);
   print_warnings(file.warnings);
   const Study& study = file.variants.front();
   // The site may come from the scene's CRS, which only its reader knows.
@@ -638,9 +638,9 @@ int print_sun(const std::string& path, const std::string& picture) {
 }
 
 int print_sky(const std::string& path, const SkyOptions& options) {
-  expect_picture_name(options.picture);
   const StudyFile file = read_study(path);
   expect_not_read(options.picture, named_files(file));
+  expect_picture_name(options.picture);
   print_warnings(file.warnings);
   const SkyDome dome = sky_dome(file.variants.front(), options.time);
   print_warnings(dome.notes);

@@ -18,7 +18,7 @@ namespace sunload {
 struct LitInterval {
   SunInterval when;
   Irradiance mean;        ///< over the whole interval
-  Irradiance of_the_sky;  ///< what the sky's shape follows from: DNI while the sun is up
+  Irradiance of_the_sky;  ///< what the sky's shape follows from: light while the sun is up
   /// Given where a model's luminance was made into irradiance by it.
   std::optional<LuminousEfficacy> lm_per_w{};
   /// Of the ground on that day, in (0, 1), where the study asks for it and the weather tells it.

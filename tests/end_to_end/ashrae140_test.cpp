@@ -133,7 +133,9 @@ std::map<std::string, double> sky_by_quadrature(const std::string& study_path) {
   for (const auto& interval : series.intervals) {
     if (interval.mean.dhi <= 0) continue;
     const Sky sky = sky_of(interval, study.light);
-    const double weight = interval.when.length_s() / joules_per_kwh;
+    // Its sky is that of its sunlit part.
+    const double weight =
+        interval.when.length_s() / joules_per_kwh * interval.mean.dhi / interval.of_the_sky.dhi;
     for (auto& node : nodes) node.radiance += weight * sky.radiance(node.w);
   }
   std::map<std::string, double> sums;

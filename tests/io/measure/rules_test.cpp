@@ -77,22 +77,27 @@ TEST(BrightSun, WinterLastsFromEquinoxToEquinox) {
   TwoPoints points;
   points.add({2026, 3, 20, 10}, 1, 500, south);
   points.add({2026, 3, 21, 10}, 1, 500, south);
+  points.add({2026, 3, 22, 10}, 1, 500, south);
   points.add({2026, 9, 20, 10}, 1, 500, south);
   points.add({2026, 9, 21, 10}, 1, 500, south);
-  EXPECT_EQ(bright_stretches(points.scene(), sunshine_w_m2, InSeason::winter).size(), 2u);
-  EXPECT_EQ(bright_stretches(points.scene(), sunshine_w_m2).size(), 4u);
+  points.add({2026, 9, 22, 10}, 1, 500, south);
+  // Both equinoxes are of both halves of the year.
+  EXPECT_EQ(bright_stretches(points.scene(), sunshine_w_m2, InSeason::winter).size(), 4u);
+  points.site.latitude_deg = -33.9;
+  EXPECT_EQ(bright_stretches(points.scene(), sunshine_w_m2, InSeason::winter).size(), 4u);
+  EXPECT_EQ(bright_stretches(points.scene(), sunshine_w_m2).size(), 6u);
 }
 
 TEST(BrightSun, WinterIsTheSitesOwn) {
   TwoPoints points;
-  points.add({2026, 3, 20, 21}, 1, 500, south);  // the morning of 21 March in Sydney
+  points.add({2026, 3, 21, 21}, 1, 500, south);  // the morning of 22 March in Sydney
   points.add({2026, 6, 21, 2}, 1, 500, south);
   points.site.timezone = "Australia/Sydney";
   const auto winter = [&] {
     return bright_stretches(points.scene(), sunshine_w_m2, InSeason::winter).size();
   };
   points.site.latitude_deg = 33.9;
-  EXPECT_EQ(winter(), 0u) << "by the clock of the site it is the equinox";
+  EXPECT_EQ(winter(), 0u) << "by the clock of the site the equinox is over";
   points.site.latitude_deg = -33.9;
   EXPECT_EQ(winter(), 2u);
 }
