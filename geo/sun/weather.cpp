@@ -217,6 +217,20 @@ double common_sunlit_s(const SunInterval& a, const SunInterval& b) {
 
 }  // namespace
 
+namespace {
+
+/// A typical year may be written from any month on; all of it is of one year.
+void begin_with_january(std::vector<DatedWeather>& weather) {
+  constexpr double months_s = 180 * seconds_per_day;  // rows in disorder do not go back so far
+  const auto new_year = std::adjacent_find(
+      weather.begin(), weather.end(), [](const DatedWeather& before, const DatedWeather& after) {
+        return after.begin < before.begin - months_s;
+      });
+  if (new_year != weather.end()) std::rotate(weather.begin(), new_year + 1, weather.end());
+}
+
+}  // namespace
+
 WeatherYears years_of(const std::vector<WeatherRecord>& records) {
   for (std::size_t i = 0; i < records.size(); ++i) {
     const WeatherRecord& now = records[i];
@@ -242,11 +256,7 @@ std::vector<DatedWeather> dated(const std::vector<WeatherRecord>& records,
     const UnixTime midnight = utc_from_calendar({year, r.month, r.day, 0, 0, 0}) - offset_s;
     weather.push_back({midnight + r.begin_s, midnight + r.end_s, r.values, r.line});
   }
-  // A typical year may be written from any month on; all of it is of one year.
-  if (is_typical)
-    std::stable_sort(
-        weather.begin(), weather.end(),
-        [](const DatedWeather& a, const DatedWeather& b) { return a.begin < b.begin; });
+  if (is_typical) begin_with_january(weather);
   return weather;
 }
 
