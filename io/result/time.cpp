@@ -82,7 +82,10 @@ std::string interval_in_words(const ResultReader& result, std::size_t interval) 
 }
 
 std::string row_in_words(const ResultReader& result, std::size_t row) {
-  if (series_step(result).empty()) return "sun of " + interval_in_words(result, row);
+  if (series_step(result).empty()) {
+    const bool is_up = result.doubles("sun_elevation").at(row) > 0;
+    return (is_up ? "sun of " : "") + interval_in_words(result, row);
+  }
   const auto zone = result_zone(result);
   const auto bounds = result.row("time_bounds", row);
   const std::string begin = iso_local(bounds.at(0), zone);
