@@ -35,6 +35,8 @@ def random_material(random, kind, allowed):
         return {"diffuse": share(0.05, 0.3), "transmittance": share(0.05, 0.7), "sides": "two"}
     if kind == "lamp" and "emission" in allowed:
         return {"diffuse": share(0, 0.5), "emission_w_m2": random.choice([0.5, 50, 5000])}
+    if kind == "lamp" and "lumens" in allowed:
+        return {"diffuse": share(0, 0.5), "emission_lm_m2": random.choice([1, 500, 1e5])}
     if kind == "two":
         return {"diffuse": share(0, 0.9), "sides": "two"}
     if kind == "colour" and "bands" in allowed:
@@ -276,6 +278,25 @@ class RandomScene:
             self.section["up"] = up
         if "emission" in self.allowed and random.random() < 0.08:
             self.parallel_sources(up, unit_m)
+
+    def luminaires(self):
+        """Points in and above the scene: a maker's photometry, spots, bare lamps, a row."""
+        random = self.random
+        with open(os.path.join(self.folder, "lamp.ies"), "w") as file:
+            file.write("IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 3 3 1 2 0 0 0\n1 1 40\n0 45 90\n0 30 90\n"
+                       "100 90 0\n100 60 10\n100 80 0\n")
+        self.section["luminaires"] = []
+        for _ in range(random.choice([1, 1, 3])):
+            at = [round(random.uniform(low, high), 3) for low, high in zip(self.low, self.high)]
+            at[2] = round(self.high[2] + random.uniform(-0.5, 1) * 0.5 * self.extent, 3)
+            lamp = {"position_m": at, **random.choice([{"file": "lamp.ies"}, {"file": "lamp.ies", "flux_lm": 5000},
+                                                       {"intensity_cd": 300, "beam_deg": random.choice([20, 90, 200])},
+                                                       {"flux_lm": 2000}])}
+            if random.random() < 0.4:
+                lamp.update(towards=[round(random.gauss(0, 1), 2), round(random.gauss(0, 1), 2), -1], turn_deg=random.randint(-180, 180))
+            if random.random() < 0.2:
+                lamp.update(to_m=[at[0] + self.extent, at[1], at[2]], every_m=max(0.01, round(self.extent / 3, 3)))
+            self.section["luminaires"].append(lamp)
 
     def write_obj(self, model, up, unit_m):
         """One file, or two."""

@@ -124,9 +124,10 @@ class RandomStudy:
         self.is_wrong = random.random() < 0.04
         self.is_measurable = not self.is_wrong and random.random() < 0.03
         allowed = {"bands"} if bands else set()
-        if not illuminance:
-            allowed.add("emission")
+        allowed.add("lumens" if illuminance else "emission")
         scene = RandomScene(random, folder, allowed)
+        if illuminance and random.random() < 0.5:
+            scene.luminaires()
         self.city, self.is_sound = scene.city, scene.is_sound
         light = RandomLight(random, folder, scene.crs, 64 if self.is_measurable else 24)
         patches = MEASURABLE_PATCHES if self.is_measurable else 10 ** random.uniform(1.3, 2.8)
