@@ -41,9 +41,9 @@ class DaylightFactor : public SeriesMeasure {
 MeasureRule daylight_factor() {
   return {.word = "daylight_factor",
           .definition =
-              "light, reflections included, as a share of that on open level ground, over the "
-              "intervals without direct sun; of light.sky: cie_overcast the daylight factor",
-          .source = "CIE S 017:2020 International Lighting Vocabulary, 17-29-121",
+              "light as a share of that on open level ground, over intervals without direct sun; "
+              "of an overcast sky the daylight factor",
+          .source = "CIE S 017:2020, 17-29-121",
           .units = "percent",
           .keys = {{"least_percent", 0}},
           .words = {{"light", {"total", "sky", "reflected"}}},
