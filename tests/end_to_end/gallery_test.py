@@ -83,8 +83,8 @@ def expect_runs(sunload, source, studies, folder):
     import matplotlib.image
     for study, row in found.items():
         own = {name: told[study][name] for name in ("shown", "variants", "suns")}
-        load = float(told[study]["light_load_kwh_m2"])
-        assert own == {name: row[name] for name in own} and abs(float(row["light_load_kwh_m2"]) - load) <= TOLERANCE * load, (
+        load = float(told[study]["light_load"])
+        assert own == {name: row[name] for name in own} and abs(float(row["light_load"]) - load) <= TOLERANCE * load, (
             f"{study}: {row}, and the page says {told[study]}; run scripts/gallery {study}")
         picture = matplotlib.image.imread(os.path.join(out, "gallery", study.replace("/", "-") + ".png"))
         assert picture.std() > 0.02 and picture.shape[1] > 500, study
