@@ -268,8 +268,7 @@ std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
                     "  {:.3g} lines, about {:.3g} shadow rays{}; estimated {:.0f} MiB memory, "
                     "{:.0f} MiB disk, "
                     "{:.0f} s on {} threads{}\n",
-                    work.patches, plan.intervals(),
-                    has_lamps(plan) ? plan.intervals() : plan.light.lit_count(), plan.batches(),
+                    work.patches, plan.intervals(), lit_intervals(plan), plan.batches(),
                     static_cast<double>(work.line_rays), static_cast<double>(work.direct_rays),
                     shot, work.memory_bytes / mib, work.disk_bytes / mib, work.seconds,
                     thread_count(), work.is_of_this_machine ? ", by a trial on this machine" : "");

@@ -217,7 +217,7 @@ LitInterval measured_light(const SunInterval& when, const Irradiance& open) {
   LitInterval interval{when, open, {0, open.dhi, open.ghi}};
   if (when.up_s <= 0) return interval;
   // The sky while the sun is up: nearly all of the diffuse light falls then, too.
-  interval.of_the_sky = scaled({open.dni, open.dhi, open.ghi}, when.length_s() / when.up_s);
+  interval.of_the_sky = scaled(open, when.length_s() / when.up_s);
   interval.of_the_sky.dni =
       std::min(interval.of_the_sky.dni, extraterrestrial(when.sun.distance_au));
   if (when.sunlit_s == when.up_s) return interval;

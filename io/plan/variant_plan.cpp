@@ -95,6 +95,10 @@ bool has_lamps(const VariantPlan& plan) {
                      [](const Material& m) { return m.emission_w_m2 > 0; });
 }
 
+std::size_t lit_intervals(const VariantPlan& plan) {
+  return has_lamps(plan) ? plan.intervals() : plan.light.lit_count();
+}
+
 std::size_t sun_count(const VariantPlan& plan, std::size_t batch) {
   const std::size_t begin = batch * plan.batch_suns();
   const std::size_t end = std::min(begin + plan.batch_suns(), plan.intervals());

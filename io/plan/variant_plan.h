@@ -52,6 +52,8 @@ std::string hash_with_isa(const VariantPlan& plan, const std::string& isa);
 std::vector<Material> materials_of(const VariantPlan& plan);
 /// Whether something in the scene shines by itself: then dark intervals are computed too.
 bool has_lamps(const VariantPlan& plan);
+/// Intervals with light, which are all where lamps shine.
+std::size_t lit_intervals(const VariantPlan& plan);
 /// Sun positions of a batch that cost work: intervals that are not dark, all of them with lamps.
 std::size_t sun_count(const VariantPlan& plan, std::size_t batch);
 

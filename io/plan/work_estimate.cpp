@@ -99,11 +99,6 @@ double refinement_rays(const VariantPlan& plan, double patches, double lit) {
           luminaires_seen * static_cast<double>(plan.built.scene.luminaires.all.size()));
 }
 
-/// Intervals with light, which are all where lamps shine.
-double lit_intervals(const VariantPlan& plan) {
-  return static_cast<double>(has_lamps(plan) ? plan.intervals() : plan.light.lit_count());
-}
-
 /// Of rays to the sun, cast by panes and the like. Sums are of one core.
 double mirror_seconds(double patches, double suns, double samples) {
   return patches * mirrored_share * suns * samples * s_per_mirror_ray;
@@ -128,8 +123,7 @@ struct SeriesBytes {
 /// In batches and in the result; of dark intervals next to nothing. Sums over steps are doubles,
 /// beside the series of intervals that measures watch; merge holds a row of chunks.
 SeriesBytes series_bytes(const VariantPlan& plan, double series, double value_bytes) {
-  const bool lamps = has_lamps(plan);
-  const auto lit = static_cast<double>(lamps ? plan.intervals() : plan.light.lit_count());
+  const auto lit = static_cast<double>(lit_intervals(plan));
   const auto batch = static_cast<double>(std::min(plan.batch_suns(), plan.intervals()));
   if (plan.steps.empty()) return {batch * series * value_bytes, 0, 2 * lit * series * value_bytes};
   const auto steps = static_cast<double>(plan.steps.size()),
@@ -205,7 +199,7 @@ bool is_year_of_few(const VariantPlan& plan) {
   const SolverRules rules = solver_rules(plan);
   if (rules.year == Year::modes) return true;
   return rules.year == Year::automatic && year_can_serve(rules) &&
-         year_share_of_few * lit_intervals(plan) > year_skies + year_suns;
+         year_share_of_few * static_cast<double>(lit_intervals(plan)) > year_skies + year_suns;
 }
 
 WorkSeconds modelled_seconds(const VariantPlan& plan, std::size_t patches,
@@ -278,7 +272,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   const auto series_of_study = kept_series(plan.study.output);
   const double kept = std::min(
       parts, static_cast<double>(std::count(series_of_study.begin(), series_of_study.end(), true)));
-  const double n = receivers(plan, patches), lit = lit_intervals(plan);
+  const double n = receivers(plan, patches), lit = static_cast<double>(lit_intervals(plan));
   const auto suns = static_cast<double>(plan.light.sun_samples());
   const double shining = suns - clouded_suns(plan.light);
   const auto batch = static_cast<double>(std::min(plan.batch_suns(), plan.intervals()));

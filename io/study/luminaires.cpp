@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Luminaires of section `scene` of a study.
-#include <array>
-#include <filesystem>
 #include <optional>
 
 #include "io/study/sections.h"
@@ -11,20 +9,10 @@ namespace sunload::study_sections {
 
 namespace {
 
-constexpr Range coordinates_m{-1e9, 1e9};  // no map projection of the Earth goes farther
-constexpr Range components{-1e9, 1e9};
 constexpr Range distances_m{0.01, 1e5};
 constexpr Range beams_deg{0, 360, Range::Low::excluded};
 constexpr Range intensities_cd{0, 1e12, Range::Low::excluded};
 constexpr Range fluxes_lm{0, 1e12, Range::Low::excluded};
-
-std::optional<Vec3> read_vector(YamlMap& map, const std::string& key, const Range& range) {
-  const auto values = map.numbers(key, range);
-  if (!map.has(key)) return {};
-  if (values.size() == 3) return Vec3{values[0], values[1], values[2]};
-  map.problem(key, "must be three numbers, x, y and z");
-  return {};
-}
 
 /// That it is known how bright it is, once.
 void check_strength(YamlMap& map) {
@@ -46,13 +34,11 @@ LuminaireStudy read_luminaire(YamlMap& map, const std::string& folder) {
   LuminaireStudy luminaire;
   luminaire.where = map.where();
   map.require("position_m", "a luminaire hangs somewhere");
-  luminaire.position = read_vector(map, "position_m", coordinates_m).value_or(Vec3{0, 0, 0});
-  luminaire.to = read_vector(map, "to_m", coordinates_m);
+  luminaire.position = read_vector(map, "position_m").value_or(Vec3{0, 0, 0});
+  luminaire.to = read_vector(map, "to_m");
   luminaire.every_m = map.number("every_m", distances_m, 0);
-  if (map.has("to_m") != map.has("every_m"))
-    map.problem(map.has("to_m") ? "to_m" : "every_m", "stands alone",
-                "a row of luminaires has an end and a distance", "write to_m and every_m");
-  luminaire.towards = read_vector(map, "towards", components).value_or(luminaire.towards);
+  check_row(map, "luminaires");
+  luminaire.towards = read_vector(map, "towards").value_or(luminaire.towards);
   if (norm(luminaire.towards) < shortest_normal)
     map.problem("towards", "has no length", "it tells where the luminaire looks");
   luminaire.turn_deg = map.number("turn_deg", {-360, 360}, luminaire.turn_deg);

@@ -177,8 +177,7 @@ SceneFileStudy read_edit_file(YamlMap& map, const std::string& folder) {
   map.require("file");
   file.path = read_path(map, "file", folder);
   file.unit_m = map.number("unit_m", units_m);
-  if (const auto at = read_numbers(map, "position_m", 3, "three numbers, x, y and z"); !at.empty())
-    file.position = Vec3{at[0], at[1], at[2]};
+  file.position = read_vector(map, "position_m");
   file.turn_deg = map.number("turn_deg", turns_deg, file.turn_deg);
   file.material = map.text("material", file.material);
   return file;
@@ -224,9 +223,7 @@ AddTreesEdit read_tree(YamlMap& map) {
   trees.every_m = map.number("every_m", sizes_m, 0);
   if (trees.shape.trunk_m >= trees.shape.height_m)
     map.problem("trunk_m", "is not below height_m", "the crown begins there");
-  if (map.has("to_m") != map.has("every_m"))
-    map.problem(map.has("to_m") ? "to_m" : "every_m", "stands alone",
-                "a row of trees has an end and a distance", "write to_m and every_m");
+  check_row(map, "trees");
   return trees;
 }
 

@@ -24,8 +24,7 @@ constexpr Range building_heights_m{0.01, 2000};
 constexpr Range trunk_shares{0, 0.99};  // crowns have a height
 
 void read_position(YamlMap& map, SceneFileStudy& file) {
-  if (const auto at = read_numbers(map, "position_m", 3, "three numbers, x, y and z"); !at.empty())
-    file.position = Vec3{at[0], at[1], at[2]};
+  file.position = read_vector(map, "position_m");
   const double height_m = map.number("height_m", heights_m, 0);
   const auto text = map.text("position");
   if (map.has("height_m") && !text)
@@ -126,6 +125,17 @@ std::vector<double> read_numbers(YamlMap& map, const std::string& key, std::size
   if (values.size() == count || !map.has(key)) return values;
   map.problem(key, "must be " + in_words);
   return {};
+}
+
+std::optional<Vec3> read_vector(YamlMap& map, const std::string& key) {
+  const auto at = read_numbers(map, key, 3, "three numbers, x, y and z");
+  return at.empty() ? std::nullopt : std::optional(Vec3{at[0], at[1], at[2]});
+}
+
+void check_row(YamlMap& map, const std::string& things) {
+  if (map.has("to_m") != map.has("every_m"))
+    map.problem(map.has("to_m") ? "to_m" : "every_m", "stands alone",
+                "a row of " + things + " has an end and a distance", "write to_m and every_m");
 }
 
 void check_lod(YamlMap& map, const std::string& lod) {

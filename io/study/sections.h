@@ -3,6 +3,7 @@
 /// Readers of the sections of a study, for io/study/study.cpp alone.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -40,6 +41,10 @@ std::string read_path(YamlMap& map, const std::string& key, const std::string& f
 /// As many numbers as that; empty where the key is absent or wrong, which is reported.
 std::vector<double> read_numbers(YamlMap& map, const std::string& key, std::size_t count,
                                  const std::string& in_words);
+/// Three of them; nothing where the key is absent or wrong, which is reported.
+std::optional<Vec3> read_vector(YamlMap& map, const std::string& key);
+/// That a row of things has both its keys, `to_m` and `every_m`, or none.
+void check_row(YamlMap& map, const std::string& things);
 /// `scene.luminaires`; paths are relative to `folder`.
 std::vector<LuminaireStudy> read_luminaires(YamlMap& scene, const std::string& folder);
 /// `scene.edit`; paths are relative to `folder`.

@@ -10,23 +10,9 @@ namespace sunload::study_sections {
 
 namespace {
 
-constexpr Range coordinates_m{-1e9, 1e9};  // no map projection of the Earth goes farther
-constexpr Range components{-1e9, 1e9};
-
-std::optional<Vec3> read_vector(YamlMap& map, const std::string& key, const Range& range) {
-  map.require(key);
-  const auto values = map.numbers(key, range);
-  if (!map.has(key)) return {};
-  if (values.size() != 3) {
-    map.problem(key, "must be three numbers, x, y and z");
-    return {};
-  }
-  return Vec3{values[0], values[1], values[2]};
-}
-
 std::optional<SensorPoint> read_point(YamlMap& map) {
-  const auto position = read_vector(map, "position_m", coordinates_m);
-  const auto normal = read_vector(map, "normal", components);
+  for (const char* key : {"position_m", "normal"}) map.require(key);
+  const auto position = read_vector(map, "position_m"), normal = read_vector(map, "normal");
   if (normal && norm(*normal) < shortest_normal) {
     map.problem("normal", "has no length", "it tells where the sensor looks");
     return {};

@@ -57,10 +57,4 @@ ReflectedExposure reflect(const Hierarchy& mesh, const LineSet& lines, const Pat
                           const std::vector<double>& base, const std::vector<double>& ground,
                           int bounces);
 
-/// Bounces after which less than `unshot` of the light of a uniform sky would remain unfollowed,
-/// and of nearly every patch's own light less than a hundred times that, at most `bounces`: decided
-/// once per variant.
-int bounces_needed(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
-                   int bounces, double unshot);
-
 }  // namespace sunload

@@ -17,6 +17,11 @@ constexpr double little = 1e-3;
 constexpr int most_bounces = 200;
 /// What is surely below 1, so that a series ends.
 constexpr double largest_ratio = 0.999;
+/// A place may miss so many times the share that the whole may: what is left is estimated, and the
+/// estimate leaves a tenth of it and less.
+constexpr double share_of_a_place = 100;
+/// Of the patches, that may miss more: cracks and cavities, which have next to no light.
+constexpr double few = 1e-3;
 
 /// One column of light that goes from bounce to bounce.
 class Bouncing {
@@ -49,6 +54,15 @@ class Bouncing {
   std::vector<double> radiosity_;
 };
 
+/// Patches to which a bounce brings more than that share of what they had before.
+std::size_t missing(const std::vector<double>& brought, const std::vector<double>& before,
+                    double share) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < brought.size(); ++i)
+    if (brought[i] > share * before[i]) ++count;
+  return count;
+}
+
 /// Sum of q + q² + …
 double geometric(double power, double power_before) {
   if (power <= 0 || power_before <= 0) return 0;
@@ -57,6 +71,25 @@ double geometric(double power, double power_before) {
 }
 
 }  // namespace
+
+int bounces_needed(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                   int bounces, double unshot) {
+  if (lines.all_reflections || optics.any_emission) return bounces;
+  Bouncing light(mesh, lines, optics);
+  std::vector<double> all = light.received;  // of all bounces until then
+  double in = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) in += mesh.area()[i] * all[i];
+  const double few_patches = few * static_cast<double>(all.size());
+  for (int b = 0; b < bounces; ++b) {
+    const bool is_enough_of_all = light.power() <= unshot * in;
+    light.bounce();
+    if (is_enough_of_all &&
+        static_cast<double>(missing(light.received, all, share_of_a_place * unshot)) <= few_patches)
+      return b;
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] += light.received[i];
+  }
+  return bounces;
+}
 
 std::vector<float> light_beyond(const Hierarchy& mesh, const LineSet& lines,
                                 const PatchOptics& optics, int bounces) {

@@ -23,6 +23,12 @@
 
 namespace sunload {
 
+/// Bounces after which less than `unshot` of the light of a uniform sky would remain unfollowed,
+/// and of nearly every patch's own light less than a hundred times that, at most `bounces`: decided
+/// once per variant.
+int bounces_needed(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                   int bounces, double unshot);
+
 /// t of every patch after so many bounces; empty after none. Where nothing else is seen all
 /// surfaces shine. Cost: some gathers of one column over `lines`.
 std::vector<float> light_beyond(const Hierarchy& mesh, const LineSet& lines,

@@ -54,7 +54,7 @@ DoubleColumns ground_exitance(const BlockSources& sources) {
 
 Shooter::Shooter(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
                  const SunSampler& sampler, const SkyGrid& grid, const PatchOptics& optics,
-                 const Lines& lines, const LampLight& parallel, const std::vector<float>& beyond,
+                 const Lines& lines, const LampLight& lamps, const std::vector<float>& beyond,
                  const LineRules& line_rules, const ShootingRules& rules)
     : hierarchy_(hierarchy),
       caster_(caster),
@@ -81,7 +81,7 @@ Shooter::Shooter(const Scene& scene, const Hierarchy& hierarchy, const RayCaster
     sends_on_.push_back(sends_on(m));
   }
   shoot_emitters();
-  if (!parallel.ledger.empty()) add_parallel(parallel, optics);
+  if (!lamps.ledger.empty()) add_lamps(lamps, optics);
 }
 
 FirstMirrored::SentSuns Shooter::send_sun(std::span<const IntervalLight> block) const {
@@ -222,14 +222,14 @@ void Shooter::shoot_emitters() {
 }
 
 /// Its ledger holds what meets the scene and what mirrors send on, not what patches absorb of it.
-void Shooter::add_parallel(const LampLight& parallel, const PatchOptics& optics) {
+void Shooter::add_lamps(const LampLight& lamps, const PatchOptics& optics) {
   for (std::size_t r = 0; r < emitters_.size(); ++r) {
     OfEmitters& of = emitters_[r];
-    of.parallel = parallel.ledger[r];
+    of.lamps = lamps.ledger[r];
     for (std::size_t i = 0; i < of.irradiance.size(); ++i) {
-      const double E = parallel.irradiance[r][i];
+      const double E = lamps.irradiance[r][i];
       of.irradiance[i] += E;
-      of.parallel[Term::absorbed] += hierarchy_.area()[i] * optics.absorbed(i) * E;
+      of.lamps[Term::absorbed] += hierarchy_.area()[i] * optics.absorbed(i) * E;
     }
   }
 }
@@ -402,7 +402,7 @@ ShotLight Shooter::light(std::size_t realization, const BlockSources& sources,
   book_first_light(light, realization, sources);
   for (std::size_t k = 0; k < sources.suns.size(); ++k) {
     Ledger& ledger = light.ledger[k];
-    ledger += emitters.parallel;
+    ledger += emitters.lamps;
     Fate<double> fate = fates[k];
     fate.cut += reflected.unshot[k];
     fate += emitters.fate;

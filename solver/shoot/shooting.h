@@ -12,7 +12,7 @@
 /// received last, results are added. Regular: P_i = A_i rho_i (E_0 + E_reflected) of all of it
 /// again, with new samples. E_0 is what arrives without diffuse reflection:
 /// direct sun and sky as when gathering, what mirrors send on (first_mirrored),
-/// the light of parallel sources, and the emitters' power, which is shot once.
+/// the light of lamps that are no surfaces, and the emitters' power, which is shot once.
 ///
 /// Samples are independent from iteration to iteration and from realization to
 /// realization: unbiased but for the light that is not followed. All suns of a
@@ -69,11 +69,11 @@ struct ShotLight {
 class Shooter {
  public:
   /// Sends on what mirrors receive from sky and ground, and shoots the emitters.
-  /// `lines` are those of trace_lines by `line_rules`; `parallel` is with what mirrors send on;
+  /// `lines` are those of trace_lines by `line_rules`; `lamps` is with what mirrors send on;
   /// `beyond`: light_beyond, or empty.
   Shooter(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
           const SunSampler& sampler, const SkyGrid& grid, const PatchOptics& optics,
-          const Lines& lines, const LampLight& parallel, const std::vector<float>& beyond,
+          const Lines& lines, const LampLight& lamps, const std::vector<float>& beyond,
           const LineRules& line_rules, const ShootingRules& rules);
 
   /// The sun's light that mirrors send on, for all realizations of a block at once.
@@ -100,7 +100,7 @@ class Shooter {
   struct OfEmitters {
     std::vector<double> irradiance;  ///< lamps that are no surfaces included
     Fate<double> fate;               ///< of diffuse emitters' power [W]
-    Ledger parallel;                 ///< [W]
+    Ledger lamps;                    ///< that are no surfaces [W]
   };
   struct Reflected {
     DoubleColumns irradiance;
@@ -114,7 +114,7 @@ class Shooter {
   class Task;
   Shot shoot(const DoubleColumns& power, double samples, const Address& address) const;
   void shoot_emitters();
-  void add_parallel(const LampLight& parallel, const PatchOptics& optics);
+  void add_lamps(const LampLight& lamps, const PatchOptics& optics);
   Reflected reflect(const DoubleColumns& first, std::size_t realization, std::uint32_t sun) const;
   DoubleColumns light_beyond_last(const DoubleColumns& last) const;
   DoubleColumns reflected_power(const DoubleColumns& received) const;

@@ -9,6 +9,7 @@
 
 #include "geo/base/units.h"
 #include "solver/base/spherical_triangle.h"
+#include "tests/support/lamp_rules.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 
@@ -18,8 +19,6 @@ namespace {
 using Facing = SceneBuilder::Facing;
 
 constexpr double intensity = 900;
-const auto lamps = static_cast<std::size_t>(Part::lamps);
-
 /// Even within a beam of that full angle.
 void add_luminaire(Scene& scene, Vec3 at, double beam_deg = 360, Vec3 towards = {0, 0, -1}) {
   scene.luminaires.webs.push_back({{0}, {0, beam_deg / 2}, {1, 1}});
@@ -28,14 +27,6 @@ void add_luminaire(Scene& scene, Vec3 at, double beam_deg = 360, Vec3 towards = 
   luminaire.scale = intensity;
   luminaire.key = key_of_place(at, luminaire.axis);
   scene.luminaires.all.push_back(luminaire);
-}
-
-SolverRules rules_of(int bounces) {
-  SolverRules rules = test_rules();
-  rules.lines_per_patch = 256;
-  rules.direct_samples = 16 * 16;
-  rules.bounces = bounces;
-  return rules;
 }
 
 double solid_angle(Vec3 from, Vec3 a, Vec3 b, Vec3 c) {
@@ -73,7 +64,7 @@ TEST(Luminaires, EvenLightOnAnOpenFloorIsExact) {
     Scene scene = floor_of({"black", 0, 0, 0}).scene();
     const Vec3 at{0.3, -0.4, height};
     add_luminaire(scene, at);
-    const auto solved = solve(scene, {night}, rules_of(0), {.max_edge_m = 1.5});
+    const auto solved = solve(scene, {night}, lamp_rules(0), {.max_edge_m = 1.5});
     for (std::size_t i = 0; i < solved.area.size(); ++i) {
       const auto& [a, b, c] = solved.corners[i];
       const double omega = solid_angle(at, a, b, c);
@@ -95,7 +86,7 @@ TEST(Luminaires, ShineOnSensorsByTheSquareOfDistance) {
   scene.sensors = {sensor_at({0, 0, 1}, {0, 0, 1}), sensor_at({3, 0, 1}, {0, 0, 1}),
                    sensor_at({3, 0, 1}, {-4, 0, 3}), sensor_at({0, 0, 1}, {0, 0, -1}),
                    sensor_at({0, 6, 1}, {0, 0, 1})};
-  const auto solved = solve(scene, {night}, rules_of(0), {.max_edge_m = 2});
+  const auto solved = solve(scene, {night}, lamp_rules(0), {.max_edge_m = 2});
   const std::array truth{intensity / 16, intensity / 25 * 0.8, intensity / 25 * 0.96, 0.0,
                          0.0};  // the last one stands beside the beam
   for (std::size_t s = 0; s < truth.size(); ++s)
@@ -114,7 +105,7 @@ TEST(Luminaires, CastShadows) {
   Scene scene = builder.scene();
   const Vec3 at{0.2, 0.1, 4};
   add_luminaire(scene, at);
-  const auto solved = solve(scene, {night}, rules_of(0), {.max_edge_m = 1});
+  const auto solved = solve(scene, {night}, lamp_rules(0), {.max_edge_m = 1});
   const double hidden = intensity * solid_angle_below(at - Vec3{0, 0, 2}, 0.5, 0.5);
   const double truth = intensity * solid_angle_below(at, 5, 3) - hidden;
   const auto floor = powers(solved, is_floor(solved));
@@ -127,7 +118,7 @@ TEST(Luminaires, CastShadows) {
 TEST(Luminaires, ABeamBringsItsFlux) {
   Scene scene = floor_of({"black", 0, 0, 0}).scene();
   add_luminaire(scene, {0.3, 0.2, 3}, 60, {0.2, 0.1, -1});
-  const auto solved = solve(scene, {night}, rules_of(0), {.max_edge_m = 1});
+  const auto solved = solve(scene, {night}, lamp_rules(0), {.max_edge_m = 1});
   const double truth = intensity * 2 * pi * (1 - std::cos(pi / 6));
   const auto floor = powers(solved, is_floor(solved));
   const Verdict verdict = expect_mean(floor, truth, 1e-5 * truth);
@@ -167,7 +158,7 @@ TEST(Luminaires, FillASphere) {
   for (const Transport transport : {Transport::gather, Transport::shoot, Transport::matrix}) {
     Scene scene = inward_sphere(1, {{"wall", rho, 0, 0}}, [](Vec3 /*everywhere*/) { return 0; });
     add_luminaire(scene, {0.2, -0.1, 0.3});
-    SolverRules rules = rules_of(60);
+    SolverRules rules = lamp_rules(60);
     rules.transport = transport;
     const auto solved = solve(scene, {night}, rules, {.max_edge_m = 10});
     const double truth = 4 * pi * intensity / (1 - rho);
@@ -189,7 +180,7 @@ TEST(Luminaires, AreSentOnByMirrors) {
   Scene scene = builder.scene();
   const Vec3 at{0, 0, 2};
   add_luminaire(scene, at, 160);
-  const auto solved = solve(scene, {night}, rules_of(0), {.max_edge_m = 3});
+  const auto solved = solve(scene, {night}, lamp_rules(0), {.max_edge_m = 3});
   const auto ceiling =
       powers(solved, [&](std::size_t i) { return solved.patches[i].triangle > 1; });
   const double truth = mirror * intensity * solid_angle_below(at, 5, 3);

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 
+#include "tests/support/lamp_rules.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 
@@ -24,16 +25,6 @@ void add_lamp_above(Scene& scene) {
   add_parallel_source(scene, {-2, -2, 5}, {0, 4, 0}, {4, 0, 0}, exitance);
 }
 
-const auto lamps = static_cast<std::size_t>(Part::lamps);
-
-SolverRules rules_of(int bounces) {
-  SolverRules rules = test_rules();
-  rules.lines_per_patch = 256;
-  rules.direct_samples = 16 * 16;
-  rules.bounces = bounces;
-  return rules;
-}
-
 // Inside of the beam a plate gets M cosθ, with no error but rounding; outside nothing.
 TEST(ParallelLight, OnATiltedPlateIsExact) {
   SceneBuilder builder;
@@ -46,7 +37,7 @@ TEST(ParallelLight, OnATiltedPlateIsExact) {
   builder.object("above").quad({-1, -1, 6}, {1, -1, 6}, {1, 1, 6}, {-1, 1, 6}, black);
   Scene scene = builder.scene();
   add_lamp_above(scene);
-  const auto solved = solve(scene, {night}, rules_of(0), {.max_edge_m = 0.4});
+  const auto solved = solve(scene, {night}, lamp_rules(0), {.max_edge_m = 0.4});
   int inside = 0;
   for (std::size_t i = 0; i < solved.area.size(); ++i) {
     const auto E = static_cast<double>(solved.tally.irradiance[lamps][i]);
@@ -68,7 +59,7 @@ TEST(ParallelLight, CastsTheShadowOfABox) {
   builder.object("box").box({-0.3, -0.4, 1}, {1, 0.9, 2}, grey, Facing::outward);
   Scene scene = builder.scene();
   add_lamp_above(scene);
-  const auto solved = solve(scene, {night}, rules_of(0), {.max_edge_m = 1});
+  const auto solved = solve(scene, {night}, lamp_rules(0), {.max_edge_m = 1});
   const double shadow = 1.3 * 1.3;
   const auto power = [&](bool on_ground) {
     std::vector<double> values =
@@ -97,7 +88,7 @@ TEST(ParallelLight, OfSeveralDirectionsAddsUp) {
   // Along (0.6, 0, -0.8).
   add_parallel_source(scene, {-6, -2, 2}, {0, 4, 0}, {6.4, 0, 4.8}, 50);
   add_parallel_source(scene, {-3, -3, 4}, {6, 0, 0}, {0, 6, 0}, 1000);  // shines up
-  const auto solved = solve(scene, {night}, rules_of(0), {.max_edge_m = 0.5});
+  const auto solved = solve(scene, {night}, lamp_rules(0), {.max_edge_m = 0.5});
   for (std::size_t i = 0; i < solved.area.size(); ++i)
     ASSERT_NEAR(static_cast<double>(solved.tally.irradiance[lamps][i]), exitance + 100 + 50 * 0.8,
                 float_rounding * 1000);
@@ -121,7 +112,7 @@ struct Turned {
 TEST(ParallelLight, IsTurnedByMirrors) {
   const double mirror = 0.7;
   const Turned turned(mirror);
-  const auto solved = solve(turned.scene, {night}, rules_of(0), {.max_edge_m = 1});
+  const auto solved = solve(turned.scene, {night}, lamp_rules(0), {.max_edge_m = 1});
   auto wall = solved.means([&](std::size_t i) {
     return solved.patches[i].triangle == 2 || solved.patches[i].triangle == 3;
   });
@@ -134,7 +125,7 @@ TEST(ParallelLight, IsTurnedByMirrors) {
 
 TEST(ParallelLight, ClosesTheLedger) {
   const Turned turned(0.7);
-  SolverRules rules = rules_of(30);
+  SolverRules rules = lamp_rules(30);
   rules.errors = Errors::instants;
   const auto solved = solve(turned.scene, {night, night}, rules, {.max_edge_m = 1});
   const double emitted = exitance * 16;  // all of the beam meets mirror or ground
