@@ -142,8 +142,13 @@ double peak_memory_bytes() {
 }
 
 void make_writable_folder(const std::string& path) {
+  // Who cleans up may remove parents while they are made.
+  constexpr int attempts = 10;
   std::error_code failed;
-  fs::create_directories(path, failed);
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    fs::create_directories(path, failed);
+    if (failed != std::errc::no_such_file_or_directory) break;
+  }
   if (failed)
     throw MachineError("cannot make the folder " + path + " (" + failed.message() +
                        "); choose another with --output");

@@ -71,7 +71,9 @@ void throw_cannot_write(const std::string& path, int error_number) {
   if (const fs::path folder = fs::path(path).parent_path();
       error_number == ENOSPC && fs::is_directory(folder, missing))
     if (const std::string problem = folder_problem(folder); !problem.empty()) why += ": " + problem;
-  throw MachineError("cannot write " + path + ": " + why);
+  const std::string text = "cannot write " + path + ": " + why;
+  if (error_number == ENOENT || error_number == ESTALE) throw VanishedError(text);
+  throw MachineError(text);
 }
 
 OutputTarget output_target(const std::string& path) {

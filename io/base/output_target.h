@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "geo/base/check.h"
+
 namespace sunload {
 
 /// Where an output goes, links followed.
@@ -34,7 +36,14 @@ void expect_not_read(const std::string& output, const std::vector<std::string>& 
 /// error, or 0.
 int write_all(int file, std::string_view bytes);
 
-/// MachineError "cannot write `path`: <text of the error number>".
+/// Where something was written is nothing any more: somebody removes files or folders meanwhile, or
+/// the folder never was there.
+class VanishedError : public MachineError {
+  using MachineError::MachineError;
+};
+
+/// MachineError "cannot write `path`: <text of the error number>"; VanishedError of a file or
+/// folder that is not there.
 [[noreturn]] void throw_cannot_write(const std::string& path, int error_number);
 
 }  // namespace sunload

@@ -312,10 +312,21 @@ VariantJob::Merging VariantJob::merge() {
                       list_text(damaged.numbers)));
     return Merging::incomplete;
   } catch (const MachineError&) {
-    // The folder that the result is written into may vanish, and all batches with it.
-    if (folder_.is_there()) throw;
+    if (!batches_vanish()) throw;
     return Merging::incomplete;
   }
+}
+
+/// The folder that the result is written into may vanish, and all batches with it, perhaps a
+/// little later than what was written.
+bool VariantJob::batches_vanish() const {
+  constexpr int looks = 10;
+  constexpr std::chrono::milliseconds pause{100};
+  for (int look = 0; look < looks; ++look) {
+    if (!folder_.batches_not_there().empty()) return true;
+    std::this_thread::sleep_for(pause);
+  }
+  return false;
 }
 
 /// Merges unless another process does or did meanwhile.

@@ -94,6 +94,7 @@ class VariantJob {
   bool is_there(std::size_t batch) const;
   Merging merge();
   Merging merge_once();
+  bool batches_vanish() const;
   void wait_for_other_merge() const;
   void merge_without(const MissingBatches& missing);
   void say(const std::string& text) const;

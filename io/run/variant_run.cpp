@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "io/base/machine.h"
+#include "io/base/output_target.h"
 #include "io/base/waiting_lock.h"
 #include "io/batch/batch_tally.h"
 #include "io/batch/file.h"
@@ -297,15 +300,18 @@ void VariantRun::leave_lines() {
 }
 
 /// Another process that failed may have removed the folder, which was empty until now; who cleans
-/// up may remove it while this is written.
+/// up may remove what is written, and the folder a while later.
 void VariantRun::write(const BatchWriter& writer, const std::string& path) const {
-  folder_.make();
-  try {
-    writer.write(path);
-  } catch (const MachineError&) {
-    if (folder_.is_there()) throw;
+  constexpr int attempts = 10;
+  constexpr std::chrono::milliseconds pause{100};
+  for (int attempt = 1;; ++attempt) {
     folder_.make();
-    writer.write(path);
+    try {
+      return writer.write(path);
+    } catch (const VanishedError&) {
+      if (attempt == attempts) throw;
+    }
+    std::this_thread::sleep_for(pause);
   }
 }
 

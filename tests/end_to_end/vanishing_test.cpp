@@ -27,6 +27,17 @@ std::vector<fs::path> batches_now(const SquareFolder& square) {
   return found;
 }
 
+/// Files that are being written now.
+std::vector<fs::path> parts_now(const SquareFolder& square) {
+  std::vector<fs::path> found;
+  std::error_code gone;
+  const fs::path results = square.folder / "results";
+  for (fs::recursive_directory_iterator at(results, gone), end; !gone && at != end;
+       at.increment(gone))
+    if (at->path().string().find(".part-") != std::string::npos) found.push_back(at->path());
+  return found;
+}
+
 /// A run beside which `remove` is called again and again until it says that it is done.
 Ran run_beside(const SquareFolder& square,
                const std::function<bool(const std::vector<fs::path>&)>& remove) {
@@ -72,6 +83,17 @@ TEST(Vanishing, ADamagedBatchIsComputedAgain) {
     std::error_code gone;
     fs::resize_file(batches[0], fs::file_size(batches[0], gone) / 2, gone);
     return !gone;
+  });
+  expect_result(square, ran);
+}
+
+/// What removes a whole folder takes the file that is written first and its folder later.
+TEST(Vanishing, WhatIsBeingWrittenIsWrittenAgain) {
+  const SquareFolder square;
+  const Ran ran = run_beside(square, [&](const auto& batches) {
+    bool is_done = false;
+    for (const auto& part : parts_now(square)) is_done |= batches.size() > 1 && is_removed(part);
+    return is_done;
   });
   expect_result(square, ran);
 }
