@@ -2,15 +2,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/base/threads.h"
 
-#ifdef _OPENMP
-#include <omp.h>
-#else
 #include <sched.h>
 
-#include <atomic>
+#ifdef SUNLOAD_THREADS_STD
 #include <thread>
+#else
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <memory>
 #endif
 
+#include <atomic>
 #include <exception>
 #include <mutex>
 #include <utility>
@@ -20,21 +24,10 @@
 namespace sunload {
 
 namespace {
-int chosen_threads = 0;  // 0: what the runtime finds from affinity and OMP_NUM_THREADS
+
+int chosen_threads = 0;  // 0: as many as there are processors
 std::function<bool()> cancellation;
 
-#ifdef _OPENMP
-int processors() { return omp_get_num_procs(); }
-
-template <class Body>
-void for_every(long long count, const Body& body) {
-// One chunk needs no team: waking and joining it costs more than most small loops.
-#pragma omp parallel for schedule(dynamic, 1) num_threads(thread_count()) if (count > 1)
-  for (long long c = 0; c < count; ++c) body(c);
-}
-#else
-// CMake: SUNLOAD_THREADS=std. The thread sanitizer understands these threads, and not those of
-// GCC's OpenMP. A team for every loop: slower, and the same bits.
 int processors() {
   cpu_set_t mine;
   CPU_ZERO(&mine);
@@ -43,25 +36,53 @@ int processors() {
 
 thread_local bool in_team = false;  // a loop within a loop runs on the thread that meets it
 
+/// Calls work() on the threads of a team, this one among them, and returns when all have returned.
+void by_team(int team, const std::function<void()>& work);
+
+/// Every thread takes the next number that nobody has taken.
 template <class Body>
 void for_every(long long count, const Body& body) {
   std::atomic<long long> next = 0;
   const auto work = [&] {
+    const bool was_in_team = std::exchange(in_team, true);
     for (long long c = next++; c < count; c = next++) body(c);
+    in_team = was_in_team;
   };
-  const long long team = in_team ? 1 : std::min<long long>(count, thread_count());
+  // One chunk needs no team: waking and joining it costs more than most small loops.
+  if (in_team || count < 2 || thread_count() < 2) return work();
+  by_team(static_cast<int>(std::min<long long>(count, thread_count())), work);
+}
+
+#ifdef SUNLOAD_THREADS_STD
+// For the thread sanitizer, which does not understand threads of a library that is built without
+// it. A team for every loop: slower, and the same bits.
+void by_team(int team, const std::function<void()>& work) {
   std::vector<std::jthread> others;  // joined at the end of this function
-  for (long long t = 1; t < team; ++t) {
-    others.emplace_back([&work] {
-      in_team = true;
-      work();
-    });
-  }
-  const bool was_in_team = std::exchange(in_team, true);
+  for (int t = 1; t < team; ++t) others.emplace_back(work);
   work();
-  in_team = was_in_team;
+}
+#else
+/// Room for that many threads, of which those without work sleep soon: others may need the
+/// processors. Every thread that has loops of its own has its own.
+struct Arena {
+  explicit Arena(int threads)
+      : may_be(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
+        of(threads) {}
+  tbb::global_control may_be;  ///< more threads than processors, too
+  tbb::task_arena of;
+};
+
+void by_team(int team, const std::function<void()>& work) {
+  thread_local std::unique_ptr<Arena> arena;
+  if (!arena || arena->of.max_concurrency() != thread_count())
+    arena = std::make_unique<Arena>(thread_count());
+  arena->of.execute([&] {
+    tbb::parallel_for(
+        0, team, [&](int) { work(); }, tbb::simple_partitioner());
+  });
 }
 #endif
+
 }  // namespace
 
 int thread_count() { return chosen_threads > 0 ? chosen_threads : processors(); }

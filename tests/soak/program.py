@@ -47,7 +47,7 @@ class Program:
 
     def __init__(self, path, folder):
         self.path, self.folder = path, folder
-        self.environment = {**os.environ, "OMP_WAIT_POLICY": "passive", "SUNLOAD_THREADS": "1"}
+        self.environment = {**os.environ, "SUNLOAD_THREADS": "1"}
 
     def start(self, *words, **environment):
         """A process, its files of output beside it."""

@@ -7,8 +7,12 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
+#include <mutex>
+#include <set>
 #include <stdexcept>
+#include <thread>
 
 #include "geo/base/check.h"
 
@@ -67,6 +71,55 @@ TEST(ParallelChunks, EndWhereTheyAreCancelled) {
   set_cancellation({});
   parallel_chunks(10, 1, [&](std::size_t, std::size_t) { ++done; });
   EXPECT_EQ(done, 13);
+}
+
+/// Threads of a team, also more than processors; each waits until all are there.
+TEST(ParallelChunks, GoOnAsManyThreadsAsAreAskedFor) {
+  for (const int threads : {1, 2, 5}) {
+    const Threads set(threads);
+    std::mutex guard;
+    std::set<std::thread::id> seen;
+    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    parallel_chunks(static_cast<std::size_t>(threads), 1, [&](std::size_t, std::size_t) {
+      {
+        const std::lock_guard lock(guard);
+        seen.insert(std::this_thread::get_id());
+      }
+      for (bool all = false; !all && std::chrono::steady_clock::now() < until;) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        const std::lock_guard lock(guard);
+        all = seen.size() == static_cast<std::size_t>(threads);
+      }
+    });
+    EXPECT_EQ(seen.size(), static_cast<std::size_t>(threads));
+  }
+}
+
+/// A loop within a loop runs on the thread that meets it: what it holds, nobody else asks for.
+TEST(ParallelChunks, WithinALoopStayOnTheirThread) {
+  const Threads set(3);
+  std::atomic<int> elsewhere = 0, done = 0;
+  parallel_chunks(8, 1, [&](std::size_t, std::size_t) {
+    const auto self = std::this_thread::get_id();
+    parallel_chunks(100, 1, [&](std::size_t, std::size_t) {
+      ++done;
+      if (std::this_thread::get_id() != self) ++elsewhere;
+    });
+  });
+  EXPECT_EQ(done, 800);
+  EXPECT_EQ(elsewhere, 0);
+}
+
+/// Loops of several threads at a time, as files are written beside the work.
+TEST(ParallelChunks, OfSeveralThreadsGoOnSideBySide) {
+  const Threads set(3);
+  std::atomic<int> done = 0;
+  const auto loops = [&] {
+    for (int loop = 0; loop < 200; ++loop)
+      parallel_chunks(50, 1, [&](std::size_t, std::size_t) { ++done; });
+  };
+  { const std::jthread one(loops), two(loops), three(loops); }
+  EXPECT_EQ(done, 3 * 200 * 50);
 }
 
 TEST(OrderedSum, HasTheSameBitsForAnyNumberOfThreads) {
