@@ -4,22 +4,13 @@
 
 #include <sched.h>
 
-#ifdef SUNLOAD_THREADS_STD
-#include <thread>
-#else
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
-#include <memory>
-#endif
-
 #include <atomic>
 #include <exception>
 #include <mutex>
 #include <utility>
 
 #include "geo/base/check.h"
+#include "solver/base/crew.h"
 
 namespace sunload {
 
@@ -36,9 +27,6 @@ int processors() {
 
 thread_local bool in_team = false;  // a loop within a loop runs on the thread that meets it
 
-/// Calls work() on the threads of a team, this one among them, and returns when all have returned.
-void by_team(int team, const std::function<void()>& work);
-
 /// Every thread takes the next number that nobody has taken.
 template <class Body>
 void for_every(long long count, const Body& body) {
@@ -50,38 +38,8 @@ void for_every(long long count, const Body& body) {
   };
   // One chunk needs no team: waking and joining it costs more than most small loops.
   if (in_team || count < 2 || thread_count() < 2) return work();
-  by_team(static_cast<int>(std::min<long long>(count, thread_count())), work);
+  Crew::of_process().run(static_cast<int>(std::min<long long>(count, thread_count())), work);
 }
-
-#ifdef SUNLOAD_THREADS_STD
-// For the thread sanitizer, which does not understand threads of a library that is built without
-// it. A team for every loop: slower, and the same bits.
-void by_team(int team, const std::function<void()>& work) {
-  std::vector<std::jthread> others;  // joined at the end of this function
-  for (int t = 1; t < team; ++t) others.emplace_back(work);
-  work();
-}
-#else
-/// Room for that many threads, of which those without work sleep soon: others may need the
-/// processors. Every thread that has loops of its own has its own.
-struct Arena {
-  explicit Arena(int threads)
-      : may_be(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
-        of(threads) {}
-  tbb::global_control may_be;  ///< more threads than processors, too
-  tbb::task_arena of;
-};
-
-void by_team(int team, const std::function<void()>& work) {
-  thread_local std::unique_ptr<Arena> arena;
-  if (!arena || arena->of.max_concurrency() != thread_count())
-    arena = std::make_unique<Arena>(thread_count());
-  arena->of.execute([&] {
-    tbb::parallel_for(
-        0, team, [&](int) { work(); }, tbb::simple_partitioner());
-  });
-}
-#endif
 
 }  // namespace
 

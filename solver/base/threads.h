@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Fixed chunks, ordered reduction, exceptions collected and rethrown: the only
-/// file that knows TBB.
+/// Fixed chunks, ordered reduction, exceptions collected and rethrown: with `crew`, all that knows
+/// threads in the solver.
 #pragma once
 
 #include <algorithm>

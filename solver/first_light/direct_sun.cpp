@@ -251,6 +251,13 @@ LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const
   return samples;
 }
 
+RayCaster::Shares shares_of_light(const SunSampler& sampler, const RayCaster& caster,
+                                  const Packet& origins, const PacketDirections& to_sun,
+                                  std::uint32_t active) {
+  return sampler.are_points() ? caster.passed_each(origins, to_sun, active)
+                              : all_or_nothing(caster.unoccluded_each(origins, to_sun, active));
+}
+
 namespace {
 
 bool is_clouded(const IntervalLight& sun) { return sun.has_sun() && sun.dni <= 0; }
@@ -297,8 +304,7 @@ class CloudedSuns {
     const auto n = static_cast<double>(sampler_.net_points());
     for (std::size_t g = 0; g < seen_.size(); ++g)
       if (seen_[g] > 0)
-        sunlit[(begin_ + g) * block_width + k] +=
-            static_cast<float>(sun.sun_share * static_cast<double>(seen_[g]) / n);
+        sunlit[(begin_ + g) * block_width + k] += static_cast<float>(sun.sun_share * seen_[g] / n);
   }
   void ask(std::size_t g, const IntervalLight& sun) {
     const auto geometry = sampler_.geometry(begin_ + g);
@@ -323,8 +329,9 @@ class CloudedSuns {
     if (waiting_ == 0) return;
     const auto active = static_cast<std::uint32_t>((std::uint64_t{1} << waiting_) - 1);
     rays_ += waiting_;
-    for (auto lit = caster_.unoccluded_each(origins_, to_sun_, active); lit != 0; lit &= lit - 1)
-      ++seen_[receiver_[static_cast<std::size_t>(std::countr_zero(lit))]];
+    const auto shares = shares_of_light(sampler_, caster_, origins_, to_sun_, active);
+    for (std::size_t l = 0; l < waiting_; ++l)
+      seen_[receiver_[l]] += static_cast<double>(shares[l]);
     waiting_ = 0;
   }
 
@@ -335,7 +342,7 @@ class CloudedSuns {
   std::span<const IntervalLight> block_;
   Known known_;
   std::size_t begin_ = 0, end_ = 0;
-  std::vector<std::size_t> seen_;  ///< points of each receiver's net that see the sun
+  std::vector<double> seen_;  ///< points of each receiver's net that see the sun
   std::array<std::size_t, packet_size> receiver_{};
   std::size_t waiting_ = 0;
   std::uint64_t rays_ = 0;
@@ -375,8 +382,8 @@ class ReceiverSuns {
     const IntervalLight& sun = block_[k];
     const auto geometry = sampler_.geometry(receiver);
     const double cos_theta = dot(geometry.normal, sun.direction);
-    const int visible = count_visible(geometry, receiver, sun);
-    if (visible == 0 || cos_theta <= 0) return;
+    const double visible = count_visible(geometry, receiver, sun);
+    if (visible <= 0 || cos_theta <= 0) return;
     const auto n = static_cast<double>(sampler_.samples());
     sunlit[receiver * block_width + k] += static_cast<float>(sun.sun_share * visible / n);
     into.add_pooled(receiver, k, sun.dni * cos_theta * visible / n);
@@ -385,18 +392,21 @@ class ReceiverSuns {
       into.add(r, receiver, k, sun.dni * cos_theta * seen_[r] / n_each);
   }
   /// Samples that see the sun, in all, and per realization in seen_.
-  int count_visible(const SunSampler::Geometry& geometry, std::size_t receiver,
-                    const IntervalLight& sun) {
+  double count_visible(const SunSampler::Geometry& geometry, std::size_t receiver,
+                       const IntervalLight& sun) {
     std::fill(seen_.begin(), seen_.end(), 0);
     sampler_.seed(receiver, sun.number, seeds_);
-    int visible = 0;
+    double visible = 0;
     for (std::size_t p = 0; p < sampler_.packets(); ++p) {
-      const LitSamples samples = lit_samples(sampler_, caster_, sun, geometry, seeds_, p);
-      rays += static_cast<std::uint64_t>(std::popcount(samples.active));
-      visible += std::popcount(samples.lit);
-      for (auto bits = samples.lit; bits != 0; bits &= bits - 1)
-        ++seen_[sampler_.realization(p * packet_size +
-                                     static_cast<std::size_t>(std::countr_zero(bits)))];
+      const std::uint32_t active = sampler_.active(p);
+      const auto shares = shares_of_light(sampler_, caster_, sampler_.origins(geometry, seeds_, p),
+                                          sampler_.directions(sun, seeds_, p), active);
+      rays += static_cast<std::uint64_t>(std::popcount(active));
+      for (auto bits = active; bits != 0; bits &= bits - 1) {
+        const auto l = static_cast<std::size_t>(std::countr_zero(bits));
+        visible += static_cast<double>(shares[l]);
+        seen_[sampler_.realization(p * packet_size + l)] += static_cast<double>(shares[l]);
+      }
     }
     return visible;
   }
@@ -406,7 +416,7 @@ class ReceiverSuns {
   std::span<const IntervalLight> block_;
   Known known_;
   SunSampler::Seeds seeds_;
-  std::vector<int> seen_;
+  std::vector<double> seen_;
 };
 
 }  // namespace

@@ -20,6 +20,9 @@
 /// net have a variance of the order n^-3/2 (He & Wang 2015, On the convergence rate of randomized
 /// quasi-Monte Carlo for discontinuous functions), and R realizations of n points each that of
 /// n^-3/2 / R. So one net of n R^(2/3) points errs as they do: half as many for R = 8.
+///
+/// All rays of a sensor to a sun that is a point are one: each of these brings the share of light
+/// that passes what it crosses (crowns, screens), where rays of patches pass by chance or not.
 #pragma once
 
 #include <array>
@@ -58,6 +61,7 @@ class SunSampler {
   SunSampler(const std::vector<Sensor>& sensors, const RayCaster& caster, const DirectRules& rules);
 
   std::size_t receivers() const;
+  bool are_points() const { return sensors_ != nullptr; }
   /// Corners of a patch; three times the point of a sensor.
   std::array<Vec3, 3> corners(std::size_t receiver) const;
   Vec3 normal(std::size_t receiver) const;
@@ -132,6 +136,12 @@ struct LitSamples {
 LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const IntervalLight& sun,
                        const SunSampler::Geometry& geometry, const SunSampler::Seeds& seeds,
                        std::size_t packet);
+
+/// Share of the light of each active ray that reaches its receiver, one of the sampler's: 0 or 1
+/// for patches, and for sensors what passes on the way.
+RayCaster::Shares shares_of_light(const SunSampler& sampler, const RayCaster& caster,
+                                  const Packet& origins, const PacketDirections& to_sun,
+                                  std::uint32_t active);
 
 /// Unit direction to the point on the sun's disk that lies along `to_sun`, of any length, as a
 /// surface of that normal sees it: to the centre where the disk has half set behind the surface,

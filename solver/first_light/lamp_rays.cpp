@@ -32,11 +32,15 @@ void LampRays::look(std::size_t receiver, std::size_t packet, const Look& sample
   found_.rays += static_cast<std::uint64_t>(std::popcount(samples.active));
   const auto each =
       static_cast<double>(sampler_.samples()) / static_cast<double>(irradiance_.size());
-  for (auto lit = caster_.unoccluded_up_to(samples.origins, ways, samples.active); lit != 0;
-       lit &= lit - 1) {
-    const auto l = static_cast<std::size_t>(std::countr_zero(lit));
+  const auto shares =
+      sampler_.are_points()
+          ? caster_.passed_up_to(samples.origins, ways, samples.active)
+          : all_or_nothing(caster_.unoccluded_up_to(samples.origins, ways, samples.active));
+  for (auto active = samples.active; active != 0; active &= active - 1) {
+    const auto l = static_cast<std::size_t>(std::countr_zero(active));
+    if (shares[l] <= 0) continue;
     const std::size_t sample = packet * packet_size + l, r = sampler_.realization(sample);
-    const double E = samples.irradiance[l] / each;
+    const double E = samples.irradiance[l] * static_cast<double>(shares[l]) / each;
     irradiance_[r][receiver] += E;
     if (!surfaces_) continue;
     const auto& [hierarchy, optics, follower] = *surfaces_;

@@ -143,9 +143,11 @@ class MirrorSun::PatchWork {
     }
     if (active == 0) return;
     rays += static_cast<std::uint64_t>(std::popcount(active));
-    for (auto lit = m_.caster_.unoccluded_each(points, sun, active); lit != 0; lit &= lit - 1) {
-      const auto l = static_cast<std::size_t>(std::countr_zero(lit));
-      of_realization_[sampler_.realization(packet * packet_size + l)] += weight[l];
+    const auto shares = shares_of_light(sampler_, m_.caster_, points, sun, active);
+    for (; active != 0; active &= active - 1) {
+      const auto l = static_cast<std::size_t>(std::countr_zero(active));
+      of_realization_[sampler_.realization(packet * packet_size + l)] +=
+          weight[l] * static_cast<double>(shares[l]);
     }
   }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <vector>
 
 #include "geo/base/check.h"
 #include "solver/base/rng.h"
@@ -24,7 +25,8 @@ namespace {
 constexpr double offset_ulps = 16;
 constexpr double float_ulp = 1.0 / (1 << 24);
 
-constexpr float no_end = std::numeric_limits<float>::infinity();
+// Ends of rays, in lengths of their directions.
+constexpr float no_end = std::numeric_limits<float>::infinity(), whole_way = 1;
 
 std::string embree_config(const std::string& isa, int threads) {
   return "threads=" + std::to_string(threads) + ",set_affinity=0,isa=" + isa;
@@ -120,9 +122,81 @@ float passing_number(RTCRayN* ray, unsigned N, unsigned r, std::uint64_t key) {
   return uniform(static_cast<std::uint32_t>(hash >> 32));
 }
 
+/// What of the light along rays passes the surfaces that they cross.
+class Passage {
+ public:
+  struct Crossing {
+    unsigned ray, triangle;
+    float distance;
+    bool front, at_edge;  ///< of the triangle
+  };
+
+  Passage() { share_.fill(1); }
+  const RayCaster::Shares& share() const { return share_; }
+  void cross(const Crossing& at, float transmittance) {
+    const auto is_known = [&](const Crossing& known) { return is_same(known, at); };
+    if (std::any_of(crossed_.begin(), crossed_.end(), is_known)) return;
+    crossed_.push_back(at);
+    share_[at.ray] *= transmittance;
+  }
+
+ private:
+  /// Trees of boxes hold a triangle several times, and where two triangles of a surface meet, both
+  /// are hit.
+  static bool is_same(const Crossing& a, const Crossing& b) {
+    constexpr float roundings = 1e-6f;  // of a distance
+    if (a.ray != b.ray) return false;
+    if (a.triangle == b.triangle) return true;
+    return a.at_edge && b.at_edge && a.front == b.front &&
+           std::abs(a.distance - b.distance) <= roundings * a.distance;
+  }
+
+  std::vector<Crossing> crossed_;
+  RayCaster::Shares share_;
+};
+
+/// What Embree hands on to `let_pass`.
+struct Context {
+  RTCIntersectContext embree;  ///< the first, so that its address is that of the whole
+  Passage* passage;            ///< null: chance decides
+
+  explicit Context(RayCaster::Coherence coherence, Passage* through = nullptr) : passage(through) {
+    rtcInitIntersectContext(&embree);
+    if (coherence == RayCaster::Coherence::parallel)
+      embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  }
+};
+
+Passage::Crossing crossing_of(const RTCFilterFunctionNArguments* hits, unsigned r) {
+  constexpr float edge = 1e-5f;  // of barycentric weights: some hundred roundings
+  const float u = RTCHitN_u(hits->hit, hits->N, r), v = RTCHitN_v(hits->hit, hits->N, r);
+  const float facing = RTCHitN_Ng_x(hits->hit, hits->N, r) * RTCRayN_dir_x(hits->ray, hits->N, r) +
+                       RTCHitN_Ng_y(hits->hit, hits->N, r) * RTCRayN_dir_y(hits->ray, hits->N, r) +
+                       RTCHitN_Ng_z(hits->hit, hits->N, r) * RTCRayN_dir_z(hits->ray, hits->N, r);
+  return {.ray = RTCRayN_id(hits->ray, hits->N, r),
+          .triangle = RTCHitN_primID(hits->hit, hits->N, r),
+          .distance = RTCRayN_tfar(hits->ray, hits->N, r),
+          .front = facing < 0,
+          .at_edge = std::min({u, v, 1 - u - v}) < edge};
+}
+
+/// Notes crossings of what lets light pass, which then is as if it were not there.
+void note_crossings(const RTCFilterFunctionNArguments* hits, const Screens& screens,
+                    Passage& passage) {
+  for (unsigned r = 0; r < hits->N; ++r) {
+    if (hits->valid[r] == 0) continue;
+    const float T = screens.transmittance[RTCHitN_primID(hits->hit, hits->N, r)];
+    if (T <= 0) continue;
+    passage.cross(crossing_of(hits, r), T);
+    hits->valid[r] = 0;
+  }
+}
+
 /// Embree asks it for every hit; the hits that it refuses are as if the triangle were not there.
 void let_pass(const RTCFilterFunctionNArguments* hits) {
   const auto& screens = *static_cast<const Screens*>(hits->geometryUserPtr);
+  if (Passage* passage = reinterpret_cast<const Context*>(hits->context)->passage)
+    return note_crossings(hits, screens, *passage);
   for (unsigned r = 0; r < hits->N; ++r) {
     if (hits->valid[r] == 0) continue;
     const unsigned triangle = RTCHitN_primID(hits->hit, hits->N, r);
@@ -187,8 +261,7 @@ PacketDirections same_for_all(Vec3 direction) {
 }
 
 Hit RayCaster::first_hit(Vec3 origin, Vec3 direction) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  Context context(Coherence::none);
   RTCRayHit query{};
   query.ray.org_x = static_cast<float>(origin.x);
   query.ray.org_y = static_cast<float>(origin.y);
@@ -199,7 +272,7 @@ Hit RayCaster::first_hit(Vec3 origin, Vec3 direction) const {
   query.ray.tfar = no_end;
   query.ray.mask = ~0u;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(embree_->scene, &context, &query);
+  rtcIntersect1(embree_->scene, &context.embree, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   const double facing = static_cast<double>(query.hit.Ng_x) * direction.x +
                         static_cast<double>(query.hit.Ng_y) * direction.y +
@@ -211,9 +284,7 @@ Hit RayCaster::first_hit(Vec3 origin, Vec3 direction) const {
 
 PacketHits RayCaster::first_hits(const Packet& origins, const PacketDirections& directions,
                                  std::uint32_t active, Coherence coherence) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  if (coherence == Coherence::parallel) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  Context context(coherence);
   RTCRayHit16 query;
   alignas(64) int valid[packet_size];
   for (std::size_t r = 0; r < packet_size; ++r) {
@@ -230,7 +301,7 @@ PacketHits RayCaster::first_hits(const Packet& origins, const PacketDirections& 
     query.ray.mask[r] = ~0u;
     query.hit.geomID[r] = RTC_INVALID_GEOMETRY_ID;
   }
-  rtcIntersect16(valid, embree_->scene, &context, &query);
+  rtcIntersect16(valid, embree_->scene, &context.embree, &query);
   PacketHits hits;
   for (std::size_t r = 0; r < packet_size; ++r) {
     const bool hit = valid[r] != 0 && query.hit.geomID[r] != RTC_INVALID_GEOMETRY_ID;
@@ -258,33 +329,66 @@ std::uint32_t RayCaster::unoccluded_each(const Packet& origins, const PacketDire
 
 std::uint32_t RayCaster::unoccluded_up_to(const Packet& origins, const PacketDirections& ways,
                                           std::uint32_t active) const {
-  constexpr float all_of_it = 1;
-  return unoccluded(origins, ways, all_of_it, active, Coherence::none);
+  return unoccluded(origins, ways, whole_way, active, Coherence::none);
 }
+
+RayCaster::Shares RayCaster::passed_each(const Packet& origins, const PacketDirections& directions,
+                                         std::uint32_t active) const {
+  return passed(origins, directions, no_end, active, Coherence::parallel);
+}
+
+RayCaster::Shares RayCaster::passed_up_to(const Packet& origins, const PacketDirections& ways,
+                                          std::uint32_t active) const {
+  return passed(origins, ways, whole_way, active, Coherence::none);
+}
+
+namespace {
+
+struct ShadowRays {
+  RTCRay16 ray;
+  alignas(64) int valid[packet_size];
+
+  ShadowRays(const Packet& origins, const PacketDirections& directions, float end,
+             std::uint32_t active) {
+    for (std::size_t r = 0; r < packet_size; ++r) {
+      valid[r] = (active >> r & 1u) ? -1 : 0;
+      ray.org_x[r] = origins.x[r];
+      ray.org_y[r] = origins.y[r];
+      ray.org_z[r] = origins.z[r];
+      ray.dir_x[r] = directions.x[r];
+      ray.dir_y[r] = directions.y[r];
+      ray.dir_z[r] = directions.z[r];
+      ray.tnear[r] = 0;
+      ray.tfar[r] = end;
+      ray.time[r] = 0;
+      ray.mask[r] = ~0u;
+      ray.flags[r] = 0;
+      ray.id[r] = static_cast<unsigned>(r);
+    }
+  }
+};
+
+}  // namespace
 
 std::uint32_t RayCaster::unoccluded(const Packet& origins, const PacketDirections& directions,
                                     float end, std::uint32_t active, Coherence coherence) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  if (coherence == Coherence::parallel) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  RTCRay16 ray;
-  alignas(64) int valid[packet_size];
-  for (std::size_t r = 0; r < packet_size; ++r) {
-    valid[r] = (active >> r & 1u) ? -1 : 0;
-    ray.org_x[r] = origins.x[r];
-    ray.org_y[r] = origins.y[r];
-    ray.org_z[r] = origins.z[r];
-    ray.dir_x[r] = directions.x[r];
-    ray.dir_y[r] = directions.y[r];
-    ray.dir_z[r] = directions.z[r];
-    ray.tnear[r] = 0;
-    ray.tfar[r] = end;
-    ray.time[r] = 0;
-    ray.mask[r] = ~0u;
-    ray.flags[r] = 0;
-  }
-  rtcOccluded16(valid, embree_->scene, &context, &ray);
-  return unoccluded_rays(ray, active);
+  Context context(coherence);
+  ShadowRays rays(origins, directions, end, active);
+  rtcOccluded16(rays.valid, embree_->scene, &context.embree, &rays.ray);
+  return unoccluded_rays(rays.ray, active);
+}
+
+RayCaster::Shares RayCaster::passed(const Packet& origins, const PacketDirections& directions,
+                                    float end, std::uint32_t active, Coherence coherence) const {
+  Passage passage;
+  Context context(coherence, &passage);
+  ShadowRays rays(origins, directions, end, active);
+  rtcOccluded16(rays.valid, embree_->scene, &context.embree, &rays.ray);
+  Shares shares = passage.share();
+  const std::uint32_t seen = unoccluded_rays(rays.ray, active);
+  for (std::size_t r = 0; r < packet_size; ++r)
+    if ((seen >> r & 1u) == 0) shares[r] = 0;
+  return shares;
 }
 
 }  // namespace sunload

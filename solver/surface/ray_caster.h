@@ -10,11 +10,13 @@
 /// A surface of transmittance T stops a ray with probability 1 - T. What decides is a hash of
 /// the ray's own coordinates and the triangle's key: the same ray meets the same
 /// triangles in packets, alone, and on any thread; different rays and triangles decide
-/// independently, so that T^k of the rays pass k layers.
+/// independently, so that T^k of the rays pass k layers. Rays of one point to one point are all
+/// the same: for them `passed_each` gives T^k itself.
 /// Reference: Wald et al. (2014), Embree: a kernel framework for efficient CPU
 /// ray tracing.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -87,6 +89,8 @@ double ray_offset_m(const Mesh& mesh);
 
 class RayCaster {
  public:
+  using Shares = std::array<float, packet_size>;
+
   /// isa: auto | sse4.2 | avx2 | avx512. Throws InputError where the processor
   /// lacks it, MachineError where memory is short. Builds once, then const.
   /// Without `screens` every triangle stops every ray.
@@ -119,7 +123,18 @@ class RayCaster {
   std::uint32_t unoccluded_up_to(const Packet& origins, const PacketDirections& ways,
                                  std::uint32_t active) const;
 
+  /// Share of light from along each direction that reaches its origin, for the `active` ones: the
+  /// product of the transmittances of all that is on the way, 0 where something stops all of it.
+  /// What `unoccluded_each` is on the mean of many rays, without chance.
+  Shares passed_each(const Packet& origins, const PacketDirections& directions,
+                     std::uint32_t active) const;
+  /// The same of what is between origin and origin + direction.
+  Shares passed_up_to(const Packet& origins, const PacketDirections& ways,
+                      std::uint32_t active) const;
+
  private:
+  Shares passed(const Packet& origins, const PacketDirections& directions, float end,
+                std::uint32_t active, Coherence coherence) const;
   std::uint32_t unoccluded(const Packet& origins, const PacketDirections& directions, float end,
                            std::uint32_t active, Coherence coherence) const;
 
@@ -128,5 +143,12 @@ class RayCaster {
   std::string isa_;
   double offset_m_ = 0;
 };
+
+/// 1 for these rays (bit r: ray r), 0 for the others.
+inline RayCaster::Shares all_or_nothing(std::uint32_t rays) {
+  RayCaster::Shares shares{};
+  for (std::size_t r = 0; r < packet_size; ++r) shares[r] = (rays >> r & 1u) ? 1.0f : 0.0f;
+  return shares;
+}
 
 }  // namespace sunload

@@ -181,7 +181,6 @@ TEST(House, TheSolverOpensNoFileAndPrintsNothing) {
 TEST(House, OneFileKnowsEachForeignLibrary) {
   const std::map<std::string, Names> owners{
       {"embree", {"solver/surface/ray_caster"}},
-      {"tbb/", {"solver/base/threads"}},
       {"Random123", {"solver/base/rng"}},
       {"mpi.h", {"io/run/mpi_world"}},
       {"pybind11", {"io/python/native"}},

@@ -189,5 +189,27 @@ TEST(Luminaires, AreSentOnByMirrors) {
   EXPECT_FALSE(expect_mean(ceiling, 1.03 * truth, 1e-4 * truth));
 }
 
+// All rays of a sensor to a luminaire are one: it brings what a screen lets pass, not all or
+// nothing.
+TEST(Luminaires, ShineOnSensorsThroughAScreen) {
+  SceneBuilder builder;
+  Material veil{"veil"};
+  veil.transmittance = 0.4;
+  const int screen = builder.material(veil);
+  builder.sides(Sides::two);
+  builder.quad({-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}, screen);
+  Scene scene = builder.scene();
+  add_luminaire(scene, {0, 0, 4});
+  scene.sensors = {sensor_at({0.2, 0.1, 1}, {0, 0, 1}), sensor_at({3, 0, 1}, {0, 0, 1}),
+                   sensor_at({0.2, 0.1, 3}, {0, 0, 1})};
+  const auto solved = solve(scene, {night}, lamp_rules(0));
+  for (std::size_t s = 0; s < scene.sensors.size(); ++s) {
+    const Vec3 way = Vec3{0, 0, 4} - scene.sensors[s].position;
+    const double open = intensity * way.z / std::pow(norm(way), 3);
+    const double truth = (s == 0 ? 0.4 : 1) * open;
+    EXPECT_NEAR(static_cast<double>(solved.tally.sensors.irradiance[lamps][s]), truth, 1e-5 * open);
+  }
+}
+
 }  // namespace
 }  // namespace sunload::test

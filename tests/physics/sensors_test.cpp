@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <iostream>
 
@@ -539,26 +540,56 @@ TEST(Sensors, SeeAPartOfTheSunsDisk) {
   for (const double E : of_sensor(tally, 2)) EXPECT_EQ(E, 0);
 }
 
-// A point under a crown: some of its samples pass, and their number tells the error.
-TEST(Sensors, SeeTheSunThroughAScreen) {
+/// A screen of transmittance 0.3 five metres up, and another one a metre above.
+Stage under_screens() {
   Stage stage;
   Material crown{"crown"};
   crown.transmittance = 0.3;
   const int screen = stage.builder.material(crown);
   stage.builder.sides(Sides::two);
   stage.builder.quad({-9, -9, 5}, {9, -9, 5}, {9, 9, 5}, {-9, 9, 5}, screen);
-  stage.at({1, 2, 0.5}, {0, 0, 1}).at({1000, 2, 0.5}, {0, 0, 1});
-  SolverRules rules = rules_of(1);
-  rules.direct_samples = rules.realizations * 64;
-  const auto tally = stage.light(one_second({0.1, 0.2, 1}, 1000), rules);
-  const double cos_s = 1 / std::sqrt(1.05);
-  check("crown", of_sensor(tally, 0), 300 * cos_s, 0, 1.4);
-  // Equal rays would share their fate: all or nothing in every realization.
-  for (const double E : of_sensor(tally, 0)) {
-    EXPECT_GT(E, 0);
-    EXPECT_LT(E, 1000 * cos_s);
+  stage.builder.quad({5, -9, 6}, {9, -9, 6}, {9, 9, 6}, {5, 9, 6}, screen);
+  return stage;
+}
+
+// All rays of a point to the sun are one, which chance would let pass or not: each brings what
+// passes. The sun's straight way through (0, 0, 5) is that of two triangles of one screen.
+TEST(Sensors, SeeTheSunThroughScreensWithoutChance) {
+  for (const double disk : {0.0, 0.2666}) {
+    Stage stage = under_screens();
+    stage.at({1, 2, 0.5}, {0, 0, 1}).at({7, 0, 0}, {0, 0, 1}).at({1000, 2, 0.5}, {0, 0, 1});
+    IntervalLight sun = one_second({0.1, 0.2, 1}, 1000);
+    sun.disk_half_angle = radians(disk);
+    SolverRules rules = rules_of(1);
+    rules.direct_samples = rules.realizations;
+    const auto tally = stage.light(sun, rules);
+    const double E = 1000 / std::sqrt(1.05);
+    for (std::size_t s = 0; s < 3; ++s) {
+      const double truth = E * std::array{0.3, 0.3 * 0.3, 1.0}[s];
+      for (const double of_realization : of_sensor(tally, s))
+        EXPECT_NEAR(of_realization, truth, 1e-5 * E) << s;
+      EXPECT_NEAR(tally.sensors.sunlit_s[s], truth / E, 1e-6);
+    }
   }
-  for (const double E : of_sensor(tally, 1)) EXPECT_NEAR(E, 1000 * cos_s, 0.01);
+}
+
+TEST(Sensors, CrossAScreenOnceWhereItsTrianglesMeet) {
+  Stage stage = under_screens();
+  stage.at({0, 0, 0}, {0, 0, 1}).at({2, 2, 0}, {0, 0, 1}).at({7, 7, 0}, {0, 0, 1});
+  SolverRules rules = rules_of(1);
+  rules.direct_samples = rules.realizations;
+  const auto tally = stage.light(one_second({0, 0, 1}, 1000), rules);
+  for (std::size_t s = 0; s < 3; ++s)
+    for (const double E : of_sensor(tally, s)) EXPECT_NEAR(E, s < 2 ? 300 : 90, 0.01) << s;
+}
+
+// Behind clouds nothing but the share of the sun's time is told.
+TEST(Sensors, SeeACloudedSunThroughScreens) {
+  Stage stage = under_screens();
+  stage.at({1, 2, 0.5}, {0, 0, 1}).at({1000, 2, 0.5}, {0, 0, 1});
+  const auto tally = stage.light(one_second({0.1, 0.2, 1}, 0), rules_of(1));
+  EXPECT_NEAR(tally.sensors.sunlit_s[0], 0.3, 1e-6);
+  EXPECT_NEAR(tally.sensors.sunlit_s[1], 1, 1e-6);
 }
 
 }  // namespace

@@ -17,7 +17,6 @@ class Sunload(CMakePackage):
     depends_on("cmake@3.23:", type="build")
     depends_on("pkgconfig", type="build")
     depends_on("embree@3.13:3")
-    depends_on("intel-oneapi-tbb@2021:")
     depends_on("cgal@5.5:5")
     depends_on("eigen@3.4:")
     depends_on("geographiclib@2.1:")
