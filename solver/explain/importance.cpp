@@ -81,6 +81,7 @@ class Exchanges {
  private:
   void add_row(std::size_t receiver, Receiver kind, std::size_t realization, Links& links) const {
     LineCollector met;
+    met.links_all = true;  // what reflects nothing yet may be painted
     lines_.cast(receiver, kind, realization, [&](const CastLine& line) {
       if (line.hit.left_scene()) return;
       follower_.follow(line.origin, line.w, line.hit, line.key, met);

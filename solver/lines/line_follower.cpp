@@ -106,7 +106,7 @@ std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const FirstMeeting& firs
     const auto& [patch, material] = *met;
     path_m += hit.distance_m;
     const double counted = reflections == 0 ? weight * share_of_first : weight;
-    if (material.diffuse > 0 || material.emission_w_m2 > 0) {
+    if (material.diffuse > 0 || material.emission_w_m2 > 0 || into.links_all) {
       const auto element = reflections == 0
                                ? first.element
                                : linked_element(hierarchy_, patch, origin + w * hit.distance_m,

@@ -22,6 +22,7 @@ struct LineCollector {
   std::vector<LinkTable::Link> patches, sky, sky_by_mirror;
   std::vector<Glimpse> glimpses;  ///< receiver and realization not yet known
   LineEnds ends;
+  bool links_all = false;   ///< to surfaces, too, that send nothing
   double largest_link = 0;  ///< form factor that no element exceeds to which a link leads
   double lamps = 0;         ///< exitance of emitters that was seen, summed over lines [W m-2]
   /// Forgets the lines.

@@ -94,8 +94,8 @@ Derivative by_differences(double mirror, const std::string& material, const Solv
 /// The same by the adjoint solution, of every realization; `reflections`: whether what the place
 /// does not see straight counts.
 std::vector<double> by_adjoint(double mirror, const std::string& material, const SolverRules& rules,
-                               Seen seen, bool reflections = true) {
-  const Scene scene = dark_court(mirror);
+                               Seen seen, bool reflections = true, double raised_by = 0) {
+  const Scene scene = dark_court(mirror, material, raised_by);
   const Solved solved = solve(scene, three_suns(), rules, split);
   const auto mesh = std::make_shared<Hierarchy>(scene, split);
   const TracedScene traced(scene, mesh, rules);
@@ -123,6 +123,19 @@ TEST(Importance, IsTheDerivativeOfTheSolutionOnItsOwnLines) {
       const double planted = mean_of(by_adjoint(mirror, material, rules, seen, false));
       EXPECT_GT(std::abs(planted - truth.value), truth.bound) << material;
     }
+}
+
+// What reflects nothing gains by paint as what reflects next to nothing.
+TEST(Importance, OfBlackSurfacesIsThatOfNearlyBlackOnes) {
+  const SolverRules rules = complete_rules(Transport::gather);
+  const double black = -CourtMaterials{}.wall.diffuse;
+  for (const Seen seen : {Seen::ground, Seen::sensor}) {
+    const double of_black = mean_of(by_adjoint(0.7, "wall", rules, seen, true, black));
+    const double of_nearly_black =
+        mean_of(by_adjoint(0.7, "wall", rules, seen, true, black + 1e-5));
+    EXPECT_GT(of_black, 0);
+    EXPECT_NEAR(of_black, of_nearly_black, 1e-4 * of_nearly_black);
+  }
 }
 
 TEST(Importance, AgreesWithAnExactSolution) {
