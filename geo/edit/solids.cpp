@@ -157,12 +157,18 @@ void add_tree(PolygonModel& model, Vec3 foot, const TreeShape& shape, const Soli
   add_crown(model, foot, shape, of_faces);
 }
 
-std::optional<double> standing_height(const PolygonModel& model, Point2 place) {
+namespace {
+
+const std::string& kind_of(const PolygonModel& model, std::size_t object) {
+  static const std::string none;
+  return object < model.object_kinds.size() ? model.object_kinds[object] : none;
+}
+
+/// Of the model's ground faces below the place the highest.
+std::optional<double> ground_height(const PolygonModel& model, Point2 place) {
   std::optional<double> ground;
   for (std::size_t p = 0; p < model.polygon_count(); ++p) {
-    const auto object = model.facts[p].object.index();
-    const bool is_of_land =
-        object < model.object_kinds.size() && is_land(model.object_kinds[object]);
+    const bool is_of_land = is_land(kind_of(model, model.facts[p].object.index()));
     if (!is_of_land && model.facts[p].surface != Surface::ground) continue;
     const LooseFace face = face_of(model, p);
     const Vec3 normal = area_vector2(face);
@@ -173,17 +179,30 @@ std::optional<double> standing_height(const PolygonModel& model, Point2 place) {
         (normal.x * (place.u - through.x) + normal.y * (place.v - through.y)) / normal.z;
     if (!ground || z > *ground) ground = z;
   }
-  if (ground) return ground;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const ObjectExtent& extent : extents_of(model)) {
-    if (extent.is_empty()) continue;
-    const double away = distance_in_plan(extent, place);
-    if (away < nearest) {
-      nearest = away;
-      ground = extent.box.low.z;
-    }
-  }
   return ground;
+}
+
+/// The foot of the object nearest in plan, of plants or of all others.
+std::optional<double> nearest_foot(const PolygonModel& model, Point2 place, bool of_plants) {
+  std::optional<double> foot;
+  double nearest = std::numeric_limits<double>::infinity();
+  const auto extents = extents_of(model);
+  for (std::size_t o = 0; o < extents.size(); ++o) {
+    if (extents[o].is_empty() || is_plant(kind_of(model, o)) != of_plants) continue;
+    const double away = distance_in_plan(extents[o], place);
+    if (away >= nearest) continue;
+    nearest = away;
+    foot = extents[o].box.low.z;
+  }
+  return foot;
+}
+
+}  // namespace
+
+std::optional<double> standing_height(const PolygonModel& model, Point2 place) {
+  if (const auto ground = ground_height(model, place)) return ground;
+  if (const auto foot = nearest_foot(model, place, false)) return foot;
+  return nearest_foot(model, place, true);  // crowns may hover
 }
 
 }  // namespace sunload

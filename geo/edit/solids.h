@@ -42,7 +42,8 @@ inline constexpr double trunk_width_ratio = 1.0 / 40;
 void add_tree(PolygonModel& model, Vec3 foot, const TreeShape& shape, const SolidFacts& facts);
 
 /// Height that a thing put there stands on: that of the model's ground faces below the place, else
-/// the foot of the object nearest in plan. Nothing in an empty model.
+/// the foot of the object nearest in plan, of plants only where there is nothing else. Nothing in
+/// an empty model.
 std::optional<double> standing_height(const PolygonModel& model, Point2 place);
 
 }  // namespace sunload

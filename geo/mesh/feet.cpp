@@ -75,8 +75,10 @@ class FootFinder {
   FootFinder(const Mesh& mesh, const Bodies& bodies, SceneKind kind)
       : mesh_(mesh), bodies_(bodies), feet_(bodies.bodies.size()) {
     has_feet_.resize(mesh.object_names.size(), 1);
-    for (std::size_t o = 0; kind == SceneKind::city && o < has_feet_.size(); ++o)
-      has_feet_[o] = is_building(mesh.object_kinds[o]);
+    for (std::size_t o = 0; o < has_feet_.size(); ++o) {
+      const std::string& of = mesh.object_kinds[o];
+      has_feet_[o] = kind == SceneKind::city ? is_building(of) : !is_plant(of) && !is_land(of);
+    }
   }
 
   std::vector<Foot> run() {

@@ -47,7 +47,8 @@ struct Foot {
   double plan_m2 = 0;                      ///< of what looks up or down, the larger
 };
 
-/// Feet of all bodies that have walls; of a city, of its buildings. In the order of the bodies.
+/// Feet of all bodies that have walls, but for plants and land; of a city, of its buildings alone.
+/// In the order of the bodies.
 ///
 /// A lower edge has an upright face above it, and below it a face that looks down or nothing. Of a
 /// body those count that are at its foot or reached from there along lower edges (a foot on a

@@ -286,12 +286,12 @@ class SceneEditor {
       names.push_back(
           free_name(places.size() == 1 ? add.name : fmt::format("{}_{}", add.name, i + 1)));
       add_tree(model_, {places[i].u, places[i].v, feet[i]}, add.shape,
-               {names.back(), kind_of("SolitaryVegetationObject"), ""});
+               {names.back(), "SolitaryVegetationObject", ""});
     }
     tell("adds", names);
   }
 
-  /// Types are of cities alone: in plain files all are decided by shape.
+  /// Types of what may be anything are of cities alone: in plain files all are decided by shape.
   std::string kind_of(const char* kind) const { return model_.is_city_format ? kind : ""; }
 
   static constexpr double most_trees = 10'000;

@@ -27,6 +27,20 @@ double ledger_kwh(const ResultReader& result, const std::string& term) {
   return energy / joules_per_kwh;
 }
 
+/// Realizations of so few lines hit bright surfaces or not: where none of them does, all look
+/// alike, and their spread says nothing. From four lines on the error of a single run holds
+/// (builtin `emission`, 24 seeds).
+constexpr double fewest_lines = 4;
+
+std::string warning_of_few_lines(const ResultReader& result) {
+  const double each =
+      result.number_attribute("lines_per_patch") / result.number_attribute("realizations");
+  if (!(each < fewest_lines)) return {};
+  return info_line("", fmt::format("its error cannot be trusted with {:g} line{} per patch and "
+                                   "realization: take {:g} or more",
+                                   each, each == 1 ? "" : "s", fewest_lines));
+}
+
 /// What was estimated of the light that is not followed; nothing where that was left.
 std::string estimated_line(const ResultReader& result, double in) {
   const double estimated = ledger_kwh(result, "estimated");
@@ -74,7 +88,7 @@ std::string ledger_lines(const ResultReader& result, const std::string& label) {
          info_line("", fmt::format("out {:.6g} = {}", out, out_words)) +
          info_line("", fmt::format("residual {:.3g}{} ({:.2g} % of in){}", residual, error,
                                    in == 0 ? 0 : residual / in * 100, reuse)) +
-         estimated_line(result, in);
+         warning_of_few_lines(result) + estimated_line(result, in);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "solver/base/chunks.h"
 #include "solver/base/threads.h"
+#include "solver/first_light/luminaire_images.h"
 #include "solver/first_light/luminaire_points.h"
 #include "solver/first_light/parallel_beams.h"
 
@@ -74,6 +75,13 @@ LampLight lamp_light_on_sensors(const Scene& scene, const RayCaster& caster,
   LampRays rays(caster, sensors, nullptr, light.irradiance);
   for (std::size_t s = 0; s < sensors.receivers(); ++s) lamps.shine_on(s, rays);
   light.rays = rays.found().rays;
+  if (scene.luminaires.any()) {
+    const LuminaireImages images(scene, caster);
+    for (std::size_t s = 0; s < sensors.receivers(); ++s) {
+      const double E = images.on(scene.sensors[s], light.rays);
+      for (auto& of_realization : light.irradiance) of_realization[s] += E;
+    }
+  }
   pool(light, sensors.receivers());
   return light;
 }

@@ -34,7 +34,8 @@ struct LampLight {
 LampLight lamp_light(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
                      const SunSampler& sampler, const PatchOptics& optics, std::size_t realizations,
                      int mirror_depth);
-/// The same on sensors, but for what mirrors send on; no ledger.
+/// The same on sensors; by mirrors that of luminaires alone, once reflected
+/// (solver/first_light/luminaire_images.h). No ledger.
 LampLight lamp_light_on_sensors(const Scene& scene, const RayCaster& caster,
                                 const SunSampler& sensors, std::size_t realizations);
 

@@ -211,5 +211,36 @@ TEST(Luminaires, ShineOnSensorsThroughAScreen) {
   }
 }
 
+// From the image behind a mirror wall, seen through its triangles' common edge, too; a plate
+// before the mirror takes it, and so does one between mirror and lamp.
+TEST(Luminaires, ShineOnSensorsByAMirror) {
+  constexpr double rho = 0.7;
+  const Vec3 lamp{3, 0, 2};
+  for (const int hidden : {0, 1, 2}) {
+    SceneBuilder builder;
+    const int mirror = builder.material({"mirror", 0, rho, 0}), black = builder.material({"black"});
+    builder.object("wall").quad({0, -2, 0}, {0, 2, 0}, {0, 2, 4}, {0, -2, 4}, mirror);
+    builder.sides(Sides::two);
+    if (hidden == 1)
+      builder.object("plate").quad({2, -1, 1}, {2, 1, 1}, {2, 1, 1.3}, {2, -1, 1.3}, black);
+    if (hidden == 2)
+      builder.object("plate").quad({0.5, -1, 1}, {0.5, 1, 1}, {0.5, 1, 2.2}, {0.5, -1, 2.2}, black);
+    Scene scene = builder.scene();
+    add_luminaire(scene, lamp);
+    scene.sensors = {sensor_at({3, 0, 1}, {-1, 0, 0}), sensor_at({1, 0, 2}, {-1, 0, 0}),
+                     sensor_at({3, 9, 2}, {-1, 0, 0}), sensor_at({-1, 0, 2}, {1, 0, 0})};
+    const auto solved = solve(scene, {night}, lamp_rules(0));
+    for (std::size_t s = 0; s < scene.sensors.size(); ++s) {
+      const Vec3 way = Vec3{-lamp.x, lamp.y, lamp.z} - scene.sensors[s].position;
+      const double image = rho * intensity * -way.x / std::pow(norm(way), 3);
+      const bool is_seen = s == 0 ? hidden == 0 : s == 1 && hidden != 2;
+      const double truth = is_seen ? image : 0;
+      EXPECT_NEAR(static_cast<double>(solved.tally.sensors.irradiance[lamps][s]), truth,
+                  1e-5 * std::abs(image))
+          << hidden << ' ' << s;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sunload::test

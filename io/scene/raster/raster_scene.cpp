@@ -3,6 +3,7 @@
 #include "io/scene/raster/raster_scene.h"
 
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "io/scene/base/indexed_faces.h"
@@ -17,7 +18,9 @@ class TerrainReader {
   TerrainReader(const std::string& path, const SceneFileRules& rules)
       : path_(path),
         faces_(path, rules, 'z'),
-        raster_(read_raster(path, rules.unit_m, RasterValues::elevations, faces_.notes())) {}
+        raster_(read_raster(path, rules.unit_m, RasterValues::elevations, faces_.notes())) {
+    faces_.use_object(std::filesystem::path(path).stem().string(), "TINRelief");
+  }
 
   PolygonModel read() {
     add_vertices();

@@ -135,6 +135,40 @@ TEST_F(SceneEdit, AddsBodiesOnTheGroundThatIsThere) {
   EXPECT_NEAR(extents_of(m)[7].middle().x, 20, 1e-9);  // of sums of some cosines
 }
 
+// Crowns hover: what is put beside one stands where the houses do.
+TEST_F(SceneEdit, AddsNothingAtTheHeightOfACrown) {
+  const auto m = model(
+      "{add: {tree: {position_m: [70, 5, 3], height_m: 8, crown_m: 4, trunk_m: 0}}}, "
+      "{add: {box: {position_m: [75, 5], size_m: [4, 6, 3]}}}");
+  EXPECT_EQ(box_of(m, "box").low.z, 0);
+}
+
+// The ground goes through the feet of houses, and a tree has none, whatever the files are.
+TEST_F(SceneEdit, TreesLeaveTheGroundAsItIs) {
+  const BuiltScene built = build_scene(
+      study("{add: {tree: {position_m: [15, 5], height_m: 7, crown_m: 4, trunk_m: 2}}}, "
+            "{add: {tree: {position_m: [35, 5], height_m: 7, crown_m: 4, trunk_m: 0}}}",
+            ", ground: {}"));
+  ASSERT_TRUE(built.report.ground);
+  EXPECT_TRUE(built.report.ground->is_level);
+  EXPECT_EQ(built.report.ground->standing, 3u);
+  for (std::size_t t = 0; t < built.scene.mesh.triangle_count(); ++t)
+    if (built.scene.mesh.triangle_surface[t] == Surface::ground) {
+      EXPECT_EQ(built.scene.mesh.corner(t, 0).z + built.scene.mesh.origin.z, 0);
+    }
+}
+
+TEST_F(SceneEdit, PutsThingsOntoATerrainOfARaster) {
+  folder_.write("town.obj", "o far\nv 90 90 9\nv 91 90 9\nv 90 91 9\nf 1 2 3\n");
+  folder_.write("dem.asc",
+                "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 40\nnodata_value -9999\n"
+                "0 10 20\n0 10 20\n0 10 20\n");
+  Study with = study("{add: {box: {position_m: [40, 60], size_m: [4, 6, 3]}}}");
+  with.scene.files.front().path = folder_ / "dem.asc";
+  const auto m = edited(read_models(with), with);
+  EXPECT_EQ(box_of(m, "box").low.z, 5);  // between the cells of 0 and 10 m
+}
+
 TEST_F(SceneEdit, ReplacesByAFile) {
   folder_.write("new.obj", "o tower\nv 0 0 0\nv 2 0 0\nv 0 1 40\nf 1 2 3\n");
   const auto m = model("{object: house_2, replace: {file: new.obj, position_m: [20, 0, 0]}}");

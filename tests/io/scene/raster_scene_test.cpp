@@ -34,6 +34,7 @@ TEST(SceneRaster, VerticesAreMiddlesOfCells) {
   EXPECT_EQ(model.vertices[8], (Vec3{1005, 2001, 9}));
   for (std::size_t p = 0; p < 8; ++p) EXPECT_EQ(up(model, p), 4) << p;  // twice the area
   EXPECT_EQ(model.object_names, (std::vector<std::string>{"t"}));
+  EXPECT_EQ(model.object_kinds, (std::vector<std::string>{"TINRelief"}));
   EXPECT_EQ(model.crs, "");
   EXPECT_TRUE(has_note(model, "names no CRS"));
   EXPECT_EQ(broken_arrays(model), "");
