@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <utility>
 
 #include "io/scene/raster/gdal_file.h"
 
@@ -20,14 +22,55 @@ constexpr double lowest_elevation_m = -1000, highest_elevation_m = 9000;
 // Of what stands on land; rounding leaves small negative differences.
 constexpr double lowest_height_m = -1, highest_height_m = 2000;
 
+/// A unit that the file names.
+struct NamedUnit {
+  std::string name;
+  double m = 1;
+};
+
+/// By the names that GDAL and what writes for it give to units of a band; none: another word.
+std::optional<double> length_of_unit(const std::string& name) {
+  constexpr double foot = 0.3048, us_survey_foot = 1200.0 / 3937;  // as they are defined
+  static const std::map<std::string, double> units{
+      {"m", 1},
+      {"metre", 1},
+      {"meter", 1},
+      {"metres", 1},
+      {"meters", 1},
+      {"cm", 0.01},
+      {"centimetre", 0.01},
+      {"centimeter", 0.01},
+      {"mm", 0.001},
+      {"millimetre", 0.001},
+      {"millimeter", 0.001},
+      {"ft", foot},
+      {"foot", foot},
+      {"feet", foot},
+      {"international foot", foot},
+      {"us survey foot", us_survey_foot},
+      {"us survey feet", us_survey_foot},
+      {"us-ft", us_survey_foot},
+      {"ftus", us_survey_foot},
+      {"foot_us", us_survey_foot},
+  };
+  const auto found = units.find(lower_case(name));
+  return found == units.end() ? std::nullopt : std::optional(found->second);
+}
+
 class RasterReader {
  public:
-  RasterReader(const std::string& path, double unit_m, RasterValues values, NoteCounter& notes)
-      : path_(path), unit_m_(unit_m), kind_(values), notes_(notes) {}
+  RasterReader(const std::string& path, double unit_m, RasterValues values, NoteCounter& notes,
+               std::string unit_key)
+      : path_(path),
+        unit_m_(unit_m),
+        kind_(values),
+        notes_(notes),
+        unit_key_(std::move(unit_key)) {}
 
   Raster read() {
     open();
     read_crs();
+    read_unit_of_heights();
     read_values();
     return std::move(raster_);
   }
@@ -92,12 +135,50 @@ class RasterReader {
     }
     raster_.crs = crs_name(crs);
     char* unit = nullptr;
-    if (const double metres = OSRGetLinearUnits(crs, &unit); metres != 1 && unit_m_ == 1) {
+    plane_.m = OSRGetLinearUnits(crs, &unit);
+    plane_.name = unit == nullptr ? "units" : unit;
+    if (plane_.m != 1 && unit_m_ == 1) {
       notes_.say(
           fmt::format("coordinates of the raster are in {} of {:.6g} m, taken for "
-                      "metres: scene.unit_m says otherwise",
-                      unit == nullptr ? "units" : unit, metres));
+                      "metres: {} says otherwise",
+                      plane_.name, plane_.m, unit_key_));
     }
+  }
+
+  /// That of the band, else of heights in the CRS; none where the file says none that is known.
+  std::optional<NamedUnit> unit_of_heights() const {
+    if (const std::string name = GDALGetRasterUnitType(GDALGetRasterBand(dataset_.get(), 1));
+        !name.empty()) {
+      if (const auto metres = length_of_unit(name)) return NamedUnit{name, *metres};
+      notes_.say("heights of the raster are in '" + name +
+                 "', an unknown unit: taken for that of its coordinates");
+      return {};
+    }
+    auto* crs = GDALGetSpatialRef(dataset_.get());
+    if (crs == nullptr || OSRIsCompound(crs) == 0) return {};
+    char* unit = nullptr;
+    const double metres = OSRGetTargetLinearUnits(crs, "VERT_CS", &unit);
+    return NamedUnit{unit == nullptr ? "units" : unit, metres};
+  }
+
+  void read_unit_of_heights() {
+    const auto heights = unit_of_heights();
+    if (!heights || heights->m == plane_.m) return;
+    const std::string text =
+        fmt::format("heights of the raster are in {} of {:.6g} m", heights->name, heights->m);
+    // The study's word against the file's about the coordinates: it holds for heights as well.
+    if (plane_.m == 1 && unit_m_ != 1)
+      return notes_.say(
+          fmt::format("{}, taken for units of {:g} m by {}", text, unit_m_, unit_key_));
+    plane_from_height_ = heights->m / plane_.m;
+    notes_.say(text + ", converted to " +
+               (plane_.m == 1 ? "metres" : plane_.name + ", the unit of its coordinates"));
+    auto* crs = GDALGetSpatialRef(dataset_.get());
+    if (crs == nullptr || OSRIsCompound(crs) == 0) return;
+    // Its heights are no longer those of the CRS.
+    auto* plane = OSRClone(crs);
+    if (OSRStripVertical(plane) == OGRERR_NONE) raster_.crs = crs_name(plane);
+    OSRRelease(plane);
   }
 
   void read_values() {
@@ -124,6 +205,7 @@ class RasterReader {
       }
       value = value * scale + offset;
       expect_usual(value, cell);
+      value *= plane_from_height_;
     }
     notes_.count("cells of the raster have no data and are left out", missing);
   }
@@ -132,7 +214,8 @@ class RasterReader {
     const bool is_land = kind_ == RasterValues::elevations;
     const double low = is_land ? lowest_elevation_m : lowest_height_m;
     const double high = is_land ? highest_elevation_m : highest_height_m;
-    if (value * unit_m_ >= low && value * unit_m_ <= high) return;
+    const double metres = value * plane_from_height_ * unit_m_;
+    if (metres >= low && metres <= high) return;
     fail(fmt::format("has the height {} in row {}, column {}", value, cell / raster_.columns + 1,
                      cell % raster_.columns + 1),
          is_land ? "no land lies there" : "no tree is so high above the ground",
@@ -143,6 +226,9 @@ class RasterReader {
   double unit_m_;
   RasterValues kind_;
   NoteCounter& notes_;
+  std::string unit_key_;
+  NamedUnit plane_;  ///< of coordinates, as the file says it
+  double plane_from_height_ = 1;
   GdalMessages messages_;
   GdalDataset dataset_;
   Raster raster_;
@@ -150,9 +236,9 @@ class RasterReader {
 
 }  // namespace
 
-Raster read_raster(const std::string& path, double unit_m, RasterValues values,
-                   NoteCounter& notes) {
-  return RasterReader(path, unit_m, values, notes).read();
+Raster read_raster(const std::string& path, double unit_m, RasterValues values, NoteCounter& notes,
+                   const std::string& unit_key) {
+  return RasterReader(path, unit_m, values, notes, unit_key).read();
 }
 
 std::optional<double> height_between_cells(const Raster& raster, double unit_m, double x_m,

@@ -43,8 +43,11 @@ struct Raster {
 
 /// Notes what is left out and what the file does not say. Throws InputError for damaged files,
 /// coordinates in degrees, more than `most_raster_cells`, and values that no land has (a NODATA
-/// value that the file does not declare); `unit_m` is the length of one unit of the file.
-Raster read_raster(const std::string& path, double unit_m, RasterValues values, NoteCounter& notes);
+/// value that the file does not declare); `unit_m` is the length of one unit of the file, which
+/// notes call `unit_key`. Heights of which the file says another unit than of its coordinates, as
+/// feet over a grid of metres, are converted to the coordinates' unit: `unit_m` is of both.
+Raster read_raster(const std::string& path, double unit_m, RasterValues values, NoteCounter& notes,
+                   const std::string& unit_key = "scene.unit_m");
 
 /// Height at a place on the raster's map [m], linear between the middles of cells; none outside,
 /// and where a cell about it has no data.

@@ -6,8 +6,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
+#include "io/scene/raster/raster.h"
 #include "tests/support/real_models.h"
 #include "tests/support/scene_text.h"
 
@@ -76,18 +78,24 @@ void append(std::string& bytes, std::uint64_t value, int count) {
 }
 
 /// A TIFF of 32-bit floats whose tag 34264 (GeoTIFF 1.1: ModelTransformation) takes column and row
-/// of cells' corners to x = x0 + a·column + b·row and y = y0 + d·column + e·row.
+/// of cells' corners to x = x0 + a·column + b·row and y = y0 + d·column + e·row; `keys` (number,
+/// value) of GeoTIFF beside the one that cells are areas, above 1025 in ascending order.
 std::string tiff(std::uint32_t columns, std::uint32_t rows, const std::vector<float>& heights,
-                 const std::array<double, 6>& x0_a_b_y0_d_e) {
+                 const std::array<double, 6>& x0_a_b_y0_d_e,
+                 const std::vector<std::array<std::uint64_t, 2>>& more_keys = {}) {
   const auto& [x0, a, b, y0, d, e] = x0_a_b_y0_d_e;
   const std::array<double, 16> matrix{a, b, 0, x0, d, e, 0, y0, 0, 0, 0, 0, 0, 0, 0, 1};
   struct Field {
     std::uint64_t tag, type, count, value;
   };
   constexpr std::uint64_t is_short = 3, is_long = 4, is_double = 12;
-  constexpr std::uint64_t key_count = 8, directory = 8, field_count = 13;
+  constexpr std::uint64_t directory = 8, field_count = 13;
   constexpr std::uint64_t keys_at = directory + 2 + 12 * field_count + 4;
-  constexpr std::uint64_t matrix_at = keys_at + 2 * key_count, heights_at = matrix_at + 8 * 16;
+  // Version 1.1.0, keys; 1025 (raster type), 1: cells are areas.
+  std::vector<std::uint64_t> keys{1, 1, 0, 1 + more_keys.size(), 1025, 0, 1, 1};
+  for (const auto& [key, value] : more_keys) keys.insert(keys.end(), {key, 0, 1, value});
+  const std::uint64_t key_count = keys.size();
+  const std::uint64_t matrix_at = keys_at + 2 * key_count, heights_at = matrix_at + 8 * 16;
   const std::array<Field, field_count> fields{{
       {256, is_long, 1, columns},
       {257, is_long, 1, rows},
@@ -113,8 +121,6 @@ std::string tiff(std::uint32_t columns, std::uint32_t rows, const std::vector<fl
     append(bytes, field.value, 4);
   }
   append(bytes, 0, 4);
-  // Version 1.1.0, one key: 1025 (raster type), 1: cells are areas.
-  constexpr std::array<std::uint64_t, key_count> keys{1, 1, 0, 1, 1025, 0, 1, 1};
   for (const auto key : keys) append(bytes, key, 2);
   for (const double number : matrix) append(bytes, std::bit_cast<std::uint64_t>(number), 8);
   for (const float height : heights) append(bytes, std::bit_cast<std::uint32_t>(height), 4);
@@ -151,6 +157,74 @@ TEST(SceneRaster, CellsWithoutAreaAreRefused) {
   const auto message =
       refusal("flat.tif", tiff(3, 2, {1, 2, 3, 4, 5, 6}, {1000, 3, 6, 2000, 4, 8}));
   EXPECT_NE(message.find("has cells without area"), std::string::npos) << message;
+}
+
+constexpr double foot = 0.3048, us_survey_foot = 1200.0 / 3937;
+constexpr std::uint64_t projected = 3072, vertical = 4096, units_of_heights = 4099;
+constexpr std::uint64_t utm_33 = 32633, long_island_in_feet = 2263;
+
+/// The unit of heights in GeoTIFF: EPSG 9002 foot, 9003 US survey foot, or that of the vertical
+/// CRS EPSG:6360 (NAVD88 in US survey feet). 9001: metre.
+TEST(SceneRaster, HeightsInFeetOverMetresBecomeMetres) {
+  struct File {
+    std::vector<std::array<std::uint64_t, 2>> keys;
+    double unit_m;
+  };
+  for (const auto& [keys, unit_m] :
+       {File{{{projected, utm_33}, {units_of_heights, 9001}}, 1},
+        {{{projected, utm_33}, {units_of_heights, 9002}}, foot},
+        {{{projected, utm_33}, {units_of_heights, 9003}}, us_survey_foot},
+        {{{projected, utm_33}, {vertical, 6360}}, us_survey_foot}}) {
+    const auto model = read_text(
+        "feet.tif", tiff(2, 2, {1000, 2000, 1000, 2000}, {1000, 5, 0, 2000, 0, -5}, keys));
+    ASSERT_EQ(model.vertices.size(), 4u);
+    EXPECT_EQ(model.vertices[1], (Vec3{1007.5, 1997.5, 2000 * unit_m}));
+    EXPECT_EQ(has_note(model, "heights of the raster are in"), unit_m != 1);
+    EXPECT_EQ(model.crs, "EPSG:32633");
+  }
+}
+
+/// A vertical CRS beside a grid in text; what is told of the CRS is its plane.
+TEST(SceneRaster, HeightsOfACompoundCrsInFeetBecomeMetres) {
+  const std::string plane =
+      R"(PROJCS["plane",GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],)"
+      R"(PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],)"
+      R"(PARAMETER["latitude_of_origin",0],PARAMETER["central_meridian",15],)"
+      R"(PARAMETER["scale_factor",0.9996],PARAMETER["false_easting",500000],)"
+      R"(PARAMETER["false_northing",0],UNIT["metre",1]])";
+  write_text("c.prj", R"(COMPD_CS["both",)" + plane +
+                          R"(,VERT_CS["heights",VERT_DATUM["sea",2005],UNIT["foot",0.3048]]])");
+  const auto model = read_text("c.asc", grid("1 2 3\n4 5 6\n7 8 1000\n"));
+  EXPECT_EQ(model.vertices[8], (Vec3{1005, 2001, 1000 * foot}));
+  EXPECT_TRUE(has_note(model, "heights of the raster are in foot of 0.3048 m"));
+  EXPECT_EQ(model.crs.find("VERT"), std::string::npos) << model.crs;
+}
+
+/// `unit_m` is of coordinates and heights: 304.8 m over a plane in feet are 1000 of its units.
+TEST(SceneRaster, UnitOfTheStudyHoldsForCoordinatesAndHeights) {
+  const auto metres_over_feet =
+      tiff(2, 2, {304.8F, 304.8F, 304.8F, 304.8F}, {1000, 5, 0, 2000, 0, -5},
+           {{projected, long_island_in_feet}, {units_of_heights, 9001}});
+  const auto scaled = read_text("plane.tif", metres_over_feet, {.unit_m = us_survey_foot});
+  EXPECT_NEAR(scaled.vertices[0].z, 304.8, 304.8 * std::numeric_limits<float>::epsilon());
+  EXPECT_NEAR(scaled.vertices[0].x, 1002.5 * us_survey_foot, 1e-9);
+  EXPECT_TRUE(has_note(scaled, "converted to US survey foot, the unit of its coordinates"));
+  // Where the study says that the plane is not in metres either, its word holds.
+  const auto feet_over_metres = tiff(2, 2, {1000, 1000, 1000, 1000}, {1000, 5, 0, 2000, 0, -5},
+                                     {{projected, utm_33}, {units_of_heights, 9002}});
+  const auto by_study = read_text("study.tif", feet_over_metres, {.unit_m = us_survey_foot});
+  EXPECT_EQ(by_study.vertices[0].z, 1000 * us_survey_foot);
+  EXPECT_TRUE(has_note(by_study, "by scene.unit_m"));
+}
+
+/// The command of far hills has no study to say it.
+TEST(SceneRaster, NotesNameWhatSaysTheUnit) {
+  const auto path = write_text("hills.tif", tiff(2, 2, {1, 1, 1, 1}, {1000, 5, 0, 2000, 0, -5},
+                                                 {{projected, long_island_in_feet}}));
+  NoteCounter notes;
+  read_raster(path, 1, RasterValues::elevations, notes, "--unit-m");
+  ASSERT_EQ(notes.lines().size(), 1u);
+  EXPECT_NE(notes.lines()[0].find("taken for metres: --unit-m says otherwise"), std::string::npos);
 }
 
 TEST(SceneRaster, GothenburgsModels) {
