@@ -47,7 +47,8 @@ Standpoint standpoint(const HorizonOptions& options) {
 LandHorizon horizon_of(const HorizonOptions& options, const Site& site, LandView& view) {
   const double unit_m = options.unit_m.value_or(1);
   NoteCounter notes;
-  const Raster raster = read_raster(options.land, unit_m, RasterValues::elevations, notes);
+  const Raster raster =
+      read_raster(options.land, unit_m, RasterValues::elevations, notes, "--unit-m");
   const std::string crs = options.crs.empty() ? raster.crs : options.crs;
   if (crs.empty())
     throw InputError({options.land}, "names no coordinate reference system",
