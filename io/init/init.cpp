@@ -63,6 +63,12 @@ void expect_writable(const std::string& path) {
                        "; write another name with -o, or go into a folder of yours");
 }
 
+/// Before anything is read, too.
+void expect_names_for_study(const InitRules& rules, const std::string& path) {
+  for (const std::string* file : {&rules.model, &rules.weather, &rules.terrain, &rules.canopy})
+    if (!file->empty()) path_in_study(*file, folder_of(path));
+}
+
 /// The same, with each `from` in it as `to`.
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
@@ -186,6 +192,7 @@ int init_study(const InitRules& given, const std::string& wanted) {
   if (!path.ends_with(".yaml") && !path.ends_with(".yml"))
     throw InputError({path, 0, 0}, "is no name of a study", "commands tell studies by it",
                      "let it end in .yaml");
+  expect_names_for_study(rules, path);
   expect_free(path);
   expect_writable(path);
   Findings found = findings_of(rules);

@@ -12,6 +12,7 @@
 #include "geo/sun/weather.h"
 #include "geo/time/time.h"
 #include "io/base/data_folder.h"
+#include "io/base/names.h"
 #include "io/base/version.h"
 #include "io/init/clear_days.h"
 #include "io/init/measure_text.h"
@@ -48,9 +49,7 @@ std::string plain(std::string text) {
 }
 
 std::string path_from(const std::string& folder, const std::string& path) {
-  std::error_code unknown;
-  const fs::path relative = fs::relative(path, folder, unknown);
-  return quoted(unknown || relative.empty() ? fs::absolute(path).string() : relative.string());
+  return quoted(path_in_study(path, folder));
 }
 
 /// Signed degrees as people write them.
@@ -392,6 +391,18 @@ std::string study_text(const std::string& name, const InitRules& rules, const Fi
   return head_text(name, rules) + site_text(rules, found) + period_text(rules, found, folder) +
          scene_text(rules, found, folder) + measure_text(rules.measures, found) +
          cost_text(rules, picture, found) + variants_text(found);
+}
+
+std::string path_in_study(const std::string& path, const std::string& folder) {
+  std::error_code unknown;
+  const fs::path relative = fs::relative(path, folder, unknown);
+  std::string written =
+      unknown || relative.empty() ? fs::absolute(path).string() : relative.string();
+  if (utf8_text(written) != written)
+    throw InputError({path, 0, 0}, "its name is not in UTF-8",
+                     "a study is text in UTF-8 and cannot name it",
+                     "rename the file, or the folder on the way to it");
+  return written;
 }
 
 std::string study_name(const std::string& path) {

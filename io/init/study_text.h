@@ -29,6 +29,9 @@ FirstPeriod first_period(const Findings& found);
 std::string study_text(const std::string& name, const InitRules& rules, const Findings& found,
                        const FirstPicture& picture, const std::string& folder);
 
+/// A path as a study in that folder writes it. Throws InputError for one that is not in UTF-8.
+std::string path_in_study(const std::string& path, const std::string& folder);
+
 /// A name that a study may have, of the stem of a file.
 std::string study_name(const std::string& path);
 

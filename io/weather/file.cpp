@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/weather/file.h"
 
+#include "io/base/names.h"
 #include "io/weather/csv.h"
 #include "io/weather/epw.h"
 #include "io/weather/text.h"
@@ -10,20 +11,43 @@
 
 namespace sunload {
 
-WeatherFile read_weather_file(const std::string& path, std::optional<Stamp> stamp) {
-  const WeatherText text(path);
+namespace {
+
+WeatherFile read_by_format(const WeatherText& text, std::optional<Stamp> stamp) {
   if (is_epw(text)) {
     if (stamp && *stamp != Stamp::end)
-      throw InputError({path}, "light.stamp does not go with EPW",
+      throw InputError({text.path()}, "light.stamp does not go with EPW",
                        "its hours name the end of their stretch", "remove light.stamp");
     return read_epw(text);
   }
   if (is_wea(text)) return read_wea(text, stamp);
   if (is_tmy3(text)) return read_tmy3(text, stamp);
   if (is_weather_csv(text)) return read_weather_csv(text, stamp);
-  throw InputError({path, 1, 0}, "is no weather file that can be read",
+  throw InputError({text.path(), 1, 0}, "is no weather file that can be read",
                    "EPW begins with LOCATION, WEA with place, TMY3 has Date (MM/DD/YYYY) on its "
                    "second line, CSV columns named time and dni_w_m2, dhi_w_m2 or ghi_w_m2");
+}
+
+/// Station names of many files are in Latin-1; reports, results and studies are in UTF-8.
+void make_name_plain(WeatherFile& file) {
+  if (!file.place) return;
+  std::string& name = file.place->name;
+  const std::string utf8 = utf8_text(name), plain = clean_name(name);
+  if (utf8 != name)
+    file.notes.push_back("the station's name is not in UTF-8, read as Windows-1252 (Latin-1): '" +
+                         plain + "'");
+  if (plain != utf8)
+    file.notes.push_back("the station's name has control characters, which are written out: '" +
+                         plain + "'");
+  name = plain;
+}
+
+}  // namespace
+
+WeatherFile read_weather_file(const std::string& path, std::optional<Stamp> stamp) {
+  WeatherFile file = read_by_format(WeatherText(path), stamp);
+  make_name_plain(file);
+  return file;
 }
 
 }  // namespace sunload

@@ -14,7 +14,7 @@ namespace sunload {
 
 /// Where the station stands, from the file's header.
 struct WeatherPlace {
-  std::string name;
+  std::string name;                            ///< UTF-8 on one line (io/base/names.h)
   double latitude_deg = 0, longitude_deg = 0;  ///< longitude east positive, whatever the format
   double elevation_m = 0;
 };

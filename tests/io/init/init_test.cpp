@@ -185,6 +185,26 @@ TEST(Init, ReplacesNoFile) {
             std::string::npos);
 }
 
+/// 0xe9 is é in Latin-1.
+TEST(Init, FilesThatAStudyCannotNameAreToldAsSuch) {
+  const WorkFolder folder;
+  const InitRules rules{.model = folder.write("bad\xe9.obj", box)};
+  const std::string message = refusal_of([&] { init_study(rules, folder / "study.yaml"); });
+  EXPECT_NE(message.find("its name is not in UTF-8"), std::string::npos) << message;
+  EXPECT_NE(message.find("rename"), std::string::npos) << message;
+  EXPECT_EQ(folder.content(), (std::vector<std::string>{"bad\xe9.obj"}));
+}
+
+/// 0xfc is ü in Latin-1.
+TEST(Init, StationsWithNamesInLatin1MakeStudiesInUtf8) {
+  const WorkFolder folder;
+  std::string epw = test::small_epw();
+  epw.replace(epw.find("NOWHERE"), 7, "M\xfcnchen");
+  const auto [study, text] = begun(
+      folder, {.model = folder.write("box.obj", box), .weather = folder.write("latin.epw", epw)});
+  EXPECT_NE(text.find("München"), std::string::npos) << text;
+}
+
 TEST(Init, NamesOfStudiesAreThoseThatAStudyMayHave) {
   EXPECT_EQ(study_name("a/Delft Zuid (2).city.json"), "Delft_Zuid__2_");
   EXPECT_EQ(study_name("tower.obj"), "tower");

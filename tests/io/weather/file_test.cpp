@@ -111,6 +111,25 @@ TEST(WeatherFiles, ThatAreNoneAreRefusedByReason) {
   }
 }
 
+/// 0xfc is ü in Latin-1.
+TEST(WeatherFiles, NamesOfStationsBecomeUtf8) {
+  const std::string day = "time,dni_w_m2,dhi_w_m2\n2026-06-21T12:00,1,1\n2026-06-21T13:00,1,1\n";
+  const std::string head = "# latitude_deg: 48\n# longitude_deg: 11\n# place: ";
+  const auto latin = read("latin.csv", head + "M\xfcnchen\n" + day, Stamp::start);
+  EXPECT_EQ(latin.place->name, "München");
+  ASSERT_EQ(latin.notes.size(), 1u);
+  EXPECT_NE(latin.notes[0].find("not in UTF-8, read as Windows-1252 (Latin-1): 'München'"),
+            std::string::npos);
+  const auto utf8 = read("utf8.csv", head + "München\n" + day, Stamp::start);
+  EXPECT_EQ(utf8.place->name, "München");
+  EXPECT_TRUE(utf8.notes.empty());
+  EXPECT_EQ(read("red.csv", head + "M\x1b[31m\n" + day, Stamp::start).place->name, "M\\x1b[31m");
+  const std::string wea =
+      "place M\xfcnchen\nlatitude 48\nlongitude -11\ntime_zone -15\nsite_elevation 500\n"
+      "weather_data_file_units 1\n6 21 11.5 1 1\n6 21 12.5 1 1\n";
+  EXPECT_EQ(read("latin.wea", wea).place->name, "München");
+}
+
 TEST(WeatherFiles, OneHourInEpwAndWeaIsTheSameStretch) {
   SUNLOAD_NEEDS_MODEL(folder + "chicago_tmy3.epw");
   const auto epw = dated(read_shared("chicago_tmy3.epw").records, 2001, 0);
