@@ -8,7 +8,10 @@
 #include <limits>
 
 #include "geo/base/check.h"
+#include "geo/sun/sun.h"
 #include "geo/sun/weather.h"
+#include "geo/sun/weather_holes.h"
+#include "geo/time/time.h"
 
 namespace sunload {
 
@@ -76,6 +79,19 @@ void look_at_site(const InitRules& rules, const BuiltScene& built, Findings& fou
     found.station_away_m =
         distance_m(*found.site, {.latitude_deg = found.weather->place->latitude_deg,
                                  .longitude_deg = found.weather->place->longitude_deg});
+}
+
+/// After the site, whose sun tells which rows are missing.
+void look_for_missing_rows(Findings& found) {
+  if (!found.weather || !found.site) return;
+  constexpr int any_leap_year = 2004;
+  const double offset_s = found.weather->offset_s.value_or(
+      found.zone ? TimeZone(found.zone->name).standard_offset_s(any_leap_year) : 0);
+  const auto weather = dated(found.weather->records, any_leap_year, offset_s);
+  const SunEphemeris sun(weather.front().begin, weather.back().end, *found.site, Refraction::spa,
+                         Ut1::table, standard_air(found.site->elevation_m));
+  for (const auto& hole : sunlit_holes(weather, sun, offset_s))
+    found.records_incomplete += hole.records.size();
 }
 
 /// Faces that look along an axis, as shares of the side of the box about the model across it: those
@@ -166,6 +182,7 @@ Findings findings_of(const InitRules& rules) {
   const BuiltScene built = scene_before_materials(bare_study(rules, found));
   const PrepareReport& report = built.report;
   look_at_site(rules, built, found);
+  look_for_missing_rows(found);
   look_at_surfaces(built.scene.mesh, found);
   found.polygons = report.polygons_read;
   found.size = report.bounds.high - report.bounds.low;

@@ -68,7 +68,8 @@ struct Findings {
   bool is_year_too_long = false;  ///< of the weather, for a first picture
   /// Of the rules that would be written those that give no surface its material, by their place.
   std::set<std::size_t> idle_rules;
-  std::size_t records_incomplete = 0;  ///< of the weather, that lack what light is made from
+  /// Of the weather, that lack what light is made from, or have no row.
+  std::size_t records_incomplete = 0;
   WeatherSource weather_source = WeatherSource::none;
   bool is_stamp_known = true;  ///< else stamps of the weather are taken as ends of intervals
 };

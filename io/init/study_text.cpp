@@ -151,7 +151,7 @@ std::string weather_text(const InitRules& rules, const Findings& found, const st
         "end)\n",
         mark);
   if (found.records_incomplete > 0)
-    text += fmt::format("# {} {} records lack a value: made of their neighbours\n", mark,
+    text += fmt::format("# {} {} records lack a value or a row: made of their neighbours\n", mark,
                         found.records_incomplete);
   return text + fmt::format("light: {{source: weather, weather: {}, {}{}sky: perez}}\n\n",
                             path_from(folder, rules.weather),

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "geo/base/units.h"
 
@@ -83,6 +84,7 @@ StudyWeather::StudyWeather(const Study& study, const Site& site)
       years_(years_of(file_.records)) {
   if (std::holds_alternative<WeatherPeriod>(study.period.kind)) date_own_year();
   say_file();
+  if (!dated_.empty()) fill_own_holes();
 }
 
 int StudyWeather::first_year() const {
@@ -108,6 +110,31 @@ void StudyWeather::date_own_year() {
   }
 }
 
+std::vector<WeatherHole> StudyWeather::holes() const {
+  const SunEphemeris sun(dated_.front().begin, dated_.back().end, site_, study_.sun.refraction,
+                         study_.sun.ut1_utc, standard_air(site_.elevation_m));
+  return sunlit_holes(dated_, sun, offset_s(first_year()));
+}
+
+void StudyWeather::fill_own_holes() {
+  const auto all = holes();
+  say_missing_days(all);
+  std::copy_if(all.begin(), all.end(), std::back_inserter(filled_holes_),
+               [](const WeatherHole& hole) { return !hole.records.empty(); });
+  dated_ = with_records_of(filled_holes_, dated_);
+}
+
+/// Holes that nobody asks for are left.
+void StudyWeather::fill_holes_in(const SunPath& path) {
+  if (dated_.empty()) return;
+  for (auto& hole : holes())
+    if (!hole.records.empty() && std::any_of(path.begin(), path.end(), [&](const SunInterval& i) {
+          return i.begin < hole.end && i.end > hole.begin;
+        }))
+      filled_holes_.push_back(std::move(hole));
+  dated_ = with_records_of(filled_holes_, dated_);
+}
+
 std::vector<PeriodStep> StudyWeather::own_steps() const { return steps_of(dated_); }
 
 void StudyWeather::date_for(const SunPath& path) {
@@ -126,7 +153,10 @@ void StudyWeather::date_for(const SunPath& path) {
 }
 
 std::vector<Irradiance> StudyWeather::means(const SunPath& path) {
-  if (dated_.empty()) date_for(path);
+  if (dated_.empty()) {
+    date_for(path);
+    fill_holes_in(path);
+  }
   source_ = source_of(dated_);
   words_.push_back(source_words(source_, study_.light.decomposition));
   if (source_ == WeatherSource::none)
@@ -208,12 +238,56 @@ void StudyWeather::say_filled(const FilledWeather& gaps, std::size_t used) {
     const auto first =
         std::find_if(gaps.weather.begin(), gaps.weather.end(),
                      [&](const DatedWeather& w) { return is_incomplete(w.values, source_); });
-    throw InputError({file_.path, first->line, 0}, "irradiance is missing here", count,
-                     "choose another file or period, or write light.missing: interpolate or zero");
+    const auto hole =
+        std::find_if(filled_holes_.begin(), filled_holes_.end(), [&](const WeatherHole& each) {
+          return each.begin <= first->begin && first->begin < each.end;
+        });
+    const std::string hint =
+        "choose another file or period, or write light.missing: interpolate or zero";
+    if (hole != filled_holes_.end())
+      throw InputError({file_.path, hole->line, 0}, "rows are missing before this one",
+                       words_of(*hole) + "; in all " + count, hint);
+    throw InputError({file_.path, first->line, 0}, "irradiance is missing here", count, hint);
   }
   warnings_.push_back(
       "weather: " + count +
       (study_.light.missing == Missing::zero ? "; 0 is taken" : "; filled by interpolation"));
+  if (filled_holes_.empty()) return;
+  std::size_t records = 0;
+  for (const auto& hole : filled_holes_) records += hole.records.size();
+  warnings_.push_back(fmt::format(
+      "weather: {} of them have no row, in {} places, first before line {}: {}", records,
+      filled_holes_.size(), filled_holes_.front().line, words_of(filled_holes_.front())));
+}
+
+std::string StudyWeather::in_file_time(UnixTime time) const {
+  return iso_local(time, TimeZone(offset_words(offset_s(first_year()))));
+}
+
+std::string StudyWeather::words_of(const WeatherHole& hole) const {
+  const DatedWeather& record = hole.records.front();
+  return fmt::format("{} of {:g} min with sun between {} and {}", hole.records.size(),
+                     (record.end - record.begin) / seconds_per_minute, in_file_time(hole.begin),
+                     in_file_time(hole.end));
+}
+
+/// Series of several campaigns have such; a period that asks for those days is refused.
+void StudyWeather::say_missing_days(const std::vector<WeatherHole>& all) {
+  int days = 0, places = 0;
+  std::string first;
+  for (const auto& hole : all) {
+    const CivilTime date = calendar_from_utc(hole.end + offset_s(first_year()) - seconds_per_day);
+    const bool is_leap_day = hole.whole_days == 1 && date.month == 2 && date.day == 29;
+    if (hole.whole_days == 0 || (is_leap_day && years_ == WeatherYears::typical)) continue;
+    days += hole.whole_days;
+    if (places++ == 0)
+      first = fmt::format("from {} to {} (line {})", in_file_time(hole.begin),
+                          in_file_time(hole.end), hole.line);
+  }
+  if (places == 0) return;
+  warnings_.push_back(fmt::format(
+      "weather: {} whole days have no rows, {}{}; they are no part of the period", days,
+      places == 1 ? std::string() : fmt::format("in {} places, first ", places), first));
 }
 
 void StudyWeather::say_closure(const std::vector<DatedWeather>& used, const SunPath& path) {

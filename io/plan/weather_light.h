@@ -9,6 +9,7 @@
 #include "geo/sun/day_albedo.h"
 #include "geo/sun/site.h"
 #include "geo/sun/weather.h"
+#include "geo/sun/weather_holes.h"
 #include "io/study/study.h"
 #include "io/weather/file.h"
 
@@ -23,7 +24,8 @@ class StudyWeather {
  public:
   StudyWeather(const Study& study, const Site& site);
 
-  /// One step per record: the period `year_of: weather`.
+  /// One step per record, also of those that are missing within days: the period
+  /// `year_of: weather`.
   std::vector<PeriodStep> own_steps() const;
   /// Means over the intervals of `path`, which are the own steps or any others. InputError
   /// where the weather does not reach.
@@ -38,19 +40,26 @@ class StudyWeather {
  private:
   void date_own_year();
   void date_for(const SunPath& path);
+  std::vector<WeatherHole> holes() const;
+  void fill_own_holes();
+  void fill_holes_in(const SunPath& path);
   double offset_s(int year) const;
   int first_year() const;
   WeatherLight sunny(std::vector<DatedWeather> used, const SunPath& path);
   void say_file();
   void say_closure(const std::vector<DatedWeather>& used, const SunPath& path);
   void say_filled(const FilledWeather& gaps, std::size_t used);
+  void say_missing_days(const std::vector<WeatherHole>& holes);
+  std::string in_file_time(UnixTime time) const;
+  std::string words_of(const WeatherHole& hole) const;
   void refuse_uncovered(const SunInterval& when) const;
 
   const Study& study_;
   Site site_;
   WeatherFile file_;
   WeatherYears years_;
-  std::vector<DatedWeather> dated_;  ///< as read
+  std::vector<DatedWeather> dated_;  ///< as read, and records without values in `filled_holes_`
+  std::vector<WeatherHole> filled_holes_;
   WeatherSource source_ = WeatherSource::none;
   std::vector<std::string> words_, warnings_;
 };

@@ -3,6 +3,7 @@
 // The study that `init` writes: it is read, says what is a guess, and replaces nothing.
 #include "io/init/init.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -183,6 +184,20 @@ TEST(Init, ReplacesNoFile) {
   EXPECT_EQ(folder.read("study.yaml"), "mine");
   EXPECT_NE(refusal_of([&] { init_study(rules, folder / "study.txt"); }).find(".yaml"),
             std::string::npos);
+}
+
+/// What `check` would refuse is filled, and said.
+TEST(Init, RowsThatAreMissingAreMadeOfTheirNeighbours) {
+  const WorkFolder folder;
+  std::string csv =
+      "# latitude_deg: 50\n# longitude_deg: 14\n# utc_offset: +01:00\n"
+      "time,dni_w_m2,dhi_w_m2\n";
+  for (int hour = 1; hour <= 24; ++hour)
+    if (hour != 11) csv += fmt::format("2026-06-21T{:02}:00,100,40\n", hour);
+  const auto [study, text] = begun(
+      folder, {.model = folder.write("box.obj", box), .weather = folder.write("hole.csv", csv)});
+  EXPECT_EQ(study.light.missing, Missing::interpolate);
+  EXPECT_NE(text.find("1 records lack a value or a row"), std::string::npos) << text;
 }
 
 /// 0xe9 is é in Latin-1.

@@ -190,6 +190,69 @@ TEST(WeatherLight, ActualYearsKeepTheirDates) {
       "2004-12-31T23:00:00Z");
 }
 
+/// Hours of consecutive days in June, but for the hours that begin in [from, to) of the first day.
+std::string csv_with_hole(int days, int from, int to) {
+  std::string text = roof + "time,dni_w_m2,dhi_w_m2\n";
+  for (int h = 0; h < 24 * days; ++h)
+    if (h < from || h >= to)
+      text += fmt::format("2026-06-{:02}T{:02}:00,{},40\n", 20 + h / 24, h % 24, 100 + h % 24);
+  return text;
+}
+
+TEST(WeatherLight, RowsThatAreMissingWithinADayAreMissingValues) {
+  write_text("hole.csv", csv_with_hole(3, 9, 11));
+  const auto with = [](const std::string& period, const std::string& missing) {
+    return study_of("timezone: UTC", period, "weather: hole.csv, stamp: start" + missing);
+  };
+  for (const char* period :
+       {"year_of: weather", "days: [2026-06-20], from: '08:00', to: '12:00'"}) {
+    const auto message = refused(with(period, ""));
+    // Five lines of head, nine rows before the hole.
+    EXPECT_NE(message.find("hole.csv:16: rows are missing before this one (2 of 60 min with sun "
+                           "between 2026-06-20 09:00 +01:00 and 2026-06-20 11:00 +01:00"),
+              std::string::npos)
+        << message;
+    EXPECT_NE(message.find("light.missing"), std::string::npos) << message;
+  }
+  const auto zero = series_of(with("year_of: weather", ", missing: zero"));
+  ASSERT_EQ(zero.intervals.size(), 72u);
+  EXPECT_EQ(zero.intervals[9].mean.dni, 0);
+  EXPECT_TRUE(
+      says(zero.notes, "2 of 72 records lack a value, the longest gap has 2 h; 0 is taken"));
+  EXPECT_TRUE(says(zero.notes, "2 of them have no row"));
+  const auto filled = series_of(with("year_of: weather", ", missing: interpolate"));
+  ASSERT_EQ(filled.intervals.size(), 72u);
+  EXPECT_NEAR(filled.intervals[9].mean.dni, 109, 1e-9);
+  // Those who do not ask for these hours need not know.
+  EXPECT_EQ(refused(with("days: [2026-06-21]", "")), "");
+}
+
+/// As in files that are filtered by irradiance: the sun of 21 June rises at 03:53 and sets at
+/// 20:14.
+TEST(WeatherLight, RowsOfTheDarkMayBeMissing) {
+  write_text("dark.csv", csv_with_hole(2, 21, 27));
+  const auto series =
+      series_of(study_of("timezone: UTC", "year_of: weather", "weather: dark.csv, stamp: start"));
+  EXPECT_EQ(series.intervals.size(), 42u);
+  EXPECT_TRUE(series.notes.empty());
+}
+
+TEST(WeatherLight, WholeDaysThatAreMissingAreToldInAWarning) {
+  write_text("campaigns.csv", csv_with_hole(5, 14, 24 * 3 + 8));
+  const auto series = series_of(
+      study_of("timezone: UTC", "year_of: weather", "weather: campaigns.csv, stamp: start"));
+  EXPECT_EQ(series.intervals.size(), 24u * 5 - (24 * 3 + 8 - 14));
+  EXPECT_TRUE(says(series.notes,
+                   "2 whole days have no rows, from 2026-06-20 14:00 +01:00 to 2026-06-23 08:00 "
+                   "+01:00 (line 21); they are no part of the period"));
+}
+
+TEST(WeatherLight, FilteredYearsLackNothing) {
+  SUNLOAD_NEEDS_MODEL(weather_folder + "chicago_filtered.wea");
+  const auto series = series_of(study_of("", "year_of: weather", shared("chicago_filtered.wea")));
+  EXPECT_EQ(series.intervals.size(), 4427u);
+}
+
 TEST(WeatherLight, GlobalIrradianceNamesItsDecomposition) {
   const auto file = write_text("day.csv", csv_day("2026-06-21", "400", "ghi_w_m2", roof));
   const auto erbs = series_of(study_of("", "year_of: weather", "weather: day.csv, stamp: end"));

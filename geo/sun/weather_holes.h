@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Stretches of time that the rows of a weather file leave out.
+#pragma once
+
+#include <vector>
+
+#include "geo/sun/sun.h"
+#include "geo/sun/weather.h"
+
+namespace sunload {
+
+/// A stretch of at least half a record that no record covers.
+struct WeatherHole {
+  UnixTime begin = 0, end = 0;
+  int line = 0;        ///< of the record behind it
+  int whole_days = 0;  ///< from midnight to midnight of local standard time that lie in it
+  /// Without values, of the length of the record before it: those in whose middle the sun is up.
+  /// None where whole days are missing: that is another campaign.
+  std::vector<DatedWeather> records;
+};
+
+/// Holes in which a record would have sun from its beginning to its end: rows of the dark, and of
+/// sunrise and sunset, may be left out, as WEA files do where they are 0. `weather` is in order;
+/// the sun is that of the station, `offset_s` local standard time minus UTC.
+std::vector<WeatherHole> sunlit_holes(const std::vector<DatedWeather>& weather,
+                                      const SunEphemeris& sun, double offset_s);
+
+/// Both in order.
+std::vector<DatedWeather> with_records_of(const std::vector<WeatherHole>& holes,
+                                          const std::vector<DatedWeather>& weather);
+
+}  // namespace sunload
