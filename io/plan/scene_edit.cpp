@@ -291,7 +291,8 @@ class SceneEditor {
     tell("adds", names);
   }
 
-  /// Types of what may be anything are of cities alone: in plain files all are decided by shape.
+  /// Types are of cities alone: in plain files all are decided by shape, but for trees, whose
+  /// crowns are no roofs and carry no ground.
   std::string kind_of(const char* kind) const { return model_.is_city_format ? kind : ""; }
 
   static constexpr double most_trees = 10'000;

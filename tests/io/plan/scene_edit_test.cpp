@@ -169,6 +169,24 @@ TEST_F(SceneEdit, PutsThingsOntoATerrainOfARaster) {
   EXPECT_EQ(box_of(m, "box").low.z, 5);  // between the cells of 0 and 10 m
 }
 
+/// In plain scenes as well: written as Building, the ground that is read back would rise to crowns.
+TEST_F(SceneEdit, TreesArePlantsOfEveryScene) {
+  const std::string tree =
+      "{add: {tree: {position_m: [0, -10], height_m: 8, crown_m: 4, to_m: [5, -10], every_m: 5}}}";
+  const auto m = model(tree + ", {add: {box: {position_m: [70, 5], size_m: [4, 6, 3]}}}");
+  ASSERT_EQ(m.object_names, (Names{"house_1", "house_2", "shed", "tree_1", "tree_2", "box"}));
+  EXPECT_EQ(m.object_kinds,
+            (Names{"", "", "", "SolitaryVegetationObject", "SolitaryVegetationObject", ""}));
+  EXPECT_EQ(model(tree + ", {type: SolitaryVegetationObject, remove: true}").object_names,
+            (Names{"house_1", "house_2", "shed"}));
+  const auto built = build_scene(study(tree));
+  const Mesh& mesh = built.scene.mesh;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.object_kinds[mesh.triangle_object[t].index()] == "SolitaryVegetationObject") {
+      EXPECT_EQ(mesh.triangle_surface[t], Surface::other) << t;
+    }
+}
+
 TEST_F(SceneEdit, ReplacesByAFile) {
   folder_.write("new.obj", "o tower\nv 0 0 0\nv 2 0 0\nv 0 1 40\nf 1 2 3\n");
   const auto m = model("{object: house_2, replace: {file: new.obj, position_m: [20, 0, 0]}}");
