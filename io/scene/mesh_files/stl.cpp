@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <unordered_map>
 
 #include "io/scene/base/indexed_faces.h"
@@ -40,7 +41,7 @@ class StlReader {
   PolygonModel read() {
     if (has_binary_length())
       read_binary();
-    else if (lower_case(text_.substr(0, 5)) == "solid")
+    else if (lower_case(std::string(trimmed(text_).substr(0, 5))) == "solid")
       read_text();
     else
       refuse_length();
@@ -114,40 +115,107 @@ class StlReader {
                      "is the file cut off?");
   }
 
+  /// White space is free: a facet may stand on one line, or all of a file. Words behind the first
+  /// of a line that are no keywords have no meaning.
   void read_text() {
     Words words(text_);
-    bool is_in_facet = false, has_end = true;
-    for (; !words.at_end(); words.go_to_next_line()) {
-      const auto keyword = lower_case(std::string(words.next()));
-      if (keyword == "solid") {
-        begin_solid(std::string(words.rest()));
-        has_end = false;
-      } else if (keyword == "facet") {
-        is_in_facet = true;
-      } else if (keyword == "vertex") {
-        if (!is_in_facet) fail(words, {}, "a vertex outside of all facets");
-        read_vertex(words);
-      } else if (keyword == "endfacet") {
-        faces_.end_face();
-        is_in_facet = false;
-      } else if (keyword == "endsolid") {
-        has_end = true;
-      } else if (!keyword.empty() && keyword != "outer" && keyword != "endloop") {
-        fail(words, {}, "unknown statement '" + shortened(keyword) + "'",
-             "this is hardly an STL file");
-      }
+    while (!words.at_end()) {
+      const auto word = words.next();
+      if (word.empty())
+        words.go_to_next_line();
+      else
+        read_statement(words, word);
     }
-    if (is_in_facet || !has_end) fail(words, {}, "the file ends within a solid");
+    if (is_in_facet_ || !has_end_) fail(words, {}, "the file ends within a solid");
+  }
+
+  void read_statement(Words& words, std::string_view word) {
+    const auto keyword = lower_case(std::string(word));
+    if (keyword == "solid") {
+      begin_solid(std::string(name_on_line(words)));
+    } else if (keyword == "facet") {
+      is_in_facet_ = true;
+      skip_normal(words);
+    } else if (keyword == "vertex") {
+      if (!is_in_facet_) fail(words, {}, "a vertex outside of all facets");
+      read_vertex(words);
+    } else if (keyword == "endfacet") {
+      faces_.end_face();
+      is_in_facet_ = false;
+    } else if (keyword == "endsolid") {
+      end_solid(words);
+    } else if (keyword != "outer" && keyword != "loop" && keyword != "endloop" &&
+               is_first_of_line(word)) {
+      fail(words, {}, "unknown statement '" + shortened(keyword) + "'",
+           "this is hardly an STL file");
+    }
+  }
+
+  bool is_first_of_line(std::string_view word) const {
+    const char* at = word.data();
+    while (at != text_.data() && at[-1] != '\n' && trimmed({at - 1, 1}).empty()) --at;
+    return at == text_.data() || at[-1] == '\n';
+  }
+
+  static std::string_view next_word(Words& words) {
+    auto word = words.next();
+    for (; word.empty() && !words.at_end(); word = words.next()) words.go_to_next_line();
+    return word;
+  }
+
+  static bool is_word(std::string_view word, const char* wanted) {
+    return lower_case(std::string(word)) == wanted;
+  }
+
+  /// The order of corners tells it.
+  static void skip_normal(Words& words) {
+    Words ahead = words;
+    if (!is_word(next_word(ahead), "normal")) return;
+    for (int k = 0; k < 3; ++k) {
+      words = ahead;
+      const auto word = next_word(ahead);
+      if (is_word(word, "outer") || is_word(word, "vertex")) return;
+    }
+    words = ahead;
+  }
+
+  /// Names hold blanks; on a line that goes on they end where a facet begins.
+  std::string_view name_on_line(Words& words) const {
+    const Words before = words;
+    const auto begin = before.byte_of({});
+    for (Words ahead = before;; words = ahead) {
+      const auto word = ahead.next();
+      if (word.empty()) break;
+      if (is_word(word, "facet") && is_word(Words(ahead).next(), "normal"))
+        return trimmed(std::string_view(text_).substr(begin, ahead.byte_of(word) - begin));
+    }
+    words = before;
+    return words.rest();
+  }
+
+  /// The next solid may begin on the same line.
+  void end_solid(Words& words) {
+    has_end_ = true;
+    const auto name = name_on_line(words);
+    if (!is_word(Words(words).next(), "facet")) return;
+    std::optional<std::string_view> next_name;
+    for (Words in_name(name); !in_name.at_end();)
+      if (const auto word = in_name.next(); is_word(word, "solid"))
+        next_name = trimmed(name.substr(in_name.byte_of({})));
+      else if (word.empty())
+        break;
+    if (next_name) begin_solid(std::string(*next_name));
   }
 
   void begin_solid(const std::string& name) {
+    has_end_ = false;
     faces_.use_object(name.empty() ? std::filesystem::path(path_).stem().string() : name);
   }
 
   void read_vertex(Words& words) {
     std::array<double, 3> xyz{};
     for (auto& coordinate : xyz) {
-      const auto word = words.next();
+      const auto word = next_word(words);
       const auto value = finite_number(word);
       if (!value)
         fail(words, word, "'" + shortened(word) + "' is no finite number",
@@ -161,6 +229,7 @@ class StlReader {
   std::string path_;
   std::string text_;
   IndexedFaces faces_;
+  bool is_in_facet_ = false, has_end_ = true;  ///< of text: where the cursor stands
   std::unordered_map<Vec3, std::int32_t, HashOfPoint> vertex_at_;
 };
 

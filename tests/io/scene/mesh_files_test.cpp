@@ -147,6 +147,36 @@ TEST(SceneStl, SolidsOfTextFilesAreObjects) {
             std::string::npos);
 }
 
+TEST(SceneStl, WhiteSpaceOfTextIsFree) {
+  const std::string facet =
+      "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet ";
+  for (const std::string& text :
+       {"solid\n" + facet + "endsolid\n", "solid\n" + facet + "\nendsolid",
+        "solid " + facet + "endsolid", "\n  solid t\n" + facet + "\n  endsolid t\n",
+        std::string(
+            "solid\nfacet\nnormal\n0 0\n1\nouter\nloop\nvertex\n0 0\n0\nvertex 1\n0 0 vertex 0 1 "
+            "0\nendloop endfacet\nendsolid")}) {
+    const auto model = read_text("t.stl", text);
+    EXPECT_EQ(model.polygon_count(), 1u) << text;
+    EXPECT_EQ(model.vertices[1], (Vec3{1, 0, 0})) << text;
+    EXPECT_EQ(model.object_names, (std::vector<std::string>{"t"})) << text;
+  }
+  const auto two = read_text("t.stl", "solid my solid " + facet + facet +
+                                          "endsolid my solid solid b " + facet + "endsolid b");
+  EXPECT_EQ(two.object_names, (std::vector<std::string>{"my solid", "b"}));
+  EXPECT_EQ(two.polygon_count(), 3u);
+  // Words behind those of a line had no meaning.
+  EXPECT_EQ(read_text("t.stl",
+                      "solid\nfacet normal nan nan nan of\nouter loop\nvertex 0 0 0 5\nvertex "
+                      "1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid t\n")
+                .polygon_count(),
+            1u);
+  EXPECT_NE(refusal("t.stl", "solid a " + facet).find("ends within a solid"), std::string::npos);
+  EXPECT_NE(refusal("t.stl", "solid\nfacet normal 0 0 1 outer loop vertex 0 0 endloop")
+                .find("'endloop' is no finite number"),
+            std::string::npos);
+}
+
 std::string base64(const std::string& bytes) {
   constexpr std::string_view digits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
