@@ -18,6 +18,12 @@ int whole_days_in(UnixTime begin, UnixTime end, double offset_s) {
   return static_cast<int>(std::max(0.0, last - first));
 }
 
+bool is_within_a_day(UnixTime begin, UnixTime end, double offset_s) {
+  return std::ceil((end + offset_s) / seconds_per_day) -
+             std::floor((begin + offset_s) / seconds_per_day) <=
+         1;
+}
+
 bool has_sun(const WeatherHole& hole, const SunEphemeris& sun) {
   for (UnixTime at = hole.begin; at < hole.end; at += seconds_per_hour)
     if (sun(at).elevation_deg > 0) return true;
@@ -54,9 +60,9 @@ std::vector<WeatherHole> sunlit_holes(const std::vector<DatedWeather>& weather,
                      behind.line,
                      whole_days_in(before.end, behind.begin, offset_s),
                      {}};
-    if (hole.whole_days == 0) hole.records = sunlit_records(hole, count, sun);
-    if (hole.whole_days > 0 ? has_sun(hole, sun) : !hole.records.empty())
-      holes.push_back(std::move(hole));
+    const bool is_within = is_within_a_day(hole.begin, hole.end, offset_s);
+    if (is_within) hole.records = sunlit_records(hole, count, sun);
+    if (is_within ? !hole.records.empty() : has_sun(hole, sun)) holes.push_back(std::move(hole));
   }
   return holes;
 }

@@ -16,7 +16,7 @@ struct WeatherHole {
   int line = 0;        ///< of the record behind it
   int whole_days = 0;  ///< from midnight to midnight of local standard time that lie in it
   /// Without values, of the length of the record before it: those in whose middle the sun is up.
-  /// None where whole days are missing: that is another campaign.
+  /// None where a midnight lies in it: that is another campaign, or hours that nobody measures.
   std::vector<DatedWeather> records;
 };
 

@@ -278,7 +278,7 @@ void StudyWeather::say_missing_days(const std::vector<WeatherHole>& all) {
   for (const auto& hole : all) {
     const CivilTime date = calendar_from_utc(hole.end + offset_s(first_year()) - seconds_per_day);
     const bool is_leap_day = hole.whole_days == 1 && date.month == 2 && date.day == 29;
-    if (hole.whole_days == 0 || (is_leap_day && years_ == WeatherYears::typical)) continue;
+    if (!hole.records.empty() || (is_leap_day && years_ == WeatherYears::typical)) continue;
     days += hole.whole_days;
     if (places++ == 0)
       first = fmt::format("from {} to {} (line {})", in_file_time(hole.begin),
@@ -286,7 +286,8 @@ void StudyWeather::say_missing_days(const std::vector<WeatherHole>& all) {
   }
   if (places == 0) return;
   warnings_.push_back(fmt::format(
-      "weather: {} whole days have no rows, {}{}; they are no part of the period", days,
+      "weather: {}have no rows, {}{}; they are no part of the period",
+      days > 0 ? fmt::format("{} whole days ", days) : "hours with sun before or after midnight ",
       places == 1 ? std::string() : fmt::format("in {} places, first ", places), first));
 }
 

@@ -11,6 +11,7 @@
 #include <new>
 
 #include "geo/base/check.h"
+#include "io/base/names.h"
 #include "io/result/h5.h"
 #include "io/result/part_of_period.h"
 #include "io/result/schema.h"
@@ -248,7 +249,7 @@ std::string ResultReader::units(const std::string& dataset) const {
 
 std::string ResultReader::text_attribute(const std::string& name) const {
   try {
-    return file_->file.text(name).value_or("");
+    return without_controls(file_->file.text(name).value_or(""));
   } catch (const h5::Error& error) {
     file_->refuse("attribute " + name + " cannot be read", error.what());
   }
@@ -256,8 +257,9 @@ std::string ResultReader::text_attribute(const std::string& name) const {
 
 std::string ResultReader::text_attribute(const std::string& dataset,
                                          const std::string& name) const {
-  return file_->with(dataset,
-                     [&](const h5::Dataset& data) { return data.text(name).value_or(""); });
+  return file_->with(dataset, [&](const h5::Dataset& data) {
+    return without_controls(data.text(name).value_or(""));
+  });
 }
 
 std::vector<double> ResultReader::number_attributes(const std::string& dataset,

@@ -13,6 +13,8 @@
 #include <unordered_set>
 #include <utility>
 
+#include "io/base/names.h"
+
 namespace sunload {
 
 namespace {
@@ -59,6 +61,9 @@ class TreeBuilder : public YAML::EventHandler {
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
     refuse_tag(mark, tag);
+    if (without_controls(value) != value)
+      problems_.add(place(file_, mark), "a control character, '" + clean_name(value) + "'",
+                    "texts of a study go to terminals and tables", "leave it out");
     auto node = make_node(Kind::text, place(file_, mark));
     node->text = value;
     node->style = tag == "?" ? YamlNode::Style::plain : YamlNode::Style::quoted;

@@ -247,6 +247,17 @@ TEST(WeatherLight, WholeDaysThatAreMissingAreToldInAWarning) {
                    "+01:00 (line 21); they are no part of the period"));
 }
 
+/// As of stations that nobody reads in the evening.
+TEST(WeatherLight, HoursThatNobodyMeasuresAreToldInAWarning) {
+  write_text("daytime.csv", csv_with_hole(2, 17, 24 + 9));
+  const auto series = series_of(
+      study_of("timezone: UTC", "year_of: weather", "weather: daytime.csv, stamp: start"));
+  EXPECT_EQ(series.intervals.size(), 48u - 16);
+  EXPECT_TRUE(says(series.notes,
+                   "hours with sun before or after midnight have no rows, from "
+                   "2026-06-20 17:00 +01:00 to 2026-06-21 09:00 +01:00"));
+}
+
 TEST(WeatherLight, FilteredYearsLackNothing) {
   SUNLOAD_NEEDS_MODEL(weather_folder + "chicago_filtered.wea");
   const auto series = series_of(study_of("", "year_of: weather", shared("chicago_filtered.wea")));

@@ -34,6 +34,15 @@ void keep_all(YamlMap& map) { map.keep_rest(); }
 const Range share{0, 1};
 void read_share(YamlMap& map) { map.number("share", share); }
 
+// Names of a study are printed: none commands a terminal.
+TEST(Yaml, RefusesControlCharacters) {
+  const auto problems = problems_of("a: \"x\\e[31m\"\n\"b\\x07\": |\n  two\n  lines\n", keep_all);
+  ASSERT_EQ(problems.size(), 2u);
+  EXPECT_EQ(problems[0].substr(0, 11), "f.yaml:1:4:") << problems[0];
+  EXPECT_NE(problems[0].find("'x\\x1b[31m'"), std::string::npos) << problems[0];
+  EXPECT_EQ(problems[1].substr(0, 11), "f.yaml:2:1:") << problems[1];
+}
+
 TEST(Yaml, GivesThePlaceOfSyntaxErrors) {
   const auto problems = problems_of("a: 1\nb: [1, 2\nc: 3\n", keep_all);
   ASSERT_EQ(problems.size(), 1u);
