@@ -10,6 +10,7 @@
 #include "io/explain/place_map.h"
 #include "io/picture/picture.h"
 #include "io/picture/waterfall.h"
+#include "io/result/pairing.h"
 #include "io/result/time.h"
 
 namespace sunload {
@@ -56,9 +57,10 @@ int explain(const ExplainOptions& options) {
   if (!options.against.empty()) {
     NamedResult base = options.result;
     base.path = options.against;
-    explanation = difference(explanation_of(base), explanation);
-    if (auto times = different_times_in_words(*opened(base), *opened(options.result));
-        !times.empty())
+    const auto result_of_base = opened(base), result = opened(options.result);
+    explanation =
+        difference(explanation_of(base), explanation, are_pairs(*result_of_base, *result));
+    if (auto times = different_times_in_words(*result_of_base, *result); !times.empty())
       explanation.notes.push_back(std::move(times));
   }
   if (!options.picture.empty()) draw_waterfall(explanation, options.picture);

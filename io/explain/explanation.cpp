@@ -147,7 +147,6 @@ Explanation explained(const ResultReader& result, const ResultScene& scene,
   Explanation into;
   into.study = result.text_attribute("study");
   into.variant = result.text_attribute("variant");
-  into.pairing_id = result.text_attribute("pairing_id");
   into.place = words_of(parts);
   into.part = result.chosen().words();
   into.units = result.units("light_load");
@@ -196,14 +195,13 @@ ExplainedRow nothing_like(const ExplainedRow& row) {
 
 }  // namespace
 
-Explanation difference(const Explanation& base, const Explanation& variant) {
+Explanation difference(const Explanation& base, const Explanation& variant, bool are_pairs) {
   if (base.units != variant.units)
     throw InputError({}, "results of " + base.units + " and " + variant.units,
                      "they have no difference", "explain results of one quantity");
   Explanation change = variant;
   change.base = base.variant;
   change.rows.clear();
-  const bool are_pairs = !base.pairing_id.empty() && base.pairing_id == variant.pairing_id;
   change.notes.emplace_back(are_pairs ? "errors are those of paired realizations"
                                       : "the results share no random numbers: errors add up");
   std::map<std::pair<Kind, std::string>, const ExplainedRow*> before;

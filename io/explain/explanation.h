@@ -43,7 +43,7 @@ struct Explanation {
   std::string study, variant, base;  ///< base: of the result that it is compared with, or empty
   std::string place;                 ///< as it was named
   std::string part;                  ///< of the period; empty: the whole
-  std::string units, pairing_id;
+  std::string units;
   Quantity quantity = Quantity::irradiance;
   std::string extent;              ///< "388.22 m²", "2 sensors"
   std::vector<ExplainedRow> rows;  ///< objects: those that matter most first
@@ -58,8 +58,9 @@ void expect_explainable(const ResultReader& result);
 Explanation explained(const ResultReader& result, const ResultScene& scene,
                       const NamedParts& parts);
 
-/// Row by row what `variant` has more than `base`, objects by their names.
-Explanation difference(const Explanation& base, const Explanation& variant);
+/// Row by row what `variant` has more than `base`, objects by their names. Pairs: see
+/// io/result/pairing.
+Explanation difference(const Explanation& base, const Explanation& variant, bool are_pairs);
 
 /// As people are shown it: the object's name, "in the open", "adds up to" …
 std::string row_words(const ExplainedRow& row, const Explanation& of);

@@ -13,6 +13,7 @@
 #include "io/report/compared.h"
 #include "io/result/common_area.h"
 #include "io/result/mesh_error.h"
+#include "io/result/pairing.h"
 #include "io/result/patch_groups.h"
 
 namespace sunload {
@@ -91,9 +92,7 @@ Comparison::Errors error_kind(const Side& base, const Side& variant, const std::
   const auto base_count = realization_count(base.result, dataset);
   const auto variant_count = realization_count(variant.result, dataset);
   if (base_count < 2 || variant_count < 2) return Comparison::Errors::unknown;
-  const auto pairing = base.result.text_attribute("pairing_id");
-  const bool paired = !pairing.empty() && base_count == variant_count &&
-                      pairing == variant.result.text_attribute("pairing_id");
+  const bool paired = base_count == variant_count && are_pairs(base.result, variant.result);
   return paired ? Comparison::Errors::paired : Comparison::Errors::independent;
 }
 

@@ -6,13 +6,13 @@
 ///
 /// Groups are matched by name and compared by the area-weighted mean of what both results have of
 /// them (io/result/common_area): new trees and storeys are in no mean of what was
-/// there before. What only one of the two has stands in rows of its own. Where both results carry
-/// the same `pairing_id` and number of realizations, realization r of both used the same random
-/// numbers: the standard error is that of the per-realization differences of the group means, with
-/// R − 1 degrees of freedom (patches need not match one to one, so that variants may differ in
-/// geometry). Otherwise both errors add up (Welch). p-values are corrected by Holm within each kind
-/// of group. Of a total without realizations differences have no errors and no p-values; what
-/// changes is then what changes by more than a share of the base.
+/// there before. What only one of the two has stands in rows of its own. Where both results are
+/// pairs (io/result/pairing) and have the same number of realizations, the standard error is that
+/// of the per-realization differences of the group means, with R − 1 degrees of freedom (patches
+/// need not match one to one, so that variants may differ in geometry). Otherwise both errors add
+/// up (Welch). p-values are corrected by Holm within each kind of group. Of a total without
+/// realizations differences have no errors and no p-values; what changes is then what changes by
+/// more than a share of the base.
 #pragma once
 
 #include <optional>

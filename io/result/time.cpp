@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "geo/base/check.h"
@@ -26,6 +27,16 @@ std::string clock(const std::string& time, const std::string& other) {
   text = text.substr(0, text.find_first_of(" Z"));
   constexpr std::size_t minutes_end = 5;
   return text.substr(minutes_end) == ":00" ? text.substr(0, minutes_end) : text;
+}
+
+/// Begin, end and the share of it that is chosen.
+std::vector<std::array<double, 3>> chosen_intervals(const ResultReader& result) {
+  const auto bounds = result.doubles("time_bounds");
+  const auto shares = result.chosen_shares();
+  std::vector<std::array<double, 3>> chosen;
+  for (std::size_t k = 0; k < shares.size(); ++k)
+    if (shares[k] > 0) chosen.push_back({bounds[2 * k], bounds[2 * k + 1], shares[k]});
+  return chosen;
 }
 
 }  // namespace
@@ -114,10 +125,17 @@ std::string period_in_words(const ResultReader& result) {
   return chosen.empty() ? words : chosen + ": " + words;
 }
 
+bool have_same_times(const ResultReader& base, const ResultReader& variant) {
+  return chosen_intervals(base) == chosen_intervals(variant);
+}
+
 std::string different_times_in_words(const ResultReader& base, const ResultReader& variant) {
-  if (base.doubles("time_bounds") == variant.doubles("time_bounds")) return {};
-  return "the two results cover different intervals of time: " + period_in_words(base) + " and " +
-         period_in_words(variant);
+  if (have_same_times(base, variant)) return {};
+  const std::string of_base = period_in_words(base), of_variant = period_in_words(variant);
+  if (of_base == of_variant)
+    return fmt::format("the two results divide {} into different intervals, {} and {}", of_base,
+                       chosen_intervals(base).size(), chosen_intervals(variant).size());
+  return "the two results cover different intervals of time: " + of_base + " and " + of_variant;
 }
 
 std::vector<double> interval_lengths(const ResultReader& result) {

@@ -42,7 +42,9 @@ std::string row_in_words(const ResultReader& result, std::size_t row);
 /// where there is no gap.
 std::string period_in_words(const ResultReader& result);
 
-/// What to tell of two results that are not of the same intervals; empty: they are.
+/// Whether the intervals of the parts that are chosen are the same, with the same shares.
+bool have_same_times(const ResultReader& base, const ResultReader& variant);
+/// What to tell of two results that have not; empty: they have.
 std::string different_times_in_words(const ResultReader& base, const ResultReader& variant);
 
 /// Lengths of the intervals [s].

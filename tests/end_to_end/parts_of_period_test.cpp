@@ -39,7 +39,9 @@ WorkFolder& days_folder() {
     folder.write("days.yaml",
                  two_days("",
                           "variants:\n  - {name: baseline}\n"
-                          "  - {name: dark, scene: {materials: {paving: {diffuse: 0.1}}}}\n"));
+                          "  - {name: dark, scene: {materials: {paving: {diffuse: 0.1}}}}\n"
+                          "  - {name: winter, period: {days: [2026-12-21]}}\n"
+                          "  - {name: slow, period: {days: [2026-12-21], step_min: 180}}\n"));
     const Ran ran = program(folder, {"run", "days.yaml"});
     EXPECT_EQ(ran.code, 0) << ran.err;
     return true;
@@ -118,6 +120,34 @@ TEST(PartsOfPeriod, AllCommandsOnResultsTakeThem) {
       program(folder, {"render", path, "--month", "6", "--time", "2026-06-21T12:00", "-o", "x.png"})
           .code,
       2);
+}
+
+/// The winter day is the second half of one period and all of the other.
+TEST(PartsOfPeriod, ResultsOfOtherPeriodsArePairsWhereTheyHaveThePart) {
+  WorkFolder& folder = days_folder();
+  const std::string winter = "results/days/winter.h5", slow = "results/days/slow.h5";
+  const auto compared = [&](const std::string& variant, std::vector<std::string> more) {
+    std::vector<std::string> words{"compare", path, variant};
+    words.insert(words.end(), more.begin(), more.end());
+    const Ran ran = program(folder, words);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return ran.out + ran.err;
+  };
+  const auto has = [](const std::string& text, const char* words) {
+    return text.find(words) != std::string::npos;
+  };
+  const std::string part = compared(winter, {"--month", "12"}), whole = compared(winter, {}),
+                    other_steps = compared(slow, {"--month", "12"});
+  EXPECT_TRUE(has(part, "standard errors of paired differences")) << part;
+  EXPECT_FALSE(has(part, "different intervals")) << part;
+  EXPECT_TRUE(has(whole, "standard errors of both results added")) << whole;
+  EXPECT_TRUE(has(whole, "cover different intervals of time")) << whole;
+  EXPECT_TRUE(has(other_steps, "standard errors of both results added")) << other_steps;
+  EXPECT_TRUE(has(other_steps, "into different intervals, 6 and 3")) << other_steps;
+  const auto explained = program(
+      folder, {"explain", winter, "--object", "square", "--against", path, "--month", "12"});
+  EXPECT_TRUE(has(explained.out, "paired realizations")) << explained.out << explained.err;
+  EXPECT_FALSE(has(explained.out, "different intervals")) << explained.out;
 }
 
 // Hours cut the intervals; nothing but totals is kept.
