@@ -80,6 +80,24 @@ std::vector<MeasureLevel> levels_of(const MeasureRule& rule, const MeasureParame
   return rule.levels ? rule.levels(parameters) : std::vector<MeasureLevel>();
 }
 
+std::string definition_of(const MeasureRule& rule, const MeasureParameters& parameters) {
+  std::vector<std::string> changed;
+  for (const RuleKey& key : rule.keys)
+    if (const double value = parameters.number(key.key); value != key.absent)
+      changed.push_back(fmt::format("{} {:g}", key.key, value));
+  for (const RuleWords& key : rule.words)
+    if (const std::string& word = parameters.words.at(key.key); word != key.words.front())
+      changed.push_back(key.key + " " + word);
+  if (!levels_of(rule, parameters).empty())
+    if (const double share = parameters.number("area_percent"); share != usual_area_percent)
+      changed.push_back(fmt::format("area_percent {:g}", share));
+  if (const auto& date = parameters.date;
+      date && rule.day && std::pair(date->month, date->day) != *rule.day)
+    changed.push_back(fmt::format("date {:04}-{:02}-{:02}", date->year, date->month, date->day));
+  if (changed.empty()) return rule.definition;
+  return fmt::format("{}; here with {}", rule.definition, fmt::join(changed, ", "));
+}
+
 std::string measure_rules_markdown() {
   std::string text = "| rule | value | source | keys (defaults) |\n|---|---|---|---|\n";
   for (const MeasureRule& rule : measure_rules())

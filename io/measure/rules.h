@@ -31,6 +31,10 @@ std::string watched_light(const MeasureRule& rule, const MeasureParameters& para
 /// Levels of a measure; none: it has no verdict.
 std::vector<MeasureLevel> levels_of(const MeasureRule& rule, const MeasureParameters& parameters);
 
+/// The rule's words, and what the study measures by other limits, or another day, than the rule's
+/// own: "hours of possible sun on 21 March; 2 h pass; here with least_h 3, date 2026-04-21".
+std::string definition_of(const MeasureRule& rule, const MeasureParameters& parameters);
+
 /// The page of all rules: what docs/measures.md has between its marks.
 std::string measure_rules_markdown();
 

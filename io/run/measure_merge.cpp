@@ -108,7 +108,7 @@ std::string when_of(const StudyMeasure& of) {
 
 MeasureAttributes attributes_of(const StudyMeasure& of) {
   MeasureAttributes a;
-  a.text = {{"definition", of.rule->definition},
+  a.text = {{"definition", definition_of(*of.rule, of.parameters)},
             {"source", of.rule->source},
             {"rule", of.rule->word},
             {"parameters", measure_text(of.parameters)}};

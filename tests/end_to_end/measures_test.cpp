@@ -91,6 +91,9 @@ TEST(Measures, HaveVerdictsAndTellWhoLoses) {
   EXPECT_EQ(row_of(result, "exposure", "house/north_1").margin, -1.5);
   const std::string dataset = "measure_czech";
   EXPECT_EQ(result.units(dataset), "h");
+  EXPECT_NE(measure_words(result, "sunny")
+                .definition.find("; here with least_elevation_deg 5, date 2026-12-21"),
+            std::string::npos);
   for (const char* attribute : {"definition", "source", "rule", "parameters", "level_words"})
     EXPECT_FALSE(result.text_attribute(dataset, attribute).empty()) << attribute;
   const auto parameters = nlohmann::json::parse(result.text_attribute(dataset, "parameters"));

@@ -201,6 +201,38 @@ TEST(Rules, HaveLevelsSourcesAndKnownKeys) {
   }
 }
 
+/// With what a study writes, else the rule's own.
+MeasureParameters parameters_of(const MeasureRule& rule) {
+  MeasureParameters of;
+  for (const RuleKey& key : rule.keys) of.numbers[key.key] = key.absent.value_or(13);
+  for (const RuleWords& key : rule.words) of.words[key.key] = key.words.front();
+  of.numbers["area_percent"] = usual_area_percent;
+  if (rule.day) of.date = CivilTime{2026, rule.day->first, rule.day->second};
+  return of;
+}
+
+TEST(Rules, DefinitionsTellTheLimitsThatTheStudyChanges) {
+  for (const MeasureRule& rule : measure_rules())
+    if (rule.word != "en_17037") {
+      EXPECT_EQ(definition_of(rule, parameters_of(rule)), rule.definition);
+    }
+  const auto& garden = *find_measure_rule("bre_209_garden");
+  MeasureParameters of = parameters_of(garden);
+  of.numbers["least_h"] = 3;
+  of.numbers["area_percent"] = 60;
+  of.date = CivilTime{2026, 4, 21};
+  EXPECT_EQ(definition_of(garden, of),
+            garden.definition + "; here with least_h 3, area_percent 60, date 2026-04-21");
+  // The standard tabulates it: a limit of the study, whatever it is.
+  const auto& exposure = *find_measure_rule("en_17037");
+  EXPECT_EQ(definition_of(exposure, parameters_of(exposure)),
+            exposure.definition + "; here with least_elevation_deg 13");
+  const auto& probable = *find_measure_rule("bre_209_probable_sun");
+  of = parameters_of(probable);
+  of.words["season"] = "winter";
+  EXPECT_EQ(definition_of(probable, of), probable.definition + "; here with season winter");
+}
+
 TEST(Rules, AreOnThePageOfMeasures) {
   std::ifstream file(source_folder() + "/docs/measures.md");
   std::ostringstream page;
