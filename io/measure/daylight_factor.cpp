@@ -26,7 +26,7 @@ class DaylightFactor : public SeriesMeasure {
 
  protected:
   void take(std::size_t point, double value, const MeasuredInterval& interval) override {
-    if (interval.dni > 0 || interval.dhi <= 0) return;
+    if (!is_without_sun(interval)) return;
     const double length_s = interval.end - interval.begin;
     here_[point] += value * length_s;
     in_the_open_[point] += interval.dhi * length_s;
@@ -48,6 +48,7 @@ MeasureRule daylight_factor() {
           .keys = {{"least_percent", 0}},
           .words = {{"light", {"total", "sky", "reflected"}}},
           .needs = MeasureRule::Needs::series,
+          .counts = MeasureRule::Counts::without_sun,
           .levels = [](const MeasureParameters& of) -> std::vector<MeasureLevel> {
             if (of.number("least_percent") == 0) return {};
             return {{"pass", of.number("least_percent")}};

@@ -25,6 +25,11 @@ struct MeasuredInterval {
   std::vector<SunStretch> suns;  ///< of its sunlit part; empty in the dark
 };
 
+/// Light, and none of it of the sun itself.
+inline bool is_without_sun(const MeasuredInterval& interval) {
+  return interval.dni <= 0 && interval.dhi > 0;
+}
+
 /// What is measured, and in what light. What it refers to outlives it.
 struct MeasuredScene {
   std::vector<MeasuredPoint> points;  ///< centres of the chosen patches, then sensors
@@ -92,6 +97,8 @@ struct MeasureRule {
   enum class Needs { geometry, sun_path, intervals, series } needs = Needs::geometry;
   /// The period must be a year, or one of measured or typical weather.
   enum class Spans { any_period, whole_year, year_of_weather } spans = Spans::any_period;
+  /// Intervals that it is taken over.
+  enum class Counts { all, without_sun } counts = Counts::all;
   /// Levels from low to high that values reach from below, or stay below; none: no verdict.
   enum class Better { more, less } better = Better::more;
   std::vector<MeasureLevel> (*levels)(const MeasureParameters&) = nullptr;

@@ -104,6 +104,19 @@ void expect_measurable(const Study& study, const BuiltScene& built, const LightS
   problems.throw_if_any();
 }
 
+void warn_of_no_values(const Study& study, const LightSeries& light,
+                       std::vector<std::string>& warnings) {
+  const auto counts = [](const LitInterval& lit) { return is_without_sun(measured(lit)); };
+  for (const MeasureParameters& of : study.measures)
+    if (find_measure_rule(of.rule)->counts == MeasureRule::Counts::without_sun &&
+        std::none_of(light.intervals.begin(), light.intervals.end(), counts))
+      warnings.push_back(
+          message(of.where, "measure " + of.name + " has no value",
+                  "it is taken over intervals with light but without sun, and the period has none",
+                  "write an overcast sky, light: {source: fixed, dni_w_m2: 0, dhi_w_m2: 200, sky: "
+                  "cie_overcast}, or weather with cloudy hours"));
+}
+
 StudyMeasures::StudyMeasures(const VariantPlan& plan, const Hierarchy& hierarchy) {
   if (plan.study.measures.empty()) return;
   const Scene& scene = plan.built.scene;

@@ -18,6 +18,10 @@ class Hierarchy;
 /// is not.
 void expect_measurable(const Study& study, const BuiltScene& built, const LightSeries& light);
 
+/// Warns of measures that have no value anywhere, as the light has no interval that they count.
+void warn_of_no_values(const Study& study, const LightSeries& light,
+                       std::vector<std::string>& warnings);
+
 /// One of them. What it refers to is kept by its study's.
 struct StudyMeasure {
   MeasureParameters parameters;  ///< the date filled in

@@ -82,6 +82,17 @@ std::string heading(const MeasureWords& words) {
   return text;
 }
 
+std::string row_text(const MeasureRow& row, std::size_t width) {
+  auto line = fmt::format("  {:<8}{:<{}}{:>9}{:>9}{:>9}{:>9}{:>9}  {}", row.kind, row.name, width,
+                          cell(row.area_m2, "{:.1f}"), cell(row.mean, "{:.2f}"),
+                          cell(row.reached, "{:.2f}"), cell(row.margin, "{:+.2f}"),
+                          cell(row.passing_percent, "{:.0f} %"), row.level);
+  line.erase(line.find_last_not_of(' ') + 1);
+  line += "\n";
+  if (!row.spans.empty()) line += "          spans " + row.spans + "\n";
+  return line;
+}
+
 Json json_number(double value) { return std::isnan(value) ? Json(nullptr) : Json(value); }
 
 /// Whether it is what rules are about: a facade, a selection, a sensor.
@@ -162,22 +173,17 @@ std::string measure_table_text(const ResultReader& result, const std::vector<Mea
   for (const MeasureRow& row : rows) width = std::max(width, row.name.size());
   std::string text = fmt::format("{}, variant {}\n", result.text_attribute("study"),
                                  result.text_attribute("variant"));
-  std::string measure;
-  for (const MeasureRow& row : rows) {
-    if (row.measure != measure) {
-      measure = row.measure;
-      const MeasureWords words = measure_words(result, measure);
-      text += heading(words);
-      text += fmt::format("  {:<8}{:<{}}{:>10}{:>9}{:>9}{:>9}{:>9}  {}\n", "group", "name", width,
-                          "area, m²", "mean", "reached", "margin", "passing", "level");
-    }
-    auto line = fmt::format("  {:<8}{:<{}}{:>9}{:>9}{:>9}{:>9}{:>9}  {}", row.kind, row.name, width,
-                            cell(row.area_m2, "{:.1f}"), cell(row.mean, "{:.2f}"),
-                            cell(row.reached, "{:.2f}"), cell(row.margin, "{:+.2f}"),
-                            cell(row.passing_percent, "{:.0f} %"), row.level);
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
-    if (!row.spans.empty()) text += "          spans " + row.spans + "\n";
+  for (const std::string& measure : measure_names(result)) {
+    std::string lines;
+    for (const MeasureRow& row : rows)
+      if (row.measure == measure) lines += row_text(row, width);
+    if (!lines.empty())
+      text += heading(measure_words(result, measure)) +
+              fmt::format("  {:<8}{:<{}}{:>10}{:>9}{:>9}{:>9}{:>9}  {}\n", "group", "name", width,
+                          "area, m²", "mean", "reached", "margin", "passing", "level") +
+              lines;
+    else if (!has_values(result, measure))
+      text += heading(measure_words(result, measure)) + "  no value\n";
   }
   return text;
 }
@@ -229,6 +235,7 @@ std::string measures_line(const ResultReader& result) {
         line += fmt::format(" mean {:.3g} {}", row.mean, display_units(words.units));
       if (is_judged(row)) ++reached[row.kind][row.level];
     }
+    if (!has_values(result, name)) line += " no value";
     for (const auto& [kind, levels] : reached)
       for (const auto& [level, count] : levels)
         line += fmt::format(", {} {}{} {}", count, kind, count == 1 ? "" : "s", level);

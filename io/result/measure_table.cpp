@@ -172,6 +172,16 @@ std::vector<std::string> measure_names(const ResultReader& result) {
   return names;
 }
 
+bool has_values(const ResultReader& result, const std::string& measure) {
+  const auto is_known = [](double value) { return !std::isnan(value); };
+  for (const std::string& dataset : {dataset_of(measure), "sensor_" + dataset_of(measure)})
+    if (result.has(dataset)) {
+      const auto values = result.doubles(dataset);
+      if (std::any_of(values.begin(), values.end(), is_known)) return true;
+    }
+  return false;
+}
+
 MeasureWords measure_words(const ResultReader& result, const std::string& measure) {
   const std::string dataset = dataset_of(measure);
   const auto text = [&](const char* name) { return result.text_attribute(dataset, name); };

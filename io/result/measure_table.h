@@ -14,6 +14,9 @@ namespace sunload {
 /// Names of the measures that a result has, in the order of the study.
 std::vector<std::string> measure_names(const ResultReader& result);
 
+/// Whether any patch or sensor has a value of it.
+bool has_values(const ResultReader& result, const std::string& measure);
+
 /// What a measure says of itself.
 struct MeasureWords {
   std::string name, units;  ///< units as the file states them

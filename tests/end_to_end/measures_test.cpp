@@ -164,6 +164,37 @@ TEST(Measures, OthersMakeAnotherResultOfTheSameBatches) {
   EXPECT_EQ(measure_names(ResultReader(folder / result)).size(), 5u);
 }
 
+/// The sun shines in every hour with light: no overcast sky.
+TEST(Measures, SayWhereTheyHaveNoValue) {
+  const WorkFolder folder;
+  const auto study = [](const char* light) {
+    return "format: sunload-study-1\nname: bright\n"
+           "site: {latitude_deg: 50, longitude_deg: 14, timezone: Europe/Prague}\n"
+           "period: {days: [2026-03-21], from: \"10:00\", to: \"14:00\", step_min: 60}\n"
+           "scene: {builtin: {name: box_on_plane}}\n"
+           "mesh: {oracle: none, max_edge_m: 10}\nsolver: {lines_per_patch: 16}\n"
+           "measures: {df: {rule: daylight_factor}, sky: {rule: bre_209_vsc}}\n" +
+           std::string(light);
+  };
+  folder.write("bright.yaml", study(""));
+  const char* result = "results/bright/baseline.h5";
+  const Ran run = program(folder, {"run", "bright.yaml"}),
+            check = program(folder, {"check", "bright.yaml"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  for (const std::string& said : {run.err, check.out})
+    EXPECT_NE(said.find("measure df has no value (it is taken over intervals with light but"),
+              std::string::npos)
+        << said;
+  const std::string table = program(folder, {"info", result, "--measures"}).out;
+  EXPECT_NE(table.find("df: light as a share"), std::string::npos) << table;
+  EXPECT_NE(table.find("  no value\n"), std::string::npos) << table;
+  EXPECT_NE(program(folder, {"info", result}).out.find("df: no value"), std::string::npos);
+  folder.write("bright.yaml",
+               study("light: {source: fixed, dni_w_m2: 0, dhi_w_m2: 200, sky: cie_overcast}\n"));
+  const Ran overcast = program(folder, {"check", "bright.yaml"});
+  EXPECT_EQ(overcast.out.find("has no value"), std::string::npos) << overcast.out;
+}
+
 TEST(Measures, OfAYearNeedOne) {
   const WorkFolder folder;
   write(folder, "measures: {a: {rule: roof_potential, of: {surface: roof}}}\n");
