@@ -589,7 +589,9 @@ int check_study(const std::string& path, const RunOptions& options, const CheckR
   StudyPaces paces;
   VariantTexts texts;
   SunTexts suns;
-  for (const auto& study : chosen_variants(file, options)) {
+  const std::vector<Study> chosen = chosen_variants(file, options);
+  expect_measured_somewhere(file, chosen, planner);
+  for (const auto& study : chosen) {
     try {
       VariantPlan plan = planner.plan(study);
       families.join(plan);

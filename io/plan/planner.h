@@ -21,13 +21,14 @@ class Planner {
   VariantPlan plan(const Study& study);
   /// Without its hash.
   VariantPlan unhashed_plan(const Study& study);
+  /// Its scene without materials; until the next call.
+  const BuiltScene& scene_uncovered(const Study& study);
 
   /// All that the light of a plan's intervals follows from, but how it is counted in bands.
   static std::string key_of_light(const Study& study, const Site& site);
 
  private:
   const BuiltScene& scene_before_materials(const Study& study, std::string& key);
-  const BuiltScene& scene_uncovered(const Study& study);
   const LightSeries& light(const Study& study, const Site& site);
 
   static constexpr double most_triangles = 1e6, most_intervals = 1e6;  // some 200 MB of either

@@ -11,6 +11,7 @@
 #include "io/base/name_pattern.h"
 #include "io/measure/rules.h"
 #include "io/measure/sun_day.h"
+#include "io/plan/planner.h"
 #include "io/plan/selection.h"
 #include "solver/mesh/hierarchy.h"
 
@@ -24,16 +25,48 @@ std::vector<std::string> facade_names(const Mesh& mesh) {
   return names;
 }
 
-void expect_one(const std::string& pattern, const std::vector<std::string>& names,
-                const std::string& kind, const MeasureParameters& of, Problems& problems) {
-  if (pattern.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-        return matches(pattern, name);
-      }))
-    return;
-  std::string near;
-  for (const auto& name : near_names(pattern, names)) near += (near.empty() ? "" : ", ") + name;
-  problems.add(of.where, "measure " + of.name + ": no " + kind + " matches '" + pattern + "'", "",
-               near.empty() ? "" : "did you mean " + near + "?");
+/// Objects or facades that a measure is of, and that a scene does not have.
+struct AbsentPlace {
+  const MeasureParameters* of;
+  std::string kind, pattern;
+  std::vector<std::string> near;  ///< names that it has and that may be meant
+};
+
+std::vector<AbsentPlace> absent_places(const Study& study, const Mesh& mesh) {
+  std::vector<AbsentPlace> absent;
+  const auto objects = names_with_surfaces({mesh.object_names, mesh.object_kinds, mesh.families});
+  const auto facades = facade_names(mesh);
+  const auto look_for = [&](const std::string& pattern, const std::vector<std::string>& names,
+                            const char* kind, const MeasureParameters& of) {
+    const auto is_it = [&](const std::string& name) { return matches(pattern, name); };
+    if (!pattern.empty() && std::none_of(names.begin(), names.end(), is_it))
+      absent.push_back({&of, kind, pattern, near_names(pattern, names)});
+  };
+  for (const MeasureParameters& of : study.measures) {
+    look_for(of.of.object, objects, "object", of);
+    look_for(of.of.facade, facades, "facade", of);
+  }
+  return absent;
+}
+
+bool are_same(const AbsentPlace& a, const AbsentPlace& b) {
+  return a.of->name == b.of->name && a.kind == b.kind && a.pattern == b.pattern;
+}
+
+/// Those that this variant, too, does not have; all of them where its scene cannot be made, which
+/// is told where it is planned.
+std::vector<AbsentPlace> still_absent(std::vector<AbsentPlace> absent, const Study& variant,
+                                      Planner& planner) {
+  try {
+    const auto here = absent_places(variant, planner.scene_uncovered(variant).scene.mesh);
+    std::erase_if(absent, [&](const AbsentPlace& place) {
+      return std::none_of(here.begin(), here.end(),
+                          [&](const AbsentPlace& other) { return are_same(place, other); });
+    });
+  } catch (const InputError&) {
+    return absent;
+  }
+  return absent;
 }
 
 MeasuredInterval measured(const LitInterval& lit) {
@@ -84,23 +117,51 @@ std::vector<std::size_t> chosen_patches(const MeasureOf& of, const VariantPlan& 
 
 }  // namespace
 
-void expect_measurable(const Study& study, const BuiltScene& built, const LightSeries& light) {
+void expect_measured_somewhere(const StudyFile& file, const std::vector<Study>& chosen,
+                               Planner& planner) {
+  for (const Study& study : chosen) {
+    std::vector<AbsentPlace> absent;
+    try {
+      absent = absent_places(study, planner.scene_uncovered(study).scene.mesh);
+    } catch (const InputError&) {
+      continue;
+    }
+    // What it costs to look elsewhere is paid for slips and by variants that lack something.
+    for (const auto* variants : {&chosen, &file.variants})
+      for (const Study& other : *variants)
+        if (!absent.empty()) absent = still_absent(std::move(absent), other, planner);
+    Problems problems;
+    for (const AbsentPlace& place : absent)
+      problems.add(
+          place.of->where,
+          fmt::format("measure {}: no {} matches '{}'", place.of->name, place.kind, place.pattern),
+          file.variants.size() > 1 ? "in any variant of the study" : "",
+          place.near.empty() ? "" : fmt::format("did you mean {}?", fmt::join(place.near, ", ")));
+    problems.throw_if_any();
+  }
+}
+
+void warn_of_absent_places(const Study& study, const BuiltScene& built,
+                           std::vector<std::string>& warnings) {
+  for (const AbsentPlace& place : absent_places(study, built.scene.mesh))
+    warnings.push_back(
+        message(place.of->where,
+                fmt::format("measure {}: no {} of variant {} matches '{}'", place.of->name,
+                            place.kind, study.variant, place.pattern),
+                "nothing is measured of it there"));
+}
+
+void expect_measurable(const Study& study, const LightSeries& light) {
   // A year of weather files, leap days left out.
   constexpr double year_s = 365 * seconds_per_day;
   const double length_s = std::accumulate(
       light.intervals.begin(), light.intervals.end(), 0.0,
       [](double sum, const LitInterval& interval) { return sum + interval.when.length_s(); });
   Problems problems;
-  const Mesh& mesh = built.scene.mesh;
-  const auto objects = names_with_surfaces({mesh.object_names, mesh.object_kinds, mesh.families});
-  const auto facades = facade_names(mesh);
-  for (const MeasureParameters& of : study.measures) {
-    expect_one(of.of.object, objects, "object", of, problems);
-    expect_one(of.of.facade, facades, "facade", of, problems);
+  for (const MeasureParameters& of : study.measures)
     if (find_measure_rule(of.rule)->spans != MeasureRule::Spans::any_period && length_s < year_s)
       problems.add(of.where, "measure " + of.name + " needs a whole year",
                    "its values are those of a year", "write period: {year_of: weather}");
-  }
   problems.throw_if_any();
 }
 

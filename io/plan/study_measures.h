@@ -13,10 +13,17 @@
 namespace sunload {
 
 class Hierarchy;
+class Planner;
 
-/// Throws InputError where a measure chooses nothing of the scene, or needs a year that the period
-/// is not.
-void expect_measurable(const Study& study, const BuiltScene& built, const LightSeries& light);
+/// Throws InputError where a measure is of objects or facades that no variant has: a slip. Looks at
+/// those that are chosen first.
+void expect_measured_somewhere(const StudyFile& file, const std::vector<Study>& chosen,
+                               Planner& planner);
+/// Warns of those that this one does not have.
+void warn_of_absent_places(const Study& study, const BuiltScene& built,
+                           std::vector<std::string>& warnings);
+/// Throws InputError where a measure needs a year that the period is not.
+void expect_measurable(const Study& study, const LightSeries& light);
 
 /// Warns of measures that have no value anywhere, as the light has no interval that they count.
 void warn_of_no_values(const Study& study, const LightSeries& light,

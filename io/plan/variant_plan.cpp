@@ -58,7 +58,8 @@ VariantPlan unhashed_plan_of(const Study& study, BuiltScene built, LightSeries l
   plan.totals = part_totals(study, plan.light, plan.built.site.latitude_deg);
   plan.steps = series_steps(study, plan.light);
   refuse_watts_in_lux(plan);
-  expect_measurable(study, plan.built, plan.light);
+  expect_measurable(study, plan.light);
+  warn_of_absent_places(study, plan.built, plan.built.warnings);
   warn_of_no_values(study, plan.light, plan.built.warnings);
   refuse_smooth_surfaces_in_a_matrix(plan);
   plan.pairing_id = pairing_id(study, plan.light);

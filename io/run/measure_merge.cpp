@@ -159,7 +159,6 @@ void MeasureMerge::write_one(ResultWriter& writer, const StudyMeasure& of) const
   const std::size_t n = of.patches.size();
   const auto put = [&](const std::string& suffix, const std::vector<double>& values,
                        const std::string& units) {
-    if (values.empty()) return;
     const auto patches = scattered(values, of.patches, geometry_.patch_area.size());
     writer.write_measure({name + suffix, units, patches}, attributes);
     if (suffix.empty() && !geometry_.facade_name.empty())

@@ -15,6 +15,7 @@
 #include "io/base/output_target.h"
 #include "io/plan/mesh_family.h"
 #include "io/plan/planner.h"
+#include "io/plan/study_measures.h"
 #include "io/run/mpi_world.h"
 #include "io/run/shared_rays.h"
 #include "io/study/named_files.h"
@@ -32,7 +33,9 @@ std::list<VariantJob> planned_jobs(const StudyWork& work,
   const std::vector<std::string> inputs = named_files(work.file);
   Planner planner;
   const MeshFamilies families(work.file, planner);
-  for (const auto& study : chosen_variants(work.file, work.options)) {
+  const std::vector<Study> chosen = chosen_variants(work.file, work.options);
+  expect_measured_somewhere(work.file, chosen, planner);
+  for (const auto& study : chosen) {
     try {
       expect_not_read(result_path(work.folder, study), inputs);
       VariantPlan plan = planner.plan(study);

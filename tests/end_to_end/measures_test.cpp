@@ -203,6 +203,54 @@ TEST(Measures, OfAYearNeedOne) {
   EXPECT_NE(ran.err.find("measure a needs a whole year"), std::string::npos) << ran.err;
 }
 
+/// As with selections: a variant may remove what is measured.
+TEST(Measures, OfWhatAVariantRemovesAreTakenInTheOthers) {
+  const WorkFolder folder;
+  const auto study = [](const char* object) {
+    return "format: sunload-study-1\nname: gone\n"
+           "site: {latitude_deg: 50, longitude_deg: 14, timezone: Europe/Prague}\n"
+           "period: {days: [2026-03-21], from: \"10:00\", to: \"14:00\", step_min: 60}\n"
+           "scene: {builtin: {name: box_on_plane}}\n"
+           "mesh: {oracle: none, max_edge_m: 10}\nsolver: {lines_per_patch: 16}\n"
+           "measures: {sky: {rule: bre_209_vsc, of: {object: " +
+           std::string(object) +
+           "}}, south: {rule: en_17037, least_elevation_deg: 13, of: {facade: 'box/south*'}}}\n"
+           "variants: [{name: base}, {name: bare, scene: {edit: [{object: box, remove: true}]}}]\n";
+  };
+  folder.write("gone.yaml", study("box"));
+  const std::string lacks = "measure sky: no object of variant bare matches 'box'";
+  const Ran check = program(folder, {"check", "gone.yaml"}),
+            run = program(folder, {"run", "gone.yaml"}),
+            alone = program(folder, {"check", "gone.yaml", "--variant", "bare"});
+  for (const Ran* ran : {&check, &run, &alone}) {
+    EXPECT_EQ(ran->code, 0) << ran->err;
+    EXPECT_NE((ran->out + ran->err).find(lacks), std::string::npos) << ran->out << ran->err;
+    EXPECT_NE((ran->out + ran->err).find("no facade of variant bare matches 'box/south*'"),
+              std::string::npos);
+  }
+  EXPECT_EQ(check.out.find("of variant base matches"), std::string::npos) << check.out;
+  const std::string with = "results/gone/base.h5", without = "results/gone/bare.h5";
+  EXPECT_TRUE(has_values(ResultReader(folder / with), "sky"));
+  EXPECT_FALSE(has_values(ResultReader(folder / without), "sky"));
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"compare", with, without},
+        {"compare", with, without, "--quantity", "measure_sky"},
+        {"export", without, "--to", "csv", "-o", "bare.csv"},
+        {"info", without, "--measures"}}) {
+    const Ran ran = program(folder, words);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+  }
+  folder.write("gone.yaml", study("bux"));
+  for (const char* command : {"check", "run"}) {
+    const Ran slip = program(folder, {command, "gone.yaml"});
+    EXPECT_EQ(slip.code, 2);
+    EXPECT_NE(slip.err.find("measure sky: no object matches 'bux' (in any variant of the study); "
+                            "did you mean box?"),
+              std::string::npos)
+        << slip.err;
+  }
+}
+
 TEST(Measures, ThatChooseNothingAreRefusedAtOnce) {
   const WorkFolder folder;
   write(folder,
