@@ -62,6 +62,8 @@ int explain(const ExplainOptions& options) {
         difference(explanation_of(base), explanation, are_pairs(*result_of_base, *result));
     if (auto times = different_times_in_words(*result_of_base, *result); !times.empty())
       explanation.notes.push_back(std::move(times));
+    for (auto& note : notes_on_places(*result_of_base, *result, options.parts))
+      explanation.notes.push_back(std::move(note));
   }
   if (!options.picture.empty()) draw_waterfall(explanation, options.picture);
   std::cout << text_of(explanation, options.format, explanation_text, explanation_csv,

@@ -19,6 +19,10 @@ Place place_named(const ResultReader& result, const NamedParts& parts);
 std::string words_of(const NamedParts& parts);
 /// "388.22 m2" or "3 sensors".
 std::string extent_of(const ResultReader& result, const Place& place);
+/// What to tell of a place that is not the same in two results: areas, sensors that stand
+/// elsewhere, a scene that is turned.
+std::vector<std::string> notes_on_places(const ResultReader& base, const ResultReader& variant,
+                                         const NamedParts& parts);
 /// Mean over the place of one row of values per receiver.
 double mean_over(const Place& place, const std::vector<double>& values);
 

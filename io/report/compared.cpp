@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "geo/base/check.h"
+#include "io/result/named_parts.h"
 #include "io/result/schema.h"
 #include "io/result/shown_quantity.h"
 #include "io/result/time.h"
@@ -118,10 +119,8 @@ std::vector<std::string> notes_on(const ResultReader& base, const ResultReader& 
         "{} reflections are followed in one result and {} in the other, and the rest is estimated: "
         "small differences may be of that; solver.unshot: 0 follows as many in both",
         base.number_attribute("bounces"), variant.number_attribute("bounces")));
-  if (differ("north_deg"))
-    notes.emplace_back(
-        "the scenes are turned against each other: facades and orientations are named by their "
-        "azimuth, and one name may be of two walls; objects are the same");
+  if (auto turned = different_north_in_words(base, variant); !turned.empty())
+    notes.push_back(std::move(turned));
   return notes;
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/result/named_parts.h"
 
+#include <cmath>
+
 #include "io/base/name_pattern.h"
 
 namespace sunload {
@@ -70,6 +72,13 @@ std::vector<std::size_t> chosen_patches(const ResultReader& result, const NamedP
   for (std::size_t p = 0; p < is_chosen.size(); ++p)
     if (is_chosen[p]) patches.push_back(p);
   return patches;
+}
+
+std::string different_north_in_words(const ResultReader& base, const ResultReader& variant) {
+  const double turn = base.number_attribute("north_deg") - variant.number_attribute("north_deg");
+  if (!(std::abs(turn) > 0)) return {};
+  return "the scenes are turned against each other: facades and orientations are named by their "
+         "azimuth, and one name may be of two walls; objects are the same";
 }
 
 }  // namespace sunload

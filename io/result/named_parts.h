@@ -32,6 +32,9 @@ std::vector<std::size_t> chosen_selections(const ResultReader& result, const Nam
 /// Patches of the facades and those of the objects and selections, both sides.
 std::vector<std::size_t> chosen_patches(const ResultReader& result, const NamedParts& parts);
 
+/// What to tell of two results whose scenes are turned against each other; empty: they are not.
+std::string different_north_in_words(const ResultReader& base, const ResultReader& variant);
+
 /// Names of the study's selections; none where it has none.
 std::vector<std::string> selection_names(const ResultReader& result);
 /// Per patch 0 where it is of the selection, else -1.

@@ -213,6 +213,61 @@ TEST(Explain, TellsWhereTimesDiffer) {
   EXPECT_EQ(notes("june").find("different intervals"), std::string::npos);
 }
 
+TEST(Explain, TellsWhereThePlaceDiffers) {
+  const WorkFolder folder;
+  const std::string study =
+      "format: sunload-study-1\nname: place\n"
+      "site: {latitude_deg: 50, longitude_deg: 14, timezone: Europe/Prague, north_deg: 0}\n"
+      "period: {days: [2026-03-21], from: \"10:00\", to: \"14:00\", step_min: 60}\n"
+      "scene:\n  builtin: {name: box_on_plane}\n  edit:\n    - {object: box, remove: true}\n"
+      "    - {add: {name: a, material: plaster, box: {position_m: [0, 10, 0], size_m: [8, 8, "
+      "8]}}}\n"
+      "    - {add: {name: b, material: plaster, box: {position_m: [0, -10, 0], size_m: [8, 8, "
+      "8]}}}\n"
+      "  materials: {plaster: {diffuse: 0.5}}\n"
+      "selections: {south: {object: '*', surface: wall, azimuth_deg: [135, 225]}}\n"
+      "mesh: {oracle: none, max_edge_m: 8}\nsolver: {lines_per_patch: 16, realizations: 4}\n"
+      "sensors: {points: [{position_m: [0, 0, 1], normal: [0, 0, 1]}]}\n"
+      "variants:\n  - {name: base}\n"
+      "  - {name: gone, scene: {edit: [{object: b, remove: true}]}}\n"
+      "  - {name: turned, site: {north_deg: 90}}\n";
+  folder.write("place.yaml", study);
+  std::string moved = study;
+  moved.replace(moved.find("[0, 0, 1], normal"), 9, "[0, 1, 1]");
+  folder.write("moved.yaml", moved);
+  const Ran ran = program(folder, {"run", "place.yaml"}),
+            other =
+                program(folder, {"run", "moved.yaml", "--variant", "base", "--output", "moved"});
+  ASSERT_EQ(other.code, 0) << other.err;
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto notes = [&](const std::string& variant, std::vector<std::string> place,
+                         const std::string& results = "results") {
+    place.insert(place.begin(),
+                 {results + "/place/" + variant + ".h5", "--against", "results/place/base.h5"});
+    const json told = explained(folder, place);
+    std::string all;
+    for (const auto& note : told["notes"]) all += note.get<std::string>() + "\n";
+    return all;
+  };
+  const auto has = [](const std::string& text, const char* words) {
+    return text.find(words) != std::string::npos;
+  };
+  const std::string gone = notes("gone", {"--selection", "south"});
+  EXPECT_TRUE(has(gone, "the place differs: 128 m² in base and 64 m² in gone, of which 64 m²"))
+      << gone;
+  const std::string wall = notes("turned", {"--facade", "a/south_1"});
+  EXPECT_TRUE(has(wall, "64 m² in base and 64 m² in turned, of which 0 m²")) << wall;
+  EXPECT_TRUE(has(wall, "turned against each other")) << wall;
+  const std::string object = notes("turned", {"--object", "a"});
+  EXPECT_FALSE(has(object, "the place differs")) << object;
+  const std::string sensor = notes("base", {"--sensor", "0"}, "moved");
+  EXPECT_TRUE(has(sensor, "its sensors stand elsewhere")) << sensor;
+  for (const auto& same : {notes("gone", {"--object", "a"}), notes("gone", {"--sensor", "0"})}) {
+    EXPECT_TRUE(has(same, "paired realizations")) << same;
+    EXPECT_FALSE(has(same, "differs")) << same;
+  }
+}
+
 /// Sum over the patches of an object, or of all: value × area.
 double sum_over(const ResultReader& map, const std::string& dataset,
                 const std::string& object = {}) {
