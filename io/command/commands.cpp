@@ -237,8 +237,11 @@ int compare(const CompareOptions& asked) {
     if (!options.differences.empty())
       write_comparison_hdf5(comparison, base, variant, options.differences);
     keep_named(comparison, options.parts, path);
-    if (options.format != CompareOptions::Format::csv)
+    if (options.format != CompareOptions::Format::csv) {
       comparison.measures = measure_changes(base, variant, options.parts);
+      for (auto& note : notes_on_verdicts(base, variant))
+        comparison.notes.push_back(std::move(note));
+    }
     // The table and JSON have them among what they tell.
     if (options.format == CompareOptions::Format::csv)
       for (const auto& note : comparison.notes) tell("note: " + note);

@@ -133,6 +133,27 @@ MeasureChange::To change(const MeasureWords& words, const std::string& before,
   return rank(after) > rank(before) ? MeasureChange::To::better : MeasureChange::To::worse;
 }
 
+enum class Likeness { same, of_other_years, different };
+
+/// Of a measure of one name: by the same rule and limits, on the same day, or in another year.
+Likeness likeness(const MeasureWords& base, const MeasureWords& variant) {
+  if (base.parameters == variant.parameters) return Likeness::same;
+  const Json before = Json::parse(base.parameters, nullptr, false);
+  Json after = Json::parse(variant.parameters, nullptr, false);
+  const auto is_dated = [](const Json& of) {
+    return of.is_object() && of.contains("date") && is_date(of["date"]);
+  };
+  if (!is_dated(before) || !is_dated(after)) return Likeness::different;
+  after["date"][0] = before["date"][0];
+  return before == after ? Likeness::of_other_years : Likeness::different;
+}
+
+std::map<std::string, MeasureWords> words_by_name(const ResultReader& result) {
+  std::map<std::string, MeasureWords> words;
+  for (const auto& name : measure_names(result)) words[name] = measure_words(result, name);
+  return words;
+}
+
 /// `4 → 3 of 4 facades, 1 → 1 of 1 sensor`: of the kinds that the measure has.
 std::string passing_text(const std::vector<MeasureChange>& changes) {
   std::string text;
@@ -248,22 +269,48 @@ std::vector<MeasureChange> measure_changes(const ResultReader& base, const Resul
                                            const NamedParts& parts) {
   std::vector<MeasureChange> changes;
   if (measure_names(base).empty() || measure_names(variant).empty()) return changes;
-  std::map<std::string, MeasureWords> before_words, after_words;
-  for (const auto& name : measure_names(base)) before_words[name] = measure_words(base, name);
-  for (const auto& name : measure_names(variant)) after_words[name] = measure_words(variant, name);
+  const auto before_words = words_by_name(base), after_words = words_by_name(variant);
   std::map<Key, MeasureRow> before;
   for (const MeasureRow& row : measure_table(base, {})) before.emplace(key_of(row), row);
   for (const MeasureRow& row : measure_table(variant, {})) {
     const auto found = before.find(key_of(row));
     if (found == before.end() || !has_verdict(row) || !is_chosen(row, parts)) continue;
-    const MeasureWords& words = after_words[row.measure];
-    // Measured by another rule, or other limits.
-    if (words.parameters != before_words[row.measure].parameters) continue;
+    const MeasureWords& words = after_words.at(row.measure);
+    if (likeness(before_words.at(row.measure), words) == Likeness::different) continue;
     changes.push_back({row.measure, words.units, row.kind, row.name, found->second.reached,
                        row.reached, found->second.level, row.level,
                        change(words, found->second.level, row.level)});
   }
   return changes;
+}
+
+std::vector<std::string> notes_on_verdicts(const ResultReader& base, const ResultReader& variant) {
+  std::vector<std::string> notes, of_other_years;
+  const auto before = words_by_name(base), after = words_by_name(variant);
+  for (const std::string& name : measure_names(variant)) {
+    const auto found = before.find(name);
+    if (found == before.end()) continue;
+    const MeasureWords &was = found->second, &is = after.at(name);
+    if (was.levels.empty() || is.levels.empty()) continue;
+    switch (likeness(was, is)) {
+      case Likeness::same:
+        break;
+      case Likeness::of_other_years:
+        of_other_years.push_back(name);
+        break;
+      case Likeness::different:
+        notes.push_back(fmt::format(
+            "verdicts of measure {} are not compared: it is {} ({}) in the base and {} ({}) in the "
+            "variant",
+            name, was.rule, parameters_text(was), is.rule, parameters_text(is)));
+    }
+  }
+  if (!of_other_years.empty())
+    notes.push_back(fmt::format(
+        "measures on the same day of different years are compared, whose suns differ by "
+        "some minutes: {}",
+        fmt::join(of_other_years, ", ")));
+  return notes;
 }
 
 std::string measure_changes_text(const std::vector<MeasureChange>& changes) {

@@ -26,10 +26,12 @@ struct MeasureChange {
   std::string base_level, variant_level;
   enum class To { same, better, worse } to = To::same;  ///< by levels
 };
-/// Of all that have a verdict in both results by the same rule, and that `parts` chooses (all where
-/// it chooses nothing).
+/// Of all that have a verdict in both results by the same rule and limits, be it in other years,
+/// and that `parts` chooses (all where it chooses nothing).
 std::vector<MeasureChange> measure_changes(const ResultReader& base, const ResultReader& variant,
                                            const NamedParts& parts);
+/// Which of them are of other years, or are not compared as rules or limits differ.
+std::vector<std::string> notes_on_verdicts(const ResultReader& base, const ResultReader& variant);
 /// Per measure how many of each kind pass before and after, and what reaches another level.
 std::string measure_changes_text(const std::vector<MeasureChange>& changes);
 

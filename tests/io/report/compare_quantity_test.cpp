@@ -210,6 +210,31 @@ TEST(CompareQuantity, RulesOfOneNameThatDifferAreNoted) {
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_TRUE(has(notes.front(), "different rules"));
   EXPECT_TRUE(measure_changes(base, variant, {}).empty());
+  const auto verdicts = notes_on_verdicts(base, variant);
+  ASSERT_EQ(verdicts.size(), 1u);
+  EXPECT_TRUE(has(verdicts.front(), "verdicts of measure sun are not compared"))
+      << verdicts.front();
+  EXPECT_TRUE(has(verdicts.front(), "sun_hours (least_h 2) in the variant")) << verdicts.front();
+}
+
+TEST(CompareQuantity, VerdictsOfTheSameDayInOtherYearsAreComparedWithANote) {
+  const auto on = [](const char* name, const char* parameters) {
+    SmallResult result = measured(name, "", 3);
+    result.measure_parameters = parameters;
+    return ResultReader(write_small_result(result, std::string("year_") + name));
+  };
+  const ResultReader base = on("base", R"({"date": [2026, 3, 21], "least_h": 2})"),
+                     next = on("next", R"({"date": [2027, 3, 21], "least_h": 2})"),
+                     other = on("other", R"({"date": [2026, 3, 22], "least_h": 2})");
+  EXPECT_EQ(measure_changes(base, next, {}).size(), measure_changes(base, base, {}).size());
+  const auto notes = notes_on_verdicts(base, next);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_TRUE(has(notes.front(), "same day of different years")) << notes.front();
+  EXPECT_TRUE(notes_on_verdicts(base, base).empty());
+  EXPECT_TRUE(measure_changes(base, other, {}).empty());
+  const auto refused = notes_on_verdicts(base, other);
+  ASSERT_EQ(refused.size(), 1u);
+  EXPECT_TRUE(has(refused.front(), "2026-03-22, least_h 2) in the variant")) << refused.front();
 }
 
 TEST(CompareQuantity, CountsOfARuleTellWhatTheyAreOf) {
