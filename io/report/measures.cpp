@@ -306,10 +306,10 @@ std::vector<std::string> notes_on_verdicts(const ResultReader& base, const Resul
     }
   }
   if (!of_other_years.empty())
-    notes.push_back(fmt::format(
-        "measures on the same day of different years are compared, whose suns differ by "
-        "some minutes: {}",
-        fmt::join(of_other_years, ", ")));
+    notes.push_back(
+        fmt::format("measures on the same day of different years are compared, whose sun's path is "
+                    "not quite the same: {}",
+                    fmt::join(of_other_years, ", ")));
   return notes;
 }
 
