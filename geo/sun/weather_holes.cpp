@@ -60,7 +60,7 @@ std::vector<WeatherHole> sunlit_holes(const std::vector<DatedWeather>& weather,
                      behind.line,
                      whole_days_in(before.end, behind.begin, offset_s),
                      {}};
-    const bool is_within = is_within_a_day(hole.begin, hole.end, offset_s);
+    const bool is_within = hole.whole_days == 0 && is_within_a_day(hole.begin, hole.end, offset_s);
     if (is_within) hole.records = sunlit_records(hole, count, sun);
     if (is_within ? !hole.records.empty() : has_sun(hole, sun)) holes.push_back(std::move(hole));
   }
