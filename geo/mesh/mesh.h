@@ -66,6 +66,7 @@ struct PolygonModel {
   std::vector<FileMaterial> materials;
 
   std::string source;              ///< file name for messages
+  std::vector<std::string> files;  ///< that were read for it, with those that they draw in
   std::string crs;                 ///< e.g. "EPSG:28992", empty if the file names none
   bool is_city_format = false;     ///< gets a ground plate by default
   std::vector<std::string> notes;  ///< one line each: what was counted, tolerated or left out

@@ -112,14 +112,18 @@ void write_into(const OutputTarget& target, const std::string& from, const std::
     throw_cannot_write(path, errno);
 }
 
-void expect_not_read(const std::string& output, const std::vector<std::string>& inputs) {
+void expect_not_read(const std::string& output, const std::vector<std::string>& inputs,
+                     const std::string& written_with) {
   std::error_code missing;
   if (output.empty() || !fs::exists(output, missing)) return;
   for (const auto& input : inputs) {
     if (input.empty() || !fs::equivalent(output, input, missing)) continue;
     const std::string same = output == input ? "" : " " + input + ", which";
     throw InputError({output}, "is" + (same.empty() ? " what" : same) + " this command reads",
-                     "writing it would destroy it", "name another file");
+                     written_with.empty()
+                         ? "writing it would destroy it"
+                         : "it is written with " + written_with + ", which would destroy it",
+                     "name another file");
   }
 }
 

@@ -29,8 +29,10 @@ OutputTarget output_target(const std::string& path);
 void write_into(const OutputTarget& target, const std::string& from, const std::string& path);
 
 /// Throws InputError where the output is one of the files that are read, by whatever name: it would
-/// be destroyed. Empty names and names of nothing are no files.
-void expect_not_read(const std::string& output, const std::vector<std::string>& inputs);
+/// be destroyed. Empty names and names of nothing are no files. `written_with`: what the user asked
+/// for, where the output is a file that goes with it.
+void expect_not_read(const std::string& output, const std::vector<std::string>& inputs,
+                     const std::string& written_with = {});
 
 /// Writes all of the bytes to an open file, whatever interrupts it. Returns the number of the
 /// error, or 0.

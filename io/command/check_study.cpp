@@ -623,7 +623,9 @@ int print_sun(const std::string& path, const std::string& picture) {
   print_warnings(file.warnings);
   const Study& study = file.variants.front();
   // The site may come from the scene's CRS, which only its reader knows.
-  const Site site = build_scene(study).site;
+  const BuiltScene built = build_scene(study);
+  expect_not_read(picture, built.files);
+  const Site& site = built.site;
   const LightSeries light = light_series(study, site);
   print_warnings(light.notes);
   if (!picture.empty()) {

@@ -157,6 +157,12 @@ void write_scene(const PolygonModel& model, const std::string& path) {
                    "let its name end in .obj or .city.json");
 }
 
+/// Of the scene, and of what goes with it.
+void expect_scene_not_read(const std::string& path, const std::vector<std::string>& inputs) {
+  expect_not_read(path, inputs);
+  if (path.ends_with(".obj")) expect_not_read(obj_library(path), inputs, path);
+}
+
 /// The model of a study's variant, with its steps done.
 int write_edited(const BuiltinOptions& options) {
   if (!options.parameters.empty())
@@ -166,8 +172,9 @@ int write_edited(const BuiltinOptions& options) {
   RunOptions chosen;
   if (!options.variant.empty()) chosen.variants = {options.variant};
   const Study study = chosen_variants(file, chosen).front();
-  expect_not_read(options.path, named_files(file));
+  expect_scene_not_read(options.path, named_files(file));
   PolygonModel model = edited(read_models(study), study);
+  expect_scene_not_read(options.path, model.files);
   if (!study.site.crs.empty()) model.crs = study.site.crs;
   for (const auto& note : model.notes) tell("note: " + note);
   write_scene(model, options.path);

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "io/base/exit_code.h"
+#include "io/base/output_target.h"
 #include "io/command/commands.h"
 #include "io/explain/explanation.h"
 #include "io/explain/painting.h"
@@ -50,6 +51,8 @@ int explain(const ExplainOptions& options) {
     const auto result = opened(named);
     place_named(*result, options.parts);  // refuses before the work
     const auto scene = scenes.of(*result);
+    for (const auto& output : {options.map, options.picture})
+      expect_not_read(output, scene->plan().built.files);
     if (!options.map.empty()) write_place_map(*result, *scene, options.parts, options.map);
     return explained(*result, *scene, options.parts);
   };

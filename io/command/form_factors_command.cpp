@@ -29,6 +29,7 @@ FactorTable of_study(const FormFactorOptions& options, FactorsBetween between, W
   Planner planner;
   const MeshFamilies families(file, planner);
   VariantPlan plan = planner.plan(study);
+  expect_not_read(options.output, plan.built.files);
   families.join(plan);
   for (const auto& warning : plan.built.warnings)
     tell("warning: " + study.variant + ": " + warning);
@@ -41,6 +42,7 @@ FactorTable of_result(const FormFactorOptions& options, FactorsBetween between, 
                      "name the result of the variant, or the study");
   const auto result = opened({options.input, {}, {}});
   const auto scene = ResultScenes(options.study_folder).of(*result);
+  expect_not_read(options.output, scene->plan().built.files);
   return form_factor_table(scene->plan(), *scene->traced().mesh, between, watch);
 }
 

@@ -36,6 +36,7 @@ Standpoint standpoint(const HorizonOptions& options) {
   const StudyFile file = read_study(options.study);
   expect_not_read(options.output, named_files(file));
   const BuiltScene built = build_scene(file.variants.front());
+  expect_not_read(options.output, built.files);
   const Box box = bounding_box(built.scene.mesh.vertices);
   double reach = 0;
   for (const double x : {box.low.x, box.high.x})

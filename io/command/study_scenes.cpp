@@ -17,6 +17,7 @@ std::deque<SceneFile> study_scenes(const StudyFile& file, const std::vector<Stud
   for (const auto& warning : file.warnings) tell("warning: " + warning);
   for (const Study& study : variants) {
     const VariantPlan plan = planner.plan(study);
+    expect_not_read(output, plan.built.files);
     for (const auto& warning : plan.built.warnings)
       tell("warning: " + study.variant + ": " + warning);
     files.emplace_back(plan, file, output);

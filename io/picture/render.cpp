@@ -13,6 +13,7 @@
 #include "geo/base/units.h"
 #include "geo/mesh/mesh.h"
 #include "io/base/file_aside.h"
+#include "io/base/output_target.h"
 #include "io/base/scene_colours.h"
 #include "io/picture/animated_png.h"
 #include "io/picture/render_bands.h"
@@ -542,10 +543,14 @@ void render_animation(const ResultReader& result, const RenderRules& rules,
     largest = std::max(largest, renderer.largest(shown_at(result, dataset, k)));
   const std::filesystem::path whole(path);
   const std::string stem = (whole.parent_path() / whole.stem()).string();
+  const auto frame_of = [&](std::size_t k) { return fmt::format("{}-{:04}.png", stem, k + 1); };
+  std::vector<std::string> inputs = rules.same_scale;
+  inputs.push_back(result.path());
+  for (const auto k : intervals) expect_not_read(frame_of(k), inputs, path);
   AnimatedPng animation(path, intervals.size(), milliseconds_per_picture);
   for (const auto k : intervals) {
     const auto png = renderer.picture(shown_at(result, dataset, k), largest)->png();
-    write_file(fmt::format("{}-{:04}.png", stem, k + 1), png);
+    write_file(frame_of(k), png);
     animation.add(png);
   }
   animation.finish();

@@ -124,6 +124,7 @@ ParallelSources read_parallel_sources(const Study& study, Vec3 origin, BuiltScen
   const PolygonModel model = read_scene_file(
       scene.parallel_sources,
       {scene.up, scene.unit_m, scene.lod, scene.vrml_colour, scene.emission_scale_w});
+  built.files.insert(built.files.end(), model.files.begin(), model.files.end());
   const Mesh mesh =
       prepare(model,
               {.repair = scene.repair, .ground = {}, .orientation = scene.orient, .north_deg = 0})
@@ -188,6 +189,7 @@ BuiltScene scene_before_materials(const Study& study) {
   if (!is_empty) built.site = resolve_site(study, as_read, built);
   const PolygonModel model = edited(std::move(as_read), study);
   if (is_empty) built.site = resolve_site(study, model, built);
+  built.files = model.files;
   built.notes = model.notes;
   built.crs = study.site.crs.empty() ? model.crs : study.site.crs;
   PreparedMesh prepared = prepare(model, prepare_rules(study, model, built.site));

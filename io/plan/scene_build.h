@@ -21,6 +21,7 @@ struct BuiltScene {
   Site site;                          ///< position and north, from study or CRS
   std::string site_source;            ///< in words: where position and north come from
   std::string crs;                    ///< of the scene's coordinates; empty: none is known
+  std::vector<std::string> files;     ///< of the scene, with those that they draw in
   std::vector<std::string> notes;     ///< what readers counted
   std::vector<std::string> warnings;  ///< each states its consequence
   std::vector<RuleUse> rules;         ///< of scene.assign, in their order

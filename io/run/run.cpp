@@ -39,6 +39,7 @@ std::list<VariantJob> planned_jobs(const StudyWork& work,
     try {
       expect_not_read(result_path(work.folder, study), inputs);
       VariantPlan plan = planner.plan(study);
+      expect_not_read(result_path(work.folder, study), plan.built.files);
       families.join(plan);
       VariantJob& job = jobs.emplace_back(work, std::move(plan));
       (job.*expect_allowed)();

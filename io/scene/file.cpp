@@ -129,6 +129,7 @@ PolygonModel read_scene_file(const std::string& path, const SceneFileRules& rule
   }
   PolygonModel model = format->read(path, rules);
   make_names_plain(model);
+  model.files.push_back(path);
   return model;
 }
 

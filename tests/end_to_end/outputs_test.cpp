@@ -73,6 +73,33 @@ TEST(Outputs, AResultThatIsALinkToTheScenesFileIsNotOverwritten) {
   EXPECT_EQ(square.folder.read("square.obj"), square_obj);
 }
 
+/// Neither by the output itself nor by what is written with it.
+TEST(Outputs, WhatTheFilesOfASceneDrawInIsNotOverwritten) {
+  const WorkFolder folder;
+  const std::string library = "newmtl red\nKd 0.5 0.1 0.1\n",
+                    wall = "#VRML V2.0 utf8\nShape { geometry Box {} }\n";
+  folder.write("town.mtl", library);
+  folder.write("town_v2.obj", "mtllib town.mtl\n" + std::string(square_obj));
+  folder.write("wall.wrl", wall);
+  folder.write("outer.wrl", "#VRML V2.0 utf8\nInline { url \"wall.wrl\" }\n");
+  const auto study = [&](const std::string& name, const std::string& model) {
+    folder.write(name, std::regex_replace(square_study(), std::regex("square\\.obj"), model));
+  };
+  study("town.yaml", "town_v2.obj");
+  study("outer.yaml", "outer.wrl");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"scene", "town.yaml", "-o", "town.obj"},
+        {"view", "town.yaml", "-o", "town.mtl"},
+        {"view", "outer.yaml", "-o", "wall.wrl"}}) {
+    const Ran ran = program(folder, words);
+    EXPECT_EQ(ran.code, 2) << fmt::format("{}", fmt::join(words, " ")) << "\n" << ran.err;
+    EXPECT_NE(ran.err.find("this command reads"), std::string::npos) << ran.err;
+  }
+  EXPECT_FALSE(fs::exists(folder / "town.obj"));
+  EXPECT_EQ(folder.read("town.mtl"), library);
+  EXPECT_EQ(folder.read("wall.wrl"), wall);
+}
+
 TEST(Outputs, StandardOutputByItsNameIsWrittenOn) {
   const auto& folder = results().folder;
   folder.write("listing", "before\n");

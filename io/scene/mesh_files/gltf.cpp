@@ -62,7 +62,9 @@ class GltfReader {
     const auto nodes = file_.root().value("nodes", json());
     most_visits_ = std::max(fewest_visits, most_visits_per_node * nodes.size());
     for (const auto& root : roots()) visit(root, {}, {}, 0);
-    return faces_.finish();
+    PolygonModel model = faces_.finish();
+    model.files = file_.buffer_files();
+    return model;
   }
 
  private:

@@ -177,7 +177,7 @@ const json& GltfFile::entry(const std::string& list, const json& index) const {
   return (*found)[index.get<std::size_t>()];
 }
 
-std::string GltfFile::load_buffer(const json& entry, std::size_t index) const {
+std::string GltfFile::load_buffer(const json& entry, std::size_t index) {
   const auto uri = entry.value("uri", json());
   if (uri.is_null() && index == 0) return binary_chunk_;
   if (!uri.is_string()) fail(fmt::format("buffer {} has no content", index));
@@ -188,6 +188,7 @@ std::string GltfFile::load_buffer(const json& entry, std::size_t index) const {
     return from_base64(std::string_view(text).substr(comma + 8));
   }
   const auto file = std::filesystem::path(path_).parent_path() / without_escapes(text);
+  buffer_files_.push_back(file.string());
   return read_whole_file(file.string());
 }
 

@@ -21,6 +21,8 @@ class GltfFile {
   const std::string& path() const { return path_; }
   /// Of the file and of the buffers beside it that were read so far.
   std::size_t bytes() const { return bytes_; }
+  /// The buffers beside it that were read so far.
+  const std::vector<std::string>& buffer_files() const { return buffer_files_; }
   const nlohmann::json& root() const { return json_; }
 
   /// Entry `index` of a list such as "nodes"; throws InputError where there is none.
@@ -37,7 +39,7 @@ class GltfFile {
  private:
   std::vector<double> numbers(const nlohmann::json& accessor, const std::string& type);
   const std::string& buffer(const nlohmann::json& index);
-  std::string load_buffer(const nlohmann::json& entry, std::size_t index) const;
+  std::string load_buffer(const nlohmann::json& entry, std::size_t index);
   void take_container_apart(const std::string& bytes);
 
   std::string path_;
@@ -45,6 +47,7 @@ class GltfFile {
   nlohmann::json json_;
   std::string binary_chunk_;
   std::vector<std::string> buffers_;
+  std::vector<std::string> buffer_files_;
   std::vector<bool> is_loaded_;
 };
 

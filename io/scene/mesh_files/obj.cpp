@@ -224,6 +224,7 @@ class ObjReader {
     std::error_code no_matter;
     if (name.empty() || !std::filesystem::is_regular_file(file, no_matter)) return false;
     library_.merge(read_material_library(file.string(), notes_));
+    model_.files.push_back(file.string());
     return true;
   }
 

@@ -65,10 +65,14 @@ std::string scene_text(const Mesh& mesh, const std::string& library) {
 
 }  // namespace
 
+std::string obj_library(const std::string& path) {
+  return std::filesystem::path(path).replace_extension(".mtl").string();
+}
+
 void write_obj(const Mesh& mesh, const std::string& path) {
-  const auto library = std::filesystem::path(path).replace_extension(".mtl");
-  write_file(library.string(), library_text(mesh.file_materials));
-  write_file(path, scene_text(mesh, library.filename().string()));
+  const std::string library = obj_library(path);
+  write_file(library, library_text(mesh.file_materials));
+  write_file(path, scene_text(mesh, std::filesystem::path(library).filename().string()));
 }
 
 void write_obj(const PolygonModel& model, const std::string& path) {

@@ -9,8 +9,10 @@
 
 namespace sunload {
 
-/// Writes `path` and the library `<path without extension>.mtl`, each aside
-/// first and then renamed, the library first.
+/// The library that is written with the scene: `<path without extension>.mtl`.
+std::string obj_library(const std::string& path);
+
+/// Writes `path` and its library, each aside first and then renamed, the library first.
 ///
 /// One `o` per object, `usemtl` per material, triangles, absolute metres, z up
 /// (so it reads back with the default axes of OBJ). Reflectances as grey Kd,

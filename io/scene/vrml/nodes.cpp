@@ -76,6 +76,12 @@ const VrmlFiles::File& VrmlFiles::read_once(const std::string& path) {
   return files_.emplace(key, std::move(file)).first->second;
 }
 
+std::vector<std::string> VrmlFiles::paths() const {
+  std::vector<std::string> paths;
+  for (const auto& [path, file] : files_) paths.push_back(path);
+  return paths;
+}
+
 std::string VrmlFiles::beside(const std::string& file, const std::string& url) {
   return (fs::path(file).parent_path() / url).lexically_normal().string();
 }

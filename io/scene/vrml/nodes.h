@@ -93,6 +93,9 @@ class VrmlFiles {
   /// Length of the texts that were read.
   std::size_t bytes() const { return bytes_; }
 
+  /// Of the files that were read, each once.
+  std::vector<std::string> paths() const;
+
   /// Where a relative url of a file lies.
   static std::string beside(const std::string& file, const std::string& url);
 

@@ -72,7 +72,9 @@ class VrmlWalk {
   PolygonModel run() {
     State state;
     inline_file(path_, state, -1);
-    return model_.finish();
+    PolygonModel model = model_.finish();
+    model.files = files_.paths();
+    return model;
   }
 
  private:
