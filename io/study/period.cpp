@@ -23,7 +23,8 @@ constexpr Range longitudes_deg{-180, 180};
 constexpr Range elevations_m{-500, 9000};  // the shore of the Dead Sea, the top of Everest
 constexpr Range azimuths_deg{0, 360}, sun_elevations_deg{-90, 90};
 constexpr Range turns_deg{-360, 360};
-constexpr Range lengths_min{0, 527040, Range::Low::excluded};  // up to a leap year
+// Doubles tell instants to 1e-6 s: the shortest is known to 1e-4 of itself. Up to a leap year.
+constexpr Range lengths_min{0.001, 527040};
 constexpr int first_year = 1800, last_year = 2200;  // of the sun's theory with some margin
 constexpr double most_intervals = 1e7;  // 20 years of minutes; each costs at least a row of patches
 constexpr double whole_steps_tolerance = 1e-9;  // rounding of step lengths such as 1/3 min

@@ -93,6 +93,28 @@ TEST(BadInput, OneWrongValueInAStudyIsSaidWithItsPlace) {
   }
 }
 
+/// Intervals below what instants resolve.
+TEST(BadInput, WhatIsTooSmallToBeResolved) {
+  const WorkFolder folder;
+  const std::string head =
+      "format: sunload-study-1\nname: t\nsite: {latitude_deg: 49.7, longitude_deg: 13.4, "
+      "timezone: UTC}\nmesh: {oracle: none}\n";
+  const std::string box = "scene: {builtin: {name: box_on_plane}}\n";
+  for (const auto& [key, text] :
+       {std::pair<std::string, std::string>{
+            "period.interval_min",
+            "period: {instants: ['2026-06-21T12:00'], interval_min: 1e-9}\n" + box},
+        {"period.positions[].interval_min",
+         "period: {positions: [{azimuth_deg: 10, elevation_deg: 40, interval_min: 1e-11}]}\n"
+         "light: {source: fixed, dni_w_m2: 500, dhi_w_m2: 100}\n" +
+             box}}) {
+    folder.write("t.yaml", head + text);
+    const Ran ran = program(folder, {"check", "t.yaml"});
+    EXPECT_EQ(ran.code, 2) << key << "\n" << ran.err;
+    EXPECT_NE(ran.err.find("is out of range"), std::string::npos) << key << "\n" << ran.err;
+  }
+}
+
 TEST(BadInput, AllErrorsOfAStudyAtOnce) {
   const Small small;
   small.spoil("latitude_deg: 49.7475", "latitude_deg: 148.2");
