@@ -10,7 +10,8 @@ namespace sunload::study_sections {
 namespace {
 
 constexpr Range distances_m{0.01, 1e5};
-constexpr Range beams_deg{0, 360, Range::Low::excluded};
+// The narrowest searchlights have some 0.3 deg; of far less the solid angle drowns in rounding.
+constexpr Range beams_deg{0.1, 360};
 constexpr Range intensities_cd{0, 1e12, Range::Low::excluded};
 constexpr Range fluxes_lm{0, 1e12, Range::Low::excluded};
 

@@ -93,7 +93,7 @@ TEST(BadInput, OneWrongValueInAStudyIsSaidWithItsPlace) {
   }
 }
 
-/// Intervals below what instants resolve.
+/// Intervals below what instants resolve, a beam without a solid angle.
 TEST(BadInput, WhatIsTooSmallToBeResolved) {
   const WorkFolder folder;
   const std::string head =
@@ -107,7 +107,11 @@ TEST(BadInput, WhatIsTooSmallToBeResolved) {
         {"period.positions[].interval_min",
          "period: {positions: [{azimuth_deg: 10, elevation_deg: 40, interval_min: 1e-11}]}\n"
          "light: {source: fixed, dni_w_m2: 500, dhi_w_m2: 100}\n" +
-             box}}) {
+             box},
+        {"scene.luminaires[].beam_deg",
+         "period: {instants: ['2026-06-21T12:00']}\nlight: {quantity: illuminance}\nscene: "
+         "{builtin: {name: box_on_plane}, luminaires: [{position_m: [0, 0, 30], flux_lm: 1000, "
+         "beam_deg: 1e-6}]}\n"}}) {
     folder.write("t.yaml", head + text);
     const Ran ran = program(folder, {"check", "t.yaml"});
     EXPECT_EQ(ran.code, 2) << key << "\n" << ran.err;
