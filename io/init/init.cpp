@@ -128,17 +128,16 @@ std::string affordable_text(const std::string& name, const InitRules& rules, Fin
   return text({.max_edge_m = edge.value_or(edges_m.back())});
 }
 
-/// What the user has to look at: lines of the study with the mark.
+/// What the user has to look at: remarks that begin with the mark. Names may hold it, too.
 void tell_marked(const std::string& text, const std::string& path) {
+  const std::string marked = std::string("# ") + mark + " ";
   int line = 0;
   for (std::size_t begin = 0; begin < text.size(); ++line) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     const std::string words = text.substr(begin, end - begin);
     begin = end + 1;
-    const auto at = words.find(mark);
-    const bool is_explained = words.find(std::string("Lines with ") + mark) != std::string::npos;
-    if (at != std::string::npos && !is_explained)
-      tell(fmt::format("{}:{}: {}", path, line + 1, words.substr(at + 4)));
+    if (const auto at = words.find(marked); at != std::string::npos)
+      tell(fmt::format("{}:{}: {}", path, line + 1, words.substr(at + marked.size())));
   }
 }
 

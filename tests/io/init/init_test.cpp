@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 
@@ -93,6 +94,20 @@ TEST(Init, WeatherBringsItsYearAndItsStation) {
   EXPECT_EQ(study.light.source, LightSource::weather);
   EXPECT_TRUE(std::holds_alternative<WeatherPeriod>(study.period.kind));
   EXPECT_NE(text.find("<<< the place is the weather station's"), std::string::npos);
+}
+
+/// The mark of guesses is no word that only guesses have.
+TEST(Init, AStationOfAnyNameIsTaken) {
+  const WorkFolder folder;
+  for (const std::string name : {"A<<<", "<<<", "two\"quotes\"", "a: b # c", "{'}"}) {
+    std::string weather = test::small_epw();
+    weather.replace(weather.find("NOWHERE"), 7, name);
+    std::filesystem::remove(folder / "study.yaml");
+    const auto [study, text] = begun(
+        folder, {.model = folder.write("box.obj", box), .weather = folder.write("w.epw", weather)});
+    EXPECT_NE(text.find(name), std::string::npos) << name;
+    EXPECT_EQ(study.light.source, LightSource::weather) << name;
+  }
 }
 
 TEST(Init, MaterialsAreProposedByNamesAndKinds) {
