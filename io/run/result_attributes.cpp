@@ -121,16 +121,26 @@ void add_identity(Attributes& a, const MergedResult& result) {
                 {"numerics_version", numerics_version}};
 }
 
+/// For which instants of an interval the sun is taken.
+std::string sun_sampling(const VariantPlan& plan) {
+  if (std::holds_alternative<InstantsPeriod>(plan.study.period.kind))
+    return "sun at the given instant";
+  std::size_t most = 1;
+  for (const auto& interval : plan.light.intervals)
+    most = std::max(most, interval.when.sun_samples.size());
+  if (most == 1) return "sun at the middle of the sunlit part of the interval";
+  const bool is_auto = !plan.study.solver.sun_samples_per_interval;
+  return fmt::format(
+      "{}{} suns per interval, each at the middle of an equal part of the interval's sunlit time",
+      is_auto ? "auto: up to " : "", most);
+}
+
 /// Where and when the sun stands.
 void add_place(Attributes& a, const VariantPlan& plan) {
   const BuiltScene& built = plan.built;
-  const bool has_instants = std::holds_alternative<InstantsPeriod>(plan.study.period.kind);
-  a.text.insert(
-      a.text.end(),
-      {{"timezone", plan.study.site.timezone},
-       {"site_source", built.site_source},
-       {"sun_sampling", has_instants ? "sun at the given instant"
-                                     : "sun at the middle of the sunlit part of the interval"}});
+  a.text.insert(a.text.end(), {{"timezone", plan.study.site.timezone},
+                               {"site_source", built.site_source},
+                               {"sun_sampling", sun_sampling(plan)}});
   if (!built.crs.empty()) a.text.emplace_back("crs", built.crs);
   a.numbers.insert(a.numbers.end(), {{"latitude_deg", built.site.latitude_deg},
                                      {"longitude_deg", built.site.longitude_deg},

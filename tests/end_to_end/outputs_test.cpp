@@ -7,6 +7,7 @@
 
 #include <regex>
 
+#include "io/result/reader.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
@@ -198,6 +199,22 @@ TEST(Outputs, TotalsNeedNoSeries) {
       program(folder, {"render", none, "--time", "2026-03-21T12:00", "-o", "a.png"});
   EXPECT_EQ(instant.code, 2);
   EXPECT_NE(instant.err.find("output.series"), std::string::npos) << instant.err;
+}
+
+TEST(Outputs, TellHowManySunsStandForAnInterval) {
+  const std::string rest =
+      " suns per interval, each at the middle of an equal part of the "
+      "interval's sunlit time";
+  for (const auto& [asked, said] :
+       {std::pair<std::string, std::string>{"1",
+                                            "sun at the middle of the sunlit part of the "
+                                            "interval"},
+        {"12", "12" + rest},
+        {"auto", "auto: up to 3" + rest}}) {
+    const SquareFolder square(square_study("none", ", sun_samples_per_interval: " + asked));
+    ASSERT_EQ(square.run("o").code, 0) << asked;
+    EXPECT_EQ(ResultReader(square.result("o")).text_attribute("sun_sampling"), said);
+  }
 }
 
 /// From outside a closed room shows its backs alone, which have no values.
