@@ -428,16 +428,16 @@ class MaterialAssigner {
   }
 
   MaterialId id_of(const Material& m, std::size_t t) {
-    const auto known = ids_.find(m.name);
-    if (known != ids_.end() && scene_.materials[known->second.index()] == m) return known->second;
     const double diffuse = m.diffuse_in_band ? std::ranges::max(*m.diffuse_in_band) : m.diffuse;
     const double sum =
         largest_sum(m) + m.glossy + m.transmittance + clear_glass_factor * normal_transmittance(m);
     const auto file_id = scene_.mesh.triangle_material[t];
     const FileMaterial* file =
         file_id.exists() ? &scene_.mesh.file_materials[file_id.index()] : nullptr;
-    if (sum > 1 + rounding && refused_.insert(m.name).second)
-      problems_.add({file ? file->source : std::string()},
+    // Of one name in several files, each is refused.
+    const std::string source = file ? file->source : std::string();
+    if (sum > 1 + rounding && refused_.emplace(source, m.name).second)
+      problems_.add({source},
                     fmt::format("material '{}': diffuse {} + mirror {}{} exceeds 1", m.name,
                                 diffuse, m.mirror, other_shares(m)),
                     "more light would leave than arrives (triangle " + std::to_string(t) + ")",
@@ -446,6 +446,8 @@ class MaterialAssigner {
                     : file && file->may_be_scaled
                         ? "override it in scene.materials, or write scene.vrml_excess: scale"
                         : "override it in scene.materials");
+    const auto known = ids_.find(m.name);
+    if (known != ids_.end() && scene_.materials[known->second.index()] == m) return known->second;
     const auto same = std::find(scene_.materials.begin(), scene_.materials.end(), m);
     const auto id = make_id<MaterialId>(static_cast<std::size_t>(same - scene_.materials.begin()));
     if (same == scene_.materials.end()) scene_.materials.push_back(m);
@@ -464,8 +466,8 @@ class MaterialAssigner {
   std::map<std::string, MaterialId> ids_;
   std::map<std::pair<const MaterialStudy*, std::int32_t>, Made> made_;  ///< by source and file's
   std::vector<const Made*> made_of_file_;  ///< from 1 on, 0: of no file; null: rules decide
-  std::set<std::string> refused_;
-  std::map<std::string, double> scaled_;  ///< material and file, factor
+  std::set<std::pair<std::string, std::string>> refused_;  ///< file, material
+  std::map<std::string, double> scaled_;                   ///< material and file, factor
   std::vector<RuleUse> used_;
   std::vector<ChosenObjects> named_;   ///< by every rule, themselves or what they belong to
   std::vector<ChosenParts> selected_;  ///< faces of every rule's selection; empty: it has none

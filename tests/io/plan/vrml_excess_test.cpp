@@ -56,6 +56,24 @@ TEST_F(VrmlExcess, AllAreRefusedAtOnceWithTheirFiles) {
   EXPECT_EQ(said.find("dull"), std::string::npos) << said;
 }
 
+TEST_F(VrmlExcess, OfOneNameInSeveralFilesEachIsRefused) {
+  for (const char* file : {"a.wrl", "b.wrl"})
+    folder.write(file, "#VRML V2.0 utf8\n" + shape("tin",
+                                                   "diffuseColor .9 .9 .9 specularColor "
+                                                   ".6 .6 .6"));
+  const auto said = test::refusal_of([&] {
+    build_scene(read_study(folder.write("study.yaml",
+                                        "format: sunload-study-1\nname: excess\n"
+                                        "site: {latitude_deg: 50, longitude_deg: 14, timezone: "
+                                        "UTC}\nperiod: {days: [2026-03-21]}\n"
+                                        "light: {source: clear_sky}\nscene: {files: [a.wrl, "
+                                        "{file: b.wrl, position_m: [5, 0, 0]}]}\n"))
+                    .variants.front());
+  });
+  for (const char* part : {"a.wrl: material 'tin'", "b.wrl: material 'tin'"})
+    EXPECT_NE(said.find(part), std::string::npos) << part << "\nis missing in\n" << said;
+}
+
 TEST_F(VrmlExcess, ScaledByTheirRatioAndTold) {
   const auto scene = built(", vrml_excess: scale");
   EXPECT_NEAR(material(scene, "tin").diffuse, 0.6, 1e-6);
