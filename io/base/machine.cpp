@@ -101,6 +101,10 @@ double free_disk_bytes(const std::string& path) {
 
 std::string folder_problem(const std::string& path) {
   const fs::path at = nearest_existing(path);
+  std::error_code unknown;
+  // Who may do everything is told "permission denied" of it.
+  if (fs::exists(at, unknown) && !fs::is_directory(at, unknown))
+    return at.string() + " is no folder";
   if (access(at.c_str(), W_OK | X_OK) != 0) return std::strerror(errno);
   struct statvfs files {};
   const bool counts_files = statvfs(at.c_str(), &files) == 0 && files.f_files > 0;
@@ -149,6 +153,12 @@ void make_writable_folder(const std::string& path) {
     fs::create_directories(path, failed);
     if (failed != std::errc::no_such_file_or_directory) break;
   }
+  std::error_code unknown;
+  // Some systems call it success where a file is there already.
+  if (const fs::path at = nearest_existing(path);
+      fs::exists(at, unknown) && !fs::is_directory(at, unknown))
+    throw MachineError("cannot write into " + path + " (" + at.string() +
+                       " is no folder); choose another folder with --output");
   if (failed)
     throw MachineError("cannot make the folder " + path + " (" + failed.message() +
                        "); choose another with --output");

@@ -217,6 +217,20 @@ TEST(Outputs, TellHowManySunsStandForAnInterval) {
   }
 }
 
+TEST(Outputs, WhatIsNoFolderIsSaidToBeNone) {
+  const SquareFolder square;
+  square.folder.write("afile", "mine");
+  for (const auto& [output, said] :
+       {std::pair<std::string, std::string>{"afile", "afile is no folder"},
+        {"afile/below", "afile is no folder"},
+        {"/dev/null/x", "/dev/null is no folder"}}) {
+    const Ran ran = square.run(output);
+    EXPECT_EQ(ran.code, 3) << output << "\n" << ran.err;
+    EXPECT_NE(ran.err.find(said), std::string::npos) << ran.err;
+  }
+  EXPECT_EQ(square.folder.read("afile"), "mine");
+}
+
 /// From outside a closed room shows its backs alone, which have no values.
 TEST(Outputs, AClosedRoomIsLookedInto) {
   const WorkFolder folder;
