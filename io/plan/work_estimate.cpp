@@ -13,6 +13,7 @@
 #include "solver/base/cost.h"
 #include "solver/base/threads.h"
 #include "solver/light/sun_samples.h"
+#include "solver/shoot/shot_power.h"
 
 namespace sunload {
 
@@ -339,11 +340,15 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
         ((s.realizations + 1.0) * bytes_per_form_factor + thread_count() * bytes_per_factor_solved);
   if (s.transport == Transport::shoot) {
     const auto blocks = static_cast<double>(lit_blocks(plan));
-    work.samples =
-        static_cast<std::uint64_t>(mean_over_seasons(plan, [&](const MaterialsOfScene& of_season) {
-          return estimated_samples(plan, of_season, n, blocks, counts.samples_per_patch);
-        }));
-    const double per_shot = static_cast<double>(work.samples) / std::max(1.0, blocks * s.bounces);
+    const double samples = mean_over_seasons(plan, [&](const MaterialsOfScene& of_season) {
+      return estimated_samples(plan, of_season, n, blocks, counts.samples_per_patch);
+    });
+    const double per_shot = samples / std::max(1.0, blocks * s.bounces);
+    // The estimate knows no shadows: whether less is too much shows when it is shot.
+    constexpr double brightest_by_dimmest = 1000;
+    if (s.power_per_sample_w && per_shot / s.realizations > brightest_by_dimmest * most_samples)
+      refuse_samples(per_shot / s.realizations);
+    work.samples = static_cast<std::uint64_t>(samples);
     work.memory_bytes +=
         n * (shooting_bytes_per_patch + of_realizations * columns_of_a_realization) +
         per_shot / s.realizations * bytes_per_sample;

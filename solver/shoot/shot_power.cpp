@@ -3,6 +3,8 @@
 #include "solver/shoot/shot_power.h"
 
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 #include "geo/base/check.h"
 #include "solver/base/chunks.h"
@@ -34,12 +36,17 @@ SunTotals total_power(const DoubleColumns& power) {
       .of;
 }
 
+void refuse_samples(double samples) {
+  std::ostringstream text;
+  text << std::scientific << std::setprecision(1) << "solver.power_per_sample_w asks for "
+       << samples << " samples in one shot (at most " << most_samples
+       << "); write a larger one, or auto";
+  throw InputError(text.str());
+}
+
 std::vector<std::uint32_t> sample_counts(const DoubleColumns& power, const SunTotals& total,
                                          double samples, double offset) {
-  if (!(samples <= most_samples))
-    throw InputError("solver.power_per_sample_w asks for " + std::to_string(samples) +
-                     " samples in one shot (at most " + std::to_string(most_samples) +
-                     "); write a larger one, or auto");
+  if (!(samples <= most_samples)) refuse_samples(samples);
   const std::size_t patches = power.size() / block_width;
   SunTotals share{};  // of a watt of each sun in the mixture
   int suns = 0;

@@ -36,4 +36,7 @@ std::vector<std::uint32_t> sample_counts(const DoubleColumns& power, const SunTo
 /// Of one shot of one realization: 16 bytes each have to be kept.
 inline constexpr double most_samples = 2e9;
 
+/// Throws InputError that tells how many one shot of a realization would take.
+[[noreturn]] void refuse_samples(double samples);
+
 }  // namespace sunload

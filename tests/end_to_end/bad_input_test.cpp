@@ -119,6 +119,19 @@ TEST(BadInput, WhatIsTooSmallToBeResolved) {
   }
 }
 
+TEST(BadInput, ShotsOfMoreSamplesThanCanBeKeptAreRefusedBeforeTheRun) {
+  const WorkFolder folder;
+  folder.write("square.obj", square_obj);
+  folder.write("square.yaml",
+               square_study("totals", ", transport: shoot, power_per_sample_w: 1e-20"));
+  for (const char* command : {"check", "run"}) {
+    const Ran ran = program(folder, {command, "square.yaml"});
+    EXPECT_EQ(ran.code, 2) << command << "\n" << ran.err;
+    EXPECT_NE(ran.err.find("solver.power_per_sample_w asks for"), std::string::npos) << ran.err;
+    EXPECT_EQ(ran.err.find("use a smaller"), std::string::npos) << ran.err;
+  }
+}
+
 TEST(BadInput, AllErrorsOfAStudyAtOnce) {
   const Small small;
   small.spoil("latitude_deg: 49.7475", "latitude_deg: 148.2");

@@ -77,6 +77,13 @@ TEST(SampleCounts, RefusesMoreThanCanBeKept) {
   const auto power = two_suns(5);
   EXPECT_THROW(sample_counts(power, total_power(power), 2 * most_samples, 0), InputError);
   EXPECT_THROW(sample_counts(power, total_power(power), std::nan(""), 0), InputError);
+  try {
+    sample_counts(power, total_power(power), 1e25, 0);
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("1.0e+25 samples in one shot (at most 2.0e+09)"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace
