@@ -344,10 +344,10 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
       return estimated_samples(plan, of_season, n, blocks, counts.samples_per_patch);
     });
     const double per_shot = samples / std::max(1.0, blocks * s.bounces);
-    // The estimate knows no shadows: whether less is too much shows when it is shot.
-    constexpr double brightest_by_dimmest = 1000;
-    if (s.power_per_sample_w && per_shot / s.realizations > brightest_by_dimmest * most_samples)
-      refuse_samples(per_shot / s.realizations);
+    // Less is a matter of memory; and as the estimate knows no shadows, whether it is too much for
+    // a shot shows when it is shot.
+    constexpr double most_counted = 9e18;  // in 64 bits
+    if (samples > most_counted) refuse_samples(per_shot / s.realizations);
     work.samples = static_cast<std::uint64_t>(samples);
     work.memory_bytes +=
         n * (shooting_bytes_per_patch + of_realizations * columns_of_a_realization) +
