@@ -40,8 +40,8 @@ MeasureRule bre_209_probable_sun() {
   return {.word = "bre_209_probable_sun",
           .definition =
               "probable sunlight hours: share of the year's sunshine that the surface sees; 25 % "
-              "pass, and 5 % in winter (21 September to 21 March, in the south 21 March to 21 "
-              "September, days included)",
+              "pass, and 5 % in winter (21 September to 21 March, in the south half a year "
+              "later, days included)",
           .source = "BRE 209 (Littlefair 2022), 3.2; sunshine as of WMO",
           .units = "percent",
           .words = {{"season", {"year", "winter"}}},
