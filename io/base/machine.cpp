@@ -146,24 +146,28 @@ double peak_memory_bytes() {
 }
 
 void make_writable_folder(const std::string& path) {
-  // Who cleans up may remove parents while they are made.
+  // Who cleans up, or another process that leaves no empty folders, may remove parents while they
+  // are made, and the folder when it has been.
   constexpr int attempts = 10;
   std::error_code failed;
+  int no_access = 0;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     fs::create_directories(path, failed);
-    if (failed != std::errc::no_such_file_or_directory) break;
+    if (failed == std::errc::no_such_file_or_directory) continue;
+    no_access = !failed && access(path.c_str(), W_OK | X_OK) != 0 ? errno : 0;
+    if (no_access != ENOENT) break;
   }
   std::error_code unknown;
   // Some systems call it success where a file is there already.
-  if (const fs::path at = nearest_existing(path);
-      fs::exists(at, unknown) && !fs::is_directory(at, unknown))
+  const fs::path at = nearest_existing(path);
+  if (const auto status = fs::status(at, unknown); fs::exists(status) && !fs::is_directory(status))
     throw MachineError("cannot write into " + path + " (" + at.string() +
                        " is no folder); choose another folder with --output");
   if (failed)
     throw MachineError("cannot make the folder " + path + " (" + failed.message() +
                        "); choose another with --output");
-  if (access(path.c_str(), W_OK | X_OK) != 0)
-    throw MachineError("cannot write into " + path + " (" + std::strerror(errno) +
+  if (no_access != 0)
+    throw MachineError("cannot write into " + path + " (" + std::strerror(no_access) +
                        "); choose another folder with --output");
 }
 
