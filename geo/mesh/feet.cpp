@@ -74,7 +74,7 @@ class FootFinder {
  public:
   FootFinder(const Mesh& mesh, const Bodies& bodies, SceneKind kind)
       : mesh_(mesh), bodies_(bodies), feet_(bodies.bodies.size()) {
-    has_feet_.resize(mesh.object_names.size(), 1);
+    has_feet_.resize(mesh.object_names.size());
     for (std::size_t o = 0; o < has_feet_.size(); ++o) {
       const std::string& of = mesh.object_kinds[o];
       has_feet_[o] = kind == SceneKind::city ? is_building(of) : !is_plant(of) && !is_land(of);

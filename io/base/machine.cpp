@@ -99,12 +99,22 @@ double free_disk_bytes(const std::string& path) {
   return failed ? unlimited : static_cast<double>(space.available);
 }
 
+namespace {
+
+/// What to tell of a place where something else is; empty of a folder, and of nothing. One look:
+/// it may vanish between two.
+std::string no_folder_at(const fs::path& at) {
+  std::error_code unknown;
+  const auto status = fs::status(at, unknown);
+  return fs::exists(status) && !fs::is_directory(status) ? at.string() + " is no folder" : "";
+}
+
+}  // namespace
+
 std::string folder_problem(const std::string& path) {
   const fs::path at = nearest_existing(path);
-  std::error_code unknown;
   // Who may do everything is told "permission denied" of it.
-  if (fs::exists(at, unknown) && !fs::is_directory(at, unknown))
-    return at.string() + " is no folder";
+  if (std::string no_folder = no_folder_at(at); !no_folder.empty()) return no_folder;
   if (access(at.c_str(), W_OK | X_OK) != 0) return std::strerror(errno);
   struct statvfs files {};
   const bool counts_files = statvfs(at.c_str(), &files) == 0 && files.f_files > 0;
@@ -157,12 +167,10 @@ void make_writable_folder(const std::string& path) {
     no_access = !failed && access(path.c_str(), W_OK | X_OK) != 0 ? errno : 0;
     if (no_access != ENOENT) break;
   }
-  std::error_code unknown;
   // Some systems call it success where a file is there already.
-  const fs::path at = nearest_existing(path);
-  if (const auto status = fs::status(at, unknown); fs::exists(status) && !fs::is_directory(status))
-    throw MachineError("cannot write into " + path + " (" + at.string() +
-                       " is no folder); choose another folder with --output");
+  if (const std::string no_folder = no_folder_at(nearest_existing(path)); !no_folder.empty())
+    throw MachineError("cannot write into " + path + " (" + no_folder +
+                       "); choose another folder with --output");
   if (failed)
     throw MachineError("cannot make the folder " + path + " (" + failed.message() +
                        "); choose another with --output");

@@ -242,20 +242,25 @@ SunSampler::NetRays SunSampler::net_rays(std::size_t receiver, const Geometry& g
   return rays;
 }
 
-LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const IntervalLight& sun,
-                       const SunSampler::Geometry& geometry, const SunSampler::Seeds& seeds,
-                       std::size_t packet) {
-  LitSamples samples{sampler.origins(geometry, seeds, packet),
-                     sampler.directions(sun, seeds, packet), sampler.active(packet), 0};
-  samples.lit = caster.unoccluded_each(samples.origins, samples.to_sun, samples.active);
-  return samples;
-}
-
 RayCaster::Shares shares_of_light(const SunSampler& sampler, const RayCaster& caster,
                                   const Packet& origins, const PacketDirections& to_sun,
                                   std::uint32_t active) {
   return sampler.are_points() ? caster.passed_each(origins, to_sun, active)
                               : all_or_nothing(caster.unoccluded_each(origins, to_sun, active));
+}
+
+LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const IntervalLight& sun,
+                       const SunSampler::Geometry& geometry, const SunSampler::Seeds& seeds,
+                       std::size_t packet) {
+  LitSamples samples{sampler.origins(geometry, seeds, packet),
+                     sampler.directions(sun, seeds, packet),
+                     sampler.active(packet),
+                     0,
+                     {}};
+  samples.share = shares_of_light(sampler, caster, samples.origins, samples.to_sun, samples.active);
+  for (std::size_t l = 0; l < packet_size; ++l)
+    if (samples.share[l] > 0) samples.lit |= 1u << l;
+  return samples;
 }
 
 namespace {
@@ -398,14 +403,13 @@ class ReceiverSuns {
     sampler_.seed(receiver, sun.number, seeds_);
     double visible = 0;
     for (std::size_t p = 0; p < sampler_.packets(); ++p) {
-      const std::uint32_t active = sampler_.active(p);
-      const auto shares = shares_of_light(sampler_, caster_, sampler_.origins(geometry, seeds_, p),
-                                          sampler_.directions(sun, seeds_, p), active);
-      rays += static_cast<std::uint64_t>(std::popcount(active));
-      for (auto bits = active; bits != 0; bits &= bits - 1) {
+      const LitSamples samples = lit_samples(sampler_, caster_, sun, geometry, seeds_, p);
+      rays += static_cast<std::uint64_t>(std::popcount(samples.active));
+      for (auto bits = samples.lit; bits != 0; bits &= bits - 1) {
         const auto l = static_cast<std::size_t>(std::countr_zero(bits));
-        visible += static_cast<double>(shares[l]);
-        seen_[sampler_.realization(p * packet_size + l)] += static_cast<double>(shares[l]);
+        const auto share = static_cast<double>(samples.share[l]);
+        visible += share;
+        seen_[sampler_.realization(p * packet_size + l)] += share;
       }
     }
     return visible;

@@ -124,24 +124,25 @@ class SunSampler {
   std::vector<std::array<std::uint32_t, 4>> net_;
 };
 
+/// Share of the light of each active ray that reaches its receiver, one of the sampler's: 0 or 1
+/// for patches, and for sensors what passes on the way.
+RayCaster::Shares shares_of_light(const SunSampler& sampler, const RayCaster& caster,
+                                  const Packet& origins, const PacketDirections& to_sun,
+                                  std::uint32_t active);
+
 /// Samples of one packet of a receiver, and which of them see the sun.
 struct LitSamples {
   Packet origins;
   PacketDirections to_sun;  ///< each to its own point on the disk
   std::uint32_t active,
-      lit;  ///< bits: that the packet really holds, and of these what sees the sun
+      lit;                  ///< bits: that the packet really holds, and of these what sees the sun
+  RayCaster::Shares share;  ///< of the sun that each sees
 };
 /// All that asks rays for the direct sun of a receiver asks here, so that what surfaces receive and
 /// what they send on rests on the same rays. `seeds`: of this receiver and sun.
 LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const IntervalLight& sun,
                        const SunSampler::Geometry& geometry, const SunSampler::Seeds& seeds,
                        std::size_t packet);
-
-/// Share of the light of each active ray that reaches its receiver, one of the sampler's: 0 or 1
-/// for patches, and for sensors what passes on the way.
-RayCaster::Shares shares_of_light(const SunSampler& sampler, const RayCaster& caster,
-                                  const Packet& origins, const PacketDirections& to_sun,
-                                  std::uint32_t active);
 
 /// Unit direction to the point on the sun's disk that lies along `to_sun`, of any length, as a
 /// surface of that normal sees it: to the centre where the disk has half set behind the surface,

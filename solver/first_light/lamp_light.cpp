@@ -67,7 +67,8 @@ LampLight lamp_light(const Scene& scene, const Hierarchy& hierarchy, const RayCa
 }
 
 LampLight lamp_light_on_sensors(const Scene& scene, const RayCaster& caster,
-                                const SunSampler& sensors, std::size_t realizations) {
+                                const SunSampler& sensors, const MirrorGroups& mirrors,
+                                std::size_t realizations) {
   LampLight light;
   if (!scene.any_lamp_beside_surfaces()) return light;
   light.irradiance.assign(realizations, std::vector<double>(sensors.receivers(), 0));
@@ -76,7 +77,7 @@ LampLight lamp_light_on_sensors(const Scene& scene, const RayCaster& caster,
   for (std::size_t s = 0; s < sensors.receivers(); ++s) lamps.shine_on(s, rays);
   light.rays = rays.found().rays;
   if (scene.luminaires.any()) {
-    const LuminaireImages images(scene, caster);
+    const LuminaireImages images(mirrors, caster);
     for (std::size_t s = 0; s < sensors.receivers(); ++s) {
       const double E = images.on(scene.sensors[s], light.rays);
       for (auto& of_realization : light.irradiance) of_realization[s] += E;

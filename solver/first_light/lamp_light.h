@@ -14,6 +14,7 @@
 #include "solver/first_light/direct_sun.h"
 #include "solver/light/tally.h"
 #include "solver/mesh/patch_optics.h"
+#include "solver/surface/mirror_groups.h"
 
 namespace sunload {
 
@@ -37,6 +38,7 @@ LampLight lamp_light(const Scene& scene, const Hierarchy& hierarchy, const RayCa
 /// The same on sensors; by mirrors that of luminaires alone, once reflected
 /// (solver/first_light/luminaire_images.h). No ledger.
 LampLight lamp_light_on_sensors(const Scene& scene, const RayCaster& caster,
-                                const SunSampler& sensors, std::size_t realizations);
+                                const SunSampler& sensors, const MirrorGroups& mirrors,
+                                std::size_t realizations);
 
 }  // namespace sunload

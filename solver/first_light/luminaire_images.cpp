@@ -7,11 +7,10 @@
 
 namespace sunload {
 
-LuminaireImages::LuminaireImages(const Scene& scene, const RayCaster& caster)
-    : scene_(scene),
+LuminaireImages::LuminaireImages(const MirrorGroups& mirrors, const RayCaster& caster)
+    : groups_(mirrors),
       caster_(caster),
-      groups_(scene),
-      plane_of_side_(2 * scene.mesh.triangle_count(), -1) {
+      plane_of_side_(2 * mirrors.scene().mesh.triangle_count(), -1) {
   for (std::size_t g = 0; g < groups_.size(); ++g) add_planes(g);
 }
 
@@ -21,29 +20,30 @@ void LuminaireImages::add_planes(std::size_t group) {
   const Vec3 normal = groups_[group].normal;
   std::vector<std::pair<double, std::int32_t>> offsets;
   for (const auto t : groups_[group].triangles)
-    offsets.emplace_back(dot(normal, scene_.mesh.corner(static_cast<std::size_t>(t), 0)), t);
+    offsets.emplace_back(dot(normal, groups_.scene().mesh.corner(static_cast<std::size_t>(t), 0)),
+                         t);
   std::sort(offsets.begin(), offsets.end());
   for (std::size_t i = 0; i < offsets.size(); ++i) {
     const auto [offset, triangle] = offsets[i];
     if (i == 0 || offset - offsets[i - 1].first > caster_.offset_m())
-      planes_.push_back({group, normal, offset});
+      planes_.push_back({normal, offset});
     for (const bool front : {true, false})
       if (groups_.of_side(triangle, front) == static_cast<std::int32_t>(group))
-        plane_of(triangle, front) = static_cast<std::int32_t>(planes_.size() - 1);
+        plane_of_side_[side(triangle, front)] = static_cast<std::int32_t>(planes_.size() - 1);
   }
 }
 
 double LuminaireImages::on(const Sensor& sensor, std::uint64_t& rays) const {
   double E = 0;
   for (std::size_t p = 0; p < planes_.size(); ++p)
-    for (const Luminaire& luminaire : scene_.luminaires.all)
+    for (const Luminaire& luminaire : groups_.scene().luminaires.all)
       E += in_plane(p, luminaire, sensor, rays);
   return E;
 }
 
 double LuminaireImages::in_plane(std::size_t p, const Luminaire& luminaire, const Sensor& sensor,
                                  std::uint64_t& rays) const {
-  const auto& [group, n, offset] = planes_[p];
+  const auto& [n, offset] = planes_[p];
   const double near = caster_.offset_m();
   const double of_sensor = dot(n, sensor.position) - offset;
   const double of_lamp = dot(n, luminaire.position) - offset;
@@ -55,13 +55,14 @@ double LuminaireImages::in_plane(std::size_t p, const Luminaire& luminaire, cons
   if (cos_theta <= 0) return 0;
   const Vec3 at = sensor.position + way * (of_sensor / (of_sensor + of_lamp));
   const Vec3 before = at + n * near;  // the mirror
-  const double I = scene_.luminaires.intensity(luminaire, normalized(before - luminaire.position));
+  const double I =
+      groups_.scene().luminaires.intensity(luminaire, normalized(before - luminaire.position));
   if (I <= 0) return 0;
   const Hit hit = caster_.first_hit(before, w);
   rays += 3;
-  if (hit.left_scene()) return 0;
-  const std::size_t side = 2 * static_cast<std::size_t>(hit.triangle) + (hit.front ? 0u : 1u);
-  if (plane_of_side_[side] != static_cast<std::int32_t>(p)) return 0;
+  if (hit.left_scene() ||
+      plane_of_side_[side(hit.triangle, hit.front)] != static_cast<std::int32_t>(p))
+    return 0;
   const double rho = groups_.weight_of_hit(hit.triangle, cos_mirror);
   const Vec3 from = sensor.position + sensor.normal * near;
   return I * rho * cos_theta / (r * r) * passed(from, before) * passed(before, luminaire.position);

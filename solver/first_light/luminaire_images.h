@@ -19,7 +19,7 @@ namespace sunload {
 class LuminaireImages {
  public:
   /// Both must outlive it.
-  LuminaireImages(const Scene& scene, const RayCaster& caster);
+  LuminaireImages(const MirrorGroups& mirrors, const RayCaster& caster);
 
   /// Irradiance of a sensor by all images [W m-2]; adds the rays cast. Cost: some arithmetic for
   /// each mirror plane and luminaire, three rays where the image is before the sensor.
@@ -27,22 +27,21 @@ class LuminaireImages {
 
  private:
   struct Plane {
-    std::size_t group;
     Vec3 normal;
     double offset;  ///< normal · any point of it
   };
   /// Finds the planes of a group's triangles.
   void add_planes(std::size_t group);
-  std::int32_t& plane_of(std::int32_t triangle, bool front) {
-    return plane_of_side_[2 * static_cast<std::size_t>(triangle) + (front ? 0u : 1u)];
+  /// Place of a side in `plane_of_side_`.
+  static std::size_t side(std::int32_t triangle, bool front) {
+    return 2 * static_cast<std::size_t>(triangle) + (front ? 0u : 1u);
   }
   double in_plane(std::size_t plane, const Luminaire& luminaire, const Sensor& sensor,
                   std::uint64_t& rays) const;
   double passed(Vec3 from, Vec3 to) const;
 
-  const Scene& scene_;
+  const MirrorGroups& groups_;
   const RayCaster& caster_;
-  MirrorGroups groups_;
   std::vector<Plane> planes_;
   std::vector<std::int32_t> plane_of_side_;  ///< [2·triangle + side]; -1: no mirror
 };

@@ -85,18 +85,6 @@ std::string usable_isa(const std::string& wanted) {
   throw InputError({}, "this processor is too old", "SSE4.2 is needed", "run on another machine");
 }
 
-namespace {
-
-/// Rays that met nothing: Embree marks an occluded ray by a negative end.
-std::uint32_t unoccluded_rays(const RTCRay16& ray, std::uint32_t active) {
-  std::uint32_t seen = 0;
-  for (std::size_t r = 0; r < packet_size; ++r)
-    if (ray.tfar[r] > 0) seen |= 1u << r;
-  return seen & active;
-}
-
-}  // namespace
-
 struct RayCaster::Embree {
   Screens screens;
   DeviceError error;
@@ -344,48 +332,48 @@ RayCaster::Shares RayCaster::passed_up_to(const Packet& origins, const PacketDir
 
 namespace {
 
-struct ShadowRays {
+/// Rays that met nothing.
+std::uint32_t unoccluded_rays(RTCScene scene, Context& context, const Packet& origins,
+                              const PacketDirections& directions, float end, std::uint32_t active) {
   RTCRay16 ray;
   alignas(64) int valid[packet_size];
-
-  ShadowRays(const Packet& origins, const PacketDirections& directions, float end,
-             std::uint32_t active) {
-    for (std::size_t r = 0; r < packet_size; ++r) {
-      valid[r] = (active >> r & 1u) ? -1 : 0;
-      ray.org_x[r] = origins.x[r];
-      ray.org_y[r] = origins.y[r];
-      ray.org_z[r] = origins.z[r];
-      ray.dir_x[r] = directions.x[r];
-      ray.dir_y[r] = directions.y[r];
-      ray.dir_z[r] = directions.z[r];
-      ray.tnear[r] = 0;
-      ray.tfar[r] = end;
-      ray.time[r] = 0;
-      ray.mask[r] = ~0u;
-      ray.flags[r] = 0;
-      ray.id[r] = static_cast<unsigned>(r);
-    }
+  for (std::size_t r = 0; r < packet_size; ++r) {
+    valid[r] = (active >> r & 1u) ? -1 : 0;
+    ray.org_x[r] = origins.x[r];
+    ray.org_y[r] = origins.y[r];
+    ray.org_z[r] = origins.z[r];
+    ray.dir_x[r] = directions.x[r];
+    ray.dir_y[r] = directions.y[r];
+    ray.dir_z[r] = directions.z[r];
+    ray.tnear[r] = 0;
+    ray.tfar[r] = end;
+    ray.time[r] = 0;
+    ray.mask[r] = ~0u;
+    ray.flags[r] = 0;
+    ray.id[r] = static_cast<unsigned>(r);
   }
-};
+  rtcOccluded16(valid, scene, &context.embree, &ray);
+  std::uint32_t seen = 0;  // Embree marks an occluded ray by a negative end
+  for (std::size_t r = 0; r < packet_size; ++r)
+    if (ray.tfar[r] > 0) seen |= 1u << r;
+  return seen & active;
+}
 
 }  // namespace
 
 std::uint32_t RayCaster::unoccluded(const Packet& origins, const PacketDirections& directions,
                                     float end, std::uint32_t active, Coherence coherence) const {
   Context context(coherence);
-  ShadowRays rays(origins, directions, end, active);
-  rtcOccluded16(rays.valid, embree_->scene, &context.embree, &rays.ray);
-  return unoccluded_rays(rays.ray, active);
+  return unoccluded_rays(embree_->scene, context, origins, directions, end, active);
 }
 
 RayCaster::Shares RayCaster::passed(const Packet& origins, const PacketDirections& directions,
                                     float end, std::uint32_t active, Coherence coherence) const {
   Passage passage;
   Context context(coherence, &passage);
-  ShadowRays rays(origins, directions, end, active);
-  rtcOccluded16(rays.valid, embree_->scene, &context.embree, &rays.ray);
+  const std::uint32_t seen =
+      unoccluded_rays(embree_->scene, context, origins, directions, end, active);
   Shares shares = passage.share();
-  const std::uint32_t seen = unoccluded_rays(rays.ray, active);
   for (std::size_t r = 0; r < packet_size; ++r)
     if ((seen >> r & 1u) == 0) shares[r] = 0;
   return shares;

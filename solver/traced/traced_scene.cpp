@@ -53,8 +53,8 @@ void add_lamp_light(TracedScene& traced) {
   traced.patches.lamps =
       lamp_light(traced.scene, *traced.mesh, traced.caster, traced.patches.sampler, traced.optics,
                  realizations, traced.rules.mirror_depth);
-  traced.sensors.lamps =
-      lamp_light_on_sensors(traced.scene, traced.caster, traced.sensors.sampler, realizations);
+  traced.sensors.lamps = lamp_light_on_sensors(traced.scene, traced.caster, traced.sensors.sampler,
+                                               traced.mirrors, realizations);
   traced.work.add(Work::direct_rays, traced.patches.lamps.rays);
 }
 
