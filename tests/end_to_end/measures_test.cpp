@@ -164,15 +164,20 @@ TEST(Measures, OthersMakeAnotherResultOfTheSameBatches) {
   EXPECT_EQ(measure_names(ResultReader(folder / result)).size(), 5u);
 }
 
+/// Four hours about a box on a plane, before what is measured there.
+std::string box_study(const std::string& name) {
+  return "format: sunload-study-1\nname: " + name +
+         "\nsite: {latitude_deg: 50, longitude_deg: 14, timezone: Europe/Prague}\n"
+         "period: {days: [2026-03-21], from: \"10:00\", to: \"14:00\", step_min: 60}\n"
+         "scene: {builtin: {name: box_on_plane}}\n"
+         "mesh: {oracle: none, max_edge_m: 10}\nsolver: {lines_per_patch: 16}\n";
+}
+
 /// The sun shines in every hour with light: no overcast sky.
 TEST(Measures, SayWhereTheyHaveNoValue) {
   const WorkFolder folder;
   const auto study = [](const char* light) {
-    return "format: sunload-study-1\nname: bright\n"
-           "site: {latitude_deg: 50, longitude_deg: 14, timezone: Europe/Prague}\n"
-           "period: {days: [2026-03-21], from: \"10:00\", to: \"14:00\", step_min: 60}\n"
-           "scene: {builtin: {name: box_on_plane}}\n"
-           "mesh: {oracle: none, max_edge_m: 10}\nsolver: {lines_per_patch: 16}\n"
+    return box_study("bright") +
            "measures: {df: {rule: daylight_factor}, sky: {rule: bre_209_vsc}}\n" +
            std::string(light);
   };
@@ -207,13 +212,8 @@ TEST(Measures, OfAYearNeedOne) {
 TEST(Measures, OfWhatAVariantRemovesAreTakenInTheOthers) {
   const WorkFolder folder;
   const auto study = [](const char* object) {
-    return "format: sunload-study-1\nname: gone\n"
-           "site: {latitude_deg: 50, longitude_deg: 14, timezone: Europe/Prague}\n"
-           "period: {days: [2026-03-21], from: \"10:00\", to: \"14:00\", step_min: 60}\n"
-           "scene: {builtin: {name: box_on_plane}}\n"
-           "mesh: {oracle: none, max_edge_m: 10}\nsolver: {lines_per_patch: 16}\n"
-           "measures: {sky: {rule: bre_209_vsc, of: {object: " +
-           std::string(object) +
+    return box_study("gone") +
+           "measures: {sky: {rule: bre_209_vsc, of: {object: " + std::string(object) +
            "}}, south: {rule: en_17037, least_elevation_deg: 13, of: {facade: 'box/south*'}}}\n"
            "variants: [{name: base}, {name: bare, scene: {edit: [{object: box, remove: true}]}}]\n";
   };
