@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -18,6 +19,7 @@
 #include <limits>
 #include <optional>
 #include <sstream>
+#include <thread>
 
 #include "geo/base/check.h"
 
@@ -109,6 +111,12 @@ std::string no_folder_at(const fs::path& at) {
   return fs::exists(status) && !fs::is_directory(status) ? at.string() + " is no folder" : "";
 }
 
+/// Of making a folder: what was there already and is gone at the second look is called no folder.
+bool may_have_vanished(const std::error_code& failed) {
+  return failed == std::errc::no_such_file_or_directory || failed == std::errc::file_exists ||
+         failed == std::errc::not_a_directory;
+}
+
 }  // namespace
 
 std::string folder_problem(const std::string& path) {
@@ -158,12 +166,14 @@ double peak_memory_bytes() {
 void make_writable_folder(const std::string& path) {
   // Who cleans up, or another process that leaves no empty folders, may remove parents while they
   // are made, and the folder when it has been.
-  constexpr int attempts = 10;
+  constexpr int attempts = 20;
+  constexpr std::chrono::milliseconds pause{1};
   std::error_code failed;
   int no_access = 0;
   for (int attempt = 0; attempt < attempts; ++attempt) {
+    if (attempt > 0) std::this_thread::sleep_for(pause);
     fs::create_directories(path, failed);
-    if (failed == std::errc::no_such_file_or_directory) continue;
+    if (may_have_vanished(failed)) continue;
     no_access = !failed && access(path.c_str(), W_OK | X_OK) != 0 ? errno : 0;
     if (no_access != ENOENT) break;
   }
