@@ -113,8 +113,9 @@ SUNLOAD_VECTOR_CODE void cosines(const float* x, const float* y, const float* z,
 }
 
 /// From cosines at the corners to q, and the cells' shares of ∫ L_circ q dω.
-SUNLOAD_VECTOR_CODE void weigh(const float* brightness, float scale, std::size_t cells, float* q0,
-                               float* q1, float* q2, float* q3, std::int32_t* share) {
+SUNLOAD_VECTOR_CODE void weigh(const float* __restrict brightness, float scale, std::size_t cells,
+                               float* __restrict q0, float* __restrict q1, float* __restrict q2,
+                               float* __restrict q3, std::int32_t* __restrict share) {
   constexpr float half = 0.5f;  // cut off: rounds what is not below 0
   for (std::size_t c = 0; c < cells; ++c) {
     const float upper = q0[c] > q1[c] ? q0[c] : q1[c], lower = q2[c] > q3[c] ? q2[c] : q3[c];
@@ -182,8 +183,9 @@ inline float sample_linear(float u, float f0, float f1) {
 /// Places in cells by their bilinear q; then the direction there as SkyGrid::direction has it, in
 /// single precision and without branches, in the shape that compilers turn into vector code: sine
 /// and cosine by their series, which end below 1e-6 at π/4.
-SUNLOAD_VECTOR_CODE void aim(Drawn& drawn, float cell_width, const float* normal,
-                             CircumsolarView::Samples& out) {
+SUNLOAD_VECTOR_CODE void aim(const Drawn& __restrict drawn, float cell_width,
+                             const float* __restrict normal,
+                             CircumsolarView::Samples& __restrict out) {
   constexpr float quarter_pi = 0.78539816f, least = 1e-20f;
   for (std::size_t s = 0; s < packet_size; ++s) {
     const float q00 = drawn.q00[s], q10 = drawn.q10[s], q01 = drawn.q01[s], q11 = drawn.q11[s];

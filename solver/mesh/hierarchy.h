@@ -65,7 +65,6 @@ class Hierarchy {
   std::size_t element_count() const { return patches_.size() + halves_.size(); }
   /// Element whose half this one is; -1 for roots.
   std::int32_t parent(std::size_t element) const { return parent_[element]; }
-  const std::vector<std::int32_t>& parents() const { return parent_; }
   /// Elements whose union is inner element number patch_count() + i.
   const std::array<std::uint32_t, 2>& halves_of(std::size_t i) const { return halves_[i]; }
   std::size_t tree_count() const { return first_inner_.size() - 1; }

@@ -25,31 +25,48 @@ std::uint32_t linked_element(const Hierarchy& hierarchy, std::size_t patch, Vec3
 
 namespace {
 
-struct Climb {
-  const std::int32_t* parent;  ///< of each element
-  const Hierarchy::Sphere* sphere;
-  std::int32_t patches;  ///< elements without spheres
+struct Spheres {
+  alignas(64) double x[packet_size], y[packet_size], z[packet_size], radius[packet_size];
 };
 
-/// One step up of each point's element whose parent is small enough; false where all have ended.
-SUNLOAD_VECTOR_CODE bool climb_together(const Climb climb, const LinkedPoints& points,
-                                        std::int32_t (&element)[packet_size],
-                                        std::int32_t (&next)[packet_size]) {
-  std::int32_t steps = 0;
+/// Bounds of form factors of what lies in the spheres, as `linked_element` has them.
+SUNLOAD_VECTOR_CODE void bound_form_factors(const Spheres& __restrict spheres,
+                                            const LinkedPoints& __restrict points,
+                                            double* __restrict bound) {
   for (std::size_t l = 0; l < packet_size; ++l) {
-    const std::int32_t up = next[l];
-    const Hierarchy::Sphere& sphere = climb.sphere[up < 0 ? 0 : up - climb.patches];
-    const double x = static_cast<double>(sphere.x) - points.x[l],
-                 y = static_cast<double>(sphere.y) - points.y[l],
-                 z = static_cast<double>(sphere.z) - points.z[l];
-    const double distance_m = points.path_m[l] - norm({x, y, z});
-    const bool goes_up = up >= 0 && largest_form_factor(static_cast<double>(sphere.radius),
-                                                        distance_m) <= points.largest_link[l];
-    element[l] = goes_up ? up : element[l];
-    next[l] = goes_up ? climb.parent[goes_up ? up : 0] : -1;
-    steps += goes_up ? 1 : 0;
+    const Vec3 away{spheres.x[l] - points.x[l], spheres.y[l] - points.y[l],
+                    spheres.z[l] - points.z[l]};
+    bound[l] = largest_form_factor(spheres.radius[l], points.path_m[l] - norm(away));
   }
-  return steps > 0;
+}
+
+/// One step up of each point's element whose parent is small enough; false where all have ended.
+bool climb_together(const Hierarchy& hierarchy, const LinkedPoints& points,
+                    std::int32_t (&element)[packet_size], std::int32_t (&next)[packet_size]) {
+  const auto patches = static_cast<std::int32_t>(hierarchy.patch_count());
+  Spheres spheres;
+  for (std::size_t l = 0; l < packet_size; ++l) {
+    const auto& [x, y, z, radius] =
+        hierarchy.sphere(static_cast<std::size_t>(std::max(next[l] - patches, 0)));
+    spheres.x[l] = static_cast<double>(x);
+    spheres.y[l] = static_cast<double>(y);
+    spheres.z[l] = static_cast<double>(z);
+    spheres.radius[l] = static_cast<double>(radius);
+  }
+  alignas(64) double bound[packet_size];
+  bound_form_factors(spheres, points, bound);
+  bool any = false;
+  for (std::size_t l = 0; l < packet_size; ++l) {
+    if (next[l] < 0) continue;
+    if (bound[l] > points.largest_link[l]) {
+      next[l] = -1;
+      continue;
+    }
+    element[l] = next[l];
+    next[l] = hierarchy.parent(static_cast<std::size_t>(next[l]));
+    any = true;
+  }
+  return any;
 }
 
 }  // namespace
@@ -61,11 +78,8 @@ void linked_elements(const Hierarchy& hierarchy, const LinkedPoints& points,
     at[l] = std::max(points.patch[l], 0);
     next[l] = points.patch[l] < 0 ? -1 : hierarchy.parent(static_cast<std::size_t>(at[l]));
   }
-  if (hierarchy.element_count() > hierarchy.patch_count()) {
-    const Climb climb{hierarchy.parents().data(), &hierarchy.sphere(0),
-                      static_cast<std::int32_t>(hierarchy.patch_count())};
-    while (climb_together(climb, points, at, next)) continue;
-  }
+  if (hierarchy.element_count() > hierarchy.patch_count())
+    while (climb_together(hierarchy, points, at, next)) continue;
   for (std::size_t l = 0; l < packet_size; ++l) element[l] = static_cast<std::uint32_t>(at[l]);
 }
 

@@ -20,7 +20,9 @@ SUNLOAD_VECTOR_CODE void add(const Deposit* begin, const Deposit* end, const dou
     const double per_area = d->weight / area[d->target];
     const double* P = power + static_cast<std::size_t>(d->source) * block_width;
     double* E = irradiance + static_cast<std::size_t>(d->target) * block_width;
-    for (std::size_t k = 0; k < block_width; ++k) E[k] += per_area * P[k];
+    double sum[block_width];  // all is read before any of it is written
+    for (std::size_t k = 0; k < block_width; ++k) sum[k] = E[k] + per_area * P[k];
+    for (std::size_t k = 0; k < block_width; ++k) E[k] = sum[k];
   }
 }
 
