@@ -121,8 +121,8 @@ class MirrorChains::Task {
     const SmoothShares shares = smooth_shares(m, cos_theta);
     fate.transmitted += power * shares.transmitted;
     fate.cut += power * m.glossy;
-    fate.absorbed +=
-        power * (1 - m.diffuse - shares.mirror - shares.transmitted - m.glossy - m.transmittance);
+    fate.absorbed += power * left_over(1 - m.diffuse - shares.mirror - shares.transmitted -
+                                       m.glossy - m.transmittance);
   }
 
   /// Books what a chain meets; false where it ends there.

@@ -24,8 +24,8 @@ struct PatchOptics {
   /// Share of its irradiance that a patch absorbs; 0 where its meetings with lines tell.
   double absorbed(std::size_t patch) const {
     if (by_angle[patch]) return 0;
-    return 1 - static_cast<double>(diffuse[patch]) - static_cast<double>(mirror[patch]) -
-           static_cast<double>(passed[patch]);
+    return left_over(1 - static_cast<double>(diffuse[patch]) - static_cast<double>(mirror[patch]) -
+                     static_cast<double>(passed[patch]));
   }
 };
 PatchOptics patch_optics(const Scene& scene, const Hierarchy& hierarchy);

@@ -3,6 +3,7 @@
 /// Optical properties of surfaces, and the scene that light is computed in.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -71,6 +72,10 @@ inline bool sends_on(const Material& m) { return is_mirror(m) || m.glossy > 0; }
 
 /// Light goes on from it, or through it, in a direction of its own.
 inline bool goes_on_straight(const Material& m) { return sends_on(m) || m.transmittance > 0; }
+
+/// A share that is 1 less all others: where these are all of the light, roundings may leave less
+/// than nothing.
+inline double left_over(double share) { return std::max(0.0, share); }
 
 /// Share of power that an ideal mirror of this material returns at the angle
 /// whose cosine is `cos_theta` (of incidence). Constant for plain mirrors.

@@ -14,7 +14,7 @@ Onward onward(const Material& m, Vec3 n, Vec3 w, const RandomKey& key) {
     const SmoothShares shares = smooth_shares(m, cos_theta);
     on.weight = shares.mirror;
     on.transmitted = shares.transmitted;
-    on.absorbed = 1 - m.diffuse - shares.mirror - shares.transmitted;
+    on.absorbed = left_over(1 - m.diffuse - shares.mirror - shares.transmitted);
   } else if (m.glossy <= 0) {
     on.weight = m.mirror;
   } else {

@@ -21,7 +21,7 @@ Onward onward(const Material& material, Vec3 n, Vec3 w, const RandomKey& key);
 
 /// Share of the light on a surface that it absorbs, where `on` says what it sends on.
 inline double absorbed_share(const Material& m, const Onward& on) {
-  return depends_on_angle(m) ? on.absorbed : 1 - m.diffuse - m.mirror - m.transmittance;
+  return depends_on_angle(m) ? on.absorbed : left_over(1 - m.diffuse - m.mirror - m.transmittance);
 }
 
 }  // namespace sunload

@@ -67,6 +67,18 @@ TEST(Ledger, WhatIsNotFollowedIsNeverBelowZero) {
     }
 }
 
+// Shares in single precision add up to a little more than 1 here.
+TEST(Ledger, WhatAbsorbsNothingTakesNoPower) {
+  SceneBuilder builder;
+  builder.box({0, 0, 0}, {2, 3, 4}, builder.material({"m", 0.2, 0.8, 0}), Facing::outward);
+  const auto solved = solve(builder.scene(), three_suns(), test_rules(), {.max_edge_m = 1});
+  for (const auto& ledgers : {solved.tally.ledger, solved.tally.ledger_realization})
+    for (const Ledger& ledger : ledgers) {
+      EXPECT_GE(ledger[Term::absorbed], 0);
+      EXPECT_GT(ledger.in(), 0);
+    }
+}
+
 // Parallel light that a closed body intercepts is DNI times its silhouette.
 TEST(Ledger, DirectPowerIsDniTimesSilhouette) {
   SceneBuilder builder;
