@@ -44,13 +44,15 @@ const char* source_words(WeatherSource source, Decomposition decomposition) {
   return "nothing";
 }
 
-/// The records that overlap [begin, end].
-std::vector<DatedWeather> overlapping(const std::vector<DatedWeather>& all, UnixTime begin,
-                                      UnixTime end) {
-  std::vector<DatedWeather> some;
-  for (const auto& w : all)
-    if (w.end > begin && w.begin < end) some.push_back(w);
-  return some;
+/// The records that overlap an interval of the path. What lies between its days is nobody's.
+std::vector<DatedWeather> used_by(const SunPath& path, const std::vector<DatedWeather>& all) {
+  std::vector<DatedWeather> used;
+  for (const auto& w : all) {
+    const auto next = std::upper_bound(path.begin(), path.end(), w.begin,
+                                       [](UnixTime t, const SunInterval& i) { return t < i.end; });
+    if (next != path.end() && next->begin < w.end) used.push_back(w);
+  }
+  return used;
 }
 
 /// Stations have an open horizon.
@@ -163,11 +165,9 @@ std::vector<Irradiance> StudyWeather::means(const SunPath& path) {
     throw InputError({file_.path}, "has no irradiance that light could be made from",
                      "all values of GHI, DNI and DHI are missing");
   const auto filled = fill_missing(dated_, source_, study_.light.missing).weather;
-  UnixTime end = path.front().end;
-  for (const auto& i : path) end = std::max(end, i.end);
-  const auto as_read = overlapping(dated_, path.front().begin, end);
+  const auto as_read = used_by(path, dated_);
   say_filled(fill_missing(as_read, source_, Missing::refuse), as_read.size());
-  const auto used = overlapping(filled, path.front().begin, end);
+  const auto used = used_by(path, filled);
   if (used.empty()) refuse_uncovered(path.front());
   const bool own = are_same(used, path);
   const SunPath weather_path =

@@ -227,6 +227,23 @@ TEST(WeatherLight, RowsThatAreMissingWithinADayAreMissingValues) {
   EXPECT_EQ(refused(with("days: [2026-06-21]", "")), "");
 }
 
+TEST(WeatherLight, ValuesThatAreMissingBetweenTheDaysOfThePeriodAreNoOnes) {
+  std::string text = roof + "time,dni_w_m2,dhi_w_m2\n";
+  for (int h = 0; h < 96; ++h)
+    text +=
+        fmt::format("2026-06-{:02}T{:02}:00,{},40\n", 20 + h / 24, h % 24, h == 36 ? "" : "100");
+  write_text("gap.csv", text);
+  const auto of = [](const char* days) {
+    return study_of("timezone: UTC", std::string("days: ") + days,
+                    "weather: gap.csv, stamp: start");
+  };
+  const auto around = series_of(of("[2026-06-20, 2026-06-22]"));
+  ASSERT_EQ(around.intervals.size(), 48u);
+  EXPECT_EQ(around.intervals[36].mean.dni, 100);
+  EXPECT_FALSE(says(around.notes, "lack a value"));
+  EXPECT_NE(refused(of("[2026-06-20, 2026-06-21]")).find("(1 of 48 records"), std::string::npos);
+}
+
 /// As in files that are filtered by irradiance: the sun of 21 June rises at 03:53 and sets at
 /// 20:14.
 TEST(WeatherLight, RowsOfTheDarkMayBeMissing) {
