@@ -34,7 +34,8 @@ std::size_t lit_blocks(const VariantPlan& plan) {
 }
 
 /// Samples of all shots: those of the first reflection, then (incremental) less by what is
-/// absorbed, one at least of every patch. The light on a patch is taken as that on a sphere.
+/// absorbed or leaves, one at least of every patch. The light on a patch is taken as that on a
+/// sphere.
 double estimated_samples(const VariantPlan& plan, const MaterialsOfScene& of_season, double patches,
                          double blocks, int samples_per_patch) {
   const SolverStudy& s = plan.study.solver;
@@ -55,7 +56,8 @@ double estimated_samples(const VariantPlan& plan, const MaterialsOfScene& of_sea
     return s.power_per_sample_w ? raised * power_w / *s.power_per_sample_w : by_auto;
   };
   const double first = samples_of(reflecting * brightest_w_m2 + emitted_w);
-  const double left = s.jacobi == Jacobi::regular ? 1 : reflecting / area;  // after a reflection
+  // After a reflection: what meets something, and is not absorbed there.
+  const double left = s.jacobi == Jacobi::regular ? 1 : share_that_meets * reflecting / area;
   double samples = 0, share = 1;
   for (int b = 0; b < s.bounces; ++b, share *= left) samples += std::max(least, first * share);
   return blocks * samples + (emitted_w > 0 ? samples_of(emitted_w) : 0);
