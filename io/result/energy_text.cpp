@@ -32,7 +32,9 @@ double ledger_kwh(const ResultReader& result, const std::string& term) {
 /// (builtin `emission`, 24 seeds).
 constexpr double fewest_lines = 4;
 
+/// Once, not for each band.
 std::string warning_of_few_lines(const ResultReader& result) {
+  if (result.band()) return {};
   const double each =
       result.number_attribute("lines_per_patch") / result.number_attribute("realizations");
   if (!(each < fewest_lines)) return {};

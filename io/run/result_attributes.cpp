@@ -125,6 +125,8 @@ void add_identity(Attributes& a, const MergedResult& result) {
 std::string sun_sampling(const VariantPlan& plan) {
   if (std::holds_alternative<InstantsPeriod>(plan.study.period.kind))
     return "sun at the given instant";
+  if (std::holds_alternative<PositionsPeriod>(plan.study.period.kind))
+    return "sun at the given position";
   std::size_t most = 1;
   for (const auto& interval : plan.light.intervals)
     most = std::max(most, interval.when.sun_samples.size());

@@ -215,6 +215,14 @@ TEST(Outputs, TellHowManySunsStandForAnInterval) {
     ASSERT_EQ(square.run("o").code, 0) << asked;
     EXPECT_EQ(ResultReader(square.result("o")).text_attribute("sun_sampling"), said);
   }
+  const SquareFolder by_hand(
+      "format: sunload-study-1\nname: square\n"
+      "period: {positions: [{azimuth_deg: 180, elevation_deg: 40}]}\n"
+      "light: {source: fixed, dni_w_m2: 800, dhi_w_m2: 100, sky: uniform}\n"
+      "scene: {builtin: {name: box_on_plane}}\nsolver: {lines_per_patch: 64}\n");
+  ASSERT_EQ(by_hand.run("o").code, 0);
+  EXPECT_EQ(ResultReader(by_hand.result("o")).text_attribute("sun_sampling"),
+            "sun at the given position");
 }
 
 TEST(Outputs, WhatIsNoFolderIsSaidToBeNone) {
