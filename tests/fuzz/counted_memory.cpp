@@ -6,12 +6,23 @@
 #include <cstdlib>
 #include <new>
 
+namespace {
+
+void* allocated(std::size_t bytes) {
+  return bytes <= sunload::fuzz::most_bytes ? std::malloc(std::max<std::size_t>(bytes, 1))
+                                            : nullptr;
+}
+
+}  // namespace
+
 void* operator new(std::size_t bytes) {
-  void* memory =
-      bytes <= sunload::fuzz::most_bytes ? std::malloc(std::max<std::size_t>(bytes, 1)) : nullptr;
+  void* memory = allocated(bytes);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
+
+// Libraries ask for it, too, and give it back to the same `delete`.
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept { return allocated(bytes); }
 
 void operator delete(void* memory) noexcept { std::free(memory); }
 
