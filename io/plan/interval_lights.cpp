@@ -23,19 +23,58 @@ void IntervalLights::put_hills(std::vector<double>& sky, double ground_exitance)
     sky[cell] = open_share_[cell] * sky[cell] + (1 - open_share_[cell]) * ground_exitance / pi;
 }
 
+namespace {
+
+void add(double share, const std::vector<double>& values, std::vector<double>& sum) {
+  if (sum.size() < values.size()) sum.resize(values.size(), 0);
+  for (std::size_t i = 0; i < values.size(); ++i) sum[i] += share * values[i];
+}
+
+}  // namespace
+
+/// What is linear in the light, as the mean over time of that of the parts.
+IntervalLight IntervalLights::of_parts(const LitInterval& interval, std::size_t number) const {
+  IntervalLight sum;
+  for (const LitInterval& part : interval.parts()) {
+    const double share = part.when.length_s() / interval.when.length_s();
+    const IntervalLight light = of(part, number);
+    sum.dni += share * light.dni;
+    sum.dhi += share * light.dhi;
+    sum.ground_exitance += share * light.ground_exitance;
+    add(share, light.sky, sum.sky);
+    sum.bands.resize(light.bands.size());
+    for (std::size_t band = 0; band < light.bands.size(); ++band) {
+      sum.bands[band].dni += share * light.bands[band].dni;
+      sum.bands[band].ground_exitance += share * light.bands[band].ground_exitance;
+      add(share, light.bands[band].sky, sum.bands[band].sky);
+    }
+  }
+  return sum;
+}
+
+std::vector<SunSample> samples_of(const LitInterval& interval) {
+  if (interval.joined) return interval.sun_samples;
+  std::vector<SunSample> samples;
+  const double share = 1 / static_cast<double>(interval.when.sun_samples.size());
+  for (const Vec3 sun : interval.when.sun_samples) samples.push_back({sun, share, share});
+  return samples;
+}
+
 IntervalLight IntervalLights::of(const LitInterval& interval, std::size_t number) const {
   const SunInterval& when = interval.when;
-  IntervalLight sun;
+  IntervalLight sun = interval.joined ? of_parts(interval, number) : IntervalLight();
   sun.number = static_cast<std::uint32_t>(number);
   sun.direction = when.direction;
-  sun.sun_samples = when.sun_samples;
+  sun.sun_samples = samples_of(interval);
+  sun.direct_suns = interval.direct_suns;
+  sun.length_s = when.length_s();
+  sun.sunlit_s = when.sunlit_s;
+  sun.disk_half_angle = disk_half_angle(disk_, when.sun.distance_au);
+  if (interval.joined) return sun;
   const Irradiance source = source_means(interval, light_.quantity);
   sun.dni = source.dni;
   sun.dhi = source.dhi;
   sun.ground_exitance = far_ground_.albedo(interval) * source.ghi;
-  sun.length_s = when.length_s();
-  sun.sunlit_s = when.sunlit_s;
-  sun.disk_half_angle = disk_half_angle(disk_, when.sun.distance_au);
   if (source.dhi > 0) sun.sky = grid_.mean_radiance(relative_sky_of(interval, light_), source.dhi);
   if (bands_ == Bands::rgb) sun.bands = light_in_bands(sun, source, interval, light_, grid_);
   if (!open_share_.empty() && sun.ground_exitance + source.dhi > 0) {

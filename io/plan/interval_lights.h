@@ -30,6 +30,7 @@ class IntervalLights {
   IntervalLights(const Study&, const Site&, const SkyGrid&&) = delete;
 
   /// Of the interval with that number in the period.
+  /// Cost: that of a sky for each of its parts.
   IntervalLight of(const LitInterval& interval, std::size_t number) const;
   /// Of `count` intervals from `first` on.
   std::vector<IntervalLight> of(const LightSeries& series, std::size_t first,
@@ -38,6 +39,7 @@ class IntervalLights {
   std::vector<IntervalLight> of(const LightSeries& series) const;
 
  private:
+  IntervalLight of_parts(const LitInterval& interval, std::size_t number) const;
   void put_hills(std::vector<double>& sky, double ground_exitance) const;
 
   LightStudy light_;
@@ -47,6 +49,9 @@ class IntervalLights {
   const SkyGrid& grid_;
   std::vector<double> open_share_;  ///< per cell; empty with an open horizon
 };
+
+/// The suns that stand for an interval, where several do.
+std::vector<SunSample> samples_of(const LitInterval& interval);
 
 /// The light of a series; both must outlive it. `counts`: of each interval, others are dark; empty:
 /// all count.
@@ -67,8 +72,11 @@ class SeriesLight : public LitPeriod {
     return series_.intervals[interval].when.direction;
   }
   std::vector<Vec3> suns(std::size_t interval) const override {
-    const SunInterval& when = series_.intervals[interval].when;
-    return when.sun_samples.empty() ? std::vector{when.direction} : when.sun_samples;
+    std::vector<Vec3> suns;
+    for (const SunSample& sun : samples_of(series_.intervals[interval]))
+      suns.push_back(sun.direction);
+    if (suns.empty()) suns.push_back(series_.intervals[interval].when.direction);
+    return suns;
   }
   IntervalLight of(std::size_t interval) const override {
     return lights_.of(series_.intervals[interval], interval);

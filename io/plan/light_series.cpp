@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "io/base/hash.h"
+#include "io/plan/joined_intervals.h"
 #include "io/plan/period.h"
 #include "io/plan/weather_albedo.h"
 #include "io/plan/weather_light.h"
@@ -261,11 +262,47 @@ std::size_t LightSeries::lit_count(std::size_t begin, std::size_t end) const {
                     [](const LitInterval& interval) { return !is_dark(interval); }));
 }
 
+std::span<const LitInterval> LitInterval::parts() const {
+  return joined ? std::span(*joined) : std::span<const LitInterval>();
+}
+
+std::size_t LitInterval::suns() const {
+  return std::max<std::size_t>({when.sun_samples.size(), direct_suns.size(), 1});
+}
+
 std::size_t LightSeries::sun_samples() const {
   std::size_t count = 0;
   for (const LitInterval& interval : intervals)
+    if (interval.when.sunlit_s > 0) count += interval.suns();
+  return count;
+}
+
+std::vector<Vec3> LightSeries::direct_suns() const {
+  std::vector<Vec3> suns;
+  for (const LitInterval& interval : intervals)
+    for (const SunSample& sun : interval.direct_suns) suns.push_back(sun.direction);
+  return suns;
+}
+
+std::size_t LightSeries::parts() const {
+  std::size_t count = 0;
+  for (const LitInterval& interval : intervals)
+    count += std::max<std::size_t>(interval.parts().size(), 1);
+  return count;
+}
+
+std::size_t LightSeries::lit_parts() const {
+  std::size_t count = 0;
+  for (const LitInterval& interval : intervals)
+    if (!is_dark(interval)) count += std::max<std::size_t>(interval.parts().size(), 1);
+  return count;
+}
+
+std::size_t LightSeries::suns_of_mirrors() const {
+  std::size_t count = 0;
+  for (const LitInterval& interval : intervals)
     if (interval.when.sunlit_s > 0)
-      count += std::max<std::size_t>(interval.when.sun_samples.size(), 1);
+      count += interval.joined == nullptr ? interval.suns() : interval.sun_samples.size();
   return count;
 }
 
@@ -322,6 +359,7 @@ LightSeries series_of(const Study& study, const Site& site) {
 LightSeries light_series(const Study& study, const Site& site) {
   LightSeries series = series_of(study, site);
   if (std::holds_alternative<InstantsPeriod>(study.period.kind)) note_dark_instants(series);
+  join_short_intervals(study, series);
   return series;
 }
 
@@ -338,6 +376,15 @@ LuminousEfficacy efficacy_of(const LitInterval& interval) {
 }
 
 Irradiance source_means(const LitInterval& interval, Quantity quantity) {
+  if (interval.joined) {
+    Irradiance sum;
+    for (const LitInterval& part : interval.parts()) {
+      const double share = part.when.length_s() / interval.when.length_s();
+      const Irradiance of_part = scaled(source_means(part, quantity), share);
+      sum = {sum.dni + of_part.dni, sum.dhi + of_part.dhi, sum.ghi + of_part.ghi};
+    }
+    return sum;
+  }
   const Irradiance& mean = interval.mean;
   const bool is_nothing = mean.dni <= 0 && mean.dhi <= 0;
   if (quantity == Quantity::irradiance || is_nothing) return mean;

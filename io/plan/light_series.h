@@ -3,7 +3,9 @@
 /// Period, sun path and irradiance of a study: the light of every interval.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "geo/sky/irradiance.h"
@@ -23,6 +25,15 @@ struct LitInterval {
   std::optional<LuminousEfficacy> lm_per_w{};
   /// Of the ground on that day, in (0, 1), where the study asks for it and the weather tells it.
   std::optional<double> albedo{};
+  /// Where short intervals are solved together (io/plan/joined_intervals.h): these, and the suns
+  /// that stand for them; else null, and none.
+  std::shared_ptr<const std::vector<LitInterval>> joined{};
+  std::vector<SunSample> sun_samples{}, direct_suns{};
+
+  std::span<const LitInterval> parts() const;
+
+  /// How many suns stand for it; for what is straight alone where there are more.
+  std::size_t suns() const;
 };
 
 /// Whether neither sun nor sky shines: the solver passes such intervals over unless something in
@@ -43,6 +54,13 @@ struct LightSeries {
   std::size_t lit_count() const { return lit_count(0, intervals.size()); }
   /// Suns above the horizon, all those that stand for one interval counted.
   std::size_t sun_samples() const;
+  /// Of these, where there are fewer by which light is sent on, those.
+  std::size_t suns_of_mirrors() const;
+  /// Directions to those for what is straight alone (LitInterval::direct_suns).
+  std::vector<Vec3> direct_suns() const;
+  /// Intervals, each with its parts as so many; and of these, those that are not dark.
+  std::size_t parts() const;
+  std::size_t lit_parts() const;
 };
 
 /// Sun path and irradiance of every interval (docs/developer/design.md, Study).

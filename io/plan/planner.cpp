@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "geo/base/check.h"
+#include "io/plan/joined_intervals.h"
 #include "io/plan/weather_albedo.h"
 
 namespace sunload {
@@ -47,10 +48,10 @@ std::string Planner::key_of_light(const Study& study, const Site& site) {
   key.light = study.light;
   if (!study.light.far_ground_seasons.empty()) key.seasons = study.seasons;
   key.solver.sun_samples_per_interval = study.solver.sun_samples_per_interval;
-  return canonical_text(key) + fmt::format("\n{} {} {} {} {}\n{}\n{}", site.latitude_deg,
-                                           site.longitude_deg, site.elevation_m, site.north_deg,
-                                           site.timezone, study.light.weather,
-                                           asks_for_albedos(study) ? "albedos" : "");
+  return canonical_text(key) +
+         fmt::format("\n{} {} {} {} {}\n{}\n{}\n{}", site.latitude_deg, site.longitude_deg,
+                     site.elevation_m, site.north_deg, site.timezone, study.light.weather,
+                     asks_for_albedos(study) ? "albedos" : "", joining_words(study));
 }
 
 /// `key` gets what it is kept by.

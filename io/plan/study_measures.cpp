@@ -182,7 +182,11 @@ StudyMeasures::StudyMeasures(const VariantPlan& plan, const Hierarchy& hierarchy
   if (plan.study.measures.empty()) return;
   const Scene& scene = plan.built.scene;
   caster_ = std::make_unique<RayCaster>(scene.mesh, plan.isa);
-  for (const LitInterval& lit : plan.light.intervals) intervals_.push_back(measured(lit));
+  // Rules look at light of intervals as they are, also where these are solved together.
+  for (const LitInterval& lit : plan.light.intervals) {
+    if (!lit.joined) intervals_.push_back(measured(lit));
+    for (const LitInterval& part : lit.parts()) intervals_.push_back(measured(part));
+  }
   for (const MeasureParameters& of : plan.study.measures) {
     StudyMeasure& m = all_.emplace_back(StudyMeasure{of, find_measure_rule(of.rule), {}, {}, {}});
     fill_in_date(m.parameters, *m.rule, plan);

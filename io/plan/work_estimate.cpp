@@ -14,6 +14,7 @@
 #include "solver/base/threads.h"
 #include "solver/light/sun_samples.h"
 #include "solver/shoot/shot_power.h"
+#include "solver/sight/share_grid.h"
 
 namespace sunload {
 
@@ -91,8 +92,20 @@ double clouded_suns(const LightSeries& light) {
   double count = 0;
   for (const LitInterval& interval : light.intervals)
     if (interval.when.sunlit_s > 0 && interval.mean.dni <= 0)
-      count += static_cast<double>(std::max<std::size_t>(interval.when.sun_samples.size(), 1));
+      count += static_cast<double>(interval.suns());
   return count;
+}
+
+std::size_t grid_points(const LightSeries& light) {
+  return ShareGrid::points_about(light.direct_suns());
+}
+
+/// Suns whose shares of patches cost as much as these: where there are more for what is straight
+/// alone, points of a grid are looked at, and suns interpolated.
+double looked_at(const LightSeries& light) {
+  const auto suns = static_cast<double>(light.sun_samples());
+  const std::size_t points = grid_points(light);
+  return points == 0 ? suns : static_cast<double>(points) + cost_of_interpolation * suns;
 }
 
 /// Rays of the mesh pilot.
@@ -183,9 +196,10 @@ double circumsolar_receivers(const VariantPlan& plan, std::size_t patches) {
 /// Patches and sensors to which rays tell of the sun: where edges of shadows cross what sends light
 /// on, or the sun has a disk, and behind screens.
 double asked_by_rays(const VariantPlan& plan, std::size_t patches) {
+  const bool by_grid = !plan.light.direct_suns().empty();
   const double share = mean_over_seasons(plan, [&](const MaterialsOfScene& of_season) {
     const Mesh& mesh = plan.built.scene.mesh;
-    const double sending = share_of_surfaces(mesh, of_season, sends_on);
+    const double sending = by_grid ? 0 : share_of_surfaces(mesh, of_season, sends_on);
     const auto lets_pass = [](const Material& m) { return m.transmittance > 0; };
     const bool screens = share_of_surfaces(mesh, of_season, lets_pass) > 0;
     double left = screens ? share_behind_screens : 0;
@@ -311,7 +325,9 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   work.direct_rays = static_cast<std::uint64_t>(rays_to_sun + circumsolar_rays + luminaire_rays);
   work.memory_bytes =
       program_bytes + seasons * lines * bytes_per_line +
-      static_cast<double>(plan.intervals()) * bytes_per_interval +
+      static_cast<double>(plan.light.parts()) * bytes_per_interval +
+      std::min(most_bytes_of_share_grid,
+               static_cast<double>(grid_points(plan.light)) * static_cast<double>(patches)) +
       n * (bands * (batch * kept * float_bytes + arrays_of_realizations * of_realizations) +
            bytes_per_patch);
   work.memory_bytes +=
@@ -370,9 +386,12 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
       static_cast<double>(work.samples) * s_per_sample +  // a shot meets surfaces as a line does
       (plan.study.mesh.oracle == Oracle::none ? 0
                                               : refinement_rays(plan, n, lit) * s_per_direct_ray);
-  core.direct = sun_seconds(static_cast<double>(patches), suns, rays_to_sun, circumsolar_rays) +
+  core.direct = sun_seconds(static_cast<double>(patches), looked_at(plan.light), rays_to_sun,
+                            of_few ? 0 : circumsolar_rays) +
                 luminaire_rays * s_per_luminaire_ray;
-  core.mirror = mirrors ? mirror_seconds(n, shining, counts.direct_samples) : 0;
+  const double sent_on =
+      shining / std::max(suns, 1.0) * static_cast<double>(plan.light.suns_of_mirrors());
+  core.mirror = mirrors ? mirror_seconds(n, sent_on, counts.direct_samples) : 0;
   if (by_matrix)
     core.solve += seasons * n * n * (s_per_form_factor + n * s.realizations * s_per_factor_solved);
   if (s.transport != Transport::shoot)
@@ -390,9 +409,15 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   const double files =
       bands * n * static_cast<double>(plan.intervals()) * s_per_value + n * s_per_patch;
   work.is_of_this_machine = pace.is_measured;
-  work.seconds = (s_to_start + files + core.lines * pace.lines + core.direct * pace.direct +
-                  core.mirror * pace.mirror + core.solve * pace.solve) /
-                 thread_count();
+  // The trial of a period of few solutions has no sky, and none has that of parts.
+  const double untried =
+      (of_few ? circumsolar_rays * s_per_circumsolar_ray : 0) +
+      std::max(0.0, static_cast<double>(plan.light.lit_parts()) - lit) * s_per_sky_of_part;
+  // Series are put together by one thread.
+  work.seconds =
+      files + (s_to_start + untried + core.lines * pace.lines + core.direct * pace.direct +
+               core.mirror * pace.mirror + core.solve * pace.solve) /
+                  thread_count();
   return work;
 }
 

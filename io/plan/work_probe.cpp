@@ -15,7 +15,7 @@ namespace sunload {
 namespace {
 
 // Long enough for a clock, short enough for who waits: some tenths of a second on two cores.
-constexpr double lines_wanted = 1e6, sun_rays_wanted = 4e6;
+constexpr double lines_wanted = 1e6, sun_rays_wanted = 1.2e7;
 /// Small scenes are over in no time: then it is done again, and the fastest counts.
 constexpr double long_enough_s = 0.15;
 constexpr int most_repetitions = 5;
@@ -36,17 +36,17 @@ SolverRules probe_rules(const VariantPlan& plan, std::size_t patches) {
   return rules;
 }
 
-/// Evenly from the intervals with direct sun, or else from those with light; at most `most`, but
-/// one.
+/// Evenly from the intervals with the sun above the horizon, or else from those with light; at most
+/// `most`, but one.
 std::vector<std::size_t> probe_intervals(const VariantPlan& plan, double most) {
-  std::vector<std::size_t> shining, lit;
+  std::vector<std::size_t> sunlit, lit;
   for (std::size_t k = 0; k < plan.intervals(); ++k) {
     const LitInterval& interval = plan.light.intervals[k];
     if (is_dark(interval)) continue;
     lit.push_back(k);
-    if (interval.when.sunlit_s > 0 && interval.mean.dni > 0) shining.push_back(k);
+    if (interval.when.sunlit_s > 0) sunlit.push_back(k);
   }
-  const auto& from = shining.empty() ? lit : shining;
+  const auto& from = sunlit.empty() ? lit : sunlit;
   const std::size_t count =
       std::min(from.size(), static_cast<std::size_t>(std::clamp<double>(most, 1, block_width)));
   std::vector<std::size_t> chosen;
@@ -62,6 +62,11 @@ std::vector<IntervalLight> suns_of(const VariantPlan& plan, const SkyGrid& grid,
   std::vector<IntervalLight> suns;
   for (const std::size_t k : intervals) {
     suns.push_back(lights.of(plan.light.intervals[k], k));
+    // Behind clouds none would go by mirrors.
+    if (suns.back().has_sun()) suns.back().dni = std::max(suns.back().dni, 1.0);
+    // One sun of many: what many of them cost is told by the model.
+    if (!suns.back().direct_suns.empty()) suns.back().sun_samples.clear();
+    suns.back().direct_suns.clear();
     // In a year of few solutions these alone have rays to the bright sky about their sun.
     if (!of_few) continue;
     suns.back().dhi = suns.back().ground_exitance = 0;

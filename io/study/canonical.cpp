@@ -384,8 +384,9 @@ json canonical(const SolverStudy& solver, LightColour colour) {
   // `isa` is left out: the instruction set in force is hashed apart, so that
   // pinning it finds the batches that `auto` computed on such a machine.
   const auto& [transport, jacobi, power_per_sample_w, bands, bounces, unshot, unfollowed, year,
-               lines_per_patch, direct_samples, sun_samples_per_interval, realizations,
-               mirror_depth, batch_suns, isa, seed, accuracy, max_lines_per_patch] = solver;
+               short_intervals, lines_per_patch, direct_samples, sun_samples_per_interval,
+               realizations, mirror_depth, batch_suns, isa, seed, accuracy, max_lines_per_patch] =
+      solver;
   json all{{"transport", word_of(transport)},
            {"jacobi", word_of(jacobi)},
            {"power_per_sample_w", maybe(power_per_sample_w)},
@@ -404,6 +405,8 @@ json canonical(const SolverStudy& solver, LightColour colour) {
   }
   // What is left to the program has no key, either.
   if (year != Year::automatic) all["year"] = word_of(year);
+  if (short_intervals != ShortIntervals::automatic)
+    all["short_intervals"] = word_of(short_intervals);
   // One sun, as most studies have it, has no key: their hashes stay.
   if (sun_samples_per_interval != 1)
     all["sun_samples_per_interval"] =

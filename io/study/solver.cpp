@@ -159,6 +159,7 @@ SolverStudy read_solver(YamlMap& map) {
   solver.unshot = map.number("unshot", shares, solver.unshot);
   solver.unfollowed = map.choice("unfollowed", solver.unfollowed);
   solver.year = map.choice("year", solver.year);
+  solver.short_intervals = map.choice("short_intervals", solver.short_intervals);
   solver.lines_per_patch = map.integer("lines_per_patch", 1, most_lines, solver.lines_per_patch);
   solver.direct_samples = map.integer("direct_samples", 1, most_lines, solver.direct_samples);
   solver.sun_samples_per_interval =

@@ -219,6 +219,28 @@ bool is_without_crs(const std::string& path) {
                      [&](const char* ending) { return name.ends_with(ending); });
 }
 
+/// What `short_intervals: together` cannot go with: wishes of single intervals.
+void check_joining(YamlMap& root, const Study& study) {
+  const auto refuse = [&](const char* with, const char* why, const char* hint) {
+    root.reading().problem(root.where("solver"),
+                           std::string("solver.short_intervals: together cannot go with ") + with,
+                           why, hint);
+  };
+  if (study.solver.transport == Transport::shoot)
+    refuse("transport: shoot", "suns of a step share what is gathered", "write transport: gather");
+  if (study.output.standard_error == StandardErrors::instants)
+    refuse("standard_error: instants",
+           "intervals that are solved together have no errors of their own",
+           "write standard_error: totals");
+  if (study.output.series_step.is_interval() && !study.output.series.empty())
+    refuse("series of intervals", "each of them is stored",
+           "write output.series_step: 60 min, day or month, or output.series: none");
+  if (std::holds_alternative<InstantsPeriod>(study.period.kind) ||
+      std::holds_alternative<PositionsPeriod>(study.period.kind))
+    refuse("instants or positions of the sun", "they are no stretches of time",
+           "write days or start with end, and step_min");
+}
+
 void check_emission(YamlMap& root, const Study& study, const MaterialStudy& material) {
   const bool lux = study.light.quantity == Quantity::illuminance;
   if ((lux ? material.emission_w_m2 : material.emission_lm_m2) <= 0) return;
@@ -259,6 +281,7 @@ void check_together(YamlMap& root, const Study& study, PlaceWritten placed) {
                            "solver.year: modes cannot go with standard_error: instants",
                            "few solutions have no errors of each instant",
                            "write year: auto or each, or standard_error: totals");
+  if (study.solver.short_intervals == ShortIntervals::together) check_joining(root, study);
   if (study.solver.bands == Bands::broadband && study.light.colour != LightColour::sky)
     root.reading().warn(root.where("light"), "light.colour is not used",
                         "it belongs to solver.bands: rgb");

@@ -347,6 +347,7 @@ struct SolverStudy {
   double unshot = 1e-4;
   Unfollowed unfollowed = Unfollowed::estimate;
   Year year = Year::automatic;
+  ShortIntervals short_intervals = ShortIntervals::automatic;
   int lines_per_patch = 256;
   int direct_samples = 16;
   std::optional<int> sun_samples_per_interval = 1;  ///< absent: auto

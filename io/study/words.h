@@ -75,6 +75,11 @@ inline Words<LightColour> words_of(LightColour) {
 inline Words<Year> words_of(Year) {
   return {{"auto", Year::automatic}, {"modes", Year::modes}, {"each", Year::each}};
 }
+inline Words<ShortIntervals> words_of(ShortIntervals) {
+  return {{"auto", ShortIntervals::automatic},
+          {"each", ShortIntervals::each},
+          {"together", ShortIntervals::together}};
+}
 inline Words<Unfollowed> words_of(Unfollowed) {
   return {{"estimate", Unfollowed::estimate}, {"leave", Unfollowed::leave}};
 }

@@ -35,6 +35,8 @@ inline constexpr double s_per_guided_patch = 2.1e-4;
 // bright sky about it.
 inline constexpr double facing_share = 0.62;  ///< of patches, that a sun stands before
 inline constexpr double s_per_lit_share = 4.0e-7;
+/// Of one of many suns between the points of a grid, relative to that; and what points may take.
+inline constexpr double cost_of_interpolation = 0.045, most_bytes_of_share_grid = 1 << 30;
 inline constexpr double s_per_direct_ray = 3.5e-8;
 inline constexpr double s_per_circumsolar_ray = 1.0e-7;
 /// Of patches that a sun stands before: that edges of shadows cross, and that are behind screens.
@@ -56,7 +58,9 @@ inline constexpr double s_per_patch_interval_of_year = 1.2e-7;
 inline constexpr double s_per_patch_sun_realization = 6e-8;
 /// One patch of one batch in a realization's time sums: made, compressed, written, read again.
 inline constexpr double s_per_patch_batch_realization = 2e-7;
-inline constexpr double s_per_sun = 4.2e-4;    ///< in a scene of any size: its sky, cell by cell
+inline constexpr double s_per_sun = 4.2e-4;  ///< in a scene of any size: its sky, cell by cell
+/// The sky of each interval but one of those that are solved together.
+inline constexpr double s_per_sky_of_part = 1.7e-4;
 inline constexpr double s_per_sample = 6e-7;   ///< shot, with its deposit
 inline constexpr double s_per_value = 1.2e-8;  ///< one patch of one interval, stored
 

@@ -289,17 +289,17 @@ class CloudedSuns {
       : caster_(caster), sampler_(sampler), block_(block), known_(known) {}
 
   /// Returns the rays cast.
-  std::uint64_t run(std::size_t begin, std::size_t end, Columns& sunlit) {
+  std::uint64_t run(std::size_t begin, std::size_t end, const RaySink& into, Columns& sunlit) {
     rays_ = 0;
     begin_ = begin;
     end_ = end;
     for (std::size_t k = 0; k < block_.size(); ++k)
-      if (is_clouded(block_[k])) add(k, sunlit);
+      if (is_clouded(block_[k])) add(k, into.whole_of(k), sunlit);
     return rays_;
   }
 
  private:
-  void add(std::size_t k, Columns& sunlit) {
+  void add(std::size_t k, std::size_t column, Columns& sunlit) {
     const IntervalLight& sun = block_[k];
     seen_.assign(end_ - begin_, 0);
     for (std::size_t g = 0; g < seen_.size(); ++g)
@@ -309,7 +309,8 @@ class CloudedSuns {
     const auto n = static_cast<double>(sampler_.net_points());
     for (std::size_t g = 0; g < seen_.size(); ++g)
       if (seen_[g] > 0)
-        sunlit[(begin_ + g) * block_width + k] += static_cast<float>(sun.sun_share * seen_[g] / n);
+        sunlit[(begin_ + g) * block_width + column] +=
+            static_cast<float>(sun.sun_share * seen_[g] / n);
   }
   void ask(std::size_t g, const IntervalLight& sun) {
     const auto geometry = sampler_.geometry(begin_ + g);
@@ -374,7 +375,8 @@ class ReceiverSuns {
         if (sun.dni > 0) add_by_rays(receiver, k, into, sunlit);
         continue;
       }
-      sunlit[receiver * block_width + k] += static_cast<float>(sun.sun_share * share);
+      sunlit[receiver * block_width + into.whole_of(k)] +=
+          static_cast<float>(sun.sun_share * share);
       alike[k] = sun.dni * cos_theta * share;
       any = any || alike[k] > 0;
     }
@@ -390,7 +392,8 @@ class ReceiverSuns {
     const double visible = count_visible(geometry, receiver, sun);
     if (visible <= 0 || cos_theta <= 0) return;
     const auto n = static_cast<double>(sampler_.samples());
-    sunlit[receiver * block_width + k] += static_cast<float>(sun.sun_share * visible / n);
+    sunlit[receiver * block_width + into.whole_of(k)] +=
+        static_cast<float>(sun.sun_share * visible / n);
     into.add_pooled(receiver, k, sun.dni * cos_theta * visible / n);
     const double n_each = n / static_cast<double>(seen_.size());
     for (std::size_t r = 0; r < seen_.size(); ++r)
@@ -434,7 +437,7 @@ std::uint64_t direct_sun(const RayCaster& caster, const SunSampler& sampler,
                        ReceiverSuns suns(caster, sampler, block, known, into.realizations());
                        for (std::size_t i = begin; i < end; ++i) suns.run(i, into, sunlit);
                        CloudedSuns clouded(caster, sampler, block, known);
-                       return suns.rays + clouded.run(begin, end, sunlit);
+                       return suns.rays + clouded.run(begin, end, into, sunlit);
                      });
 }
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -57,32 +58,33 @@ class RaySink {
   }
 
   std::size_t realizations() const { return realizations_; }
+  /// The same for suns of which each stands for a part of one of these.
+  RaySink of_parts(const std::array<std::uint8_t, block_width>& of) const {
+    RaySink parts = *this;
+    parts.of_ = of;
+    parts.is_of_parts_ = true;
+    return parts;
+  }
+  /// The sun of the block that sun k is a part of.
+  std::size_t whole_of(std::size_t k) const { return is_of_parts_ ? of_[k] : k; }
   /// Adds irradiance E [W m-2] by sun k of the block, as one realization has it; the pooled one is
   /// for the caller to add.
-  void add(std::size_t realization, std::size_t receiver, std::size_t k, double E) const {
+  void add(std::size_t realization, std::size_t receiver, std::size_t part, double E) const {
+    const std::size_t k = whole_of(part);
     for (const TimeIntegral& integral : integrals_)
       (*integral.exposure)[realization][receiver] += E * integral.seconds[k];
     if (of_realizations_)
       (*of_realizations_)[realization][receiver * block_width + k] += static_cast<float>(E);
   }
   void add_pooled(std::size_t receiver, std::size_t k, double E) const {
-    pooled_[receiver * block_width + k] += static_cast<float>(E);
+    pooled_[receiver * block_width + whole_of(k)] += static_cast<float>(E);
   }
   /// Adds what all realizations have alike, and the pooled one, by all suns of the block.
-  void add_alike(std::size_t receiver, const std::array<double, block_width>& E) const {
-    const std::size_t begin = receiver * block_width;
-    for (std::size_t k = 0; k < block_width; ++k) pooled_[begin + k] += static_cast<float>(E[k]);
-    if (of_realizations_)
-      for (Columns& columns : *of_realizations_)
-        for (std::size_t k = 0; k < block_width; ++k)
-          columns[begin + k] += static_cast<float>(E[k]);
-    for (const TimeIntegral& integral : integrals_) {
-      double sum = 0;
-      for (std::size_t k = 0; k < block_width; ++k) sum += E[k] * integral.seconds[k];
-      if (sum <= 0) continue;
-      for (std::vector<double>& of_realization : *integral.exposure)
-        of_realization[receiver] += sum;
-    }
+  void add_alike(std::size_t receiver, const std::array<double, block_width>& of_suns) const {
+    if (!is_of_parts_) return add_columns_alike(receiver, of_suns);
+    std::array<double, block_width> E{};
+    for (std::size_t k = 0; k < block_width; ++k) E[of_[k]] += of_suns[k];
+    add_columns_alike(receiver, E);
   }
   /// Adds `E(r)` of all realizations, and their mean to the pooled one.
   template <class Irradiance>
@@ -97,10 +99,28 @@ class RaySink {
   }
 
  private:
+  void add_columns_alike(std::size_t receiver, const std::array<double, block_width>& E) const {
+    const std::size_t begin = receiver * block_width;
+    for (std::size_t k = 0; k < block_width; ++k) pooled_[begin + k] += static_cast<float>(E[k]);
+    if (of_realizations_)
+      for (Columns& columns : *of_realizations_)
+        for (std::size_t k = 0; k < block_width; ++k)
+          columns[begin + k] += static_cast<float>(E[k]);
+    for (const TimeIntegral& integral : integrals_) {
+      double sum = 0;
+      for (std::size_t k = 0; k < block_width; ++k) sum += E[k] * integral.seconds[k];
+      if (sum <= 0) continue;
+      for (std::vector<double>& of_realization : *integral.exposure)
+        of_realization[receiver] += sum;
+    }
+  }
+
   Columns& pooled_;
   std::size_t realizations_;
   std::vector<TimeIntegral> integrals_;
   std::vector<Columns>* of_realizations_;
+  std::array<std::uint8_t, block_width> of_{};
+  bool is_of_parts_ = false;
 };
 
 struct RayLight {

@@ -18,13 +18,22 @@ namespace sunload {
 /// times as long per sun).
 inline constexpr std::size_t block_width = 16;
 
+/// One of several suns that stand for an interval.
+struct SunSample {
+  Vec3 direction;     ///< to it, scene frame, unit
+  double dni_share;   ///< of the interval's direct radiant exposure, all together 1
+  double time_share;  ///< of its sunlit time, likewise
+};
+
 /// Light of one interval, as means over the interval [W m-2].
 struct IntervalLight {
   std::uint32_t number = 0;  ///< of the interval in the period: address of random numbers
   Vec3 direction{0, 0, 1};   ///< to the sun, scene frame, unit
-  /// To suns that stand for equal parts of the sunlit time, where several do; else empty. The sky
-  /// is that of `direction`.
-  std::vector<Vec3> sun_samples;
+  /// Suns that stand for the interval, in the order of time, where several do; else empty.
+  std::vector<SunSample> sun_samples;
+  /// More of them, for what is straight from the sun alone: where an interval is made of many
+  /// (LitInterval::parts); else empty.
+  std::vector<SunSample> direct_suns;
   double dni = 0;
   double dhi = 0;
   double ground_exitance = 0;  ///< of the far ground, rho_g * GHI
@@ -32,7 +41,7 @@ struct IntervalLight {
   std::vector<double> sky;
   double length_s = 0;
   double sunlit_s = 0;         ///< above 0: the sun's centre is above the horizon
-  double sun_share = 1;        ///< of the interval's sun, in what `sun_samples` makes
+  double sun_share = 1;        ///< of the interval's sunlit time, in what `sun_samples` makes
   double disk_half_angle = 0;  ///< of the sun's disk; 0: a point
 
   /// The same light in one band (solver/light/band.h).

@@ -11,20 +11,34 @@ namespace sunload {
 
 namespace {
 
-/// The s-th sun of an interval.
-IntervalLight sun_sample(const IntervalLight& interval, std::size_t s) {
-  const std::size_t count = std::max<std::size_t>(interval.sun_samples.size(), 1);
+/// That stands for a part of an interval; `number`: among its suns, which tells its random numbers.
+IntervalLight sun_of(const IntervalLight& interval, const SunSample& sample, std::size_t number) {
   IntervalLight sun;
-  sun.number = interval.number;
+  sun.number = interval.number + static_cast<std::uint32_t>(number * most_intervals_of_samples);
   sun.length_s = interval.length_s;
-  if (s >= count) return sun;
-  sun.number += static_cast<std::uint32_t>(s * most_intervals_of_samples);
-  sun.direction = interval.sun_samples.empty() ? interval.direction : interval.sun_samples[s];
-  sun.sun_share = 1 / static_cast<double>(count);
-  sun.dni = interval.dni * sun.sun_share;
-  sun.sunlit_s = interval.sunlit_s * sun.sun_share;
+  sun.direction = sample.direction;
+  sun.sun_share = sample.time_share;
+  sun.dni = interval.dni * sample.dni_share;
+  sun.sunlit_s = interval.sunlit_s * sample.time_share;
   sun.disk_half_angle = interval.disk_half_angle;
   return sun;
+}
+
+/// The s-th sun of an interval.
+IntervalLight sun_sample(const IntervalLight& interval, std::size_t s) {
+  if (s == 0 && interval.sun_samples.empty())
+    return sun_of(interval, {interval.direction, 1, 1}, 0);
+  if (s < interval.sun_samples.size()) return sun_of(interval, interval.sun_samples[s], s);
+  IntervalLight none;
+  none.number = interval.number;
+  none.length_s = interval.length_s;
+  return none;
+}
+
+void expect_addresses(const IntervalLight& interval, std::size_t suns) {
+  SUNLOAD_EXPECT(suns <= most_sun_samples, "suns of an interval");
+  SUNLOAD_EXPECT(suns <= 1 || interval.number < most_intervals_of_samples,
+                 "addresses of random numbers");
 }
 
 }  // namespace
@@ -32,15 +46,42 @@ IntervalLight sun_sample(const IntervalLight& interval, std::size_t s) {
 std::vector<std::vector<IntervalLight>> suns_one_by_one(std::span<const IntervalLight> block) {
   std::size_t most = 1;
   for (const IntervalLight& interval : block) most = std::max(most, interval.sun_samples.size());
-  SUNLOAD_EXPECT(most <= most_sun_samples, "suns of an interval");
   std::vector<std::vector<IntervalLight>> suns(most);
+  for (const IntervalLight& interval : block) expect_addresses(interval, most);
   for (std::size_t s = 0; s < most; ++s)
-    for (const IntervalLight& interval : block) {
-      SUNLOAD_EXPECT(most == 1 || interval.number < most_intervals_of_samples,
-                     "addresses of random numbers");
-      suns[s].push_back(sun_sample(interval, s));
-    }
+    for (const IntervalLight& interval : block) suns[s].push_back(sun_sample(interval, s));
   return suns;
+}
+
+bool any_direct_suns(std::span<const IntervalLight> block) {
+  return std::ranges::any_of(
+      block, [](const IntervalLight& interval) { return !interval.direct_suns.empty(); });
+}
+
+std::vector<SunRow> direct_suns_in_rows(std::span<const IntervalLight> block) {
+  std::vector<SunRow> rows;
+  const auto add = [&](const IntervalLight& sun, std::size_t interval) {
+    if (!sun.has_sun()) return;
+    if (rows.empty() || rows.back().suns.size() == block_width) rows.emplace_back();
+    SunRow& row = rows.back();
+    row.of[row.suns.size()] = static_cast<std::uint8_t>(interval);
+    row.suns.push_back(sun);
+  };
+  for (std::size_t k = 0; k < block.size(); ++k) {
+    const IntervalLight& interval = block[k];
+    if (interval.direct_suns.empty()) {
+      const std::size_t count = std::max<std::size_t>(interval.sun_samples.size(), 1);
+      expect_addresses(interval, count);
+      for (std::size_t s = 0; s < count; ++s) add(sun_sample(interval, s), k);
+      continue;
+    }
+    SUNLOAD_EXPECT(interval.sun_samples.size() <= most_suns_beside_direct_ones,
+                   "suns of an interval");
+    expect_addresses(interval, most_suns_beside_direct_ones + interval.direct_suns.size());
+    for (std::size_t s = 0; s < interval.direct_suns.size(); ++s)
+      add(sun_of(interval, interval.direct_suns[s], most_suns_beside_direct_ones + s), k);
+  }
+  return rows;
 }
 
 std::size_t net_size(int samples, int realizations) {

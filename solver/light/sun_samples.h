@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Several suns that stand for one interval, each for an equal part of its sunlit time.
+/// Several suns that stand for one interval, each for a part of its sunlit time.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -14,11 +16,25 @@ namespace sunload {
 /// the addresses of random numbers that a period has.
 inline constexpr std::size_t most_sun_samples = 256, most_intervals_of_samples = 1u << 24;
 
+/// Of these addresses the first are for `sun_samples`, where an interval has `direct_suns`, too.
+inline constexpr std::size_t most_suns_beside_direct_ones = 64;
+
 /// The direct light of a block, one sun of every interval at a time, for all that follows the sun
-/// by rays. Together the s-th suns carry the DNI of their intervals, each in equal shares; an
+/// by rays. Together the s-th suns carry the DNI of their intervals, each its share; an
 /// interval without an s-th sun is dark there. Each has random numbers of its own, the first those
 /// of the interval. The sky is left out. One span where no interval has more than one sun.
 std::vector<std::vector<IntervalLight>> suns_one_by_one(std::span<const IntervalLight> block);
+
+/// Suns that are looked at side by side, whichever intervals they stand for.
+struct SunRow {
+  std::vector<IntervalLight> suns;             ///< at most `block_width`, as `suns_one_by_one`
+  std::array<std::uint8_t, block_width> of{};  ///< interval of the block that each stands for
+};
+/// Whether any interval has suns for what is straight alone.
+bool any_direct_suns(std::span<const IntervalLight> block);
+/// The suns for what is straight of all intervals that have the sun, in the order of time: those
+/// next to each other stand close together.
+std::vector<SunRow> direct_suns_in_rows(std::span<const IntervalLight> block);
 
 /// Points of one net by which the share of a receiver that sees a sun errs no more than by so many
 /// samples, which realizations share equally (solver/first_light/direct_sun.h).

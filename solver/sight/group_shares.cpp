@@ -55,8 +55,8 @@ bool NumbersSeen::add(std::uint32_t number) {
 }
 
 GroupShares::GroupShares(const LitShares& shares, std::span<const IntervalLight> block,
-                         Columns& out)
-    : shares_(shares), block_(block), out_(out) {
+                         SendsOn what_sends_on, Columns& out)
+    : shares_(shares), block_(block), what_sends_on_(what_sends_on), out_(out) {
   for (const auto& sun : block) frames_.emplace_back(sun.direction);
 }
 
@@ -281,7 +281,7 @@ const GroupShares::Shade& GroupShares::shade_at(std::uint32_t number, std::size_
 float GroupShares::share(const Seen& patch) {
   if (kept_.empty()) return 1;
   const bool is_for_rays =
-      group_->sends_on || kept_.size() > most_shades ||
+      (group_->sends_on && what_sends_on_ == SendsOn::by_rays) || kept_.size() > most_shades ||
       block_[facing_.front()].disk_half_angle > 0 ||
       std::any_of(kept_.begin(), kept_.end(), [](const Shade* shade) { return !shade->is_solid; });
   if (is_for_rays) return LitShares::by_rays;

@@ -35,7 +35,8 @@ class NumbersSeen {
 class GroupShares {
  public:
   /// Puts what it finds into `out`, LitShares::of.
-  GroupShares(const LitShares& shares, std::span<const IntervalLight> block, Columns& out);
+  GroupShares(const LitShares& shares, std::span<const IntervalLight> block, SendsOn what_sends_on,
+              Columns& out);
   void tell(const LitShares::Group& group, const SunView& view);
 
  private:
@@ -78,6 +79,7 @@ class GroupShares {
 
   const LitShares& shares_;
   std::span<const IntervalLight> block_;
+  SendsOn what_sends_on_;
   Columns& out_;
   std::vector<ViewFrame> frames_;  ///< of each sun
   // The group and the suns at hand:

@@ -116,7 +116,7 @@ void LitShares::choose_groups(const Scene& scene) {
             [&](const Group& a, const Group& b) { return patch_[a.first] < patch_[b.first]; });
 }
 
-Columns LitShares::of(std::span<const IntervalLight> block) const {
+Columns LitShares::of(std::span<const IntervalLight> block, SendsOn what_sends_on) const {
   Columns shares(hierarchy_.patch_count() * block_width, by_rays);
   const auto clusters = sun_clusters(block, widest_cluster);
   // Views take memory: no more of them at a time than are made at a time.
@@ -127,7 +127,7 @@ Columns LitShares::of(std::span<const IntervalLight> block) const {
     parallel_for(count,
                  [&](std::size_t v) { views[v].emplace(faces_, extent_, clusters[first + v]); });
     parallel_chunks(groups_.size(), groups_per_chunk, [&](std::size_t begin, std::size_t end) {
-      GroupShares work(*this, block, shares);
+      GroupShares work(*this, block, what_sends_on, shares);
       for (std::size_t v = 0; v < count; ++v)
         for (std::size_t g = begin; g < end; ++g) work.tell(groups_[g], *views[v]);
     });

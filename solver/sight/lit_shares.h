@@ -25,6 +25,10 @@
 
 namespace sunload {
 
+/// How surfaces that send light on are told where a shadow's edge crosses them: by the rays that
+/// what they send on rests on, or as all others, where it does not.
+enum class SendsOn { by_rays, as_others };
+
 class LitShares {
  public:
   /// `offset_m`: of the ray caster. As rays do, patches look from so far before them, and nothing
@@ -34,7 +38,7 @@ class LitShares {
 
   /// Of each patch and sun of a block, [N][block_width], in [0, 1]; `by_rays` where rays must tell,
   /// and for suns that are down or behind. Cost: some 0.1 … 0.3 µs of a processor for each of them.
-  Columns of(std::span<const IntervalLight> block) const;
+  Columns of(std::span<const IntervalLight> block, SendsOn what_sends_on = SendsOn::by_rays) const;
   static constexpr float by_rays = -1;
 
   /// Patches of one triangle that are looked at together.

@@ -3,6 +3,7 @@
 #include "solver/traced/light_iteration.h"
 
 #include <algorithm>
+#include <array>
 
 #include "solver/base/stopwatch.h"
 #include "solver/base/threads.h"
@@ -129,16 +130,88 @@ void add_gloss(const TracedScene& traced, Suns suns, BlockRays& rays, const RayI
   traced.glossy_sun.follow_light(suns, rays.sent_on);
 }
 
+using SunsOneByOne = std::vector<std::vector<IntervalLight>>;
+
+bool are_points(Suns suns) {
+  return std::ranges::all_of(suns, [](const auto& sun) { return sun.disk_half_angle <= 0; });
+}
+
+/// Of patches, where there are more suns than can be looked at one by one.
+Columns shares_of_many(const TracedScene& traced, Suns suns) {
+  return are_points(suns) ? traced.share_grid.of(suns)
+                          : traced.lit_shares.of(suns, SendsOn::as_others);
+}
+
+std::vector<Columns> shares_of_patches(const TracedScene& traced, const SunsOneByOne& suns) {
+  std::vector<Columns> shares;
+  shares.reserve(suns.size());
+  for (const auto& of_intervals : suns) shares.push_back(traced.lit_shares.of(of_intervals));
+  return shares;
+}
+
+/// What is straight from all suns that stand for the intervals of a block. Returns the rays cast.
+std::uint64_t add_direct_suns(const TracedScene& traced, const Receivers& receivers, Suns block,
+                              RayLight& rays, const RayIntegrals& integrals) {
+  const RaySink into =
+      sink(traced, rays.pooled.direct, integrals.of(&RaySums::direct), rays.of_realizations.direct);
+  const bool are_patches = &receivers == &traced.patches;
+  std::uint64_t cast = 0;
+  const auto rows = direct_suns_in_rows(block);
+  if (are_patches && are_points(block)) {
+    std::vector<IntervalLight> all;
+    for (const SunRow& row : rows) all.insert(all.end(), row.suns.begin(), row.suns.end());
+    traced.share_grid.prepare(all);
+  }
+  for (const SunRow& row : rows)
+    cast += direct_sun(traced.caster, receivers.sampler, row.suns, into.of_parts(row.of),
+                       rays.sunlit, are_patches ? shares_of_many(traced, row.suns) : Columns());
+  return cast;
+}
+
+/// Patches that send light on.
+std::vector<std::size_t> patches_that_send_on(const TracedScene& traced) {
+  std::vector<std::size_t> patches;
+  for (std::size_t i = 0; i < traced.patches.count(); ++i)
+    if (sends_on(traced.scene.material_of(traced.hierarchy().patches()[i].triangle)))
+      patches.push_back(i);
+  return patches;
+}
+
+/// Scales the few suns by which light is sent on so that in each interval surfaces that send it on
+/// get as much power by them as by all suns (`direct`): none is made or lost on the way.
+void match_what_is_sent_on(const TracedScene& traced, const Columns& direct,
+                           const std::vector<Columns>& shares, SunsOneByOne& suns) {
+  constexpr double share_at_edge = 0.5;  // where rays alone could tell
+  const auto senders = patches_that_send_on(traced);
+  std::array<double, block_width> by_all{}, by_few{};
+  for (const auto i : senders) {
+    const Vec3 normal = traced.hierarchy().normal(i);
+    const double area = traced.hierarchy().area()[i];
+    for (std::size_t k = 0; k < suns.front().size(); ++k) {
+      const std::size_t at = i * block_width + k;
+      by_all[k] += area * static_cast<double>(direct[at]);
+      for (std::size_t s = 0; s < suns.size(); ++s) {
+        const IntervalLight& sun = suns[s][k];
+        if (!sun.has_sun()) continue;
+        const auto share = static_cast<double>(shares[s][at]);
+        by_few[k] += area * sun.dni * std::max(0.0, dot(normal, sun.direction)) *
+                     (share < 0 ? share_at_edge : share);
+      }
+    }
+  }
+  for (auto& of_intervals : suns)
+    for (std::size_t k = 0; k < of_intervals.size(); ++k)
+      if (by_few[k] > 0) of_intervals[k].dni *= by_all[k] / by_few[k];
+}
+
 /// `beams`: one set for each of `suns_one_by_one`. Returns the rays cast.
-std::uint64_t light_sensors(const TracedScene& traced,
-                            const std::vector<std::vector<IntervalLight>>& suns,
-                            std::vector<std::vector<SunBeams>> beams, RayLight& rays,
-                            const RayIntegrals& integrals) {
+std::uint64_t add_mirrors_on_sensors(const TracedScene& traced, const SunsOneByOne& suns,
+                                     std::vector<std::vector<SunBeams>> beams, RayLight& rays,
+                                     const RayIntegrals& integrals) {
   const Receivers& sensors = traced.sensors;
   const RaySink into = mirrored(traced, rays, integrals.of(&RaySums::mirror));
   std::uint64_t cast = 0;
   for (std::size_t s = 0; s < suns.size(); ++s) {
-    cast += add_sun(traced, sensors, suns[s], {}, rays, integrals);
     if (!beams[s].empty())
       cast += traced.mirror_sun.add_light(
           sensors.sampler, suns[s], with_first_reflections(traced, std::move(beams[s]), suns[s]),
@@ -151,6 +224,41 @@ std::uint64_t light_sensors(const TracedScene& traced,
   return cast;
 }
 
+/// All that suns bring to sensors by rays. Returns the rays cast.
+std::uint64_t light_sensors(const TracedScene& traced, Suns block, const SunsOneByOne& suns,
+                            std::vector<std::vector<SunBeams>> beams, RayLight& rays,
+                            const RayIntegrals& integrals) {
+  std::uint64_t cast = 0;
+  if (any_direct_suns(block)) {
+    cast += add_direct_suns(traced, traced.sensors, block, rays, integrals);
+  } else {
+    for (const auto& of_intervals : suns)
+      cast += add_sun(traced, traced.sensors, of_intervals, {}, rays, integrals);
+  }
+  return cast + add_mirrors_on_sensors(traced, suns, std::move(beams), rays, integrals);
+}
+
+/// What is straight from the sun onto patches. Returns their shares that see the suns by which
+/// light is sent on; these are scaled where there are more for what is straight.
+std::vector<Columns> light_patches(const TracedScene& traced, Suns block, SunsOneByOne& suns,
+                                   RayLight& rays, const RayIntegrals& integrals, WorkDone& work) {
+  const Stopwatch time(work[Work::direct_s]);
+  if (!any_direct_suns(block)) {
+    auto shares = shares_of_patches(traced, suns);
+    for (std::size_t s = 0; s < suns.size(); ++s)
+      work.add(Work::direct_rays,
+               add_sun(traced, traced.patches, suns[s], shares[s], rays, integrals));
+    return shares;
+  }
+  work.add(Work::direct_rays, add_direct_suns(traced, traced.patches, block, rays, integrals));
+  if (traced.mirrors.size() == 0 && !traced.optics.any_glossy) return {};
+  std::vector<Columns> shares;
+  shares.reserve(suns.size());
+  for (const auto& of_intervals : suns) shares.push_back(shares_of_many(traced, of_intervals));
+  match_what_is_sent_on(traced, rays.pooled.direct, shares, suns);
+  return shares;
+}
+
 /// Nobody wants any.
 RayIntegrals no_integrals() { return {{}, &TimeSums::on_patches}; }
 
@@ -158,7 +266,7 @@ RayIntegrals no_integrals() { return {{}, &TimeSums::on_patches}; }
 
 BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources, const Kept& kept,
                           std::span<const TimedSums> sums, WorkDone& work) {
-  const auto suns = suns_one_by_one(sources.suns);
+  auto suns = suns_one_by_one(sources.suns);
   const RayIntegrals of_patches(sums, &TimeSums::on_patches),
       of_sensors(sums, &TimeSums::on_sensors);
   BlockRays rays;
@@ -166,38 +274,31 @@ BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources
   // Nothing comes by mirrors that are not there.
   if (!kept.all_parts && traced.mirrors.size() == 0 && !traced.optics.any_glossy)
     rays.on_patches.of_realizations.mirror.clear();
-  const auto shares = shares_of_patches(traced, sources, work);
+  const auto shares = light_patches(traced, sources.suns, suns, rays.on_patches, of_patches, work);
   {
     const Stopwatch time(work[Work::direct_s]);
-    for (std::size_t s = 0; s < suns.size(); ++s)
-      work.add(Work::direct_rays,
-               add_sun(traced, traced.patches, suns[s], shares[s], rays.on_patches, of_patches));
     work.add(Work::direct_rays, add_circumsolar(traced, sources, rays.on_patches, of_patches));
   }
-  std::vector<std::vector<SunBeams>> beams;
-  beams.reserve(suns.size());
-  for (std::size_t s = 0; s < suns.size(); ++s) {
+  std::vector<std::vector<SunBeams>> beams(suns.size());
+  for (std::size_t s = 0; s < shares.size(); ++s) {
     const Stopwatch time(work[Work::mirror_s]);
-    beams.push_back(beams_of(traced, suns[s], shares[s]));
-    add_mirrors(traced, suns[s], beams.back(), shares[s], rays, of_patches, work);
+    beams[s] = beams_of(traced, suns[s], shares[s]);
+    add_mirrors(traced, suns[s], beams[s], shares[s], rays, of_patches, work);
   }
   if (kept.by_samples) rays.on_patches.by_samples = summed(rays.on_patches.of_realizations);
   for (const auto& of_intervals : suns) add_gloss(traced, of_intervals, rays, of_patches, work);
   if (traced.sensors.count() == 0) return rays;
   const Stopwatch time(work[Work::sensors_s]);
   rays.on_sensors = empty_rays(traced, traced.sensors.count(), kept.columns);
-  work.add(Work::sensor_rays,
-           light_sensors(traced, suns, std::move(beams), rays.on_sensors, of_sensors));
+  work.add(Work::sensor_rays, light_sensors(traced, sources.suns, suns, std::move(beams),
+                                            rays.on_sensors, of_sensors));
   return rays;
 }
 
 std::vector<Columns> shares_of_patches(const TracedScene& traced, const BlockSources& sources,
                                        WorkDone& work) {
   const Stopwatch time(work[Work::direct_s]);
-  std::vector<Columns> shares;
-  for (const auto& suns : suns_one_by_one(sources.suns))
-    shares.push_back(traced.lit_shares.of(suns));
-  return shares;
+  return shares_of_patches(traced, suns_one_by_one(sources.suns));
 }
 
 RayLight direct_on_patches(const TracedScene& traced, const BlockSources& sources,
@@ -223,7 +324,8 @@ RayLight rays_on_sensors(const TracedScene& traced, const BlockSources& sources,
   beams.reserve(suns.size());
   for (std::size_t s = 0; s < suns.size(); ++s)
     beams.push_back(beams_of(traced, suns[s], shares[s]));
-  work.add(Work::sensor_rays, light_sensors(traced, suns, std::move(beams), rays, no_integrals()));
+  work.add(Work::sensor_rays,
+           light_sensors(traced, sources.suns, suns, std::move(beams), rays, no_integrals()));
   return rays;
 }
 

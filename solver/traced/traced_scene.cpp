@@ -111,6 +111,7 @@ TracedScene::TracedScene(const Scene& whole, std::shared_ptr<const Hierarchy> fr
       patches(SunSampler(*mesh, caster, direct_rules(of_study))),
       sensors(SunSampler(whole.sensors, caster, direct_rules(of_study))),
       lit_shares(whole, *mesh, caster.offset_m()),
+      share_grid(lit_shares),
       mirrors(whole),
       mirror_sun(caster, mirrors),
       mirror_chains(*mesh, caster, patches.sampler, mirrors,

@@ -21,6 +21,7 @@
 #include "solver/mesh/hierarchy.h"
 #include "solver/mesh/patch_optics.h"
 #include "solver/sight/lit_shares.h"
+#include "solver/sight/share_grid.h"
 #include "solver/traced/rules.h"
 
 namespace sunload {
@@ -61,6 +62,7 @@ struct TracedScene {
   std::vector<PatchOptics> optics_of_band;  ///< one where light is broadband
   Receivers patches, sensors;
   LitShares lit_shares;  ///< of patches
+  ShareGrid share_grid;  ///< for many suns
   MirrorGroups mirrors;
   MirrorSun mirror_sun;
   MirrorChains mirror_chains;

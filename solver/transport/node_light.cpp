@@ -66,6 +66,7 @@ void combine(const std::vector<const Columns*>& nodes, const std::vector<NodeWei
 IntervalLight sky_alone(IntervalLight light) {
   light.dni = light.ground_exitance = light.sunlit_s = 0;
   light.sun_samples.clear();
+  light.direct_suns.clear();
   return light;
 }
 
@@ -74,19 +75,19 @@ IntervalLight sun_alone(IntervalLight light) {
   light.dni = node_dni;
   light.dhi = light.ground_exitance = 0;
   light.sky.clear();
-  light.sun_samples.clear();
+  if (light.direct_suns.empty()) light.sun_samples.clear();
   return light;
 }
 
 /// The nodes about the suns of an interval, each sun with its share.
 std::vector<SunNodes::Weight> nodes_about(const SunNodes& nodes, const IntervalLight& light) {
   if (!light.has_sun() || light.dni <= 0 || nodes.count() == 0) return {};
-  const std::vector<Vec3> one{light.direction};
-  const std::vector<Vec3>& suns = light.sun_samples.empty() ? one : light.sun_samples;
+  const std::vector<SunSample> one{{light.direction, 1, 1}};
   std::vector<SunNodes::Weight> about;
-  for (const Vec3& sun : suns)
-    for (const auto& [node, weight] : nodes.weights(sun))
-      about.push_back({node, weight / static_cast<double>(suns.size())});
+  const bool is_one = light.sun_samples.empty() || !light.direct_suns.empty();
+  for (const SunSample& sun : is_one ? one : light.sun_samples)
+    for (const auto& [node, weight] : nodes.weights(sun.direction))
+      about.push_back({node, weight * sun.dni_share});
   return about;
 }
 

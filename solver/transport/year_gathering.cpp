@@ -65,8 +65,8 @@ BlockLight light_of_nodes(const Receivers& receivers, NodeBlock::Received NodeBl
 
 /// Sums over intervals of means over patches, by area, of the squares of what nodes are off by.
 struct Squares {
-  double sky = 0, reflected = 0;  ///< of each alone, noise included
-  double error = 0;               ///< of both, without the noise of samples
+  double sky = 0, reflected = 0;  ///< of each alone
+  double error = 0;               ///< of both; without the noise of samples, as of the sky
   double standard_error = 0;
   Squares& operator+=(const Squares& more) {
     sky += more.sky;
@@ -122,9 +122,9 @@ class ReductionTest {
         const std::size_t at = i * block_width + k, row = k * area.size() + i;
         const auto sky = static_cast<double>(made.sky[at] + made.mirror[at] - exact_.sky[at] -
                                              exact_.mirror[at]);
-        const auto reflected = static_cast<double>(made.reflected[at] - exact_.reflected[at]);
         const auto noisy = static_cast<double>(noise[row]);
-        sum.sky += part * sky * sky;
+        const auto reflected = static_cast<double>(made.reflected[at] - exact_.reflected[at]);
+        sum.sky += part * (sky * sky - noisy * noisy);
         sum.reflected += part * reflected * reflected;
         sum.error += part * ((sky + reflected) * (sky + reflected) - noisy * noisy);
         const auto se = static_cast<double>(standard_error_[row]);

@@ -20,8 +20,46 @@ const std::vector<Vec3> three_directions{normalized({0.6, -0.5, 0.6}), normalize
 /// A second of the sun that the three of them stand for.
 IntervalLight of_three() {
   IntervalLight light = one_second(three_directions[1], dni);
-  light.sun_samples = three_directions;
+  for (const Vec3 w : three_directions) light.sun_samples.push_back({w, 1.0 / 3, 1.0 / 3});
   return light;
+}
+
+/// Suns of unlike strength and length from the first of them to the last, as intervals.
+std::vector<IntervalLight> twelve_in_turn() {
+  constexpr std::size_t count = 12;
+  std::vector<IntervalLight> parts;
+  double length_s = 0;
+  for (std::size_t s = 0; s < count; ++s) {
+    const double t = (static_cast<double>(s) + 0.5) / count;
+    const Vec3 w = normalized(three_directions[0] * (1 - t) + three_directions[2] * t);
+    IntervalLight& part = parts.emplace_back(one_second(w, dni * (s % 3 == 0 ? 0.2 : 1)));
+    part.number = static_cast<std::uint32_t>(s + 1);
+    part.length_s = part.sunlit_s = s % 2 == 0 ? 1 : 2;
+    length_s += part.length_s;
+  }
+  for (IntervalLight& part : parts) part.length_s = part.sunlit_s = part.length_s / length_s;
+  return parts;
+}
+
+/// The same as one; mirrors and gloss see those of `few`.
+IntervalLight joined(const std::vector<IntervalLight>& parts, std::size_t few) {
+  IntervalLight whole = one_second(parts[parts.size() / 2].direction, 0);
+  for (const IntervalLight& part : parts) whole.dni += part.dni * part.length_s;
+  const auto samples = [&](std::size_t each) {
+    std::vector<SunSample> all;
+    for (std::size_t first = 0; first < parts.size(); first += each) {
+      SunSample sample{parts[first + each / 2].direction, 0, 0};
+      for (std::size_t s = first; s < first + each; ++s) {
+        sample.dni_share += parts[s].dni * parts[s].length_s / whole.dni;
+        sample.time_share += parts[s].length_s;
+      }
+      all.push_back(sample);
+    }
+    return all;
+  };
+  whole.direct_suns = samples(1);
+  whole.sun_samples = samples(parts.size() / few);
+  return whole;
 }
 
 /// The same as three intervals, each with its sun.
@@ -104,6 +142,52 @@ TEST(SunSamples, AnIntervalHasTheLightOfItsSunsOneAfterTheOther) {
       for (std::size_t r = 0; r < off.size(); ++r) off[r] -= ground[r];
       EXPECT_FALSE(expect_mean(off, 0, float_rounding * dni));
     }
+}
+
+TEST(SunSamples, ManyForWhatIsStraightAndFewForMirrorsAreTheLightOfAll) {
+  const Yard yard({"wall", 0.1, 0.8, 0});
+  const SolverRules rules = rules_of(Transport::gather);
+  const SplitRules split{.max_edge_m = 2};
+  const auto parts = twelve_in_turn();
+  const Solved each = solve(yard.scene, parts, rules, split);
+  for (const std::size_t few : {2u, 4u}) {
+    const Solved whole = solve(yard.scene, {joined(parts, few)}, rules, split);
+    const auto direct = static_cast<std::size_t>(Part::direct);
+    double by_each = 0, by_whole = 0, squares = 0, area = 0;
+    for (std::size_t i = 0; i < whole.area.size(); ++i) {
+      const double a = each.tally.exposure[direct][i], b = whole.tally.exposure[direct][i];
+      by_each += whole.area[i] * a;
+      by_whole += whole.area[i] * b;
+      squares += whole.area[i] * (a - b) * (a - b);
+      area += whole.area[i];
+      EXPECT_NEAR(each.tally.sunlit_s[i], whole.tally.sunlit_s[i], 0.05) << i;
+    }
+    // Shares are interpolated between suns of a grid.
+    EXPECT_NEAR(by_whole / by_each, 1, 2e-3);
+    EXPECT_LT(std::sqrt(squares * area) / by_each, 0.02);
+    // None is made or lost where fewer suns send light on.
+    check_ledger("many suns and few", whole);
+    const Verdict wall = expect_mean(
+        whole.means([&](std::size_t i) {
+          return yard.scene.mesh
+                     .triangle_object[static_cast<std::size_t>(whole.patches[i].triangle)]
+                     .index() == 1;
+        }),
+        mean_error(each.means([&](std::size_t i) {
+          return yard.scene.mesh.triangle_object[static_cast<std::size_t>(each.patches[i].triangle)]
+                     .index() == 1;
+        })).mean,
+        0.01 * dni);
+    EXPECT_TRUE(wall) << wall.text;
+  }
+  // Light of suns that all stand where the middle one does is another.
+  IntervalLight middle = joined(parts, 2);
+  for (SunSample& sun : middle.direct_suns) sun.direction = middle.direction;
+  const Solved wrong = solve(yard.scene, {middle}, rules, split);
+  double off = 0;
+  for (std::size_t i = 0; i < wrong.area.size(); ++i)
+    off = std::max(off, std::abs(each.tally.sunlit_s[i] - wrong.tally.sunlit_s[i]));
+  EXPECT_GT(off, 0.3);
 }
 
 TEST(SunSamples, OpenGroundHasTheirMeanCosineAndAllOfTheSunsTime) {

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Intervals that are solved together against the same one by one.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "io/result/reader.h"
+#include "tests/support/program.h"
+#include "tests/support/result_check.h"
+#include "tests/support/small_study.h"
+
+namespace sunload::test {
+namespace {
+
+/// A day of five minutes, in batches of four hours.
+std::string day_of(const std::string& name, const std::string& solver,
+                   const std::string& output = "series_step: 60 min") {
+  return "format: sunload-study-1\nname: " + name +
+         "\n"
+         "site: {latitude_deg: 49.7475, longitude_deg: 13.3776, timezone: Europe/Prague}\n"
+         "period: {start: 2026-06-21, end: 2026-06-22, step_min: 5}\n"
+         "light: {source: clear_sky, sky: perez}\n"
+         "scene: {files: [square.obj], materials: {paving: {diffuse: 0.3}, plaster: {diffuse: 0.6},"
+         " glass: {diffuse: 0.05, mirror: 0.85}, canvas: {diffuse: 0.5, sides: two},"
+         " lamp: {diffuse: 0.1, emission_w_m2: 2}}}\n"
+         "mesh: {oracle: none, max_edge_m: 2}\n"
+         "sensors: {points: [{position_m: [0, 0, 1.5], normal: [0, 0, 1]}]}\n"
+         "solver: {lines_per_patch: 256, realizations: 8, batch_suns: 4" +
+         solver + "}\noutput: {folder: results, " + output + "}\n";
+}
+
+std::string run(const WorkFolder& folder, const std::string& name, const std::string& study,
+                std::vector<std::string> options = {}) {
+  folder.write("square.obj", square_obj);
+  folder.write(name + ".yaml", study);
+  options.insert(options.begin(), {"run", name + ".yaml"});
+  const Ran ran = program(folder, options);
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  return folder / ("results/" + name + "/baseline.h5");
+}
+
+double total_of(const std::vector<double>& values, const std::vector<double>& area) {
+  double sum = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) sum += values[i] * area[i];
+  return sum;
+}
+
+TEST(ShortIntervals, TogetherHaveTheLightOfEach) {
+  const WorkFolder folder;
+  const ResultReader each(
+      run(folder, "each", day_of("each", ", year: each, short_intervals: each"))),
+      together(run(folder, "together", day_of("together", ", short_intervals: together")));
+  const auto area = each.doubles("patch_area");
+  EXPECT_EQ(each.doubles("time_bounds"), together.doubles("time_bounds"));
+  // Sky and reflected light come from the same lines, and from the mean of what they carry.
+  for (const char* part : {"light_load", "light_load_sky", "light_load_direct", "sun_hours"}) {
+    const double a = total_of(each.doubles(part), area), b = total_of(together.doubles(part), area);
+    EXPECT_NEAR(b / a, 1, 2e-3) << part;
+  }
+  // By mirrors and by reflection within what fewer suns and other samples change.
+  for (const char* part : {"light_load_mirror", "light_load_reflected"}) {
+    const double a = total_of(each.doubles(part), area), b = total_of(together.doubles(part), area);
+    EXPECT_NEAR(b / a, 1, 0.02) << part;
+  }
+  const auto direct = each.doubles("light_load_direct"),
+             other = together.doubles("light_load_direct"), hours = each.doubles("sun_hours"),
+             other_hours = together.doubles("sun_hours");
+  double squares = 0, mean = 0, worst_h = 0;
+  for (std::size_t i = 0; i < direct.size(); ++i) {
+    squares += std::pow(other[i] - direct[i], 2) / static_cast<double>(direct.size());
+    mean += direct[i] / static_cast<double>(direct.size());
+    worst_h = std::max(worst_h, std::abs(hours[i] - other_hours[i]));
+  }
+  EXPECT_LT(std::sqrt(squares), 0.01 * mean);
+  EXPECT_LT(worst_h, 0.25);
+  const auto dni = each.doubles("dni"), other_dni = together.doubles("dni");
+  for (std::size_t k = 0; k < dni.size(); ++k) EXPECT_NEAR(dni[k], other_dni[k], 1e-3 * dni[k]);
+  const auto at_sensor = each.doubles("sensor_light_load"),
+             at_other = together.doubles("sensor_light_load");
+  EXPECT_NEAR(at_other[0] / at_sensor[0], 1, 0.02);
+  const std::string path = folder / "results/together/baseline.h5";
+  EXPECT_EQ(ledger_problem(path), "");
+  EXPECT_EQ(sums_problem(path), "");
+}
+
+TEST(ShortIntervals, AreTheSameBitsInShardsAndByThreads) {
+  const WorkFolder folder;
+  const std::string study = day_of("together", ", short_intervals: together");
+  const std::string whole = run(folder, "together", study, {"--threads", "1"});
+  const WorkFolder other;
+  run(other, "together", study, {"--threads", "3", "--shard", "1/2", "--resume"});
+  run(other, "together", study, {"--threads", "2", "--shard", "0/2", "--resume"});
+  EXPECT_EQ(different_data(whole, other / "results/together/baseline.h5"),
+            std::vector<std::string>{});
+}
+
+TEST(ShortIntervals, AreRefusedWhereEachIsAskedFor) {
+  const WorkFolder folder;
+  folder.write("square.obj", square_obj);
+  const auto refused = [&](const std::string& solver, const std::string& output) {
+    folder.write("t.yaml", day_of("t", ", short_intervals: together" + solver, output));
+    const Ran ran = program(folder, {"check", "t.yaml"});
+    EXPECT_EQ(ran.code, 2) << ran.out;
+    return ran.err;
+  };
+  EXPECT_NE(refused("", "series: [total]").find("each of them is stored"), std::string::npos);
+  EXPECT_NE(refused(", transport: shoot", "series: none").find("transport: gather"),
+            std::string::npos);
+  EXPECT_NE(refused("", "series: none, standard_error: instants").find("totals"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace sunload::test
