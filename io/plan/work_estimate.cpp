@@ -225,12 +225,13 @@ WorkSeconds modelled_seconds(const VariantPlan& plan, std::size_t patches,
   const double threads = thread_count();
   const auto materials = materials_of(plan);
   const bool guided = std::any_of(materials.begin(), materials.end(), emits);  // by who gathers
+  // A period of few solutions is tried without a sky.
+  const double to_sky = is_year_of_few(plan) ? 0 : circumsolar_receivers(plan, patches);
   return {
       tracing_seconds(plan, n, lines, guided) / threads,
       sun_seconds(static_cast<double>(patches), counts.suns,
                   facing_share * counts.suns * counts.direct_samples * asked_by_rays(plan, patches),
-                  facing_share * counts.suns * counts.direct_samples *
-                      circumsolar_receivers(plan, patches)) /
+                  facing_share * counts.suns * counts.direct_samples * to_sky) /
           threads,
       mirror_seconds(n, counts.suns, counts.direct_samples) / threads,
       // A block that is not full takes as long.

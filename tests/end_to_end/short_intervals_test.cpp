@@ -84,6 +84,32 @@ TEST(ShortIntervals, TogetherHaveTheLightOfEach) {
   EXPECT_EQ(sums_problem(path), "");
 }
 
+TEST(ShortIntervals, TogetherAreServedByFewSolutions) {
+  const WorkFolder folder;
+  const auto week = [&](const std::string& name, const std::string& year) {
+    std::string study = day_of(name, ", short_intervals: together, year: " + year);
+    study.replace(study.find("end: 2026-06-22, step_min: 5"), 28, "end: 2026-06-28, step_min: 10");
+    study.replace(study.find("batch_suns: 4"), 13, "batch_suns: 64");
+    return run(folder, name, study);
+  };
+  const ResultReader each(week("each", "each")), modes(week("modes", "modes"));
+  EXPECT_GT(modes.number_attribute("year_suns"), 0);
+  const auto area = each.doubles("patch_area");
+  for (const char* part : {"light_load_direct", "sun_hours"})
+    EXPECT_EQ(each.doubles(part), modes.doubles(part)) << part;
+  // Nodes have all suns of their hours, as the hours between them have.
+  for (const char* part : {"light_load_reflected", "light_load_sky"}) {
+    const auto a = each.doubles(part), b = modes.doubles(part);
+    EXPECT_NEAR(total_of(b, area) / total_of(a, area), 1, 5e-3) << part;
+    double squares = 0, mean = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      squares += std::pow(b[i] - a[i], 2) / static_cast<double>(a.size());
+      mean += a[i] / static_cast<double>(a.size());
+    }
+    EXPECT_LT(std::sqrt(squares), 0.02 * mean) << part;
+  }
+}
+
 TEST(ShortIntervals, AreTheSameBitsInShardsAndByThreads) {
   const WorkFolder folder;
   const std::string study = day_of("together", ", short_intervals: together");

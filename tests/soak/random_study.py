@@ -76,6 +76,17 @@ def add_seasons(random, study):
         materials[name]["seasons"] = {random.choice(["first", "second"]): random.choice(alike)}
 
 
+def join_short_intervals(random, study):
+    """Where nothing is asked of each of them, in some studies, with a draw of its own."""
+    solver, output, period = study["solver"], study["output"], study["period"]
+    asks_for_each = (solver["transport"] == "shoot" or output.get("standard_error") == "instants"
+                     or "irradiance_relative" in solver.get("accuracy", {}))
+    if asks_for_each or not {"days", "start", "year_of"} & set(period) or random.random() > 0.3:
+        return
+    output["series"] = "none"
+    solver["short_intervals"] = "together"
+
+
 def random_sensors(random, folder, scene):
     def point():
         at = [round(random.uniform(scene.low[k], scene.high[k]), 3) for k in range(3)]
@@ -153,6 +164,8 @@ class RandomStudy:
             study["variants"] = random_variants(random, study)
         if random.random() < 0.15 and "positions" not in study["period"] and study["scene"].get("materials"):
             add_seasons(random, study)
+        if not self.is_measurable:
+            join_short_intervals(random_numbers.Random(f"short intervals of {seed}"), study)
         self.tree = broken(random, study) if self.is_wrong else study
         self.variants = [v["name"] for v in self.tree.get("variants", [{"name": "baseline"}])]
         self.path = self.write("study.yaml", self.tree)
