@@ -90,7 +90,8 @@ std::vector<PartSun> suns_of(std::span<const LitInterval> parts) {
 std::vector<SunSample> in_runs(std::span<const PartSun> suns, double longest_s) {
   double dni_s = 0, sunlit_s = 0;
   for (const PartSun& sun : suns) dni_s += sun.dni_s, sunlit_s += sun.sunlit_s;
-  const double runs = std::max(1.0, std::ceil(sunlit_s / longest_s - instant_s));
+  constexpr double rounding = 1e-6;
+  const double runs = std::max(1.0, std::ceil(sunlit_s / longest_s - rounding));
   std::vector<SunSample> samples;
   double passed_s = 0;
   for (std::size_t first = 0; first < suns.size();) {

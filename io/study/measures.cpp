@@ -129,6 +129,10 @@ void check_measures(YamlMap& root, const Study& study, PlaceWritten placed) {
         study.light.source != LightSource::weather)
       refuse(measure, "needs light.source: weather", "it counts the sunshine of a year",
              "write light: {source: weather, weather: x.epw} and period: {year_of: weather}");
+    if (study.solver.short_intervals == ShortIntervals::together &&
+        !watched_light(*rule, measure).empty())
+      refuse(measure, "cannot go with solver.short_intervals: together",
+             "it looks at the light of every interval", "write short_intervals: auto or each");
     if (rule->needs != Needs::series) continue;
     const bool lux = study.light.quantity == Quantity::illuminance;
     if (rule->spans == MeasureRule::Spans::whole_year && lux)

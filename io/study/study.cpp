@@ -232,6 +232,8 @@ void check_joining(YamlMap& root, const Study& study) {
     refuse("standard_error: instants",
            "intervals that are solved together have no errors of their own",
            "write standard_error: totals");
+  if (study.solver.accuracy && study.solver.accuracy->irradiance_relative)
+    refuse("accuracy.irradiance_relative", "it is of every instant", "ask for light_load_relative");
   if (study.output.series_step.is_interval() && !study.output.series.empty())
     refuse("series of intervals", "each of them is stored",
            "write output.series_step: 60 min, day or month, or output.series: none");

@@ -173,7 +173,7 @@ class SunPoints {
 
 /// Adds the direct sun of a block to `into`, and to `sunlit` ([N][block]) the share of each
 /// receiver that sees the sun, times `sun_share`, for every sun above the horizon; both to the suns
-/// that these are parts of (RaySink::of_parts). `shares`: what
+/// that these are parts of (RaySink::of_parts_of). `shares`: what
 /// is known of the same receivers (LitShares::of); empty: rays tell all. Returns the rays cast.
 std::uint64_t direct_sun(const RayCaster& caster, const SunSampler& sampler,
                          std::span<const IntervalLight> block, const RaySink& into, Columns& sunlit,

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -58,15 +57,14 @@ class RaySink {
   }
 
   std::size_t realizations() const { return realizations_; }
-  /// The same for suns of which each stands for a part of one of these.
-  RaySink of_parts(const std::array<std::uint8_t, block_width>& of) const {
+  /// The same for suns that all are parts of sun k of these.
+  RaySink of_parts_of(std::size_t k) const {
     RaySink parts = *this;
-    parts.of_ = of;
-    parts.is_of_parts_ = true;
+    parts.whole_ = k;
     return parts;
   }
-  /// The sun of the block that sun k is a part of.
-  std::size_t whole_of(std::size_t k) const { return is_of_parts_ ? of_[k] : k; }
+  /// The sun of the block that sun k is, or is a part of.
+  std::size_t whole_of(std::size_t k) const { return whole_ == every_one ? k : whole_; }
   /// Adds irradiance E [W m-2] by sun k of the block, as one realization has it; the pooled one is
   /// for the caller to add.
   void add(std::size_t realization, std::size_t receiver, std::size_t part, double E) const {
@@ -81,9 +79,9 @@ class RaySink {
   }
   /// Adds what all realizations have alike, and the pooled one, by all suns of the block.
   void add_alike(std::size_t receiver, const std::array<double, block_width>& of_suns) const {
-    if (!is_of_parts_) return add_columns_alike(receiver, of_suns);
+    if (whole_ == every_one) return add_columns_alike(receiver, of_suns);
     std::array<double, block_width> E{};
-    for (std::size_t k = 0; k < block_width; ++k) E[of_[k]] += of_suns[k];
+    for (const double of_part : of_suns) E[whole_] += of_part;
     add_columns_alike(receiver, E);
   }
   /// Adds `E(r)` of all realizations, and their mean to the pooled one.
@@ -119,8 +117,8 @@ class RaySink {
   std::size_t realizations_;
   std::vector<TimeIntegral> integrals_;
   std::vector<Columns>* of_realizations_;
-  std::array<std::uint8_t, block_width> of_{};
-  bool is_of_parts_ = false;
+  static constexpr std::size_t every_one = block_width;
+  std::size_t whole_ = every_one;
 };
 
 struct RayLight {

@@ -60,26 +60,17 @@ bool any_direct_suns(std::span<const IntervalLight> block) {
 
 std::vector<SunRow> direct_suns_in_rows(std::span<const IntervalLight> block) {
   std::vector<SunRow> rows;
-  const auto add = [&](const IntervalLight& sun, std::size_t interval) {
-    if (!sun.has_sun()) return;
-    if (rows.empty() || rows.back().suns.size() == block_width) rows.emplace_back();
-    SunRow& row = rows.back();
-    row.of[row.suns.size()] = static_cast<std::uint8_t>(interval);
-    row.suns.push_back(sun);
-  };
   for (std::size_t k = 0; k < block.size(); ++k) {
     const IntervalLight& interval = block[k];
-    if (interval.direct_suns.empty()) {
-      const std::size_t count = std::max<std::size_t>(interval.sun_samples.size(), 1);
-      expect_addresses(interval, count);
-      for (std::size_t s = 0; s < count; ++s) add(sun_sample(interval, s), k);
-      continue;
-    }
+    if (interval.direct_suns.empty()) continue;
     SUNLOAD_EXPECT(interval.sun_samples.size() <= most_suns_beside_direct_ones,
                    "suns of an interval");
     expect_addresses(interval, most_suns_beside_direct_ones + interval.direct_suns.size());
-    for (std::size_t s = 0; s < interval.direct_suns.size(); ++s)
-      add(sun_of(interval, interval.direct_suns[s], most_suns_beside_direct_ones + s), k);
+    for (std::size_t s = 0; s < interval.direct_suns.size(); ++s) {
+      if (s % block_width == 0) rows.push_back({k, {}});
+      rows.back().suns.push_back(
+          sun_of(interval, interval.direct_suns[s], most_suns_beside_direct_ones + s));
+    }
   }
   return rows;
 }

@@ -3,8 +3,7 @@
 /// Several suns that stand for one interval, each for a part of its sunlit time.
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -25,15 +24,15 @@ inline constexpr std::size_t most_suns_beside_direct_ones = 64;
 /// of the interval. The sky is left out. One span where no interval has more than one sun.
 std::vector<std::vector<IntervalLight>> suns_one_by_one(std::span<const IntervalLight> block);
 
-/// Suns that are looked at side by side, whichever intervals they stand for.
+/// Suns of one interval that are looked at side by side.
 struct SunRow {
-  std::vector<IntervalLight> suns;             ///< at most `block_width`, as `suns_one_by_one`
-  std::array<std::uint8_t, block_width> of{};  ///< interval of the block that each stands for
+  std::size_t interval = 0;         ///< of the block
+  std::vector<IntervalLight> suns;  ///< at most `block_width`, each a part as of `suns_one_by_one`
 };
 /// Whether any interval has suns for what is straight alone.
 bool any_direct_suns(std::span<const IntervalLight> block);
-/// The suns for what is straight of all intervals that have the sun, in the order of time: those
-/// next to each other stand close together.
+/// All of these, in the order of time; intervals that have none have no row. No row depends on
+/// another interval.
 std::vector<SunRow> direct_suns_in_rows(std::span<const IntervalLight> block);
 
 /// Points of one net by which the share of a receiver that sees a sun errs no more than by so many

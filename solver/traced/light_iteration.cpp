@@ -149,7 +149,8 @@ std::vector<Columns> shares_of_patches(const TracedScene& traced, const SunsOneB
   return shares;
 }
 
-/// What is straight from all suns that stand for the intervals of a block. Returns the rays cast.
+/// What is straight from the suns of intervals that have some for that alone. Returns the rays
+/// cast.
 std::uint64_t add_direct_suns(const TracedScene& traced, const Receivers& receivers, Suns block,
                               RayLight& rays, const RayIntegrals& integrals) {
   const RaySink into =
@@ -163,7 +164,7 @@ std::uint64_t add_direct_suns(const TracedScene& traced, const Receivers& receiv
     traced.share_grid.prepare(all);
   }
   for (const SunRow& row : rows)
-    cast += direct_sun(traced.caster, receivers.sampler, row.suns, into.of_parts(row.of),
+    cast += direct_sun(traced.caster, receivers.sampler, row.suns, into.of_parts_of(row.interval),
                        rays.sunlit, are_patches ? shares_of_many(traced, row.suns) : Columns());
   return cast;
 }
@@ -177,9 +178,21 @@ std::vector<std::size_t> patches_that_send_on(const TracedScene& traced) {
   return patches;
 }
 
-/// Scales the few suns by which light is sent on so that in each interval surfaces that send it on
-/// get as much power by them as by all suns (`direct`): none is made or lost on the way.
-void match_what_is_sent_on(const TracedScene& traced, const Columns& direct,
+bool has_direct_suns(const IntervalLight& interval) { return !interval.direct_suns.empty(); }
+
+/// The same suns, night where an interval has suns for what is straight alone, or where it has not.
+SunsOneByOne only(Suns block, SunsOneByOne suns, bool with_direct_suns) {
+  for (auto& of_intervals : suns)
+    for (std::size_t k = 0; k < block.size(); ++k)
+      if (has_direct_suns(block[k]) != with_direct_suns)
+        of_intervals[k].sunlit_s = of_intervals[k].dni = 0;
+  return suns;
+}
+
+/// Scales the few suns by which light is sent on, where there are more for what is straight, so
+/// that in each interval surfaces that send it on get as much power by them as by all suns
+/// (`direct`): none is made or lost on the way.
+void match_what_is_sent_on(const TracedScene& traced, Suns block, const Columns& direct,
                            const std::vector<Columns>& shares, SunsOneByOne& suns) {
   constexpr double share_at_edge = 0.5;  // where rays alone could tell
   const auto senders = patches_that_send_on(traced);
@@ -201,7 +214,7 @@ void match_what_is_sent_on(const TracedScene& traced, const Columns& direct,
   }
   for (auto& of_intervals : suns)
     for (std::size_t k = 0; k < of_intervals.size(); ++k)
-      if (by_few[k] > 0) of_intervals[k].dni *= by_all[k] / by_few[k];
+      if (has_direct_suns(block[k]) && by_few[k] > 0) of_intervals[k].dni *= by_all[k] / by_few[k];
 }
 
 /// `beams`: one set for each of `suns_one_by_one`. Returns the rays cast.
@@ -228,13 +241,9 @@ std::uint64_t add_mirrors_on_sensors(const TracedScene& traced, const SunsOneByO
 std::uint64_t light_sensors(const TracedScene& traced, Suns block, const SunsOneByOne& suns,
                             std::vector<std::vector<SunBeams>> beams, RayLight& rays,
                             const RayIntegrals& integrals) {
-  std::uint64_t cast = 0;
-  if (any_direct_suns(block)) {
-    cast += add_direct_suns(traced, traced.sensors, block, rays, integrals);
-  } else {
-    for (const auto& of_intervals : suns)
-      cast += add_sun(traced, traced.sensors, of_intervals, {}, rays, integrals);
-  }
+  std::uint64_t cast = add_direct_suns(traced, traced.sensors, block, rays, integrals);
+  for (const auto& of_intervals : only(block, suns, false))
+    cast += add_sun(traced, traced.sensors, of_intervals, {}, rays, integrals);
   return cast + add_mirrors_on_sensors(traced, suns, std::move(beams), rays, integrals);
 }
 
@@ -243,19 +252,23 @@ std::uint64_t light_sensors(const TracedScene& traced, Suns block, const SunsOne
 std::vector<Columns> light_patches(const TracedScene& traced, Suns block, SunsOneByOne& suns,
                                    RayLight& rays, const RayIntegrals& integrals, WorkDone& work) {
   const Stopwatch time(work[Work::direct_s]);
-  if (!any_direct_suns(block)) {
-    auto shares = shares_of_patches(traced, suns);
-    for (std::size_t s = 0; s < suns.size(); ++s)
-      work.add(Work::direct_rays,
-               add_sun(traced, traced.patches, suns[s], shares[s], rays, integrals));
-    return shares;
-  }
   work.add(Work::direct_rays, add_direct_suns(traced, traced.patches, block, rays, integrals));
-  if (traced.mirrors.size() == 0 && !traced.optics.any_glossy) return {};
-  std::vector<Columns> shares;
-  shares.reserve(suns.size());
-  for (const auto& of_intervals : suns) shares.push_back(shares_of_many(traced, of_intervals));
-  match_what_is_sent_on(traced, rays.pooled.direct, shares, suns);
+  const SunsOneByOne each = only(block, suns, false);
+  auto shares = shares_of_patches(traced, each);
+  for (std::size_t s = 0; s < suns.size(); ++s)
+    work.add(Work::direct_rays,
+             add_sun(traced, traced.patches, each[s], shares[s], rays, integrals));
+  const bool sends_on = traced.mirrors.size() > 0 || traced.optics.any_glossy;
+  if (!sends_on || !any_direct_suns(block)) return shares;
+  const SunsOneByOne few = only(block, suns, true);
+  for (std::size_t s = 0; s < suns.size(); ++s) {
+    const Columns of_few = shares_of_many(traced, few[s]);
+    for (std::size_t at = 0; at < of_few.size(); ++at) {
+      const std::size_t k = at % block_width;
+      if (k < block.size() && has_direct_suns(block[k])) shares[s][at] = of_few[at];
+    }
+  }
+  match_what_is_sent_on(traced, block, rays.pooled.direct, shares, suns);
   return shares;
 }
 

@@ -121,6 +121,23 @@ TEST(ShortIntervals, AreTheSameBitsInShardsAndByThreads) {
             std::vector<std::string>{});
 }
 
+TEST(ShortIntervals, NoIntervalDependsOnThoseBesideIt) {
+  // The last hour of each day has one interval, and is not joined.
+  const auto values = [](const std::string& batch) {
+    const WorkFolder folder;
+    std::string study = day_of("t", ", short_intervals: together", "series: none");
+    study.replace(study.find("start: 2026-06-21, end: 2026-06-22, step_min: 5"), 47,
+                  "days: [2026-06-21, 2026-06-22], from: \"16:00\", to: \"19:05\", step_min: 5");
+    study.replace(study.find("batch_suns: 4"), 13, "batch_suns: " + batch);
+    const ResultReader result(run(folder, "t", study));
+    return std::pair(result.doubles("irradiance_max"), result.doubles("light_load_direct"));
+  };
+  const auto one = values("1"), all = values("16");
+  EXPECT_EQ(one.first, all.first);
+  for (std::size_t i = 0; i < one.second.size(); ++i)
+    EXPECT_NEAR(one.second[i], all.second[i], 1e-12 * one.second[i]);
+}
+
 TEST(ShortIntervals, AreRefusedWhereEachIsAskedFor) {
   const WorkFolder folder;
   folder.write("square.obj", square_obj);
@@ -134,6 +151,11 @@ TEST(ShortIntervals, AreRefusedWhereEachIsAskedFor) {
   EXPECT_NE(refused(", transport: shoot", "series: none").find("transport: gather"),
             std::string::npos);
   EXPECT_NE(refused("", "series: none, standard_error: instants").find("totals"),
+            std::string::npos);
+  EXPECT_NE(refused(", accuracy: {irradiance_relative: 0.1}", "series: none").find("every instant"),
+            std::string::npos);
+  EXPECT_NE(refused("", "series: none}\nmeasures: {bright: {rule: light_hours, above_w_m2: 100}")
+                .find("looks at the light of every interval"),
             std::string::npos);
 }
 

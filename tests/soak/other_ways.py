@@ -140,7 +140,7 @@ def by_other_transport(program, study, random, comparisons):
     for key in ("variants", "sensors"):
         tree.pop(key, None)
     solver = tree["solver"]
-    for key in ("accuracy", "max_lines_per_patch", "jacobi", "bands"):
+    for key in ("accuracy", "max_lines_per_patch", "jacobi", "bands", "short_intervals"):
         solver.pop(key, None)
     tree["light"].pop("colour", None)
     tree["output"] = {"series": ["total"]}
