@@ -29,10 +29,7 @@ std::vector<std::vector<float>> reflectances_of_bands(const ResultScene& scene) 
 
 std::vector<double> chosen_part(const ResultReader& result, const LightSeries& light) {
   if (!result.chosen().any()) return {};
-  std::vector<TimeSpan> intervals;
-  for (const LitInterval& interval : light.intervals)
-    intervals.push_back({interval.when.begin, interval.when.end});
-  return chosen_shares(result.chosen(), intervals, result_zone(result),
+  return chosen_shares(result.chosen(), light.spans(), result_zone(result),
                        result.number_attribute("latitude_deg"), own_seasons(result));
 }
 

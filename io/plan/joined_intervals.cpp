@@ -27,10 +27,6 @@ constexpr int longest_step_min = 60;
 /// Sunlit time that one sun stands for: of what is straight, and of what mirrors send on. The sun
 /// moves by half a degree, its own diameter, and by five.
 constexpr double direct_sun_s = 2 * seconds_per_minute, sent_on_sun_s = 20 * seconds_per_minute;
-/// Ends of intervals that follow each other differ by less.
-constexpr double instant_s = 1e-3;
-
-bool has_series(const Study& study) { return !study.output.series.empty(); }
 
 /// Whether anything is wanted of every interval for itself.
 bool asks_for_instants(const Study& study) {
@@ -48,7 +44,7 @@ std::optional<int> step_minutes(const Study& study) {
   if (study.solver.transport == Transport::shoot || asks_for_instants(study)) return {};
   if (study.solver.short_intervals == ShortIntervals::automatic && study.solver.year == Year::each)
     return {};
-  if (step.is_interval() && has_series(study)) return {};
+  if (step.is_interval() && !study.output.series.empty()) return {};
   if (step.is_interval() || step.unit != Unit::minutes) return longest_step_min;
   for (int minutes = std::min(step.minutes, longest_step_min);; --minutes)
     if (step.minutes % minutes == 0) return minutes;
@@ -132,6 +128,15 @@ std::size_t middle_of(std::span<const LitInterval> parts) {
   return last;
 }
 
+/// Puts a stretch with sun behind those that a hull has; one without is none.
+void append(UnixTime part_begin, UnixTime part_end, double part_s, UnixTime& begin, UnixTime& end,
+            double& length_s) {
+  if (part_s <= 0) return;
+  if (length_s <= 0) begin = part_begin;
+  end = part_end;
+  length_s += part_s;
+}
+
 SunInterval time_of(std::span<const LitInterval> parts) {
   SunInterval when = parts[middle_of(parts)].when;
   when.begin = parts.front().when.begin;
@@ -139,20 +144,11 @@ SunInterval time_of(std::span<const LitInterval> parts) {
   when.sunlit_s = when.up_s = 0;
   when.sunlit_begin = when.sunlit_end = when.up_begin = when.up_end = when.sun_time;
   when.sun_samples.clear();
-  bool any_sunlit = false, any_up = false;
   for (const LitInterval& part : parts) {
-    if (part.when.sunlit_s > 0) {
-      if (!any_sunlit) when.sunlit_begin = part.when.sunlit_begin;
-      when.sunlit_end = part.when.sunlit_end;
-      when.sunlit_s += part.when.sunlit_s;
-      any_sunlit = true;
-    }
-    if (part.when.up_s > 0) {
-      if (!any_up) when.up_begin = part.when.up_begin;
-      when.up_end = part.when.up_end;
-      when.up_s += part.when.up_s;
-      any_up = true;
-    }
+    const SunInterval& of = part.when;
+    append(of.sunlit_begin, of.sunlit_end, of.sunlit_s, when.sunlit_begin, when.sunlit_end,
+           when.sunlit_s);
+    append(of.up_begin, of.up_end, of.up_s, when.up_begin, when.up_end, when.up_s);
   }
   return when;
 }
@@ -197,10 +193,7 @@ LitInterval joined(std::span<LitInterval> parts) {
 /// Ends of the runs of intervals that are to be one.
 std::vector<std::size_t> ends_of_runs(const LightSeries& series, double step_s,
                                       const TimeZone& zone) {
-  std::vector<TimeSpan> spans;
-  spans.reserve(series.intervals.size());
-  for (const LitInterval& interval : series.intervals)
-    spans.push_back({interval.when.begin, interval.when.end});
+  const std::vector<TimeSpan> spans = series.spans();
   // The step that holds all of an interval; others stay by themselves.
   constexpr std::size_t none = static_cast<std::size_t>(-1);
   std::vector<std::size_t> step_of(spans.size(), none);
@@ -211,8 +204,7 @@ std::vector<std::size_t> ends_of_runs(const LightSeries& series, double step_s,
   std::vector<std::size_t> ends;
   for (std::size_t k = 0; k < spans.size(); ++k) {
     const bool goes_on = k + 1 < spans.size() && step_of[k] != none &&
-                         step_of[k] == step_of[k + 1] &&
-                         std::abs(spans[k + 1][0] - spans[k][1]) <= instant_s;
+                         step_of[k] == step_of[k + 1] && meet(spans[k], spans[k + 1]);
     if (!goes_on) ends.push_back(k + 1);
   }
   return ends;
@@ -239,8 +231,7 @@ void join_short_intervals(const Study& study, LightSeries& series) {
   series.intervals = std::move(whole);
   series.notes.push_back(
       fmt::format("{} intervals are solved as {}, of up to {} min each (solver.short_intervals): "
-                  "largest values "
-                  "are means over these",
+                  "largest values are means over these",
                   count, series.intervals.size(), *minutes));
 }
 

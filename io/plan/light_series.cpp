@@ -255,6 +255,24 @@ bool is_dark(const LitInterval& interval) {
   return !has_sun && interval.mean.dhi <= 0;
 }
 
+bool meet(const TimeSpan& first, const TimeSpan& second) {
+  constexpr double instant_s = 1e-3;
+  return std::abs(second[0] - first[1]) <= instant_s;
+}
+
+std::vector<TimeSpan> LightSeries::spans() const {
+  std::vector<TimeSpan> spans;
+  spans.reserve(intervals.size());
+  for (const LitInterval& interval : intervals)
+    spans.push_back({interval.when.begin, interval.when.end});
+  return spans;
+}
+
+bool LightSeries::any_joined() const {
+  return std::ranges::any_of(
+      intervals, [](const LitInterval& interval) { return interval.joined != nullptr; });
+}
+
 std::size_t LightSeries::lit_count(std::size_t begin, std::size_t end) const {
   return static_cast<std::size_t>(
       std::count_if(intervals.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -302,7 +320,7 @@ std::size_t LightSeries::suns_of_mirrors() const {
   std::size_t count = 0;
   for (const LitInterval& interval : intervals)
     if (interval.when.sunlit_s > 0)
-      count += interval.joined == nullptr ? interval.suns() : interval.sun_samples.size();
+      count += interval.joined ? interval.sun_samples.size() : interval.suns();
   return count;
 }
 

@@ -11,6 +11,7 @@
 #include "geo/sky/irradiance.h"
 #include "geo/sun/site.h"
 #include "geo/sun/sun.h"
+#include "geo/time/period_parts.h"
 #include "io/study/study.h"
 #include "solver/light/sun_block.h"
 
@@ -41,6 +42,9 @@ struct LitInterval {
 /// light is not dark, nor is a sun above the horizon of whatever strength: its hours are counted.
 bool is_dark(const LitInterval& interval);
 
+/// Whether the second begins where the first ends, to a millisecond.
+bool meet(const TimeSpan& first, const TimeSpan& second);
+
 struct LightSeries {
   std::vector<LitInterval> intervals;
   bool times_are_synthetic = false;  ///< `positions`: time counts from 2000-01-01T12:00Z
@@ -49,6 +53,10 @@ struct LightSeries {
   /// Days with sun, and those of them whose albedo is that of the nearest day that has one.
   std::size_t days = 0, days_without_albedo = 0;
   std::vector<std::string> notes;  ///< what happened at clock changes, table ends, …
+  /// Begin and end of every interval.
+  std::vector<TimeSpan> spans() const;
+  /// Whether any is made of several (LitInterval::joined).
+  bool any_joined() const;
   /// Intervals in [begin, end) that are not dark.
   std::size_t lit_count(std::size_t begin, std::size_t end) const;
   std::size_t lit_count() const { return lit_count(0, intervals.size()); }

@@ -46,10 +46,7 @@ std::vector<PartTotals> part_totals(const Study& study, const LightSeries& light
                        "suns are given by their positions, without times", "write totals: auto");
     return {};
   }
-  std::vector<TimeSpan> intervals;
-  intervals.reserve(light.intervals.size());
-  for (const auto& interval : light.intervals)
-    intervals.push_back({interval.when.begin, interval.when.end});
+  const std::vector<TimeSpan> intervals = light.spans();
   const TimeZone zone(study.site.timezone);
   auto divisions = kinds ? asked_for(*kinds, intervals, zone, latitude_deg)
                          : by_themselves(intervals, zone, latitude_deg);

@@ -17,17 +17,6 @@ namespace {
 
 using Unit = SeriesStepStudy::Unit;
 
-/// Ends of intervals that follow each other differ by less.
-constexpr double instant_s = 1e-3;
-
-std::vector<TimeSpan> spans_of(const LightSeries& light) {
-  std::vector<TimeSpan> spans;
-  spans.reserve(light.intervals.size());
-  for (const auto& interval : light.intervals)
-    spans.push_back({interval.when.begin, interval.when.end});
-  return spans;
-}
-
 std::vector<PeriodPart> parts_of(const SeriesStepStudy& step, const std::vector<TimeSpan>& spans,
                                  const TimeZone& zone) {
   if (step.unit == Unit::minutes)
@@ -39,7 +28,7 @@ std::vector<PeriodPart> parts_of(const SeriesStepStudy& step, const std::vector<
 class Steps {
  public:
   Steps(const SeriesStepStudy& step, const LightSeries& light, const TimeZone& zone)
-      : step_(step), light_(light), zone_(zone), spans_(spans_of(light)) {}
+      : step_(step), light_(light), zone_(zone), spans_(light.spans()) {}
 
   std::vector<SeriesStep> all() const {
     if (light_.times_are_synthetic)
@@ -52,7 +41,7 @@ class Steps {
       for (const PartShare& share : part.intervals)
         if (share.share != 1) refuse_cut(share.interval);
       for (std::size_t k = first; k < last; ++k)
-        if (std::abs(spans_[k + 1][0] - spans_[k][1]) > instant_s) refuse_gap(k);
+        if (!meet(spans_[k], spans_[k + 1])) refuse_gap(k);
       const std::size_t count = last - first + 1;
       steps.push_back({{spans_[first][0], spans_[last][1]}, first, count, sun_of(first, count)});
     }

@@ -96,18 +96,6 @@ double clouded_suns(const LightSeries& light) {
   return count;
 }
 
-std::size_t grid_points(const LightSeries& light) {
-  return ShareGrid::points_about(light.direct_suns());
-}
-
-/// Suns whose shares of patches cost as much as these: where there are more for what is straight
-/// alone, points of a grid are looked at, and suns interpolated.
-double looked_at(const LightSeries& light) {
-  const auto suns = static_cast<double>(light.sun_samples());
-  const std::size_t points = grid_points(light);
-  return points == 0 ? suns : static_cast<double>(points) + cost_of_interpolation * suns;
-}
-
 /// Rays of the mesh pilot.
 double refinement_rays(const VariantPlan& plan, double patches, double lit) {
   return patches * elements_per_leaf * points_per_element *
@@ -196,7 +184,7 @@ double circumsolar_receivers(const VariantPlan& plan, std::size_t patches) {
 /// Patches and sensors to which rays tell of the sun: where edges of shadows cross what sends light
 /// on, or the sun has a disk, and behind screens.
 double asked_by_rays(const VariantPlan& plan, std::size_t patches) {
-  const bool by_grid = !plan.light.direct_suns().empty();
+  const bool by_grid = plan.light.any_joined();
   const double share = mean_over_seasons(plan, [&](const MaterialsOfScene& of_season) {
     const Mesh& mesh = plan.built.scene.mesh;
     const double sending = by_grid ? 0 : share_of_surfaces(mesh, of_season, sends_on);
@@ -293,6 +281,10 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   const double n = receivers(plan, patches), lit = static_cast<double>(lit_intervals(plan));
   const auto suns = static_cast<double>(plan.light.sun_samples());
   const double shining = suns - clouded_suns(plan.light);
+  // Where there are more suns for what is straight alone, points of a grid are looked at, and suns
+  // interpolated.
+  const auto points = static_cast<double>(ShareGrid::points_about(plan.light.direct_suns()));
+  const double looked_at = points == 0 ? suns : points + cost_of_interpolation * suns;
   const auto batch = static_cast<double>(std::min(plan.batch_suns(), plan.intervals()));
   const auto batches = static_cast<double>(plan.batches());
   const bool by_matrix = s.transport == Transport::matrix;
@@ -327,8 +319,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   work.memory_bytes =
       program_bytes + seasons * lines * bytes_per_line +
       static_cast<double>(plan.light.parts()) * bytes_per_interval +
-      std::min(most_bytes_of_share_grid,
-               static_cast<double>(grid_points(plan.light)) * static_cast<double>(patches)) +
+      std::min(most_bytes_of_share_grid, points * static_cast<double>(patches)) +
       n * (bands * (batch * kept * float_bytes + arrays_of_realizations * of_realizations) +
            bytes_per_patch);
   work.memory_bytes +=
@@ -387,7 +378,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
       static_cast<double>(work.samples) * s_per_sample +  // a shot meets surfaces as a line does
       (plan.study.mesh.oracle == Oracle::none ? 0
                                               : refinement_rays(plan, n, lit) * s_per_direct_ray);
-  core.direct = sun_seconds(static_cast<double>(patches), looked_at(plan.light), rays_to_sun,
+  core.direct = sun_seconds(static_cast<double>(patches), looked_at, rays_to_sun,
                             of_few ? 0 : circumsolar_rays) +
                 luminaire_rays * s_per_luminaire_ray;
   const double sent_on =

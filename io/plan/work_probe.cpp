@@ -65,7 +65,7 @@ std::vector<IntervalLight> suns_of(const VariantPlan& plan, const SkyGrid& grid,
     // Behind clouds none would go by mirrors.
     if (suns.back().has_sun()) suns.back().dni = std::max(suns.back().dni, 1.0);
     // One sun of many: what many of them cost is told by the model.
-    if (!suns.back().direct_suns.empty()) suns.back().sun_samples.clear();
+    if (suns.back().has_direct_suns()) suns.back().sun_samples.clear();
     suns.back().direct_suns.clear();
     // In a year of few solutions these alone have rays to the bright sky about their sun.
     if (!of_few) continue;

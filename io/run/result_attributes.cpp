@@ -127,7 +127,7 @@ std::string sun_sampling(const VariantPlan& plan) {
     return "sun at the given instant";
   if (std::holds_alternative<PositionsPeriod>(plan.study.period.kind))
     return "sun at the given position";
-  if (!plan.light.direct_suns().empty())
+  if (plan.light.any_joined())
     return "short intervals solved together: suns at most 2 minutes apart straight, 20 minutes by "
            "mirrors, each with the direct light of its own intervals";
   std::size_t most = 1;

@@ -338,6 +338,9 @@ struct AccuracyStudy {
   std::optional<double> light_load_relative = {};  ///< standard error / light load
   std::optional<double> irradiance_relative = {};  ///< standard error / irradiance, every instant
 };
+/// Whether intervals that are shorter than what is asked of them are solved together
+/// (io/plan/joined_intervals.h): each by itself, those of a step together, or what pays.
+enum class ShortIntervals { each, together, automatic };
 struct SolverStudy {
   Transport transport = Transport::gather;
   Jacobi jacobi = Jacobi::incremental;

@@ -29,10 +29,11 @@ struct SunSample {
 struct IntervalLight {
   std::uint32_t number = 0;  ///< of the interval in the period: address of random numbers
   Vec3 direction{0, 0, 1};   ///< to the sun, scene frame, unit
-  /// Suns that stand for the interval, in the order of time, where several do; else empty.
+  /// Suns that stand for the interval, in the order of time, where several do; else empty. The sky
+  /// is that of `direction`, or where there are `direct_suns` the mean of theirs.
   std::vector<SunSample> sun_samples;
   /// More of them, for what is straight from the sun alone: where an interval is made of many
-  /// (LitInterval::parts); else empty.
+  /// shorter ones; else empty.
   std::vector<SunSample> direct_suns;
   double dni = 0;
   double dhi = 0;
@@ -53,6 +54,7 @@ struct IntervalLight {
 
   /// Tangent of the half-angle of the disk.
   double disk_spread() const { return disk_half_angle > 0 ? std::tan(disk_half_angle) : 0; }
+  bool has_direct_suns() const { return !direct_suns.empty(); }
   bool has_sun() const { return sunlit_s > 0 && direction.z > 0; }
   bool is_dark() const { return !has_sun() && dhi <= 0; }
 };

@@ -54,15 +54,14 @@ std::vector<std::vector<IntervalLight>> suns_one_by_one(std::span<const Interval
 }
 
 bool any_direct_suns(std::span<const IntervalLight> block) {
-  return std::ranges::any_of(
-      block, [](const IntervalLight& interval) { return !interval.direct_suns.empty(); });
+  return std::ranges::any_of(block, &IntervalLight::has_direct_suns);
 }
 
 std::vector<SunRow> direct_suns_in_rows(std::span<const IntervalLight> block) {
   std::vector<SunRow> rows;
   for (std::size_t k = 0; k < block.size(); ++k) {
     const IntervalLight& interval = block[k];
-    if (interval.direct_suns.empty()) continue;
+    if (!interval.has_direct_suns()) continue;
     SUNLOAD_EXPECT(interval.sun_samples.size() <= most_suns_beside_direct_ones,
                    "suns of an interval");
     expect_addresses(interval, most_suns_beside_direct_ones + interval.direct_suns.size());

@@ -18,10 +18,6 @@ enum class Jacobi { incremental, regular };
 /// that pays and its error is a third of the standard error or less.
 enum class Year { each, modes, automatic };
 
-/// Whether intervals that are shorter than what is asked of them are solved together
-/// (io/plan/joined_intervals.h): each by itself, those of a step together, or what pays.
-enum class ShortIntervals { each, together, automatic };
-
 /// What becomes of the light that is reflected after the last bounce: what it brings is estimated
 /// and added (solver/gather/unfollowed), or left out.
 enum class Unfollowed { estimate, leave };

@@ -178,13 +178,11 @@ std::vector<std::size_t> patches_that_send_on(const TracedScene& traced) {
   return patches;
 }
 
-bool has_direct_suns(const IntervalLight& interval) { return !interval.direct_suns.empty(); }
-
 /// The same suns, night where an interval has suns for what is straight alone, or where it has not.
 SunsOneByOne only(Suns block, SunsOneByOne suns, bool with_direct_suns) {
   for (auto& of_intervals : suns)
     for (std::size_t k = 0; k < block.size(); ++k)
-      if (has_direct_suns(block[k]) != with_direct_suns)
+      if (block[k].has_direct_suns() != with_direct_suns)
         of_intervals[k].sunlit_s = of_intervals[k].dni = 0;
   return suns;
 }
@@ -214,7 +212,7 @@ void match_what_is_sent_on(const TracedScene& traced, Suns block, const Columns&
   }
   for (auto& of_intervals : suns)
     for (std::size_t k = 0; k < of_intervals.size(); ++k)
-      if (has_direct_suns(block[k]) && by_few[k] > 0) of_intervals[k].dni *= by_all[k] / by_few[k];
+      if (block[k].has_direct_suns() && by_few[k] > 0) of_intervals[k].dni *= by_all[k] / by_few[k];
 }
 
 /// `beams`: one set for each of `suns_one_by_one`. Returns the rays cast.
@@ -265,7 +263,7 @@ std::vector<Columns> light_patches(const TracedScene& traced, Suns block, SunsOn
     const Columns of_few = shares_of_many(traced, few[s]);
     for (std::size_t at = 0; at < of_few.size(); ++at) {
       const std::size_t k = at % block_width;
-      if (k < block.size() && has_direct_suns(block[k])) shares[s][at] = of_few[at];
+      if (k < block.size() && block[k].has_direct_suns()) shares[s][at] = of_few[at];
     }
   }
   match_what_is_sent_on(traced, block, rays.pooled.direct, shares, suns);

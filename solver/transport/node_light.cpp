@@ -75,7 +75,7 @@ IntervalLight sun_alone(IntervalLight light) {
   light.dni = node_dni;
   light.dhi = light.ground_exitance = 0;
   light.sky.clear();
-  if (light.direct_suns.empty()) light.sun_samples.clear();
+  if (!light.has_direct_suns()) light.sun_samples.clear();
   return light;
 }
 
@@ -84,7 +84,7 @@ std::vector<SunNodes::Weight> nodes_about(const SunNodes& nodes, const IntervalL
   if (!light.has_sun() || light.dni <= 0 || nodes.count() == 0) return {};
   const std::vector<SunSample> one{{light.direction, 1, 1}};
   std::vector<SunNodes::Weight> about;
-  const bool is_one = light.sun_samples.empty() || !light.direct_suns.empty();
+  const bool is_one = light.sun_samples.empty() || light.has_direct_suns();
   for (const SunSample& sun : is_one ? one : light.sun_samples)
     for (const auto& [node, weight] : nodes.weights(sun.direction))
       about.push_back({node, weight * sun.dni_share});
