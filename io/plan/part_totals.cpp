@@ -16,6 +16,7 @@ std::vector<PeriodDivision> asked_for(const std::vector<PartKind>& kinds,
                                       const std::vector<TimeSpan>& intervals, const TimeZone& zone,
                                       double latitude_deg) {
   std::vector<PeriodDivision> divisions;
+  divisions.reserve(kinds.size());
   for (const PartKind kind : kinds)
     divisions.push_back(divided(kind, intervals, zone, latitude_deg));
   return divisions;
