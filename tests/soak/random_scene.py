@@ -11,8 +11,10 @@ import shapes
 # Map projections with a place of theirs: x, y [m].
 MAPS = [("EPSG:25833", 383000, 5511800), ("EPSG:28992", 85000, 446000), ("EPSG:2056", 2600000, 1200000),
         ("EPSG:32756", 334000, 6251000), ("EPSG:3031", 100000, 1500000)]
-BUILTIN = [("box_on_plane", {}), ("canyon", {"height": 12, "width": 15, "length": 60}), ("room", {}),
-           ("cylinder", {}), ("shadow", {}), ("emission", {}), ("windows", {}), ("city", {"triangles": 300})]
+# Name, parameters, about how wide it is [m], area of all faces [m²].
+BUILTIN = [("box_on_plane", {}, 60, 7684), ("canyon", {"height": 12, "width": 15, "length": 60}, 60, 7604),
+           ("room", {}, 6, 216), ("cylinder", {}, 32, 2232), ("shadow", {}, 20, 1008), ("emission", {}, 24, 1197),
+           ("windows", {}, 40, 3985), ("city", {"triangles": 300}, 60, 8179)]
 # A file's colour of the materials that VRML has to tell: diffuse, specular.
 GREYS = {"mirror": (0.05, 0.85), "dark": (0.0, 0.0), "light": (0.8, 0.0)}
 
@@ -145,11 +147,10 @@ class RandomScene:
 
     def builtin(self):
         shining = ("room", "emission", "shadow")
-        name, parameters = self.random.choice([b for b in BUILTIN if "emission" in self.allowed or b[0] not in shining])
+        name, parameters, self.extent, self.area_m2 = self.random.choice(
+            [b for b in BUILTIN if "emission" in self.allowed or b[0] not in shining])
         self.section["builtin"] = {"name": name, **parameters}
-        self.extent = {"emission": 1, "city": 60, "cylinder": 8, "room": 8, "shadow": 8}.get(name, 30)
         self.low, self.high = (0.0, 0.0, 0.0), (self.extent, self.extent, 0.4 * self.extent)
-        self.area_m2 = 4 * self.extent ** 2
 
     def raster(self):
         """A terrain, or surface, terrain and crowns of a town."""
