@@ -72,7 +72,7 @@ void add_rows(BatchWriter& writer, const std::string& prefix, const ArraySpec& s
   of.type = ArrayType::float64;
   of.dims.front() = rows.size();
   const std::size_t n = spec.dims.size() > 1 ? spec.dims.back() : 1;
-  writer.add(of, step_sums(series, n, stored.steps).data());
+  writer.add(of, step_sums(series, n, stored.steps));
 }
 
 void add_ledger(BatchWriter& writer, const BatchTally& tally, const std::string& prefix,
@@ -127,14 +127,14 @@ void add_received(BatchWriter& writer, const ReceiverTally& tally, std::size_t K
   }
   if (!tally.irradiance_se.empty()) add_series("irradiance_se", tally.irradiance_se);
   writer.add({prefix + batch_array::exposure, MergeRule::sum, ArrayType::float64, {R, N}},
-             flattened(tally.exposure_realization).data());
+             flattened(tally.exposure_realization));
   for (std::size_t p = 0; p < part_count; ++p)
     if (!tally.part_realization[p].empty())
       writer.add({prefix + part_exposure_name(static_cast<Part>(p)),
                   MergeRule::sum,
                   ArrayType::float64,
                   {R, N}},
-                 flattened(tally.part_realization[p]).data());
+                 flattened(tally.part_realization[p]));
   const std::vector<double> largest(tally.irradiance_max.begin(), tally.irradiance_max.end());
   writer.add({prefix + batch_array::maximum, MergeRule::maximum, ArrayType::float64, {N}},
              largest.data());

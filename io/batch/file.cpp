@@ -103,7 +103,8 @@ ArraySpec spec_from(const json& from) {
 /// An array as it lies in the file: plain values, or chunks one after another.
 struct BatchWriter::Block {
   ArraySpec spec;
-  Bytes plain;
+  std::vector<double> doubles;  ///< or
+  Bytes plain;                  ///< or
   std::vector<Bytes> chunks;
 
   std::vector<std::size_t> chunk_bytes() const {
@@ -112,6 +113,9 @@ struct BatchWriter::Block {
     return lengths;
   }
   BlockPieces pieces() const {
+    if (!doubles.empty())
+      return {{reinterpret_cast<const unsigned char*>(doubles.data()),
+               doubles.size() * sizeof(double)}};
     return chunks.empty() ? BlockPieces{plain} : BlockPieces(chunks.begin(), chunks.end());
   }
 };
@@ -136,9 +140,12 @@ std::shared_ptr<BatchWriter::Block> BatchWriter::new_block(const ArraySpec& spec
 }
 
 void BatchWriter::add(const ArraySpec& spec, const double* values) {
-  const auto block = new_block(spec, ArrayType::float64);
-  const auto* bytes = reinterpret_cast<const unsigned char*>(values);
-  block->plain.assign(bytes, bytes + value_count(spec) * sizeof(double));
+  add(spec, std::vector<double>(values, values + value_count(spec)));
+}
+
+void BatchWriter::add(const ArraySpec& spec, std::vector<double>&& values) {
+  SUNLOAD_EXPECT(values.size() == value_count(spec), "array " + spec.name + " has all its values");
+  new_block(spec, ArrayType::float64)->doubles = std::move(values);
 }
 
 void BatchWriter::add(const ArraySpec& spec, const float* values) {

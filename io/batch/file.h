@@ -53,6 +53,8 @@ class BatchWriter {
  public:
   explicit BatchWriter(BatchHeader header);
   void add(const ArraySpec& spec, const double* values);
+  /// Keeps them as they are: large ones are not there twice.
+  void add(const ArraySpec& spec, std::vector<double>&& values);
   /// float32 arrays [time, n]: compressed in chunks, in parallel.
   void add(const ArraySpec& spec, const float* values);
   /// Throws MachineError (disk full, not writable); then nothing is left behind.

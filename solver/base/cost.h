@@ -54,6 +54,8 @@ inline constexpr double s_per_patch_sun = 2.5e-7;
 /// patch of one interval that is made up of them.
 inline constexpr double year_skies = 200, year_suns = 110, year_tests = 80;
 inline constexpr double s_per_patch_interval_of_year = 1.2e-7;
+/// Of the bytes of a float: a sample of the sky about a node's sun (solver/light/packed_columns.h).
+inline constexpr double packed_share = 36.0 / 64;
 /// One patch of one sun in a realization's own solution, where errors per instant are asked for.
 inline constexpr double s_per_patch_sun_realization = 6e-8;
 /// One patch of one batch in a realization's time sums: made, compressed, written, read again.

@@ -203,13 +203,18 @@ void NodeLight::add_light(const std::vector<NodeWeights>& weights,
 
 void NodeLight::add_circumsolar(const std::vector<NodeWeights>& weights, std::size_t r,
                                 Columns& light) const {
-  const Columns none;
   const auto all = blocks();
-  std::vector<const Columns*> nodes;
-  nodes.reserve(all.size());
-  for (const NodeBlock* block : all)
-    nodes.push_back(block->circumsolar.empty() ? &none : &block->circumsolar[r]);
-  combine(nodes, weights, light);
+  parallel_chunks(light.size() / block_width, receivers_per_chunk,
+                  [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t b = 0; b < all.size(); ++b) {
+                      if (!weights[b].any || all[b]->circumsolar.empty()) continue;
+                      for (std::size_t i = begin; i < end; ++i)
+                        add_rows(all[b]->circumsolar[r].row(i).data(), weights[b].of.data(),
+                                 light.data() + i * block_width, 1);
+                    }
+                    for (std::size_t at = begin * block_width; at < end * block_width; ++at)
+                      light[at] = std::max(light[at], 0.0f);
+                  });
 }
 
 void NodeLight::split_circumsolar(const std::vector<NodeSeconds>& seconds, TimeSums& sums) const {
@@ -234,7 +239,7 @@ void NodeLight::split_circumsolar(const std::vector<NodeSeconds>& seconds, TimeS
         [&](std::size_t i) {
           std::array<double, block_width> of_lanes{};  // sums that need not wait for each other
           for (const auto b : shining) {
-            const float* of_nodes = all[b]->circumsolar[r].data() + i * block_width;
+            const auto of_nodes = all[b]->circumsolar[r].row(i);
             for (std::size_t j = 0; j < block_width; ++j)
               of_lanes[j] += seconds[b][j] * static_cast<double>(of_nodes[j]);
           }
@@ -264,7 +269,10 @@ NodeBlock NodeLight::solve(std::span<const IntervalLight> suns, WorkDone& work) 
   const Columns by_mirrors = rays.on_patches.pooled.mirror;
   NodeBlock block;
   if (any_circumsolar(sources.circumsolar))
-    block.circumsolar = std::move(rays.on_patches.of_realizations.circumsolar);
+    for (Columns& samples : rays.on_patches.of_realizations.circumsolar) {
+      block.circumsolar.emplace_back(samples);
+      samples = {};
+    }
   for (const auto& sky : sources.circumsolar) {
     std::vector<double> cells;
     for (std::size_t c = 0; sky.any() && c < sources.sky.size() / block_width; ++c)

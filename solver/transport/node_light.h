@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "solver/gather/time_sums.h"
+#include "solver/light/packed_columns.h"
 #include "solver/transport/light_transport.h"
 #include "solver/year/sky_nodes.h"
 #include "solver/year/sun_nodes.h"
@@ -36,7 +37,7 @@ struct NodeBlock {
   std::array<Ledger, block_width> ledger{};  ///< but for first light of the sun's rays
   /// Of suns: first light of their rays that surfaces reflect diffusely [W].
   std::array<double, block_width> reflected_first{};
-  std::vector<Columns> circumsolar;  ///< [R] part of the sky, per realization
+  std::vector<PackedColumns> circumsolar;  ///< [R] part of the sky, per realization
   /// [source][cells] π · radiance of that part; empty ones: none.
   std::vector<std::vector<double>> circumsolar_sky;
 };
