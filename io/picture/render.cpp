@@ -448,7 +448,7 @@ class Renderer {
                       (place_->middle() + result_.origin()).x,
                       (place_->middle() + result_.origin()).y,
                       (place_->middle() + result_.origin()).z),
-          "take --camera top, --facade, or an --eye near it");
+          "take --camera top, or an --eye near it (--eye NAME stands before a facade)");
   }
 
   /// What is derived is of no instant: the sky behind it is plain.

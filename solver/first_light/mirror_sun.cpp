@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <optional>
 
 #include "solver/base/chunks.h"
 #include "solver/base/threads.h"
@@ -60,16 +61,16 @@ std::vector<Cluster> clusters_of(const std::vector<Receiver>& receivers) {
   return clusters;
 }
 
-std::vector<BeamRaster> rasters_of(const SunBeams& beams) {
+std::vector<std::optional<BeamRaster>> rasters_of(const SunBeams& beams) {
   constexpr std::size_t cells_of_all = std::size_t{1} << 23;
   constexpr int coarsest = 16;
   int size = BeamRaster::finest;
   while (size > coarsest && beams.size() * static_cast<std::size_t>(size * size) > cells_of_all)
     size /= 2;
-  std::vector<BeamRaster> rasters;
-  rasters.reserve(beams.size());
-  for (std::size_t b = 0; b < beams.size(); ++b)
-    rasters.emplace_back(beams[b].section, beams[b].image, beams.spread(), size);
+  std::vector<std::optional<BeamRaster>> rasters(beams.size());
+  parallel_for(beams.size(), [&](std::size_t b) {
+    rasters[b].emplace(beams[b].section, beams[b].image, beams.spread(), size);
+  });
   return rasters;
 }
 
@@ -203,13 +204,13 @@ std::uint64_t MirrorSun::add_light(const SunSampler& receivers,
                           for (std::size_t c = begin; c < end; ++c) {
                             near.clear();
                             for (std::size_t b = 0; b < rasters.size(); ++b)
-                              if (rasters[b].may_meet(clusters[c].corners)) near.push_back(b);
+                              if (rasters[b]->may_meet(clusters[c].corners)) near.push_back(b);
                             if (near.empty()) continue;
                             for (std::size_t i = clusters[c].begin; i < clusters[c].end; ++i) {
                               const auto& [n, corners] = all[i];
                               by_beams.clear();
                               for (const auto b : near)
-                                if (dot(n, beams[k][b].image) > 0 && rasters[b].may_meet(corners))
+                                if (dot(n, beams[k][b].image) > 0 && rasters[b]->may_meet(corners))
                                   by_beams.push_back(b);
                               if (!by_beams.empty()) work.receive(i, by_beams);
                             }

@@ -33,7 +33,10 @@ class SunView {
     double z, along;
   };
   double rise(const Height& lowest, const Height& highest) const {
-    return std::min(highest.along - lowest.along, (highest.z - lowest.z) / suns_.lowest_sine);
+    const double along = highest.along - lowest.along;
+    // Of a disk that has half set some light goes upward.
+    return suns_.lowest_sine > 0 ? std::min(along, (highest.z - lowest.z) / suns_.lowest_sine)
+                                 : along;
   }
   struct Bounds {
     ViewBox box;

@@ -135,7 +135,8 @@ class Commands:
             words = ["--colour", "rgb"]
         elif random.random() < 0.7:
             words = [*words, *self.quantity(), *self.band()]
-        yield from self.wrote("out.png", "render", self.path, "-o", "out.png", "--size", "320x320", *words, check=is_picture)
+        codes = (DONE, WRONG_INPUT) if "--facade" in words else (DONE,)  # which another body may hide
+        yield from self.wrote("out.png", "render", self.path, "-o", "out.png", "--size", "320x320", *words, codes=codes, check=is_picture)
 
     def view(self):
         yield from self.wrote("out.html", "view", self.path, "-o", "out.html", *self.band(), codes=(DONE, MACHINE_LIMIT))

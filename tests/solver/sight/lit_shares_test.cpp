@@ -226,6 +226,17 @@ TEST(LitShares, OfASunWithADiskAreWholeOrLeftToRays) {
   }
 }
 
+/// Of a sun that sets, light of the lower part of the disk goes upward.
+TEST(LitShares, OfASettingSunAreWholeOrLeftToRays) {
+  const Scene scene = turned(quarter(0).scene());
+  const Hierarchy mesh(scene, {.max_edge_m = 2});
+  std::vector<Vec3> directions;
+  for (int k = 0; k < 16; ++k) directions.push_back(sun_at(2.4 * k, disk * (k % 4 + 0.1) / 4));
+  const Comparison found = compared(scene, mesh, block_of(directions, disk), 256);
+  EXPECT_EQ(found.worst, 0);
+  EXPECT_LT(found.by_rays, found.facing);
+}
+
 TEST(LitShares, LeaveToRaysWhatLightPassesByChance) {
   const Scene scene = turned(quarter(0.4).scene());
   const Hierarchy mesh(scene, {.max_edge_m = 1.5});
