@@ -32,11 +32,15 @@ std::vector<float> facade_series(const BatchTally& tally, const Hierarchy& hiera
   return {series.begin(), series.end()};
 }
 
-template <class Row>
-std::vector<double> flattened(const std::vector<Row>& rows) {
-  std::vector<double> flat;
-  for (const auto& row : rows) flat.insert(flat.end(), row.begin(), row.end());
-  return flat;
+/// Sums of every realization, [R][N], of which only the spread counts: in single precision, as in
+/// the result.
+void add_realizations(BatchWriter& writer, const std::string& name,
+                      const std::vector<std::vector<double>>& rows, std::size_t N) {
+  std::vector<float> values;
+  values.reserve(rows.size() * N);
+  for (const auto& row : rows)
+    for (const double value : row) values.push_back(static_cast<float>(value));
+  writer.add({name, MergeRule::sum, ArrayType::float32, {rows.size(), N}}, values.data());
 }
 
 /// Sums over the batch's share of each step, [rows][n], of a series [K][n]: J m-2 of irradiance.
@@ -111,7 +115,7 @@ void add_ledger(BatchWriter& writer, const BatchTally& tally, const std::string&
 void add_received(BatchWriter& writer, const ReceiverTally& tally, std::size_t K,
                   const std::string& band, const std::string& receiver,
                   const StoredSeries& stored) {
-  const std::size_t N = tally.sunlit_s.size(), R = tally.exposure_realization.size();
+  const std::size_t N = tally.sunlit_s.size();
   const std::string prefix = band + receiver;
   const auto add_series = [&](const std::string& name, const std::vector<float>& values) {
     add_rows(writer, band,
@@ -126,15 +130,11 @@ void add_received(BatchWriter& writer, const ReceiverTally& tally, std::size_t K
                tally.exposure[p].data());
   }
   if (!tally.irradiance_se.empty()) add_series("irradiance_se", tally.irradiance_se);
-  writer.add({prefix + batch_array::exposure, MergeRule::sum, ArrayType::float64, {R, N}},
-             flattened(tally.exposure_realization));
+  add_realizations(writer, prefix + batch_array::exposure, tally.exposure_realization, N);
   for (std::size_t p = 0; p < part_count; ++p)
     if (!tally.part_realization[p].empty())
-      writer.add({prefix + part_exposure_name(static_cast<Part>(p)),
-                  MergeRule::sum,
-                  ArrayType::float64,
-                  {R, N}},
-                 flattened(tally.part_realization[p]));
+      add_realizations(writer, prefix + part_exposure_name(static_cast<Part>(p)),
+                       tally.part_realization[p], N);
   const std::vector<double> largest(tally.irradiance_max.begin(), tally.irradiance_max.end());
   writer.add({prefix + batch_array::maximum, MergeRule::maximum, ArrayType::float64, {N}},
              largest.data());
@@ -190,9 +190,7 @@ void add_part(BatchWriter& writer, const ReceiverTally& tally, const BatchParts:
   add(sum_name(Part::direct), of ? of->direct : whole(Part::direct));
   if (!source.with_errors) return;
   const auto& rows = of ? of->exposure_realization : tally.exposure_realization;
-  const std::size_t N = tally.sunlit_s.size();
-  writer.add({prefix + batch_array::exposure, MergeRule::sum, ArrayType::float64, {rows.size(), N}},
-             flattened(rows).data());
+  add_realizations(writer, prefix + batch_array::exposure, rows, tally.sunlit_s.size());
 }
 
 void add_part(BatchWriter& writer, const std::vector<BatchTally>& bands,

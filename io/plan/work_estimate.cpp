@@ -333,7 +333,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   const double value_bytes =
       stored_bytes_per_value * (sign_and_exponent + stored_bits(plan.study)) / float_bits;
   const SeriesBytes stored = series_bytes(plan, series, value_bytes);
-  const double batch_sums = parts * of_realizations + batch_bytes_per_patch;
+  const double batch_sums = parts * float_bytes * s.realizations + batch_bytes_per_patch;
   work.memory_bytes += bands * n * (stored.of_batch + batch_sums);
   work.memory_bytes += bands * n * stored.of_merge;
   // The sun's light of each realization, straight and circumsolar, and by mirrors.
@@ -364,15 +364,16 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
         n * (shooting_bytes_per_patch + of_realizations * columns_of_a_realization) +
         per_shot / s.realizations * bytes_per_sample;
   }
-  work.disk_bytes = bands * n * stored.on_disk + bands * n * batches * batch_sums +
-                    bands * n * (of_realizations + result_bytes_per_patch) +
-                    bands * n *
-                        (static_cast<double>(periods.stored) * sums_of_part * double_bytes +
-                         static_cast<double>(periods.stored_with_errors) * of_realizations) +
-                    bands * n * float_bytes *
-                        (static_cast<double>(periods.parts) * values_of_part +
-                         static_cast<double>(periods.parts_with_errors) * s.realizations) +
-                    (plan.batches() > 1 && seasons == 1 ? lines * kept_bytes_per_line : 0);
+  work.disk_bytes =
+      bands * n * stored.on_disk + bands * n * batches * batch_sums +
+      bands * n * (of_realizations + result_bytes_per_patch) +
+      bands * n *
+          (static_cast<double>(periods.stored) * sums_of_part * double_bytes +
+           static_cast<double>(periods.stored_with_errors) * float_bytes * s.realizations) +
+      bands * n * float_bytes *
+          (static_cast<double>(periods.parts) * values_of_part +
+           static_cast<double>(periods.parts_with_errors) * s.realizations) +
+      (plan.batches() > 1 && seasons == 1 ? lines * kept_bytes_per_line : 0);
   WorkSeconds core;  // of one core
   core.lines =
       seasons * tracing_seconds(plan, n, lines, guided) +

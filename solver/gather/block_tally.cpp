@@ -57,10 +57,11 @@ void store_received(const BlockLight& light, std::span<const IntervalLight> bloc
           put(Part::mirror, i, k, light.mirror[at]);
           put(Part::lamps, i, k, light.lamps[i]);
           put(Part::reflected, i, k, light.reflected[at]);
-          tally.sunlit_s[i] += static_cast<double>(sunlit[at]) * block[k].sunlit_s;
+          // Shares of several suns add up to all but for a rounding.
+          const double seen = std::min(1.0, static_cast<double>(sunlit[at]));
+          tally.sunlit_s[i] += seen * block[k].sunlit_s;
           tally.irradiance_max[i] = std::max(tally.irradiance_max[i], total);
-          add_to_parts(light, block[k], rows[k], i, k, static_cast<double>(sunlit[at]),
-                       tally.parts);
+          add_to_parts(light, block[k], rows[k], i, k, seen, tally.parts);
         }
       },
       receivers_per_chunk);

@@ -67,10 +67,10 @@ class Program:
                 break
             passed = time.monotonic() - begin
             if kill_after_s is not None and passed > kill_after_s:
-                process.send_signal(kill_with)
+                os.kill(process.pid, kill_with)  # send_signal would wait for it, and know its status alone
                 kill_after_s = None
             if passed > LONGEST_S:
-                process.kill()
+                os.kill(process.pid, signal.SIGKILL)
             time.sleep(pause)
             pause = min(0.01, 1.5 * pause)
         process.returncode = os.waitstatus_to_exitcode(status)

@@ -74,7 +74,7 @@ TEST(CostModel, PageHasTheSizesOfTheProgram) {
         fmt::format("{} · patches · lit · 2 · (output.series, one more with `standard_error: "
                     "instants`)",
                     stored_bytes_per_value),
-        fmt::format("patches · batches · ({} · parts · realizations + {})", double_bytes,
+        fmt::format("patches · batches · ({} · parts · realizations + {})", float_bytes,
                     batch_bytes_per_patch),
         fmt::format("patches · ({} · realizations + {})", double_bytes, result_bytes_per_patch),
         fmt::format("{} · patches + {} · input triangles for each season after the first",
