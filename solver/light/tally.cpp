@@ -119,6 +119,17 @@ void add_to(const std::vector<std::vector<double>>& values,
   for (std::size_t r = 0; r < values.size() && r < sums.size(); ++r) add_to(values[r], sums[r]);
 }
 
+void round_to_single(std::vector<std::vector<double>>& rows) {
+  for (auto& row : rows)
+    for (double& value : row) value = static_cast<double>(static_cast<float>(value));
+}
+
+void round_realizations_of(ReceiverTally& tally) {
+  round_to_single(tally.exposure_realization);
+  for (auto& of_part : tally.part_realization) round_to_single(of_part);
+  for (PartTally& part : tally.parts) round_to_single(part.exposure_realization);
+}
+
 void put_received(const ReceiverTally& stretch, std::size_t first, ReceiverTally& whole) {
   const std::size_t receivers = whole.sunlit_s.size();
   for (std::size_t p = 0; p < part_count; ++p) {
@@ -142,6 +153,11 @@ void put_received(const ReceiverTally& stretch, std::size_t first, ReceiverTally
 }
 
 }  // namespace
+
+void round_realizations(BatchTally& tally) {
+  round_realizations_of(tally);
+  round_realizations_of(tally.sensors);
+}
 
 void put_stretch(const BatchTally& stretch, std::size_t first, BatchTally& whole) {
   SUNLOAD_EXPECT(first + stretch.intervals <= whole.intervals, "a stretch within its batch");
