@@ -78,7 +78,6 @@ Solved solve(const LightTransport& transport, std::span<const IntervalLight> bat
   if (rows.empty()) watch.advance(Stage::light, 1);
   for (BatchTally& tally : solved.bands) add_energy(batch, tally);
   in_batch->finish();
-  for (BatchTally& tally : solved.bands) round_realizations(tally);
   return solved;
 }
 

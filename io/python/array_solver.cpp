@@ -199,7 +199,9 @@ ArrayResult solve_arrays(const ArrayScene& arrays, const ArrayLight& light, cons
   for (std::size_t first = 0; first < period.intervals(); first += batch_suns) {
     std::vector<IntervalLight> batch(std::min(batch_suns, period.intervals() - first));
     parallel_for(batch.size(), [&](std::size_t k) { batch[k] = period.of(first + k); });
-    put_stretch(solve(*transport, batch, watch).bands.front(), first, all);
+    BatchTally tally = std::move(solve(*transport, batch, watch).bands.front());
+    round_realizations(tally);
+    put_stretch(tally, first, all);
   }
   ArrayResult result = result_of(std::move(all));
   result.mesh = traced->mesh;

@@ -143,8 +143,8 @@ struct TallyShape {
 /// likewise. When gathering exposures by source are empty: the sun's part is put there at the end.
 BatchTally empty_tally(const TallyShape& shape);
 
-/// Rounds the sums of realizations to single precision, in which batch files keep them: only their
-/// spread counts, and what is computed in memory has the bits of what files give back.
+/// Rounds the sums of realizations to single precision, in which batch files keep them (only their
+/// spread counts): what is computed in memory then has the bits of what files give back.
 void round_realizations(BatchTally& tally);
 
 /// Puts the tally of consecutive intervals of a batch, from interval `first` on, into that of the
