@@ -400,8 +400,10 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
                          (of_few ? n * lit * s_per_patch_interval_of_year : 0) +
                          n * (batches + static_cast<double>(periods.stored_with_errors)) *
                              s.realizations * s_per_patch_batch_realization);
-  const double files =
-      bands * n * static_cast<double>(plan.intervals()) * s_per_value + n * s_per_patch;
+  const double files = bands * n *
+                           (static_cast<double>(plan.intervals()) * s_per_value +
+                            batches * batch_sums * s_per_byte_of_sums) +
+                       n * s_per_patch;
   work.is_of_this_machine = pace.is_measured;
   // The trial of a period of few solutions has no sky, and none has that of parts.
   const double untried =
