@@ -49,17 +49,18 @@ SUNLOAD_VECTOR_CODE void add_rows(const float* nodes, const float* weights, floa
       sums[row] += nodes[row * block_width + j] * of_node[j];
 }
 
-/// The same of all blocks, one kind of light; what falls below 0 is 0.
-void combine(const std::vector<const Columns*>& nodes, const std::vector<NodeWeights>& weights,
-             Columns& out) {
-  parallel_chunks(
-      out.size() / block_width, receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
-        const std::size_t at = begin * block_width;
-        for (std::size_t b = 0; b < nodes.size(); ++b)
-          if (weights[b].any && !nodes[b]->empty())
-            add_rows(nodes[b]->data() + at, weights[b].of.data(), out.data() + at, end - begin);
-        for (std::size_t i = at; i < end * block_width; ++i) out[i] = std::max(out[i], 0.0f);
-      });
+/// Adds what all blocks bring, one kind of light; what falls below 0 is 0. `add_block`(b, begin,
+/// end, out) adds that of block b to the rows of receivers [begin, end), which begin at `out`.
+template <class AddBlock>
+void combine(const std::vector<NodeWeights>& weights, AddBlock&& add_block, Columns& out) {
+  parallel_chunks(out.size() / block_width, receivers_per_chunk,
+                  [&](std::size_t begin, std::size_t end) {
+                    float* const rows = out.data() + begin * block_width;
+                    for (std::size_t b = 0; b < weights.size(); ++b)
+                      if (weights[b].any) add_block(b, begin, end, rows);
+                    for (float* value = rows; value != rows + (end - begin) * block_width; ++value)
+                      *value = std::max(*value, 0.0f);
+                  });
 }
 
 /// An interval with that sky and nothing else.
@@ -190,10 +191,12 @@ void NodeLight::add_light(const std::vector<NodeWeights>& weights,
                           NodeBlock::Received NodeBlock::*of_receivers, BlockLight& light) const {
   const auto all = blocks();
   const auto add = [&](Columns NodeBlock::Received::*kind, Columns& out) {
-    std::vector<const Columns*> nodes;
-    nodes.reserve(all.size());
-    for (const NodeBlock* block : all) nodes.push_back(&(block->*of_receivers.*kind));
-    combine(nodes, weights, out);
+    const auto add_block = [&](std::size_t b, std::size_t begin, std::size_t end, float* rows) {
+      const Columns& of_nodes = all[b]->*of_receivers.*kind;
+      if (!of_nodes.empty())
+        add_rows(of_nodes.data() + begin * block_width, weights[b].of.data(), rows, end - begin);
+    };
+    combine(weights, add_block, out);
   };
   light.sky = light.reflected = columns(light.direct.size() / block_width);
   add(&NodeBlock::Received::sky, light.sky);
@@ -204,17 +207,13 @@ void NodeLight::add_light(const std::vector<NodeWeights>& weights,
 void NodeLight::add_circumsolar(const std::vector<NodeWeights>& weights, std::size_t r,
                                 Columns& light) const {
   const auto all = blocks();
-  parallel_chunks(light.size() / block_width, receivers_per_chunk,
-                  [&](std::size_t begin, std::size_t end) {
-                    for (std::size_t b = 0; b < all.size(); ++b) {
-                      if (!weights[b].any || all[b]->circumsolar.empty()) continue;
-                      for (std::size_t i = begin; i < end; ++i)
-                        add_rows(all[b]->circumsolar[r].row(i).data(), weights[b].of.data(),
-                                 light.data() + i * block_width, 1);
-                    }
-                    for (std::size_t at = begin * block_width; at < end * block_width; ++at)
-                      light[at] = std::max(light[at], 0.0f);
-                  });
+  const auto add_block = [&](std::size_t b, std::size_t begin, std::size_t end, float* rows) {
+    if (all[b]->circumsolar.empty()) return;
+    const PackedColumns& of_nodes = all[b]->circumsolar[r];
+    for (std::size_t i = begin; i < end; ++i, rows += block_width)
+      add_rows(of_nodes.row(i).data(), weights[b].of.data(), rows, 1);
+  };
+  combine(weights, add_block, light);
 }
 
 void NodeLight::split_circumsolar(const std::vector<NodeSeconds>& seconds, TimeSums& sums) const {

@@ -51,9 +51,12 @@ class Commands:
         if ran.code == DONE and check:
             yield from (f"sunload {' '.join(ran.words)}: {problem}" for problem in check(ran.out))
 
-    def wrote(self, name, *words, codes=(DONE,), check=None):
-        """The same of a command that writes a file, which is there if and only if it was done."""
+    def wrote(self, name, *words, codes=(DONE,), refusal=None, check=None):
+        """The same of a command that writes a file, which is there if and only if it was done. It may be
+        refused in the words of `refusal`."""
         ran = self.program.run(*words)
+        if refusal and refusal in ran.err:
+            codes = (*codes, WRONG_INPUT)
         path = os.path.join(self.study.folder, name)
         yield from self.said(ran, *codes)
         if os.path.exists(path) != (ran.code == DONE):
@@ -135,8 +138,9 @@ class Commands:
             words = ["--colour", "rgb"]
         elif random.random() < 0.7:
             words = [*words, *self.quantity(), *self.band()]
-        codes = (DONE, WRONG_INPUT) if "--facade" in words else (DONE,)  # which another body may hide
-        yield from self.wrote("out.png", "render", self.path, "-o", "out.png", "--size", "320x320", *words, codes=codes, check=is_picture)
+        refusal = "other things hide it" if "--facade" in words else None
+        yield from self.wrote("out.png", "render", self.path, "-o", "out.png", "--size", "320x320", *words, refusal=refusal,
+                              check=is_picture)
 
     def view(self):
         yield from self.wrote("out.html", "view", self.path, "-o", "out.html", *self.band(), codes=(DONE, MACHINE_LIMIT))
