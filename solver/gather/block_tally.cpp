@@ -16,6 +16,12 @@ namespace {
 /// No estimator adds a term below 0.
 bool is_light(float irradiance) { return irradiance >= 0 && std::isfinite(irradiance); }
 
+/// Shares of several suns add up to all of them but for roundings of single precision.
+bool is_share(float sunlit) {
+  constexpr float roundings = 1e-4f;
+  return sunlit >= 0 && sunlit <= 1 + roundings;
+}
+
 /// Adds what receiver i gets of sun k of the block to the parts that the interval belongs to.
 void add_to_parts(const BlockLight& light, const IntervalLight& sun, std::size_t interval,
                   std::size_t i, std::size_t k, double sunlit, std::vector<PartTally>& parts) {
@@ -51,13 +57,13 @@ void store_received(const BlockLight& light, std::span<const IntervalLight> bloc
                              is_light(light.mirror[at]) && is_light(light.lamps[i]) &&
                              is_light(light.reflected[at]),
                          "light that is a number and not below 0");
+          SUNLOAD_EXPECT(is_share(sunlit[at]), "no more suns seen than there are");
           put(Part::total, i, k, total);
           put(Part::direct, i, k, light.direct[at]);
           put(Part::sky, i, k, light.sky[at]);
           put(Part::mirror, i, k, light.mirror[at]);
           put(Part::lamps, i, k, light.lamps[i]);
           put(Part::reflected, i, k, light.reflected[at]);
-          // Shares of several suns add up to all but for a rounding.
           const double seen = std::min(1.0, static_cast<double>(sunlit[at]));
           tally.sunlit_s[i] += seen * block[k].sunlit_s;
           tally.irradiance_max[i] = std::max(tally.irradiance_max[i], total);
