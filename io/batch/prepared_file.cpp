@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/batch/prepared_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -17,17 +18,13 @@ namespace {
 // Layout, in the byte order of the machine: magic, content hash and counts, CRC-32
 // of these, the arrays of `visit_set`, CRC-32 of all before. An array is its
 // length and its bytes.
-constexpr char magic[16] = "sunload-lines-4";
+constexpr char magic[16] = "sunload-lines-5";
 
 /// Calls `array` for every array of the lines, in the order of the file.
 template <class Set, class Array>
 void visit_set(Set& set, Array&& array) {
   for (auto* table : {&set.patches, &set.sky, &set.sky_by_mirror})
-    for (auto& block : table->blocks) {
-      array(block.begin);
-      array(block.target);
-      array(block.weight);
-    }
+    for (auto& block : table->blocks) LinkTable::Block::visit(block, array);
   array(set.ends);
   array(set.lamps);
   array(set.mirrored_fates);
@@ -118,7 +115,8 @@ void write_prepared(const std::string& path, const std::string& content_hash, co
   Output out(target.aside());
   out.bytes(magic, sizeof(magic));
   out(std::vector<char>(content_hash.begin(), content_hash.end()));
-  out(std::vector<std::uint64_t>{lines.realizations.size(), lines.pooled.ends.size(), lines.rays});
+  out(std::vector<std::uint64_t>{lines.realizations.size(), lines.pooled.ends.size(), lines.rays,
+                                 lines.pooled.patches.targets(), lines.pooled.sky.targets()});
   out.checksum();
   for (const auto& set : lines.realizations) visit_set(set, out);
   visit_set(lines.pooled, out);
@@ -139,10 +137,13 @@ std::optional<Lines> read_prepared(const std::string& path, const std::string& c
   in(counts);
   // Before damaged counts ask for memory.
   if (!in.is_right() || std::string(hash.begin(), hash.end()) != content_hash) return {};
-  if (counts.size() != 3 || !in.can_hold(counts[0], counts[1])) return {};
+  if (counts.size() != 5 || !in.can_hold(counts[0], counts[1])) return {};
+  if (std::max(counts[3], counts[4]) > LinkTable::most_targets) return {};
   Lines lines;
   const auto rows = static_cast<std::size_t>(counts[1]);
-  const LineSet empty{LinkTable(rows), LinkTable(rows), LinkTable(rows), {}, {}, {}};
+  const auto elements = static_cast<std::size_t>(counts[3]);
+  const auto cells = static_cast<std::size_t>(counts[4]);
+  const LineSet empty = empty_line_set(rows, elements, cells, false);
   lines.realizations.assign(static_cast<std::size_t>(counts[0]), empty);
   lines.pooled = empty;
   lines.rays = counts[2];

@@ -340,9 +340,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   if (is_rgb || of_instants)
     work.memory_bytes += n * s.realizations * block_width * float_bytes * (mirrors ? 3.0 : 2.0);
   if (of_few)
-    work.memory_bytes +=
-        seasons * n * float_bytes *
-        (year_suns + year_skies * (2.0 + (mirrors ? 1 : 0) + packed_share * s.realizations));
+    work.memory_bytes += seasons * n * float_bytes * packed_share *
+                         (year_suns + year_skies * (2.0 + (mirrors ? 1 : 0) + s.realizations));
   work.memory_bytes += bands * n * static_cast<double>(periods.most) *
                        (arrays_of_realizations * of_realizations + sums_of_part * double_bytes);
   if (by_matrix)

@@ -54,7 +54,8 @@ inline constexpr double s_per_patch_sun = 2.5e-7;
 /// patch of one interval that is made up of them.
 inline constexpr double year_skies = 200, year_suns = 110, year_tests = 80;
 inline constexpr double s_per_patch_interval_of_year = 1.2e-7;
-/// Of the bytes of a float: a sample of the sky about a node's sun (solver/light/packed_columns.h).
+/// Of the bytes of a float: what a node brings, by lines or one realization's samples of the sky
+/// about its sun (solver/light/packed_columns.h).
 inline constexpr double packed_share = 36.0 / 64;
 /// One patch of one sun in a realization's own solution, where errors per instant are asked for.
 inline constexpr double s_per_patch_sun_realization = 6e-8;
@@ -77,7 +78,7 @@ inline constexpr double s_per_form_factor = 1.5e-6, s_per_factor_solved = 3e-10;
 
 // Memory.
 inline constexpr double double_bytes = 8, float_bytes = 4;
-inline constexpr double program_bytes = 3.6e7, bytes_per_line = 12.2, bytes_per_patch = 1400;
+inline constexpr double program_bytes = 3.6e7, bytes_per_line = 6.4, bytes_per_patch = 1400;
 inline constexpr double bytes_per_interval = 500;
 /// Of each season after the first, beside its lines: a scene of its own (Delft, 2 seasons).
 inline constexpr double season_bytes_per_patch = 680, season_bytes_per_triangle = 240;
@@ -90,7 +91,7 @@ inline constexpr double arrays_of_realizations = 4;       ///< doubles of a patc
 
 // Disk.
 inline constexpr double stored_bytes_per_value = 2.5;
-inline constexpr double kept_bytes_per_line = 12.5;  ///< in the prepared file
+inline constexpr double kept_bytes_per_line = 6.7;  ///< in the prepared file
 inline constexpr double batch_bytes_per_patch = 80, result_bytes_per_patch = 175;
 
 }  // namespace sunload::cost

@@ -17,26 +17,24 @@ namespace {
 constexpr std::size_t links_ahead = 16;
 
 template <class Value>
-inline void ask_ahead(const LinkTable::Block& block, std::size_t link, const Value* source,
-                      std::size_t width) {
-  const std::size_t ahead = std::min(link + links_ahead, block.target.size() - 1);
-  __builtin_prefetch(source + block.target[ahead] * width);
+inline void ask_ahead(const LinkTable::Reader& read, const Value* source, std::size_t width) {
+  __builtin_prefetch(source + read.target_ahead(links_ahead) * width);
 }
 
 // Compilers turn the inner loops into one vector instruction per link where the
 // processor has 512 bits; the order of additions is the same everywhere.
 SUNLOAD_VECTOR_CODE void gather_rows(const LinkTable::Block& block, const float* source, float* out,
                                      Into into) {
-  const std::size_t rows = block.begin.size() - 1;
-  for (std::size_t row = 0; row < rows; ++row) {
+  LinkTable::Reader read(block);
+  for (std::size_t row = 0; row < block.rows(); ++row) {
     float sum[block_width];
     for (std::size_t k = 0; k < block_width; ++k)
       sum[k] = into == Into::add ? out[row * block_width + k] : 0.0f;
-    for (std::uint32_t l = block.begin[row]; l < block.begin[row + 1]; ++l) {
-      ask_ahead(block, l, source, block_width);
-      const float w = block.weight[l];
-      const float* B = source + static_cast<std::size_t>(block.target[l]) * block_width;
-      for (std::size_t k = 0; k < block_width; ++k) sum[k] += w * B[k];
+    for (std::size_t left = read.next_row(); left > 0; --left) {
+      ask_ahead(read, source, block_width);
+      const auto [target, weight] = read.next();
+      const float* B = source + static_cast<std::size_t>(target) * block_width;
+      for (std::size_t k = 0; k < block_width; ++k) sum[k] += weight * B[k];
     }
     for (std::size_t k = 0; k < block_width; ++k) out[row * block_width + k] = sum[k];
   }
@@ -54,13 +52,14 @@ void gather(const LinkTable& links, const Columns& source, Columns& out, Into in
 void gather(const LinkTable& links, const std::vector<double>& source, std::vector<double>& out,
             Into into) {
   parallel_for(links.blocks.size(), [&](std::size_t b) {
-    const auto& block = links.blocks[b];
-    for (std::size_t row = 0; row + 1 < block.begin.size(); ++row) {
+    LinkTable::Reader read(links.blocks[b]);
+    for (std::size_t row = 0; row < links.blocks[b].rows(); ++row) {
       double& sum = out[b * LinkTable::rows_per_block + row];
       if (into == Into::replace) sum = 0;
-      for (std::uint32_t l = block.begin[row]; l < block.begin[row + 1]; ++l) {
-        ask_ahead(block, l, source.data(), 1);
-        sum += static_cast<double>(block.weight[l]) * source[block.target[l]];
+      for (std::size_t left = read.next_row(); left > 0; --left) {
+        ask_ahead(read, source.data(), 1);
+        const auto [target, weight] = read.next();
+        sum += static_cast<double>(weight) * source[target];
       }
     }
   });

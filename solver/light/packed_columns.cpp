@@ -9,19 +9,40 @@
 
 namespace sunload {
 
+namespace {
+
+constexpr float largest_code = 65535, nothing = 1e-30f;  // W m-2
+
+std::array<float, block_width> largest_of_columns(const Columns& values) {
+  std::array<float, block_width> largest{};
+  for (std::size_t at = 0; at < values.size(); at += block_width)
+    for (std::size_t k = 0; k < block_width; ++k) largest[k] = std::max(largest[k], values[at + k]);
+  for (float& of_column : largest)
+    if (!(of_column > nothing)) of_column = 0;
+  return largest;
+}
+
+}  // namespace
+
 PackedColumns::PackedColumns(const Columns& values)
-    : factor_(values.size() / block_width), code_(values.size()) {
-  constexpr float largest_code = 65535, nothing = 1e-30f;  // W m-2
+    : of_column_(largest_of_columns(values)),
+      of_row_(values.size() / block_width),
+      code_(values.size()) {
+  std::array<float, block_width> per_unit;
+  for (std::size_t k = 0; k < block_width; ++k)
+    per_unit[k] = of_column_[k] > 0 ? 1 / of_column_[k] : 0;
   parallel_for(
       rows(),
       [&](std::size_t i) {
-        const float* const from = values.data() + i * block_width;
-        const float largest = *std::max_element(from, from + block_width);
+        std::array<float, block_width> share;
+        for (std::size_t k = 0; k < block_width; ++k)
+          share[k] = std::max(values[i * block_width + k], 0.0f) * per_unit[k];
+        const float largest = *std::max_element(share.begin(), share.end());
         if (!(largest > nothing)) return;  // all codes are 0
-        factor_[i] = largest / largest_code;
+        of_row_[i] = largest / largest_code;
         const float codes_per_unit = largest_code / largest;
         for (std::size_t k = 0; k < block_width; ++k) {
-          const float rounded = std::max(from[k], 0.0f) * codes_per_unit + 0.5f;
+          const float rounded = share[k] * codes_per_unit + 0.5f;
           code_[i * block_width + k] = static_cast<std::uint16_t>(std::min(rounded, largest_code));
         }
       },

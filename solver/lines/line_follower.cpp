@@ -44,9 +44,9 @@ LineCollector& LineCollector::operator+=(const LineCollector& other) {
 void LineCollector::store(LineSet& set, std::size_t row, std::size_t count) {
   const float scale = 1.0f / static_cast<float>(count);
   const std::size_t block = row / LinkTable::rows_per_block;
-  LinkTable::append_row(set.patches.blocks[block], patches, scale);
-  LinkTable::append_row(set.sky.blocks[block], sky, scale);
-  LinkTable::append_row(set.sky_by_mirror.blocks[block], sky_by_mirror, scale);
+  set.patches.blocks[block].append_row(patches, scale);
+  set.sky.blocks[block].append_row(sky, scale);
+  set.sky_by_mirror.blocks[block].append_row(sky_by_mirror, scale);
   set.ends[row] = {.sky = ends.sky * scale,
                    .ground = ends.ground * scale,
                    .ground_by_mirror = ends.ground_by_mirror * scale,

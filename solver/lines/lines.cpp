@@ -6,7 +6,6 @@
 #include <atomic>
 
 #include "geo/base/check.h"
-#include "solver/base/counting_sort.h"
 #include "solver/base/rng.h"
 #include "solver/base/threads.h"
 #include "solver/lines/line_bundle.h"
@@ -15,66 +14,10 @@
 
 namespace sunload {
 
-LinkTable::LinkTable(std::size_t rows) : blocks((rows + rows_per_block - 1) / rows_per_block) {}
-
-std::size_t LinkTable::link_count() const {
-  std::size_t count = 0;
-  for (const auto& block : blocks) count += block.target.size();
-  return count;
-}
-
-std::size_t LinkTable::memory_bytes() const {
-  std::size_t bytes = 0;
-  for (const auto& b : blocks)
-    bytes += 4 * (b.begin.capacity() + b.target.capacity() + b.weight.capacity());
-  return bytes;
-}
-
-namespace {
-
-/// By target. Few links are sorted by comparison, many by a byte of the target after another.
-void sort_links(std::vector<LinkTable::Link>& links) {
-  using Link = LinkTable::Link;
-  constexpr std::size_t few = 48;
-  if (links.size() <= few) {
-    // By insertion: links with the same target keep their order, as below.
-    for (std::size_t i = 1; i < links.size(); ++i) {
-      const Link link = links[i];
-      std::size_t at = i;
-      for (; at > 0 && links[at - 1].target > link.target; --at) links[at] = links[at - 1];
-      links[at] = link;
-    }
-    return;
-  }
-  std::uint32_t all_bits = 0;
-  for (const Link& link : links) all_bits |= link.target;
-  thread_local std::vector<Link> sorted;
-  for (std::uint32_t shift = 0; shift < 32 && all_bits >> shift != 0; shift += 8) {
-    sort_by_byte(links, sorted, [shift](const Link& link) {
-      return static_cast<std::uint8_t>(link.target >> shift);
-    });
-    links.swap(sorted);
-  }
-}
-
-}  // namespace
-
-void LinkTable::append_row(Block& block, std::vector<Link>& links, float scale) {
-  sort_links(links);
-  for (std::size_t l = 0; l < links.size();) {
-    const auto target = links[l].target;
-    float weight = 0;
-    for (; l < links.size() && links[l].target == target; ++l) weight += links[l].weight;
-    block.target.push_back(target);
-    block.weight.push_back(weight * scale);
-  }
-  block.begin.push_back(static_cast<std::uint32_t>(block.target.size()));
-}
-
-LineSet empty_line_set(std::size_t rows, bool any_lamps) {
-  return {LinkTable(rows),
-          LinkTable(rows),
-          LinkTable(rows),
+LineSet empty_line_set(std::size_t rows, std::size_t elements, std::size_t cells, bool any_lamps) {
+  return {LinkTable(rows, elements),
+          LinkTable(rows, cells),
+          LinkTable(rows, cells),
           std::vector<LineEnds>(rows),
           std::vector<double>(any_lamps ? rows : 0),
           {},
@@ -218,11 +161,7 @@ void add(MirroredFates& to, const MirroredFates& from, double factor) {
 }
 
 void trim(LineSet& set, std::size_t block) {
-  for (auto* table : {&set.patches, &set.sky, &set.sky_by_mirror}) {
-    auto& b = table->blocks[block];
-    b.target.shrink_to_fit();
-    b.weight.shrink_to_fit();
-  }
+  for (auto* table : {&set.patches, &set.sky, &set.sky_by_mirror}) table->blocks[block].trim();
 }
 
 void expect_shared_equally(const LineRules& rules, std::size_t patches) {
@@ -244,7 +183,8 @@ Lines trace_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaste
   expect_shared_equally(rules, patches);
   const BlockTracer tracer(scene, hierarchy, caster, grid, guide, rules);
   Lines lines;
-  lines.pooled = empty_line_set(patches, guide.any());
+  lines.pooled = empty_line_set(patches, hierarchy.element_count(),
+                                static_cast<std::size_t>(grid.cell_count()), guide.any());
   lines.realizations.assign(static_cast<std::size_t>(rules.realizations), lines.pooled);
 
   std::vector<BlockTracer::Output> outputs(lines.pooled.patches.blocks.size());

@@ -24,32 +24,11 @@
 #include "solver/base/watch.h"
 #include "solver/light/fate.h"
 #include "solver/lines/bright_view.h"
+#include "solver/lines/link_table.h"
 #include "solver/mesh/hierarchy.h"
 #include "solver/surface/ray_caster.h"
 
 namespace sunload {
-
-/// Weighted links of patches to targets (elements of the mesh, cells of the sky), compressed rows
-/// in blocks.
-class LinkTable {
- public:
-  static constexpr std::size_t rows_per_block = 1024;
-  struct Block {
-    std::vector<std::uint32_t> begin{0};  ///< rows + 1
-    std::vector<std::uint32_t> target;
-    std::vector<float> weight;
-  };
-  struct Link {
-    std::uint32_t target;
-    float weight;
-  };
-  explicit LinkTable(std::size_t rows = 0);
-  std::vector<Block> blocks;
-  std::size_t link_count() const;
-  std::size_t memory_bytes() const;
-  /// Appends the next row of a block: sorted by target, equal targets merged.
-  static void append_row(Block& block, std::vector<Link>& links, float scale);
-};
 
 /// What a patch's lines end in, as shares of its lines.
 struct LineEnds {
@@ -88,8 +67,9 @@ struct Glimpse {
   std::int32_t reflections = 0;  ///< of the line before it
 };
 
-/// Room for the lines of so many patches or sensors, and for what emitters send them.
-LineSet empty_line_set(std::size_t rows, bool any_lamps);
+/// Room for the lines of so many patches or sensors to elements and cells of the sky, and for what
+/// emitters send them.
+LineSet empty_line_set(std::size_t rows, std::size_t elements, std::size_t cells, bool any_lamps);
 
 struct LineRules {
   int lines_per_patch = 256;  ///< over all realizations together

@@ -69,7 +69,8 @@ Lines trace_sensor_lines(const Scene& scene, const Hierarchy& hierarchy, const R
   const auto each = static_cast<std::size_t>(rules.lines_per_patch / rules.realizations);
   const LineFollower follower(scene, hierarchy, caster, grid, rules.mirror_depth);
   Lines lines;
-  lines.pooled = empty_line_set(sensors.size(), guide.any());
+  lines.pooled = empty_line_set(sensors.size(), hierarchy.element_count(),
+                                static_cast<std::size_t>(grid.cell_count()), guide.any());
   lines.realizations.assign(static_cast<std::size_t>(rules.realizations), lines.pooled);
   std::vector<Output> outputs(lines.pooled.patches.blocks.size());
   parallel_chunks(

@@ -161,17 +161,16 @@ class Builder {
 };
 
 LinkTable table_of(const std::vector<float>& matrix, std::size_t n) {
-  LinkTable table(n);
+  LinkTable table(n, n);
   parallel_for(table.blocks.size(), [&](std::size_t b) {
-    LinkTable::Block& block = table.blocks[b];
     const std::size_t end = std::min((b + 1) * LinkTable::rows_per_block, n);
+    std::vector<LinkTable::Link> links;
     for (std::size_t i = b * LinkTable::rows_per_block; i < end; ++i) {
-      for (std::size_t j = 0; j < n; ++j) {
-        if (matrix[i * n + j] <= 0) continue;
-        block.target.push_back(static_cast<std::uint32_t>(j));
-        block.weight.push_back(matrix[i * n + j]);
-      }
-      block.begin.push_back(static_cast<std::uint32_t>(block.target.size()));
+      links.clear();
+      for (std::size_t j = 0; j < n; ++j)
+        if (matrix[i * n + j] > 0)
+          links.push_back({static_cast<std::uint32_t>(j), matrix[i * n + j]});
+      table.blocks[b].append_row(links, 1);
     }
   });
   return table;

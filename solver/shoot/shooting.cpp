@@ -32,13 +32,13 @@ void add(DoubleColumns& to, const DoubleColumns& from) {
 
 void gather(const LinkTable& links, const DoubleColumns& source, DoubleColumns& out) {
   parallel_for(links.blocks.size(), [&](std::size_t b) {
-    const auto& block = links.blocks[b];
-    for (std::size_t row = 0; row + 1 < block.begin.size(); ++row) {
+    LinkTable::Reader read(links.blocks[b]);
+    for (std::size_t row = 0; row < links.blocks[b].rows(); ++row) {
       double* E = &out[(b * LinkTable::rows_per_block + row) * block_width];
-      for (std::uint32_t l = block.begin[row]; l < block.begin[row + 1]; ++l) {
-        const double* L = &source[static_cast<std::size_t>(block.target[l]) * block_width];
-        for (std::size_t k = 0; k < block_width; ++k)
-          E[k] += static_cast<double>(block.weight[l]) * L[k];
+      for (std::size_t left = read.next_row(); left > 0; --left) {
+        const auto [target, weight] = read.next();
+        const double* L = &source[static_cast<std::size_t>(target) * block_width];
+        for (std::size_t k = 0; k < block_width; ++k) E[k] += static_cast<double>(weight) * L[k];
       }
     }
   });

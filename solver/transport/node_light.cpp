@@ -23,30 +23,35 @@ constexpr std::size_t most_skies = 320, most_suns = 640;
 /// One row of a block as the compiler's vector, which any processor has in parts.
 using Row = float __attribute__((vector_size(block_width * sizeof(float))));
 
-/// Σ_j nodes[j] weights[j][k] is added to every row of out, [rows][block]; all are aligned.
-SUNLOAD_VECTOR_CODE void add_rows(const float* nodes, const float* weights, float* out,
-                                  std::size_t rows) {
+/// Σ_j nodes[j] weights[j][k] is added to rows [begin, end), which begin at `out`; it and the
+/// weights are aligned.
+SUNLOAD_VECTOR_CODE void add_rows(const PackedColumns& nodes, std::size_t begin, std::size_t end,
+                                  const float* weights, float* out) {
+  constexpr std::size_t together = 4;  // sums that need not wait for each other
   const Row* of_node = reinterpret_cast<const Row*>(weights);
   Row* sums = reinterpret_cast<Row*>(out);
-  std::size_t row = 0;
-  for (; row + 4 <= rows; row += 4) {
-    const float* const at = nodes + row * block_width;
-    Row a = sums[row], b = sums[row + 1], c = sums[row + 2], d = sums[row + 3];
-    for (std::size_t j = 0; j < block_width; ++j) {
-      const Row w = of_node[j];
-      a += at[j] * w;
-      b += at[block_width + j] * w;
-      c += at[2 * block_width + j] * w;
-      d += at[3 * block_width + j] * w;
+  alignas(64) float at[together][block_width];
+  for (std::size_t i = begin; i < end; i += together, sums += together) {
+    const std::size_t rows = std::min(together, end - i);
+    for (std::size_t r = 0; r < rows; ++r) nodes.unpack(i + r, at[r]);
+    if (rows == together) {
+      Row a = sums[0], b = sums[1], c = sums[2], d = sums[3];
+      for (std::size_t j = 0; j < block_width; ++j) {
+        const Row w = of_node[j];
+        a += at[0][j] * w;
+        b += at[1][j] * w;
+        c += at[2][j] * w;
+        d += at[3][j] * w;
+      }
+      sums[0] = a;
+      sums[1] = b;
+      sums[2] = c;
+      sums[3] = d;
+      continue;
     }
-    sums[row] = a;
-    sums[row + 1] = b;
-    sums[row + 2] = c;
-    sums[row + 3] = d;
+    for (std::size_t r = 0; r < rows; ++r)
+      for (std::size_t j = 0; j < block_width; ++j) sums[r] += at[r][j] * of_node[j];
   }
-  for (; row < rows; ++row)
-    for (std::size_t j = 0; j < block_width; ++j)
-      sums[row] += nodes[row * block_width + j] * of_node[j];
 }
 
 /// Adds what all blocks bring, one kind of light; what falls below 0 is 0. `add_block`(b, begin,
@@ -134,8 +139,12 @@ NodeLight::NodeLight(const TracedScene& traced, const LitPeriod& period,
     : traced_(traced),
       period_(period),
       skies_(traced.grid, period, most_skies, left_out),
-      suns_(period, most_suns, left_out),
-      lamps_and_ground_(solve_lamps_and_ground(work)) {}
+      suns_(period, most_suns, left_out) {
+  IntervalLight far_ground;
+  far_ground.ground_exitance = 1;
+  lamps_ = solve(std::vector{IntervalLight{}}, Keep::reflected, work);
+  ground_ = solve(std::vector{far_ground}, Keep::reflected, work);
+}
 
 void NodeLight::take(std::size_t skies, std::size_t suns, WorkDone& work) {
   const auto whole_blocks = [](std::size_t count, std::size_t there_are) {
@@ -157,7 +166,7 @@ void NodeLight::take(std::size_t skies, std::size_t suns, WorkDone& work) {
 }
 
 std::vector<const NodeBlock*> NodeLight::blocks() const {
-  std::vector<const NodeBlock*> all{&lamps_and_ground_};
+  std::vector<const NodeBlock*> all{&lamps_, &ground_};
   for (const auto* blocks : {&sky_blocks_, &sun_blocks_})
     for (const NodeBlock& block : *blocks) all.push_back(&block);
   return all;
@@ -165,14 +174,14 @@ std::vector<const NodeBlock*> NodeLight::blocks() const {
 
 std::vector<NodeWeights> NodeLight::weights(std::span<const IntervalLight> suns,
                                             const std::vector<Ledger>& by_rays) const {
-  std::vector<NodeWeights> weights(1 + sky_blocks_.size() + sun_blocks_.size());
+  std::vector<NodeWeights> weights(first_sun() + sun_blocks_.size());
   std::vector<std::vector<double>> of_skies(suns.size());
   parallel_for(suns.size(), [&](std::size_t k) { of_skies[k] = skies_.weights(suns[k].sky); });
   for (std::size_t k = 0; k < suns.size(); ++k) {
     weights[0].add(0, k, 1);
-    weights[0].add(1, k, suns[k].ground_exitance);
+    weights[1].add(0, k, suns[k].ground_exitance);
     for (std::size_t m = 0; m < of_skies[k].size(); ++m)
-      weights[1 + m / block_width].add(m % block_width, k, of_skies[k][m]);
+      weights[first_sky() + m / block_width].add(m % block_width, k, of_skies[k][m]);
     const auto about = nodes_about(suns_, suns[k]);
     double reflected_first = 0;
     for (const auto& [node, weight] : about)
@@ -181,8 +190,7 @@ std::vector<NodeWeights> NodeLight::weights(std::span<const IntervalLight> suns,
     if (reflected_first <= 0) continue;
     const double scale = by_rays[k][Term::unshot] / reflected_first;
     for (const auto& [node, weight] : about)
-      weights[1 + sky_blocks_.size() + node / block_width].add(node % block_width, k,
-                                                               scale * weight);
+      weights[first_sun() + node / block_width].add(node % block_width, k, scale * weight);
   }
   return weights;
 }
@@ -190,11 +198,10 @@ std::vector<NodeWeights> NodeLight::weights(std::span<const IntervalLight> suns,
 void NodeLight::add_light(const std::vector<NodeWeights>& weights,
                           NodeBlock::Received NodeBlock::*of_receivers, BlockLight& light) const {
   const auto all = blocks();
-  const auto add = [&](Columns NodeBlock::Received::*kind, Columns& out) {
+  const auto add = [&](PackedColumns NodeBlock::Received::*kind, Columns& out) {
     const auto add_block = [&](std::size_t b, std::size_t begin, std::size_t end, float* rows) {
-      const Columns& of_nodes = all[b]->*of_receivers.*kind;
-      if (!of_nodes.empty())
-        add_rows(of_nodes.data() + begin * block_width, weights[b].of.data(), rows, end - begin);
+      const PackedColumns& of_nodes = all[b]->*of_receivers.*kind;
+      if (!of_nodes.empty()) add_rows(of_nodes, begin, end, weights[b].of.data(), rows);
     };
     combine(weights, add_block, out);
   };
@@ -208,10 +215,8 @@ void NodeLight::add_circumsolar(const std::vector<NodeWeights>& weights, std::si
                                 Columns& light) const {
   const auto all = blocks();
   const auto add_block = [&](std::size_t b, std::size_t begin, std::size_t end, float* rows) {
-    if (all[b]->circumsolar.empty()) return;
-    const PackedColumns& of_nodes = all[b]->circumsolar[r];
-    for (std::size_t i = begin; i < end; ++i, rows += block_width)
-      add_rows(of_nodes.row(i).data(), weights[b].of.data(), rows, 1);
+    if (!all[b]->circumsolar.empty())
+      add_rows(all[b]->circumsolar[r], begin, end, weights[b].of.data(), rows);
   };
   combine(weights, add_block, light);
 }
@@ -259,8 +264,9 @@ Ledger NodeLight::ledger(const std::vector<NodeWeights>& weights, std::size_t in
   return ledger;
 }
 
-/// Gathers the light of these sources; what their suns bring by rays is reflected, and left out.
-NodeBlock NodeLight::solve(std::span<const IntervalLight> suns, WorkDone& work) const {
+/// Gathers the light of these sources; what their suns bring by rays is reflected, and left out,
+/// and so are lamps, which shine in every solution, once they are known.
+NodeBlock NodeLight::solve(std::span<const IntervalLight> suns, Keep keep, WorkDone& work) const {
   BlockSources sources(suns, static_cast<std::size_t>(traced_.grid.cell_count()));
   sources.split_sky(traced_.grid);
   BlockRays rays = light_iteration(traced_, sources, {.columns = true}, {}, work);
@@ -269,7 +275,7 @@ NodeBlock NodeLight::solve(std::span<const IntervalLight> suns, WorkDone& work) 
   NodeBlock block;
   if (any_circumsolar(sources.circumsolar))
     for (Columns& samples : rays.on_patches.of_realizations.circumsolar) {
-      block.circumsolar.emplace_back(samples);
+      if (keep == Keep::all) block.circumsolar.emplace_back(samples);
       samples = {};
     }
   for (const auto& sky : sources.circumsolar) {
@@ -287,39 +293,34 @@ NodeBlock NodeLight::solve(std::span<const IntervalLight> suns, WorkDone& work) 
   const auto first = ledger_of_rays(traced_, light.direct, by_mirrors, suns.size());
   for (std::size_t j = 0; j < suns.size(); ++j) {
     (block.ledger[j] = whole[j]) += scaled(first[j], -1);
+    block.ledger[j] += scaled(lamps_.ledger[0], -1);
     block.reflected_first[j] = first[j][Term::unshot];
   }
-  block.patches.sky = std::move(light.sky);
-  for (std::size_t at = 0; at < by_mirrors.size(); ++at) light.mirror[at] -= by_mirrors[at];
-  if (traced_.optics.any_mirror) block.patches.mirror = std::move(light.mirror);
-  block.patches.reflected = light.reflected;
   if (traced_.sensors.count() > 0) {
-    light.sky = block.patches.sky;
-    if (light.mirror.empty()) light.mirror = block.patches.mirror;
-    for (std::size_t at = 0; at < by_mirrors.size(); ++at) light.mirror[at] += by_mirrors[at];
     const Columns dark = columns(traced_.sensors.count());
-    BlockLight on_sensors = sensor_light(
-        traced_.sensors.lines.pooled, traced_.optics, sources, {dark, dark, {}},
-        traced_.sensors.lamps.pooled, seen_radiosity(traced_.hierarchy(), traced_.optics, light));
-    block.sensors = {std::move(on_sensors.sky), std::move(on_sensors.mirror),
-                     std::move(on_sensors.reflected)};
+    block.sensors = packed(sensor_light(traced_.sensors.lines.pooled, traced_.optics, sources,
+                                        {dark, dark, {}}, traced_.sensors.lamps.pooled,
+                                        seen_radiosity(traced_.hierarchy(), traced_.optics, light)),
+                           lamps_.sensors.reflected, suns.size(), keep);
   }
+  for (std::size_t at = 0; at < by_mirrors.size(); ++at) light.mirror[at] -= by_mirrors[at];
+  block.patches = packed(std::move(light), lamps_.patches.reflected, suns.size(), keep);
   return block;
 }
 
-NodeBlock NodeLight::solve_lamps_and_ground(WorkDone& work) const {
-  std::vector<IntervalLight> sources(2);  // lamps alone; with them the ground
-  sources[1].ground_exitance = 1;
-  NodeBlock block = solve(sources, work);
-  for (Columns* light : {&block.patches.reflected, &block.sensors.reflected})
-    for (std::size_t at = 0; at < light->size(); at += block_width)
-      (*light)[at + 1] -= (*light)[at];
-  block.ledger[1] += scaled(block.ledger[0], -1);
-  block.patches.sky.clear();
-  block.patches.mirror.clear();
-  block.sensors.sky.clear();
-  block.sensors.mirror.clear();
-  return block;
+/// `of_lamps`: what is left out of the reflected light of so many sources; none: nothing.
+NodeBlock::Received NodeLight::packed(BlockLight light, const PackedColumns& of_lamps,
+                                      std::size_t sources, Keep keep) const {
+  for (std::size_t i = 0; traced_.optics.any_emission && i < of_lamps.rows(); ++i) {
+    const float lamps = of_lamps.row(i)[0];
+    for (std::size_t j = 0; j < sources; ++j) light.reflected[i * block_width + j] -= lamps;
+  }
+  NodeBlock::Received received;
+  received.reflected = PackedColumns(light.reflected);
+  if (keep == Keep::reflected) return received;
+  received.sky = PackedColumns(light.sky);
+  if (traced_.optics.any_mirror) received.mirror = PackedColumns(light.mirror);
+  return received;
 }
 
 NodeBlock NodeLight::solve_skies(std::size_t first, std::size_t count, WorkDone& work) const {
@@ -327,36 +328,14 @@ NodeBlock NodeLight::solve_skies(std::size_t first, std::size_t count, WorkDone&
   parallel_for(count, [&](std::size_t j) {
     sources[j] = sky_alone(period_.of(skies_.ranked()[first + j]));
   });
-  NodeBlock block = solve(sources, work);
-  leave_out_lamps(block, count);
-  return block;
+  return solve(sources, Keep::all, work);
 }
 
 NodeBlock NodeLight::solve_suns(std::size_t first, std::size_t count, WorkDone& work) const {
   std::vector<IntervalLight> sources(count);
   parallel_for(
       count, [&](std::size_t j) { sources[j] = sun_alone(period_.of(suns_.ranked()[first + j])); });
-  NodeBlock block = solve(sources, work);
-  leave_out_lamps(block, count);
-  block.patches.sky.clear();
-  block.patches.mirror.clear();
-  block.sensors.sky.clear();
-  block.sensors.mirror.clear();
-  block.circumsolar.clear();
-  return block;
-}
-
-/// Lamps shine in every solution, and count once.
-void NodeLight::leave_out_lamps(NodeBlock& block, std::size_t sources) const {
-  if (!traced_.optics.any_emission) return;
-  const auto leave_out = [&](const Columns& lamps, Columns& light) {
-    for (std::size_t at = 0; at < light.size(); at += block_width)
-      for (std::size_t j = 0; j < sources; ++j) light[at + j] -= lamps[at];
-  };
-  leave_out(lamps_and_ground_.patches.reflected, block.patches.reflected);
-  leave_out(lamps_and_ground_.sensors.reflected, block.sensors.reflected);
-  for (std::size_t j = 0; j < sources; ++j)
-    block.ledger[j] += scaled(lamps_and_ground_.ledger[0], -1);
+  return solve(sources, Keep::reflected, work);
 }
 
 }  // namespace sunload

@@ -29,9 +29,9 @@ namespace sunload {
 /// Up to `block_width` sources side by side, and what they bring.
 struct NodeBlock {
   struct Received {
-    Columns sky;        ///< straight from the sky; empty: nothing
-    Columns mirror;     ///< of the sky, by mirrors; empty: nothing
-    Columns reflected;  ///< after a diffuse reflection, and of the far ground
+    PackedColumns sky;        ///< straight from the sky; empty: nothing
+    PackedColumns mirror;     ///< of the sky, by mirrors; empty: nothing
+    PackedColumns reflected;  ///< after a diffuse reflection, and of the far ground
   };
   Received patches, sensors;
   std::array<Ledger, block_width> ledger{};  ///< but for first light of the sun's rays
@@ -65,7 +65,7 @@ class NodeLight {
   const SkyNodes& skies() const { return skies_; }
   const SunNodes& suns() const { return suns_; }
 
-  /// Lamps and ground, skies, suns.
+  /// Lamps, ground, skies, suns.
   std::vector<const NodeBlock*> blocks() const;
   /// Of those blocks. `by_rays`: ledger_of_rays of these suns.
   std::vector<NodeWeights> weights(std::span<const IntervalLight> suns,
@@ -85,17 +85,20 @@ class NodeLight {
   Ledger ledger(const std::vector<NodeWeights>& weights, std::size_t interval) const;
 
  private:
-  NodeBlock solve(std::span<const IntervalLight> sources, WorkDone& work) const;
-  NodeBlock solve_lamps_and_ground(WorkDone& work) const;
+  enum class Keep { all, reflected };
+  NodeBlock solve(std::span<const IntervalLight> sources, Keep keep, WorkDone& work) const;
+  NodeBlock::Received packed(BlockLight light, const PackedColumns& of_lamps, std::size_t sources,
+                             Keep keep) const;
   NodeBlock solve_skies(std::size_t first, std::size_t count, WorkDone& work) const;
   NodeBlock solve_suns(std::size_t first, std::size_t count, WorkDone& work) const;
-  void leave_out_lamps(NodeBlock& block, std::size_t sources) const;
+  std::size_t first_sky() const { return 2; }  ///< among `blocks`
+  std::size_t first_sun() const { return first_sky() + sky_blocks_.size(); }
 
   const TracedScene& traced_;
   const LitPeriod& period_;
   SkyNodes skies_;
   SunNodes suns_;
-  NodeBlock lamps_and_ground_;
+  NodeBlock lamps_, ground_;
   std::vector<NodeBlock> sky_blocks_, sun_blocks_;
 };
 

@@ -69,11 +69,14 @@ Square face_factors(const LineSet& lines, const Hierarchy& mesh) {
   };
   for (std::size_t i = 0; i < mesh.patch_count(); ++i) {
     area[face_of(i)] += mesh.area()[i];
-    const auto& block = lines.patches.blocks[i / LinkTable::rows_per_block];
-    const std::size_t row = i % LinkTable::rows_per_block;
-    for (auto l = block.begin[row]; l < block.begin[row + 1]; ++l)
-      F[face_of(i)][face_of(block.target[l])] +=
-          mesh.area()[i] * static_cast<double>(block.weight[l]);
+  }
+  for (std::size_t b = 0, i = 0; b < lines.patches.blocks.size(); ++b) {
+    LinkTable::Reader read(lines.patches.blocks[b]);
+    for (std::size_t row = 0; row < lines.patches.blocks[b].rows(); ++row, ++i)
+      for (std::size_t left = read.next_row(); left > 0; --left) {
+        const auto [target, weight] = read.next();
+        F[face_of(i)][face_of(target)] += mesh.area()[i] * static_cast<double>(weight);
+      }
   }
   for (std::size_t f = 0; f < faces; ++f)
     for (auto& share : F[f]) share /= area[f];

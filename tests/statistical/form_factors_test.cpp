@@ -241,13 +241,23 @@ TEST(FormFactors, OfTheSkyFromCanyonFloors) {
   EXPECT_EQ(cases, 15);
 }
 
-/// Share of the pooled lines of patch i that meet patch j.
-double share(const LineSet& lines, std::size_t i, std::size_t j) {
+/// Links of patch i.
+std::vector<LinkTable::Link> links_of(const LineSet& lines, std::size_t i) {
   const auto& block = lines.patches.blocks[i / LinkTable::rows_per_block];
-  const std::size_t row = i % LinkTable::rows_per_block;
+  LinkTable::Reader read(block);
+  std::vector<LinkTable::Link> links;
+  for (std::size_t row = 0; row <= i % LinkTable::rows_per_block; ++row) {
+    links.resize(read.next_row());
+    for (auto& link : links) link = read.next();
+  }
+  return links;
+}
+
+/// Share of the lines of patch i that meet patch j.
+double share(const LineSet& lines, std::size_t i, std::size_t j) {
   double sum = 0;
-  for (auto l = block.begin[row]; l < block.begin[row + 1]; ++l)
-    if (block.target[l] == j) sum += static_cast<double>(block.weight[l]);
+  for (const auto& link : links_of(lines, i))
+    if (link.target == j) sum += static_cast<double>(link.weight);
   return sum;
 }
 
@@ -291,11 +301,8 @@ TEST(FormFactors, RowsOfAClosedRoomSumToOneExactly) {
   for (const LineSet* lines :
        {&traced->patches.lines.pooled, &traced->patches.lines.realizations[5]})
     for (std::size_t i = 0; i < traced->hierarchy().patch_count(); ++i) {
-      const auto& block = lines->patches.blocks[i / LinkTable::rows_per_block];
-      const std::size_t row = i % LinkTable::rows_per_block;
       double sum = 0;
-      for (auto l = block.begin[row]; l < block.begin[row + 1]; ++l)
-        sum += static_cast<double>(block.weight[l]);
+      for (const auto& link : links_of(*lines, i)) sum += static_cast<double>(link.weight);
       ASSERT_EQ(sum, 1.0) << i;
       ASSERT_EQ(lines->ends[i].fate.escaped, 0.0f);
       ASSERT_EQ(lines->ends[i].fate.backs, 0.0f);

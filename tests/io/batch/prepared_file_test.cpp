@@ -17,15 +17,15 @@ namespace {
 const std::string hash(64, 'a');
 
 LinkTable table(std::size_t rows, std::uint32_t seed) {
-  LinkTable table(rows);
+  LinkTable table(rows, 100);
   for (auto& block : table.blocks) {
     std::vector<LinkTable::Link> links;
     const std::size_t n = std::min(rows, LinkTable::rows_per_block);
     for (std::size_t row = 0; row < n; ++row) {
       links.clear();
       for (std::uint32_t k = 0; k < (row + seed) % 5; ++k)
-        links.push_back({k * 7 + seed, 0.1f * static_cast<float>(k + seed)});
-      LinkTable::append_row(block, links, 1);
+        links.push_back({k * 7 + seed, 0.25f * static_cast<float>(k + seed)});
+      block.append_row(links, row == 3 ? 0.5f : 1.0f);
     }
   }
   return table;
@@ -58,12 +58,19 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
 }
 
 bool same(const LinkTable& a, const LinkTable& b) {
-  if (a.blocks.size() != b.blocks.size()) return false;
-  for (std::size_t i = 0; i < a.blocks.size(); ++i)
-    if (!same_bits(a.blocks[i].begin, b.blocks[i].begin) ||
-        !same_bits(a.blocks[i].target, b.blocks[i].target) ||
-        !same_bits(a.blocks[i].weight, b.blocks[i].weight))
-      return false;
+  if (a.blocks.size() != b.blocks.size() || a.targets() != b.targets()) return false;
+  for (std::size_t i = 0; i < a.blocks.size(); ++i) {
+    LinkTable::Reader of_a(a.blocks[i]), of_b(b.blocks[i]);
+    if (a.blocks[i].rows() != b.blocks[i].rows()) return false;
+    for (std::size_t row = 0; row < a.blocks[i].rows(); ++row) {
+      const std::size_t links = of_a.next_row();
+      if (of_b.next_row() != links) return false;
+      for (std::size_t l = 0; l < links; ++l) {
+        const auto x = of_a.next(), y = of_b.next();
+        if (x.target != y.target || x.weight != y.weight) return false;
+      }
+    }
+  }
   return true;
 }
 

@@ -37,9 +37,10 @@ double percent_above_leaves(const TracedScene& room) {
   const std::size_t patches = room.hierarchy().patch_count();
   double links = 0, above = 0;
   for (const auto& block : room.patches.lines.pooled.patches.blocks) {
-    links += static_cast<double>(block.target.size());
-    above += static_cast<double>(std::count_if(block.target.begin(), block.target.end(),
-                                               [&](auto target) { return target >= patches; }));
+    LinkTable::Reader read(block);
+    for (std::size_t row = 0; row < block.rows(); ++row)
+      for (std::size_t left = read.next_row(); left > 0; --left, ++links)
+        above += read.next().target >= patches;
   }
   return 100 * above / links;
 }

@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
 #include <string>
 
 #include "solver/lines/lines.h"
@@ -108,30 +107,6 @@ TEST(LineBundle, MeetsWhatEachLineMeetsAlone) {
     EXPECT_LT(left, compared * 9 / 10);
     EXPECT_GT(backs, 0u);
     EXPECT_GT(above, 1000u);
-  }
-}
-
-/// Links of one row, sorted and merged: the same for short rows and long ones.
-TEST(LinkTable, MergesLinksToTheSameTarget) {
-  for (const std::uint32_t count : {0u, 1u, 30u, 48u, 49u, 3000u}) {
-    std::vector<LinkTable::Link> links;
-    std::map<std::uint32_t, double> expected;
-    for (std::uint32_t l = 0; l < count; ++l) {
-      const std::uint32_t target = l * 2654435761u % (count + 1) * 70'001u;
-      const float weight = 1 + static_cast<float>(l % 4);
-      links.push_back({target / 2, weight});
-      expected[target / 2] += static_cast<double>(weight) / 8;
-    }
-    LinkTable::Block block;
-    LinkTable::append_row(block, links, 0.125f);
-    ASSERT_EQ(block.target.size(), expected.size());
-    const auto row_end = static_cast<std::uint32_t>(expected.size());
-    ASSERT_EQ(block.begin, (std::vector<std::uint32_t>{0, row_end}));
-    std::size_t at = 0;
-    for (const auto& [target, weight] : expected) {
-      EXPECT_EQ(block.target[at], target);
-      EXPECT_EQ(static_cast<double>(block.weight[at++]), weight);  // eighths: exact
-    }
   }
 }
 
