@@ -193,7 +193,7 @@ ArrayResult solve_arrays(const ArrayScene& arrays, const ArrayLight& light, cons
   Watch watch;
   const auto traced = trace_scene(scene, split, rules.solver, watch);
   const ArrayPeriod period(light, traced->grid);
-  const auto transport = transport_of(*traced, period);
+  const auto transport = transport_of(*traced, period, watch);
   const auto batch_suns = static_cast<std::size_t>(batch_suns_for(period.intervals()));
   BatchTally all = empty_tally(tally_shape(*traced, period.intervals()));
   for (std::size_t first = 0; first < period.intervals(); first += batch_suns) {

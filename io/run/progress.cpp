@@ -33,6 +33,8 @@ const char* stage_name(Stage stage) {
       return "refine mesh";
     case Stage::lines:
       return "trace lines";
+    case Stage::nodes:
+      return "skies and suns";
     case Stage::light:
       return "sun positions";
   }

@@ -41,7 +41,7 @@ TracedSeason::TracedSeason(const VariantPlan& plan, std::size_t season,
   share_ = share_of(plan, counts);
   lights_.emplace(plan.study, plan.built.site, traced_->grid);
   period_.emplace(*lights_, plan.light, std::move(counts));
-  transport_ = transport_of(*traced_, *period_);
+  transport_ = transport_of(*traced_, *period_, watch);
 }
 
 WorkDone TracedSeason::work() const {

@@ -6,7 +6,8 @@
 
 namespace sunload {
 
-enum class Stage { prepare, refine, lines, light };
+/// `nodes`: the skies and suns that a long period is made up of.
+enum class Stage { prepare, refine, lines, nodes, light };
 
 class Watch {
  public:

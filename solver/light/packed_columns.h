@@ -24,21 +24,23 @@ class PackedColumns {
 
   bool empty() const { return of_row_.empty(); }
   std::size_t rows() const { return of_row_.size(); }
-  /// Puts row i into `values`, of block_width floats.
-  void unpack(std::size_t i, float* values) const {
-    for (std::size_t k = 0; k < block_width; ++k)
-      values[k] = static_cast<float>(code_[i * block_width + k]) * (of_row_[i] * of_column_[k]);
+  float at(std::size_t i, std::size_t k) const {
+    return static_cast<float>(code_[i * block_width + k]) * (of_row_[i] * of_column_[k]);
   }
+  /// A value is a code · of_row(i) · of_column(k).
+  const std::uint16_t* codes(std::size_t i) const { return code_.data() + i * block_width; }
+  float of_row(std::size_t i) const { return of_row_[i]; }
+  float of_column(std::size_t k) const { return of_column_[k]; }
   std::array<float, block_width> row(std::size_t i) const {
     std::array<float, block_width> values;
-    unpack(i, values.data());
+    for (std::size_t k = 0; k < block_width; ++k) values[k] = at(i, k);
     return values;
   }
 
  private:
   std::array<float, block_width> of_column_{};
-  std::vector<float> of_row_;        ///< [rows]
-  std::vector<std::uint16_t> code_;  ///< [rows][block_width]
+  std::vector<float> of_row_;                                    ///< [rows]
+  std::vector<std::uint16_t, LargeMemory<std::uint16_t>> code_;  ///< [rows][block_width]
 };
 
 }  // namespace sunload

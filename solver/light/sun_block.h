@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <new>
 #include <vector>
 
 #include "geo/base/vec.h"
+#include "solver/base/large_memory.h"
 
 namespace sunload {
 
@@ -59,30 +59,14 @@ struct IntervalLight {
   bool is_dark() const { return !has_sun() && dhi <= 0; }
 };
 
-/// Rows of `block_width` floats, aligned to cache lines.
-template <class Real>
-struct Aligned {
-  using value_type = Real;
-  Aligned() = default;
-  template <class Other>
-  explicit Aligned(const Aligned<Other>&) {}
-  Real* allocate(std::size_t n) {
-    return static_cast<Real*>(::operator new (n * sizeof(Real), std::align_val_t{64}));
-  }
-  void deallocate(Real* p, std::size_t) { ::operator delete (p, std::align_val_t{64}); }
-  template <class Other>
-  bool operator==(const Aligned<Other>&) const {
-    return true;
-  }
-};
-
-/// One value per patch (or sky cell) and sun of a block.
-using Columns = std::vector<float, Aligned<float>>;
+/// One value per patch (or sky cell) and sun of a block: rows of `block_width` floats, aligned to
+/// cache lines.
+using Columns = std::vector<float, LargeMemory<float>>;
 
 inline Columns columns(std::size_t rows) { return Columns(rows * block_width, 0.0f); }
 
 /// The same where sums must keep all digits.
-using DoubleColumns = std::vector<double, Aligned<double>>;
+using DoubleColumns = std::vector<double, LargeMemory<double>>;
 
 inline DoubleColumns double_columns(std::size_t rows) {
   return DoubleColumns(rows * block_width, 0.0);

@@ -14,9 +14,9 @@ std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced) {
 }
 
 std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced,
-                                                   const LitPeriod& period) {
+                                                   const LitPeriod& period, Watch& watch) {
   WorkDone tried;
-  if (auto year = year_where_it_pays(traced, period, tried)) return year;
+  if (auto year = year_where_it_pays(traced, period, tried, watch)) return year;
   if (traced.rules.transport == Transport::shoot) return std::make_unique<Shooting>(traced);
   return std::make_unique<Gathering>(traced, tried);
 }

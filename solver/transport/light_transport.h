@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/base/watch.h"
 #include "solver/light/lit_period.h"
 #include "solver/light/work.h"
 #include "solver/traced/ray_record.h"
@@ -68,6 +69,6 @@ std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced);
 /// The same for a whole period, which few solutions may serve (SolverRules::year); `period` must
 /// outlive it, too. Throws Interrupted.
 std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced,
-                                                   const LitPeriod& period);
+                                                   const LitPeriod& period, Watch& watch);
 
 }  // namespace sunload

@@ -23,34 +23,79 @@ constexpr std::size_t most_skies = 320, most_suns = 640;
 /// One row of a block as the compiler's vector, which any processor has in parts.
 using Row = float __attribute__((vector_size(block_width * sizeof(float))));
 
-/// Σ_j nodes[j] weights[j][k] is added to rows [begin, end), which begin at `out`; it and the
-/// weights are aligned.
-SUNLOAD_VECTOR_CODE void add_rows(const PackedColumns& nodes, std::size_t begin, std::size_t end,
-                                  const float* weights, float* out) {
-  constexpr std::size_t together = 4;  // sums that need not wait for each other
-  const Row* of_node = reinterpret_cast<const Row*>(weights);
-  Row* sums = reinterpret_cast<Row*>(out);
-  alignas(64) float at[together][block_width];
-  for (std::size_t i = begin; i < end; i += together, sums += together) {
-    const std::size_t rows = std::min(together, end - i);
-    for (std::size_t r = 0; r < rows; ++r) nodes.unpack(i + r, at[r]);
-    if (rows == together) {
-      Row a = sums[0], b = sums[1], c = sums[2], d = sums[3];
-      for (std::size_t j = 0; j < block_width; ++j) {
-        const Row w = of_node[j];
-        a += at[0][j] * w;
-        b += at[1][j] * w;
-        c += at[2][j] * w;
-        d += at[3][j] * w;
-      }
-      sums[0] = a;
-      sums[1] = b;
-      sums[2] = c;
-      sums[3] = d;
-      continue;
+using Codes = std::uint16_t __attribute__((vector_size(block_width * sizeof(std::uint16_t)),
+                                           aligned(alignof(std::uint16_t))));
+
+/// Sources of a block of nodes that have a part in a block of intervals.
+struct UsedNodes {
+  std::size_t count = 0;
+  std::array<std::size_t, block_width> source{};
+  alignas(64) std::array<Row, block_width> weights{};  ///< of codes of the source
+
+  UsedNodes(const PackedColumns& nodes, const NodeWeights& all) {
+    for (std::size_t j = 0; j < block_width; ++j) {
+      const float* const of = all.of.data() + j * block_width;
+      if (std::all_of(of, of + block_width, [](float w) { return w == 0; })) continue;
+      for (std::size_t k = 0; k < block_width; ++k) weights[count][k] = of[k] * nodes.of_column(j);
+      source[count++] = j;
     }
-    for (std::size_t r = 0; r < rows; ++r)
-      for (std::size_t j = 0; j < block_width; ++j) sums[r] += at[r][j] * of_node[j];
+  }
+};
+
+/// Σ_j nodes[j] weights[j][k] is added to rows [begin, end), which begin at `out`, aligned.
+SUNLOAD_VECTOR_CODE void add_rows(const PackedColumns& nodes, const UsedNodes& used,
+                                  std::size_t begin, std::size_t end, float* out) {
+  constexpr std::size_t together = 4;  // sums that need not wait for each other
+  Row* const sums = reinterpret_cast<Row*>(out);
+  alignas(64) float codes[together][block_width];
+  for (std::size_t i = begin; i < end; i += together) {
+    // Of the last few rows some are made twice, and added once.
+    const std::size_t last = end - 1;
+    for (std::size_t r = 0; r < together; ++r) {
+      const auto* of_row = reinterpret_cast<const Codes*>(nodes.codes(std::min(i + r, last)));
+      *reinterpret_cast<Row*>(codes[r]) = __builtin_convertvector(*of_row, Row);
+    }
+    Row a{}, b{}, c{}, d{};
+    for (std::size_t n = 0; n < used.count; ++n) {
+      const Row w = used.weights[n];
+      const std::size_t j = used.source[n];
+      a += codes[0][j] * w;
+      b += codes[1][j] * w;
+      c += codes[2][j] * w;
+      d += codes[3][j] * w;
+    }
+    const Row made[together] = {a, b, c, d};
+    for (std::size_t r = 0; r < std::min(together, end - i); ++r)
+      sums[i - begin + r] += made[r] * nodes.of_row(i + r);
+  }
+}
+
+/// What the sources of a block of nodes bring while each shines for some time.
+struct TimedNodes {
+  using Sums = double __attribute__((vector_size(block_width * sizeof(double))));
+  const PackedColumns* nodes;
+  Sums seconds;  ///< of codes of the source
+
+  TimedNodes(const PackedColumns& of_nodes, const NodeSeconds& of_sources) : nodes(&of_nodes) {
+    for (std::size_t j = 0; j < block_width; ++j)
+      seconds[j] = of_sources[j] * static_cast<double>(of_nodes.of_column(j));
+  }
+};
+
+/// Adds what all of them bring to receivers [begin, end); what falls below 0 is 0.
+SUNLOAD_VECTOR_CODE void add_exposure(const std::vector<TimedNodes>& all, std::size_t begin,
+                                      std::size_t end, double* exposure) {
+  using Sums = TimedNodes::Sums;
+  for (std::size_t i = begin; i < end; ++i) {
+    Sums of_lanes{};  // sums that need not wait for each other
+    for (const TimedNodes& block : all) {
+      const auto* codes = reinterpret_cast<const Codes*>(block.nodes->codes(i));
+      of_lanes += __builtin_convertvector(*codes, Sums) * block.seconds *
+                  static_cast<double>(block.nodes->of_row(i));
+    }
+    double sum = exposure[i];
+    for (std::size_t j = 0; j < block_width; ++j) sum += of_lanes[j];
+    exposure[i] = std::max(sum, 0.0);
   }
 }
 
@@ -142,21 +187,28 @@ NodeLight::NodeLight(const TracedScene& traced, const LitPeriod& period,
       suns_(period, most_suns, left_out) {
   IntervalLight far_ground;
   far_ground.ground_exitance = 1;
-  lamps_ = solve(std::vector{IntervalLight{}}, Keep::reflected, work);
+  if (traced.optics.any_emission)
+    lamps_ = solve(std::vector{IntervalLight{}}, Keep::reflected, work);
   ground_ = solve(std::vector{far_ground}, Keep::reflected, work);
 }
 
-void NodeLight::take(std::size_t skies, std::size_t suns, WorkDone& work) {
+void NodeLight::take(std::size_t skies, std::size_t suns, WorkDone& work,
+                     const std::function<void(double)>& advance) {
   const auto whole_blocks = [](std::size_t count, std::size_t there_are) {
     return std::min(there_are, (count + block_width - 1) / block_width * block_width);
-  };
-  const auto grow = [&](std::vector<NodeBlock>& blocks, std::size_t count, auto&& solve_nodes) {
-    for (std::size_t first = blocks.size() * block_width; first < count; first += block_width)
-      blocks.push_back(solve_nodes(first, std::min(block_width, count - first)));
   };
   const std::size_t sky_count =
       std::max(skies_.count(), whole_blocks(skies, skies_.ranked().size()));
   const std::size_t sun_count = std::max(suns_.count(), whole_blocks(suns, suns_.ranked().size()));
+  const std::size_t solved = skies_.count() + suns_.count();
+  const auto grow = [&](std::vector<NodeBlock>& blocks, std::size_t count, auto&& solve_nodes) {
+    for (std::size_t first = blocks.size() * block_width; first < count; first += block_width) {
+      blocks.push_back(solve_nodes(first, std::min(block_width, count - first)));
+      const std::size_t done = block_width * (sky_blocks_.size() + sun_blocks_.size()) - solved;
+      const std::size_t wanted = sky_count + sun_count - solved;
+      advance(std::min(1.0, static_cast<double>(done) / static_cast<double>(wanted)));
+    }
+  };
   grow(sky_blocks_, sky_count,
        [&](std::size_t first, std::size_t n) { return solve_skies(first, n, work); });
   grow(sun_blocks_, sun_count,
@@ -201,7 +253,7 @@ void NodeLight::add_light(const std::vector<NodeWeights>& weights,
   const auto add = [&](PackedColumns NodeBlock::Received::*kind, Columns& out) {
     const auto add_block = [&](std::size_t b, std::size_t begin, std::size_t end, float* rows) {
       const PackedColumns& of_nodes = all[b]->*of_receivers.*kind;
-      if (!of_nodes.empty()) add_rows(of_nodes, begin, end, weights[b].of.data(), rows);
+      if (!of_nodes.empty()) add_rows(of_nodes, UsedNodes(of_nodes, weights[b]), begin, end, rows);
     };
     combine(weights, add_block, out);
   };
@@ -215,8 +267,9 @@ void NodeLight::add_circumsolar(const std::vector<NodeWeights>& weights, std::si
                                 Columns& light) const {
   const auto all = blocks();
   const auto add_block = [&](std::size_t b, std::size_t begin, std::size_t end, float* rows) {
-    if (!all[b]->circumsolar.empty())
-      add_rows(all[b]->circumsolar[r], begin, end, weights[b].of.data(), rows);
+    if (all[b]->circumsolar.empty()) return;
+    const PackedColumns& of_nodes = all[b]->circumsolar[r];
+    add_rows(of_nodes, UsedNodes(of_nodes, weights[b]), begin, end, rows);
   };
   combine(weights, add_block, light);
 }
@@ -237,20 +290,12 @@ void NodeLight::split_circumsolar(const std::vector<NodeSeconds>& seconds, TimeS
       shining.push_back(b);
   if (shining.empty()) return;
   for (std::size_t r = 0; r < sums.on_patches.circumsolar.size(); ++r) {
+    std::vector<TimedNodes> timed;
+    for (const auto b : shining) timed.emplace_back(all[b]->circumsolar[r], seconds[b]);
     std::vector<double>& exposure = sums.on_patches.circumsolar[r];
-    parallel_for(
-        exposure.size(),
-        [&](std::size_t i) {
-          std::array<double, block_width> of_lanes{};  // sums that need not wait for each other
-          for (const auto b : shining) {
-            const auto of_nodes = all[b]->circumsolar[r].row(i);
-            for (std::size_t j = 0; j < block_width; ++j)
-              of_lanes[j] += seconds[b][j] * static_cast<double>(of_nodes[j]);
-          }
-          for (const double sum : of_lanes) exposure[i] += sum;
-          exposure[i] = std::max(exposure[i], 0.0);
-        },
-        receivers_per_chunk);
+    parallel_chunks(exposure.size(), receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
+      add_exposure(timed, begin, end, exposure.data());
+    });
   }
 }
 
@@ -311,7 +356,7 @@ NodeBlock NodeLight::solve(std::span<const IntervalLight> suns, Keep keep, WorkD
 /// `of_lamps`: what is left out of the reflected light of so many sources; none: nothing.
 NodeBlock::Received NodeLight::packed(BlockLight light, const PackedColumns& of_lamps,
                                       std::size_t sources, Keep keep) const {
-  for (std::size_t i = 0; traced_.optics.any_emission && i < of_lamps.rows(); ++i) {
+  for (std::size_t i = 0; i < of_lamps.rows(); ++i) {
     const float lamps = of_lamps.row(i)[0];
     for (std::size_t j = 0; j < sources; ++j) light.reflected[i * block_width + j] -= lamps;
   }

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -61,7 +62,9 @@ class NodeLight {
 
   /// Solves nodes until there are so many skies and suns, rounded up to whole blocks; never fewer
   /// than before. Cost: gathering one block of suns for 16 of them.
-  void take(std::size_t skies, std::size_t suns, WorkDone& work);
+  /// `advance` is told the share of those to be solved that is done.
+  void take(std::size_t skies, std::size_t suns, WorkDone& work,
+            const std::function<void(double)>& advance);
   const SkyNodes& skies() const { return skies_; }
   const SunNodes& suns() const { return suns_; }
 

@@ -86,29 +86,34 @@ class ReductionTest {
         suns_(std::make_unique<const std::vector<IntervalLight>>(std::move(suns))),
         sources_(*suns_, static_cast<std::size_t>(traced.grid.cell_count())) {
     sources_.split_sky(traced.grid);
-    rays_ = light_iteration(traced, sources_, {.columns = true, .all_parts = true}, {}, work)
-                .on_patches;
+    RayLight rays =
+        light_iteration(traced, sources_, {.columns = true, .all_parts = true}, {}, work)
+            .on_patches;
     const Stopwatch time(work[Work::solve_s]);
-    RayColumns pooled = rays_.pooled;
-    exact_ = block_light(traced.hierarchy(), traced.patches.lines.pooled, traced.optics, sources_,
-                         std::move(pooled), traced.patches.lamps.pooled, traced.bounce_rules(0));
+    rays_ = rays.pooled;
+    rays_.circumsolar = {};
+    keep_light(block_light(traced.hierarchy(), traced.patches.lines.pooled, traced.optics, sources_,
+                           std::move(rays.pooled), traced.patches.lamps.pooled,
+                           traced.bounce_rules(0)));
     InstantSpread spread(traced.patches.count(), suns_->size());
+    SunColumns& of = rays.of_realizations;
     const std::size_t R = static_cast<std::size_t>(traced.rules.realizations);
-    for (std::size_t r = 0; r < R; ++r)
+    for (std::size_t r = 0; r < R; ++r) {
+      if (has_circumsolar()) circumsolar_.emplace_back(of.circumsolar[r]);
       spread.add(total_of(block_light(
           traced.hierarchy(), traced.patches.lines.realizations[r], traced.optics, sources_,
-          {rays_.of_realizations.direct[r], rays_.of_realizations.mirror[r],
-           has_circumsolar() ? rays_.of_realizations.circumsolar[r] : Columns()},
+          {std::move(of.direct[r]), std::move(of.mirror[r]),
+           has_circumsolar() ? std::move(of.circumsolar[r]) : Columns()},
           traced.patches.lamps.of(r), traced.bounce_rules(0))));
+    }
     standard_error_ = spread.errors();
-    rays_.of_realizations.direct.clear();
-    rays_.of_realizations.mirror.clear();
   }
 
   Squares squares_of(const NodeLight& nodes) const {
-    const auto weights = nodes.weights(
-        *suns_, ledger_of_rays(traced_, rays_.pooled.direct, rays_.pooled.mirror, suns_->size()));
-    RayLight rays = rays_;
+    const auto weights =
+        nodes.weights(*suns_, ledger_of_rays(traced_, rays_.direct, rays_.mirror, suns_->size()));
+    RayLight rays;
+    rays.pooled = rays_;
     const BlockLight made =
         light_of_nodes(traced_.patches, &NodeBlock::patches, nodes, weights, rays);
     const std::vector<float> noise = noise_of_samples(nodes, weights);
@@ -120,10 +125,10 @@ class ReductionTest {
       all += area[i];
       for (std::size_t k = 0; k < suns_->size(); ++k) {
         const std::size_t at = i * block_width + k, row = k * area.size() + i;
-        const auto sky = static_cast<double>(made.sky[at] + made.mirror[at] - exact_.sky[at] -
-                                             exact_.mirror[at]);
+        const auto sky =
+            static_cast<double>(made.sky[at] + made.mirror[at] - sky_[at] - mirror_[at]);
         const auto noisy = static_cast<double>(noise[row]);
-        const auto reflected = static_cast<double>(made.reflected[at] - exact_.reflected[at]);
+        const auto reflected = static_cast<double>(made.reflected[at] - reflected_[at]);
         sum.sky += part * (sky * sky - noisy * noisy);
         sum.reflected += part * reflected * reflected;
         sum.error += part * ((sky + reflected) * (sky + reflected) - noisy * noisy);
@@ -139,19 +144,23 @@ class ReductionTest {
  private:
   bool has_circumsolar() const { return any_circumsolar(sources_.circumsolar); }
 
+  void keep_light(BlockLight exact) {
+    sky_ = std::move(exact.sky);
+    mirror_ = std::move(exact.mirror);
+    reflected_ = std::move(exact.reflected);
+  }
+
   /// Standard error of what nodes and test differ by, by their samples of the sky about the sun,
   /// [interval][patch]: both solutions have it, and it says nothing of the nodes.
   std::vector<float> noise_of_samples(const NodeLight& nodes,
                                       const std::vector<NodeWeights>& weights) const {
     if (!has_circumsolar()) return std::vector<float>(standard_error_.size(), 0);
     InstantSpread spread(traced_.patches.count(), suns_->size());
-    for (std::size_t r = 0; r < rays_.of_realizations.circumsolar.size(); ++r) {
+    for (std::size_t r = 0; r < circumsolar_.size(); ++r) {
       Columns difference = columns(traced_.patches.count());
       nodes.add_circumsolar(weights, r, difference);
-      const Columns& of_test = rays_.of_realizations.circumsolar[r];
       spread.add([&](std::size_t i, std::size_t k) {
-        const std::size_t at = i * block_width + k;
-        return difference[at] - of_test[at];
+        return difference[i * block_width + k] - circumsolar_[r].at(i, k);
       });
     }
     return spread.errors();
@@ -160,9 +169,10 @@ class ReductionTest {
   const TracedScene& traced_;
   std::unique_ptr<const std::vector<IntervalLight>> suns_;  ///< where `sources_` looks for them
   BlockSources sources_;
-  RayLight rays_;
-  BlockLight exact_;
-  std::vector<float> standard_error_;  ///< [interval][patch]
+  RayColumns rays_;                         ///< direct and by mirrors
+  Columns sky_, mirror_, reflected_;        ///< of the exact solution
+  std::vector<PackedColumns> circumsolar_;  ///< [R] samples of the sky about the sun; none: none
+  std::vector<float> standard_error_;       ///< [interval][patch]
 };
 
 /// One batch.
@@ -244,9 +254,31 @@ class YearBatch : public BatchTransport {
   std::vector<std::vector<NodeSeconds>> shares_of_parts_;
 };
 
+/// Tells how far the nodes are. How many there will be nobody knows beforehand: each turn takes a
+/// share of what is left.
+class NodesAhead {
+ public:
+  explicit NodesAhead(Watch& watch) : watch_(watch) {}
+  void begin_turn(double of_left) {
+    told_ += turn_;
+    turn_ = of_left * (1 - told_);
+    advance(0);
+  }
+  /// Share of the turn that is done.
+  void advance(double share) { watch_.advance(Stage::nodes, told_ + turn_ * share); }
+  void end() { watch_.advance(Stage::nodes, 1); }
+
+ private:
+  Watch& watch_;
+  double told_ = 0, turn_ = 0;
+};
+
 std::vector<ReductionTest> reduction_tests(const TracedScene& traced, const LitPeriod& period,
                                            const std::vector<std::size_t>& intervals,
-                                           WorkDone& work) {
+                                           WorkDone& work, NodesAhead& ahead) {
+  // Each realization solves them, too: they take about as long as half of the first nodes.
+  constexpr double of_all = 0.25;
+  ahead.begin_turn(of_all);
   std::vector<ReductionTest> made;
   made.reserve(tests / block_width);
   for (std::size_t first = 0; first < intervals.size(); first += block_width) {
@@ -254,6 +286,7 @@ std::vector<ReductionTest> reduction_tests(const TracedScene& traced, const LitP
     const auto count = std::min(block_width, intervals.size() - first);
     made.emplace_back(traced,
                       lights_of(period, {begin, begin + static_cast<std::ptrdiff_t>(count)}), work);
+    ahead.advance(static_cast<double>(first + count) / static_cast<double>(intervals.size()));
   }
   return made;
 }
@@ -269,30 +302,45 @@ Squares mean_squares(const std::vector<ReductionTest>& made, const NodeLight& no
 
 }  // namespace
 
-YearGathering::YearGathering(const TracedScene& traced, const LitPeriod& period)
-    : LightTransport(traced) {
-  SUNLOAD_EXPECT(year_can_serve(traced.rules), "gathered broadband light, errors of totals");
-  const std::vector<std::size_t> tested = test_intervals(traced, period);
-  nodes_ = std::make_unique<NodeLight>(traced, period, tested, work_);
-  std::size_t skies = nodes_->skies().count_for(first_rest);
-  std::size_t suns = nodes_->suns().count_for(first_distance);
-  const auto made = reduction_tests(traced, period, tested, work_);
-  const std::size_t lit = lit_intervals(traced, period).size();
-  const std::size_t most = static_cast<std::size_t>(year_share_of_few * static_cast<double>(lit));
+namespace {
+
+/// Takes nodes until they are near enough to the tests, or too many to pay, or all there are.
+Reduction take_nodes(NodeLight& nodes, const std::vector<ReductionTest>& made,
+                     std::size_t intervals, std::size_t most, WorkDone& work, NodesAhead& ahead) {
+  constexpr double of_left = 0.75;
+  std::size_t skies = nodes.skies().count_for(first_rest);
+  std::size_t suns = nodes.suns().count_for(first_distance);
   for (;;) {
-    nodes_->take(skies, suns, work_);
-    const Squares squares = mean_squares(made, *nodes_, tested.size());
-    reduction_ = {nodes_->skies().count(), nodes_->suns().count(), std::sqrt(squares.error),
-                  std::sqrt(squares.standard_error), squares.share() <= wanted_share};
-    if (reduction_.is_met || reduction_.skies + reduction_.suns >= most) return;
-    const bool no_more_suns = nodes_->suns().count() == nodes_->suns().ranked().size();
-    const bool no_more_skies = nodes_->skies().count() == nodes_->skies().ranked().size();
-    if (no_more_suns && no_more_skies) return;
+    ahead.begin_turn(of_left);
+    nodes.take(skies, suns, work, [&](double share) { ahead.advance(share); });
+    const Squares squares = mean_squares(made, nodes, intervals);
+    const Reduction reduction{nodes.skies().count(), nodes.suns().count(), std::sqrt(squares.error),
+                              std::sqrt(squares.standard_error), squares.share() <= wanted_share};
+    if (reduction.is_met || reduction.skies + reduction.suns >= most) return reduction;
+    const bool no_more_suns = nodes.suns().count() == nodes.suns().ranked().size();
+    const bool no_more_skies = nodes.skies().count() == nodes.skies().ranked().size();
+    if (no_more_suns && no_more_skies) return reduction;
     std::size_t& more = no_more_suns || (squares.sky > squares.reflected && !no_more_skies)
-                            ? (skies = nodes_->skies().count())
-                            : (suns = nodes_->suns().count());
+                            ? (skies = nodes.skies().count())
+                            : (suns = nodes.suns().count());
     more = static_cast<std::size_t>(growth * static_cast<double>(more)) + 1;
   }
+}
+
+}  // namespace
+
+YearGathering::YearGathering(const TracedScene& traced, const LitPeriod& period, Watch& watch)
+    : LightTransport(traced) {
+  SUNLOAD_EXPECT(year_can_serve(traced.rules), "gathered broadband light, errors of totals");
+  NodesAhead ahead(watch);
+  const std::vector<std::size_t> tested = test_intervals(traced, period);
+  // Before the nodes: while they are made, tests take more memory than later.
+  const auto made = reduction_tests(traced, period, tested, work_, ahead);
+  nodes_ = std::make_unique<NodeLight>(traced, period, tested, work_);
+  const auto lit = static_cast<double>(lit_intervals(traced, period).size());
+  reduction_ = take_nodes(*nodes_, made, tested.size(),
+                          static_cast<std::size_t>(year_share_of_few * lit), work_, ahead);
+  ahead.end();
 }
 
 std::unique_ptr<BatchTransport> YearGathering::begin(std::vector<BatchTally>& tallies,
@@ -301,15 +349,17 @@ std::unique_ptr<BatchTransport> YearGathering::begin(std::vector<BatchTally>& ta
 }
 
 std::unique_ptr<const LightTransport> year_where_it_pays(const TracedScene& traced,
-                                                         const LitPeriod& period, WorkDone& work) {
+                                                         const LitPeriod& period, WorkDone& work,
+                                                         Watch& watch) {
   if (traced.rules.year == Year::each || !year_can_serve(traced.rules)) return nullptr;
   const auto lit = static_cast<double>(lit_intervals(traced, period).size());
   // So many are tests that few would be left to choose from.
   if (lit < static_cast<double>(2 * tests)) return nullptr;
-  if (traced.rules.year == Year::modes) return std::make_unique<YearGathering>(traced, period);
+  if (traced.rules.year == Year::modes)
+    return std::make_unique<YearGathering>(traced, period, watch);
   // Before anything is solved or ranked: no period of fewer intervals gains by it.
   if (year_share_of_few * lit < static_cast<double>(8 * block_width)) return nullptr;
-  auto year = std::make_unique<YearGathering>(traced, period);
+  auto year = std::make_unique<YearGathering>(traced, period, watch);
   const Reduction& reduction = *year->reduction();
   if (reduction.is_met &&
       static_cast<double>(reduction.skies + reduction.suns) < year_share_of_few * lit)

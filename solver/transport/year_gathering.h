@@ -18,7 +18,7 @@ namespace sunload {
 class YearGathering : public LightTransport {
  public:
   /// Solves nodes. `traced` and `period` must outlive it. Throws Interrupted.
-  YearGathering(const TracedScene& traced, const LitPeriod& period);
+  YearGathering(const TracedScene& traced, const LitPeriod& period, Watch& watch);
   std::unique_ptr<BatchTransport> begin(std::vector<BatchTally>& tallies, WorkDone& work,
                                         RayRecord* record) const override;
   const Reduction* reduction() const override { return &reduction_; }
@@ -31,6 +31,7 @@ class YearGathering : public LightTransport {
 /// The solution by nodes where the rules ask for it, or leave it open and it costs less than a
 /// quarter of solving each interval, and keeps its aim; else null. Then `work` is what was tried.
 std::unique_ptr<const LightTransport> year_where_it_pays(const TracedScene& traced,
-                                                         const LitPeriod& period, WorkDone& work);
+                                                         const LitPeriod& period, WorkDone& work,
+                                                         Watch& watch);
 
 }  // namespace sunload

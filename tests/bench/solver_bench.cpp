@@ -157,7 +157,7 @@ void bench(const std::string& path, std::size_t batches) {
   const IntervalLights lights(plan.study, plan.built.site, traced->grid);
   const SeriesLight period(lights, plan.light);
   WorkDone work = traced->work;
-  const auto transport = transport_of(*traced, period);
+  const auto transport = transport_of(*traced, period, watch);
   tell_seconds("nodes of the period", seconds_of(transport->work()));
   work += transport->work();
   const double before_batches = seconds_of(work);

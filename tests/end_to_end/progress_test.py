@@ -98,7 +98,7 @@ def check_json(sunload, folder, source):
 
 def check_lines(sunload, folder):
     lines, seconds = run(sunload, folder, "lines")
-    told = [line for line in lines if re.match("baseline: (refine mesh|trace lines|sun positions) ", line)]
+    told = [line for line in lines if re.match("baseline: (refine mesh|trace lines|skies and suns|sun positions) ", line)]
     assert len(told) <= seconds / LINE_PAUSE_S, f"{len(told)} lines within {seconds} s: {told}"
     warnings = [line for line in lines if "warning: " in line]
     assert warnings, "the study has something to warn of, or the next check means nothing"

@@ -4,8 +4,10 @@
 /// mirrors, the ledger, and what the transport says of its own error.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "io/plan/interval_lights.h"
 #include "io/plan/rules_of_study.h"
@@ -190,15 +192,36 @@ struct TracedSquare {
 TEST_F(YearOfTheSquare, WrongNodesAreNoticed) {
   const TracedSquare square(solutions->each);
   const Mirrored mirrored(square.period);
-  const YearGathering wrong(*square.traced, mirrored);
+  Watch watch;
+  const YearGathering wrong(*square.traced, mirrored, watch);
   EXPECT_GT(wrong.reduction()->error_w_m2, 3 * solutions->modes.reduction->error_w_m2);
+}
+
+/// What is told of skies and suns while they are solved.
+class SharesOfNodes : public Watch {
+ public:
+  void advance(Stage stage, double share) override {
+    if (stage == Stage::nodes) told.push_back(share);
+  }
+  std::vector<double> told;
+};
+
+TEST_F(YearOfTheSquare, TellsHowFarItsNodesAre) {
+  const TracedSquare square(solutions->each);
+  SharesOfNodes shares;
+  const YearGathering year(*square.traced, square.period, shares);
+  ASSERT_GT(shares.told.size(), 5u);
+  EXPECT_EQ(shares.told.front(), 0.0);
+  EXPECT_EQ(shares.told.back(), 1.0);
+  EXPECT_TRUE(std::is_sorted(shares.told.begin(), shares.told.end()));
 }
 
 /// Variants of which rays tell the same share what is traced: but rays of a year, whose sky about
 /// the sun its nodes have, are none of solutions of each interval, nor the other way.
 TEST_F(YearOfTheSquare, SharesNoRaysWithSolutionsOfEachInterval) {
   const TracedSquare square(solutions->each);
-  const YearGathering year(*square.traced, square.period);
+  Watch unwatched;
+  const YearGathering year(*square.traced, square.period, unwatched);
   const auto each = transport_of(*square.traced);
   std::vector<IntervalLight> day = suns_of(square.plan, square.traced->grid);
   std::erase_if(day, [](const IntervalLight& light) { return !light.has_sun(); });

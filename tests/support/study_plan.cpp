@@ -46,7 +46,7 @@ SolvedPlan solve_study(const std::string& yaml) {
       trace_scene(solved.plan.built.scene, solved.made.mesh, solver_rules(solved.plan), watch);
   const IntervalLights lights(solved.plan.study, solved.plan.built.site, traced->grid);
   const SeriesLight period(lights, solved.plan.light);
-  const auto transport = transport_of(*traced, period);
+  const auto transport = transport_of(*traced, period, watch);
   if (const Reduction* reduction = transport->reduction()) solved.reduction = *reduction;
   solved.tally =
       std::move(solve(*transport, suns_of(solved.plan, traced->grid), watch).bands.front());
