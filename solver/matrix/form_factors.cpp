@@ -55,6 +55,7 @@ class Builder {
   static constexpr double rounding = 1e-9;
 
   std::size_t lines_each() const {
+    SUNLOAD_EXPECT(R_ > 0, "at least one realization");
     return std::max<std::size_t>(static_cast<std::size_t>(rules_.lines_per_patch) / R_, 1);
   }
 

@@ -291,6 +291,7 @@ void NodeLight::split_circumsolar(const std::vector<NodeSeconds>& seconds, TimeS
   if (shining.empty()) return;
   for (std::size_t r = 0; r < sums.on_patches.circumsolar.size(); ++r) {
     std::vector<TimedNodes> timed;
+    timed.reserve(shining.size());
     for (const auto b : shining) timed.emplace_back(all[b]->circumsolar[r], seconds[b]);
     std::vector<double>& exposure = sums.on_patches.circumsolar[r];
     parallel_chunks(exposure.size(), receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
