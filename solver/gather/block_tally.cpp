@@ -26,23 +26,6 @@ int unsound(const float* values, std::size_t count, float most) {
   return found;
 }
 
-/// Adds what receiver i gets of sun k of the block to the parts that the interval belongs to.
-void add_to_parts(const BlockLight& light, const IntervalLight& sun, std::size_t interval,
-                  std::size_t i, std::size_t k, double sunlit, std::vector<PartTally>& parts) {
-  for (PartTally& part : parts) {
-    const double time = part.share[interval] * sun.length_s;
-    if (time == 0) continue;
-    if (!part.total.empty()) part.total[i] += static_cast<double>(light.total(i, k)) * time;
-    if (!part.direct.empty())
-      part.direct[i] += static_cast<double>(light.direct[i * block_width + k]) * time;
-    part.sunlit_s[i] += part.share[interval] * sunlit * sun.sunlit_s;
-  }
-}
-
-}  // namespace
-
-namespace {
-
 /// What one receiver gets in the intervals of a block.
 struct Row {
   std::array<float, block_width> total{};
@@ -59,6 +42,18 @@ struct Row {
     for (std::size_t k = 0; k < count; ++k) total[k] = light.total(i, k);
   }
 };
+
+/// Adds what receiver i gets of sun k of the block to the parts that the interval belongs to.
+void add_to_parts(const Row& row, const IntervalLight& sun, std::size_t interval, std::size_t i,
+                  std::size_t k, double sunlit, std::vector<PartTally>& parts) {
+  for (PartTally& part : parts) {
+    const double time = part.share[interval] * sun.length_s;
+    if (time == 0) continue;
+    if (!part.total.empty()) part.total[i] += static_cast<double>(row.total[k]) * time;
+    if (!part.direct.empty()) part.direct[i] += static_cast<double>(row.direct[k]) * time;
+    part.sunlit_s[i] += part.share[interval] * sunlit * sun.sunlit_s;
+  }
+}
 
 void expect_sound(const Row& row, std::size_t count) {
   int of_light = unsound(&row.lamps, 1, most_light);
@@ -110,7 +105,7 @@ void store_received(const BlockLight& light, std::span<const IntervalLight> bloc
           const double seen = std::min(1.0, static_cast<double>(row.sunlit[k]));
           seen_s += seen * sunlit_s[k];
           most = std::max(most, row.total[k]);
-          if (!tally.parts.empty()) add_to_parts(light, block[k], rows[k], i, k, seen, tally.parts);
+          add_to_parts(row, block[k], rows[k], i, k, seen, tally.parts);
         }
         tally.sunlit_s[i] = seen_s;
         tally.irradiance_max[i] = most;

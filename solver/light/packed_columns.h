@@ -31,11 +31,6 @@ class PackedColumns {
   const std::uint16_t* codes(std::size_t i) const { return code_.data() + i * block_width; }
   float of_row(std::size_t i) const { return of_row_[i]; }
   float of_column(std::size_t k) const { return of_column_[k]; }
-  std::array<float, block_width> row(std::size_t i) const {
-    std::array<float, block_width> values;
-    for (std::size_t k = 0; k < block_width; ++k) values[k] = at(i, k);
-    return values;
-  }
 
  private:
   std::array<float, block_width> of_column_{};

@@ -3,6 +3,7 @@
 #include "solver/transport/node_light.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "geo/base/units.h"
 #include "geo/base/vector_code.h"
@@ -99,15 +100,19 @@ SUNLOAD_VECTOR_CODE void add_exposure(const std::vector<TimedNodes>& all, std::s
   }
 }
 
-/// Adds what all blocks bring, one kind of light; what falls below 0 is 0. `add_block`(b, begin,
-/// end, out) adds that of block b to the rows of receivers [begin, end), which begin at `out`.
-template <class AddBlock>
-void combine(const std::vector<NodeWeights>& weights, AddBlock&& add_block, Columns& out) {
+/// Adds what all blocks bring, one kind of light, of each block or null; what falls below 0 is 0.
+void combine(const std::vector<const PackedColumns*>& nodes,
+             const std::vector<NodeWeights>& weights, Columns& out) {
+  std::vector<std::pair<const PackedColumns*, UsedNodes>> parts;
+  parts.reserve(nodes.size());
+  for (std::size_t b = 0; b < nodes.size(); ++b)
+    if (nodes[b] && !nodes[b]->empty() && weights[b].any)
+      parts.emplace_back(nodes[b], UsedNodes(*nodes[b], weights[b]));
   parallel_chunks(out.size() / block_width, receivers_per_chunk,
                   [&](std::size_t begin, std::size_t end) {
                     float* const rows = out.data() + begin * block_width;
-                    for (std::size_t b = 0; b < weights.size(); ++b)
-                      if (weights[b].any) add_block(b, begin, end, rows);
+                    for (const auto& [of_nodes, used] : parts)
+                      add_rows(*of_nodes, used, begin, end, rows);
                     for (float* value = rows; value != rows + (end - begin) * block_width; ++value)
                       *value = std::max(*value, 0.0f);
                   });
@@ -251,11 +256,10 @@ void NodeLight::add_light(const std::vector<NodeWeights>& weights,
                           NodeBlock::Received NodeBlock::*of_receivers, BlockLight& light) const {
   const auto all = blocks();
   const auto add = [&](PackedColumns NodeBlock::Received::*kind, Columns& out) {
-    const auto add_block = [&](std::size_t b, std::size_t begin, std::size_t end, float* rows) {
-      const PackedColumns& of_nodes = all[b]->*of_receivers.*kind;
-      if (!of_nodes.empty()) add_rows(of_nodes, UsedNodes(of_nodes, weights[b]), begin, end, rows);
-    };
-    combine(weights, add_block, out);
+    std::vector<const PackedColumns*> nodes;
+    nodes.reserve(all.size());
+    for (const NodeBlock* block : all) nodes.push_back(&(block->*of_receivers.*kind));
+    combine(nodes, weights, out);
   };
   light.sky = light.reflected = columns(light.direct.size() / block_width);
   add(&NodeBlock::Received::sky, light.sky);
@@ -265,13 +269,10 @@ void NodeLight::add_light(const std::vector<NodeWeights>& weights,
 
 void NodeLight::add_circumsolar(const std::vector<NodeWeights>& weights, std::size_t r,
                                 Columns& light) const {
-  const auto all = blocks();
-  const auto add_block = [&](std::size_t b, std::size_t begin, std::size_t end, float* rows) {
-    if (all[b]->circumsolar.empty()) return;
-    const PackedColumns& of_nodes = all[b]->circumsolar[r];
-    add_rows(of_nodes, UsedNodes(of_nodes, weights[b]), begin, end, rows);
-  };
-  combine(weights, add_block, light);
+  std::vector<const PackedColumns*> nodes;
+  for (const NodeBlock* block : blocks())
+    nodes.push_back(block->circumsolar.empty() ? nullptr : &block->circumsolar[r]);
+  combine(nodes, weights, light);
 }
 
 void NodeLight::split_circumsolar(const std::vector<NodeSeconds>& seconds, TimeSums& sums) const {
@@ -358,7 +359,7 @@ NodeBlock NodeLight::solve(std::span<const IntervalLight> suns, Keep keep, WorkD
 NodeBlock::Received NodeLight::packed(BlockLight light, const PackedColumns& of_lamps,
                                       std::size_t sources, Keep keep) const {
   for (std::size_t i = 0; i < of_lamps.rows(); ++i) {
-    const float lamps = of_lamps.row(i)[0];
+    const float lamps = of_lamps.at(i, 0);
     for (std::size_t j = 0; j < sources; ++j) light.reflected[i * block_width + j] -= lamps;
   }
   NodeBlock::Received received;

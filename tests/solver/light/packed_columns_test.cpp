@@ -25,6 +25,12 @@ Columns random_columns(std::size_t rows) {
   return columns;
 }
 
+std::array<float, block_width> row_of(const PackedColumns& packed, std::size_t i) {
+  std::array<float, block_width> row;
+  for (std::size_t k = 0; k < block_width; ++k) row[k] = packed.at(i, k);
+  return row;
+}
+
 TEST(PackedColumns, KeepValuesToHalfAStepOfTheirRow) {
   const Columns columns = random_columns(3000);
   const PackedColumns packed(columns);
@@ -38,7 +44,7 @@ TEST(PackedColumns, KeepValuesToHalfAStepOfTheirRow) {
     float largest_share = 0;
     for (std::size_t k = 0; k < block_width; ++k)
       if (of_column[k] > 0) largest_share = std::max(largest_share, from[k] / of_column[k]);
-    const auto row = packed.row(i);
+    const auto row = row_of(packed, i);
     // And five roundings of products and quotients, of 2^-24 of a value each: 4 % of half a step.
     const float step = largest_share / 65535 * 1.05f;
     for (std::size_t k = 0; k < block_width; ++k) {
@@ -63,7 +69,7 @@ TEST(PackedColumns, KnowSmallColumnsAsWellAsLargeOnes) {
   }
   const PackedColumns packed(values);
   for (std::size_t i = 0; i < 100; ++i)
-    EXPECT_NEAR(packed.row(i)[1], values[i * block_width + 1], 0.15f / 65535);
+    EXPECT_NEAR(packed.at(i, 1), values[i * block_width + 1], 0.15f / 65535);
 }
 
 TEST(PackedColumns, KnowTheOnlyColumnToARounding) {
@@ -75,7 +81,7 @@ TEST(PackedColumns, KnowTheOnlyColumnToARounding) {
   const PackedColumns packed(values);
   for (std::size_t i = 0; i < 2000; ++i) {
     const float value = values[i * block_width + 3];
-    EXPECT_NEAR(packed.row(i)[3], value, 4e-7f * value);  // six roundings
+    EXPECT_NEAR(packed.at(i, 3), value, 4e-7f * value);  // six roundings
   }
 }
 
@@ -84,7 +90,7 @@ TEST(PackedColumns, OfNothingAreNothing) {
   EXPECT_TRUE(PackedColumns(Columns()).empty());
   const PackedColumns dark(columns(2));
   EXPECT_FALSE(dark.empty());
-  for (const float value : dark.row(1)) EXPECT_EQ(value, 0.0f);
+  for (const float value : row_of(dark, 1)) EXPECT_EQ(value, 0.0f);
 }
 
 TEST(PackedColumns, WhatFallsBelowZeroByARoundingIsZero) {
@@ -92,8 +98,8 @@ TEST(PackedColumns, WhatFallsBelowZeroByARoundingIsZero) {
   values[0] = 10;
   values[1] = -1e-6f;
   const PackedColumns packed(values);
-  EXPECT_NEAR(packed.row(0)[0], 10.0f, 4e-6f);
-  EXPECT_EQ(packed.row(0)[1], 0.0f);
+  EXPECT_NEAR(packed.at(0, 0), 10.0f, 4e-6f);
+  EXPECT_EQ(packed.at(0, 1), 0.0f);
 }
 
 }  // namespace
