@@ -109,7 +109,8 @@ void add(std::vector<std::vector<double>>& to, const std::vector<std::vector<dou
     for (std::size_t i = 0; i < to[r].size(); ++i) to[r][i] += from[r][i];
 }
 
-void append(std::vector<float>& to, const std::vector<float>& from) {
+template <class Values>
+void append(Values& to, const Values& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 

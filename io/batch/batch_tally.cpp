@@ -117,7 +117,7 @@ void add_received(BatchWriter& writer, const ReceiverTally& tally, std::size_t K
                   const StoredSeries& stored) {
   const std::size_t N = tally.sunlit_s.size();
   const std::string prefix = band + receiver;
-  const auto add_series = [&](const std::string& name, const std::vector<float>& values) {
+  const auto add_series = [&](const std::string& name, const LargeVector<float>& values) {
     add_rows(writer, band,
              {receiver + name, MergeRule::append, ArrayType::float32, {K, N}, stored.mantissa_bits},
              values.data(), stored);

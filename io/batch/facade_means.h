@@ -25,9 +25,9 @@ class FacadeMeans {
     for (std::size_t i = 0; i < facade_.size(); ++i)
       if (facade_[i] >= 0) area_[static_cast<std::size_t>(facade_[i])] += patch_area_[i];
   }
-  /// [rows, patch] → [rows, facade]; 0 for a facade without patches.
-  template <class Value>
-  std::vector<double> of(const std::vector<Value>& values, Divided divided) const {
+  /// [rows, patch] → [rows, facade]; 0 for a facade without patches. `Values`: a vector.
+  template <class Values>
+  std::vector<double> of(const Values& values, Divided divided) const {
     const std::size_t N = facade_.size(), F = area_.size();
     const std::size_t rows = N > 0 ? values.size() / N : 0;
     std::vector<double> means(rows * F, 0);

@@ -67,8 +67,8 @@ struct ArrayLoad {
 struct ArrayResult {
   std::shared_ptr<const Hierarchy> mesh;  ///< relative to `origin`
   Vec3 origin;
-  std::array<std::vector<float>, part_count> irradiance;  ///< [K][N] W m-2
-  std::vector<float> irradiance_se;                       ///< [K][N], with Errors::instants
+  std::array<LargeVector<float>, part_count> irradiance;  ///< [K][N] W m-2
+  LargeVector<float> irradiance_se;                       ///< [K][N], with Errors::instants
   ArrayLoad light_load;                                   ///< sum over suns of irradiance x hours
   std::vector<double> sun_hours;                          ///< [N] regardless of DNI
   std::optional<Reduction> reduction;  ///< where few solutions serve all suns (SolverRules::year)

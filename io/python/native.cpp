@@ -145,12 +145,12 @@ ArrayRules rules_of(const py::dict& rules) {
 }
 
 /// Takes the values over, without a copy.
-template <class T>
-py::array array_of(std::vector<T> values, const std::vector<py::ssize_t>& shape) {
-  auto kept = std::make_unique<std::vector<T>>(std::move(values));
-  const T* data = kept->data();
-  const py::capsule owner(kept.release(), [](void* p) { delete static_cast<std::vector<T>*>(p); });
-  return py::array_t<T>(shape, data, owner);
+template <class Values>
+py::array array_of(Values values, const std::vector<py::ssize_t>& shape) {
+  auto kept = std::make_unique<Values>(std::move(values));
+  const auto* data = kept->data();
+  const py::capsule owner(kept.release(), [](void* p) { delete static_cast<Values*>(p); });
+  return py::array_t<typename Values::value_type>(shape, data, owner);
 }
 
 std::vector<double> flat(const std::vector<Vec3>& points) {

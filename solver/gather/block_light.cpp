@@ -12,6 +12,16 @@
 
 namespace sunload {
 
+namespace {
+
+/// Calls change(at) for the place of every value.
+template <class Change>
+void for_each_value(const Columns& of, const Change& change) {
+  parallel_for(of.size(), change, receivers_per_chunk * block_width);
+}
+
+}  // namespace
+
 BlockSources::BlockSources(std::span<const IntervalLight> block, std::size_t sky_cells)
     : suns(block), sky(columns(sky_cells)) {
   circumsolar_factor.fill(1);
@@ -53,7 +63,7 @@ BlockLight unreflected_light(const LineSet& lines, const PatchOptics& optics,
   light.sky = columns(rows);
   const bool split = !circumsolar.empty();
   gather(lines.sky, split ? sources.sky_of_lines : sources.sky, light.sky, Into::replace);
-  for (std::size_t at = 0; at < circumsolar.size(); ++at) light.sky[at] += circumsolar[at];
+  for_each_value(circumsolar, [&](std::size_t at) { light.sky[at] += circumsolar[at]; });
   if (optics.any_mirror) gather(lines.sky_by_mirror, sources.sky, light.mirror, Into::add);
   light.reflected = columns(rows);
   parallel_for(
@@ -85,12 +95,12 @@ BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchO
   if (!rules.beyond.empty()) light.estimated = unfollowed(reflected, rules.beyond);
   // Never below 0: no bounce takes light away, and roundings keep the order of what they round.
   light.last = std::move(reflected.before);
-  for (std::size_t at = 0; at < light.last.size(); ++at)
-    light.last[at] = reflected.irradiance[at] - light.last[at];
   light.reflected = std::move(reflected.irradiance);
+  for_each_value(light.last,
+                 [&](std::size_t at) { light.last[at] = light.reflected[at] - light.last[at]; });
   light.gathered_radiosity = std::move(reflected.gathered_radiosity);
-  for (std::size_t at = 0; at < light.estimated.size(); ++at)
-    light.reflected[at] += light.estimated[at];
+  for_each_value(light.estimated,
+                 [&](std::size_t at) { light.reflected[at] += light.estimated[at]; });
   return light;
 }
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "geo/base/check.h"
 #include "geo/base/vector_code.h"
+#include "solver/base/chunks.h"
 #include "solver/base/threads.h"
 #include "solver/mesh/push_pull.h"
 
@@ -23,13 +25,13 @@ inline void ask_ahead(const LinkTable::Reader& read, const Value* source, std::s
 
 // Compilers turn the inner loops into one vector instruction per link where the
 // processor has 512 bits; the order of additions is the same everywhere.
-SUNLOAD_VECTOR_CODE void gather_rows(const LinkTable::Block& block, const float* source, float* out,
-                                     Into into) {
+SUNLOAD_VECTOR_CODE void gather_rows(const LinkTable::Block& block, const float* source,
+                                     const float* before, float* out) {
   LinkTable::Reader read(block);
   for (std::size_t row = 0; row < block.rows(); ++row) {
     float sum[block_width];
     for (std::size_t k = 0; k < block_width; ++k)
-      sum[k] = into == Into::add ? out[row * block_width + k] : 0.0f;
+      sum[k] = before ? before[row * block_width + k] : 0.0f;
     for (std::size_t left = read.next_row(); left > 0; --left) {
       ask_ahead(read, source, block_width);
       const auto [target, weight] = read.next();
@@ -40,28 +42,63 @@ SUNLOAD_VECTOR_CODE void gather_rows(const LinkTable::Block& block, const float*
   }
 }
 
+void expect_rows(const LinkTable& links, std::size_t rows) {
+  SUNLOAD_EXPECT(links.blocks.size() == chunk_count(rows, LinkTable::rows_per_block),
+                 "links of every row");
+}
+
 }  // namespace
+
+void gather_onto(const LinkTable& links, const Columns& source, const Columns& before,
+                 Columns& out) {
+  expect_rows(links, before.size() / block_width);
+  out.resize(before.size());
+  parallel_for(links.blocks.size(), [&](std::size_t b) {
+    const std::size_t first = b * LinkTable::rows_per_block * block_width;
+    gather_rows(links.blocks[b], source.data(), before.data() + first, out.data() + first);
+  });
+}
 
 void gather(const LinkTable& links, const Columns& source, Columns& out, Into into) {
   parallel_for(links.blocks.size(), [&](std::size_t b) {
-    gather_rows(links.blocks[b], source.data(),
-                out.data() + b * LinkTable::rows_per_block * block_width, into);
+    float* const rows = out.data() + b * LinkTable::rows_per_block * block_width;
+    gather_rows(links.blocks[b], source.data(), into == Into::add ? rows : nullptr, rows);
+  });
+}
+
+namespace {
+
+void gather_rows(const LinkTable::Block& block, const double* source, const double* before,
+                 double* out) {
+  LinkTable::Reader read(block);
+  for (std::size_t row = 0; row < block.rows(); ++row) {
+    double sum = before ? before[row] : 0;
+    for (std::size_t left = read.next_row(); left > 0; --left) {
+      ask_ahead(read, source, 1);
+      const auto [target, weight] = read.next();
+      sum += static_cast<double>(weight) * source[target];
+    }
+    out[row] = sum;
+  }
+}
+
+}  // namespace
+
+void gather_onto(const LinkTable& links, const std::vector<double>& source,
+                 const std::vector<double>& before, std::vector<double>& out) {
+  expect_rows(links, before.size());
+  out.resize(before.size());
+  parallel_for(links.blocks.size(), [&](std::size_t b) {
+    const std::size_t first = b * LinkTable::rows_per_block;
+    gather_rows(links.blocks[b], source.data(), before.data() + first, out.data() + first);
   });
 }
 
 void gather(const LinkTable& links, const std::vector<double>& source, std::vector<double>& out,
             Into into) {
   parallel_for(links.blocks.size(), [&](std::size_t b) {
-    LinkTable::Reader read(links.blocks[b]);
-    for (std::size_t row = 0; row < links.blocks[b].rows(); ++row) {
-      double& sum = out[b * LinkTable::rows_per_block + row];
-      if (into == Into::replace) sum = 0;
-      for (std::size_t left = read.next_row(); left > 0; --left) {
-        ask_ahead(read, source.data(), 1);
-        const auto [target, weight] = read.next();
-        sum += static_cast<double>(weight) * source[target];
-      }
-    }
+    double* const rows = out.data() + b * LinkTable::rows_per_block;
+    gather_rows(links.blocks[b], source.data(), into == Into::add ? rows : nullptr, rows);
   });
 }
 
@@ -86,9 +123,13 @@ void set_radiosity(const Hierarchy& mesh, const PatchOptics& optics, const Colum
 }
 void set_radiosity(const Hierarchy& mesh, const PatchOptics& optics,
                    const std::vector<double>& base, ReflectedExposure& light) {
-  for (std::size_t i = 0; i < base.size(); ++i)
-    light.gathered_radiosity[i] =
-        static_cast<double>(optics.diffuse[i]) * (base[i] + light.irradiance[i]);
+  parallel_for(
+      base.size(),
+      [&](std::size_t i) {
+        light.gathered_radiosity[i] =
+            static_cast<double>(optics.diffuse[i]) * (base[i] + light.irradiance[i]);
+      },
+      receivers_per_chunk);
   pull_up(mesh, light.gathered_radiosity);
 }
 
@@ -109,8 +150,7 @@ Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics
     set_radiosity(mesh, optics, base, out);
     out.two_before.swap(out.before);
     out.before.swap(out.irradiance);
-    out.irradiance = ground;
-    gather(lines.patches, out.gathered_radiosity, out.irradiance, Into::add);
+    gather_onto(lines.patches, out.gathered_radiosity, ground, out.irradiance);
     if (lines.all_reflections) count_all_as_gathered(mesh, optics, base, out);
   }
   return out;
@@ -124,8 +164,7 @@ ReflectedExposure reflect(const Hierarchy& mesh, const LineSet& lines, const Pat
     set_radiosity(mesh, optics, base, out);
     out.two_before.swap(out.before);
     out.before.swap(out.irradiance);
-    out.irradiance = ground;
-    gather(lines.patches, out.gathered_radiosity, out.irradiance, Into::add);
+    gather_onto(lines.patches, out.gathered_radiosity, ground, out.irradiance);
     if (lines.all_reflections) count_all_as_gathered(mesh, optics, base, out);
   }
   return out;

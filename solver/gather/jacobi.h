@@ -22,6 +22,13 @@
 
 namespace sunload {
 
+/// out[i] = before[i] + Σ_links w · source[target], for all suns of a block.
+void gather_onto(const LinkTable& links, const Columns& source, const Columns& before,
+                 Columns& out);
+/// The same for one column in double.
+void gather_onto(const LinkTable& links, const std::vector<double>& source,
+                 const std::vector<double>& before, std::vector<double>& out);
+
 /// out[i] (+)= Σ_links w · source[target], for all suns of a block.
 enum class Into { replace, add };
 void gather(const LinkTable& links, const Columns& source, Columns& out, Into into);

@@ -3,6 +3,8 @@
 #include "solver/gather/time_sums.h"
 
 #include "geo/base/units.h"
+#include "solver/base/chunks.h"
+#include "solver/base/threads.h"
 
 namespace sunload {
 
@@ -52,12 +54,16 @@ FirstExposure first_exposure(const LineSet& lines, const PatchOptics& optics, co
   if (optics.any_mirror) gather(lines.sky_by_mirror, sums.sky, first.mirror, Into::add);
   for (const auto* lamps : {&lines.lamps, &parallel})
     for (std::size_t i = 0; i < lamps->size(); ++i) first.lamps[i] += (*lamps)[i] * sums.length_s;
-  for (std::size_t i = 0; i < circumsolar.size(); ++i) first.sky[i] += circumsolar[i];
-  for (std::size_t i = 0; i < rows; ++i) {
-    first.base[i] = direct[i] + first.sky[i] + first.mirror[i] + first.lamps[i];
-    first.ground[i] =
-        static_cast<double>(lines.ends[i].ground + lines.ends[i].ground_by_mirror) * sums.ground;
-  }
+  parallel_for(
+      rows,
+      [&](std::size_t i) {
+        if (!circumsolar.empty()) first.sky[i] += circumsolar[i];
+        first.base[i] = direct[i] + first.sky[i] + first.mirror[i] + first.lamps[i];
+        first.ground[i] =
+            static_cast<double>(lines.ends[i].ground + lines.ends[i].ground_by_mirror) *
+            sums.ground;
+      },
+      receivers_per_chunk);
   return first;
 }
 

@@ -23,6 +23,11 @@ constexpr double share_of_a_place = 100;
 /// Of the patches, that may miss more: cracks and cavities, which have next to no light.
 constexpr double few = 1e-3;
 
+template <class Body>
+void for_each_patch(std::size_t count, const Body& body) {
+  parallel_for(count, body, receivers_per_chunk);
+}
+
 /// One column of light that goes from bounce to bounce.
 class Bouncing {
  public:
@@ -33,17 +38,21 @@ class Bouncing {
       received.push_back(static_cast<double>(ends.fate.escaped) + (optics.any_emission ? 1 : 0));
   }
   void bounce() {
-    for (std::size_t i = 0; i < received.size(); ++i)
+    for_each_patch(received.size(), [&](std::size_t i) {
       radiosity_[i] = static_cast<double>(optics_.diffuse[i]) * received[i];
+    });
     pull_up(mesh_, radiosity_);
     gather(lines_.patches, radiosity_, received, Into::replace);
   }
   /// That all patches reflect.
   double power() const {
-    double sum = 0;
-    for (std::size_t i = 0; i < received.size(); ++i)
-      sum += mesh_.area()[i] * static_cast<double>(optics_.diffuse[i]) * received[i];
-    return sum;
+    return ordered_sum(
+        received.size(), receivers_per_chunk, 0.0, [&](std::size_t begin, std::size_t end) {
+          double sum = 0;
+          for (std::size_t i = begin; i < end; ++i)
+            sum += mesh_.area()[i] * static_cast<double>(optics_.diffuse[i]) * received[i];
+          return sum;
+        });
   }
   std::vector<double> received;  ///< [N]
 
@@ -110,7 +119,7 @@ std::vector<float> light_beyond(const Hierarchy& mesh, const LineSet& lines,
     power_before = power;
     power = light.power();
     power_beyond += power;
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += light.received[i];
+    for_each_patch(sum.size(), [&](std::size_t i) { sum[i] += light.received[i]; });
     if (power <= little * power_of_last) break;
   }
   const double rest = geometric(power, power_before);
@@ -137,13 +146,10 @@ Columns unfollowed(const Reflected& reflected, const std::vector<float>& beyond)
   Columns out = columns(beyond.size());
   const Columns& before = before_last(reflected);
   if (before.empty()) return out;  // no bounce
-  parallel_for(
-      beyond.size(),
-      [&](std::size_t i) {
-        for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k)
-          out[k] = beyond[i] * std::max(0.0f, reflected.irradiance[k] - before[k]);
-      },
-      receivers_per_chunk);
+  for_each_patch(beyond.size(), [&](std::size_t i) {
+    for (std::size_t k = i * block_width; k < (i + 1) * block_width; ++k)
+      out[k] = beyond[i] * std::max(0.0f, reflected.irradiance[k] - before[k]);
+  });
   return out;
 }
 
@@ -152,8 +158,9 @@ std::vector<double> unfollowed(const ReflectedExposure& reflected,
   std::vector<double> out(beyond.size(), 0);
   const std::vector<double>& before = before_last(reflected);
   if (before.empty()) return out;
-  for (std::size_t i = 0; i < out.size(); ++i)
+  for_each_patch(out.size(), [&](std::size_t i) {
     out[i] = static_cast<double>(beyond[i]) * std::max(0.0, reflected.irradiance[i] - before[i]);
+  });
   return out;
 }
 

@@ -48,8 +48,9 @@ class InstantSpread {
     store(rows, all);
     return all;
   }
-  /// The same to these rows of [K][N], one for each sun.
-  void store(std::span<const std::size_t> rows, std::vector<float>& errors) const {
+  /// The same to these rows of [K][N], one for each sun. `Errors`: a vector.
+  template <class Errors>
+  void store(std::span<const std::size_t> rows, Errors& errors) const {
     parallel_for(
         receivers_,
         [&](std::size_t i) {

@@ -35,7 +35,7 @@ class PackedColumns {
  private:
   std::array<float, block_width> of_column_{};
   std::vector<float> of_row_;                                    ///< [rows]
-  std::vector<std::uint16_t, LargeMemory<std::uint16_t>> code_;  ///< [rows][block_width]
+  LargeVector<std::uint16_t> code_;  ///< [rows][block_width]
 };
 
 }  // namespace sunload

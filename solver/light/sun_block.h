@@ -61,12 +61,12 @@ struct IntervalLight {
 
 /// One value per patch (or sky cell) and sun of a block: rows of `block_width` floats, aligned to
 /// cache lines.
-using Columns = std::vector<float, LargeMemory<float>>;
+using Columns = LargeVector<float>;
 
 inline Columns columns(std::size_t rows) { return Columns(rows * block_width, 0.0f); }
 
 /// The same where sums must keep all digits.
-using DoubleColumns = std::vector<double, LargeMemory<double>>;
+using DoubleColumns = LargeVector<double>;
 
 inline DoubleColumns double_columns(std::size_t rows) {
   return DoubleColumns(rows * block_width, 0.0);

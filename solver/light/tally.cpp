@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "geo/base/check.h"
+#include "solver/base/chunks.h"
 #include "solver/base/spread.h"
+#include "solver/base/threads.h"
 
 namespace sunload {
 
@@ -52,15 +54,20 @@ namespace {
 
 void make_room(ReceiverTally& tally, std::size_t receivers, const TallyShape& shape) {
   const std::size_t values = shape.intervals * receivers;
+  // Shots are added to all realizations as they come. Where lines gather, realizations are solved
+  // at the end, when other things have gone.
+  const std::vector<std::vector<double>> of_realizations(
+      shape.realizations,
+      std::vector<double>(shape.transport == Transport::shoot ? receivers : 0, 0));
   for (std::size_t p = 0; p < part_count; ++p) {
     if (!shape.parts[p]) continue;
     if (shape.series[p] || static_cast<Part>(p) == Part::total)
       tally.irradiance[p].assign(values, 0);
     tally.exposure[p].assign(receivers, 0);
     if (static_cast<Part>(p) != Part::total)
-      tally.part_realization[p].assign(shape.realizations, std::vector<double>(receivers, 0));
+      tally.part_realization[p] = of_realizations;
   }
-  tally.exposure_realization.assign(shape.realizations, std::vector<double>(receivers, 0));
+  tally.exposure_realization = of_realizations;
   tally.sunlit_s.assign(receivers, 0);
   tally.irradiance_max.assign(receivers, 0);
   if (shape.errors == Errors::instants) tally.irradiance_se.assign(values, 0);
@@ -102,9 +109,9 @@ BatchTally empty_tally(const TallyShape& shape) {
 
 namespace {
 
-template <class Value>
-void put_rows(const std::vector<Value>& rows, std::size_t first, std::size_t width,
-              std::vector<Value>& whole) {
+/// `Rows`: a vector.
+template <class Rows>
+void put_rows(const Rows& rows, std::size_t first, std::size_t width, Rows& whole) {
   if (whole.empty()) return;
   std::copy(rows.begin(), rows.end(), whole.begin() + static_cast<std::ptrdiff_t>(first * width));
 }
@@ -116,12 +123,19 @@ void add_to(const std::vector<double>& values, std::vector<double>& sums) {
 
 void add_to(const std::vector<std::vector<double>>& values,
             std::vector<std::vector<double>>& sums) {
-  for (std::size_t r = 0; r < values.size() && r < sums.size(); ++r) add_to(values[r], sums[r]);
+  for (std::size_t r = 0; r < values.size() && r < sums.size(); ++r)
+    if (sums[r].empty())
+      sums[r] = values[r];
+    else
+      add_to(values[r], sums[r]);
 }
 
 void round_to_single(std::vector<std::vector<double>>& rows) {
   for (auto& row : rows)
-    for (double& value : row) value = static_cast<double>(static_cast<float>(value));
+    parallel_for(
+        row.size(),
+        [&](std::size_t i) { row[i] = static_cast<double>(static_cast<float>(row[i])); },
+        receivers_per_chunk);
 }
 
 void round_realizations_of(ReceiverTally& tally) {

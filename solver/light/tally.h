@@ -77,10 +77,11 @@ struct PartTally : PartOfBatch {
 /// What N receivers (patches or sensors) get in K consecutive intervals, R
 /// realizations. Energies are J m-2; a part that the scene cannot have is empty.
 struct ReceiverTally {
-  std::array<std::vector<float>, part_count> irradiance;  ///< [K][N] W m-2, where it is kept
-  std::vector<float> irradiance_se;                       ///< [K][N], if asked for
+  std::array<LargeVector<float>, part_count> irradiance;  ///< [K][N] W m-2, where it is kept
+  LargeVector<float> irradiance_se;                       ///< [K][N], if asked for
   std::array<std::vector<double>, part_count> exposure;   ///< [N] time sum of the series
-  std::vector<std::vector<double>> exposure_realization;  ///< [R][N]
+  /// [R][N]; while lines gather a batch the rows are empty.
+  std::vector<std::vector<double>> exposure_realization;
   /// The same of the parts but `total`.
   std::array<std::vector<std::vector<double>>, part_count> part_realization;
   std::vector<double> sunlit_s;       ///< [N]

@@ -88,7 +88,7 @@ class GatheredBatch : public BatchTransport {
     if (of_instants()) errors_of_instants(band, block, sources, std::move(rays), tally);
   }
 
-  /// Returns the radiosity that sensors see.
+  /// Returns the radiosity that sensors see, if there are any.
   Columns light_patches(std::size_t band, const Block& block, const BlockSources& sources,
                         RayLight& rays, BatchTally& tally) {
     const Stopwatch time(work_[Work::solve_s]);
@@ -100,7 +100,8 @@ class GatheredBatch : public BatchTransport {
     const auto ledger = block_ledger(lines, optics, traced_.hierarchy().area(), sources, light);
     put_rows(ledger, block, tally.ledger);
     store_patches(optics, light, block.suns, block.rows, rays.sunlit, tally);
-    return seen_radiosity(traced_.hierarchy(), optics, light);
+    return traced_.sensors.count() > 0 ? seen_radiosity(traced_.hierarchy(), optics, light)
+                                       : Columns();
   }
 
   void light_sensors(const PatchOptics& optics, const Block& block, const BlockSources& sources,

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "geo/base/units.h"
+#include "solver/base/chunks.h"
+#include "solver/base/threads.h"
 #include "solver/gather/sensor_light.h"
 
 namespace sunload {
@@ -100,7 +102,7 @@ void PartSums::solve(const Parts& block) {
                                    optics, sources, mean_rays(block, &TimeSums::on_patches, r),
                                    traced_.patches.lamps.of(r), traced_.bounce_rules(band_));
     keep(block, r, light, tally_);
-    if (tally_.sensors.parts.empty()) continue;
+    if (traced_.sensors.count() == 0) continue;
     RayColumns rays = mean_rays(block, &TimeSums::on_sensors, r);
     rays.circumsolar.clear();  // sensors see all of the sky by their lines
     keep(block, r,
@@ -124,11 +126,14 @@ std::vector<IntervalLight> PartSums::mean_lights(const Parts& block) {
 RayColumns PartSums::mean_rays(const Parts& block, RaySums TimeSums::*of, std::size_t r) {
   const auto means = [&](std::vector<std::vector<double>> RaySums::*kind) {
     Columns mean = columns(((block.front()->sums.*of).*kind)[r].size());
-    for (std::size_t k = 0; k < block.size(); ++k) {
-      const auto& sum = ((block[k]->sums.*of).*kind)[r];
-      for (std::size_t i = 0; i < sum.size(); ++i)
-        mean[i * block_width + k] = static_cast<float>(sum[i] / block[k]->sums.length_s);
-    }
+    parallel_for(
+        mean.size() / block_width,
+        [&](std::size_t i) {
+          for (std::size_t k = 0; k < block.size(); ++k)
+            mean[i * block_width + k] = static_cast<float>(((block[k]->sums.*of).*kind)[r][i] /
+                                                           block[k]->sums.length_s);
+        },
+        receivers_per_chunk);
     return mean;
   };
   return {means(&RaySums::direct), means(&RaySums::mirror), means(&RaySums::circumsolar)};
@@ -138,8 +143,12 @@ void PartSums::keep(const Parts& block, std::size_t r, const BlockLight& light,
                     ReceiverTally& tally) {
   for (std::size_t k = 0; k < block.size(); ++k) {
     auto& exposure = tally.parts[block[k]->part].exposure_realization[r];
-    for (std::size_t i = 0; i < exposure.size(); ++i)
-      exposure[i] = static_cast<double>(light.total(i, k)) * block[k]->sums.length_s;
+    parallel_for(
+        exposure.size(),
+        [&](std::size_t i) {
+          exposure[i] = static_cast<double>(light.total(i, k)) * block[k]->sums.length_s;
+        },
+        receivers_per_chunk);
   }
 }
 

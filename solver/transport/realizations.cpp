@@ -3,6 +3,9 @@
 #include "solver/transport/realizations.h"
 
 #include "geo/base/check.h"
+#include "solver/base/chunks.h"
+#include "solver/base/large_memory.h"
+#include "solver/base/threads.h"
 #include "solver/gather/jacobi.h"
 #include "solver/gather/ledger.h"
 #include "solver/gather/unfollowed.h"
@@ -15,10 +18,13 @@ namespace {
 /// What came by direct samples of the sun; from here on gloss counts as mirrors.
 std::vector<double> by_sun(std::size_t r, RaySums& sums) {
   std::vector<double> sun = sums.direct[r];
-  for (std::size_t i = 0; i < sun.size(); ++i) {
-    sun[i] += sums.mirror[r][i] + sums.circumsolar[r][i];
-    if (!sums.gloss.empty()) sums.mirror[r][i] += sums.gloss[r][i];
-  }
+  parallel_for(
+      sun.size(),
+      [&](std::size_t i) {
+        sun[i] += sums.mirror[r][i] + sums.circumsolar[r][i];
+        if (!sums.gloss.empty()) sums.mirror[r][i] += sums.gloss[r][i];
+      },
+      receivers_per_chunk);
   return sun;
 }
 
@@ -35,7 +41,7 @@ void keep_parts(const std::vector<double>& direct, FirstExposure& first,
   keep(Part::reflected, std::move(reflected));
 }
 
-/// Returns the radiosity that sensors see.
+/// Returns the radiosity that sensors see, if there are any.
 std::vector<double> solve_patches(const TracedScene& traced, std::size_t band, std::size_t r,
                                   const TimeSums& sums, BatchTally& tally) {
   const PatchOptics& optics = traced.optics_of_band[band];
@@ -47,12 +53,14 @@ std::vector<double> solve_patches(const TracedScene& traced, std::size_t band, s
   auto reflected =
       reflect(traced.hierarchy(), lines, optics, first.base, first.ground, traced.bounces);
   const std::vector<double> estimated = unfollowed(reflected, traced.beyond_of_band[band]);
-  for (std::size_t i = 0; i < traced.patches.count(); ++i) {
+  std::vector<double>& exposure = tally.exposure_realization[r];
+  exposure.resize(traced.patches.count());
+  const auto add_patch = [&](std::size_t i, Ledger& ledger) {
     const double beyond = estimated.empty() ? 0 : estimated[i];
     const double total = first.base[i] + reflected.irradiance[i];
-    tally.exposure_realization[r][i] = total + beyond;
+    exposure[i] = total + beyond;
     SUNLOAD_EXPECT(total + beyond >= 0, "light that is a number and not below 0");
-    tally.ledger_realization[r] += ledger_of_patch(
+    ledger += ledger_of_patch(
         {.area = traced.hierarchy().area()[i],
          .diffuse = static_cast<double>(optics.diffuse[i]),
          .absorbed = optics.absorbed(i),
@@ -67,14 +75,30 @@ std::vector<double> solve_patches(const TracedScene& traced, std::size_t band, s
          .estimated = beyond},
         lines.ends[i]);
     reflected.irradiance[i] += beyond;
-  }
+  };
+  tally.ledger_realization[r] +=
+      ordered_sum(exposure.size(), receivers_per_chunk, Ledger{},
+                  [&](std::size_t begin, std::size_t end) {
+                    Ledger ledger;
+                    for (std::size_t i = begin; i < end; ++i) add_patch(i, ledger);
+                    return ledger;
+                  });
   keep_parts(rays.direct[r], first, std::move(reflected.irradiance), r, tally);
-  if (estimated.empty()) return std::move(reflected.gathered_radiosity);
+  if (estimated.empty() || traced.sensors.count() == 0)
+    return std::move(reflected.gathered_radiosity);
   std::vector<double> radiosity(traced.hierarchy().element_count());
-  for (std::size_t i = 0; i < traced.patches.count(); ++i)
-    radiosity[i] = static_cast<double>(optics.diffuse[i]) * tally.exposure_realization[r][i];
+  parallel_for(
+      exposure.size(),
+      [&](std::size_t i) { radiosity[i] = static_cast<double>(optics.diffuse[i]) * exposure[i]; },
+      receivers_per_chunk);
   pull_up(traced.hierarchy(), radiosity);
   return radiosity;
+}
+
+/// What a realization was solved from gives room to what it got.
+void forget(std::size_t r, RaySums& sums) {
+  for (auto* kind : {&sums.direct, &sums.mirror, &sums.circumsolar, &sums.gloss})
+    if (!kind->empty()) (*kind)[r] = {};
 }
 
 void book_mirrored(const TracedScene& traced, std::size_t r, const TimeSums& sums, Ledger& ledger) {
@@ -94,8 +118,9 @@ void solve_sensors(const TracedScene& traced, const PatchOptics& optics, std::si
   FirstExposure first = first_exposure(lines, optics, sums,
                                        {sums.on_sensors.direct[r], sums.on_sensors.mirror[r],
                                         whole_sky, traced.sensors.lamps.of(r)});
-  std::vector<double> reflected = first.ground;
-  gather(lines.patches, radiosity, reflected, Into::add);
+  std::vector<double> reflected;
+  gather_onto(lines.patches, radiosity, first.ground, reflected);
+  tally.exposure_realization[r].resize(reflected.size());
   for (std::size_t s = 0; s < reflected.size(); ++s)
     tally.exposure_realization[r][s] = first.base[s] + reflected[s];
   keep_parts(sums.on_sensors.direct[r], first, std::move(reflected), r, tally);
@@ -105,11 +130,14 @@ void solve_sensors(const TracedScene& traced, const PatchOptics& optics, std::si
 
 void solve_realizations(const TracedScene& traced, std::size_t band, TimeSums& sums,
                         BatchTally& tally) {
+  // Columns of blocks, of which there are no more; the next batch wants series as large as these.
+  return_large_memory(traced.hierarchy().element_count() * block_width * sizeof(float));
   for (std::size_t r = 0; r < sums.on_patches.direct.size(); ++r) {
     tally.by_source.sun.push_back(by_sun(r, sums.on_patches));
     const auto radiosity = solve_patches(traced, band, r, sums, tally);
     book_mirrored(traced, r, sums, tally.ledger_realization[r]);
     solve_sensors(traced, traced.optics_of_band[band], r, sums, radiosity, tally.sensors);
+    forget(r, sums.on_patches);
     if (!traced.rules.by_source) continue;
     std::vector<double> parallel = traced.patches.lamps.of(r);
     for (double& E : parallel) E *= sums.length_s;

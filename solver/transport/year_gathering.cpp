@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
+#include "solver/base/chunks.h"
+#include "solver/base/large_memory.h"
 #include "solver/base/stopwatch.h"
+#include "solver/base/threads.h"
 #include "solver/gather/block_tally.h"
 #include "solver/light/instant_spread.h"
 #include "solver/transport/gathered_sums.h"
@@ -118,24 +122,13 @@ class ReductionTest {
         light_of_nodes(traced_.patches, &NodeBlock::patches, nodes, weights, rays);
     const std::vector<float> noise = noise_of_samples(nodes, weights);
     const std::vector<double>& area = traced_.hierarchy().area();
-    Squares sum;
-    double all = 0;
-    for (std::size_t i = 0; i < area.size(); ++i) {
-      const double part = area[i];
-      all += area[i];
-      for (std::size_t k = 0; k < suns_->size(); ++k) {
-        const std::size_t at = i * block_width + k, row = k * area.size() + i;
-        const auto sky =
-            static_cast<double>(made.sky[at] + made.mirror[at] - sky_[at] - mirror_[at]);
-        const auto noisy = static_cast<double>(noise[row]);
-        const auto reflected = static_cast<double>(made.reflected[at] - reflected_[at]);
-        sum.sky += part * (sky * sky - noisy * noisy);
-        sum.reflected += part * reflected * reflected;
-        sum.error += part * ((sky + reflected) * (sky + reflected) - noisy * noisy);
-        const auto se = static_cast<double>(standard_error_[row]);
-        sum.standard_error += part * se * se;
-      }
-    }
+    const double all = std::accumulate(area.begin(), area.end(), 0.0);
+    Squares sum = ordered_sum(
+        area.size(), receivers_per_chunk, Squares{}, [&](std::size_t begin, std::size_t end) {
+          Squares part;
+          for (std::size_t i = begin; i < end; ++i) add_squares(made, noise, i, part);
+          return part;
+        });
     for (double* square : {&sum.sky, &sum.reflected, &sum.error, &sum.standard_error})
       *square = std::max(0.0, *square / all);
     return sum;
@@ -143,6 +136,23 @@ class ReductionTest {
 
  private:
   bool has_circumsolar() const { return any_circumsolar(sources_.circumsolar); }
+
+  /// Of patch i, by its area.
+  void add_squares(const BlockLight& made, const std::vector<float>& noise, std::size_t i,
+                   Squares& sum) const {
+    const std::vector<double>& area = traced_.hierarchy().area();
+    for (std::size_t k = 0; k < suns_->size(); ++k) {
+      const std::size_t at = i * block_width + k, row = k * area.size() + i;
+      const auto sky = static_cast<double>(made.sky[at] + made.mirror[at] - sky_[at] - mirror_[at]);
+      const auto noisy = static_cast<double>(noise[row]);
+      const auto reflected = static_cast<double>(made.reflected[at] - reflected_[at]);
+      sum.sky += area[i] * (sky * sky - noisy * noisy);
+      sum.reflected += area[i] * reflected * reflected;
+      sum.error += area[i] * ((sky + reflected) * (sky + reflected) - noisy * noisy);
+      const auto se = static_cast<double>(standard_error_[row]);
+      sum.standard_error += area[i] * se * se;
+    }
+  }
 
   void keep_light(BlockLight exact) {
     sky_ = std::move(exact.sky);
@@ -341,6 +351,7 @@ YearGathering::YearGathering(const TracedScene& traced, const LitPeriod& period,
   reduction_ = take_nodes(*nodes_, made, tested.size(),
                           static_cast<std::size_t>(year_share_of_few * lit), work_, ahead);
   ahead.end();
+  return_large_memory();  // of what the nodes were made from
 }
 
 std::unique_ptr<BatchTransport> YearGathering::begin(std::vector<BatchTally>& tallies,

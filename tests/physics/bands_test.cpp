@@ -66,8 +66,8 @@ Material coloured(const std::string& name, const BandShares& diffuse) {
 }
 
 /// Largest difference of two rows of values, relative to the largest value.
-template <class Real>
-double largest_difference(const std::vector<Real>& a, const std::vector<Real>& b) {
+template <class Values>
+double largest_difference(const Values& a, const Values& b) {
   EXPECT_EQ(a.size(), b.size());
   double difference = 0, largest = 0;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {

@@ -157,7 +157,7 @@ TEST(Screens, SameBitsForAnyNumberOfThreads) {
   auto rules = test_rules();
   rules.lines_per_patch = 16 * 8;
   const int before = thread_count();
-  std::vector<std::vector<float>> totals;
+  std::vector<LargeVector<float>> totals;
   for (const int threads : {1, 3}) {
     set_thread_count(threads);
     totals.push_back(

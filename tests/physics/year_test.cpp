@@ -40,8 +40,8 @@ struct Solutions {
 };
 
 /// Root mean square over patches by area and rows [K][N].
-double mean_square(const SolvedPlan& solved, const std::vector<float>& a,
-                   const std::vector<float>& b) {
+double mean_square(const SolvedPlan& solved, const LargeVector<float>& a,
+                   const LargeVector<float>& b) {
   const std::vector<double>& area = solved.mesh().area();
   double sum = 0, all = 0;
   for (std::size_t at = 0; at < a.size(); ++at) {
@@ -94,7 +94,7 @@ void YearOfTheSquare::direct_sun_and_sun_hours_are_the_same() {
 }
 
 void YearOfTheSquare::instants_differ_by_less_than_a_third_of_their_errors() {
-  const std::vector<float> none(each().irradiance_se.size(), 0);
+  const LargeVector<float> none(each().irradiance_se.size(), 0);
   const double error = mean_square(solutions->each, each().irradiance_se, none);
   const double difference =
       mean_square(solutions->each, each().irradiance[total], modes().irradiance[total]);

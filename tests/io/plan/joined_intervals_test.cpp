@@ -40,6 +40,17 @@ TEST(JoinedIntervals, AreThoseOfAnHourOfTheClock) {
   EXPECT_NE(plan.light.notes.back().find("4320 intervals are solved as 72"), std::string::npos);
 }
 
+TEST(SeriesSteps, OfOneIntervalEachAreTheIntervals) {
+  const std::string hours = "start: 2026-06-01, end: 2026-06-04, step_min: 60";
+  const VariantPlan of_hours = plan_with("", "series_step: 60 min", hours);
+  EXPECT_TRUE(of_hours.steps.empty());
+  EXPECT_TRUE(of_hours.study.output.series_step.is_interval());
+  EXPECT_EQ(of_hours.content_hash, plan_with("", "", hours).content_hash);
+  // Of minutes that are solved together, too.
+  EXPECT_TRUE(plan_with("", "series_step: 60 min").steps.empty());
+  EXPECT_EQ(plan_with("", "series_step: 120 min", hours).steps.size(), 36u);
+}
+
 TEST(JoinedIntervals, AreOfStepsThatAreShorterThanAnHour) {
   EXPECT_EQ(plan_with("", "series_step: 20 min").light.intervals.size(), 3 * 72u);
   // An hour is no divisor of these, three quarters are.

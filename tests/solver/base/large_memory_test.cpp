@@ -4,8 +4,11 @@
 #include "solver/base/large_memory.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdint>
+#include <cstring>
+#include <fstream>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -35,6 +38,55 @@ TEST(LargeMemory, IsThatOfVectorsThatGrowAndMove) {
   copy.shrink_to_fit();
   EXPECT_EQ(copy.back(), 9.0);
 }
+
+#if !defined(__SANITIZE_ADDRESS__)  // where what is left is watched, nothing is kept
+constexpr std::size_t bytes = std::size_t{5} << 20, half = bytes / 2;
+
+TEST(LargeMemory, IsKeptForWhoAsksForAsMuchNext) {
+  return_large_memory();
+  void* const first = take_large_memory(bytes);
+  void* const second = take_large_memory(bytes);
+  leave_large_memory(first, bytes);
+  leave_large_memory(second, bytes);
+  void* const again[] = {take_large_memory(bytes), take_large_memory(bytes)};
+  EXPECT_TRUE((again[0] == first && again[1] == second) ||
+              (again[0] == second && again[1] == first));
+  for (void* const memory : again) leave_large_memory(memory, bytes);
+  return_large_memory();
+}
+
+/// Pages that the process has in memory.
+std::size_t resident_bytes() {
+  std::ifstream statm("/proc/self/statm");
+  std::size_t all = 0, resident = 0;
+  statm >> all >> resident;
+  return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+void* touched(std::size_t size) {
+  void* const memory = take_large_memory(size);
+  std::memset(memory, 1, size);
+  return memory;
+}
+
+TEST(LargeMemory, IsNeverMoreThanWasInUseAtATime) {
+  return_large_memory();
+  const std::size_t before = resident_bytes();
+  // One after another, each of another size: those before are given back.
+  for (std::size_t size = bytes; size < bytes + 8 * 4096; size += 4096)
+    leave_large_memory(touched(size), size);
+  EXPECT_LT(resident_bytes(), before + 2 * bytes);
+  // Two at a time, then one of half: there is room for it beside one of them.
+  void* const first = touched(bytes);
+  void* const second = touched(bytes);
+  leave_large_memory(first, bytes);
+  leave_large_memory(second, bytes);
+  leave_large_memory(touched(half), half);
+  EXPECT_LT(resident_bytes(), before + 3 * bytes);
+  return_large_memory();
+  EXPECT_LT(resident_bytes(), before + bytes);
+}
+#endif
 
 }  // namespace
 }  // namespace sunload::test
