@@ -74,7 +74,7 @@ namespace {
 
 /// Counts of one realization, which variances are told of.
 struct OfRealization {
-  double lines, samples;
+  int lines, samples;
   explicit OfRealization(const SolverRules& rules)
       : lines(rules.lines_per_patch / rules.realizations),
         samples(rules.direct_samples / rules.realizations) {}

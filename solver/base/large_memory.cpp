@@ -124,8 +124,6 @@ void leave_large_memory(void* memory, std::size_t bytes) noexcept {
   give_back(memory, bytes);
 }
 
-void return_large_memory(std::size_t up_to_bytes) noexcept {
-  aside().give_back_up_to(up_to_bytes);
-}
+void return_large_memory(std::size_t up_to_bytes) noexcept { aside().give_back_up_to(up_to_bytes); }
 
 }  // namespace sunload

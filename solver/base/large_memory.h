@@ -20,7 +20,8 @@ void* take_large_memory(std::size_t bytes);
 void leave_large_memory(void* memory, std::size_t bytes) noexcept;
 /// Gives back to the system what is kept aside of arrays of at most that size, and begins anew:
 /// before much other memory is wanted.
-void return_large_memory(std::size_t up_to_bytes = std::numeric_limits<std::size_t>::max()) noexcept;
+void return_large_memory(
+    std::size_t up_to_bytes = std::numeric_limits<std::size_t>::max()) noexcept;
 
 /// Of vectors of many numbers.
 template <class Real>

@@ -26,12 +26,12 @@ inline void ask_ahead(const LinkTable::Reader& read, const Value* source, std::s
 // Compilers turn the inner loops into one vector instruction per link where the
 // processor has 512 bits; the order of additions is the same everywhere.
 SUNLOAD_VECTOR_CODE void gather_rows(const LinkTable::Block& block, const float* source,
-                                     const float* before, float* out) {
+                                     const float* before, Into into, float* out) {
   LinkTable::Reader read(block);
   for (std::size_t row = 0; row < block.rows(); ++row) {
     float sum[block_width];
     for (std::size_t k = 0; k < block_width; ++k)
-      sum[k] = before ? before[row * block_width + k] : 0.0f;
+      sum[k] = into == Into::add ? before[row * block_width + k] : 0.0f;
     for (std::size_t left = read.next_row(); left > 0; --left) {
       ask_ahead(read, source, block_width);
       const auto [target, weight] = read.next();
@@ -55,24 +55,25 @@ void gather_onto(const LinkTable& links, const Columns& source, const Columns& b
   out.resize(before.size());
   parallel_for(links.blocks.size(), [&](std::size_t b) {
     const std::size_t first = b * LinkTable::rows_per_block * block_width;
-    gather_rows(links.blocks[b], source.data(), before.data() + first, out.data() + first);
+    gather_rows(links.blocks[b], source.data(), before.data() + first, Into::add,
+                out.data() + first);
   });
 }
 
 void gather(const LinkTable& links, const Columns& source, Columns& out, Into into) {
   parallel_for(links.blocks.size(), [&](std::size_t b) {
     float* const rows = out.data() + b * LinkTable::rows_per_block * block_width;
-    gather_rows(links.blocks[b], source.data(), into == Into::add ? rows : nullptr, rows);
+    gather_rows(links.blocks[b], source.data(), rows, into, rows);
   });
 }
 
 namespace {
 
 void gather_rows(const LinkTable::Block& block, const double* source, const double* before,
-                 double* out) {
+                 Into into, double* out) {
   LinkTable::Reader read(block);
   for (std::size_t row = 0; row < block.rows(); ++row) {
-    double sum = before ? before[row] : 0;
+    double sum = into == Into::add ? before[row] : 0;
     for (std::size_t left = read.next_row(); left > 0; --left) {
       ask_ahead(read, source, 1);
       const auto [target, weight] = read.next();
@@ -90,7 +91,8 @@ void gather_onto(const LinkTable& links, const std::vector<double>& source,
   out.resize(before.size());
   parallel_for(links.blocks.size(), [&](std::size_t b) {
     const std::size_t first = b * LinkTable::rows_per_block;
-    gather_rows(links.blocks[b], source.data(), before.data() + first, out.data() + first);
+    gather_rows(links.blocks[b], source.data(), before.data() + first, Into::add,
+                out.data() + first);
   });
 }
 
@@ -98,7 +100,7 @@ void gather(const LinkTable& links, const std::vector<double>& source, std::vect
             Into into) {
   parallel_for(links.blocks.size(), [&](std::size_t b) {
     double* const rows = out.data() + b * LinkTable::rows_per_block;
-    gather_rows(links.blocks[b], source.data(), into == Into::add ? rows : nullptr, rows);
+    gather_rows(links.blocks[b], source.data(), rows, into, rows);
   });
 }
 

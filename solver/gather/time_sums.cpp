@@ -47,18 +47,18 @@ void TimeSums::add_whole_sources(const BlockSources& sources, std::span<const do
 FirstExposure first_exposure(const LineSet& lines, const PatchOptics& optics, const TimeSums& sums,
                              const ExposureByRays& by_rays) {
   const std::size_t rows = lines.ends.size();
-  const auto& [direct, by_mirror, circumsolar, parallel] = by_rays;
+  const std::vector<double>& circumsolar = by_rays.circumsolar;
   const std::vector<double> zeros(rows, 0);
-  FirstExposure first{zeros, by_mirror, zeros, zeros, zeros};
+  FirstExposure first{zeros, by_rays.by_mirror, zeros, zeros, zeros};
   gather(lines.sky, circumsolar.empty() ? sums.sky : sums.sky_of_lines, first.sky, Into::replace);
   if (optics.any_mirror) gather(lines.sky_by_mirror, sums.sky, first.mirror, Into::add);
-  for (const auto* lamps : {&lines.lamps, &parallel})
+  for (const auto* lamps : {&lines.lamps, &by_rays.parallel})
     for (std::size_t i = 0; i < lamps->size(); ++i) first.lamps[i] += (*lamps)[i] * sums.length_s;
   parallel_for(
       rows,
       [&](std::size_t i) {
         if (!circumsolar.empty()) first.sky[i] += circumsolar[i];
-        first.base[i] = direct[i] + first.sky[i] + first.mirror[i] + first.lamps[i];
+        first.base[i] = by_rays.direct[i] + first.sky[i] + first.mirror[i] + first.lamps[i];
         first.ground[i] =
             static_cast<double>(lines.ends[i].ground + lines.ends[i].ground_by_mirror) *
             sums.ground;

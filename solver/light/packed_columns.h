@@ -34,7 +34,7 @@ class PackedColumns {
 
  private:
   std::array<float, block_width> of_column_{};
-  std::vector<float> of_row_;                                    ///< [rows]
+  std::vector<float> of_row_;        ///< [rows]
   LargeVector<std::uint16_t> code_;  ///< [rows][block_width]
 };
 

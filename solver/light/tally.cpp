@@ -64,8 +64,7 @@ void make_room(ReceiverTally& tally, std::size_t receivers, const TallyShape& sh
     if (shape.series[p] || static_cast<Part>(p) == Part::total)
       tally.irradiance[p].assign(values, 0);
     tally.exposure[p].assign(receivers, 0);
-    if (static_cast<Part>(p) != Part::total)
-      tally.part_realization[p] = of_realizations;
+    if (static_cast<Part>(p) != Part::total) tally.part_realization[p] = of_realizations;
   }
   tally.exposure_realization = of_realizations;
   tally.sunlit_s.assign(receivers, 0);

@@ -130,8 +130,8 @@ RayColumns PartSums::mean_rays(const Parts& block, RaySums TimeSums::*of, std::s
         mean.size() / block_width,
         [&](std::size_t i) {
           for (std::size_t k = 0; k < block.size(); ++k)
-            mean[i * block_width + k] = static_cast<float>(((block[k]->sums.*of).*kind)[r][i] /
-                                                           block[k]->sums.length_s);
+            mean[i * block_width + k] =
+                static_cast<float>(((block[k]->sums.*of).*kind)[r][i] / block[k]->sums.length_s);
         },
         receivers_per_chunk);
     return mean;

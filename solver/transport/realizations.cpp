@@ -76,13 +76,13 @@ std::vector<double> solve_patches(const TracedScene& traced, std::size_t band, s
         lines.ends[i]);
     reflected.irradiance[i] += beyond;
   };
-  tally.ledger_realization[r] +=
-      ordered_sum(exposure.size(), receivers_per_chunk, Ledger{},
-                  [&](std::size_t begin, std::size_t end) {
-                    Ledger ledger;
-                    for (std::size_t i = begin; i < end; ++i) add_patch(i, ledger);
-                    return ledger;
-                  });
+  tally.ledger_realization[r] += ordered_sum(exposure.size(), receivers_per_chunk, Ledger{},
+                                             [&](std::size_t begin, std::size_t end) {
+                                               Ledger ledger;
+                                               for (std::size_t i = begin; i < end; ++i)
+                                                 add_patch(i, ledger);
+                                               return ledger;
+                                             });
   keep_parts(rays.direct[r], first, std::move(reflected.irradiance), r, tally);
   if (estimated.empty() || traced.sensors.count() == 0)
     return std::move(reflected.gathered_radiosity);

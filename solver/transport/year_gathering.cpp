@@ -123,12 +123,13 @@ class ReductionTest {
     const std::vector<float> noise = noise_of_samples(nodes, weights);
     const std::vector<double>& area = traced_.hierarchy().area();
     const double all = std::accumulate(area.begin(), area.end(), 0.0);
-    Squares sum = ordered_sum(
-        area.size(), receivers_per_chunk, Squares{}, [&](std::size_t begin, std::size_t end) {
-          Squares part;
-          for (std::size_t i = begin; i < end; ++i) add_squares(made, noise, i, part);
-          return part;
-        });
+    Squares sum = ordered_sum(area.size(), receivers_per_chunk, Squares{},
+                              [&](std::size_t begin, std::size_t end) {
+                                Squares part;
+                                for (std::size_t i = begin; i < end; ++i)
+                                  add_squares(made, noise, i, part);
+                                return part;
+                              });
     for (double* square : {&sum.sky, &sum.reflected, &sum.error, &sum.standard_error})
       *square = std::max(0.0, *square / all);
     return sum;
