@@ -19,7 +19,7 @@ namespace sunload {
 struct MeshFamily;
 
 struct VariantPlan {
-  Study study;       ///< with a number of batch_suns
+  Study study;       ///< with a number of batch_suns; no series_step where steps are intervals
   BuiltScene built;  ///< with materials as written, where they change with the seasons
   SceneSeasons seasons;
   LightSeries light;

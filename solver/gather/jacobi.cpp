@@ -42,33 +42,6 @@ SUNLOAD_VECTOR_CODE void gather_rows(const LinkTable::Block& block, const float*
   }
 }
 
-void expect_rows(const LinkTable& links, std::size_t rows) {
-  SUNLOAD_EXPECT(links.blocks.size() == chunk_count(rows, LinkTable::rows_per_block),
-                 "links of every row");
-}
-
-}  // namespace
-
-void gather_onto(const LinkTable& links, const Columns& source, const Columns& before,
-                 Columns& out) {
-  expect_rows(links, before.size() / block_width);
-  out.resize(before.size());
-  parallel_for(links.blocks.size(), [&](std::size_t b) {
-    const std::size_t first = b * LinkTable::rows_per_block * block_width;
-    gather_rows(links.blocks[b], source.data(), before.data() + first, Into::add,
-                out.data() + first);
-  });
-}
-
-void gather(const LinkTable& links, const Columns& source, Columns& out, Into into) {
-  parallel_for(links.blocks.size(), [&](std::size_t b) {
-    float* const rows = out.data() + b * LinkTable::rows_per_block * block_width;
-    gather_rows(links.blocks[b], source.data(), rows, into, rows);
-  });
-}
-
-namespace {
-
 void gather_rows(const LinkTable::Block& block, const double* source, const double* before,
                  Into into, double* out) {
   LinkTable::Reader read(block);
@@ -83,25 +56,45 @@ void gather_rows(const LinkTable::Block& block, const double* source, const doub
   }
 }
 
+/// Rows of `width` values. `before`: what is added to; may be `out`.
+template <class Values>
+void gather_blocks(const LinkTable& links, const Values& source, const Values& before, Into into,
+                   std::size_t width, Values& out) {
+  parallel_for(links.blocks.size(), [&](std::size_t b) {
+    const std::size_t first = b * LinkTable::rows_per_block * width;
+    gather_rows(links.blocks[b], source.data(), before.data() + first, into, out.data() + first);
+  });
+}
+
+template <class Values>
+void gather_blocks_onto(const LinkTable& links, const Values& source, const Values& before,
+                        std::size_t width, Values& out) {
+  SUNLOAD_EXPECT(
+      links.blocks.size() == chunk_count(before.size() / width, LinkTable::rows_per_block),
+      "links of every row");
+  out.resize(before.size());
+  gather_blocks(links, source, before, Into::add, width, out);
+}
+
 }  // namespace
+
+void gather_onto(const LinkTable& links, const Columns& source, const Columns& before,
+                 Columns& out) {
+  gather_blocks_onto(links, source, before, block_width, out);
+}
+
+void gather(const LinkTable& links, const Columns& source, Columns& out, Into into) {
+  gather_blocks(links, source, out, into, block_width, out);
+}
 
 void gather_onto(const LinkTable& links, const std::vector<double>& source,
                  const std::vector<double>& before, std::vector<double>& out) {
-  expect_rows(links, before.size());
-  out.resize(before.size());
-  parallel_for(links.blocks.size(), [&](std::size_t b) {
-    const std::size_t first = b * LinkTable::rows_per_block;
-    gather_rows(links.blocks[b], source.data(), before.data() + first, Into::add,
-                out.data() + first);
-  });
+  gather_blocks_onto(links, source, before, 1, out);
 }
 
 void gather(const LinkTable& links, const std::vector<double>& source, std::vector<double>& out,
             Into into) {
-  parallel_for(links.blocks.size(), [&](std::size_t b) {
-    double* const rows = out.data() + b * LinkTable::rows_per_block;
-    gather_rows(links.blocks[b], source.data(), rows, into, rows);
-  });
+  gather_blocks(links, source, out, into, 1, out);
 }
 
 namespace {
