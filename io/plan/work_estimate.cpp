@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
+#include "geo/base/units.h"
 #include "io/plan/mesh_family.h"
 #include "io/plan/rules_of_study.h"
 #include "io/plan/seasons_of_plan.h"
@@ -198,13 +201,35 @@ double asked_by_rays(const VariantPlan& plan, std::size_t patches) {
          static_cast<double>(plan.built.scene.sensors.size());
 }
 
+/// Solutions that serve all intervals of a period, where few do.
+struct YearNodes {
+  double skies, suns;
+  double all() const { return skies + suns; }
+};
+
+/// By the parts of the sky that the suns of the period pass, on a grid in Lambert's azimuthal
+/// equal-area projection about the zenith.
+YearNodes year_nodes(const VariantPlan& plan) {
+  std::set<std::pair<int, int>> squares;
+  for (const LitInterval& interval : plan.light.intervals) {
+    if (interval.when.sunlit_s <= 0) continue;
+    const Vec3& sun = interval.when.direction;
+    const double scale = std::sqrt(2 / (1 + sun.z)) / (year_square_deg * radians_per_degree);
+    const auto place = [&](double along) { return static_cast<int>(std::floor(along * scale)); };
+    squares.insert({place(sun.x), place(sun.y)});
+  }
+  const auto count = static_cast<double>(std::max<std::size_t>(squares.size(), 1));
+  return {skies_per_square * count, suns_per_square * count};
+}
+
 }  // namespace
 
 bool is_year_of_few(const VariantPlan& plan) {
   const SolverRules rules = solver_rules(plan);
   if (rules.year == Year::modes) return true;
-  return rules.year == Year::automatic && year_can_serve(rules) &&
-         year_share_of_few * static_cast<double>(lit_intervals(plan)) > year_skies + year_suns;
+  const double few = year_share_of_few * static_cast<double>(lit_intervals(plan));
+  return rules.year == Year::automatic && year_can_serve(rules) && few >= year_fewest &&
+         few > year_nodes(plan).all();
 }
 
 WorkSeconds modelled_seconds(const VariantPlan& plan, std::size_t patches,
@@ -295,8 +320,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   const double bands = band_factor(plan);
 
   const bool of_few = is_year_of_few(plan);
-  const double solved =
-      of_few ? std::min(lit, seasons * (year_skies + year_suns + year_tests)) : lit;
+  const YearNodes nodes = of_few ? year_nodes(plan) : YearNodes{};
+  const double solved = of_few ? std::min(lit, seasons * (nodes.all() + year_tests)) : lit;
   const PartCost periods = part_cost(plan.totals, plan.batch_suns());
   // Solved side by side, as suns are, by every realization on its lines.
   const double suns_of_parts =
@@ -341,7 +366,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
     work.memory_bytes += n * s.realizations * block_width * float_bytes * (mirrors ? 3.0 : 2.0);
   if (of_few)
     work.memory_bytes += seasons * n * float_bytes * packed_share *
-                         (year_suns + year_skies * (2.0 + (mirrors ? 1 : 0) + s.realizations));
+                         (nodes.suns + nodes.skies * (2.0 + (mirrors ? 1 : 0) + s.realizations));
   work.memory_bytes += bands * n * static_cast<double>(periods.most) *
                        (arrays_of_realizations * of_realizations + sums_of_part * double_bytes);
   if (by_matrix)

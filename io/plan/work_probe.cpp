@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "io/plan/interval_lights.h"
@@ -37,9 +39,9 @@ SolverRules probe_rules(const VariantPlan& plan, std::size_t patches) {
   return rules;
 }
 
-/// Evenly from the intervals with the sun above the horizon, or else from those with light; at most
-/// `most`, but one.
-std::vector<std::size_t> probe_intervals(const VariantPlan& plan, double most) {
+/// Those with the sun above the horizon, or else with light, in the order in which a run looks at
+/// them: batch by batch, by azimuth.
+std::vector<std::size_t> intervals_in_order(const VariantPlan& plan) {
   std::vector<std::size_t> sunlit, lit;
   for (std::size_t k = 0; k < plan.intervals(); ++k) {
     const LitInterval& interval = plan.light.intervals[k];
@@ -47,13 +49,13 @@ std::vector<std::size_t> probe_intervals(const VariantPlan& plan, double most) {
     lit.push_back(k);
     if (interval.when.sunlit_s > 0) sunlit.push_back(k);
   }
-  const auto& from = sunlit.empty() ? lit : sunlit;
-  const std::size_t count =
-      std::min(from.size(), static_cast<std::size_t>(std::clamp<double>(most, 1, block_width)));
-  std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < count; ++i)
-    chosen.push_back(from[(2 * i + 1) * from.size() / (2 * count)]);
-  return chosen;
+  auto& order = sunlit.empty() ? lit : sunlit;
+  const auto place = [&](std::size_t k) {
+    const Vec3& sun = plan.light.intervals[k].when.direction;
+    return std::pair{k / plan.batch_suns(), std::atan2(sun.x, sun.y)};
+  };
+  std::ranges::sort(order, {}, place);
+  return std::move(order);
 }
 
 std::vector<IntervalLight> suns_of(const VariantPlan& plan, const SkyGrid& grid,
@@ -105,12 +107,33 @@ double ratio(double measured_s, double modelled_s) {
 
 }  // namespace
 
+std::vector<std::size_t> tried_intervals(const VariantPlan& plan, double most) {
+  constexpr std::size_t neighbours = 4;
+  const auto order = intervals_in_order(plan);
+  const std::size_t count =
+      std::min(order.size(), static_cast<std::size_t>(std::clamp<double>(most, 1, block_width)));
+  const std::size_t places = (count + neighbours - 1) / neighbours;
+  if (places == 0) return {};
+  const std::size_t together = count / places;
+  std::vector<std::size_t> begins;
+  for (std::size_t at = 0; at + together <= order.size(); at += together) begins.push_back(at);
+  std::ranges::stable_sort(begins, {}, [&](std::size_t at) {
+    return plan.light.intervals[order[at + together / 2]].when.direction.z;
+  });
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < places; ++i) {
+    const std::size_t at = begins[(2 * i + 1) * begins.size() / (2 * places)];
+    for (std::size_t k = at; k < at + together; ++k) chosen.push_back(order[k]);
+  }
+  return chosen;
+}
+
 std::optional<WorkPace> measured_pace(const VariantPlan& plan,
                                       const std::shared_ptr<const Hierarchy>& mesh) {
   const std::size_t patches = mesh->patch_count();
   const SolverRules rules = probe_rules(plan, patches);
   const double rays_of_sun = static_cast<double>(patches) * rules.direct_samples;
-  const auto intervals = probe_intervals(plan, sun_rays_wanted / rays_of_sun);
+  const auto intervals = tried_intervals(plan, sun_rays_wanted / rays_of_sun);
   if (intervals.empty()) return {};
   Watch watch;
   const auto traced = trace_scene(plan.built.scene, mesh, rules, watch);

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "io/plan/variant_plan.h"
 #include "io/plan/work_estimate.h"
@@ -18,6 +19,11 @@ namespace sunload {
 /// runs on the machine counts, too. Throws Interrupted.
 std::optional<WorkPace> measured_pace(const VariantPlan& plan,
                                       const std::shared_ptr<const Hierarchy>& mesh);
+
+/// The intervals that it solves, `most` at most, but one: some neighbours each from suns low and
+/// high, by which what they cost differs most; and neighbours in the order in which a run looks at
+/// them, as together they cost less than each of them by itself. None where none has light.
+std::vector<std::size_t> tried_intervals(const VariantPlan& plan, double most);
 
 /// Paces of a study's variants: measured of one that has mirrors and of one that has none. The
 /// others are of the same scene, or much like it, and some studies have thousands.

@@ -57,5 +57,7 @@ inline bool year_can_serve(const SolverRules& rules) {
 }
 /// They are few where they are fewer than this share of the intervals with light.
 inline constexpr double year_share_of_few = 0.25;
+/// Where this share is less, no period gains by them.
+inline constexpr double year_fewest = 128;
 
 }  // namespace sunload

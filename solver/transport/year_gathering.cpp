@@ -369,8 +369,8 @@ std::unique_ptr<const LightTransport> year_where_it_pays(const TracedScene& trac
   if (lit < static_cast<double>(2 * tests)) return nullptr;
   if (traced.rules.year == Year::modes)
     return std::make_unique<YearGathering>(traced, period, watch);
-  // Before anything is solved or ranked: no period of fewer intervals gains by it.
-  if (year_share_of_few * lit < static_cast<double>(8 * block_width)) return nullptr;
+  // Before anything is solved or ranked.
+  if (year_share_of_few * lit < year_fewest) return nullptr;
   auto year = std::make_unique<YearGathering>(traced, period, watch);
   const Reduction& reduction = *year->reduction();
   if (reduction.is_met &&

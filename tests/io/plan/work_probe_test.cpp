@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "io/plan/variant_mesh.h"
 #include "tests/support/study_plan.h"
 
@@ -34,6 +36,26 @@ TEST(WorkProbe, MeasuresEveryStageThatThereIs) {
     EXPECT_GT(stage, 0);
     EXPECT_NE(stage, 1);  // which stands for what was not measured
   }
+}
+
+/// Low suns cost many times what high ones do, and suns of one hour of many days less together.
+TEST(WorkProbe, TriesNeighboursLowAndHigh) {
+  const auto plan =
+      test::plan_of(study("brick", "start: 2026-05-01, end: 2026-09-01, step_min: 60"));
+  const auto height = [&](std::size_t k) { return plan.light.intervals[k].when.direction.z; };
+  const auto tried = tried_intervals(plan, 12);
+  ASSERT_EQ(tried.size(), 12u);
+  for (std::size_t place = 0; place < 12; place += 4)
+    for (std::size_t i = place + 1; i < place + 4; ++i) {
+      const double cosine = dot(plan.light.intervals[tried[i]].when.direction,
+                                plan.light.intervals[tried[place]].when.direction);
+      EXPECT_GT(cosine, std::cos(0.2)) << i;  // an hour is 0.26 of the sky's turn
+    }
+  EXPECT_LT(height(tried[0]), std::sin(0.25));  // a sixth of the way to noon
+  EXPECT_GT(height(tried[4]), height(tried[0]));
+  EXPECT_GT(height(tried[8]), height(tried[4]));
+  EXPECT_EQ(tried_intervals(plan, 0.1).size(), 1u);
+  EXPECT_EQ(tried_intervals(plan, 1e9).size(), block_width);
 }
 
 TEST(WorkProbe, HasNothingToMeasureAtNight) {
