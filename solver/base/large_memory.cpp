@@ -114,6 +114,11 @@ void* take_large_memory(std::size_t bytes) {
   try {
     return new_memory(bytes);
   } catch (const std::bad_alloc&) {
+    return_large_memory();  // where that is what lacks
+  }
+  try {
+    return new_memory(bytes);
+  } catch (const std::bad_alloc&) {
     aside().not_taken(bytes);
     throw;
   }

@@ -15,31 +15,15 @@ namespace sunload {
 
 namespace {
 
-struct Receiver {
-  Vec3 normal;
-  std::array<Vec3, 3> corners;
-};
-
-std::vector<Receiver> receivers_of(const SunSampler& sampler) {
-  std::vector<Receiver> all(sampler.receivers());
-  parallel_for(
-      all.size(),
-      [&](std::size_t i) {
-        all[i] = {sampler.normal(i), sampler.corners(i)};
-      },
-      receivers_per_chunk);
-  return all;
-}
-
 /// Consecutive receivers, which lie close together, in their common box.
 struct Cluster {
   std::size_t begin, end;
   std::array<Vec3, 8> corners;
 };
 
-std::vector<Cluster> clusters_of(const std::vector<Receiver>& receivers) {
+std::vector<Cluster> clusters_of(const SunSampler& receivers) {
   constexpr std::size_t patches_per_cluster = 64;
-  const std::size_t patches = receivers.size();
+  const std::size_t patches = receivers.receivers();
   std::vector<Cluster> clusters((patches + patches_per_cluster - 1) / patches_per_cluster);
   parallel_for(
       clusters.size(),
@@ -49,7 +33,7 @@ std::vector<Cluster> clusters_of(const std::vector<Receiver>& receivers) {
         constexpr double infinite = std::numeric_limits<double>::infinity();
         Vec3 low{infinite, infinite, infinite}, high{-infinite, -infinite, -infinite};
         for (std::size_t i = clusters[c].begin; i < clusters[c].end; ++i)
-          for (const Vec3 p : receivers[i].corners) {
+          for (const Vec3 p : receivers.corners(i)) {
             low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
             high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
           }
@@ -189,8 +173,7 @@ std::uint64_t MirrorSun::add_light(const SunSampler& receivers,
   const bool any = std::any_of(beams.begin(), beams.end(),
                                [](const SunBeams& of_sun) { return of_sun.size() > 0; });
   if (!any) return 0;
-  const auto all = receivers_of(receivers);
-  const auto clusters = clusters_of(all);
+  const auto clusters = clusters_of(receivers);
   // Few receivers (sensors) are work for all threads, too.
   const std::size_t clusters_per_task = std::clamp<std::size_t>(clusters.size() / 64, 1, 8);
   std::uint64_t rays = 0;
@@ -207,7 +190,8 @@ std::uint64_t MirrorSun::add_light(const SunSampler& receivers,
                               if (rasters[b]->may_meet(clusters[c].corners)) near.push_back(b);
                             if (near.empty()) continue;
                             for (std::size_t i = clusters[c].begin; i < clusters[c].end; ++i) {
-                              const auto& [n, corners] = all[i];
+                              const Vec3 n = receivers.normal(i);
+                              const auto corners = receivers.corners(i);
                               by_beams.clear();
                               for (const auto b : near)
                                 if (dot(n, beams[k][b].image) > 0 && rasters[b]->may_meet(corners))

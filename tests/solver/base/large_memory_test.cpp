@@ -4,11 +4,14 @@
 #include "solver/base/large_memory.h"
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <new>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -86,6 +89,54 @@ TEST(LargeMemory, IsNeverMoreThanWasInUseAtATime) {
   return_large_memory();
   EXPECT_LT(resident_bytes(), before + bytes);
 }
+
+#if !defined(__SANITIZE_THREAD__)  // which needs address space of its own
+/// The process may take so much more address space, no longer than this lives.
+class AddressSpace {
+ public:
+  explicit AddressSpace(std::size_t more) {
+    std::ifstream statm("/proc/self/statm");
+    std::size_t all = 0;
+    statm >> all;
+    getrlimit(RLIMIT_AS, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = all * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + more;
+    setrlimit(RLIMIT_AS, &limit);
+  }
+  AddressSpace(const AddressSpace&) = delete;
+  ~AddressSpace() { setrlimit(RLIMIT_AS, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+void* of_the_system(std::size_t size) {
+  return mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+}
+
+// Other memory has grown meanwhile: what is kept aside is in the way of what is wanted.
+TEST(LargeMemory, IsGivenBackWhereTheSystemRefusesMore) {
+  return_large_memory();
+  // So large that allocators ask the system for each, whatever came before.
+  constexpr std::size_t unit = std::size_t{256} << 20, more = unit / 2;
+  void* const first = take_large_memory(unit);
+  void* const second = take_large_memory(unit);
+  const AddressSpace limited(more);
+  leave_large_memory(first, unit);
+  leave_large_memory(second, unit);
+  void* const in_use = take_large_memory(more + unit / 8);  // in the room of one of them
+  void* const other = of_the_system(unit * 3 / 4);
+  ASSERT_NE(other, MAP_FAILED);
+  EXPECT_EQ(of_the_system(unit / 4), MAP_FAILED);
+  void* const wanted = take_large_memory(unit / 4);
+  EXPECT_NE(wanted, nullptr);
+  EXPECT_THROW(take_large_memory(2 * unit), std::bad_alloc);
+  munmap(other, unit * 3 / 4);
+  leave_large_memory(in_use, more + unit / 8);
+  leave_large_memory(wanted, unit / 4);
+  return_large_memory();
+}
+#endif
 #endif
 
 }  // namespace
