@@ -207,16 +207,15 @@ struct YearNodes {
   double all() const { return skies + suns; }
 };
 
-/// By the parts of the sky that the suns of the period pass, on a grid in Lambert's azimuthal
-/// equal-area projection about the zenith.
+/// By the parts of the sky that the suns of the period pass: squares of equal area.
 YearNodes year_nodes(const VariantPlan& plan) {
+  constexpr double width = year_square_deg * radians_per_degree;
+  const auto square_of = [](double along) { return static_cast<int>(std::floor(along / width)); };
   std::set<std::pair<int, int>> squares;
   for (const LitInterval& interval : plan.light.intervals) {
     if (interval.when.sunlit_s <= 0) continue;
-    const Vec3& sun = interval.when.direction;
-    const double scale = std::sqrt(2 / (1 + sun.z)) / (year_square_deg * radians_per_degree);
-    const auto place = [&](double along) { return static_cast<int>(std::floor(along * scale)); };
-    squares.insert({place(sun.x), place(sun.y)});
+    const EqualAreaPlace sun = equal_area_place(interval.when.direction);
+    squares.insert({square_of(sun.x), square_of(sun.y)});
   }
   const auto count = static_cast<double>(std::max<std::size_t>(squares.size(), 1));
   return {skies_per_square * count, suns_per_square * count};

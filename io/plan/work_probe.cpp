@@ -10,6 +10,7 @@
 
 #include "io/plan/interval_lights.h"
 #include "io/plan/rules_of_study.h"
+#include "solver/base/chunks.h"
 #include "solver/solver.h"
 
 namespace sunload {
@@ -112,7 +113,7 @@ std::vector<std::size_t> tried_intervals(const VariantPlan& plan, double most) {
   const auto order = intervals_in_order(plan);
   const std::size_t count =
       std::min(order.size(), static_cast<std::size_t>(std::clamp<double>(most, 1, block_width)));
-  const std::size_t places = (count + neighbours - 1) / neighbours;
+  const std::size_t places = chunk_count(count, neighbours);
   if (places == 0) return {};
   const std::size_t together = count / places;
   std::vector<std::size_t> begins;

@@ -24,7 +24,7 @@ struct Cluster {
 std::vector<Cluster> clusters_of(const SunSampler& receivers) {
   constexpr std::size_t patches_per_cluster = 64;
   const std::size_t patches = receivers.receivers();
-  std::vector<Cluster> clusters((patches + patches_per_cluster - 1) / patches_per_cluster);
+  std::vector<Cluster> clusters(chunk_count(patches, patches_per_cluster));
   parallel_for(
       clusters.size(),
       [&](std::size_t c) {

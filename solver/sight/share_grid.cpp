@@ -32,9 +32,7 @@ std::uint32_t number_of(std::uint32_t x, std::uint32_t y) {
   const std::uint32_t square = (x / 4) * (2 * origin / 4) + y / 4;
   return square * 16 + (x % 4) * 4 + y % 4;
 }
-struct Place {
-  double x, y;
-};
+using Place = EqualAreaPlace;
 Place place_of(std::uint32_t number) {
   const std::uint32_t square = number / 16, squares = 2 * origin / 4;
   const std::uint32_t x = square / squares * 4 + number % 16 / 4,
@@ -42,10 +40,6 @@ Place place_of(std::uint32_t number) {
   return {(static_cast<double>(x) - origin) * spacing, (static_cast<double>(y) - origin) * spacing};
 }
 
-Place projected(Vec3 sun) {
-  const double k = std::sqrt(2 / (1 + sun.z));
-  return {k * sun.x, k * sun.y};
-}
 Vec3 sun_at(Place p) {
   const double square = p.x * p.x + p.y * p.y, z = 1 - square / 2;
   if (z >= std::sin(lowest_elevation)) {
@@ -65,7 +59,7 @@ struct FourPoints {
   std::array<int, 4> weights;
 };
 FourPoints points_about_sun(Vec3 sun) {
-  const Place p = projected(sun);
+  const Place p = equal_area_place(sun);
   const double x = p.x / spacing + origin, y = p.y / spacing + origin;
   const auto x0 = static_cast<std::uint32_t>(x), y0 = static_cast<std::uint32_t>(y);
   const double fx = x - x0, fy = y - y0;
@@ -102,6 +96,11 @@ SUNLOAD_VECTOR_CODE void mean_of_four(const std::uint8_t* __restrict a,
 }
 
 }  // namespace
+
+EqualAreaPlace equal_area_place(Vec3 direction) {
+  const double k = std::sqrt(2 / (1 + direction.z));
+  return {k * direction.x, k * direction.y};
+}
 
 std::size_t ShareGrid::points_about(std::span<const Vec3> suns) {
   std::set<std::uint32_t> numbers;

@@ -26,6 +26,12 @@
 
 namespace sunload {
 
+/// A direction in that projection; on a unit sphere areas stay as they are. Not straight down.
+struct EqualAreaPlace {
+  double x, y;
+};
+EqualAreaPlace equal_area_place(Vec3 direction);
+
 class ShareGrid {
  public:
   /// `shares` must outlive it.
