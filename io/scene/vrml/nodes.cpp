@@ -82,6 +82,17 @@ std::vector<std::string> VrmlFiles::paths() const {
   return paths;
 }
 
+const VrmlFiles::File* VrmlFiles::home_of(const SoNode* node) const {
+  if (node == nullptr) return nullptr;
+  // Coin leaves the instance of a PROTO in its place, or the node that it stands for.
+  const auto* instance = node->isOfType(SoProtoInstance::getClassTypeId())
+                             ? static_cast<const SoProtoInstance*>(node)
+                             : SoProtoInstance::findProtoInstance(node);
+  if (instance == nullptr) return nullptr;
+  const auto home = home_.find(instance->getProtoDefinition());
+  return home == home_.end() ? nullptr : home->second;
+}
+
 std::string VrmlFiles::beside(const std::string& file, const std::string& url) {
   return (fs::path(file).parent_path() / url).lexically_normal().string();
 }
@@ -124,13 +135,16 @@ SoProto* VrmlFiles::proto_of(const SbString* urls, int count) {
     search.setType(SoProto::getClassTypeId());
     search.setSearchingAll(TRUE);
     search.setInterest(SoSearchAction::ALL);
-    search.apply(read(path, "EXTERNPROTO of " + texts_.back()->path).root);
+    const File& file = read(path, "EXTERNPROTO of " + texts_.back()->path);
+    search.apply(file.root);
     errors_ = outer_errors;
     const auto& paths = search.getPaths();
     for (int p = 0; p < paths.getLength(); ++p) {
       auto* proto = static_cast<SoProto*>(paths[p]->getTail());
-      if (hash == url.npos ? p == 0 : url.substr(hash + 1) == text_of(proto->getProtoName()))
+      if (hash == url.npos ? p == 0 : url.substr(hash + 1) == text_of(proto->getProtoName())) {
+        home_[proto] = &file;
         return proto;
+      }
     }
     throw InputError({path}, "has no PROTO '" + url + "'",
                      "an EXTERNPROTO of " + texts_.back()->path + " asks for it");

@@ -96,6 +96,9 @@ class VrmlFiles {
   /// Of the files that were read, each once.
   std::vector<std::string> paths() const;
 
+  /// The file of which an EXTERNPROTO has taken the node's PROTO; null of all other nodes.
+  const File* home_of(const SoNode* node) const;
+
   /// Where a relative url of a file lies.
   static std::string beside(const std::string& file, const std::string& url);
 
@@ -120,6 +123,7 @@ class VrmlFiles {
   std::size_t bytes_ = 0;
   KeptNodes nodes_;
   std::map<std::string, File> files_;
+  std::map<const SoProto*, const File*> home_;  ///< of those that EXTERNPROTOs have taken
   std::vector<std::string> being_read_;
   std::vector<const VrmlText*> texts_;
   std::vector<CoinError> errors_;

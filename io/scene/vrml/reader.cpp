@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include "io/scene/vrml/faces.h"
 #include "io/scene/vrml/model.h"
@@ -85,6 +86,31 @@ class VrmlWalk {
     return where ? *where : Where{text.path};
   }
 
+  /// As long as it lives, what is read counts as of the file that wrote the node's PROTO.
+  class AtHome {
+   public:
+    AtHome(VrmlWalk& walk, const SoNode* node) : walk_(walk) {
+      const auto* home = walk.files_.home_of(node);
+      if (home == nullptr || home == walk.files_stack_.back()) return;
+      walk_.files_stack_.push_back(home);
+      ++walk_.homes_;
+      walk_.model_.set_file(home->text.path);
+      is_away_ = true;
+    }
+    AtHome(const AtHome&) = delete;
+    AtHome& operator=(const AtHome&) = delete;
+    ~AtHome() {
+      if (!is_away_) return;
+      walk_.files_stack_.pop_back();
+      --walk_.homes_;
+      walk_.model_.set_file(walk_.files_stack_.back()->text.path);
+    }
+
+   private:
+    VrmlWalk& walk_;
+    bool is_away_ = false;
+  };
+
   void inline_file(const std::string& path, State& state, int place) {
     const std::string asker =
         files_stack_.empty() ? std::string() : "Inline of " + files_stack_.back()->text.path;
@@ -96,27 +122,38 @@ class VrmlWalk {
                        "Inline of " + path + " leads back to it");
     }
     files_stack_.push_back(&file);
+    const std::size_t outer_homes = std::exchange(homes_, 0);
     model_.set_file(path);
     State inner;
     inner.file_from_here = state.file_from_here;
     visit(file.root, inner, place, 0);
     files_stack_.pop_back();
+    homes_ = outer_homes;
     if (!files_stack_.empty()) model_.set_file(files_stack_.back()->text.path);
+  }
+
+  /// Beside the file that it stands in; of a PROTO that is this one's, or, where a field has
+  /// brought it, whose node it is (ISO/IEC 14772-1, 4.5.2). Empty where there is no such file.
+  std::string file_of(const std::string& url) const {
+    for (std::size_t i = files_stack_.size(); i-- > files_stack_.size() - 1 - homes_;) {
+      const auto path = VrmlFiles::beside(files_stack_[i]->text.path, url);
+      std::error_code no_matter;
+      if (fs::is_regular_file(path, no_matter)) return path;
+    }
+    return {};
   }
 
   /// The first url that is a file; further urls are copies of it elsewhere.
   void inline_url(const std::vector<std::string>& urls, State& state, int place) {
-    for (const auto& url : urls) {
-      const auto path = VrmlFiles::beside(files_stack_.back()->text.path, url);
-      std::error_code no_matter;
-      if (fs::is_regular_file(path, no_matter)) return inline_file(path, state, place);
-    }
+    for (const auto& url : urls)
+      if (const auto path = file_of(url); !path.empty()) return inline_file(path, state, place);
     if (!urls.empty())
       model_.notes().say("inlined file '" + urls.front() + "' is not there, which " +
                          fs::path(files_stack_.back()->text.path).filename().string() + " wants");
   }
 
   void visit(SoNode* node, State& state, int place, std::size_t depth) {
+    const AtHome at_home(*this, node);
     node = plain(node);
     if (node == nullptr) return;
     if (++visits_ > most_visits || depth > 4 * deepest_vrml) {
@@ -237,6 +274,9 @@ class VrmlWalk {
         appearance == nullptr ? nullptr : as<SoVRMLMaterial>(appearance->material.getValue());
     if (appearance != nullptr && appearance->texture.getValue() != nullptr)
       model_.notes().count("textures of shapes ignored");
+    const AtHome of_appearance(*this, node.appearance.getValue());
+    const AtHome of_material(*this,
+                             appearance == nullptr ? nullptr : appearance->material.getValue());
     if (const auto shape = faces_.of_vrml97(geometry))
       model_.add(*shape, state.file_from_here, place, {vrml97_material(material)});
   }
@@ -287,6 +327,7 @@ class VrmlWalk {
   VrmlFiles files_;
   VrmlFaces faces_;
   std::vector<const VrmlFiles::File*> files_stack_;
+  std::size_t homes_ = 0;  ///< of PROTOs, the last of the stack
   std::string node_name_;
   std::size_t visits_ = 0;
 };

@@ -4,6 +4,7 @@
 #include <libdeflate.h>
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 
@@ -209,6 +210,38 @@ TEST(SceneVrml, AnExternProtoWithoutNameIsTheFirstOfItsFile) {
                                "PROTO Box2 [ ] { Shape { geometry Box { } } }");
   const auto model = read_text("whole.wrl", vrml97 + "EXTERNPROTO A [ ] \"protos.wrl\"\nA { }\n");
   EXPECT_EQ(model.polygon_count(), 512u);
+}
+
+/// Who is to change a colour must find it: where a PROTO comes from, not where it is used.
+TEST(SceneVrml, WhatAnExternProtoBringsIsOfItsFile) {
+  const std::string appearance =
+      "appearance Appearance { material DEF pink Material { diffuseColor 1 0.9 0.9 } }";
+  write_text("parts.wrl", vrml97 + "Shape { geometry Box { } }");
+  write_text("protos.wrl",
+             vrml97 + "PROTO Ball [ ] { Shape { " + appearance + " geometry Sphere { } } }\n" +
+                 "PROTO Coat [ ] { A" + appearance.substr(appearance.find("Appearance {") + 1) +
+                 " }\nPROTO Part [ field MFString url [ ] ] { Inline { url IS url } }");
+  const auto source = [](const std::string& text) {
+    const auto model = read_text("whole.wrl", vrml97 + text);
+    EXPECT_EQ(model.materials.size(), 1u) << text;
+    return std::filesystem::path(model.materials.front().source).filename().string();
+  };
+  const std::string own = "Shape { " + appearance + " geometry Box { } }\n";
+  EXPECT_EQ(source(own), "whole.wrl");
+  EXPECT_EQ(source("EXTERNPROTO Ball [ ] \"protos.wrl#Ball\"\nBall { }\n"), "protos.wrl");
+  EXPECT_EQ(source("EXTERNPROTO Coat [ ] \"protos.wrl#Coat\"\n"
+                   "Shape { appearance Coat { } geometry Box { } }\n"),
+            "protos.wrl");
+  const auto both = read_text("whole.wrl", vrml97 +
+                                               "EXTERNPROTO Ball [ ] \"protos.wrl#Ball\"\n"
+                                               "Ball { }\n" +
+                                               own);
+  ASSERT_EQ(both.materials.size(), 2u);
+  EXPECT_NE(both.materials[0].source, both.materials[1].source);
+  EXPECT_EQ(read_text("whole.wrl", vrml97 + "EXTERNPROTO Part [ field MFString url ] "
+                                            "\"protos.wrl#Part\"\nPart { url \"parts.wrl\" }\n")
+                .polygon_count(),
+            6u);
 }
 
 TEST(SceneVrml, WhatIsWrongWithAnIncludedFileNamesWhoWantsIt) {
