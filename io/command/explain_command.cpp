@@ -52,7 +52,7 @@ int explain(const ExplainOptions& options) {
     place_named(*result, options.parts);  // refuses before the work
     const auto scene = scenes.of(*result);
     for (const auto& output : {options.map, options.picture})
-      expect_not_read(output, scene->plan().built.files);
+      expect_not_read(output, scene->files());
     if (!options.map.empty()) write_place_map(*result, *scene, options.parts, options.map);
     return explained(*result, *scene, options.parts);
   };

@@ -42,7 +42,7 @@ FactorTable of_result(const FormFactorOptions& options, FactorsBetween between, 
                      "name the result of the variant, or the study");
   const auto result = opened({options.input, {}, {}});
   const auto scene = ResultScenes(options.study_folder).of(*result);
-  expect_not_read(options.output, scene->plan().built.files);
+  expect_not_read(options.output, scene->files());
   return form_factor_table(scene->plan(), *scene->traced().mesh, between, watch);
 }
 

@@ -11,6 +11,7 @@
 #include "io/plan/content_hash.h"
 #include "io/plan/rules_of_study.h"
 #include "io/plan/scene_seasons.h"
+#include "io/study/named_files.h"
 #include "io/study/study_text.h"
 
 namespace sunload {
@@ -66,14 +67,17 @@ const Scene& scene_of_chosen(const ResultReader& result, VariantPlan& plan) {
 
 }  // namespace
 
-ResultScene::ResultScene(const ResultReader& result, VariantPlan plan)
+ResultScene::ResultScene(const ResultReader& result, VariantPlan plan,
+                         std::vector<std::string> named)
     : path_(result.path()),
+      files_(std::move(named)),
       plan_(std::move(plan)),
       mesh_(mesh_of(plan_)),
       traced_(std::make_unique<const TracedScene>(scene_of_chosen(result, plan_), mesh_.mesh,
                                                   solver_rules(plan_))),
       lights_(plan_.study, plan_.built.site, traced_->grid),
       period_(lights_, plan_.light) {
+  files_.insert(files_.end(), plan_.built.files.begin(), plan_.built.files.end());
   if (mesh_.mesh->area() != result.doubles("patch_area"))
     throw other_state(result, "its patches differ");
 }
@@ -126,7 +130,7 @@ std::unique_ptr<const ResultScene> ResultScenes::of(const ResultReader& result) 
   plan.isa = usable_isa(result.text_attribute("isa"));
   plan.content_hash = hash_with_isa(plan, plan.isa);
   expect_same_state(result, plan);
-  return std::make_unique<const ResultScene>(result, std::move(plan));
+  return std::make_unique<const ResultScene>(result, std::move(plan), named_files(opened->file));
 }
 
 }  // namespace sunload

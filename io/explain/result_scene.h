@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "io/plan/interval_lights.h"
 #include "io/plan/mesh_family.h"
@@ -22,7 +23,8 @@ class ResultScene {
   /// Throws InputError where this is not what `result` was computed from. Where materials change
   /// with the seasons and the part of the period that is chosen lies in one of them, the scene is
   /// made of what it is then.
-  ResultScene(const ResultReader& result, VariantPlan plan);
+  /// `named`: files that its study names.
+  ResultScene(const ResultReader& result, VariantPlan plan, std::vector<std::string> named);
   ResultScene(const ResultScene&) = delete;
   ResultScene& operator=(const ResultScene&) = delete;
 
@@ -32,9 +34,12 @@ class ResultScene {
   /// Throws InputError where the scene's materials change in the course of what is chosen.
   void expect_one_season() const;
   const VariantPlan& plan() const { return plan_; }
+  /// All that it has been made from, which no output may replace.
+  const std::vector<std::string>& files() const { return files_; }
 
  private:
   std::string path_;
+  std::vector<std::string> files_;
   VariantPlan plan_;
   VariantMesh mesh_;
   std::unique_ptr<const TracedScene> traced_;  ///< without lines

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iterator>
 #include <list>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -24,6 +25,21 @@ namespace sunload {
 
 namespace {
 
+/// Every result has a file of its own, which links may lead to, and no folder is in its way.
+void expect_own_files(const StudyWork& work, const std::vector<Study>& chosen, Problems& problems) {
+  std::map<std::string, std::string> variant_of;
+  for (const auto& study : chosen) {
+    const std::string path = result_path(work.folder, study);
+    std::error_code no_matter;
+    const std::string file =
+        std::filesystem::weakly_canonical(output_target(path).path, no_matter).string();
+    const auto [other, is_first] = variant_of.try_emplace(file, study.variant);
+    if (!is_first)
+      problems.add({path}, "is the result of variant '" + other->second + "', too",
+                   "a link leads to " + file, "remove the link, or choose another --output");
+  }
+}
+
 /// The jobs that have work left. Every variant is read before the first one is worked on, and all
 /// that is wrong is said at once.
 std::list<VariantJob> planned_jobs(const StudyWork& work,
@@ -35,6 +51,7 @@ std::list<VariantJob> planned_jobs(const StudyWork& work,
   const MeshFamilies families(work.file, planner);
   const std::vector<Study> chosen = chosen_variants(work.file, work.options);
   expect_measured_somewhere(work.file, chosen, planner);
+  expect_own_files(work, chosen, problems);
   for (const auto& study : chosen) {
     try {
       expect_not_read(result_path(work.folder, study), inputs);

@@ -74,6 +74,39 @@ TEST(Outputs, AResultThatIsALinkToTheScenesFileIsNotOverwritten) {
   EXPECT_EQ(square.folder.read("square.obj"), square_obj);
 }
 
+TEST(Outputs, EveryVariantHasAFileOfItsOwn) {
+  const SquareFolder square(square_study() + "variants:\n  - {name: base}\n  - {name: other}\n");
+  fs::create_directories(square.folder / "results/square");
+  fs::create_symlink("base.h5", square.folder / "results/square/other.h5");
+  const Ran linked = square.run("results");
+  EXPECT_EQ(linked.code, 2);
+  EXPECT_NE(linked.err.find("is the result of variant 'base', too"), std::string::npos)
+      << linked.err;
+  fs::remove(square.folder / "results/square/other.h5");
+  fs::create_directories(square.folder / "results/square/base.h5");
+  const Ran folder_in_the_way = square.run("results");
+  EXPECT_EQ(folder_in_the_way.code, 3);
+  EXPECT_FALSE(fs::exists(square.folder / "results/square/.work")) << "before the work";
+}
+
+/// Commands on a result make its scene again, from all that its study names.
+TEST(Outputs, WhatTheStudyOfAResultNamesIsNotOverwritten) {
+  const std::string places = "x,y,z,nx,ny,nz\n0,0,9,0,0,1\n";
+  const SquareFolder square(square_study() + "sensors: {file: places.csv}\n");
+  square.folder.write("places.csv", places);
+  ASSERT_EQ(square.run("results").code, 0);
+  fs::create_symlink("places.csv", square.folder / "places.png");
+  const std::string result = square.result("results");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"export", result, "--to", "form-factors", "-o", "places.csv"},
+        {"explain", result, "--sensor", "0", "-o", "places.png"}}) {
+    const Ran ran = program(square.folder, words);
+    EXPECT_EQ(ran.code, 2) << fmt::format("{}", fmt::join(words, " ")) << "\n" << ran.err;
+    EXPECT_NE(ran.err.find("this command reads"), std::string::npos) << ran.err;
+  }
+  EXPECT_EQ(square.folder.read("places.csv"), places);
+}
+
 /// Neither by the output itself nor by what is written with it.
 TEST(Outputs, WhatTheFilesOfASceneDrawInIsNotOverwritten) {
   const WorkFolder folder;
