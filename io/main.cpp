@@ -11,6 +11,7 @@
 
 #include "geo/base/check.h"
 #include "io/base/exit_code.h"
+#include "io/base/machine.h"
 #include "io/base/standard_streams.h"
 #include "io/base/stop_signals.h"
 #include "io/command/command_line.h"
@@ -74,6 +75,7 @@ int main(int argc, char** argv) {
   // a reader of our messages who goes away.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
+  sunload::keep_memory_to_end_with();
   sunload::open_listing();
   return sunload::guarded(argc, argv);
 }

@@ -10,13 +10,16 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <new>
 #include <optional>
 #include <sstream>
 #include <thread>
@@ -86,6 +89,16 @@ fs::path nearest_existing(const std::string& path) {
 }
 
 }  // namespace
+
+void keep_memory_to_end_with() {
+  constexpr std::size_t enough_bytes = std::size_t{8} << 20;  // addresses: none of it is touched
+  static std::atomic<void*> set_aside = std::malloc(enough_bytes);
+  std::set_new_handler([] {
+    std::free(set_aside.exchange(nullptr));
+    std::set_new_handler(nullptr);
+    throw std::bad_alloc();
+  });
+}
 
 double available_memory_bytes() {
   const double of_group = over_groups([](const fs::path& g) {

@@ -26,6 +26,10 @@ int permitted_processors();
 /// Largest resident memory of this process so far [bytes].
 double peak_memory_bytes();
 
+/// From now on memory that has run out is told: a little is set aside for who unwinds and says so,
+/// and for what is destroyed meanwhile.
+void keep_memory_to_end_with();
+
 /// Creates the folder with its parents. Throws MachineError where that fails
 /// or nothing can be written there.
 void make_writable_folder(const std::string& path);

@@ -382,6 +382,24 @@ TEST(MachineLimits, AddressSpace) {
   expect_problems(ran, {"memory"});
   EXPECT_EQ(small.folder.content(), before);
 }
+
+/// Wherever it runs out, in threads of the ray caster too.
+TEST(MachineLimits, AddressSpaceIsToldWhereverItEnds) {
+  const Small small;
+  bool any_too_little = false, any_enough = false;
+  for (std::uint64_t megabytes = 300; megabytes < 620; megabytes += 20) {
+    Limits limits;
+    limits.memory_bytes = megabytes * 1'000'000;
+    const Ran ran =
+        program(small.folder, {"run", "square.yaml", "--overwrite", "--progress", "none"}, limits);
+    // With less the program's libraries cannot be loaded, before any of its own words.
+    if (ran.err.find("error while loading shared libraries") != std::string::npos) continue;
+    EXPECT_TRUE(ran.code == 0 || ran.code == 3) << megabytes << ": " << ran.code << ran.err;
+    any_too_little = any_too_little || ran.code == 3;
+    any_enough = any_enough || ran.code == 0;
+  }
+  EXPECT_TRUE(any_too_little && any_enough);
+}
 #endif
 
 }  // namespace
