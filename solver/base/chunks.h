@@ -9,7 +9,7 @@ namespace sunload {
 
 /// Patches or sensors that one thread takes at a time. Sums over chunks are added in their order:
 /// another number gives other bits.
-inline constexpr std::size_t receivers_per_chunk = 1024;
+inline constexpr std::size_t receivers_per_chunk = 256;
 
 /// Chunks that make `count`.
 constexpr std::size_t chunk_count(std::size_t count, std::size_t chunk) {

@@ -32,6 +32,11 @@ struct LargeMemory {
   explicit LargeMemory(const LargeMemory<Other>&) {}
   Real* allocate(std::size_t n) { return static_cast<Real*>(take_large_memory(n * sizeof(Real))); }
   void deallocate(Real* memory, std::size_t n) { leave_large_memory(memory, n * sizeof(Real)); }
+  /// What nobody gives a value is anything, as the memory is.
+  template <class Other>
+  void construct(Other* place) {
+    ::new (static_cast<void*>(place)) Other;
+  }
   template <class Other>
   bool operator==(const LargeMemory<Other>&) const {
     return true;

@@ -162,7 +162,7 @@ MirrorChains::SentOn MirrorChains::follow(std::span<const IntervalLight> block,
                                           std::span<const SunBeams> beams, const Columns& shares,
                                           const RaySink& into) const {
   // Arrivals are added in rounds, so that no more of them wait than these mirrors make.
-  constexpr std::size_t mirrors_per_task = 64, mirrors_per_round = 256 * mirrors_per_task;
+  constexpr std::size_t mirrors_per_task = 16, mirrors_per_round = 1024 * mirrors_per_task;
   const std::size_t realizations = into.realizations();
   SentOn sent;
   sent.fates.resize(realizations);

@@ -45,18 +45,49 @@ std::vector<Cluster> clusters_of(const SunSampler& receivers) {
   return clusters;
 }
 
-std::vector<std::optional<BeamRaster>> rasters_of(const SunBeams& beams) {
-  constexpr std::size_t cells_of_all = std::size_t{1} << 23;
+/// Cells along an edge of the rasters of one sun's beams.
+int raster_size(std::size_t beams) {
+  constexpr std::size_t cells_of_sun = std::size_t{1} << 23;
   constexpr int coarsest = 16;
   int size = BeamRaster::finest;
-  while (size > coarsest && beams.size() * static_cast<std::size_t>(size * size) > cells_of_all)
-    size /= 2;
-  std::vector<std::optional<BeamRaster>> rasters(beams.size());
-  parallel_for(beams.size(), [&](std::size_t b) {
-    rasters[b].emplace(beams[b].section, beams[b].image, beams.spread(), size);
-  });
-  return rasters;
+  while (size > coarsest && beams * static_cast<std::size_t>(size * size) > cells_of_sun) size /= 2;
+  return size;
 }
+
+/// Suns whose beams are looked at together: threads wait for each other once for all of them.
+class RastersOfSuns {
+ public:
+  /// Of suns from `first` on, as many as have room.
+  RastersOfSuns(std::span<const SunBeams> beams, std::size_t first) : first_(first) {
+    constexpr std::size_t cells_at_a_time = std::size_t{1} << 21;
+    struct Beam {
+      std::size_t sun, beam;
+      int size;
+    };
+    std::vector<Beam> all;
+    for (std::size_t cells = 0; end() < beams.size();) {
+      const SunBeams& of = beams[end()];
+      const int size = raster_size(of.size());
+      cells += of.size() * static_cast<std::size_t>(size * size);
+      if (cells > cells_at_a_time && !all.empty()) break;
+      for (std::size_t b = 0; b < of.size(); ++b) all.push_back({of_sun_.size(), b, size});
+      of_sun_.emplace_back(of.size());
+    }
+    parallel_for(all.size(), [&](std::size_t i) {
+      const auto [sun, b, size] = all[i];
+      const SunBeams& of = beams[first_ + sun];
+      of_sun_[sun][b].emplace(of[b].section, of[b].image, of.spread(), size);
+    });
+  }
+  std::size_t suns() const { return of_sun_.size(); }
+  std::size_t end() const { return first_ + suns(); }
+  /// Of sun number first + i.
+  std::span<const std::optional<BeamRaster>> of_sun(std::size_t i) const { return of_sun_[i]; }
+
+ private:
+  std::size_t first_;
+  std::vector<std::vector<std::optional<BeamRaster>>> of_sun_;
+};
 
 /// Where receivers see the points of the sun that lie in these directions.
 PacketDirections seen(const SunBeam& beam, const PacketDirections& sun) {
@@ -81,38 +112,53 @@ PacketDirections seen(const SunBeam& beam, const PacketDirections& sun) {
 MirrorSun::MirrorSun(const RayCaster& caster, const MirrorGroups& groups)
     : caster_(caster), groups_(groups) {}
 
-/// The mirrored sun that the patches of one task receive from the beams of one sun.
+/// The mirrored sun that the patches of one task receive, from one sun after the other.
 class MirrorSun::PatchWork {
  public:
-  PatchWork(const MirrorSun& mirror, const SunSampler& sampler, const IntervalLight& sun,
-            std::size_t k, const SunBeams& beams, const RaySink& into)
-      : m_(mirror),
-        sampler_(sampler),
-        sun_(sun),
-        k_(k),
-        beams_(beams),
-        into_(into),
-        of_realization_(into.realizations()) {}
+  PatchWork(const MirrorSun& mirror, const SunSampler& sampler, const RaySink& into)
+      : m_(mirror), sampler_(sampler), into_(into), of_realization_(into.realizations()) {}
 
-  void receive(std::size_t patch, std::span<const std::size_t> by_beams) {
-    const auto geometry = sampler_.geometry(patch);
-    sampler_.seed(patch, sun_.number, seeds_);
-    std::fill(of_realization_.begin(), of_realization_.end(), 0);
-    for (std::size_t p = 0; p < sampler_.packets(); ++p) {
-      const Packet origins = sampler_.origins(geometry, seeds_, p);
-      const PacketDirections sun = sampler_.directions(sun_, seeds_, p);
-      for (const auto b : by_beams)
-        add_reflectances(beams_[b], dot(geometry.normal, beams_[b].image), p, origins, sun);
+  /// Of sun k; by receivers that may lie in one of its beams.
+  void receive(const Cluster& cluster, const IntervalLight& sun, std::size_t k,
+               const SunBeams& beams, std::span<const std::optional<BeamRaster>> rasters) {
+    near_.clear();
+    for (std::size_t b = 0; b < rasters.size(); ++b)
+      if (rasters[b]->may_meet(cluster.corners)) near_.push_back(b);
+    if (near_.empty()) return;
+    sun_ = &sun;
+    k_ = k;
+    beams_ = &beams;
+    for (std::size_t i = cluster.begin; i < cluster.end; ++i) {
+      const Vec3 n = sampler_.normal(i);
+      const auto corners = sampler_.corners(i);
+      by_beams_.clear();
+      for (const auto b : near_)
+        if (dot(n, beams[b].image) > 0 && rasters[b]->may_meet(corners)) by_beams_.push_back(b);
+      if (!by_beams_.empty()) receive(i);
     }
-    const auto R = static_cast<double>(of_realization_.size());
-    const double samples_each = static_cast<double>(sampler_.samples()) / R;
-    into_.add_all(patch, k_,
-                  [&](std::size_t r) { return sun_.dni * of_realization_[r] / samples_each; });
   }
 
   std::uint64_t rays = 0;
 
  private:
+  void receive(std::size_t patch) {
+    const auto geometry = sampler_.geometry(patch);
+    sampler_.seed(patch, sun_->number, seeds_);
+    std::fill(of_realization_.begin(), of_realization_.end(), 0);
+    for (std::size_t p = 0; p < sampler_.packets(); ++p) {
+      const Packet origins = sampler_.origins(geometry, seeds_, p);
+      const PacketDirections sun = sampler_.directions(*sun_, seeds_, p);
+      for (const auto b : by_beams_) {
+        const SunBeam& beam = (*beams_)[b];
+        add_reflectances(beam, dot(geometry.normal, beam.image), p, origins, sun);
+      }
+    }
+    const auto R = static_cast<double>(of_realization_.size());
+    const double samples_each = static_cast<double>(sampler_.samples()) / R;
+    into_.add_all(patch, k_,
+                  [&](std::size_t r) { return sun_->dni * of_realization_[r] / samples_each; });
+  }
+
   /// Adds Π rho_s · cosθ of the mirrors by which each sample sees the sun: back from
   /// the mirror that it looks at to the one that the sun shines on.
   void add_reflectances(const SunBeam& last, double cos_theta, std::size_t packet,
@@ -122,7 +168,7 @@ class MirrorSun::PatchWork {
     std::fill_n(weight, packet_size, cos_theta);
     auto active = sampler_.active(packet);
     for (const SunBeam* beam = &last; active != 0;
-         beam = &beams_[static_cast<std::size_t>(beam->before)]) {
+         beam = &(*beams_)[static_cast<std::size_t>(beam->before)]) {
       active = step_back(*beam, seen(*beam, sun), active, points, weight);
       if (beam->before < 0) break;
     }
@@ -159,10 +205,11 @@ class MirrorSun::PatchWork {
 
   const MirrorSun& m_;
   const SunSampler& sampler_;
-  const IntervalLight& sun_;
-  std::size_t k_;
-  const SunBeams& beams_;
   const RaySink& into_;
+  const IntervalLight* sun_ = nullptr;
+  std::size_t k_ = 0;
+  const SunBeams* beams_ = nullptr;
+  std::vector<std::size_t> near_, by_beams_;  ///< beams of the cluster, of the receiver
   std::vector<double> of_realization_;
   SunSampler::Seeds seeds_;
 };
@@ -174,33 +221,19 @@ std::uint64_t MirrorSun::add_light(const SunSampler& receivers,
                                [](const SunBeams& of_sun) { return of_sun.size() > 0; });
   if (!any) return 0;
   const auto clusters = clusters_of(receivers);
-  // Few receivers (sensors) are work for all threads, too.
-  const std::size_t clusters_per_task = std::clamp<std::size_t>(clusters.size() / 64, 1, 8);
   std::uint64_t rays = 0;
-  for (std::size_t k = 0; k < block.size(); ++k) {
-    if (beams[k].size() == 0) continue;
-    const auto rasters = rasters_of(beams[k]);
-    rays += ordered_sum(clusters.size(), clusters_per_task, std::uint64_t{0},
-                        [&](std::size_t begin, std::size_t end) {
-                          PatchWork work(*this, receivers, block[k], k, beams[k], into);
-                          std::vector<std::size_t> near, by_beams;
-                          for (std::size_t c = begin; c < end; ++c) {
-                            near.clear();
-                            for (std::size_t b = 0; b < rasters.size(); ++b)
-                              if (rasters[b]->may_meet(clusters[c].corners)) near.push_back(b);
-                            if (near.empty()) continue;
-                            for (std::size_t i = clusters[c].begin; i < clusters[c].end; ++i) {
-                              const Vec3 n = receivers.normal(i);
-                              const auto corners = receivers.corners(i);
-                              by_beams.clear();
-                              for (const auto b : near)
-                                if (dot(n, beams[k][b].image) > 0 && rasters[b]->may_meet(corners))
-                                  by_beams.push_back(b);
-                              if (!by_beams.empty()) work.receive(i, by_beams);
-                            }
-                          }
-                          return work.rays;
-                        });
+  for (std::size_t first = 0; first < block.size();) {
+    const RastersOfSuns rasters(beams.first(block.size()), first);
+    // A thread takes receivers with all suns, whose light is added up in their order.
+    rays += ordered_sum(clusters.size(), 1, std::uint64_t{0}, [&](std::size_t c, std::size_t) {
+      PatchWork work(*this, receivers, into);
+      for (std::size_t i = 0; i < rasters.suns(); ++i) {
+        const std::size_t k = first + i;
+        work.receive(clusters[c], block[k], k, beams[k], rasters.of_sun(i));
+      }
+      return work.rays;
+    });
+    first = rasters.end();
   }
   return rays;
 }

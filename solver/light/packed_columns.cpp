@@ -38,7 +38,10 @@ PackedColumns::PackedColumns(const Columns& values)
         for (std::size_t k = 0; k < block_width; ++k)
           share[k] = std::max(values[i * block_width + k], 0.0f) * per_unit[k];
         const float largest = *std::max_element(share.begin(), share.end());
-        if (!(largest > nothing)) return;  // all codes are 0
+        if (!(largest > nothing)) {
+          std::fill_n(&code_[i * block_width], block_width, std::uint16_t{0});
+          return;
+        }
         of_row_[i] = largest / largest_code;
         const float codes_per_unit = largest_code / largest;
         for (std::size_t k = 0; k < block_width; ++k) {

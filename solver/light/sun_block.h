@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geo/base/vec.h"
+#include "solver/base/large_filled.h"
 #include "solver/base/large_memory.h"
 
 namespace sunload {
@@ -63,13 +64,13 @@ struct IntervalLight {
 /// cache lines.
 using Columns = LargeVector<float>;
 
-inline Columns columns(std::size_t rows) { return Columns(rows * block_width, 0.0f); }
+inline Columns columns(std::size_t rows) { return large_zeros<float>(rows * block_width); }
 
 /// The same where sums must keep all digits.
 using DoubleColumns = LargeVector<double>;
 
 inline DoubleColumns double_columns(std::size_t rows) {
-  return DoubleColumns(rows * block_width, 0.0);
+  return large_zeros<double>(rows * block_width);
 }
 
 }  // namespace sunload

@@ -59,6 +59,7 @@ Hierarchy::Hierarchy(const ElementForest& forest) : vertices_(forest.vertices())
   key_.reserve(forest.patch_count());
   parent_.assign(forest.patch_count(), -1);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    front_.push_back(mesh.normal(t));
     const auto root = forest.root(t);
     root_.push_back(root < 0 ? -1 : 2 * root + (mesh.triangle_sides[t] == Sides::two ? 1 : 0));
     if (root < 0) continue;
@@ -109,11 +110,6 @@ std::int32_t Hierarchy::add_inner(const ElementForest& forest, std::size_t eleme
   sphere_.push_back({static_cast<float>(middle.x), static_cast<float>(middle.y),
                      static_cast<float>(middle.z), static_cast<float>(radius)});
   return number;
-}
-
-Vec3 Hierarchy::normal(std::size_t patch) const {
-  const Vec3 a = corner(patch, 0);
-  return normalized(cross(corner(patch, 1) - a, corner(patch, 2) - a));
 }
 
 Vec3 Hierarchy::centroid(std::size_t patch) const {

@@ -50,7 +50,12 @@ class Hierarchy {
   Vec3 corner(std::size_t patch, std::size_t k) const {
     return vertices_[static_cast<std::size_t>(patches_[patch].vertices[k])];
   }
-  Vec3 normal(std::size_t patch) const;  ///< unit, of the patch's own side
+  /// Unit, of the patch's own side: its triangle's.
+  Vec3 normal(std::size_t patch) const {
+    const Patch& of = patches_[patch];
+    const Vec3 front = front_[static_cast<std::size_t>(of.triangle)];
+    return of.side == 0 ? front : -front;
+  }
   Vec3 centroid(std::size_t patch) const;
 
   /// Patch at the barycentric weights (u, v of corners 1 and 2) of an input
@@ -91,6 +96,7 @@ class Hierarchy {
   std::vector<Split> split_;        ///< per element of the forest
   std::vector<std::int32_t> root_;  ///< per input triangle: 2 · its element, + 1 where it has two
                                     ///< sides; -1: no patches
+  std::vector<Vec3> front_;         ///< normal of each input triangle
   std::vector<Patch> patches_;
   std::vector<Vec3> vertices_;
   std::vector<double> area_;

@@ -20,7 +20,7 @@ namespace {
 constexpr double flat_offsets = 0.25;
 /// Patches that are looked at together, at most.
 constexpr std::size_t most_of_group = 32;
-constexpr std::size_t groups_per_chunk = 64;
+constexpr std::size_t groups_per_chunk = 16;
 
 /// Width of cells in those of a patch, unless there were more than so many of them for each patch.
 constexpr double cell_of_patch = 4, most_cells_for_patch = 4;
@@ -117,7 +117,7 @@ void LitShares::choose_groups(const Scene& scene) {
 }
 
 Columns LitShares::of(std::span<const IntervalLight> block, SendsOn what_sends_on) const {
-  Columns shares(hierarchy_.patch_count() * block_width, by_rays);
+  Columns shares = large_filled(hierarchy_.patch_count() * block_width, by_rays);
   const auto clusters = sun_clusters(block, widest_cluster);
   // Views take memory: no more of them at a time than are made at a time.
   const auto at_once = static_cast<std::size_t>(thread_count());

@@ -44,7 +44,8 @@ std::vector<SunBeams> with_first_reflections(const TracedScene& traced, std::vec
 
 RayLight empty_rays(const TracedScene& traced, std::size_t receivers, bool keep_columns) {
   RayLight rays;
-  rays.pooled.direct = rays.pooled.mirror = rays.sunlit = columns(receivers);
+  for (Columns* of : {&rays.pooled.direct, &rays.pooled.mirror, &rays.sunlit})
+    *of = columns(receivers);
   if (keep_columns)
     rays.of_realizations = {static_cast<std::size_t>(traced.rules.realizations), receivers};
   return rays;

@@ -261,7 +261,8 @@ void NodeLight::add_light(const std::vector<NodeWeights>& weights,
     for (const NodeBlock* block : all) nodes.push_back(&(block->*of_receivers.*kind));
     combine(nodes, weights, out);
   };
-  light.sky = light.reflected = columns(light.direct.size() / block_width);
+  light.sky = columns(light.direct.size() / block_width);
+  light.reflected = columns(light.direct.size() / block_width);
   add(&NodeBlock::Received::sky, light.sky);
   if (traced_.optics.any_mirror) add(&NodeBlock::Received::mirror, light.mirror);
   add(&NodeBlock::Received::reflected, light.reflected);

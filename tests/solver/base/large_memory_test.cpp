@@ -8,6 +8,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -15,6 +16,8 @@
 #include <numeric>
 #include <utility>
 #include <vector>
+
+#include "solver/base/large_filled.h"
 
 namespace sunload::test {
 namespace {
@@ -29,6 +32,16 @@ TEST(LargeMemory, BeginsAtACacheLineWhateverItsSize) {
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(numbers.data()) % 64, 0u) << count;
     EXPECT_EQ(std::accumulate(numbers.begin(), numbers.end(), 0.0), static_cast<double>(count));
   }
+}
+
+/// Memory comes with what was in it before.
+TEST(LargeMemory, IsFilledWhateverWasThere) {
+  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{1} << 20 | 5}) {
+    const auto ones = large_filled(count, 1.0f);
+    EXPECT_EQ(std::accumulate(ones.begin(), ones.end(), 0.0), static_cast<double>(count));
+  }
+  const auto zeros = large_zeros<float>(std::size_t{1} << 20 | 5);
+  EXPECT_EQ(std::count(zeros.begin(), zeros.end(), 0.0f), std::ssize(zeros));
 }
 
 TEST(LargeMemory, IsThatOfVectorsThatGrowAndMove) {
