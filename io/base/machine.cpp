@@ -14,11 +14,12 @@
 #include <cerrno>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
+#include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <memory>
 #include <new>
 #include <optional>
 #include <sstream>
@@ -92,9 +93,10 @@ fs::path nearest_existing(const std::string& path) {
 
 void keep_memory_to_end_with() {
   constexpr std::size_t enough_bytes = std::size_t{8} << 20;  // addresses: none of it is touched
-  static std::atomic<void*> set_aside = std::malloc(enough_bytes);
+  static auto set_aside = std::make_unique_for_overwrite<std::byte[]>(enough_bytes);
+  static std::atomic_flag is_spent;
   std::set_new_handler([] {
-    std::free(set_aside.exchange(nullptr));
+    if (!is_spent.test_and_set()) set_aside.reset();
     std::set_new_handler(nullptr);
     throw std::bad_alloc();
   });

@@ -10,11 +10,13 @@
 #include "io/scene/vrml/nodes.h"
 #include "io/scene/vrml/shapes.h"
 
+// NOLINTBEGIN(cppcoreguidelines-virtual-class-destructor): Coin's, which are counted
 class SoCoordinate3;
 class SoMFInt32;
 class SoQuadMesh;
 class SoVRMLElevationGrid;
 class SoVRMLIndexedFaceSet;
+// NOLINTEND(cppcoreguidelines-virtual-class-destructor)
 
 namespace sunload {
 

@@ -136,7 +136,7 @@ class VrmlWalk {
   /// brought it, whose node it is (ISO/IEC 14772-1, 4.5.2). Empty where there is no such file.
   std::string file_of(const std::string& url) const {
     for (std::size_t i = files_stack_.size(); i-- > files_stack_.size() - 1 - homes_;) {
-      const auto path = VrmlFiles::beside(files_stack_[i]->text.path, url);
+      auto path = VrmlFiles::beside(files_stack_[i]->text.path, url);
       std::error_code no_matter;
       if (fs::is_regular_file(path, no_matter)) return path;
     }
@@ -205,6 +205,7 @@ class VrmlWalk {
 
   static std::vector<std::string> urls_of(const SoMFString& field) {
     std::vector<std::string> urls;
+    urls.reserve(static_cast<std::size_t>(field.getNum()));
     for (int i = 0; i < field.getNum(); ++i) urls.emplace_back(field[i].getString());
     return urls;
   }
@@ -307,6 +308,7 @@ class VrmlWalk {
     }
     std::vector<MaterialId> materials;
     const int count = per_face ? std::max(1, node->diffuseColor.getNum()) : 1;
+    materials.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) materials.push_back(inventor_material(*node, i));
     return materials;
   }
