@@ -554,7 +554,8 @@ void expect_meshable(const VariantPlan& plan) {
   const SplitRules rules = split_rules(plan.study);
   const WorkEstimate least = estimate_work(plan, least_patch_count(plan.built.scene, rules));
   if (least.patches <= rules.max_patches) return;
-  if (const auto problem = memory_problem(least); !problem.empty()) throw MachineError(problem);
+  if (const auto problem = memory_problem(least, PatchesAre::at_least); !problem.empty())
+    throw MachineError(problem);
 }
 
 /// By what this machine takes for a little of the work; of patches that a run refines, or that have

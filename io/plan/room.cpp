@@ -8,13 +8,15 @@
 
 namespace sunload {
 
-std::string memory_problem(const WorkEstimate& work) {
+std::string memory_problem(const WorkEstimate& work, PatchesAre patches) {
   const double left = available_memory_bytes();
   if (work.memory_bytes <= left) return {};
+  const bool is_least = patches == PatchesAre::at_least;
   return fmt::format(
-      "too little memory: about {} are needed for {} patches, {} are available; "
+      "too little memory: {} {} are needed for {} patches{}, {} are available; "
       "use a larger mesh.max_edge_m, fewer lines_per_patch or a smaller batch_suns{}",
-      bytes_text(work.memory_bytes), work.patches, bytes_text(left),
+      is_least ? "more than" : "about", bytes_text(work.memory_bytes), work.patches,
+      is_least ? " or more" : "", bytes_text(left),
       work.samples > 0 ? ", and a larger power_per_sample_w or auto" : "");
 }
 

@@ -9,8 +9,12 @@
 
 namespace sunload {
 
+/// What the patches of an estimate are: those of a mesh, or, before there is one, as many as there
+/// will be at the least.
+enum class PatchesAre { counted, at_least };
+
 /// Why memory does not do, and what to try; empty where it does.
-std::string memory_problem(const WorkEstimate& work);
+std::string memory_problem(const WorkEstimate& work, PatchesAre patches = PatchesAre::counted);
 
 /// The same of the disk that results go to, `finished_bytes` of which are there already: it may
 /// also be read-only, or have no inodes for more files.

@@ -28,8 +28,9 @@ namespace sunload {
 namespace {
 
 /// Refuses work that cannot fit; `there`: bytes of finished work.
-void expect_room_for(const WorkEstimate& work, const std::string& folder, double there) {
-  for (const auto& problem : {memory_problem(work), disk_problem(work, folder, there)})
+void expect_room_for(const WorkEstimate& work, PatchesAre patches, const std::string& folder,
+                     double there) {
+  for (const auto& problem : {memory_problem(work, patches), disk_problem(work, folder, there)})
     if (!problem.empty()) throw MachineError(problem);
 }
 
@@ -150,7 +151,9 @@ void VariantJob::expect_room() const {
   const std::size_t patches = mesh_.mesh
                                   ? mesh_.mesh->patch_count()
                                   : least_patch_count(plan_.built.scene, split_rules(plan_.study));
-  expect_room_for(estimate_work(plan_, patches), work_.folder, folder_.bytes_there());
+  expect_room_for(estimate_work(plan_, patches),
+                  mesh_.mesh ? PatchesAre::counted : PatchesAre::at_least, work_.folder,
+                  folder_.bytes_there());
 }
 
 UnitQueue VariantJob::own_units(MpiWorld* world) const {
