@@ -387,7 +387,7 @@ TEST(MachineLimits, AddressSpace) {
 TEST(MachineLimits, AddressSpaceIsToldWhereverItEnds) {
   const Small small;
   bool any_too_little = false, any_enough = false;
-  for (std::uint64_t megabytes = 300; megabytes < 620; megabytes += 20) {
+  for (std::uint64_t megabytes = 300; megabytes < 620; megabytes += 40) {
     Limits limits;
     limits.memory_bytes = megabytes * 1'000'000;
     const Ran ran =
