@@ -93,7 +93,7 @@ fs::path nearest_existing(const std::string& path) {
 
 void keep_memory_to_end_with() {
   constexpr std::size_t enough_bytes = std::size_t{8} << 20;  // addresses: none of it is touched
-  static auto set_aside = std::make_unique_for_overwrite<std::byte[]>(enough_bytes);
+  static std::unique_ptr<std::byte[]> set_aside(new (std::nothrow) std::byte[enough_bytes]);
   static std::atomic_flag is_spent;
   std::set_new_handler([] {
     if (!is_spent.test_and_set()) set_aside.reset();

@@ -52,14 +52,9 @@ void keep_error(void* user, RTCError code, const char* text) {
   if (error->code == RTC_ERROR_NONE) *error = {code, text ? text : ""};
 }
 
-/// It could not have as many threads as it wants: by their number, or by what `ulimit -v` leaves.
-bool is_of_threads(const DeviceError& error) {
-  return error.text.find("pthread_create") != std::string::npos;
-}
-
 void throw_kept(const DeviceError& error) {
   if (error.code == RTC_ERROR_NONE) return;
-  if (is_of_threads(error))
+  if (error.text.find("pthread_create") != std::string::npos)
     throw MachineError("no more threads for the ray caster (" + error.text +
                        "): too little memory (ulimit -v), or too many threads (ulimit -u)");
   if (error.code == RTC_ERROR_OUT_OF_MEMORY)
@@ -100,8 +95,9 @@ struct RayCaster::Embree {
   RTCScene scene = nullptr;
 
   ~Embree() {
-    // Embree ends the process where it is to join threads that have never begun.
-    if (is_of_threads(error)) return;
+    // After an error Embree may end the process here: of its threads some have never begun. What it
+    // holds is left to the end of the process, which is near.
+    if (error.code != RTC_ERROR_NONE) return;
     if (scene) rtcReleaseScene(scene);
     if (device) rtcReleaseDevice(device);
   }
