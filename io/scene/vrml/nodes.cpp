@@ -83,7 +83,7 @@ std::vector<std::string> VrmlFiles::paths() const {
 }
 
 const VrmlFiles::File* VrmlFiles::home_of(const SoNode* node) const {
-  if (node == nullptr) return nullptr;
+  if (node == nullptr || home_.empty()) return nullptr;
   // Coin leaves the instance of a PROTO in its place, or the node that it stands for.
   const auto* instance = node->isOfType(SoProtoInstance::getClassTypeId())
                              ? static_cast<const SoProtoInstance*>(node)

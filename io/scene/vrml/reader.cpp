@@ -13,7 +13,6 @@
 #include <filesystem>
 #include <mutex>
 #include <optional>
-#include <utility>
 
 #include "io/scene/vrml/faces.h"
 #include "io/scene/vrml/model.h"
@@ -80,65 +79,62 @@ class VrmlWalk {
 
  private:
   Where place_of(const SoNode& node) const {
-    const auto& text = files_stack_.back()->text;
+    const auto& text = here().text;
     const std::string name = node_name_.empty() ? text_of(node.getName()) : node_name_;
     const auto where = name.empty() ? std::nullopt : place_of_def(text, name);
     return where ? *where : Where{text.path};
   }
 
-  /// As long as it lives, what is read counts as of the file that wrote the node's PROTO.
-  class AtHome {
+  /// As long as it lives, what is read counts as of a file. `is_home`: of the one that wrote the
+  /// PROTO at hand; otherwise it is inlined.
+  class Within {
    public:
-    AtHome(VrmlWalk& walk, const SoNode* node) : walk_(walk) {
-      const auto* home = walk.files_.home_of(node);
-      if (home == nullptr || home == walk.files_stack_.back()) return;
-      walk_.files_stack_.push_back(home);
-      ++walk_.homes_;
-      walk_.model_.set_file(home->text.path);
-      is_away_ = true;
+    Within(VrmlWalk& walk, const VrmlFiles::File& file, bool is_home) : walk_(walk) {
+      walk_.files_stack_.push_back({&file, is_home});
+      walk_.model_.set_file(file.text.path);
     }
-    AtHome(const AtHome&) = delete;
-    AtHome& operator=(const AtHome&) = delete;
-    ~AtHome() {
-      if (!is_away_) return;
+    Within(const Within&) = delete;
+    Within& operator=(const Within&) = delete;
+    ~Within() {
       walk_.files_stack_.pop_back();
-      --walk_.homes_;
-      walk_.model_.set_file(walk_.files_stack_.back()->text.path);
+      if (!walk_.files_stack_.empty()) walk_.model_.set_file(walk_.here().text.path);
     }
 
    private:
     VrmlWalk& walk_;
-    bool is_away_ = false;
   };
+  const VrmlFiles::File& here() const { return *files_stack_.back().file; }
+  /// Of nodes whose PROTO another file has written.
+  void enter_home(const SoNode* node, std::optional<Within>& home) {
+    const auto* file = files_.home_of(node);
+    if (file != nullptr && file != &here()) home.emplace(*this, *file, true);
+  }
 
   void inline_file(const std::string& path, State& state, int place) {
     const std::string asker =
-        files_stack_.empty() ? std::string() : "Inline of " + files_stack_.back()->text.path;
+        files_stack_.empty() ? std::string() : "Inline of " + here().text.path;
     const auto& file = files_.read(path, asker);
     model_.set_file_bytes(files_.bytes());
-    if (std::find(files_stack_.begin(), files_stack_.end(), &file) != files_stack_.end() ||
-        files_stack_.size() >= deepest_inline) {
-      throw InputError({files_stack_.back()->text.path}, "inlines itself",
+    const bool is_within_itself =
+        std::any_of(files_stack_.begin(), files_stack_.end(),
+                    [&](const Level& level) { return level.file == &file; });
+    if (is_within_itself || files_stack_.size() >= deepest_inline)
+      throw InputError({here().text.path}, "inlines itself",
                        "Inline of " + path + " leads back to it");
-    }
-    files_stack_.push_back(&file);
-    const std::size_t outer_homes = std::exchange(homes_, 0);
-    model_.set_file(path);
+    const Within inlined(*this, file, false);
     State inner;
     inner.file_from_here = state.file_from_here;
     visit(file.root, inner, place, 0);
-    files_stack_.pop_back();
-    homes_ = outer_homes;
-    if (!files_stack_.empty()) model_.set_file(files_stack_.back()->text.path);
   }
 
   /// Beside the file that it stands in; of a PROTO that is this one's, or, where a field has
   /// brought it, whose node it is (ISO/IEC 14772-1, 4.5.2). Empty where there is no such file.
   std::string file_of(const std::string& url) const {
-    for (std::size_t i = files_stack_.size(); i-- > files_stack_.size() - 1 - homes_;) {
-      auto path = VrmlFiles::beside(files_stack_[i]->text.path, url);
+    for (auto level = files_stack_.rbegin(); level != files_stack_.rend(); ++level) {
+      auto path = VrmlFiles::beside(level->file->text.path, url);
       std::error_code no_matter;
       if (fs::is_regular_file(path, no_matter)) return path;
+      if (!level->is_home) break;
     }
     return {};
   }
@@ -149,11 +145,12 @@ class VrmlWalk {
       if (const auto path = file_of(url); !path.empty()) return inline_file(path, state, place);
     if (!urls.empty())
       model_.notes().say("inlined file '" + urls.front() + "' is not there, which " +
-                         fs::path(files_stack_.back()->text.path).filename().string() + " wants");
+                         fs::path(here().text.path).filename().string() + " wants");
   }
 
   void visit(SoNode* node, State& state, int place, std::size_t depth) {
-    const AtHome at_home(*this, node);
+    std::optional<Within> home;
+    enter_home(node, home);
     node = plain(node);
     if (node == nullptr) return;
     if (++visits_ > most_visits || depth > 4 * deepest_vrml) {
@@ -275,9 +272,9 @@ class VrmlWalk {
         appearance == nullptr ? nullptr : as<SoVRMLMaterial>(appearance->material.getValue());
     if (appearance != nullptr && appearance->texture.getValue() != nullptr)
       model_.notes().count("textures of shapes ignored");
-    const AtHome of_appearance(*this, node.appearance.getValue());
-    const AtHome of_material(*this,
-                             appearance == nullptr ? nullptr : appearance->material.getValue());
+    std::optional<Within> of_appearance, of_material;
+    enter_home(node.appearance.getValue(), of_appearance);
+    if (appearance != nullptr) enter_home(appearance->material.getValue(), of_material);
     if (const auto shape = faces_.of_vrml97(geometry))
       model_.add(*shape, state.file_from_here, place, {vrml97_material(material)});
   }
@@ -328,8 +325,11 @@ class VrmlWalk {
   VrmlModel model_;
   VrmlFiles files_;
   VrmlFaces faces_;
-  std::vector<const VrmlFiles::File*> files_stack_;
-  std::size_t homes_ = 0;  ///< of PROTOs, the last of the stack
+  struct Level {
+    const VrmlFiles::File* file;
+    bool is_home;
+  };
+  std::vector<Level> files_stack_;
   std::string node_name_;
   std::size_t visits_ = 0;
 };
