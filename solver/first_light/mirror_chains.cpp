@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "solver/base/chunks.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
@@ -168,8 +169,7 @@ MirrorChains::SentOn MirrorChains::follow(std::span<const IntervalLight> block,
   sent.fates.resize(realizations);
   for (std::size_t round = 0; round < mirrors_.size(); round += mirrors_per_round) {
     const std::size_t mirrors = std::min(mirrors_per_round, mirrors_.size() - round);
-    std::vector<Task> tasks((mirrors + mirrors_per_task - 1) / mirrors_per_task,
-                            Task(*this, realizations));
+    std::vector<Task> tasks(chunk_count(mirrors, mirrors_per_task), Task(*this, realizations));
     parallel_chunks(mirrors, mirrors_per_task, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
         for (std::size_t k = 0; k < block.size(); ++k)

@@ -194,7 +194,7 @@ Columns ShareGrid::interpolated(std::span<const IntervalLight> block) const {
     suns.push_back(one);
   }
   const std::size_t patches = shares_.hierarchy().patch_count();
-  Columns shares(patches * block_width, LitShares::by_rays);
+  Columns shares = large_filled(patches * block_width, LitShares::by_rays);
   parallel_chunks(patches, receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
     std::array<float, receivers_per_chunk> of_sun;
     for (const auto& [k, codes, weights] : suns) {
