@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "geo/base/vector_code.h"
 #include "solver/base/chunks.h"
 #include "solver/base/threads.h"
 
@@ -22,7 +23,7 @@ struct Cluster {
 };
 
 std::vector<Cluster> clusters_of(const SunSampler& receivers) {
-  constexpr std::size_t patches_per_cluster = 64;
+  constexpr std::size_t patches_per_cluster = TriangleColumns::most;
   const std::size_t patches = receivers.receivers();
   std::vector<Cluster> clusters(chunk_count(patches, patches_per_cluster));
   parallel_for(
@@ -43,6 +44,36 @@ std::vector<Cluster> clusters_of(const SunSampler& receivers) {
       },
       64);
   return clusters;
+}
+
+/// The receivers of a cluster side by side.
+struct ClusterColumns {
+  TriangleColumns corners;
+  alignas(64) double normal[3][TriangleColumns::most]{};
+  ClusterColumns(const SunSampler& receivers, const Cluster& cluster) {
+    for (std::size_t i = cluster.begin; i < cluster.end; ++i) {
+      const Vec3 n = receivers.normal(i);
+      normal[0][corners.count] = n.x;
+      normal[1][corners.count] = n.y;
+      normal[2][corners.count] = n.z;
+      corners.add(receivers.corners(i));
+    }
+  }
+};
+
+SUNLOAD_VECTOR_CODE void cosines_to(const double (&normal)[3][TriangleColumns::most], Vec3 w,
+                                    double (&__restrict cosine)[TriangleColumns::most]) {
+  for (std::size_t l = 0; l < TriangleColumns::most; ++l)
+    cosine[l] = normal[0][l] * w.x + normal[1][l] * w.y + normal[2][l] * w.z;
+}
+
+/// Those that face a direction, a bit each.
+std::uint64_t facing(const ClusterColumns& cluster, Vec3 w) {
+  alignas(64) double cosine[TriangleColumns::most];
+  cosines_to(cluster.normal, w, cosine);
+  std::uint64_t bits = 0;
+  for (std::size_t l = 0; l < cluster.corners.count; ++l) bits |= std::uint64_t{cosine[l] > 0} << l;
+  return bits;
 }
 
 /// Cells along an edge of the rasters of one sun's beams.
@@ -112,29 +143,40 @@ PacketDirections seen(const SunBeam& beam, const PacketDirections& sun) {
 MirrorSun::MirrorSun(const RayCaster& caster, const MirrorGroups& groups)
     : caster_(caster), groups_(groups) {}
 
-/// The mirrored sun that the patches of one task receive, from one sun after the other.
+/// The mirrored sun that the receivers of one cluster get, from one sun after the other.
 class MirrorSun::PatchWork {
  public:
-  PatchWork(const MirrorSun& mirror, const SunSampler& sampler, const RaySink& into)
-      : m_(mirror), sampler_(sampler), into_(into), of_realization_(into.realizations()) {}
+  PatchWork(const MirrorSun& mirror, const SunSampler& sampler, const Cluster& cluster,
+            const RaySink& into)
+      : m_(mirror),
+        sampler_(sampler),
+        cluster_(cluster),
+        into_(into),
+        of_realization_(into.realizations()) {}
 
   /// Of sun k; by receivers that may lie in one of its beams.
-  void receive(const Cluster& cluster, const IntervalLight& sun, std::size_t k,
-               const SunBeams& beams, std::span<const std::optional<BeamRaster>> rasters) {
+  void receive(const IntervalLight& sun, std::size_t k, const SunBeams& beams,
+               std::span<const std::optional<BeamRaster>> rasters) {
     near_.clear();
-    for (std::size_t b = 0; b < rasters.size(); ++b)
-      if (rasters[b]->may_meet(cluster.corners)) near_.push_back(b);
-    if (near_.empty()) return;
+    std::uint64_t any = 0;
+    for (std::size_t b = 0; b < rasters.size(); ++b) {
+      if (!rasters[b]->may_meet(cluster_.corners)) continue;
+      if (!columns_) columns_.emplace(sampler_, cluster_);
+      const std::uint64_t which =
+          rasters[b]->may_meet_each(columns_->corners, facing(*columns_, beams[b].image));
+      if (which == 0) continue;
+      near_.push_back({b, which});
+      any |= which;
+    }
     sun_ = &sun;
     k_ = k;
     beams_ = &beams;
-    for (std::size_t i = cluster.begin; i < cluster.end; ++i) {
-      const Vec3 n = sampler_.normal(i);
-      const auto corners = sampler_.corners(i);
+    for (; any != 0; any &= any - 1) {
+      const auto place = static_cast<std::size_t>(std::countr_zero(any));
       by_beams_.clear();
-      for (const auto b : near_)
-        if (dot(n, beams[b].image) > 0 && rasters[b]->may_meet(corners)) by_beams_.push_back(b);
-      if (!by_beams_.empty()) receive(i);
+      for (const auto& [b, which] : near_)
+        if ((which >> place & 1) != 0) by_beams_.push_back(b);
+      receive(cluster_.begin + place);
     }
   }
 
@@ -205,11 +247,18 @@ class MirrorSun::PatchWork {
 
   const MirrorSun& m_;
   const SunSampler& sampler_;
+  const Cluster& cluster_;
   const RaySink& into_;
+  std::optional<ClusterColumns> columns_;  ///< once a beam comes near
   const IntervalLight* sun_ = nullptr;
   std::size_t k_ = 0;
   const SunBeams* beams_ = nullptr;
-  std::vector<std::size_t> near_, by_beams_;  ///< beams of the cluster, of the receiver
+  struct NearBeam {
+    std::size_t beam;
+    std::uint64_t receivers;  ///< of the cluster that may lie in it, a bit each
+  };
+  std::vector<NearBeam> near_;
+  std::vector<std::size_t> by_beams_;  ///< of the receiver at hand
   std::vector<double> of_realization_;
   SunSampler::Seeds seeds_;
 };
@@ -226,10 +275,10 @@ std::uint64_t MirrorSun::add_light(const SunSampler& receivers,
     const RastersOfSuns rasters(beams.first(block.size()), first);
     // A thread takes receivers with all suns, whose light is added up in their order.
     rays += ordered_sum(clusters.size(), 1, std::uint64_t{0}, [&](std::size_t c, std::size_t) {
-      PatchWork work(*this, receivers, into);
+      PatchWork work(*this, receivers, clusters[c], into);
       for (std::size_t i = 0; i < rasters.suns(); ++i) {
         const std::size_t k = first + i;
-        work.receive(clusters[c], block[k], k, beams[k], rasters.of_sun(i));
+        work.receive(block[k], k, beams[k], rasters.of_sun(i));
       }
       return work.rays;
     });

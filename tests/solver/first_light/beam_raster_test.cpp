@@ -32,7 +32,7 @@ class Squares {
       }
   }
 
-  BeamRaster raster() const { return {section_, w, 0, size_}; }
+  BeamRaster raster(double spread = 0) const { return {section_, w, spread, size_}; }
 
   /// A rectangle over whole cells, both ends included.
   struct Rectangle {
@@ -98,6 +98,39 @@ TEST(BeamRaster, NothingBesideItIsMet) {
   EXPECT_FALSE(raster.may_meet(squares.corners({9, 12, 0, 7, -10})));
   EXPECT_FALSE(raster.may_meet(squares.corners({0, 7, -9, -3, -10})));
   EXPECT_TRUE(raster.may_meet(squares.corners({-9, 12, -9, 12, -10})));
+}
+
+TEST(BeamRaster, TrianglesSideBySideAreToldAsEachByItself) {
+  std::mt19937 random(3);
+  const Squares squares(64, random);
+  std::uniform_real_distribution<double> place(-8, 72), aside(-3, 3), depth(-60, 10);
+  for (const double spread : {0.0, 0.02}) {
+    const BeamRaster raster = squares.raster(spread);
+    int met = 0, missed = 0;
+    for (std::size_t count : {TriangleColumns::most, std::size_t{1}, std::size_t{17}}) {
+      for (int i = 0; i < 100; ++i) {
+        TriangleColumns triangles;
+        std::uint64_t each = 0;
+        const std::uint64_t asked = random() | std::uint64_t{random()} << 32;
+        for (std::size_t l = 0; l < count; ++l) {
+          const Vec3 at{place(random), place(random), depth(random)};
+          const double wide = l % 8 == 0 ? 10 : 1;  // some over many cells
+          const auto corner = [&] {
+            return at + wide * Vec3{aside(random), aside(random), aside(random)};
+          };
+          const std::array<Vec3, 3> corners{corner(), corner(), corner()};
+          triangles.add(corners);
+          const bool is_met = raster.may_meet(corners);
+          ++(is_met ? met : missed);
+          each |= std::uint64_t{is_met} << l;
+        }
+        const std::uint64_t there = ~std::uint64_t{0} >> (64 - count);
+        ASSERT_EQ(raster.may_meet_each(triangles, asked & there), each & asked & there);
+      }
+    }
+    EXPECT_GT(met, 1000);
+    EXPECT_GT(missed, 1000);
+  }
 }
 
 }  // namespace
