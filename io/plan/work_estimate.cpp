@@ -218,7 +218,21 @@ YearNodes year_nodes(const VariantPlan& plan) {
     squares.insert({square_of(sun.x), square_of(sun.y)});
   }
   const auto count = static_cast<double>(std::max<std::size_t>(squares.size(), 1));
-  return {skies_per_square * count, suns_per_square * count};
+  return {std::max(fewest_skies, skies_per_square * count),
+          std::max(fewest_suns, suns_per_square * count)};
+}
+
+/// Bytes of a patch while the tests of few solutions are made: what every realization receives in a
+/// block, sums of its squares, and what is kept of each test.
+double test_bytes_per_patch(double realizations, bool mirrors) {
+  const double block = block_width * float_bytes;
+  const double kinds = mirrors ? 3 : 2;  // straight, circumsolar, by mirrors
+  constexpr double of_light = 10;        // what blocks of light are made of
+  constexpr double spread = 16;          // sums and squares, in doubles
+  constexpr double kept = 6;
+  constexpr double blocks = year_tests / block_width;
+  return block *
+         (realizations * kinds + of_light + spread + blocks * (kept + realizations * packed_share));
 }
 
 }  // namespace
@@ -226,9 +240,8 @@ YearNodes year_nodes(const VariantPlan& plan) {
 bool is_year_of_few(const VariantPlan& plan) {
   const SolverRules rules = solver_rules(plan);
   if (rules.year == Year::modes) return true;
-  const double few = year_share_of_few * static_cast<double>(lit_intervals(plan));
-  return rules.year == Year::automatic && year_can_serve(rules) && few >= year_fewest &&
-         few > year_nodes(plan).all();
+  return rules.year == Year::automatic && year_can_serve(rules) &&
+         year_nodes(plan).all() <= most_of_few(static_cast<double>(lit_intervals(plan)));
 }
 
 WorkSeconds modelled_seconds(const VariantPlan& plan, std::size_t patches,
@@ -320,7 +333,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
 
   const bool of_few = is_year_of_few(plan);
   const YearNodes nodes = of_few ? year_nodes(plan) : YearNodes{};
-  const double solved = of_few ? std::min(lit, seasons * (nodes.all() + year_tests)) : lit;
+  const double solved = of_few ? std::min(lit, seasons * (nodes.all() + solved_for_tests)) : lit;
   const PartCost periods = part_cost(plan.totals, plan.batch_suns());
   // Solved side by side, as suns are, by every realization on its lines.
   const double suns_of_parts =
@@ -363,9 +376,15 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   // The sun's light of each realization, straight and circumsolar, and by mirrors.
   if (is_rgb || of_instants)
     work.memory_bytes += n * s.realizations * block_width * float_bytes * (mirrors ? 3.0 : 2.0);
-  if (of_few)
+  if (of_few) {
+    // Before the first batch.
+    const double of_batches =
+        n * (batch * kept * float_bytes + stored.of_batch + batch_sums + stored.of_merge);
+    work.memory_bytes +=
+        std::max(0.0, n * test_bytes_per_patch(s.realizations, mirrors) - of_batches);
     work.memory_bytes += seasons * n * float_bytes * packed_share *
                          (nodes.suns + nodes.skies * (2.0 + (mirrors ? 1 : 0) + s.realizations));
+  }
   work.memory_bytes += bands * n * static_cast<double>(periods.most) *
                        (arrays_of_realizations * of_realizations + sums_of_part * double_bytes);
   if (by_matrix)

@@ -51,10 +51,11 @@ inline constexpr double s_per_link_sun = 2.0e-10;    ///< one link of one sun an
 inline constexpr double s_per_link_batch = 6.6e-10;  ///< one link of one batch's realizations
 inline constexpr double s_per_patch_sun = 2.5e-7;
 /// Where few solutions serve a period: skies and suns for each part of the sky that its suns pass,
-/// a square of so many degrees (a year of Gothenburg passes 151), and what else is solved to test
-/// them; and one patch of one interval that is made up of them.
+/// a square of so many degrees (a year of Gothenburg passes 151), at least so many (what weeks
+/// take), and what else is solved to test them; and one patch of one interval that is made up of
+/// them.
 inline constexpr double year_square_deg = 7.5, skies_per_square = 1.2, suns_per_square = 1,
-                        year_tests = 80;
+                        fewest_skies = 48, fewest_suns = 32, solved_for_tests = 80;
 inline constexpr double s_per_patch_interval_of_year = 1.2e-7;
 /// Of the bytes of a float: what a node brings, by lines or one realization's samples of the sky
 /// about its sun (solver/light/packed_columns.h).

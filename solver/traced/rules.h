@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "solver/light/band.h"
+#include "solver/light/sun_block.h"
 #include "solver/light/tally.h"
 #include "solver/light/transport.h"
 
@@ -55,9 +56,13 @@ inline bool year_can_serve(const SolverRules& rules) {
   return rules.transport == Transport::gather && rules.bands == Bands::broadband &&
          rules.errors == Errors::totals;
 }
-/// They are few where they are fewer than this share of the intervals with light.
-inline constexpr double year_share_of_few = 0.25;
-/// Where this share is less, no period gains by them.
-inline constexpr double year_fewest = 128;
+/// Intervals with light that the solutions are tested on, and solved for that alone.
+inline constexpr std::size_t year_tests = 2 * block_width;
+/// Solutions, at most, of a period with so many intervals with light: with their tests they are a
+/// share of these. Beyond, and where a share of the period is tried in vain, each costs less.
+inline double most_of_few(double lit_intervals) {
+  constexpr double share = 0.4;
+  return share * lit_intervals - static_cast<double>(year_tests);
+}
 
 }  // namespace sunload

@@ -27,13 +27,14 @@ constexpr double first_rest = 0.01, first_distance = 7 * radians_per_degree;
 /// The reduction may be so much of the standard error of an interval: then it adds 5 % to it.
 constexpr double wanted_share = 1.0 / 3;
 constexpr double growth = 1.5;
-/// Intervals on which the reduction is measured: two blocks.
-constexpr std::size_t tests = 2 * block_width;
 
-std::vector<std::size_t> lit_intervals(const TracedScene& traced, const LitPeriod& period) {
-  std::vector<std::size_t> lit;
-  for (std::size_t k = 0; k < period.intervals(); ++k)
-    if (traced.optics.any_emission || !period.is_dark(k)) lit.push_back(k);
+bool is_lit(const TracedScene& traced, const LitPeriod& period, std::size_t interval) {
+  return traced.optics.any_emission || !period.is_dark(interval);
+}
+
+double lit_intervals(const TracedScene& traced, const LitPeriod& period) {
+  double lit = 0;
+  for (std::size_t k = 0; k < period.intervals(); ++k) lit += is_lit(traced, period, k) ? 1 : 0;
   return lit;
 }
 
@@ -43,8 +44,12 @@ std::vector<std::size_t> test_intervals(const TracedScene& traced, const LitPeri
   std::vector<std::size_t> from;
   for (std::size_t k = 0; k < period.intervals(); ++k)
     if (period.has_sun(k)) from.push_back(k);
-  if (from.size() < tests) from = lit_intervals(traced, period);
-  const std::size_t count = std::min(tests, from.size());
+  if (from.size() < year_tests) {
+    from.clear();
+    for (std::size_t k = 0; k < period.intervals(); ++k)
+      if (is_lit(traced, period, k)) from.push_back(k);
+  }
+  const std::size_t count = std::min(year_tests, from.size());
   std::vector<std::size_t> some(count);
   for (std::size_t t = 0; t < count; ++t) some[t] = from[(2 * t + 1) * from.size() / (2 * count)];
   return some;
@@ -291,7 +296,7 @@ std::vector<ReductionTest> reduction_tests(const TracedScene& traced, const LitP
   constexpr double of_all = 0.25;
   ahead.begin_turn(of_all);
   std::vector<ReductionTest> made;
-  made.reserve(tests / block_width);
+  made.reserve(year_tests / block_width);
   for (std::size_t first = 0; first < intervals.size(); first += block_width) {
     const auto begin = intervals.begin() + static_cast<std::ptrdiff_t>(first);
     const auto count = std::min(block_width, intervals.size() - first);
@@ -315,19 +320,33 @@ Squares mean_squares(const std::vector<ReductionTest>& made, const NodeLight& no
 
 namespace {
 
+/// Nodes to begin with.
+struct FirstNodes {
+  std::size_t skies, suns;
+  explicit FirstNodes(const NodeLight& nodes)
+      : skies(whole_blocks(nodes.skies().count_for(first_rest))),
+        suns(whole_blocks(nodes.suns().count_for(first_distance))) {}
+  double all() const { return static_cast<double>(skies + suns); }
+
+ private:
+  static std::size_t whole_blocks(std::size_t count) {
+    return chunk_count(count, block_width) * block_width;
+  }
+};
+
 /// Takes nodes until they are near enough to the tests, or too many to pay, or all there are.
 Reduction take_nodes(NodeLight& nodes, const std::vector<ReductionTest>& made,
-                     std::size_t intervals, std::size_t most, WorkDone& work, NodesAhead& ahead) {
+                     std::size_t intervals, double most, WorkDone& work, NodesAhead& ahead) {
   constexpr double of_left = 0.75;
-  std::size_t skies = nodes.skies().count_for(first_rest);
-  std::size_t suns = nodes.suns().count_for(first_distance);
+  auto [skies, suns] = FirstNodes(nodes);
   for (;;) {
     ahead.begin_turn(of_left);
     nodes.take(skies, suns, work, [&](double share) { ahead.advance(share); });
     const Squares squares = mean_squares(made, nodes, intervals);
     const Reduction reduction{nodes.skies().count(), nodes.suns().count(), std::sqrt(squares.error),
                               std::sqrt(squares.standard_error), squares.share() <= wanted_share};
-    if (reduction.is_met || reduction.skies + reduction.suns >= most) return reduction;
+    if (reduction.is_met || static_cast<double>(reduction.skies + reduction.suns) >= most)
+      return reduction;
     const bool no_more_suns = nodes.suns().count() == nodes.suns().ranked().size();
     const bool no_more_skies = nodes.skies().count() == nodes.skies().ranked().size();
     if (no_more_suns && no_more_skies) return reduction;
@@ -341,18 +360,21 @@ Reduction take_nodes(NodeLight& nodes, const std::vector<ReductionTest>& made,
 }  // namespace
 
 YearGathering::YearGathering(const TracedScene& traced, const LitPeriod& period, Watch& watch)
-    : LightTransport(traced) {
+    : LightTransport(traced), most_(most_of_few(lit_intervals(traced, period))) {
   SUNLOAD_EXPECT(year_can_serve(traced.rules), "gathered broadband light, errors of totals");
   NodesAhead ahead(watch);
   const std::vector<std::size_t> tested = test_intervals(traced, period);
-  // Before the nodes: while they are made, tests take more memory than later.
-  const auto made = reduction_tests(traced, period, tested, work_, ahead);
   nodes_ = std::make_unique<NodeLight>(traced, period, tested, work_);
-  const auto lit = static_cast<double>(lit_intervals(traced, period).size());
-  reduction_ = take_nodes(*nodes_, made, tested.size(),
-                          static_cast<std::size_t>(year_share_of_few * lit), work_, ahead);
+  if (traced.rules.year == Year::automatic && FirstNodes(*nodes_).all() > most_) return;
+  // Before nodes are solved: while they are made, tests take more memory than later.
+  const auto made = reduction_tests(traced, period, tested, work_, ahead);
+  reduction_ = take_nodes(*nodes_, made, tested.size(), most_, work_, ahead);
   ahead.end();
   return_large_memory();  // of what the nodes were made from
+}
+
+bool YearGathering::pays() const {
+  return reduction_.is_met && static_cast<double>(reduction_.skies + reduction_.suns) <= most_;
 }
 
 std::unique_ptr<BatchTransport> YearGathering::begin(std::vector<BatchTally>& tallies,
@@ -364,18 +386,14 @@ std::unique_ptr<const LightTransport> year_where_it_pays(const TracedScene& trac
                                                          const LitPeriod& period, WorkDone& work,
                                                          Watch& watch) {
   if (traced.rules.year == Year::each || !year_can_serve(traced.rules)) return nullptr;
-  const auto lit = static_cast<double>(lit_intervals(traced, period).size());
   // So many are tests that few would be left to choose from.
-  if (lit < static_cast<double>(2 * tests)) return nullptr;
-  if (traced.rules.year == Year::modes)
-    return std::make_unique<YearGathering>(traced, period, watch);
-  // Before anything is solved or ranked.
-  if (year_share_of_few * lit < year_fewest) return nullptr;
+  const double lit = lit_intervals(traced, period);
+  if (lit < static_cast<double>(2 * year_tests)) return nullptr;
+  // Before anything is solved or ranked: there are at least a block of skies and one of suns.
+  const bool is_asked_for = traced.rules.year == Year::modes;
+  if (!is_asked_for && most_of_few(lit) < static_cast<double>(2 * block_width)) return nullptr;
   auto year = std::make_unique<YearGathering>(traced, period, watch);
-  const Reduction& reduction = *year->reduction();
-  if (reduction.is_met &&
-      static_cast<double>(reduction.skies + reduction.suns) < year_share_of_few * lit)
-    return year;
+  if (is_asked_for || year->pays()) return year;
   work += year->work();
   return nullptr;
 }

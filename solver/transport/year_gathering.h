@@ -17,19 +17,23 @@ namespace sunload {
 
 class YearGathering : public LightTransport {
  public:
-  /// Solves nodes. `traced` and `period` must outlive it. Throws Interrupted.
+  /// Solves nodes; where the rules leave it open whether to, none if even the first are too many
+  /// to pay. `traced` and `period` must outlive it. Throws Interrupted.
   YearGathering(const TracedScene& traced, const LitPeriod& period, Watch& watch);
   std::unique_ptr<BatchTransport> begin(std::vector<BatchTally>& tallies, WorkDone& work,
                                         RayRecord* record) const override;
   const Reduction* reduction() const override { return &reduction_; }
+  /// It keeps its aim, and costs less than solving each interval.
+  bool pays() const;
 
  private:
+  double most_;  ///< nodes, so that it pays
   std::unique_ptr<NodeLight> nodes_;
   Reduction reduction_;
 };
 
-/// The solution by nodes where the rules ask for it, or leave it open and it costs less than a
-/// quarter of solving each interval, and keeps its aim; else null. Then `work` is what was tried.
+/// The solution by nodes where the rules ask for it, or leave it open and it pays; else null. Then
+/// `work` is what was tried.
 std::unique_ptr<const LightTransport> year_where_it_pays(const TracedScene& traced,
                                                          const LitPeriod& period, WorkDone& work,
                                                          Watch& watch);
