@@ -7,6 +7,7 @@
 #include <string>
 
 #include "geo/base/check.h"
+#include "geo/base/vector_code.h"
 #include "solver/base/rng.h"
 
 namespace sunload {
@@ -116,68 +117,76 @@ Vec3 Hierarchy::centroid(std::size_t patch) const {
   return (corner(patch, 0) + corner(patch, 1) + corner(patch, 2)) / 3;
 }
 
-std::int32_t Hierarchy::patch_at(std::int32_t triangle, double u, double v, bool front) const {
-  const auto root = root_[static_cast<std::size_t>(triangle)];
-  if (root < 0 || (!front && root % 2 == 0)) return -1;
-  Weights x{{1 - u - v, u, v}};
-  Split split = split_[static_cast<std::size_t>(root / 2)];
-  while (split >= 0) {
-    const auto child = descend(split / 4, static_cast<std::uint8_t>(split % 4), x);
-    split = split_[static_cast<std::size_t>(child)];
-  }
-  return -1 - split + (front ? 0 : 1);
-}
-
 namespace {
 
-/// A point of an element, by the weights of its corners.
-struct Point {
-  std::int32_t split;  ///< of the element
-  double w[3];
+/// Points of elements on their way down, side by side: each by the element's split and the weights
+/// of its corners, in units that halves divide without rounding.
+struct PointColumns {
+  static constexpr double unit = 1 << 30;
+  alignas(64) std::int32_t split[packet_size], w0[packet_size], w1[packet_size], w2[packet_size];
+
+  void put(std::size_t place, std::int32_t root, double u, double v) {
+    split[place] = root;
+    w1[place] = static_cast<std::int32_t>(u * unit);
+    w2[place] = static_cast<std::int32_t>(v * unit);
+    w0[place] = static_cast<std::int32_t>(unit) - w1[place] - w2[place];
+  }
 };
 
-/// To the half that holds it, as `descend`: without branches, which would be guessed wrong half of
-/// the time.
-inline void step_down(const std::int32_t* split, Point& point) {
-  constexpr std::uint8_t next[3] = {1, 2, 0};
-  const auto apex = static_cast<std::size_t>(point.split & 3);
-  const double p = point.w[next[apex]], q = point.w[next[next[apex]]], r = point.w[apex];
-  const std::int32_t second = q > p ? 1 : 0;
-  point.w[second] = std::abs(p - q);
-  point.w[1 - second] = 2 * std::min(p, q);
-  point.w[2] = r;
-  point.split = split[(point.split >> 2) + second];
+/// To the halves that hold them (`descend`), until all are in leaves; without branches, which would
+/// be guessed wrong half of the time. In the shape that compilers turn into vector code.
+SUNLOAD_VECTOR_CODE void descend_all(const std::int32_t* __restrict splits,
+                                     PointColumns& __restrict points) {
+  alignas(64) std::uint32_t child[packet_size];
+  for (std::uint32_t leaves = 0; leaves < packet_size;) {
+    for (std::size_t l = 0; l < packet_size; ++l) {
+      const std::int32_t split = points.split[l], apex = split & 3;
+      const std::int32_t a = points.w0[l], b = points.w1[l], c = points.w2[l];
+      const std::int32_t p = apex == 0 ? b : apex == 1 ? c : a;
+      const std::int32_t q = apex == 0 ? c : apex == 1 ? a : b;
+      const std::int32_t r = apex == 0 ? a : apex == 1 ? b : c;
+      const std::int32_t larger = p > q ? p : q, smaller = p > q ? q : p;
+      const std::int32_t rest = larger - smaller, twice = smaller + smaller;
+      points.w0[l] = q > p ? twice : rest;
+      points.w1[l] = q > p ? rest : twice;
+      points.w2[l] = r;
+      const std::int32_t second = q > p ? 1 : 0, inner = (split >> 2) + second;
+      child[l] = static_cast<std::uint32_t>(split < 0 ? 0 : inner);
+    }
+    leaves = 0;
+    for (std::size_t l = 0; l < packet_size; ++l) {
+      const std::int32_t half = splits[child[l]];
+      points.split[l] = points.split[l] < 0 ? points.split[l] : half;
+    }
+    for (std::size_t l = 0; l < packet_size; ++l) leaves += points.split[l] < 0 ? 1u : 0u;
+  }
 }
 
 }  // namespace
 
+std::int32_t Hierarchy::patch_at(std::int32_t triangle, double u, double v, bool front) const {
+  const auto root = root_[static_cast<std::size_t>(triangle)];
+  if (root < 0 || (!front && root % 2 == 0)) return -1;
+  PointColumns point;
+  for (std::size_t l = 0; l < packet_size; ++l)
+    point.put(l, split_[static_cast<std::size_t>(root / 2)], u, v);
+  descend_all(split_.data(), point);
+  return -1 - point.split[0] + (front ? 0 : 1);
+}
+
 void Hierarchy::patches_at(const PacketHits& hits, std::int32_t (&patch)[packet_size]) const {
-  Point point[packet_size];
-  std::uint8_t below[packet_size];  // rays whose points are not in leaves yet
-  std::size_t count = 0;
+  constexpr std::int32_t in_a_leaf = -1;
+  PointColumns points;
   for (std::size_t l = 0; l < packet_size; ++l) {
     const auto root = hits.triangle[l] < 0 ? -1 : root_[static_cast<std::size_t>(hits.triangle[l])];
-    patch[l] = -1;
-    if (root < 0 || (!hits.front[l] && root % 2 == 0)) continue;
-    patch[l] = hits.front[l] ? 0 : 1;
-    const auto u = static_cast<double>(hits.u[l]), v = static_cast<double>(hits.v[l]);
-    point[l] = {split_[static_cast<std::size_t>(root / 2)], {1 - u - v, u, v}};
-    below[count] = static_cast<std::uint8_t>(l);
-    count += point[l].split >= 0 ? 1 : 0;
+    const bool any = root >= 0 && (hits.front[l] || root % 2 != 0);
+    patch[l] = !any ? -1 : hits.front[l] ? 0 : 1;
+    points.put(l, any ? split_[static_cast<std::size_t>(root / 2)] : in_a_leaf,
+               static_cast<double>(hits.u[l]), static_cast<double>(hits.v[l]));
   }
-  // Side by side: what one of them waits for, others have already.
-  while (count > 0) {
-    std::size_t left = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto l = below[i];
-      step_down(split_.data(), point[l]);
-      below[left] = l;
-      left += point[l].split >= 0 ? 1 : 0;
-    }
-    count = left;
-  }
+  descend_all(split_.data(), points);
   for (std::size_t l = 0; l < packet_size; ++l)
-    if (patch[l] >= 0) patch[l] += -1 - point[l].split;
+    if (patch[l] >= 0) patch[l] += -1 - points.split[l];
 }
 
 }  // namespace sunload
