@@ -52,8 +52,9 @@ void add_energy(std::span<const IntervalLight> batch, BatchTally& tally) {
 }  // namespace
 
 int batch_suns_for(std::size_t intervals) {
-  constexpr std::size_t long_period = 2048;
-  return intervals > long_period ? 256 : 64;
+  // A batch is lost with the process that has it in hand: there are some of them in any case.
+  constexpr std::size_t weeks = 256, months = 1024;
+  return intervals > months ? 256 : intervals > weeks ? 128 : 64;
 }
 
 Solved solve(const LightTransport& transport, std::span<const IntervalLight> batch, Watch& watch,

@@ -14,6 +14,7 @@ namespace {
 
 TEST(Planner, LongPeriodsHaveLargeBatches) {
   EXPECT_EQ(batch_suns_for(96), 64);
+  EXPECT_EQ(batch_suns_for(720), 128);
   EXPECT_EQ(batch_suns_for(8760), 256);
 }
 
