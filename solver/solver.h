@@ -21,8 +21,8 @@ struct Solved {
   WorkDone work;                  ///< of this batch
 };
 
-/// Suns of a batch that suit a period (`batch_suns: auto` of a study). In few and large ones suns of
-/// one hour stand together, which one look at the scene serves, and fewer totals of all
+/// Suns of a batch that suit a period (`batch_suns: auto` of a study). In few and large ones suns
+/// of one hour stand together, which one look at the scene serves, and fewer totals of all
 /// realizations are made.
 int batch_suns_for(std::size_t intervals);
 

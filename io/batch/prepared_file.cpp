@@ -3,6 +3,7 @@
 #include "io/batch/prepared_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -16,9 +17,10 @@ namespace sunload {
 namespace {
 
 // Layout, in the byte order of the machine: magic, content hash and counts, CRC-32
-// of these, the arrays of `visit_set`, CRC-32 of all before. An array is its
+// of these, the arrays of `visit_set`, CRC-32 of all before, the reduction (none: no
+// nodes) and the arrays of SolvedNodes, CRC-32 of all before. An array is its
 // length and its bytes.
-constexpr char magic[16] = "sunload-lines-5";
+constexpr char magic[16] = "sunload-lines-6";
 
 /// Calls `array` for every array of the lines, in the order of the file.
 template <class Set, class Array>
@@ -40,11 +42,21 @@ class Output {
     file_.write(static_cast<const char*>(data), static_cast<std::streamsize>(count));
     if (!file_ && error_ == 0) error_ = errno;
   }
-  template <class T>
-  void operator()(const std::vector<T>& values) {
+  template <class T, class Memory>
+  void operator()(const std::vector<T, Memory>& values) {
     const std::uint64_t count = values.size();
     bytes(&count, sizeof(count));
     bytes(values.data(), count * sizeof(T));
+  }
+  template <class T, std::size_t size>
+  void operator()(const std::array<T, size>& values) {
+    bytes(values.data(), sizeof(values));
+  }
+  template <class T, class Visit>
+  void each(const std::vector<T>& list, Visit&& visit) {
+    const std::uint64_t count = list.size();
+    bytes(&count, sizeof(count));
+    for (const T& item : list) visit(item);
   }
   void checksum() {
     const std::uint32_t of_all_before = crc_;
@@ -80,13 +92,22 @@ class Input {
     left_ -= count;
     return true;
   }
-  template <class T>
-  void operator()(std::vector<T>& values) {
-    std::uint64_t count = 0;
-    good_ = good_ && take(&count, sizeof(count)) && count <= left_ / sizeof(T);
+  template <class T, class Memory>
+  void operator()(std::vector<T, Memory>& values) {
+    const std::uint64_t count = take_count(sizeof(T));
     if (!good_) return;
     values.resize(count);
     good_ = take(values.data(), count * sizeof(T));
+  }
+  template <class T, std::size_t size>
+  void operator()(std::array<T, size>& values) {
+    good_ = good_ && take(values.data(), sizeof(values));
+  }
+  template <class T, class Visit>
+  void each(std::vector<T>& list, Visit&& visit) {
+    // An item has the length of an array at least.
+    const std::uint64_t count = take_count(sizeof(std::uint64_t));
+    for (std::uint64_t i = 0; good_ && i < count; ++i) visit(list.emplace_back());
   }
   /// What was read so far is what was written.
   bool is_right() {
@@ -102,15 +123,33 @@ class Input {
   bool is_at_end() const { return left_ == 0; }
 
  private:
+  /// Of items that take so many bytes or more; what the file cannot hold is not good.
+  std::uint64_t take_count(std::size_t bytes_each) {
+    std::uint64_t count = 0;
+    good_ = good_ && take(&count, sizeof(count)) && count <= left_ / bytes_each;
+    return good_ ? count : 0;
+  }
+
   std::ifstream file_;
   std::size_t left_ = 0;
   std::uint32_t crc_ = 0;
   bool good_ = true;
 };
 
+std::vector<double> numbers_of(const Reduction& reduction) {
+  return {static_cast<double>(reduction.skies), static_cast<double>(reduction.suns),
+          reduction.error_w_m2, reduction.standard_error_w_m2, reduction.is_met ? 1.0 : 0.0};
+}
+
+Reduction reduction_of(const std::vector<double>& numbers) {
+  return {static_cast<std::size_t>(numbers[0]), static_cast<std::size_t>(numbers[1]), numbers[2],
+          numbers[3], numbers[4] != 0};
+}
+
 }  // namespace
 
-void write_prepared(const std::string& path, const std::string& content_hash, const Lines& lines) {
+void write_prepared(const std::string& path, const std::string& content_hash, const Lines& lines,
+                    const SolvedNodes* nodes) {
   FileAside target(path);
   Output out(target.aside());
   out.bytes(magic, sizeof(magic));
@@ -122,12 +161,15 @@ void write_prepared(const std::string& path, const std::string& content_hash, co
   visit_set(lines.pooled, out);
   out(lines.glimpses);
   out.checksum();
+  out(nodes ? numbers_of(nodes->reduction) : std::vector<double>());
+  if (nodes) SolvedNodes::visit(*nodes, out);
+  out.checksum();
   out.finish();
   // Its checksum tells what a lost power supply has spoilt.
   target.publish_unflushed();
 }
 
-std::optional<Lines> read_prepared(const std::string& path, const std::string& content_hash) {
+std::optional<Prepared> read_prepared(const std::string& path, const std::string& content_hash) {
   Input in(path);
   char word[sizeof(magic)];
   if (!in.take(word, sizeof(word)) || std::memcmp(word, magic, sizeof(magic)) != 0) return {};
@@ -139,7 +181,8 @@ std::optional<Lines> read_prepared(const std::string& path, const std::string& c
   if (!in.is_right() || std::string(hash.begin(), hash.end()) != content_hash) return {};
   if (counts.size() != 5 || !in.can_hold(counts[0], counts[1])) return {};
   if (std::max(counts[3], counts[4]) > LinkTable::most_targets) return {};
-  Lines lines;
+  Prepared prepared;
+  Lines& lines = prepared.lines;
   const auto rows = static_cast<std::size_t>(counts[1]);
   const auto elements = static_cast<std::size_t>(counts[3]);
   const auto cells = static_cast<std::size_t>(counts[4]);
@@ -150,8 +193,17 @@ std::optional<Lines> read_prepared(const std::string& path, const std::string& c
   for (auto& set : lines.realizations) visit_set(set, in);
   visit_set(lines.pooled, in);
   in(lines.glimpses);
+  if (!in.is_right()) return {};
+  std::vector<double> reduction;
+  in(reduction);
+  if (!reduction.empty()) {
+    if (reduction.size() != numbers_of({}).size()) return {};
+    SolvedNodes& nodes = prepared.nodes.emplace();
+    nodes.reduction = reduction_of(reduction);
+    SolvedNodes::visit(nodes, in);
+  }
   if (!in.is_right() || !in.is_at_end()) return {};
-  return lines;
+  return prepared;
 }
 
 }  // namespace sunload

@@ -334,6 +334,9 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   const bool of_few = is_year_of_few(plan);
   const YearNodes nodes = of_few ? year_nodes(plan) : YearNodes{};
   const double solved = of_few ? std::min(lit, seasons * (nodes.all() + solved_for_tests)) : lit;
+  // Zero where there are none.
+  const double node_bytes = n * float_bytes * packed_share *
+                            (nodes.suns + nodes.skies * (2.0 + (mirrors ? 1 : 0) + s.realizations));
   const PartCost periods = part_cost(plan.totals, plan.batch_suns());
   // Solved side by side, as suns are, by every realization on its lines.
   const double suns_of_parts =
@@ -382,8 +385,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
         n * (batch * kept * float_bytes + stored.of_batch + batch_sums + stored.of_merge);
     work.memory_bytes +=
         std::max(0.0, n * test_bytes_per_patch(s.realizations, mirrors) - of_batches);
-    work.memory_bytes += seasons * n * float_bytes * packed_share *
-                         (nodes.suns + nodes.skies * (2.0 + (mirrors ? 1 : 0) + s.realizations));
+    work.memory_bytes += seasons * node_bytes;
   }
   work.memory_bytes += bands * n * static_cast<double>(periods.most) *
                        (arrays_of_realizations * of_realizations + sums_of_part * double_bytes);
@@ -415,7 +417,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
       bands * n * float_bytes *
           (static_cast<double>(periods.parts) * values_of_part +
            static_cast<double>(periods.parts_with_errors) * s.realizations) +
-      (plan.batches() > 1 && seasons == 1 ? lines * kept_bytes_per_line : 0);
+      (plan.batches() > 1 && seasons == 1 ? lines * kept_bytes_per_line + node_bytes : 0);
   WorkSeconds core;  // of one core
   core.lines =
       seasons * tracing_seconds(plan, n, lines, guided) +

@@ -16,10 +16,12 @@ namespace sunload {
 /// Immovable: its parts refer to each other, and to the plan.
 class TracedSeason {
  public:
-  /// `season`: place in the plan's seasons, 0 where there are none. `ready`: lines of an equal
-  /// scene, or none. Throws Interrupted.
+  /// `season`: place in the plan's seasons, 0 where there are none. `lines`: of an equal scene, or
+  /// none; `nodes`: of an equal scene and period, which are taken from there, or null. Throws
+  /// Interrupted.
   TracedSeason(const VariantPlan& plan, std::size_t season, std::shared_ptr<const Hierarchy> mesh,
-               const SolverRules& rules, Watch& watch, std::optional<Lines> ready = {});
+               const SolverRules& rules, Watch& watch, std::optional<Lines> lines = {},
+               SolvedNodes* nodes = nullptr);
   TracedSeason(const TracedSeason&) = delete;
   TracedSeason& operator=(const TracedSeason&) = delete;
 

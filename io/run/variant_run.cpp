@@ -16,7 +16,6 @@
 #include "io/base/waiting_lock.h"
 #include "io/batch/batch_tally.h"
 #include "io/batch/file.h"
-#include "io/batch/prepared_file.h"
 #include "io/plan/rules_of_study.h"
 #include "io/plan/work_estimate.h"
 #include "io/run/mpi_world.h"
@@ -91,7 +90,7 @@ void VariantRun::prepare(MpiWorld* world) {
   world->wait_for_all();
   if (world->is_first()) return;
   if (has_shared_lines()) return take_shared_lines();
-  build(read_prepared(folder_.prepared(), plan_.content_hash));
+  build_prepared(read_prepared(folder_.prepared(), plan_.content_hash));
 }
 
 void VariantRun::take_shared_lines() {
@@ -105,7 +104,7 @@ void VariantRun::take_shared_lines() {
 void VariantRun::read_or_trace() {
   if (has_shared_lines()) return take_shared_lines();
   const std::string path = folder_.prepared(), lock_path = folder_.prepared_lock();
-  if (auto ready = read_prepared(path, plan_.content_hash)) return build(std::move(ready));
+  if (auto ready = read_prepared(path, plan_.content_hash)) return build_prepared(std::move(ready));
   if (folder_.batches_not_there().size() < 2) return build({});
   const WaitingLock lock(lock_path,
                          {.is_cancelled = [this] { return progress_.stop_requested(); },
@@ -117,13 +116,20 @@ void VariantRun::read_or_trace() {
   if (!lock.is_held())
     progress_.warn("warning: cannot lock " + lock_path + " (" + lock.problem() +
                    "); processes that start together each trace the lines");
-  build(read_prepared(path, plan_.content_hash));
+  build_prepared(read_prepared(path, plan_.content_hash));
   if (unwritten_[Work::line_rays] > 0) keep_lines(path);
 }
 
-void VariantRun::build(std::optional<Lines> ready) {
-  if (!ready) progress_.advance(Stage::lines, 0);
-  add(std::make_unique<TracedSeason>(plan_, 0, mesh_, rules_, progress_, std::move(ready)));
+/// With what another process has traced, solved, or found not to pay; none: all anew.
+void VariantRun::build_prepared(std::optional<Prepared> ready) {
+  if (!ready) return build({});
+  if (!ready->nodes) rules_.year = Year::each;
+  build(std::move(ready->lines), ready->nodes ? &*ready->nodes : nullptr);
+}
+
+void VariantRun::build(std::optional<Lines> lines, SolvedNodes* nodes) {
+  if (!lines) progress_.advance(Stage::lines, 0);
+  add(std::make_unique<TracedSeason>(plan_, 0, mesh_, rules_, progress_, std::move(lines), nodes));
   seen_ = seen_once(seasons_.front()->traced());
 }
 
@@ -179,7 +185,8 @@ void VariantRun::warn_of_sensors() {
 void VariantRun::keep_lines(const std::string& path) {
   try {
     folder_.make();
-    write_prepared(path, plan_.content_hash, seasons_.front()->traced().patches.lines);
+    write_prepared(path, plan_.content_hash, seasons_.front()->traced().patches.lines,
+                   seasons_.front()->transport().nodes());
   } catch (const MachineError& error) {
     warn(std::string("the traced lines are not kept (") + error.what() +
          "); who goes on with this work traces them again");

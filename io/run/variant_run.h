@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/batch/batch_tally.h"
+#include "io/batch/prepared_file.h"
 #include "io/plan/variant_plan.h"
 #include "io/run/progress.h"
 #include "io/run/shared_rays.h"
@@ -53,7 +54,8 @@ class VariantRun {
   bool has_shared_lines() const { return shared_ && shared_->lines; }
   void take_shared_lines();
   RayRecord* record_of(std::size_t batch);
-  void build(std::optional<Lines> ready);
+  void build_prepared(std::optional<Prepared> ready);
+  void build(std::optional<Lines> lines, SolvedNodes* nodes = nullptr);
   void build_seasons();
   void add(std::unique_ptr<TracedSeason> season);
   void warn_of_sensors();

@@ -31,6 +31,13 @@ class PackedColumns {
   const std::uint16_t* codes(std::size_t i) const { return code_.data() + i * block_width; }
   float of_row(std::size_t i) const { return of_row_[i]; }
   float of_column(std::size_t k) const { return of_column_[k]; }
+  /// Calls `array` for each array, to write or to read it.
+  template <class Self, class Array>
+  static void visit(Self& self, Array&& array) {
+    array(self.of_column_);
+    array(self.of_row_);
+    array(self.code_);
+  }
 
  private:
   std::array<float, block_width> of_column_{};

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/transport/light_transport.h"
 
+#include <utility>
+
 #include "solver/transport/gathering.h"
 #include "solver/transport/shooting.h"
 #include "solver/transport/year_gathering.h"
@@ -14,7 +16,9 @@ std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced) {
 }
 
 std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced,
-                                                   const LitPeriod& period, Watch& watch) {
+                                                   const LitPeriod& period, Watch& watch,
+                                                   SolvedNodes* ready) {
+  if (ready) return std::make_unique<YearGathering>(traced, period, std::move(*ready));
   WorkDone tried;
   if (auto year = year_where_it_pays(traced, period, tried, watch)) return year;
   if (traced.rules.transport == Transport::shoot) return std::make_unique<Shooting>(traced);

@@ -42,6 +42,8 @@ struct Reduction {
   bool is_met = false;  ///< error ≤ a third of the standard error
 };
 
+struct SolvedNodes;
+
 class LightTransport {
  public:
   explicit LightTransport(const TracedScene& traced) : traced_(traced) {}
@@ -58,6 +60,8 @@ class LightTransport {
   const WorkDone& work() const { return work_; }
   /// Null where each interval has its own solution.
   virtual const Reduction* reduction() const { return nullptr; }
+  /// The few that there are else.
+  virtual const SolvedNodes* nodes() const { return nullptr; }
 
  protected:
   const TracedScene& traced_;
@@ -67,8 +71,10 @@ class LightTransport {
 /// The one that the rules of the scene ask for; `traced` must outlive it.
 std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced);
 /// The same for a whole period, which few solutions may serve (SolverRules::year); `period` must
-/// outlive it, too. Throws Interrupted.
+/// outlive it, too. `ready`: these, of an equal scene and period, which are taken from there; null:
+/// nobody has solved them. Throws Interrupted.
 std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced,
-                                                   const LitPeriod& period, Watch& watch);
+                                                   const LitPeriod& period, Watch& watch,
+                                                   SolvedNodes* ready = nullptr);
 
 }  // namespace sunload

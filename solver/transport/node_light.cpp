@@ -193,8 +193,19 @@ NodeLight::NodeLight(const TracedScene& traced, const LitPeriod& period,
   IntervalLight far_ground;
   far_ground.ground_exitance = 1;
   if (traced.optics.any_emission)
-    lamps_ = solve(std::vector{IntervalLight{}}, Keep::reflected, work);
-  ground_ = solve(std::vector{far_ground}, Keep::reflected, work);
+    solved_.lamps = solve(std::vector{IntervalLight{}}, Keep::reflected, work);
+  solved_.ground = solve(std::vector{far_ground}, Keep::reflected, work);
+}
+
+NodeLight::NodeLight(const TracedScene& traced, const LitPeriod& period,
+                     const std::vector<std::size_t>& left_out, SolvedNodes ready)
+    : traced_(traced),
+      period_(period),
+      skies_(traced.grid, period, most_skies, left_out),
+      suns_(period, most_suns, left_out),
+      solved_(std::move(ready)) {
+  skies_.take(solved_.reduction.skies);
+  suns_.take(solved_.reduction.suns);
 }
 
 void NodeLight::take(std::size_t skies, std::size_t suns, WorkDone& work,
@@ -209,29 +220,29 @@ void NodeLight::take(std::size_t skies, std::size_t suns, WorkDone& work,
   const auto grow = [&](std::vector<NodeBlock>& blocks, std::size_t count, auto&& solve_nodes) {
     for (std::size_t first = blocks.size() * block_width; first < count; first += block_width) {
       blocks.push_back(solve_nodes(first, std::min(block_width, count - first)));
-      const std::size_t done = block_width * (sky_blocks_.size() + sun_blocks_.size()) - solved;
+      const std::size_t done = block_width * (solved_.skies.size() + solved_.suns.size()) - solved;
       const std::size_t wanted = sky_count + sun_count - solved;
       advance(std::min(1.0, static_cast<double>(done) / static_cast<double>(wanted)));
     }
   };
-  grow(sky_blocks_, sky_count,
+  grow(solved_.skies, sky_count,
        [&](std::size_t first, std::size_t n) { return solve_skies(first, n, work); });
-  grow(sun_blocks_, sun_count,
+  grow(solved_.suns, sun_count,
        [&](std::size_t first, std::size_t n) { return solve_suns(first, n, work); });
   skies_.take(sky_count);
   suns_.take(sun_count);
 }
 
 std::vector<const NodeBlock*> NodeLight::blocks() const {
-  std::vector<const NodeBlock*> all{&lamps_, &ground_};
-  for (const auto* blocks : {&sky_blocks_, &sun_blocks_})
+  std::vector<const NodeBlock*> all{&solved_.lamps, &solved_.ground};
+  for (const auto* blocks : {&solved_.skies, &solved_.suns})
     for (const NodeBlock& block : *blocks) all.push_back(&block);
   return all;
 }
 
 std::vector<NodeWeights> NodeLight::weights(std::span<const IntervalLight> suns,
                                             const std::vector<Ledger>& by_rays) const {
-  std::vector<NodeWeights> weights(first_sun() + sun_blocks_.size());
+  std::vector<NodeWeights> weights(first_sun() + solved_.suns.size());
   std::vector<std::vector<double>> of_skies(suns.size());
   parallel_for(suns.size(), [&](std::size_t k) { of_skies[k] = skies_.weights(suns[k].sky); });
   for (std::size_t k = 0; k < suns.size(); ++k) {
@@ -243,7 +254,7 @@ std::vector<NodeWeights> NodeLight::weights(std::span<const IntervalLight> suns,
     double reflected_first = 0;
     for (const auto& [node, weight] : about)
       reflected_first +=
-          weight * sun_blocks_[node / block_width].reflected_first[node % block_width];
+          weight * solved_.suns[node / block_width].reflected_first[node % block_width];
     if (reflected_first <= 0) continue;
     const double scale = by_rays[k][Term::unshot] / reflected_first;
     for (const auto& [node, weight] : about)
@@ -341,7 +352,7 @@ NodeBlock NodeLight::solve(std::span<const IntervalLight> suns, Keep keep, WorkD
   const auto first = ledger_of_rays(traced_, light.direct, by_mirrors, suns.size());
   for (std::size_t j = 0; j < suns.size(); ++j) {
     (block.ledger[j] = whole[j]) += scaled(first[j], -1);
-    block.ledger[j] += scaled(lamps_.ledger[0], -1);
+    block.ledger[j] += scaled(solved_.lamps.ledger[0], -1);
     block.reflected_first[j] = first[j][Term::unshot];
   }
   if (traced_.sensors.count() > 0) {
@@ -349,10 +360,10 @@ NodeBlock NodeLight::solve(std::span<const IntervalLight> suns, Keep keep, WorkD
     block.sensors = packed(sensor_light(traced_.sensors.lines.pooled, traced_.optics, sources,
                                         {dark, dark, {}}, traced_.sensors.lamps.pooled,
                                         seen_radiosity(traced_.hierarchy(), traced_.optics, light)),
-                           lamps_.sensors.reflected, suns.size(), keep);
+                           solved_.lamps.sensors.reflected, suns.size(), keep);
   }
   for (std::size_t at = 0; at < by_mirrors.size(); ++at) light.mirror[at] -= by_mirrors[at];
-  block.patches = packed(std::move(light), lamps_.patches.reflected, suns.size(), keep);
+  block.patches = packed(std::move(light), solved_.lamps.patches.reflected, suns.size(), keep);
   return block;
 }
 

@@ -41,6 +41,36 @@ struct NodeBlock {
   std::vector<PackedColumns> circumsolar;  ///< [R] part of the sky, per realization
   /// [source][cells] π · radiance of that part; empty ones: none.
   std::vector<std::vector<double>> circumsolar_sky;
+
+  /// Calls `array` for each array, and `array.each(list, visit)` for lists of them, to write or to
+  /// read them.
+  template <class Self, class Array>
+  static void visit(Self& self, Array& array) {
+    for (auto* received : {&self.patches, &self.sensors})
+      for (auto* kind : {&received->sky, &received->mirror, &received->reflected})
+        PackedColumns::visit(*kind, array);
+    array(self.ledger);
+    array(self.reflected_first);
+    array.each(self.circumsolar, [&](auto& samples) { PackedColumns::visit(samples, array); });
+    array.each(self.circumsolar_sky, array);
+  }
+};
+
+/// All that few solutions of a period are: what other processes, and later ones, need not solve.
+struct SolvedNodes {
+  Reduction reduction;
+  NodeBlock lamps, ground;
+  std::vector<NodeBlock> skies, suns;
+
+  /// As NodeBlock::visit; the reduction is not among them.
+  template <class Self, class Array>
+  static void visit(Self& self, Array& array) {
+    const auto visit_block = [&](auto& block) { NodeBlock::visit(block, array); };
+    visit_block(self.lamps);
+    visit_block(self.ground);
+    array.each(self.skies, visit_block);
+    array.each(self.suns, visit_block);
+  }
 };
 
 /// How much of each source of a NodeBlock the intervals of a block have, [source][interval].
@@ -59,6 +89,9 @@ class NodeLight {
   /// solved at once. `traced` and `period` must outlive it.
   NodeLight(const TracedScene& traced, const LitPeriod& period,
             const std::vector<std::size_t>& left_out, WorkDone& work);
+  /// With all that is solved already, of an equal scene and period.
+  NodeLight(const TracedScene& traced, const LitPeriod& period,
+            const std::vector<std::size_t>& left_out, SolvedNodes ready);
 
   /// Solves nodes until there are so many skies and suns, rounded up to whole blocks; never fewer
   /// than before. Cost: gathering one block of suns for 16 of them.
@@ -67,6 +100,9 @@ class NodeLight {
             const std::function<void(double)>& advance);
   const SkyNodes& skies() const { return skies_; }
   const SunNodes& suns() const { return suns_; }
+  const SolvedNodes& solved() const { return solved_; }
+  /// What is measured of those that are taken.
+  void set_reduction(const Reduction& reduction) { solved_.reduction = reduction; }
 
   /// Lamps, ground, skies, suns.
   std::vector<const NodeBlock*> blocks() const;
@@ -95,14 +131,13 @@ class NodeLight {
   NodeBlock solve_skies(std::size_t first, std::size_t count, WorkDone& work) const;
   NodeBlock solve_suns(std::size_t first, std::size_t count, WorkDone& work) const;
   std::size_t first_sky() const { return 2; }  ///< among `blocks`
-  std::size_t first_sun() const { return first_sky() + sky_blocks_.size(); }
+  std::size_t first_sun() const { return first_sky() + solved_.skies.size(); }
 
   const TracedScene& traced_;
   const LitPeriod& period_;
   SkyNodes skies_;
   SunNodes suns_;
-  NodeBlock lamps_, ground_;
-  std::vector<NodeBlock> sky_blocks_, sun_blocks_;
+  SolvedNodes solved_;
 };
 
 /// What the first light of the sun's rays brings to the ledger, for each sun of a block [W].

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
@@ -368,13 +369,20 @@ YearGathering::YearGathering(const TracedScene& traced, const LitPeriod& period,
   if (traced.rules.year == Year::automatic && FirstNodes(*nodes_).all() > most_) return;
   // Before nodes are solved: while they are made, tests take more memory than later.
   const auto made = reduction_tests(traced, period, tested, work_, ahead);
-  reduction_ = take_nodes(*nodes_, made, tested.size(), most_, work_, ahead);
+  nodes_->set_reduction(take_nodes(*nodes_, made, tested.size(), most_, work_, ahead));
   ahead.end();
   return_large_memory();  // of what the nodes were made from
 }
 
+YearGathering::YearGathering(const TracedScene& traced, const LitPeriod& period, SolvedNodes ready)
+    : LightTransport(traced),
+      most_(most_of_few(lit_intervals(traced, period))),
+      nodes_(std::make_unique<NodeLight>(traced, period, test_intervals(traced, period),
+                                         std::move(ready))) {}
+
 bool YearGathering::pays() const {
-  return reduction_.is_met && static_cast<double>(reduction_.skies + reduction_.suns) <= most_;
+  const Reduction& reached = *reduction();
+  return reached.is_met && static_cast<double>(reached.skies + reached.suns) <= most_;
 }
 
 std::unique_ptr<BatchTransport> YearGathering::begin(std::vector<BatchTally>& tallies,

@@ -20,16 +20,18 @@ class YearGathering : public LightTransport {
   /// Solves nodes; where the rules leave it open whether to, none if even the first are too many
   /// to pay. `traced` and `period` must outlive it. Throws Interrupted.
   YearGathering(const TracedScene& traced, const LitPeriod& period, Watch& watch);
+  /// By nodes that are solved already.
+  YearGathering(const TracedScene& traced, const LitPeriod& period, SolvedNodes ready);
   std::unique_ptr<BatchTransport> begin(std::vector<BatchTally>& tallies, WorkDone& work,
                                         RayRecord* record) const override;
-  const Reduction* reduction() const override { return &reduction_; }
+  const Reduction* reduction() const override { return &nodes_->solved().reduction; }
+  const SolvedNodes* nodes() const override { return &nodes_->solved(); }
   /// It keeps its aim, and costs less than solving each interval.
   bool pays() const;
 
  private:
   double most_;  ///< nodes, so that it pays
   std::unique_ptr<NodeLight> nodes_;
-  Reduction reduction_;
 };
 
 /// The solution by nodes where the rules ask for it, or leave it open and it pays; else null. Then

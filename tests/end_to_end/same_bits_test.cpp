@@ -55,7 +55,7 @@ TEST(SameBits, SeveralSunsOfAnIntervalByBothTransports) {
 TEST(SameBits, YearFromFewSolutions) {
   const WorkFolder folder;
   folder.write("square.obj", square_obj);
-  folder.write("square.yaml", square_study("totals", ", year: modes"));
+  folder.write("square.yaml", square_in_five_minutes(", year: modes"));
   expect_same_bits(folder, "square");
 }
 

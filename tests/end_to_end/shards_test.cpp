@@ -12,11 +12,13 @@
 #include <thread>
 
 #include "io/base/waiting_lock.h"
+#include "io/result/reader.h"
 #include "tests/support/child_process.h"
 #include "tests/support/program.h"
 #include "tests/support/result_change.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"
+#include "tests/support/square_folder.h"
 
 namespace sunload::test {
 namespace {
@@ -82,6 +84,26 @@ TEST(Shards, OneAfterAnotherGiveTheSameBits) {
   // All is there: nothing more to do, for shards and for merge.
   EXPECT_EQ(shard(folder, 0, 3).code, 0);
   EXPECT_EQ(program(folder, {"merge", "street.yaml"}).code, 0);
+}
+
+// Who comes later reads what is solved, as it reads the lines: it casts no ray for it.
+TEST(Shards, SkiesAndSunsOfALongPeriodAreSolvedOnce) {
+  for (const char* year : {", year: modes", ", year: each"}) {
+    const SquareFolder square(square_in_five_minutes(year));
+    ASSERT_EQ(square.run("one").code, 0);
+    for (const char* shard : {"0/3", "2/3", "1/3"}) {
+      const Ran ran = square.run("shards", {"--shard", shard});
+      ASSERT_EQ(ran.code, 0) << ran.err;
+    }
+    const ResultReader one(square.result("one")), shards(square.result("shards"));
+    EXPECT_EQ(different_data(square.result("one"), square.result("shards")),
+              std::vector<std::string>{});
+    EXPECT_EQ(shards.number_attribute("direct_rays"), one.number_attribute("direct_rays"));
+    EXPECT_EQ(shards.number_attribute("mirror_rays"), one.number_attribute("mirror_rays"));
+    const bool is_of_few = std::string(year) == ", year: modes";
+    EXPECT_EQ(one.number_attribute("year_skies") > 0, is_of_few);
+    EXPECT_EQ(shards.number_attribute("year_skies") > 0, is_of_few);
+  }
 }
 
 TEST(Shards, ByHandForAnyNumberOfVariants) {

@@ -49,6 +49,17 @@ inline std::string square_study(const std::string& standard_error = "totals",
          standard_error + "}\n";
 }
 
+/// The same day in 144 intervals, which few solutions can serve.
+inline std::string square_in_five_minutes(const std::string& solver) {
+  std::string text = square_study("totals", solver);
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("step_min: 60", "step_min: 5");
+  replace("batch_suns: 2", "batch_suns: 24");
+  return text;
+}
+
 /// The built-in street, coarse: 6 batches, most of a second.
 inline std::string street_study(const std::string& standard_error = "totals",
                                 const std::string& solver = "") {

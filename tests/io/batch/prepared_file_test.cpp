@@ -80,6 +80,53 @@ bool same(const LineSet& a, const LineSet& b) {
          same_bits(a.lamps, b.lamps) && same_bits(a.mirrored_fates, b.mirrored_fates);
 }
 
+PackedColumns packed(std::size_t rows, float seed) {
+  Columns values = columns(rows);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = seed * static_cast<float>(i * 37 % 101);
+  return PackedColumns(values);
+}
+
+NodeBlock node_block(std::size_t rows, float seed) {
+  NodeBlock block;
+  block.patches = {packed(rows, seed), {}, packed(rows, 2 * seed)};
+  block.sensors.mirror = packed(3, seed);
+  for (std::size_t j = 0; j < block_width; ++j) {
+    block.ledger[j].lost_at_backs = static_cast<double>(seed) + static_cast<double>(j);
+    block.reflected_first[j] = 1 / (static_cast<double>(seed) + static_cast<double>(j));
+  }
+  block.circumsolar = {packed(rows, 3 * seed), packed(rows, 4 * seed)};
+  block.circumsolar_sky = {{}, {1.5, static_cast<double>(seed)}};
+  return block;
+}
+
+SolvedNodes example_nodes() {
+  constexpr std::size_t rows = 40;
+  return {{32, 16, 0.25, 1.0 / 3, true},
+          node_block(rows, 0.1f),
+          node_block(rows, 0.2f),
+          {node_block(rows, 0.3f), node_block(rows, 0.4f)},
+          {node_block(rows, 0.5f)}};
+}
+
+/// All that is in nodes, as bytes.
+class Bytes {
+ public:
+  explicit Bytes(const SolvedNodes& nodes) { SolvedNodes::visit(nodes, *this); }
+  template <class Values>
+  void operator()(const Values& values) {
+    const std::size_t size = values.size() * sizeof(values[0]);
+    all.append(reinterpret_cast<const char*>(&size), sizeof(size));
+    if (size > 0) all.append(reinterpret_cast<const char*>(values.data()), size);
+  }
+  template <class List, class Visit>
+  void each(const List& list, Visit&& visit) {
+    all.push_back(static_cast<char>(list.size()));
+    for (const auto& item : list) visit(item);
+  }
+  std::string all;
+};
+
 void write_bytes(const std::string& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
 }
@@ -90,14 +137,32 @@ TEST(PreparedFile, GivesTheSameBitsBack) {
   write_prepared(folder / "prepared", hash, lines);
   const auto read = read_prepared(folder / "prepared", hash);
   ASSERT_TRUE(read);
-  EXPECT_EQ(read->rays, lines.rays);
-  ASSERT_EQ(read->realizations.size(), lines.realizations.size());
+  EXPECT_FALSE(read->nodes);
+  const Lines& back = read->lines;
+  EXPECT_EQ(back.rays, lines.rays);
+  ASSERT_EQ(back.realizations.size(), lines.realizations.size());
   for (std::size_t r = 0; r < lines.realizations.size(); ++r)
-    EXPECT_TRUE(same(read->realizations[r], lines.realizations[r])) << r;
-  EXPECT_TRUE(same(read->pooled, lines.pooled));
-  EXPECT_TRUE(same_bits(read->glimpses, lines.glimpses));
-  EXPECT_FALSE(same(read->pooled, lines.realizations[0]));
+    EXPECT_TRUE(same(back.realizations[r], lines.realizations[r])) << r;
+  EXPECT_TRUE(same(back.pooled, lines.pooled));
+  EXPECT_TRUE(same_bits(back.glimpses, lines.glimpses));
+  EXPECT_FALSE(same(back.pooled, lines.realizations[0]));
   EXPECT_EQ(folder.content(), std::vector<std::string>{"prepared"});
+}
+
+TEST(PreparedFile, GivesSolvedNodesBack) {
+  const WorkFolder folder;
+  const SolvedNodes nodes = example_nodes();
+  write_prepared(folder / "prepared", hash, example(), &nodes);
+  const auto read = read_prepared(folder / "prepared", hash);
+  ASSERT_TRUE(read && read->nodes);
+  EXPECT_EQ(read->lines.rays, example().rays);
+  EXPECT_EQ(Bytes(*read->nodes).all, Bytes(nodes).all);
+  const Reduction &of = read->nodes->reduction, &wanted = nodes.reduction;
+  EXPECT_EQ(of.skies, wanted.skies);
+  EXPECT_EQ(of.suns, wanted.suns);
+  EXPECT_EQ(of.error_w_m2, wanted.error_w_m2);
+  EXPECT_EQ(of.standard_error_w_m2, wanted.standard_error_w_m2);
+  EXPECT_TRUE(of.is_met);
 }
 
 TEST(PreparedFile, AnotherHashIsNotBelieved) {
@@ -117,7 +182,8 @@ TEST(PreparedFile, MissingEmptyOrNoFileAtAll) {
 
 TEST(PreparedFile, AnyFlippedBitIsNoticed) {
   const WorkFolder folder;
-  write_prepared(folder / "prepared", hash, example());
+  const SolvedNodes nodes = example_nodes();
+  write_prepared(folder / "prepared", hash, example(), &nodes);
   const std::string whole = folder.read("prepared");
   constexpr std::size_t probes = 200;
   for (std::size_t probe = 0; probe <= probes; ++probe) {
@@ -133,7 +199,8 @@ TEST(PreparedFile, AnyFlippedBitIsNoticed) {
 
 TEST(PreparedFile, CutOrLongerIsNoticed) {
   const WorkFolder folder;
-  write_prepared(folder / "prepared", hash, example());
+  const SolvedNodes nodes = example_nodes();
+  write_prepared(folder / "prepared", hash, example(), &nodes);
   const std::string whole = folder.read("prepared");
   for (const std::size_t length :
        {std::size_t{1}, std::size_t{15}, std::size_t{16}, std::size_t{20}, std::size_t{100},

@@ -165,7 +165,8 @@ TEST(CostModel, FewSolutionsServeWeeksOfHours) {
   const auto solved = [&](const VariantPlan& plan) {
     const double samples = plan.study.solver.direct_samples;
     const WorkEstimate work = estimate_work(plan, static_cast<std::size_t>(patches));
-    return static_cast<double>(work.direct_rays) / (patches * facing_share * samples) - solved_for_tests;
+    return static_cast<double>(work.direct_rays) / (patches * facing_share * samples) -
+           solved_for_tests;
   };
   EXPECT_NEAR(solved(weeks), 80, 40);
   EXPECT_NEAR(solved(year), 400, 200);
