@@ -86,7 +86,10 @@ void VariantRun::prepare(MpiWorld* world) {
   rules_ = decided_rules();
   if (!plan_.seasons.all.empty()) return build_seasons();
   if (!world) return read_or_trace();
-  if (world->is_first()) read_or_trace();
+  if (world->is_first()) {
+    read_or_trace();
+    finish();  // what the others read
+  }
   world->wait_for_all();
   if (world->is_first()) return;
   if (has_shared_lines()) return take_shared_lines();
@@ -106,18 +109,22 @@ void VariantRun::read_or_trace() {
   const std::string path = folder_.prepared(), lock_path = folder_.prepared_lock();
   if (auto ready = read_prepared(path, plan_.content_hash)) return build_prepared(std::move(ready));
   if (folder_.batches_not_there().size() < 2) return build({});
-  const WaitingLock lock(lock_path,
-                         {.is_cancelled = [this] { return progress_.stop_requested(); },
-                          .waiting =
-                              [this] {
-                                progress_.say(plan_.study.variant +
-                                              ": another process traces the lines; waiting for it");
-                              }});
-  if (!lock.is_held())
-    progress_.warn("warning: cannot lock " + lock_path + " (" + lock.problem() +
+  const auto say_waiting = [this] {
+    progress_.say(plan_.study.variant + ": another process traces the lines; waiting for it");
+  };
+  auto lock = std::make_shared<const WaitingLock>(
+      lock_path, WaitingLock::Rules{.is_cancelled = [this] { return progress_.stop_requested(); },
+                                    .waiting = say_waiting});
+  if (!lock->is_held())
+    progress_.warn("warning: cannot lock " + lock_path + " (" + lock->problem() +
                    "); processes that start together each trace the lines");
   build_prepared(read_prepared(path, plan_.content_hash));
-  if (unwritten_[Work::line_rays] > 0) keep_lines(path);
+  if (unwritten_[Work::line_rays] == 0) return;
+  // Who waits for the lock reads the file: it is let go when that is there.
+  writing_.begin([this, path, lock = std::move(lock)]() mutable {
+    keep_lines(path);
+    lock.reset();
+  });
 }
 
 /// With what another process has traced, solved, or found not to pay; none: all anew.

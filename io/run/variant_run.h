@@ -35,9 +35,9 @@ class VariantRun {
   VariantRun& operator=(const VariantRun&) = delete;
 
   /// Traces the lines, or reads them. Where more than one batch is missing, whoever may compute
-  /// it, they are kept in the prepared file: for other processes, and for this one if it is
-  /// killed. Ranks of `world` (null: none) call it together: the first one traces. Throws
-  /// Interrupted, MachineError.
+  /// it, they are kept in the prepared file, which is written while the first batch is computed:
+  /// for other processes, and for this one if it is killed. Ranks of `world` (null: none) call it
+  /// together: the first one traces. Throws Interrupted, MachineError.
   void prepare(MpiWorld* world);
   /// Computes a batch. Its file is written while the next one is computed, and is there after
   /// `finish`. Throws Interrupted, MachineError, also of the batch before.
@@ -77,7 +77,7 @@ class VariantRun {
   SeenOnce seen_;
   WorkDone unwritten_;     ///< work that no batch carries yet
   WorkDone done_;          ///< all of it
-  WritingBehind writing_;  ///< of the batch before
+  WritingBehind writing_;  ///< of the prepared file, then of the batch before
 };
 
 }  // namespace sunload
