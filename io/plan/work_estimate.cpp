@@ -230,7 +230,7 @@ double test_bytes_per_patch(double realizations, bool mirrors) {
   constexpr double of_light = 10;        // what blocks of light are made of
   constexpr double spread = 16;          // sums and squares, in doubles
   constexpr double kept = 6;
-  constexpr double blocks = year_tests / block_width;
+  constexpr double blocks = static_cast<double>(year_tests) / static_cast<double>(block_width);
   return block *
          (realizations * kinds + of_light + spread + blocks * (kept + realizations * packed_share));
 }
