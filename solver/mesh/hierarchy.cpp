@@ -126,10 +126,12 @@ struct PointColumns {
   alignas(64) std::int32_t split[packet_size], w0[packet_size], w1[packet_size], w2[packet_size];
 
   void put(std::size_t place, std::int32_t root, double u, double v) {
+    // What rounding puts beyond an edge lies on it.
+    const auto whole = [](double w) { return static_cast<std::int32_t>(std::max(0.0, w) * unit); };
     split[place] = root;
-    w1[place] = static_cast<std::int32_t>(u * unit);
-    w2[place] = static_cast<std::int32_t>(v * unit);
-    w0[place] = static_cast<std::int32_t>(unit) - w1[place] - w2[place];
+    w1[place] = whole(u);
+    w2[place] = whole(v);
+    w0[place] = std::max(0, static_cast<std::int32_t>(unit) - w1[place] - w2[place]);
   }
 };
 
@@ -181,8 +183,11 @@ void Hierarchy::patches_at(const PacketHits& hits, std::int32_t (&patch)[packet_
     const auto root = hits.triangle[l] < 0 ? -1 : root_[static_cast<std::size_t>(hits.triangle[l])];
     const bool any = root >= 0 && (hits.front[l] || root % 2 != 0);
     patch[l] = !any ? -1 : hits.front[l] ? 0 : 1;
-    points.put(l, any ? split_[static_cast<std::size_t>(root / 2)] : in_a_leaf,
-               static_cast<double>(hits.u[l]), static_cast<double>(hits.v[l]));
+    if (any)
+      points.put(l, split_[static_cast<std::size_t>(root / 2)], static_cast<double>(hits.u[l]),
+                 static_cast<double>(hits.v[l]));
+    else
+      points.put(l, in_a_leaf, 0, 0);  // u and v are anything
   }
   descend_all(split_.data(), points);
   for (std::size_t l = 0; l < packet_size; ++l)

@@ -210,12 +210,10 @@ NodeLight::NodeLight(const TracedScene& traced, const LitPeriod& period,
 
 void NodeLight::take(std::size_t skies, std::size_t suns, WorkDone& work,
                      const std::function<void(double)>& advance) {
-  const auto whole_blocks = [](std::size_t count, std::size_t there_are) {
-    return std::min(there_are, (count + block_width - 1) / block_width * block_width);
-  };
   const std::size_t sky_count =
-      std::max(skies_.count(), whole_blocks(skies, skies_.ranked().size()));
-  const std::size_t sun_count = std::max(suns_.count(), whole_blocks(suns, suns_.ranked().size()));
+      std::max(skies_.count(), std::min(skies_.ranked().size(), in_whole_blocks(skies)));
+  const std::size_t sun_count =
+      std::max(suns_.count(), std::min(suns_.ranked().size(), in_whole_blocks(suns)));
   const std::size_t solved = skies_.count() + suns_.count();
   const auto grow = [&](std::vector<NodeBlock>& blocks, std::size_t count, auto&& solve_nodes) {
     for (std::size_t first = blocks.size() * block_width; first < count; first += block_width) {

@@ -19,6 +19,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/base/chunks.h"
 #include "solver/gather/time_sums.h"
 #include "solver/light/packed_columns.h"
 #include "solver/transport/light_transport.h"
@@ -79,6 +80,11 @@ struct NodeWeights {
   bool any = false;
   void add(std::size_t source, std::size_t interval, double weight);
 };
+
+/// So many nodes, or as many more as fill their last block: a block costs the same.
+constexpr std::size_t in_whole_blocks(std::size_t nodes) {
+  return chunk_count(nodes, block_width) * block_width;
+}
 
 /// Seconds that each source of a block shines, all intervals together.
 using NodeSeconds = std::array<double, block_width>;

@@ -42,14 +42,12 @@ double lit_intervals(const TracedScene& traced, const LitPeriod& period) {
 /// Intervals on which the reduction is measured: with a sun, spread evenly over the period; of all
 /// that have light where few have a sun.
 std::vector<std::size_t> test_intervals(const TracedScene& traced, const LitPeriod& period) {
-  std::vector<std::size_t> from;
-  for (std::size_t k = 0; k < period.intervals(); ++k)
+  std::vector<std::size_t> from, lit;
+  for (std::size_t k = 0; k < period.intervals(); ++k) {
     if (period.has_sun(k)) from.push_back(k);
-  if (from.size() < year_tests) {
-    from.clear();
-    for (std::size_t k = 0; k < period.intervals(); ++k)
-      if (is_lit(traced, period, k)) from.push_back(k);
+    if (is_lit(traced, period, k)) lit.push_back(k);
   }
+  if (from.size() < year_tests) from.swap(lit);
   const std::size_t count = std::min(year_tests, from.size());
   std::vector<std::size_t> some(count);
   for (std::size_t t = 0; t < count; ++t) some[t] = from[(2 * t + 1) * from.size() / (2 * count)];
@@ -325,14 +323,9 @@ namespace {
 struct FirstNodes {
   std::size_t skies, suns;
   explicit FirstNodes(const NodeLight& nodes)
-      : skies(whole_blocks(nodes.skies().count_for(first_rest))),
-        suns(whole_blocks(nodes.suns().count_for(first_distance))) {}
+      : skies(in_whole_blocks(nodes.skies().count_for(first_rest))),
+        suns(in_whole_blocks(nodes.suns().count_for(first_distance))) {}
   double all() const { return static_cast<double>(skies + suns); }
-
- private:
-  static std::size_t whole_blocks(std::size_t count) {
-    return chunk_count(count, block_width) * block_width;
-  }
 };
 
 /// Takes nodes until they are near enough to the tests, or too many to pay, or all there are.
@@ -361,29 +354,24 @@ Reduction take_nodes(NodeLight& nodes, const std::vector<ReductionTest>& made,
 }  // namespace
 
 YearGathering::YearGathering(const TracedScene& traced, const LitPeriod& period, Watch& watch)
-    : LightTransport(traced), most_(most_of_few(lit_intervals(traced, period))) {
+    : LightTransport(traced) {
   SUNLOAD_EXPECT(year_can_serve(traced.rules), "gathered broadband light, errors of totals");
   NodesAhead ahead(watch);
+  const double most = most_of_few(lit_intervals(traced, period));
   const std::vector<std::size_t> tested = test_intervals(traced, period);
   nodes_ = std::make_unique<NodeLight>(traced, period, tested, work_);
-  if (traced.rules.year == Year::automatic && FirstNodes(*nodes_).all() > most_) return;
+  if (traced.rules.year == Year::automatic && FirstNodes(*nodes_).all() > most) return;
   // Before nodes are solved: while they are made, tests take more memory than later.
   const auto made = reduction_tests(traced, period, tested, work_, ahead);
-  nodes_->set_reduction(take_nodes(*nodes_, made, tested.size(), most_, work_, ahead));
+  nodes_->set_reduction(take_nodes(*nodes_, made, tested.size(), most, work_, ahead));
   ahead.end();
   return_large_memory();  // of what the nodes were made from
 }
 
 YearGathering::YearGathering(const TracedScene& traced, const LitPeriod& period, SolvedNodes ready)
     : LightTransport(traced),
-      most_(most_of_few(lit_intervals(traced, period))),
       nodes_(std::make_unique<NodeLight>(traced, period, test_intervals(traced, period),
                                          std::move(ready))) {}
-
-bool YearGathering::pays() const {
-  const Reduction& reached = *reduction();
-  return reached.is_met && static_cast<double>(reached.skies + reached.suns) <= most_;
-}
 
 std::unique_ptr<BatchTransport> YearGathering::begin(std::vector<BatchTally>& tallies,
                                                      WorkDone& work, RayRecord* record) const {
@@ -401,7 +389,9 @@ std::unique_ptr<const LightTransport> year_where_it_pays(const TracedScene& trac
   const bool is_asked_for = traced.rules.year == Year::modes;
   if (!is_asked_for && most_of_few(lit) < static_cast<double>(2 * block_width)) return nullptr;
   auto year = std::make_unique<YearGathering>(traced, period, watch);
-  if (is_asked_for || year->pays()) return year;
+  const Reduction& reached = *year->reduction();
+  const auto nodes = static_cast<double>(reached.skies + reached.suns);
+  if (is_asked_for || (reached.is_met && nodes <= most_of_few(lit))) return year;
   work += year->work();
   return nullptr;
 }

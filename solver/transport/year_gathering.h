@@ -26,16 +26,13 @@ class YearGathering : public LightTransport {
                                         RayRecord* record) const override;
   const Reduction* reduction() const override { return &nodes_->solved().reduction; }
   const SolvedNodes* nodes() const override { return &nodes_->solved(); }
-  /// It keeps its aim, and costs less than solving each interval.
-  bool pays() const;
 
  private:
-  double most_;  ///< nodes, so that it pays
   std::unique_ptr<NodeLight> nodes_;
 };
 
-/// The solution by nodes where the rules ask for it, or leave it open and it pays; else null. Then
-/// `work` is what was tried.
+/// The solution by nodes where the rules ask for it, or leave it open and it keeps its aim and
+/// costs less than solving each interval; else null. Then `work` is what was tried.
 std::unique_ptr<const LightTransport> year_where_it_pays(const TracedScene& traced,
                                                          const LitPeriod& period, WorkDone& work,
                                                          Watch& watch);

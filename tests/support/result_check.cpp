@@ -147,8 +147,8 @@ std::string sent_light_problem(const ResultReader& result) {
 std::string parts_problem(const ResultReader& result) {
   // Stored as floats, and with bands or mirrors summed from floats.
   constexpr double rounding = 1e-5;
-  // Where few solutions serve, what is made up of them below 0 counts as 0, in the whole and in
-  // each part by itself: less than they are off by.
+  // Where few solutions serve, what they make up below 0 for a realization counts as 0, in the
+  // whole and in each part by itself: less than they are off by.
   double of_few = 0;
   if (result.number_attribute("year_skies") > 0) {
     const auto hours = result.doubles("sun_hours");
@@ -167,10 +167,11 @@ std::string parts_problem(const ResultReader& result) {
       if (!result.has(parts)) return parts + " is missing";
       const auto whole = result.doubles(total), rows = result.doubles(parts);
       const double largest = *std::max_element(whole.begin(), whole.end());
+      const double off = rounding * largest + (end.empty() ? 0 : of_few);
       for (std::size_t i = 0; i < whole.size(); ++i) {
         double sum = 0;
         for (std::size_t at = i; at < rows.size(); at += whole.size()) sum += rows[at];
-        if (!(std::abs(sum - whole[i]) <= rounding * largest + of_few))
+        if (!(std::abs(sum - whole[i]) <= off))
           return fmt::format("{} adds up to {} at place {}, not to {}", parts, sum, i, whole[i]);
       }
     }
