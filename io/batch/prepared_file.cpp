@@ -17,10 +17,10 @@ namespace sunload {
 namespace {
 
 // Layout, in the byte order of the machine: magic, content hash and counts, CRC-32
-// of these, the arrays of `visit_set`, CRC-32 of all before, the reduction (none: no
-// nodes) and the arrays of SolvedNodes, CRC-32 of all before. An array is its
-// length and its bytes.
-constexpr char magic[16] = "sunload-lines-6";
+// of these, the arrays of `visit_set`, CRC-32 of all before, then of each band that has
+// nodes the reduction and the arrays of SolvedNodes, an empty array, CRC-32 of all before.
+// An array is its length and its bytes.
+constexpr char magic[16] = "sunload-lines-7";
 
 /// Calls `array` for every array of the lines, in the order of the file.
 template <class Set, class Array>
@@ -149,7 +149,7 @@ Reduction reduction_of(const std::vector<double>& numbers) {
 }  // namespace
 
 void write_prepared(const std::string& path, const std::string& content_hash, const Lines& lines,
-                    const SolvedNodes* nodes) {
+                    const std::vector<const SolvedNodes*>& nodes) {
   FileAside target(path);
   Output out(target.aside());
   out.bytes(magic, sizeof(magic));
@@ -161,8 +161,11 @@ void write_prepared(const std::string& path, const std::string& content_hash, co
   visit_set(lines.pooled, out);
   out(lines.glimpses);
   out.checksum();
-  out(nodes ? numbers_of(nodes->reduction) : std::vector<double>());
-  if (nodes) SolvedNodes::visit(*nodes, out);
+  for (const SolvedNodes* of_band : nodes) {
+    out(numbers_of(of_band->reduction));
+    SolvedNodes::visit(*of_band, out);
+  }
+  out(std::vector<double>());
   out.checksum();
   out.finish();
   // Its checksum tells what a lost power supply has spoilt.
@@ -194,13 +197,14 @@ std::optional<Prepared> read_prepared(const std::string& path, const std::string
   visit_set(lines.pooled, in);
   in(lines.glimpses);
   if (!in.is_right()) return {};
-  std::vector<double> reduction;
-  in(reduction);
-  if (!reduction.empty()) {
-    if (reduction.size() != numbers_of({}).size()) return {};
-    SolvedNodes& nodes = prepared.nodes.emplace();
-    nodes.reduction = reduction_of(reduction);
-    SolvedNodes::visit(nodes, in);
+  for (;;) {
+    std::vector<double> reduction;
+    in(reduction);
+    if (reduction.empty()) break;
+    if (reduction.size() != numbers_of({}).size() || prepared.nodes.size() == band_count) return {};
+    SolvedNodes& of_band = prepared.nodes.emplace_back();
+    of_band.reduction = reduction_of(reduction);
+    SolvedNodes::visit(of_band, in);
   }
   if (!in.is_right() || !in.is_at_end()) return {};
   return prepared;

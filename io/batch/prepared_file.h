@@ -10,20 +10,21 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "solver/lines/lines.h"
 #include "solver/transport/node_light.h"
 
 namespace sunload {
 
-/// Written aside and renamed. `nodes`: null where each interval has its own solution. Throws
-/// MachineError.
+/// Written aside and renamed. `nodes`: of each band; none where each interval has its own solution.
+/// Throws MachineError.
 void write_prepared(const std::string& path, const std::string& content_hash, const Lines& lines,
-                    const SolvedNodes* nodes = nullptr);
+                    const std::vector<const SolvedNodes*>& nodes = {});
 
 struct Prepared {
   Lines lines;
-  std::optional<SolvedNodes> nodes;  ///< none: each interval has its own solution
+  std::vector<SolvedNodes> nodes;  ///< of each band; none: each interval has its own solution
 };
 /// None where the file is missing, of another hash, or damaged.
 std::optional<Prepared> read_prepared(const std::string& path, const std::string& content_hash);

@@ -241,7 +241,7 @@ bool is_year_of_few(const VariantPlan& plan) {
   const SolverRules rules = solver_rules(plan);
   if (rules.year == Year::modes) return true;
   return rules.year == Year::automatic && year_can_serve(rules) &&
-         year_nodes(plan).all() <= most_of_few(static_cast<double>(lit_intervals(plan)));
+         year_nodes(plan).all() <= most_of_few(rules, static_cast<double>(lit_intervals(plan)));
 }
 
 WorkSeconds modelled_seconds(const VariantPlan& plan, std::size_t patches,
@@ -335,7 +335,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   const YearNodes nodes = of_few ? year_nodes(plan) : YearNodes{};
   const double solved = of_few ? std::min(lit, seasons * (nodes.all() + solved_for_tests)) : lit;
   // Zero where there are none.
-  const double node_bytes = n * float_bytes * packed_share *
+  const double node_bytes = bands * n * float_bytes * packed_share *
                             (nodes.suns + nodes.skies * (2.0 + (mirrors ? 1 : 0) + s.realizations));
   const PartCost periods = part_cost(plan.totals, plan.batch_suns());
   // Solved side by side, as suns are, by every realization on its lines.
@@ -352,7 +352,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
       (shining * counts.direct_samples +
        (suns - shining) * static_cast<double>(net_size(counts.direct_samples, s.realizations)));
   const double circumsolar_rays = facing_share * circumsolar_receivers(plan, patches) *
-                                  std::min(solved, shining) * counts.direct_samples;
+                                  std::min(solved, shining) * (of_few ? bands : 1) *
+                                  counts.direct_samples;
   const double luminaire_rays = seasons * n * luminaires_seen * counts.direct_samples *
                                 static_cast<double>(plan.built.scene.luminaires.all.size());
   work.direct_rays = static_cast<std::uint64_t>(rays_to_sun + circumsolar_rays + luminaire_rays);
@@ -386,6 +387,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
     work.memory_bytes +=
         std::max(0.0, n * test_bytes_per_patch(s.realizations, mirrors) - of_batches);
     work.memory_bytes += seasons * node_bytes;
+    // The reflected light of a batch, kept until its time sums are known.
+    work.memory_bytes += bands * n * batch * float_bytes * packed_share;
   }
   work.memory_bytes += bands * n * static_cast<double>(periods.most) *
                        (arrays_of_realizations * of_realizations + sums_of_part * double_bytes);

@@ -32,7 +32,8 @@ double share_of(const VariantPlan& plan, const std::vector<std::uint8_t>& counts
 
 TracedSeason::TracedSeason(const VariantPlan& plan, std::size_t season,
                            std::shared_ptr<const Hierarchy> mesh, const SolverRules& rules,
-                           Watch& watch, std::optional<Lines> lines, SolvedNodes* nodes) {
+                           Watch& watch, std::optional<Lines> lines,
+                           std::vector<SolvedNodes> nodes) {
   if (!plan.seasons.all.empty())
     scene_.emplace(scene_in(plan.built.scene, plan.seasons.all[season]));
   traced_ = trace_scene(scene_ ? *scene_ : plan.built.scene, std::move(mesh), rules, watch,
@@ -41,7 +42,7 @@ TracedSeason::TracedSeason(const VariantPlan& plan, std::size_t season,
   share_ = share_of(plan, counts);
   lights_.emplace(plan.study, plan.built.site, traced_->grid);
   period_.emplace(*lights_, plan.light, std::move(counts));
-  transport_ = transport_of(*traced_, *period_, watch, nodes);
+  transport_ = transport_of(*traced_, *period_, watch, std::move(nodes));
 }
 
 WorkDone TracedSeason::work() const {

@@ -17,11 +17,10 @@ namespace sunload {
 class TracedSeason {
  public:
   /// `season`: place in the plan's seasons, 0 where there are none. `lines`: of an equal scene, or
-  /// none; `nodes`: of an equal scene and period, which are taken from there, or null. Throws
-  /// Interrupted.
+  /// none; `nodes`: of an equal scene and period, or none. Throws Interrupted.
   TracedSeason(const VariantPlan& plan, std::size_t season, std::shared_ptr<const Hierarchy> mesh,
                const SolverRules& rules, Watch& watch, std::optional<Lines> lines = {},
-               SolvedNodes* nodes = nullptr);
+               std::vector<SolvedNodes> nodes = {});
   TracedSeason(const TracedSeason&) = delete;
   TracedSeason& operator=(const TracedSeason&) = delete;
 

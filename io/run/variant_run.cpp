@@ -130,13 +130,14 @@ void VariantRun::read_or_trace() {
 /// With what another process has traced, solved, or found not to pay; none: all anew.
 void VariantRun::build_prepared(std::optional<Prepared> ready) {
   if (!ready) return build({});
-  if (!ready->nodes) rules_.year = Year::each;
-  build(std::move(ready->lines), ready->nodes ? &*ready->nodes : nullptr);
+  if (ready->nodes.empty()) rules_.year = Year::each;
+  build(std::move(ready->lines), std::move(ready->nodes));
 }
 
-void VariantRun::build(std::optional<Lines> lines, SolvedNodes* nodes) {
+void VariantRun::build(std::optional<Lines> lines, std::vector<SolvedNodes> nodes) {
   if (!lines) progress_.advance(Stage::lines, 0);
-  add(std::make_unique<TracedSeason>(plan_, 0, mesh_, rules_, progress_, std::move(lines), nodes));
+  add(std::make_unique<TracedSeason>(plan_, 0, mesh_, rules_, progress_, std::move(lines),
+                                     std::move(nodes)));
   seen_ = seen_once(seasons_.front()->traced());
 }
 

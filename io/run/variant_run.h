@@ -55,7 +55,7 @@ class VariantRun {
   void take_shared_lines();
   RayRecord* record_of(std::size_t batch);
   void build_prepared(std::optional<Prepared> ready);
-  void build(std::optional<Lines> lines, SolvedNodes* nodes = nullptr);
+  void build(std::optional<Lines> lines, std::vector<SolvedNodes> nodes = {});
   void build_seasons();
   void add(std::unique_ptr<TracedSeason> season);
   void warn_of_sensors();

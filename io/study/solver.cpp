@@ -134,10 +134,9 @@ void expect_gathering(YamlMap& map, const SolverStudy& solver) {
   if (solver.bands == Bands::rgb && solver.transport != Transport::gather)
     map.problem("bands", "rgb cannot go with transport: " + word_of(solver.transport),
                 "bands share the lines of gathering", "write transport: gather");
-  if (solver.year == Year::modes &&
-      (solver.bands == Bands::rgb || solver.transport != Transport::gather))
-    map.problem("year", "modes cannot go with bands: rgb or transport: shoot or matrix",
-                "they share solutions of broadband light that is gathered",
+  if (solver.year == Year::modes && solver.transport != Transport::gather)
+    map.problem("year", "modes cannot go with transport: " + word_of(solver.transport),
+                "they share solutions of light that is gathered",
                 "write auto or each, or leave it out");
 }
 

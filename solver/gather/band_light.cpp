@@ -28,15 +28,21 @@ std::vector<IntervalLight> suns_in_band(std::span<const IntervalLight> suns, std
   return of_band;
 }
 
-BandFactors band_factors(const BlockSources& broadband, std::span<const IntervalLight> of_band,
-                         std::size_t band) {
+BandFactors sun_factors(std::span<const IntervalLight> broadband,
+                        std::span<const IntervalLight> of_band) {
   BandFactors factors;
   factors.sun.fill(1);
   factors.circumsolar.fill(1);
-  for (std::size_t k = 0; k < of_band.size(); ++k) {
-    factors.sun[k] = ratio(of_band[k].dni, broadband.suns[k].dni);
+  for (std::size_t k = 0; k < of_band.size(); ++k)
+    factors.sun[k] = ratio(of_band[k].dni, broadband[k].dni);
+  return factors;
+}
+
+BandFactors band_factors(const BlockSources& broadband, std::span<const IntervalLight> of_band,
+                         std::size_t band) {
+  BandFactors factors = sun_factors(broadband.suns, of_band);
+  for (std::size_t k = 0; k < of_band.size(); ++k)
     factors.circumsolar[k] = broadband.circumsolar[k].band_factor(band);
-  }
   return factors;
 }
 

@@ -25,6 +25,9 @@ struct BandFactors {
 };
 BandFactors band_factors(const BlockSources& broadband, std::span<const IntervalLight> of_band,
                          std::size_t band);
+/// The same where no rays were traced to the sky about the sun.
+BandFactors sun_factors(std::span<const IntervalLight> broadband,
+                        std::span<const IntervalLight> of_band);
 
 /// Sources of a block in one band; `of_band` must outlive them. The circumsolar part is the
 /// broadband one in one colour; what is left of the band's sky there stays with the lines.

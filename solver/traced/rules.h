@@ -40,7 +40,7 @@ struct SolverRules {
   Errors errors = Errors::totals;
   Bands bands = Bands::broadband;  ///< rgb when gathering only
   Transport transport = Transport::gather;
-  Year year = Year::each;                    ///< when gathering broadband light
+  Year year = Year::each;                    ///< when gathering
   Jacobi jacobi = Jacobi::incremental;       ///< when shooting
   std::optional<double> power_per_sample_w;  ///< when shooting, ShootingRules
   std::optional<int> samples_per_patch;      ///< when shooting, ShootingRules
@@ -51,17 +51,18 @@ struct SolverRules {
 };
 
 /// Whether few solutions can serve a period by these rules at all
-/// (solver/transport/year_gathering): gathered broadband light with errors of totals.
+/// (solver/transport/year_gathering): gathered light with errors of totals.
 inline bool year_can_serve(const SolverRules& rules) {
-  return rules.transport == Transport::gather && rules.bands == Bands::broadband &&
-         rules.errors == Errors::totals;
+  return rules.transport == Transport::gather && rules.errors == Errors::totals;
 }
 /// Intervals with light that the solutions are tested on, and solved for that alone.
 inline constexpr std::size_t year_tests = 2 * block_width;
 /// Solutions, at most, of a period with so many intervals with light: with their tests they are a
 /// share of these. Beyond, and where a share of the period is tried in vain, each costs less.
-inline double most_of_few(double lit_intervals) {
-  constexpr double share = 0.4;
+/// Bands have solutions of their own, with rays of their own to the sky about the sun, which
+/// otherwise serve all bands.
+inline double most_of_few(const SolverRules& rules, double lit_intervals) {
+  const double share = rules.bands == Bands::rgb ? 0.2 : 0.4;
   return share * lit_intervals - static_cast<double>(year_tests);
 }
 

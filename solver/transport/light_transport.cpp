@@ -17,8 +17,8 @@ std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced) {
 
 std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced,
                                                    const LitPeriod& period, Watch& watch,
-                                                   SolvedNodes* ready) {
-  if (ready) return std::make_unique<YearGathering>(traced, period, std::move(*ready));
+                                                   std::vector<SolvedNodes> ready) {
+  if (!ready.empty()) return std::make_unique<YearGathering>(traced, period, std::move(ready));
   WorkDone tried;
   if (auto year = year_where_it_pays(traced, period, tried, watch)) return year;
   if (traced.rules.transport == Transport::shoot) return std::make_unique<Shooting>(traced);

@@ -14,6 +14,7 @@
 #include "solver/light/work.h"
 #include "solver/traced/ray_record.h"
 #include "solver/traced/traced_scene.h"
+#include "solver/transport/solved_nodes.h"
 
 namespace sunload {
 
@@ -33,17 +34,6 @@ class BatchTransport {
   virtual void finish() = 0;
 };
 
-/// How near the light of few solutions comes to that of each interval.
-struct Reduction {
-  std::size_t skies = 0, suns = 0;  ///< that are solved
-  /// Root mean square over patches and intervals that are no nodes, by area [W m-2]: of what is
-  /// made up against what is solved, and of the standard error of what is solved.
-  double error_w_m2 = 0, standard_error_w_m2 = 0;
-  bool is_met = false;  ///< error ≤ a third of the standard error
-};
-
-struct SolvedNodes;
-
 class LightTransport {
  public:
   explicit LightTransport(const TracedScene& traced) : traced_(traced) {}
@@ -60,8 +50,8 @@ class LightTransport {
   const WorkDone& work() const { return work_; }
   /// Null where each interval has its own solution.
   virtual const Reduction* reduction() const { return nullptr; }
-  /// The few that there are else.
-  virtual const SolvedNodes* nodes() const { return nullptr; }
+  /// The few that there are else, of each band.
+  virtual std::vector<const SolvedNodes*> nodes() const { return {}; }
 
  protected:
   const TracedScene& traced_;
@@ -71,10 +61,10 @@ class LightTransport {
 /// The one that the rules of the scene ask for; `traced` must outlive it.
 std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced);
 /// The same for a whole period, which few solutions may serve (SolverRules::year); `period` must
-/// outlive it, too. `ready`: these, of an equal scene and period, which are taken from there; null:
-/// nobody has solved them. Throws Interrupted.
+/// outlive it, too. `ready`: these, of an equal scene and period; none: nobody has solved them.
+/// Throws Interrupted.
 std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced,
                                                    const LitPeriod& period, Watch& watch,
-                                                   SolvedNodes* ready = nullptr);
+                                                   std::vector<SolvedNodes> ready = {});
 
 }  // namespace sunload

@@ -154,10 +154,9 @@ void NodeWeights::add(std::size_t source, std::size_t interval, double weight) {
   any = true;
 }
 
-std::vector<Ledger> ledger_of_rays(const TracedScene& traced, const Columns& direct,
-                                   const Columns& mirror, std::size_t suns) {
+std::vector<Ledger> ledger_of_rays(const TracedScene& traced, const PatchOptics& optics,
+                                   const Columns& direct, const Columns& mirror, std::size_t suns) {
   using Ledgers = std::array<Ledger, block_width>;
-  const PatchOptics& optics = traced.optics;
   const std::vector<double>& area = traced.hierarchy().area();
   std::vector<Ledgers> parts(chunk_count(area.size(), receivers_per_chunk));
   const LineEnds no_ends{};
@@ -184,22 +183,24 @@ std::vector<Ledger> ledger_of_rays(const TracedScene& traced, const Columns& dir
   return ledger;
 }
 
-NodeLight::NodeLight(const TracedScene& traced, const LitPeriod& period,
+NodeLight::NodeLight(const TracedScene& traced, std::size_t band, const LitPeriod& period,
                      const std::vector<std::size_t>& left_out, WorkDone& work)
     : traced_(traced),
+      band_(band),
       period_(period),
       skies_(traced.grid, period, most_skies, left_out),
       suns_(period, most_suns, left_out) {
   IntervalLight far_ground;
   far_ground.ground_exitance = 1;
-  if (traced.optics.any_emission)
+  if (optics().any_emission)
     solved_.lamps = solve(std::vector{IntervalLight{}}, Keep::reflected, work);
   solved_.ground = solve(std::vector{far_ground}, Keep::reflected, work);
 }
 
-NodeLight::NodeLight(const TracedScene& traced, const LitPeriod& period,
+NodeLight::NodeLight(const TracedScene& traced, std::size_t band, const LitPeriod& period,
                      const std::vector<std::size_t>& left_out, SolvedNodes ready)
     : traced_(traced),
+      band_(band),
       period_(period),
       skies_(traced.grid, period, most_skies, left_out),
       suns_(period, most_suns, left_out),
@@ -273,7 +274,7 @@ void NodeLight::add_light(const std::vector<NodeWeights>& weights,
   light.sky = columns(light.direct.size() / block_width);
   light.reflected = columns(light.direct.size() / block_width);
   add(&NodeBlock::Received::sky, light.sky);
-  if (traced_.optics.any_mirror) add(&NodeBlock::Received::mirror, light.mirror);
+  if (optics().any_mirror) add(&NodeBlock::Received::mirror, light.mirror);
   add(&NodeBlock::Received::reflected, light.reflected);
 }
 
@@ -342,12 +343,11 @@ NodeBlock NodeLight::solve(std::span<const IntervalLight> suns, Keep keep, WorkD
     block.circumsolar_sky.push_back(std::move(cells));
   }
   const LineSet& lines = traced_.patches.lines.pooled;
-  BlockLight light = block_light(traced_.hierarchy(), lines, traced_.optics, sources,
-                                 std::move(rays.on_patches.pooled), traced_.patches.lamps.pooled,
-                                 traced_.bounce_rules(0));
-  const auto whole =
-      block_ledger(lines, traced_.optics, traced_.hierarchy().area(), sources, light);
-  const auto first = ledger_of_rays(traced_, light.direct, by_mirrors, suns.size());
+  BlockLight light =
+      block_light(traced_.hierarchy(), lines, optics(), sources, std::move(rays.on_patches.pooled),
+                  traced_.patches.lamps.pooled, traced_.bounce_rules(band_));
+  const auto whole = block_ledger(lines, optics(), traced_.hierarchy().area(), sources, light);
+  const auto first = ledger_of_rays(traced_, optics(), light.direct, by_mirrors, suns.size());
   for (std::size_t j = 0; j < suns.size(); ++j) {
     (block.ledger[j] = whole[j]) += scaled(first[j], -1);
     block.ledger[j] += scaled(solved_.lamps.ledger[0], -1);
@@ -355,9 +355,9 @@ NodeBlock NodeLight::solve(std::span<const IntervalLight> suns, Keep keep, WorkD
   }
   if (traced_.sensors.count() > 0) {
     const Columns dark = columns(traced_.sensors.count());
-    block.sensors = packed(sensor_light(traced_.sensors.lines.pooled, traced_.optics, sources,
+    block.sensors = packed(sensor_light(traced_.sensors.lines.pooled, optics(), sources,
                                         {dark, dark, {}}, traced_.sensors.lamps.pooled,
-                                        seen_radiosity(traced_.hierarchy(), traced_.optics, light)),
+                                        seen_radiosity(traced_.hierarchy(), optics(), light)),
                            solved_.lamps.sensors.reflected, suns.size(), keep);
   }
   for (std::size_t at = 0; at < by_mirrors.size(); ++at) light.mirror[at] -= by_mirrors[at];
@@ -376,7 +376,7 @@ NodeBlock::Received NodeLight::packed(BlockLight light, const PackedColumns& of_
   received.reflected = PackedColumns(light.reflected);
   if (keep == Keep::reflected) return received;
   received.sky = PackedColumns(light.sky);
-  if (traced_.optics.any_mirror) received.mirror = PackedColumns(light.mirror);
+  if (optics().any_mirror) received.mirror = PackedColumns(light.mirror);
   return received;
 }
 

@@ -21,58 +21,11 @@
 
 #include "solver/base/chunks.h"
 #include "solver/gather/time_sums.h"
-#include "solver/light/packed_columns.h"
 #include "solver/transport/light_transport.h"
 #include "solver/year/sky_nodes.h"
 #include "solver/year/sun_nodes.h"
 
 namespace sunload {
-
-/// Up to `block_width` sources side by side, and what they bring.
-struct NodeBlock {
-  struct Received {
-    PackedColumns sky;        ///< straight from the sky; empty: nothing
-    PackedColumns mirror;     ///< of the sky, by mirrors; empty: nothing
-    PackedColumns reflected;  ///< after a diffuse reflection, and of the far ground
-  };
-  Received patches, sensors;
-  std::array<Ledger, block_width> ledger{};  ///< but for first light of the sun's rays
-  /// Of suns: first light of their rays that surfaces reflect diffusely [W].
-  std::array<double, block_width> reflected_first{};
-  std::vector<PackedColumns> circumsolar;  ///< [R] part of the sky, per realization
-  /// [source][cells] π · radiance of that part; empty ones: none.
-  std::vector<std::vector<double>> circumsolar_sky;
-
-  /// Calls `array` for each array, and `array.each(list, visit)` for lists of them, to write or to
-  /// read them.
-  template <class Self, class Array>
-  static void visit(Self& self, Array& array) {
-    for (auto* received : {&self.patches, &self.sensors})
-      for (auto* kind : {&received->sky, &received->mirror, &received->reflected})
-        PackedColumns::visit(*kind, array);
-    array(self.ledger);
-    array(self.reflected_first);
-    array.each(self.circumsolar, [&](auto& samples) { PackedColumns::visit(samples, array); });
-    array.each(self.circumsolar_sky, array);
-  }
-};
-
-/// All that few solutions of a period are: what other processes, and later ones, need not solve.
-struct SolvedNodes {
-  Reduction reduction;
-  NodeBlock lamps, ground;
-  std::vector<NodeBlock> skies, suns;
-
-  /// As NodeBlock::visit; the reduction is not among them.
-  template <class Self, class Array>
-  static void visit(Self& self, Array& array) {
-    const auto visit_block = [&](auto& block) { NodeBlock::visit(block, array); };
-    visit_block(self.lamps);
-    visit_block(self.ground);
-    array.each(self.skies, visit_block);
-    array.each(self.suns, visit_block);
-  }
-};
 
 /// How much of each source of a NodeBlock the intervals of a block have, [source][interval].
 struct NodeWeights {
@@ -92,11 +45,12 @@ using NodeSeconds = std::array<double, block_width>;
 class NodeLight {
  public:
   /// Ranks the period's skies and suns but for `left_out` (ascending); lamps and far ground are
-  /// solved at once. `traced` and `period` must outlive it.
-  NodeLight(const TracedScene& traced, const LitPeriod& period,
+  /// solved at once. `period` has the light of the band, and of it alone. `traced` and `period`
+  /// must outlive it.
+  NodeLight(const TracedScene& traced, std::size_t band, const LitPeriod& period,
             const std::vector<std::size_t>& left_out, WorkDone& work);
   /// With all that is solved already, of an equal scene and period.
-  NodeLight(const TracedScene& traced, const LitPeriod& period,
+  NodeLight(const TracedScene& traced, std::size_t band, const LitPeriod& period,
             const std::vector<std::size_t>& left_out, SolvedNodes ready);
 
   /// Solves nodes until there are so many skies and suns, rounded up to whole blocks; never fewer
@@ -131,6 +85,7 @@ class NodeLight {
 
  private:
   enum class Keep { all, reflected };
+  const PatchOptics& optics() const { return traced_.optics_of_band[band_]; }
   NodeBlock solve(std::span<const IntervalLight> sources, Keep keep, WorkDone& work) const;
   NodeBlock::Received packed(BlockLight light, const PackedColumns& of_lamps, std::size_t sources,
                              Keep keep) const;
@@ -140,6 +95,7 @@ class NodeLight {
   std::size_t first_sun() const { return first_sky() + solved_.skies.size(); }
 
   const TracedScene& traced_;
+  std::size_t band_;
   const LitPeriod& period_;
   SkyNodes skies_;
   SunNodes suns_;
@@ -147,7 +103,7 @@ class NodeLight {
 };
 
 /// What the first light of the sun's rays brings to the ledger, for each sun of a block [W].
-std::vector<Ledger> ledger_of_rays(const TracedScene& traced, const Columns& direct,
-                                   const Columns& mirror, std::size_t suns);
+std::vector<Ledger> ledger_of_rays(const TracedScene& traced, const PatchOptics& optics,
+                                   const Columns& direct, const Columns& mirror, std::size_t suns);
 
 }  // namespace sunload

@@ -15,8 +15,11 @@
 #include "solver/base/threads.h"
 #include "solver/gather/block_tally.h"
 #include "solver/light/instant_spread.h"
+#include "solver/transport/band_rays.h"
+#include "solver/transport/exact_totals.h"
 #include "solver/transport/gathered_sums.h"
 #include "solver/transport/part_sums.h"
+#include "solver/transport/period_in_band.h"
 #include "solver/transport/realizations.h"
 
 namespace sunload {
@@ -88,9 +91,11 @@ struct Squares {
 
 class ReductionTest {
  public:
-  /// Solves the test intervals by all lines and by each realization.
-  ReductionTest(const TracedScene& traced, std::vector<IntervalLight> suns, WorkDone& work)
+  /// Solves the test intervals, in the light of a band, by all lines and by each realization.
+  ReductionTest(const TracedScene& traced, std::size_t band, std::vector<IntervalLight> suns,
+                WorkDone& work)
       : traced_(traced),
+        optics_(traced.optics_of_band[band]),
         suns_(std::make_unique<const std::vector<IntervalLight>>(std::move(suns))),
         sources_(*suns_, static_cast<std::size_t>(traced.grid.cell_count())) {
     sources_.split_sky(traced.grid);
@@ -100,26 +105,26 @@ class ReductionTest {
     const Stopwatch time(work[Work::solve_s]);
     rays_ = rays.pooled;
     rays_.circumsolar = {};
-    keep_light(block_light(traced.hierarchy(), traced.patches.lines.pooled, traced.optics, sources_,
+    keep_light(block_light(traced.hierarchy(), traced.patches.lines.pooled, optics_, sources_,
                            std::move(rays.pooled), traced.patches.lamps.pooled,
-                           traced.bounce_rules(0)));
+                           traced.bounce_rules(band)));
     InstantSpread spread(traced.patches.count(), suns_->size());
     SunColumns& of = rays.of_realizations;
     const std::size_t R = static_cast<std::size_t>(traced.rules.realizations);
     for (std::size_t r = 0; r < R; ++r) {
       if (has_circumsolar()) circumsolar_.emplace_back(of.circumsolar[r]);
-      spread.add(total_of(block_light(
-          traced.hierarchy(), traced.patches.lines.realizations[r], traced.optics, sources_,
-          {std::move(of.direct[r]), std::move(of.mirror[r]),
-           has_circumsolar() ? std::move(of.circumsolar[r]) : Columns()},
-          traced.patches.lamps.of(r), traced.bounce_rules(0))));
+      spread.add(total_of(
+          block_light(traced.hierarchy(), traced.patches.lines.realizations[r], optics_, sources_,
+                      {std::move(of.direct[r]), std::move(of.mirror[r]),
+                       has_circumsolar() ? std::move(of.circumsolar[r]) : Columns()},
+                      traced.patches.lamps.of(r), traced.bounce_rules(band))));
     }
     standard_error_ = spread.errors();
   }
 
   Squares squares_of(const NodeLight& nodes) const {
-    const auto weights =
-        nodes.weights(*suns_, ledger_of_rays(traced_, rays_.direct, rays_.mirror, suns_->size()));
+    const auto weights = nodes.weights(
+        *suns_, ledger_of_rays(traced_, optics_, rays_.direct, rays_.mirror, suns_->size()));
     RayLight rays;
     rays.pooled = rays_;
     const BlockLight made =
@@ -182,6 +187,7 @@ class ReductionTest {
   }
 
   const TracedScene& traced_;
+  const PatchOptics& optics_;                               ///< of the band
   std::unique_ptr<const std::vector<IntervalLight>> suns_;  ///< where `sources_` looks for them
   BlockSources sources_;
   RayColumns rays_;                         ///< direct and by mirrors
@@ -190,61 +196,74 @@ class ReductionTest {
   std::vector<float> standard_error_;       ///< [interval][patch]
 };
 
-/// One batch.
-class YearBatch : public BatchTransport {
+/// One band of a batch.
+class YearBand {
  public:
-  YearBatch(const TracedScene& traced, const NodeLight& nodes, BatchTally& tally, WorkDone& work,
-            RayRecord* record)
+  YearBand(const TracedScene& traced, std::size_t band, const NodeLight& nodes, BatchTally& tally)
       : traced_(traced),
+        optics_(traced.optics_of_band[band]),
+        band_(band),
         nodes_(nodes),
         tally_(tally),
-        work_(work),
-        rays_(traced, SunsSky::elsewhere, record),
         sums_(empty_sums(traced)),
-        parts_(traced, 0, tally),
+        parts_(traced, band, tally),
         shares_of_parts_(parts_.count()) {}
 
-  void light(const Block& block) override {
+  /// What the rays of a block are added to as they are traced, where they are of this band.
+  std::vector<TimedSums> timed(const Block& block) { return parts_.timed(block, sums_); }
+  /// Of the whole batch.
+  std::vector<TimeSums*> sums() { return parts_.all(sums_); }
+  /// Adds rays that were traced for all bands; the block has this band's light.
+  void add_rays(const Block& block, const BlockRays& rays, const BandFactors& factors) {
+    add_exposures(rays, factors, block.suns, sums_);
+    parts_.add_rays(block, rays, factors);
+  }
+
+  /// `rays` are of this band, and used up.
+  void light(const Block& block, BlockRays& rays) {
     const BlockSources sources(block.suns, static_cast<std::size_t>(traced_.grid.cell_count()));
-    BlockRays rays = rays_.next(sources, {}, parts_.timed(block, sums_), work_);
-    const Stopwatch time(work_[Work::solve_s]);
-    const auto by_rays = ledger_of_rays(traced_, rays.on_patches.pooled.direct,
+    const auto by_rays = ledger_of_rays(traced_, optics_, rays.on_patches.pooled.direct,
                                         rays.on_patches.pooled.mirror, block.suns.size());
     const auto weights = nodes_.weights(block.suns, by_rays);
     put_rows(by_rays, block, tally_.ledger);
     parts_.add_sources(block, sources, PartSums::Sky::whole);
     for (std::size_t p = 0; p < parts_.count(); ++p)
       add_shares(block, weights, parts_.shares(p, block), shares_of_parts_[p]);
-    light_patches(block, weights, rays.on_patches);
-    if (traced_.sensors.count() > 0) light_sensors(block, weights, rays.on_sensors);
+    const Columns on_patches = light_patches(block, weights, rays.on_patches);
+    const bool any_sensors = traced_.sensors.count() > 0;
+    const Columns on_sensors =
+        any_sensors ? light_sensors(block, weights, rays.on_sensors) : Columns();
+    exact_.keep(block, on_patches, any_sensors ? &on_sensors : nullptr);
     book_sent_on(traced_, block, rays.sent_on, sums_, tally_);
     sums_.add_whole_sources(sources);
     add_shares(block, weights, std::vector<double>(block.suns.size(), 1), shares_);
   }
 
-  void finish() override {
-    const Stopwatch time(work_[Work::realizations_s]);
-    rays_.end(parts_.all(sums_), work_);
+  void finish() {
     nodes_.split_circumsolar(shares_, sums_);
-    solve_realizations(traced_, 0, sums_, tally_);
+    solve_realizations(traced_, band_, sums_, tally_);
     for (std::size_t p = 0; p < parts_.count(); ++p)
       nodes_.split_circumsolar(shares_of_parts_[p], parts_.sums(p));
     parts_.solve();
+    exact_.take(optics_, tally_);
   }
 
  private:
-  void light_patches(const Block& block, const std::vector<NodeWeights>& weights, RayLight& rays) {
-    const BlockLight light =
-        light_of_nodes(traced_.patches, &NodeBlock::patches, nodes_, weights, rays);
+  /// Return what is reflected.
+  Columns light_patches(const Block& block, const std::vector<NodeWeights>& weights,
+                        RayLight& rays) {
+    BlockLight light = light_of_nodes(traced_.patches, &NodeBlock::patches, nodes_, weights, rays);
     for (std::size_t k = 0; k < block.suns.size(); ++k)
       tally_.ledger[block.rows[k]] += nodes_.ledger(weights, k);
-    store_patches(traced_.optics, light, block.suns, block.rows, rays.sunlit, tally_);
+    store_patches(optics_, light, block.suns, block.rows, rays.sunlit, tally_);
+    return std::move(light.reflected);
   }
 
-  void light_sensors(const Block& block, const std::vector<NodeWeights>& weights, RayLight& rays) {
-    const BlockLight light =
-        light_of_nodes(traced_.sensors, &NodeBlock::sensors, nodes_, weights, rays);
+  Columns light_sensors(const Block& block, const std::vector<NodeWeights>& weights,
+                        RayLight& rays) {
+    BlockLight light = light_of_nodes(traced_.sensors, &NodeBlock::sensors, nodes_, weights, rays);
     store_received(light, block.suns, block.rows, rays.sunlit, tally_.sensors);
+    return std::move(light.reflected);
   }
 
   /// Time that each node shines, in all intervals together, of each so much of its time.
@@ -259,14 +278,61 @@ class YearBatch : public BatchTransport {
   }
 
   const TracedScene& traced_;
+  const PatchOptics& optics_;
+  std::size_t band_;
   const NodeLight& nodes_;
   BatchTally& tally_;
-  WorkDone& work_;
-  BatchRays rays_;
   TimeSums sums_;
   PartSums parts_;
+  ExactTotals exact_;
   std::vector<NodeSeconds> shares_;  ///< of each block of nodes
   std::vector<std::vector<NodeSeconds>> shares_of_parts_;
+};
+
+/// One batch.
+class YearBatch : public BatchTransport {
+ public:
+  YearBatch(const TracedScene& traced, const std::vector<std::unique_ptr<NodeLight>>& nodes,
+            std::vector<BatchTally>& tallies, WorkDone& work, RayRecord* record)
+      : traced_(traced), work_(work), rays_(traced, SunsSky::elsewhere, record) {
+    bands_.reserve(tallies.size());
+    for (std::size_t b = 0; b < tallies.size(); ++b)
+      bands_.emplace_back(traced, b, *nodes[b], tallies[b]);
+  }
+
+  void light(const Block& block) override {
+    const BlockSources sources(block.suns, static_cast<std::size_t>(traced_.grid.cell_count()));
+    if (traced_.is_rgb()) return light_in_bands(block, sources);
+    BlockRays rays = rays_.next(sources, {}, bands_.front().timed(block), work_);
+    const Stopwatch time(work_[Work::solve_s]);
+    bands_.front().light(block, rays);
+  }
+
+  void finish() override {
+    const Stopwatch time(work_[Work::realizations_s]);
+    rays_.end(traced_.is_rgb() ? std::vector<TimeSums*>() : bands_.front().sums(), work_);
+    for (YearBand& band : bands_) band.finish();
+  }
+
+ private:
+  /// Rays are traced once, for the mean of the bands.
+  void light_in_bands(const Block& block, const BlockSources& sources) {
+    const BlockRays rays = rays_.next(sources, {.columns = true}, {}, work_);
+    const Stopwatch time(work_[Work::solve_s]);
+    for (std::size_t b = 0; b < bands_.size(); ++b) {
+      const auto suns = suns_in_band(block.suns, b);
+      const Block of_band{suns, block.rows};
+      const BandFactors factors = sun_factors(block.suns, suns);
+      bands_[b].add_rays(of_band, rays, factors);
+      BlockRays rays_of_band = in_band(rays, factors, Errors::totals);
+      bands_[b].light(of_band, rays_of_band);
+    }
+  }
+
+  const TracedScene& traced_;
+  WorkDone& work_;
+  BatchRays rays_;
+  std::vector<YearBand> bands_;
 };
 
 /// Tells how far the nodes are. How many there will be nobody knows beforehand: each turn takes a
@@ -288,7 +354,8 @@ class NodesAhead {
   double told_ = 0, turn_ = 0;
 };
 
-std::vector<ReductionTest> reduction_tests(const TracedScene& traced, const LitPeriod& period,
+std::vector<ReductionTest> reduction_tests(const TracedScene& traced, std::size_t band,
+                                           const LitPeriod& period,
                                            const std::vector<std::size_t>& intervals,
                                            WorkDone& work, NodesAhead& ahead) {
   // Each realization solves them, too: they take about as long as half of the first nodes.
@@ -299,7 +366,7 @@ std::vector<ReductionTest> reduction_tests(const TracedScene& traced, const LitP
   for (std::size_t first = 0; first < intervals.size(); first += block_width) {
     const auto begin = intervals.begin() + static_cast<std::ptrdiff_t>(first);
     const auto count = std::min(block_width, intervals.size() - first);
-    made.emplace_back(traced,
+    made.emplace_back(traced, band,
                       lights_of(period, {begin, begin + static_cast<std::ptrdiff_t>(count)}), work);
     ahead.advance(static_cast<double>(first + count) / static_cast<double>(intervals.size()));
   }
@@ -355,27 +422,63 @@ Reduction take_nodes(NodeLight& nodes, const std::vector<ReductionTest>& made,
 
 YearGathering::YearGathering(const TracedScene& traced, const LitPeriod& period, Watch& watch)
     : LightTransport(traced) {
-  SUNLOAD_EXPECT(year_can_serve(traced.rules), "gathered broadband light, errors of totals");
+  SUNLOAD_EXPECT(year_can_serve(traced.rules), "gathered light, errors of totals");
   NodesAhead ahead(watch);
-  const double most = most_of_few(lit_intervals(traced, period));
+  const double most = most_of_few(traced.rules, lit_intervals(traced, period));
   const std::vector<std::size_t> tested = test_intervals(traced, period);
-  nodes_ = std::make_unique<NodeLight>(traced, period, tested, work_);
-  if (traced.rules.year == Year::automatic && FirstNodes(*nodes_).all() > most) return;
-  // Before nodes are solved: while they are made, tests take more memory than later.
-  const auto made = reduction_tests(traced, period, tested, work_, ahead);
-  nodes_->set_reduction(take_nodes(*nodes_, made, tested.size(), most, work_, ahead));
+  for (std::size_t b = 0; b < traced.optics_of_band.size(); ++b) {
+    const LitPeriod& light = in_band(period, b);
+    NodeLight& nodes =
+        *nodes_.emplace_back(std::make_unique<NodeLight>(traced, b, light, tested, work_));
+    if (traced.rules.year == Year::automatic && FirstNodes(nodes).all() > most) return;
+    // Before nodes are solved: while they are made, tests take more memory than later.
+    const auto made = reduction_tests(traced, b, light, tested, work_, ahead);
+    nodes.set_reduction(take_nodes(nodes, made, tested.size(), most, work_, ahead));
+    if (traced.rules.year == Year::automatic && !nodes.solved().reduction.is_met) return;
+  }
+  keep_worst_reduction();
   ahead.end();
   return_large_memory();  // of what the nodes were made from
 }
 
-YearGathering::YearGathering(const TracedScene& traced, const LitPeriod& period, SolvedNodes ready)
-    : LightTransport(traced),
-      nodes_(std::make_unique<NodeLight>(traced, period, test_intervals(traced, period),
-                                         std::move(ready))) {}
+YearGathering::YearGathering(const TracedScene& traced, const LitPeriod& period,
+                             std::vector<SolvedNodes> ready)
+    : LightTransport(traced) {
+  const std::vector<std::size_t> tested = test_intervals(traced, period);
+  for (std::size_t b = 0; b < ready.size(); ++b)
+    nodes_.push_back(
+        std::make_unique<NodeLight>(traced, b, in_band(period, b), tested, std::move(ready[b])));
+  keep_worst_reduction();
+}
+
+const LitPeriod& YearGathering::in_band(const LitPeriod& period, std::size_t band) {
+  if (!traced_.is_rgb()) return period;
+  return *periods_.emplace_back(std::make_unique<PeriodInBand>(period, band));
+}
+
+void YearGathering::keep_worst_reduction() {
+  const auto share = [](const Reduction& of) {
+    return of.standard_error_w_m2 > 0 ? of.error_w_m2 / of.standard_error_w_m2 : 0;
+  };
+  reduction_ = nodes_.front()->solved().reduction;
+  for (const auto& nodes : nodes_) {
+    const Reduction& of_band = nodes->solved().reduction;
+    const Reduction& worst = share(of_band) > share(reduction_) ? of_band : reduction_;
+    reduction_ = {std::max(reduction_.skies, of_band.skies),
+                  std::max(reduction_.suns, of_band.suns), worst.error_w_m2,
+                  worst.standard_error_w_m2, reduction_.is_met && of_band.is_met};
+  }
+}
+
+std::vector<const SolvedNodes*> YearGathering::nodes() const {
+  std::vector<const SolvedNodes*> of_bands;
+  for (const auto& nodes : nodes_) of_bands.push_back(&nodes->solved());
+  return of_bands;
+}
 
 std::unique_ptr<BatchTransport> YearGathering::begin(std::vector<BatchTally>& tallies,
                                                      WorkDone& work, RayRecord* record) const {
-  return std::make_unique<YearBatch>(traced_, *nodes_, tallies.front(), work, record);
+  return std::make_unique<YearBatch>(traced_, nodes_, tallies, work, record);
 }
 
 std::unique_ptr<const LightTransport> year_where_it_pays(const TracedScene& traced,
@@ -387,11 +490,12 @@ std::unique_ptr<const LightTransport> year_where_it_pays(const TracedScene& trac
   if (lit < static_cast<double>(2 * year_tests)) return nullptr;
   // Before anything is solved or ranked: there are at least a block of skies and one of suns.
   const bool is_asked_for = traced.rules.year == Year::modes;
-  if (!is_asked_for && most_of_few(lit) < static_cast<double>(2 * block_width)) return nullptr;
+  if (!is_asked_for && most_of_few(traced.rules, lit) < static_cast<double>(2 * block_width))
+    return nullptr;
   auto year = std::make_unique<YearGathering>(traced, period, watch);
   const Reduction& reached = *year->reduction();
   const auto nodes = static_cast<double>(reached.skies + reached.suns);
-  if (is_asked_for || (reached.is_met && nodes <= most_of_few(lit))) return year;
+  if (is_asked_for || (reached.is_met && nodes <= most_of_few(traced.rules, lit))) return year;
   work += year->work();
   return nullptr;
 }

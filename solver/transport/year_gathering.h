@@ -10,6 +10,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "solver/transport/node_light.h"
 
@@ -20,15 +21,21 @@ class YearGathering : public LightTransport {
   /// Solves nodes; where the rules leave it open whether to, none if even the first are too many
   /// to pay. `traced` and `period` must outlive it. Throws Interrupted.
   YearGathering(const TracedScene& traced, const LitPeriod& period, Watch& watch);
-  /// By nodes that are solved already.
-  YearGathering(const TracedScene& traced, const LitPeriod& period, SolvedNodes ready);
+  /// By nodes that are solved already, of each band.
+  YearGathering(const TracedScene& traced, const LitPeriod& period, std::vector<SolvedNodes> ready);
   std::unique_ptr<BatchTransport> begin(std::vector<BatchTally>& tallies, WorkDone& work,
                                         RayRecord* record) const override;
-  const Reduction* reduction() const override { return &nodes_->solved().reduction; }
-  const SolvedNodes* nodes() const override { return &nodes_->solved(); }
+  /// Of the band that is furthest off; as many nodes as any has.
+  const Reduction* reduction() const override { return &reduction_; }
+  std::vector<const SolvedNodes*> nodes() const override;
 
  private:
-  std::unique_ptr<NodeLight> nodes_;
+  const LitPeriod& in_band(const LitPeriod& period, std::size_t band);
+  void keep_worst_reduction();
+
+  std::vector<std::unique_ptr<const LitPeriod>> periods_;  ///< of each band; none: broadband
+  std::vector<std::unique_ptr<NodeLight>> nodes_;          ///< of each band
+  Reduction reduction_;
 };
 
 /// The solution by nodes where the rules ask for it, or leave it open and it keeps its aim and

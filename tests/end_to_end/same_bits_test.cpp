@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "io/result/reader.h"
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"
@@ -23,7 +24,10 @@ std::string result_of(const WorkFolder& folder, const std::string& study, int th
 void expect_same_bits(const WorkFolder& folder, const std::string& study) {
   const std::string one = result_of(folder, study, 1);
   EXPECT_EQ(ledger_problem(one), "");
-  EXPECT_EQ(sums_problem(one), "");
+  // The largest value of each band may come at a time of its own.
+  if (ResultReader(one).bands() == Bands::broadband) {
+    EXPECT_EQ(sums_problem(one), "");
+  }
   for (const int threads : {2, 3})
     EXPECT_EQ(different_data(one, result_of(folder, study, threads)), std::vector<std::string>{})
         << threads << " threads";
@@ -55,8 +59,13 @@ TEST(SameBits, SeveralSunsOfAnIntervalByBothTransports) {
 TEST(SameBits, YearFromFewSolutions) {
   const WorkFolder folder;
   folder.write("square.obj", square_obj);
-  folder.write("square.yaml", square_in_five_minutes(", year: modes"));
-  expect_same_bits(folder, "square");
+  for (const char* bands : {"broadband", "rgb"}) {
+    folder.write("square.yaml",
+                 square_in_five_minutes(std::string(", year: modes, bands: ") + bands));
+    expect_same_bits(folder, "square");
+    for (const char* threads : {"1", "2", "3"})
+      std::filesystem::remove_all(folder / (std::string("square_") + threads));
+  }
 }
 
 TEST(SameBits, MirrorsLampsAndTwoSidedSheets) {

@@ -137,7 +137,7 @@ TEST(PreparedFile, GivesTheSameBitsBack) {
   write_prepared(folder / "prepared", hash, lines);
   const auto read = read_prepared(folder / "prepared", hash);
   ASSERT_TRUE(read);
-  EXPECT_FALSE(read->nodes);
+  EXPECT_TRUE(read->nodes.empty());
   const Lines& back = read->lines;
   EXPECT_EQ(back.rays, lines.rays);
   ASSERT_EQ(back.realizations.size(), lines.realizations.size());
@@ -151,18 +151,24 @@ TEST(PreparedFile, GivesTheSameBitsBack) {
 
 TEST(PreparedFile, GivesSolvedNodesBack) {
   const WorkFolder folder;
-  const SolvedNodes nodes = example_nodes();
-  write_prepared(folder / "prepared", hash, example(), &nodes);
+  // Of two bands.
+  SolvedNodes red = example_nodes(), green = example_nodes();
+  green.reduction = {48, 32, 0.5, 0.25, false};
+  green.suns.pop_back();
+  write_prepared(folder / "prepared", hash, example(), {&red, &green});
   const auto read = read_prepared(folder / "prepared", hash);
-  ASSERT_TRUE(read && read->nodes);
+  ASSERT_TRUE(read && read->nodes.size() == 2);
   EXPECT_EQ(read->lines.rays, example().rays);
-  EXPECT_EQ(Bytes(*read->nodes).all, Bytes(nodes).all);
-  const Reduction &of = read->nodes->reduction, &wanted = nodes.reduction;
-  EXPECT_EQ(of.skies, wanted.skies);
-  EXPECT_EQ(of.suns, wanted.suns);
-  EXPECT_EQ(of.error_w_m2, wanted.error_w_m2);
-  EXPECT_EQ(of.standard_error_w_m2, wanted.standard_error_w_m2);
-  EXPECT_TRUE(of.is_met);
+  for (const auto& [back, written] :
+       {std::pair{&read->nodes[0], &red}, {&read->nodes[1], &green}}) {
+    EXPECT_EQ(Bytes(*back).all, Bytes(*written).all);
+    const Reduction &of = back->reduction, &wanted = written->reduction;
+    EXPECT_EQ(of.skies, wanted.skies);
+    EXPECT_EQ(of.suns, wanted.suns);
+    EXPECT_EQ(of.error_w_m2, wanted.error_w_m2);
+    EXPECT_EQ(of.standard_error_w_m2, wanted.standard_error_w_m2);
+    EXPECT_EQ(of.is_met, wanted.is_met);
+  }
 }
 
 TEST(PreparedFile, AnotherHashIsNotBelieved) {
@@ -183,7 +189,7 @@ TEST(PreparedFile, MissingEmptyOrNoFileAtAll) {
 TEST(PreparedFile, AnyFlippedBitIsNoticed) {
   const WorkFolder folder;
   const SolvedNodes nodes = example_nodes();
-  write_prepared(folder / "prepared", hash, example(), &nodes);
+  write_prepared(folder / "prepared", hash, example(), {&nodes});
   const std::string whole = folder.read("prepared");
   constexpr std::size_t probes = 200;
   for (std::size_t probe = 0; probe <= probes; ++probe) {
@@ -200,7 +206,7 @@ TEST(PreparedFile, AnyFlippedBitIsNoticed) {
 TEST(PreparedFile, CutOrLongerIsNoticed) {
   const WorkFolder folder;
   const SolvedNodes nodes = example_nodes();
-  write_prepared(folder / "prepared", hash, example(), &nodes);
+  write_prepared(folder / "prepared", hash, example(), {&nodes});
   const std::string whole = folder.read("prepared");
   for (const std::size_t length :
        {std::size_t{1}, std::size_t{15}, std::size_t{16}, std::size_t{20}, std::size_t{100},

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What few solutions of a period are (node_light.h).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "solver/light/packed_columns.h"
+#include "solver/light/tally.h"
+
+namespace sunload {
+
+/// How near the light of few solutions comes to that of each interval.
+struct Reduction {
+  std::size_t skies = 0, suns = 0;  ///< that are solved
+  /// Root mean square over patches and intervals that are no nodes, by area [W m-2]: of what is
+  /// made up against what is solved, and of the standard error of what is solved.
+  double error_w_m2 = 0, standard_error_w_m2 = 0;
+  bool is_met = false;  ///< error ≤ a third of the standard error
+};
+
+/// Up to `block_width` sources side by side, and what they bring.
+struct NodeBlock {
+  struct Received {
+    PackedColumns sky;        ///< straight from the sky; empty: nothing
+    PackedColumns mirror;     ///< of the sky, by mirrors; empty: nothing
+    PackedColumns reflected;  ///< after a diffuse reflection, and of the far ground
+  };
+  Received patches, sensors;
+  std::array<Ledger, block_width> ledger{};  ///< but for first light of the sun's rays
+  /// Of suns: first light of their rays that surfaces reflect diffusely [W].
+  std::array<double, block_width> reflected_first{};
+  std::vector<PackedColumns> circumsolar;  ///< [R] part of the sky, per realization
+  /// [source][cells] π · radiance of that part; empty ones: none.
+  std::vector<std::vector<double>> circumsolar_sky;
+
+  /// Calls `array` for each array, and `array.each(list, visit)` for lists of them, to write or to
+  /// read them.
+  template <class Self, class Array>
+  static void visit(Self& self, Array& array) {
+    for (auto* received : {&self.patches, &self.sensors})
+      for (auto* kind : {&received->sky, &received->mirror, &received->reflected})
+        PackedColumns::visit(*kind, array);
+    array(self.ledger);
+    array(self.reflected_first);
+    array.each(self.circumsolar, [&](auto& samples) { PackedColumns::visit(samples, array); });
+    array.each(self.circumsolar_sky, array);
+  }
+};
+
+/// All that few solutions of a period are: what other processes, and later ones, need not solve.
+struct SolvedNodes {
+  Reduction reduction;
+  NodeBlock lamps, ground;
+  std::vector<NodeBlock> skies, suns;
+
+  /// As NodeBlock::visit; the reduction is not among them.
+  template <class Self, class Array>
+  static void visit(Self& self, Array& array) {
+    const auto visit_block = [&](auto& block) { NodeBlock::visit(block, array); };
+    visit_block(self.lamps);
+    visit_block(self.ground);
+    array.each(self.skies, visit_block);
+    array.each(self.suns, visit_block);
+  }
+};
+
+}  // namespace sunload
