@@ -3,7 +3,9 @@
 #include "solver/transport/exact_totals.h"
 
 #include <algorithm>
+#include <array>
 
+#include "geo/base/vector_code.h"
 #include "solver/base/chunks.h"
 #include "solver/base/threads.h"
 
@@ -15,6 +17,42 @@ double mean_of_realizations(const ReceiverTally& tally, std::size_t i) {
   double sum = 0;
   for (const auto& of_one : tally.exposure_realization) sum += of_one[i];
   return sum / static_cast<double>(tally.exposure_realization.size());
+}
+
+/// Values of consecutive receivers.
+template <class T>
+using OfChunk = std::array<T, receivers_per_chunk>;
+
+/// What reflected light changes by, [suns of a block][receivers of a chunk].
+using Changes = std::array<OfChunk<float>, block_width>;
+
+/// `more`: of reflected light, as a share of it.
+void changes_of(const PackedColumns& reflected, const OfChunk<float>& more, std::size_t begin,
+                std::size_t count, Changes& by) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint16_t* codes = reflected.codes(begin + i);
+    const float scale = more[i] * reflected.of_row(begin + i);
+    for (std::size_t k = 0; k < block_width; ++k)
+      by[k][i] = static_cast<float>(codes[k]) * (scale * reflected.of_column(k));
+  }
+}
+
+/// Changes light of one interval; nothing falls below 0. `changed`: by how much [J m-2]; `most`:
+/// the largest value up to now.
+SUNLOAD_VECTOR_CODE void change(float* __restrict E, const float* __restrict by, float length_s,
+                                std::size_t count, float* __restrict changed,
+                                float* __restrict most) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float before = E[i], sum = before + by[i], after = sum > 0 ? sum : 0;
+    E[i] = after;
+    changed[i] = (after - before) * length_s;
+    most[i] = after > most[i] ? after : most[i];
+  }
+}
+
+SUNLOAD_VECTOR_CODE void add(const float* __restrict values, double times, std::size_t count,
+                             double* __restrict to) {
+  for (std::size_t i = 0; i < count; ++i) to[i] += times * static_cast<double>(values[i]);
 }
 
 }  // namespace
@@ -47,31 +85,30 @@ void ExactTotals::take(PackedColumns Reflected::*of_receivers, ReceiverTally& ta
   changed.assign(receivers, 0);
   if (receivers == 0 || reflected_sum.empty() || tally.exposure_realization.empty()) return;
   parallel_chunks(receivers, receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> more(end - begin, 0);  // of reflected light, as a share of it
+    const std::size_t count = end - begin;
+    OfChunk<float> more{}, joules;
     for (std::size_t i = begin; i < end; ++i) {
       const double missing = mean_of_realizations(tally, i) - total_sum[i];
-      if (reflected_sum[i] > 0) more[i - begin] = std::max(missing / reflected_sum[i], -1.0);
+      if (reflected_sum[i] > 0)
+        more[i - begin] = static_cast<float>(std::max(missing / reflected_sum[i], -1.0));
       tally.irradiance_max[i] = 0;
     }
-    for (const Reflected& block : blocks_)
+    Changes by;
+    for (const Reflected& block : blocks_) {
+      changes_of(block.*of_receivers, more, begin, count, by);
       for (std::size_t k = 0; k < block.rows.size(); ++k) {
-        const std::size_t row = block.rows[k];
-        for (std::size_t i = begin; i < end; ++i) {
-          const auto by = static_cast<float>(more[i - begin] *
-                                             static_cast<double>((block.*of_receivers).at(i, k)));
-          float& E = total[row * receivers + i];
-          const float before = E;
-          E = std::max(0.0f, before + by);
-          tally.irradiance_max[i] = std::max(tally.irradiance_max[i], E);
-          const double joules =
-              (static_cast<double>(E) - static_cast<double>(before)) * block.length_s[k];
-          changed[i] += joules;
-          if (!reflected.empty())
-            reflected[row * receivers + i] = std::max(0.0f, reflected[row * receivers + i] + by);
-          for (PartTally& part : tally.parts)
-            if (!part.total.empty()) part.total[i] += part.share[row] * joules;
-        }
+        const std::size_t row = block.rows[k], first = row * receivers + begin;
+        change(&total[first], by[k].data(), static_cast<float>(block.length_s[k]), count,
+               joules.data(), &tally.irradiance_max[begin]);
+        add(joules.data(), 1, count, &changed[begin]);
+        for (PartTally& part : tally.parts)
+          if (!part.total.empty() && part.share[row] > 0)
+            add(joules.data(), part.share[row], count, &part.total[begin]);
+        if (reflected.empty()) continue;
+        for (std::size_t i = 0; i < count; ++i)
+          reflected[first + i] = std::max(0.0f, reflected[first + i] + by[k][i]);
       }
+    }
     for (std::size_t i = begin; i < end; ++i) {
       total_sum[i] += changed[i];
       reflected_sum[i] = std::max(0.0, reflected_sum[i] + changed[i]);
