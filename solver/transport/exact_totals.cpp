@@ -13,46 +13,128 @@ namespace sunload {
 
 namespace {
 
-double mean_of_realizations(const ReceiverTally& tally, std::size_t i) {
+using Realizations = std::vector<std::vector<double>>;
+
+/// Scaling to one part moves the sums of others, by less each time (iterative proportional fitting:
+/// Deming & Stephan 1940, On a least squares adjustment of a sampled frequency table).
+constexpr int turns = 2;
+
+double mean_of(const Realizations& exposure, std::size_t i) {
   double sum = 0;
-  for (const auto& of_one : tally.exposure_realization) sum += of_one[i];
-  return sum / static_cast<double>(tally.exposure_realization.size());
+  for (const auto& of_one : exposure) sum += of_one[i];
+  return sum / static_cast<double>(exposure.size());
 }
 
-/// Values of consecutive receivers.
+/// An interval with light.
+struct Interval {
+  std::size_t row;  ///< in the batch
+  double length_s;
+};
 template <class T>
-using OfChunk = std::array<T, receivers_per_chunk>;
+using OfChunk = ExactTotals::OfChunk<T>;
+using Light = ExactTotals::Light;
 
-/// What reflected light changes by, [suns of a block][receivers of a chunk].
-using Changes = std::array<OfChunk<float>, block_width>;
+SUNLOAD_VECTOR_CODE void add(const float* __restrict values, double times, double* __restrict to) {
+  for (std::size_t i = 0; i < receivers_per_chunk; ++i)
+    to[i] += times * static_cast<double>(values[i]);
+}
 
-/// `more`: of reflected light, as a share of it.
-void changes_of(const PackedColumns& reflected, const OfChunk<float>& more, std::size_t begin,
-                std::size_t count, Changes& by) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint16_t* codes = reflected.codes(begin + i);
-    const float scale = more[i] * reflected.of_row(begin + i);
-    for (std::size_t k = 0; k < block_width; ++k)
-      by[k][i] = static_cast<float>(codes[k]) * (scale * reflected.of_column(k));
-  }
+SUNLOAD_VECTOR_CODE void add_difference(const float* __restrict now, const float* __restrict before,
+                                        double times, double* __restrict to) {
+  for (std::size_t i = 0; i < receivers_per_chunk; ++i)
+    to[i] += times * (static_cast<double>(now[i]) - static_cast<double>(before[i]));
+}
+
+SUNLOAD_VECTOR_CODE void scale(float* __restrict values, const float* __restrict more,
+                               float share) {
+  for (std::size_t i = 0; i < receivers_per_chunk; ++i) values[i] *= 1 + share * more[i];
 }
 
 /// Changes light of one interval; nothing falls below 0. `changed`: by how much [J m-2]; `most`:
 /// the largest value up to now.
-SUNLOAD_VECTOR_CODE void change(float* __restrict E, const float* __restrict by, float length_s,
-                                std::size_t count, float* __restrict changed,
-                                float* __restrict most) {
+SUNLOAD_VECTOR_CODE void change(float* __restrict E, const float* __restrict now,
+                                const float* __restrict before, float length_s, std::size_t count,
+                                float* __restrict changed, float* __restrict most) {
   for (std::size_t i = 0; i < count; ++i) {
-    const float before = E[i], sum = before + by[i], after = sum > 0 ? sum : 0;
+    const float old = E[i], sum = old + (now[i] - before[i]), after = sum > 0 ? sum : 0;
     E[i] = after;
-    changed[i] = (after - before) * length_s;
+    changed[i] = (after - old) * length_s;
     most[i] = after > most[i] ? after : most[i];
   }
 }
 
-SUNLOAD_VECTOR_CODE void add(const float* __restrict values, double times, std::size_t count,
-                             double* __restrict to) {
-  for (std::size_t i = 0; i < count; ++i) to[i] += times * static_cast<double>(values[i]);
+/// Time whose sum is known exactly: a part, or all of it.
+struct Known {
+  const Realizations& exposure;
+  const std::vector<double>& total;  ///< of the series as it was
+  const std::vector<double>* share;  ///< of every interval's time; null: all of it
+  double share_of(std::size_t row) const { return share ? (*share)[row] : 1; }
+};
+
+/// Parts first, then all of it: where parts overlap, or know less, it decides.
+std::vector<Known> known_times(const ReceiverTally& tally) {
+  std::vector<Known> times;
+  for (const PartTally& part : tally.parts)
+    if (part.with_errors && !part.exposure_realization.empty() && !part.total.empty())
+      times.push_back({part.exposure_realization, part.total, &part.share});
+  times.push_back(
+      {tally.exposure_realization, tally.exposure[static_cast<std::size_t>(Part::total)], nullptr});
+  return times;
+}
+
+/// Scales the reflected light of receivers begin, …, begin + count - 1 until its sum over that time
+/// is right.
+void scale_to(const Known& time, const std::vector<Interval>& intervals, const Light& before,
+              std::size_t begin, std::size_t count, Light& now) {
+  OfChunk<double> changed{}, scalable{};
+  bool any = false;
+  for (std::size_t n = 0; n < intervals.size(); ++n) {
+    const double share = time.share_of(intervals[n].row);
+    if (share == 0) continue;
+    any = true;
+    const double seconds = share * intervals[n].length_s;
+    add_difference(now[n].data(), before[n].data(), seconds, changed.data());
+    add(now[n].data(), share * seconds, scalable.data());
+  }
+  if (!any) return;
+  OfChunk<float> more{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const double missing = mean_of(time.exposure, begin + i) - (time.total[begin + i] + changed[i]);
+    if (scalable[i] > 0) more[i] = static_cast<float>(std::max(missing / scalable[i], -1.0));
+  }
+  for (std::size_t n = 0; n < intervals.size(); ++n)
+    if (const double share = time.share_of(intervals[n].row); share > 0)
+      scale(now[n].data(), more.data(), static_cast<float>(share));
+}
+
+/// Changes series, sums and parts of receivers begin … end - 1 by what their reflected light has
+/// changed by.
+void put(const std::vector<Interval>& intervals, const Light& before, const Light& now,
+         std::size_t begin, std::size_t end, std::vector<double>& changed, ReceiverTally& tally) {
+  const std::size_t receivers = changed.size(), count = end - begin;
+  const auto series = [&](Part part) -> LargeVector<float>& {
+    return tally.irradiance[static_cast<std::size_t>(part)];
+  };
+  OfChunk<float> joules;
+  for (std::size_t n = 0; n < intervals.size(); ++n) {
+    const std::size_t row = intervals[n].row, first = row * receivers + begin;
+    change(&series(Part::total)[first], now[n].data(), before[n].data(),
+           static_cast<float>(intervals[n].length_s), count, joules.data(),
+           &tally.irradiance_max[begin]);
+    for (std::size_t i = 0; i < count; ++i) changed[begin + i] += static_cast<double>(joules[i]);
+    for (PartTally& part : tally.parts)
+      if (!part.total.empty() && part.share[row] > 0)
+        for (std::size_t i = 0; i < count; ++i)
+          part.total[begin + i] += part.share[row] * static_cast<double>(joules[i]);
+    if (LargeVector<float>& reflected = series(Part::reflected); !reflected.empty())
+      for (std::size_t i = 0; i < count; ++i)
+        reflected[first + i] = std::max(0.0f, reflected[first + i] + (now[n][i] - before[n][i]));
+  }
+  for (std::size_t i = begin; i < end; ++i) {
+    tally.exposure[static_cast<std::size_t>(Part::total)][i] += changed[i];
+    double& reflected = tally.exposure[static_cast<std::size_t>(Part::reflected)][i];
+    reflected = std::max(0.0, reflected + changed[i]);
+  }
 }
 
 }  // namespace
@@ -74,45 +156,38 @@ void ExactTotals::take(const PatchOptics& optics, BatchTally& tally) const {
   take(&Reflected::sensors, tally.sensors, changed);
 }
 
+/// Of receivers begin … end - 1.
+ExactTotals::Light ExactTotals::light_of(PackedColumns Reflected::*of_receivers, std::size_t begin,
+                                         std::size_t end) const {
+  Light light;
+  for (const Reflected& block : blocks_) {
+    const std::size_t first = light.size();
+    light.resize(first + block.rows.size());
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t k = 0; k < block.rows.size(); ++k)
+        light[first + k][i - begin] = (block.*of_receivers).at(i, k);
+  }
+  return light;
+}
+
 /// `changed`: what sums change by, of every receiver [J m-2].
 void ExactTotals::take(PackedColumns Reflected::*of_receivers, ReceiverTally& tally,
                        std::vector<double>& changed) const {
   const std::size_t receivers = tally.sunlit_s.size();
-  LargeVector<float>& total = tally.irradiance[static_cast<std::size_t>(Part::total)];
-  LargeVector<float>& reflected = tally.irradiance[static_cast<std::size_t>(Part::reflected)];
-  std::vector<double>& total_sum = tally.exposure[static_cast<std::size_t>(Part::total)];
-  std::vector<double>& reflected_sum = tally.exposure[static_cast<std::size_t>(Part::reflected)];
   changed.assign(receivers, 0);
-  if (receivers == 0 || reflected_sum.empty() || tally.exposure_realization.empty()) return;
+  if (receivers == 0 || tally.exposure[static_cast<std::size_t>(Part::reflected)].empty()) return;
+  std::vector<Interval> intervals;
+  for (const Reflected& block : blocks_)
+    for (std::size_t k = 0; k < block.rows.size(); ++k)
+      intervals.push_back({block.rows[k], block.length_s[k]});
+  const std::vector<Known> times = known_times(tally);
+  std::fill(tally.irradiance_max.begin(), tally.irradiance_max.end(), 0.0f);
   parallel_chunks(receivers, receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
-    const std::size_t count = end - begin;
-    OfChunk<float> more{}, joules;
-    for (std::size_t i = begin; i < end; ++i) {
-      const double missing = mean_of_realizations(tally, i) - total_sum[i];
-      if (reflected_sum[i] > 0)
-        more[i - begin] = static_cast<float>(std::max(missing / reflected_sum[i], -1.0));
-      tally.irradiance_max[i] = 0;
-    }
-    Changes by;
-    for (const Reflected& block : blocks_) {
-      changes_of(block.*of_receivers, more, begin, count, by);
-      for (std::size_t k = 0; k < block.rows.size(); ++k) {
-        const std::size_t row = block.rows[k], first = row * receivers + begin;
-        change(&total[first], by[k].data(), static_cast<float>(block.length_s[k]), count,
-               joules.data(), &tally.irradiance_max[begin]);
-        add(joules.data(), 1, count, &changed[begin]);
-        for (PartTally& part : tally.parts)
-          if (!part.total.empty() && part.share[row] > 0)
-            add(joules.data(), part.share[row], count, &part.total[begin]);
-        if (reflected.empty()) continue;
-        for (std::size_t i = 0; i < count; ++i)
-          reflected[first + i] = std::max(0.0f, reflected[first + i] + by[k][i]);
-      }
-    }
-    for (std::size_t i = begin; i < end; ++i) {
-      total_sum[i] += changed[i];
-      reflected_sum[i] = std::max(0.0, reflected_sum[i] + changed[i]);
-    }
+    const Light before = light_of(of_receivers, begin, end);
+    Light now = before;
+    for (int turn = 0; turn < (times.size() > 1 ? turns : 1); ++turn)
+      for (const Known& time : times) scale_to(time, intervals, before, begin, end - begin, now);
+    put(intervals, before, now, begin, end, changed, tally);
   });
 }
 

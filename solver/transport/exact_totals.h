@@ -9,8 +9,10 @@
 /// is scaled, in all intervals of a batch alike, until its time sum is theirs.
 #pragma once
 
+#include <array>
 #include <vector>
 
+#include "solver/base/chunks.h"
 #include "solver/light/packed_columns.h"
 #include "solver/light/tally.h"
 #include "solver/mesh/patch_optics.h"
@@ -22,8 +24,14 @@ class ExactTotals {
  public:
   /// Keeps the reflected light of a block that was stored; `sensors`: null where there are none.
   void keep(const Block& block, const Columns& patches, const Columns* sensors);
-  /// Scales it in the tally: series, time sums, parts, largest values. After `solve_realizations`.
+  /// Scales it in the tally: series, time sums, parts, largest values. Parts of the time that have
+  /// errors come first, then all of it, which decides. After `solve_realizations`.
   void take(const PatchOptics& optics, BatchTally& tally) const;
+
+  /// Values of consecutive receivers.
+  template <class T>
+  using OfChunk = std::array<T, receivers_per_chunk>;
+  using Light = std::vector<OfChunk<float>>;  ///< [intervals]
 
  private:
   struct Reflected {
@@ -33,6 +41,7 @@ class ExactTotals {
   };
   void take(PackedColumns Reflected::*of_receivers, ReceiverTally& tally,
             std::vector<double>& changed) const;
+  Light light_of(PackedColumns Reflected::*of_receivers, std::size_t begin, std::size_t end) const;
 
   std::vector<Reflected> blocks_;
 };

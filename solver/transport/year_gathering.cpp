@@ -219,9 +219,8 @@ class YearBand {
     parts_.add_rays(block, rays, factors);
   }
 
-  /// `rays` are of this band, and used up.
-  void light(const Block& block, BlockRays& rays) {
-    const BlockSources sources(block.suns, static_cast<std::size_t>(traced_.grid.cell_count()));
+  /// All are of this band; `rays` are used up.
+  void light(const Block& block, const BlockSources& sources, BlockRays& rays) {
     const auto by_rays = ledger_of_rays(traced_, optics_, rays.on_patches.pooled.direct,
                                         rays.on_patches.pooled.mirror, block.suns.size());
     const auto weights = nodes_.weights(block.suns, by_rays);
@@ -305,7 +304,7 @@ class YearBatch : public BatchTransport {
     if (traced_.is_rgb()) return light_in_bands(block, sources);
     BlockRays rays = rays_.next(sources, {}, bands_.front().timed(block), work_);
     const Stopwatch time(work_[Work::solve_s]);
-    bands_.front().light(block, rays);
+    bands_.front().light(block, sources, rays);
   }
 
   void finish() override {
@@ -325,7 +324,7 @@ class YearBatch : public BatchTransport {
       const BandFactors factors = sun_factors(block.suns, suns);
       bands_[b].add_rays(of_band, rays, factors);
       BlockRays rays_of_band = in_band(rays, factors, Errors::totals);
-      bands_[b].light(of_band, rays_of_band);
+      bands_[b].light(of_band, BlockSources(suns, sources.sky.size() / block_width), rays_of_band);
     }
   }
 
