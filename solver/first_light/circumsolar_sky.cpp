@@ -70,7 +70,7 @@ CircumsolarSky::CircumsolarSky(const SkyGrid& grid, const IntervalLight& light) 
     if (circumsolar_[static_cast<std::size_t>(c)] > 0) add_cell(grid, c);
   axis_ = normalized(axis_);
   double least_cosine = 1;
-  for (int corner = 0; corner < 4; ++corner)
+  for (std::size_t corner = 0; corner < 4; ++corner)
     for (std::size_t c = 0; c < brightness_.size(); ++c)
       least_cosine = std::min(
           least_cosine, dot({static_cast<double>(x_[corner][c]), static_cast<double>(y_[corner][c]),
@@ -87,7 +87,7 @@ void CircumsolarSky::add_cell(const SkyGrid& grid, int cell) {
   const int column = cell % grid.side(), row = cell / grid.side();
   a_.push_back(static_cast<float>(column) * cell_width_ - 1);
   b_.push_back(static_cast<float>(row) * cell_width_ - 1);
-  for (int corner = 0; corner < 4; ++corner) {
+  for (std::size_t corner = 0; corner < 4; ++corner) {
     const Vec3 w = grid.direction(cell, corner_u[corner], corner_v[corner]);
     x_[corner].push_back(static_cast<float>(w.x));
     y_[corner].push_back(static_cast<float>(w.y));
@@ -138,7 +138,7 @@ void CircumsolarView::look(const CircumsolarSky& sky, Vec3 normal) {
   normal_[1] = static_cast<float>(normal.y);
   normal_[2] = static_cast<float>(normal.z);
   const std::size_t cells = sky.brightness_.size();
-  for (int corner = 0; corner < 4; ++corner) {
+  for (std::size_t corner = 0; corner < 4; ++corner) {
     q_[corner].resize(cells);
     cosines(sky.x_[corner].data(), sky.y_[corner].data(), sky.z_[corner].data(), normal_, cells,
             q_[corner].data());

@@ -44,9 +44,9 @@ class CircumsolarSky {
   std::vector<double> circumsolar_;  ///< per cell of the grid
   std::array<double, band_count> band_factors_;
   // Of the cells with L_circ:
-  std::vector<float> brightness_;          ///< share of the strength
-  std::vector<float> a_, b_;               ///< lower corner in the grid's square
-  std::vector<float> x_[4], y_[4], z_[4];  ///< directions of the corners (0, 0), (1, 0), …
+  std::vector<float> brightness_;                ///< share of the strength
+  std::vector<float> a_, b_;                     ///< lower corner in the grid's square
+  std::array<std::vector<float>, 4> x_, y_, z_;  ///< directions of the corners (0, 0), (1, 0), …
   float cell_width_ = 0;
   Vec3 axis_;
   double sine_ = 1;  ///< of the half-angle of a cone about axis_ that holds L_circ; 1: no such cone
