@@ -165,14 +165,11 @@ void VariantRun::add(std::unique_ptr<TracedSeason> season) {
 void VariantRun::tell_reduction(const TracedSeason& season) const {
   const Reduction* reduction = season.transport().reduction();
   if (!reduction) return;
-  const double share = reduction->standard_error_w_m2 > 0
-                           ? reduction->error_w_m2 / reduction->standard_error_w_m2
-                           : 0;
   const std::string text = fmt::format(
       "sky and reflected light of all intervals from {} skies and {} suns; on intervals that are "
       "none of them this differs by {:.2g} W/m2 from their own solutions, {:.0f} % of the standard "
       "error of an interval",
-      reduction->skies, reduction->suns, reduction->error_w_m2, 100 * share);
+      reduction->skies, reduction->suns, reduction->error_w_m2, 100 * reduction->share());
   if (reduction->is_met)
     progress_.say(plan_.study.variant + ": " + text);
   else

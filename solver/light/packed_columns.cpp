@@ -14,9 +14,18 @@ namespace {
 constexpr float largest_code = 65535, nothing = 1e-30f;  // W m-2
 
 std::array<float, block_width> largest_of_columns(const Columns& values) {
-  std::array<float, block_width> largest{};
-  for (std::size_t at = 0; at < values.size(); at += block_width)
-    for (std::size_t k = 0; k < block_width; ++k) largest[k] = std::max(largest[k], values[at + k]);
+  using Largest = std::array<float, block_width>;
+  const std::size_t rows = values.size() / block_width;
+  std::vector<Largest> of_chunks(chunk_count(rows, receivers_per_chunk));
+  parallel_chunks(rows, receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
+    Largest& of_chunk = of_chunks[begin / receivers_per_chunk];
+    for (std::size_t at = begin * block_width; at < end * block_width; at += block_width)
+      for (std::size_t k = 0; k < block_width; ++k)
+        of_chunk[k] = std::max(of_chunk[k], values[at + k]);
+  });
+  Largest largest{};
+  for (const Largest& of_chunk : of_chunks)
+    for (std::size_t k = 0; k < block_width; ++k) largest[k] = std::max(largest[k], of_chunk[k]);
   for (float& of_column : largest)
     if (!(of_column > nothing)) of_column = 0;
   return largest;

@@ -3,7 +3,6 @@
 #include "solver/transport/exact_totals.h"
 
 #include <algorithm>
-#include <array>
 
 #include "geo/base/vector_code.h"
 #include "solver/base/chunks.h"
@@ -25,13 +24,9 @@ double mean_of(const Realizations& exposure, std::size_t i) {
   return sum / static_cast<double>(exposure.size());
 }
 
-/// An interval with light.
-struct Interval {
-  std::size_t row;  ///< in the batch
-  double length_s;
-};
 template <class T>
 using OfChunk = ExactTotals::OfChunk<T>;
+using Interval = ExactTotals::Interval;
 using Light = ExactTotals::Light;
 
 SUNLOAD_VECTOR_CODE void add(const float* __restrict values, double times, double* __restrict to) {
@@ -87,16 +82,13 @@ std::vector<Known> known_times(const ReceiverTally& tally) {
 void scale_to(const Known& time, const std::vector<Interval>& intervals, const Light& before,
               std::size_t begin, std::size_t count, Light& now) {
   OfChunk<double> changed{}, scalable{};
-  bool any = false;
   for (std::size_t n = 0; n < intervals.size(); ++n) {
     const double share = time.share_of(intervals[n].row);
     if (share == 0) continue;
-    any = true;
     const double seconds = share * intervals[n].length_s;
     add_difference(now[n].data(), before[n].data(), seconds, changed.data());
     add(now[n].data(), share * seconds, scalable.data());
   }
-  if (!any) return;
   OfChunk<float> more{};
   for (std::size_t i = 0; i < count; ++i) {
     const double missing = mean_of(time.exposure, begin + i) - (time.total[begin + i] + changed[i]);
@@ -139,13 +131,10 @@ void put(const std::vector<Interval>& intervals, const Light& before, const Ligh
 
 }  // namespace
 
-void ExactTotals::keep(const Block& block, const Columns& patches, const Columns* sensors) {
-  Reflected reflected{.rows = {block.rows.begin(), block.rows.end()},
-                      .length_s = {},
-                      .patches = PackedColumns(patches),
-                      .sensors = sensors ? PackedColumns(*sensors) : PackedColumns()};
-  for (const IntervalLight& sun : block.suns) reflected.length_s.push_back(sun.length_s);
-  blocks_.push_back(std::move(reflected));
+void ExactTotals::keep(const Block& block, const Columns& patches, const Columns& sensors) {
+  for (std::size_t k = 0; k < block.suns.size(); ++k)
+    intervals_.push_back({block.rows[k], block.suns[k].length_s});
+  blocks_.push_back({block.suns.size(), PackedColumns(patches), PackedColumns(sensors)});
 }
 
 void ExactTotals::take(const PatchOptics& optics, BatchTally& tally) const {
@@ -159,13 +148,13 @@ void ExactTotals::take(const PatchOptics& optics, BatchTally& tally) const {
 /// Of receivers begin … end - 1.
 ExactTotals::Light ExactTotals::light_of(PackedColumns Reflected::*of_receivers, std::size_t begin,
                                          std::size_t end) const {
-  Light light;
+  Light light(intervals_.size());
+  std::size_t first = 0;
   for (const Reflected& block : blocks_) {
-    const std::size_t first = light.size();
-    light.resize(first + block.rows.size());
     for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t k = 0; k < block.rows.size(); ++k)
+      for (std::size_t k = 0; k < block.intervals; ++k)
         light[first + k][i - begin] = (block.*of_receivers).at(i, k);
+    first += block.intervals;
   }
   return light;
 }
@@ -176,18 +165,14 @@ void ExactTotals::take(PackedColumns Reflected::*of_receivers, ReceiverTally& ta
   const std::size_t receivers = tally.sunlit_s.size();
   changed.assign(receivers, 0);
   if (receivers == 0 || tally.exposure[static_cast<std::size_t>(Part::reflected)].empty()) return;
-  std::vector<Interval> intervals;
-  for (const Reflected& block : blocks_)
-    for (std::size_t k = 0; k < block.rows.size(); ++k)
-      intervals.push_back({block.rows[k], block.length_s[k]});
   const std::vector<Known> times = known_times(tally);
   std::fill(tally.irradiance_max.begin(), tally.irradiance_max.end(), 0.0f);
   parallel_chunks(receivers, receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
     const Light before = light_of(of_receivers, begin, end);
     Light now = before;
     for (int turn = 0; turn < (times.size() > 1 ? turns : 1); ++turn)
-      for (const Known& time : times) scale_to(time, intervals, before, begin, end - begin, now);
-    put(intervals, before, now, begin, end, changed, tally);
+      for (const Known& time : times) scale_to(time, intervals_, before, begin, end - begin, now);
+    put(intervals_, before, now, begin, end, changed, tally);
   });
 }
 

@@ -6,7 +6,7 @@
 /// mean keeps it, while errors of lines average out. The realizations, which are solved with the
 /// exact sources integrated over time, know the sums without it; their mean is what gathering on
 /// the pooled lines gives within a tenth of its standard error. So the reflected light of a patch
-/// is scaled, in all intervals of a batch alike, until its time sum is theirs.
+/// is scaled, batch by batch, until its time sum is theirs, and those of parts of the time are.
 #pragma once
 
 #include <array>
@@ -22,8 +22,8 @@ namespace sunload {
 
 class ExactTotals {
  public:
-  /// Keeps the reflected light of a block that was stored; `sensors`: null where there are none.
-  void keep(const Block& block, const Columns& patches, const Columns* sensors);
+  /// Keeps the reflected light of a block that was stored; no `sensors`: no rows.
+  void keep(const Block& block, const Columns& patches, const Columns& sensors);
   /// Scales it in the tally: series, time sums, parts, largest values. Parts of the time that have
   /// errors come first, then all of it, which decides. After `solve_realizations`.
   void take(const PatchOptics& optics, BatchTally& tally) const;
@@ -32,17 +32,23 @@ class ExactTotals {
   template <class T>
   using OfChunk = std::array<T, receivers_per_chunk>;
   using Light = std::vector<OfChunk<float>>;  ///< [intervals]
+  /// With light.
+  struct Interval {
+    std::size_t row;  ///< in the batch
+    double length_s;
+  };
 
  private:
+  /// Of a block.
   struct Reflected {
-    std::vector<std::size_t> rows;  ///< in the batch
-    std::vector<double> length_s;
+    std::size_t intervals;
     PackedColumns patches, sensors;
   };
   void take(PackedColumns Reflected::*of_receivers, ReceiverTally& tally,
             std::vector<double>& changed) const;
   Light light_of(PackedColumns Reflected::*of_receivers, std::size_t begin, std::size_t end) const;
 
+  std::vector<Interval> intervals_;  ///< of all blocks
   std::vector<Reflected> blocks_;
 };
 

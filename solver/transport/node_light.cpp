@@ -262,8 +262,11 @@ std::vector<NodeWeights> NodeLight::weights(std::span<const IntervalLight> suns,
   return weights;
 }
 
-void NodeLight::add_light(const std::vector<NodeWeights>& weights,
-                          NodeBlock::Received NodeBlock::*of_receivers, BlockLight& light) const {
+BlockLight NodeLight::light(const Receivers& receivers,
+                            NodeBlock::Received NodeBlock::*of_receivers,
+                            const std::vector<NodeWeights>& weights, RayLight& rays) const {
+  BlockLight light =
+      light_by_rays(receivers.lines.pooled, std::move(rays.pooled), receivers.lamps.pooled);
   const auto all = blocks();
   const auto add = [&](PackedColumns NodeBlock::Received::*kind, Columns& out) {
     std::vector<const PackedColumns*> nodes;
@@ -276,6 +279,7 @@ void NodeLight::add_light(const std::vector<NodeWeights>& weights,
   add(&NodeBlock::Received::sky, light.sky);
   if (optics().any_mirror) add(&NodeBlock::Received::mirror, light.mirror);
   add(&NodeBlock::Received::reflected, light.reflected);
+  return light;
 }
 
 void NodeLight::add_circumsolar(const std::vector<NodeWeights>& weights, std::size_t r,

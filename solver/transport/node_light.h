@@ -70,11 +70,11 @@ class NodeLight {
   std::vector<NodeWeights> weights(std::span<const IntervalLight> suns,
                                    const std::vector<Ledger>& by_rays) const;
 
-  /// `of_receivers`: patches or sensors. `light` has direct, mirror (by rays) and lamps; it gets
-  /// the sky's straight light, that of the sky by mirrors, and what is reflected. What falls below
-  /// 0, in corners that are nearly dark, is 0.
-  void add_light(const std::vector<NodeWeights>& weights,
-                 NodeBlock::Received NodeBlock::*of_receivers, BlockLight& light) const;
+  /// All light of a block on patches or sensors, of which `of_receivers` are: the interval's own by
+  /// `rays`, whose columns are used up, and what nodes make up. What falls below 0 of that, in
+  /// corners that are nearly dark, is 0.
+  BlockLight light(const Receivers& receivers, NodeBlock::Received NodeBlock::*of_receivers,
+                   const std::vector<NodeWeights>& weights, RayLight& rays) const;
   /// Adds the samples of the sky about the sun in realization r, [N][block].
   void add_circumsolar(const std::vector<NodeWeights>& weights, std::size_t r,
                        Columns& light) const;

@@ -19,6 +19,8 @@ struct Reduction {
   /// made up against what is solved, and of the standard error of what is solved.
   double error_w_m2 = 0, standard_error_w_m2 = 0;
   bool is_met = false;  ///< error ≤ a third of the standard error
+  /// The error, of the standard error.
+  double share() const { return standard_error_w_m2 > 0 ? error_w_m2 / standard_error_w_m2 : 0; }
 };
 
 /// Up to `block_width` sources side by side, and what they bring.

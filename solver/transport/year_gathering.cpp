@@ -4,23 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
 #include "solver/base/chunks.h"
 #include "solver/base/large_memory.h"
-#include "solver/base/stopwatch.h"
 #include "solver/base/threads.h"
-#include "solver/gather/block_tally.h"
-#include "solver/light/instant_spread.h"
-#include "solver/transport/band_rays.h"
-#include "solver/transport/exact_totals.h"
-#include "solver/transport/gathered_sums.h"
-#include "solver/transport/part_sums.h"
 #include "solver/transport/period_in_band.h"
-#include "solver/transport/realizations.h"
+#include "solver/transport/reduction_test.h"
+#include "solver/transport/year_batch.h"
 
 namespace sunload {
 
@@ -63,276 +56,6 @@ std::vector<IntervalLight> lights_of(const LitPeriod& period,
   parallel_for(intervals.size(), [&](std::size_t t) { lights[t] = period.of(intervals[t]); });
   return lights;
 }
-
-/// `of_receivers`: those, patches or sensors. The columns of `rays` are used up.
-BlockLight light_of_nodes(const Receivers& receivers, NodeBlock::Received NodeBlock::*of_receivers,
-                          const NodeLight& nodes, const std::vector<NodeWeights>& weights,
-                          RayLight& rays) {
-  BlockLight light =
-      light_by_rays(receivers.lines.pooled, std::move(rays.pooled), receivers.lamps.pooled);
-  nodes.add_light(weights, of_receivers, light);
-  return light;
-}
-
-/// Sums over intervals of means over patches, by area, of the squares of what nodes are off by.
-struct Squares {
-  double sky = 0, reflected = 0;  ///< of each alone
-  double error = 0;               ///< of both; without the noise of samples, as of the sky
-  double standard_error = 0;
-  Squares& operator+=(const Squares& more) {
-    sky += more.sky;
-    reflected += more.reflected;
-    error += more.error;
-    standard_error += more.standard_error;
-    return *this;
-  }
-  double share() const { return standard_error > 0 ? std::sqrt(error / standard_error) : 0; }
-};
-
-class ReductionTest {
- public:
-  /// Solves the test intervals, in the light of a band, by all lines and by each realization.
-  ReductionTest(const TracedScene& traced, std::size_t band, std::vector<IntervalLight> suns,
-                WorkDone& work)
-      : traced_(traced),
-        optics_(traced.optics_of_band[band]),
-        suns_(std::make_unique<const std::vector<IntervalLight>>(std::move(suns))),
-        sources_(*suns_, static_cast<std::size_t>(traced.grid.cell_count())) {
-    sources_.split_sky(traced.grid);
-    RayLight rays =
-        light_iteration(traced, sources_, {.columns = true, .all_parts = true}, {}, work)
-            .on_patches;
-    const Stopwatch time(work[Work::solve_s]);
-    rays_ = rays.pooled;
-    rays_.circumsolar = {};
-    keep_light(block_light(traced.hierarchy(), traced.patches.lines.pooled, optics_, sources_,
-                           std::move(rays.pooled), traced.patches.lamps.pooled,
-                           traced.bounce_rules(band)));
-    InstantSpread spread(traced.patches.count(), suns_->size());
-    SunColumns& of = rays.of_realizations;
-    const std::size_t R = static_cast<std::size_t>(traced.rules.realizations);
-    for (std::size_t r = 0; r < R; ++r) {
-      if (has_circumsolar()) circumsolar_.emplace_back(of.circumsolar[r]);
-      spread.add(total_of(
-          block_light(traced.hierarchy(), traced.patches.lines.realizations[r], optics_, sources_,
-                      {std::move(of.direct[r]), std::move(of.mirror[r]),
-                       has_circumsolar() ? std::move(of.circumsolar[r]) : Columns()},
-                      traced.patches.lamps.of(r), traced.bounce_rules(band))));
-    }
-    standard_error_ = spread.errors();
-  }
-
-  Squares squares_of(const NodeLight& nodes) const {
-    const auto weights = nodes.weights(
-        *suns_, ledger_of_rays(traced_, optics_, rays_.direct, rays_.mirror, suns_->size()));
-    RayLight rays;
-    rays.pooled = rays_;
-    const BlockLight made =
-        light_of_nodes(traced_.patches, &NodeBlock::patches, nodes, weights, rays);
-    const std::vector<float> noise = noise_of_samples(nodes, weights);
-    const std::vector<double>& area = traced_.hierarchy().area();
-    const double all = std::accumulate(area.begin(), area.end(), 0.0);
-    Squares sum = ordered_sum(area.size(), receivers_per_chunk, Squares{},
-                              [&](std::size_t begin, std::size_t end) {
-                                Squares part;
-                                for (std::size_t i = begin; i < end; ++i)
-                                  add_squares(made, noise, i, part);
-                                return part;
-                              });
-    for (double* square : {&sum.sky, &sum.reflected, &sum.error, &sum.standard_error})
-      *square = std::max(0.0, *square / all);
-    return sum;
-  }
-
- private:
-  bool has_circumsolar() const { return any_circumsolar(sources_.circumsolar); }
-
-  /// Of patch i, by its area.
-  void add_squares(const BlockLight& made, const std::vector<float>& noise, std::size_t i,
-                   Squares& sum) const {
-    const std::vector<double>& area = traced_.hierarchy().area();
-    for (std::size_t k = 0; k < suns_->size(); ++k) {
-      const std::size_t at = i * block_width + k, row = k * area.size() + i;
-      const auto sky = static_cast<double>(made.sky[at] + made.mirror[at] - sky_[at] - mirror_[at]);
-      const auto noisy = static_cast<double>(noise[row]);
-      const auto reflected = static_cast<double>(made.reflected[at] - reflected_[at]);
-      sum.sky += area[i] * (sky * sky - noisy * noisy);
-      sum.reflected += area[i] * reflected * reflected;
-      sum.error += area[i] * ((sky + reflected) * (sky + reflected) - noisy * noisy);
-      const auto se = static_cast<double>(standard_error_[row]);
-      sum.standard_error += area[i] * se * se;
-    }
-  }
-
-  void keep_light(BlockLight exact) {
-    sky_ = std::move(exact.sky);
-    mirror_ = std::move(exact.mirror);
-    reflected_ = std::move(exact.reflected);
-  }
-
-  /// Standard error of what nodes and test differ by, by their samples of the sky about the sun,
-  /// [interval][patch]: both solutions have it, and it says nothing of the nodes.
-  std::vector<float> noise_of_samples(const NodeLight& nodes,
-                                      const std::vector<NodeWeights>& weights) const {
-    if (!has_circumsolar()) return std::vector<float>(standard_error_.size(), 0);
-    InstantSpread spread(traced_.patches.count(), suns_->size());
-    for (std::size_t r = 0; r < circumsolar_.size(); ++r) {
-      Columns difference = columns(traced_.patches.count());
-      nodes.add_circumsolar(weights, r, difference);
-      spread.add([&](std::size_t i, std::size_t k) {
-        return difference[i * block_width + k] - circumsolar_[r].at(i, k);
-      });
-    }
-    return spread.errors();
-  }
-
-  const TracedScene& traced_;
-  const PatchOptics& optics_;                               ///< of the band
-  std::unique_ptr<const std::vector<IntervalLight>> suns_;  ///< where `sources_` looks for them
-  BlockSources sources_;
-  RayColumns rays_;                         ///< direct and by mirrors
-  Columns sky_, mirror_, reflected_;        ///< of the exact solution
-  std::vector<PackedColumns> circumsolar_;  ///< [R] samples of the sky about the sun; none: none
-  std::vector<float> standard_error_;       ///< [interval][patch]
-};
-
-/// One band of a batch.
-class YearBand {
- public:
-  YearBand(const TracedScene& traced, std::size_t band, const NodeLight& nodes, BatchTally& tally)
-      : traced_(traced),
-        optics_(traced.optics_of_band[band]),
-        band_(band),
-        nodes_(nodes),
-        tally_(tally),
-        sums_(empty_sums(traced)),
-        parts_(traced, band, tally),
-        shares_of_parts_(parts_.count()) {}
-
-  /// What the rays of a block are added to as they are traced, where they are of this band.
-  std::vector<TimedSums> timed(const Block& block) { return parts_.timed(block, sums_); }
-  /// Of the whole batch.
-  std::vector<TimeSums*> sums() { return parts_.all(sums_); }
-  /// Adds rays that were traced for all bands; the block has this band's light.
-  void add_rays(const Block& block, const BlockRays& rays, const BandFactors& factors) {
-    add_exposures(rays, factors, block.suns, sums_);
-    parts_.add_rays(block, rays, factors);
-  }
-
-  /// All are of this band; `rays` are used up.
-  void light(const Block& block, const BlockSources& sources, BlockRays& rays) {
-    const auto by_rays = ledger_of_rays(traced_, optics_, rays.on_patches.pooled.direct,
-                                        rays.on_patches.pooled.mirror, block.suns.size());
-    const auto weights = nodes_.weights(block.suns, by_rays);
-    put_rows(by_rays, block, tally_.ledger);
-    parts_.add_sources(block, sources, PartSums::Sky::whole);
-    for (std::size_t p = 0; p < parts_.count(); ++p)
-      add_shares(block, weights, parts_.shares(p, block), shares_of_parts_[p]);
-    const Columns on_patches = light_patches(block, weights, rays.on_patches);
-    const bool any_sensors = traced_.sensors.count() > 0;
-    const Columns on_sensors =
-        any_sensors ? light_sensors(block, weights, rays.on_sensors) : Columns();
-    exact_.keep(block, on_patches, any_sensors ? &on_sensors : nullptr);
-    book_sent_on(traced_, block, rays.sent_on, sums_, tally_);
-    sums_.add_whole_sources(sources);
-    add_shares(block, weights, std::vector<double>(block.suns.size(), 1), shares_);
-  }
-
-  void finish() {
-    nodes_.split_circumsolar(shares_, sums_);
-    solve_realizations(traced_, band_, sums_, tally_);
-    for (std::size_t p = 0; p < parts_.count(); ++p)
-      nodes_.split_circumsolar(shares_of_parts_[p], parts_.sums(p));
-    parts_.solve();
-    exact_.take(optics_, tally_);
-  }
-
- private:
-  /// Return what is reflected.
-  Columns light_patches(const Block& block, const std::vector<NodeWeights>& weights,
-                        RayLight& rays) {
-    BlockLight light = light_of_nodes(traced_.patches, &NodeBlock::patches, nodes_, weights, rays);
-    for (std::size_t k = 0; k < block.suns.size(); ++k)
-      tally_.ledger[block.rows[k]] += nodes_.ledger(weights, k);
-    store_patches(optics_, light, block.suns, block.rows, rays.sunlit, tally_);
-    return std::move(light.reflected);
-  }
-
-  Columns light_sensors(const Block& block, const std::vector<NodeWeights>& weights,
-                        RayLight& rays) {
-    BlockLight light = light_of_nodes(traced_.sensors, &NodeBlock::sensors, nodes_, weights, rays);
-    store_received(light, block.suns, block.rows, rays.sunlit, tally_.sensors);
-    return std::move(light.reflected);
-  }
-
-  /// Time that each node shines, in all intervals together, of each so much of its time.
-  static void add_shares(const Block& block, const std::vector<NodeWeights>& weights,
-                         const std::vector<double>& of_suns, std::vector<NodeSeconds>& shares) {
-    shares.resize(weights.size());
-    for (std::size_t b = 0; b < weights.size(); ++b)
-      for (std::size_t j = 0; j < block_width; ++j)
-        for (std::size_t k = 0; k < block.suns.size(); ++k)
-          shares[b][j] += static_cast<double>(weights[b].of[j * block_width + k]) *
-                          (of_suns[k] * block.suns[k].length_s);
-  }
-
-  const TracedScene& traced_;
-  const PatchOptics& optics_;
-  std::size_t band_;
-  const NodeLight& nodes_;
-  BatchTally& tally_;
-  TimeSums sums_;
-  PartSums parts_;
-  ExactTotals exact_;
-  std::vector<NodeSeconds> shares_;  ///< of each block of nodes
-  std::vector<std::vector<NodeSeconds>> shares_of_parts_;
-};
-
-/// One batch.
-class YearBatch : public BatchTransport {
- public:
-  YearBatch(const TracedScene& traced, const std::vector<std::unique_ptr<NodeLight>>& nodes,
-            std::vector<BatchTally>& tallies, WorkDone& work, RayRecord* record)
-      : traced_(traced), work_(work), rays_(traced, SunsSky::elsewhere, record) {
-    bands_.reserve(tallies.size());
-    for (std::size_t b = 0; b < tallies.size(); ++b)
-      bands_.emplace_back(traced, b, *nodes[b], tallies[b]);
-  }
-
-  void light(const Block& block) override {
-    const BlockSources sources(block.suns, static_cast<std::size_t>(traced_.grid.cell_count()));
-    if (traced_.is_rgb()) return light_in_bands(block, sources);
-    BlockRays rays = rays_.next(sources, {}, bands_.front().timed(block), work_);
-    const Stopwatch time(work_[Work::solve_s]);
-    bands_.front().light(block, sources, rays);
-  }
-
-  void finish() override {
-    const Stopwatch time(work_[Work::realizations_s]);
-    rays_.end(traced_.is_rgb() ? std::vector<TimeSums*>() : bands_.front().sums(), work_);
-    for (YearBand& band : bands_) band.finish();
-  }
-
- private:
-  /// Rays are traced once, for the mean of the bands.
-  void light_in_bands(const Block& block, const BlockSources& sources) {
-    const BlockRays rays = rays_.next(sources, {.columns = true}, {}, work_);
-    const Stopwatch time(work_[Work::solve_s]);
-    for (std::size_t b = 0; b < bands_.size(); ++b) {
-      const auto suns = suns_in_band(block.suns, b);
-      const Block of_band{suns, block.rows};
-      const BandFactors factors = sun_factors(block.suns, suns);
-      bands_[b].add_rays(of_band, rays, factors);
-      BlockRays rays_of_band = in_band(rays, factors, Errors::totals);
-      bands_[b].light(of_band, BlockSources(suns, sources.sky.size() / block_width), rays_of_band);
-    }
-  }
-
-  const TracedScene& traced_;
-  WorkDone& work_;
-  BatchRays rays_;
-  std::vector<YearBand> bands_;
-};
 
 /// Tells how far the nodes are. How many there will be nobody knows beforehand: each turn takes a
 /// share of what is left.
@@ -380,10 +103,6 @@ Squares mean_squares(const std::vector<ReductionTest>& made, const NodeLight& no
     *square /= static_cast<double>(intervals);
   return sum;
 }
-
-}  // namespace
-
-namespace {
 
 /// Nodes to begin with.
 struct FirstNodes {
@@ -456,13 +175,10 @@ const LitPeriod& YearGathering::in_band(const LitPeriod& period, std::size_t ban
 }
 
 void YearGathering::keep_worst_reduction() {
-  const auto share = [](const Reduction& of) {
-    return of.standard_error_w_m2 > 0 ? of.error_w_m2 / of.standard_error_w_m2 : 0;
-  };
   reduction_ = nodes_.front()->solved().reduction;
   for (const auto& nodes : nodes_) {
     const Reduction& of_band = nodes->solved().reduction;
-    const Reduction& worst = share(of_band) > share(reduction_) ? of_band : reduction_;
+    const Reduction& worst = of_band.share() > reduction_.share() ? of_band : reduction_;
     reduction_ = {std::max(reduction_.skies, of_band.skies),
                   std::max(reduction_.suns, of_band.suns), worst.error_w_m2,
                   worst.standard_error_w_m2, reduction_.is_met && of_band.is_met};
@@ -477,7 +193,7 @@ std::vector<const SolvedNodes*> YearGathering::nodes() const {
 
 std::unique_ptr<BatchTransport> YearGathering::begin(std::vector<BatchTally>& tallies,
                                                      WorkDone& work, RayRecord* record) const {
-  return std::make_unique<YearBatch>(traced_, nodes_, tallies, work, record);
+  return year_batch(traced_, nodes_, tallies, work, record);
 }
 
 std::unique_ptr<const LightTransport> year_where_it_pays(const TracedScene& traced,

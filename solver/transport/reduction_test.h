@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Intervals that are solved by themselves, to measure how near light comes that nodes make up.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "solver/transport/node_light.h"
+
+namespace sunload {
+
+/// Sums over intervals of means over patches, by area, of the squares of what nodes are off by.
+struct Squares {
+  double sky = 0, reflected = 0;  ///< of each alone
+  double error = 0;               ///< of both; without the noise of samples, as of the sky
+  double standard_error = 0;
+  Squares& operator+=(const Squares& more) {
+    sky += more.sky;
+    reflected += more.reflected;
+    error += more.error;
+    standard_error += more.standard_error;
+    return *this;
+  }
+  double share() const { return standard_error > 0 ? std::sqrt(error / standard_error) : 0; }
+};
+
+class ReductionTest {
+ public:
+  /// Solves up to `block_width` intervals, in the light of a band, by all lines and by each
+  /// realization. `traced` must outlive it.
+  ReductionTest(const TracedScene& traced, std::size_t band, std::vector<IntervalLight> suns,
+                WorkDone& work);
+  /// Of light that these nodes make up, summed over the intervals.
+  Squares squares_of(const NodeLight& nodes) const;
+
+ private:
+  bool has_circumsolar() const { return any_circumsolar(sources_.circumsolar); }
+
+  void add_squares(const BlockLight& made, const std::vector<float>& noise, std::size_t patch,
+                   Squares& sum) const;
+  void keep_light(BlockLight exact);
+  std::vector<float> noise_of_samples(const NodeLight& nodes,
+                                      const std::vector<NodeWeights>& weights) const;
+
+  const TracedScene& traced_;
+  const PatchOptics& optics_;                               ///< of the band
+  std::unique_ptr<const std::vector<IntervalLight>> suns_;  ///< where `sources_` looks for them
+  BlockSources sources_;
+  RayColumns rays_;                         ///< direct and by mirrors
+  Columns sky_, mirror_, reflected_;        ///< of the exact solution
+  std::vector<PackedColumns> circumsolar_;  ///< [R] samples of the sky about the sun; none: none
+  std::vector<float> standard_error_;       ///< [interval][patch]
+};
+
+}  // namespace sunload
