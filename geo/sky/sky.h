@@ -122,6 +122,9 @@ class SkyGrid {
   double solid_angle() const { return 2 * pi / cell_count(); }
   /// Cell of a unit direction with w.z ≥ 0 (slightly less counts as 0).
   int cell(Vec3 w) const;
+  /// The same of `count` directions side by side; for those with w.z < 0 it means nothing.
+  void cells(const double* x, const double* y, const double* z, std::size_t count,
+             std::int32_t* cell) const;
   /// Direction of a point of a cell; u, v in [0, 1). `cell` gives the same cell back:
   /// points within 1e-9 of a cell's border are drawn in by as much.
   Vec3 direction(int cell, double u, double v) const;

@@ -111,22 +111,42 @@ void SkyGrid::place_samples(int row, int column) {
   }
 }
 
-int SkyGrid::cell(Vec3 w) const {
-  const double ax = std::abs(w.x), ay = std::abs(w.y);
-  const double larger = std::max(ax, ay), smaller = std::min(ax, ay);
+namespace {
+
+/// Of a grid of `size` cells along each side.
+inline std::int32_t cell_of(double x, double y, double z, std::int32_t size) {
+  const double half = size / 2.0;
+  const double ax = std::abs(x), ay = std::abs(y);
+  const double larger = ax > ay ? ax : ay, smaller = ax > ay ? ay : ax;
   // r² = 1 - cosθ, without the cancellation near the zenith.
-  const double r = std::sqrt((ax * ax + ay * ay) / (1 + std::max(w.z, 0.0)));
-  const double along = r * fast_octant(larger > 0 ? smaller / larger : 0);
+  const double r = std::sqrt((ax * ax + ay * ay) / (1 + (z > 0 ? z : 0)));
+  const double along = r * fast_octant(smaller / (larger > 0 ? larger : 1));
   // Both ways round, so that the choice is one of integers: no branch to mispredict.
-  const auto index = [this](double distance, double side) {
-    return static_cast<int>((std::copysign(distance, side) + 1) * half_);
+  const auto index = [half](double distance, double side) {
+    return static_cast<std::int32_t>((std::copysign(distance, side) + 1) * half);
   };
   const bool x_larger = ax >= ay;
-  const int column_across = index(r, w.x), column_along = index(along, w.x);
-  const int row_across = index(r, w.y), row_along = index(along, w.y);
-  const int column = x_larger ? column_across : column_along;
-  const int row = x_larger ? row_along : row_across;
-  return std::min(row, size_ - 1) * size_ + std::min(column, size_ - 1);
+  const std::int32_t column_across = index(r, x), column_along = index(along, x);
+  const std::int32_t row_across = index(r, y), row_along = index(along, y);
+  const std::int32_t column = x_larger ? column_across : column_along;
+  const std::int32_t row = x_larger ? row_along : row_across;
+  const std::int32_t last = size - 1;
+  return (row < last ? row : last) * size + (column < last ? column : last);
+}
+
+SUNLOAD_VECTOR_CODE void cells_of(const double* __restrict x, const double* __restrict y,
+                                  const double* __restrict z, std::size_t count, std::int32_t size,
+                                  std::int32_t* __restrict cell) {
+  for (std::size_t i = 0; i < count; ++i) cell[i] = cell_of(x[i], y[i], z[i], size);
+}
+
+}  // namespace
+
+int SkyGrid::cell(Vec3 w) const { return cell_of(w.x, w.y, w.z, size_); }
+
+void SkyGrid::cells(const double* x, const double* y, const double* z, std::size_t count,
+                    std::int32_t* cell) const {
+  cells_of(x, y, z, count, size_, cell);
 }
 
 Vec3 SkyGrid::direction(int cell, double u, double v) const {

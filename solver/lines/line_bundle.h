@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "geo/sky/sky.h"
 #include "solver/lines/patch_lines.h"
 #include "solver/lines/surface_walk.h"
 
@@ -19,21 +20,21 @@ class LineBundle {
   /// Appends lines 0 … count - 1 of a patch; `largest_link`: of their links (`linked_element`).
   void add(const PatchLines& lines, std::size_t count, double largest_link);
   /// Casts them all. What they meet is what each line would alone.
-  void cast(const RayCaster& caster, const Hierarchy& hierarchy);
+  void cast(const RayCaster& caster, const Hierarchy& hierarchy, const SkyGrid& grid);
 
   const PatchLines::Line& line(std::size_t i) const { return lines_[i]; }
   const FirstMeeting& met(std::size_t i) const { return met_[i]; }
 
  private:
   void sort_by_direction();
-  /// Puts what a packet of lines has met, whose numbers these are.
-  void put_met(const PacketHits& hits, std::span<const std::uint32_t> lines,
-               const Hierarchy& hierarchy);
+  /// Puts what packets of lines have met, whose numbers these are.
+  void put_met(std::span<const PacketHits> hits, std::span<const std::uint32_t> lines,
+               const Hierarchy& hierarchy, const SkyGrid& grid);
 
   std::vector<PatchLines::Line> lines_;
   std::vector<double> largest_link_;  ///< of each line
   std::vector<FirstMeeting> met_;
-  std::vector<std::uint8_t> cell_;               ///< of each line's direction
+  std::vector<std::int32_t> cell_;               ///< of each line's direction
   std::vector<std::uint32_t> in_order_, order_;  ///< numbers of the lines: as added, by direction
 };
 

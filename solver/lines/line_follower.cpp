@@ -16,47 +16,24 @@ void LineCollector::clear() {
   lamps = 0;
 }
 
-void LineCollector::move_glimpses(std::size_t receiver, std::size_t realization,
-                                  std::vector<Glimpse>& to) {
-  for (Glimpse& glimpse : glimpses) {
-    glimpse.receiver = static_cast<std::uint32_t>(receiver);
-    glimpse.realization = static_cast<std::uint32_t>(realization);
-    to.push_back(glimpse);
-  }
-  glimpses.clear();
-}
-
-LineCollector& LineCollector::operator+=(const LineCollector& other) {
-  const auto append = [](auto& to, const auto& from) {
-    to.insert(to.end(), from.begin(), from.end());
-  };
-  append(patches, other.patches);
-  append(sky, other.sky);
-  append(sky_by_mirror, other.sky_by_mirror);
-  ends.sky += other.ends.sky;
-  ends.ground += other.ends.ground;
-  ends.ground_by_mirror += other.ends.ground_by_mirror;
-  ends.fate += other.ends.fate;
-  lamps += other.lamps;
-  return *this;
-}
-
-void LineCollector::store(LineSet& set, std::size_t row, std::size_t count) {
-  const float scale = 1.0f / static_cast<float>(count);
-  const std::size_t block = row / LinkTable::rows_per_block;
-  set.patches.blocks[block].append_row(patches, scale);
-  set.sky.blocks[block].append_row(sky, scale);
-  set.sky_by_mirror.blocks[block].append_row(sky_by_mirror, scale);
-  set.ends[row] = {.sky = ends.sky * scale,
-                   .ground = ends.ground * scale,
-                   .ground_by_mirror = ends.ground_by_mirror * scale,
-                   .fate = scaled(ends.fate, scale)};
-  if (!set.lamps.empty()) set.lamps[row] = lamps / static_cast<double>(count);
-}
-
 LineFollower::LineFollower(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
                            const SkyGrid& grid, int mirror_depth)
-    : walk_(scene, hierarchy, caster, mirror_depth), hierarchy_(hierarchy), grid_(grid) {}
+    : walk_(scene, hierarchy, caster, mirror_depth),
+      hierarchy_(hierarchy),
+      grid_(grid),
+      at_surface_(at_surfaces(scene)) {}
+
+std::vector<LineFollower::AtSurface> LineFollower::at_surfaces(const Scene& scene) {
+  std::vector<AtSurface> of_material, all(scene.mesh.triangle_count());
+  for (const Material& m : scene.materials) {
+    const bool is_plain = !sends_on(m) && m.emission_w_m2 <= 0 && m.transmittance <= 0;
+    of_material.push_back(!is_plain       ? AtSurface::followed
+                          : m.diffuse > 0 ? AtSurface::linked
+                                          : AtSurface::ended);
+  }
+  for (std::size_t t = 0; t < all.size(); ++t) all[t] = of_material[scene.material[t].index()];
+  return all;
+}
 
 Glimpse LineFollower::glimpse(const Hit& hit, Vec3 n, Vec3 w, double weight) const {
   const Vec3 at = walk_.point(hit, n), axis = mirrored(w, n);
@@ -72,43 +49,42 @@ Glimpse LineFollower::glimpse(const Hit& hit, Vec3 n, Vec3 w, double weight) con
   return glimpse;
 }
 
-/// Links a line that left the scene along `w` with what it sees there.
-void LineFollower::link_outside(Vec3 w, double weight, int reflections, LineCollector& into) const {
+void LineFollower::link_outside(Vec3 w, double weight, LineCollector& into) const {
   const auto share = static_cast<float>(weight);
-  if (w.z > 0) {
-    if (reflections == 0) into.ends.sky += share;
-    (reflections == 0 ? into.sky : into.sky_by_mirror).push_back({sky_cell(w), share});
-  } else {
-    (reflections == 0 ? into.ends.ground : into.ends.ground_by_mirror) += share;
-  }
+  if (w.z > 0)
+    into.sky_by_mirror.push_back({sky_cell(w), share});
+  else
+    into.ends.ground_by_mirror += share;
 }
 
 std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const Hit& hit, const RandomKey& line,
                                    LineCollector& into, double share_of_first) const {
   FirstMeeting first{hit, walk_.patch_of(hit)};
   if (first.patch >= 0)
-    first.element = linked_element(hierarchy_, static_cast<std::size_t>(first.patch),
-                                   origin + w * hit.distance_m, hit.distance_m, into.largest_link);
+    first.target = linked_element(hierarchy_, static_cast<std::size_t>(first.patch),
+                                  origin + w * hit.distance_m, hit.distance_m, into.largest_link);
+  else if (hit.left_scene() && w.z > 0)
+    first.target = sky_cell(w);
   return follow(origin, w, first, line, into, share_of_first);
 }
 
-std::uint64_t LineFollower::follow(Vec3 origin, Vec3 w, const FirstMeeting& first,
-                                   const RandomKey& line, LineCollector& into,
-                                   double share_of_first) const {
+std::uint64_t LineFollower::follow_on(Vec3 origin, Vec3 w, const FirstMeeting& first,
+                                      const RandomKey& line, LineCollector& into,
+                                      double share_of_first) const {
   double weight = 1, path_m = 0;
   Hit hit = first.hit;
   std::int32_t patch_of_hit = first.patch;
   RandomKey key = line;
   for (int reflections = 0;; ++reflections) {  // as many rays, too
     const auto met = walk_.meet(hit, patch_of_hit, weight, into.ends.fate);
-    if (hit.left_scene()) link_outside(w, weight, reflections, into);
+    if (hit.left_scene()) link_outside(w, weight, into);
     if (!met) return static_cast<std::uint64_t>(reflections);
     const auto& [patch, material] = *met;
     path_m += hit.distance_m;
     const double counted = reflections == 0 ? weight * share_of_first : weight;
     if (material.diffuse > 0 || material.emission_w_m2 > 0 || into.links_all) {
       const auto element = reflections == 0
-                               ? first.element
+                               ? first.target
                                : linked_element(hierarchy_, patch, origin + w * hit.distance_m,
                                                 path_m, into.largest_link);
       into.patches.push_back({element, static_cast<float>(counted)});

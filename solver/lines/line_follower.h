@@ -27,12 +27,6 @@ struct LineCollector {
   double lamps = 0;         ///< exitance of emitters that was seen, summed over lines [W m-2]
   /// Forgets the lines.
   void clear();
-  /// Appends the glimpses as those of a receiver in one realization; none are left here.
-  void move_glimpses(std::size_t receiver, std::size_t realization, std::vector<Glimpse>& to);
-  /// Puts the lines of another realization to these.
-  LineCollector& operator+=(const LineCollector& other);
-  /// Writes the next row of its block in `set`: what `count` lines brought.
-  void store(LineSet& set, std::size_t row, std::size_t count);
 };
 
 /// Follows lines from their first hit on, by the law of reflection, until they
@@ -47,7 +41,10 @@ class LineFollower {
   /// `share_of_first`; the rest is seen by points (solver/lines/bright_view.h). `line` addresses
   /// the random numbers of glossy surfaces (its `block` is set here). Returns the rays cast.
   std::uint64_t follow(Vec3 origin, Vec3 w, const FirstMeeting& first, const RandomKey& line,
-                       LineCollector& into, double share_of_first = 1) const;
+                       LineCollector& into, double share_of_first = 1) const {
+    if (ends_at_first(w, first, into, share_of_first)) return 0;
+    return follow_on(origin, w, first, line, into, share_of_first);
+  }
   /// The same of a line that met `hit`.
   std::uint64_t follow(Vec3 origin, Vec3 w, const Hit& hit, const RandomKey& line,
                        LineCollector& into, double share_of_first = 1) const;
@@ -72,11 +69,43 @@ class LineFollower {
  private:
   /// Of a line that arrived along -`w`.
   Glimpse glimpse(const Hit& hit, Vec3 n, Vec3 w, double weight) const;
-  void link_outside(Vec3 w, double weight, int reflections, LineCollector& into) const;
+  /// Books a line that ends where it first comes, as most do; false if it is one of the others.
+  bool ends_at_first(Vec3 w, const FirstMeeting& first, LineCollector& into, double share) const;
+  std::uint64_t follow_on(Vec3 origin, Vec3 w, const FirstMeeting& first, const RandomKey& line,
+                          LineCollector& into, double share_of_first) const;
+  /// Links a line of that weight which mirrors sent out of the scene along `w`.
+  void link_outside(Vec3 w, double weight, LineCollector& into) const;
+
+  /// What is done with a line that meets a surface.
+  enum class AtSurface : std::uint8_t { followed, linked, ended };
+  static std::vector<AtSurface> at_surfaces(const Scene& scene);
 
   SurfaceWalk walk_;
   const Hierarchy& hierarchy_;
   const SkyGrid& grid_;
+  std::vector<AtSurface> at_surface_;  ///< per triangle
 };
+
+inline bool LineFollower::ends_at_first(Vec3 w, const FirstMeeting& first, LineCollector& into,
+                                        double share) const {
+  if (first.hit.left_scene()) {
+    into.ends.fate.escaped += 1;
+    if (w.z > 0) {
+      into.ends.sky += 1;
+      into.sky.push_back({first.target, 1});
+    } else {
+      into.ends.ground += 1;
+    }
+    return true;
+  }
+  if (first.patch < 0) {
+    into.ends.fate.backs += 1;
+    return true;
+  }
+  const AtSurface what = at_surface_[static_cast<std::size_t>(first.hit.triangle)];
+  if (what == AtSurface::linked || (what == AtSurface::ended && into.links_all))
+    into.patches.push_back({first.target, static_cast<float>(share)});
+  return what != AtSurface::followed;
+}
 
 }  // namespace sunload

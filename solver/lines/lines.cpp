@@ -10,6 +10,7 @@
 #include "solver/base/threads.h"
 #include "solver/lines/line_bundle.h"
 #include "solver/lines/line_follower.h"
+#include "solver/lines/line_row.h"
 #include "solver/lines/patch_lines.h"
 
 namespace sunload {
@@ -35,6 +36,7 @@ class BlockTracer {
         caster_(caster),
         rules_(rules),
         follower_(scene, hierarchy, caster, grid, rules.mirror_depth),
+        grid_(grid),
         guide_(guide),
         ground_source_(static_cast<std::size_t>(grid.cell_count())) {}
 
@@ -48,7 +50,7 @@ class BlockTracer {
     Output output;
     output.mirrored_fates.resize(lines.realizations.size());
     LineBundle bundle;
-    Row row{BrightView(guide_), {}, {}};
+    Row row{BrightView(guide_), {}};
     for (std::size_t first = begin, last = begin; first < end; first = last) {
       last = end_of_bundle(first, end);
       cast(first, last, bundle);
@@ -63,7 +65,7 @@ class BlockTracer {
   /// What one patch's lines bring.
   struct Row {
     BrightView view;
-    LineCollector own, pooled;
+    LineRow lines;
   };
 
   std::size_t lines_of(std::size_t patch) const {
@@ -74,7 +76,7 @@ class BlockTracer {
   }
   /// Enough lines to fill packets with similar directions, few enough for the cache.
   std::size_t end_of_bundle(std::size_t first, std::size_t end) const {
-    constexpr std::size_t lines_per_bundle = 2048;
+    constexpr std::size_t lines_per_bundle = 4096;
     std::size_t lines = lines_of(first), last = first + 1;
     while (last < end && lines + lines_of(last) <= lines_per_bundle) lines += lines_of(last++);
     return last;
@@ -88,24 +90,20 @@ class BlockTracer {
         bundle.add(PatchLines(hierarchy_, patch, caster_.offset_m(),
                               line_seeds(hierarchy_, patch, r, rules_.seed)),
                    lines_per_realization(patch), rules_.largest_link_of(patch));
-    bundle.cast(caster_, hierarchy_);
+    bundle.cast(caster_, hierarchy_, grid_);
   }
 
   /// Its lines are those of the bundle from number `at` on.
   void follow_patch(std::size_t patch, const LineBundle& bundle, std::size_t at, Row& row,
                     Lines& lines, Output& output) const {
-    row.pooled.clear();
     row.view.look_from(hierarchy_, patch);
-    row.own.largest_link = rules_.largest_link_of(patch);
+    row.lines.begin(rules_.largest_link_of(patch));
     const std::size_t lines_each = lines_per_realization(patch);
     for (std::size_t r = 0; r < lines.realizations.size(); ++r) {
-      row.own.clear();
       follow_realization(patch, r, bundle, at + r * lines_each, row, output);
-      row.own.move_glimpses(patch, r, output.glimpses);
-      row.pooled += row.own;
-      row.own.store(lines.realizations[r], patch, lines_each);
+      row.lines.end_realization(patch, output.glimpses);
     }
-    row.pooled.store(lines.pooled, patch, lines_of(patch));
+    row.lines.store(patch, lines_each, lines);
   }
 
   void follow_realization(std::size_t patch, std::size_t realization, const LineBundle& bundle,
@@ -117,20 +115,21 @@ class BlockTracer {
     const Vec3 normal = hierarchy_.normal(patch);
     const bool sends_light_on = sends_on(follower_.material_of_patch(patch));
     const std::size_t count = lines_per_realization(patch);
+    LineCollector& own = row.lines.own();
     output.rays += count;
     for (std::size_t l = 0; l < count; ++l) {
       const FirstMeeting& met = bundle.met(at + l);
       const auto& [origin, w] = bundle.line(at + l);
       key.sun = static_cast<std::uint32_t>(l);
       const double share = row.view.share_of_line(hierarchy_, met.hit, w, dot(w, normal));
-      output.rays += follower_.follow(origin, w, met, key, row.own, share);
+      output.rays += follower_.follow(origin, w, met, key, own, share);
       if (met.hit.left_scene() && sends_light_on)
         output.rays += book_mirrored(origin, w, patch, key, output.mirrored_fates[realization]);
     }
     if (!row.view.any()) return;
     key.purpose = Purpose::lamps;
     output.rays += row.view.see_points(caster_, random_words(key), count,
-                                       [&](const auto& point) { follower_.link(point, row.own); });
+                                       [&](const auto& point) { follower_.link(point, own); });
   }
 
   /// The line brings first light to a mirror: its way on is booked here, since
@@ -150,6 +149,7 @@ class BlockTracer {
   const RayCaster& caster_;
   const LineRules& rules_;
   LineFollower follower_;
+  const SkyGrid& grid_;
   const Guide& guide_;
   std::size_t ground_source_;
 };

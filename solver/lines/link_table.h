@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace sunload {
@@ -32,6 +33,8 @@ class LinkTable {
     /// Appends a row: sorted by target, equal targets merged. A weight of 1 in `links` is worth
     /// `unit`.
     void append_row(std::vector<Link>& links, float unit);
+    /// The same of links that are sorted and merged.
+    void append_merged(std::span<const Link> links, float unit);
     /// Frees what room is left.
     void trim();
 
@@ -49,7 +52,6 @@ class LinkTable {
 
    private:
     friend Reader;
-    void append(std::uint32_t target, float weight);
     void append_unit(float unit);
     std::uint32_t target_mask() const { return (std::uint32_t{1} << target_bits_) - 1; }
     float unit(std::size_t row) const { return unit_.size() == 1 ? unit_[0] : unit_[row]; }

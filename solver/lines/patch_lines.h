@@ -13,6 +13,31 @@
 
 namespace sunload {
 
+/// A line's beginning, and its direction: unit, away from the patch.
+struct PatchLine {
+  Vec3 origin, w;
+};
+
+/// Lines side by side.
+template <std::size_t lanes>
+struct LineColumns {
+  alignas(64) double origin[3][lanes];
+  alignas(64) double w[3][lanes];
+
+  void put(std::size_t l, const PatchLine& line) {
+    origin[0][l] = line.origin.x;
+    origin[1][l] = line.origin.y;
+    origin[2][l] = line.origin.z;
+    w[0][l] = line.w.x;
+    w[1][l] = line.w.y;
+    w[2][l] = line.w.z;
+  }
+  PatchLine operator[](std::size_t l) const {
+    return {{origin[0][l], origin[1][l], origin[2][l]}, {w[0][l], w[1][l], w[2][l]}};
+  }
+};
+using PacketLines = LineColumns<packet_size>;
+
 class PatchLines {
  public:
   /// Origins keep `offset_m` from the patch; `seeds` scramble the sequence.
@@ -25,14 +50,12 @@ class PatchLines {
         lift_(n_ * offset_m),
         seeds_(seeds) {}
 
-  struct Line {
-    Vec3 origin, w;  ///< w: unit, away from the patch
-  };
+  using Line = PatchLine;
   Line operator[](std::uint32_t index) const {
     return line(sobol(index, 0), sobol(index, 1), sobol(index, 2), sobol(index, 3));
   }
   /// Lines first … first + 15, the same bits, several times as fast; `first` is a multiple of 16.
-  void packet(std::size_t first, Line (&lines)[packet_size]) const;
+  void packet(std::size_t first, PacketLines& lines) const;
   /// That of a Sobol point's coordinates, which are scrambled here.
   Line line(std::uint32_t x0, std::uint32_t x1, std::uint32_t x2, std::uint32_t x3) const {
     return at(scrambled(x0, seeds_[0]), scrambled(x1, seeds_[1]), scrambled(x2, seeds_[2]),
@@ -58,8 +81,10 @@ struct LinePacket {
   /// Lines [first, end) or the first 16 of them; `first` is a multiple of 16.
   LinePacket(const PatchLines& lines, std::size_t first, std::size_t end)
       : count(std::min(packet_size, end - first)) {
-    lines.packet(first, line);
+    PacketLines columns;
+    lines.packet(first, columns);
     for (std::size_t l = 0; l < packet_size; ++l) {
+      line[l] = columns[l];
       put(origins, l, line[l].origin);
       put(directions, l, line[l].w);
     }

@@ -9,6 +9,7 @@
 #include "solver/base/sampling.h"
 #include "solver/base/threads.h"
 #include "solver/lines/line_follower.h"
+#include "solver/lines/line_row.h"
 
 namespace sunload {
 
@@ -73,29 +74,26 @@ Lines trace_sensor_lines(const Scene& scene, const Hierarchy& hierarchy, const R
                                 static_cast<std::size_t>(grid.cell_count()), guide.any());
   lines.realizations.assign(static_cast<std::size_t>(rules.realizations), lines.pooled);
   std::vector<Output> outputs(lines.pooled.patches.blocks.size());
-  parallel_chunks(
-      sensors.size(), LinkTable::rows_per_block, [&](std::size_t begin, std::size_t end) {
-        Output& output = outputs[begin / LinkTable::rows_per_block];
-        LineCollector own, pooled;
-        BrightView view(guide);
-        for (std::size_t s = begin; s < end; ++s) {
-          pooled.clear();
-          view.look_from(sensors[s].position, sensors[s].normal);
-          for (std::size_t r = 0; r < lines.realizations.size(); ++r) {
-            own.clear();
-            output.rays += trace(sensors[s], hierarchy, caster, follower, view,
-                                 {.seed = rules.seed,
-                                  .purpose = Purpose::lines,
-                                  .realization = static_cast<std::uint32_t>(r),
-                                  .element = sensors[s].key},
-                                 each, own);
-            own.move_glimpses(s, r, output.glimpses);
-            pooled += own;
-            own.store(lines.realizations[r], s, each);
-          }
-          pooled.store(lines.pooled, s, static_cast<std::size_t>(rules.lines_per_patch));
-        }
-      });
+  const auto trace_block = [&](std::size_t begin, std::size_t end) {
+    Output& output = outputs[begin / LinkTable::rows_per_block];
+    LineRow row;
+    BrightView view(guide);
+    for (std::size_t s = begin; s < end; ++s) {
+      row.begin(0);
+      view.look_from(sensors[s].position, sensors[s].normal);
+      for (std::size_t r = 0; r < lines.realizations.size(); ++r) {
+        output.rays += trace(sensors[s], hierarchy, caster, follower, view,
+                             {.seed = rules.seed,
+                              .purpose = Purpose::lines,
+                              .realization = static_cast<std::uint32_t>(r),
+                              .element = sensors[s].key},
+                             each, row.own());
+        row.end_realization(s, output.glimpses);
+      }
+      row.store(s, each, lines);
+    }
+  };
+  parallel_chunks(sensors.size(), LinkTable::rows_per_block, trace_block);
   for (const auto& output : outputs) {
     lines.rays += output.rays;
     lines.glimpses.insert(lines.glimpses.end(), output.glimpses.begin(), output.glimpses.end());

@@ -33,8 +33,9 @@ struct Followed {
 /// What a line met first, and its link: where the line was cast with others, found with theirs.
 struct FirstMeeting {
   Hit hit;
-  std::int32_t patch = -1;    ///< -1: it left the scene or met a back
-  std::uint32_t element = 0;  ///< that a link leads to which met a patch (`linked_element`)
+  std::int32_t patch = -1;   ///< -1: it left the scene or met a back
+  std::uint32_t target = 0;  ///< of its link: the element about the patch (`linked_element`), or
+                             ///< the cell of the sky for which it left the scene
 };
 
 class SurfaceWalk {

@@ -121,9 +121,10 @@ namespace {
 
 /// Points of elements on their way down, side by side: each by the element's split and the weights
 /// of its corners, in units that halves divide without rounding.
+template <std::size_t lanes>
 struct PointColumns {
   static constexpr double unit = 1 << 30;
-  alignas(64) std::int32_t split[packet_size], w0[packet_size], w1[packet_size], w2[packet_size];
+  alignas(64) std::int32_t split[lanes], w0[lanes], w1[lanes], w2[lanes];
 
   void put(std::size_t place, std::int32_t root, double u, double v) {
     // What rounding puts beyond an edge lies on it.
@@ -133,15 +134,20 @@ struct PointColumns {
     w2[place] = whole(v);
     w0[place] = std::max(0, static_cast<std::int32_t>(unit) - w1[place] - w2[place]);
   }
+  void put_nothing(std::size_t place) {
+    constexpr std::int32_t in_a_leaf = -1;
+    put(place, in_a_leaf, 0, 0);
+  }
 };
 
 /// To the halves that hold them (`descend`), until all are in leaves; without branches, which would
 /// be guessed wrong half of the time. In the shape that compilers turn into vector code.
-SUNLOAD_VECTOR_CODE void descend_all(const std::int32_t* __restrict splits,
-                                     PointColumns& __restrict points) {
-  alignas(64) std::uint32_t child[packet_size];
-  for (std::uint32_t leaves = 0; leaves < packet_size;) {
-    for (std::size_t l = 0; l < packet_size; ++l) {
+template <std::size_t lanes>
+[[gnu::always_inline]] inline void descend(const std::int32_t* __restrict splits,
+                                           PointColumns<lanes>& __restrict points) {
+  alignas(64) std::uint32_t child[lanes];
+  for (std::uint32_t leaves = 0; leaves < lanes;) {
+    for (std::size_t l = 0; l < lanes; ++l) {
       const std::int32_t split = points.split[l], apex = split & 3;
       const std::int32_t a = points.w0[l], b = points.w1[l], c = points.w2[l];
       const std::int32_t p = apex == 0 ? b : apex == 1 ? c : a;
@@ -156,12 +162,22 @@ SUNLOAD_VECTOR_CODE void descend_all(const std::int32_t* __restrict splits,
       child[l] = static_cast<std::uint32_t>(split < 0 ? 0 : inner);
     }
     leaves = 0;
-    for (std::size_t l = 0; l < packet_size; ++l) {
+    for (std::size_t l = 0; l < lanes; ++l) {
       const std::int32_t half = splits[child[l]];
       points.split[l] = points.split[l] < 0 ? points.split[l] : half;
     }
-    for (std::size_t l = 0; l < packet_size; ++l) leaves += points.split[l] < 0 ? 1u : 0u;
+    for (std::size_t l = 0; l < lanes; ++l) leaves += points.split[l] < 0 ? 1u : 0u;
   }
+}
+
+/// Packets whose points are looked for together: steps wait for each other's loads, and what the
+/// processor does meanwhile are the other packets.
+constexpr std::size_t packets_together = 2;
+using PointsTogether = PointColumns<packets_together * packet_size>;
+
+SUNLOAD_VECTOR_CODE void descend_all(const std::int32_t* __restrict splits,
+                                     PointsTogether& __restrict points) {
+  descend(splits, points);
 }
 
 }  // namespace
@@ -169,29 +185,38 @@ SUNLOAD_VECTOR_CODE void descend_all(const std::int32_t* __restrict splits,
 std::int32_t Hierarchy::patch_at(std::int32_t triangle, double u, double v, bool front) const {
   const auto root = root_[static_cast<std::size_t>(triangle)];
   if (root < 0 || (!front && root % 2 == 0)) return -1;
-  PointColumns point;
-  for (std::size_t l = 0; l < packet_size; ++l)
-    point.put(l, split_[static_cast<std::size_t>(root / 2)], u, v);
-  descend_all(split_.data(), point);
+  PointColumns<1> point;
+  point.put(0, split_[static_cast<std::size_t>(root / 2)], u, v);
+  if (point.split[0] >= 0) descend(split_.data(), point);
   return -1 - point.split[0] + (front ? 0 : 1);
 }
 
-void Hierarchy::patches_at(const PacketHits& hits, std::int32_t (&patch)[packet_size]) const {
-  constexpr std::int32_t in_a_leaf = -1;
-  PointColumns points;
-  for (std::size_t l = 0; l < packet_size; ++l) {
-    const auto root = hits.triangle[l] < 0 ? -1 : root_[static_cast<std::size_t>(hits.triangle[l])];
-    const bool any = root >= 0 && (hits.front[l] || root % 2 != 0);
-    patch[l] = !any ? -1 : hits.front[l] ? 0 : 1;
-    if (any)
-      points.put(l, split_[static_cast<std::size_t>(root / 2)], static_cast<double>(hits.u[l]),
-                 static_cast<double>(hits.v[l]));
-    else
-      points.put(l, in_a_leaf, 0, 0);  // u and v are anything
+void Hierarchy::patches_at(std::span<const PacketHits> hits, std::int32_t* patch) const {
+  for (; !hits.empty(); hits = hits.subspan(std::min(packets_together, hits.size()))) {
+    const std::size_t packets = std::min(packets_together, hits.size());
+    PointsTogether points;
+    for (std::size_t p = 0; p < packets_together; ++p)
+      for (std::size_t l = 0; l < packet_size; ++l) {
+        const std::size_t place = p * packet_size + l;
+        if (p >= packets) {
+          points.put_nothing(place);
+          continue;
+        }
+        const PacketHits& of = hits[p];
+        const auto root = of.triangle[l] < 0 ? -1 : root_[static_cast<std::size_t>(of.triangle[l])];
+        const bool any = root >= 0 && (of.front[l] || root % 2 != 0);
+        patch[place] = !any ? -1 : of.front[l] ? 0 : 1;
+        if (any)
+          points.put(place, split_[static_cast<std::size_t>(root / 2)],
+                     static_cast<double>(of.u[l]), static_cast<double>(of.v[l]));
+        else
+          points.put_nothing(place);  // u and v are anything
+      }
+    descend_all(split_.data(), points);
+    for (std::size_t place = 0; place < packets * packet_size; ++place)
+      if (patch[place] >= 0) patch[place] += -1 - points.split[place];
+    patch += packets * packet_size;
   }
-  descend_all(split_.data(), points);
-  for (std::size_t l = 0; l < packet_size; ++l)
-    if (patch[l] >= 0) patch[l] += -1 - points.split[l];
 }
 
 }  // namespace sunload

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "solver/mesh/element_forest.h"
@@ -61,15 +62,16 @@ class Hierarchy {
   /// Patch at the barycentric weights (u, v of corners 1 and 2) of an input
   /// triangle, or -1 where that side has none.
   std::int32_t patch_at(std::int32_t triangle, double u, double v, bool front) const;
-  /// The same where the rays of a packet have met triangles, side by side; -1 for those that have
-  /// met none.
-  void patches_at(const PacketHits& hits, std::int32_t (&patch)[packet_size]) const;
+  /// The same where the rays of some packets have met triangles, side by side; -1 for those that
+  /// have met none. `patch`: of one packet after the other.
+  void patches_at(std::span<const PacketHits> hits, std::int32_t* patch) const;
 
   /// Elements are numbered patches first, then inner ones, children before parents and tree by
   /// tree. Each side of a two-sided element is one of its own.
   std::size_t element_count() const { return patches_.size() + halves_.size(); }
   /// Element whose half this one is; -1 for roots.
   std::int32_t parent(std::size_t element) const { return parent_[element]; }
+  const std::vector<std::int32_t>& parents() const { return parent_; }
   /// Elements whose union is inner element number patch_count() + i.
   const std::array<std::uint32_t, 2>& halves_of(std::size_t i) const { return halves_[i]; }
   std::size_t tree_count() const { return first_inner_.size() - 1; }

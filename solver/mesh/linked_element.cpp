@@ -25,62 +25,64 @@ std::uint32_t linked_element(const Hierarchy& hierarchy, std::size_t patch, Vec3
 
 namespace {
 
-struct Spheres {
-  alignas(64) double x[packet_size], y[packet_size], z[packet_size], radius[packet_size];
+/// Elements of points on their way up, side by side, and those that may be next; -1: none.
+struct Climbing {
+  alignas(64) std::int32_t element[LinkedPoints::most], next[LinkedPoints::most];
 };
 
-/// Bounds of form factors of what lies in the spheres, as `linked_element` has them.
-SUNLOAD_VECTOR_CODE void bound_form_factors(const Spheres& __restrict spheres,
-                                            const LinkedPoints& __restrict points,
-                                            double* __restrict bound) {
-  for (std::size_t l = 0; l < packet_size; ++l) {
-    const Vec3 away{spheres.x[l] - points.x[l], spheres.y[l] - points.y[l],
-                    spheres.z[l] - points.z[l]};
-    bound[l] = largest_form_factor(spheres.radius[l], points.path_m[l] - norm(away));
-  }
-}
-
-/// One step up of each point's element whose parent is small enough; false where all have ended.
-bool climb_together(const Hierarchy& hierarchy, const LinkedPoints& points,
-                    std::int32_t (&element)[packet_size], std::int32_t (&next)[packet_size]) {
-  const auto patches = static_cast<std::int32_t>(hierarchy.patch_count());
-  Spheres spheres;
-  for (std::size_t l = 0; l < packet_size; ++l) {
-    const auto& [x, y, z, radius] =
-        hierarchy.sphere(static_cast<std::size_t>(std::max(next[l] - patches, 0)));
-    spheres.x[l] = static_cast<double>(x);
-    spheres.y[l] = static_cast<double>(y);
-    spheres.z[l] = static_cast<double>(z);
-    spheres.radius[l] = static_cast<double>(radius);
-  }
-  alignas(64) double bound[packet_size];
-  bound_form_factors(spheres, points, bound);
-  bool any = false;
-  for (std::size_t l = 0; l < packet_size; ++l) {
-    if (next[l] < 0) continue;
-    if (bound[l] > points.largest_link[l]) {
-      next[l] = -1;
-      continue;
+/// To the largest elements that are small enough, as `linked_element` has them, until all have
+/// ended. In the shape that compilers turn into vector code. `spheres` and `parents`: of inner
+/// elements and of all.
+SUNLOAD_VECTOR_CODE void climb_all(const float* __restrict spheres,
+                                   const std::int32_t* __restrict parents, std::int32_t patches,
+                                   const LinkedPoints& __restrict points,
+                                   Climbing& __restrict climbing) {
+  alignas(64) float x[LinkedPoints::most], y[LinkedPoints::most], z[LinkedPoints::most],
+      radius[LinkedPoints::most];
+  alignas(64) double bound[LinkedPoints::most];
+  alignas(64) std::int32_t up[LinkedPoints::most];
+  for (std::int32_t going = 1; going != 0;) {
+    for (std::size_t l = 0; l < LinkedPoints::most; ++l) {
+      const std::int32_t next = climbing.next[l];
+      const auto at = static_cast<std::uint32_t>(next < 0 ? 0 : next - patches) * 4u;
+      x[l] = spheres[at];
+      y[l] = spheres[at + 1];
+      z[l] = spheres[at + 2];
+      radius[l] = spheres[at + 3];
+      up[l] = parents[static_cast<std::uint32_t>(next < 0 ? 0 : next)];
     }
-    element[l] = next[l];
-    next[l] = hierarchy.parent(static_cast<std::size_t>(next[l]));
-    any = true;
+    for (std::size_t l = 0; l < LinkedPoints::most; ++l) {
+      const Vec3 away{static_cast<double>(x[l]) - points.x[l],
+                      static_cast<double>(y[l]) - points.y[l],
+                      static_cast<double>(z[l]) - points.z[l]};
+      bound[l] = largest_form_factor(static_cast<double>(radius[l]), points.path_m[l] - norm(away));
+    }
+    going = 0;
+    for (std::size_t l = 0; l < LinkedPoints::most; ++l) {
+      const std::int32_t next = climbing.next[l];
+      const bool climbs = next >= 0 && !(bound[l] > points.largest_link[l]);
+      climbing.element[l] = climbs ? next : climbing.element[l];
+      climbing.next[l] = climbs ? up[l] : -1;
+      going |= climbs ? 1 : 0;
+    }
   }
-  return any;
 }
 
 }  // namespace
 
 void linked_elements(const Hierarchy& hierarchy, const LinkedPoints& points,
-                     std::uint32_t (&element)[packet_size]) {
-  std::int32_t at[packet_size], next[packet_size];
-  for (std::size_t l = 0; l < packet_size; ++l) {
-    at[l] = std::max(points.patch[l], 0);
-    next[l] = points.patch[l] < 0 ? -1 : hierarchy.parent(static_cast<std::size_t>(at[l]));
+                     std::uint32_t (&element)[LinkedPoints::most]) {
+  Climbing climbing;
+  for (std::size_t l = 0; l < LinkedPoints::most; ++l) {
+    climbing.element[l] = std::max(points.patch[l], 0);
+    climbing.next[l] =
+        points.patch[l] < 0 ? -1 : hierarchy.parent(static_cast<std::size_t>(climbing.element[l]));
   }
   if (hierarchy.element_count() > hierarchy.patch_count())
-    while (climb_together(hierarchy, points, at, next)) continue;
-  for (std::size_t l = 0; l < packet_size; ++l) element[l] = static_cast<std::uint32_t>(at[l]);
+    climb_all(&hierarchy.sphere(0).x, hierarchy.parents().data(),
+              static_cast<std::int32_t>(hierarchy.patch_count()), points, climbing);
+  for (std::size_t l = 0; l < LinkedPoints::most; ++l)
+    element[l] = static_cast<std::uint32_t>(climbing.element[l]);
 }
 
 }  // namespace sunload

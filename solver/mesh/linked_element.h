@@ -14,14 +14,15 @@ namespace sunload {
 std::uint32_t linked_element(const Hierarchy& hierarchy, std::size_t patch, Vec3 point,
                              double path_m, double largest_link);
 
-/// Where the rays of a packet have met patches.
+/// Where rays have met patches, those of some packets side by side.
 struct LinkedPoints {
-  std::int32_t patch[packet_size];  ///< -1: none
-  alignas(64) double x[packet_size], y[packet_size], z[packet_size];
-  alignas(64) double path_m[packet_size], largest_link[packet_size];
+  static constexpr std::size_t most = 2 * packet_size;
+  std::int32_t patch[most];  ///< -1: none
+  alignas(64) double x[most], y[most], z[most];
+  alignas(64) double path_m[most], largest_link[most];
 };
-/// The same of each of them, side by side; where no patch was met it means nothing.
+/// The same of each of them; where no patch was met it means nothing.
 void linked_elements(const Hierarchy& hierarchy, const LinkedPoints& points,
-                     std::uint32_t (&element)[packet_size]);
+                     std::uint32_t (&element)[LinkedPoints::most]);
 
 }  // namespace sunload

@@ -42,6 +42,28 @@ TEST(SkyGrid, CellIsTheInverseOfDirection) {
   }
 }
 
+TEST(SkyGrid, CellsSideBySideAreThoseOfEachDirection) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<double> x, y, z;
+  const auto add = [&](Vec3 w) {
+    x.push_back(w.x);
+    y.push_back(w.y);
+    z.push_back(w.z);
+  };
+  for (const double a : {-1.0, -0.0, 0.0, 1.0})
+    for (const double b : {-1.0, 0.0, 1.0}) add(normalized(Vec3{a, b, 0.5}));
+  add({0, 0, 1});
+  add({1, 0, 0});
+  for (int i = 0; i < 100'000; ++i) add(hemisphere_direction(uniform(random), uniform(random)));
+  for (const int size : {2, 64}) {
+    const SkyGrid grid(size);
+    std::vector<std::int32_t> cells(x.size());
+    grid.cells(x.data(), y.data(), z.data(), x.size(), cells.data());
+    for (std::size_t i = 0; i < x.size(); ++i) ASSERT_EQ(cells[i], grid.cell({x[i], y[i], z[i]}));
+  }
+}
+
 TEST(SkyGrid, EveryDirectionHasACell) {
   const SkyGrid grid;
   const auto inside = [&grid](Vec3 w) {

@@ -42,13 +42,14 @@ TEST(PatchLines, PacketsAreTheLinesOfTheirNumbers) {
   for (const std::size_t patch : {std::size_t{0}, mesh.patch_count() / 2, mesh.patch_count() - 1}) {
     const PatchLines lines(mesh, patch, 1e-3, line_seeds(mesh, patch, 3, 7));
     for (const std::size_t first : {0u, 16u, 48u, 1024u, 4080u}) {
-      PatchLines::Line packet[packet_size];
+      PacketLines packet;
       lines.packet(first, packet);
       for (std::size_t l = 0; l < packet_size; ++l) {
         const auto alone = lines[static_cast<std::uint32_t>(first + l)];
-        EXPECT_EQ(packet[l].origin, alone.origin) << first + l;
-        EXPECT_EQ(packet[l].w, alone.w) << first + l;
-        EXPECT_GT(dot(packet[l].w, mesh.normal(patch)), 0);
+        const PatchLines::Line line = packet[l];
+        EXPECT_EQ(line.origin, alone.origin) << first + l;
+        EXPECT_EQ(line.w, alone.w) << first + l;
+        EXPECT_GT(dot(line.w, mesh.normal(patch)), 0);
       }
     }
   }
@@ -59,9 +60,10 @@ TEST(LineBundle, MeetsWhatEachLineMeetsAlone) {
   const Hierarchy mesh(scene, {.max_edge_m = 6});
   constexpr std::size_t count = 40, patches = 7;  // packets that are not full, too
   constexpr double largest_links[] = {0, 1e-3, 0.03};
+  const SkyGrid grid;
   for (const char* isa : {"sse4.2", "auto"}) {
     const RayCaster caster(scene.mesh, isa);
-    std::size_t compared = 0, left = 0, backs = 0, above = 0;
+    std::size_t compared = 0, left = 0, to_sky = 0, backs = 0, above = 0;
     LineBundle bundle;
     for (std::size_t first = 0; first + patches <= mesh.patch_count(); first += patches) {
       bundle.clear();
@@ -70,20 +72,24 @@ TEST(LineBundle, MeetsWhatEachLineMeetsAlone) {
       };
       for (std::size_t p = 0; p < patches; ++p)
         bundle.add(lines_of(first + p), count, largest_links[p % 3]);
-      bundle.cast(caster, mesh);
+      bundle.cast(caster, mesh, grid);
       for (std::size_t p = 0; p < patches; ++p) {
         const PatchLines lines = lines_of(first + p);
         for (std::size_t at = 0; at < count; at += packet_size) {
           const LinePacket packet(lines, at, count);
           const PacketHits hits = packet.first_hits(caster);
           for (std::size_t l = 0; l < packet.count; ++l, ++compared) {
-            const auto& [together, patch, element] = bundle.met(p * count + at + l);
+            const auto& [together, patch, target] = bundle.met(p * count + at + l);
             const Hit alone = hits[l];
             ASSERT_EQ(bundle.line(p * count + at + l).w, packet.line[l].w);
             ASSERT_EQ(together.triangle, alone.triangle);
             if (alone.left_scene()) {
               ASSERT_EQ(patch, -1);
               ++left;
+              const Vec3 w = packet.line[l].w;
+              if (w.z <= 0) continue;
+              ASSERT_EQ(target, static_cast<std::uint32_t>(grid.cell(w)));
+              ++to_sky;
               continue;
             }
             ASSERT_EQ(together.u, alone.u);
@@ -94,10 +100,10 @@ TEST(LineBundle, MeetsWhatEachLineMeetsAlone) {
             backs += patch < 0;
             if (patch < 0) continue;
             const PatchLines::Line& line = packet.line[l];
-            ASSERT_EQ(element, linked_element(mesh, static_cast<std::size_t>(patch),
-                                              line.origin + line.w * alone.distance_m,
-                                              alone.distance_m, largest_links[p % 3]));
-            above += element >= mesh.patch_count();
+            ASSERT_EQ(target, linked_element(mesh, static_cast<std::size_t>(patch),
+                                             line.origin + line.w * alone.distance_m,
+                                             alone.distance_m, largest_links[p % 3]));
+            above += target >= mesh.patch_count();
           }
         }
       }
@@ -105,6 +111,7 @@ TEST(LineBundle, MeetsWhatEachLineMeetsAlone) {
     EXPECT_GT(compared, 100'000u);
     EXPECT_GT(left, compared / 10);
     EXPECT_LT(left, compared * 9 / 10);
+    EXPECT_GT(to_sky, left / 2);
     EXPECT_GT(backs, 0u);
     EXPECT_GT(above, 1000u);
   }
