@@ -19,8 +19,8 @@ class LineBundle {
   void clear();
   /// Appends lines 0 … count - 1 of a patch; `largest_link`: of their links (`linked_element`).
   void add(const PatchLines& lines, std::size_t count, double largest_link);
-  /// Casts them all. What they meet is what each line would alone; which of two surfaces that are as
-  /// near, at an edge, depends on its packet.
+  /// Casts them all. What they meet is what each line would alone; which of two surfaces that are
+  /// as near, at an edge, depends on its packet.
   void cast(const RayCaster& caster, const Hierarchy& hierarchy, const SkyGrid& grid);
 
   const PatchLines::Line& line(std::size_t i) const { return lines_[i]; }
