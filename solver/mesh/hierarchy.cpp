@@ -170,10 +170,7 @@ template <std::size_t lanes>
   }
 }
 
-/// Packets whose points are looked for together: steps wait for each other's loads, and what the
-/// processor does meanwhile are the other packets.
-constexpr std::size_t packets_together = 2;
-using PointsTogether = PointColumns<packets_together * packet_size>;
+using PointsTogether = PointColumns<Hierarchy::packets_together * packet_size>;
 
 SUNLOAD_VECTOR_CODE void descend_all(const std::int32_t* __restrict splits,
                                      PointsTogether& __restrict points) {
@@ -192,31 +189,28 @@ std::int32_t Hierarchy::patch_at(std::int32_t triangle, double u, double v, bool
 }
 
 void Hierarchy::patches_at(std::span<const PacketHits> hits, std::int32_t* patch) const {
-  for (; !hits.empty(); hits = hits.subspan(std::min(packets_together, hits.size()))) {
-    const std::size_t packets = std::min(packets_together, hits.size());
-    PointsTogether points;
-    for (std::size_t p = 0; p < packets_together; ++p)
-      for (std::size_t l = 0; l < packet_size; ++l) {
-        const std::size_t place = p * packet_size + l;
-        if (p >= packets) {
-          points.put_nothing(place);
-          continue;
-        }
-        const PacketHits& of = hits[p];
-        const auto root = of.triangle[l] < 0 ? -1 : root_[static_cast<std::size_t>(of.triangle[l])];
-        const bool any = root >= 0 && (of.front[l] || root % 2 != 0);
-        patch[place] = !any ? -1 : of.front[l] ? 0 : 1;
-        if (any)
-          points.put(place, split_[static_cast<std::size_t>(root / 2)],
-                     static_cast<double>(of.u[l]), static_cast<double>(of.v[l]));
-        else
-          points.put_nothing(place);  // u and v are anything
-      }
-    descend_all(split_.data(), points);
-    for (std::size_t place = 0; place < packets * packet_size; ++place)
-      if (patch[place] >= 0) patch[place] += -1 - points.split[place];
-    patch += packets * packet_size;
+  SUNLOAD_EXPECT(hits.size() <= packets_together, "packets fit side by side");
+  PointsTogether points;
+  const std::size_t count = hits.size() * packet_size;
+  for (std::size_t place = 0; place < packets_together * packet_size; ++place) {
+    if (place >= count) {
+      points.put_nothing(place);
+      continue;
+    }
+    const PacketHits& of = hits[place / packet_size];
+    const std::size_t l = place % packet_size;
+    const auto root = of.triangle[l] < 0 ? -1 : root_[static_cast<std::size_t>(of.triangle[l])];
+    const bool any = root >= 0 && (of.front[l] || root % 2 != 0);
+    patch[place] = !any ? -1 : of.front[l] ? 0 : 1;
+    if (any)
+      points.put(place, split_[static_cast<std::size_t>(root / 2)], static_cast<double>(of.u[l]),
+                 static_cast<double>(of.v[l]));
+    else
+      points.put_nothing(place);  // u and v are anything
   }
+  descend_all(split_.data(), points);
+  for (std::size_t place = 0; place < count; ++place)
+    if (patch[place] >= 0) patch[place] += -1 - points.split[place];
 }
 
 }  // namespace sunload

@@ -62,8 +62,11 @@ class Hierarchy {
   /// Patch at the barycentric weights (u, v of corners 1 and 2) of an input
   /// triangle, or -1 where that side has none.
   std::int32_t patch_at(std::int32_t triangle, double u, double v, bool front) const;
-  /// The same where the rays of some packets have met triangles, side by side; -1 for those that
-  /// have met none. `patch`: of one packet after the other.
+  /// Packets whose points are looked for together: steps wait for each other's loads, and what the
+  /// processor does meanwhile are the other packets.
+  static constexpr std::size_t packets_together = 2;
+  /// The same where the rays of up to so many packets have met triangles, side by side; -1 for
+  /// those that have met none. `patch`: of one packet after the other.
   void patches_at(std::span<const PacketHits> hits, std::int32_t* patch) const;
 
   /// Elements are numbered patches first, then inner ones, children before parents and tree by
