@@ -319,6 +319,44 @@ TEST(Covered, RandomPlatesInOnePlaneAreTheirUnionAndCoverEachOther) {
   }
 }
 
+// More houses stand on each of the two triangles of a plane than are cut out of it at once: it is
+// halved before.
+TEST(Covered, ManyHousesOnOneTriangle) {
+  constexpr int rows = 48;
+  const double width_m = 5.3, wide_m = rows * 10.0;
+  auto builder = ModelBuilder().city().object("plane", "TINRelief");
+  builder.ring({{-7, -7, 0}, {wide_m, -7, 0}, {wide_m, wide_m, 0}, {-7, wide_m, 0}});
+  for (int i = 0; i < rows * rows; ++i) {
+    const double x = 10.0 * (i % rows), y = 10.0 * (i / rows);  // NOLINT(bugprone-integer-division)
+    builder.object("house_" + std::to_string(i), "Building");
+    builder.box({x, y, 0}, {x + width_m, y + width_m, 8});
+  }
+  builder.moved(turned);
+  const auto c = cut(builder);
+  const double feet_m2 = rows * rows * width_m * width_m;
+  EXPECT_NEAR(c.covered("plane", Surface::ground), feet_m2, feet_m2 * 1e-6);
+  EXPECT_NEAR(open_area(c, {0, 0, 1}), (wide_m + 7) * (wide_m + 7), feet_m2 * 1e-6);
+}
+
+// The lines on each of two triangles cross more often than can be looked at together.
+TEST(Covered, ManyCrossingsOnOneTriangle) {
+  constexpr int strips = 90;
+  const double period_m = 0.2, wide_m = strips * period_m;
+  auto builder = ModelBuilder();
+  const auto plate = [&](double x0, double y0, double x1, double y1) {
+    builder.object("plate")
+        .with(Surface::other)
+        .ring({{x0, y0, 2}, {x1, y0, 2}, {x1, y1, 2}, {x0, y1, 2}});
+  };
+  for (int i = 0; i < strips; ++i) plate(0, i * period_m, wide_m, (i + 0.5) * period_m);
+  for (int i = 0; i < strips; ++i) plate(i * period_m, 0, (i + 0.5) * period_m, wide_m);
+  builder.object("all").ring({{0, 0, 2}, {wide_m, 0, 2}, {wide_m, wide_m, 2}, {0, wide_m, 2}});
+  const auto c = cut(builder, {.repair = Repair::none, .ground = {}});
+  const double whole_m2 = wide_m * wide_m;  // strips cover three quarters of it
+  EXPECT_NEAR(open_area(c, {0, 0, 1}), whole_m2, whole_m2 * 1e-6);
+  EXPECT_NEAR(area_of(c, "all"), whole_m2 / 4, whole_m2 * 1e-6);
+}
+
 TEST(Covered, EqualInputGivesEqualBits) {
   const auto one = cut(terrace(0)), two = cut(terrace(0));
   EXPECT_EQ(one.p.mesh.vertices, two.p.mesh.vertices);

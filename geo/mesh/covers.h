@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What can cover triangles: solid bodies, opaque surfaces, land (geo/mesh/covered.h).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "geo/mesh/box_tree.h"
+#include "geo/mesh/mesh.h"
+#include "geo/mesh/orient.h"
+
+namespace sunload {
+
+class Covers {
+ public:
+  /// As of `cut_covered`; all must outlive it.
+  Covers(const Mesh& mesh, const Bodies& bodies, const std::vector<std::uint8_t>& is_opaque,
+         const std::vector<std::uint8_t>& seals, const std::vector<std::uint8_t>& emits);
+
+  /// Surfaces this near to each other touch [m].
+  double contact() const { return contact_; }
+  Vec3 normal(std::size_t t) const { return normal_[t]; }
+  std::array<Vec3, 3> corners(std::size_t t) const {
+    return {mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)};
+  }
+
+  /// Every other triangle that may touch `piece`, which is `t` or a part of it. Throws InputError
+  /// where too many pairs have been visited.
+  template <class Visit>
+  void visit_near(std::size_t t, const std::array<Vec3, 3>& piece, const Visit& visit) const {
+    const Box near = widened(box_around({piece[0], piece[1], piece[2]}), reach_m());
+    tree_.visit_meeting(near, [&](std::size_t u) {
+      if (u == t) return;
+      if (!are_of_one_body(t, u)) count_pair();
+      visit(u);
+    });
+  }
+  bool are_of_one_body(std::size_t t, std::size_t u) const;
+
+  /// Whether `u` is in the place of `t` where they overlap, and faces where `t` does. Of two that
+  /// are alike the first is there; before others what emits, then what faces both ways.
+  bool is_taken(std::size_t t, std::size_t u) const;
+  /// Front against front, as near as the contact where they overlap.
+  bool is_against(std::size_t t, std::size_t u) const;
+  /// Whether the inside of a solid or the land ends where `u` cuts `t`.
+  bool may_end_at(std::size_t t, std::size_t u) const;
+  /// Whether the front of `t` at this point of it is inside of a body or below land.
+  bool is_buried(std::size_t t, Vec3 at) const;
+
+ private:
+  double reach_m() const;
+  void count_pair() const;
+  bool emits(std::size_t t) const { return !emits_.empty() && emits_[t] != 0; }
+  bool faces_both(std::size_t t) const { return mesh_.triangle_sides[t] == Sides::two; }
+  bool seals(std::size_t t) const { return !seals_.empty() && seals_[t] != 0; }
+  bool is_sealed(Vec3 p) const;
+  bool is_in_solid(std::size_t t) const;
+  bool is_in_closed(std::size_t t) const;
+  void find_solids();
+  void find_land();
+  double distance(std::size_t plane, Vec3 p) const {
+    return dot(p - mesh_.corner(plane, 0), normal_[plane]);
+  }
+  bool is_near_plane(std::size_t plane, std::size_t of, double within) const;
+  bool is_cut(std::size_t plane, std::size_t of) const;
+  double plane_height(std::size_t t, double x, double y) const;
+
+  const Mesh& mesh_;
+  const Bodies& bodies_;
+  const std::vector<std::uint8_t>& is_opaque_;
+  const std::vector<std::uint8_t>& seals_;
+  const std::vector<std::uint8_t>& emits_;
+  double contact_ = 0, same_place_ = 0;
+  std::vector<std::uint8_t> is_solid_, is_land_;  ///< per body, per triangle
+  std::vector<Vec3> normal_;
+  BoxTree tree_;
+  mutable std::size_t pairs_ = 0;  ///< visited, of two bodies
+};
+
+}  // namespace sunload
