@@ -7,6 +7,8 @@
 #include <memory>
 #include <string>
 
+#include "io/base/lock_file.h"
+
 namespace sunload {
 
 /// A lock file (made if missing, its folder too; removed by its holder at the end). The system
@@ -24,17 +26,17 @@ class WaitingLock {
   WaitingLock(const WaitingLock&) = delete;
   WaitingLock& operator=(const WaitingLock&) = delete;
 
-  bool is_held() const { return held_; }
+  bool is_held() const { return is_held_; }
   /// Why there is no lock; empty where it is held.
   const std::string& problem() const { return problem_; }
 
  private:
-  struct LockFile;
-  void wait(const Rules& rules);
+  struct Wait;
+  LockFile::Outcome waited(const Rules& rules);
 
-  std::string path_, problem_;
-  std::shared_ptr<LockFile> file_;  ///< shared with the thread that waits
-  bool held_ = false;
+  std::string problem_;
+  std::shared_ptr<Wait> wait_;  ///< shared with the thread that waits
+  bool is_held_ = false;
 };
 
 }  // namespace sunload

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/run/mpi_world.h"
 
+#include <fmt/format.h>
+
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
@@ -33,6 +35,8 @@ std::size_t launched_ranks() {
 
 }  // namespace
 
+bool MpiWorld::is_launched() { return launched_ranks() > 1; }
+
 bool has_mpi() {
 #ifdef SUNLOAD_WITH_MPI
   return true;
@@ -54,9 +58,20 @@ struct MpiWorld::Ranks {
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_MULTIPLE, &threads);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &size);
+    expect_launched_ranks();
     is_dynamic = threads == MPI_THREAD_MULTIPLE;
     if (rank == 0 && is_dynamic)
       attendant = std::jthread([this](const std::stop_token& end) { attend(end); });
+  }
+  /// Under a launcher whose protocol the library does not speak every process would be alone, and
+  /// compute everything.
+  void expect_launched_ranks() const {
+    if (static_cast<std::size_t>(size) == launched_ranks()) return;
+    throw InputError({}, fmt::format("started as one of {} ranks", launched_ranks()),
+                     fmt::format("but the MPI of this build knows of {}: it is another than that "
+                                 "of the launcher",
+                                 size),
+                     "start with the mpirun of OpenMPI or srun --mpi=pmix, or use --shard auto");
   }
   ~Ranks() {
     attendant = {};
@@ -104,7 +119,7 @@ struct MpiWorld::Ranks {
 };
 
 std::unique_ptr<MpiWorld> MpiWorld::join(std::size_t variants) {
-  if (launched_ranks() < 2) return {};
+  if (!is_launched()) return {};
   std::unique_ptr<MpiWorld> world(new MpiWorld);
   world->ranks_ = std::make_unique<Ranks>(variants);
   return world;
@@ -132,13 +147,24 @@ void MpiWorld::wait_for_all() {
   wait_for(request);
 }
 
-bool MpiWorld::any(bool here) {
-  const int mine = here ? 1 : 0;
-  int all = 0;
+namespace {
+
+/// The largest of all ranks' numbers.
+std::uint64_t largest(std::uint64_t mine) {
+  std::uint64_t all = 0;
   MPI_Request request{};
-  MPI_Iallreduce(&mine, &all, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD, &request);
+  MPI_Iallreduce(&mine, &all, 1, MPI_UINT64_T, MPI_MAX, MPI_COMM_WORLD, &request);
   wait_for(request);
-  return all != 0;
+  return all;
+}
+
+}  // namespace
+
+bool MpiWorld::any(bool here) { return largest(here ? 1 : 0) != 0; }
+
+bool MpiWorld::all_have(std::uint64_t here) {
+  const std::uint64_t high = largest(here), low = ~largest(~here);
+  return high == low;
 }
 
 #else
@@ -146,9 +172,9 @@ bool MpiWorld::any(bool here) {
 struct MpiWorld::Ranks {};
 
 std::unique_ptr<MpiWorld> MpiWorld::join(std::size_t) {
-  if (launched_ranks() < 2) return {};
+  if (!is_launched()) return {};
   throw InputError({}, "started as one of several MPI ranks", "this build has no MPI",
-                   "install OpenMPI and build again, or use --shard auto");
+                   "install OpenMPI and build again, or add --shard auto");
 }
 
 std::size_t MpiWorld::rank() const { return 0; }
@@ -156,6 +182,7 @@ std::size_t MpiWorld::size() const { return 1; }
 std::size_t MpiWorld::next_of(std::size_t) { return 0; }
 void MpiWorld::wait_for_all() {}
 bool MpiWorld::any(bool here) { return here; }
+bool MpiWorld::all_have(std::uint64_t) { return true; }
 
 #endif
 

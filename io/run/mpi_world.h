@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 
 namespace sunload {
@@ -14,8 +15,10 @@ bool has_mpi();
 /// The ranks that were started together; they share a counter per variant.
 class MpiWorld {
  public:
-  /// Null where the process was not started by mpirun or srun with several
-  /// ranks. Throws InputError where it was, but this build has no MPI.
+  /// Whether mpirun or srun has started several ranks, of which this process is one.
+  static bool is_launched();
+  /// Null where none has. Throws InputError where this build has no MPI, or one that knows of other
+  /// ranks than the launcher.
   static std::unique_ptr<MpiWorld> join(std::size_t variants);
   ~MpiWorld();
 
@@ -28,6 +31,8 @@ class MpiWorld {
   void wait_for_all();
   /// True on every rank where it is true on any of them.
   bool any(bool here);
+  /// Whether all ranks have the same number.
+  bool all_have(std::uint64_t here);
 
  private:
   MpiWorld();

@@ -3,6 +3,7 @@
 #include "io/run/run.h"
 
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <list>
 #include <map>
@@ -72,12 +73,25 @@ std::list<VariantJob> planned_jobs(const StudyWork& work,
   return jobs;
 }
 
+/// Null where this process is no rank, or has a shard of its own among them.
 std::unique_ptr<MpiWorld> joined_world(const StudyWork& work) {
-  auto world = MpiWorld::join(work.file.variants.size());
-  if (world && !work.options.shard.is_whole())
-    throw InputError({}, "--shard under MPI", "ranks share the work by themselves",
-                     "leave --shard away, or start without mpirun");
-  return world;
+  const Shard& shard = work.options.shard;
+  if (shard.is_rank) return {};
+  if (!shard.is_whole() && MpiWorld::is_launched())
+    throw InputError({}, "--shard under MPI",
+                     "ranks share the work by themselves, and all of them would have this shard",
+                     "leave --shard away, start without mpirun, or use --shard auto");
+  return MpiWorld::join(work.file.variants.size());
+}
+
+/// Ranks that disagree of what is left to do would wait for each other for ever.
+void expect_same_jobs(const std::list<VariantJob>& jobs, const std::string& folder,
+                      MpiWorld& world) {
+  std::string names;
+  for (const auto& job : jobs) names += job.name() + "\n";
+  if (world.all_have(std::hash<std::string>{}(names))) return;
+  throw MachineError(folder + ": ranks see different results there: a network file system may be " +
+                     "slow to tell, or another process finishes one just now; start again");
 }
 
 OwnBatches run(VariantJob& job, MpiWorld* world) {
@@ -122,6 +136,7 @@ int run_study(const std::string& path, const RunOptions& options) {
   const StudyWork work{file, options, results_folder(file, options), progress, rays};
   std::list<VariantJob> jobs = planned_jobs(work, &VariantJob::expect_may_run);
   const auto world = joined_world(work);
+  if (world) expect_same_jobs(jobs, work.folder, *world);
   remove_left_over(work.folder, file.name);
   for (const auto& job : jobs) job.expect_room();
   for (auto& job : jobs) job.announce();
@@ -145,8 +160,10 @@ int merge_study(const std::string& path, const RunOptions& options, Merge merge)
   Progress progress(options.progress);
   SharedRays rays;
   const StudyWork work{file, options, results_folder(file, options), progress, rays};
+  std::list<VariantJob> jobs = planned_jobs(work, &VariantJob::expect_may_merge);
+  remove_left_over(work.folder, file.name);
   int code = exit_code::done;
-  for (auto& job : planned_jobs(work, &VariantJob::expect_may_merge)) {
+  for (auto& job : jobs) {
     if (job.merge_what_is_there(merge) == exit_code::unfinished) code = exit_code::unfinished;
     job.release();
   }

@@ -51,21 +51,21 @@ std::optional<Finding> slurm_array(const Environment& env, const std::string& te
   const bool is_regular = step > 0 && *count > 0 && first + (*count - 1) * step == last;
   if (!is_regular || *id < first || *id > last || (*id - first) % step != 0)
     refuse(text, "the Slurm array is no regular range, so that shards cannot be counted");
-  return Finding{"Slurm array", {(*id - first) / step, *count}};
+  return Finding{"Slurm array", {(*id - first) / step, *count, false}};
 }
 
 std::optional<Finding> slurm_step(const Environment& env, const std::string& text) {
   const auto id = number_of(env, "SLURM_PROCID", text);
   const auto count = number_of(env, "SLURM_STEP_NUM_TASKS", text);
   if (!id || !count || *count < 2) return {};
-  return Finding{"srun step", {*id, *count}};
+  return Finding{"srun step", {*id, *count, true}};
 }
 
 std::optional<Finding> open_mpi(const Environment& env, const std::string& text) {
   const auto id = number_of(env, "OMPI_COMM_WORLD_RANK", text);
   const auto count = number_of(env, "OMPI_COMM_WORLD_SIZE", text);
   if (!id || !count) return {};
-  return Finding{"OpenMPI", {*id, *count}};
+  return Finding{"OpenMPI", {*id, *count, true}};
 }
 
 Shard from_environment(const std::string& text, const Environment& environment) {
@@ -89,7 +89,7 @@ Shard from_index(const std::string& text, std::size_t count, const Environment& 
     if (said) index = said;
   }
   if (!index) refuse(text, "no scheduler says which index this is");
-  return {*index, count};
+  return {*index, count, false};
 }
 
 }  // namespace
@@ -108,7 +108,7 @@ Shard parse_shard(const std::string& text, const Environment& environment) {
   }
   const auto count = whole_number(text.substr(slash + 1));
   if (!count || *count == 0) refuse(text, "the number of shards is no positive whole number");
-  Shard shard{0, *count};
+  Shard shard{0, *count, false};
   if (first == "auto") {
     shard = from_index(text, *count, environment);
   } else {

@@ -12,6 +12,7 @@ namespace sunload {
 /// Unit u = variant · (batches per variant) + batch belongs to shard u mod count.
 struct Shard {
   std::size_t index = 0, count = 1;
+  bool is_rank = false;  ///< of this process among those that were started together with it
   bool is_whole() const { return count == 1; }
   bool owns(std::size_t unit) const { return unit % count == index; }
 };
@@ -25,7 +26,8 @@ std::string process_environment(const char* name);
 ///
 /// A Slurm array task is the place of SLURM_ARRAY_TASK_ID in the array's range
 /// and step; the process id of `srun` counts only inside a step with several
-/// tasks. Throws InputError where nothing or more than one thing is said.
+/// tasks. Shards of a step and of OpenMPI are ranks: each process has another. Throws InputError
+/// where nothing or more than one thing is said.
 Shard parse_shard(const std::string& text, const Environment& environment = process_environment);
 
 }  // namespace sunload

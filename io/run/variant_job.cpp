@@ -306,6 +306,7 @@ VariantJob::Merging VariantJob::merge() {
       say("wrote " + folder_.result() + "\n" + energy_text(ResultReader(folder_.result())));
     return merging;
   } catch (const InputError&) {
+    if (is_merged()) return Merging::by_another;
     const MissingBatches damaged = folder_.missing_batches();
     if (damaged.numbers.empty()) throw;
     for (const auto& reason : damaged.reasons) work_.progress.warn("warning: " + reason);
@@ -315,6 +316,7 @@ VariantJob::Merging VariantJob::merge() {
                       list_text(damaged.numbers)));
     return Merging::incomplete;
   } catch (const MachineError&) {
+    if (is_merged()) return Merging::by_another;
     if (!batches_vanish()) throw;
     return Merging::incomplete;
   }
@@ -337,6 +339,9 @@ VariantJob::Merging VariantJob::merge_once() {
   {
     const MergeLock lock(folder_.merge_lock());
     if (!lock.is_held()) return Merging::by_another;
+    if (!lock.problem().empty())
+      warn(fmt::format("the file system has no locks ({}): let no other process merge meanwhile",
+                       lock.problem()));
     if (!folder_.batches_not_there().empty()) return Merging::incomplete;
     make_mesh();
     if (work_.options.batches == Batches::keep) folder_.keep_work();

@@ -47,6 +47,7 @@ class VariantJob {
   VariantJob(const VariantJob&) = delete;
   VariantJob& operator=(const VariantJob&) = delete;
 
+  const std::string& name() const { return name_; }
   /// Throws InputError where a result is there that the options do not let replace or accept, or
   /// where other shards compute with another instruction set.
   void expect_may_run() const;

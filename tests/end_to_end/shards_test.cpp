@@ -290,6 +290,65 @@ TEST(Shards, RanksOfMpiGiveTheSameBits) {
   }
 }
 
+// Each process is a shard, and needs no MPI for it.
+TEST(Shards, RanksMayHaveShardsOfTheirOwn) {
+  if (mpirun().empty()) GTEST_SKIP() << no_mpirun;
+  const WorkFolder folder;
+  folder.write("street.yaml", street_study());
+  Process process(rank_words(3, {"run", "street.yaml", "--threads", "1", "--shard", "auto"}),
+                  folder.path());
+  const Ran ran = process.wait();
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  // Those who end in one moment leave the merge to each other.
+  EXPECT_EQ(program(folder, {"merge", "street.yaml"}).code, 0);
+  expect_same_result(folder);
+}
+
+TEST(Shards, OneShardForAllRanksIsRefused) {
+  if (mpirun().empty()) GTEST_SKIP() << no_mpirun;
+  const WorkFolder folder;
+  folder.write("street.yaml", street_study());
+  Process process(rank_words(2, {"run", "street.yaml", "--shard", "0/2"}), folder.path());
+  const Ran ran = process.wait();
+  EXPECT_EQ(ran.code, 2) << ran.err;
+  EXPECT_NE(ran.err.find("--shard auto"), std::string::npos) << ran.err;
+}
+
+// They would wait for each other: one has nothing to do, the other all.
+TEST(Shards, RanksThatSeeDifferentResultsEnd) {
+  if (mpirun().empty()) GTEST_SKIP() << no_mpirun;
+  const WorkFolder folder;
+  folder.write("square.obj", square_obj);
+  folder.write("square.yaml", square_study());
+  ASSERT_EQ(program(folder, {"run", "square.yaml", "--output", "there"}).code, 0);
+  auto words = rank_words(1, {"run", "square.yaml", "--resume", "--output", "there"});
+  words.insert(words.end(), {":", "-n", "1"});
+  for (const auto& word : program_words({"run", "square.yaml", "--output", "not_there"}))
+    words.push_back(word);
+  Process process(words, folder.path());
+  const auto begin = std::chrono::steady_clock::now();
+  while (process.is_running() && std::chrono::steady_clock::now() - begin < 60s)
+    std::this_thread::sleep_for(10ms);
+  ASSERT_FALSE(process.is_running()) << process.err_so_far();
+  const Ran ran = process.wait();
+  if (ran.err.find("this build has no MPI") != std::string::npos) GTEST_SKIP() << no_mpi;
+  EXPECT_EQ(ran.code, 3) << ran.err;
+  EXPECT_NE(ran.err.find("ranks see different results"), std::string::npos) << ran.err;
+}
+
+// Each of four would compute everything.
+TEST(Shards, ALauncherOfAnotherMpiIsRefused) {
+  const WorkFolder folder;
+  folder.write("street.yaml", street_study());
+  auto words = program_words({"run", "street.yaml"});
+  words.insert(words.begin(), {"/usr/bin/env", "PMI_SIZE=4", "PMI_RANK=1"});
+  Process process(words, folder.path());
+  const Ran ran = process.wait();
+  EXPECT_EQ(ran.code, 2) << ran.err;
+  EXPECT_NE(ran.err.find("started as one of"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find("--shard auto"), std::string::npos) << ran.err;
+}
+
 TEST(Shards, RanksThatAreStoppedGoOn) {
   if (mpirun().empty()) GTEST_SKIP() << no_mpirun;
   const WorkFolder folder;
@@ -311,10 +370,7 @@ TEST(Shards, RanksThatAreStoppedGoOn) {
 }
 
 TEST(Shards, RanksComputeADamagedBatchAgain) {
-  if (mpirun().empty()) {
-    std::printf("NOT RUN: ranks of MPI and a damaged batch: no mpirun (package openmpi-bin)\n");
-    return;
-  }
+  if (mpirun().empty()) GTEST_SKIP() << no_mpirun;
   const WorkFolder folder;
   folder.write("street.yaml", street_study());
   ASSERT_EQ(program(folder, {"run", "street.yaml", "--keep-batches"}).code, 0);
@@ -328,7 +384,7 @@ TEST(Shards, RanksComputeADamagedBatchAgain) {
     std::this_thread::sleep_for(10ms);
   ASSERT_FALSE(process.is_running()) << process.err_so_far();
   const Ran ran = process.wait();
-  if (ran.err.find("this build has no MPI") != std::string::npos) return;
+  if (ran.err.find("this build has no MPI") != std::string::npos) GTEST_SKIP() << no_mpi;
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_NE(ran.err.find("000002.batch"), std::string::npos) << ran.err;
   expect_same_result(folder);

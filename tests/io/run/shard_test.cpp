@@ -68,7 +68,7 @@ TEST(Shard, EveryUnitBelongsToExactlyOne) {
     for (std::size_t unit = 0; unit < 40; ++unit) {
       int owners = 0;
       for (std::size_t index = 0; index < count; ++index)
-        owners += Shard{index, count}.owns(unit) ? 1 : 0;
+        owners += Shard{index, count, false}.owns(unit) ? 1 : 0;
       EXPECT_EQ(owners, 1) << unit << " of " << count;
     }
 }
