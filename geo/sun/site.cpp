@@ -109,6 +109,11 @@ class MapToEarth {
   double metres_per_unit_ = 1;
 };
 
+// Steps on a map: short against the radius of any projection's curvature (the error falls with its
+// square), long against the rounding of map coordinates.
+constexpr double half_step_m = 50;
+constexpr Vec3 east{half_step_m, 0, 0}, north{0, half_step_m, 0};
+
 // Azimuth at `site` of the way from one point to another.
 double azimuth_deg(const Site& site, const Site& from, const Site& to) {
   return horizontal(enu_from_ecef(site)(ecef_position(to) - ecef_position(from))).azimuth_deg;
@@ -128,13 +133,9 @@ Rotation enu_from_ecef(const Site& site) { return local_frame(site).enu_from_ece
 Vec3 ecef_position(const Site& site) { return local_frame(site).position; }
 
 Site site_from_crs(const std::string& crs, Vec3 position) {
-  // Short against the radius of any projection's curvature (the error falls with its square),
-  // long against the rounding of map coordinates.
-  constexpr double half_step_m = 50;
   // Conformal maps give 90° here; a mirrored pair of axes gives 270°.
   constexpr double half_turn_deg = 180;
   const MapToEarth earth_from_map(crs);
-  const Vec3 east{half_step_m, 0, 0}, north{0, half_step_m, 0};
   Site site = earth_from_map(position);
   site.north_deg =
       azimuth_deg(site, earth_from_map(position - north), earth_from_map(position + north));
@@ -144,6 +145,19 @@ Site site_from_crs(const std::string& crs, Vec3 position) {
     earth_from_map.fail("its axes are left-handed, and the scene would be a mirror image");
   }
   return site;
+}
+
+double map_stretch(const std::string& crs, Vec3 position) {
+  const MapToEarth earth_from_map(crs);
+  position.z = 0;  // maps show what lies at sea level
+  double most = 0;
+  for (const Vec3 step : {east, north}) {
+    const double ground_m = norm(ecef_position(earth_from_map(position + step)) -
+                                 ecef_position(earth_from_map(position - step)));
+    if (const double stretch = 2 * half_step_m / ground_m - 1; std::abs(stretch) > std::abs(most))
+      most = stretch;
+  }
+  return most;
 }
 
 Vec3 map_position(const std::string& crs, double latitude_deg, double longitude_deg,

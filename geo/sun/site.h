@@ -42,6 +42,11 @@ Vec3 ecef_position(const Site& site);
 /// and a point that has no place on Earth.
 Site site_from_crs(const std::string& crs, Vec3 position);
 
+/// By how much lengths on the map are longer than on the ground about a point, where that is most,
+/// along x or y: as share, below 0 where they are shorter. In UTM up to 0.001; in web Mercator 0.64
+/// at 52 degrees. Throws as `site_from_crs` does.
+double map_stretch(const std::string& crs, Vec3 position);
+
 /// Where a point of WGS84 lies on the map [m], east and north first; z is `height_m`. The way back
 /// from `site_from_crs`; throws as it does.
 Vec3 map_position(const std::string& crs, double latitude_deg, double longitude_deg,
@@ -61,11 +66,11 @@ Site site_from_text(const std::string& text);
 /// `49d44'51.0"N 013d22'39.4"E`; site_from_text reads it.
 std::string position_text(const Site& site);
 
-/// What to warn about where the point lies outside of the projection's area of
-/// use by more than 0.2° (usually the wrong projection); empty otherwise. Throws as above.
 /// Where a map projection is meant to be used, in words of PROJ's database, countries among them;
 /// empty where it does not say. Throws InputError for a name that is none.
 std::string area_of_use_words(const std::string& crs);
+/// What to warn about where the point lies outside of the projection's area of
+/// use by more than 0.2° (usually the wrong projection); empty otherwise. Throws as above.
 std::string area_of_use_warning(const std::string& crs, Vec3 position);
 
 }  // namespace sunload

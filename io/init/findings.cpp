@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/init/findings.h"
+#include "geo/sun/map_axes.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -64,6 +65,8 @@ bool is_raster(const std::string& path) {
 
 void look_at_site(const InitRules& rules, const BuiltScene& built, Findings& found) {
   found.crs = built.crs.empty() ? rules.crs : built.crs;
+  if (!found.crs.empty())
+    if (const MapAxes axes(found.crs); axes.is_known()) found.unit_of_crs_m = axes.unit_m();
   const bool has_station = found.weather && found.weather->place;
   if (!found.crs.empty() || !rules.at.empty() || has_station) {
     found.site = built.site;

@@ -30,6 +30,7 @@ struct InitRules {
   std::string up = {};         ///< x, y, z; empty: of the format
   bool is_up_guessed = false;  ///< by what lies at the foot
   double unit_m = 1;
+  bool is_unit_of_crs = false;             ///< by the CRS, not said by the user
   std::vector<std::string> measures = {};  ///< rules of planning, by their words
 };
 
@@ -44,6 +45,7 @@ struct FoundMaterial {
 struct Findings {
   std::string crs;           ///< empty: none is known
   std::optional<Site> site;  ///< nothing where no place is known
+  double unit_of_crs_m = 1;  ///< of its coordinates
   std::string site_source;
   bool is_at_station = false;  ///< the place is that of the weather station
   std::optional<ZoneGuess> zone;

@@ -195,6 +195,11 @@ int init_study(const InitRules& given, const std::string& wanted) {
   expect_free(path);
   expect_writable(path);
   Findings found = findings_of(rules);
+  if (found.unit_of_crs_m != 1 && rules.unit_m == 1) {
+    rules.unit_m = found.unit_of_crs_m;
+    rules.is_unit_of_crs = true;
+    found = findings_of(rules);
+  }
   if (found.is_on_its_side) {
     rules.up = "y";
     rules.is_up_guessed = true;

@@ -243,7 +243,10 @@ std::string file_text(const InitRules& rules, const std::string& folder) {
   if (!rules.canopy.empty())
     text += fmt::format("      canopy: {}\n", path_from(folder, rules.canopy));
   if (!rules.up.empty()) text += fmt::format("      up: {}\n", rules.up);
-  if (rules.unit_m != 1) text += fmt::format("      unit_m: {:g}\n", rules.unit_m);
+  if (rules.is_unit_of_crs)
+    text += fmt::format("      # {} unit_m of the CRS; 1 where the file has metres all the same\n",
+                        mark);
+  if (rules.unit_m != 1) text += fmt::format("      unit_m: {:.10g}\n", rules.unit_m);
   return text;
 }
 

@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "geo/mesh/covered.h"
 #include "geo/mesh/overlap.h"
+#include "geo/sun/map_axes.h"
 #include "geo/sun/weather.h"
 #include "io/plan/far_places.h"
 #include "io/plan/luminaires.h"
@@ -51,10 +53,44 @@ PrepareRules prepare_rules(const Study& study, const PolygonModel& model, const 
   return rules;
 }
 
+/// Maps that show lengths at another scale than heights have shadows of another length.
+void expect_true_lengths(const Study& study, const std::string& crs, Vec3 middle, const Site& site,
+                         BuiltScene& built) {
+  constexpr double doubtful = 0.005, refused = 0.05;  // UTM has up to 0.001 in its zone
+  const double stretch = map_stretch(crs, middle);
+  if (std::abs(stretch) <= doubtful) return;
+  const std::string what =
+      fmt::format("lengths on the map of '{}' are {:.2g} % {} than on the ground there", crs,
+                  100 * std::abs(stretch), stretch > 0 ? "longer" : "shorter");
+  const std::string why = "heights are not, and shadows would reach too far or not far enough";
+  const std::string hint =
+      fmt::format("convert the model to a projection that keeps lengths, such as {}",
+                  utm_at(site.latitude_deg, site.longitude_deg));
+  // Coordinates that do not belong to the map may be right all the same.
+  if (std::abs(stretch) > refused && area_of_use_warning(crs, middle).empty())
+    throw InputError(study.site.where, what, why, hint);
+  built.warnings.push_back(message({}, what, why, hint));
+}
+
+/// Coordinates of a map in feet that nobody makes metres of.
+std::string unit_warning(const SceneStudy& scene, const std::string& crs) {
+  const MapAxes axes(crs);
+  if (!axes.is_known() || axes.unit_m() == 1) return {};
+  const bool is_any_in_metres = std::any_of(
+      scene.files.begin(), scene.files.end(),
+      [&](const SceneFileStudy& file) { return file.unit_m.value_or(scene.unit_m) == 1; });
+  if (!is_any_in_metres) return {};
+  return message(scene.where,
+                 fmt::format("'{}' is in units of {:.6g} m, and the model is taken to be in metres",
+                             crs, axes.unit_m()),
+                 {}, fmt::format("scene.unit_m: {:.10g} makes metres of them", axes.unit_m()));
+}
+
 /// Site of the scene's middle on its map; `built` gets where it comes from and what is doubtful.
 /// Where the study gives a position a map of no use is only warned about.
-Site site_on_map(const SiteStudy& given, const std::string& crs, const PolygonModel& model,
+Site site_on_map(const Study& study, const std::string& crs, const PolygonModel& model,
                  BuiltScene& built) {
+  const SiteStudy& given = study.site;
   constexpr double far_m = 10000;  // moves the sun by up to 0.1 degrees
   const Box box = bounding_box(model.vertices);
   Vec3 middle = (box.low + box.high) / 2;
@@ -69,10 +105,11 @@ Site site_on_map(const SiteStudy& given, const std::string& crs, const PolygonMo
     built.site_source = "position from the study";
     return site;
   }
+  expect_true_lengths(study, crs, middle, site, built);
   built.site_source = given.latitude_deg ? "position from the study, north from " + crs
                                          : "position and north from " + crs;
-  for (const auto& warning :
-       {area_of_use_warning(crs, middle), north_warning(given, crs, site.north_deg)})
+  for (const auto& warning : {unit_warning(study.scene, crs), area_of_use_warning(crs, middle),
+                              north_warning(given, crs, site.north_deg)})
     if (!warning.empty()) built.warnings.push_back(warning);
   if (!given.latitude_deg) return site;
   const double away_m = distance_m(site, {.latitude_deg = *given.latitude_deg,
@@ -91,7 +128,7 @@ Site resolve_site(const Study& study, const PolygonModel& model, BuiltScene& bui
   std::string& source = built.site_source;
   Site site;
   if (!crs.empty() && !model.vertices.empty()) {
-    site = site_on_map(given, crs, model, built);
+    site = site_on_map(study, crs, model, built);
   } else if (const auto station = given.latitude_deg ? std::nullopt : weather_place(study)) {
     site.latitude_deg = station->latitude_deg;
     site.longitude_deg = station->longitude_deg;

@@ -135,9 +135,6 @@ CityFrame::CityFrame(const CityDocument& document, CityCoordinates& coordinates,
     document.file().fail(
         document.srs_element(), "positions are in '" + shortened(document.srs_name()) + "'",
         "it is geocentric: up is nowhere z", "convert the model to a map projection such as UTM");
-  if (axes.unit_m() != 1 && scene_from_file.unit_m() == 1)
-    notes.say(fmt::format("'{}' is in units of {:.6g} m: scene.unit_m: {:.9g} makes metres of them",
-                          crs_, axes.unit_m(), axes.unit_m()));
   if (!axes.is_north_first() && !axes.is_in_degrees()) return;
   const Sample sample = sample_of(document, coordinates);
   is_north_first_ = is_north_first(axes, name, sample, notes);

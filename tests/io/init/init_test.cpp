@@ -87,6 +87,18 @@ TEST(Init, PlaceAndNorthOfAProjectionAreTheFilesOwn) {
   EXPECT_NE(text.find("type: \"SolitaryVegetationObject\", material: crown"), std::string::npos);
 }
 
+TEST(Init, FeetOfAProjectionAreTheUnit) {
+  const WorkFolder folder;
+  const auto model = folder.write("new_york.obj",
+                                  "v 990000 200000 0\nv 990030 200000 0\nv 990030 200030 0\n"
+                                  "v 990000 200000 40\nf 1 2 3\nf 1 2 4\n");
+  const auto [study, text] = begun(folder, {.model = model, .crs = "EPSG:2263"});
+  EXPECT_EQ(study.site.timezone, "America/New_York");
+  ASSERT_TRUE(study.scene.files.front().unit_m);
+  EXPECT_NEAR(*study.scene.files.front().unit_m, 1200.0 / 3937, 1e-10);
+  EXPECT_NE(text.find("<<< unit_m of the CRS"), std::string::npos) << text;
+}
+
 TEST(Init, WeatherBringsItsYearAndItsStation) {
   const WorkFolder folder;
   const auto [study, text] = begun(folder, {.model = folder.write("box.obj", box),

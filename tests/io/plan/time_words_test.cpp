@@ -3,6 +3,7 @@
 // What `check` and `info` say of time and north, and the warnings about clocks and places.
 #include "io/plan/time_words.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +12,7 @@
 
 #include "geo/base/check.h"
 #include "io/plan/scene_build.h"
+#include "tests/support/refusal_of.h"
 #include "tests/support/scene_text.h"
 
 namespace sunload {
@@ -164,6 +166,39 @@ TEST(SiteOnMap, WarnsOfAMapThatIsNotTheScenes) {
       says(on_map(netherlands + ", latitude_deg: 52.0113, longitude_deg: 4.3679", 85000, 447000)
                .warnings,
            "the sun is that of the study's position"));
+}
+
+// Heights are in metres, and shadows would be too short by what lengths are too long.
+TEST(SiteOnMap, MapsThatKeepNoLengthsAreRefusedOrWarnedOf) {
+  const auto refusal = [](const std::string& site, double x, double y) {
+    return test::refusal_of([&] { on_map(site, x, y); });
+  };
+  // Berlin in web Mercator, whether or not the study gives the place.
+  for (const char* more : {"", ", latitude_deg: 52.5, longitude_deg: 13.4"}) {
+    const std::string text = refusal("crs: \"EPSG:3857\"" + std::string(more), 1491700, 6891000);
+    EXPECT_TRUE(says({text}, "64 % longer than on the ground there")) << text;
+    EXPECT_TRUE(says({text}, "EPSG:32633")) << text;
+  }
+  // At the equator it is a sphere's map of an ellipsoid: 0.7 % off.
+  EXPECT_TRUE(says(on_map("crs: \"EPSG:3857\"", -8738000, -20000).warnings, "lengths on the map"));
+  // Cyprus on the map of all of Europe.
+  EXPECT_TRUE(says(on_map("crs: \"EPSG:3035\"", 6430000, 1660000).warnings, "lengths on the map"));
+  EXPECT_FALSE(says(on_map("crs: \"EPSG:28992\"", 85000, 447000).warnings, "lengths"));
+  EXPECT_FALSE(says(on_map("crs: \"EPSG:25833\"", 391000, 5820000).warnings, "lengths"));
+}
+
+TEST(SiteOnMap, FeetThatAreTakenForMetresAreWarnedOf) {
+  const auto warnings = [](const std::string& unit, double scale) {
+    write_text("plate.obj",
+               fmt::format("v {0} {1} 0\nv {2} {1} 0\nv {2} {3} 0\nf 1 2 3\n", 990000 * scale,
+                           200000 * scale, 990030 * scale, 200030 * scale));
+    return words_of(study_of("crs: \"EPSG:2263\", timezone: UTC", "days: [2024-06-21]",
+                             "files: [plate.obj]" + unit))
+        .warnings;
+  };
+  EXPECT_TRUE(says(warnings("", 1), "scene.unit_m: 0.3048006096 makes metres of them"));
+  EXPECT_FALSE(says(warnings(", unit_m: 0.3048006096", 1), "unit_m"));
+  EXPECT_FALSE(says(warnings(", unit_m: 0.3048006096", 1), "area of use"));
 }
 
 TEST(SiteOnMap, AMapThatCannotBeReadIsNotSaidToGiveNorth) {
