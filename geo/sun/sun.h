@@ -27,8 +27,7 @@ double disk_half_angle(SunDisk disk, double distance_au);
 
 /// Air at the site, for refraction.
 struct Air {
-  double pressure_pa = 101325;
-  double temperature_c = 12;
+  double pressure_pa, temperature_c;
 };
 /// International standard atmosphere at an elevation [m] (troposphere formula).
 Air standard_air(double elevation_m);

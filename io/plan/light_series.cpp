@@ -355,7 +355,7 @@ LightSeries series_of(const Study& study, const Site& site) {
     return series;
   }
   const SunEphemeris sun(path.front().begin, path.back().end, site, study.sun.refraction,
-                         study.sun.ut1_utc, Air{standard_pressure(site.elevation_m)});
+                         study.sun.ut1_utc, standard_air(site.elevation_m));
   const ClearSky sky(study.light, site, sun);
   for (const auto& when : path) {
     LitInterval interval{when, {}, {}};

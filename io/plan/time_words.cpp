@@ -83,7 +83,7 @@ std::string day_words(const Site& site, UnixTime first, const TimeZone& zone,
   constexpr double civil_twilight_deg = -6;
   const UnixTime day = civil_day(first, zone);
   const SunEphemeris sun(day, day + seconds_per_day, site, sun_study.refraction, sun_study.ut1_utc,
-                         Air{});
+                         standard_air(site.elevation_m));
   const SunEvents light = sun_events(sun, day), dusk = sun_events(sun, day, civil_twilight_deg);
   return fmt::format("{}: {} (upper limb at the sea's horizon), noon {}; civil twilight: {}",
                      iso_local(day, zone).substr(0, 10), passages(light, "sunrise", "sunset", zone),
@@ -139,7 +139,7 @@ std::string pole_words(const Site& site, const std::vector<UnixTime>& times, con
   UnixTime noon = 0;
   for (const UnixTime day : civil_days(times, zone)) {
     const SunEphemeris sun(day, day + seconds_per_day, site, sun_study.refraction,
-                           sun_study.ut1_utc, Air{});
+                           sun_study.ut1_utc, standard_air(site.elevation_m));
     const UnixTime transit = sun_events(sun, day).transit;
     const SunPosition at_transit = sun(transit);
     if (noon != 0 && at_transit.elevation_deg <= highest.elevation_deg) continue;

@@ -63,7 +63,9 @@ BlockLight unreflected_light(const LineSet& lines, const PatchOptics& optics,
   light.sky = columns(rows);
   const bool split = !circumsolar.empty();
   gather(lines.sky, split ? sources.sky_of_lines : sources.sky, light.sky, Into::replace);
-  for_each_value(circumsolar, [&](std::size_t at) { light.sky[at] += circumsolar[at]; });
+  for_each_value(circumsolar, [&](std::size_t at) {
+    light.sky[at] = std::max(0.0f, light.sky[at] + circumsolar[at]);
+  });
   if (optics.any_mirror) gather(lines.sky_by_mirror, sources.sky, light.mirror, Into::add);
   light.reflected = columns(rows);
   parallel_for(

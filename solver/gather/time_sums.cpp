@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/gather/time_sums.h"
 
+#include <algorithm>
+
 #include "geo/base/units.h"
 #include "solver/base/chunks.h"
 #include "solver/base/threads.h"
@@ -57,7 +59,7 @@ FirstExposure first_exposure(const LineSet& lines, const PatchOptics& optics, co
   parallel_for(
       rows,
       [&](std::size_t i) {
-        if (!circumsolar.empty()) first.sky[i] += circumsolar[i];
+        if (!circumsolar.empty()) first.sky[i] = std::max(0.0, first.sky[i] + circumsolar[i]);
         first.base[i] = by_rays.direct[i] + first.sky[i] + first.mirror[i] + first.lamps[i];
         first.ground[i] =
             static_cast<double>(lines.ends[i].ground + lines.ends[i].ground_by_mirror) *

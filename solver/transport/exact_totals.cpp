@@ -3,6 +3,7 @@
 #include "solver/transport/exact_totals.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "geo/base/vector_code.h"
 #include "solver/base/chunks.h"
@@ -99,18 +100,63 @@ void scale_to(const Known& time, const std::vector<Interval>& intervals, const L
       scale(now[n].data(), more.data(), static_cast<float>(share));
 }
 
-/// Changes series, sums and parts of receivers begin … end - 1 by what their reflected light has
+/// How what a receiver gets in all changes is shared out: reflected light becomes that of the
+/// realizations, the sky takes the rest, and nothing falls below 0.
+struct SharedOut {
+  double reflected, sky;  ///< changes [J m-2]
+};
+SharedOut shared_out(double changed, double reflected, double exact_reflected,
+                     std::optional<double> sky) {
+  if (!sky) return {std::max(changed, -reflected), 0};
+  const double of_sky = std::max(changed - (exact_reflected - reflected), -*sky);
+  return {std::max(changed - of_sky, -reflected), of_sky};
+}
+
+/// Changes series and sums of the parts of receivers begin … end - 1, of which the totals have
+/// changed.
+void put_parts(const std::vector<Interval>& intervals, const Light& before, const Light& now,
+               std::size_t begin, std::size_t end, const std::vector<double>& changed,
+               ReceiverTally& tally) {
+  const auto part = [](auto& of_parts, Part which) -> auto& {
+    return of_parts[static_cast<std::size_t>(which)];
+  };
+  std::vector<double>&reflected = part(tally.exposure, Part::reflected),
+  &sky = part(tally.exposure, Part::sky);
+  LargeVector<float>&reflected_series = part(tally.irradiance, Part::reflected),
+  &sky_series = part(tally.irradiance, Part::sky);
+  const Realizations& exact = part(tally.part_realization, Part::reflected);
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::size_t lane = i - begin;
+    const auto shares = shared_out(changed[i], reflected[i],
+                                   exact.empty() ? reflected[i] + changed[i] : mean_of(exact, i),
+                                   sky.empty() ? std::nullopt : std::optional(sky[i]));
+    const double more = reflected[i] > 0 ? shares.reflected / reflected[i] : 0;
+    reflected[i] += shares.reflected;
+    if (!sky.empty()) sky[i] += shares.sky;
+    if (reflected_series.empty() && sky_series.empty()) continue;
+    for (std::size_t n = 0; n < intervals.size(); ++n) {
+      const std::size_t at = intervals[n].row * changed.size() + i;
+      const float of_reflected = static_cast<float>(more) * before[n][lane];
+      const float of_sky = now[n][lane] - before[n][lane] - of_reflected;
+      const auto add_to = [&](LargeVector<float>& series, float by) {
+        if (!series.empty()) series[at] = std::max(0.0f, series[at] + by);
+      };
+      add_to(reflected_series, sky.empty() ? of_reflected + of_sky : of_reflected);
+      if (!sky.empty()) add_to(sky_series, of_sky);
+    }
+  }
+}
+
+/// Changes series, sums and times of receivers begin … end - 1 by what their reflected light has
 /// changed by.
 void put(const std::vector<Interval>& intervals, const Light& before, const Light& now,
          std::size_t begin, std::size_t end, std::vector<double>& changed, ReceiverTally& tally) {
   const std::size_t receivers = changed.size(), count = end - begin;
-  const auto series = [&](Part part) -> LargeVector<float>& {
-    return tally.irradiance[static_cast<std::size_t>(part)];
-  };
+  LargeVector<float>& series = tally.irradiance[static_cast<std::size_t>(Part::total)];
   OfChunk<float> joules;
   for (std::size_t n = 0; n < intervals.size(); ++n) {
-    const std::size_t row = intervals[n].row, first = row * receivers + begin;
-    change(&series(Part::total)[first], now[n].data(), before[n].data(),
+    const std::size_t row = intervals[n].row;
+    change(&series[row * receivers + begin], now[n].data(), before[n].data(),
            static_cast<float>(intervals[n].length_s), count, joules.data(),
            &tally.irradiance_max[begin]);
     for (std::size_t i = 0; i < count; ++i) changed[begin + i] += static_cast<double>(joules[i]);
@@ -118,15 +164,10 @@ void put(const std::vector<Interval>& intervals, const Light& before, const Ligh
       if (!part.total.empty() && part.share[row] > 0)
         for (std::size_t i = 0; i < count; ++i)
           part.total[begin + i] += part.share[row] * static_cast<double>(joules[i]);
-    if (LargeVector<float>& reflected = series(Part::reflected); !reflected.empty())
-      for (std::size_t i = 0; i < count; ++i)
-        reflected[first + i] = std::max(0.0f, reflected[first + i] + (now[n][i] - before[n][i]));
   }
-  for (std::size_t i = begin; i < end; ++i) {
+  for (std::size_t i = begin; i < end; ++i)
     tally.exposure[static_cast<std::size_t>(Part::total)][i] += changed[i];
-    double& reflected = tally.exposure[static_cast<std::size_t>(Part::reflected)][i];
-    reflected = std::max(0.0, reflected + changed[i]);
-  }
+  put_parts(intervals, before, now, begin, end, changed, tally);
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ struct TimedNodes {
   }
 };
 
-/// Adds what all of them bring to receivers [begin, end); what falls below 0 is 0.
+/// Adds what all of them bring to receivers [begin, end).
 SUNLOAD_VECTOR_CODE void add_exposure(const std::vector<TimedNodes>& all, std::size_t begin,
                                       std::size_t end, double* exposure) {
   using Sums = TimedNodes::Sums;
@@ -96,7 +96,7 @@ SUNLOAD_VECTOR_CODE void add_exposure(const std::vector<TimedNodes>& all, std::s
     }
     double sum = exposure[i];
     for (std::size_t j = 0; j < block_width; ++j) sum += of_lanes[j];
-    exposure[i] = std::max(sum, 0.0);
+    exposure[i] = sum;
   }
 }
 
@@ -297,8 +297,6 @@ void NodeLight::split_circumsolar(const std::vector<NodeSeconds>& seconds, TimeS
     for (std::size_t j = 0; j < all[b]->circumsolar_sky.size(); ++j)
       for (std::size_t c = 0; c < all[b]->circumsolar_sky[j].size(); ++c)
         sums.sky_of_lines[c] -= seconds[b][j] * all[b]->circumsolar_sky[j][c];
-  // Where the nodes have a little more than the sky there is nothing left.
-  for (double& left : sums.sky_of_lines) left = std::max(left, 0.0);
   std::vector<std::size_t> shining;  // blocks with circumsolar light in this time
   for (std::size_t b = 0; b < seconds.size(); ++b)
     if (!all[b]->circumsolar.empty() &&

@@ -139,7 +139,7 @@ TEST(Sun, ReferenceRefraction) {
 
 TEST(Sun, ApparentElevationGrowsWithTrueElevation) {
   for (const auto model : {Refraction::none, Refraction::spa, Refraction::bennett}) {
-    for (const Air air : {Air{}, standard_air(4000), Air{103000, -40}, Air{101325, 45}}) {
+    for (const Air air : {Air{101325, 12}, standard_air(4000), Air{103000, -40}, Air{101325, 45}}) {
       double below = -100;
       for (double e = -90; e <= 90; e += 0.001) {
         const double apparent = e + refraction_deg(model, e, air);
