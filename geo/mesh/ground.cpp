@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "geo/base/check.h"
+#include "geo/base/unused_name.h"
 #include "geo/mesh/box_tree.h"
 #include "geo/mesh/land.h"
 #include "geo/mesh/slope.h"
@@ -19,15 +21,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_told = 10;
 constexpr double below_land_m = 0.05;  // walls drawn down end there
-
-std::string unused_name(const std::vector<std::string>& names) {
-  const auto is_taken = [&](const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
-  std::string name = "ground";
-  for (int n = 2; is_taken(name); ++n) name = "ground_" + std::to_string(n);
-  return name;
-}
 
 MaterialId ground_material(std::vector<FileMaterial>& materials) {
   const auto it = std::find_if(materials.begin(), materials.end(),
@@ -193,7 +186,8 @@ class GroundMaker {
 
   void begin_object() {
     object_ = make_id<ObjectId>(mesh_.object_names.size());
-    mesh_.object_names.push_back(unused_name(mesh_.object_names));
+    std::set<std::string> taken(mesh_.object_names.begin(), mesh_.object_names.end());
+    mesh_.object_names.push_back(unused_name("ground", taken));
     mesh_.object_kinds.emplace_back();
     material_ = ground_material(mesh_.file_materials);
     vertex_base_ = static_cast<std::int32_t>(mesh_.vertices.size());

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
 
 #include "geo/base/check.h"
 
@@ -17,23 +18,23 @@ std::string unpack_gzip(const std::string& bytes, const std::string& path,
                         std::size_t largest_bytes) {
   const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)>
       decompressor(libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
-  std::string content;
-  // The trailer's length is not to be trusted: the buffer grows as the content asks for it.
-  std::size_t room = std::max<std::size_t>(4 * bytes.size(), 4096);
+  if (!decompressor) throw std::bad_alloc();
+  const auto refuse_size = [&] {
+    throw InputError({path}, "unpacks to too much",
+                     "at most " + std::to_string(largest_bytes) + " bytes can be read");
+  };
+  // The trailer's length is not to be trusted: the buffer grows as the content asks for it. What
+  // one part leaves of it is for the next: files of bgzip have one for every 64 kB.
+  std::string content(std::max<std::size_t>(4 * bytes.size(), 4096), '\0');
+  std::size_t end = 0;
   for (std::size_t at = 0; at < bytes.size();) {
-    const std::size_t begin = content.size();
-    content.resize(begin + room);
     std::size_t used = 0, written = 0;
     const auto outcome =
         libdeflate_gzip_decompress_ex(decompressor.get(), bytes.data() + at, bytes.size() - at,
-                                      content.data() + begin, room, &used, &written);
+                                      content.data() + end, content.size() - end, &used, &written);
     if (outcome == LIBDEFLATE_INSUFFICIENT_SPACE) {
-      content.resize(begin);
-      room *= 2;
-      if (begin + room > 2 * largest_bytes) {
-        throw InputError({path}, "unpacks to too much",
-                         "at most " + std::to_string(largest_bytes) + " bytes can be read");
-      }
+      if (content.size() > largest_bytes) refuse_size();
+      content.resize(2 * content.size());
       continue;
     }
     if (outcome != LIBDEFLATE_SUCCESS) {
@@ -41,13 +42,11 @@ std::string unpack_gzip(const std::string& bytes, const std::string& path,
                        at == 0 ? "it cannot be unpacked" : "what follows its first part is no gzip",
                        "was it copied completely?");
     }
-    content.resize(begin + written);
+    end += written;
     at += used;
   }
-  if (content.size() > largest_bytes) {
-    throw InputError({path}, "unpacks to too much",
-                     "at most " + std::to_string(largest_bytes) + " bytes can be read");
-  }
+  if (end > largest_bytes) refuse_size();
+  content.resize(end);
   return content;
 }
 

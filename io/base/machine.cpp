@@ -3,7 +3,6 @@
 #include "io/base/machine.h"
 
 #include <fmt/format.h>
-#include <sched.h>
 #include <sys/resource.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
@@ -21,11 +20,12 @@
 #include <limits>
 #include <memory>
 #include <new>
-#include <optional>
 #include <sstream>
 #include <thread>
 
 #include "geo/base/check.h"
+#include "io/base/control_group.h"
+#include "solver/base/threads.h"
 
 namespace sunload {
 
@@ -33,33 +33,6 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-
-/// First number of a file, infinite for `max` or a missing file.
-double first_number(const fs::path& path) {
-  std::ifstream file(path);
-  std::string word;
-  if (!(file >> word) || word == "max") return unlimited;
-  return std::stod(word);
-}
-
-/// Folder of this process' control group (version 2), or none.
-std::optional<fs::path> control_group() {
-  std::ifstream file("/proc/self/cgroup");
-  for (std::string line; std::getline(file, line);)
-    if (line.rfind("0::", 0) == 0) return fs::path("/sys/fs/cgroup" + line.substr(3));
-  return {};
-}
-
-/// Smallest value of `left` over the control group and its parents.
-template <class Left>
-double over_groups(Left&& left) {
-  double least = unlimited;
-  if (const auto group = control_group())
-    for (fs::path g = *group; g.native().size() >= std::string("/sys/fs/cgroup").size();
-         g = g.parent_path())
-      least = std::min(least, left(g));
-  return least;
-}
 
 double system_available_bytes() {
   std::ifstream file("/proc/meminfo");
@@ -76,7 +49,8 @@ double system_available_bytes() {
 double address_space_left_bytes() {
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
-  const double pages = first_number("/proc/self/statm");
+  double pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
   const double used = pages * static_cast<double>(sysconf(_SC_PAGESIZE));
   return std::max(0.0, static_cast<double>(limit.rlim_cur) - used);
 }
@@ -103,11 +77,8 @@ void keep_memory_to_end_with() {
 }
 
 double available_memory_bytes() {
-  const double of_group = over_groups([](const fs::path& g) {
-    const double limit = first_number(g / "memory.max");
-    return std::isinf(limit) ? unlimited : limit - first_number(g / "memory.current");
-  });
-  return std::min({system_available_bytes(), of_group, address_space_left_bytes()});
+  return std::min(
+      {system_available_bytes(), ControlGroups().memory_left_bytes(), address_space_left_bytes()});
 }
 
 double free_disk_bytes(const std::string& path) {
@@ -158,18 +129,9 @@ std::string bytes_text(double bytes) {
 }
 
 int permitted_processors() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  int processors = 1;
-  if (sched_getaffinity(0, sizeof(set), &set) == 0) processors = CPU_COUNT(&set);
-  const double quota = over_groups([](const fs::path& g) {
-    std::ifstream file(g / "cpu.max");
-    std::string limit;
-    double period = 0;
-    if (!(file >> limit >> period) || limit == "max" || period <= 0) return unlimited;
-    return std::stod(limit) / period;
-  });
-  return std::max(1, static_cast<int>(std::min<double>(processors, std::ceil(quota))));
+  const double quota = ControlGroups().processors();
+  return std::max(1,
+                  static_cast<int>(std::min<double>(processors_by_affinity(), std::ceil(quota))));
 }
 
 double peak_memory_bytes() {

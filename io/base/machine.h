@@ -11,7 +11,7 @@ namespace sunload {
 inline constexpr double mib = 1024.0 * 1024, gib = 1024 * mib;  ///< [bytes]
 
 /// Memory this process may still take [bytes]: the smallest of what the system
-/// has available, what the control group leaves, and what `ulimit -v` leaves.
+/// has available, what the control groups leave, and what `ulimit -v` leaves.
 double available_memory_bytes();
 /// Free space of the file system that `path` (or its nearest existing parent) lies on.
 double free_disk_bytes(const std::string& path);
@@ -21,7 +21,7 @@ double free_disk_bytes(const std::string& path);
 std::string folder_problem(const std::string& path);
 /// A count of bytes in words: "512 bytes", "29.5 GiB".
 std::string bytes_text(double bytes);
-/// Processors this process may run on: affinity and the control group's quota.
+/// Processors this process may run on: affinity and the quota of its control groups.
 int permitted_processors();
 /// Largest resident memory of this process so far [bytes].
 double peak_memory_bytes();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/command/commands.h"
 
-#include <cstdio>
+#include <charconv>
 #include <iostream>
 
 #include "geo/base/check.h"
@@ -259,9 +259,22 @@ int compare(const CompareOptions& asked) {
   return exit_code::done;
 }
 
+namespace {
+
+/// `1600x1000`, and nothing before, between or behind.
+bool read_size(const std::string& text, int& width, int& height) {
+  const char* const end = text.data() + text.size();
+  const auto across = std::from_chars(text.data(), end, width);
+  if (across.ec != std::errc() || across.ptr == end || *across.ptr != 'x') return false;
+  const auto down = std::from_chars(across.ptr + 1, end, height);
+  return down.ec == std::errc() && down.ptr == end;
+}
+
+}  // namespace
+
 int render(RenderOptions options) {
   RenderRules& rules = options.rules;
-  if (std::sscanf(options.size.c_str(), "%dx%d", &rules.width, &rules.height) != 2)
+  if (!read_size(options.size, rules.width, rules.height))
     throw InputError({}, "--size " + options.size, "not a size", "write e.g. 1600x1000");
   expect_picture_name(options.picture);
   if (is_study(options.result.path)) return render_study(options);

@@ -36,11 +36,10 @@ SurfaceValues::SurfaceValues(const ResultReader& result, const ExportRules& rule
   const std::string largest = dataset_name("irradiance_max", result.quantity());
   for (const auto& dataset : patch_datasets(result, PatchDatasets::totals)) {
     // Errors of patches hang together: those of a set's mean do not follow from them.
-    if (dataset == "patch_area" || dataset == "light_given_se" ||
-        (result.is_comparison() && dataset.ends_with("_difference_se")))
-      continue;
+    const bool is_of_realizations = dataset == "light_load_se";
+    if (dataset == "patch_area" || (dataset.ends_with("_se") && !is_of_realizations)) continue;
     Column column{name(dataset), dataset == largest ? Kind::largest : Kind::mean, {}};
-    if (dataset == "light_load_se") {
+    if (is_of_realizations) {
       if (!result.has("light_load_realization")) continue;
       column.kind = Kind::error_of_mean;
       column.values = result.doubles("light_load_realization");

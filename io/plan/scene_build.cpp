@@ -99,6 +99,9 @@ Site site_on_map(const Study& study, const std::string& crs, const PolygonModel&
   try {
     site = site_from_crs(crs, middle);
   } catch (const InputError& error) {
+    // What belongs to the map has no place of its own: the key stands with the site.
+    if (!given.latitude_deg && !given.crs.empty())
+      throw InputError(message(given.where, error.problems().front()));
     if (!given.latitude_deg) throw;
     built.warnings.push_back(std::string(error.problems().front()) +
                              "; north and elevation are not taken from it");
@@ -222,9 +225,12 @@ BuiltScene scene_before_materials(const Study& study) {
   BuiltScene built;
   PolygonModel as_read = read_models(study);
   // Steps that edit it leave the site where it is: variants have one sun, and stay paired.
-  const bool is_empty = as_read.vertices.empty();
+  const bool is_empty = as_read.vertices.empty(), had_polygons = as_read.polygon_count() > 0;
   if (!is_empty) built.site = resolve_site(study, as_read, built);
   const PolygonModel model = edited(std::move(as_read), study);
+  if (had_polygons && model.polygon_count() == 0)
+    throw InputError(study.scene.edit.back().where, "scene.edit leaves nothing of the scene",
+                     "its steps take out all that the files have", "let some object stay");
   if (is_empty) built.site = resolve_site(study, model, built);
   built.files = model.files;
   built.notes = model.notes;

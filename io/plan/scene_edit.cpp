@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "geo/base/unused_name.h"
 #include "geo/edit/carriers.h"
 #include "geo/edit/objects.h"
 #include "geo/edit/raise.h"
@@ -242,11 +243,8 @@ class SceneEditor {
     return base_m ? *base_m : standing_height(model_, at).value_or(0);
   }
 
-  std::string free_name(const std::string& wanted) const {
-    const std::set<std::string> taken(model_.object_names.begin(), model_.object_names.end());
-    std::string name = wanted;
-    for (int n = 2; taken.contains(name); ++n) name = fmt::format("{}_{}", wanted, n);
-    return name;
+  std::set<std::string> names_taken() const {
+    return {model_.object_names.begin(), model_.object_names.end()};
   }
 
   void apply(const AddPrismEdit& add) {
@@ -260,7 +258,8 @@ class SceneEditor {
     const Vec3 middle = (box.low + box.high) * 0.5;
     refuse_far({middle.x, middle.y}, extents_of(model_), subject(), step_->where);
     const double base = base_of(add.base_m, {middle.x, middle.y});
-    const std::string name = free_name(add.name);
+    auto taken = names_taken();
+    const std::string name = unused_name(add.name, taken);
     add_prism(model_, areas, base, base + add.height_m, {name, kind_of("Building"), add.material});
     tell(fmt::format("adds, from z = {:.2f} m,", base), {name});
   }
@@ -281,10 +280,11 @@ class SceneEditor {
     std::vector<double> feet;  // of all before there are any: no tree stands on another
     feet.reserve(places.size());
     for (const Point2 at : places) feet.push_back(base_of(add.base_m, at));
+    auto taken = names_taken();
     std::vector<std::string> names;
     for (std::size_t i = 0; i < places.size(); ++i) {
-      names.push_back(
-          free_name(places.size() == 1 ? add.name : fmt::format("{}_{}", add.name, i + 1)));
+      names.push_back(unused_name(
+          places.size() == 1 ? add.name : fmt::format("{}_{}", add.name, i + 1), taken));
       add_tree(model_, {places[i].u, places[i].v, feet[i]}, add.shape,
                {names.back(), "SolitaryVegetationObject", ""});
     }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "geo/base/unused_name.h"
 #include "io/scene/blocks.h"
 #include "io/scene/builtin.h"
 #include "io/scene/file.h"
@@ -19,20 +20,13 @@ std::string short_name(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
 
-/// The name, with a number where it is taken; it is taken then.
-std::string free_name(const std::string& wanted, std::set<std::string>& taken) {
-  std::string name = wanted;
-  for (int n = 2; !taken.insert(name).second; ++n) name = wanted + "_" + std::to_string(n);
-  return name;
-}
-
 /// Names that the scene has already get a number; they are noted.
 void add_object_names(PolygonModel& into, const PolygonModel& from) {
   std::set<std::string> taken(into.object_names.begin(), into.object_names.end());
   std::size_t renamed = 0;
   std::string first;
   for (const auto& base : from.object_names) {
-    const std::string name = free_name(base, taken);
+    const std::string name = unused_name(base, taken);
     if (name != base && renamed++ == 0) first = fmt::format("'{}' is '{}'", base, name);
     into.object_names.push_back(name);
   }
@@ -59,7 +53,7 @@ void add_families(PolygonModel& into, const Families& from, std::size_t objects_
   std::set<std::string> taken(into.object_names.begin(), into.object_names.end());
   for (const BareObject& bare : families.bare) taken.insert(bare.name);
   for (BareObject bare : from.bare) {
-    bare.name = free_name(bare.name, taken);
+    bare.name = unused_name(bare.name, taken);
     bare.owner = behind(bare.owner);
     families.bare.push_back(std::move(bare));
   }

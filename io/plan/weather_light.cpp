@@ -328,9 +328,8 @@ void StudyWeather::refuse_uncovered(const SunInterval& when) const {
       study_.period.where,
       fmt::format("the weather does not cover {} to {}", iso_utc(when.begin), iso_utc(when.end)),
       why,
-      years_ == WeatherYears::actual
-          ? fmt::format("choose dates from {} on, or year_of: weather", file_.records.front().year)
-          : "choose other dates, or year_of: weather");
+      years_ == WeatherYears::actual ? "choose dates within that, or year_of: weather"
+                                     : "choose other dates, or year_of: weather");
 }
 
 std::optional<WeatherPlace> weather_place(const Study& study) {

@@ -27,7 +27,7 @@ namespace {
 void write_selections(BandWriter& writer, const Totals& totals, const ResultGeometry& geometry,
                       std::size_t realizations) {
   const std::size_t count = geometry.selection_name.size();
-  if (count == 0) return;
+  if (count == 0 || geometry.patch_area.empty()) return;
   std::vector<FacadeMeans> means;
   for (const auto& flags : geometry.selected) {
     std::vector<std::int32_t> entry;

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "geo/mesh/ring_crossing.h"
 #include "io/base/file_text.h"
 #include "io/base/key_names.h"
 #include "io/study/sections.h"
@@ -202,6 +203,11 @@ AddPrismEdit read_footprint(YamlMap& map, const std::string& folder) {
   AddPrismEdit prism;
   map.require("polygon");
   prism.areas = read_areas(map, "polygon", folder);
+  for (const PlanArea& area : prism.areas.areas)
+    if (const auto at = ring_crossing(area))
+      map.problem("polygon", fmt::format("crosses itself near [{:.6g}, {:.6g}]", at->u, at->v),
+                  "which side of it is inside cannot be told",
+                  "are its corners in order around the area?");
   map.require("height_m");
   prism.height_m = map.number("height_m", sizes_m, 1);
   prism.base_m = map.number("base_m", heights_m);

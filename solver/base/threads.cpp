@@ -19,12 +19,6 @@ namespace {
 int chosen_threads = 0;  // 0: as many as there are processors
 std::function<bool()> cancellation;
 
-int processors() {
-  cpu_set_t mine;
-  CPU_ZERO(&mine);
-  return sched_getaffinity(0, sizeof mine, &mine) == 0 ? std::max(1, CPU_COUNT(&mine)) : 1;
-}
-
 thread_local bool in_team = false;  // a loop within a loop runs on the thread that meets it
 
 /// Every thread takes the next number that nobody has taken.
@@ -43,7 +37,21 @@ void for_every(long long count, const Body& body) {
 
 }  // namespace
 
-int thread_count() { return chosen_threads > 0 ? chosen_threads : processors(); }
+int processors_by_affinity() {
+  // The system tells only into a set as large as its own, and some have more than cpu_set_t.
+  constexpr int most = 1 << 16;
+  for (int count = CPU_SETSIZE; count <= most; count *= 2) {
+    cpu_set_t* set = CPU_ALLOC(static_cast<std::size_t>(count));
+    const std::size_t bytes = CPU_ALLOC_SIZE(static_cast<std::size_t>(count));
+    const bool is_told = set && sched_getaffinity(0, bytes, set) == 0;
+    const int processors = is_told ? CPU_COUNT_S(bytes, set) : 0;
+    CPU_FREE(set);
+    if (is_told) return std::max(1, processors);
+  }
+  return 1;
+}
+
+int thread_count() { return chosen_threads > 0 ? chosen_threads : processors_by_affinity(); }
 
 void set_thread_count(int threads) { chosen_threads = std::max(1, threads); }
 
@@ -55,9 +63,10 @@ void parallel_chunks(std::size_t count, std::size_t chunk,
                      const std::function<void(std::size_t, std::size_t)>& body) {
   const auto chunks = static_cast<long long>((count + chunk - 1) / chunk);
   std::exception_ptr first;
-  long long first_chunk = chunks;
+  std::atomic<long long> first_chunk = chunks;
   std::mutex guard;
   for_every(chunks, [&](long long c) {
+    if (c > first_chunk) return;  // nobody will see what it makes
     try {
       if (cancellation && cancellation()) throw Interrupted("stopped on request");
       const auto begin = static_cast<std::size_t>(c) * chunk;

@@ -11,6 +11,8 @@
 
 namespace sunload {
 
+/// Processors that the system lets this process run on.
+int processors_by_affinity();
 /// Threads that parallel loops use; at start the processors this process may run on.
 int thread_count();
 /// At least 1. Results never depend on it.
@@ -21,8 +23,8 @@ void set_thread_count(int threads);
 void set_cancellation(std::function<bool()> is_cancelled);
 
 /// Calls body(begin, end) for the chunks [0, chunk), [chunk, 2·chunk), … of
-/// [0, count), any order, any thread. Of several exceptions that of the first
-/// chunk is rethrown after the loop.
+/// [0, count), any order, any thread. After an exception no chunk behind it is
+/// begun; of several that of the first chunk is rethrown after the loop.
 void parallel_chunks(std::size_t count, std::size_t chunk,
                      const std::function<void(std::size_t begin, std::size_t end)>& body);
 

@@ -20,4 +20,17 @@ bool write_plan(const std::string& geojson, const std::string& driver, const std
   return is_written;
 }
 
+bool write_mask(const std::string& raster, std::vector<std::uint8_t> is_valid) {
+  GDALAllRegister();
+  GDALDatasetH file = GDALOpen(raster.c_str(), GA_Update);
+  if (!file) return false;
+  const int columns = GDALGetRasterXSize(file), rows = GDALGetRasterYSize(file);
+  const bool is_written =
+      GDALCreateDatasetMaskBand(file, GMF_PER_DATASET) == CE_None &&
+      GDALRasterIO(GDALGetMaskBand(GDALGetRasterBand(file, 1)), GF_Write, 0, 0, columns, rows,
+                   is_valid.data(), columns, rows, GDT_Byte, 0, 0) == CE_None;
+  GDALClose(file);
+  return is_written;
+}
+
 }  // namespace sunload::test

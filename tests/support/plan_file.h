@@ -1,13 +1,19 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Plan data in formats that are no text.
+/// Files of maps in formats that are no text.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace sunload::test {
 
 /// Writes the features of a GeoJSON file by another driver of GDAL; false where that fails.
 bool write_plan(const std::string& geojson, const std::string& driver, const std::string& path);
+
+/// Gives a raster a mask of its own, a byte for each cell: 0 where there is no data; false where
+/// that fails.
+bool write_mask(const std::string& raster, std::vector<std::uint8_t> is_valid);
 
 }  // namespace sunload::test

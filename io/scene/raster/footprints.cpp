@@ -64,8 +64,8 @@ class FootprintReader {
     model_.is_city_format = true;
     OGR_L_ResetReading(layer_);
     while (const Feature feature{OGR_L_GetNextFeature(layer_)}) add(feature.get());
-    if (model_.object_names.empty()) fail("has no polygons", "footprints were expected");
     refuse_without_height();
+    if (model_.object_names.empty()) fail("has no polygons", "footprints were expected");
     tell();
     return std::move(model_);
   }
@@ -167,6 +167,13 @@ class FootprintReader {
                  latitude = (extent.MinY + extent.MaxY) / 2;
     constexpr double most_degrees = 3, half_turn = 180, zone_width = 6;
     constexpr int zones = 60, north_code = 32600, south_code = 32700;
+    constexpr double both_sides = 300;  // of the 180th meridian
+    if (std::abs(latitude) < 90 && extent.MaxX <= half_turn && extent.MinX >= -half_turn &&
+        extent.MaxX - extent.MinX > both_sides)
+      fail("lies on both sides of the 180th meridian",
+           "its degrees east are as far apart as they can be",
+           fmt::format("project it first, for example with ogr2ogr -t_srs EPSG:{}",
+                       (latitude < 0 ? south_code : north_code) + zones));
     if (!(std::abs(latitude) < 90 && extent.MaxX - extent.MinX < most_degrees))
       fail(fmt::format("lies between {:g} and {:g} degrees east, {:g} and {:g} north", extent.MinX,
                        extent.MaxX, extent.MinY, extent.MaxY),
@@ -305,7 +312,7 @@ class FootprintReader {
     fail(fmt::format("{} of {} footprints have no height above 0 ({}{})", without_height_,
                      without_height_ + model_.object_names.size(), named_,
                      without_height_ > most_named ? ", …" : ""),
-         "neither height nor storeys are written there",
+         "neither a height nor storeys above 0 are written there",
          "footprints: {default_height_m: …} gives them one");
   }
 

@@ -195,10 +195,12 @@ class RasterReader {
       no_data = static_cast<double>(static_cast<float>(no_data));
     const double scale = GDALGetRasterScale(band, nullptr);
     const double offset = GDALGetRasterOffset(band, nullptr);
+    const auto is_valid = valid_cells(band, width, height);
     std::size_t missing = 0;
     for (std::size_t cell = 0; cell < values.size(); ++cell) {
       double& value = values[cell];
-      if (std::isnan(value) || (has_no_data != 0 && value == no_data)) {
+      const bool is_masked = !is_valid.empty() && is_valid[cell] == 0;
+      if (is_masked || std::isnan(value) || (has_no_data != 0 && value == no_data)) {
         value = std::nan("");
         ++missing;
         continue;
@@ -208,6 +210,16 @@ class RasterReader {
       value *= plane_from_height_;
     }
     notes_.count("cells of the raster have no data and are left out", missing);
+  }
+
+  /// By the file's mask or alpha band: 0 where there is no data. Empty where it has none.
+  std::vector<std::uint8_t> valid_cells(GDALRasterBandH band, int width, int height) const {
+    if ((GDALGetMaskFlags(band) & GMF_PER_DATASET) == 0) return {};
+    std::vector<std::uint8_t> is_valid(raster_.columns * raster_.rows);
+    if (GDALRasterIO(GDALGetMaskBand(band), GF_Read, 0, 0, width, height, is_valid.data(), width,
+                     height, GDT_Byte, 0, 0) != CE_None)
+      fail("has a mask that cannot be read to its end", {}, "is it cut off?");
+    return is_valid;
   }
 
   void expect_usual(double value, std::size_t cell) const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/scene/raster/raster.h"
+#include "tests/support/plan_file.h"
 #include "tests/support/real_models.h"
 #include "tests/support/scene_text.h"
 
@@ -142,6 +143,16 @@ TEST(SceneRaster, TurnedRastersLieWhereTheySay) {
   }
   ASSERT_EQ(model.polygon_count(), 4u);
   for (std::size_t p = 0; p < 4; ++p) EXPECT_EQ(up(model, p), 25) << p;  // twice the area
+}
+
+// As clouds' optimised GeoTIFFs have it, in place of a value that stands for none.
+TEST(SceneRaster, CellsThatAMaskLeavesOutHaveNoData) {
+  const std::string path =
+      write_text("masked.tif", tiff(3, 3, {1, 2, 3, 4, 5, 6, 7, 8, 0}, {1000, 2, 0, 2006, 0, -2}));
+  ASSERT_TRUE(write_mask(path, {255, 255, 255, 255, 255, 255, 255, 255, 0}));
+  const auto model = read_scene_file(path, {});
+  EXPECT_EQ(model.polygon_count(), 7u);  // of the last of four squares one half
+  EXPECT_TRUE(has_note(model, "1 cells of the raster have no data"));
 }
 
 /// Mirrored: rows go to the left of the columns. Faces still look up.

@@ -57,7 +57,9 @@ TEST(ParallelChunks, RethrowTheExceptionOfTheFirstChunk) {
     } catch (const std::runtime_error& error) {
       EXPECT_STREQ(error.what(), "17");
     }
-    EXPECT_EQ(done, 100);
+    // All before it, and no more behind it than other threads had begun.
+    EXPECT_GE(done, 18);
+    EXPECT_LT(done, 100);
   }
 }
 

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geo/mesh/ring_crossing.h"
+
+#include <algorithm>
+
+#include "geo/mesh/clip.h"
+#include "geo/mesh/constrained_delaunay.h"
+
+namespace sunload {
+
+namespace {
+
+struct Edge2 {
+  Point2 a, b;
+};
+
+PlanKernel::Point_2 exact(Point2 p) { return {p.u, p.v}; }
+
+/// +1 where `p` lies to the left of the edge, -1 to the right.
+int side(const Edge2& of, Point2 p) {
+  return CGAL::orientation(exact(of.a), exact(of.b), exact(p));
+}
+
+bool may_meet(const Edge2& e, const Edge2& f) {
+  return std::max(e.a.u, e.b.u) >= std::min(f.a.u, f.b.u) &&
+         std::max(f.a.u, f.b.u) >= std::min(e.a.u, e.b.u) &&
+         std::max(e.a.v, e.b.v) >= std::min(f.a.v, f.b.v) &&
+         std::max(f.a.v, f.b.v) >= std::min(e.a.v, e.b.v);
+}
+
+bool cross(const Edge2& e, const Edge2& f) {
+  return side(e, f.a) * side(e, f.b) < 0 && side(f, e.a) * side(f, e.b) < 0;
+}
+
+/// Of two edges that cross.
+Point2 crossing(const Edge2& e, const Edge2& f) {
+  const auto beyond = [&](Point2 p) {
+    return (e.b.u - e.a.u) * (p.v - e.a.v) - (e.b.v - e.a.v) * (p.u - e.a.u);
+  };
+  const double of_a = beyond(f.a), of_b = beyond(f.b);
+  return between(f.a, f.b, of_a == of_b ? 0 : of_a / (of_a - of_b));
+}
+
+}  // namespace
+
+std::optional<Point2> ring_crossing(const std::vector<std::vector<Point2>>& rings) {
+  std::vector<Edge2> edges;
+  for (const auto& ring : rings)
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      edges.push_back({ring[i], ring[(i + 1) % ring.size()]});
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (may_meet(edges[i], edges[j]) && cross(edges[i], edges[j]))
+        return crossing(edges[i], edges[j]);
+  return {};
+}
+
+}  // namespace sunload
