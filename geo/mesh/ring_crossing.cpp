@@ -15,11 +15,15 @@ struct Edge2 {
   Point2 a, b;
 };
 
-PlanKernel::Point_2 exact(Point2 p) { return {p.u, p.v}; }
-
-/// +1 where `p` lies to the left of the edge, -1 to the right.
-int side(const Edge2& of, Point2 p) {
-  return CGAL::orientation(exact(of.a), exact(of.b), exact(p));
+/// Whether the ends of `other` lie on both sides of an edge, none of them on its line.
+bool parts_ends(const Edge2& edge, const Edge2& other) {
+  const PlanKernel::Point_2 a(edge.a.u, edge.a.v), b(edge.b.u, edge.b.v);
+  int left = 0, right = 0;
+  for (const Point2& end : {other.a, other.b}) {
+    const int side = CGAL::orientation(a, b, PlanKernel::Point_2(end.u, end.v));
+    if (side != 0) ++(side > 0 ? left : right);
+  }
+  return left == 1 && right == 1;
 }
 
 bool may_meet(const Edge2& e, const Edge2& f) {
@@ -29,9 +33,7 @@ bool may_meet(const Edge2& e, const Edge2& f) {
          std::max(f.a.v, f.b.v) >= std::min(e.a.v, e.b.v);
 }
 
-bool cross(const Edge2& e, const Edge2& f) {
-  return side(e, f.a) * side(e, f.b) < 0 && side(f, e.a) * side(f, e.b) < 0;
-}
+bool cross(const Edge2& e, const Edge2& f) { return parts_ends(e, f) && parts_ends(f, e); }
 
 /// Of two edges that cross.
 Point2 crossing(const Edge2& e, const Edge2& f) {

@@ -18,7 +18,8 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 double first_number(const fs::path& path) {
   std::ifstream file(path);
   double number = 0;
-  return file >> number ? number : unlimited;
+  if (!(file >> number)) return unlimited;
+  return number;
 }
 
 /// The group's folder in a hierarchy, and those above it. In containers the hierarchy may begin

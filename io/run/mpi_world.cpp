@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
@@ -147,24 +148,25 @@ void MpiWorld::wait_for_all() {
   wait_for(request);
 }
 
-namespace {
-
-/// The largest of all ranks' numbers.
-std::uint64_t largest(std::uint64_t mine) {
-  std::uint64_t all = 0;
+bool MpiWorld::any(bool here) {
+  const int mine = here ? 1 : 0;
+  int all = 0;
   MPI_Request request{};
-  MPI_Iallreduce(&mine, &all, 1, MPI_UINT64_T, MPI_MAX, MPI_COMM_WORLD, &request);
+  MPI_Iallreduce(&mine, &all, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD, &request);
   wait_for(request);
-  return all;
+  MPI_Wait(&request, MPI_STATUS_IGNORE);  // has ended: readers of the code look for it
+  return all != 0;
 }
 
-}  // namespace
-
-bool MpiWorld::any(bool here) { return largest(here ? 1 : 0) != 0; }
-
 bool MpiWorld::all_have(std::uint64_t here) {
-  const std::uint64_t high = largest(here), low = ~largest(~here);
-  return high == low;
+  // The largest number, and what is left of all bits by the smallest.
+  const std::array<std::uint64_t, 2> mine{here, ~here};
+  std::array<std::uint64_t, 2> all{};
+  MPI_Request request{};
+  MPI_Iallreduce(mine.data(), all.data(), 2, MPI_UINT64_T, MPI_MAX, MPI_COMM_WORLD, &request);
+  wait_for(request);
+  MPI_Wait(&request, MPI_STATUS_IGNORE);  // has ended: readers of the code look for it
+  return all == mine;
 }
 
 #else

@@ -7,7 +7,8 @@
 /// exact sources integrated over time, know the sums without it; their mean is what gathering on
 /// the pooled lines gives within a tenth of its standard error. So the reflected light of a patch
 /// is scaled, batch by batch, until its time sum is theirs, and those of parts of the time are. Of
-/// what its total changes by, reflected light keeps what makes its own sum theirs, the sky the rest.
+/// what its total changes by, reflected light keeps what makes its own sum theirs, the sky the
+/// rest.
 #pragma once
 
 #include <array>
