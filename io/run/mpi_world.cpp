@@ -154,7 +154,7 @@ bool MpiWorld::any(bool here) {
   MPI_Request request{};
   MPI_Iallreduce(&mine, &all, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD, &request);
   wait_for(request);
-  MPI_Wait(&request, MPI_STATUS_IGNORE);  // has ended: readers of the code look for it
+  MPI_Wait(&request, MPI_STATUS_IGNORE);  // at once: it has ended, and checkers of MPI ask for it
   return all != 0;
 }
 
@@ -165,7 +165,7 @@ bool MpiWorld::all_have(std::uint64_t here) {
   MPI_Request request{};
   MPI_Iallreduce(mine.data(), all.data(), 2, MPI_UINT64_T, MPI_MAX, MPI_COMM_WORLD, &request);
   wait_for(request);
-  MPI_Wait(&request, MPI_STATUS_IGNORE);  // has ended: readers of the code look for it
+  MPI_Wait(&request, MPI_STATUS_IGNORE);  // at once: it has ended, and checkers of MPI ask for it
   return all == mine;
 }
 

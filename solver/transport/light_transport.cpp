@@ -10,9 +10,18 @@
 
 namespace sunload {
 
-std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced) {
+namespace {
+
+/// By the rules of the scene; `tried`: work that was done before it was chosen.
+std::unique_ptr<const LightTransport> of_rules(const TracedScene& traced, const WorkDone& tried) {
   if (traced.rules.transport == Transport::shoot) return std::make_unique<Shooting>(traced);
-  return std::make_unique<Gathering>(traced);
+  return std::make_unique<Gathering>(traced, tried);
+}
+
+}  // namespace
+
+std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced) {
+  return of_rules(traced, {});
 }
 
 std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced,
@@ -21,8 +30,7 @@ std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced,
   if (!ready.empty()) return std::make_unique<YearGathering>(traced, period, std::move(ready));
   WorkDone tried;
   if (auto year = year_where_it_pays(traced, period, tried, watch)) return year;
-  if (traced.rules.transport == Transport::shoot) return std::make_unique<Shooting>(traced);
-  return std::make_unique<Gathering>(traced, tried);
+  return of_rules(traced, tried);
 }
 
 }  // namespace sunload

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// How light goes from patch to patch: what every transport does, and the choice among them.
 ///
-/// A new one implements `LightTransport`, and has its line in `transport_of`.
+/// A new one implements `LightTransport`, and has its line in `of_rules`.
 #pragma once
 
 #include <memory>

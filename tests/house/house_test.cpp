@@ -196,6 +196,8 @@ TEST(House, OneFileKnowsEachForeignLibrary) {
       {"half.h", {"io/base/half_float"}},
       {"CLI/", {"io/command/command_line"}},
       {"gdal", {"io/export/geopackage", "io/scene/raster/gdal_file"}},
+      {"ogr_", {"io/export/geopackage", "io/scene/raster/footprints", "io/scene/raster/gdal_file"}},
+      {"cpl_", {"io/export/geopackage", "io/scene/raster/gdal_file"}},
       {"boost", {"io/base/statistics"}},
       {"CGAL", {"geo/mesh/constrained_delaunay", "geo/mesh/intersections"}},
       {"GeographicLib", {"geo/sun/site", "geo/sun/site_text"}},
