@@ -312,6 +312,19 @@ std::vector<std::uint8_t> covers_of(const Study& study, const BuiltScene& prepar
   return covers;
 }
 
+namespace {
+
+/// Results are of patches, and sensors beside them.
+void expect_patches(const Study& study, const Mesh& mesh) {
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.bears_patches(t)) return;
+  throw InputError(study.scene.where, "no surface of the scene can receive light",
+                   "all of them are floors, or covered by others",
+                   "give it ground (scene.ground), or other surfaces");
+}
+
+}  // namespace
+
 BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
                            const std::vector<std::uint8_t>& covers) {
   BuiltScene built = prepared;
@@ -331,6 +344,7 @@ BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
     warn_of_doubled(cut.taken, prepared.scene.mesh, are_left_out, built);
   }
   warn_of_doubled(find_doubled(built.scene.mesh), built.scene.mesh, receive_twice, built);
+  expect_patches(study, built.scene.mesh);
   built.bodies = {};
   built.seals.clear();
   return built;

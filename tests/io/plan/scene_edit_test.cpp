@@ -243,6 +243,26 @@ TEST_F(SceneEdit, LeavesTheSiteWhereItIs) {
   EXPECT_EQ(after.elevation_m, before.elevation_m);
 }
 
+TEST_F(SceneEdit, RefusesScenesThatAreLeftWithoutASurface) {
+  const auto built = [&](const Study& of) { return refusal_of([&] { build_scene(of); }); };
+  const std::string empty = built(study("{object: '*', remove: true}"));
+  EXPECT_NE(empty.find("scene.edit leaves nothing of the scene"), empty.npos) << empty;
+  // The floor of a house alone: it touches the ground.
+  folder_.write(
+      "floor.city.json",
+      R"({"type":"CityJSON","version":"1.1","transform":{"scale":[1,1,1],"translate":[0,0,0]},)"
+      R"("CityObjects":{"b":{"type":"Building","geometry":[{"type":"MultiSurface","lod":"1",)"
+      R"("boundaries":[[[0,3,2,1]]],"semantics":{"surfaces":[{"type":"GroundSurface"}],)"
+      R"("values":[0]}}]}},"vertices":[[0,0,0],[10,0,0],[10,10,0],[0,10,0]]})");
+  const std::string dark = built(
+      read_study(folder_.write("floor.yaml",
+                               "format: sunload-study-1\nname: s\nsite: {timezone: UTC, "
+                               "latitude_deg: 50, longitude_deg: 14}\nperiod: {days: "
+                               "[2026-03-21]}\nscene: {files: [floor.city.json], ground: none}\n"))
+          .variants.front());
+  EXPECT_NE(dark.find("no surface of the scene can receive light"), dark.npos) << dark;
+}
+
 TEST_F(SceneEdit, RefusesWhatCannotBeRaised) {
   folder_.write("town.obj", "o plate\nv 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n");
   const std::string said = refusal("{object: plate, raise: {by_m: 3}}");
