@@ -3,6 +3,7 @@
 #include "solver/gather/jacobi.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "geo/base/check.h"
 #include "geo/base/vector_code.h"
@@ -136,11 +137,12 @@ void count_all_as_gathered(const Hierarchy& mesh, const PatchOptics& optics, con
   light.before = light.irradiance;
 }
 
-}  // namespace
-
-Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
-                  const Columns& base, const Columns& ground, int bounces) {
-  Reflected out{ground, columns(mesh.element_count()), {}, {}};
+template <class Irradiance>
+ReflectedLight<Irradiance> reflected(const Hierarchy& mesh, const LineSet& lines,
+                                     const PatchOptics& optics, const Irradiance& base,
+                                     const Irradiance& ground, Irradiance no_radiosity,
+                                     int bounces) {
+  ReflectedLight<Irradiance> out{ground, std::move(no_radiosity), {}, {}};
   for (int b = 1; b <= passes(lines, bounces); ++b) {
     set_radiosity(mesh, optics, base, out);
     out.two_before.swap(out.before);
@@ -151,18 +153,18 @@ Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics
   return out;
 }
 
+}  // namespace
+
+Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
+                  const Columns& base, const Columns& ground, int bounces) {
+  return reflected(mesh, lines, optics, base, ground, columns(mesh.element_count()), bounces);
+}
+
 ReflectedExposure reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                           const std::vector<double>& base, const std::vector<double>& ground,
                           int bounces) {
-  ReflectedExposure out{ground, std::vector<double>(mesh.element_count(), 0), {}, {}};
-  for (int b = 1; b <= passes(lines, bounces); ++b) {
-    set_radiosity(mesh, optics, base, out);
-    out.two_before.swap(out.before);
-    out.before.swap(out.irradiance);
-    gather_onto(lines.patches, out.gathered_radiosity, ground, out.irradiance);
-    if (lines.all_reflections) count_all_as_gathered(mesh, optics, base, out);
-  }
-  return out;
+  return reflected(mesh, lines, optics, base, ground, std::vector<double>(mesh.element_count(), 0),
+                   bounces);
 }
 
 }  // namespace sunload

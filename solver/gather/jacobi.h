@@ -14,6 +14,7 @@
 /// number of bounces above 0, and leave nothing.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "solver/light/sun_block.h"
@@ -40,26 +41,25 @@ void gather(const LinkTable& links, const std::vector<double>& source, std::vect
 /// the last bounce, of every patch (solver/gather/unfollowed.h); empty: it is left.
 struct BounceRules {
   int bounces;
-  const std::vector<float>& beyond;
+  std::span<const float> beyond;
 };
 
-/// Diffusely reflected irradiance of a block of suns.
-struct Reflected {
-  Columns irradiance;  ///< [N][block]: everything after a diffuse reflection, and the far ground
-  Columns gathered_radiosity;  ///< [elements][block]: radiosity rho E^(n-1) that was gathered last
-  Columns before;              ///< `irradiance` one bounce earlier; empty without a bounce
-  Columns two_before;          ///< the same of two bounces
+/// Diffusely reflected irradiance.
+template <class Irradiance>
+struct ReflectedLight {
+  Irradiance irradiance;          ///< after a diffuse reflection, and of the far ground, of patches
+  Irradiance gathered_radiosity;  ///< rho E^(n-1), which was gathered last, of elements
+  Irradiance before;              ///< `irradiance` one bounce earlier; empty without a bounce
+  Irradiance two_before;          ///< the same of two bounces
 };
+using Reflected = ReflectedLight<Columns>;                      ///< of a block of suns [W m-2]
+using ReflectedExposure = ReflectedLight<std::vector<double>>;  ///< of a realization [J m-2]
+
 /// base: irradiance that arrives without diffuse reflection (direct, sky, mirror,
 /// lamps); ground: that of the far ground.
 Reflected reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                   const Columns& base, const Columns& ground, int bounces);
-
-struct ReflectedExposure {
-  std::vector<double> irradiance, gathered_radiosity;
-  std::vector<double> before, two_before;
-};
-/// The same for time-integrated irradiance of one realization [J m-2].
+/// The same for time-integrated irradiance.
 ReflectedExposure reflect(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                           const std::vector<double>& base, const std::vector<double>& ground,
                           int bounces);

@@ -142,7 +142,7 @@ const auto& before_last(const Light& reflected) {
 
 }  // namespace
 
-Columns unfollowed(const Reflected& reflected, const std::vector<float>& beyond) {
+Columns unfollowed(const Reflected& reflected, std::span<const float> beyond) {
   Columns out = columns(beyond.size());
   const Columns& before = before_last(reflected);
   if (before.empty()) return out;  // no bounce
@@ -153,8 +153,7 @@ Columns unfollowed(const Reflected& reflected, const std::vector<float>& beyond)
   return out;
 }
 
-std::vector<double> unfollowed(const ReflectedExposure& reflected,
-                               const std::vector<float>& beyond) {
+std::vector<double> unfollowed(const ReflectedExposure& reflected, std::span<const float> beyond) {
   std::vector<double> out(beyond.size(), 0);
   const std::vector<double>& before = before_last(reflected);
   if (before.empty()) return out;

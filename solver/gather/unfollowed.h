@@ -17,6 +17,7 @@
 /// patch are worse than none, since single patches are far from their limit after few bounces.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "solver/gather/jacobi.h"
@@ -35,9 +36,8 @@ std::vector<float> light_beyond(const Hierarchy& mesh, const LineSet& lines,
                                 const PatchOptics& optics, int bounces);
 
 /// Irradiance of a block by light that bounces do not follow, [N][block] W m-2, ≥ 0.
-Columns unfollowed(const Reflected& reflected, const std::vector<float>& beyond);
+Columns unfollowed(const Reflected& reflected, std::span<const float> beyond);
 /// The same for one realization, [N] J m-2.
-std::vector<double> unfollowed(const ReflectedExposure& reflected,
-                               const std::vector<float>& beyond);
+std::vector<double> unfollowed(const ReflectedExposure& reflected, std::span<const float> beyond);
 
 }  // namespace sunload
