@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "geo/base/keys.h"
 #include "solver/base/rng.h"
 #include "solver/base/spread.h"
 

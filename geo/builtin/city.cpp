@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "geo/base/keys.h"
 #include "geo/builtin/scenes.h"
 #include "geo/builtin/shapes.h"
 
@@ -19,13 +20,6 @@ constexpr double roof_grey = 0.25, land_grey = 0.2;
 // Of a gable house: floor 2, long walls 4, gables 6, roof 4; of its plot, a plate with a shaft:
 // top 8, bottom 8, sides 8 + 8.
 constexpr double triangles_per_house = 16 + 32;
-
-/// Steele, Lea, Flood (2014), Fast splittable pseudorandom number generators: finaliser mix64.
-std::uint64_t mixed(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
-}
 
 /// Sizes that differ from house to house, in steps of a decimetre.
 class Sizes {

@@ -7,6 +7,8 @@
 #include <bit>
 #include <cmath>
 
+#include "geo/base/keys.h"
+
 namespace sunload {
 
 namespace {
@@ -31,13 +33,6 @@ class CellLists {
  private:
   std::vector<std::int32_t> first_, next_;
 };
-
-/// Steele, Lea, Flood (2014), Fast splittable pseudorandom number generators: finaliser mix64.
-std::uint64_t mixed(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
-}
 
 std::uint64_t cell_hash(std::uint64_t x, std::uint64_t y, std::uint64_t z) {
   return mixed(mixed(mixed(x) ^ y) ^ z);

@@ -7,6 +7,7 @@
 
 #include "geo/base/check.h"
 #include "geo/sun/sun.h"
+#include "geo/time/change_of.h"
 
 namespace sunload {
 
@@ -20,17 +21,6 @@ constexpr double search_step_s = 1800;
 constexpr double fastest_deg_per_s = 15.1 / 3600;
 // Half the baseline of slopes: 0.004° of motion, a million times the rounding.
 constexpr double slope_step_s = 1;
-
-// Where `holds` changes between a, where it is `before`, and b: neighbouring instants at the end.
-template <class Predicate>
-UnixTime change_of(const Predicate& holds, UnixTime a, UnixTime b) {
-  const bool before = holds(a);
-  while (true) {
-    const UnixTime middle = a + (b - a) / 2;
-    if (middle <= a || middle >= b) return b;
-    (holds(middle) == before ? a : b) = middle;
-  }
-}
 
 /// Search for passages over a span, one step at a time.
 class CrossingSearch {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geo/base/units.h"
+#include "geo/time/change_of.h"
 
 namespace sunload {
 
@@ -14,16 +15,6 @@ namespace {
 double number_or_zero(const MeasureParameters& of, const std::string& key) {
   const auto found = of.numbers.find(key);
   return found == of.numbers.end() ? 0 : found->second;
-}
-
-template <class Predicate>
-UnixTime change_of(const Predicate& holds, UnixTime a, UnixTime b) {
-  const bool before = holds(a);
-  while (true) {
-    const UnixTime middle = a + (b - a) / 2;
-    if (middle <= a || middle >= b) return b;
-    (holds(middle) == before ? a : b) = middle;
-  }
 }
 
 /// Midnight to midnight: 23, 24 or 25 hours.

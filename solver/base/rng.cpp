@@ -4,6 +4,7 @@
 
 #include <Random123/philox.h>
 
+#include "geo/base/keys.h"
 #include "geo/base/vector_code.h"
 
 namespace sunload {

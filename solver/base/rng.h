@@ -50,21 +50,6 @@ struct alignas(64) RandomLanes {
 };
 RandomLanes random_lanes(const RandomKey& key_of_first);
 
-/// Mixes two numbers into a stable 64-bit key (finalizer of SplitMix64, Steele et al. 2014).
-constexpr std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
-  std::uint64_t z = a + 0x9e3779b97f4a7c15u * (b + 1);
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
-
-/// FNV-1a of a name, stable over runs and machines.
-constexpr std::uint64_t text_key(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return hash;
-}
-
 /// Uniform number in [0, 1) of 24 bits, exact in float.
 constexpr float uniform(std::uint32_t word) {
   return static_cast<float>(word >> 8) * (1.0f / 16777216.0f);

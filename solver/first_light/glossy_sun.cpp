@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "geo/base/keys.h"
 #include "geo/base/units.h"
 #include "solver/base/chunks.h"
 #include "solver/base/random_blocks.h"

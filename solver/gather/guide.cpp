@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "geo/base/keys.h"
 #include "solver/base/rng.h"
 #include "solver/base/threads.h"
 #include "solver/lines/patch_lines.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "geo/base/keys.h"
 #include "solver/base/rng.h"
 #include "solver/base/sampling.h"
 #include "solver/base/threads.h"

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "geo/base/check.h"
+#include "geo/base/keys.h"
 #include "solver/base/rng.h"
 
 namespace sunload {

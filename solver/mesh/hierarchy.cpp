@@ -7,6 +7,7 @@
 #include <string>
 
 #include "geo/base/check.h"
+#include "geo/base/keys.h"
 #include "geo/base/vector_code.h"
 #include "solver/base/rng.h"
 

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "geo/base/keys.h"
 #include "solver/base/rng.h"
 #include "solver/base/sampling.h"
 

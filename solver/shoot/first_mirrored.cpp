@@ -4,6 +4,7 @@
 
 #include <bit>
 
+#include "geo/base/keys.h"
 #include "solver/base/random_blocks.h"
 #include "solver/base/threads.h"
 #include "solver/light/sun_samples.h"

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "geo/base/check.h"
+#include "geo/base/keys.h"
 #include "solver/base/chunks.h"
 #include "solver/base/random_blocks.h"
 #include "solver/base/threads.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "geo/base/check.h"
+#include "geo/base/keys.h"
 #include "solver/base/rng.h"
 #include "solver/surface/clear_glass.h"
 #include "solver/surface/fresnel.h"

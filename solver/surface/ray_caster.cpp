@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "geo/base/check.h"
+#include "geo/base/keys.h"
 #include "solver/base/rng.h"
 #include "solver/base/threads.h"
 

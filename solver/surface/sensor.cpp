@@ -4,6 +4,7 @@
 
 #include <bit>
 
+#include "geo/base/keys.h"
 #include "solver/base/rng.h"
 
 namespace sunload {

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "geo/base/keys.h"
 #include "io/plan/interval_lights.h"
 #include "io/plan/rules_of_study.h"
 #include "io/plan/variant_mesh.h"

@@ -7,6 +7,7 @@
 #include <bit>
 #include <limits>
 
+#include "geo/base/keys.h"
 #include "io/scene/base/from_file.h"
 #include "io/scene/base/words.h"
 
@@ -91,17 +92,6 @@ class Collector {
   NoteCounter& notes_;
 };
 
-/// Bits of a number spread over all bits (the finalizer of splitmix64).
-std::uint64_t spread(std::uint64_t x) {
-  constexpr std::uint64_t gamma = 0x9E3779B97F4A7C15, first = 0xBF58476D1CE4E5B9,
-                          second = 0x94D049BB133111EB;
-  constexpr int shift = 30, second_shift = 27, third_shift = 31;
-  x += gamma;
-  x = (x ^ (x >> shift)) * first;
-  x = (x ^ (x >> second_shift)) * second;
-  return x ^ (x >> third_shift);
-}
-
 }  // namespace
 
 bool has_surfaces(std::string_view geometry) {
@@ -141,7 +131,7 @@ PolygonWriter::PolygonWriter(const CityDocument& document, CityCoordinates& coor
       notes_(notes) {}
 
 std::size_t PolygonWriter::PositionHash::operator()(const std::array<std::uint64_t, 3>& key) const {
-  return static_cast<std::size_t>(spread(key[0] ^ spread(key[1] ^ spread(key[2]))));
+  return static_cast<std::size_t>(mixed(key[0] ^ mixed(key[1] ^ mixed(key[2], 0), 0), 0));
 }
 
 std::int32_t PolygonWriter::vertex(Vec3 in_file, XmlElement ring) {
@@ -190,7 +180,7 @@ std::uint64_t PolygonWriter::add(const CityPolygon& polygon, PolygonModel::Facts
   }
   std::uint64_t key = 1;
   for (auto k = begin; k < model_.ring_vertex.size(); ++k)
-    key += spread(static_cast<std::uint64_t>(model_.ring_vertex[k]));
+    key += mixed(static_cast<std::uint64_t>(model_.ring_vertex[k]), 0);
   for (const auto side : polygon.element.children()) {
     if (side.name() != "interior" && side.name() != "innerBoundaryIs") continue;
     if (!add_ring(side, polygon.is_flipped))

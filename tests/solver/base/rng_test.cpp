@@ -3,6 +3,7 @@
 /// Random numbers by address: published vectors, lanes, independence of keys.
 
 #include "solver/base/rng.h"
+#include "geo/base/keys.h"
 
 #include <gtest/gtest.h>
 
