@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// How many lines, direct samples and, when shooting, samples of power a study needs for the
-/// accuracy it asks for, by what a pilot found out.
+/// Numbers of lines, direct samples and, when shooting, samples of power that a study needs for the
+/// accuracy that it asks for, from what a pilot found.
 ///
 /// Every patch gets the lines that it needs itself. Direct samples and samples shot are doubled
 /// until the goals are met on 95 % of the leaf area that counts, the cheapest way. All counts
@@ -19,7 +19,7 @@
 
 namespace sunload {
 
-/// At least one of the two.
+/// What a study asks for: at least one of the two errors is given.
 struct AccuracyGoal {
   std::optional<double> light_load_relative = {};  ///< standard error / light load of a patch
   int most_per_patch = 4096;                       ///< lines, direct samples, samples shot
@@ -55,6 +55,8 @@ struct SampleCounts {
 struct KeptArea {
   double counts = 0, kept = 0;
 };
+/// `area`: [receiver], m2. Sums over the intervals of the tally, whose series of totals and of
+/// their errors must have been kept.
 KeptArea kept_area(const ReceiverTally& tally, const std::vector<double>& area,
                    double irradiance_relative);
 

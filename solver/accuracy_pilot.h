@@ -29,6 +29,8 @@ struct Spread {
   std::vector<double> of_shot;    ///< c; empty: none is shot
 };
 
+/// What the pilot found of every patch: values, and the variances that one line, one direct sample
+/// and one sample shot would bring.
 struct PatchSpread {
   std::vector<double> area;        ///< m2
   Spread load;                     ///< J m-2
@@ -46,6 +48,7 @@ struct AccuracyPilotSuns {
   std::vector<std::size_t> places;  ///< in the list of these intervals
   double weight = 1;                ///< of them for which each stands
 };
+/// `lit`: how many intervals with light the period has.
 AccuracyPilotSuns accuracy_pilot_suns(std::size_t lit);
 
 /// The rules that the pilot of a study solves by. Its realizations are like the study's own (the
@@ -53,6 +56,7 @@ AccuracyPilotSuns accuracy_pilot_suns(std::size_t lit);
 /// may not be as many as that takes.
 SolverRules rules_of_accuracy_pilot(SolverRules of_study, bool of_instants);
 
+/// How the suns of a pilot stand for the period, and what is asked of them beside the light load.
 struct AccuracyPilotRules {
   double weight = 1;  ///< suns of the period for which each of the pilot's stands
   std::size_t batch_suns = block_width;  ///< of the period, which share samples when shooting

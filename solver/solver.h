@@ -16,14 +16,15 @@
 
 namespace sunload {
 
+/// Results of one batch.
 struct Solved {
   std::vector<BatchTally> bands;  ///< in the order of `band_names`; broadband light is one band
   WorkDone work;                  ///< of this batch
 };
 
-/// Suns of a batch that suit a period (`batch_suns: auto` of a study). In few and large ones suns
-/// of one hour stand together, which one look at the scene serves, and fewer totals of all
-/// realizations are made.
+/// Number of suns in a batch that suits a period (`batch_suns: auto` of a study). In few and large
+/// batches suns of one hour stand together, so that one look at the scene serves them, and fewer
+/// totals of all realizations are made.
 int batch_suns_for(std::size_t intervals);
 
 /// Room for what a scene gets in consecutive intervals, and in `parts` of their time.
@@ -41,9 +42,9 @@ struct Stretch {
   std::size_t scene = 0, intervals = 0;
 };
 
-/// The same where materials change in the course of time, so that scenes that differ in nothing
-/// else, each with its transport, take turns. `stretches` make up the batch. A part of light that
-/// any of the scenes can have is there in all batches.
+/// The same where materials change in the course of time: scenes that differ in nothing else, each
+/// with its transport, take turns. `stretches` make up the batch. A part of light that any of the
+/// scenes can have is there in all batches.
 Solved solve_in_turns(std::span<const LightTransport* const> scenes,
                       std::span<const Stretch> stretches, std::span<const IntervalLight> batch,
                       Watch& watch, std::span<const PartOfBatch> parts = {});

@@ -64,6 +64,7 @@ class Problems {
   std::vector<std::string> list_;
 };
 
+/// Throws std::logic_error with condition, place in the source and context.
 [[noreturn]] void contract_failed(const char* condition, const char* file, int line,
                                   const std::string& context);
 

@@ -20,6 +20,7 @@ struct Id {
   friend auto operator<=>(const Id&, const Id&) = default;
 };
 
+/// The id of that place in its table.
 template <class IdType>
 constexpr IdType make_id(std::size_t index) {
   return {static_cast<std::int32_t>(index)};

@@ -13,9 +13,11 @@ namespace sunload {
 
 class Pattern {
  public:
+  /// Whether capital and small letters differ.
   enum class Letters { by_case, of_any_case };
   explicit Pattern(const std::string& expression, Letters letters = Letters::by_case);
 
+  /// What a group has matched; part 0 is the whole match.
   struct Part {
     bool matched = false;  ///< false for a group that the match went without
     std::string text;

@@ -15,12 +15,15 @@
 
 namespace sunload::builtin {
 
+/// Finishes of the parts of a house, by what they are.
 struct HouseFinishes {
   Finish wall, base_wall, trim, frame, window, door, roof, balcony, floor, chimney;
 };
 
+/// Panes of a window: one, two side by side, or two with a light above each.
 enum class Panes { one, two, four };
 
+/// Measures of a window [m].
 struct WindowKind {
   double width = 1.1, height = 1.9;
   double reveal = 0.2;  ///< depth of the frame behind the wall
@@ -62,6 +65,7 @@ void roof_window(Face& slope, Point2 middle, const HouseFinishes& finishes);
 /// two ends are gables. All faces are kept open for windows until `emit`.
 class Sweep {
  public:
+  /// One edge of the profile, and what its face is made of.
   struct Edge {
     Point2 from;  ///< the edge runs to the next one's `from`
     Finish finish;

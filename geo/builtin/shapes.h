@@ -26,6 +26,7 @@ struct Point2 {
 /// A closed line, counter-clockwise seen from the front of its face.
 using Ring = std::vector<Point2>;
 
+/// Its corners, counter-clockwise from `low`.
 Ring rectangle(Point2 low, Point2 high);
 
 /// A plane with orthonormal axes; the front is where u × v points to.
@@ -48,6 +49,7 @@ struct Finish {
 
 /// Where the next bodies stand: turned about the vertical, then moved.
 enum class Turn { none, half };
+/// Turned by nothing or by half a turn, then moved by `position` [m].
 struct Placement {
   Vec3 position;
   Turn turn = Turn::none;
@@ -126,6 +128,7 @@ void prism(Builder& builder, const Ring& outline, double z_low, double z_high, P
 
 /// The ring about `centre`, each point `factor` times as far from it.
 Ring scaled(const Ring& ring, Point2 centre, double factor);
+/// Every point moved by `by`.
 Ring moved(const Ring& ring, Point2 by);
 
 /// A body of revolution about the vertical through `foot`: points (radius,

@@ -10,7 +10,9 @@
 
 namespace sunload::builtin {
 
+/// Shape of the roof over the whole depth of a house.
 enum class Roof { gable, mansard };
+/// What the front has at street level: windows of flats, or shop windows.
 enum class GroundFloor { flats, shops };
 
 /// A tenement house; lengths in metres.

@@ -20,7 +20,9 @@ struct LooseFace {
   std::vector<std::vector<Vec3>> rings;
   PolygonModel::Facts facts;
 };
+/// A copy of a polygon of the model.
 LooseFace face_of(const PolygonModel& model, std::size_t polygon);
+/// Copies of all polygons of an object, in the order of the model.
 std::vector<LooseFace> faces_of(const PolygonModel& model, ObjectId object);
 
 /// Twice the area vector of the outer ring.

@@ -20,6 +20,7 @@ inline constexpr double thinnest_body_m = 1;
 /// Nothing where no face is a roof.
 std::optional<double> eaves_of(const std::vector<LooseFace>& faces);
 
+/// Where an object was cut and what came of it.
 struct RaisedObject {
   double cut_m = 0;             ///< height that walls are extended at, absolute
   double level_m = 0;           ///< corners at and above are lifted: `cut_m` less rounding of files

@@ -21,6 +21,7 @@ bool lies_in(const std::vector<PlanArea>& areas, Point2 point);
 /// The corners of a rectangle about its middle, turned clockwise seen from above.
 PlanArea rectangle_in_plan(Point2 middle, double width_m, double depth_m, double turn_deg);
 
+/// Name, CityJSON type and material of an object that is added.
 struct SolidFacts {
   std::string name, kind;
   std::string material;  ///< empty: none of its own

@@ -17,6 +17,7 @@ namespace sunload {
 /// Surfaces this near to each other touch: or 1e-4 of the scene's diagonal, where that is less.
 inline constexpr double contact_m = 2e-3;  // city models are written in whole millimetres
 
+/// What cut_covered did to a mesh.
 struct CoveredCut {
   std::vector<std::size_t> source;  ///< per triangle that there is now: what it is (a part) of
   std::size_t cut = 0;              ///< triangles that were divided

@@ -18,6 +18,7 @@ inline constexpr double roundings_per_contact = 100;
 /// What is said of a part of a triangle: `taken` is where another triangle is instead.
 enum class CoverState : std::uint8_t { open, covered, taken };
 
+/// A triangle that is a part of another, and whether it is covered.
 struct TrianglePart {
   std::array<std::array<double, 3>, 3> corners;  ///< of new ones; the old ones are told by `old`
   std::array<std::int32_t, 3> old;               ///< vertex of the mesh, or -1

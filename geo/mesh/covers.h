@@ -14,6 +14,8 @@
 
 namespace sunload {
 
+/// Answers questions about single triangles and pairs of them, by their numbers in the mesh. Const,
+/// but counts the pairs that are visited.
 class Covers {
  public:
   /// As of `cut_covered`; all must outlive it.

@@ -54,13 +54,16 @@ class Plane {
   bool is_mirrored_ = false;
 };
 
+/// A polygon with holes, and the plane that it is seen in.
 struct PlanePolygon {
   std::vector<Ring> rings;  ///< [0] is the outer one
   Plane plane;
   double area2 = 0;  ///< doubled: outer ring less holes
 };
 
+/// The triangles of one polygon.
 struct PolygonTriangles {
+  /// How well the triangles fill the polygon.
   enum class Outcome {
     exact,     ///< the area is that of the polygon
     crossing,  ///< rings cross: corners may be new, the area is what it came to

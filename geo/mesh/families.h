@@ -26,6 +26,7 @@ struct BareObject {
   Owner owner = {};
 };
 
+/// What each object of a model belongs to.
 struct Families {
   std::vector<Owner> of_object;  ///< may be fewer than objects: the others belong to nothing
   std::vector<BareObject> bare;

@@ -30,12 +30,14 @@ inline constexpr double foot_reach_m = 30;
 /// In the place of a wall that was dropped.
 inline constexpr std::size_t no_wall = static_cast<std::size_t>(-1);
 
+/// How a foot stands with regard to the ground and to other bodies.
 enum class Stance {
   ground,   ///< the ground goes through the foot
   body,     ///< another body is below most of it
   hovering  ///< too far above (or below) the feet beside it: a balcony, a passage, a cellar
 };
 
+/// The lower edges of one body.
 struct Foot {
   std::int32_t body = -1;
   ObjectId object;

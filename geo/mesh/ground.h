@@ -17,6 +17,7 @@ namespace sunload {
 /// feet: through the lower edges of walls, the land between interpolated. level: a plate.
 enum class GroundSurface { feet, level };
 
+/// The ground that is asked for.
 struct GroundRules {
   double margin_m = 50;  ///< beyond the bounding box of the scene, on each side
   GroundSurface surface = GroundSurface::feet;
@@ -63,6 +64,7 @@ struct Standing {
 Standing standing_on(const Mesh& mesh, const std::vector<Foot>& feet,
                      const std::optional<GroundRules>& rules, std::size_t body_count);
 
+/// What add_ground has made.
 struct GroundMade {
   GroundReport report;
   /// Per triangle 1: a wall drawn down, or a floor that such walls or the terrain close: no light

@@ -10,6 +10,7 @@
 
 namespace sunload {
 
+/// Counts of pairs, each pair once.
 struct Intersections {
   std::size_t cutting = 0;                 ///< pairs of triangles, each on both sides of the other
   std::size_t covering = 0;                ///< pairs in one plane that share some area

@@ -17,6 +17,7 @@ using Segment = std::array<Vec3, 2>;
 /// it: the party walls of a terrace, each written by itself.
 inline constexpr double land_snap_m = 0.01;
 
+/// Lines that land goes through, heights included [m, relative to the mesh's origin].
 struct LandLines {
   std::vector<Segment> rims;              ///< of terrain: the land has their heights
   std::vector<Segment> feet;              ///< elsewhere it is nowhere lower than these
@@ -24,6 +25,7 @@ struct LandLines {
   double x0 = 0, x1 = 0, y0 = 0, y1 = 0;  ///< the rectangle that it fills
 };
 
+/// Triangles of land over the whole rectangle.
 struct Land {
   std::vector<Vec3> points;
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise seen from above

@@ -15,6 +15,8 @@
 
 namespace sunload {
 
+/// Kind of a surface. A floor touches the ground or another body: it casts shadows and has no
+/// patches.
 enum class Surface : std::uint8_t { other, wall, roof, ground, window, floor };
 inline constexpr std::array<const char*, 6> surface_names{"other",  "wall",   "roof",
                                                           "ground", "window", "floor"};
@@ -47,6 +49,7 @@ struct FileMaterial {
 /// vertices ring_vertex[ring_begin[r] … ring_begin[r+1]-1]. Coordinates are
 /// metres, z up, absolute (national grids keep their millions of metres).
 struct PolygonModel {
+  /// What a reader knows of one polygon.
   struct Facts {
     ObjectId object;
     MaterialId material = MaterialId::none();  ///< into `materials`
@@ -136,9 +139,11 @@ struct Mesh {
   }
 };
 
+/// An axis-parallel box [m]; a new one holds nothing, with `low` above `high`.
 struct Box {
   Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
 };
+/// The smallest box about the points.
 Box bounding_box(const std::vector<Vec3>& points);
 
 }  // namespace sunload

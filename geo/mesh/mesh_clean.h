@@ -16,6 +16,7 @@ void keep_triangles(Mesh& mesh, const std::vector<std::uint8_t>& keep);
 /// Drops vertices that no triangle uses; the others keep their order.
 void drop_unused_vertices(Mesh& mesh);
 
+/// Triangles that lay in the place of another one of their object.
 struct Duplicates {
   std::size_t dropped = 0;
   /// Per triangle that is left: 1 where a front and a back were in the same place.

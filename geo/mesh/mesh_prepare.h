@@ -49,6 +49,7 @@ enum class Repair { none, safe, all };
 /// outward: closed bodies are lit outside. keep: the winding of the file, for rooms lit inside.
 enum class Orientation { outward, keep };
 
+/// How far a model is repaired, and what it gets.
 struct PrepareRules {
   Repair repair = Repair::safe;
   std::optional<GroundRules> ground;
@@ -88,6 +89,7 @@ struct PrepareReport {
   std::vector<std::string> warnings;  ///< ready to print, each states its consequence
 };
 
+/// A mesh that is fit for rays, with what later steps need of its preparation.
 struct PreparedMesh {
   Mesh mesh;
   PrepareReport report;

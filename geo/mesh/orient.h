@@ -24,6 +24,7 @@ struct Body {
   Box box;
 };
 
+/// The bodies of a mesh, and counts of what their edges are like.
 struct Bodies {
   std::vector<Body> bodies;                 ///< in the order of their first triangle
   std::vector<std::int32_t> triangle_body;  ///< -1: part of no body (a merged front and back)

@@ -16,6 +16,7 @@ struct NearestOnLine {
 };
 NearestOnLine nearest_in_plan(const Segment& line, double x, double y);
 
+/// Finds lines by a tree of their boxes in plan.
 class PlanLines {
  public:
   /// `lines` must outlive it.

@@ -17,6 +17,7 @@ class PointTree {
   /// `points` are indices into `vertices`, which must outlive the tree.
   PointTree(const std::vector<Vec3>& vertices, std::vector<std::int32_t> points);
 
+  /// What a search has found.
   struct Found {
     std::vector<std::int32_t> points;  ///< in no particular order
     std::size_t looks = 0;             ///< boxes and points compared: what the search has cost

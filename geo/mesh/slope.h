@@ -12,6 +12,8 @@ namespace sunload {
 /// A face steeper than this is upright.
 inline constexpr double upright_slope_deg = 70;
 
+/// Which way a face looks: upward or downward where it leans no more than `upright_slope_deg` from
+/// level, else upright.
 enum class Slope { upward, upright, downward };
 /// Nothing for a triangle without area.
 std::optional<Slope> slope_of(const Mesh& mesh, std::size_t triangle);

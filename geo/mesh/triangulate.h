@@ -28,6 +28,7 @@
 
 namespace sunload {
 
+/// How many polygons were unusual.
 struct TriangulationCounts {
   std::size_t with_holes = 0, nonplanar = 0, crossing = 0;
   std::size_t collapsed = 0;       ///< less than three distinct corners, or no area: dropped

@@ -10,6 +10,7 @@
 
 namespace sunload {
 
+/// Distinct points, and which of them each given point became.
 struct Welded {
   std::vector<Vec3> vertices;           ///< distinct points, in the order of their first use
   std::vector<std::int32_t> new_index;  ///< of each given point; -1 where it is not used

@@ -14,8 +14,11 @@
 
 namespace sunload {
 
+/// uniform: the same radiance everywhere; cie_general: one of 15 types (`SkyInput::cie_type`);
+/// references at `Sky`.
 enum class SkyModel { uniform, cie_overcast, cie_clear, cie_general, perez, preetham };
 
+/// What a sky is made from. Only the numbers of its model count beside `dhi` and the sun.
 struct SkyInput {
   SkyModel model = SkyModel::perez;
   double dhi = 0;  ///< horizontal diffuse irradiance to be met [W m-2]

@@ -10,6 +10,7 @@
 
 namespace sunload {
 
+/// Releases what PROJ has handed out.
 struct ProjDeleter {
   void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
   void operator()(PJ* object) const { proj_destroy(object); }

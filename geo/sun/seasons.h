@@ -9,6 +9,7 @@
 
 namespace sunload {
 
+/// Where the sun stands on the ecliptic, by quarters of the year.
 enum class Season { march_equinox, june_solstice, september_equinox, december_solstice };
 
 /// When the sun's apparent geocentric longitude is 0°, 90°, 180° or 270° in a year of the
@@ -21,6 +22,7 @@ CivilTime season_date(Season season, int year, const TimeZone& zone);
 /// A day named as in `june_solstice 2026`, also `summer_solstice` and `winter_solstice`,
 /// which the sign of the latitude tells apart.
 struct NamedDay {
+  /// The first four are the same everywhere; summer and winter depend on the hemisphere.
   enum class Name {
     march_equinox,
     june_solstice,

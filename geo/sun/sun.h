@@ -16,6 +16,7 @@
 
 namespace sunload {
 
+/// By what the true elevation is raised: nothing, or one of the models at `refraction_deg`.
 enum class Refraction { none, spa, bennett };
 
 /// The sun as a point, or as a disk that makes penumbrae.

@@ -72,6 +72,7 @@ WeatherSource source_of(const std::vector<DatedWeather>& weather);
 /// Whether a value that the source needs is missing.
 bool is_incomplete(const WeatherValues& values, WeatherSource source);
 
+/// Weather after `fill_missing`, and how much was missing.
 struct FilledWeather {
   std::vector<DatedWeather> weather;
   std::size_t records = 0;  ///< that had something missing
@@ -92,6 +93,7 @@ struct SunnyWeather {
   SunInterval when;
   Irradiance mean;
 };
+/// Records as light, and beams that came at night.
 struct WeatherLight {
   std::vector<SunnyWeather> intervals;
   std::size_t dark_beams = 0;    ///< intervals with DNI but without sun …

@@ -31,6 +31,7 @@ struct PartShare {
   double share = 1;
 };
 
+/// One month, season, day or hour of day, and the intervals that it is made of.
 struct PeriodPart {
   std::string label;                 ///< "2026-06", "summer", "2026-06-21", "8"
   TimeSpan bounds{};                 ///< of the month or day in the calendar, else zeros
@@ -38,6 +39,7 @@ struct PeriodPart {
   std::vector<PartShare> intervals;  ///< in their order
 };
 
+/// All parts of a period of one kind.
 struct PeriodDivision {
   PartKind kind = PartKind::month;
   std::vector<PeriodPart> parts;  ///< that have time; in the order of time, of the year, of the day

@@ -21,6 +21,7 @@ struct CivilTime {
 /// What happened to a wall-clock reading at a change of the clocks.
 enum class ClockChange { none, skipped, repeated };
 
+/// A wall-clock reading as an instant.
 struct ResolvedTime {
   UnixTime utc = 0;
   ClockChange change =
@@ -76,6 +77,7 @@ enum class Ut1 { table, zero };
 struct JulianDate {
   double day = 0, fraction = 0;
 };
+/// One instant in UTC, UT1 and terrestrial time.
 struct TimeScales {
   JulianDate utc, ut1, tt;
 };

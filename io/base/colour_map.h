@@ -28,6 +28,7 @@ struct Colour {
 /// Of what has no value: backs of surfaces, values that are not known.
 inline constexpr Colour back_colour{0.72, 0.72, 0.72};
 
+/// CIELAB coordinates (CIE 1976): lightness 0 … 100, a from green to red, b from blue to yellow.
 struct Lab {
   double lightness = 0, a = 0, b = 0;
 };
@@ -41,6 +42,7 @@ Lab lab_from_srgb(Colour colour);
 double linear_from_srgb(double channel);
 double srgb_from_linear(double channel);
 
+/// The palettes described at the head of this file.
 enum class Palette { false_colour, grey, hue, difference };
 
 /// Colour of `share` in [0, 1]; beyond, that of the nearer end.

@@ -17,7 +17,9 @@ class LockFile {
   LockFile(const LockFile&) = delete;
   LockFile& operator=(const LockFile&) = delete;
 
+  /// Whether `lock` gives up at once where another process has the lock, or waits for it.
   enum class Way { at_once, waiting };
+  /// What came of an attempt to lock.
   enum class Outcome {
     locked,
     held,      ///< by another process

@@ -13,6 +13,7 @@ namespace sunload {
 
 /// Where an output goes, links followed.
 struct OutputTarget {
+  /// What stands under the name.
   enum class Kind {
     file,        ///< a regular file, there or not: may be replaced
     special,     ///< a device, pipe or socket: is written into

@@ -15,6 +15,7 @@ namespace sunload {
 /// lets it go when its holder dies, on whatever machine, and wakes one of those who wait.
 class WaitingLock {
  public:
+  /// What happens while another process has the lock.
   struct Rules {
     std::function<bool()> is_cancelled{};  ///< asked every tenth of a second while waiting
     std::function<void()> waiting{};       ///< called once, where another process has the lock

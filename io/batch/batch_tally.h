@@ -36,6 +36,7 @@ inline constexpr const char* work = "work";  ///< see WorkDone
 
 /// What a batch has of the parts of the period, for its file.
 struct BatchParts {
+  /// Where the totals of a part of the period come from.
   struct Source {
     std::size_t part = 0;               ///< number in the period, over all divisions
     bool with_errors = true;            ///< the realizations' sums, too
@@ -72,6 +73,7 @@ inline const std::string step_prefix = "step/";
 
 /// What a batch has of the steps that series are means over.
 struct BatchSteps {
+  /// One step, or as much of it as lies in the batch.
   struct Row {
     std::size_t first = 0, end = 0;  ///< intervals within the batch
   };

@@ -22,6 +22,7 @@
 
 namespace sunload {
 
+/// Values of a chunk: rows in time, columns of patches.
 struct ChunkShape {
   std::size_t rows = 0, columns = 0;
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Batch files: a finished unit of work (variant, batch) as one valid file.
 ///
-/// A batch is a set of named arrays, each with the rule by which merge puts
-/// arrays of consecutive batches together. Large series arrays lie in the file
-/// as the very chunks of the result file (shuffled, deflated), so that merge
-/// copies bytes. Written aside, fsynced, renamed. See docs/batch-file.md.
+/// A batch is a set of named arrays, each with the rule by which it is put together with those of
+/// the batches before and after. Large series arrays are stored in the same chunks (shuffled,
+/// deflated) as in the result file, so that merging copies bytes. A file is written under another
+/// name, synced to disk, then renamed. See docs/batch-file.md.
 #pragma once
 
 #include <cstddef>
@@ -19,23 +19,28 @@
 
 namespace sunload {
 
-/// `step`: rows are those of steps of the series, which may go on in the next batch: its first row
-/// then is added to the last one.
+/// How arrays of consecutive batches become one. append: rows one after another; sum: added;
+/// maximum: the larger of two values; step: rows are steps of the series, and a step that goes on
+/// in the next batch is the sum of that batch's first row and of the last row before.
 enum class MergeRule : std::uint8_t { append, sum, maximum, step };
+/// How values are stored.
 enum class ArrayType : std::uint8_t { float32, float64 };
 
 /// Shape of the chunks of series in result and batch files.
 inline constexpr std::size_t patches_per_chunk = 4096;
 
+/// One array of a batch: its name, shape and rule. A float32 series [time, n] is chunked.
 struct ArraySpec {
   std::string name;
   MergeRule rule = MergeRule::append;
   ArrayType type = ArrayType::float64;
   std::vector<std::size_t> dims;  ///< `append`: the first is time within the batch
-  /// That a chunked array keeps, and that the result of steps is to keep; others keep all.
+  /// Bits of the mantissa that a chunked array keeps; of an array by steps, that the result will
+  /// keep. Other arrays keep all.
   int mantissa_bits = all_mantissa_bits;
 };
 
+/// What a batch is of, and how its arrays are stored.
 struct BatchHeader {
   std::string content_hash;  ///< hex SHA-256 of what decides the numbers
   std::string variant;
@@ -44,7 +49,8 @@ struct BatchHeader {
   std::size_t first_interval = 0, interval_count = 0;
   std::size_t chunk_intervals = 64;  ///< length of a chunk in time (batch_suns)
   int compression = 4;
-  /// Series that the study does not store: no batch of them can be merged where it does.
+  /// Series that the study of this batch does not store. A study that stores one of them cannot
+  /// merge the batch.
   std::vector<std::string> left_out{};
 };
 
@@ -53,7 +59,7 @@ class BatchWriter {
  public:
   explicit BatchWriter(BatchHeader header);
   void add(const ArraySpec& spec, const double* values);
-  /// Keeps them as they are: large ones are not there twice.
+  /// Moves the values in: large arrays are not in memory twice.
   void add(const ArraySpec& spec, std::vector<double>&& values);
   /// float32 arrays [time, n]: compressed in chunks, in parallel.
   void add(const ArraySpec& spec, const float* values);
@@ -76,14 +82,14 @@ class BatchReader {
   explicit BatchReader(const std::string& path);
   ~BatchReader();
   BatchReader(BatchReader&&) noexcept;
-  /// All of it. Throws InputError where the file is damaged.
+  /// Reads the whole file. Throws InputError where it is damaged.
   void verify() const;
   const std::string& path() const;
   const BatchHeader& header() const { return header_; }
   const std::vector<ArraySpec>& arrays() const { return specs_; }
   bool has(const std::string& name) const;
   const ArraySpec& spec(const std::string& name) const;
-  /// Whole arrays; float32 arrays may be had as doubles too.
+  /// A whole array; one of float32 may be read as doubles too.
   std::vector<double> doubles(const std::string& name) const;
   std::vector<float> floats(const std::string& name) const;  ///< decompressed
   /// Compressed chunk c (patches c·4096 …) of a chunked array, as HDF5 wants it:
@@ -109,8 +115,8 @@ class BatchReader {
 /// Throws InputError where `batch` lacks series other than those of `may_lack`.
 void expect_series(const BatchReader& batch, const std::vector<std::string>& may_lack);
 
-/// Whether `path` is a valid batch of that hash and number, that lacks no series but those of
-/// `may_lack`; a reason if it is there but not valid.
+/// Whether `path` is a valid batch of that hash and number, without a lack of series other than
+/// those of `may_lack`. `reason` tells what is wrong with a file that is there but not valid.
 struct BatchCheck {
   bool exists = false, valid = false;
   std::string reason;

@@ -3,9 +3,9 @@
 /// What does not depend on the batch, kept beside the batches: the traced lines, and the skies and
 /// suns that are solved for a period which few solutions serve (solver/transport/node_light).
 ///
-/// Shards and ranks, and who goes on with the work, read them instead of tracing and solving again.
-/// The file is checked by content hash, length and checksum, safe to delete, rebuilt if missing;
-/// the numbers are the same bits either way.
+/// Shards and ranks read them instead of tracing and solving again, and so does a process that goes
+/// on with the work. The file is checked by content hash, length and checksum, safe to delete,
+/// rebuilt if missing; the numbers are the same bits either way.
 #pragma once
 
 #include <optional>
@@ -22,6 +22,7 @@ namespace sunload {
 void write_prepared(const std::string& path, const std::string& content_hash, const Lines& lines,
                     const std::vector<const SolvedNodes*>& nodes = {});
 
+/// What a prepared file holds.
 struct Prepared {
   Lines lines;
   std::vector<SolvedNodes> nodes;  ///< of each band; none: each interval has its own solution

@@ -27,7 +27,9 @@ inline constexpr std::size_t column_count = 6;
 inline constexpr std::array column_names{"sun",      "sky",     "far_ground",
                                          "reflects", "mirrors", "shines"};
 
+/// One row of the table, in the unit of the explanation.
 struct ExplainedRow {
+  /// What the row is of, in the order of the table.
   enum class Kind { open, object, sum, result, remainder } kind;
   std::string name;  ///< of an object; else empty
   /// NaN where the result does not divide its light so.
@@ -39,6 +41,7 @@ struct ExplainedRow {
 /// "open", "object" …
 std::string kind_name(ExplainedRow::Kind kind);
 
+/// The table for one place of one result, or of the difference of two.
 struct Explanation {
   std::string study, variant, base;  ///< base: of the result that it is compared with, or empty
   std::string place;                 ///< as it was named

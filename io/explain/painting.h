@@ -16,6 +16,7 @@
 
 namespace sunload {
 
+/// What painting one material, or one object's surfaces of it, brings.
 struct PaintedRow {
   enum class Kind { material, surface } kind;  ///< everywhere, or on one object
   std::string material, object;                ///< object: of a surface
@@ -25,6 +26,7 @@ struct PaintedRow {
   double per_100_m2() const { return 100 * change / area_m2; }
 };
 
+/// What painting brings for one place of one result.
 struct Painting {
   std::string study, variant, place, part;  ///< part of the period; empty: the whole
   std::string units, extent;

@@ -18,6 +18,7 @@
 
 namespace sunload {
 
+/// What the rows and columns of a table are; surfaces: kinds of surface.
 enum class FactorsBetween { patches, facades, objects, surfaces };
 /// Of "patch" (or nothing), "facade", "object", "surface". Throws InputError for other words.
 FactorsBetween factors_between(const std::string& word);

@@ -37,11 +37,13 @@ struct InitRules {
 /// Areas of the surfaces that could be patches [m2].
 using Areas = std::array<double, surface_names.size()>;
 
+/// A material of the model, and the area that it has.
 struct FoundMaterial {
   FileMaterial material;
   double area_m2 = 0;
 };
 
+/// What `init` knows before it writes a study.
 struct Findings {
   std::string crs;           ///< empty: none is known
   std::optional<Site> site;  ///< nothing where no place is known

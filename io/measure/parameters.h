@@ -18,6 +18,7 @@ struct MeasureOf {
   std::string object, facade, surface, selection;
 };
 
+/// One measure as the study writes it, with what it leaves out filled in.
 struct MeasureParameters {
   std::string name;                          ///< of its datasets: measure_NAME
   std::string rule;                          ///< word in `measure_rules`

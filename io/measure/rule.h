@@ -85,6 +85,7 @@ struct RuleWords {
   std::vector<std::string> words;
 };
 
+/// What a rule is, which keys it knows, and how a measure by it is begun.
 struct MeasureRule {
   std::string word;        ///< by which studies name it
   std::string definition;  ///< one sentence
@@ -94,6 +95,8 @@ struct MeasureRule {
   std::vector<RuleWords> words = {};
   /// Month and day of the year in which the period begins; {0, 0}: a date must be written.
   std::optional<std::pair<int, int>> day = {};
+  /// The most that it asks of a study: the scene alone, the sun of a day, the light of intervals,
+  /// or series of the solution.
   enum class Needs { geometry, sun_path, intervals, series } needs = Needs::geometry;
   /// The period must be a year, or one of measured or typical weather.
   enum class Spans { any_period, whole_year, year_of_weather } spans = Spans::any_period;

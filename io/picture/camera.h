@@ -11,6 +11,7 @@
 
 namespace sunload {
 
+/// From the camera into the scene [m].
 struct CameraRay {
   Vec3 origin, direction;  ///< direction of unit length
 };

@@ -9,6 +9,7 @@
 
 namespace sunload {
 
+/// How colours follow values, evenly or by their logarithms.
 enum class ColourScale { linear, logarithmic };
 
 /// What a logarithmic scale spans below its last colour, as powers of ten.

@@ -20,6 +20,7 @@ namespace sunload {
 /// sphere stay circles. equidistant: proportional to the zenith angle.
 enum class DomeProjection { stereographic, equidistant };
 
+/// Converts places of the sky to pixels and back, and draws the grid.
 class DomeChart {
  public:
   /// Fills a picture below its title, left of `right_margin` pixels. The labels of azimuths

@@ -18,13 +18,17 @@ namespace sunload {
 /// Throws InputError for a file name that promises another format, as .jpg does.
 void expect_picture_name(const std::string& path);
 
+/// A place in the picture [pixels].
 struct PicturePoint {
   double x = 0, y = 0;
 };
 
+/// Which part of a text stands at the place given.
 enum class Align { left, centre, right };
+/// Thickness of letters.
 enum class Weight { normal, bold };
 
+/// How a text is written.
 struct TextStyle {
   double size = 14;  ///< height of the font in pixels
   Align align = Align::left;
@@ -32,6 +36,7 @@ struct TextStyle {
   Colour colour;
 };
 
+/// A canvas in memory; colours are encoded sRGB.
 class Picture {
  public:
   /// White. Throws MachineError where memory is short.

@@ -14,14 +14,17 @@
 
 namespace sunload {
 
+/// From where a scene is seen.
 enum class View {
   overview,  ///< from above, from the sun's side and its afternoon
   sun,       ///< parallel, as the sun sees the scene at `time`
   top        ///< parallel, from above, north up
 };
 
+/// Central perspective, or rays that are parallel.
 enum class Projection { perspective, parallel };
 
+/// Whether thin lines part patches.
 enum class MeshLines { none, patches };
 
 /// of_values: by a palette; of_bands: red, green and blue light as what they are; of_surfaces and
@@ -31,6 +34,7 @@ enum class PictureColours { of_values, of_bands, of_surfaces, of_materials };
 /// of the two models of geo/sky/sky_colour.h.
 enum class SkyBackground { plain, first, second };
 
+/// What a picture shows, from where, and in which colours.
 struct RenderRules {
   /// A dataset [patch] or [time, patch]; empty: the light load, animated the irradiance.
   std::string quantity;

@@ -12,6 +12,7 @@
 
 namespace sunload {
 
+/// A colour for every patch, with the value that they are scaled by.
 struct BandColours {
   std::vector<Colour> of_patches;  ///< linear light, 0 … 1
   double white = 1;                ///< value of all bands that is white

@@ -23,6 +23,7 @@ PictureArea scene_area(const Picture& picture);
 
 void draw_title(Picture& picture, const std::string& title, const std::string& subtitle);
 
+/// The bar of colours beside the scene.
 struct Legend {
   std::string units;
   double largest = 1;  ///< value of the last colour

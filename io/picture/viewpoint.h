@@ -38,6 +38,7 @@ struct Viewpoint {
   std::optional<Vec3> towards;   ///< where a facade looks
   std::optional<ScenePlace> of;  ///< that was named without an offset
 };
+/// Whether the text says where one stands or what one looks at.
 enum class ViewpointOf { eye, look };
 /// `x,y,z` in the coordinates of the study; NAME; or NAME+dx,dy,dz, metres from the middle of the
 /// foot of an object or facade (a pattern: of all that match). A name alone is looked at in its

@@ -16,8 +16,9 @@ class FarGround {
  public:
   explicit FarGround(const Study& study);
 
-  /// Of the last season that holds in the middle of the interval and has one, else as always, or
-  /// as the weather says, which must tell it (io/plan/weather_albedo.h).
+  /// Albedo of the last season that holds in the middle of the interval and has one; else the
+  /// constant one of the study, or that of the weather, which must tell it
+  /// (io/plan/weather_albedo.h).
   double albedo(const LitInterval& interval) const;
 
  private:

@@ -53,8 +53,8 @@ class IntervalLights {
 /// The suns that stand for an interval, where several do.
 std::vector<SunSample> samples_of(const LitInterval& interval);
 
-/// The light of a series; both must outlive it. `counts`: of each interval, others are dark; empty:
-/// all count.
+/// The light of a series; both must outlive it. `counts`: 0 for each interval that shall be dark;
+/// empty: for none.
 class SeriesLight : public LitPeriod {
  public:
   SeriesLight(const IntervalLights& lights, const LightSeries& series,

@@ -22,7 +22,7 @@ struct LitInterval {
   SunInterval when;
   Irradiance mean;        ///< over the whole interval
   Irradiance of_the_sky;  ///< what the sky's shape follows from: light while the sun is up
-  /// Given where a model's luminance was made into irradiance by it.
+  /// Present where the luminance of a model was made into irradiance by this efficacy.
   std::optional<LuminousEfficacy> lm_per_w{};
   /// Of the ground on that day, in (0, 1), where the study asks for it and the weather tells it.
   std::optional<double> albedo{};
@@ -33,7 +33,7 @@ struct LitInterval {
 
   std::span<const LitInterval> parts() const;
 
-  /// How many suns stand for it; for what is straight alone where there are more.
+  /// Number of suns that stand for it: of those for straight light alone where these are more.
   std::size_t suns() const;
 };
 
@@ -45,6 +45,7 @@ bool is_dark(const LitInterval& interval);
 /// Whether the second begins where the first ends, to a millisecond.
 bool meet(const TimeSpan& first, const TimeSpan& second);
 
+/// The intervals of a period in the order of time, with what was told of weather and clocks.
 struct LightSeries {
   std::vector<LitInterval> intervals;
   bool times_are_synthetic = false;  ///< `positions`: time counts from 2000-01-01T12:00Z
@@ -62,11 +63,11 @@ struct LightSeries {
   std::size_t lit_count() const { return lit_count(0, intervals.size()); }
   /// Suns above the horizon, all those that stand for one interval counted.
   std::size_t sun_samples() const;
-  /// Of these, where there are fewer by which light is sent on, those.
+  /// The same for light that mirrors send on, which fewer suns may stand for.
   std::size_t suns_of_mirrors() const;
-  /// Directions to those for what is straight alone (LitInterval::direct_suns).
+  /// Directions to the suns for straight light alone (LitInterval::direct_suns).
   std::vector<Vec3> direct_suns() const;
-  /// Intervals, each with its parts as so many; and of these, those that are not dark.
+  /// Number of intervals, with each part of a joined one counted; and of those that are not dark.
   std::size_t parts() const;
   std::size_t lit_parts() const;
 };

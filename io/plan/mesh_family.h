@@ -15,8 +15,8 @@
 
 namespace sunload {
 
-/// What a pilot needs beside the geometry, and the same for every variant that gives it the same
-/// light and the same mirrors, lamps and screens.
+/// What a pilot needs beside the geometry. It is the same for all variants with the same light and
+/// the same mirrors, lamps and screens.
 struct MeshPilotInput {
   std::vector<Material> materials;
   std::vector<MaterialId> material;  ///< per triangle
@@ -28,6 +28,7 @@ struct MeshPilotInput {
 /// digests.
 inline constexpr std::size_t most_mesh_pilots = 8;
 
+/// The pilots that refine one mesh, and the mesh.
 struct MeshFamily {
   std::vector<MeshPilotInput> pilots;
   std::string digest;  ///< of them, part of each variant's hash; empty of a single one
@@ -35,6 +36,7 @@ struct MeshFamily {
   mutable std::optional<VariantMesh> made;
 };
 
+/// Which variants of a study share a mesh.
 class MeshFamilies {
  public:
   /// Plans all variants of a study, whichever are to be computed, unless none can share a mesh.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Parts of the period that a study's result has totals of.
+/// One division of the period whose parts have totals in the result.
 #pragma once
 
 #include <cstddef>

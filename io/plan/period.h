@@ -15,6 +15,7 @@ namespace sunload {
 /// UTC of a time as a study writes it; what happens to it where clocks change goes to `notes`.
 UnixTime utc_of(const ParsedTime& time, const TimeZone& zone, std::vector<std::string>& notes);
 
+/// Steps of a period, and what clocks did to them.
 struct PeriodSteps {
   std::vector<PeriodStep> steps;
   std::vector<std::string> notes;  ///< hours that the clocks skip or repeat

@@ -10,10 +10,10 @@
 
 namespace sunload {
 
-/// Makes plans one after the other. What a variant has in common with one before is not done again,
-/// as long as memory holds it: files read and prepared where the scene differs in its materials
-/// alone (and in north, without a CRS), what is covered cut out where light passes the same
-/// surfaces, sun path and light where these are of the same keys and the same place. A plan is the
+/// Makes plans one after the other, and reuses what earlier variants have in common with the next
+/// one, as long as memory holds it. Files read and prepared are reused where the scene differs in
+/// its materials alone (and in north, without a CRS); the scene without covered parts, where light
+/// passes the same surfaces; sun path and light, where keys and place are the same. A plan is the
 /// same as that of `make_plan`.
 class Planner {
  public:
@@ -24,7 +24,7 @@ class Planner {
   /// Its scene without materials; until the next call.
   const BuiltScene& scene_uncovered(const Study& study);
 
-  /// All that the light of a plan's intervals follows from, but how it is counted in bands.
+  /// All that the light of a plan's intervals depends on, but for how it is counted in bands.
   static std::string key_of_light(const Study& study, const Site& site);
 
  private:

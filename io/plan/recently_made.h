@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What was made of a key, as long as there is room.
+/// Values that were made for keys, kept as long as there is room.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace sunload {
 
-/// Keeps values by key, the last one whatever its weight; the oldest go where all together are
-/// heavier than `most`.
+/// Keeps values by key. The last one is kept whatever its weight; the oldest are dropped while all
+/// together are heavier than `most`.
 template <class T>
 class RecentlyMade {
  public:

@@ -9,11 +9,11 @@
 
 namespace sunload {
 
-/// What the patches of an estimate are: those of a mesh, or, before there is one, as many as there
-/// will be at the least.
+/// Where the number of patches in an estimate is from: counted on a mesh or, before there is one,
+/// the fewest that there can be.
 enum class PatchesAre { counted, at_least };
 
-/// Why memory does not do, and what to try; empty where it does.
+/// Why memory does not suffice, and what to try; empty where it does.
 std::string memory_problem(const WorkEstimate& work, PatchesAre patches = PatchesAre::counted);
 
 /// The same of the disk that results go to, `finished_bytes` of which are there already: it may

@@ -15,6 +15,7 @@
 
 namespace sunload {
 
+/// A scene that light can be computed in, with what is told of its making.
 struct BuiltScene {
   Scene scene;
   PrepareReport report;
@@ -34,17 +35,18 @@ struct BuiltScene {
 /// Throws InputError with every problem found.
 BuiltScene build_scene(const Study& study);
 
-/// Its steps. What is read and prepared, which materials and their rules have no part in …
+/// The first of its steps: reads and prepares. Materials and their rules have no part in this.
 BuiltScene scene_before_materials(const Study& study);
-/// … turned to another north, as `study` gives it: a scene without CRS has nothing else of that …
+/// Turns a prepared scene to the north that `study` gives; in a scene without CRS nothing else
+/// depends on north.
 void turn_to_north(const Study& study, BuiltScene& built);
-/// … what they say of each triangle: whether light passes it or begins there, and on how many sides
-/// it is lit …
+/// What materials will say of each triangle: whether light passes it or begins there, and on how
+/// many sides it is lit.
 std::vector<std::uint8_t> covers_of(const Study& study, const BuiltScene& prepared);
-/// … the scene without what is covered, which depends on nothing else of them …
+/// The second step: the scene without what is covered. Of materials it depends on `covers` alone.
 BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
                            const std::vector<std::uint8_t>& covers);
-/// … and materials, parallel sources and sensors.
+/// The last step: gives materials, parallel sources, luminaires and sensors.
 void give_materials(const Study& study, BuiltScene& built);
 
 }  // namespace sunload

@@ -30,6 +30,7 @@ struct SeasonStretch {
   std::size_t season = 0, first = 0, count = 0;
 };
 
+/// The seasons of a period, and which of them each interval lies in.
 struct SceneSeasons {
   std::vector<SceneSeason> all;           ///< in the order in which they come; never just one
   std::vector<std::uint8_t> of_interval;  ///< place in `all`; empty where there are none

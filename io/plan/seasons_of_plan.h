@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What the seasons of a study make of a plan, as far as it is told, counted and stored.
+/// Materials and times of a plan by season, for texts, counts and results.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct MaterialsOfScene {
 /// In each season of the period; the scene's own where there are none.
 std::vector<MaterialsOfScene> materials_by_season(const VariantPlan& plan);
 
-/// Of each season of the period, in their order.
+/// Hours of each season of the period, in their order.
 std::vector<double> season_hours(const SceneSeasons& seasons, const LightSeries& light);
 /// "leafless, snow"; "else" of materials as written.
 std::string words_of(const SceneSeason& season);

@@ -36,17 +36,18 @@ struct SceneObjects {
 /// Objects whose name, or that of something that they belong to, matches the pattern.
 ChosenObjects objects_named(const std::string& pattern, const Mesh& mesh);
 
+/// One selection at work on a scene.
 class Selector {
  public:
   /// `subject` and `where` are for messages: "scene.edit[2]". All must outlive it.
   Selector(const SelectionStudy& wanted, const SceneFrame& frame, std::string subject, Where where)
       : wanted_(wanted), frame_(frame), subject_(std::move(subject)), where_(std::move(where)) {}
 
-  /// Whole objects, each with all that belongs to it. A place is asked of the topmost that name and
-  /// type choose, a house rather than its parts: the middle of the bounding box about the family
-  /// lies in the polygon, the box comes as near in plan as asked for. What chooses parts of objects
-  /// has no say. Throws InputError for places of another frame: degrees that are none, and farther
-  /// away than the scene is wide.
+  /// Whole objects, each with all that belongs to it. Places are asked of the topmost object that
+  /// name and type choose, a house rather than its parts: the middle of the box about its family
+  /// must lie in the polygon, and the box come as near in plan as asked for. Keys that choose parts
+  /// of objects are left out of account. Throws InputError for places of another frame: degrees
+  /// that are none, and places farther away than the scene is wide.
   ChosenObjects objects(const SceneObjects& all) const;
 
   /// A face or a patch.
@@ -94,12 +95,12 @@ class Selector {
 /// The areas in the scene's metres. Throws InputError for degrees that are none.
 std::vector<PlanArea> areas_in_scene(const AreasStudy& study, const std::string& crs,
                                      const std::string& subject, const Where& where);
-/// Throws InputError for a place that is another frame's, or a slip: farther from the scene than
-/// that is wide.
+/// Throws InputError for a place that is farther from the scene than the scene is wide: it is of
+/// another frame, or a slip.
 void refuse_far(Point2 place, const std::vector<ObjectExtent>& extents, const std::string& subject,
                 const Where& where);
 
-/// Of a selection without patches.
+/// What to warn of where a selection has no patches.
 std::string empty_selection_warning(const std::string& name);
 
 /// Faces of a mesh by their centroids.

@@ -35,6 +35,7 @@ struct SkyDome {
 /// positions is asked for the time that stands for one of them. Throws InputError.
 SkyDome sky_dome(const Study& study, const std::string& time);
 
+/// One patch of the sky.
 struct SkyRow {
   double azimuth_deg = 0, elevation_deg = 0;  ///< of the middle
   double radiance = 0;                        ///< mean over the patch [W m-2 sr-1]
@@ -52,6 +53,7 @@ std::string sky_csv(const std::vector<SkyRow>& rows);
 /// luminance: false colour [kcd m-2], by Perez's luminous efficacy of the diffuse light.
 /// colour: as the eye sees it, by the models of Holubář (2007), for clear skies.
 enum class SkyPicture { luminance, colour };
+/// What a picture of the sky shows.
 struct SkyPictureRules {
   SkyPicture kind = SkyPicture::luminance;
   SkyColourModel model = SkyColourModel::second;

@@ -19,7 +19,7 @@ class Planner;
 /// those that are chosen first.
 void expect_measured_somewhere(const StudyFile& file, const std::vector<Study>& chosen,
                                Planner& planner);
-/// Warns of those that this one does not have.
+/// Warns of objects and facades of measures that this variant does not have.
 void warn_of_absent_places(const Study& study, const BuiltScene& built,
                            std::vector<std::string>& warnings);
 /// Throws InputError where a measure needs a year that the period is not.
@@ -29,7 +29,7 @@ void expect_measurable(const Study& study, const LightSeries& light);
 void warn_of_no_values(const Study& study, const LightSeries& light,
                        std::vector<std::string>& warnings);
 
-/// One of them. What it refers to is kept by its study's.
+/// One measure of a study. What it refers to is kept by StudyMeasures.
 struct StudyMeasure {
   MeasureParameters parameters;  ///< the date filled in
   const MeasureRule* rule = nullptr;
@@ -41,6 +41,7 @@ struct StudyMeasure {
 /// A line for each measure of the plan's study: where it is measured, and what it needs.
 std::vector<std::string> measures_in_words(const VariantPlan& plan, const Hierarchy& hierarchy);
 
+/// All measures of a study, with the ray caster and the intervals that they share.
 class StudyMeasures {
  public:
   /// Plan and mesh must outlive it. Nothing is computed yet.

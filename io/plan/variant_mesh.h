@@ -18,6 +18,7 @@ inline constexpr std::size_t most_mesh_pilot_suns = 32;
 /// alone (SceneSeasons).
 PeriodLight period_light(const VariantPlan& plan, std::optional<std::size_t> season = {});
 
+/// A mesh, and how refinement ended.
 struct VariantMesh {
   std::shared_ptr<const Hierarchy> mesh;
   RefineReport report;

@@ -30,7 +30,7 @@ struct VariantPlan {
   /// Equal where realizations share their random numbers. Counts that an accuracy has raised are no
   /// part of it: the first points are the same, and pairs are independent of each other.
   std::string pairing_id;
-  /// With whom it shares a mesh; null: with nobody.
+  /// The variants that it shares a mesh with; null: none.
   std::shared_ptr<const MeshFamily> family = {};
 
   std::size_t intervals() const { return light.intervals.size(); }
@@ -48,7 +48,7 @@ VariantPlan unhashed_plan_of(const Study& study, BuiltScene built, LightSeries l
 /// Content hash that the plan would have with another instruction set.
 std::string hash_with_isa(const VariantPlan& plan, const std::string& isa);
 
-/// Of the scene in all its seasons; some may be there more than once.
+/// Materials of the scene in all its seasons; some may be there more than once.
 std::vector<Material> materials_of(const VariantPlan& plan);
 /// Whether something in the scene shines by itself: then dark intervals are computed too.
 bool has_lamps(const VariantPlan& plan);

@@ -11,12 +11,14 @@
 
 namespace sunload {
 
-/// How long a machine takes for what takes 1 by the cost model (solver/base/cost.h).
+/// Time that a machine takes, as a multiple of what the cost model says (solver/base/cost.h), by
+/// kind of work.
 struct WorkPace {
   double lines = 1, direct = 1, mirror = 1, solve = 1;
   bool is_measured = false;  ///< io/plan/work_probe.h
 };
 
+/// What a variant will cost.
 struct WorkEstimate {
   std::size_t patches = 0;
   std::uint64_t line_rays = 0, direct_rays = 0;
@@ -38,7 +40,7 @@ struct BlockCounts {
   int lines_per_patch = 0, direct_samples = 0;
   double suns = 0;  ///< that shine, all those that stand for one interval counted
 };
-/// Of the stages that `WorkDone` has times of.
+/// Seconds by those stages that `WorkDone` has times of.
 struct WorkSeconds {
   double lines = 0, direct = 0, mirror = 0, solve = 0;
 };
@@ -46,8 +48,8 @@ struct WorkSeconds {
 WorkSeconds modelled_seconds(const VariantPlan& plan, std::size_t patches,
                              const BlockCounts& counts);
 
-/// Between which times refining the mesh of so many patches takes [s]: how many it makes, the light
-/// decides.
+/// Least and most time that refining a mesh of so many patches takes [s]; the light decides how
+/// many patches it makes.
 std::pair<double, double> refinement_seconds(const VariantPlan& plan, std::size_t patches);
 
 /// Memory of the accuracy pilot.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What this machine takes for a little of a variant's own work.
+/// How long this machine takes for a little of a variant's own work.
 #pragma once
 
 #include <memory>
@@ -20,13 +20,14 @@ namespace sunload {
 std::optional<WorkPace> measured_pace(const VariantPlan& plan,
                                       const std::shared_ptr<const Hierarchy>& mesh);
 
-/// The intervals that it solves, `most` at most, but one: some neighbours each from suns low and
-/// high, by which what they cost differs most; and neighbours in the order in which a run looks at
-/// them, as together they cost less than each of them by itself. None where none has light.
+/// The intervals that it solves: no more than `most`, but at least one. Groups of neighbours are
+/// taken from low suns to high ones, since costs differ most by the height of the sun; neighbours
+/// in the order of a run, since together they cost less than each by itself. None where no interval
+/// has light.
 std::vector<std::size_t> tried_intervals(const VariantPlan& plan, double most);
 
-/// Paces of a study's variants: measured of one that has mirrors and of one that has none. The
-/// others are of the same scene, or much like it, and some studies have thousands.
+/// Paces of a study's variants, which may be thousands: measured once for variants with mirrors and
+/// once for variants without. The others have the same scene, or one much like it.
 class StudyPaces {
  public:
   /// 1 where there is nothing to measure. Throws Interrupted.

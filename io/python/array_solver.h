@@ -28,6 +28,7 @@
 
 namespace sunload {
 
+/// Triangles, and what they are made of.
 struct ArrayScene {
   std::vector<Vec3> vertices;                          ///< m, z up
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< into `vertices`
@@ -38,6 +39,7 @@ struct ArrayScene {
 
 /// Light of K suns.
 struct ArrayLight {
+  /// One sun with its sky, and the time that they last.
   struct Sun {
     Vec3 direction;            ///< to the sun, unit; at or below the horizon it brings nothing
     double elevation_deg = 0;  ///< of it
@@ -54,6 +56,7 @@ struct ArrayLight {
   double far_ground_albedo = 0;
 };
 
+/// How fine the mesh is, and how it is solved.
 struct ArrayRules {
   double max_edge_m = 1e9;
   SolverRules solver;  ///< with the series of all parts
@@ -64,6 +67,7 @@ struct ArrayRules {
 struct ArrayLoad {
   std::array<std::vector<double>, part_count> mean, standard_error;  ///< [N] kWh m-2
 };
+/// Light on the N patches of the mesh under K suns.
 struct ArrayResult {
   std::shared_ptr<const Hierarchy> mesh;  ///< relative to `origin`
   Vec3 origin;

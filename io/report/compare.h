@@ -45,6 +45,7 @@ struct ComparisonRow {
   double mesh_error_kwh_m2 = 0;
 };
 
+/// All rows of a comparison, and what they rest on.
 struct Comparison {
   std::string base, variant;  ///< names of the variants
   std::string dataset = std::string(usual_compared);
@@ -63,6 +64,7 @@ struct Comparison {
   bool has_errors() const { return errors == Errors::paired || errors == Errors::independent; }
 };
 
+/// What is compared, and which changes matter.
 struct CompareRules {
   std::string dataset = std::string(usual_compared);  ///< a total per patch of both results
   double least_percent = 0;  ///< significant is what is surely more than this share of the base

@@ -24,6 +24,7 @@ struct MeasureChange {
   std::string kind, name;      ///< kind: object, facade, selection, sensor
   double base_reached = 0, variant_reached = 0;
   std::string base_level, variant_level;
+  /// Whether the variant reaches a better level than the base, or a worse one.
   enum class To { same, better, worse } to = To::same;  ///< by levels
 };
 /// Of all that have a verdict in both results by the same rule and limits, be it in other years,

@@ -20,6 +20,7 @@ struct CommonArea {
 
 /// What lies on each patch of the base.
 struct PatchOverlaps {
+  /// A patch of the variant that shares area with one of the base.
   struct Overlap {
     std::size_t patch = 0;  ///< of the variant
     double area = 0;        ///< in common [m2]

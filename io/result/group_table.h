@@ -11,6 +11,7 @@
 
 namespace sunload {
 
+/// What the rows are.
 enum class TableOf { facades, objects, selections, sensors };
 
 /// One column of numbers; NaN: there is none, or it is not known.
@@ -21,6 +22,7 @@ struct TableColumn {
   std::vector<double> values;
 };
 
+/// Rows by name, columns of numbers.
 struct GroupTable {
   TableOf of = TableOf::facades;
   std::vector<std::string> names;

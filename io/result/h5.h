@@ -28,6 +28,7 @@ class Error : public std::runtime_error {
 /// An identifier of the library, released with its last owner.
 using Handle = std::shared_ptr<const std::int64_t>;
 
+/// How values are stored.
 enum class Type : std::uint8_t { int8, int32, int64, float32, float64, text };
 
 /// What the values of a dataset are, whatever their width; text is of variable length.
@@ -54,6 +55,7 @@ class Object {
 /// Whether a chunk comes shuffled and deflated or as the plain values.
 enum class ChunkCoding : std::uint8_t { deflated, plain };
 
+/// A dataset of an open file. What fails throws Error; reading converts to the type asked for.
 class Dataset : public Object {
  public:
   std::vector<std::size_t> shape() const;
@@ -85,6 +87,7 @@ class Dataset : public Object {
   using Object::Object;
 };
 
+/// Type, shape and storage of a new dataset.
 struct DatasetSpec {
   Type type = Type::float64;
   std::vector<std::size_t> shape;  ///< empty: a scalar
@@ -96,6 +99,7 @@ struct DatasetSpec {
   } unwritten = Unwritten::zero;  ///< value where nothing is written
 };
 
+/// A file with its root group, which the attributes are of. Copies share the open file.
 class File : public Object {
  public:
   /// A new file; `path` must not exist yet.

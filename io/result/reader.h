@@ -16,17 +16,18 @@
 
 namespace sunload {
 
+/// Whether files that are derived from results are opened, too: a comparison file
+/// (docs/comparison-file.md) or the map of a place (docs/explain.md). They have the patches and
+/// names of their base, no times, and as totals the datasets of `comparison_schema` or
+/// `place_map_schema`.
+enum class Opens { results, derived_too };
+
 /// Reads a result of ours; throws InputError naming file and dataset. Of an opened file holds what
 /// io/result/soundness.h asks for; values that are read are possible ones, or NaN.
 ///
 /// A result of light in bands reads as one without: `band` chooses one of them, without it values
 /// are the means of the bands, which is broadband light. (Of standard errors and of largest values
 /// these means are upper bounds: bands share their lines.) Shapes have no dimension `band` then.
-///
-/// What is derived from results, a comparison file (docs/comparison-file.md) or the map of a place
-/// (docs/explain.md), is opened where the caller can do with one: it has the patches and names of
-/// its base, no times, and as totals the datasets of `comparison_schema` or `place_map_schema`.
-enum class Opens { results, derived_too };
 class ResultReader {
  public:
   explicit ResultReader(const std::string& path, std::optional<std::size_t> band = {},

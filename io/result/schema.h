@@ -26,6 +26,7 @@ enum class ResultPart : std::uint8_t {
   study
 };
 
+/// A row of the table: a dataset, its dimensions, units and attributes.
 struct ResultVariable {
   std::string_view name;
   std::string_view dims;  ///< names with commas; empty: a scalar

@@ -68,12 +68,14 @@ struct ResultAttributes {
 
 /// Rows of series that are no batch's own: means over steps. Names are those of batches' arrays.
 struct StepRows {
+  /// Rows of one series.
   struct Series {
     std::string name;
     int mantissa_bits = all_mantissa_bits;
     std::size_t columns = 0;
     std::vector<float> values;  ///< [count][columns]
   };
+  /// Rows of one term of the ledger.
   struct Ledger {
     std::string name;
     std::vector<double> values;  ///< [count]
@@ -108,6 +110,7 @@ struct MeasureAttributes {
 /// the writer is destroyed before. Memory stays bounded by one batch.
 class ResultWriter {
  public:
+  /// How series are stored, and which dimensions the file gets.
   struct Options {
     std::size_t chunk_intervals = 64;
     int compression = 4;

@@ -13,7 +13,7 @@ class MeasureMerge {
  public:
   /// All must outlive it.
   MeasureMerge(const VariantPlan& plan, const Hierarchy& hierarchy, const ResultGeometry& geometry);
-  /// The series that measures watch.
+  /// Adds the series of a batch that measures watch.
   void add(const BatchReader& batch);
   /// Computes and writes; after the last batch.
   void write(ResultWriter& writer);

@@ -12,9 +12,12 @@
 
 namespace sunload {
 
+/// What becomes of results and batches that are there already.
 enum class Existing { refuse, resume, overwrite };
+/// What becomes of batch files after the merge.
 enum class Batches { remove, keep };
 
+/// Options of `sunload run`, `merge` and their like.
 struct RunOptions {
   std::vector<std::string> variants;  ///< names; empty: all
   std::string output;                 ///< replaces output.folder

@@ -32,7 +32,7 @@ class PartMerge {
   /// `writer` and `geometry` must outlive it.
   PartMerge(ResultWriter& writer, const VariantPlan& plan, const ResultGeometry& geometry);
   void add(const BatchReader& batch);
-  /// Parts that batches have left open which are not there.
+  /// Writes parts that are still open because batches are missing.
   void finish();
 
  private:

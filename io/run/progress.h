@@ -12,6 +12,7 @@
 
 namespace sunload {
 
+/// How progress is shown; automatic: a bar on a terminal, else lines.
 enum class ProgressStyle { automatic, bar, lines, json, none };
 
 /// Ends parallel work on a signal or at the time limit while it lives, and tells of the work on

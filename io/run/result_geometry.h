@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What of a result is known before any light: patches, tables, times.
+/// The part of a result that is known before any light: patches, tables, times.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ std::vector<double> diffuse_reflectances(const VariantPlan& plan, const Hierarch
                                          std::optional<std::size_t> band);
 /// What every patch emits [W m-2], which is the same in all bands; in the first season.
 std::vector<double> emitted_exitances(const VariantPlan& plan, const Hierarchy& hierarchy);
-/// Its rows; with illuminances where the study asks for them.
+/// Rows of the result in time; with illuminances where the study asks for them.
 ResultTimes result_times(const VariantPlan& plan);
 
 }  // namespace sunload

@@ -11,8 +11,8 @@
 
 namespace sunload {
 
-/// Arrays of series that batches of the study do not hold. With steps these are those of intervals,
-/// too, but for what measures watch.
+/// Series arrays that batches of the study do not hold. Where series are of steps, arrays of
+/// intervals are not held either, but for those that measures watch.
 std::vector<std::string> unwanted_series(const Study& study);
 /// Number of the step that a batch begins in.
 std::size_t first_step(const VariantPlan& plan, std::size_t batch);

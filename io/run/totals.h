@@ -17,7 +17,7 @@ inline constexpr double kwh_per_joule = 1 / joules_per_kwh;
 /// Sums and maxima of all batches, in batch order.
 class Totals {
  public:
-  /// All but what is of parts of the period.
+  /// Adds the arrays of a batch, but for those of parts of the period.
   void add(const BatchReader& batch);
   void add(const std::string& name, MergeRule rule, std::vector<double> values);
   /// Where arrays are those of bands, adds their means under the names without band.

@@ -23,7 +23,7 @@ namespace sunload {
 class SharedRays;
 class VariantRun;
 
-/// What the jobs of a study have in common; must outlive them.
+/// What the jobs of a study have in common. It must outlive them.
 struct StudyWork {
   const StudyFile& file;
   const RunOptions& options;
@@ -32,14 +32,16 @@ struct StudyWork {
   SharedRays& rays;
 };
 
+/// Whether a result is written only when all batches are there, or also from those that are.
 enum class Merge { complete, partial };
 
-/// Of what a process has computed: still there when it is to be merged, or merged; or vanished.
+/// What became of the batches that this process had to compute. done: none of them is missing, or
+/// the variant is merged; lost: some were there and are gone or damaged.
 enum class OwnBatches { done, lost };
 
-/// One variant on behalf of one process: a whole run, a shard or a rank. The mesh is made when it
-/// is first needed, so that memory holds the mesh and the lines of one variant at a time
-/// (beside what `SharedRays` keep).
+/// The work of one process (a whole run, a shard or a rank) on one variant. The mesh is made when
+/// it is first needed, so that memory holds the mesh and the lines of one variant at a time, beside
+/// what `SharedRays` keep.
 class VariantJob {
  public:
   VariantJob(const StudyWork& work, VariantPlan plan);
@@ -48,36 +50,39 @@ class VariantJob {
   VariantJob& operator=(const VariantJob&) = delete;
 
   const std::string& name() const { return name_; }
-  /// Throws InputError where a result is there that the options do not let replace or accept, or
-  /// where other shards compute with another instruction set.
+  /// Throws InputError where a result exists that the options allow neither to replace nor to
+  /// accept, or where other shards compute with another instruction set.
   void expect_may_run() const;
   /// Throws InputError where merging would replace a result without --overwrite.
   void expect_may_merge() const;
-  /// Whether nothing is to be done: the result of this very state is there and need not be
-  /// replaced.
+  /// Whether there is nothing to do: a result of exactly these inputs exists, and the options do
+  /// not ask to replace it.
   bool is_finished() const;
-  /// Says so, and removes work that a process left which was killed at the very end.
+  /// Reports that there is nothing to do, and removes what is left in the work folder by a process
+  /// that was killed after its merge.
   void leave_finished() const;
 
   /// Throws MachineError where memory or disk are too little: for the mesh, or before it is made
   /// for the fewest patches that it can have.
   void expect_room() const;
-  /// That it will be computed: others may share its rays.
+  /// Announces that the variant will be computed: others may share its rays.
   void announce();
-  /// Computes what is missing of this process' own batches. Throws Interrupted, MachineError.
+  /// Computes those batches of this process that are missing. Throws Interrupted, MachineError.
   void compute(MpiWorld* world);
-  /// Merges where all batches are there; otherwise lists those that others owe. Batches of this
-  /// process that somebody else has removed or damaged meanwhile are lost, which is warned of.
+  /// Merges if all batches are there, else lists the batches that other processes owe. Where
+  /// batches of this process were removed or damaged by somebody else, warns and returns `lost`.
   OwnBatches merge_if_complete(MpiWorld* world);
-  /// Merges, or says why not; returns the exit code.
+  /// Merges, or tells which batches are missing. Returns the exit code of the program.
   int merge_what_is_there(Merge merge);
-  /// Removes the batches of what was merged here, where --overwrite has kept them: until all
-  /// variants are merged, the same command may come again and shall find them.
+  /// Removes the batches of a variant that was merged here with --overwrite. They are kept until
+  /// all variants are merged, so that the same command, given again, finds them.
   void remove_merged() const;
-  /// Gives the memory back; the job can do no more but `remove_merged`.
+  /// Frees mesh, scene and light, and the shared rays that no other variant waits for. The job can
+  /// do nothing afterwards but `remove_merged`.
   void release();
 
  private:
+  /// How one attempt to merge ended.
   enum class Merging { done, incomplete, by_another };
   using ResultStamp = std::optional<std::pair<std::filesystem::file_time_type, std::uintmax_t>>;
 
@@ -105,7 +110,7 @@ class VariantJob {
   std::string name_;
   VariantPlan plan_;
   WorkFolder folder_;
-  std::string rays_key_;      ///< empty until it is known that it will be computed
+  std::string rays_key_;      ///< empty until `announce`
   VariantMesh mesh_;          ///< empty until it is needed
   ResultStamp stamp_before_;  ///< of the result that was there when the work began
   bool was_merged_ = false;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Computes batches of one variant and writes them: lines once (of each season in which materials
-/// are others), then any batch.
+/// Computes batches of one variant and writes them. Lines come first, once for each season with
+/// materials of its own; then any batch may be computed.
 #pragma once
 
 #include <memory>
@@ -23,10 +23,12 @@ namespace sunload {
 
 class MpiWorld;
 
+/// One process at work on one variant: call `prepare`, then `compute` for each batch, then
+/// `finish`.
 class VariantRun {
  public:
-  /// `shared`: with variants of which rays tell the same, or null; must outlive it, as all but the
-  /// mesh.
+  /// `shared`: rays that this variant has in common with others, or null. All arguments but `mesh`
+  /// must outlive it.
   VariantRun(const WorkFolder& folder, const VariantPlan& plan,
              std::shared_ptr<const Hierarchy> mesh, Progress& progress, TracedRays* shared);
   /// Ends when the batch in hand is written, and warns where that fails.
@@ -34,10 +36,11 @@ class VariantRun {
   VariantRun(const VariantRun&) = delete;
   VariantRun& operator=(const VariantRun&) = delete;
 
-  /// Traces the lines, or reads them. Where more than one batch is missing, whoever may compute
-  /// it, they are kept in the prepared file, which is written while the first batch is computed:
-  /// for other processes, and for this one if it is killed. Ranks of `world` (null: none) call it
-  /// together: the first one traces. Throws Interrupted, MachineError.
+  /// Traces the lines, or reads them. If more than one batch is missing, even if other processes
+  /// will compute them, the lines are kept in the prepared file, for those processes and for this
+  /// one if it is killed; that file is written while the first batch is computed. All ranks of
+  /// `world` (null: none) call this together; the first one traces. Throws Interrupted,
+  /// MachineError.
   void prepare(MpiWorld* world);
   /// Computes a batch. Its file is written while the next one is computed, and is there after
   /// `finish`. Throws Interrupted, MachineError, also of the batch before.

@@ -19,6 +19,7 @@
 
 namespace sunload {
 
+/// One row: the range of a reflectance in its source, and what else the material does with light.
 struct TabledMaterial {
   const char* name;
   double low, high;  ///< diffuse reflectance that the source gives; equal where it is one value

@@ -13,6 +13,7 @@ namespace sunload {
 /// One value of one key. `path` has the key's parts, each with its place in a list (from 1; 0:
 /// none).
 struct MatrixValue {
+  /// A step of the path: a key, and a place where its value is a list.
   struct Part {
     std::string key;
     std::size_t place = 0;

@@ -15,7 +15,9 @@ namespace sunload::study_sections {
 
 /// What the site says beyond its values.
 enum class ZoneWritten { no, yes };
+/// The same of where the scene stands.
 enum class PlaceWritten { no, yes };
+/// The site, and which of its keys are written.
 struct SiteRead {
   SiteStudy site;
   ZoneWritten zone_written = ZoneWritten::no;

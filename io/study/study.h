@@ -60,24 +60,29 @@ struct RangePeriod {  ///< [start, end) in steps
   ParsedTime start, end;
   double step_min = 60;
 };
+/// Single instants; each stands for an interval of that length.
 struct InstantsPeriod {
   std::vector<ParsedTime> instants;
   double interval_min = 60;
 };
+/// A place of the sun, and the length of time that it stands there.
 struct SunAt {
   double azimuth_deg = 0, elevation_deg = 0, interval_min = 60;
 };
+/// Places of the sun without a date.
 struct PositionsPeriod {
   std::vector<SunAt> positions;
 };
 struct WeatherPeriod {         ///< `year_of: weather`: one interval per record of the file
   std::optional<int> as_year;  ///< absent: actual years as they are, typical ones as 2001
 };
+/// Section `period`: the time over which light is computed, in one of five forms.
 struct PeriodStudy {
   std::variant<DaysPeriod, RangePeriod, InstantsPeriod, PositionsPeriod, WeatherPeriod> kind;
   Where where;
 };
 
+/// Section `sun`: how the sun is computed.
 struct SunStudy {
   Refraction refraction = Refraction::spa;
   Ut1 ut1_utc = Ut1::table;
@@ -87,6 +92,7 @@ struct SunStudy {
 /// Of light in bands: sun and sky as Holubář (2007) colours them, or white.
 enum class LightColour { sky, white };
 
+/// Where the irradiances of sun and sky come from.
 enum class LightSource { clear_sky, weather, fixed };
 /// Strength of the sky: that of the source's diffuse irradiance, or the model's own luminance.
 enum class SkyScale { diffuse, absolute };
@@ -98,6 +104,7 @@ struct SeasonAlbedo {
   Where where;
 };
 
+/// Section `light`: strength and distribution of the light of sun, sky and far ground.
 struct LightStudy {
   LightSource source = LightSource::clear_sky;
   ClearSkyModel model = ClearSkyModel::ineichen;
@@ -204,6 +211,7 @@ struct AssignRule {
   Where where;
 };
 
+/// Key `scene.ground`: the ground that is made.
 struct GroundStudy {
   bool wanted = true;
   double margin_m = 50;
@@ -212,6 +220,7 @@ struct GroundStudy {
   std::optional<double> height_m;  ///< of a level one; absent: the lowest point of the scene
 };
 
+/// Key `scene.builtin`: a scene that comes with the program (io/scene/builtin.h).
 struct BuiltinStudy {
   std::string name;
   std::map<std::string, std::string> parameters;
@@ -245,21 +254,27 @@ struct SceneFileStudy {
   bool is_placed() const { return position || earth_position || turn_deg != 0; }
 };
 
+/// Removes the chosen objects.
 struct RemoveEdit {};
+/// Makes the chosen objects higher, or lower below 0 (geo/edit/raise.h).
 struct RaiseEdit {
   double by_m = 0;
   std::optional<double> from_m;  ///< above the object's foot; absent: its eaves
 };
+/// Moves the chosen objects [m].
 struct MoveEdit {
   Vec3 by;
 };
+/// Turns the chosen objects about a vertical axis.
 struct TurnEdit {
   double by_deg = 0;            ///< clockwise seen from above
   std::optional<Point2> about;  ///< absent: the middle of what is turned
 };
+/// Puts a file in the place of the chosen objects.
 struct ReplaceEdit {
   SceneFileStudy file;
 };
+/// Adds the model of a file.
 struct AddFileEdit {
   SceneFileStudy file;
 };
@@ -270,6 +285,7 @@ struct AddPrismEdit {
   std::optional<double> base_m;  ///< absent: what is below its middle
   double height_m = 0;
 };
+/// Adds a tree, or a row of trees from `at` to `to`, one every `every_m`.
 struct AddTreesEdit {
   std::string name;
   Point2 at{0, 0};
@@ -301,6 +317,7 @@ struct LuminaireStudy {
   Where where;
 };
 
+/// Section `scene`, with what the study says of its materials.
 struct SceneStudy {
   std::vector<SceneFileStudy> files;
   std::optional<BuiltinStudy> builtin;
@@ -341,6 +358,7 @@ struct AccuracyStudy {
 /// Whether intervals that are shorter than what is asked of them are solved together
 /// (io/plan/joined_intervals.h): each by itself, those of a step together, or what pays.
 enum class ShortIntervals { each, together, automatic };
+/// Section `solver`: how light is computed. Counts are over all realizations together.
 struct SolverStudy {
   Transport transport = Transport::gather;
   Jacobi jacobi = Jacobi::incremental;
@@ -364,15 +382,18 @@ struct SolverStudy {
 };
 
 inline constexpr int float_mantissa_bits = 23;
+/// Of what standard errors are stored: nothing, totals, or every interval, too.
 enum class StandardErrors { none, totals, instants };
 /// What values of stored series are means over: intervals, or steps of the site's clock.
 struct SeriesStepStudy {
+  /// What a step is: an interval of the period, so many minutes, a day or a month of the calendar.
   enum class Unit { interval, minutes, day, month } unit = Unit::interval;
   int minutes = 0;  ///< of a step in minutes: a divisor of a day
   Where where = {};
 
   bool is_interval() const { return unit == Unit::interval; }
 };
+/// Section `output`: what is stored, and where.
 struct OutputStudy {
   std::string folder = "results";
   std::vector<std::string> series{"total", "direct", "sky", "mirror", "lamps", "reflected"};
@@ -392,6 +413,7 @@ struct SensorsStudy {
   Where where;
 };
 
+/// One variant with all its sections.
 struct Study {
   std::string name;
   std::string variant = "baseline";
@@ -409,6 +431,7 @@ struct Study {
   std::vector<SeasonStudy> seasons = {};  ///< of unique names; of several at once the last rules
 };
 
+/// A study file with its variants.
 struct StudyFile {
   std::string path;
   std::string yaml;  ///< verbatim

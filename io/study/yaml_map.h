@@ -23,6 +23,7 @@ namespace sunload {
 
 /// Allowed values of a number; `excluded`: above `low`, not at it.
 struct Range {
+  /// Whether `low` itself is allowed.
   enum class Low { included, excluded };
   double low, high;
   Low low_end = Low::included;

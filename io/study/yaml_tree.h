@@ -21,14 +21,18 @@ namespace sunload {
 struct YamlNode;
 using YamlTree = std::shared_ptr<const YamlNode>;
 
+/// A key of a map with its value.
 struct YamlEntry {
   std::string key;
   Where where;  ///< of the key
   YamlTree value;
 };
 
+/// A value of the file, and where it is written.
 struct YamlNode {
+  /// What the value is; empty: none, or `~`.
   enum class Kind { empty, text, list, map };
+  /// Whether a text is in quotes; plain ones may be meant as numbers.
   enum class Style { plain, quoted };
 
   Kind kind = Kind::empty;

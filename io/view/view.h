@@ -11,6 +11,7 @@
 
 namespace sunload {
 
+/// What of the results the page holds.
 struct ViewRules {
   /// Every how manyth interval the page holds; none: the least that keeps the
   /// page below about 60 MB.

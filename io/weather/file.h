@@ -19,6 +19,7 @@ struct WeatherPlace {
   double elevation_m = 0;
 };
 
+/// A weather file as read, before it is dated and filled.
 struct WeatherFile {
   std::string path;
   std::string format;  ///< EPW, TMY3, WEA, CSV

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Threads that wait for parallel loops, and sleep soon where none comes.
+/// A team of threads for parallel loops. A thread without work looks for a loop for some 30 µs,
+/// then sleeps until one begins.
 ///
-/// Processes that share processors, more ranks or shards than cores, do not take time from each
-/// other by waiting. The thread sanitizer understands it, and so does a process that was forked: it
-/// has nobody to help, and does all by itself.
+/// Since idle threads sleep, processes that share cores (more ranks or shards than cores) do not
+/// take time from each other by waiting. The thread sanitizer understands the synchronisation. A
+/// process that was forked has no other threads of the team: its calling thread does all the work.
 #pragma once
 
 #include <atomic>
@@ -20,21 +21,21 @@ class Crew {
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
 
-  /// The one of this process; it is never destroyed, as its threads end with the process.
+  /// The only one of this process. It is never destroyed, as its threads end with the process.
   static Crew& of_process();
 
   /// Calls work() on up to `team` threads, the calling one among them, and returns when all calls
-  /// have returned. Others come as they find time: work() must be complete with one call, and do
-  /// nothing where there is nothing left. It must not throw. From any thread; loops of several
-  /// threads go on side by side.
+  /// have returned. The other threads join when they are free, perhaps never: one call of work()
+  /// must be able to do everything, and a call that finds nothing left must do nothing. work() must
+  /// not throw. May be called from any thread; loops begun by several threads run side by side.
   void run(int team, const std::function<void()>& work);
 
  private:
   /// A call of `run`; on its stack.
   struct Loop {
     const std::function<void()>& work;
-    int places;                ///< for those who come yet; under `guard_`, as all changes of `busy`
-    std::atomic<int> busy{0};  ///< who came and is not done
+    int places;  ///< threads that may still join; changed, as `busy` is, under `guard_`
+    std::atomic<int> busy{0};  ///< threads that joined and are not done
   };
 
   Crew() = default;

@@ -22,6 +22,7 @@ LargeVector<Real> large_filled(std::size_t count, Real value) {
   return filled;
 }
 
+/// `count` zeros.
 template <class Real>
 LargeVector<Real> large_zeros(std::size_t count) {
   return large_filled(count, Real{0});

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Memory of large arrays, in large pages where the system has some: what is looked for anywhere in
-/// them is found sooner, and there are fewer pages to ask for.
+/// Memory of large arrays, in large pages where the system has some: random access is faster, and
+/// there are fewer pages to ask for.
 ///
-/// The system clears pages before it gives them away, by one thread: blocks of suns, one after
-/// another, would wait for that longer than for some of their work. So what is left is kept aside
-/// for who asks for as much next; with what is in use it is never more than once was in use.
+/// The system clears pages, by one thread, before it hands them out: one block of suns after
+/// another would wait for that longer than for some of its work. So memory that is left is kept for
+/// the next request of the same size. What is kept and what is in use together never exceed the
+/// most that was in use at once.
 #pragma once
 
 #include <cstddef>
@@ -14,16 +15,17 @@
 
 namespace sunload {
 
-/// Aligned to cache lines at the least; what it holds is anything. Throws std::bad_alloc.
+/// Takes memory, aligned to cache lines at the least; its contents are undefined. Throws
+/// std::bad_alloc.
 void* take_large_memory(std::size_t bytes);
 /// `bytes`: as it was taken.
 void leave_large_memory(void* memory, std::size_t bytes) noexcept;
-/// Gives back to the system what is kept aside of arrays of at most that size, and begins anew:
-/// before much other memory is wanted.
+/// Gives kept memory of arrays of at most that size back to the system, and begins to count anew;
+/// to be called before much other memory is wanted.
 void return_large_memory(
     std::size_t up_to_bytes = std::numeric_limits<std::size_t>::max()) noexcept;
 
-/// Of vectors of many numbers.
+/// Allocator of vectors of many numbers.
 template <class Real>
 struct LargeMemory {
   using value_type = Real;
@@ -32,7 +34,7 @@ struct LargeMemory {
   explicit LargeMemory(const LargeMemory<Other>&) {}
   Real* allocate(std::size_t n) { return static_cast<Real*>(take_large_memory(n * sizeof(Real))); }
   void deallocate(Real* memory, std::size_t n) { leave_large_memory(memory, n * sizeof(Real)); }
-  /// What nobody gives a value is anything, as the memory is.
+  /// Leaves a number without a value uninitialised.
   template <class Other>
   void construct(Other* place) {
     ::new (static_cast<void*>(place)) Other;

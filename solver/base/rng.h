@@ -42,6 +42,7 @@ struct RandomKey {
 
 using RandomWords = std::array<std::uint32_t, 4>;
 
+/// Four uniform words of 32 bits; the same key gives the same words on any machine.
 RandomWords random_words(const RandomKey& key);
 
 /// random_words for the realizations 0 … 15 at once, as lanes [word][realization].

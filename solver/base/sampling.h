@@ -75,6 +75,7 @@ void sobol_points(std::uint32_t first, int dimension, std::uint32_t (&x)[count])
 struct Barycentric {
   double w0, w1, w2;
 };
+/// Weights for a point (u, v) of the unit square; keeps areas in proportion.
 constexpr Barycentric sample_triangle(double u, double v) {
   const double half = 0.5 * (u < v ? u : v);
   const double w1 = v > u ? half : u - half;
@@ -104,6 +105,7 @@ inline Vec3 sample_cosine(double u, double v) {
   const double square = 1 - radius * radius;
   return {along_a ? near : far, along_a ? far : near, std::sqrt(square > 0 ? square : 0.0)};
 }
+/// Density [sr-1] with which sample_cosine draws a direction at this cosine to +z.
 constexpr double cosine_pdf(double cos_theta) { return cos_theta > 0 ? cos_theta / pi : 0; }
 /// The (u, v) that sample_cosine maps to this unit direction (w.z ≥ 0).
 UnitSquare invert_cosine(Vec3 w);

@@ -27,6 +27,7 @@ double variance_about(double mean, std::size_t n, Value&& value) {
   for (std::size_t r = 0; r < n; ++r) squares += (value(r) - mean) * (value(r) - mean);
   return squares / (static_cast<double>(n) - 1);
 }
+/// Variance of the same, about the mean that it computes itself.
 template <class Value>
 double variance_of(std::size_t n, Value&& value) {
   return variance_about(mean_of(n, value), n, value);

@@ -9,6 +9,7 @@ namespace sunload {
 /// `nodes`: the skies and suns that a long period is made up of.
 enum class Stage { prepare, refine, lines, nodes, light };
 
+/// Receives how far a stage has come and how many rays were cast; as it is, ignores both.
 class Watch {
  public:
   virtual ~Watch() = default;

@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Who takes and who gives the light of a place, over a whole period.
+/// Which objects take light from a place and which give it light, over a whole period.
 ///
-/// Every way on which light may come to the place is looked along once, by the very sun samples and
-/// lines that the solution casts from its patches (the same random numbers). In the open such a way
-/// brings the sun, a cell of the sky or the far ground. What it meets first takes that, and gives
-/// what it sends along it instead:
+/// Rays look once along every way on which light may come to the place: the very sun samples and
+/// lines (the same random numbers) that the solution casts from its patches. In the open such a way
+/// brings the sun, a cell of the sky or the far ground. The surface that it meets first takes this
+/// light, and gives what it sends along the way instead:
 ///
 ///     H = open − Σ_objects taken + Σ_objects given,
 ///     given = w (∫ B dt of the patch that is met)  +  what mirrors there send on
 ///
-/// with ∫ B dt from a finished solution. So objects add up to the light load of the place, up to
-/// the spread of the lines, and what is not looked for: the sun by glossy lobes, by mirrors of too
-/// many orientations for beams, and parallel sources.
+/// with ∫ B dt from a finished solution. So the objects add up to the light load of the place, but
+/// for the spread of the lines and for light that is not looked for: the sun by glossy lobes, by
+/// mirrors of too many orientations for beams, and parallel sources.
 #pragma once
 
 #include <cstddef>
@@ -36,13 +36,15 @@ enum class Flow {
 };
 inline constexpr std::size_t flow_count = 6;
 
-/// Whose doing the light is: that of whole objects, or of each patch. What no patch bears (floors,
-/// backs) is of objects alone: it takes and gives nothing.
+/// To what light is attributed: to whole objects, or to each patch. A surface without patches
+/// (floor, back) takes light as part of its object only, and gives nothing.
 enum class Among { objects, patches };
 
-/// Of every realization [J m-2, or lx s], means over the place. `objects`: or patches.
+/// Light that each object (or patch) takes and gives, of every realization [J m-2, or lx s], means
+/// over the place.
 class Attribution {
  public:
+  /// Light of a way on which nothing stands.
   enum class Open { sun, sky, far_ground };
   static constexpr std::size_t open_count = 3;
 
@@ -81,11 +83,11 @@ class Attribution {
 /// Of each patch, over the period [J m-2, or lx s]: what it reflects and emits diffusely.
 using SentLight = std::vector<double>;
 
-/// `shares`: of each interval, which is looked at; empty: all. `sent` is of that part, too. Sums of
-/// an object's patches are what the object has, but for what no patch bears.
-/// `traced` needs no lines of its own. Objects are those of the scene's mesh. The same bits for any
-/// number of threads. Cost: a ray for each sun sample and line of the place, and as many for each
-/// mirror orientation that may show it the sun. Throws Interrupted.
+/// `shares`: the share of each interval that is looked at; empty: all of it. `sent` must be of the
+/// same part of the time. Sums over the patches of an object are the object's values, but for
+/// surfaces without patches. `traced` needs no lines of its own. Objects are those of the scene's
+/// mesh. The same bits for any number of threads. Cost: a ray for each sun sample and line of the
+/// place, and as many for each mirror orientation that may show it the sun. Throws Interrupted.
 Attribution attribute_light(const TracedScene& traced, const LitPeriod& period,
                             const SentLight& sent, const Place& place,
                             const std::vector<double>& shares = {}, Among among = Among::objects);

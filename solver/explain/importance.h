@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What diffuse light that a patch sends is worth to a place, by all ways: one adjoint solution.
+/// How much light a place receives, by all ways, for each unit of diffuse light that a patch sends:
+/// one adjoint solution.
 ///
 /// Light is E = E_0 + F ρ E, with F the exchange along lines, by mirrors too, and the place has
 /// H = wᵀ E. Where patch j sends one unit more, H grows by

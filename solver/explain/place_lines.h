@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The lines of one patch or sensor again: those that the solution cast, by the same random
-/// numbers, but for points on bright surfaces.
+/// Casts the lines of one patch or sensor again: the lines of the solution, by the same random
+/// numbers, but without points on bright surfaces.
 #pragma once
 
 #include <cstddef>
@@ -20,22 +20,25 @@ struct Place {
   bool is_of_sensors = false;
 };
 
+/// Whether a number is that of a patch of the mesh or of a sensor of the scene.
 enum class Receiver { patch, sensor };
 
-/// As far as its first hit.
+/// A line as far as its first hit.
 struct CastLine {
   Vec3 origin, w;  ///< w: unit
   Hit hit;
   RandomKey key;  ///< for the surfaces that it meets
 };
 
+/// Casts these lines realization by realization. `traced` must outlive it, and needs no lines of
+/// its own.
 class PlaceLines {
  public:
   explicit PlaceLines(const TracedScene& traced)
       : traced_(traced), rules_(line_rules(traced.rules)) {}
 
   std::size_t realizations() const { return static_cast<std::size_t>(rules_.realizations); }
-  /// Of one realization; each brings as great a share.
+  /// Lines of one realization; all count alike.
   std::size_t count(std::size_t receiver, Receiver kind) const {
     const int all = kind == Receiver::sensor ? rules_.lines_per_patch : rules_.lines_of(receiver);
     return static_cast<std::size_t>(all) / realizations();

@@ -25,6 +25,8 @@ struct TriangleColumns {
   void add(const std::array<Vec3, 3>& corners);
 };
 
+/// Depths on a square grid across the beam, in a pyramid of coarser grids. Every cell that a
+/// polygon may touch is filled: a beam may be reported where there is none, never the reverse.
 class BeamRaster {
  public:
   /// Raster of `section` seen from far away along the unit direction `w` (from

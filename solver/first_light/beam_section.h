@@ -24,8 +24,8 @@ class BeamSection {
  public:
   /// `parts` must outlive it.
   BeamSection(const BeamSource& source, const std::vector<ConvexPolygon>& parts);
-  /// Per mirror of the group that the light may meet one polygon which holds all
-  /// of it that is lit; what stands between is not asked.
+  /// For each mirror of the group that the light may meet, one polygon that holds all of its lit
+  /// part; what stands between is left out of account.
   std::vector<ConvexPolygon> lit(const MirrorGroups& groups, std::size_t group);
 
  private:

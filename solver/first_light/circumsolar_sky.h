@@ -68,6 +68,7 @@ class CircumsolarView {
   /// ∫ L_circ q dω [W m-2]: what a sample stands for.
   double irradiance() const { return irradiance_; }
 
+  /// Up to 16 directions with the weight of each.
   struct Samples {
     PacketDirections directions;
     alignas(64) float weight[packet_size];  ///< cosθ / q, 0 behind the surface

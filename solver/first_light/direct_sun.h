@@ -21,8 +21,9 @@
 /// quasi-Monte Carlo for discontinuous functions), and R realizations of n points each that of
 /// n^-3/2 / R. So one net of n R^(2/3) points errs as they do: half as many for R = 8.
 ///
-/// All rays of a sensor to a sun that is a point are one: each of these brings the share of light
-/// that passes what it crosses (crowns, screens), where rays of patches pass by chance or not.
+/// All rays of a sensor to a sun without a disk are the same ray. So each of them brings the share
+/// of light that passes the crowns and screens that it crosses, whereas a ray of a patch passes
+/// them or is stopped by chance.
 #pragma once
 
 #include <array>
@@ -40,6 +41,8 @@
 
 namespace sunload {
 
+/// How many rays ask for the sun, and by which random numbers. Samples of a receiver and sun are
+/// shared equally by the realizations.
 struct DirectRules {
   int samples = 16;  ///< per patch and sun, over all realizations together
   int realizations = 8;
@@ -93,8 +96,8 @@ class SunSampler {
   /// Directions of the same samples to points on the sun's disk, or to the sun that is a point.
   PacketDirections directions(const IntervalLight& sun, const Seeds& seeds,
                               std::size_t packet) const;
-  /// The same by the coordinates that choose origins: for samples of sensors, all but points, that
-  /// need `points` for something else.
+  /// The same by the coordinates that choose origins: for sensors, whose origins are all but one
+  /// point, where `points` are needed for something else.
   PacketDirections directions_by_origins(const IntervalLight& sun, const Seeds& seeds,
                                          std::size_t packet) const;
   /// Bits of the samples that packet really holds.
@@ -102,6 +105,7 @@ class SunSampler {
 
   /// Points of the one net for suns behind clouds.
   std::size_t net_points() const { return net_.size(); }
+  /// Rays from points of a receiver to the sun, each to a point of its disk if it has one.
   struct NetRays {
     Packet origins;
     PacketDirections to_sun;
@@ -138,8 +142,8 @@ struct LitSamples {
       lit;                  ///< bits: that the packet really holds, and of these what sees the sun
   RayCaster::Shares share;  ///< of the sun that each sees
 };
-/// All that asks rays for the direct sun of a receiver asks here, so that what surfaces receive and
-/// what they send on rests on the same rays. `seeds`: of this receiver and sun.
+/// The only place that asks rays for the direct sun of a receiver, so that what surfaces receive
+/// and what they send on rest on the same rays. `seeds`: of this receiver and sun.
 LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const IntervalLight& sun,
                        const SunSampler::Geometry& geometry, const SunSampler::Seeds& seeds,
                        std::size_t packet);

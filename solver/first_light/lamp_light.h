@@ -18,6 +18,8 @@
 
 namespace sunload {
 
+/// What these lamps bring to N receivers, of every realization or pooled. All empty where the scene
+/// has no such lamp.
 struct LampLight {
   std::vector<std::vector<double>> irradiance;  ///< [R][N], straight and by mirrors [W m-2]
   std::vector<double> pooled;                   ///< [N]

@@ -27,6 +27,8 @@ class LampRays {
     std::uint32_t patch;
     double power;
   };
+  /// What the samples up to now brought beside irradiance: ledgers ([R], W), light that mirrors
+  /// left on patches, and the count of rays.
   struct Found {
     std::vector<Ledger> ledger;
     std::vector<Left> left;

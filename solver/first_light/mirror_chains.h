@@ -19,16 +19,20 @@
 
 namespace sunload {
 
+/// How far sunlight is followed from mirror to mirror.
 struct ChainRules {
   int mirror_depth = 8;   ///< reflections that are followed
   double negligible = 0;  ///< share of the sun below which further reflections are cut
 };
 
+/// The samples that see the sun on a mirror patch start the chains. All arguments but the rules
+/// must outlive it.
 class MirrorChains {
  public:
   MirrorChains(const Hierarchy& hierarchy, const RayCaster& caster, const SunSampler& sampler,
                const MirrorGroups& groups, const ChainRules& rules);
 
+  /// Where the sunlight of a block ended after its first mirror, and the work that it took.
   struct SentOn {
     std::vector<SunFates> fates;  ///< per realization, each with its own samples
     std::uint64_t rays = 0;
@@ -38,7 +42,7 @@ class MirrorChains {
   /// beam brings. `shares`: of patches that see the suns (LitShares::of).
   SentOn follow(std::span<const IntervalLight> block, std::span<const SunBeams> beams,
                 const Columns& shares, const RaySink& into) const;
-  /// Of each triangle of the scene, that it is a mirror's and none of its patches sees sun k.
+  /// 1 for each triangle of the scene that is a mirror and of which no patch sees sun k, else 0.
   std::vector<std::uint8_t> dark_mirrors(const IntervalLight& sun, std::size_t k,
                                          const Columns& shares) const;
 

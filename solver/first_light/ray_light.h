@@ -121,6 +121,7 @@ class RaySink {
   std::size_t whole_ = every_one;
 };
 
+/// All that rays bring to N receivers in one block of suns.
 struct RayLight {
   RayColumns pooled;
   Columns sunlit;  ///< [N][block] share of the receiver that sees the sun

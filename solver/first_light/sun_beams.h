@@ -28,6 +28,7 @@
 
 namespace sunload {
 
+/// Where the tree of sequences ends.
 struct BeamRules {
   int mirror_depth = 8;    ///< reflections, at most
   double faint_glint = 0;  ///< share of the sun below which further reflections are no beams
@@ -47,11 +48,13 @@ struct SunBeam {
   std::vector<std::pair<std::size_t, std::int32_t>> next;  ///< group, beam
 };
 
+/// The beams of one sun, level by level: those that are reflected once come first. `groups` must
+/// outlive it.
 class SunBeams {
  public:
   /// None.
   explicit SunBeams(const MirrorGroups& groups) : groups_(&groups) {}
-  /// `dark`: of each triangle, that nothing of it sees the sun; empty: of none is that known.
+  /// `dark`: 1 for each triangle of which nothing sees the sun; empty: this is known of none.
   SunBeams(const MirrorGroups& groups, const IntervalLight& sun, const BeamRules& rules,
            std::span<const std::uint8_t> dark = {});
   std::size_t size() const { return beams_.size(); }

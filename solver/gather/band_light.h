@@ -23,6 +23,7 @@ std::vector<IntervalLight> suns_in_band(std::span<const IntervalLight> suns, std
 struct BandFactors {
   std::array<double, block_width> sun, circumsolar;
 };
+/// Factors of every sun of a block in that band. A sun without direct light has the factor 1.
 BandFactors band_factors(const BlockSources& broadband, std::span<const IntervalLight> of_band,
                          std::size_t band);
 /// The same where no rays were traced to the sky about the sun.

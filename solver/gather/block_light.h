@@ -28,9 +28,9 @@ struct BlockSources {
   Columns sky;                              ///< [cells][block] π·radiance, by way of mirrors
   Columns sky_of_lines;                     ///< the same, straight
   std::vector<CircumsolarSky> circumsolar;  ///< per sun, after split_sky
-  /// Multiple of it that shines: 1, or of a band.
+  /// Factor of `circumsolar`: 1, or that of a band.
   std::array<double, block_width> circumsolar_factor;
-  /// Radiance of a cell that the lines take [W m-2 sr-1], after split_sky.
+  /// Radiance of a cell as the lines see it [W m-2 sr-1], after split_sky.
   double radiance_for_lines(std::size_t k, std::size_t cell) const {
     const double taken = circumsolar_factor[k] * circumsolar[k].radiance(cell);
     return std::max(0.0, suns[k].sky[cell] - taken);  // below 0 by a rounding only
@@ -52,25 +52,25 @@ struct BlockLight {
   }
 };
 
-/// What needs no line from row to row: the sun's rays, straight and by mirrors, emitters that the
-/// rows of `lines` meet, and parallel sources ([N], or empty).
+/// Light that follows no links: the sun's rays, straight and by mirrors, emitters that the rows of
+/// `lines` meet, and parallel sources ([N], or empty).
 BlockLight light_by_rays(const LineSet& lines, RayColumns rays,
                          const std::vector<double>& parallel);
 
-/// What arrives at the rows of `lines` without diffuse reflection by patches: by these lines, by
-/// `rays`, and of parallel sources ([N], or empty). `reflected` holds the far ground alone,
-/// `gathered_radiosity` nothing.
+/// Light that arrives at the rows of `lines` without diffuse reflection by patches: along these
+/// lines, by `rays`, and from parallel sources ([N], or empty). `reflected` holds the far ground
+/// alone, `gathered_radiosity` nothing.
 BlockLight unreflected_light(const LineSet& lines, const PatchOptics& optics,
                              const BlockSources& sources, RayColumns rays,
                              const std::vector<double>& parallel);
 
-/// The same, and what patches reflect.
+/// The same, and the light that patches reflect.
 BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                        const BlockSources& sources, RayColumns rays,
                        const std::vector<double>& parallel, const BounceRules& rules);
 
-/// rho E of all light, of every patch; elements above them have none. `Light`: of a block, with
-/// total(patch, sun).
+/// rho E of every patch, with E all of its light; 0 for elements above the patches. `Light`: of a
+/// block, with total(patch, sun).
 template <class Light>
 Columns reflected_radiosity(const PatchOptics& optics, const Light& light, std::size_t elements) {
   Columns radiosity = columns(elements);
@@ -85,8 +85,9 @@ Columns reflected_radiosity(const PatchOptics& optics, const Light& light, std::
   return radiosity;
 }
 
-/// Diffusely reflected radiosity of all elements as sensors see it: what was gathered last, or
-/// where the light beyond is estimated, of all light. `gathered_radiosity` is used up.
+/// Diffusely reflected radiosity of all elements as sensors see it: the radiosity that was gathered
+/// last or, where the light beyond the last bounce is estimated, that of all light.
+/// `gathered_radiosity` is used up.
 Columns seen_radiosity(const Hierarchy& mesh, const PatchOptics& optics, BlockLight& light);
 
 /// Ledger of every sun of the block [W], but for the sun's light sent on by mirrors.

@@ -11,12 +11,12 @@
 
 namespace sunload {
 
-/// What receivers get; `rows`: of each sun in the tally; `sunlit`: share of each receiver that sees
-/// the sun ([N][block]).
+/// Stores what receivers get. `rows`: the row of each sun in the tally; `sunlit`: share of each
+/// receiver that sees the sun ([N][block]).
 void store_received(const BlockLight& light, std::span<const IntervalLight> block,
                     std::span<const std::size_t> rows, const Columns& sunlit, ReceiverTally& tally);
 
-/// What patches get and what leaves them.
+/// Stores what patches get and what leaves them.
 void store_patches(const PatchOptics& optics, const BlockLight& light,
                    std::span<const IntervalLight> block, std::span<const std::size_t> rows,
                    const Columns& sunlit, BatchTally& tally);

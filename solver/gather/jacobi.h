@@ -37,8 +37,8 @@ void gather(const LinkTable& links, const Columns& source, Columns& out, Into in
 void gather(const LinkTable& links, const std::vector<double>& source, std::vector<double>& out,
             Into into);
 
-/// How far diffuse reflections are followed, and what the rest is estimated by: the light beyond
-/// the last bounce, of every patch (solver/gather/unfollowed.h); empty: it is left.
+/// How far diffuse reflections are followed, and how the rest is estimated. `beyond`: light_beyond
+/// of every patch (solver/gather/unfollowed.h); empty: the rest is left out.
 struct BounceRules {
   int bounces;
   std::span<const float> beyond;

@@ -23,10 +23,10 @@ struct PatchLight {
   double estimated = 0;           ///< irradiance by light that is not followed
 };
 
-/// Terms of one patch; every one from its own estimate, none by difference:
-/// its lines tell where what it sends ends, and what panes transmit and absorb of it at their
-/// angles; its irradiance tells what it absorbs itself. Light that passes a patch straight
-/// is met further on, or leaves: it counts where it is stopped.
+/// Terms of one patch, each from an estimate of its own, none by difference. Its lines tell where
+/// the light ends that it sends, and what panes transmit and absorb of that at their angles; its
+/// irradiance tells what it absorbs itself. Light that passes straight through a patch is met
+/// further on, or leaves the scene: it counts where it is stopped.
 inline Ledger ledger_of_patch(const PatchLight& p, const LineEnds& ends) {
   const double sent = p.area * (p.gathered_radiosity + p.emission);
   const double stopped = 1 - p.passed;

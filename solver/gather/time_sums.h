@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Light of a batch integrated over time, from which every realization solves once more.
+/// Light of a batch integrated over time, by which every realization is solved once more.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,13 @@
 
 namespace sunload {
 
-/// Sources, and irradiance by rays, per realization where they are estimates of their own
-/// [J m-2], [J].
+/// Sources and irradiance by rays, integrated over time [J m-2, or J]; of every realization where
+/// each has an estimate of its own.
 struct TimeSums {
   TimeSums(std::size_t realizations, std::size_t patches, std::size_t sensors,
            std::size_t sky_cells);
-  /// Adds what the light of a block has of sky, far ground and time; `shares`: of that of every
-  /// sun, all of it where there are none.
+  /// Adds sky, far ground and time of a block. `shares`: the share that counts of each sun's time;
+  /// none: all of it.
   void add_sources(const BlockSources& sources, std::span<const double> shares = {});
   /// The same of a block whose sky is not split: circumsolar light is for the caller to take out.
   void add_whole_sources(const BlockSources& sources, std::span<const double> shares = {});
@@ -38,7 +38,7 @@ struct TimedSums {
   SunSeconds seconds;
 };
 
-/// What the rows of one realization's lines receive otherwise than by these.
+/// Light that the rows of one realization receive by other ways than its lines.
 struct ExposureByRays {
   const std::vector<double>&direct, &by_mirror;  ///< [J m-2]
   const std::vector<double>& circumsolar;        ///< [J m-2]; empty: the lines take the whole sky

@@ -2,19 +2,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Light that is reflected after the last bounce that is followed: an estimate.
 ///
-/// With d_b = E^(b) - E^(b-1), what bounce b brings, all of the light is E^(n) + Σ_{b>n} d_b. After
-/// some bounces what is left has nearly the same shape whatever shone first, that of the largest
-/// eigenvectors of G rho. Between walls that face each other these come in pairs, λ and -λ: what
-/// one wall has now the other has next, and d_n alone tells the one only. Two bounces tell both:
-/// the sum of all that follow is λ² / (1 - λ²) (d_n + d_(n-1)) of either. So each patch receives as
-/// many times its last two as it does under a uniform sky, for which the iteration goes on once and
-/// for all,
+/// With d_b = E^(b) - E^(b-1), the light that bounce b brings, all of the light is E^(n) + Σ_{b>n}
+/// d_b. After some bounces the rest has nearly the same shape whatever shone first, that of the
+/// largest eigenvectors of G rho. Between walls that face each other eigenvalues come in pairs, λ
+/// and -λ: light on one wall is on the other after the next bounce, and d_n alone tells one wall
+/// only. Two bounces tell both: for λ and for -λ all that follow add up to λ² / (1 - λ²) (d_n +
+/// d_(n-1)). So the rest of each patch is a multiple t of its last two bounces, the one that it has
+/// under a uniform sky, for which the iteration goes on once and for all,
 ///
 ///     E^(∞) - E^(n) ≈ t (d_n + d_(n-1)) ,   t = Σ_{b>n} d_b / (d_n + d_(n-1)) of the uniform sky;
 ///
-/// after one bounce t d_n. One ratio for all patches (Aitken 1926, by the power that they reflect)
-/// leaves a fifth of this light in a courtyard, where t leaves less than a tenth; ratios patch by
-/// patch are worse than none, since single patches are far from their limit after few bounces.
+/// after one bounce t d_n. A single ratio for all patches (Aitken 1926, by the power that they
+/// reflect) misses a fifth of this light in a courtyard, where t misses less than a tenth. Ratios
+/// from each patch's own light are worse than no estimate, since single patches are far from their
+/// limit after few bounces.
 #pragma once
 
 #include <span>
@@ -24,14 +25,15 @@
 
 namespace sunload {
 
-/// Bounces after which less than `unshot` of the light of a uniform sky would remain unfollowed,
-/// and of nearly every patch's own light less than a hundred times that, at most `bounces`: decided
-/// once per variant.
+/// Number of bounces, at most `bounces`, after which less than `unshot` of the light of a uniform
+/// sky remains unfollowed, and less than a hundred times that share of nearly every patch's own
+/// light. Decided once per variant.
 int bounces_needed(const Hierarchy& mesh, const LineSet& lines, const PatchOptics& optics,
                    int bounces, double unshot);
 
-/// t of every patch after so many bounces; empty after none. Where nothing else is seen all
-/// surfaces shine. Cost: some gathers of one column over `lines`.
+/// t of every patch after so many bounces; empty after none. The uniform sky shines on what sees
+/// it; where anything emits, all patches receive as much again. Cost: some gathers of one column
+/// over `lines`.
 std::vector<float> light_beyond(const Hierarchy& mesh, const LineSet& lines,
                                 const PatchOptics& optics, int bounces);
 

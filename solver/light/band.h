@@ -19,6 +19,7 @@ inline constexpr std::array<const char*, band_count> band_names{"red", "green", 
 
 /// One value per band, in the order of `band_names`.
 using BandShares = std::array<double, band_count>;
+/// Mean of the bands: the broadband value.
 inline double mean_of(const BandShares& shares) {
   return (shares[0] + shares[1] + shares[2]) / static_cast<double>(band_count);
 }

@@ -30,6 +30,7 @@ struct Fate {
   }
 };
 
+/// Every end of the light times the factor.
 template <class T>
 Fate<T> scaled(const Fate<T>& fate, T factor) {
   return {.escaped = factor * fate.escaped,

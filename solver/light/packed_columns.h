@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Columns of values that are not negative, in 16 bits each, a factor for every row of a block and
-/// one for every column.
+/// Columns of values that are not negative, in 16 bits each, with a factor for every row and one
+/// for every column of a block.
 #pragma once
 
 #include <array>
@@ -12,10 +12,10 @@
 
 namespace sunload {
 
-/// Of the shares that values have of the largest of their columns, each is known to half of 1/65535
-/// of the largest of its row: far less than what samples of few rays, or skies and suns that are
-/// made up of others, are off by. Where all but one column are empty, values are known to a
-/// rounding of a float. Takes 36 bytes for a row, in place of 64.
+/// The factor of a column is its largest value. As a share of this, each value is known to half of
+/// 1/65535 of the largest share in its row: far finer than the errors of samples of few rays, or of
+/// skies and suns that are made up of others. Where all columns but one are empty, values are known
+/// to a rounding of a float. A row takes 36 bytes instead of 64.
 class PackedColumns {
  public:
   PackedColumns() = default;

@@ -29,14 +29,14 @@ struct SunRow {
   std::size_t interval = 0;         ///< of the block
   std::vector<IntervalLight> suns;  ///< at most `block_width`, each a part as of `suns_one_by_one`
 };
-/// Whether any interval has suns for what is straight alone.
+/// Whether any interval has suns for straight light alone (`direct_suns`).
 bool any_direct_suns(std::span<const IntervalLight> block);
 /// All of these, in the order of time; intervals that have none have no row. No row depends on
 /// another interval.
 std::vector<SunRow> direct_suns_in_rows(std::span<const IntervalLight> block);
 
-/// Points of one net by which the share of a receiver that sees a sun errs no more than by so many
-/// samples, which realizations share equally (solver/first_light/direct_sun.h).
+/// Points that one net needs to estimate the share of a receiver that sees a sun no worse than so
+/// many samples, which realizations share equally, do (solver/first_light/direct_sun.h).
 std::size_t net_size(int samples, int realizations);
 
 }  // namespace sunload

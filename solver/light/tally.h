@@ -36,6 +36,7 @@ enum class Term : std::uint8_t {
 };
 inline constexpr std::size_t term_count = 8;
 
+/// The energy of a scene by terms.
 struct Ledger {
   std::array<double, term_count> terms{};  ///< W, or J when integrated over time
   double lost_at_backs = 0;                ///< part of `absorbed`: met backs of one-sided surfaces
@@ -48,14 +49,16 @@ struct Ledger {
   double residual() const { return in() - out(); }
   Ledger& operator+=(const Ledger& other);
 };
+/// All of it times the factor.
 Ledger scaled(Ledger ledger, double factor);
 
-/// What is told of a ledger, line by line: its terms, the residual, and what is estimated.
+/// Lines of a ledger in results: its terms, the residual, and the light that is estimated.
 inline constexpr std::size_t ledger_line_count = term_count + 2;
 inline constexpr std::array<const char*, ledger_line_count> ledger_line_names{
     "sun",         "sky",     "ground", "emitted",  "absorbed",
     "transmitted", "escaped", "unshot", "residual", "estimated"};
 inline constexpr std::size_t residual_line = term_count;
+/// Value of the line of that number in `ledger_line_names`.
 double ledger_line(const Ledger& ledger, std::size_t line);
 
 /// `ledger` with power [W] that ended so: what met backs is absorbed, what was cut is unshot.
@@ -140,8 +143,8 @@ struct TallyShape {
   Transport transport = Transport::gather;
   std::vector<PartOfBatch> periods{};  ///< parts of the batch's time that have totals of their own
 };
-/// All zeros; what errors per instant alone need only where they are asked for, and sources
-/// likewise. When gathering exposures by source are empty: the sun's part is put there at the end.
+/// All zeros. Arrays for errors per instant and for sources have room only where these are asked
+/// for. When gathering, exposures by source are empty: the sun's part is put there at the end.
 BatchTally empty_tally(const TallyShape& shape);
 
 /// Rounds the sums of realizations to single precision, in which batch files keep them (only their

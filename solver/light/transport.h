@@ -13,9 +13,9 @@ enum class Transport { gather, shoot, matrix };
 /// When shooting. incremental: what is not yet shot; regular: all of it again in every iteration.
 enum class Jacobi { incremental, regular };
 
-/// From what the intervals of a period have their sky's and their reflected light: of a solution
-/// for each, or of few solutions for all (solver/transport/year_gathering); automatic: of few where
-/// that pays and its error is a third of the standard error or less.
+/// Where the intervals of a period have their sky's and their reflected light from. each: a
+/// solution for every interval; modes: few solutions for all (solver/transport/year_gathering);
+/// automatic: few solutions where that pays and its error is a third of the standard error or less.
 enum class Year { each, modes, automatic };
 
 /// What becomes of the light that is reflected after the last bounce: what it brings is estimated

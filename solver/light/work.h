@@ -34,7 +34,9 @@ inline constexpr auto work_count = static_cast<std::size_t>(Work::end);
 
 /// How results tell of it, among their root attributes.
 struct WorkKind {
+  /// What the number counts.
   enum class Unit : std::uint8_t { count, seconds };
+  /// For which results the number is written.
   enum class Told : std::uint8_t { always, when_shooting, never };
   Work work;
   const char* name;

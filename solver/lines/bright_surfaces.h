@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Surfaces that are worth sampling directly: diffuse emitters, and what their light makes bright.
-/// How they are sampled is told in solver/lines/bright_view.h.
+/// solver/lines/bright_view.h tells how they are sampled.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,17 @@
 
 namespace sunload {
 
-/// The curve that neighbourhoods follow: patches by `rank`, then by what they face; those that
-/// lie together come after each other.
+/// Patches in an order in which neighbours follow each other: by their rank, then by the direction
+/// that they face, then along a curve through their centroids (Morton 1966).
 std::vector<std::uint32_t> in_neighbourhoods(const Hierarchy& hierarchy,
                                              std::vector<std::uint32_t> patches,
                                              const std::vector<std::uint32_t>& rank_of_patch);
 /// Which of the six directions of the axes a normal is nearest to.
 std::uint32_t facing(Vec3 normal);
-/// Objects along a curve, by their first triangles.
+/// Rank of every object: the place of its first triangle along that curve.
 std::vector<std::uint32_t> ranks_of_objects(const Mesh& mesh);
 
+/// A patch on which points are drawn.
 struct BrightSource {
   Vec3 a, ab, ac, normal;
   double radiosity, area;  ///< estimate [W m-2], exitance included
@@ -42,6 +43,8 @@ struct BrightCluster {
   double reach(Vec3 n) const;
 };
 
+/// Bright patches in clusters of neighbours that face alike; points on a cluster are drawn in
+/// proportion to the power of its sources.
 class BrightSurfaces {
  public:
   /// None: all light is left to the lines.
@@ -62,6 +65,7 @@ class BrightSurfaces {
     return s < 0 ? nullptr : &sources_[static_cast<std::size_t>(s)];
   }
 
+  /// A point on a bright patch, with the unit normal of its side.
   struct Point {
     Vec3 position, normal;
     const BrightSource* source;

@@ -17,10 +17,11 @@
 /// Since g / (g + q) does not know B, it is the weight of a link like any other.
 ///
 /// Points are drawn with q ∝ B' S / d², where B' is an estimate of the radiosity, d the distance of
-/// the surface's cluster and S the share of pairs of points, one of a group of neighbouring
-/// patches and one of the cluster, that see each other, times their cosines. No number of pairs
-/// proves that something is not seen: some points take S from groups and clusters around, some
-/// from pairs that nothing hides from each other. What mirrors show is left to the lines alone.
+/// the surface's cluster and S the share of pairs of points, one of a group of neighbouring patches
+/// and one of the cluster, that see each other, times their cosines. No number of pairs proves that
+/// a cluster is not seen: some points are drawn by the S of groups and clusters around, some by an
+/// S as if nothing stood between. Surfaces that are seen by way of mirrors are left to the lines
+/// alone.
 ///
 /// In an evenly bright room lines alone are all but exact, and points are noise. So the lines
 /// keep a share β of the estimate for themselves: they count β + (1 - β) g / (g + q), points
@@ -45,7 +46,7 @@ struct Guide {
   bool any() const { return surfaces.any(); }
 };
 
-/// What one patch or sensor chooses bright surfaces by.
+/// Chooses points on bright surfaces for one patch or sensor.
 class BrightView {
  public:
   explicit BrightView(const Guide& guide);
@@ -55,11 +56,11 @@ class BrightView {
   /// A point with a unit normal, as sensors are: sees what faces it.
   void look_from(Vec3 position, Vec3 normal);
 
-  /// What a line counts that met a patch, along the unit vector w; 1 where no points are drawn.
+  /// Weight of a line along the unit vector w that met a patch; 1 where no points are drawn.
   /// `cos_theta` is that at the line's start.
   double share_of_line(const Hierarchy& hierarchy, const Hit& hit, Vec3 w, double cos_theta) const;
 
-  /// A point of a bright patch that is seen from a point of this one, and what it counts.
+  /// A point of a bright patch that is seen from a point of this one, and its weight.
   struct SeenPoint {
     std::uint32_t patch;
     Vec3 position;

@@ -19,8 +19,9 @@ class ClusterSight {
   ClusterSight(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
                const BrightSurfaces& surfaces, double rays, std::uint64_t seed);
 
-  /// Mean of cosθ_x cosθ_y over pairs of a group of patches and a cluster: over those that see
-  /// each other, over those of groups and clusters around that do, as if nothing was in between.
+  /// Mean of cosθ_x cosθ_y over pairs of points, one of a group of patches and one of a cluster.
+  /// seen: pairs that do not see each other count 0; around: the sum of `seen` over these and the
+  /// groups and clusters around that face alike; facing: as if nothing was in between.
   struct Share {
     float seen, around, facing;
   };

@@ -19,8 +19,8 @@ class LineBundle {
   void clear();
   /// Appends lines 0 … count - 1 of a patch; `largest_link`: of their links (`linked_element`).
   void add(const PatchLines& lines, std::size_t count, double largest_link);
-  /// Casts them all. What they meet is what each line would alone; which of two surfaces that are
-  /// as near, at an edge, depends on its packet.
+  /// Casts all lines. Each meets what it would meet alone; only where two surfaces are equally
+  /// near, at an edge, does the one that is met depend on the packet.
   void cast(const RayCaster& caster, const Hierarchy& hierarchy, const SkyGrid& grid);
 
   const PatchLines::Line& line(std::size_t i) const { return lines_[i]; }
@@ -28,7 +28,7 @@ class LineBundle {
 
  private:
   void sort_by_direction();
-  /// Puts what packets of lines have met, whose numbers these are.
+  /// Stores what packets have met, for the lines of these numbers.
   void put_met(std::span<const PacketHits> hits, std::span<const std::uint32_t> lines,
                const Hierarchy& hierarchy, const SkyGrid& grid);
 

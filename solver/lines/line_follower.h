@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// One line along its chain of mirrors, panes, metals and glossy surfaces.
 ///
-/// What depends on the angle is known where a line meets it: the shares that panes transmit
-/// and that panes, metals and glossy surfaces absorb are booked here, at each meeting, for the
-/// ledger. What surfaces of constant shares absorb follows from their irradiance.
+/// Shares that depend on the angle are known only where a line meets a surface. So what panes
+/// transmit, and what panes, metals and glossy surfaces absorb, is booked here, at each meeting,
+/// for the ledger. What surfaces of constant shares absorb follows from their irradiance.
 #pragma once
 
 #include <vector>
@@ -22,8 +22,8 @@ struct LineCollector {
   std::vector<LinkTable::Link> patches, sky, sky_by_mirror;
   std::vector<Glimpse> glimpses;  ///< receiver and realization not yet known
   LineEnds ends;
-  bool links_all = false;   ///< to surfaces, too, that send nothing
-  double largest_link = 0;  ///< form factor that no element exceeds to which a link leads
+  bool links_all = false;   ///< also to surfaces that send nothing
+  double largest_link = 0;  ///< largest form factor of elements that links lead to
   double lamps = 0;         ///< exitance of emitters that was seen, summed over lines [W m-2]
   /// Forgets the lines.
   void clear();
@@ -36,9 +36,9 @@ class LineFollower {
   LineFollower(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
                const SkyGrid& grid, int mirror_depth);
 
-  /// A line that left its patch from `origin` along the unit vector `w` and met `first`; adds
-  /// its links, its end, and the emitters that it sees. Of what it meets straight it counts
-  /// `share_of_first`; the rest is seen by points (solver/lines/bright_view.h). `line` addresses
+  /// Follows a line that left its patch from `origin` along the unit vector `w` and met `first`;
+  /// adds its links, its end, and the emitters that it sees. The first meeting counts
+  /// `share_of_first`; points bring the rest of it (solver/lines/bright_view.h). `line` addresses
   /// the random numbers of glossy surfaces (its `block` is set here). Returns the rays cast.
   std::uint64_t follow(Vec3 origin, Vec3 w, const FirstMeeting& first, const RandomKey& line,
                        LineCollector& into, double share_of_first = 1) const {
@@ -51,12 +51,12 @@ class LineFollower {
   /// Adds the link to a point of a bright surface, and the emitter that it is.
   void link(const BrightView::SeenPoint& point, LineCollector& into) const;
 
-  /// Where light ends that arrives along -`w` at a patch that sends on, from that patch on;
-  /// `absorbed` is what surfaces absorb that `depends_on_angle`. `met`, if not null, receives the
-  /// patches that it arrives at on its way, and its weight there.
+  /// Where light ends that arrives along -`w` at a patch which sends it on. `absorbed` counts only
+  /// surfaces that `depends_on_angle` is true of. `met`, if not null, receives the patches that the
+  /// light reaches on its way, and its weight there.
   Followed mirrored_on(Vec3 origin, Vec3 w, std::size_t patch, const RandomKey& line,
                        std::vector<LinkTable::Link>* met = nullptr) const;
-  /// The same from the first hit of the ray on that carries `weight` along `w`.
+  /// The same of a ray that carries `weight` along `w`, from its first hit on.
   Followed sent_on(Vec3 w, double weight, const Hit& first, RandomKey key,
                    std::vector<LinkTable::Link>* met = nullptr) const;
 

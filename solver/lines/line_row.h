@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// One row of lines: what those of a patch or sensor bring in each realization, and in all.
+/// One row of lines: what the lines of a patch or sensor bring, in each realization and in all
+/// together.
 #pragma once
 
 #include <array>
@@ -15,15 +16,14 @@ namespace sunload {
 
 class LineRow {
  public:
-  /// Forgets the lines; those to come have links of no larger form factor.
+  /// Forgets the lines. Links of the lines to come lead to no element of a larger form factor.
   void begin(double largest_link);
   /// Receives the lines of the realization at hand.
   LineCollector& own() { return own_; }
   /// Lines to come are those of the next realization. Moves the glimpses of the one at hand to
   /// `glimpses`, as those of `receiver`.
   void end_realization(std::size_t receiver, std::vector<Glimpse>& glimpses);
-  /// Writes the next row of its block in each set: what `lines_each` lines of every realization
-  /// brought.
+  /// Appends the row to its block of links in each set. `lines_each`: lines of every realization.
   void store(std::size_t row, std::size_t lines_each, Lines& lines);
 
  private:

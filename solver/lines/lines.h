@@ -71,6 +71,7 @@ struct Glimpse {
 /// emitters send them.
 LineSet empty_line_set(std::size_t rows, std::size_t elements, std::size_t cells, bool any_lamps);
 
+/// How many lines are traced, how far each is followed, and to which elements links lead.
 struct LineRules {
   int lines_per_patch = 256;  ///< over all realizations together
   /// Of each patch, if they differ; multiples of `realizations`.
@@ -78,8 +79,8 @@ struct LineRules {
   int realizations = 8;
   int mirror_depth = 8;
   std::uint64_t seed = 1;
-  /// Links of `lines_per_patch` lines lead to the largest element of the tree whose form factor
-  /// cannot exceed this; those of more lines to smaller ones, which as many can meet.
+  /// A patch of `lines_per_patch` lines links to the largest element of the tree whose form factor
+  /// cannot exceed this; a patch of more lines links to smaller ones, in inverse proportion.
   double largest_link = 0;
 
   int lines_of(std::size_t patch) const {
@@ -90,6 +91,7 @@ struct LineRules {
   }
 };
 
+/// All that tracing gives: links of each realization, and of all of them pooled.
 struct Lines {
   std::vector<LineSet> realizations;
   LineSet pooled;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The links of lines, in little memory: a word for nearly each of them.
+/// The links of lines, in little memory: one word for nearly every link.
 #pragma once
 
 #include <algorithm>
@@ -21,11 +21,14 @@ class LinkTable {
  public:
   static constexpr std::size_t rows_per_block = 1024;
   static constexpr std::size_t most_targets = std::size_t{1} << 31;
+  /// Part `weight` of a target's radiosity, or of a cell's π·radiance, in the irradiance of the
+  /// row.
   struct Link {
     std::uint32_t target;
     float weight;
   };
   class Reader;
+  /// Consecutive rows, which are only appended; read with Reader.
   class Block {
    public:
     /// Of links to targets below `targets`.
@@ -61,7 +64,7 @@ class LinkTable {
     /// Target, and above its bits the number of lines; 0: the weight is the next of `other_`.
     std::vector<std::uint32_t> word_;
     std::vector<float> unit_;      ///< of every row; one where all have the same
-    std::vector<float> other_{0};  ///< by link; one more, that the last may be asked ahead of it
+    std::vector<float> other_{0};  ///< by link; one more at the end, as Reader reads ahead
   };
   LinkTable() = default;
   LinkTable(std::size_t rows, std::size_t targets);

@@ -38,6 +38,7 @@ struct LineColumns {
 };
 using PacketLines = LineColumns<packet_size>;
 
+/// Lines by their number in the sequence: any of them can be had alone, with the same bits.
 class PatchLines {
  public:
   /// Origins keep `offset_m` from the patch; `seeds` scramble the sequence.
@@ -56,12 +57,12 @@ class PatchLines {
   }
   /// Lines first … first + 15, the same bits, several times as fast; `first` is a multiple of 16.
   void packet(std::size_t first, PacketLines& lines) const;
-  /// That of a Sobol point's coordinates, which are scrambled here.
+  /// The line of a Sobol point's coordinates, which are scrambled here.
   Line line(std::uint32_t x0, std::uint32_t x1, std::uint32_t x2, std::uint32_t x3) const {
     return at(scrambled(x0, seeds_[0]), scrambled(x1, seeds_[1]), scrambled(x2, seeds_[2]),
               scrambled(x3, seeds_[3]));
   }
-  /// That of a point of the unit cube: two numbers for the direction, two for the origin.
+  /// The line of a point of the unit cube: u0 and u1 give the direction, u2 and u3 the origin.
   Line at(double u0, double u1, double u2, double u3) const {
     const Vec3 local = sample_cosine(u0, u1);
     const Barycentric at = sample_triangle(u2, u3);
@@ -99,7 +100,7 @@ struct LinePacket {
   PacketDirections directions{};
 };
 
-/// Scrambling that makes them the lines that `trace_lines` casts from a patch.
+/// Seeds of PatchLines by which they are the lines that `trace_lines` casts from a patch.
 inline RandomWords line_seeds(const Hierarchy& hierarchy, std::size_t patch,
                               std::size_t realization, std::uint64_t seed) {
   return random_words({.seed = seed,

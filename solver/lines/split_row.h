@@ -14,8 +14,8 @@ namespace sunload {
 /// Keeps its room from row to row.
 class SplitRow {
  public:
-  /// Sorts links by target and merges those to the same one, whose weights add up in their order.
-  /// Those of part p end before `end[p]`, where those of the next one begin.
+  /// Sorts links by target and merges links to the same target, whose weights add up in their
+  /// order. The links of part p end before `end[p]`, where those of the next part begin.
   void sort(std::span<const LinkTable::Link> links, std::span<const std::uint32_t> end);
   std::span<const LinkTable::Link> of_all() const { return of_all_; }
   std::span<const LinkTable::Link> of_part(std::size_t part) const { return of_part_[part]; }

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// One step of light from surface to surface: what a ray has met, and what goes on from there.
 ///
-/// All that follow light by rays share it: lines back to where it comes from, samples on to where
-/// it goes, the sun from mirror to mirror. They differ in what they leave at the surfaces on the
-/// way.
+/// All code that follows light by rays shares it: for lines, back to where light comes from; for
+/// samples, on to where it goes; for the sun, from mirror to mirror. Each of them decides what it
+/// leaves at the surfaces on the way.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,8 @@ struct Followed {
   }
 };
 
-/// What a line met first, and its link: where the line was cast with others, found with theirs.
+/// What a line met first, and the target of its link; for lines that are cast together both are
+/// found together.
 struct FirstMeeting {
   Hit hit;
   std::int32_t patch = -1;   ///< -1: it left the scene or met a back
@@ -38,6 +39,7 @@ struct FirstMeeting {
                              ///< the cell of the sky for which it left the scene
 };
 
+/// The steps themselves, const and shared by all threads; the caller keeps weight and direction.
 class SurfaceWalk {
  public:
   /// Everything must outlive it. What was sent on `mirror_depth` times is cut.
@@ -48,6 +50,7 @@ class SurfaceWalk {
                    "chains have random numbers for so many");
   }
 
+  /// The patch that a ray has met, and what it is made of.
   struct Meeting {
     std::size_t patch;
     const Material& material;
@@ -56,9 +59,9 @@ class SurfaceWalk {
   std::int32_t patch_of(const Hit& hit) const {
     return hit.left_scene() ? -1 : hierarchy_.patch_at(hit.triangle, hit.u, hit.v, hit.front);
   }
-  /// What a ray has met that carries `weight`, which becomes that of the light that arrives: rays
-  /// are stopped by 1 - T of it. None where the light has left the scene or met a back, which
-  /// `fate` books.
+  /// What a ray that carries `weight` has met. A surface of transmittance T stops 1 - T of the
+  /// rays: `weight` is divided by that, and becomes that of all light that arrives. Nothing where
+  /// the light has left the scene or met a back; `fate` books it then.
   template <class T>
   std::optional<Meeting> meet(const Hit& hit, double& weight, Fate<T>& fate) const {
     return meet(hit, patch_of(hit), weight, fate);
@@ -80,8 +83,8 @@ class SurfaceWalk {
     return Meeting{static_cast<std::size_t>(patch), material};
   }
 
-  /// Books what a surface keeps of `weight`, which becomes what it sends on; false where none of it
-  /// is followed. `reflections`: before this one.
+  /// Books what a surface keeps of `weight`, and sets `weight` to what the surface sends on. False
+  /// where none of this is followed. `reflections`: before this one.
   template <class T>
   bool goes_on(const Onward& on, int reflections, double& weight, Fate<T>& fate) const {
     fate.transmitted += static_cast<T>(weight * on.transmitted);
@@ -95,7 +98,7 @@ class SurfaceWalk {
 
   /// Unit normal of the side that was met.
   Vec3 normal(const Hit& hit) const { return met_normal(scene_.mesh, hit); }
-  /// Where the next ray starts that leaves the side of that normal.
+  /// Start of the next ray, which leaves the side of that normal.
   Vec3 point(const Hit& hit, Vec3 normal) const {
     return lifted_point(scene_.mesh, hit, normal, caster_.offset_m());
   }

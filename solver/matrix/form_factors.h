@@ -25,12 +25,14 @@ namespace sunload {
 /// Their factors take 36 MB for each realization, and some seconds.
 inline constexpr std::size_t most_matrix_patches = 2000;
 
+/// How many lines estimate the factors that no formula gives.
 struct FormFactorRules {
   int realizations = 8;
   std::uint64_t seed = 1;
   int lines_per_patch = 8192;  ///< over all realizations together
 };
 
+/// Form factors between n patches, by realizations and in their mean.
 struct FormFactors {
   std::size_t patches = 0;
   std::vector<std::vector<float>> realizations;  ///< [R][n][n] F_ij, from row i to column j

@@ -25,6 +25,7 @@ struct PatchDivision {
   std::size_t groups = 0;
 };
 
+/// Form factors between the groups of a division; the groups keep its numbers.
 struct GroupFactors {
   std::size_t groups = 0;
   std::vector<double> area;                       ///< [group], m2
@@ -33,8 +34,8 @@ struct GroupFactors {
   bool has_formulas = false;  ///< of pairs in full view
 };
 
-/// A_G F_GH = A_H F_HG within rounding. What of a row is missing to 1 sees the sky, patches of no
-/// group, backs or floors; of what sees none of these it may be below 0, by its error. The same
+/// A_G F_GH = A_H F_HG within rounding. What a row lacks to 1 goes to the sky, to patches of no
+/// group, to backs or floors; where none of these is seen it may be below 0, by its error. The same
 /// bits for any number of threads. Throws Interrupted.
 GroupFactors group_factors(const Mesh& mesh, const Hierarchy& hierarchy, const RayCaster& caster,
                            const PatchDivision& division, const FormFactorRules& rules,

@@ -20,14 +20,17 @@
 
 namespace sunload {
 
+/// How long and how small elements may be, and how many patches they may make.
 struct SplitRules {
   double max_edge_m = 1e9;  ///< split while the longest edge is longer
   double min_area_m2 = 0;   ///< never split an element below twice this area
   std::size_t max_patches = 100'000'000;
 };
 
+/// Only grows: an element is never removed, and the number of one stays as it is.
 class ElementForest {
  public:
+  /// A triangle of a tree.
   struct Element {
     Corners vertices;
     std::int32_t first_child = -1;  ///< its sibling follows; -1: a leaf

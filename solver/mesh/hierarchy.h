@@ -20,6 +20,7 @@
 
 namespace sunload {
 
+/// A leaf as one of its two sides receives light.
 struct Patch {
   std::array<std::int32_t, 3> vertices;  ///< counter-clockwise from its own side
   std::int32_t triangle = -1;
@@ -33,6 +34,7 @@ std::size_t least_patch_count(const Scene& scene, const SplitRules& rules);
 /// Throws InputError where even these are more than `max_patches`.
 void expect_splittable(const Scene& scene, const SplitRules& rules);
 
+/// The finished mesh: never changes, and may be read from any thread.
 class Hierarchy {
  public:
   /// Splits every triangle of the scene by `max_edge_m` alone.

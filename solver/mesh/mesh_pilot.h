@@ -5,9 +5,8 @@
 ///
 /// Light comes from parallel directions (suns of the period with their exposure), from these by one
 /// mirror, from emitters of the scene, from the sky and the far ground, and from surfaces after one
-/// diffuse reflection. It
-/// is seen from the same points of the element along the same directions, so that the differences
-/// between the points are those of the light and not of its sampling.
+/// diffuse reflection. It is seen from the same points of the element along the same directions, so
+/// that the differences between the points are those of the light and not of its sampling.
 #pragma once
 
 #include <cstdint>
@@ -33,6 +32,8 @@ struct ElementLoad {
   double lamp_form_factor = 0;  ///< largest disc estimate from a point of an emitter that it sees
 };
 
+/// Answers for one side of an element at a time; the answers are the same bits for any number of
+/// threads.
 class MeshPilot {
  public:
   /// All must outlive it; the forest may grow. `scene` has the forest's geometry and materials of

@@ -19,6 +19,7 @@ constexpr double weight_at(double distance_m) {
   return distance_m > near_m ? near_m / distance_m : 1;
 }
 
+/// Finds the nearest wall by a tree of boxes.
 class Nearness {
  public:
   /// Of walls, windows and what else is steep but land. `scene` must outlive it.

@@ -14,12 +14,14 @@
 
 namespace sunload {
 
+/// By what an element is split beyond the longest edge that is allowed; none: by nothing else.
 enum class Oracle { none, light_load, historic };
 
 /// Of the pilot alone: a study's seed does not touch its mesh, so that runs of any seed have the
 /// same patches.
 inline constexpr std::uint64_t mesh_pilot_seed = 1;
 
+/// Thresholds of both oracles; those of the other one are not used.
 struct RefineRules {
   Oracle oracle = Oracle::none;
   double light_tolerance = 0.07;       ///< of the default oracle, share of the mean light load

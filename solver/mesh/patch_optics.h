@@ -28,6 +28,7 @@ struct PatchOptics {
                      static_cast<double>(passed[patch]));
   }
 };
+/// Of broadband light.
 PatchOptics patch_optics(const Scene& scene, const Hierarchy& hierarchy);
 /// The same with the diffuse reflectances of a band.
 PatchOptics patch_optics(const Scene& scene, const Hierarchy& hierarchy, std::size_t band);

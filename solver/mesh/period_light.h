@@ -16,6 +16,7 @@ struct PeriodSun {
   double exposure = 0;  ///< normal to it [J m-2]
 };
 
+/// Suns, sky, far ground and lamps, each integrated over the period.
 struct PeriodLight {
   /// Suns that are taken as they are.
   std::vector<PeriodSun> suns;

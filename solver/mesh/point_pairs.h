@@ -12,10 +12,12 @@
 
 namespace sunload {
 
+/// A place on a surface [m] with the unit normal of the side that is looked from.
 struct SurfacePoint {
   Vec3 position, normal;
 };
 
+/// Up to 16 pairs whose rays are cast together; for one packet only.
 class PointPairs {
  public:
   explicit PointPairs(const RayCaster& caster) : caster_(caster) {}

@@ -26,6 +26,7 @@ struct SunImage {
 /// The corners of an element, where its rays start.
 using RayCorners = std::array<Vec3, 3>;
 
+/// Images of the suns in one mirror each: light that is reflected once.
 class SunImages {
  public:
   /// All must outlive it. In few mirrors every sun is looked for in all of them; of more it

@@ -17,6 +17,7 @@ struct Deposit {
   double weight;
 };
 
+/// Deposits by chunk of samples.
 class Deposits {
  public:
   explicit Deposits(std::size_t chunks = 0) : chunks_(chunks) {}

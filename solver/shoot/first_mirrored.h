@@ -34,6 +34,7 @@ class FirstMirrored {
     Deposits deposits;  ///< [W], the source is the number of the sun in the block
     SunFates fates;
   };
+  /// The same of all realizations, and the rays that were cast for them.
   struct SentSuns {
     std::vector<SentSun> of_realization;  ///< empty without mirrors
     std::uint64_t rays = 0;

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// One sample of light on its way forward, along its chain of mirrors, panes, metals and
-/// glossy surfaces. What is said of its fate: shares of what its source sent, absorbed by any
-/// front.
+/// One sample of light on its way forward, along its chain of mirrors, panes, metals and glossy
+/// surfaces. Fates are shares of what the source sent; `absorbed` is by any front.
 #pragma once
 
 #include <vector>

@@ -34,6 +34,7 @@
 
 namespace sunload {
 
+/// How much is shot, and how often it is reflected.
 struct ShootingRules {
   int bounces = 5;
   Jacobi jacobi = Jacobi::incremental;
@@ -66,6 +67,8 @@ struct ShotLight {
   }
 };
 
+/// Solves realizations of a block. Scene, mesh, caster, sampler, grid, `lines` and `beyond` must
+/// outlive it.
 class Shooter {
  public:
   /// Sends on what mirrors receive from sky and ground, and shoots the emitters.

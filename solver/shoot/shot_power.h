@@ -23,6 +23,7 @@
 
 namespace sunload {
 
+/// Power of each sun of a block, summed over patches [W].
 using SunTotals = std::array<double, block_width>;
 
 /// P_T[k] of powers [N][block].

@@ -20,6 +20,7 @@ class CellRows {
   void take(std::span<const ViewCorner> corners, double x0, double y0, double cells_per_m);
   std::size_t first() const { return first_; }
   std::size_t last() const { return last_; }
+  /// First and last cell of a row that the polygon meets, both included.
   struct Columns {
     std::size_t first, last;
   };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What share of the patches of a group suns reach that stand close together
+/// The shares of a group's patches that are lit by suns which stand close together
 /// (solver/sight/lit_shares.h).
 #pragma once
 
@@ -32,6 +32,7 @@ class NumbersSeen {
   std::size_t count_ = 0;
 };
 
+/// Works on one group at a time and keeps its room; each thread needs one of its own.
 class GroupShares {
  public:
   /// Puts what it finds into `out`, LitShares::of.

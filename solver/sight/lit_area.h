@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What of a polygon lies in none of the polygons that shade it.
+/// The part of a polygon that lies in none of the polygons that shade it.
 ///
 /// Sutherland & Hodgman (1974), Reentrant polygon clipping; Weiler & Atherton (1977), Hidden
 /// surface removal using polygon area sorting. For shadows of buildings first Groth & Lokmanhekim

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What share of every patch sees the sun: exactly, by geometry, without rays.
+/// The share of every patch that sees the sun: exactly, by geometry, without rays.
 ///
-/// As the sun sees the scene, what stands before a patch covers it by polygons; the share of its
+/// Seen from the sun, the faces that stand before a patch cover it by polygons; the share of its
 /// area that none of them covers is lit (solver/sight/lit_area.h). Patches of one triangle are
 /// looked at in groups, and with all suns of a block side by side: most of them are found to be
 /// wholly lit or dark by a few edges.
 ///
-/// Left to rays are: what stands behind screens, through which light passes by chance; a sun with a
-/// disk of which a part is hidden; patches that are shaded by so many faces that rays cost less;
-/// and where a shadow's edge crosses surfaces that send light on as mirrors, panes and gloss do,
-/// since what they receive and what they send on rests on the same rays. Which these are does not
-/// depend on any random number.
+/// Rays must tell of patches behind screens, through which light passes by chance; of a sun with a
+/// disk of which a part is hidden; of patches that are shaded by so many faces that rays cost less;
+/// and of surfaces that send light on (mirrors, panes, gloss) where a shadow's edge crosses them,
+/// since what these receive and what they send on rest on the same rays. Which patches these are
+/// does not depend on any random number.
 #pragma once
 
 #include <array>
@@ -25,15 +25,16 @@
 
 namespace sunload {
 
-/// How surfaces that send light on are told where a shadow's edge crosses them: by the rays that
-/// what they send on rests on, or as all others, where it does not.
+/// What tells the share of a surface that sends light on where a shadow's edge crosses it. by_rays:
+/// the rays that the light it sends on rests on; as_others: geometry, where no light is sent on by
+/// rays.
 enum class SendsOn { by_rays, as_others };
 
+/// Shares for any block of suns; const, and may be asked from any thread.
 class LitShares {
  public:
-  /// `offset_m`: of the ray caster. As rays do, patches look from so far before them, and nothing
-  /// nearer shades them.
-  /// `hierarchy` must outlive it.
+  /// `offset_m`: of the ray caster. Patches look from so far before them, as rays do; nothing that
+  /// is nearer shades them. `hierarchy` must outlive it.
   LitShares(const Scene& scene, const Hierarchy& hierarchy, double offset_m);
 
   /// Of each patch and sun of a block, [N][block_width], in [0, 1]; `by_rays` where rays must tell,

@@ -15,6 +15,8 @@ namespace sunload {
 struct ViewPoint {
   double x, y, h;
 };
+/// Three unit axes at right angles, `to_sun` along the light; gives a place of the scene in them
+/// [m].
 struct ViewFrame {
   Vec3 x, y, to_sun;
   /// Some axes.
@@ -25,11 +27,12 @@ struct ViewFrame {
   ViewPoint operator()(Vec3 p) const { return {dot(p, x), dot(p, y), dot(p, to_sun)}; }
 };
 
+/// Suns of a block that share a view, and how far apart their light falls.
 struct SunCluster {
   std::size_t first, count;  ///< consecutive ones of the block
   ViewFrame frame;           ///< across the light of their middle, x along their row
-  /// What light from any point of their disks moves along x and y, at most, for a rise of 1 along
-  /// the middle.
+  /// How far light from any point of their disks moves along x and y, at most, for a rise of 1
+  /// along the middle.
   double drift_x, drift_y;
   double lowest_sine;  ///< of their elevations
 };

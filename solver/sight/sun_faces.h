@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// All that may stand before the sun, as convex faces in flat arrays: parts of walls and roofs, and
-/// each by itself the triangles that let light pass.
+/// All that may stand before the sun, as convex faces in flat arrays: parts of walls and roofs;
+/// triangles that let light pass are faces by themselves.
 #pragma once
 
 #include <cstdint>
@@ -40,9 +40,9 @@ class SunFaces {
   double top() const { return top_of_all_; }
   /// Some light passes it.
   bool is_screen(std::size_t face) const { return is_screen_[face] != 0; }
-  /// False where all that the face stops of light towards the sun is stopped by other faces of its
-  /// body: what comes out of a closed body, or through it, leaves it by a face that looks along the
-  /// light's way. `spread`: tangent of the angle to `to_sun` (unit) within which that holds.
+  /// False where other faces of its body stop all that this face stops on the way to the sun: a way
+  /// out of a closed body, or through it, leaves the body by a face that looks along the way.
+  /// `spread`: tangent of the angle to `to_sun` (unit) within which that holds.
   bool is_needed(std::size_t face, Vec3 to_sun, double spread) const {
     const int outward = static_cast<int>(body_[face]);
     return outward == 0 || outward * dot(normal_[face], to_sun) >= -spread;

@@ -27,17 +27,19 @@ class SunView {
   SunView(const SunFaces& faces, const Extent& extent, const SunCluster& suns);
 
   const SunCluster& suns() const { return suns_; }
-  /// How far light rises at the most, along the middle of the suns, from what is no lower than
-  /// that to what is no higher [m]; 0 or below: it does not reach it.
+  /// How high a place lies: its z, and its height towards the middle of the suns [m].
   struct Height {
     double z, along;
   };
+  /// How far light rises along the middle of the suns, at the most, from a place no lower than
+  /// `lowest` to one no higher than `highest` [m]; 0 or below: it does not reach it.
   double rise(const Height& lowest, const Height& highest) const {
     const double along = highest.along - lowest.along;
     // Of a disk that has half set some light goes upward.
     return suns_.lowest_sine > 0 ? std::min(along, (highest.z - lowest.z) / suns_.lowest_sine)
                                  : along;
   }
+  /// Where a face lies across the light, and how high its highest corner is.
   struct Bounds {
     ViewBox box;
     Height highest;
@@ -49,7 +51,7 @@ class SunView {
   struct Cells {
     std::size_t column0, column1, row0, row1;
   };
-  /// Those that a box meets that is so much wider.
+  /// Cells that a box meets which is wider by so much on each side [m].
   Cells cells(const ViewBox& box, double wider_x, double wider_y) const {
     return {place(box.x0 - wider_x - x0_), place(box.x1 + wider_x - x0_),
             place(box.y0 - wider_y - y0_), place(box.y1 + wider_y - y0_)};

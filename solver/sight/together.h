@@ -20,7 +20,7 @@ class Together {
     while (first_[i] != i) i = first_[i] = first_[first_[i]];
     return i;
   }
-  /// Who stands for `a` now stands for all with `b`, too.
+  /// The one that stands for `a` stands from now on for all that `b` is joined with, too.
   void join(std::size_t a, std::size_t b) { first_[of(b)] = of(a); }
 
  private:

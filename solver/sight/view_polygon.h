@@ -9,10 +9,12 @@
 
 namespace sunload {
 
+/// A place in that plane [m].
 struct ViewCorner {
   double x, y;
 };
 
+/// Up to `most` corners, held in place; `add` does not check for room.
 class ViewPolygon {
  public:
   static constexpr std::size_t most = 16;
@@ -58,6 +60,7 @@ inline ViewLine line_through(const ViewCorner& p, const ViewCorner& q) {
   return {x, y, p.x * x + p.y * y};
 }
 
+/// Smallest box about the corners that were included; empty at first.
 struct ViewBox {
   double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
   void include(const ViewCorner& p) {

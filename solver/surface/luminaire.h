@@ -12,6 +12,7 @@
 
 namespace sunload {
 
+/// One lamp: its place, how it is turned, and which photometry of `Luminaires::webs` it has.
 struct Luminaire {
   Vec3 position;  ///< relative to the mesh's origin
   Vec3 axis;      ///< unit: where γ is 0

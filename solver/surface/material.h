@@ -124,6 +124,7 @@ struct Screens {
   std::vector<float> transmittance;  ///< per triangle; empty where all are opaque
   std::vector<std::uint64_t> key;    ///< stable address: object and number within it
 };
+/// Those of a scene, as RayCaster takes them.
 Screens screens(const Scene& scene);
 
 }  // namespace sunload

@@ -17,6 +17,7 @@ struct MirrorGroup {
   std::vector<MaterialId> materials;  ///< of these, each once
 };
 
+/// The groups of a scene. Each side of a triangle is in one group at most.
 class MirrorGroups {
  public:
   /// `scene` must outlive it.

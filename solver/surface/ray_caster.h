@@ -66,6 +66,7 @@ using PacketDirections = Packet;
 /// Parallel rays.
 PacketDirections same_for_all(Vec3 direction);
 
+/// First hits of a packet, side by side; those of rays that were not active mean nothing.
 struct PacketHits {
   std::int32_t triangle[packet_size];  ///< -1: left the scene
   float u[packet_size], v[packet_size];
@@ -87,6 +88,7 @@ std::string usable_isa(const std::string& wanted);
 /// or to the foot of a wall, is not seen right.
 double ray_offset_m(const Mesh& mesh);
 
+/// The triangles of one mesh in a tree of boxes. May be asked from any thread.
 class RayCaster {
  public:
   using Shares = std::array<float, packet_size>;

@@ -18,28 +18,29 @@ namespace sunload {
 /// What of single realizations is kept beside the pooled light.
 struct Kept {
   bool columns = false;     ///< RayLight::of_realizations
-  bool all_parts = false;   ///< of these, parts too that the scene has not
+  bool all_parts = false;   ///< of these, also parts that the scene does not have
   bool by_samples = false;  ///< RayLight::by_samples
 };
 
+/// What the rays of one block brought to both kinds of receivers.
 struct BlockRays {
   RayLight on_patches, on_sensors;
   std::vector<SunFates> sent_on;  ///< [R] by mirrors and gloss, where the scene has any
 };
 
-/// Traces a block whose sky is split; adds what its rays bring over time to `sums`, by gloss onto
-/// patches to the mirrors' where those have no sums of gloss.
+/// Traces a block whose sky is split, and adds what its rays bring over time to `sums`. Light by
+/// gloss onto patches is added to that by mirrors where the sums have no gloss of their own.
 BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources, const Kept& kept,
                           std::span<const TimedSums> sums, WorkDone& work);
 
 /// LitShares::of the block, one for each of `suns_one_by_one`.
 std::vector<Columns> shares_of_patches(const TracedScene& traced, const BlockSources& sources,
                                        WorkDone& work);
-/// The same as `light_iteration` of the sun alone, straight, on patches: the columns of the
-/// realizations. `shares`: shares_of_patches.
+/// Only the straight sun on patches, as `light_iteration` has it: the columns of the realizations.
+/// `shares`: shares_of_patches.
 RayLight direct_on_patches(const TracedScene& traced, const BlockSources& sources,
                            const std::vector<Columns>& shares, WorkDone& work);
-/// Of the sun on sensors, straight, by mirrors and by gloss: as part of `light_iteration`.
+/// Only the sun on sensors, straight, by mirrors and by gloss, as `light_iteration` has it.
 RayLight rays_on_sensors(const TracedScene& traced, const BlockSources& sources,
                          const std::vector<Columns>& shares, WorkDone& work);
 

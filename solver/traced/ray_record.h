@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// First light of a batch, kept for a scene of which rays tell the same: that differs in diffuse
-/// reflectances, which decide only what becomes of the light.
+/// First light of a batch, kept for another scene on which rays would bring the same. Such a scene
+/// differs in diffuse reflectances only: these decide what becomes of the light, not what rays
+/// bring.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +16,7 @@ namespace sunload {
 /// Whether rays are cast to the bright sky about the sun: some transports solve it elsewhere.
 enum class SunsSky { by_rays, elsewhere };
 
-/// Of one batch, in the order of its blocks.
+/// What the rays of one batch brought, in the order of its blocks.
 struct RayRecord {
   double most_bytes = 0;  ///< a larger one is given up
   SunsSky suns_sky = SunsSky::by_rays;
@@ -23,20 +24,24 @@ struct RayRecord {
   std::vector<RaySums> on_patches, on_sensors;  ///< of the whole batch, of all sums over time
   WorkDone work;                                ///< rays and beams; no seconds
   double bytes = 0;
+  /// written: blocks are being added; whole: the batch is complete and can be taken from; given_up:
+  /// it would have exceeded `most_bytes`, and holds nothing.
   enum class State { written, whole, given_up } state = State::written;
 };
 
-/// The light iteration of one batch, block by block: traced, or as a record has it. Whoever takes
-/// it gets the same bits either way.
+/// The light iteration of one batch, block by block: traced, or taken from a record. The bits are
+/// the same either way.
 class BatchRays {
  public:
-  /// `record`: null where nothing is kept; a whole one is taken from where its rays are those that
-  /// are wanted, and else left alone; another is written, from nothing. It must outlive this.
+  /// `record`: null where nothing is kept. A whole record is read if its sky about the sun was
+  /// solved as `suns_sky` says; else it is left alone, and rays are traced. Any other record is
+  /// emptied and written. The record must outlive this object.
   BatchRays(const TracedScene& traced, SunsSky suns_sky, RayRecord* record);
-  /// As `light_iteration`; what goes into `sums` may come with `end` only.
+  /// As `light_iteration`; what goes into `sums` from a record comes with `end` only.
   BlockRays next(const BlockSources& sources, const Kept& kept, std::span<const TimedSums> sums,
                  WorkDone& work);
-  /// After the last block. `sums`: all that any block had, in the same order for all who take it.
+  /// Call it after the last block. `sums`: all sums that any block was given, in an order that is
+  /// the same when the record is written and when it is read.
   void end(std::span<TimeSums* const> sums, WorkDone& work);
 
  private:

@@ -29,8 +29,8 @@ struct SolverRules {
   int mirror_depth = 8;
   double faint_glint = 0.02;  ///< share of the sun below which light reflected again is no beam
   int most_sun_beams = 128;   ///< sequences of mirror orientations per sun that are beams
-  /// Orientations that face a sun of which sensors get the first reflection, where no beams stand;
-  /// of more they get none.
+  /// Where no beams stand, sensors get the first reflection by mirrors; from a sun that more than
+  /// so many orientations face they get none.
   int most_sensor_beams = 1 << 16;
   /// A link leads to an element above the leaves where no more than so many of a
   /// patch's lines can be expected to meet it; 0: to leaves only.
@@ -57,10 +57,10 @@ inline bool year_can_serve(const SolverRules& rules) {
 }
 /// Intervals with light that the solutions are tested on, and solved for that alone.
 inline constexpr std::size_t year_tests = 2 * block_width;
-/// Solutions, at most, of a period with so many intervals with light: with their tests they are a
-/// share of these. Beyond, and where a share of the period is tried in vain, each costs less.
-/// Bands have solutions of their own, with rays of their own to the sky about the sun, which
-/// otherwise serve all bands.
+/// Largest number of solutions worth making for a period with so many intervals with light: with
+/// their tests they are a fixed share of these. Beyond that number, and where it has been tried in
+/// vain, solving each interval costs less. Bands have solutions of their own, with rays of their
+/// own to the sky about the sun, which otherwise serve all bands.
 inline double most_of_few(const SolverRules& rules, double lit_intervals) {
   const double share = rules.bands == Bands::rgb ? 0.2 : 0.4;
   return share * lit_intervals - static_cast<double>(year_tests);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The light of rays in one band: traced once for the mean of the bands, scaled for each.
+/// The light of rays in one band: rays are traced once, for the mean of the bands, and their light
+/// is scaled for each.
 #pragma once
 
 #include <span>

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Time sums that do not rest on few solutions.
+/// Time sums that are free of the error of few solutions.
 ///
-/// What light made up of few solutions is off by is much alike on all patches of a facade: their
-/// mean keeps it, while errors of lines average out. The realizations, which are solved with the
-/// exact sources integrated over time, know the sums without it; their mean is what gathering on
-/// the pooled lines gives within a tenth of its standard error. So the reflected light of a patch
-/// is scaled, batch by batch, until its time sum is theirs, and those of parts of the time are. Of
-/// what its total changes by, reflected light keeps what makes its own sum theirs, the sky the
-/// rest.
+/// Light that is made up of few solutions has much the same error on all patches of a facade: their
+/// mean keeps it, while errors of lines average out. The realizations are solved with the exact
+/// sources, integrated over time, and their sums lack this error; the mean of the realizations
+/// equals what gathering on the pooled lines gives, within a tenth of its standard error. So the
+/// reflected light of a patch is scaled, batch by batch, until its time sum is that of the
+/// realizations, and so are its sums over parts of the time. The change of a patch's total is then
+/// shared out: reflected light takes what makes its own sum that of the realizations, the sky takes
+/// the rest.
 #pragma once
 
 #include <array>
@@ -24,10 +25,12 @@ namespace sunload {
 
 class ExactTotals {
  public:
-  /// Keeps the reflected light of a block that was stored; no `sensors`: no rows.
+  /// Keeps the reflected light of a block that the tally has already. `sensors` has no rows where
+  /// there are none.
   void keep(const Block& block, const Columns& patches, const Columns& sensors);
-  /// Scales it in the tally: series, time sums, parts, largest values. Parts of the time that have
-  /// errors come first, then all of it, which decides. After `solve_realizations`.
+  /// Scales the kept light in the tally: series, time sums, parts, largest values. Parts of the
+  /// time that have errors come first, then all of the time, which decides. Call it after
+  /// `solve_realizations`.
   void take(const PatchOptics& optics, BatchTally& tally) const;
 
   /// Values of consecutive receivers.

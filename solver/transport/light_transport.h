@@ -34,6 +34,8 @@ class BatchTransport {
   virtual void finish() = 0;
 };
 
+/// A way to solve batches on one traced scene, which must outlive it. Const once built: batches may
+/// be begun one after another.
 class LightTransport {
  public:
   explicit LightTransport(const TracedScene& traced) : traced_(traced) {}
@@ -42,15 +44,15 @@ class LightTransport {
   LightTransport& operator=(const LightTransport&) = delete;
 
   const TracedScene& traced() const { return traced_; }
-  /// Begins a batch. `tallies`: one per band. `record`: of the light of its rays, taken or written
-  /// by who gathers; or null. All three must outlive what is returned.
+  /// Begins a batch. `tallies`: one per band. `record`: of what its rays bring, read or written by
+  /// transports that gather; or null. All three must outlive what is returned.
   virtual std::unique_ptr<BatchTransport> begin(std::vector<BatchTally>& tallies, WorkDone& work,
                                                 RayRecord* record) const = 0;
   /// Work done before any batch, beside `TracedScene::work`.
   const WorkDone& work() const { return work_; }
-  /// Null where each interval has its own solution.
+  /// How near few solutions come; null where each interval has its own solution.
   virtual const Reduction* reduction() const { return nullptr; }
-  /// The few that there are else, of each band.
+  /// The few solutions, of each band; empty where each interval has its own.
   virtual std::vector<const SolvedNodes*> nodes() const { return {}; }
 
  protected:
@@ -61,8 +63,8 @@ class LightTransport {
 /// The one that the rules of the scene ask for; `traced` must outlive it.
 std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced);
 /// The same for a whole period, which few solutions may serve (SolverRules::year); `period` must
-/// outlive it, too. `ready`: these, of an equal scene and period; none: nobody has solved them.
-/// Throws Interrupted.
+/// outlive it, too. `ready`: such solutions, of an equal scene and period; empty: they are still to
+/// be solved. Throws Interrupted.
 std::unique_ptr<const LightTransport> transport_of(const TracedScene& traced,
                                                    const LitPeriod& period, Watch& watch,
                                                    std::vector<SolvedNodes> ready = {});

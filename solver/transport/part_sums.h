@@ -22,8 +22,9 @@ class PartSums {
   std::vector<TimedSums> timed(const Block& block, TimeSums& whole);
   /// The sums of the whole and of all parts.
   std::vector<TimeSums*> all(TimeSums& whole);
-  /// What is no estimate of a realization.
-  enum class Sky { split, whole };  ///< of `sources`
+  /// Whether the sky of `sources` has its circumsolar part split off.
+  enum class Sky { split, whole };
+  /// Adds to all parts what is the same in all realizations: sky, far ground, time.
   void add_sources(const Block& block, const BlockSources& sources, Sky sky = Sky::split);
   /// What light_iteration has left in columns of the realizations: `rays` are those traced for all
   /// bands, `factors` of the band relative to them; the block has its light.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Intervals that are solved by themselves, to measure how near light comes that nodes make up.
+/// Intervals that are solved by themselves, to measure how near to this the light made up of nodes
+/// comes.
 #pragma once
 
 #include <cmath>
@@ -12,10 +13,11 @@
 
 namespace sunload {
 
-/// Sums over intervals of means over patches, by area, of the squares of what nodes are off by.
+/// Squared errors of light that is made up of nodes [W2 m-4]: means over patches, by area, summed
+/// over intervals.
 struct Squares {
   double sky = 0, reflected = 0;  ///< of each alone
-  double error = 0;               ///< of both; without the noise of samples, as of the sky
+  double error = 0;               ///< of both together; this and `sky` without the noise of samples
   double standard_error = 0;
   Squares& operator+=(const Squares& more) {
     sky += more.sky;
@@ -27,6 +29,7 @@ struct Squares {
   double share() const { return standard_error > 0 ? std::sqrt(error / standard_error) : 0; }
 };
 
+/// Keeps the exact light of its intervals, to compare any number of nodes with.
 class ReductionTest {
  public:
   /// Solves up to `block_width` intervals, in the light of a band, by all lines and by each

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What few solutions of a period are (node_light.h).
+/// The few solutions that serve a period (node_light.h).
 #pragma once
 
 #include <array>
@@ -15,8 +15,9 @@ namespace sunload {
 /// How near the light of few solutions comes to that of each interval.
 struct Reduction {
   std::size_t skies = 0, suns = 0;  ///< that are solved
-  /// Root mean square over patches and intervals that are no nodes, by area [W m-2]: of what is
-  /// made up against what is solved, and of the standard error of what is solved.
+  /// Root mean squares over patches, by area, and over intervals that are no nodes [W m-2]: of the
+  /// difference between light that is made up and light that is solved, and of the standard error
+  /// of the latter.
   double error_w_m2 = 0, standard_error_w_m2 = 0;
   bool is_met = false;  ///< error ≤ a third of the standard error
   /// The error, of the standard error.
@@ -25,6 +26,7 @@ struct Reduction {
 
 /// Up to `block_width` sources side by side, and what they bring.
 struct NodeBlock {
+  /// Irradiance of receivers by each source of the block, [receiver][source] W m-2.
   struct Received {
     PackedColumns sky;        ///< straight from the sky; empty: nothing
     PackedColumns mirror;     ///< of the sky, by mirrors; empty: nothing
@@ -52,7 +54,8 @@ struct NodeBlock {
   }
 };
 
-/// All that few solutions of a period are: what other processes, and later ones, need not solve.
+/// All solutions that serve a period, kept so that other processes, and later ones, need not solve
+/// them.
 struct SolvedNodes {
   Reduction reduction;
   NodeBlock lamps, ground;

@@ -32,8 +32,8 @@ class SkyNodes {
 
   /// Intervals in the order in which they are chosen.
   const std::vector<std::size_t>& ranked() const { return ranked_; }
-  /// Of the ranked skies so many that the candidates' root mean square rest falls below this share
-  /// of them; all where it never does.
+  /// Number of ranked skies after which the candidates' root mean square rest falls below this
+  /// share of them; all where it never does.
   std::size_t count_for(double rest) const;
   /// From now on skies are made up of the first `count` (≤ ranked().size()).
   void take(std::size_t count);

@@ -26,11 +26,13 @@ class SunNodes {
   static constexpr std::size_t most_candidates = 4000;
 
   const std::vector<std::size_t>& ranked() const { return ranked_; }
-  /// So many that no candidate is further from them than this [rad]; all where it never is.
+  /// Number of ranked suns after which no candidate is further from them than this [rad]; all where
+  /// there is no such number.
   std::size_t count_for(double distance) const;
   void take(std::size_t count);
   std::size_t count() const { return taken_; }
 
+  /// Part of a chosen sun, by its place in `ranked`, in the light of another; may be below 0.
   struct Weight {
     std::size_t node;
     double weight;

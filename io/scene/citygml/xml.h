@@ -52,6 +52,7 @@ class XmlElement {
   pugi::xml_node_struct* node_ = nullptr;
 };
 
+/// Goes from sibling to sibling; at the end it is of no element.
 class XmlChildIterator {
  public:
   explicit XmlChildIterator(XmlElement at) : at_(at) {}
@@ -66,6 +67,7 @@ class XmlChildIterator {
   XmlElement at_;
 };
 
+/// The children of an element, for loops.
 class XmlChildren {
  public:
   explicit XmlChildren(XmlElement first) : first_(first) {}

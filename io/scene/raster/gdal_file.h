@@ -30,6 +30,7 @@ class GdalMessages {
   std::string first_;
 };
 
+/// Closes a dataset of GDAL.
 struct CloseDataset {
   void operator()(void* dataset) const { GDALClose(dataset); }
 };

@@ -21,6 +21,7 @@ struct LandView {
   double step_deg = 1;        ///< between two azimuths
 };
 
+/// The line of hills, azimuth by azimuth.
 struct LandHorizon {
   std::vector<Horizontal> points;   ///< by azimuth from north; what lies below the eye is 0
   std::vector<double> distance_m;   ///< of what is the line there; 0: nothing rises above 0°

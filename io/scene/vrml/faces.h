@@ -20,6 +20,8 @@ class SoVRMLIndexedFaceSet;
 
 namespace sunload {
 
+/// Converts one geometry after another; keeps count of what it makes, against files that ask for
+/// too much.
 class VrmlFaces {
  public:
   using PlaceOf = std::function<Where(const SoNode&)>;

@@ -28,13 +28,14 @@ struct VrmlPlace {
   ObjectId object = ObjectId::none();  ///< once it has faces
 };
 
+/// Collects what a walk meets; call `finish` at the end.
 class VrmlModel {
  public:
   VrmlModel(const std::string& path, const SceneFileRules& rules);
 
-  /// Length of all files read so far: nested USEs let a short file stand for any number of faces.
-  /// Whose materials come next.
+  /// The file whose materials come next.
   void set_file(const std::string& path) { file_ = path; }
+  /// Length of all files read so far: nested USEs let a short file stand for any number of faces.
   void set_file_bytes(std::size_t bytes) { file_bytes_ = bytes; }
 
   /// A place below `parent` (an index, −1 = the root) under the name of a DEF.

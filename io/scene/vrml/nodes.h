@@ -81,6 +81,7 @@ class VrmlFiles {
   VrmlFiles(const VrmlFiles&) = delete;
   VrmlFiles& operator=(const VrmlFiles&) = delete;
 
+  /// A file as text, and the root of its nodes.
   struct File {
     VrmlText text;
     SoSeparator* root = nullptr;

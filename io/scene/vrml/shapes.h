@@ -22,20 +22,26 @@ struct ShapeFaces {
 /// cylinder's side is 0.16 % too small: 1 − sin(π/32)·32/π.
 inline constexpr int turn_segments = 32;
 
+/// Of those edge lengths, about the origin.
 ShapeFaces vrml_box(Vec3 size);
+/// About the origin.
 ShapeFaces vrml_sphere(double radius);
 
+/// Which parts of a cone there are.
 struct ConeParts {
   bool side = true, bottom = true;
 };
 /// Apex at y = height/2, base circle at −height/2.
 ShapeFaces vrml_cone(double bottom_radius, double height, ConeParts parts);
 
+/// Which parts of a cylinder there are.
 struct CylinderParts {
   bool side = true, bottom = true, top = true;
 };
+/// About the origin, its axis along y.
 ShapeFaces vrml_cylinder(double radius, double height, CylinderParts parts);
 
+/// Number of heights along x and z, and the distance of two of them.
 struct ElevationRules {
   std::int32_t x_count = 0, z_count = 0;
   double x_spacing = 1, z_spacing = 1;
