@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/command/commands.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <iostream>
 
@@ -187,9 +189,16 @@ std::optional<std::size_t> chosen_band(const std::string& name) {
   return name.empty() ? std::nullopt : std::optional(band_by_name(name));
 }
 
+void warn_of_lacking(const ResultReader& result) {
+  if (const std::string lacking = result.lacking(); !lacking.empty())
+    tell(fmt::format("warning: {}: {}: totals are those of the others, and series have gaps",
+                     result.path(), lacking));
+}
+
 std::unique_ptr<const ResultReader> opened(const NamedResult& named, Opens opens) {
   auto result = std::make_unique<ResultReader>(named.path, chosen_band(named.band), opens);
   result->choose(named.period);
+  warn_of_lacking(*result);
   return result;
 }
 

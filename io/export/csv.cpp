@@ -87,7 +87,8 @@ std::vector<std::size_t> chosen_groups(const ResultReader& result, const ExportR
   return chosen;
 }
 
-/// Sun, sky, ledger, and the means of the irradiance over the whole, surfaces, objects and facades.
+/// Sun, sky, ledger, and the means of the irradiance over the whole, surfaces, objects and facades,
+/// of the intervals that the chosen part of the period has a share in.
 void write_series(const ResultReader& result, const ExportRules& rules, std::ostream& out) {
   if (!rules.time.empty())
     throw InputError({}, "--quantity series has all intervals", "--time chooses one",
@@ -115,7 +116,9 @@ void write_series(const ResultReader& result, const ExportRules& rules, std::ost
     }
   out << "\n";
   const auto time = result.doubles("time"), bounds = result.doubles("time_bounds");
+  const auto shares = result.chosen_shares();
   for (std::size_t k = 0; k < time.size(); ++k) {
+    if (shares[k] == 0) continue;
     out << iso_utc(bounds[2 * k]) << "," << iso_utc(bounds[2 * k + 1]) << "," << iso_utc(time[k]);
     for (const auto& column : columns) out << "," << csv_number(column[k]);
     if (has_light) {

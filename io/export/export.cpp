@@ -93,6 +93,19 @@ void expect_fit_for_derived(const ResultReader& result, const ExportFormat& form
                      "leave out --of, or take the results");
 }
 
+/// A part of the period chooses totals, and rows of series.
+void expect_part_heeded(const ResultReader& result, const ExportFormat& format,
+                        const ExportRules& rules) {
+  if (!result.chosen().any()) return;
+  const std::string option = "--" + result.chosen().words();
+  if (!rules.time.empty())
+    throw InputError({}, "--time with " + option,
+                     "one is an instant, the other a part of the period", "leave out one");
+  if (format.write == export_xdmf || format.write == export_energyplus)
+    throw InputError({}, "--to " + std::string(format.word) + " with " + option,
+                     "it holds the whole series", "leave it out");
+}
+
 }  // namespace
 
 std::string export_formats() {
@@ -106,6 +119,7 @@ void export_result(const ResultReader& result, const ExportRules& rules, const s
   const auto& format = chosen_format(rules.format);
   expect_heeded(format, rules, path);
   expect_fit_for_derived(result, format, rules);
+  expect_part_heeded(result, format, rules);
   if (path.empty()) return format.write(result, rules, {std::cout, path});
   FileAside file(path);
   errno = 0;

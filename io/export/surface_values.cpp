@@ -11,14 +11,16 @@
 namespace sunload {
 namespace {
 
+/// Over the patches that have a value: measures may be of some surfaces alone.
 double weighted_mean(const double* values, const std::vector<double>& area,
                      const std::vector<std::size_t>& patches) {
   double sum = 0, whole = 0;
   for (const auto p : patches) {
+    if (std::isnan(values[p])) continue;
     sum += values[p] * area[p];
     whole += area[p];
   }
-  return sum / whole;
+  return whole > 0 ? sum / whole : std::nan("");
 }
 
 }  // namespace

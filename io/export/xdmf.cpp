@@ -34,8 +34,10 @@ std::string xml_text(const std::string& text) {
 /// The result as seen from the folder of the XDMF file.
 std::string reference(const ResultReader& result, const std::string& path) {
   namespace fs = std::filesystem;
-  const auto folder = fs::absolute(path).lexically_normal().parent_path();
-  const auto file = fs::absolute(result.path()).lexically_normal().lexically_relative(folder);
+  // Links on the way lead elsewhere than their names.
+  const auto folder = fs::weakly_canonical(fs::absolute(path).parent_path());
+  const auto result_folder = fs::weakly_canonical(fs::absolute(result.path()).parent_path());
+  const auto file = (result_folder / fs::path(result.path()).filename()).lexically_relative(folder);
   if (file.string().find_first_of(":\n\r") != std::string::npos)
     throw InputError({result.path()}, "XDMF cannot name this file",
                      "a colon parts the file from the dataset", "rename the result or its folder");

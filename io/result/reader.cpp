@@ -17,6 +17,7 @@
 #include "io/result/schema.h"
 #include "io/result/seal.h"
 #include "io/result/soundness.h"
+#include "solver/base/spread.h"
 
 namespace sunload {
 
@@ -24,6 +25,13 @@ namespace {
 
 // Sums over all patches and instants of values below it are numbers, and series hold it as floats.
 constexpr double largest_value = 1e30;
+
+constexpr std::string_view error_ending = "_se";
+
+/// The total that these errors are of.
+std::string total_of_error(const std::string& error) {
+  return error.substr(0, error.size() - error_ending.size());
+}
 
 }  // namespace
 
@@ -49,6 +57,12 @@ struct ResultReader::File {
     if (bands == Bands::broadband) return false;
     const ResultVariable* variable = find_result_variable(dataset);
     return variable != nullptr && has_bands(*variable);
+  }
+
+  /// Of errors of the bands' mean: whether they can be had from realizations.
+  bool has_realizations_of_bands(const std::string& dataset) const {
+    return !band && is_banded(dataset) && dataset.ends_with(error_ending) && file.has(dataset) &&
+           file.has(realizations_of(total_of_error(dataset)));
   }
 
   /// Where the dimension of bands stands: last in the ledger, else before the last.
@@ -208,8 +222,27 @@ std::vector<std::size_t> ResultReader::shape(const std::string& dataset) const {
   });
 }
 
+namespace {
+
+/// Standard errors of the bands' mean, from its realizations: bands share lines, so that theirs do
+/// not tell it.
+std::vector<double> error_of_mean_of_bands(const ResultReader& result, const std::string& error) {
+  const std::string realizations = realizations_of(total_of_error(error));
+  const auto values = result.doubles(realizations);
+  const std::size_t count = result.shape(realizations).front();
+  const std::size_t receivers = count > 0 ? values.size() / count : 0;
+  std::vector<double> errors(receivers);
+  for (std::size_t i = 0; i < receivers; ++i)
+    errors[i] = standard_error(
+        variance_of(count, [&](std::size_t r) { return values[r * receivers + i]; }), count);
+  return errors;
+}
+
+}  // namespace
+
 std::vector<double> ResultReader::doubles(const std::string& dataset) const {
   if (file_->is_of_part(dataset)) return file_->total(dataset);
+  if (file_->has_realizations_of_bands(dataset)) return error_of_mean_of_bands(*this, dataset);
   return file_->with(dataset, [&](const h5::Dataset& data) {
     return file_->without_bands(dataset, file_->possible(dataset, data.doubles()), data.shape());
   });

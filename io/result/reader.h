@@ -26,8 +26,10 @@ enum class Opens { results, derived_too };
 /// io/result/soundness.h asks for; values that are read are possible ones, or NaN.
 ///
 /// A result of light in bands reads as one without: `band` chooses one of them, without it values
-/// are the means of the bands, which is broadband light. (Of standard errors and of largest values
-/// these means are upper bounds: bands share their lines.) Shapes have no dimension `band` then.
+/// are the means of the bands, which is broadband light. (Standard errors of the mean
+/// come from its realizations, where these are stored; otherwise, and of largest values, the mean
+/// of the bands is an upper bound, since they share their lines.) Shapes have no dimension `band`
+/// then.
 class ResultReader {
  public:
   explicit ResultReader(const std::string& path, std::optional<std::size_t> band = {},
@@ -51,6 +53,8 @@ class ResultReader {
   std::vector<double> rows(const std::string& dataset, std::size_t first, std::size_t count) const;
   std::string units(const std::string& dataset) const;
   std::string text_attribute(const std::string& name) const;  ///< of the root; empty if absent
+  /// What a result lacks that was merged before all of it was computed; empty of others.
+  std::string lacking() const { return text_attribute("incomplete"); }
   double number_attribute(
       const std::string& name) const;  ///< of the root; NaN if absent or impossible
   bool is_comparison() const;

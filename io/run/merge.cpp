@@ -183,7 +183,7 @@ std::vector<std::string> merge_variant(const WorkFolder& folder, const VariantPl
   write_surfaces(band_writer, plan, hierarchy);
   write_ledger_errors(band_writer, totals);
   measures.write(writer);
-  writer.finish(result_attributes({plan, file, totals, geometry}), file.yaml);
+  writer.finish(result_attributes({plan, file, totals, geometry, left_out}), file.yaml);
   return result_warnings(totals, geometry);
 }
 

@@ -106,6 +106,9 @@ void add_identity(Attributes& a, const MergedResult& result) {
                  {"pairing_id", plan.pairing_id},
                  {"isa", plan.isa},
                  {"transport", word_of(study.solver.transport)}});
+  if (!result.left_out.empty())
+    a.text.emplace_back("incomplete", fmt::format("{} of {} batches are missing",
+                                                  result.left_out.size(), plan.batches()));
   if (!study.measures.empty()) {
     std::string names;
     for (const auto& measure : study.measures) names += (names.empty() ? "" : " ") + measure.name;

@@ -18,6 +18,7 @@ struct MergedResult {
   const StudyFile& file;
   const Totals& totals;
   const ResultGeometry& geometry;
+  const std::vector<std::size_t>& left_out;  ///< batches that were not there
 };
 
 /// Root attributes (docs/result-file.md).

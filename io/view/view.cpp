@@ -82,6 +82,10 @@ void view_html(const std::vector<std::string>& paths, const ViewRules& rules,
                      "a page shows one result or two side by side", "name at most two");
   std::deque<ResultReader> results;
   for (const auto& name : paths) results.emplace_back(name, rules.band).choose(rules.period);
+  if (results.back().quantity() != results.front().quantity())
+    throw InputError({results.back().path()},
+                     "is of another quantity than " + results.front().path(),
+                     "irradiance and illuminance have no scale in common", "view each by itself");
   const std::size_t step = rules.step.value_or(chosen_step(results));
   if (step > 1)
     tell(fmt::format("{}: holds every {}. interval only{}", path, step,

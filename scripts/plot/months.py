@@ -103,6 +103,8 @@ def draw(result, arguments):
         parts, sums = stored_months(result, targets)
         units = result.units("light_load")
         whiskers = confidence(result, months, targets)
+    if not np.isfinite(sums).all():
+        raise InputError(f"{result.path}: {quantity} is not known of all its time: is the result complete?")
     if units is None:
         raise InputError(f"{result.path}: sums over time of {quantity} [{result.units(quantity)}] have no meaning "
                          "here; choose an irradiance or illuminance")

@@ -97,7 +97,7 @@ def draw_paths(axes, result, days, elevation, xy):
     if len(set(days)) > MOST_DAYS_JOINED:
         keys = [int(s % 86400) // 60 for s in result.bounds()[:, 0]]
     for key in sorted(set(keys)):
-        mine = np.array([k for k, other in enumerate(keys) if other == key and elevation[k] > 0])
+        mine = np.array([k for k, other in enumerate(keys) if other == key and elevation[k] > 0], dtype=int)
         for part in np.split(mine, np.flatnonzero(np.diff(mine) > max(1, len(keys) // 3)) + 1 if len(mine) else []):
             axes.plot(xy[0][part], xy[1][part], color="#999999", linewidth=0.7, zorder=2)
 
@@ -182,9 +182,9 @@ def draw(result, arguments):
 
 def heading_words(result, target, share, is_up):
     hours = result.hours()
-    lit = np.nansum(share * hours)
+    lit = np.average(result.numbers("sun_hours")[target.patches], weights=target.area)
     clock = "" if result.is_synthetic else f"; hours: {result.offsets()}"
-    return (f"{target.label}\n{result.period()}: {lit:.3g} h in the sun of {hours[is_up].sum():.4g} h with the sun up\n"
+    return (f"{target.label}\n{result.period()}: {lit:.3g} h in the sun, which is up in intervals of {hours[is_up].sum():.4g} h\n"
             f"plan of the sky, stereographic; grey: behind the surface{clock}")
 
 

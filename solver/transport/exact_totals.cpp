@@ -3,7 +3,6 @@
 #include "solver/transport/exact_totals.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "geo/base/vector_code.h"
 #include "solver/base/chunks.h"
@@ -78,85 +77,138 @@ std::vector<Known> known_times(const ReceiverTally& tally) {
   return times;
 }
 
-/// Scales the reflected light of receivers begin, …, begin + count - 1 until its sum over that time
-/// is right.
-void scale_to(const Known& time, const std::vector<Interval>& intervals, const Light& before,
-              std::size_t begin, std::size_t count, Light& now) {
-  OfChunk<double> changed{}, scalable{};
-  for (std::size_t n = 0; n < intervals.size(); ++n) {
-    const double share = time.share_of(intervals[n].row);
-    if (share == 0) continue;
-    const double seconds = share * intervals[n].length_s;
-    add_difference(now[n].data(), before[n].data(), seconds, changed.data());
-    add(now[n].data(), share * seconds, scalable.data());
+/// The two kinds of light that are made up of few solutions.
+struct Made {
+  Light reflected, sky;  ///< no sky: empty
+  template <class Action>
+  void each(const Action& action) {
+    action(reflected);
+    if (!sky.empty()) action(sky);
   }
-  OfChunk<float> more{};
-  for (std::size_t i = 0; i < count; ++i) {
-    const double missing = mean_of(time.exposure, begin + i) - (time.total[begin + i] + changed[i]);
-    if (scalable[i] > 0) more[i] = static_cast<float>(std::max(missing / scalable[i], -1.0));
-  }
-  for (std::size_t n = 0; n < intervals.size(); ++n)
+};
+
+/// Σ over the intervals of share · length · (now - before), of one kind of light.
+OfChunk<double> change_of(const Known& time, const std::vector<Interval>& intervals,
+                          const Light& before, const Light& now) {
+  OfChunk<double> changed{};
+  for (std::size_t n = 0; n < now.size(); ++n)
+    if (const double share = time.share_of(intervals[n].row); share > 0)
+      add_difference(now[n].data(), before[n].data(), share * intervals[n].length_s,
+                     changed.data());
+  return changed;
+}
+
+/// What scaling by 1 more adds: shares count twice, in the sum and in what is scaled.
+OfChunk<double> scalable(const Known& time, const std::vector<Interval>& intervals,
+                         const Light& now) {
+  OfChunk<double> sum{};
+  for (std::size_t n = 0; n < now.size(); ++n)
+    if (const double share = time.share_of(intervals[n].row); share > 0)
+      add(now[n].data(), share * share * intervals[n].length_s, sum.data());
+  return sum;
+}
+
+void scale_all(const Known& time, const std::vector<Interval>& intervals,
+               const OfChunk<float>& more, Light& now) {
+  for (std::size_t n = 0; n < now.size(); ++n)
     if (const double share = time.share_of(intervals[n].row); share > 0)
       scale(now[n].data(), more.data(), static_cast<float>(share));
 }
 
-/// How what a receiver gets in all changes is shared out: reflected light becomes that of the
-/// realizations, the sky takes the rest, and nothing falls below 0.
-struct SharedOut {
-  double reflected, sky;  ///< changes [J m-2]
-};
-SharedOut shared_out(double changed, double reflected, double exact_reflected,
-                     std::optional<double> sky) {
-  if (!sky) return {std::max(changed, -reflected), 0};
-  const double of_sky = std::max(changed - (exact_reflected - reflected), -*sky);
-  return {std::max(changed - of_sky, -reflected), of_sky};
+/// By how much what can be scaled becomes what is missing besides; nothing falls below 0.
+float more_of(double missing, double scalable) {
+  return scalable > 0 ? static_cast<float>(std::max(missing / scalable, -1.0)) : 0;
 }
 
-/// Changes series and sums of the parts of receivers begin … end - 1, of which the totals have
-/// changed.
-void put_parts(const std::vector<Interval>& intervals, const Light& before, const Light& now,
-               std::size_t begin, std::size_t end, const std::vector<double>& changed,
-               ReceiverTally& tally) {
-  const auto part = [](auto& of_parts, Part which) -> auto& {
-    return of_parts[static_cast<std::size_t>(which)];
-  };
-  std::vector<double>&reflected = part(tally.exposure, Part::reflected),
-  &sky = part(tally.exposure, Part::sky);
-  LargeVector<float>&reflected_series = part(tally.irradiance, Part::reflected),
-  &sky_series = part(tally.irradiance, Part::sky);
-  const Realizations& exact = part(tally.part_realization, Part::reflected);
-  for (std::size_t i = begin; i < end; ++i) {
-    const std::size_t lane = i - begin;
-    const auto shares = shared_out(changed[i], reflected[i],
-                                   exact.empty() ? reflected[i] + changed[i] : mean_of(exact, i),
-                                   sky.empty() ? std::nullopt : std::optional(sky[i]));
-    const double more = reflected[i] > 0 ? shares.reflected / reflected[i] : 0;
-    reflected[i] += shares.reflected;
-    if (!sky.empty()) sky[i] += shares.sky;
-    if (reflected_series.empty() && sky_series.empty()) continue;
-    for (std::size_t n = 0; n < intervals.size(); ++n) {
-      const std::size_t at = intervals[n].row * changed.size() + i;
-      const float of_reflected = static_cast<float>(more) * before[n][lane];
-      const float of_sky = now[n][lane] - before[n][lane] - of_reflected;
-      const auto add_to = [&](LargeVector<float>& series, float by) {
-        if (!series.empty()) series[at] = std::max(0.0f, series[at] + by);
-      };
-      add_to(reflected_series, sky.empty() ? of_reflected + of_sky : of_reflected);
-      if (!sky.empty()) add_to(sky_series, of_sky);
-    }
+/// Scales both kinds of light of receivers begin, …, begin + count - 1 alike until the sum of all
+/// light over that part of the time is right.
+void scale_to(const Known& time, const std::vector<Interval>& intervals, const Made& before,
+              std::size_t begin, std::size_t count, Made& now) {
+  OfChunk<double> changed = change_of(time, intervals, before.reflected, now.reflected);
+  OfChunk<double> all = scalable(time, intervals, now.reflected);
+  const OfChunk<double> sky_changed = change_of(time, intervals, before.sky, now.sky);
+  const OfChunk<double> sky = scalable(time, intervals, now.sky);
+  OfChunk<float> more{};
+  for (std::size_t i = 0; i < count; ++i) {
+    changed[i] += sky_changed[i];
+    all[i] += sky[i];
+    more[i] =
+        more_of(mean_of(time.exposure, begin + i) - (time.total[begin + i] + changed[i]), all[i]);
   }
+  now.each([&](Light& light) { scale_all(time, intervals, more, light); });
 }
 
-/// Changes series, sums and times of receivers begin … end - 1 by what their reflected light has
+/// What a receiver's light of both kinds is to change by over all of the time [J m-2].
+struct Changes {
+  double reflected, sky;
+};
+/// Reflected light becomes that of the realizations (`exact_reflected`; below 0: not known), the
+/// sky takes the rest where there is one.
+Changes changes_of(double missing, double reflected, double sky, double exact_reflected) {
+  const double wanted = exact_reflected < 0
+                            ? missing * reflected / std::max(reflected + sky, 1e-300)
+                            : exact_reflected - reflected;
+  const double of_sky = sky > 0 ? std::max(missing - wanted, -sky) : 0;
+  return {std::max(missing - of_sky, -reflected), of_sky};
+}
+
+/// Scales each kind of light until its sum over all of the time is right.
+void scale_each(const ReceiverTally& tally, const Known& time,
+                const std::vector<Interval>& intervals, const Made& before, std::size_t begin,
+                std::size_t count, Made& now) {
+  const auto& reflected = tally.exposure[static_cast<std::size_t>(Part::reflected)];
+  const auto& sky = tally.exposure[static_cast<std::size_t>(Part::sky)];
+  const auto& exact = tally.part_realization[static_cast<std::size_t>(Part::reflected)];
+  const OfChunk<double> changed = change_of(time, intervals, before.reflected, now.reflected);
+  const OfChunk<double> sky_changed = change_of(time, intervals, before.sky, now.sky);
+  const OfChunk<double> of_reflected = scalable(time, intervals, now.reflected);
+  const OfChunk<double> of_sky = scalable(time, intervals, now.sky);
+  OfChunk<float> more{}, more_sky{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t at = begin + i;
+    const Changes wanted =
+        changes_of(mean_of(time.exposure, at) - time.total[at], reflected[at],
+                   now.sky.empty() ? 0 : sky[at], exact.empty() ? -1 : mean_of(exact, at));
+    more[i] = more_of(wanted.reflected - changed[i], of_reflected[i]);
+    more_sky[i] = more_of(wanted.sky - sky_changed[i], of_sky[i]);
+  }
+  scale_all(time, intervals, more, now.reflected);
+  scale_all(time, intervals, more_sky, now.sky);
+}
+
+/// Changes the series and the sum of one kind of light of receivers begin … end - 1.
+void put_kind(const std::vector<Interval>& intervals, const Light& before, const Light& now,
+              std::size_t begin, std::size_t end, Part kind, ReceiverTally& tally) {
+  LargeVector<float>& series = tally.irradiance[static_cast<std::size_t>(kind)];
+  std::vector<double>& exposure = tally.exposure[static_cast<std::size_t>(kind)];
+  const std::size_t receivers = exposure.size();
+  for (std::size_t n = 0; n < now.size(); ++n)
+    for (std::size_t i = begin; i < end; ++i) {
+      const float change = now[n][i - begin] - before[n][i - begin];
+      exposure[i] += static_cast<double>(change) * intervals[n].length_s;
+      if (series.empty()) continue;
+      float& E = series[intervals[n].row * receivers + i];
+      E = std::max(0.0f, E + change);
+    }
+  for (std::size_t i = begin; i < end; ++i) exposure[i] = std::max(0.0, exposure[i]);
+}
+
+/// Changes series, sums and times of receivers begin … end - 1 by what both kinds of light have
 /// changed by.
-void put(const std::vector<Interval>& intervals, const Light& before, const Light& now,
+void put(const std::vector<Interval>& intervals, const Made& before, const Made& now,
          std::size_t begin, std::size_t end, std::vector<double>& changed, ReceiverTally& tally) {
   const std::size_t receivers = changed.size(), count = end - begin;
   LargeVector<float>& series = tally.irradiance[static_cast<std::size_t>(Part::total)];
-  OfChunk<float> joules;
+  OfChunk<float> joules, was, is;
   for (std::size_t n = 0; n < intervals.size(); ++n) {
     const std::size_t row = intervals[n].row;
-    change(&series[row * receivers + begin], now[n].data(), before[n].data(),
+    was = before.reflected[n];
+    is = now.reflected[n];
+    for (std::size_t i = 0; i < count && !now.sky.empty(); ++i) {
+      was[i] += before.sky[n][i];
+      is[i] += now.sky[n][i];
+    }
+    change(&series[row * receivers + begin], is.data(), was.data(),
            static_cast<float>(intervals[n].length_s), count, joules.data(),
            &tally.irradiance_max[begin]);
     for (std::size_t i = 0; i < count; ++i) changed[begin + i] += static_cast<double>(joules[i]);
@@ -167,52 +219,61 @@ void put(const std::vector<Interval>& intervals, const Light& before, const Ligh
   }
   for (std::size_t i = begin; i < end; ++i)
     tally.exposure[static_cast<std::size_t>(Part::total)][i] += changed[i];
-  put_parts(intervals, before, now, begin, end, changed, tally);
+  put_kind(intervals, before.reflected, now.reflected, begin, end, Part::reflected, tally);
+  put_kind(intervals, before.sky, now.sky, begin, end, Part::sky, tally);
 }
 
 }  // namespace
 
-void ExactTotals::keep(const Block& block, const Columns& patches, const Columns& sensors) {
+void ExactTotals::keep(const Block& block, const FewLight& patches, const FewLight& sensors) {
   for (std::size_t k = 0; k < block.suns.size(); ++k)
     intervals_.push_back({block.rows[k], block.suns[k].length_s});
-  blocks_.push_back({block.suns.size(), PackedColumns(patches), PackedColumns(sensors)});
+  blocks_.push_back({block.suns.size(),
+                     {PackedColumns(patches.reflected), PackedColumns(patches.sky)},
+                     {PackedColumns(sensors.reflected), PackedColumns(sensors.sky)}});
 }
 
 void ExactTotals::take(const PatchOptics& optics, BatchTally& tally) const {
   std::vector<double> changed;
-  take(&Reflected::patches, tally, changed);
+  take(&KeptBlock::patches, tally, changed);
   for (std::size_t i = 0; i < tally.outgoing.size(); ++i)
     tally.outgoing[i] += static_cast<double>(optics.diffuse[i]) * changed[i];
-  take(&Reflected::sensors, tally.sensors, changed);
+  take(&KeptBlock::sensors, tally.sensors, changed);
 }
 
 /// Of receivers begin … end - 1.
-ExactTotals::Light ExactTotals::light_of(PackedColumns Reflected::*of_receivers, std::size_t begin,
-                                         std::size_t end) const {
+ExactTotals::Light ExactTotals::light_of(Kept KeptBlock::*of_receivers, PackedColumns Kept::*kind,
+                                         std::size_t begin, std::size_t end) const {
   Light light(intervals_.size());
   std::size_t first = 0;
-  for (const Reflected& block : blocks_) {
+  for (const KeptBlock& block : blocks_) {
     for (std::size_t i = begin; i < end; ++i)
       for (std::size_t k = 0; k < block.intervals; ++k)
-        light[first + k][i - begin] = (block.*of_receivers).at(i, k);
+        light[first + k][i - begin] = (block.*of_receivers.*kind).at(i, k);
     first += block.intervals;
   }
   return light;
 }
 
 /// `changed`: what sums change by, of every receiver [J m-2].
-void ExactTotals::take(PackedColumns Reflected::*of_receivers, ReceiverTally& tally,
+void ExactTotals::take(Kept KeptBlock::*of_receivers, ReceiverTally& tally,
                        std::vector<double>& changed) const {
   const std::size_t receivers = tally.sunlit_s.size();
   changed.assign(receivers, 0);
   if (receivers == 0 || tally.exposure[static_cast<std::size_t>(Part::reflected)].empty()) return;
+  const bool has_sky = !tally.exposure[static_cast<std::size_t>(Part::sky)].empty();
   const std::vector<Known> times = known_times(tally);
   std::fill(tally.irradiance_max.begin(), tally.irradiance_max.end(), 0.0f);
   parallel_chunks(receivers, receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
-    const Light before = light_of(of_receivers, begin, end);
-    Light now = before;
-    for (int turn = 0; turn < (times.size() > 1 ? turns : 1); ++turn)
-      for (const Known& time : times) scale_to(time, intervals_, before, begin, end - begin, now);
+    const std::size_t count = end - begin;
+    const Made before{light_of(of_receivers, &Kept::reflected, begin, end),
+                      has_sky ? light_of(of_receivers, &Kept::sky, begin, end) : Light()};
+    Made now = before;
+    for (int turn = 0; turn < (times.size() > 1 ? turns : 1); ++turn) {
+      for (std::size_t t = 0; t + 1 < times.size(); ++t)
+        scale_to(times[t], intervals_, before, begin, count, now);
+      scale_each(tally, times.back(), intervals_, before, begin, count, now);
+    }
     put(intervals_, before, now, begin, end, changed, tally);
   });
 }

@@ -5,11 +5,10 @@
 /// Light that is made up of few solutions has much the same error on all patches of a facade: their
 /// mean keeps it, while errors of lines average out. The realizations are solved with the exact
 /// sources, integrated over time, and their sums lack this error; the mean of the realizations
-/// equals what gathering on the pooled lines gives, within a tenth of its standard error. So the
-/// reflected light of a patch is scaled, batch by batch, until its time sum is that of the
-/// realizations, and so are its sums over parts of the time. The change of a patch's total is then
-/// shared out: reflected light takes what makes its own sum that of the realizations, the sky takes
-/// the rest.
+/// equals what gathering on the pooled lines gives, within a tenth of its standard error. So light
+/// of the sky and reflected light of a patch are scaled, batch by batch, until the sums of all
+/// light over parts of the time, and of each kind over all of the time, are those of the
+/// realizations. Where a kind brings nothing, nothing is added.
 #pragma once
 
 #include <array>
@@ -23,11 +22,16 @@
 
 namespace sunload {
 
+/// Light of a block that is made up of few solutions, [N][block].
+struct FewLight {
+  Columns reflected, sky;
+};
+
 class ExactTotals {
  public:
-  /// Keeps the reflected light of a block that the tally has already. `sensors` has no rows where
-  /// there are none.
-  void keep(const Block& block, const Columns& patches, const Columns& sensors);
+  /// Keeps the light of a block that the tally has already. `sensors` has no rows where there are
+  /// none.
+  void keep(const Block& block, const FewLight& patches, const FewLight& sensors);
   /// Scales the kept light in the tally: series, time sums, parts, largest values. Parts of the
   /// time that have errors come first, then all of the time, which decides. Call it after
   /// `solve_realizations`.
@@ -44,17 +48,20 @@ class ExactTotals {
   };
 
  private:
-  /// Of a block.
-  struct Reflected {
-    std::size_t intervals;
-    PackedColumns patches, sensors;
+  struct Kept {
+    PackedColumns reflected, sky;
   };
-  void take(PackedColumns Reflected::*of_receivers, ReceiverTally& tally,
+  struct KeptBlock {
+    std::size_t intervals;
+    Kept patches, sensors;
+  };
+  void take(Kept KeptBlock::*of_receivers, ReceiverTally& tally,
             std::vector<double>& changed) const;
-  Light light_of(PackedColumns Reflected::*of_receivers, std::size_t begin, std::size_t end) const;
+  Light light_of(Kept KeptBlock::*of_receivers, PackedColumns Kept::*kind, std::size_t begin,
+                 std::size_t end) const;
 
   std::vector<Interval> intervals_;  ///< of all blocks
-  std::vector<Reflected> blocks_;
+  std::vector<KeptBlock> blocks_;
 };
 
 }  // namespace sunload

@@ -48,10 +48,10 @@ class YearBand {
     parts_.add_sources(block, sources, PartSums::Sky::whole);
     for (std::size_t p = 0; p < parts_.count(); ++p)
       add_shares(block, weights, parts_.shares(p, block), shares_of_parts_[p]);
-    const Columns on_patches = light_patches(block, weights, rays.on_patches);
+    const FewLight on_patches = light_patches(block, weights, rays.on_patches);
     exact_.keep(
         block, on_patches,
-        traced_.sensors.count() > 0 ? light_sensors(block, weights, rays.on_sensors) : Columns());
+        traced_.sensors.count() > 0 ? light_sensors(block, weights, rays.on_sensors) : FewLight());
     book_sent_on(traced_, block, rays.sent_on, sums_, tally_);
     sums_.add_whole_sources(sources);
     add_shares(block, weights, std::vector<double>(block.suns.size(), 1), shares_);
@@ -67,21 +67,21 @@ class YearBand {
   }
 
  private:
-  /// Return what is reflected.
-  Columns light_patches(const Block& block, const std::vector<NodeWeights>& weights,
-                        RayLight& rays) {
+  /// Return what is made up of few solutions.
+  FewLight light_patches(const Block& block, const std::vector<NodeWeights>& weights,
+                         RayLight& rays) {
     BlockLight light = nodes_.light(traced_.patches, &NodeBlock::patches, weights, rays);
     for (std::size_t k = 0; k < block.suns.size(); ++k)
       tally_.ledger[block.rows[k]] += nodes_.ledger(weights, k);
     store_patches(optics_, light, block.suns, block.rows, rays.sunlit, tally_);
-    return std::move(light.reflected);
+    return {std::move(light.reflected), std::move(light.sky)};
   }
 
-  Columns light_sensors(const Block& block, const std::vector<NodeWeights>& weights,
-                        RayLight& rays) {
+  FewLight light_sensors(const Block& block, const std::vector<NodeWeights>& weights,
+                         RayLight& rays) {
     BlockLight light = nodes_.light(traced_.sensors, &NodeBlock::sensors, weights, rays);
     store_received(light, block.suns, block.rows, rays.sunlit, tally_.sensors);
-    return std::move(light.reflected);
+    return {std::move(light.reflected), std::move(light.sky)};
   }
 
   /// Time that each node shines, in all intervals together, of each so much of its time.
