@@ -14,7 +14,7 @@
 #include "io/base/machine.h"
 #include "io/base/standard_streams.h"
 #include "io/base/stop_signals.h"
-#include "io/command/command_line.h"
+#include "io/command/run_command.h"
 
 namespace sunload {
 namespace {
