@@ -51,6 +51,13 @@ CompareOptions with_files(CompareOptions options) {
   return options;
 }
 
+/// Results know the study as it was.
+void note_changes_of(const StudyFile& study, const ResultReader& result) {
+  const auto text = result.strings("study_yaml");
+  if (!text.empty() && text.front() != study.yaml)
+    tell("note: " + study.path + " is not as it was when " + result.path() + " was computed");
+}
+
 void expect_one_variant(const CompareOptions& options) {
   if (options.variants.size() == 1) return;
   if (options.format != CompareOptions::Format::table)
@@ -245,6 +252,7 @@ int compare(const CompareOptions& asked) {
   for (const auto& path : options.variants) {
     const auto read_variant = opened({path, options.band, options.period});
     const ResultReader& variant = *read_variant;
+    if (is_study(asked.base)) note_changes_of(read_study(asked.base), variant);
     Comparison comparison = compare_results(
         base, variant,
         {.dataset = options.quantity,

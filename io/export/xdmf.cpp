@@ -106,7 +106,7 @@ class Grid {
 std::vector<std::string> chosen_series(const ResultReader& result, const ExportRules& rules) {
   if (!rules.time.empty())
     throw InputError({}, "--time with --to xdmf", "the file holds all intervals", "leave it out");
-  const auto all = patch_datasets(result, PatchDatasets::series);
+  auto all = patch_datasets(result, PatchDatasets::series);
   if (rules.quantity.empty()) return all;
   if (std::find(all.begin(), all.end(), rules.quantity) != all.end()) return {rules.quantity};
   shown_quantity(result, rules.quantity, "");  // refuses what is not known

@@ -123,6 +123,32 @@ TEST(PartsOfPeriod, AllCommandsOnResultsTakeThem) {
 }
 
 /// The winter day is the second half of one period and all of the other.
+// An export has the rows of the part, or says that it cannot.
+TEST(PartsOfPeriod, ExportsTakeThemOrRefuse) {
+  const WorkFolder& folder = days_folder();
+  const auto exported = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"export", path});
+    return program(folder, more);
+  };
+  const auto rows = [](const std::string& csv) { return std::count(csv.begin(), csv.end(), '\n'); };
+  const Ran whole = exported({"--to", "csv", "--quantity", "series"});
+  const Ran day = exported({"--to", "csv", "--quantity", "series", "--day", "2026-12-21"});
+  EXPECT_EQ(day.code, 0) << day.err;
+  EXPECT_EQ(rows(whole.out), 1 + 12);  // a line of names, six intervals of each day
+  EXPECT_EQ(rows(day.out), 1 + 6);
+  EXPECT_NE(day.out.find("2026-12-21"), std::string::npos);
+  EXPECT_EQ(day.out.find("2026-06-21"), std::string::npos);
+  for (const auto& refused :
+       {std::vector<std::string>{"--to", "xdmf", "-o", "x.xdmf"},
+        {"--to", "csv", "--quantity", "irradiance", "--time", "2026-06-21T12:00"}}) {
+    auto words = refused;
+    words.insert(words.end(), {"--day", "2026-12-21"});
+    const Ran ran = exported(words);
+    EXPECT_EQ(ran.code, 2) << ran.out;
+    EXPECT_NE(ran.err.find("--day"), std::string::npos) << ran.err;
+  }
+}
+
 TEST(PartsOfPeriod, ResultsOfOtherPeriodsArePairsWhereTheyHaveThePart) {
   WorkFolder& folder = days_folder();
   const std::string winter = "results/days/winter.h5", slow = "results/days/slow.h5";

@@ -86,6 +86,24 @@ TEST(Shards, OneAfterAnotherGiveTheSameBits) {
   EXPECT_EQ(program(folder, {"merge", "street.yaml"}).code, 0);
 }
 
+// What is merged before the end says so wherever it is read.
+TEST(Shards, APartialResultSaysWhatIsMissing) {
+  const WorkFolder folder;
+  folder.write("street.yaml", street_study());
+  EXPECT_EQ(shard(folder, 0, 3).code, 0);
+  EXPECT_EQ(program(folder, {"merge", "street.yaml", "--partial"}).code, 0);
+  const auto partial = files(folder, "partial.h5");
+  ASSERT_EQ(partial.size(), 1u);
+  const std::string file = "results/" + partial.front();
+  for (const auto& words : {std::vector<std::string>{"info", file},
+                            {"export", file, "--to", "csv"},
+                            {"compare", file, file}}) {
+    const Ran ran = program(folder, words);
+    EXPECT_NE(ran.err.find("4 of 6 batches are missing"), std::string::npos)
+        << words.front() << ": " << ran.err;
+  }
+}
+
 // Who comes later reads what is solved, as it reads the lines: it casts no ray for it.
 TEST(Shards, SkiesAndSunsOfALongPeriodAreSolvedOnce) {
   for (const char* year : {", year: modes", ", year: each", ", year: modes, bands: rgb"}) {

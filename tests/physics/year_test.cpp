@@ -82,6 +82,8 @@ class YearOfTheSquare : public testing::Test {
   static void loads_of_objects_differ_by_less_than_their_errors();
   static void loads_are_the_means_of_the_realizations();
   static void loads_are_the_sums_of_the_series();
+  static void sums_of_parts_are_those_of_their_series();
+  static void nothing_comes_from_where_there_is_nothing();
   static void sensors_see_the_same();
   static void ledgers_agree();
 };
@@ -184,6 +186,38 @@ void YearOfTheSquare::loads_are_the_sums_of_the_series() {
   }
 }
 
+void YearOfTheSquare::sums_of_parts_are_those_of_their_series() {
+  constexpr double roundings = 1e-5;  // of single precision, of changes that are added to it
+  const auto& intervals = solutions->modes.plan.light.intervals;
+  const std::vector<double>& area = solutions->modes.mesh().area();
+  for (const Part part : {Part::sky, Part::reflected}) {
+    const auto p = static_cast<std::size_t>(part);
+    const double mean = mean_of(modes().exposure[p], area);
+    for (std::size_t i = 0; i < area.size(); ++i) {
+      double sum = 0;
+      for (std::size_t k = 0; k < intervals.size(); ++k)
+        sum += static_cast<double>(modes().irradiance[p][k * area.size() + i]) *
+               intervals[k].when.length_s();
+      EXPECT_NEAR(modes().exposure[p][i], sum, roundings * mean) << part_names[p] << " " << i;
+    }
+  }
+}
+
+/// A patch that sees no sky has none by what corrects totals, nor has any in the dark.
+void YearOfTheSquare::nothing_comes_from_where_there_is_nothing() {
+  const auto sky = static_cast<std::size_t>(Part::sky);
+  const std::size_t patches = each().exposure[sky].size();
+  std::size_t dark = 0;
+  for (std::size_t at = 0; at < each().irradiance[sky].size(); ++at) {
+    const bool sees_none = each().exposure[sky][at % patches] == 0;
+    const bool is_night = solutions->each.plan.light.intervals[at / patches].mean.dhi == 0;
+    if (!sees_none && !is_night) continue;
+    ++dark;
+    ASSERT_EQ(modes().irradiance[sky][at], 0.0f) << at / patches << " " << at % patches;
+  }
+  EXPECT_GT(dark, 0u);
+}
+
 void YearOfTheSquare::sensors_see_the_same() {
   ASSERT_FALSE(each().sensors.exposure[total].empty());
   for (std::size_t s = 0; s < each().sensors.exposure[total].size(); ++s) {
@@ -217,6 +251,8 @@ TEST_F(YearOfTheSquare, AgreesWithASolutionForEachInterval) {
   loads_of_objects_differ_by_less_than_their_errors();
   loads_are_the_means_of_the_realizations();
   loads_are_the_sums_of_the_series();
+  sums_of_parts_are_those_of_their_series();
+  nothing_comes_from_where_there_is_nothing();
   sensors_see_the_same();
   ledgers_agree();
 }
