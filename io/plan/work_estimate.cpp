@@ -387,8 +387,9 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
     work.memory_bytes +=
         std::max(0.0, n * test_bytes_per_patch(s.realizations, mirrors) - of_batches);
     work.memory_bytes += seasons * node_bytes;
-    // The reflected light of a batch, kept until its time sums are known.
-    work.memory_bytes += bands * n * batch * float_bytes * packed_share;
+    // Light of the sky and reflected light of a batch, kept until their time sums are known.
+    constexpr double kinds = 2;
+    work.memory_bytes += kinds * bands * n * batch * float_bytes * packed_share;
   }
   work.memory_bytes += bands * n * static_cast<double>(periods.most) *
                        (arrays_of_realizations * of_realizations + sums_of_part * double_bytes);

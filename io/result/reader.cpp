@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <new>
+#include <numeric>
 
 #include "geo/base/check.h"
 #include "io/base/names.h"
@@ -61,8 +63,9 @@ struct ResultReader::File {
 
   /// Of errors of the bands' mean: whether they can be had from realizations.
   bool has_realizations_of_bands(const std::string& dataset) const {
-    return !band && is_banded(dataset) && dataset.ends_with(error_ending) && file.has(dataset) &&
-           file.has(realizations_of(total_of_error(dataset)));
+    if (band || !is_banded(dataset) || !dataset.ends_with(error_ending)) return false;
+    const std::string realizations = realizations_of(total_of_error(dataset));
+    return !realizations.empty() && file.has(dataset) && file.has(realizations);
   }
 
   /// Where the dimension of bands stands: last in the ledger, else before the last.
@@ -231,6 +234,11 @@ std::vector<double> error_of_mean_of_bands(const ResultReader& result, const std
   const auto values = result.doubles(realizations);
   const std::size_t count = result.shape(realizations).front();
   const std::size_t receivers = count > 0 ? values.size() / count : 0;
+  if (const auto wanted = result.shape(error);
+      receivers !=
+      std::accumulate(wanted.begin(), wanted.end(), std::size_t{1}, std::multiplies<>()))
+    throw InputError({result.path()}, "dataset " + realizations + " cannot be read",
+                     "it has other receivers than " + error);
   std::vector<double> errors(receivers);
   for (std::size_t i = 0; i < receivers; ++i)
     errors[i] = standard_error(
