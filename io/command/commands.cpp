@@ -19,6 +19,7 @@
 #include "io/report/compare.h"
 #include "io/report/info.h"
 #include "io/report/measures.h"
+#include "io/result/lacking.h"
 #include "io/result/patches_csv.h"
 #include "io/run/options.h"
 #include "io/run/work_folder.h"
@@ -31,21 +32,19 @@ namespace sunload {
 namespace {
 
 /// The result of a study's variant.
-std::string result_named(const CompareOptions& options, const std::string& variant) {
+std::string result_named(const CompareOptions& options, const StudyFile& study,
+                         const std::string& variant) {
   RunOptions chosen;
   chosen.output = options.output;
   chosen.variants = {variant};
-  const StudyFile file = read_study(options.base);
-  return result_path(results_folder(file, chosen), chosen_variants(file, chosen).front());
+  return result_path(results_folder(study, chosen), chosen_variants(study, chosen).front());
 }
 
 /// With the files of a study's variants in place of their names.
-CompareOptions with_files(CompareOptions options) {
-  if (!is_study(options.base)) return options;
+CompareOptions with_files(CompareOptions options, const StudyFile& study) {
   auto& names = options.variants;
-  if (names.size() == 1)
-    names.insert(names.begin(), read_study(options.base).variants.front().variant);
-  for (auto& name : names) name = result_named(options, name);
+  if (names.size() == 1) names.insert(names.begin(), study.variants.front().variant);
+  for (auto& name : names) name = result_named(options, study, name);
   options.base = names.front();
   names.erase(names.begin());
   return options;
@@ -196,12 +195,6 @@ std::optional<std::size_t> chosen_band(const std::string& name) {
   return name.empty() ? std::nullopt : std::optional(band_by_name(name));
 }
 
-void warn_of_lacking(const ResultReader& result) {
-  if (const std::string lacking = result.lacking(); !lacking.empty())
-    tell(fmt::format("warning: {}: {}: totals are those of the others, and series have gaps",
-                     result.path(), lacking));
-}
-
 std::unique_ptr<const ResultReader> opened(const NamedResult& named, Opens opens) {
   auto result = std::make_unique<ResultReader>(named.path, chosen_band(named.band), opens);
   result->choose(named.period);
@@ -241,7 +234,8 @@ int print_info(const InfoOptions& options) {
 }
 
 int compare(const CompareOptions& asked) {
-  const CompareOptions options = with_files(asked);
+  const auto study = is_study(asked.base) ? std::optional(read_study(asked.base)) : std::nullopt;
+  const CompareOptions options = study ? with_files(asked, *study) : asked;
   expect_one_variant(options);
   // Of a study only now the names of its results are known.
   std::vector<std::string> inputs = options.variants;
@@ -252,7 +246,7 @@ int compare(const CompareOptions& asked) {
   for (const auto& path : options.variants) {
     const auto read_variant = opened({path, options.band, options.period});
     const ResultReader& variant = *read_variant;
-    if (is_study(asked.base)) note_changes_of(read_study(asked.base), variant);
+    if (study) note_changes_of(*study, variant);
     Comparison comparison = compare_results(
         base, variant,
         {.dataset = options.quantity,

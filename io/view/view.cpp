@@ -14,6 +14,7 @@
 #include "io/base/file_aside.h"
 #include "io/base/scene_colours.h"
 #include "io/base/standard_streams.h"
+#include "io/result/lacking.h"
 #include "io/view/data.h"
 #include "io/view/page.h"
 
@@ -97,6 +98,7 @@ void view_html(const std::vector<std::string>& paths, const ViewRules& rules,
                        {"surfaces", colours(surface_colour_count, surface_colour)},
                        {"materials", colours(material_colour_count, material_colour)}};
   for (const auto& result : results) {
+    warn_of_lacking(result);
     if (result.shape("patch_area").at(0) == 0)
       throw InputError({result.path()}, "no patches", "there is nothing to view");
     about["results"].push_back(view_data(result, step, blocks));

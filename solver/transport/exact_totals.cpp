@@ -3,6 +3,7 @@
 #include "solver/transport/exact_totals.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "geo/base/vector_code.h"
 #include "solver/base/chunks.h"
@@ -80,11 +81,6 @@ std::vector<Known> known_times(const ReceiverTally& tally) {
 /// The two kinds of light that are made up of few solutions.
 struct Made {
   Light reflected, sky;  ///< no sky: empty
-  template <class Action>
-  void each(const Action& action) {
-    action(reflected);
-    if (!sky.empty()) action(sky);
-  }
 };
 
 /// Σ over the intervals of share · length · (now - before), of one kind of light.
@@ -135,19 +131,21 @@ void scale_to(const Known& time, const std::vector<Interval>& intervals, const M
     more[i] =
         more_of(mean_of(time.exposure, begin + i) - (time.total[begin + i] + changed[i]), all[i]);
   }
-  now.each([&](Light& light) { scale_all(time, intervals, more, light); });
+  scale_all(time, intervals, more, now.reflected);
+  scale_all(time, intervals, more, now.sky);
 }
 
 /// What a receiver's light of both kinds is to change by over all of the time [J m-2].
 struct Changes {
   double reflected, sky;
 };
-/// Reflected light becomes that of the realizations (`exact_reflected`; below 0: not known), the
-/// sky takes the rest where there is one.
-Changes changes_of(double missing, double reflected, double sky, double exact_reflected) {
-  const double wanted = exact_reflected < 0
-                            ? missing * reflected / std::max(reflected + sky, 1e-300)
-                            : exact_reflected - reflected;
+/// Reflected light becomes that of the realizations, or, where these are not known, takes its share
+/// of what is missing; the sky takes the rest where there is one.
+Changes changes_of(double missing, double reflected, double sky,
+                   std::optional<double> exact_reflected) {
+  const double both = reflected + sky;
+  const double of_both = both > 0 ? missing * reflected / both : 0;
+  const double wanted = exact_reflected ? *exact_reflected - reflected : of_both;
   const double of_sky = sky > 0 ? std::max(missing - wanted, -sky) : 0;
   return {std::max(missing - of_sky, -reflected), of_sky};
 }
@@ -166,9 +164,9 @@ void scale_each(const ReceiverTally& tally, const Known& time,
   OfChunk<float> more{}, more_sky{};
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = begin + i;
-    const Changes wanted =
-        changes_of(mean_of(time.exposure, at) - time.total[at], reflected[at],
-                   now.sky.empty() ? 0 : sky[at], exact.empty() ? -1 : mean_of(exact, at));
+    const Changes wanted = changes_of(
+        mean_of(time.exposure, at) - time.total[at], reflected[at], now.sky.empty() ? 0 : sky[at],
+        exact.empty() ? std::nullopt : std::optional(mean_of(exact, at)));
     more[i] = more_of(wanted.reflected - changed[i], of_reflected[i]);
     more_sky[i] = more_of(wanted.sky - sky_changed[i], of_sky[i]);
   }

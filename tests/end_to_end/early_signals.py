@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from skip import skip
+from skip import skip_where_not_preloaded
 from small_study import RESULT, write_study
 
 UNFINISHED = 75
@@ -35,8 +35,7 @@ def main():
     problems = []
     with tempfile.TemporaryDirectory() as folder:
         write_study(folder, 2, 4)
-        if call(program, library, 0, ["--version"], folder).returncode != 0:
-            skip("this build does not start with a preloaded library")
+        skip_where_not_preloaded(program, library)
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1, signal.SIGHUP):
             ran = call(program, library, number, ["run", "square.yaml"], folder)
             if ran.returncode != UNFINISHED or number.name not in ran.stderr:

@@ -17,7 +17,7 @@ import sys
 import tempfile
 
 from same_data import different_data
-from skip import skip
+from skip import skip, skip_where_not_preloaded
 from small_study import RESULT, write_study
 
 ERRORS = (errno.ENOSPC, errno.EIO, errno.EDQUOT)
@@ -137,10 +137,7 @@ def main():
         check_full_disk(os.path.abspath(options.sunload))
         return
     sunload, library = os.path.abspath(options.sunload), os.path.abspath(options.library)
-    probe = subprocess.run([sunload, "--version"], env=dict(os.environ, LD_PRELOAD=library),
-                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    if probe.returncode != 0:
-        skip("this build does not start with a preloaded library")
+    skip_where_not_preloaded(sunload, library)
     with tempfile.TemporaryDirectory() as folder:
         faults = Faults(sunload, library, folder)
         faults.check(["run", "square.yaml"], [[]], options.every)

@@ -12,15 +12,14 @@ import sys
 import tempfile
 
 from same_data import different_data
-from skip import skip
+from skip import skip_where_not_preloaded
 from small_study import RESULT, write_study
 
 
 def main():
     sunload, library = (os.path.abspath(path) for path in sys.argv[1:3])
     without_locks = dict(os.environ, LD_PRELOAD=library)
-    if subprocess.run([sunload, "--version"], env=without_locks, capture_output=True).returncode != 0:
-        skip("this build does not start with a preloaded library")
+    skip_where_not_preloaded(sunload, library)
     with tempfile.TemporaryDirectory() as folder:
         write_study(folder, max_edge_m=8, batch_suns=4)
 

@@ -293,6 +293,14 @@ std::vector<std::string> rank_words(int ranks, std::vector<std::string> argument
   return words;
 }
 
+/// False where it waits for what never comes.
+bool ends_within_a_minute(Process& process) {
+  const auto begin = std::chrono::steady_clock::now();
+  while (process.is_running() && std::chrono::steady_clock::now() - begin < 60s)
+    std::this_thread::sleep_for(10ms);
+  return !process.is_running();
+}
+
 TEST(Shards, RanksOfMpiGiveTheSameBits) {
   if (mpirun().empty()) GTEST_SKIP() << no_mpirun;
   for (const int ranks : {2, 3}) {
@@ -344,10 +352,7 @@ TEST(Shards, RanksThatSeeDifferentResultsEnd) {
   for (const auto& word : program_words({"run", "square.yaml", "--output", "not_there"}))
     words.push_back(word);
   Process process(words, folder.path());
-  const auto begin = std::chrono::steady_clock::now();
-  while (process.is_running() && std::chrono::steady_clock::now() - begin < 60s)
-    std::this_thread::sleep_for(10ms);
-  ASSERT_FALSE(process.is_running()) << process.err_so_far();
+  ASSERT_TRUE(ends_within_a_minute(process)) << process.err_so_far();
   const Ran ran = process.wait();
   if (ran.err.find("this build has no MPI") != std::string::npos) GTEST_SKIP() << no_mpi;
   EXPECT_EQ(ran.code, 3) << ran.err;
@@ -397,10 +402,7 @@ TEST(Shards, RanksComputeADamagedBatchAgain) {
   std::filesystem::resize_file(batch, std::filesystem::file_size(batch) / 2);
   // Only one of them finds out: they must not wait for each other.
   Process process(rank_words(2, {"run", "street.yaml", "--threads", "1"}), folder.path());
-  const auto begin = std::chrono::steady_clock::now();
-  while (process.is_running() && std::chrono::steady_clock::now() - begin < 60s)
-    std::this_thread::sleep_for(10ms);
-  ASSERT_FALSE(process.is_running()) << process.err_so_far();
+  ASSERT_TRUE(ends_within_a_minute(process)) << process.err_so_far();
   const Ran ran = process.wait();
   if (ran.err.find("this build has no MPI") != std::string::npos) GTEST_SKIP() << no_mpi;
   EXPECT_EQ(ran.code, 0) << ran.err;
