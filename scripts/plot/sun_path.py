@@ -184,7 +184,8 @@ def heading_words(result, target, share, is_up):
     hours = result.hours()
     lit = np.average(result.numbers("sun_hours")[target.patches], weights=target.area)
     clock = "" if result.is_synthetic else f"; hours: {result.offsets()}"
-    return (f"{target.label}\n{result.period()}: {lit:.3g} h in the sun, which is up in intervals of {hours[is_up].sum():.4g} h\n"
+    return (f"{target.label}\n{result.period()}\n"
+            f"{lit:.4g} h in the sun, which is up in intervals of {hours[is_up].sum():.4g} h\n"
             f"plan of the sky, stereographic; grey: behind the surface{clock}")
 
 
