@@ -77,6 +77,7 @@ void throw_cannot_write(const std::string& path, int error_number) {
 }
 
 OutputTarget output_target(const std::string& path) {
+  if (path == "-") return {OutputTarget::Kind::descriptor, path, STDOUT_FILENO};
   fs::path at(path);
   std::error_code unreadable;
   for (int links = 0; fs::is_symlink(fs::symlink_status(at, unreadable)); ++links) {

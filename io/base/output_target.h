@@ -23,7 +23,7 @@ struct OutputTarget {
   int descriptor = -1;  ///< of `descriptor`
 };
 
-/// Throws MachineError for folders and for links that lead round.
+/// `-` is the standard output. Throws MachineError for folders and for links that lead round.
 OutputTarget output_target(const std::string& path);
 
 /// Copies the bytes of a file into a target that stays. Throws MachineError that names `path`.

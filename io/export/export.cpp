@@ -124,6 +124,7 @@ void export_result(const ResultReader& result, const ExportRules& rules, const s
   FileAside file(path);
   errno = 0;
   std::ofstream stream(file.aside(), std::ios::binary);
+  if (!stream) throw_cannot_write(path, errno);
   format.write(result, rules, {stream, path});
   stream.close();
   if (!stream) throw_cannot_write(path, errno);

@@ -87,10 +87,10 @@ Vec3 sun_at(const ResultReader& result, std::size_t interval) {
 
 void expect_sense(const RenderRules& rules) {
   Problems problems;
-  for (const int pixels : {rules.width, rules.height})
-    if (pixels < least_pixels || pixels > most_pixels)
-      problems.add({}, fmt::format("--size {}x{}", rules.width, rules.height),
-                   fmt::format("width and height must lie in [{}, {}]", least_pixels, most_pixels));
+  const auto [least, most] = std::minmax(rules.width, rules.height);
+  if (least < least_pixels || most > most_pixels)
+    problems.add({}, fmt::format("--size {}x{}", rules.width, rules.height),
+                 fmt::format("width and height must lie in [{}, {}]", least_pixels, most_pixels));
   if (!rules.parts.sensors.empty())
     problems.add({}, "--sensor in a picture", "sensors are points", "name facades or objects");
   if (!rules.parts.facades.empty() && (!rules.eye.empty() || rules.view != View::overview))

@@ -4,11 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <iterator>
 
 #include "geo/mesh/mesh.h"
 #include "io/base/text.h"
 #include "io/result/schema.h"
+#include "io/result/shown_quantity.h"
 
 namespace sunload {
 namespace {
@@ -25,30 +28,53 @@ std::string header_of(const ResultVariable& variable) {
   return std::string(variable.name) + (variable.units == "1" ? "" : "_kwh_m4");
 }
 
+/// Columns that every result has, those it lacks empty: programs find them in their place.
+constexpr std::array always_there{
+    "light_load",       "light_load_se",    "light_load_direct",    "light_load_sky",
+    "light_load_mirror", "light_load_lamps", "light_load_reflected", "sun_hours",
+    "power_load"};
+
+/// Units of `always_there` where a result lacks it.
+std::string units_of(const ResultReader& result, const std::string& dataset) {
+  if (result.has(dataset)) return result.units(dataset);
+  return dataset == "sun_hours" ? "h" : result.units("light_load");
+}
+
+std::vector<Column> columns_of_totals(const ResultReader& result) {
+  std::vector<Column> columns;
+  const auto add = [&](const std::string& dataset) {
+    columns.push_back({dataset, with_units(dataset, units_of(result, dataset)), {}});
+  };
+  for (const std::string dataset : always_there) add(dataset);
+  for (const auto& dataset : patch_datasets(result, PatchDatasets::totals))
+    if (dataset != "patch_area" &&
+        std::find(always_there.begin(), always_there.end(), dataset) == always_there.end())
+      add(dataset);
+  return columns;
+}
+
+std::vector<Column> columns_of_comparison(const ResultReader& result) {
+  const std::string compared = result.compared(), difference = difference_dataset(compared);
+  std::vector<Column> columns;
+  for (const auto& [dataset, header] : {std::pair{"base_" + compared, "base"},
+                                        {"variant_" + compared, "variant"},
+                                        {difference, "difference"},
+                                        {difference + "_se", "se"}})
+    columns.push_back({dataset, with_units(header, result.units(dataset)), {}});
+  return columns;
+}
+
+std::vector<Column> columns_of_place_map() {
+  std::vector<Column> columns;
+  for (const auto& variable : place_map_schema())
+    columns.push_back({std::string(variable.name), header_of(variable), {}});
+  return columns;
+}
+
 std::vector<Column> value_columns(const ResultReader& result) {
-  std::vector<Column> columns{{"light_load", "light_load_kwh_m2", {}},
-                              {"light_load_se", "light_load_se_kwh_m2", {}},
-                              {"light_load_direct", "light_load_direct_kwh_m2", {}},
-                              {"light_load_sky", "light_load_sky_kwh_m2", {}},
-                              {"light_load_mirror", "light_load_mirror_kwh_m2", {}},
-                              {"light_load_lamps", "light_load_lamps_kwh_m2", {}},
-                              {"light_load_reflected", "light_load_reflected_kwh_m2", {}},
-                              {"sun_hours", "sun_hours_h", {}},
-                              {"power_load", "power_load_kwh_m2", {}}};
-  if (result.is_comparison()) {
-    const std::string compared = result.compared(), difference = difference_dataset(compared);
-    columns.clear();
-    for (const auto& [dataset, header] : {std::pair{"base_" + compared, "base"},
-                                          {"variant_" + compared, "variant"},
-                                          {difference, "difference"},
-                                          {difference + "_se", "se"}})
-      columns.push_back({dataset, with_units(header, result.units(dataset)), {}});
-  }
-  if (result.is_place_map()) {
-    columns.clear();
-    for (const auto& variable : place_map_schema())
-      columns.push_back({std::string(variable.name), header_of(variable), {}});
-  }
+  auto columns = result.is_comparison()  ? columns_of_comparison(result)
+                 : result.is_place_map() ? columns_of_place_map()
+                                         : columns_of_totals(result);
   for (auto& column : columns)
     if (result.has(column.dataset)) column.values = result.doubles(column.dataset);
   return columns;

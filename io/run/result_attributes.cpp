@@ -93,6 +93,15 @@ void add_names(Attributes& a, const VariantPlan& plan) {
                                {"variant", plan.study.variant}});
 }
 
+/// Which of the study's variants it is, from 1.
+std::int64_t variant_number(const MergedResult& result) {
+  const auto& variants = result.file.variants;
+  const auto here = std::find_if(variants.begin(), variants.end(), [&](const Study& study) {
+    return study.variant == result.plan.study.variant;
+  });
+  return here - variants.begin() + 1;
+}
+
 /// How it was computed.
 void add_identity(Attributes& a, const MergedResult& result) {
   const VariantPlan& plan = result.plan;
@@ -119,7 +128,8 @@ void add_identity(Attributes& a, const MergedResult& result) {
     a.text.emplace_back("bands", "rgb");
     a.text.emplace_back("light_colour", study.light.colour == LightColour::white ? "white" : "sky");
   }
-  a.integers = {{"seed", static_cast<std::int64_t>(study.solver.seed)},
+  a.integers = {{"variant_number", variant_number(result)},
+                {"seed", static_cast<std::int64_t>(study.solver.seed)},
                 {"realizations", study.solver.realizations},
                 {"numerics_version", numerics_version}};
 }

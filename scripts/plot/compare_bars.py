@@ -100,11 +100,12 @@ def draw(results, arguments):
     thick = 0.8 / len(results)
     whiskers = {"ecolor": "black", "elinewidth": 0.9, "capsize": 2}
     lines = []
+    labels = legend_words(results)
     for k, groups in enumerate((base, *variants)):
         y = np.arange(len(names)) + (k - (len(results) - 1) / 2) * thick
         colour = "#999999" if k == 0 else drawing.LINE_COLOURS[(k - 1) % 7]
         loads = [groups.load[groups.place[name]] for name in names]
-        left.barh(y, loads, thick, color=colour, label=groups.result.attribute("variant"),
+        left.barh(y, loads, thick, color=colour, label=labels[k],
                   xerr=[groups.whisker(groups.place[name]) for name in names], error_kw=whiskers)
         if k > 0:
             apart = [difference(base, groups, name) for name in names]
@@ -127,12 +128,24 @@ def draw(results, arguments):
     return figure, [header] + lines
 
 
+def have_one_period(results):
+    return len({result.period() for result in results}) == 1
+
+
+def legend_words(results):
+    """Variants, with their periods where these are not the same."""
+    names = [result.attribute("variant") for result in results]
+    return names if have_one_period(results) else \
+        [f"{name}\n{result.period()}" for name, result in zip(names, results)]
+
+
 def heading_words(base, variants, shown, of_all, arguments):
     paired = [are_paired(base, variant) for variant in variants]
     how = "paired realizations" if all(paired) else "independent realizations" if not any(paired) else \
         "realizations paired where pairing_id agrees"
     which = f"; the {shown} of {of_all} that change most" if shown < of_all else ""
-    return f"light load by {arguments.by}, {base.result.period()}{which}\nwhiskers: 95 % confidence, {how}"
+    period = base.result.period() if have_one_period([base.result, *(v.result for v in variants)]) else "periods differ"
+    return f"light load by {arguments.by}, {period}{which}\nwhiskers: 95 % confidence, {how}"
 
 
 def main(argv):

@@ -88,7 +88,7 @@ def scale_end(values, area, largest=None):
 
 def colour_bar(figure, mappable, axes, caption, values, end):
     above = bool(np.nanmax(values) > end * (1 + 1e-12))
-    figure.colorbar(mappable, ax=axes, label=caption + (f"\n(larger values, up to {np.nanmax(values):.3g}, "
+    figure.colorbar(mappable, ax=axes, label=caption + (f"\n(larger values, up to {np.nanmax(values):.4g}, "
                                                         "have the last colour)" if above else ""),
                     extend="max" if above else "neither", shrink=0.8, aspect=30, pad=0.01)
 
@@ -151,11 +151,25 @@ def save(figure, path, dpi):
         plt.close(figure)
 
 
+def is_number(text):
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def csv_cell(cell):
+    """Names that spreadsheets would compute get an apostrophe before them, as those of `sunload export` do."""
+    if isinstance(cell, float):
+        return f"{cell:.9g}"
+    return "'" + cell if isinstance(cell, str) and cell[:1] in tuple("=+-@") and not is_number(cell) else cell
+
+
 def write_csv(path, rows):
     """Rows: the header first."""
     def write(file):
-        csv.writer(file, lineterminator="\n").writerows(
-            [f"{cell:.9g}" if isinstance(cell, float) else cell for cell in row] for row in rows)
+        csv.writer(file, lineterminator="\n").writerows([csv_cell(cell) for cell in row] for row in rows)
     if path == "-":
         write(sys.stdout)
         return

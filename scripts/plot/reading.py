@@ -133,6 +133,10 @@ class Result:
                 if isinstance(item, DATASETS) and item.dtype.kind == "f" and len(item.shape) == len(dims)
                 and "units" in item.attrs and self.dims(name) == dims]
 
+    @property
+    def has_main_series(self):
+        return self.has("irradiance") or self.has("illuminance")
+
     def main_series(self):
         """irradiance, or what stands in its place (illuminance)."""
         for name in ("irradiance", "illuminance"):

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One PDF or HTML page about a study: the scene, what each variant changes, one table, and the pictures.
 
-STUDY is the study's folder of results, or its result files; the result named
-baseline, else the first, is what the others are compared with."""
+STUDY is the study's folder of results, or its result files; the study's first
+variant, of files the first one, is what the others are compared with."""
 
 import interpreter  # first: finds a Python that has the other packages
 
@@ -40,19 +40,24 @@ LEAST_DAYS_OF_CARPET, LEAST_MONTHS = 5, 2
 HTML_DPI = 130
 
 
+def results_in(folder):
+    """Those of a folder in the order of the study."""
+    results = [Result(path) for path in sorted(glob.glob(os.path.join(glob.escape(folder), "*.h5")))]
+    if not results:
+        raise InputError(f"{folder}: no result (*.h5) in this folder; give results/<study>")
+    return sorted(results, key=lambda result: (result.attribute("variant_number", np.inf),
+                                               result.attribute("variant") != "baseline"))
+
+
 def results_of(names):
     """The result files of folders and files, the base first."""
-    paths = []
+    results = []
     for name in names:
-        found = sorted(glob.glob(os.path.join(glob.escape(name), "*.h5"))) if os.path.isdir(name) else [name]
-        if not found:
-            raise InputError(f"{name}: no result (*.h5) in this folder; give results/<study>")
-        paths += found
-    results = [Result(path) for path in paths]
+        results += results_in(name) if os.path.isdir(name) else [Result(name)]
     studies = {result.attribute("study") for result in results}
     if len(studies) > 1:
         raise InputError(f"results of several studies ({', '.join(sorted(studies))}); make one report for each")
-    return sorted(results, key=lambda result: result.attribute("variant") != "baseline")
+    return results
 
 
 def facts(result):
@@ -176,11 +181,14 @@ def pictures(results, program):
         if result.names("facade_name"):
             yield f"{name}: facades", facade_map.draw(
                 result, SimpleNamespace(**{**vars(chosen), "quantity": "light_load", "max": largest}))[0]
-        yield f"{name}: time series", series.draw(result, chosen)[0]
+        if result.has_main_series:
+            yield f"{name}: time series", series.draw(result, chosen)[0]
         if not result.is_synthetic:
-            if not result.has_long_steps and len(carpet.columns(result)[0]) >= LEAST_DAYS_OF_CARPET:
+            if result.has_main_series and not result.has_long_steps and \
+                    len(carpet.columns(result)[0]) >= LEAST_DAYS_OF_CARPET:
                 yield f"{name}: day and hour", carpet.draw(result, chosen)[0]
-            if len(months.month_shares(result)[0]) >= LEAST_MONTHS:
+            if (result.has_main_series or result.has("light_load_by_month")) and \
+                    len(months.month_shares(result)[0]) >= LEAST_MONTHS:
                 yield f"{name}: months", months.draw(result, chosen)[0]
         if not result.series_step and result.has("irradiance_direct") and (result.numbers("sun_elevation") > 0).any():
             yield f"{name}: hours in the sun", sun_path.draw(result, chosen)[0]
@@ -213,6 +221,8 @@ def write_html(results, program, file):
         plt.close(figure)
         file.write(f'<h2>{html.escape(name)}</h2><img alt="{html.escape(name)}" src="data:image/png;base64,'
                    f'{base64.b64encode(picture.getvalue()).decode()}">\n')
+    if is_table_due:
+        file.write(table_html(results, program))
     file.write("</body></html>\n")
 
 
@@ -244,6 +254,8 @@ def write_pdf(results, program, file):
                 page(table_page(results, program))
                 is_table_due = False
             page(figure)
+        if is_table_due:
+            page(table_page(results, program))
 
 
 def main(argv):

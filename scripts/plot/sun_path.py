@@ -23,6 +23,8 @@ MOST_DAYS_JOINED = 12
 LONGEST_STEP_S = 3700
 # Of the direct normal irradiance: less is a sun in the very plane of the surface (rounding).
 LEAST_COSINE = 1e-4
+# Between the highest suns of two days: numbers of their hours would lie on each other.
+LEAST_DEGREES_BETWEEN_LABELS = 6
 
 
 def place(azimuth_deg, elevation_deg):
@@ -109,7 +111,9 @@ def label_hours(axes, result, days):
     for k in np.flatnonzero(elevation > 0):
         up.setdefault(days[k], []).append(k)
     highest = {day: elevation[members].max() for day, members in up.items()}
-    for day in {max(sorted(highest), key=highest.get), min(sorted(highest), key=highest.get)}:
+    longest, shortest = max(sorted(highest), key=highest.get), min(sorted(highest), key=highest.get)
+    is_apart = highest[longest] - highest[shortest] > LEAST_DEGREES_BETWEEN_LABELS
+    for day in [longest, shortest] if is_apart else [longest]:
         members = np.array(up[day])
         turned = np.degrees(np.unwrap(np.radians(azimuth[members])))
         for hour in np.arange(np.ceil(time[members[0]] / 3600) * 3600, time[members[-1]] + 1, 3600):

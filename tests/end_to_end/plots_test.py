@@ -258,6 +258,28 @@ def test_report(plots, folder):
     assert data.startswith(b"%PDF") and len(re.findall(rb"/Type /Page\b", data)) == 1 + len(pictures)
 
 
+def test_report_without_series(plots, sunload, folder):
+    """The first variant of the study is the base whatever its name, and what needs a series is left out."""
+    study = STUDY[:STUDY.index("variants")].replace("name: square", "name: totals") + """output: {series: none}
+variants:
+  - {name: zeta}
+  - {name: alpha, scene: {materials: {paving: {diffuse: 0.8}}}}
+"""
+    with open(os.path.join(folder, "totals.yaml"), "w") as file:
+        file.write(study)
+    subprocess.run([sunload, "run", "totals.yaml"], cwd=folder, stderr=subprocess.PIPE, check=True)
+    page = os.path.join(folder, "totals.html")
+    ran = plots.run("report", os.path.join(folder, "results/totals"), "-o", page)
+    assert ran.returncode == 0, ran.stderr
+    text = open(page, encoding="utf-8").read()
+    assert re.findall("<h2>(.*?)</h2>", text) == [
+        "zeta: the scene", "alpha minus zeta: the difference", "Variants"] + [
+        f"{variant}: {what}" for variant in ("zeta", "alpha") for what in ("facades", "months")], text[:500]
+    import drawing
+    cells = ["=1+1", "-2e3", "+house", "house_1", 2.5]
+    assert [drawing.csv_cell(cell) for cell in cells] == ["'=1+1", "-2e3", "'+house", "house_1", "2.5"]
+
+
 def test_interpreter(source, folder):
     """Another python3 without the packages stands first on PATH."""
     script, path = os.path.join(source, "scripts/plot/series.py"), os.path.join(folder, "results/square/baseline.h5")
@@ -347,6 +369,7 @@ def test(sunload, source, folder):
     test_facade_map_drawing(path)
     test_compare(plots, sunload, path, other)
     test_report(plots, folder)
+    test_report_without_series(plots, sunload, folder)
     test_wrong_input(plots, path, folder)
     test_samples(plots, sunload, folder)
     test_bands(plots, sunload, folder)

@@ -11,6 +11,8 @@
 #include <sstream>
 
 #include "geo/base/check.h"
+#include "io/base/text.h"
+#include "io/result/shown_quantity.h"
 #include "io/result/time.h"
 #include "tests/support/small_result.h"
 
@@ -90,6 +92,16 @@ TEST(Info, PatchListHasARowPerPatchAndQuotesNames) {
   std::size_t rows = 1;
   for (std::string line; std::getline(csv, line);) ++rows;
   EXPECT_EQ(rows, result.shape("patch_area").front());
+}
+
+TEST(Info, PatchListHasAllThatAResultTellsOfEveryPatch) {
+  const ResultReader result(write_small_result(SmallResult{}, "info_all_of_patches"));
+  std::istringstream csv(patches_csv(result));
+  std::string header;
+  std::getline(csv, header);
+  for (const auto& dataset : patch_datasets(result, PatchDatasets::totals))
+    if (dataset != "patch_area")
+      expect_in(header + ",", "," + with_units(dataset, result.units(dataset)) + ",");
 }
 
 /// A value of a table by the column's key and the row's name.
