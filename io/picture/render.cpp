@@ -128,8 +128,9 @@ std::string title(const ResultReader& result) {
   if (result.is_place_map())
     return fmt::format("{} — {}: where the light of {} comes from", study,
                        result.text_attribute("variant"), result.text_attribute("place"));
-  return fmt::format("{} — {}", study.empty() ? result.text_attribute("title") : study,
-                     result.text_attribute("variant"));
+  const auto lacking = result.lacking();
+  return fmt::format("{} — {}{}", study.empty() ? result.text_attribute("title") : study,
+                     result.text_attribute("variant"), lacking.empty() ? "" : ": " + lacking);
 }
 
 /// "; facade house_3/*, object tower".

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 
 #include "geo/base/check.h"
@@ -231,6 +232,10 @@ json view_data(const ResultReader& result, std::size_t step, ViewBlocks& blocks)
   const Vec3 origin = result.origin();
   return {{"study", result.text_attribute("study")},
           {"variant", result.text_attribute("variant")},
+          {"file", std::filesystem::path(result.path()).stem().string()},
+          {"folder", std::filesystem::absolute(result.path()).parent_path().filename().string()},
+          {"part", result.chosen().words()},
+          {"lacking", result.lacking()},
           {"source", result.text_attribute("source")},
           {"timezone", zone.empty() ? "UTC" : zone},
           {"is_synthetic", result.number_attribute("time", "time_is_synthetic") > 0},

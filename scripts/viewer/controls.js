@@ -17,7 +17,8 @@ function fill(select, choices, chosen) {
 export function fillChoices(viewer) {
   const { results, state } = viewer;
   document.title = `sunload: ${results[0].study}`;
-  $("title").textContent = `${results[0].study}: ${results.map((result) => result.label).join(", ")}`;
+  const part = results[0].part ? `; ${results[0].part}` : "";
+  $("title").textContent = `${results[0].study}: ${results.map((result) => result.label).join(", ")}${part}`;
   $("title").title = $("title").textContent;
   const share = viewer.unmatchedShare;
   $("no-difference").hidden = !(share > 0);
@@ -25,6 +26,9 @@ export function fillChoices(viewer) {
     $("no-difference").textContent = share < 1 ? `${shown(100 * share, 2)} % of ${results[0].label} has other shapes in ${results[1].label}: grey in the difference.` :
       "The two results share no surface: there is no difference.";
   }
+  const gaps = results.filter((result) => result.lacking);
+  $("lacking").hidden = !gaps.length;
+  $("lacking").textContent = gaps.map((result) => `${result.label}: ${result.lacking}: totals are those of the others.`).join(" ");
   fill($("view"), views(viewer), state.view);
   $("view").parentElement.hidden = results.length < 2;
   fill($("quantity"), quantities(viewer), state.quantity);

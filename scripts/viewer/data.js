@@ -60,6 +60,13 @@ class Sensors {
   }
 }
 
+/** Results of equal variants have the first of these that differs as their name: study, file, folder; else numbers. */
+function nameApart(results) {
+  if (results.length < 2 || results[0].label !== results[1].label) return;
+  const [differs] = ["study", "file", "folder"].filter((key) => results[0][key] !== results[1][key]);
+  results.forEach((result, n) => { result.name = `${result.label} (${differs ? result[differs] : n + 1})`; });
+}
+
 /** One result: names as in its file, arrays unpacked. */
 class Result {
   static async read(about, halves) {
@@ -80,7 +87,8 @@ class Result {
     return result;
   }
 
-  get label() { return this.variant || this.study; }
+  /** The variant, or what else tells results apart (nameApart). */
+  get label() { return this.name || this.variant || this.study; }
 
   /** Value of the series at interval k of the page. */
   seriesValue(k, patch) {
@@ -270,6 +278,7 @@ export async function readPage() {
   const halves = halfValues();
   const results = [];
   for (const one of about.results) results.push(await Result.read(one, halves));
+  nameApart(results);
   return { results, palettes: { false: about.false, grey: about.grey, difference: differencePalette(), surfaces: about.surfaces, materials: about.materials } };
 }
 

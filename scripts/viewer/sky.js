@@ -39,13 +39,14 @@ export class Sky {
     this.radius = radius;
     this.object = new THREE.Group();
     this.object.position.copy(middle);
-    const north = sceneNorth(times);
+    const north = sceneNorth(times), letters = 0.09 * radius;
     const circle = [...Array(97).keys()].map((k) => bearing((k * Math.PI) / 48, north).multiplyScalar(radius));
     this.object.add(line(circle, 0x888888));
     ["N", "E", "S", "W"].forEach((text, k) => {
       const sprite = letter(text);
-      sprite.position.copy(bearing((k * Math.PI) / 2, north).multiplyScalar(1.06 * radius));
-      sprite.scale.setScalar(0.09 * radius);
+      // Upon the ground, not half in it.
+      sprite.position.copy(bearing((k * Math.PI) / 2, north).multiplyScalar(1.06 * radius)).setZ(letters / 2);
+      sprite.scale.setScalar(letters);
       this.object.add(sprite);
     });
     this.sun = new THREE.Mesh(new THREE.SphereGeometry(0.035 * radius, 24, 16), new THREE.MeshBasicMaterial({ color: 0xf2a900 }));

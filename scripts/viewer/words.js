@@ -36,7 +36,8 @@ export function caption(viewer, part) {
 export function title(viewer) {
   const { results, state } = viewer, names = [...new Set(viewer.parts().map((part) => part.n))].map((n) => results[n].label);
   const isSeries = state.quantity === results[0].series?.name;
-  return `${results[0].study} (${names.join(", ")}): ${isSeries ? `${state.quantity.replaceAll("_", " ")} ${clockText(results[0], state.k)}` : quantityName(viewer)}`;
+  const part = results[0].part ? `, ${results[0].part}` : "";
+  return `${results[0].study} (${names.join(", ")}${part}): ${isSeries ? `${state.quantity.replaceAll("_", " ")} ${clockText(results[0], state.k)}` : quantityName(viewer)}`;
 }
 
 export function fileName(viewer) {
