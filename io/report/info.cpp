@@ -65,7 +65,7 @@ std::string period(const ResultReader& result) {
   auto text = info_line("period", fmt::format("{} {}{}, {:.5g} h in all", chosen.size(),
                                               step.empty() ? "interval" : "step",
                                               chosen.size() == 1 ? "" : "s", hours));
-  if (result.number_attribute("time_is_synthetic") > 0)
+  if (has_no_dates(result))
     return text + info_line("", "sun positions without a date");
   text += info_line("  days", period_in_words(result));
   if (const std::string seasons = own_seasons_in_words(result); !seasons.empty())
@@ -89,7 +89,7 @@ std::string orientation(const ResultReader& result) {
   site.longitude_deg = result.number_attribute("longitude_deg");
   site.elevation_m = result.number_attribute("elevation_m");
   const bool has_place = std::isfinite(site.latitude_deg + site.longitude_deg + site.elevation_m);
-  if (!has_place || result.number_attribute("time_is_synthetic") > 0) return text;
+  if (!has_place || has_no_dates(result)) return text;
   return text +
          info_line("pole test", pole_words(site, result.doubles("time"), result_zone(result)));
 }

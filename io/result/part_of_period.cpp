@@ -92,7 +92,7 @@ PartOfPeriod::PartOfPeriod(const ResultReader& result, const PeriodChoice& choic
     throw InputError({result.path()}, choice.words() + ": the map is of the period it was made of",
                      "", "write it with explain --" + choice.words() + " --map FILE");
   length_s_ = interval_lengths(result);
-  if (result.number_attribute("time_is_synthetic") > 0)
+  if (has_no_dates(result))
     throw InputError({result.path()}, choice.words() + ": its suns have no dates",
                      "they are given by their positions (period.positions)");
   const auto intervals = intervals_of(result);

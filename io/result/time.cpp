@@ -48,6 +48,10 @@ TimeZone result_zone(const ResultReader& result) {
 
 std::string series_step(const ResultReader& result) { return result.text_attribute("series_step"); }
 
+bool has_no_dates(const ResultReader& result) {
+  return result.number_attribute("time_is_synthetic") > 0;
+}
+
 bool has_long_steps(const ResultReader& result) {
   const std::string step = series_step(result);
   return step == "day" || step == "month";
@@ -93,6 +97,10 @@ std::string interval_in_words(const ResultReader& result, std::size_t interval) 
 }
 
 std::string row_in_words(const ResultReader& result, std::size_t row) {
+  if (has_no_dates(result))
+    return fmt::format("sun {} of {}: azimuth {:.6g}°, elevation {:.6g}°", row + 1,
+                       result.shape("time").front(), result.doubles("sun_azimuth").at(row),
+                       result.doubles("sun_elevation").at(row));
   if (series_step(result).empty()) {
     const bool is_up = result.doubles("sun_elevation").at(row) > 0;
     return (is_up ? "sun of " : "") + interval_in_words(result, row);
@@ -111,7 +119,7 @@ std::string period_in_words(const ResultReader& result) {
   for (std::size_t k = 0; k < shares.size(); ++k)
     if (shares[k] > 0) intervals.push_back({bounds[2 * k], bounds[2 * k + 1]});
   if (intervals.empty()) return "no intervals";
-  if (result.number_attribute("time_is_synthetic") > 0) return "sun positions without a date";
+  if (has_no_dates(result)) return "sun positions without a date";
   const auto zone = result_zone(result);
   const auto chosen = result.chosen().words();
   const bool is_one_stretch =

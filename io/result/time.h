@@ -15,6 +15,9 @@ namespace sunload {
 /// The civil time zone of the result (UTC where it names none).
 TimeZone result_zone(const ResultReader& result);
 
+/// Whether suns are given by their positions: times are invented then, to tell rows apart.
+bool has_no_dates(const ResultReader& result);
+
 /// What rows of series are means over where these are steps (`output.series_step`): "60 min",
 /// "day", "month"; empty: intervals.
 std::string series_step(const ResultReader& result);
@@ -35,7 +38,7 @@ std::size_t interval_at(const ResultReader& result, const std::string& time);
 std::string interval_in_words(const ResultReader& result, std::size_t interval);
 
 /// What a row of series shows: "sun of …" the interval in words, or of steps "mean of begin … end"
-/// in civil time.
+/// in civil time; of suns without dates their number and position.
 std::string row_in_words(const ResultReader& result, std::size_t row);
 
 /// The days that there are, of the part that is chosen: "2026-06-21, 2026-12-21", or begin and end

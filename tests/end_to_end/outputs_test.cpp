@@ -256,6 +256,9 @@ TEST(Outputs, TellHowManySunsStandForAnInterval) {
   ASSERT_EQ(by_hand.run("o").code, 0);
   EXPECT_EQ(ResultReader(by_hand.result("o")).text_attribute("sun_sampling"),
             "sun at the given position");
+  const Ran told = program(by_hand.folder, {"info", by_hand.result("o")});
+  EXPECT_NE(told.out.find("sun 1 of 1: azimuth 180°, elevation 40°"), std::string::npos);
+  EXPECT_EQ(told.out.find("2000-01-01"), std::string::npos) << told.out;
 }
 
 TEST(Outputs, WhatIsNoFolderIsSaidToBeNone) {
