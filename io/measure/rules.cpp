@@ -15,6 +15,9 @@ namespace {
 constexpr double right_angle_deg = 90, minutes_of_day = 1440, hours_of_year = 8784, percent = 100;
 constexpr double brightest_w_m2 = 1e6, brightest_lx = 1e9;
 
+/// One of irradiance or of illuminance is needed, whichever the study has.
+bool is_threshold(const RuleKey& key) { return key.key.starts_with("above_"); }
+
 std::string range_words(const MeasureRule& rule) {
   std::string text;
   const auto add = [&](const std::string& words) { text += (text.empty() ? "" : ", ") + words; };
@@ -22,7 +25,10 @@ std::string range_words(const MeasureRule& rule) {
     add(rule.day->first == 0 ? "`date`"
                              : fmt::format("`date` ({}-{:02})", rule.day->first, rule.day->second));
   for (const RuleKey& key : rule.keys)
-    add("`" + key.key + "`" + (key.absent ? fmt::format(" ({:g})", *key.absent) : ""));
+    add("`" + key.key + "`" +
+        (is_threshold(key)        ? " (needed in its quantity)"
+         : key.absent.has_value() ? fmt::format(" ({:g})", *key.absent)
+                                  : ""));
   for (const RuleWords& key : rule.words)
     add(fmt::format("`{}`: {}", key.key, fmt::join(key.words, " \\| ")));
   return text;
