@@ -84,6 +84,11 @@ void tell(std::string_view message) {
   }
 }
 
+void tell_warnings(const std::vector<std::string>& warnings, std::string_view of) {
+  const std::string begin = "warning: " + std::string(of) + (of.empty() ? "" : ": ");
+  for (const auto& warning : warnings) tell(begin + warning);
+}
+
 void tell_as_it_is(std::string_view text) {
   [[maybe_unused]] const int lost = write_all(STDERR_FILENO, text);
 }

@@ -3,7 +3,9 @@
 /// Standard output and error: the only file that writes to them by their numbers.
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace sunload {
 
@@ -18,7 +20,11 @@ void open_closed_streams();
 /// written it is lost: that is no failure of the work.
 void tell(std::string_view message);
 
-/// The same without a line's end and with its control characters: for drawings of our own.
+/// Tells each of them on a line of its own after "warning: ", and after the name of what they are
+/// of where one is given.
+void tell_warnings(const std::vector<std::string>& warnings, std::string_view of = {});
+
+/// A message without a line's end and with its control characters: for drawings of our own.
 void tell_as_it_is(std::string_view text);
 
 /// From here on std::cout is this program's own stream: it keeps the first error of writing, and on

@@ -25,14 +25,13 @@ FactorTable of_study(const FormFactorOptions& options, FactorsBetween between, W
   RunOptions chosen;
   if (!options.variant.empty()) chosen.variants = {options.variant};
   const Study study = chosen_variants(file, chosen).front();
-  for (const auto& warning : file.warnings) tell("warning: " + warning);
+  tell_warnings(file.warnings);
   Planner planner;
   const MeshFamilies families(file, planner);
   VariantPlan plan = planner.plan(study);
   expect_not_read(options.output, plan.built.files);
   families.join(plan);
-  for (const auto& warning : plan.built.warnings)
-    tell("warning: " + study.variant + ": " + warning);
+  tell_warnings(plan.built.warnings, study.variant);
   return form_factor_table(plan, *make_mesh(plan, watch).mesh, between, watch);
 }
 

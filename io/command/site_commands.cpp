@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
 
-#include "io/command/check_study.h"
 #include "io/command/common_options.h"
 #include "io/command/horizon_command.h"
 #include "io/command/sub_commands.h"
+#include "io/command/sun_and_sky.h"
 
 namespace sunload {
 namespace {

@@ -14,12 +14,11 @@ std::deque<SceneFile> study_scenes(const StudyFile& file, const std::vector<Stud
   expect_not_read(output, named_files(file));
   std::deque<SceneFile> files;
   Planner planner;
-  for (const auto& warning : file.warnings) tell("warning: " + warning);
+  tell_warnings(file.warnings);
   for (const Study& study : variants) {
     const VariantPlan plan = planner.plan(study);
     expect_not_read(output, plan.built.files);
-    for (const auto& warning : plan.built.warnings)
-      tell("warning: " + study.variant + ": " + warning);
+    tell_warnings(plan.built.warnings, study.variant);
     files.emplace_back(plan, file, output);
   }
   return files;

@@ -210,7 +210,7 @@ int init_study(const InitRules& given, const std::string& wanted) {
   const StudyFile study = read_text(text, path);
   expect_free(path);
   write_file(path, text);
-  for (const auto& warning : found.warnings) tell("warning: " + warning);
+  tell_warnings(found.warnings);
   tell_marked(text, path);
   print_next(path, name, study.variants.front().variant, rules.measures);
   return exit_code::done;
