@@ -140,6 +140,23 @@ void add_received(BatchWriter& writer, const ReceiverTally& tally, std::size_t K
              largest.data());
 }
 
+/// Of receivers in all bands, without a band in its name: the largest irradiance of the bands'
+/// mean, since not all of them are at their largest at one time.
+void add_largest_mean(BatchWriter& writer,
+                      const std::array<const ReceiverTally*, band_count>& bands,
+                      const std::string& receiver) {
+  const std::size_t N = bands.front()->sunlit_s.size();
+  const auto total = [&](std::size_t b) -> const LargeVector<float>& {
+    return bands[b]->irradiance[static_cast<std::size_t>(Part::total)];
+  };
+  std::vector<double> largest(N, 0);
+  for (std::size_t at = 0; at < total(0).size(); ++at)
+    largest[at % N] =
+        std::max(largest[at % N], mean_of({total(0)[at], total(1)[at], total(2)[at]}));
+  writer.add({receiver + batch_array::maximum, MergeRule::maximum, ArrayType::float64, {N}},
+             largest.data());
+}
+
 void add_sunlit(BatchWriter& writer, const ReceiverTally& tally, const std::string& prefix) {
   writer.add(
       {prefix + batch_array::sunlit, MergeRule::sum, ArrayType::float64, {tally.sunlit_s.size()}},
@@ -302,6 +319,12 @@ void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
   for (std::size_t b = 0; b < bands.size(); ++b)
     add_band(writer, bands[b], hierarchy, mesh, prefixes[b], stored);
   for (const auto& source : parts.sources) add_part(writer, bands, prefixes, source);
+  if (bands.size() == band_count) {
+    add_largest_mean(writer, {&bands[0], &bands[1], &bands[2]}, "");
+    if (!bands.front().sensors.sunlit_s.empty())
+      add_largest_mean(writer, {&bands[0].sensors, &bands[1].sensors, &bands[2].sensors},
+                       sensor_prefix);
+  }
   add_sunlit(writer, bands.front(), "");
   if (!bands.front().sensors.sunlit_s.empty()) add_sensors(writer, bands.front(), seen);
   writer.add({batch_array::sky_view, MergeRule::maximum, ArrayType::float64, {N}},

@@ -29,10 +29,9 @@ std::string header_of(const ResultVariable& variable) {
 }
 
 /// Columns that every result has, those it lacks empty: programs find them in their place.
-constexpr std::array always_there{
-    "light_load",       "light_load_se",    "light_load_direct",    "light_load_sky",
-    "light_load_mirror", "light_load_lamps", "light_load_reflected", "sun_hours",
-    "power_load"};
+constexpr std::array always_there{"light_load",           "light_load_se",     "light_load_direct",
+                                  "light_load_sky",       "light_load_mirror", "light_load_lamps",
+                                  "light_load_reflected", "sun_hours",         "power_load"};
 
 /// Units of `always_there` where a result lacks it.
 std::string units_of(const ResultReader& result, const std::string& dataset) {

@@ -251,6 +251,9 @@ std::vector<double> error_of_mean_of_bands(const ResultReader& result, const std
 std::vector<double> ResultReader::doubles(const std::string& dataset) const {
   if (file_->is_of_part(dataset)) return file_->total(dataset);
   if (file_->has_realizations_of_bands(dataset)) return error_of_mean_of_bands(*this, dataset);
+  if (const std::string of_mean = largest_of_mean_dataset(dataset);
+      file_->is_banded(dataset) && !file_->band && has(of_mean))
+    return doubles(of_mean);
   return file_->with(dataset, [&](const h5::Dataset& data) {
     return file_->without_bands(dataset, file_->possible(dataset, data.doubles()), data.shape());
   });

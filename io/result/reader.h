@@ -26,10 +26,10 @@ enum class Opens { results, derived_too };
 /// io/result/soundness.h asks for; values that are read are possible ones, or NaN.
 ///
 /// A result of light in bands reads as one without: `band` chooses one of them, without it values
-/// are the means of the bands, which is broadband light. (Standard errors of the mean
-/// come from its realizations, where these are stored; otherwise, and of largest values, the mean
-/// of the bands is an upper bound, since they share their lines.) Shapes have no dimension `band`
-/// then.
+/// are the means of the bands, which is broadband light, and the largest ones those of the mean.
+/// (Standard errors of the mean come from its realizations, where these are stored; otherwise the
+/// mean of the bands' errors is an upper bound, since they share their lines.) Shapes have no
+/// dimension `band` then.
 class ResultReader {
  public:
   explicit ResultReader(const std::string& path, std::optional<std::size_t> band = {},

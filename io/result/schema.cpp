@@ -100,6 +100,7 @@ constexpr std::array table{
     ResultVariable{"light_load_realization", "realization,patch", float64, kwh_m2, total, "light load of each realization"},
     ResultVariable{"sun_hours", "patch", float64, "h", total, "time in the sun, regardless of weather"},
     ResultVariable{"irradiance_max", "patch", float64, w_m2, total, "largest irradiance of the series", "", "time: maximum"},
+    ResultVariable{"irradiance_max_of_mean", "patch", float64, w_m2, total, "largest irradiance of the bands' mean, of light in bands", "", "time: maximum"},
     ResultVariable{"sky_view_factor", "patch", float64, "1", total, "cosine-weighted share of the hemisphere that is sky"},
     ResultVariable{"patch_lines", "patch", float64, "1", total, "lines that the patch cast, over all realizations"},
     ResultVariable{"power_load", "patch", float64, kwh_m2, total, "outgoing diffuse energy per area: reflected and emitted"},
@@ -137,6 +138,7 @@ constexpr std::array table{
     ResultVariable{"sensor_light_load_realization", "realization,sensor", float64, kwh_m2, total, "light load of the sensor in each realization"},
     ResultVariable{"sensor_sun_hours", "sensor", float64, "h", total, "time of the sensor in the sun, regardless of weather"},
     ResultVariable{"sensor_irradiance_max", "sensor", float64, w_m2, total, "largest irradiance of the sensor's series", "", "time: maximum"},
+    ResultVariable{"sensor_irradiance_max_of_mean", "sensor", float64, w_m2, total, "largest irradiance of the bands' mean", "", "time: maximum"},
     ResultVariable{"sensor_sky_view_factor", "sensor", float64, "1", total, "cosine-weighted share of the sensor's hemisphere that is sky"},
 
     // Totals of parts of the period.
@@ -346,9 +348,14 @@ bool is_of_scene(std::string_view dataset) {
          dataset == "diffuse_reflectance" || dataset == "emitted_exitance";
 }
 
+std::string largest_of_mean_dataset(const std::string& largest) { return largest + "_of_mean"; }
+
+bool is_of_mean(std::string_view dataset) { return dataset.ends_with("_of_mean"); }
+
 bool has_bands(const ResultVariable& variable) {
   const std::string_view name = variable.name;
   if (name == "diffuse_reflectance") return true;
+  if (is_of_mean(name)) return false;
   if (name.find("sun_hours") != std::string_view::npos || is_of_scene(name) ||
       name.find(measure_prefix) != std::string_view::npos)
     return false;

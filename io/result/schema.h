@@ -58,6 +58,11 @@ bool is_of_scene(std::string_view dataset);
 /// Whether there is a value per band in a result of light in bands: series, totals and the ledger,
 /// but for what is the same in all of them (sun hours, sky view factors, emitters).
 bool has_bands(const ResultVariable& variable);
+
+/// Name of the dataset that has the largest value of the bands' mean, from the name of the one that
+/// has the largest of each band: which do not lie at one time, so that the mean does not follow.
+std::string largest_of_mean_dataset(const std::string& largest);
+bool is_of_mean(std::string_view dataset);
 /// The same dimensions with `band` put in: before those of patches, facades and sensors, else last.
 std::vector<std::string> with_band(std::vector<std::string> dimensions);
 

@@ -82,7 +82,7 @@ std::vector<std::string> patch_datasets(const ResultReader& result, PatchDataset
                                               : result_schema(result.quantity());
   for (const auto& variable : schema) {
     const std::string name(variable.name);
-    if (variable.dims == dims && !variable.units.empty() && result.has(name) &&
+    if (variable.dims == dims && !variable.units.empty() && !is_of_mean(name) && result.has(name) &&
         result.shape(name).back() == patches)
       names.push_back(name);
   }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/run/merge.h"
+#include "io/result/schema.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,6 +86,9 @@ void write_received(BandWriter& writer, const Totals& totals, const std::string&
   writer.write(prefix + "irradiance_max", 1, [&](const std::string& band) {
     return totals[band + prefix + batch_array::maximum];
   });
+  if (!writer.first().empty())
+    writer.write_once(largest_of_mean_dataset(prefix + "irradiance_max"),
+                      totals[prefix + batch_array::maximum]);
   writer.write_once(prefix + "sky_view_factor", totals[prefix + batch_array::sky_view]);
 }
 

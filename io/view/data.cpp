@@ -81,8 +81,8 @@ json totals(const ResultReader& result, ViewBlocks& blocks) {
   json list = json::array();
   for (const auto& variable : result_schema()) {
     const std::string name(variable.name);
-    if (variable.dims != "patch" || variable.units.empty() || !result.has(name) ||
-        variable.name == "patch_area")
+    if (variable.dims != "patch" || variable.units.empty() || is_of_mean(name) ||
+        !result.has(name) || variable.name == "patch_area")
       continue;
     list.push_back({{"name", name},
                     {"what", variable.long_name},
@@ -205,7 +205,9 @@ json sensors(const ResultReader& result, std::size_t step, ViewBlocks& blocks) {
   json values = json::array();
   for (const auto& variable : result_schema(result.quantity())) {
     const std::string name(variable.name);
-    if (variable.dims != "sensor" || variable.units.empty() || !result.has(name)) continue;
+    if (variable.dims != "sensor" || variable.units.empty() || is_of_mean(name) ||
+        !result.has(name))
+      continue;
     values.push_back({{"name", name.substr(prefix.size())},
                       {"units", display_units(result.units(name))},
                       {"values", add_numbers(blocks, floats(result.doubles(name)))}});

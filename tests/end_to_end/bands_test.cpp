@@ -99,6 +99,34 @@ TEST(BandStudy, EveryBandOfWhiteLightOnGreyIsTheBroadbandResult) {
   }
 }
 
+// Bands are at their largest at different times: reddish at sunrise, bluish in the shade.
+TEST(BandStudy, LargestOfTheMeanIsOfTheMeansSeries) {
+  const Square square;
+  square.write(", bands: rgb");
+  ASSERT_EQ(square.run("rgb", {"--threads", "1"}).code, 0);
+  const ResultReader mean(square.result("rgb"));
+  bool is_below_the_mean_of_largest = false;
+  for (const std::string receiver : {"", "sensor_"}) {
+    const auto largest = mean.doubles(receiver + "irradiance_max");
+    std::vector<double> of_series(largest.size(), 0), of_bands(largest.size(), 0);
+    for (std::size_t k = 0; k < mean.shape("time").front(); ++k) {
+      const auto row = mean.row(receiver + "irradiance", k);
+      for (std::size_t i = 0; i < row.size(); ++i) of_series[i] = std::max(of_series[i], row[i]);
+    }
+    for (std::size_t b = 0; b < band_count; ++b) {
+      const auto of_band =
+          ResultReader(square.result("rgb"), b).doubles(receiver + "irradiance_max");
+      for (std::size_t i = 0; i < of_band.size(); ++i) of_bands[i] += of_band[i] / band_count;
+    }
+    for (std::size_t i = 0; i < largest.size(); ++i) {
+      EXPECT_NEAR(largest[i], of_series[i], float_rounding * of_series[i]) << receiver << i;
+      EXPECT_LE(largest[i], of_bands[i] * (1 + float_rounding)) << receiver << i;
+      if (largest[i] < 0.999 * of_bands[i]) is_below_the_mean_of_largest = true;
+    }
+  }
+  EXPECT_TRUE(is_below_the_mean_of_largest) << "nothing tells the two apart";
+}
+
 // Each band's light is reflected by that band's reflectance: the mean is of the products. At an
 // instant and over the period, from the series and from the totals.
 TEST(BandStudy, RadianceIsTheMeanOfTheBands) {
