@@ -279,6 +279,7 @@ class MaterialAssigner {
       what = "matches nothing";
       consequence = "no surface gets its material from it";
     } else if (use.given == 0) {
+      if (rule.may_be_overruled) return;
       what = "gives nothing";
       consequence =
           "all that it matches has its material from later rules, or from those that name "

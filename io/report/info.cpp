@@ -73,8 +73,8 @@ std::string period(const ResultReader& result) {
   if (!step.empty())
     return text + info_line("  steps", "series are means over steps: " + step +
                                            "; largest values are those of intervals");
-  text += info_line("  first sun", interval_in_words(result, chosen.front()));
-  if (chosen.size() > 1) text += info_line("  last sun", interval_in_words(result, chosen.back()));
+  text += info_line("  first", interval_in_words(result, chosen.front()));
+  if (chosen.size() > 1) text += info_line("  last", interval_in_words(result, chosen.back()));
   return text;
 }
 

@@ -183,7 +183,8 @@ json canonical(const SeasonStudy& season) {
 }
 
 json canonical(const AssignRule& rule) {
-  const auto& [object, surface, material_was, kind, selection, material, where] = rule;
+  const auto& [object, surface, material_was, kind, selection, material, where, overruled] = rule;
+  std::ignore = overruled;  // of warnings alone
   json all{{"object", object},
            {"surface", surface},
            {"was", material_was},

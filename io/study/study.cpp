@@ -211,6 +211,19 @@ YamlTree merged(const YamlTree& tree, const Variant& variant, YamlReading& readi
   return all;
 }
 
+/// How many rules the study itself has; those of variants come behind them.
+std::size_t own_rules(const YamlTree& tree) {
+  const YamlEntry* scene = tree->find("scene");
+  const YamlEntry* assign = scene && scene->value ? scene->value->find("assign") : nullptr;
+  return assign && assign->value ? assign->value->items.size() : 0;
+}
+
+/// Rules that a variant overrules are no slip of the hand.
+void mark_overruled(std::size_t own, std::vector<AssignRule>& rules) {
+  for (std::size_t r = 0; r < std::min(own, rules.size()) && own < rules.size(); ++r)
+    rules[r].may_be_overruled = true;
+}
+
 /// Files of these formats carry no position on Earth.
 bool is_without_crs(const std::string& path) {
   const std::string name = lower(path);
@@ -387,6 +400,7 @@ StudyFile study_of_text(const std::string& path, const std::string& yaml) {
       root.tree("matrix");
       file.variants.push_back(read_values(root, folder, seasons));
       file.variants.back().variant = variants[v].name;
+      mark_overruled(own_rules(tree), file.variants.back().scene.assign);
     });
   reading.throw_if_any();
   warn_of_unused_seasons(reading, file.variants);

@@ -209,6 +209,7 @@ struct AssignRule {
   std::optional<NamedSelection> selection;  ///< that must hold besides
   std::string material;                     ///< name to be assigned
   Where where;
+  bool may_be_overruled = false;  ///< of the study: the variant adds rules of its own, which win
 };
 
 /// Key `scene.ground`: the ground that is made.
