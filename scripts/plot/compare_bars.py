@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bars of the light load of variants and of their differences to the first result.
 
-Whiskers are 95 % confidence intervals from the realizations (Student's t).
-Where two results carry the same pairing_id, differences are taken realization
-by realization, as `sunload compare` does; otherwise both errors add up (Welch)."""
+Differences are those of `sunload compare`: of the surfaces that both have, with its
+errors, paired realization by realization where results carry the same pairing_id and
+independent (Welch) elsewhere. Whiskers are 95 % confidence intervals (Student's t)."""
 
 import interpreter  # first: finds a Python that has the other packages
 
@@ -16,6 +16,7 @@ import numpy as np
 
 import drawing
 from drawing import plt, student_t
+from program import Program, add_program
 from reading import InputError, Result
 
 # More of them would make a picture that no reader of PNG opens.
@@ -54,78 +55,105 @@ class Groups:
         return student_t(count - 1) * self.realizations[:, k].std(ddof=1) / np.sqrt(count) if count > 1 else np.nan
 
 
-def are_paired(base, variant):
-    pairing = base.result.attribute("pairing_id")
-    return bool(pairing) and pairing == variant.result.attribute("pairing_id") and \
-        len(base.realizations) == len(variant.realizations) > 1
+def is_of_both(row):
+    return all(value is not None for key, value in row.items() if key.startswith(("base_", "variant_")))
 
 
-def difference(base, variant, name):
-    """Difference, its standard error, and the half width of its confidence interval."""
-    b, v = base.place[name], variant.place[name]
-    value = float(variant.load[v] - base.load[b])
-    if min(len(base.realizations), len(variant.realizations)) < 2:
-        return value, np.nan, np.nan
-    if are_paired(base, variant):
-        apart = variant.realizations[:, v] - base.realizations[:, b]
-        error, degrees = apart.std(ddof=1) / np.sqrt(len(apart)), len(apart) - 1
-    else:
-        parts = [(g.realizations[:, k].var(ddof=1) / len(g.realizations), len(g.realizations) - 1)
-                 for g, k in ((base, b), (variant, v))]
-        error = np.sqrt(sum(part for part, _ in parts))
-        degrees = sum(part for part, _ in parts) ** 2 / max(sum(p**2 / n for p, n in parts), 1e-300)
-    return value, float(error), float(error * student_t(max(degrees, 1)))
+class Differences:
+    """What `sunload compare` tells of a variant against the base."""
+
+    def __init__(self, program, base, variant, by):
+        self.base, self.variant = base, variant
+        told = program.compared(base.result.path, variant.result.path)
+        self.notes = told["notes"]
+        # What one of the two has alone has rows of its own, without a difference.
+        self.rows = {row["name"]: row for row in told["rows"]
+                     if row["group"] == by and is_of_both(row)}
+
+    def number(self, name, word):
+        """Of a group: "base", "variant", "difference", "se" [unit of the results], "area"."""
+        row = self.rows[name]
+        found = [value for key, value in row.items() if key.startswith(word + "_") and not key.endswith("_percent")]
+        return float(found[0]) if found and found[0] is not None else np.nan
+
+    def is_paired(self):
+        return all(row["paired"] for row in self.rows.values())
+
+    def whisker(self, name):
+        """Half width of the confidence interval."""
+        counts = [len(groups.realizations) for groups in (self.base, self.variant)]
+        if min(counts) < 2:
+            return np.nan
+        degrees = counts[0] - 1 if self.rows[name]["paired"] else self.welch_degrees(name)
+        return self.number(name, "se") * student_t(degrees)
+
+    def welch_degrees(self, name):
+        parts = [(groups.realizations[:, groups.place[name]].var(ddof=1) / len(groups.realizations),
+                  len(groups.realizations) - 1) for groups in (self.base, self.variant)]
+        return max(sum(part for part, _ in parts) ** 2 / max(sum(p**2 / n for p, n in parts), 1e-300), 1)
 
 
-def chosen_names(base, variants, patterns, by):
+def chosen_names(base, differences, patterns, by):
     """Groups that all results have: those named, or all; those that change most first."""
-    common = [name for name in base.place if all(name in variant.place for variant in variants)]
+    common = [name for name in base.place
+              if all(name in one.rows and name in one.variant.place for one in differences)]
     if patterns:
         common = [name for name in common if any(fnmatch.fnmatchcase(name, p) for p in patterns)]
     if not common:
         raise InputError(f"no {by} is in all of the results" + (f" and matches {', '.join(patterns)}" if patterns
                                                                  else "; choose another --by"))
-    change = {name: max(abs(v.load[v.place[name]] - base.load[base.place[name]]) for v in variants)
-              for name in common}
+    change = {name: max(abs(np.nan_to_num(one.number(name, "difference"))) for one in differences) for name in common}
     return sorted(common, key=lambda name: -change[name])[:MOST_GROUPS], len(common)
 
 
-def draw(results, arguments):
+def draw(results, arguments, program):
     base, *variants = (Groups(result, arguments.by) for result in results)
     units = {result.units("light_load") for result in results}
     if len(units) > 1:
         raise InputError(f"the light loads have the units {' and '.join(sorted(units))}: they cannot be compared")
-    names, of_all = chosen_names(base, variants, arguments.group, arguments.by)
+    differences = [Differences(program, base, variant, arguments.by) for variant in variants]
+    for note in dict.fromkeys(note for one in differences for note in one.notes):
+        print(f"note: {note}", file=sys.stderr)
+    names, of_all = chosen_names(base, differences, arguments.group, arguments.by)
     figure, (left, right) = plt.subplots(1, 2, sharey=True, figsize=(11, 1.9 + max(1.2, 0.14 * len(names) * (len(results) + 0.6))))
     thick = 0.8 / len(results)
-    whiskers = {"ecolor": "black", "elinewidth": 0.9, "capsize": 2}
-    lines = []
     labels = legend_words(results)
     for k, groups in enumerate((base, *variants)):
         y = np.arange(len(names)) + (k - (len(results) - 1) / 2) * thick
-        colour = "#999999" if k == 0 else drawing.LINE_COLOURS[(k - 1) % 7]
-        loads = [groups.load[groups.place[name]] for name in names]
-        left.barh(y, loads, thick, color=colour, label=labels[k],
-                  xerr=[groups.whisker(groups.place[name]) for name in names], error_kw=whiskers)
+        look = {**bar_look(k), "height": thick, "error_kw": {"ecolor": "black", "elinewidth": 0.9, "capsize": 2}}
+        left.barh(y, [groups.load[groups.place[name]] for name in names], label=labels[k],
+                  xerr=[groups.whisker(groups.place[name]) for name in names], **look)
         if k > 0:
-            apart = [difference(base, groups, name) for name in names]
-            right.barh(y, [d for d, _, _ in apart], thick, color=colour, xerr=[w for _, _, w in apart],
-                       error_kw=whiskers)
-            lines += [[groups.result.attribute("variant"), name, float(base.area[base.place[name]]),
-                       float(base.load[base.place[name]]), float(groups.load[groups.place[name]]), d, se, w,
-                       str(are_paired(base, groups)).lower()] for name, (d, se, w) in zip(names, apart)]
+            right.barh(y, [differences[k - 1].number(name, "difference") for name in names],
+                       xerr=[differences[k - 1].whisker(name) for name in names], **look)
     left.set_yticks(range(len(names)), names)
     left.set_ylim(len(names) - 0.4, -0.6)
     left.set_xlabel(f"light load [{results[0].units('light_load')}]")
-    right.set_xlabel(f"difference to {base.result.attribute('variant')} [{units.pop()}]")
+    right.set_xlabel(f"difference to {base.result.attribute('variant')} where both are [{units.pop()}]")
     right.axvline(0, color="black", linewidth=0.8)
     for axes in (left, right):
         axes.grid(True, axis="x")
     right.legend(*left.get_legend_handles_labels(), loc="upper left", bbox_to_anchor=(1, 1))
-    drawing.heading(figure, results[0], heading_words(base, variants, len(names), of_all, arguments))
-    header = ["variant", "name", "area_m2", "base_kwh_m2", "variant_kwh_m2", "difference_kwh_m2", "se_kwh_m2",
-              "whisker_kwh_m2", "paired"]
-    return figure, [header] + lines
+    drawing.heading(figure, results[0], heading_words(base, differences, len(names), of_all, arguments))
+    return figure, rows(differences, names)
+
+
+def bar_look(k):
+    """Grey for the base; from the ninth result on colours come again, hatched."""
+    if k == 0:
+        return {"color": "#999999"}
+    return {"color": drawing.LINE_COLOURS[(k - 1) % 7], "hatch": ("", "////", "....", "xxxx")[(k - 1) // 7 % 4],
+            "edgecolor": "white", "linewidth": 0}
+
+
+def rows(differences, names):
+    yield ["variant", "name", "area_m2", "base_kwh_m2", "variant_kwh_m2", "difference_kwh_m2", "se_kwh_m2",
+           "whisker_kwh_m2", "paired"]
+    for one in differences:
+        for name in names:
+            yield [one.variant.result.attribute("variant"), name] + \
+                [one.number(name, word) for word in ("area", "base", "variant", "difference", "se")] + \
+                [float(one.whisker(name)), str(one.rows[name]["paired"]).lower()]
 
 
 def have_one_period(results):
@@ -139,12 +167,13 @@ def legend_words(results):
         [f"{name}\n{result.period()}" for name, result in zip(names, results)]
 
 
-def heading_words(base, variants, shown, of_all, arguments):
-    paired = [are_paired(base, variant) for variant in variants]
+def heading_words(base, differences, shown, of_all, arguments):
+    paired = [one.is_paired() for one in differences]
     how = "paired realizations" if all(paired) else "independent realizations" if not any(paired) else \
         "realizations paired where pairing_id agrees"
     which = f"; the {shown} of {of_all} that change most" if shown < of_all else ""
-    period = base.result.period() if have_one_period([base.result, *(v.result for v in variants)]) else "periods differ"
+    results = [base.result, *(one.variant.result for one in differences)]
+    period = base.result.period() if have_one_period(results) else "periods differ"
     return f"light load by {arguments.by}, {period}{which}\nwhiskers: 95 % confidence, {how}"
 
 
@@ -154,13 +183,14 @@ def main(argv):
                    help="what is compared (default: %(default)s)")
     p.add_argument("--group", action="append", default=[], metavar="NAME",
                    help="only these, by name or pattern, e.g. 'house_1/*' (repeatable)")
+    add_program(p)
     arguments = p.parse_args(argv)
     if len(arguments.results) < 2:
         raise InputError("only one result: there is nothing to compare; give the base and at least one variant")
     results = [Result(path) for path in arguments.results]
-    figure, rows = draw(results, arguments)
+    figure, listed = draw(results, arguments, Program(arguments.sunload))
     if arguments.csv:
-        drawing.write_csv(arguments.csv, rows)
+        drawing.write_csv(arguments.csv, listed)
     output = arguments.output or drawing.default_output(results[0], "compare")
     drawing.save(figure, output, arguments.dpi)
     print(f"wrote {output}", file=sys.stderr)

@@ -50,7 +50,7 @@ class Panel:
         self.mean = float(np.average(self.values, weights=self.facade.area))
 
     def words(self, letters):
-        return (f"{drawing.shortened(self.facade.name, letters)}\n{compass(self.facade.azimuth_deg)} {self.facade.azimuth_deg:.0f}°, "
+        return (f"{drawing.shortened(self.facade.name, letters)}\n{compass(self.facade.azimuth_deg)} {round(self.facade.azimuth_deg) % 360}°, "
                 f"{self.facade.area.sum():.0f} m²\nmean {self.mean:.3g}")
 
 

@@ -123,18 +123,27 @@ def draw(result, arguments):
         if whiskers is not None:
             axes.errorbar(range(len(months)), sums[:, :, k].sum(axis=0), whiskers[:, k], fmt="none", ecolor="black",
                           elinewidth=0.8, capsize=2)
-        axes.set_title(f"{drawing.shortened(targets[k].label, 80 if across == 1 else 28)}: {sums[:, :, k].sum():.4g} {units}")
+        axes.set_title(f"{drawing.shortened(targets[k].label, 80) if across == 1 else drawing.shortened(targets[k].name, 32)}: {sums[:, :, k].sum():.4g} {units}")
     # One scale for all panels, which the highest bar of all decides.
     tops = sums.sum(axis=0) + (0 if whiskers is None else np.nan_to_num(whiskers))
     grid[0, 0].set_ylim(0, 1.05 * max(np.nanmax(tops), 1e-12))
     for axes in grid[:, 0]:
-        axes.set_ylabel(f"light load of the month [{units}]")
+        axes.set_ylabel(f"{load_words(quantity)} of the month [{units}]")
     if len(parts) > 1:
         handles, labels = grid[0, 0].get_legend_handles_labels()
         grid[0, -1].legend(handles[::-1], labels[::-1], loc="upper left", bbox_to_anchor=(1, 1))
     note = "" if all(is_whole) else "; * only part of the month is in the study"
-    drawing.heading(figure, result, f"light load by civil month, {result.zone_name}{note}")
+    drawing.heading(figure, result, f"{load_words(quantity)} by civil month, {result.zone_name}{note}")
     return figure, rows(months, hours, targets, parts, sums)
+
+
+def load_words(quantity):
+    """What a sum over time of a series is called: "light load, direct" of irradiance_direct."""
+    for series in ("irradiance", "illuminance", "light_load"):
+        if quantity.startswith(series):
+            part = quantity.removeprefix(series).strip("_")
+            return "light load" + (f", {part.replace('_', ' ')}" if part else "")
+    return quantity.replace("_", " ")
 
 
 def draw_bars(axes, months, is_whole, sums, parts, quantity):
@@ -144,9 +153,8 @@ def draw_bars(axes, months, is_whole, sums, parts, quantity):
         axes.bar(range(len(months)), values, bottom=bottom, label=name, width=0.75,
                  color=drawing.COMPONENT_COLOURS.get(name, drawing.LINE_COLOURS[0]))
         bottom += values
-    years = {year for year, month in months}
     axes.set_xticks(range(len(months)), [
-        calendar.month_abbr[month] + ("" if whole else "*") + (f"\n{year}" if m == 0 or len(years) > 1 and month == 1
+        calendar.month_abbr[month] + ("" if whole else "*") + (f"\n{year}" if m == 0 or year != months[m - 1][0]
                                                               else "")
         for m, ((year, month), whole) in enumerate(zip(months, is_whole))])
     axes.tick_params(labelbottom=True)

@@ -41,7 +41,7 @@ class Target:
     def label(self):
         if not np.isfinite(self.azimuth_deg):
             return self.name
-        return f"{self.name} (faces {compass(self.azimuth_deg)}, {self.azimuth_deg:.0f}°)"
+        return f"{self.name} (faces {compass(self.azimuth_deg)}, {round(self.azimuth_deg) % 360}°)"
 
 
 def compass(azimuth_deg):

@@ -13,10 +13,7 @@ import base64
 import glob
 import html
 import io
-import json
 import os
-import shutil
-import subprocess
 import sys
 import tempfile
 import textwrap
@@ -33,6 +30,7 @@ import months
 import series
 import sun_path
 from drawing import plt
+from program import Program, add_program
 from reading import InputError, Result
 
 # Carpets and months of a few days say nothing that the series does not.
@@ -87,7 +85,7 @@ def load_rows(results, program):
     """Mean light load of the whole and of every kind of surface, with standard errors; of variants the
     change of what they have in common with the base, in percent."""
     units = results[0].units("light_load")
-    changes = [program.changes(results[0].path, result.path) for result in results[1:]]
+    changes = [percent_changes(program, results[0].path, result.path) for result in results[1:]]
     for by in ("whole", "surface"):
         of_results = [compare_bars.Groups(result, by) for result in results]
         for name in of_results[0].place:
@@ -113,43 +111,24 @@ def table(results, program):
         yield what, [str(rows.get(what, "")) for rows in of_each]
 
 
-class Program:
-    """sunload, which draws the scene; none where it is not found, which is told."""
+def percent_changes(program, base, variant):
+    """Of (kind, name) of groups the change over the area that both have [%]; empty without the program."""
+    if not program.path:
+        return {}
+    return {(row["group"], row["name"]): row["difference_percent"] for row in program.compared(base, variant)["rows"]
+            if row["difference_percent"] is not None}
 
-    def __init__(self, named):
-        built = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../build/io/sunload")
-        self.path = named or os.environ.get("SUNLOAD") or (built if os.access(built, os.X_OK) else shutil.which("sunload"))
-        if not self.path:
-            print("no pictures of the scene: the program sunload is neither in build/io nor on PATH; name it with --sunload",
-                  file=sys.stderr)
 
-    def run(self, *words):
-        try:
-            ran = subprocess.run([self.path, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
-        except OSError as error:
-            raise InputError(f"{self.path}: {error.strerror}; name the program sunload with --sunload") from error
-        if ran.returncode != 0:
-            raise InputError(ran.stderr.strip() or f"{self.path} {words[0]} ended with {ran.returncode}")
-        return ran.stdout
-
-    def changes(self, base, variant):
-        """Of (kind, name) of groups the change over the area that both have [%]; empty without the program."""
-        if not self.path:
-            return {}
-        rows = json.loads(self.run("compare", base, variant, "--json"))["rows"]
-        return {(row["group"], row["name"]): row["difference_percent"] for row in rows
-                if row["difference_percent"] is not None}
-
-    def picture(self, path, folder):
-        """A result or a comparison as a figure, pixel by pixel."""
-        image = os.path.join(folder, "scene.png")
-        self.run("render", path, "-o", image, "--size", "1400x880")
-        pixels = plt.imread(image)
-        figure = plt.figure(figsize=(pixels.shape[1] / HTML_DPI, pixels.shape[0] / HTML_DPI), constrained_layout=False)
-        axes = figure.add_axes([0, 0, 1, 1])
-        axes.imshow(pixels, interpolation="none")
-        axes.set_axis_off()
-        return figure
+def drawn_scene(program, path, folder):
+    """A result or a comparison as a figure, pixel by pixel."""
+    image = os.path.join(folder, "scene.png")
+    program.run("render", path, "-o", image, "--size", "1400x880")
+    pixels = plt.imread(image)
+    figure = plt.figure(figsize=(pixels.shape[1] / HTML_DPI, pixels.shape[0] / HTML_DPI), constrained_layout=False)
+    axes = figure.add_axes([0, 0, 1, 1])
+    axes.imshow(pixels, interpolation="none")
+    axes.set_axis_off()
+    return figure
 
 
 def scene_pictures(results, program):
@@ -158,19 +137,19 @@ def scene_pictures(results, program):
         return
     base, *variants = results
     with tempfile.TemporaryDirectory(prefix="sunload-report-") as folder:
-        yield f"{base.attribute('variant')}: the scene", program.picture(base.path, folder)
+        yield f"{base.attribute('variant')}: the scene", drawn_scene(program, base.path, folder)
         for variant in variants:
             difference = os.path.join(folder, "difference.h5")
             program.run("compare", base.path, variant.path, "--hdf5", difference)
             yield (f"{variant.attribute('variant')} minus {base.attribute('variant')}: the difference",
-                   program.picture(difference, folder))
+                   drawn_scene(program, difference, folder))
 
 
 def pictures(results, program):
     """(title, figure) one after the other, so that one figure is open at a time."""
     yield from scene_pictures(results, program)
-    if len(results) > 1 and all(result.has("facade_name") for result in results):
-        yield "Variants", compare_bars.draw(results, SimpleNamespace(by="facade", group=[]))[0]
+    if len(results) > 1 and program.path and all(result.has("facade_name") for result in results):
+        yield "Variants", compare_bars.draw(results, SimpleNamespace(by="facade", group=[]), program)[0]
     # All variants show the same facades on the same scales.
     largest = max(drawing.scale_end(result.numbers("light_load"), result.numbers("patch_area"))
                   for result in results)
@@ -190,7 +169,7 @@ def pictures(results, program):
             if (result.has_main_series or result.has("light_load_by_month")) and \
                     len(months.month_shares(result)[0]) >= LEAST_MONTHS:
                 yield f"{name}: months", months.draw(result, chosen)[0]
-        if not result.series_step and result.has("irradiance_direct") and (result.numbers("sun_elevation") > 0).any():
+        if not result.series_step and result.has(sun_path.direct_series(result)) and (result.numbers("sun_elevation") > 0).any():
             yield f"{name}: hours in the sun", sun_path.draw(result, chosen)[0]
 
 
@@ -263,8 +242,7 @@ def main(argv):
     p.add_argument("results", metavar="STUDY", nargs="+", help="folder of results, or result files (.h5)")
     p.add_argument("-o", "--output", metavar="REPORT", help="file to write: .html or .pdf (default: report.html "
                                                             "in the folder of the first result)")
-    p.add_argument("--sunload", metavar="PROGRAM", help="the program, which draws the scene (default: $SUNLOAD, that of "
-                                                        "build/io, or that on PATH)")
+    add_program(p)
     arguments = p.parse_args(argv)
     results = results_of(arguments.results)
     output = arguments.output or os.path.join(os.path.dirname(results[0].path), "report.html")
@@ -272,6 +250,9 @@ def main(argv):
     if kind not in (".html", ".pdf"):
         raise InputError(f"{output}: a report is .html or .pdf")
     program = Program(arguments.sunload)
+    if not program.path:
+        print("no pictures of the scene and no comparison: the program sunload is neither in build/io nor on PATH; name it "
+              "with --sunload", file=sys.stderr)
     # Aside first: what fails half-way leaves no half report behind.
     aside = f"{output}.part-{os.getpid()}"
     try:

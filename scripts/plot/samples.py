@@ -13,6 +13,7 @@ import os
 import re
 
 import numpy as np
+from matplotlib.ticker import NullFormatter
 
 import drawing
 from drawing import plt
@@ -22,8 +23,9 @@ LEAST_RESULTS = 3  # of a line with a slope and its error
 
 
 def error_of(result, quantity):
-    """Root mean square over the area of the standard error, as share of the mean."""
-    area = result.numbers("patch_area")
+    """Root mean square over the area (of sensors: over their number) of the standard error, as share of the mean."""
+    place = result.dims(quantity)[-1] if result.has(quantity) else "patch"
+    area = result.numbers(place + "_area") if result.has(place + "_area") else np.ones(result.numbers(quantity).shape[-1])
     mean = (area * result.numbers(quantity)).sum() / area.sum()
     if not mean > 0:
         raise InputError(f"{result.path}: {quantity} is 0 everywhere; name another --quantity")
@@ -44,7 +46,7 @@ def lines_of_results(results, quantity):
     """{name: [(lines per patch, error)]}"""
     lines = {}
     for result in results:
-        name = re.sub(r"_?lines_per_patch-\d+", "", result.attribute("variant")) or "lines"
+        name = re.sub(r"_?lines_per_patch-\d+", "", result.attribute("variant")).strip("_") or "lines"
         count = int(result.file.attrs["lines_per_patch"])
         lines.setdefault(name, []).append((count, error_of(result, quantity)))
     return lines
@@ -79,6 +81,9 @@ def panel(axes, title, lines):
         axes.loglog(samples, 100 * errors, "o-", color=colour, markersize=3, linewidth=1.2,
                     label=f"{name}: {value:.2f} ± {off:.3f}")
         rows += [[title, name, int(n), float(e), value, off] for n, e in zip(samples, errors)]
+    counts = sorted({n for points in lines.values() for n, _ in points})
+    axes.set_xticks(counts[::-(-len(counts) // 6)], [str(n) for n in counts[::-(-len(counts) // 6)]])
+    axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_xlabel("samples of a patch")
     axes.grid(True)
     axes.legend(fontsize=8)
@@ -90,7 +95,7 @@ def draw(results, arguments):
     panels = {first: lines_of_results(results, arguments.quantity)}
     if arguments.errors:
         panels |= lines_of_file(arguments.errors)
-    figure, all_axes = plt.subplots(1, len(panels), figsize=(3.4 * len(panels), 3.6), squeeze=False)
+    figure, all_axes = plt.subplots(1, len(panels), figsize=(max(3.4 * len(panels), 5.6), 3.6), squeeze=False)
     rows = []
     for axes, (title, lines) in zip(all_axes[0], panels.items()):
         rows += panel(axes, title, lines)

@@ -69,7 +69,7 @@ def draw(result, arguments):
     figure, row = plt.subplots(1, len(pieces), sharey=True, squeeze=False, figsize=(10, 4.6),
                                gridspec_kw={"width_ratios": lengths})
     for axes, (begin, end) in zip(row[0], pieces):
-        draw_piece(axes, result, targets, bounds[begin:end], values[begin:end], is_daily)
+        draw_piece(axes, result, targets, bounds[begin:end], values[begin:end], is_daily, max(2, 8 // len(pieces)))
     row[0][0].set_ylabel(caption)
     row[0][0].set_ylim(bottom=min(0.0, np.nanmin(values)))
     middle = "intervals in the order of the file" if result.is_synthetic else f"civil time, {result.offsets()}"
@@ -79,7 +79,7 @@ def draw(result, arguments):
     return figure, rows(result, targets, bounds, values, quantity)
 
 
-def draw_piece(axes, result, targets, bounds, values, is_daily):
+def draw_piece(axes, result, targets, bounds, values, is_daily, most_ticks):
     # Matplotlib's dates are days since 1970 in UTC; the locator gives them the zone.
     edges = np.append(bounds[:, 0], bounds[-1, 1]) / DAY_S
     if result.is_synthetic:
@@ -94,7 +94,7 @@ def draw_piece(axes, result, targets, bounds, values, is_daily):
     axes.grid(True)
     if result.is_synthetic:
         return
-    locator = dates.AutoDateLocator(tz=result.zone, minticks=3, maxticks=7)
+    locator = dates.AutoDateLocator(tz=result.zone, minticks=min(3, most_ticks), maxticks=min(7, most_ticks + 1))
     axes.xaxis.set_major_locator(locator)
     if bounds[-1, 1] - bounds[0, 0] < 2 * DAY_S:
         axes.xaxis.set_major_formatter(dates.DateFormatter("%H:%M", tz=result.zone))

@@ -34,9 +34,13 @@ def place(azimuth_deg, elevation_deg):
     return radius * np.sin(azimuth), radius * np.cos(azimuth)
 
 
+def direct_series(result):
+    return "illuminance_direct" if result.has("illuminance_direct") else "irradiance_direct"
+
+
 def lit_share(result, target):
     """Share of the target's area that the sun reaches straight, for each interval."""
-    dataset = result.need("irradiance_direct", "the diagram shows what the sun lights straight; add direct to "
+    dataset = result.need(direct_series(result), "the diagram shows what the sun lights straight; add direct to "
                           "the study's output.series")
     first, last = int(target.patches.min()), int(target.patches.max()) + 1
     weight = np.zeros(last - first)
@@ -159,7 +163,7 @@ def draw(result, arguments):
         raise InputError(f"{result.path}: the sun is below the horizon in all intervals")
     is_patch = target.kind == "patch"
     share = lit_share(result, target)
-    shown = result.series("irradiance_direct", [target])[:, 0] if is_patch else 100 * share
+    shown = result.series(direct_series(result), [target])[:, 0] if is_patch else 100 * share
     xy = place(azimuth, elevation)
 
     figure, axes = plt.subplots(figsize=(8.2, 7.6))
@@ -178,7 +182,7 @@ def draw(result, arguments):
         draw_paths(axes, result, days, elevation, xy)
         label_hours(axes, result, days)
     figure.colorbar(dots, ax=axes, shrink=0.7, aspect=30,
-                    label="irradiance direct [W/m²]" if is_patch else "area in the sun [%]")
+                    label=result.caption(direct_series(result)) if is_patch else "area in the sun [%]")
     axes.legend(loc="lower left", fontsize=8)
     drawing.heading(figure, result, heading_words(result, target, share, is_up))
     return figure, rows(result, target, shown, share)
@@ -195,7 +199,7 @@ def heading_words(result, target, share, is_up):
 
 def rows(result, target, shown, share):
     yield ["time", "azimuth_deg", "elevation_deg", "lit_share",
-           "irradiance_direct" if target.kind == "patch" else "lit_percent"]
+           direct_series(result) if target.kind == "patch" else "lit_percent"]
     for k, seconds in enumerate(result.numbers("time")):
         yield [result.civil(seconds).isoformat(), float(result.numbers("sun_azimuth")[k]),
                float(result.numbers("sun_elevation")[k]), float(share[k]), float(shown[k])]

@@ -39,6 +39,12 @@ def study(**changes):
 def expect_errors(sunload, folder):
     wrong = raised(sunload.InputError, lambda: sunload.Study(study(name="wrong", colour=1), folder).check())
     assert "unknown key 'colour'" in wrong and "wrong.yaml" in wrong, wrong
+    # A slip is mended under the same name; numbers of numpy are numbers.
+    rules = {"lines_per_patch": np.int64(64), "unshot": np.float32(0.001)}
+    mended = sunload.Study(study(name="wrong", solver=rules, sensors={"points": [
+        {"position_m": np.array([0.0, -5.0, 1.5]), "normal": [0, -1, 0]}]}), folder).check()
+    assert mended.report["variants"][0]["patches"] > 0
+    assert "another study" in raised(sunload.InputError, lambda: sunload.Study(study(name="wrong"), folder))
     assert "letters, digits" in raised(sunload.InputError, lambda: sunload.Study(study(name="a b"), folder))
     assert "another study" in raised(sunload.InputError, lambda: sunload.Study(study(mesh={"max_edge_m": 9}), folder))
     assert "run` has written" in raised(sunload.InputError, lambda: sunload.open(os.path.join(folder, "square.obj")))

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import difflib
-import io
+import json
 import os
 import warnings
 from typing import Any, Optional, Union
@@ -50,6 +50,18 @@ def open(path: Union[str, os.PathLike]) -> xarray.Dataset:  # pylint: disable=re
     return result
 
 
+def _rows(text: str) -> pandas.DataFrame:
+    """The rows of a listing in JSON, which keeps names as they are; what is not known is NaN."""
+    rows = json.loads(text)["rows"]
+    table = pandas.DataFrame(rows, columns=list(dict.fromkeys(key for row in rows for key in row)))
+    words = {"group", "name", "verdict"}
+    numbers = [column for column in table.columns if column not in words and table[column].dtype == object]
+    for column in numbers:
+        if not table[column].map(lambda value: isinstance(value, (str, bool))).any():
+            table[column] = table[column].astype(float)
+    return table
+
+
 def _named(index: np.ndarray, names: np.ndarray) -> np.ndarray:
     """Names by index; '' for -1."""
     return np.append(names.astype(object), "")[index.astype(int)]
@@ -79,8 +91,7 @@ class Accessor:
         return self._group_table("objects").set_index("name")
 
     def _group_table(self, table: str) -> pandas.DataFrame:
-        text = program.run(["info", self.path, "--" + table, "--csv"])
-        return pandas.read_csv(io.StringIO(text))
+        return _rows(program.run(["info", self.path, "--" + table, "--json"]))
 
     def mean(self, quantity: str = "light_load", **by: str) -> xarray.DataArray:
         """Area-weighted mean over patches, for instance mean("irradiance", surface_of="wall"). Patches that light cannot
@@ -109,34 +120,39 @@ class Accessor:
         raise ValueError(f"{name}: the result has no such values of its patches; {hint}")
 
     def months(self, quantity: str = "light_load") -> xarray.DataArray:
-        """Totals of months per facade (area-weighted means of patches), dims (month, facade). Raises ValueError where
-        the result has no such totals: a study of several months has them, or output.totals: [month]."""
+        """Totals of months per facade (area-weighted means of patches), dims (month, facade), of a result in bands (month,
+        band, facade). Raises ValueError where the result has no such totals: a study of several months has them, or
+        output.totals: [month]; one of sun positions without dates cannot."""
         result, name = self._result, quantity + "_by_month"
         if name not in result:
-            raise ValueError(f"{self.path}: has no {name}; write output: {{totals: [month]}} and run it again")
+            raise ValueError(f"{self.path}: has no {name}; " + (
+                "its suns have no dates (period.positions)" if result.attrs.get("time_is_synthetic", 0) else
+                "write output: {totals: [month]} and run it again"))
         facade, area = result["patch_facade"].values.astype(int), result["patch_area"].values
         values, count = result[name].values, result.sizes["facade"]
         counts = facade >= 0
         weight = np.bincount(facade[counts], area[counts], count)
         with np.errstate(invalid="ignore"):
-            sums = np.stack([np.bincount(facade[counts], (row * area)[counts], count) / weight for row in values])
-        return xarray.DataArray(sums, dims=("month", "facade"), name=name, attrs=dict(result[name].attrs),
-                                coords={"month": result["month"].values, "facade": result["facade"].values})
+            sums = np.apply_along_axis(lambda row: np.bincount(facade[counts], (row * area)[counts], count) / weight, -1,
+                                       values)
+        dims = (*result[name].dims[:-1], "facade")
+        return xarray.DataArray(sums, dims=dims, name=name, attrs=dict(result[name].attrs),
+                                coords={dim: result[dim].values for dim in dims})
 
     def compare(self, other: Union[xarray.Dataset, str, os.PathLike], quantity: str = "light_load") -> pandas.DataFrame:
         """Differences of `other` to this result per facade, object and surface, of the light load with errors and
         significance: what `sunload compare --csv` tells (docs/variants.md)."""
         path = other.sunload.path if isinstance(other, xarray.Dataset) else os.fspath(other)
-        return pandas.read_csv(io.StringIO(program.run(["compare", self.path, path, "--quantity", quantity, "--csv"])))
+        return _rows(program.run(["compare", self.path, path, "--quantity", quantity, "--json"]))
 
     def plot_map(self, quantity: str = "light_load", time: Optional[Any] = None, ax: Optional[Any] = None,
                  **options: Any) -> Any:
         """A map of what is seen from above, higher patches over lower ones, by matplotlib; returns its axes. `time`: of
-        a series, as of xarray's `sel(method="nearest")`. Options go to PolyCollection."""
+        a series, in UTC, as of xarray's `sel(method="nearest")`. Options go to PolyCollection."""
         from matplotlib import pyplot  # needed here alone
         from matplotlib.collections import PolyCollection
         result = self._result
-        values = result[quantity]
+        values = self._of_patches(quantity)
         if "time" in values.dims:
             values = values.isel(time=int(np.nanargmax(result["ghi"].values))) if time is None else \
                 values.sel(time=time, method="nearest")

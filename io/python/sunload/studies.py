@@ -45,11 +45,18 @@ class Results(collections.abc.Mapping):
         return f"Results({self.paths!r})"
 
 
+def _plain(value: Any) -> Any:
+    """Numbers and arrays of numpy, dates and paths, as JSON has them."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    return str(value)
+
+
 class Study:
     """A study of a file, or of a dict with the keys of docs/study-file.md.
 
     A dict is written to `<name>.yaml` in `folder` (JSON, which YAML reads), where paths in it are relative to; a file
-    of another content that is there is not replaced. The program is started in `folder`, which is the working one
+    of another content that is there is not replaced, unless it was written so and is refused by the program. The program is started in `folder`, which is the working one
     unless given. After `check`, `report` has what it told."""
 
     def __init__(self, study: Union[str, os.PathLike, Mapping[str, Any]], folder: Optional[str] = None):
@@ -68,17 +75,32 @@ class Study:
             raise program.InputError(f"name {name!r} of the study: letters, digits, _ - . name a study; write e.g. "
                                      "name='street'", 2)
         path = os.path.join(self.folder, name + ".yaml")
-        text = json.dumps(study, indent=1, ensure_ascii=False, default=str) + "\n"
+        text = json.dumps(study, indent=1, ensure_ascii=False, default=_plain) + "\n"
         try:
             with open(path, encoding="utf-8") as file:
-                if file.read() != text:
-                    raise program.InputError(f"{path}: is there with another study; choose another name or folder, or "
-                                             "remove it", 2)
+                there = file.read()
+            if there != text and not self._is_of_no_use(path, there):
+                raise program.InputError(f"{path}: is there with another study; choose another name or folder, or "
+                                         "remove it", 2)
         except FileNotFoundError:
             os.makedirs(self.folder, exist_ok=True)
+            there = ""
+        if there != text:
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text)
         return name, path
+
+    def _is_of_no_use(self, path: str, text: str) -> bool:
+        """Whether a file is a study that was written from a dict and that the program refuses: a slip to be mended."""
+        try:
+            json.loads(text)
+        except ValueError:
+            return False
+        try:
+            program.run(["check", path, "--json", "--no-refine", "--progress", "none"], self.folder)
+        except program.InputError:
+            return True
+        return False
 
     def _name_in_file(self) -> str:
         try:
