@@ -83,6 +83,12 @@ struct Placement {
   double diagonal = 0;
 };
 
+/// Whole metres, and of scenes smaller than a metre the power of two below their extent: numbers of
+/// which there are no finer bits than those of coordinates beside them.
+double origin_step(double extent) {
+  return extent < 1 && extent > 0 ? std::exp2(std::floor(std::log2(extent))) : 1;
+}
+
 Placement place(const PolygonModel& model, const std::vector<std::uint8_t>& is_used) {
   Box box;
   for (std::size_t v = 0; v < is_used.size(); ++v) {
@@ -98,10 +104,13 @@ Placement place(const PolygonModel& model, const std::vector<std::uint8_t>& is_u
   }
   Placement placement;
   placement.diagonal = norm(box.high - box.low);
-  if (std::max(largest_component(box.low), largest_component(box.high)) > near_origin_m) {
+  const double farthest = std::max(largest_component(box.low), largest_component(box.high));
+  if (farthest > near_origin_m || farthest > near_origin_extents * extent) {
+    const double step = origin_step(extent);
+    const auto rounded = [&](double x) { return std::round(x / step) * step; };
     // Halves first: the sum of two finite numbers may not be finite.
-    placement.origin = {std::round(box.low.x / 2 + box.high.x / 2),
-                        std::round(box.low.y / 2 + box.high.y / 2), std::round(box.low.z)};
+    placement.origin = {rounded(box.low.x / 2 + box.high.x / 2),
+                        rounded(box.low.y / 2 + box.high.y / 2), rounded(box.low.z)};
   }
   return placement;
 }

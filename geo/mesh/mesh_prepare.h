@@ -7,9 +7,10 @@
 /// 1. **Check.** Every coordinate is finite, and no scene is wider than
 ///    `largest_extent_m`.
 /// 2. **Local origin.** (0, 0, 0) where no used coordinate exceeds
-///    `near_origin_m`; else the bounding box's centre in x and y and its lowest
-///    z, rounded to whole metres, so that the subtraction is exact to the last
-///    bit of the file's coordinates. All that follows is relative to it.
+///    `near_origin_m`, or `near_origin_extents` times what the scene measures; else the bounding
+///    box's centre in x and y and its lowest z, rounded to whole metres (of smaller scenes to a
+///    power of two), so that the subtraction is exact to the last bit of the file's coordinates.
+///    All that follows is relative to it: rays resolve a share of the largest coordinate.
 /// 3. **Weld** (geo/mesh/weld). `none`: equal points; else points within
 ///    `weld_tolerance_m`, or 1e-6 of the scene's diagonal where that is less.
 /// 4. **Triangulate** (geo/mesh/triangulate).
@@ -58,6 +59,7 @@ struct PrepareRules {
 };
 
 inline constexpr double near_origin_m = 1000;     ///< such scenes keep their coordinates
+inline constexpr double near_origin_extents = 8;  ///< and so do these: rays resolve 1e-6 of them
 inline constexpr double largest_extent_m = 1e6;   ///< floats of the ray caster resolve 6 cm there
 inline constexpr double weld_tolerance_m = 1e-4;  ///< a tenth of the usual 1 mm of CityJSON files
 inline constexpr double weld_tolerance_ratio = 1e-6;  ///< of the scene's diagonal: small models

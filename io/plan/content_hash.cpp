@@ -82,8 +82,9 @@ void add_material(Digest& digest, const Material& material) {
 }
 
 void add_sensor(Digest& digest, const Sensor& sensor) {
-  const auto& [position, normal, key] = sensor;
-  digest.add(position);
+  const auto& [position, normal, key, stands_at] = sensor;
+  std::ignore = position;  // from where it stands, and the mesh
+  digest.add(stands_at);
   digest.add(normal);
   digest.add(key);
 }

@@ -44,7 +44,7 @@ ResultGeometry result_geometry(const VariantPlan& plan, const Hierarchy& hierarc
       area += g.selected.back()[i] != 0 ? g.patch_area[i] : 0;
   }
   for (const auto& sensor : scene.sensors) {
-    g.sensor_position.push_back(sensor.position);
+    g.sensor_position.push_back(sensor.stands_at);
     g.sensor_normal.push_back(sensor.normal);
   }
   g.origin = mesh.origin;

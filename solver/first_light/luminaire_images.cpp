@@ -45,15 +45,16 @@ double LuminaireImages::in_plane(std::size_t p, const Luminaire& luminaire, cons
                                  std::uint64_t& rays) const {
   const auto& [n, offset] = planes_[p];
   const double near = caster_.offset_m();
-  const double of_sensor = dot(n, sensor.position) - offset;
+  const Vec3 from = sensor.position + sensor.normal * near;
+  const double of_sensor = dot(n, from) - offset;
   const double of_lamp = dot(n, luminaire.position) - offset;
   if (of_sensor <= near || of_lamp <= near) return 0;
-  const Vec3 way = luminaire.position - 2 * of_lamp * n - sensor.position;
+  const Vec3 way = luminaire.position - 2 * of_lamp * n - from;
   const double r = norm(way);
   const Vec3 w = way / r;
   const double cos_theta = dot(sensor.normal, w), cos_mirror = -dot(n, w);
   if (cos_theta <= 0) return 0;
-  const Vec3 at = sensor.position + way * (of_sensor / (of_sensor + of_lamp));
+  const Vec3 at = from + way * (of_sensor / (of_sensor + of_lamp));
   const Vec3 before = at + n * near;  // the mirror
   const double I =
       groups_.scene().luminaires.intensity(luminaire, normalized(before - luminaire.position));
@@ -64,7 +65,6 @@ double LuminaireImages::in_plane(std::size_t p, const Luminaire& luminaire, cons
       plane_of_side_[side(hit.triangle, hit.front)] != static_cast<std::int32_t>(p))
     return 0;
   const double rho = groups_.weight_of_hit(hit.triangle, cos_mirror);
-  const Vec3 from = sensor.position + sensor.normal * near;
   return I * rho * cos_theta / (r * r) * passed(from, before) * passed(before, luminaire.position);
 }
 

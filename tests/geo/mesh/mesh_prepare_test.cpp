@@ -81,11 +81,27 @@ TEST(MeshPrepare, NothingIsLostFarFromTheOrigin) {
   }
 }
 
-TEST(MeshPrepare, SmallScenesKeepTheirCoordinates) {
-  const auto near = ModelBuilder().object("a").box({900, -900, 300}, {1000, -800, 310}).prepared();
+TEST(MeshPrepare, ScenesNearTheOriginKeepTheirCoordinates) {
+  const auto near = ModelBuilder().object("a").box({700, -800, 300}, {800, -700, 310}).prepared();
   EXPECT_EQ(near.mesh.origin, Vec3{});
-  const auto far = ModelBuilder().object("a").box({900, -900, 300}, {1001, -800, 310}).prepared();
-  EXPECT_EQ(far.mesh.origin, (Vec3{951, -850, 300}));
+  const auto far = ModelBuilder().object("a").box({0, -900, 300}, {1001, -800, 310}).prepared();
+  EXPECT_EQ(far.mesh.origin, (Vec3{501, -850, 300}));
+}
+
+// Rays resolve a share of the largest coordinate, which must not be much more than what the scene
+// measures: a room of 2 m at 100 m, a model of a millimetre.
+TEST(MeshPrepare, SmallScenesHaveTheirOriginAmongThem) {
+  const auto room = ModelBuilder().object("a").box({100, 100, 0}, {102, 102, 2}).prepared();
+  EXPECT_EQ(room.mesh.origin, (Vec3{101, 101, 0}));
+  const Vec3 corner{100.0003, -7.0001, 3.0002}, size{0.001, 0.001, 0.001};
+  const auto tiny = ModelBuilder().object("a").box(corner, corner + size).prepared();
+  for (std::size_t t = 0; t < tiny.mesh.triangle_count(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_LT(norm(tiny.mesh.corner(t, k)), 2 * size.x);
+      const Vec3 back = tiny.mesh.corner(t, k) + tiny.mesh.origin;  // to the last bit
+      EXPECT_TRUE(back.x == corner.x || back.x == corner.x + size.x);
+      EXPECT_TRUE(back.z == corner.z || back.z == corner.z + size.z);
+    }
 }
 
 TEST(MeshPrepare, WeldsWithinToleranceUnlessNone) {
