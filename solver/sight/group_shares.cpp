@@ -12,8 +12,6 @@ namespace {
 
 /// Sine of the angle by which a patch must face the sun: less brings no light.
 constexpr double least_facing = 1e-6;
-/// Shades of one patch beyond which rays cost less.
-constexpr std::size_t most_shades = 32;
 /// What overlaps by less touches [m]: a thousand roundings of a coordinate of a kilometre.
 constexpr double touching_m = 1e-9;
 
@@ -281,7 +279,7 @@ const GroupShares::Shade& GroupShares::shade_at(std::uint32_t number, std::size_
 float GroupShares::share(const Seen& patch) {
   if (kept_.empty()) return 1;
   const bool is_for_rays =
-      (group_->sends_on && what_sends_on_ == SendsOn::by_rays) || kept_.size() > most_shades ||
+      (group_->sends_on && what_sends_on_ == SendsOn::by_rays) ||
       block_[facing_.front()].disk_half_angle > 0 ||
       std::any_of(kept_.begin(), kept_.end(), [](const Shade* shade) { return !shade->is_solid; });
   if (is_for_rays) return LitShares::by_rays;

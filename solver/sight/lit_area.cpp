@@ -3,13 +3,17 @@
 #include "solver/sight/lit_area.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace sunload {
 
 namespace {
 
-/// Beyond, rays cost less.
-constexpr std::size_t most_pieces = 64;
+/// Beyond, halves cost less: pieces are cut by shades that most of them do not meet.
+constexpr std::size_t most_pieces = 64, most_at_once = 32;
+/// Of a polygon that too much shades; where its 64th parts are still too much for this, rays cost
+/// less.
+constexpr int most_halvings = 6;
 /// Of the polygon's area: less is rounding.
 constexpr double least_share = 1e-12;
 
@@ -66,14 +70,63 @@ double area_within(ViewPolygon polygon, const ViewPolygon& shade) {
   return polygon.area();
 }
 
+/// Both sides of a line across the middle of the longer extent; false: one has too many corners.
+bool halve(const ViewPolygon& polygon, ViewPolygon& first, ViewPolygon& second) {
+  ViewBox box;
+  for (std::size_t i = 0; i < polygon.size(); ++i) box.include(polygon[i]);
+  const double x = (box.x0 + box.x1) / 2, y = (box.y0 + box.y1) / 2;
+  const bool is_wide = box.x1 - box.x0 > box.y1 - box.y0;
+  const ViewLine line =
+      is_wide ? line_through({x, box.y0}, {x, box.y1}) : line_through({box.x0, y}, {box.x1, y});
+  Distances beyond;
+  return measure(polygon, line, beyond) == Side::both && cut(polygon, beyond, first, second);
+}
+
+/// Whether an edge of one of them has all of the other beyond it.
+bool are_apart(const ViewPolygon& a, const ViewPolygon& b) {
+  Distances beyond;
+  const auto separates = [&](const ViewPolygon& of, const ViewPolygon& other) {
+    for (std::size_t k = 0; k < of.size(); ++k)
+      if (measure(other, edge(of, k), beyond) == Side::beyond) return true;
+    return false;
+  };
+  return separates(a, b) || separates(b, a);
+}
+
 }  // namespace
 
 std::optional<double> LitArea::share(const ViewPolygon& polygon,
                                      std::span<const ViewPolygon* const> shades) {
+  if (shades.empty()) return 1;
   const double area = polygon.area();
   negligible_ = least_share * area;
+  const auto lit = lit_of(polygon, shades, most_halvings);
+  if (!lit) return {};
+  const double share = *lit / area;
+  return share < least_share ? 0 : share > 1 - least_share ? 1 : share;
+}
+
+std::optional<double> LitArea::lit_of(const ViewPolygon& polygon, Shades shades, int halvings) {
+  if (shades.empty()) return polygon.area();
+  if (shades.size() <= most_at_once)
+    if (const auto lit = lit_at_once(polygon, shades)) return lit;
+  ViewPolygon first, second;
+  if (halvings == 0 || shades.size() > most_at_once << halvings || !halve(polygon, first, second))
+    return {};
+  double sum = 0;
+  for (const ViewPolygon& half : {first, second}) {
+    std::vector<const ViewPolygon*> own;
+    std::copy_if(shades.begin(), shades.end(), std::back_inserter(own),
+                 [&](const ViewPolygon* shade) { return !are_apart(half, *shade); });
+    const auto lit = lit_of(half, own, halvings - 1);
+    if (!lit) return {};
+    sum += *lit;
+  }
+  return sum;
+}
+
+std::optional<double> LitArea::lit_at_once(const ViewPolygon& polygon, Shades shades) {
   left_.assign(1, polygon);
-  if (shades.empty()) return 1;
   for (const ViewPolygon* shade : shades.first(shades.size() - 1))
     if (!take_away(*shade)) return {};
   double lit = 0;
@@ -82,8 +135,7 @@ std::optional<double> LitArea::share(const ViewPolygon& polygon,
     if (shaded < 0) return {};
     lit += piece.area() - shaded;
   }
-  const double share = lit / area;
-  return share < least_share ? 0 : share > 1 - least_share ? 1 : share;
+  return lit;
 }
 
 bool LitArea::take_away(const ViewPolygon& shade) {

@@ -18,11 +18,15 @@ namespace sunload {
 
 class LitArea {
  public:
-  /// Share of its area, exact but for rounding. Nothing where the pieces become too many.
+  /// Share of its area, exact but for rounding. What too many shades cut into too many pieces is
+  /// halved, and the halves again; nothing where that does not help.
   std::optional<double> share(const ViewPolygon& polygon,
                               std::span<const ViewPolygon* const> shades);
 
  private:
+  using Shades = std::span<const ViewPolygon* const>;
+  std::optional<double> lit_of(const ViewPolygon& polygon, Shades shades, int halvings);
+  std::optional<double> lit_at_once(const ViewPolygon& polygon, Shades shades);
   bool take_away(const ViewPolygon& shade);
   bool split(const ViewPolygon& piece, const ViewPolygon& shade);
 

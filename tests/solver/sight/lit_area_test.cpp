@@ -102,15 +102,31 @@ TEST(LitArea, AgreesWithCountedPointsInAnyOrder) {
   }
 }
 
-/// A comb of slits that cross: more pieces than anybody counts.
-TEST(LitArea, GivesUpOnTooManyPieces) {
+/// Slits that cross, so many each way, of that width.
+std::vector<ViewPolygon> crossing_slits(int count, double width) {
   std::vector<ViewPolygon> shades;
-  for (int i = 0; i < 14; ++i) {
-    const double at = (i + 0.25) / 14;
-    shades.push_back(rectangle(at, -1, at + 0.02, 2));
-    shades.push_back(rectangle(-1, at, 2, at + 0.02));
+  for (int i = 0; i < count; ++i) {
+    const double at = (i + 0.25) / count;
+    shades.push_back(rectangle(at, -1, at + width, 2));
+    shades.push_back(rectangle(-1, at, 2, at + width));
   }
-  EXPECT_FALSE(share(rectangle(0, 0, 1, 1), shades).has_value());
+  return shades;
+}
+
+// In one go they leave some 200 pieces; halves have few enough.
+TEST(LitArea, HalvesWhatTooManyShadesCut) {
+  EXPECT_NEAR(*share(rectangle(0, 0, 1, 1), crossing_slits(14, 0.02)), std::pow(1 - 14 * 0.02, 2),
+              rounding);
+  // Shadows of poles on a wide ground, more of them than are looked at at once.
+  std::vector<ViewPolygon> poles;
+  for (int i = 0; i < 120; ++i) poles.push_back(rectangle(i, 3, i + 0.03, 9));
+  EXPECT_NEAR(*share(rectangle(-10, 0, 150, 40), poles), 1 - 120 * 0.03 * 6 / (160.0 * 40),
+              rounding);
+}
+
+/// More pieces than anybody counts.
+TEST(LitArea, GivesUpOnTooManyPieces) {
+  EXPECT_FALSE(share(rectangle(0, 0, 1, 1), crossing_slits(80, 0.002)).has_value());
 }
 
 }  // namespace
