@@ -26,7 +26,7 @@ std::string range_words(const MeasureRule& rule) {
                              : fmt::format("`date` ({}-{:02})", rule.day->first, rule.day->second));
   for (const RuleKey& key : rule.keys)
     add("`" + key.key + "`" +
-        (is_threshold(key)        ? " (needed in its quantity)"
+        (is_threshold(key)        ? " (needed)"
          : key.absent.has_value() ? fmt::format(" ({:g})", *key.absent)
                                   : ""));
   for (const RuleWords& key : rule.words)

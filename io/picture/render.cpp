@@ -510,8 +510,9 @@ void render_png(const ResultReader& result, const RenderRules& rules, const std:
     return;
   }
   expect_fit_for_derived(result, rules);
-  const std::string usual =
-      rules.colours == PictureColours::of_bands ? "power_load" : usual_quantity(result);
+  // Parts of the period have no power load.
+  const bool is_of_sent = rules.colours == PictureColours::of_bands && result.has("power_load");
+  const std::string usual = is_of_sent ? "power_load" : usual_quantity(result);
   const auto shown =
       shown_quantity(result, rules.quantity.empty() ? usual : rules.quantity, rules.time);
   expect_time_matters(result, rules, shown);

@@ -83,13 +83,13 @@ std::string heading(const MeasureWords& words) {
 }
 
 std::string row_text(const MeasureRow& row, std::size_t width) {
-  auto line = fmt::format("  {:<8}{:<{}}{:>9}{:>9}{:>9}{:>9}{:>9}  {}", row.kind, row.name, width,
+  auto line = fmt::format("  {:<10}{:<{}}{:>9}{:>9}{:>9}{:>9}{:>9}  {}", row.kind, row.name, width,
                           cell(row.area_m2, "{:.1f}"), cell(row.mean, "{:.2f}"),
                           cell(row.reached, "{:.2f}"), cell(row.margin, "{:+.2f}"),
                           cell(row.passing_percent, "{:.0f} %"), row.level);
   line.erase(line.find_last_not_of(' ') + 1);
   line += "\n";
-  if (!row.spans.empty()) line += "          spans " + row.spans + "\n";
+  if (!row.spans.empty()) line += "            spans " + row.spans + "\n";
   return line;
 }
 
@@ -200,7 +200,7 @@ std::string measure_table_text(const ResultReader& result, const std::vector<Mea
       if (row.measure == measure) lines += row_text(row, width);
     if (!lines.empty())
       text += heading(measure_words(result, measure)) +
-              fmt::format("  {:<8}{:<{}}{:>10}{:>9}{:>9}{:>9}{:>9}  {}\n", "group", "name", width,
+              fmt::format("  {:<10}{:<{}}{:>10}{:>9}{:>9}{:>9}{:>9}  {}\n", "group", "name", width,
                           "area, m²", "mean", "reached", "margin", "passing", "level") +
               lines;
     else if (!has_values(result, measure))

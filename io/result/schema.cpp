@@ -209,7 +209,7 @@ constexpr std::array table{
     ResultVariable{"power_sun", "time", float64, "W", ledger, "sun's power that meets fronts for the first time", "", interval_mean},
     ResultVariable{"power_sky", "time", float64, "W", ledger, "sky's power that meets fronts for the first time", "", interval_mean},
     ResultVariable{"power_ground", "time", float64, "W", ledger, "far ground's power that meets fronts for the first time", "", interval_mean},
-    ResultVariable{"power_emitted", "time", float64, "W", ledger, "power of emitters and lamps", "", interval_mean},
+    ResultVariable{"power_emitted", "time", float64, "W", ledger, "power of emitters, and of lamps what arrives in the scene", "", interval_mean},
     ResultVariable{"power_absorbed", "time", float64, "W", ledger, "power absorbed", "", interval_mean},
     ResultVariable{"power_transmitted", "time", float64, "W", ledger, "power that leaves through panes", "", interval_mean},
     ResultVariable{"power_escaped", "time", float64, "W", ledger, "power that leaves the scene", "", interval_mean},

@@ -91,10 +91,7 @@ json totals(const ResultReader& result, ViewBlocks& blocks) {
   }
   for (const auto& measure : measure_names(result)) {
     const std::string name = std::string(measure_prefix) + measure;
-    auto values = floats(result.doubles(name));
-    // The page has no patches without a value.
-    std::replace_if(
-        values.begin(), values.end(), [](float value) { return std::isnan(value); }, 0.0F);
+    const auto values = floats(result.doubles(name));  // NaN where nothing is measured
     list.push_back({{"name", name},
                     {"what", result.text_attribute(name, "definition")},
                     {"units", display_units(result.units(name))},

@@ -266,8 +266,9 @@ function holds(corners, point, i, j) {
 export function matchedMean(match, patch, valueOf) {
   let sum = 0, area = 0;
   for (let k = match.first[patch]; k < match.first[patch + 1]; ++k) {
-    const q = match.list[k];
-    sum += match.area[q] * valueOf(q);
+    const q = match.list[k], value = valueOf(q);
+    if (!Number.isFinite(value)) continue;
+    sum += match.area[q] * value;
     area += match.area[q];
   }
   return area > 0 ? sum / area : NaN;

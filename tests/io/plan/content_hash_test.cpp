@@ -60,7 +60,7 @@ TEST(ContentHash, SeesWhatFilesAndTablesBring) {
       [](Content& c) { c.built.scene.material[0] = make_id<MaterialId>(1); },
       [](Content& c) { c.built.scene.parallel_sources.mesh.vertices[1].x = 2; },
       [](Content& c) { c.built.scene.parallel_sources.exitance[0] = 2; },
-      [](Content& c) { c.built.scene.sensors[0].position.x = 1; },
+      [](Content& c) { c.built.scene.sensors[0].stands_at.x = 1; },
       [](Content& c) {
         c.built.scene.sensors[0].normal = {1, 0, 0};
       },
@@ -127,7 +127,7 @@ TEST(RaysDigest, SeesAllButDiffuseReflectances) {
       material(&Material::transmittance, 0.1),
       [](Content& c) { c.built.scene.materials[0].smooth = Panes{1.5}; },
       [](Content& c) { c.built.scene.mesh.vertices[1].x = 2; },
-      [](Content& c) { c.built.scene.sensors[0].position.x = 2; },
+      [](Content& c) { c.built.scene.sensors[0].stands_at.x = 2; },
       [](Content& c) { c.built.site.north_deg = 5; },
       [](Content& c) { c.study.solver.seed = 2; },
       [](Content& c) { c.study.light.far_ground_albedo = 0.7; },
