@@ -89,7 +89,8 @@ double origin_step(double extent) {
   return extent < 1 && extent > 0 ? std::exp2(std::floor(std::log2(extent))) : 1;
 }
 
-Placement place(const PolygonModel& model, const std::vector<std::uint8_t>& is_used) {
+Placement place(const PolygonModel& model, const std::vector<std::uint8_t>& is_used,
+                const std::vector<Vec3>& beside) {
   Box box;
   for (std::size_t v = 0; v < is_used.size(); ++v) {
     if (!is_used[v]) continue;
@@ -105,7 +106,10 @@ Placement place(const PolygonModel& model, const std::vector<std::uint8_t>& is_u
   Placement placement;
   placement.diagonal = norm(box.high - box.low);
   const double farthest = std::max(largest_component(box.low), largest_component(box.high));
-  if (farthest > near_origin_m || farthest > near_origin_extents * extent) {
+  Box all = box;
+  for (const Vec3 p : beside) include(all, p);
+  const double extent_of_all = largest_component(all.high - all.low);
+  if (farthest > near_origin_m || farthest > near_origin_extents * extent_of_all) {
     const double step = origin_step(extent);
     const auto rounded = [&](double x) { return std::round(x / step) * step; };
     // Halves first: the sum of two finite numbers may not be finite.
@@ -312,7 +316,7 @@ void measure(const Mesh& mesh, PrepareReport& report) {
 PreparedMesh prepare(const PolygonModel& model, const PrepareRules& rules) {
   check_model(model);
   const auto is_used = used_vertices(model);
-  const auto placement = place(model, is_used);
+  const auto placement = place(model, is_used, rules.beside);
 
   PreparedMesh result;
   Mesh& mesh = result.mesh;

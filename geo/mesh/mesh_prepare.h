@@ -55,6 +55,7 @@ struct PrepareRules {
   Repair repair = Repair::safe;
   std::optional<GroundRules> ground;
   Orientation orientation = Orientation::outward;
+  std::vector<Vec3> beside = {};  ///< points of sensors and lamps: part of what the scene measures
   double north_deg = 0;  ///< azimuth of scene +y: only names facades by their true direction
 };
 

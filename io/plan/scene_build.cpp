@@ -48,6 +48,11 @@ PrepareRules prepare_rules(const Study& study, const PolygonModel& model, const 
   rules.north_deg = site.north_deg;
   rules.repair = study.scene.repair;
   rules.orientation = study.scene.orient;
+  for (const SensorPoint& sensor : study.sensors.points) rules.beside.push_back(sensor.position);
+  for (const LuminaireStudy& lamp : study.scene.luminaires) {
+    rules.beside.push_back(lamp.position);
+    if (lamp.to) rules.beside.push_back(*lamp.to);
+  }
   const auto& ground = study.scene.ground;
   if (ground ? ground->wanted : model.is_city_format)
     rules.ground =

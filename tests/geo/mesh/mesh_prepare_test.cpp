@@ -93,6 +93,10 @@ TEST(MeshPrepare, ScenesNearTheOriginKeepTheirCoordinates) {
 TEST(MeshPrepare, SmallScenesHaveTheirOriginAmongThem) {
   const auto room = ModelBuilder().object("a").box({100, 100, 0}, {102, 102, 2}).prepared();
   EXPECT_EQ(room.mesh.origin, (Vec3{101, 101, 0}));
+  // A lamp of 2 cm that lights a sensor 3 m away.
+  const auto lamp = ModelBuilder().object("a").box({0, 0, 3}, {0.02, 0.02, 3.02});
+  EXPECT_NE(lamp.prepared().mesh.origin, Vec3{});
+  EXPECT_EQ(lamp.prepared({.ground = {}, .beside = {{0, 0, 0}}}).mesh.origin, Vec3{});
   const Vec3 corner{100.0003, -7.0001, 3.0002}, size{0.001, 0.001, 0.001};
   const auto tiny = ModelBuilder().object("a").box(corner, corner + size).prepared();
   for (std::size_t t = 0; t < tiny.mesh.triangle_count(); ++t)
