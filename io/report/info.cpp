@@ -65,8 +65,7 @@ std::string period(const ResultReader& result) {
   auto text = info_line("period", fmt::format("{} {}{}, {:.5g} h in all", chosen.size(),
                                               step.empty() ? "interval" : "step",
                                               chosen.size() == 1 ? "" : "s", hours));
-  if (has_no_dates(result))
-    return text + info_line("", "sun positions without a date");
+  if (has_no_dates(result)) return text + info_line("", "sun positions without a date");
   text += info_line("  days", period_in_words(result));
   if (const std::string seasons = own_seasons_in_words(result); !seasons.empty())
     text += info_line("  seasons", seasons);
