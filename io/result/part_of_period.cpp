@@ -99,7 +99,12 @@ PartOfPeriod::PartOfPeriod(const ResultReader& result, const PeriodChoice& choic
   const TimeZone zone = result_zone(result);
   const double latitude = result.number_attribute("latitude_deg");
   const OwnSeasons own = own_seasons(result);
-  shares_ = chosen_shares(choice, intervals, zone, latitude, own);
+  try {
+    shares_ = chosen_shares(choice, intervals, zone, latitude, own);
+  } catch (const InputError& error) {
+    // Of several results one may lack a season.
+    throw InputError(result.path() + ": " + error.what());
+  }
   is_whole_ = std::all_of(shares_.begin(), shares_.end(), [](double share) { return share == 1; });
   if (is_whole_) return;
   std::vector<TimeSpan> hours;

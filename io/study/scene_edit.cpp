@@ -17,7 +17,7 @@ namespace sunload::study_sections {
 
 namespace {
 
-constexpr Range coordinates_m{-1e9, 1e9};  // as for scene.files
+constexpr Range coordinates_m{-1e10, 1e10};  // as for scene.files
 constexpr Range turns_deg{-360, 360};
 constexpr Range sizes_m{0, 1e5, Range::Low::excluded};
 constexpr Range distances_m{0, 1e6};

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Range coordinates_m{-1e9, 1e9};  // no map projection of the Earth goes farther
+constexpr Range coordinates_m{-1e10, 1e10};  // no map projection of the Earth goes farther
 constexpr Range turns_deg{-360, 360};
 constexpr Range heights_m{-1e4, 1e5};
 constexpr Range least_heights_m{0, 1000};
@@ -123,7 +123,8 @@ std::vector<double> read_numbers(YamlMap& map, const std::string& key, std::size
                                  const std::string& in_words) {
   auto values = map.numbers(key, coordinates_m);
   if (values.size() == count || !map.has(key)) return values;
-  map.problem(key, "must be " + in_words);
+  // As many that are no numbers, or out of range, are told one by one.
+  if (map.tree(key)->items.size() != count) map.problem(key, "must be " + in_words);
   return {};
 }
 

@@ -195,7 +195,7 @@ class CityReader {
     const Vec3 reference = frame_(coordinates_.point(point));
     if (!is_usable(reference))
       document_.file().fail(point, "lies beyond all coordinates on Earth",
-                            "no map projection reaches 1e9 m", "are srsName and unit_m right?");
+                            "no map projection reaches 1e10 m", "are srsName and unit_m right?");
     return reference;
   }
 

@@ -326,7 +326,7 @@ class BodyReader {
           xyz[static_cast<std::size_t>(axis)] = number(p.type, v);
       }
       if (!faces_.add_vertex({xyz[0], xyz[1], xyz[2]})) {
-        fail(v, "is no point on Earth", "a coordinate is no finite number below 1e9 m",
+        fail(v, "is no point on Earth", "a coordinate is no finite number below 1e10 m",
              "is unit_m right?");
       }
     }

@@ -93,7 +93,7 @@ class StlReader {
                          little_float(at + 2 * sizeof(float))};
         if (!add_point(point)) {
           throw InputError({path_}, fmt::format("triangle {} has a point that is none on Earth", t),
-                           "a coordinate is no finite number below 1e9 m", "is unit_m right?");
+                           "a coordinate is no finite number below 1e10 m", "is unit_m right?");
         }
       }
       faces_.end_face();
@@ -223,7 +223,7 @@ class StlReader {
       coordinate = *value;
     }
     if (!add_point({xyz[0], xyz[1], xyz[2]}))
-      fail(words, {}, "vertex beyond all coordinates on Earth", "no map projection reaches 1e9 m");
+      fail(words, {}, "vertex beyond all coordinates on Earth", "no map projection reaches 1e10 m");
   }
 
   std::string path_;
