@@ -77,6 +77,29 @@ TEST(SensorStudy, ResultHasWhatPatchesHave) {
   EXPECT_NE(check.out.find("3 points"), std::string::npos) << check.out;
 }
 
+// They look along the ground on which they stand; their twins a millimetre above it see the same.
+TEST(SensorStudy, OnTheGroundSeeWhatIsJustAboveItSees) {
+  const Square square(
+      "sensors: {points: [{position_m: [-12, -12, 0], normal: [0, -1, 0]}, "
+      "{position_m: [-12, -12, 0.001], normal: [0, -1, 0]}, "
+      "{position_m: [-12, -12, 0], normal: [0, -1, -0.0001]}]}\n");
+  ASSERT_EQ(square.run("a").code, 0);
+  const ResultReader result(square.result("a"));
+  EXPECT_EQ(result.doubles("sensor_position")[2], 0);
+  const auto sun = result.doubles("sensor_sun_hours"),
+             direct = result.doubles("sensor_light_load_direct"),
+             sky = result.doubles("sensor_light_load_sky");
+  const auto se = result.doubles("sensor_light_load_sky_se");
+  EXPECT_GT(sun[1], 5);
+  EXPECT_GT(sky[1], 0);
+  for (const std::size_t s : {0u, 2u}) {
+    EXPECT_NEAR(sun[s], sun[1], 0.01);
+    // The third is turned by a ten-thousandth.
+    EXPECT_NEAR(direct[s], direct[1], 3e-4 * direct[1]);
+    EXPECT_NEAR(sky[s], sky[1], 4 * std::hypot(se[s], se[1]) + 3e-4 * sky[1]);
+  }
+}
+
 TEST(SensorStudy, TablesAndGeoPackageHaveThem) {
   const Square square;
   ASSERT_EQ(square.run("a").code, 0);
