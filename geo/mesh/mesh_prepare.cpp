@@ -231,7 +231,7 @@ void order_by_object(PreparedMesh& prepared) {
   std::vector<std::size_t> order(mesh.triangle_count());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return mesh.triangle_object[a] < mesh.triangle_object[b];
+    return mesh.triangle_object[a].value < mesh.triangle_object[b].value;
   });
   const auto sort = [&](auto& list) {
     if (list.empty()) return;
