@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "geo/base/units.h"
@@ -164,43 +165,90 @@ const std::string& kind_of(const PolygonModel& model, std::size_t object) {
   return object < model.object_kinds.size() ? model.object_kinds[object] : none;
 }
 
+/// Height of a face over a place in plan; nothing of upright ones and of others.
+std::optional<double> height_at(const LooseFace& face, Point2 place) {
+  const Vec3 normal = area_vector2(face);
+  if (normal.z == 0 || !holds_in_plan(face.rings, place, in_plan)) return {};
+  const Vec3 through = face.rings[0][0];
+  return through.z -
+         (normal.x * (place.u - through.x) + normal.y * (place.v - through.y)) / normal.z;
+}
+
 /// Of the model's ground faces below the place the highest.
 std::optional<double> ground_height(const PolygonModel& model, Point2 place) {
   std::optional<double> ground;
   for (std::size_t p = 0; p < model.polygon_count(); ++p) {
     const bool is_of_land = is_land(kind_of(model, model.facts[p].object.index()));
     if (!is_of_land && model.facts[p].surface != Surface::ground) continue;
-    const LooseFace face = face_of(model, p);
-    const Vec3 normal = area_vector2(face);
-    if (normal.z == 0 || !holds_in_plan(face.rings, place, in_plan)) continue;
-    const Vec3 through = face.rings[0][0];
-    const double z =
-        through.z -
-        (normal.x * (place.u - through.x) + normal.y * (place.v - through.y)) / normal.z;
-    if (!ground || z > *ground) ground = z;
+    const auto z = height_at(face_of(model, p), place);
+    if (z && (!ground || *z > *ground)) ground = z;
   }
   return ground;
 }
 
+/// Of the objects of which nobody says what they are, the lowest top over the place: land, where it
+/// is one of them or part of one.
+std::optional<double> lowest_top(const PolygonModel& model, Point2 place) {
+  std::map<std::size_t, double> tops;  // by object
+  for (std::size_t p = 0; p < model.polygon_count(); ++p) {
+    const std::size_t object = model.facts[p].object.index();
+    if (!kind_of(model, object).empty() || model.facts[p].surface != Surface::other) continue;
+    const auto z = height_at(face_of(model, p), place);
+    if (!z) continue;
+    const auto [top, is_first] = tops.try_emplace(object, *z);
+    if (!is_first) top->second = std::max(top->second, *z);
+  }
+  std::optional<double> lowest;
+  for (const auto& [object, top] : tops)
+    if (!lowest || top < *lowest) lowest = top;
+  return lowest;
+}
+
+/// Where a thing beside an object has its foot: the object's lowest point, and of land, which may
+/// lie lower elsewhere, its height at the corner nearest in plan.
+double foot_beside(const PolygonModel& model, std::size_t object, const ObjectExtent& extent,
+                   Point2 place) {
+  constexpr double steep = 0.2;  // cosine to the vertical
+  bool is_level_enough = true;
+  double nearest = std::numeric_limits<double>::infinity(), height = extent.box.low.z;
+  for (std::size_t p = 0; p < model.polygon_count(); ++p) {
+    if (model.facts[p].object.index() != object) continue;
+    const LooseFace face = face_of(model, p);
+    const Vec3 normal = area_vector2(face);
+    if (std::abs(normal.z) <= steep * norm(normal)) is_level_enough = false;
+    for (const Vec3 corner : face.rings[0]) {
+      const double away = std::hypot(corner.x - place.u, corner.y - place.v);
+      if (away >= nearest) continue;
+      nearest = away;
+      height = corner.z;
+    }
+  }
+  const bool is_of_land =
+      is_land(kind_of(model, object)) || (kind_of(model, object).empty() && is_level_enough);
+  return is_of_land ? height : extent.box.low.z;
+}
+
 /// The foot of the object nearest in plan, of plants or of all others.
 std::optional<double> nearest_foot(const PolygonModel& model, Point2 place, bool of_plants) {
-  std::optional<double> foot;
-  double nearest = std::numeric_limits<double>::infinity();
+  std::optional<std::size_t> nearest;
+  double least = std::numeric_limits<double>::infinity();
   const auto extents = extents_of(model);
   for (std::size_t o = 0; o < extents.size(); ++o) {
     if (extents[o].is_empty() || is_plant(kind_of(model, o)) != of_plants) continue;
     const double away = distance_in_plan(extents[o], place);
-    if (away >= nearest) continue;
-    nearest = away;
-    foot = extents[o].box.low.z;
+    if (away >= least) continue;
+    least = away;
+    nearest = o;
   }
-  return foot;
+  if (!nearest) return {};
+  return foot_beside(model, *nearest, extents[*nearest], place);
 }
 
 }  // namespace
 
 std::optional<double> standing_height(const PolygonModel& model, Point2 place) {
   if (const auto ground = ground_height(model, place)) return ground;
+  if (const auto land = lowest_top(model, place)) return land;
   if (const auto foot = nearest_foot(model, place, false)) return foot;
   return nearest_foot(model, place, true);  // crowns may hover
 }

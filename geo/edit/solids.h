@@ -43,8 +43,9 @@ inline constexpr double trunk_width_ratio = 1.0 / 40;
 void add_tree(PolygonModel& model, Vec3 foot, const TreeShape& shape, const SolidFacts& facts);
 
 /// Height that a thing put there stands on: that of the model's ground faces below the place, else
-/// the foot of the object nearest in plan, of plants only where there is nothing else. Nothing in
-/// an empty model.
+/// of what lies lowest there of objects of which nobody says what they are, else the foot of the
+/// object nearest in plan (of land: its height there), of plants only where there is nothing else.
+/// Nothing in an empty model.
 std::optional<double> standing_height(const PolygonModel& model, Point2 place);
 
 }  // namespace sunload

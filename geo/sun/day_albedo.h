@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "geo/sun/sun.h"
@@ -23,9 +24,13 @@ struct DayAlbedos {
   std::size_t filled = 0;
 };
 
-/// The mean of a day weighs each record by the light on level ground, its GHI or else its DHI.
-/// Every civil day of `weather` counts, whether `path` touches it or not.
+/// Sine of the sun's elevation at a time.
+using SineOfSun = std::function<double(UnixTime)>;
+
+/// The mean of a day weighs each record by the light on level ground: its GHI, or else DHI and DNI
+/// times the sine of the sun's elevation in the middle of the record. Every civil day of `weather`
+/// counts, whether `path` touches it or not.
 DayAlbedos day_albedos(const std::vector<DatedWeather>& weather, const SunPath& path,
-                       const TimeZone& zone);
+                       const TimeZone& zone, const SineOfSun& sine_at);
 
 }  // namespace sunload

@@ -193,7 +193,10 @@ std::vector<Irradiance> StudyWeather::means(const SunPath& path) {
 }
 
 DayAlbedos StudyWeather::albedos(const SunPath& path) const {
-  return day_albedos(dated_, path, TimeZone(study_.site.timezone));
+  const SunEphemeris sun(dated_.front().begin, dated_.back().end, site_, study_.sun.refraction,
+                         study_.sun.ut1_utc, standard_air(site_.elevation_m));
+  return day_albedos(dated_, path, TimeZone(study_.site.timezone),
+                     [&](UnixTime at) { return std::sin(radians(sun(at).elevation_deg)); });
 }
 
 void StudyWeather::say_file() {

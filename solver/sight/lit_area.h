@@ -8,6 +8,7 @@
 /// computer.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -18,20 +19,22 @@ namespace sunload {
 
 class LitArea {
  public:
-  /// Share of its area, exact but for rounding. What too many shades cut into too many pieces is
+  /// Share of its area, exact but for rounding. What many thin shades cut into too many pieces is
   /// halved, and the halves again; nothing where that does not help.
   std::optional<double> share(const ViewPolygon& polygon,
                               std::span<const ViewPolygon* const> shades);
 
  private:
   using Shades = std::span<const ViewPolygon* const>;
-  std::optional<double> lit_of(const ViewPolygon& polygon, Shades shades, int halvings);
+  std::optional<double> lit_of(const ViewPolygon& polygon, Shades shades, std::size_t halvings);
   std::optional<double> lit_at_once(const ViewPolygon& polygon, Shades shades);
   bool take_away(const ViewPolygon& shade);
   bool split(const ViewPolygon& piece, const ViewPolygon& shade);
 
   double negligible_ = 0;  ///< area of what is rounding
   std::vector<ViewPolygon> left_, next_;
+  static constexpr std::size_t most_halvings = 5;
+  std::array<std::vector<const ViewPolygon*>, most_halvings> of_half_;  ///< by halvings before it
 };
 
 }  // namespace sunload

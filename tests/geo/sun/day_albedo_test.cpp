@@ -11,6 +11,9 @@ namespace {
 constexpr double hour = seconds_per_hour;
 const UnixTime new_year = utc_from_calendar({2026, 1, 1, 0, 0, 0});
 
+/// A sun in the zenith.
+double overhead(UnixTime /*at*/) { return 1; }
+
 DatedWeather record(double hours, double ghi, std::optional<double> albedo) {
   return {new_year + hours * hour, new_year + (hours + 1) * hour, {{}, {}, ghi, albedo}, 0};
 }
@@ -29,7 +32,8 @@ const TimeZone utc("UTC");
 TEST(DayAlbedo, IsTheMeanOfTheLightThatFalls) {
   const std::vector<DatedWeather> weather{record(9, 100, 0.8), record(12, 300, 0.4),
                                           record(13, 500, {}), record(22, 0, 0.9)};
-  const auto albedos = day_albedos(weather, {interval(8), interval(15), interval(23)}, utc);
+  const auto albedos =
+      day_albedos(weather, {interval(8), interval(15), interval(23)}, utc, overhead);
   EXPECT_EQ(albedos.of_interval, std::vector<double>(3, (100 * 0.8 + 300 * 0.4) / 400));
   EXPECT_EQ(albedos.days, 1u);
   EXPECT_EQ(albedos.filled, 0u);
@@ -39,7 +43,7 @@ TEST(DayAlbedo, GoesByDiffuseLightWhereThatIsAll) {
   std::vector<DatedWeather> weather{record(9, 0, 0.2), record(12, 0, 0.5)};
   weather[0].values.ghi.reset();
   weather[0].values.dhi = 50;
-  const auto albedos = day_albedos(weather, {interval(8)}, utc);
+  const auto albedos = day_albedos(weather, {interval(8)}, utc, overhead);
   EXPECT_EQ(albedos.of_interval, std::vector<double>{0.2});
 }
 
@@ -48,7 +52,7 @@ TEST(DayAlbedo, OfADayWithoutIsThatOfTheNearest) {
   SunPath path;
   for (int day = 0; day < 6; ++day) path.push_back(interval(24 * day + 12));
   path[5].up_s = 0;  // polar night lacks nothing
-  const auto albedos = day_albedos(weather, path, utc);
+  const auto albedos = day_albedos(weather, path, utc, overhead);
   EXPECT_EQ(albedos.of_interval, (std::vector<double>{0.2, 0.2, 0.2, 0.7, 0.7, 0.7}));
   EXPECT_EQ(albedos.days, 5u);
   EXPECT_EQ(albedos.filled, 3u);
@@ -57,13 +61,24 @@ TEST(DayAlbedo, OfADayWithoutIsThatOfTheNearest) {
 TEST(DayAlbedo, DaysAreThoseOfTheClock) {
   const std::vector<DatedWeather> weather{record(12, 1, 0.2), record(36, 1, 0.6)};
   const SunPath late{interval(22)};  // the morning of the next day in Tokyo
-  EXPECT_EQ(day_albedos(weather, late, utc).of_interval.front(), 0.2);
-  EXPECT_EQ(day_albedos(weather, late, TimeZone("Asia/Tokyo")).of_interval.front(), 0.6);
+  EXPECT_EQ(day_albedos(weather, late, utc, overhead).of_interval.front(), 0.2);
+  EXPECT_EQ(day_albedos(weather, late, TimeZone("Asia/Tokyo"), overhead).of_interval.front(), 0.6);
 }
 
 TEST(DayAlbedo, IsUnknownWithoutAny) {
-  const auto albedos = day_albedos({record(12, 100, {})}, {interval(12)}, utc);
+  const auto albedos = day_albedos({record(12, 100, {})}, {interval(12)}, utc, overhead);
   EXPECT_TRUE(albedos.of_interval.empty());
+}
+
+// Where a file has DNI and DHI alone, light on the ground is of both.
+TEST(DayAlbedo, WithoutGlobalIrradianceTheBeamCountsByTheSunsHeight) {
+  auto clear = record(12, 0, 0.8), cloudy = record(15, 0, 0.2);
+  clear.values.ghi = cloudy.values.ghi = std::nullopt;
+  clear.values.dni = 800;
+  clear.values.dhi = cloudy.values.dhi = 100;
+  const auto half_high = [](UnixTime /*at*/) { return 0.5; };
+  const auto albedos = day_albedos({clear, cloudy}, {interval(12)}, utc, half_high);
+  EXPECT_NEAR(albedos.of_interval.front(), (500 * 0.8 + 100 * 0.2) / 600, 1e-12);
 }
 
 }  // namespace
