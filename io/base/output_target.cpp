@@ -15,6 +15,7 @@
 
 #include "geo/base/check.h"
 #include "io/base/machine.h"
+#include "io/base/standard_streams.h"
 
 namespace sunload {
 namespace {
@@ -105,8 +106,14 @@ void write_into(const OutputTarget& target, const std::string& from, const std::
   while (const ssize_t got = ::read(source, part.data(), part.size())) {
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw_cannot_write(path, errno);
-    if (const int error = write_all(sink, {part.data(), static_cast<std::size_t>(got)}))
-      throw_cannot_write(path, error);
+    const int error = write_all(sink, {part.data(), static_cast<std::size_t>(got)});
+    if (error == EPIPE && target.descriptor == STDOUT_FILENO) {
+      std::error_code gone;
+      fs::remove(from, gone);
+      fs::remove(fs::path(from).parent_path(), gone);
+      end_by_closed_pipe();
+    }
+    if (error != 0) throw_cannot_write(path, error);
   }
   // Pipes, terminals and many devices cannot be flushed, and say so.
   if (::fsync(sink) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS)

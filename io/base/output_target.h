@@ -26,7 +26,9 @@ struct OutputTarget {
 /// `-` is the standard output. Throws MachineError for folders and for links that lead round.
 OutputTarget output_target(const std::string& path);
 
-/// Copies the bytes of a file into a target that stays. Throws MachineError that names `path`.
+/// Copies the bytes of a file into a target that stays; where that is the standard output and
+/// nobody reads it any more, the program ends (`end_by_closed_pipe`), the file's folder removed.
+/// Throws MachineError that names `path`.
 void write_into(const OutputTarget& target, const std::string& from, const std::string& path);
 
 /// Throws InputError where the output is one of the files that are read, by whatever name: it would

@@ -47,11 +47,7 @@ class Listing : public std::streambuf {
     if (error_ == 0)
       error_ = write_all(STDOUT_FILENO, is_terminal_ ? without_controls(part) : std::string(part));
     waiting_.erase(0, count);
-    // Who reads has enough: the end that every filter comes to.
-    if (error_ == EPIPE) {
-      std::signal(SIGPIPE, SIG_DFL);
-      std::raise(SIGPIPE);
-    }
+    if (error_ == EPIPE) end_by_closed_pipe();
     return error_ == 0;
   }
 
@@ -82,6 +78,11 @@ void tell(std::string_view message) {
   } catch (const std::bad_alloc&) {
     tell_as_it_is("a message is left out: out of memory\n");
   }
+}
+
+void end_by_closed_pipe() {
+  std::signal(SIGPIPE, SIG_DFL);
+  std::raise(SIGPIPE);
 }
 
 void tell_warnings(const std::vector<std::string>& warnings, std::string_view of) {

@@ -27,6 +27,10 @@ void tell_warnings(const std::vector<std::string>& warnings, std::string_view of
 /// A message without a line's end and with its control characters: for drawings of our own.
 void tell_as_it_is(std::string_view text);
 
+/// Ends the program as who reads its output has closed it, without a word: the end that every
+/// filter comes to.
+void end_by_closed_pipe();
+
 /// From here on std::cout is this program's own stream: it keeps the first error of writing, and on
 /// a terminal control characters are made visible.
 void open_listing();

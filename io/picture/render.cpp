@@ -446,6 +446,9 @@ void render_animation(const ResultReader& result, const RenderRules& rules,
   double largest = 0;
   for (const auto k : intervals)
     largest = std::max(largest, renderer.largest(shown_at(result, dataset, k)));
+  if (output_target(path).kind != OutputTarget::Kind::file)
+    throw InputError({}, "--animate into " + path, "it writes a picture of every sun beside it",
+                     "name a file");
   const std::filesystem::path whole(path);
   const std::string stem = (whole.parent_path() / whole.stem()).string();
   const auto frame_of = [&](std::size_t k) { return fmt::format("{}-{:04}.png", stem, k + 1); };

@@ -32,8 +32,7 @@ std::vector<Sensor> place_sensors(const SensorsStudy& study, const Mesh& mesh, c
   FarPlaces far(mesh.origin, bounds);
   for (const auto& point : study.points) {
     const Vec3 at = point.position - mesh.origin;
-    sensors.push_back(
-        {at, normalized(point.normal), key_of_place(point.position, point.normal), at});
+    sensors.push_back({at, normalized(point.normal), key_of_place(point.position, point.normal)});
     far.look_at(at);
   }
   clear_of_surfaces(mesh, sensors);

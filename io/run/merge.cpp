@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/run/merge.h"
-#include "io/result/schema.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "io/base/bands.h"
 #include "io/batch/batch_tally.h"
 #include "io/batch/facade_means.h"
+#include "io/result/schema.h"
 #include "io/run/band_writer.h"
 #include "io/run/measure_merge.h"
 #include "io/run/part_merge.h"

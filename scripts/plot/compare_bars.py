@@ -5,7 +5,8 @@
 
 Differences are those of `sunload compare`: of the surfaces that both have, with its
 errors, paired realization by realization where results carry the same pairing_id and
-independent (Welch) elsewhere. Whiskers are 95 % confidence intervals (Student's t)."""
+independent (Welch, with degrees of freedom by the means of all that each has) elsewhere.
+Whiskers are 95 % confidence intervals (Student's t)."""
 
 import interpreter  # first: finds a Python that has the other packages
 
@@ -147,8 +148,9 @@ def bar_look(k):
 
 
 def rows(differences, names):
-    yield ["variant", "name", "area_m2", "base_kwh_m2", "variant_kwh_m2", "difference_kwh_m2", "se_kwh_m2",
-           "whisker_kwh_m2", "paired"]
+    units = "klx_h" if "lx" in differences[0].base.result.units("light_load") else "kwh_m2"
+    yield ["variant", "name", "area_m2", *(f"{word}_{units}" for word in ("base", "variant", "difference", "se", "whisker")),
+           "paired"]
     for one in differences:
         for name in names:
             yield [one.variant.result.attribute("variant"), name] + \

@@ -23,6 +23,8 @@ MOST_DAYS_JOINED = 12
 LONGEST_STEP_S = 3700
 # Of the direct normal irradiance: less is a sun in the very plane of the surface (rounding).
 LEAST_COSINE = 1e-4
+# Of sunlight, about (Perez et al. 1990): the direct normal irradiance of a result is in W/m² always.
+LUMENS_PER_WATT = 100
 # Between the highest suns of two days: numbers of their hours would lie on each other.
 LEAST_DEGREES_BETWEEN_LABELS = 6
 
@@ -45,7 +47,8 @@ def lit_share(result, target):
     first, last = int(target.patches.min()), int(target.patches.max()) + 1
     weight = np.zeros(last - first)
     weight[target.patches - first] = target.area / target.area.sum()
-    rows, least, shares = dataset.chunks[0] if dataset.chunks else 64, LEAST_COSINE * result.numbers("dni"), []
+    rows, shares = dataset.chunks[0] if dataset.chunks else 64, []
+    least = LEAST_COSINE * result.numbers("dni") * (LUMENS_PER_WATT if result.has("illuminance_direct") else 1)
     for k in range(0, dataset.shape[0], rows):
         block = dataset[k:k + rows, first:last]
         is_missing = np.isnan(block).any(axis=1, where=weight > 0)

@@ -28,7 +28,8 @@ constexpr double near_offsets = 2;
 /// Rays of a sensor start this share of the offset around it, in the plane that it faces
 /// (SunSampler).
 constexpr double spread = 0.75;
-/// Cosine to the front of a one-sided surface below which a sensor looks into it.
+/// Cosine to the front of a one-sided surface below which a sensor looks into it: who measures in a
+/// room writes the wall's inward normal, and who tilts a sensor on a roof does not mean the attic.
 constexpr double looks_into = -0.9;
 /// Of surfaces that meet under a small angle.
 constexpr int most_steps = 32;
@@ -55,27 +56,42 @@ double distance(const Mesh& mesh, std::size_t t, Vec3 p) {
   return norm(p - nearest_point(p, mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)));
 }
 
-/// Triangles on which each sensor stands.
+double coordinate(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+/// Along which they are spread most.
+int longest_axis(const std::vector<Sensor>& sensors) {
+  std::vector<Vec3> positions;
+  for (const Sensor& sensor : sensors) positions.push_back(sensor.position);
+  const Box box = bounding_box(positions);
+  const Vec3 size = box.high - box.low;
+  if (size.x >= std::max(size.y, size.z)) return 0;
+  return size.y >= size.z ? 1 : 2;
+}
+
+bool is_near(const Box& box, Vec3 p, double reach) {
+  return p.x >= box.low.x - reach && p.x <= box.high.x + reach && p.y >= box.low.y - reach &&
+         p.y <= box.high.y + reach && p.z >= box.low.z - reach && p.z <= box.high.z + reach;
+}
+
+/// Triangles on which each sensor stands; not those without area, which no ray meets.
 std::vector<std::vector<std::size_t>> stood_on(const Mesh& mesh, const std::vector<Sensor>& sensors,
                                                double reach) {
-  std::vector<std::size_t> by_x(sensors.size());
-  std::iota(by_x.begin(), by_x.end(), std::size_t{0});
-  std::sort(by_x.begin(), by_x.end(), [&](std::size_t a, std::size_t b) {
-    return sensors[a].position.x < sensors[b].position.x;
-  });
+  const int axis = longest_axis(sensors);
+  const auto along = [&](std::size_t s) { return coordinate(sensors[s].position, axis); };
+  std::vector<std::size_t> sorted(sensors.size());
+  std::iota(sorted.begin(), sorted.end(), std::size_t{0});
+  std::sort(sorted.begin(), sorted.end(),
+            [&](std::size_t a, std::size_t b) { return along(a) < along(b); });
   std::vector<std::vector<std::size_t>> triangles(sensors.size());
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    if (!(norm(mesh.area_vector2(t)) > 0)) continue;
     const Box box = bounding_box({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
-    const auto begin =
-        std::lower_bound(by_x.begin(), by_x.end(), box.low.x - reach,
-                         [&](std::size_t s, double x) { return sensors[s].position.x < x; });
-    for (auto s = begin; s != by_x.end(); ++s) {
+    const double end = coordinate(box.high, axis) + reach;
+    auto s = std::lower_bound(sorted.begin(), sorted.end(), coordinate(box.low, axis) - reach,
+                              [&](std::size_t of, double value) { return along(of) < value; });
+    for (; s != sorted.end() && along(*s) <= end; ++s) {
       const Vec3 p = sensors[*s].position;
-      if (p.x > box.high.x + reach) break;
-      if (p.y < box.low.y - reach || p.y > box.high.y + reach || p.z < box.low.z - reach ||
-          p.z > box.high.z + reach)
-        continue;
-      if (distance(mesh, t, p) < reach) triangles[*s].push_back(t);
+      if (is_near(box, p, reach) && distance(mesh, t, p) < reach) triangles[*s].push_back(t);
     }
   }
   return triangles;
@@ -118,6 +134,7 @@ void clear_of_surfaces(const Mesh& mesh, std::vector<Sensor>& sensors) {
   const auto surfaces = stood_on(mesh, sensors, near_offsets * offset);
   for (std::size_t s = 0; s < sensors.size(); ++s) {
     Sensor& sensor = sensors[s];
+    sensor.stands_at = sensor.position;
     const Vec3 along_normal = sensor.normal * offset;
     const Vec3 from = surfaces[s].empty()
                           ? Vec3{}

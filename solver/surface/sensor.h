@@ -21,11 +21,12 @@ struct Sensor {
 /// where it looks: others of a study make no difference to it.
 std::uint64_t key_of_place(Vec3 absolute_position, Vec3 normal);
 
-/// Puts the positions of sensors, `stands_at` until now, where rays that start off them by the ray
-/// offset along the normal see right. Off surfaces on which they stand: one that looks along a
-/// floor, a wall or a roof would lie in it else, and rays meet it or not as they are rounded. A
-/// one-sided surface is left by its front, unless the sensor looks into it; a sheet by the side
-/// that it looks to. Elsewhere the offset is taken back, so that they see from where they stand.
+/// Keeps the positions of sensors as `stands_at`, and puts them where rays that start off them by
+/// the ray offset along the normal see right. Off surfaces on which they stand: one that looks
+/// along a floor, a wall or a roof would lie in it else, and rays meet it or not as they are
+/// rounded. A one-sided surface is left by its front, unless the sensor looks into it; a sheet by
+/// the side that it looks to. Elsewhere the offset is taken back, so that they see from where they
+/// stand.
 void clear_of_surfaces(const Mesh& mesh, std::vector<Sensor>& sensors);
 
 }  // namespace sunload

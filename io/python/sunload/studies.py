@@ -56,7 +56,8 @@ class Study:
     """A study of a file, or of a dict with the keys of docs/study-file.md.
 
     A dict is written to `<name>.yaml` in `folder` (JSON, which YAML reads), where paths in it are relative to; a file
-    of another content that is there is not replaced, unless it was written so and is refused by the program. The program is started in `folder`, which is the working one
+    of another content that is there is not replaced, unless it was written so and the program refuses it: then it is
+    kept as `<name>.yaml~`. The program is started in `folder`, which is the working one
     unless given. After `check`, `report` has what it told."""
 
     def __init__(self, study: Union[str, os.PathLike, Mapping[str, Any]], folder: Optional[str] = None):
@@ -86,6 +87,8 @@ class Study:
             os.makedirs(self.folder, exist_ok=True)
             there = ""
         if there != text:
+            if there:
+                os.replace(path, path + "~")
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text)
         return name, path
