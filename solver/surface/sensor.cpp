@@ -61,6 +61,7 @@ double coordinate(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y :
 /// Along which they are spread most.
 int longest_axis(const std::vector<Sensor>& sensors) {
   std::vector<Vec3> positions;
+  positions.reserve(sensors.size());
   for (const Sensor& sensor : sensors) positions.push_back(sensor.position);
   const Box box = bounding_box(positions);
   const Vec3 size = box.high - box.low;

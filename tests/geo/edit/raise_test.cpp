@@ -209,6 +209,29 @@ TEST(Solids, TreesAreClosedAndAsHighAsTheyShould) {
   EXPECT_FALSE(standing_height({}, {0, 0}));
 }
 
+/// An OBJ file: a sheet of land that rises by a tenth to the east, from x = -50 to 50, and a house
+/// on it; nobody says what is what.
+PolygonModel unnamed_slope() {
+  ModelBuilder builder;
+  builder.object("sheet").polygon({{{-50, -50, -5}, {50, -50, 5}, {50, 50, 5}, {-50, 50, -5}}});
+  builder.object("house").box({20, 0, 1}, {30, 10, 9});
+  return builder.model();
+}
+
+TEST(Solids, StandOnLandThatNobodyCallsSo) {
+  const PolygonModel model = unnamed_slope();
+  EXPECT_NEAR(*standing_height(model, {10, 20}), 1, rounding);
+  EXPECT_NEAR(*standing_height(model, {-30, -20}), -3, rounding);
+  EXPECT_NEAR(*standing_height(model, {25, 5}), 2.5, rounding);  // below the house
+}
+
+TEST(Solids, BesideLandStandAtItsEdgeAndBesideAHouseAtItsFoot) {
+  EXPECT_NEAR(*standing_height(unnamed_slope(), {60, 50}), 5, rounding);
+  EXPECT_NEAR(*standing_height(unnamed_slope(), {-60, -50}), -5, rounding);
+  const PolygonModel house = ModelBuilder().object("house").box({20, 0, 1}, {30, 10, 9}).model();
+  EXPECT_NEAR(*standing_height(house, {40, 5}), 1, rounding);
+}
+
 TEST(Objects, AreTakenOutWithoutATraceInTheOthers) {
   PolygonModel model = house().model();
   const PolygonModel alone = model;
