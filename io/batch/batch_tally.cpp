@@ -10,6 +10,7 @@
 #include "io/base/bands.h"
 #include "io/batch/facade_means.h"
 #include "solver/accuracy.h"
+#include "solver/base/chunks.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
@@ -150,9 +151,12 @@ void add_largest_mean(BatchWriter& writer,
     return bands[b]->irradiance[static_cast<std::size_t>(Part::total)];
   };
   std::vector<double> largest(N, 0);
-  for (std::size_t at = 0; at < total(0).size(); ++at)
-    largest[at % N] =
-        std::max(largest[at % N], mean_of({total(0)[at], total(1)[at], total(2)[at]}));
+  parallel_chunks(N, receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = 0; row < total(0).size(); row += N)
+      for (std::size_t i = begin; i < end; ++i)
+        largest[i] = std::max(largest[i],
+                              mean_of({total(0)[row + i], total(1)[row + i], total(2)[row + i]}));
+  });
   writer.add({receiver + batch_array::maximum, MergeRule::maximum, ArrayType::float64, {N}},
              largest.data());
 }

@@ -23,11 +23,9 @@
 #include "io/plan/selection.h"
 #include "io/plan/study_measures.h"
 #include "io/plan/time_words.h"
-#include "io/plan/variant_mesh.h"
 #include "io/plan/variant_plan.h"
 #include "io/plan/work_estimate.h"
 #include "io/plan/work_probe.h"
-#include "io/run/progress.h"
 #include "io/study/words.h"
 #include "solver/base/threads.h"
 

@@ -112,9 +112,17 @@ void StudyWeather::date_own_year() {
   }
 }
 
+SunEphemeris StudyWeather::sun_of(UnixTime begin, UnixTime end) const {
+  return {begin,
+          end,
+          site_,
+          study_.sun.refraction,
+          study_.sun.ut1_utc,
+          standard_air(site_.elevation_m)};
+}
+
 std::vector<WeatherHole> StudyWeather::holes() const {
-  const SunEphemeris sun(dated_.front().begin, dated_.back().end, site_, study_.sun.refraction,
-                         study_.sun.ut1_utc, standard_air(site_.elevation_m));
+  const SunEphemeris sun = sun_of(dated_.front().begin, dated_.back().end);
   return sunlit_holes(dated_, sun, offset_s(first_year()));
 }
 
@@ -193,8 +201,7 @@ std::vector<Irradiance> StudyWeather::means(const SunPath& path) {
 }
 
 DayAlbedos StudyWeather::albedos(const SunPath& path) const {
-  const SunEphemeris sun(dated_.front().begin, dated_.back().end, site_, study_.sun.refraction,
-                         study_.sun.ut1_utc, standard_air(site_.elevation_m));
+  const SunEphemeris sun = sun_of(dated_.front().begin, dated_.back().end);
   return day_albedos(dated_, path, TimeZone(study_.site.timezone),
                      [&](UnixTime at) { return std::sin(radians(sun(at).elevation_deg)); });
 }
@@ -296,8 +303,7 @@ void StudyWeather::say_missing_days(const std::vector<WeatherHole>& all) {
 
 void StudyWeather::say_closure(const std::vector<DatedWeather>& used, const SunPath& path) {
   UnixTime begin = path.front().begin - seconds_per_day, end = path.back().end + seconds_per_day;
-  const SunEphemeris sun(begin, end, site_, study_.sun.refraction, study_.sun.ut1_utc,
-                         standard_air(site_.elevation_m));
+  const SunEphemeris sun = sun_of(begin, end);
   const Closure c = closure(used, path, sun);
   if (c.intervals == 0) return;
   words_.push_back(fmt::format(

@@ -40,6 +40,7 @@ class StudyWeather {
  private:
   void date_own_year();
   void date_for(const SunPath& path);
+  SunEphemeris sun_of(UnixTime begin, UnixTime end) const;
   std::vector<WeatherHole> holes() const;
   void fill_own_holes();
   void fill_holes_in(const SunPath& path);

@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/result/lacking.h"
 
-#include <fmt/format.h>
-
 #include "io/base/standard_streams.h"
 
 namespace sunload {
 
 void warn_of_lacking(const ResultReader& result) {
   if (const std::string lacking = result.lacking(); !lacking.empty())
-    tell(fmt::format("warning: {}: {}: totals are those of the others, and series have gaps",
-                     result.path(), lacking));
+    tell_warnings({lacking + ": totals are those of the others, and series have gaps"},
+                  result.path());
 }
 
 }  // namespace sunload

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+/// What is told of results that are not whole.
 #pragma once
 
 #include "io/result/reader.h"

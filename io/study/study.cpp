@@ -220,8 +220,8 @@ std::size_t own_rules(const YamlTree& tree) {
 
 /// Rules that a variant overrules are no slip of the hand.
 void mark_overruled(std::size_t own, std::vector<AssignRule>& rules) {
-  for (std::size_t r = 0; r < std::min(own, rules.size()) && own < rules.size(); ++r)
-    rules[r].may_be_overruled = true;
+  if (rules.size() <= own) return;
+  for (std::size_t r = 0; r < own; ++r) rules[r].may_be_overruled = true;
 }
 
 /// Files of these formats carry no position on Earth.

@@ -105,7 +105,7 @@ json times(const ResultReader& result, std::size_t step) {
   const auto time = result.doubles("time"), bounds = result.doubles("time_bounds"),
              direction = result.doubles("sun_direction"), azimuth = result.doubles("sun_azimuth"),
              elevation = result.doubles("sun_elevation");
-  const bool is_synthetic = result.number_attribute("time", "time_is_synthetic") > 0;
+  const bool is_synthetic = has_no_dates(result);
   json list = json::array();
   for (std::size_t i = 0; i < time.size(); i += step)
     list.push_back({{"begin", bounds[2 * i]},
@@ -237,7 +237,7 @@ json view_data(const ResultReader& result, std::size_t step, ViewBlocks& blocks)
           {"lacking", result.lacking()},
           {"source", result.text_attribute("source")},
           {"timezone", zone.empty() ? "UTC" : zone},
-          {"is_synthetic", result.number_attribute("time", "time_is_synthetic") > 0},
+          {"is_synthetic", has_no_dates(result)},
           {"intervals", result.shape("time").at(0)},
           {"step", step},
           {"has_sun", !has_long_steps(result)},

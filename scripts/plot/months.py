@@ -90,7 +90,7 @@ def draw(result, arguments):
         raise InputError(f"{result.path}: its suns have no dates (period.positions), so that there are no months")
     targets = result.targets(arguments.facade, arguments.patch, arguments.sensor, most=4)
     months, hours = month_shares(result)
-    main_series = next((name for name in ("irradiance", "illuminance") if result.has(name)), None)
+    main_series = result.stored_main_series
     whiskers = None
     if arguments.quantity or main_series or not result.has("light_load_by_month"):
         quantity = arguments.quantity or result.main_series()

@@ -16,6 +16,7 @@ class Program:
     def __init__(self, named=None):
         built = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../build/io/sunload")
         self.path = named or os.environ.get("SUNLOAD") or (built if os.access(built, os.X_OK) else shutil.which("sunload"))
+        self._compared = {}
 
     def run(self, *words):
         """Its standard output."""
@@ -28,11 +29,13 @@ class Program:
         return ran.stdout
 
     def compared(self, base, variant):
-        """What `compare --json` tells of two results."""
+        """What `compare --json` tells of two results; it is asked once."""
         if not self.path:
             raise InputError("the program sunload, which compares what results have in common, is neither in build/io "
                              "nor on PATH; name it with --sunload")
-        return json.loads(self.run("compare", base, variant, "--json"))
+        if (base, variant) not in self._compared:
+            self._compared[base, variant] = json.loads(self.run("compare", base, variant, "--json"))
+        return self._compared[base, variant]
 
 
 def add_program(p):

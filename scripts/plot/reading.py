@@ -134,14 +134,14 @@ class Result:
                 and "units" in item.attrs and self.dims(name) == dims]
 
     @property
-    def has_main_series(self):
-        return self.has("irradiance") or self.has("illuminance")
+    def stored_main_series(self):
+        """irradiance, or what stands in its place (illuminance); None where neither is stored."""
+        return next((name for name in ("irradiance", "illuminance") if self.has(name)), None)
 
     def main_series(self):
-        """irradiance, or what stands in its place (illuminance)."""
-        for name in ("irradiance", "illuminance"):
-            if self.has(name):
-                return name
+        """The same, or an error that says how to get it."""
+        if self.stored_main_series:
+            return self.stored_main_series
         raise InputError(f"{self.path}: has neither the series irradiance nor illuminance; "
                          "name one with --quantity or ask for it in the study's output.series")
 

@@ -160,13 +160,13 @@ def pictures(results, program):
         if result.names("facade_name"):
             yield f"{name}: facades", facade_map.draw(
                 result, SimpleNamespace(**{**vars(chosen), "quantity": "light_load", "max": largest}))[0]
-        if result.has_main_series:
+        if result.stored_main_series:
             yield f"{name}: time series", series.draw(result, chosen)[0]
         if not result.is_synthetic:
-            if result.has_main_series and not result.has_long_steps and \
+            if result.stored_main_series and not result.has_long_steps and \
                     len(carpet.columns(result)[0]) >= LEAST_DAYS_OF_CARPET:
                 yield f"{name}: day and hour", carpet.draw(result, chosen)[0]
-            if (result.has_main_series or result.has("light_load_by_month")) and \
+            if (result.stored_main_series or result.has("light_load_by_month")) and \
                     len(months.month_shares(result)[0]) >= LEAST_MONTHS:
                 yield f"{name}: months", months.draw(result, chosen)[0]
         if not result.series_step and result.has(sun_path.direct_series(result)) and (result.numbers("sun_elevation") > 0).any():

@@ -11,7 +11,7 @@ namespace {
 /// Beyond, pieces are cut by shades that most of them do not meet.
 constexpr std::size_t most_pieces = 64;
 /// Shades that are looked at together; beyond, and where pieces become too many, halves are.
-constexpr std::size_t most_at_once = 32;
+constexpr std::size_t most_together = 32;
 /// Beyond so many shades of one polygon rays cost less.
 constexpr std::size_t most_shades = 256;
 /// Halves are looked at where shades are, all together, less than this share of the polygon's area:
@@ -91,6 +91,13 @@ bool halve(const ViewPolygon& polygon, ViewPolygon& first, ViewPolygon& second) 
   return measure(polygon, line, beyond) == Side::both && cut(polygon, beyond, first, second);
 }
 
+/// Whether they are few and thin.
+bool are_sparse(std::span<const ViewPolygon* const> shades, double area) {
+  double shaded = 0;
+  for (const ViewPolygon* shade : shades) shaded += shade->area();
+  return shaded < sparse_share * area;
+}
+
 }  // namespace
 
 std::optional<double> LitArea::share(const ViewPolygon& polygon,
@@ -99,22 +106,17 @@ std::optional<double> LitArea::share(const ViewPolygon& polygon,
   if (shades.size() > most_shades) return {};
   const double area = polygon.area();
   negligible_ = least_share * area;
-  double shaded = 0;
-  for (const ViewPolygon* shade : shades) shaded += shade->area();
-  const auto lit = lit_of(polygon, shades, shaded < sparse_share * area ? 0 : most_halvings);
+  auto lit = lit_together(polygon, shades);
+  if (!lit && are_sparse(shades, area)) lit = lit_of_halves(polygon, shades, 0);
   if (!lit) return {};
   const double share = *lit / area;
   return share < least_share ? 0 : share > 1 - least_share ? 1 : share;
 }
 
-std::optional<double> LitArea::lit_of(const ViewPolygon& polygon, Shades shades,
-                                      std::size_t halvings) {
-  if (shades.empty()) return polygon.area();
-  if (shades.size() <= most_at_once)
-    if (const auto lit = lit_at_once(polygon, shades)) return lit;
-  if (halvings == most_halvings) return {};
+std::optional<double> LitArea::lit_of_halves(const ViewPolygon& polygon, Shades shades,
+                                             std::size_t halvings) {
   ViewPolygon first, second;
-  if (!halve(polygon, first, second)) return {};
+  if (halvings == most_halvings || !halve(polygon, first, second)) return {};
   double sum = 0;
   for (const ViewPolygon& half : {first, second}) {
     const ViewBox box = box_of(half);
@@ -122,14 +124,17 @@ std::optional<double> LitArea::lit_of(const ViewPolygon& polygon, Shades shades,
     own.clear();
     for (const ViewPolygon* shade : shades)
       if (!box.is_apart_from(box_of(*shade), 0, 0)) own.push_back(shade);
-    const auto lit = lit_of(half, own, halvings + 1);
+    auto lit = lit_together(half, own);
+    if (!lit) lit = lit_of_halves(half, own, halvings + 1);
     if (!lit) return {};
     sum += *lit;
   }
   return sum;
 }
 
-std::optional<double> LitArea::lit_at_once(const ViewPolygon& polygon, Shades shades) {
+std::optional<double> LitArea::lit_together(const ViewPolygon& polygon, Shades shades) {
+  if (shades.empty()) return polygon.area();
+  if (shades.size() > most_together) return {};
   left_.assign(1, polygon);
   for (const ViewPolygon* shade : shades.first(shades.size() - 1))
     if (!take_away(*shade)) return {};

@@ -26,8 +26,11 @@ class LitArea {
 
  private:
   using Shades = std::span<const ViewPolygon* const>;
-  std::optional<double> lit_of(const ViewPolygon& polygon, Shades shades, std::size_t halvings);
-  std::optional<double> lit_at_once(const ViewPolygon& polygon, Shades shades);
+  /// The area that shades leave of a polygon, cut by one after the other.
+  std::optional<double> lit_together(const ViewPolygon& polygon, Shades shades);
+  /// The same, half by half; `halvings` were made before.
+  std::optional<double> lit_of_halves(const ViewPolygon& polygon, Shades shades,
+                                      std::size_t halvings);
   bool take_away(const ViewPolygon& shade);
   bool split(const ViewPolygon& piece, const ViewPolygon& shade);
 

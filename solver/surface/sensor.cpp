@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/surface/sensor.h"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <numeric>
 #include <optional>
+#include <utility>
 
 #include "geo/base/keys.h"
+#include "geo/mesh/box_tree.h"
 #include "solver/base/rng.h"
 #include "solver/surface/ray_caster.h"
 
@@ -56,44 +55,20 @@ double distance(const Mesh& mesh, std::size_t t, Vec3 p) {
   return norm(p - nearest_point(p, mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)));
 }
 
-double coordinate(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
-/// Along which they are spread most.
-int longest_axis(const std::vector<Sensor>& sensors) {
-  std::vector<Vec3> positions;
-  positions.reserve(sensors.size());
-  for (const Sensor& sensor : sensors) positions.push_back(sensor.position);
-  const Box box = bounding_box(positions);
-  const Vec3 size = box.high - box.low;
-  if (size.x >= std::max(size.y, size.z)) return 0;
-  return size.y >= size.z ? 1 : 2;
-}
-
-bool is_near(const Box& box, Vec3 p, double reach) {
-  return p.x >= box.low.x - reach && p.x <= box.high.x + reach && p.y >= box.low.y - reach &&
-         p.y <= box.high.y + reach && p.z >= box.low.z - reach && p.z <= box.high.z + reach;
-}
-
 /// Triangles on which each sensor stands; not those without area, which no ray meets.
 std::vector<std::vector<std::size_t>> stood_on(const Mesh& mesh, const std::vector<Sensor>& sensors,
                                                double reach) {
-  const int axis = longest_axis(sensors);
-  const auto along = [&](std::size_t s) { return coordinate(sensors[s].position, axis); };
-  std::vector<std::size_t> sorted(sensors.size());
-  std::iota(sorted.begin(), sorted.end(), std::size_t{0});
-  std::sort(sorted.begin(), sorted.end(),
-            [&](std::size_t a, std::size_t b) { return along(a) < along(b); });
+  std::vector<Box> places;
+  places.reserve(sensors.size());
+  for (const Sensor& sensor : sensors) places.push_back({sensor.position, sensor.position});
+  const BoxTree tree(std::move(places));
   std::vector<std::vector<std::size_t>> triangles(sensors.size());
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     if (!(norm(mesh.area_vector2(t)) > 0)) continue;
-    const Box box = bounding_box({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
-    const double end = coordinate(box.high, axis) + reach;
-    auto s = std::lower_bound(sorted.begin(), sorted.end(), coordinate(box.low, axis) - reach,
-                              [&](std::size_t of, double value) { return along(of) < value; });
-    for (; s != sorted.end() && along(*s) <= end; ++s) {
-      const Vec3 p = sensors[*s].position;
-      if (is_near(box, p, reach) && distance(mesh, t, p) < reach) triangles[*s].push_back(t);
-    }
+    const Box box = box_around({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
+    tree.visit_meeting(widened(box, reach), [&](std::size_t s) {
+      if (distance(mesh, t, sensors[s].position) < reach) triangles[s].push_back(t);
+    });
   }
   return triangles;
 }
