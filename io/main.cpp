@@ -5,9 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstring>
 #include <new>
+#include <string_view>
 
 #include "geo/base/check.h"
 #include "io/base/exit_code.h"
@@ -57,8 +59,11 @@ int guarded(int argc, char** argv) {
     return exit_code::machine_limit;
   } catch (const Interrupted& error) {
     const std::string signal = stop_signal();
-    tell(fmt::format("{} ({}); finished batches are kept, go on with: sunload run … --resume",
-                     error.what(), signal.empty() ? "time limit" : signal));
+    const bool overwrites =
+        std::find(argv, argv + argc, std::string_view("--overwrite")) != argv + argc;
+    tell(fmt::format("{} ({}); finished batches are kept, go on with: sunload run … --{}",
+                     error.what(), signal.empty() ? "time limit" : signal,
+                     overwrites ? "overwrite" : "resume"));
     return exit_code::unfinished;
   } catch (const std::exception& error) {
     tell(fmt::format("bug in sunload: {}", error.what()));

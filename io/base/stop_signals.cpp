@@ -22,7 +22,9 @@ void remember(int signal) {
 }
 
 void end_at_once(int) {
-  constexpr char text[] = "stopped at once; finished batches are kept, go on with --resume\n";
+  constexpr char text[] =
+      "stopped at once; finished batches are kept, go on with --resume (or with --overwrite where "
+      "that was the command)\n";
   [[maybe_unused]] const auto written = write(STDERR_FILENO, text, sizeof(text) - 1);
   _exit(exit_code::unfinished);
 }

@@ -16,14 +16,15 @@ namespace {
 /// Relative to the light that comes in: columns of a block of suns are in single precision.
 constexpr double rounding = 1e-7;
 
-/// Time sum of one term of the ledger [kWh, klm h]; 0 where the result lacks it.
+/// Time sum of one term of the ledger [kWh, klm h], of the rows that are there (a partial result
+/// lacks some); 0 where the result lacks the term.
 double ledger_kwh(const ResultReader& result, const std::string& term) {
   if (!result.has("power_" + term)) return 0;
   const auto power = result.doubles("power_" + term);
   const auto lengths = interval_lengths(result);
   double energy = 0;
   for (std::size_t i = 0; i < std::min(power.size(), lengths.size()); ++i)
-    energy += power[i] * lengths[i];
+    if (!std::isnan(power[i])) energy += power[i] * lengths[i];
   return energy / joules_per_kwh;
 }
 

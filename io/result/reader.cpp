@@ -166,7 +166,8 @@ h5::File opened(const std::string& path, Opens opens) {
     return file;
   } catch (const h5::Error& problem) {
     throw InputError({path}, "is not a readable HDF5 file", problem.what(),
-                     "name a result of sunload run; sunload check reads studies and models");
+                     "name a result of sunload run (sunload check reads studies and models); a "
+                     "damaged one: remove it, and run its study with --resume");
   }
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <initializer_list>
+#include <utility>
 #include <variant>
 
 #include "io/base/version.h"
@@ -15,6 +16,7 @@
 #include "io/plan/content_hash.h"
 #include "io/plan/selection.h"
 #include "io/run/measure_merge.h"
+#include "io/run/stored_series.h"
 #include "io/study/words.h"
 #include "solver/accuracy.h"
 
@@ -118,12 +120,14 @@ void add_identity(Attributes& a, const MergedResult& result) {
   if (!result.left_out.empty())
     a.text.emplace_back("incomplete", fmt::format("{} of {} batches are missing",
                                                   result.left_out.size(), plan.batches()));
-  if (!study.measures.empty()) {
-    std::string names;
-    for (const auto& measure : study.measures) names += (names.empty() ? "" : " ") + measure.name;
-    a.text.emplace_back("measures", names);
-    a.text.emplace_back("measures_sha256", measures_hash(study));
-  }
+  const auto add_unless_empty = [&](const char* name, std::string text) {
+    if (!text.empty()) a.text.emplace_back(name, std::move(text));
+  };
+  std::string names;
+  for (const auto& measure : study.measures) names += (names.empty() ? "" : " ") + measure.name;
+  add_unless_empty("measures", names);
+  add_unless_empty("measures_sha256", measures_hash(study));
+  add_unless_empty("series_left_out", fmt::format("{}", fmt::join(unwanted_series(study), " ")));
   if (study.solver.bands == Bands::rgb) {
     a.text.emplace_back("bands", "rgb");
     a.text.emplace_back("light_colour", study.light.colour == LightColour::white ? "white" : "sky");

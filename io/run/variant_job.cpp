@@ -41,11 +41,12 @@ InputError of_another_state(const WorkFolder& folder, const std::string& hash, c
             "is the result of another version of the program",
             "by " + result.text_attribute("source") + ", whose numbers are others",
             hint};
-  const bool is_of_this_light = hash.starts_with(folder.content_hash());
-  return {{folder.result()},
-          "is the result of another state of the study",
-          is_of_this_light ? "its measures differ" : "its content hash differs",
-          hint};
+  const char* why = "its content hash differs";
+  if (hash.starts_with(folder.wanted_hash() + "-"))
+    why = "it lacks series that the study stores";
+  else if (hash.starts_with(folder.content_hash()))
+    why = "its measures or selections differ";
+  return {{folder.result()}, "is the result of another state of the study", why, hint};
 }
 
 std::string list_text(const std::vector<std::size_t>& numbers) {

@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "geo/base/check.h"
 #include "io/base/file_aside.h"
@@ -43,6 +45,16 @@ void remove_files(const fs::path& work) {
 
 std::string with_measures(const std::string& content, const std::string& measures) {
   return measures.empty() ? content : content + "+" + measures;
+}
+
+/// "-irradiance_sky…": series that a result was written without, and that are wanted now.
+std::string lacking_series(const ResultReader& result, const std::vector<std::string>& unwanted) {
+  std::string lacking;
+  std::istringstream left_out(result.text_attribute("series_left_out"));
+  for (std::string series; left_out >> series;)
+    if (std::find(unwanted.begin(), unwanted.end(), series) == unwanted.end())
+      lacking += "-" + series;
+  return lacking;
 }
 
 bool exists(const std::string& path) {
@@ -96,7 +108,8 @@ std::optional<std::string> WorkFolder::result_hash() const {
   if (!exists(result_)) return {};
   const ResultReader result(result_);
   return with_measures(result.text_attribute("study_sha256"),
-                       result.text_attribute("measures_sha256"));
+                       result.text_attribute("measures_sha256")) +
+         lacking_series(result, unwanted_);
 }
 
 BatchCheck WorkFolder::check(std::size_t number) const {

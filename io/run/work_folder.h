@@ -45,8 +45,9 @@ class WorkFolder {
   std::string merge_lock() const;
 
   bool is_there() const;
-  /// Content hash of the finished result, with that of its measures where it has any; none where
-  /// there is no result. Throws InputError where it cannot be read.
+  /// Content hash of the finished result, with that of its measures and selections where it has any
+  /// and the names of series that it lacks; none where there is no result. Throws InputError where
+  /// it cannot be read.
   std::optional<std::string> result_hash() const;
   /// What it is to be.
   const std::string& wanted_hash() const { return wanted_hash_; }

@@ -30,8 +30,8 @@ constexpr double spread = 0.75;
 /// Cosine to the front of a one-sided surface below which a sensor looks into it: who measures in a
 /// room writes the wall's inward normal, and who tilts a sensor on a roof does not mean the attic.
 constexpr double looks_into = -0.9;
-/// Of surfaces that meet under a small angle.
-constexpr int most_steps = 32;
+/// Of surfaces that meet under two degrees: a step leaves their cosine of what is lacking.
+constexpr int most_steps = 4096;
 
 /// The point of a triangle that is nearest to p.
 /// Reference: Ericson (2005), Real-Time Collision Detection, section 5.1.5.

@@ -159,7 +159,7 @@ TEST(Measures, OthersMakeAnotherResultOfTheSameBatches) {
   write(folder, measures);
   const Ran refused = program(folder, {"run", "square.yaml", "--resume"});
   EXPECT_EQ(refused.code, 2);
-  EXPECT_NE(refused.err.find("its measures differ"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("its measures or selections differ"), std::string::npos) << refused.err;
   EXPECT_EQ(program(folder, {"run", "square.yaml", "--overwrite"}).code, 0);
   EXPECT_EQ(measure_names(ResultReader(folder / result)).size(), 5u);
 }

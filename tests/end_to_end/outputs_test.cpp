@@ -143,6 +143,34 @@ TEST(Outputs, StandardOutputByItsNameIsWrittenOn) {
   EXPECT_TRUE(folder.read("listing").starts_with("before\nbegin_utc,"));
 }
 
+TEST(Outputs, ADashIsTheStandardOutput) {
+  const auto& folder = results().folder;
+  for (const auto& [command, mark] :
+       {std::pair<std::string, std::string>{"export a.h5 --to csv --quantity series", "begin_utc,"},
+        {"export a.h5 --to glb", "glTF"},
+        {"export a.h5 --to vrml", "#VRML"},
+        {"render a.h5 --size 320x320", "\x89PNG"},
+        {"view a.h5", "<!DOCTYPE html>"}}) {
+    const Ran ran = results().shell(program_path() + " " + command + " -o -");
+    EXPECT_EQ(ran.code, 0) << command << "\n" << ran.err;
+    EXPECT_TRUE(ran.out.starts_with(mark)) << command << "\n" << ran.out.substr(0, 40);
+  }
+  EXPECT_FALSE(fs::exists(folder / "-"));
+}
+
+/// As every filter ends whose reader has seen enough: by the signal, and without a word.
+TEST(Outputs, NobodyIsToldOfAClosedPipe) {
+  for (const std::string command :
+       {"info a.h5 --patches", "export a.h5 --to csv --quantity series -o -",
+        "export a.h5 --to glb -o -", "render a.h5 --size 320x320 -o -", "view a.h5 -o -"}) {
+    // The reader is gone before anything is written.
+    const Ran ran = results().shell("{ sleep 0.2; " + program_path() + " " + command +
+                                    "; echo $? > code; } | true; cat code");
+    EXPECT_EQ(ran.err, "") << command;
+    EXPECT_EQ(ran.out, "141\n") << command;
+  }
+}
+
 TEST(Outputs, PicturesAndBinaryFormatsGoIntoPipes) {
   const auto& folder = results().folder;
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);

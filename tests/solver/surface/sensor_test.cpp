@@ -6,6 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
+#include "geo/base/units.h"
 #include "solver/surface/ray_caster.h"
 #include "tests/support/scenes.h"
 
@@ -71,6 +75,32 @@ TEST(Sensors, InACornerBeginOffBothOfItsSurfaces) {
     EXPECT_LE(from.x, -0.99 * offset);
     EXPECT_GE(from.z, 0.99 * offset);
   }
+}
+
+TEST(Sensors, InAnAcuteCornerBeginOffBothOfItsSurfaces) {
+  SceneBuilder builder;
+  const int grey = builder.material({"grey", 0.2, 0, 0});
+  const double angle = radians(20), rise = std::tan(angle);
+  builder.quad({-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}, grey);
+  builder.quad({-5, -5, 0}, {-5, 5, 0}, {5, 5, 10 * rise}, {5, -5, 10 * rise}, grey);  // looks down
+  const Scene scene = builder.scene();
+  const double offset = ray_offset_m(scene.mesh);
+  const Vec3 down{std::sin(angle), 0, -std::cos(angle)}, edge{-5, 0, 0};
+  for (const Vec3 normal : {Vec3{0, 1, 0}, Vec3{1, 0, 0}, normalized(Vec3{1, 0, 0.2})}) {
+    const Vec3 from = seen_from(scene.mesh, edge, normal);
+    EXPECT_GE(from.z, 0.99 * offset);
+    EXPECT_GE(dot(from - edge, down), 0.99 * offset);
+  }
+}
+
+TEST(Sensors, BetweenSurfacesBackToBackBeginOffThem) {
+  SceneBuilder builder;
+  const int grey = builder.material({"grey", 0.2, 0, 0});
+  builder.quad({-5, 0, 0}, {5, 0, 0}, {5, 0, 5}, {-5, 0, 5}, grey);  // front to -y
+  builder.quad({-5, 0, 0}, {-5, 0, 5}, {5, 0, 5}, {5, 0, 0}, grey);  // front to +y
+  const Scene scene = builder.scene();
+  EXPECT_GE(std::abs(seen_from(scene.mesh, {0, 0, 2}, {1, 0, 0}).y),
+            0.99 * ray_offset_m(scene.mesh));
 }
 
 TEST(Sensors, OnASheetAreOnTheSideThatTheyLookTo) {
