@@ -355,7 +355,7 @@ Resampled resample(const std::vector<SunnyWeather>& weather, const SunPath& path
       sum.ghi +=
           from->mean.dhi * time + (from->mean.ghi - from->mean.dhi) * (lit > 0 ? beam_time : time);
     }
-    if (!out.uncovered && covered < to.length_s() - 1) out.uncovered = i;
+    if (covered < to.length_s() - 1) out.uncovered.push_back(i);
     const double length = to.length_s();
     out.mean.push_back({sum.dni / length, sum.dhi / length, std::max(0.0, sum.ghi / length)});
   }

@@ -30,7 +30,7 @@ struct WeatherValues {
 /// One row of a weather file, in local standard time.
 struct WeatherRecord {
   int year = 0;                   ///< 0: the format has none
-  int month = 1, day = 1;         ///< of the stamp
+  int month = 1, day = 1;         ///< of the stamp, or the one before where it begins there
   double begin_s = 0, end_s = 0;  ///< since that day's midnight; may lie outside of the day
   WeatherValues values;
   int line = 0;
@@ -107,7 +107,7 @@ WeatherLight with_sun(const std::vector<DatedWeather>& weather, const SunPath& p
 /// Means over other intervals, each overlapped by as much as there is.
 struct Resampled {
   std::vector<Irradiance> mean;
-  std::optional<std::size_t> uncovered;  ///< the first interval that weather does not cover
+  std::vector<std::size_t> uncovered;  ///< intervals that weather does not cover, or not wholly
 };
 Resampled resample(const std::vector<SunnyWeather>& weather, const SunPath& path);
 

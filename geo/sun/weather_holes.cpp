@@ -49,7 +49,9 @@ std::vector<DatedWeather> sunlit_records(const WeatherHole& hole, double count,
 }  // namespace
 
 std::vector<WeatherHole> sunlit_holes(const std::vector<DatedWeather>& weather,
-                                      const SunEphemeris& sun, double offset_s) {
+                                      const SunEphemeris& sun, double longitude_deg) {
+  constexpr double seconds_per_degree = seconds_per_day / 360;
+  const double offset_s = longitude_deg * seconds_per_degree;
   std::vector<WeatherHole> holes;
   for (std::size_t i = 1; i < weather.size(); ++i) {
     const DatedWeather &before = weather[i - 1], &behind = weather[i];
@@ -60,9 +62,10 @@ std::vector<WeatherHole> sunlit_holes(const std::vector<DatedWeather>& weather,
                      behind.line,
                      whole_days_in(before.end, behind.begin, offset_s),
                      {}};
-    const bool is_within = hole.whole_days == 0 && is_within_a_day(hole.begin, hole.end, offset_s);
-    if (is_within) hole.records = sunlit_records(hole, count, sun);
-    if (is_within ? !hole.records.empty() : has_sun(hole, sun)) holes.push_back(std::move(hole));
+    auto records = hole.whole_days == 0 ? sunlit_records(hole, count, sun) : hole.records;
+    if (hole.whole_days == 0 ? records.empty() : !has_sun(hole, sun)) continue;
+    if (is_within_a_day(hole.begin, hole.end, offset_s)) hole.records = std::move(records);
+    holes.push_back(std::move(hole));
   }
   return holes;
 }

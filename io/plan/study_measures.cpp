@@ -152,16 +152,25 @@ void warn_of_absent_places(const Study& study, const BuiltScene& built,
 }
 
 void expect_measurable(const Study& study, const LightSeries& light) {
-  // A year of weather files, leap days left out.
-  constexpr double year_s = 365 * seconds_per_day;
+  // A year of weather files, leap days left out; the longest.
+  constexpr double year_s = 365 * seconds_per_day, longest_s = 366 * seconds_per_day;
   const double length_s = std::accumulate(
       light.intervals.begin(), light.intervals.end(), 0.0,
       [](double sum, const LitInterval& interval) { return sum + interval.when.length_s(); });
   Problems problems;
-  for (const MeasureParameters& of : study.measures)
-    if (find_measure_rule(of.rule)->spans != MeasureRule::Spans::any_period && length_s < year_s)
+  for (const MeasureParameters& of : study.measures) {
+    using Spans = MeasureRule::Spans;
+    const Spans spans = find_measure_rule(of.rule)->spans;
+    if (spans != Spans::any_period && length_s < year_s)
       problems.add(of.where, "measure " + of.name + " needs a whole year",
                    "its values are those of a year", "write period: {year_of: weather}");
+    // Shares of a year are those of several, too; sums are not.
+    if (spans == Spans::whole_year && length_s > longest_s)
+      problems.add(of.where, "measure " + of.name + " needs one year",
+                   fmt::format("its values are those of a year, and the period has {:.5g} days",
+                               length_s / seconds_per_day),
+                   "write a period of one year, or a study of each");
+  }
   problems.throw_if_any();
 }
 

@@ -85,8 +85,22 @@ StudyWeather::StudyWeather(const Study& study, const Site& site)
       file_(read_weather_file(study.light.weather, study.light.stamp)),
       years_(years_of(file_.records)) {
   if (std::holds_alternative<WeatherPeriod>(study.period.kind)) date_own_year();
+  expect_one_offset();
   say_file();
   if (!dated_.empty()) fill_own_holes();
+}
+
+void StudyWeather::expect_one_offset() const {
+  if (file_.offset_s || years_ != WeatherYears::actual) return;
+  const int first = file_.records.front().year, last = file_.records.back().year;
+  for (int year = first + 1; year <= last; ++year)
+    if (offset_s(year) != offset_s(first))
+      throw InputError({file_.path},
+                       fmt::format("standard time of {} was UTC{} in {} and is UTC{} in {}",
+                                   study_.site.timezone, offset_words(offset_s(first)), first,
+                                   offset_words(offset_s(year)), year),
+                       "the file does not say which one it keeps",
+                       "write times with an offset (2017-06-21T12:00+03:00), or a file of each");
 }
 
 int StudyWeather::first_year() const {
@@ -123,7 +137,7 @@ SunEphemeris StudyWeather::sun_of(UnixTime begin, UnixTime end) const {
 
 std::vector<WeatherHole> StudyWeather::holes() const {
   const SunEphemeris sun = sun_of(dated_.front().begin, dated_.back().end);
-  return sunlit_holes(dated_, sun, offset_s(first_year()));
+  return sunlit_holes(dated_, sun, site_.longitude_deg);
 }
 
 void StudyWeather::fill_own_holes() {
@@ -196,8 +210,25 @@ std::vector<Irradiance> StudyWeather::means(const SunPath& path) {
     return means;
   }
   const Resampled resampled = resample(light.intervals, path);
-  if (resampled.uncovered) refuse_uncovered(path[*resampled.uncovered]);
+  expect_covered(path, resampled.uncovered);
   return resampled.mean;
+}
+
+void StudyWeather::expect_covered(const SunPath& path, const std::vector<std::size_t>& uncovered) {
+  const auto missing = holes();
+  std::size_t dark = 0;
+  for (const std::size_t i : uncovered) {
+    const SunInterval& when = path[i];
+    const bool has_rows_about_it =
+        dated_.front().begin <= when.begin && when.end <= dated_.back().end &&
+        std::none_of(missing.begin(), missing.end(),
+                     [&](const auto& h) { return h.begin < when.end && h.end > when.begin; });
+    if (when.up_s > 0 && !has_rows_about_it) refuse_uncovered(when);
+    ++dark;
+  }
+  if (dark > 0)
+    words_.push_back(fmt::format(
+        "{} intervals in the dark, at sunrise and sunset have no rows: no light is taken", dark));
 }
 
 DayAlbedos StudyWeather::albedos(const SunPath& path) const {
@@ -287,7 +318,8 @@ void StudyWeather::say_missing_days(const std::vector<WeatherHole>& all) {
   std::string first;
   for (const auto& hole : all) {
     const CivilTime date = calendar_from_utc(hole.end + offset_s(first_year()) - seconds_per_day);
-    const bool is_leap_day = hole.whole_days == 1 && date.month == 2 && date.day == 29;
+    const bool is_leap_day = std::lround(hole.end - hole.begin) == std::lround(seconds_per_day) &&
+                             date.month == 2 && date.day == 29;
     if (!hole.records.empty() || (is_leap_day && years_ == WeatherYears::typical)) continue;
     days += hole.whole_days;
     if (places++ == 0)

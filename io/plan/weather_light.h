@@ -38,6 +38,9 @@ class StudyWeather {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
+  /// Throws InputError where the zone changes its standard time within the file's years, and the
+  /// file does not tell its own.
+  void expect_one_offset() const;
   void date_own_year();
   void date_for(const SunPath& path);
   SunEphemeris sun_of(UnixTime begin, UnixTime end) const;
@@ -53,7 +56,10 @@ class StudyWeather {
   void say_missing_days(const std::vector<WeatherHole>& holes);
   std::string in_file_time(UnixTime time) const;
   std::string words_of(const WeatherHole& hole) const;
-  void refuse_uncovered(const SunInterval& when) const;
+  /// Rows of the dark, and of sunrise and sunset, may be left out (`sunlit_holes`): throws
+  /// InputError for the first other interval.
+  void expect_covered(const SunPath& path, const std::vector<std::size_t>& uncovered);
+  [[noreturn]] void refuse_uncovered(const SunInterval& when) const;
 
   const Study& study_;
   Site site_;

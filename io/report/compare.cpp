@@ -33,30 +33,34 @@ Place places(const PatchGroups& groups) {
   return place;
 }
 
-/// What is asked for of both results alike.
-struct Asked {
-  std::string dataset;
-  MoreGroups groups;
-};
-
 /// Groups of one result, of some of its area.
 struct Part {
   PatchGroups groups;
   std::vector<double> load;        ///< per group, or what is compared in its place
-  std::vector<double> mesh_error;  ///< per group, of unlike patches; NaN where it is not known
+  std::vector<double> mesh_error;  ///< per group, as far as meshes are unlike; NaN: not known
   Place place;
 };
 
-Part part(const ResultReader& result, std::vector<double> area, const Asked& asked,
-          const std::vector<double>& unlike) {
-  PatchGroups groups(result, std::move(area), asked.groups);
-  std::vector<double> reflected(groups.groups().size(), not_known);
-  if (has_mesh_error(asked.dataset) && result.has("light_load_reflected")) {
-    auto of_patches = result.doubles("light_load_reflected");
-    for (std::size_t i = 0; i < of_patches.size(); ++i) of_patches[i] *= unlike[i];
+/// One of the two results, and how its patches are divided.
+struct Divided {
+  const ResultReader& result;
+  std::vector<PatchDivision> divisions;
+  std::vector<double> unlike;  ///< per patch: share of its reflected light that unlike meshes make
+};
+
+bool are_alike(const Divided& of) {
+  return std::all_of(of.unlike.begin(), of.unlike.end(), [](double share) { return share == 0; });
+}
+
+Part part(const Divided& of, const std::vector<PatchMembers>& members, const std::string& dataset) {
+  PatchGroups groups(of.unlike.size(), members);
+  std::vector<double> reflected(groups.groups().size(), are_alike(of) ? 0 : not_known);
+  if (has_mesh_error(dataset) && of.result.has("light_load_reflected")) {
+    auto of_patches = of.result.doubles("light_load_reflected");
+    for (std::size_t i = 0; i < of_patches.size(); ++i) of_patches[i] *= of.unlike[i];
     reflected = groups.means(of_patches.data());
   }
-  return {groups, group_means(result, groups, asked.dataset), mesh_errors(std::move(reflected)),
+  return {groups, group_means(of.result, groups, dataset), mesh_errors(std::move(reflected)),
           places(groups)};
 }
 
@@ -67,18 +71,60 @@ struct Side {
   std::vector<std::vector<double>> realizations;  ///< of `common`, [group][realization]
 };
 
-/// `counted`: 1 or 0 per patch; empty: all.
-Side side(const ResultReader& result, const std::vector<double>& common,
-          const std::vector<char>& counted, const Asked& asked, const std::vector<double>& unlike) {
-  std::vector<double> alone = result.doubles("patch_area");
-  for (std::size_t i = 0; i < alone.size(); ++i)
-    alone[i] = counted.empty() || counted[i] != 0 ? alone[i] - common[i] : 0;
-  Side s{result,
-         part(result, common, asked, unlike),
-         part(result, std::move(alone), asked, unlike),
-         {}};
-  s.realizations = group_realizations(result, s.common.groups, realizations_of(asked.dataset));
+/// What of a division is not in common; `counted`: 1 or 0 per patch; empty: all.
+PatchMembers alone(const PatchDivision& division, const PatchMembers& common,
+                   const std::vector<char>& counted, std::vector<double> area) {
+  for (std::size_t i = 0; i < area.size(); ++i)
+    if (!counted.empty() && counted[i] == 0) area[i] = 0;
+  for (const PatchMember& member : common.members)
+    area[member.patch] = std::max(0.0, area[member.patch] - member.area_m2);
+  return members_of(division, area);
+}
+
+/// `common`: of each of its divisions.
+Side side(const Divided& of, const std::vector<PatchMembers>& common,
+          const std::vector<char>& counted, const std::string& dataset) {
+  const auto area = of.result.doubles("patch_area");
+  std::vector<PatchMembers> others;
+  for (std::size_t d = 0; d < common.size(); ++d)
+    others.push_back(alone(of.divisions[d], common[d], counted, area));
+  Side s{of.result, part(of, common, dataset), part(of, others, dataset), {}};
+  s.realizations = group_realizations(of.result, s.common.groups, realizations_of(dataset));
   return s;
+}
+
+/// Each selection is a division of its own; nullptr: the other result has none like it.
+const PatchDivision* counterpart(const PatchDivision& of,
+                                 const std::vector<PatchDivision>& others) {
+  const auto found = std::find_if(others.begin(), others.end(), [&](const PatchDivision& other) {
+    return other.kind == of.kind && (of.kind != "selection" || other.names == of.names);
+  });
+  return found == others.end() ? nullptr : &*found;
+}
+
+/// What both have, by the divisions of either.
+struct Common {
+  std::vector<PatchMembers> base, variant;
+};
+
+Common in_common(const Divided& base, const Divided& variant, const CountedPatches& counted) {
+  const PatchOverlaps overlaps = patch_overlaps(base.result, variant.result);
+  const Tiles tiles = tiles_of(overlaps);
+  Common common;
+  for (const PatchDivision& division : variant.divisions)
+    common.variant.push_back({division.kind, {}, {}});
+  for (const PatchDivision& division : base.divisions) {
+    const PatchDivision* other = counterpart(division, variant.divisions);
+    if (!other) {
+      common.base.push_back({division.kind, {}, {}});
+      continue;
+    }
+    auto [of_base, of_variant] = common_members(overlaps, tiles, counted, division, *other);
+    common.base.push_back(std::move(of_base));
+    common.variant[static_cast<std::size_t>(other - variant.divisions.data())] =
+        std::move(of_variant);
+  }
+  return common;
 }
 
 /// Realizations that a result keeps of what is compared.
@@ -108,16 +154,38 @@ double least_difference(double base_load, double variant_load, double least_perc
   return std::max(rounding, std::abs(base_load) * least_percent / 100);
 }
 
+/// Realizations of a group's mean in both results.
+struct TwoSamples {
+  const std::vector<double>& base;
+  const std::vector<double>& variant;
+  Comparison::Errors errors;
+
+  /// Of variant − scale · base.
+  DifferenceError error(double scale = 1) const {
+    std::vector<double> scaled = base;
+    for (double& value : scaled) value *= scale;
+    return errors == Comparison::Errors::paired ? paired_error(scaled, variant)
+                                                : welch_error(scaled, variant);
+  }
+};
+
 /// Two-sided p-value of a true difference at the rim of what does not matter, which is the largest
 /// of all that do not (Hodges & Lehmann 1954, Testing the approximate validity of statistical
-/// hypotheses); without a rim that of no difference. For differences beyond it.
-template <class Error>
-double p_beyond(const ComparisonRow& row, double least_percent, const Error& error) {
-  const auto p = [&](double t) { return student_t_two_sided_p(t, error.degrees_of_freedom); };
+/// hypotheses); without a rim that of no difference. For differences beyond it. A rim that is a
+/// share of the base has the base's noise.
+double p_beyond(const ComparisonRow& row, double least_percent, const TwoSamples& samples) {
+  const auto p = [&](double beyond, double scale) {
+    const DifferenceError error = samples.error(scale);
+    return student_t_two_sided_p(beyond / error.se, error.degrees_of_freedom);
+  };
   const double difference = std::abs(row.difference_kwh_m2);
-  if (least_percent == 0) return p(difference / error.se);
-  const double rim = std::abs(*row.base_kwh_m2) * least_percent / 100;
-  return (p((difference - rim) / error.se) + p((difference + rim) / error.se)) / 2;
+  const double of_base = std::abs(*row.base_kwh_m2) * least_percent / 100;
+  const double mesh = std::isnan(row.mesh_error_kwh_m2) ? 0 : row.mesh_error_kwh_m2;
+  const double rim = std::max(of_base, mesh);
+  if (rim == 0) return p(difference, 1);
+  const double share = mesh > of_base ? 0 : least_percent / 100;
+  const double near = row.difference_kwh_m2 > 0 ? 1 + share : 1 - share;
+  return (p(difference - rim, near) + p(difference + rim, 2 - near)) / 2;
 }
 
 /// Group b of what the base has in common with the variant, whose group v it is.
@@ -134,14 +202,15 @@ ComparisonRow matched_row(const Side& base, std::size_t b, const Side& variant, 
   row.difference_kwh_m2 = variant_load - base_load;
   row.difference_percent = base_load == 0 ? not_known : row.difference_kwh_m2 / base_load * 100;
   row.unmatched_area_m2 = area_alone(base, group) + area_alone(variant, group);
+  row.mesh_error_kwh_m2 = std::hypot(base.common.mesh_error[b], variant.common.mesh_error[v]);
   row.se_kwh_m2 = row.p_value = row.p_corrected = not_known;
   if (errors == Comparison::Errors::unknown || errors == Comparison::Errors::none) return row;
-  const auto error = errors == Comparison::Errors::paired
-                         ? paired_error(base.realizations[b], variant.realizations[v])
-                         : welch_error(base.realizations[b], variant.realizations[v]);
-  row.se_kwh_m2 = error.se;
+  const TwoSamples samples{base.realizations[b], variant.realizations[v], errors};
+  row.se_kwh_m2 = samples.error().se;
   const double least = least_difference(base_load, variant_load, least_percent);
-  row.p_value = std::abs(row.difference_kwh_m2) <= least ? 1 : p_beyond(row, least_percent, error);
+  const double difference = std::abs(row.difference_kwh_m2);
+  const bool may_be_none = difference <= least || difference <= row.mesh_error_kwh_m2;
+  row.p_value = may_be_none ? 1 : p_beyond(row, least_percent, samples);
   return row;
 }
 
@@ -185,12 +254,12 @@ Comparison compare_results(const ResultReader& base, const ResultReader& variant
   comparison.units = base.units(dataset);
   comparison.quantity = base.quantity();
   const CountedPatches counted = counted_patches(base, variant, dataset);
-  const CommonArea common = common_area(base, variant, counted);
-  const Asked asked{dataset, {true, rules.storey_m}};
-  const auto unlike_of_base = unlike_patches(base, variant);
-  const Side b = side(base, common.base, counted.base, asked, unlike_of_base),
-             v = side(variant, common.variant, counted.variant, asked,
-                      unlike_patches(variant, base));
+  const MoreGroups more{true, rules.storey_m};
+  const Divided of_base{base, patch_divisions(base, more), unlike_reflections(base, variant)},
+      of_variant{variant, patch_divisions(variant, more), unlike_reflections(variant, base)};
+  const Common common = in_common(of_base, of_variant, counted);
+  const Side b = side(of_base, common.base, counted.base, dataset),
+             v = side(of_variant, common.variant, counted.variant, dataset);
   comparison.base = base.text_attribute("variant");
   comparison.variant = variant.text_attribute("variant");
   comparison.base_realizations = realization_count(base, dataset);
@@ -198,18 +267,13 @@ Comparison compare_results(const ResultReader& base, const ResultReader& variant
   comparison.errors = error_kind(b, v, dataset);
   comparison.least_percent = rules.least_percent;
   comparison.notes = notes_on(base, variant, dataset);
+  comparison.have_same_mesh = are_alike(of_base) && are_alike(of_variant);
   const auto& groups = b.common.groups.groups();
-  const auto unlike = b.common.groups.means(unlike_of_base.data());
   for (std::size_t g = 0; g < groups.size(); ++g)
     if (const auto found = v.common.place.find({groups[g].kind, groups[g].name});
-        found != v.common.place.end()) {
+        found != v.common.place.end())
       comparison.rows.push_back(
           matched_row(b, g, v, found->second, comparison.errors, rules.least_percent));
-      if (unlike[g] == 0) continue;
-      comparison.have_same_mesh = false;
-      comparison.rows.back().mesh_error_kwh_m2 =
-          std::hypot(b.common.mesh_error[g], v.common.mesh_error[found->second]);
-    }
   for (std::size_t g = 0; g < b.alone.groups.groups().size(); ++g)
     comparison.rows.push_back(lonely_row(b, g, Present::base));
   for (std::size_t g = 0; g < v.alone.groups.groups().size(); ++g)

@@ -5,14 +5,14 @@
 /// whole.
 ///
 /// Groups are matched by name and compared by the area-weighted mean of what both results have of
-/// them (io/result/common_area): new trees and storeys are in no mean of what was
-/// there before. What only one of the two has stands in rows of its own. Where both results are
-/// pairs (io/result/pairing) and have the same number of realizations, the standard error is that
-/// of the per-realization differences of the group means, with R − 1 degrees of freedom (patches
-/// need not match one to one, so that variants may differ in geometry). Otherwise both errors add
-/// up (Welch). p-values are corrected by Holm within each kind of group. Of a total without
-/// realizations differences have no errors and no p-values; what changes is then what changes by
-/// more than a share of the base.
+/// them (io/result/common_area), in the same groups: new trees and storeys are in no mean of what
+/// was there before, nor what a patch brings into a selection by its middle alone. What only one of
+/// the two has stands in rows of its own. Where both results are pairs (io/result/pairing) and have
+/// the same number of realizations, the standard error is that of the per-realization differences
+/// of the group means, with R − 1 degrees of freedom (patches need not match one to one, so that
+/// variants may differ in geometry). Otherwise both errors add up (Welch). p-values are corrected
+/// by Holm within each kind of group. Of a total without realizations differences have no errors
+/// and no p-values; what changes is then what changes by more than a share of the base.
 #pragma once
 
 #include <optional>
@@ -36,12 +36,14 @@ struct ComparisonRow {
   double difference_kwh_m2 = 0;                       ///< variant − base
   double difference_percent = 0;                      ///< of the base
   double se_kwh_m2 = 0;                               ///< standard error of the difference
-  /// Of a difference that is no larger, either way, than `least_percent` of the base: of none.
+  /// Of a difference that is no larger, either way, than `least_percent` of the base, or than the
+  /// mesh's error where that is more: of none.
   double p_value = 0;
   double p_corrected = 0;        ///< for the number of groups of the same kind
   bool significant = false;      ///< p_corrected < significance_level
   double unmatched_area_m2 = 0;  ///< of the group in both, without a counterpart in the other
   /// What unlike meshes put the difference off (io/result/mesh_error), beside `se`; NaN: not known.
+  /// No difference within it is sure.
   double mesh_error_kwh_m2 = 0;
 };
 

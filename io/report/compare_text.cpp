@@ -194,7 +194,9 @@ std::string comparison_table(const Comparison& comparison) {
   if (shows_mesh_error(comparison))
     text += fmt::format(
         "mesh: patches differ; {}one value of reflected light per patch "
-        "puts differences off by so much at most on nine groups in ten ({:g} % of that light)\n",
+        "puts differences off by so much at most on nine groups in ten ({:g} % of that light); "
+        "none "
+        "within it is called sure\n",
         comparison.errors == Comparison::Errors::none ? "" : "beside the standard errors, ",
         100 * mesh_error_of_reflected);
   for (const auto& note : comparison.notes) text += "note: " + note + "\n";

@@ -141,11 +141,12 @@ std::string accuracy(const ResultReader& result, const PatchGroups& groups,
   const auto se = result.doubles("light_load_se");
   const double largest = *std::max_element(load.begin(), load.end());
   if (largest <= 0) return info_line("accuracy", "no patch receives light");
+  const auto areas = result.doubles("patch_area");
   std::vector<double> relative, area;
   for (std::size_t i = 0; i < load.size(); ++i) {
     if (load[i] <= 0 || load[i] < share_that_counts * largest) continue;
     relative.push_back(se[i] / load[i] * 100);
-    area.push_back(groups.patch_area()[i]);
+    area.push_back(areas[i]);
   }
   return info_line(
              "accuracy",

@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <map>
+#include <numeric>
 #include <string>
+#include <utility>
 
 #include "geo/mesh/box_tree.h"
 #include "geo/mesh/overlap.h"
@@ -104,11 +108,16 @@ PatchOverlaps patch_overlaps(const ResultReader& base, const ResultReader& varia
   return overlaps;
 }
 
+namespace {
+
+bool counts(const std::vector<char>& patches, std::size_t p) {
+  return patches.empty() || patches[p] != 0;
+}
+
+}  // namespace
+
 CommonArea common_area(const ResultReader& base, const ResultReader& variant,
                        const CountedPatches& counted) {
-  const auto counts = [](const std::vector<char>& patches, std::size_t p) {
-    return patches.empty() || patches[p] != 0;
-  };
   const PatchOverlaps overlaps = patch_overlaps(base, variant);
   const auto &own = overlaps.base_area, &theirs = overlaps.variant_area;
   CommonArea common{std::vector<double>(own.size(), 0), std::vector<double>(theirs.size(), 0)};
@@ -122,6 +131,91 @@ CommonArea common_area(const ResultReader& base, const ResultReader& variant,
     common.base[b] = without_rounding(common.base[b], own[b]);
   for (std::size_t v = 0; v < theirs.size(); ++v)
     common.variant[v] = without_rounding(common.variant[v], theirs[v]);
+  return common;
+}
+
+Tiles tiles_of(const PatchOverlaps& overlaps) {
+  const std::size_t own = overlaps.base_area.size(), all = own + overlaps.variant_area.size();
+  std::vector<std::size_t> parent(all);
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root = [&](std::size_t p) {
+    while (parent[p] != p) p = parent[p] = parent[parent[p]];
+    return p;
+  };
+  for (std::size_t b = 0; b < own; ++b)
+    for (const auto& [v, area] : overlaps.of_base[b])
+      if (area > rounding_share * std::min(overlaps.base_area[b], overlaps.variant_area[v]))
+        parent[root(own + v)] = root(b);
+  Tiles tiles;
+  std::vector<std::size_t> number(all);
+  for (std::size_t p = 0; p < all; ++p)
+    if (parent[p] == p) number[p] = tiles.count++;
+  for (std::size_t p = 0; p < all; ++p)
+    (p < own ? tiles.of_base : tiles.of_variant).push_back(number[root(p)]);
+  return tiles;
+}
+
+namespace {
+
+/// Sums of area in common by patch and name.
+std::vector<PatchMember> summed(std::vector<PatchMember> parts,
+                                const std::vector<double>& area_of_patch) {
+  std::stable_sort(parts.begin(), parts.end(), [](const PatchMember& a, const PatchMember& b) {
+    return std::pair(a.patch, a.name) < std::pair(b.patch, b.name);
+  });
+  std::vector<PatchMember> sums;
+  for (const PatchMember& part : parts)
+    if (!sums.empty() && sums.back().patch == part.patch && sums.back().name == part.name)
+      sums.back().area_m2 += part.area_m2;
+    else
+      sums.push_back(part);
+  for (PatchMember& sum : sums)
+    sum.area_m2 = without_rounding(sum.area_m2, area_of_patch[sum.patch]);
+  std::erase_if(sums, [](const PatchMember& sum) { return !(sum.area_m2 > 0); });
+  return sums;
+}
+
+/// For each tile 1 where the variant cuts it into fewer patches than the base.
+std::vector<char> coarser_in_variant(const Tiles& tiles) {
+  std::vector<std::ptrdiff_t> more_in_base(tiles.count, 0);
+  for (const auto tile : tiles.of_base) ++more_in_base[tile];
+  for (const auto tile : tiles.of_variant) --more_in_base[tile];
+  std::vector<char> coarser;
+  for (const auto more : more_in_base) coarser.push_back(more > 0 ? 1 : 0);
+  return coarser;
+}
+
+}  // namespace
+
+CommonMembers common_members(const PatchOverlaps& overlaps, const Tiles& tiles,
+                             const CountedPatches& counted, const PatchDivision& of_base,
+                             const PatchDivision& of_variant) {
+  CommonMembers common{{of_base.kind, of_base.names, {}}, {of_base.kind, of_base.names, {}}};
+  // By names: the two results may list them in another order.
+  std::vector<std::int32_t> in_base;
+  for (const auto& name : of_variant.names) {
+    const auto found = std::find(of_base.names.begin(), of_base.names.end(), name);
+    in_base.push_back(found == of_base.names.end()
+                          ? -1
+                          : static_cast<std::int32_t>(found - of_base.names.begin()));
+  }
+  const bool is_by_middle = of_base.kind == "selection" || of_base.kind == "storey";
+  const auto variant_decides = coarser_in_variant(tiles);
+  std::vector<PatchMember> base, variant;
+  for (std::size_t b = 0; b < overlaps.of_base.size(); ++b)
+    for (const auto& [v, area] : overlaps.of_base[b]) {
+      if (!counts(counted.base, b) || !counts(counted.variant, v)) continue;
+      const std::int32_t own = of_base.of_patch[b], named = of_variant.of_patch[v];
+      const std::int32_t theirs = named < 0 ? -1 : in_base[static_cast<std::size_t>(named)];
+      const std::int32_t decided = !is_by_middle
+                                       ? (own == theirs ? own : -1)
+                                       : (variant_decides[tiles.of_base[b]] != 0 ? theirs : own);
+      if (decided < 0) continue;
+      base.push_back({b, static_cast<std::size_t>(decided), area});
+      variant.push_back({v, static_cast<std::size_t>(decided), area});
+    }
+  common.base.members = summed(std::move(base), overlaps.base_area);
+  common.variant.members = summed(std::move(variant), overlaps.variant_area);
   return common;
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "io/result/patch_groups.h"
 #include "io/result/reader.h"
 
 namespace sunload {
@@ -43,5 +44,25 @@ struct CountedPatches {
 /// What counts of both. Some microseconds a patch; nothing where both have the same mesh.
 CommonArea common_area(const ResultReader& base, const ResultReader& variant,
                        const CountedPatches& counted = {});
+
+/// Patches of both that overlap, with all that overlap these: the least pieces that both results
+/// cut in ways of their own. Number of each patch's tile.
+struct Tiles {
+  std::vector<std::size_t> of_base, of_variant;
+  std::size_t count = 0;
+};
+Tiles tiles_of(const PatchOverlaps& overlaps);
+
+/// What counts of both and is of one name in one kind of groups, with as much area of each.
+struct CommonMembers {
+  PatchMembers base, variant;
+};
+
+/// The names are those that both give the place. Selections and storeys have patches by their
+/// middles, and where meshes are unlike these are others: there the result that cuts a tile into
+/// fewer patches, whose means the other's have to be compared with, tells what belongs to them.
+CommonMembers common_members(const PatchOverlaps& overlaps, const Tiles& tiles,
+                             const CountedPatches& counted, const PatchDivision& of_base,
+                             const PatchDivision& of_variant);
 
 }  // namespace sunload

@@ -22,8 +22,10 @@ inline std::vector<double> mesh_errors(std::vector<double> reflected) {
   return reflected;
 }
 
-/// 1 for patches of `base` that `variant` does not have just so, else 0. Where both have the same
-/// patches the mesh puts them off alike, and says nothing of their difference.
-std::vector<double> unlike_patches(const ResultReader& base, const ResultReader& variant);
+/// Share of what each patch of `base` receives by reflection that unlike meshes put off: all of it
+/// where `variant` does not have the patch just so, elsewhere as much as such patches send of the
+/// light that the scene sends. Where both have the same patches the mesh puts them off alike, and
+/// says nothing of their difference: 0.
+std::vector<double> unlike_reflections(const ResultReader& base, const ResultReader& variant);
 
 }  // namespace sunload

@@ -16,13 +16,6 @@
 namespace sunload {
 namespace {
 
-/// Names of one kind of group and the entry of each patch (-1: none).
-struct Division {
-  const char* kind;
-  std::vector<std::string> names;
-  std::vector<std::int32_t> of_patch;
-};
-
 std::vector<double> components(const ResultReader& result, const char* dataset,
                                std::size_t component) {
   const auto flat = result.doubles(dataset);
@@ -41,8 +34,8 @@ std::vector<char> is_upright(const ResultReader& result) {
   return upright;
 }
 
-Division orientations(const ResultReader& result) {
-  Division division{
+PatchDivision orientations(const ResultReader& result) {
+  PatchDivision division{
       "orientation",
       {"north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west"},
       {}};
@@ -61,7 +54,7 @@ Division orientations(const ResultReader& result) {
 }
 
 /// By the height of a patch's middle above the lowest corner of its object.
-Division storeys(const ResultReader& result, double storey_m) {
+PatchDivision storeys(const ResultReader& result, double storey_m) {
   constexpr std::int32_t highest = 1000;
   const auto object = result.integers("patch_object"), corners = result.integers("patch_vertices");
   const auto height = components(result, "patch_centroid", 2),
@@ -72,7 +65,7 @@ Division storeys(const ResultReader& result, double storey_m) {
     const auto [found, is_new] = foot.try_emplace(object[k / 3], low);
     found->second = std::min(found->second, low);
   }
-  Division division{"storey", {}, {}};
+  PatchDivision division{"storey", {}, {}};
   const auto upright = is_upright(result);
   std::int32_t top = -1;
   for (std::size_t i = 0; i < height.size(); ++i) {
@@ -88,9 +81,11 @@ Division storeys(const ResultReader& result, double storey_m) {
   return division;
 }
 
-std::vector<Division> divisions(const ResultReader& result, std::size_t patches,
-                                const MoreGroups& more) {
-  std::vector<Division> all{
+}  // namespace
+
+std::vector<PatchDivision> patch_divisions(const ResultReader& result, const MoreGroups& more) {
+  const std::size_t patches = result.shape("patch_area").front();
+  std::vector<PatchDivision> all{
       {"whole", {"whole"}, std::vector<std::int32_t>(patches, 0)},
       {"surface", {surface_names.begin(), surface_names.end()}, result.integers("patch_surface")},
       {"object", result.strings("object_name"), result.integers("patch_object")},
@@ -103,46 +98,53 @@ std::vector<Division> divisions(const ResultReader& result, std::size_t patches,
   return all;
 }
 
+PatchMembers members_of(const PatchDivision& division, const std::vector<double>& area) {
+  SUNLOAD_EXPECT(division.of_patch.size() == area.size(), division.kind);
+  PatchMembers all{division.kind, division.names, {}};
+  for (std::size_t i = 0; i < area.size(); ++i)
+    if (division.of_patch[i] >= 0 && area[i] > 0)
+      all.members.push_back({i, static_cast<std::size_t>(division.of_patch[i]), area[i]});
+  return all;
+}
+
+namespace {
+
+std::vector<PatchMembers> all_members(const ResultReader& result) {
+  const auto area = result.doubles("patch_area");
+  if (area.empty()) throw InputError({result.path()}, "the result has no patches");
+  std::vector<PatchMembers> all;
+  for (const PatchDivision& division : patch_divisions(result))
+    all.push_back(members_of(division, area));
+  return all;
+}
+
 }  // namespace
 
 PatchGroups::PatchGroups(const ResultReader& result)
-    : PatchGroups(result, result.doubles("patch_area")) {}
+    : PatchGroups(result.shape("patch_area").front(), all_members(result)) {}
 
-PatchGroups::PatchGroups(const ResultReader& result, std::vector<double> area,
-                         const MoreGroups& more)
-    : area_(std::move(area)) {
-  if (area_.empty()) throw InputError({result.path()}, "the result has no patches");
-  const auto all = divisions(result, area_.size(), more);
-  divisions_ = all.size();
-  group_of_.assign(area_.size() * divisions_, -1);
-  for (std::size_t kind = 0; kind < divisions_; ++kind) {
-    const auto& division = all[kind];
-    SUNLOAD_EXPECT(division.of_patch.size() == area_.size(), division.kind);
-    std::vector<std::int32_t> group_of_entry(division.names.size(), -1);
-    std::vector<char> used(division.names.size(), 0);
-    for (std::size_t i = 0; i < area_.size(); ++i)
-      if (const auto entry = division.of_patch[i]; entry >= 0 && area_[i] > 0)
-        used.at(static_cast<std::size_t>(entry)) = 1;
-    for (std::size_t entry = 0; entry < used.size(); ++entry) {
-      if (!used[entry]) continue;
-      group_of_entry[entry] = static_cast<std::int32_t>(groups_.size());
-      groups_.push_back({division.kind, division.names[entry], 0});
+PatchGroups::PatchGroups(std::size_t patches, const std::vector<PatchMembers>& kinds)
+    : patches_(patches) {
+  for (const PatchMembers& of : kinds) {
+    std::vector<char> is_used(of.names.size(), 0);
+    for (const PatchMember& member : of.members) is_used.at(member.name) = 1;
+    std::vector<std::size_t> group_of_name(of.names.size(), 0);
+    for (std::size_t name = 0; name < of.names.size(); ++name) {
+      if (is_used[name] == 0) continue;
+      group_of_name[name] = groups_.size();
+      groups_.push_back({of.kind, of.names[name], 0});
     }
-    for (std::size_t i = 0; i < area_.size(); ++i) {
-      if (division.of_patch[i] < 0 || area_[i] <= 0) continue;
-      const auto group = group_of_entry[static_cast<std::size_t>(division.of_patch[i])];
-      group_of_[i * divisions_ + kind] = group;
-      groups_[static_cast<std::size_t>(group)].area_m2 += area_[i];
+    for (const auto& [patch, name, area] : of.members) {
+      const std::size_t group = group_of_name[name];
+      groups_[group].area_m2 += area;
+      members_.push_back({patch, group, area});
     }
   }
 }
 
 std::vector<double> PatchGroups::means(const double* patch_values) const {
   std::vector<double> sums(groups_.size(), 0);
-  for (std::size_t i = 0; i < area_.size(); ++i)
-    for (std::size_t kind = 0; kind < divisions_; ++kind)
-      if (const auto group = group_of_[i * divisions_ + kind]; group >= 0)
-        sums[static_cast<std::size_t>(group)] += area_[i] * patch_values[i];
+  for (const auto& [patch, group, area] : members_) sums[group] += area * patch_values[patch];
   for (std::size_t g = 0; g < sums.size(); ++g) sums[g] /= groups_[g].area_m2;
   return sums;
 }

@@ -28,28 +28,55 @@ struct MoreGroups {
       storey_m;  ///< walls and windows by height above their object's foot: "0-3 m"
 };
 
-/// Every group of a result, and the groups of each patch.
+/// Patches divided into groups of one kind.
+struct PatchDivision {
+  std::string kind;
+  std::vector<std::string> names;
+  std::vector<std::int32_t> of_patch;  ///< which of the names; -1: none
+};
+
+/// Order: the whole, then surfaces, objects, facades and selections (each one of its own) as the
+/// file lists them, then those besides.
+std::vector<PatchDivision> patch_divisions(const ResultReader& result, const MoreGroups& more = {});
+
+/// So much of a patch belongs to one of the names.
+struct PatchMember {
+  std::size_t patch = 0, name = 0;
+  double area_m2 = 0;
+};
+
+/// Groups of one kind, with what belongs to them.
+struct PatchMembers {
+  std::string kind;
+  std::vector<std::string> names;
+  std::vector<PatchMember> members;  ///< patches in order; none of no area
+};
+
+/// With so much of each patch's area.
+PatchMembers members_of(const PatchDivision& division, const std::vector<double>& area);
+
+/// Every group of a result, and what of each patch belongs to it.
 class PatchGroups {
  public:
-  /// Order: the whole, then surfaces, objects, facades and selections as the file lists
-  /// them, then those besides; groups without patches are left out.
+  /// In the order of `patch_divisions`; groups without patches are left out.
   /// Throws InputError for a result without patches.
   explicit PatchGroups(const ResultReader& result);
-  /// The same with so much of each patch's area; groups of which nothing is left are left out.
-  PatchGroups(const ResultReader& result, std::vector<double> area, const MoreGroups& more = {});
+  /// The same in an order of one's own, of the patches of a result.
+  PatchGroups(std::size_t patches, const std::vector<PatchMembers>& kinds);
 
   const std::vector<PatchGroup>& groups() const { return groups_; }
-  std::size_t patch_count() const { return area_.size(); }
-  const std::vector<double>& patch_area() const { return area_; }
+  std::size_t patch_count() const { return patches_; }
   /// Area-weighted mean of one value per patch, for every group.
   std::vector<double> means(const double* patch_values) const;
 
  private:
-  std::size_t divisions_ = 0;  ///< of the patches, each by its groups; a selection is one
+  struct Member {
+    std::size_t patch, group;
+    double area;
+  };
+  std::size_t patches_;
   std::vector<PatchGroup> groups_;
-  std::vector<double> area_;
-  /// Group of a patch in each division, -1 for none: [patch × divisions + division].
-  std::vector<std::int32_t> group_of_;
+  std::vector<Member> members_;
 };
 
 /// Area-weighted group means of a dataset [patch]: one value per group.

@@ -160,6 +160,21 @@ double usual_step_s(const WeatherText& text, const std::vector<DatedWeather>& in
   return most == counts.end() ? seconds_per_hour : most->first;
 }
 
+/// Records that begin on the day before 1 March get its date: which one it is depends on the year,
+/// and weather may be written as another.
+void begin_in_february(std::vector<WeatherRecord>& records, bool is_typical) {
+  const auto is_leap_day = [](const WeatherRecord& r) { return r.month == 2 && r.day == 29; };
+  const bool has_leap_day = std::any_of(records.begin(), records.end(), is_leap_day);
+  for (WeatherRecord& r : records) {
+    if (r.month != 3 || r.day != 1 || r.begin_s >= 0) continue;
+    const bool after_leap_day = is_typical ? has_leap_day : std::chrono::year{r.year}.is_leap();
+    r.month = 2;
+    r.day = after_leap_day ? 29 : 28;
+    r.begin_s += seconds_per_day;
+    r.end_s += seconds_per_day;
+  }
+}
+
 }  // namespace
 
 std::vector<WeatherRecord> records_of(const WeatherText& text, const std::vector<StampedRow>& rows,
@@ -179,6 +194,7 @@ std::vector<WeatherRecord> records_of(const WeatherText& text, const std::vector
     r.begin_s -= before;
     r.end_s = r.begin_s + step;
   }
+  begin_in_february(records, is_typical);
   const auto placed = dated(records, year, 0);
   const auto wrong = first_out_of_order(placed);
   if (wrong < placed.size())

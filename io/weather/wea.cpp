@@ -54,9 +54,11 @@ class HeaderReader {
   std::size_t line_ = 0;
 };
 
+/// The middles of steps of 5 and of 1 minute are half minutes.
 double second_of(double hours) {
+  constexpr double half_minute = seconds_per_minute / 2;
   const double second = hours * seconds_per_hour;
-  const double whole = std::round(second / seconds_per_minute) * seconds_per_minute;
+  const double whole = std::round(second / half_minute) * half_minute;
   return std::abs(second - whole) < hour_rounding_s ? whole : second;
 }
 

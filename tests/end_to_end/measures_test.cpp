@@ -159,7 +159,8 @@ TEST(Measures, OthersMakeAnotherResultOfTheSameBatches) {
   write(folder, measures);
   const Ran refused = program(folder, {"run", "square.yaml", "--resume"});
   EXPECT_EQ(refused.code, 2);
-  EXPECT_NE(refused.err.find("its measures or selections differ"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("its measures or selections differ"), std::string::npos)
+      << refused.err;
   EXPECT_EQ(program(folder, {"run", "square.yaml", "--overwrite"}).code, 0);
   EXPECT_EQ(measure_names(ResultReader(folder / result)).size(), 5u);
 }
@@ -206,6 +207,14 @@ TEST(Measures, OfAYearNeedOne) {
   const Ran ran = program(folder, {"check", "square.yaml"});
   EXPECT_EQ(ran.code, 2);
   EXPECT_NE(ran.err.find("measure a needs a whole year"), std::string::npos) << ran.err;
+  std::string two_years = folder.read("square.yaml");
+  const auto period = two_years.find("period: {");
+  two_years.replace(period, two_years.find('}', period) + 1 - period,
+                    "period: {start: 2026-01-01, end: 2028-01-01, step_min: 60}");
+  folder.write("square.yaml", two_years);
+  const Ran longer = program(folder, {"check", "square.yaml"});
+  EXPECT_EQ(longer.code, 2);
+  EXPECT_NE(longer.err.find("the period has 730 days"), std::string::npos) << longer.err;
 }
 
 /// As with selections: a variant may remove what is measured.

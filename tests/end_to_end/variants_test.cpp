@@ -307,5 +307,30 @@ TEST(Variants, OfOtherPatchesHaveAnErrorOfTheMesh) {
   EXPECT_GT(told, 0.95 * of_all);
 }
 
+/// Selections and storeys have patches by their middles: those of other meshes lie elsewhere.
+TEST(Variants, OfOtherPatchesAreComparedInTheSamePlaces) {
+  const WorkFolder folder;
+  folder.write("square.obj", square_obj);
+  folder.write("square.yaml", square_study("totals", "", "1.2") +
+                                  "selections:\n  low: {object: house, surface: wall, height_m: "
+                                  "[0, 2.5]}\nvariants:\n  - {name: base}\n  - {name: coarse, "
+                                  "mesh: {max_edge_m: 5}}\n");
+  ASSERT_EQ(program(folder, {"run", "square.yaml"}).code, 0);
+  for (const auto& [one, other] : {std::pair{"base", "coarse"}, {"coarse", "base"}}) {
+    const auto rows = nlohmann::json::parse(
+        program(folder, {"compare", "square.yaml", one, other, "--storey-m", "3", "--json"})
+            .out)["rows"];
+    std::size_t compared = 0;
+    for (const auto& row : rows) {
+      if (row["group"] != "selection" && row["group"] != "storey") continue;
+      if (row["base_kwh_m2"].is_null() || row["variant_kwh_m2"].is_null()) continue;
+      ++compared;
+      EXPECT_FALSE(row["significant"].get<bool>()) << row;
+      EXPECT_LT(std::abs(row["difference_percent"].get<double>()), 2) << row;
+    }
+    EXPECT_GE(compared, 2u);
+  }
+}
+
 }  // namespace
 }  // namespace sunload::test

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/plan_file.h"
 
+#include <cpl_error.h>
 #include <gdal.h>
 
 namespace sunload::test {
@@ -18,6 +19,18 @@ bool write_plan(const std::string& geojson, const std::string& driver, const std
   if (to) GDALClose(to);
   GDALClose(from);
   return is_written;
+}
+
+bool change_plan(const std::string& path, const std::string& sql) {
+  GDALAllRegister();
+  GDALDatasetH file =
+      GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE, nullptr, nullptr, nullptr);
+  if (!file) return false;
+  CPLErrorReset();
+  GDALDatasetReleaseResultSet(file, GDALDatasetExecuteSQL(file, sql.c_str(), nullptr, nullptr));
+  const bool is_done = CPLGetLastErrorType() == CE_None;
+  GDALClose(file);
+  return is_done;
 }
 
 bool write_mask(const std::string& raster, std::vector<std::uint8_t> is_valid) {

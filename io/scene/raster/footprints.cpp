@@ -65,7 +65,7 @@ class FootprintReader {
     OGR_L_ResetReading(layer_);
     while (const Feature feature{OGR_L_GetNextFeature(layer_)}) add(feature.get());
     refuse_without_height();
-    if (model_.object_names.empty()) fail("has no polygons", "footprints were expected");
+    if (model_.object_names.empty()) fail_without_polygons();
     tell();
     return std::move(model_);
   }
@@ -73,6 +73,7 @@ class FootprintReader {
  private:
   using Feature = std::unique_ptr<void, DestroyFeature>;
 
+  [[noreturn]] void fail_without_polygons() { fail("has no polygons", "footprints were expected"); }
   [[noreturn]] void fail(const std::string& what, const std::string& why = {},
                          const std::string& hint = {}) const {
     throw InputError({path_}, what, why.empty() ? messages_.first() : why, hint);
@@ -154,6 +155,22 @@ class FootprintReader {
 
   // ---- place
 
+  /// The extent that a GeoPackage stores is for information, and often that of a whole country.
+  OGREnvelope extent_of_geometries() {
+    OGREnvelope all;
+    OGR_L_ResetReading(layer_);
+    while (const Feature feature{OGR_L_GetNextFeature(layer_)}) {
+      const OGRGeometryH geometry = OGR_F_GetGeometryRef(feature.get());
+      if (geometry == nullptr || OGR_G_IsEmpty(geometry) != 0) continue;
+      OGREnvelope one;
+      OGR_G_GetEnvelope(geometry, &one);
+      all.Merge(one);
+    }
+    OGR_L_ResetReading(layer_);
+    if (all.IsInit() == 0) fail_without_polygons();
+    return all;
+  }
+
   void read_crs() {
     OGRSpatialReferenceH crs = OGR_L_GetSpatialRef(layer_);
     if (crs == nullptr) return notes_.say("the footprints name no CRS: site.crs may");
@@ -161,8 +178,7 @@ class FootprintReader {
       model_.crs = crs_name(crs);
       return;
     }
-    OGREnvelope extent{};
-    if (OGR_L_GetExtent(layer_, &extent, 1) != OGRERR_NONE) fail("does not tell where it lies");
+    const OGREnvelope extent = extent_of_geometries();
     const double longitude = (extent.MinX + extent.MaxX) / 2,
                  latitude = (extent.MinY + extent.MaxY) / 2;
     constexpr double most_degrees = 3, half_turn = 180, zone_width = 6;

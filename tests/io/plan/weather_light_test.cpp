@@ -254,6 +254,72 @@ TEST(WeatherLight, RowsOfTheDarkMayBeMissing) {
   EXPECT_TRUE(series.notes.empty());
 }
 
+/// Whole days may be asked for, too.
+TEST(WeatherLight, OfDaysWhoseDarkHasNoRowsTheDarkIsDark) {
+  write_text("dark.csv", csv_with_hole(2, 21, 27));
+  const auto series = series_of(study_of("timezone: UTC", "start: 2026-06-20, end: 2026-06-21",
+                                         "weather: dark.csv, stamp: start"));
+  ASSERT_EQ(series.intervals.size(), 24u);
+  EXPECT_GT(series.intervals[18].mean.dni, 0);
+  for (const std::size_t hour : {20, 21, 22, 23}) EXPECT_EQ(series.intervals[hour].mean.dhi, 0);
+  EXPECT_TRUE(says(series.weather, "intervals in the dark, at sunrise and sunset have no rows"));
+  // The twin: in the morning the sun is up.
+  write_text("morning.csv", csv_with_hole(2, 0, 8));
+  EXPECT_NE(
+      refused(study_of("timezone: UTC", "days: [2026-06-20]", "weather: morning.csv, stamp: start"))
+          .find("does not cover"),
+      std::string::npos);
+}
+
+/// Stamps in UTC: midnight there is ten in the morning in Sydney.
+TEST(WeatherLight, DaysOfAStationAreThoseOfItsSun) {
+  std::string text =
+      "# latitude_deg: -33.9\n# longitude_deg: 151.2\n# elevation_m: 20\n# utc_offset: +00:00\n"
+      "time,dni_w_m2,dhi_w_m2\n";
+  for (int h = 0; h < 72; ++h)
+    if (h != 23 && h != 24)
+      text += fmt::format("2026-12-{:02}T{:02}:00,100,40\n", 10 + h / 24, h % 24);
+  write_text("sydney.csv", text);
+  const auto with = [](const std::string& missing) {
+    return study_of("timezone: Australia/Sydney", "year_of: weather",
+                    "weather: sydney.csv, stamp: start" + missing);
+  };
+  EXPECT_NE(refused(with("")).find("rows are missing before this one"), std::string::npos);
+  EXPECT_EQ(series_of(with(", missing: interpolate")).intervals.size(), 72u);
+}
+
+/// Rows of the last hour of February have stamps of 1 March, before which there is another day in
+/// leap years.
+TEST(WeatherLight, EndsOfFebruaryStayInItInOtherYears) {
+  std::string text = roof + "time,dni_w_m2,dhi_w_m2\n";
+  for (int h = 1; h <= 48; ++h)
+    text += fmt::format("2027-{:02}-{:02}T{:02}:00,{},40\n", h < 24 ? 2 : 3,
+                        h < 24 ? 28 : 1 + (h - 24) / 24, h % 24, h);
+  write_text("march.csv", text);
+  const auto series = series_of(study_of("timezone: '+01:00'", "year_of: weather, as_year: 2028",
+                                         "weather: march.csv, stamp: end"));
+  ASSERT_EQ(series.intervals.size(), 48u);
+  EXPECT_EQ(iso_utc(series.intervals[23].when.begin), "2028-02-28T22:00:00Z");
+  EXPECT_EQ(iso_utc(series.intervals[24].when.begin), "2028-02-29T23:00:00Z");
+}
+
+/// Turkey keeps summer time since 2016.
+TEST(WeatherLight, ZonesThatChangeTheirStandardTimeNeedAnOffset) {
+  for (const auto& [year, expected] : {std::pair{2015, false}, {2016, true}}) {
+    std::string text = "time,dni_w_m2,dhi_w_m2\n";
+    for (const auto& date : {fmt::format("{}-12-31", year), fmt::format("{}-01-01", year + 1)})
+      for (int h = 0; h < 24; ++h) text += fmt::format("{}T{:02}:00,100,40\n", date, h);
+    write_text("turkey.csv", text);
+    const auto message =
+        refused(study_of("latitude_deg: 41, longitude_deg: 29, timezone: Europe/Istanbul",
+                         "year_of: weather", "weather: turkey.csv, stamp: start"));
+    EXPECT_EQ(
+        message.find("standard time of Europe/Istanbul was UTC+02:00 in 2016") != std::string::npos,
+        expected)
+        << year << " " << message;
+  }
+}
+
 TEST(WeatherLight, WholeDaysThatAreMissingAreToldInAWarning) {
   write_text("campaigns.csv", csv_with_hole(5, 14, 24 * 3 + 8));
   const auto series = series_of(

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "geo/sun/site.h"
 #include "tests/support/plan_file.h"
@@ -116,6 +117,24 @@ TEST(Footprints, InDegreesAreProjected) {
     return std::hypot(v.x - expected.x, v.y - expected.y) < 0.001;  // both by PROJ
   });
   EXPECT_TRUE(is_there);
+}
+
+/// What a GeoPackage says of its extent may be that of a country, or of another place.
+TEST(Footprints, LieWhereTheirPolygonsDo) {
+  const WorkFolder folder;
+  const std::string source = folder.write(
+      "plan.geojson", plan({feature(R"("height": 10)",
+                                    "[[[174.780, -41.29], [174.781, -41.29], [174.781, -41.289], "
+                                    "[174.780, -41.29]]]")},
+                           ""));
+  for (const char* extent : {"min_x = 100, max_x = 100.1", "min_x = 166, max_x = 179",
+                             "min_x = -180, max_x = 180", "min_x = NULL, max_x = NULL"}) {
+    const std::string path = folder / "plan.gpkg";
+    std::filesystem::remove(path);
+    ASSERT_TRUE(write_plan(source, "GPKG", path));
+    ASSERT_TRUE(change_plan(path, fmt::format("UPDATE gpkg_contents SET {}", extent)));
+    EXPECT_EQ(read_scene_file(path, {}).crs, "EPSG:32760") << extent;
+  }
 }
 
 TEST(Footprints, StandOnTheLowestLandBelowThem) {

@@ -130,6 +130,20 @@ TEST(WeatherFiles, NamesOfStationsBecomeUtf8) {
   EXPECT_EQ(read("latin.wea", wea).place->name, "München");
 }
 
+/// Decimal hours of three digits, of the middles of steps: 2.5 and 0.5 minutes and so on.
+TEST(WeatherFiles, WeaOfMinutesHasTheStepsOfItsMiddles) {
+  for (const int minutes : {1, 5, 10, 15}) {
+    std::string wea =
+        "place a\nlatitude 48\nlongitude -11\ntime_zone -15\nsite_elevation 500\n"
+        "weather_data_file_units 1\n";
+    for (int k = 0; k < 60; ++k)
+      wea += fmt::format("6 21 {:.3f} 1 1\n", 6 + (k + 0.5) * minutes / 60.0);
+    const auto records = read("minutes.wea", wea).records;
+    ASSERT_EQ(records.size(), 60u);
+    for (const auto& r : records) EXPECT_NEAR(r.end_s - r.begin_s, 60. * minutes, 1e-9) << minutes;
+  }
+}
+
 TEST(WeatherFiles, OneHourInEpwAndWeaIsTheSameStretch) {
   SUNLOAD_NEEDS_MODEL(folder + "chicago_tmy3.epw");
   const auto epw = dated(read_shared("chicago_tmy3.epw").records, 2001, 0);
