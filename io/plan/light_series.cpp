@@ -118,6 +118,8 @@ double sky_zenith_deg(const SunInterval& when) {
 /// of somewhere else. Empty for UTC, which is asked for everywhere.
 std::string clock_warning(const std::string& timezone, const Site& site, UnixTime when) {
   if (timezone == "UTC" || timezone == "Z" || timezone.ends_with("/UTC")) return {};
+  constexpr double near_pole_deg = 89;  // whose longitude tells no time
+  if (std::abs(site.latitude_deg) > near_pole_deg) return {};
   // The widest true gap is 3.1 h: China keeps the time of Beijing as far as 73.5 degrees east.
   constexpr double widest_gap_h = 3.5, hours_per_day = 24, deg_per_hour = 15;
   const TimeZone zone(timezone);

@@ -88,7 +88,11 @@ void fill_in_date(MeasureParameters& of, const MeasureRule& rule, const VariantP
   if (of.date || !rule.day) return;
   const TimeZone zone(plan.built.site.timezone);
   const auto [month, day] = *rule.day;
-  of.date = {zone.civil_from_utc(plan.light.intervals.front().when.begin).year, month, day};
+  // Years of weather begin some hours before those of a zone that is behind the station's.
+  const auto& intervals = plan.light.intervals;
+  const UnixTime when =
+      std::min(intervals.front().when.begin + seconds_per_day, intervals.back().when.begin);
+  of.date = {zone.civil_from_utc(when).year, month, day};
 }
 
 std::vector<std::size_t> chosen_patches(const MeasureOf& of, const VariantPlan& plan,

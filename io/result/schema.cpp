@@ -225,7 +225,7 @@ constexpr std::array table{
     ResultVariable{"power_escaped_se", "", float64, "kWh", ledger, "standard error of the time sum of power_escaped"},
     ResultVariable{"power_unshot_se", "", float64, "kWh", ledger, "standard error of the time sum of power_unshot"},
     ResultVariable{"power_residual_se", "", float64, "kWh", ledger, "standard error of the time sum of power_residual; far too small now and then with fewer than 4 lines per patch and realization"},
-    ResultVariable{"power_estimated_se", "", float64, "kWh", ledger, "standard error of the time sum of power_estimated"},
+    ResultVariable{"power_estimated_se", "", float64, "kWh", ledger, "standard error of the time sum of power_estimated, without that of the share that lines tell (as large again)"},
 
     ResultVariable{"study_yaml", "", text, "", study, "the study, verbatim"},
 };

@@ -88,10 +88,12 @@ std::unique_ptr<MpiWorld> joined_world(const StudyWork& work) {
 void expect_same_jobs(const std::list<VariantJob>& jobs, const std::string& folder,
                       MpiWorld& world) {
   std::string names;
-  for (const auto& job : jobs) names += job.name() + "\n";
+  for (const auto& job : jobs) names += job.name() + " " + job.content_hash() + "\n";
   if (world.all_have(std::hash<std::string>{}(names))) return;
-  throw MachineError(folder + ": ranks see different results there: a network file system may be " +
-                     "slow to tell, or another process finishes one just now; start again");
+  throw MachineError(folder +
+                     ": ranks see different results there, or another state of the study: "
+                     "a network file system may be slow to tell, another process finishes one just "
+                     "now, or a file was changed meanwhile; start again");
 }
 
 OwnBatches run(VariantJob& job, MpiWorld* world) {

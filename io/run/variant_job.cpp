@@ -41,7 +41,8 @@ InputError of_another_state(const WorkFolder& folder, const std::string& hash, c
             "is the result of another version of the program",
             "by " + result.text_attribute("source") + ", whose numbers are others",
             hint};
-  const char* why = "its content hash differs";
+  const char* why =
+      "its content hash differs: the study, a file, or a variant that shares its mesh is another";
   if (hash.starts_with(folder.wanted_hash() + "-"))
     why = "it lacks series that the study stores";
   else if (hash.starts_with(folder.content_hash()))

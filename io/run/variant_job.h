@@ -50,6 +50,7 @@ class VariantJob {
   VariantJob& operator=(const VariantJob&) = delete;
 
   const std::string& name() const { return name_; }
+  const std::string& content_hash() const { return folder_.content_hash(); }
   /// Throws InputError where a result exists that the options allow neither to replace nor to
   /// accept, or where other shards compute with another instruction set.
   void expect_may_run() const;

@@ -2,12 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/cityjson/reader.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
 
+#include "geo/sun/map_axes.h"
 #include "io/base/json_text.h"
 #include "io/scene/base/city_types.h"
 #include "io/scene/base/from_file.h"
@@ -61,12 +67,33 @@ class CityReader {
   }
 
   PolygonModel finish() {
+    refuse_degrees();
     add_families();
     for (auto& line : notes_.lines()) model_.notes.push_back(std::move(line));
     return std::move(model_);
   }
 
  private:
+  /// The order of degrees in CityJSON is that of who wrote the file: whoever projects them knows.
+  void refuse_degrees() const {
+    constexpr double half_turn = 180;
+    const bool may_be_degrees = std::all_of(
+        model_.vertices.begin(), model_.vertices.end(),
+        [](Vec3 p) { return std::abs(p.x) <= half_turn && std::abs(p.y) <= half_turn; });
+    if (model_.crs.empty() || model_.vertices.empty() || !may_be_degrees) return;
+    const MapAxes axes(model_.crs);
+    if (!axes.is_known() || !axes.is_in_degrees()) return;
+    const Vec3 p = model_.vertices.front();
+    const Vec3 place = axes.is_in_use_at(p.x, p.y) ? p : Vec3{p.y, p.x, p.z};
+    throw InputError({path_}, "is in degrees (referenceSystem " + axes.name() + ")",
+                     "the scene's x and y must be lengths",
+                     fmt::format("project it, for example with cjio {} crs_reproject {} save "
+                                 "projected.city.json; where they are lengths, remove "
+                                 "metadata.referenceSystem",
+                                 std::filesystem::path(path_).filename().string(),
+                                 std::string(utm_at(place.y, place.x)).substr(5)));
+  }
+
   void check_type(const json& root, const std::string& expected, int line) const {
     const Where where{path_, line};
     if (!root.is_object()) {

@@ -50,6 +50,27 @@ TEST(SceneCityJson, TransformHolesNamesAndCrs) {
   EXPECT_EQ(broken_arrays(model), "");
 }
 
+/// Degrees are no lengths; lengths in a file that says degrees are.
+TEST(SceneCityJson, DegreesAreRefused) {
+  const auto at = [](const std::string& first) {
+    return R"({"type":"CityJSON","version":"1.1","transform":{"scale":[1e-8,1e-8,0.001],)"
+           R"("translate":[)" +
+           first +
+           R"(,0]},"metadata":{"referenceSystem":"https://www.opengis.net/def/crs/EPSG/0/4326"},)"
+           R"("CityObjects":{)" +
+           object("b", "Building", surfaces("2", triangle)) + "}," + vertices + "}";
+  };
+  for (const char* place : {"18.06,59.33", "59.33,18.06"}) {
+    const std::string refused = refusal("a.city.json", at(place));
+    EXPECT_NE(refused.find("is in degrees (referenceSystem EPSG:4326)"), std::string::npos)
+        << refused;
+    if (std::string(place).starts_with("18")) {
+      EXPECT_NE(refused.find("crs_reproject 32634"), std::string::npos) << refused;
+    }
+  }
+  EXPECT_EQ(read_text("a.city.json", at("500000,6500000")).polygon_count(), 1u);
+}
+
 TEST(SceneCityJson, ByteOrderMarkAndFloatVertices) {
   const auto model =
       read_text("bom.json",
