@@ -118,6 +118,9 @@ void put_groups(NetcdfFile& file, const Comparison& comparison) {
       [](const ComparisonRow& r) { return r.difference_percent; });
   put("group_difference_se", load, "standard error of the difference",
       [](const ComparisonRow& r) { return r.se_kwh_m2; });
+  put("group_mesh_error", load,
+      "what unlike meshes put the difference off, beside its standard error",
+      [](const ComparisonRow& r) { return r.mesh_error_kwh_m2; });
   put("group_p_value", "1", "two-sided p-value of no difference",
       [](const ComparisonRow& r) { return r.p_value; });
   put("group_p_corrected", "1", "p-value corrected for the number of groups of the kind (Holm)",
