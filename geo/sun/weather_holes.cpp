@@ -12,12 +12,6 @@ namespace sunload {
 
 namespace {
 
-int whole_days_in(UnixTime begin, UnixTime end, double offset_s) {
-  const double first = std::ceil((begin + offset_s) / seconds_per_day);
-  const double last = std::floor((end + offset_s) / seconds_per_day);
-  return static_cast<int>(std::max(0.0, last - first));
-}
-
 bool is_within_a_day(UnixTime begin, UnixTime end, double offset_s) {
   return std::ceil((end + offset_s) / seconds_per_day) -
              std::floor((begin + offset_s) / seconds_per_day) <=
@@ -25,25 +19,37 @@ bool is_within_a_day(UnixTime begin, UnixTime end, double offset_s) {
 }
 
 bool has_sun(const WeatherHole& hole, const SunEphemeris& sun) {
-  for (UnixTime at = hole.begin; at < hole.end; at += seconds_per_hour)
-    if (sun(at).elevation_deg > 0) return true;
+  const auto hours = static_cast<int>(std::ceil((hole.end - hole.begin) / seconds_per_hour));
+  for (int hour = 0; hour < hours; ++hour)
+    if (sun(hole.begin + hour * seconds_per_hour).elevation_deg > 0) return true;
   return false;
 }
 
-/// Nothing where no record would have sun from its beginning to its end.
-std::vector<DatedWeather> sunlit_records(const WeatherHole& hole, double count,
+/// Of a record that begins or ends in the dark more sun than this is no sunrise or sunset [s].
+constexpr double longest_edge_s = seconds_per_hour;
+
+/// Those in whose middle the sun is up, or for more than an hour. Nothing where they are of the
+/// dark, of a sunrise or a sunset: where no record, nor an hour of one, would have sun from its
+/// beginning to its end.
+std::vector<DatedWeather> sunlit_records(const WeatherHole& hole, int count,
                                          const SunEphemeris& sun) {
   const double length = (hole.end - hole.begin) / count;
   const auto is_up = [&](UnixTime at) { return sun(at).elevation_deg > 0; };
   std::vector<DatedWeather> records;
-  bool is_any_whole = false;
-  for (double k = 0; k < count; ++k) {
+  bool is_day = false;
+  for (int k = 0; k < count; ++k) {
     const UnixTime begin = hole.begin + k * length, end = begin + length;
-    if (!is_up((begin + end) / 2)) continue;
-    records.push_back({begin, end, {}, hole.line});
-    is_any_whole = is_any_whole || (is_up(begin) && is_up(end));
+    const bool begins_up = is_up(begin), ends_up = is_up(end),
+               is_middle_up = is_up((begin + end) / 2);
+    const bool is_whole = begins_up && ends_up && is_middle_up;
+    const bool is_all_of_a_day = !begins_up && !ends_up && is_middle_up;
+    const bool is_long = length > longest_edge_s && ((begins_up && is_up(begin + longest_edge_s)) ||
+                                                     (ends_up && is_up(end - longest_edge_s)));
+    if (is_middle_up || is_long) records.push_back({begin, end, {}, hole.line});
+    // What is up between two records shines on both.
+    is_day = is_day || is_whole || is_all_of_a_day || is_long || (k > 0 && begins_up);
   }
-  return is_any_whole ? records : std::vector<DatedWeather>();
+  return is_day ? records : std::vector<DatedWeather>();
 }
 
 }  // namespace
@@ -55,16 +61,17 @@ std::vector<WeatherHole> sunlit_holes(const std::vector<DatedWeather>& weather,
   std::vector<WeatherHole> holes;
   for (std::size_t i = 1; i < weather.size(); ++i) {
     const DatedWeather &before = weather[i - 1], &behind = weather[i];
-    const double count = std::round((behind.begin - before.end) / (before.end - before.begin));
-    if (!(count >= 1)) continue;
-    WeatherHole hole{before.end,
-                     behind.begin,
-                     behind.line,
-                     whole_days_in(before.end, behind.begin, offset_s),
-                     {}};
-    auto records = hole.whole_days == 0 ? sunlit_records(hole, count, sun) : hole.records;
+    const double records_long =
+        std::round((behind.begin - before.end) / (before.end - before.begin));
+    if (!(records_long >= 1)) continue;
+    const auto whole_days = static_cast<int>((behind.begin - before.end + 1) / seconds_per_day);
+    WeatherHole hole{before.end, behind.begin, behind.line, whole_days, {}};
+    auto records = hole.whole_days == 0 ? sunlit_records(hole, static_cast<int>(records_long), sun)
+                                        : hole.records;
     if (hole.whole_days == 0 ? records.empty() : !has_sun(hole, sun)) continue;
-    if (is_within_a_day(hole.begin, hole.end, offset_s)) hole.records = std::move(records);
+    // Hours of the dark may go on beyond midnight.
+    if (!records.empty() && is_within_a_day(records.front().begin, records.back().end, offset_s))
+      hole.records = std::move(records);
     holes.push_back(std::move(hole));
   }
   return holes;

@@ -14,15 +14,16 @@ namespace sunload {
 struct WeatherHole {
   UnixTime begin = 0, end = 0;
   int line = 0;        ///< of the record behind it
-  int whole_days = 0;  ///< from midnight to midnight of the sun that lie in it
+  int whole_days = 0;  ///< as long as so many
   /// Without values, of the length of the record before it: those in whose middle the sun is up.
-  /// None where a midnight lies in it: that is another campaign, or hours that nobody measures.
+  /// None where they are of two days: that is another campaign, or hours that nobody measures.
   std::vector<DatedWeather> records;
 };
 
-/// Holes in which a record would have sun from its beginning to its end: rows of the dark, and of
-/// sunrise and sunset, may be left out, as WEA files do where they are 0. `weather` is in order;
-/// the sun is that of the station, whose midnights its longitude tells: stamps may be in UTC.
+/// Holes in which a record, or an hour of a longer one, would have sun from its beginning to its
+/// end: rows of the dark, and of sunrise and sunset, may be left out, as WEA files do where they
+/// are 0. `weather` is in order; the sun is that of the station, whose midnights its longitude
+/// tells: stamps may be in UTC.
 std::vector<WeatherHole> sunlit_holes(const std::vector<DatedWeather>& weather,
                                       const SunEphemeris& sun, double longitude_deg);
 

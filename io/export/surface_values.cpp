@@ -7,6 +7,7 @@
 
 #include "io/base/light_quantity.h"
 #include "io/export/format.h"
+#include "io/result/schema.h"
 
 namespace sunload {
 namespace {
@@ -23,10 +24,21 @@ double weighted_mean(const double* values, const std::vector<double>& area,
   return whole > 0 ? sum / whole : std::nan("");
 }
 
+/// Of comparisons the patches that both results have alone: the means of their columns are of one
+/// place, whose difference is that of the means.
+std::vector<double> compared_area(const ResultReader& result) {
+  auto area = result.doubles("patch_area");
+  if (!result.is_comparison()) return area;
+  const auto difference = result.doubles(difference_dataset(result.compared()));
+  for (std::size_t p = 0; p < area.size(); ++p)
+    if (std::isnan(difference[p])) area[p] = 0;
+  return area;
+}
+
 }  // namespace
 
 SurfaceValues::SurfaceValues(const ResultReader& result, const ExportRules& rules)
-    : area_(result.doubles("patch_area")) {
+    : area_(compared_area(result)) {
   const auto name = [&](const std::string& dataset) {
     return "sunload_" + column_name(result, dataset);
   };

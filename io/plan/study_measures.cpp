@@ -156,8 +156,8 @@ void warn_of_absent_places(const Study& study, const BuiltScene& built,
 }
 
 void expect_measurable(const Study& study, const LightSeries& light) {
-  // A year of weather files, leap days left out; the longest.
-  constexpr double year_s = 365 * seconds_per_day, longest_s = 366 * seconds_per_day;
+  // A year of weather files, leap days left out; the longest, with a closing row.
+  constexpr double year_s = 365 * seconds_per_day, longest_s = 367 * seconds_per_day;
   const double length_s = std::accumulate(
       light.intervals.begin(), light.intervals.end(), 0.0,
       [](double sum, const LitInterval& interval) { return sum + interval.when.length_s(); });

@@ -38,9 +38,10 @@ void expect_albedos(const Study& study, const LightSeries& light,
 }
 
 int albedo_step(const LitInterval& interval) {
-  constexpr double step = 0.1;
+  constexpr double steps = 10;
+  constexpr double rounding = 1e-6;  // of means of equal numbers
   SUNLOAD_EXPECT(interval.albedo.has_value(), "the weather tells the albedo");
-  return static_cast<int>(*interval.albedo / step);
+  return static_cast<int>(*interval.albedo * steps + rounding);
 }
 
 }  // namespace sunload

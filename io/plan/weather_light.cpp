@@ -90,9 +90,15 @@ StudyWeather::StudyWeather(const Study& study, const Site& site)
   if (!dated_.empty()) fill_own_holes();
 }
 
+/// In which a record begins; the first of a year may be stamped with its end.
+int begin_year(const WeatherRecord& record) {
+  const bool is_before = record.month == 1 && record.day == 1 && record.begin_s < 0;
+  return record.year - (is_before ? 1 : 0);
+}
+
 void StudyWeather::expect_one_offset() const {
   if (file_.offset_s || years_ != WeatherYears::actual) return;
-  const int first = file_.records.front().year, last = file_.records.back().year;
+  const int first = begin_year(file_.records.front()), last = begin_year(file_.records.back());
   for (int year = first + 1; year <= last; ++year)
     if (offset_s(year) != offset_s(first))
       throw InputError({file_.path},
@@ -215,20 +221,46 @@ std::vector<Irradiance> StudyWeather::means(const SunPath& path) {
 }
 
 void StudyWeather::expect_covered(const SunPath& path, const std::vector<std::size_t>& uncovered) {
-  const auto missing = holes();
-  std::size_t dark = 0;
+  std::vector<WeatherHole> lit;
+  bool is_lit_known = false;
+  std::size_t dark = 0, edges = 0;
+  double edges_s = 0;
   for (const std::size_t i : uncovered) {
     const SunInterval& when = path[i];
-    const bool has_rows_about_it =
-        dated_.front().begin <= when.begin && when.end <= dated_.back().end &&
-        std::none_of(missing.begin(), missing.end(),
-                     [&](const auto& h) { return h.begin < when.end && h.end > when.begin; });
-    if (when.up_s > 0 && !has_rows_about_it) refuse_uncovered(when);
-    ++dark;
+    if (when.up_s <= 0) {
+      ++dark;
+      continue;
+    }
+    if (!is_lit_known) lit = holes();
+    is_lit_known = true;
+    const bool is_in_hole = std::any_of(lit.begin(), lit.end(), [&](const WeatherHole& hole) {
+      return hole.begin < when.end && hole.end > when.begin;
+    });
+    if (is_in_hole || !lies_between_records(when)) refuse_uncovered(when);
+    ++edges;
+    edges_s += when.up_s;
   }
   if (dark > 0)
-    words_.push_back(fmt::format(
-        "{} intervals in the dark, at sunrise and sunset have no rows: no light is taken", dark));
+    words_.push_back(fmt::format("{} intervals in the dark have no rows: no light is taken", dark));
+  if (edges > 0)
+    warnings_.push_back(
+        fmt::format("weather: {} intervals at sunrise and sunset, {:.3g} h of sun, lack rows; no "
+                    "light is taken where they do",
+                    edges, edges_s / seconds_per_hour));
+}
+
+/// Where whole rows are left out about it: shorter gaps are another clock.
+bool StudyWeather::lies_between_records(const SunInterval& when) const {
+  if (when.begin < dated_.front().begin || when.end > dated_.back().end) return false;
+  auto next = std::upper_bound(dated_.begin(), dated_.end(), when.begin,
+                               [](UnixTime t, const DatedWeather& w) { return t < w.begin; });
+  for (; next != dated_.end(); ++next) {
+    const DatedWeather& before = *std::prev(next);
+    const double gap = next->begin - before.end, step = before.end - before.begin;
+    if (gap > 1 && gap < step / 2) return false;
+    if (next->begin >= when.end) break;
+  }
+  return true;
 }
 
 DayAlbedos StudyWeather::albedos(const SunPath& path) const {

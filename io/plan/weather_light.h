@@ -59,6 +59,7 @@ class StudyWeather {
   /// Rows of the dark, and of sunrise and sunset, may be left out (`sunlit_holes`): throws
   /// InputError for the first other interval.
   void expect_covered(const SunPath& path, const std::vector<std::size_t>& uncovered);
+  bool lies_between_records(const SunInterval& when) const;
   [[noreturn]] void refuse_uncovered(const SunInterval& when) const;
 
   const Study& study_;

@@ -57,7 +57,7 @@ struct Comparison {
   double least_percent = 0;  ///< of the base: smaller differences do not matter, however sure
   /// unknown: a result lacks realizations; none: no result keeps any of this dataset.
   enum class Errors { paired, independent, unknown, none } errors = Errors::unknown;
-  bool have_same_mesh = true;      ///< in what both have, patch by patch
+  bool have_same_mesh = true;      ///< patch by patch
   std::vector<std::string> notes;  ///< what a reader must know, e.g. that the periods differ
   std::vector<ComparisonRow> rows;
   std::vector<MeasureChange> measures;  ///< that JSON lists, too

@@ -132,8 +132,7 @@ std::string reduction(const ResultReader& result) {
                   100 * result.number_attribute("reduction_error_share")));
 }
 
-std::string accuracy(const ResultReader& result, const PatchGroups& groups,
-                     const std::vector<double>& load) {
+std::string accuracy(const ResultReader& result, const std::vector<double>& load) {
   const auto realizations =
       result.has("light_load_realization") ? result.shape("light_load_realization").front() : 0;
   if (!result.has("light_load_se") || realizations < 2)
@@ -322,7 +321,7 @@ std::string info_text(const ResultReader& result) {
   text += size(result, groups);
   text += info_line("covered", result.text_attribute("covered"));
   text += info_line("bands", band_words(result));
-  text += accuracy(result, groups, load);
+  text += accuracy(result, load);
   text += mesh_error(result, groups, load);
   text += lighting_analysis(result, groups, load);
   text += parts_of_period(result, groups);

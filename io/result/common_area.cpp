@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <numeric>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "geo/mesh/box_tree.h"
@@ -175,14 +175,46 @@ std::vector<PatchMember> summed(std::vector<PatchMember> parts,
   return sums;
 }
 
-/// For each tile 1 where the variant cuts it into fewer patches than the base.
-std::vector<char> coarser_in_variant(const Tiles& tiles) {
-  std::vector<std::ptrdiff_t> more_in_base(tiles.count, 0);
-  for (const auto tile : tiles.of_base) ++more_in_base[tile];
-  for (const auto tile : tiles.of_variant) --more_in_base[tile];
-  std::vector<char> coarser;
-  for (const auto more : more_in_base) coarser.push_back(more > 0 ? 1 : 0);
-  return coarser;
+/// Of each tile by how many patches more the base cuts it.
+std::vector<std::ptrdiff_t> more_in_base(const Tiles& tiles) {
+  std::vector<std::ptrdiff_t> more(tiles.count, 0);
+  for (const auto tile : tiles.of_base) ++more[tile];
+  for (const auto tile : tiles.of_variant) --more[tile];
+  return more;
+}
+
+/// Names of the variant's division as those of the base's; -1: unknown there.
+std::vector<std::int32_t> as_of_base(const PatchDivision& of_base,
+                                     const PatchDivision& of_variant) {
+  std::unordered_map<std::string, std::int32_t> number;
+  for (std::size_t e = 0; e < of_base.names.size(); ++e)
+    number.emplace(of_base.names[e], static_cast<std::int32_t>(e));
+  std::vector<std::int32_t> of_patch;
+  of_patch.reserve(of_variant.of_patch.size());
+  std::vector<std::int32_t> in_base;
+  for (const auto& name : of_variant.names) {
+    const auto found = number.find(name);
+    in_base.push_back(found == number.end() ? -1 : found->second);
+  }
+  for (const auto entry : of_variant.of_patch)
+    of_patch.push_back(entry < 0 ? -1 : in_base[static_cast<std::size_t>(entry)]);
+  return of_patch;
+}
+
+/// Whether any patch of the other result on one is of the same name: [patch] of base and variant.
+struct Agreed {
+  std::vector<char> base, variant;
+};
+
+Agreed agreed(const PatchOverlaps& overlaps, const std::vector<std::int32_t>& own,
+              const std::vector<std::int32_t>& theirs) {
+  Agreed any{std::vector<char>(own.size(), 0), std::vector<char>(theirs.size(), 0)};
+  for (std::size_t b = 0; b < own.size(); ++b)
+    for (const auto& [v, area] : overlaps.of_base[b])
+      if (own[b] == theirs[v] &&
+          area > rounding_share * std::min(overlaps.base_area[b], overlaps.variant_area[v]))
+        any.base[b] = any.variant[v] = 1;
+  return any;
 }
 
 }  // namespace
@@ -191,28 +223,25 @@ CommonMembers common_members(const PatchOverlaps& overlaps, const Tiles& tiles,
                              const CountedPatches& counted, const PatchDivision& of_base,
                              const PatchDivision& of_variant) {
   CommonMembers common{{of_base.kind, of_base.names, {}}, {of_base.kind, of_base.names, {}}};
-  // By names: the two results may list them in another order.
-  std::vector<std::int32_t> in_base;
-  for (const auto& name : of_variant.names) {
-    const auto found = std::find(of_base.names.begin(), of_base.names.end(), name);
-    in_base.push_back(found == of_base.names.end()
-                          ? -1
-                          : static_cast<std::int32_t>(found - of_base.names.begin()));
-  }
+  const std::vector<std::int32_t>& own = of_base.of_patch;
+  const std::vector<std::int32_t> theirs = as_of_base(of_base, of_variant);
   const bool is_by_middle = of_base.kind == "selection" || of_base.kind == "storey";
-  const auto variant_decides = coarser_in_variant(tiles);
+  const auto more = more_in_base(tiles);
+  const Agreed any = agreed(overlaps, own, theirs);
+  const auto name_of = [&](std::size_t b, std::size_t v) {
+    const std::ptrdiff_t finer_base = more[tiles.of_base[b]];
+    if (!is_by_middle || finer_base == 0) return own[b] == theirs[v] ? own[b] : -1;
+    if (finer_base > 0) return any.variant[v] != 0 ? theirs[v] : -1;
+    return any.base[b] != 0 ? own[b] : -1;
+  };
   std::vector<PatchMember> base, variant;
   for (std::size_t b = 0; b < overlaps.of_base.size(); ++b)
     for (const auto& [v, area] : overlaps.of_base[b]) {
       if (!counts(counted.base, b) || !counts(counted.variant, v)) continue;
-      const std::int32_t own = of_base.of_patch[b], named = of_variant.of_patch[v];
-      const std::int32_t theirs = named < 0 ? -1 : in_base[static_cast<std::size_t>(named)];
-      const std::int32_t decided = !is_by_middle
-                                       ? (own == theirs ? own : -1)
-                                       : (variant_decides[tiles.of_base[b]] != 0 ? theirs : own);
-      if (decided < 0) continue;
-      base.push_back({b, static_cast<std::size_t>(decided), area});
-      variant.push_back({v, static_cast<std::size_t>(decided), area});
+      const std::int32_t name = name_of(b, v);
+      if (name < 0) continue;
+      base.push_back({b, static_cast<std::size_t>(name), area});
+      variant.push_back({v, static_cast<std::size_t>(name), area});
     }
   common.base.members = summed(std::move(base), overlaps.base_area);
   common.variant.members = summed(std::move(variant), overlaps.variant_area);

@@ -59,8 +59,8 @@ struct CommonMembers {
 };
 
 /// The names are those that both give the place. Selections and storeys have patches by their
-/// middles, and where meshes are unlike these are others: there the result that cuts a tile into
-/// fewer patches, whose means the other's have to be compared with, tells what belongs to them.
+/// middles, and where meshes are unlike these are others: of a tile that one result cuts into fewer
+/// patches, a patch of that result is of its name, whole, if any of the other's on it is, too.
 CommonMembers common_members(const PatchOverlaps& overlaps, const Tiles& tiles,
                              const CountedPatches& counted, const PatchDivision& of_base,
                              const PatchDivision& of_variant);

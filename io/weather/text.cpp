@@ -161,13 +161,14 @@ double usual_step_s(const WeatherText& text, const std::vector<DatedWeather>& in
 }
 
 /// Records that begin on the day before 1 March get its date: which one it is depends on the year,
-/// and weather may be written as another.
-void begin_in_february(std::vector<WeatherRecord>& records, bool is_typical) {
-  const auto is_leap_day = [](const WeatherRecord& r) { return r.month == 2 && r.day == 29; };
-  const bool has_leap_day = std::any_of(records.begin(), records.end(), is_leap_day);
-  for (WeatherRecord& r : records) {
+/// and weather may be written as another. The 29th is it where rows of that day come before.
+void begin_in_february(std::vector<WeatherRecord>& records) {
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    WeatherRecord& r = records[i];
     if (r.month != 3 || r.day != 1 || r.begin_s >= 0) continue;
-    const bool after_leap_day = is_typical ? has_leap_day : std::chrono::year{r.year}.is_leap();
+    const bool is_first_of_leap_year = i == 0 && r.year != 0 && std::chrono::year{r.year}.is_leap();
+    const bool after_leap_day =
+        i == 0 ? is_first_of_leap_year : records[i - 1].month == 2 && records[i - 1].day == 29;
     r.month = 2;
     r.day = after_leap_day ? 29 : 28;
     r.begin_s += seconds_per_day;
@@ -194,7 +195,7 @@ std::vector<WeatherRecord> records_of(const WeatherText& text, const std::vector
     r.begin_s -= before;
     r.end_s = r.begin_s + step;
   }
-  begin_in_february(records, is_typical);
+  begin_in_february(records);
   const auto placed = dated(records, year, 0);
   const auto wrong = first_out_of_order(placed);
   if (wrong < placed.size())

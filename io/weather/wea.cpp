@@ -65,7 +65,7 @@ double second_of(double hours) {
 }  // namespace
 
 bool is_wea(const WeatherText& text) {
-  return words_of(text.line(1)).size() > 0 && words_of(text.line(1)).front() == "place";
+  return !words_of(text.line(1)).empty() && words_of(text.line(1)).front() == "place";
 }
 
 WeatherFile read_wea(const WeatherText& text, std::optional<Stamp> stamp) {

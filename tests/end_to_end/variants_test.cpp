@@ -8,9 +8,11 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <thread>
+#include <tuple>
 
 #include "geo/edit/objects.h"
 #include "io/result/reader.h"
@@ -316,19 +318,27 @@ TEST(Variants, OfOtherPatchesAreComparedInTheSamePlaces) {
                                   "[0, 2.5]}\nvariants:\n  - {name: base}\n  - {name: coarse, "
                                   "mesh: {max_edge_m: 5}}\n");
   ASSERT_EQ(program(folder, {"run", "square.yaml"}).code, 0);
-  for (const auto& [one, other] : {std::pair{"base", "coarse"}, {"coarse", "base"}}) {
+  using Row = std::pair<double, double>;  // area that is compared, difference
+  std::map<std::string, Row> there, back;
+  for (const auto& [one, other, found] :
+       {std::tuple{"base", "coarse", &there}, {"coarse", "base", &back}}) {
     const auto rows = nlohmann::json::parse(
         program(folder, {"compare", "square.yaml", one, other, "--storey-m", "3", "--json"})
             .out)["rows"];
-    std::size_t compared = 0;
     for (const auto& row : rows) {
       if (row["group"] != "selection" && row["group"] != "storey") continue;
       if (row["base_kwh_m2"].is_null() || row["variant_kwh_m2"].is_null()) continue;
-      ++compared;
       EXPECT_FALSE(row["significant"].get<bool>()) << row;
       EXPECT_LT(std::abs(row["difference_percent"].get<double>()), 2) << row;
+      (*found)[row["name"].get<std::string>()] = {row["area_m2"].get<double>(),
+                                                  row["difference_kwh_m2"].get<double>()};
     }
-    EXPECT_GE(compared, 2u);
+  }
+  EXPECT_GE(there.size(), 2u);
+  ASSERT_EQ(there.size(), back.size());
+  for (const auto& [name, row] : there) {
+    EXPECT_NEAR(row.first, back[name].first, 1e-3 * row.first) << name;
+    EXPECT_NEAR(row.second, -back[name].second, 1e-3) << name;
   }
 }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -84,14 +83,19 @@ class CityReader {
     const MapAxes axes(model_.crs);
     if (!axes.is_known() || !axes.is_in_degrees()) return;
     const Vec3 p = model_.vertices.front();
-    const Vec3 place = axes.is_in_use_at(p.x, p.y) ? p : Vec3{p.y, p.x, p.z};
+    const auto zone = [](double east, double north) {
+      return std::string(utm_at(north, east)).substr(std::string_view("EPSG:").size());
+    };
+    const bool fits = axes.is_in_use_at(p.x, p.y), fits_exchanged = axes.is_in_use_at(p.y, p.x);
+    std::string zones = fits ? zone(p.x, p.y) : std::string();
+    if (fits_exchanged && (zones.empty() || zones != zone(p.y, p.x)))
+      zones +=
+          (fits ? " (or " : "") + zone(p.y, p.x) + (fits ? " where latitudes come first)" : "");
     throw InputError({path_}, "is in degrees (referenceSystem " + axes.name() + ")",
                      "the scene's x and y must be lengths",
-                     fmt::format("project it, for example with cjio {} crs_reproject {} save "
-                                 "projected.city.json; where they are lengths, remove "
-                                 "metadata.referenceSystem",
-                                 std::filesystem::path(path_).filename().string(),
-                                 std::string(utm_at(place.y, place.x)).substr(5)));
+                     fmt::format("project it, for example with cjio, crs_reproject {}; where they "
+                                 "are lengths, remove metadata.referenceSystem",
+                                 zones.empty() ? "of a map projection" : zones));
   }
 
   void check_type(const json& root, const std::string& expected, int line) const {

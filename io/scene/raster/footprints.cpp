@@ -161,7 +161,8 @@ class FootprintReader {
     OGR_L_ResetReading(layer_);
     while (const Feature feature{OGR_L_GetNextFeature(layer_)}) {
       const OGRGeometryH geometry = OGR_F_GetGeometryRef(feature.get());
-      if (geometry == nullptr || OGR_G_IsEmpty(geometry) != 0) continue;
+      if (geometry == nullptr || OGR_G_IsEmpty(geometry) != 0 || OGR_G_GetDimension(geometry) < 2)
+        continue;
       OGREnvelope one;
       OGR_G_GetEnvelope(geometry, &one);
       all.Merge(one);

@@ -262,13 +262,42 @@ TEST(WeatherLight, OfDaysWhoseDarkHasNoRowsTheDarkIsDark) {
   ASSERT_EQ(series.intervals.size(), 24u);
   EXPECT_GT(series.intervals[18].mean.dni, 0);
   for (const std::size_t hour : {20, 21, 22, 23}) EXPECT_EQ(series.intervals[hour].mean.dhi, 0);
-  EXPECT_TRUE(says(series.weather, "intervals in the dark, at sunrise and sunset have no rows"));
+  EXPECT_TRUE(says(series.weather, "intervals in the dark have no rows"));
   // The twin: in the morning the sun is up.
   write_text("morning.csv", csv_with_hole(2, 0, 8));
   EXPECT_NE(
       refused(study_of("timezone: UTC", "days: [2026-06-20]", "weather: morning.csv, stamp: start"))
           .find("does not cover"),
       std::string::npos);
+}
+
+/// What is left out must be dark, at sunrise or at sunset: not the noon of a short day between two
+/// long rows, nor minutes that a clock jumped over, nor an afternoon to midnight.
+TEST(WeatherLight, DaylightThatHasNoRowIsNotTakenForDark) {
+  const auto rows = [](const std::string& month, int step_h, int from, int to) {
+    std::string text = roof + "time,dni_w_m2,dhi_w_m2\n";
+    for (int h = 0; h < 72; h += step_h)
+      if (h < from || h >= to)
+        text += fmt::format("2026-{}-{:02}T{:02}:00,100,40\n", month, 20 + h / 24, h % 24);
+    return text;
+  };
+  const auto of = [](const std::string& name, const std::string& text, const std::string& days) {
+    write_text(name, text);
+    return study_of("timezone: '+01:00'", "days: [" + days + "]",
+                    "weather: " + name + ", stamp: start");
+  };
+  EXPECT_NE(refused(of("long.csv", rows("12", 6, 30, 42), "2026-12-21")), "");
+  EXPECT_NE(refused(of("short_day.csv", rows("12", 12, 24, 36), "2026-12-21")), "");
+  EXPECT_NE(refused(of("afternoon.csv", rows("06", 1, 38, 48), "2026-06-21")).find("light.missing"),
+            std::string::npos);
+  EXPECT_NE(refused(of("morning.csv", rows("06", 1, 24, 35), "2026-06-21")).find("light.missing"),
+            std::string::npos);
+  std::string jumped = roof + "time,dni_w_m2,dhi_w_m2\n";
+  for (int h = 0; h < 24; ++h)
+    jumped += fmt::format("2026-06-21T{:02}:{},100,40\n", h, h < 12 ? "00" : "25");
+  jumped += "2026-06-22T00:25,100,40\n";
+  EXPECT_NE(refused(of("jumped.csv", jumped, "2026-06-21")).find("does not cover"),
+            std::string::npos);
 }
 
 /// Stamps in UTC: midnight there is ten in the morning in Sydney.
