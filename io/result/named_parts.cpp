@@ -78,7 +78,7 @@ std::string different_north_in_words(const ResultReader& base, const ResultReade
   const double turn = base.number_attribute("north_deg") - variant.number_attribute("north_deg");
   if (!(std::abs(turn) > 0)) return {};
   return "the scenes are turned against each other: facades and orientations are named by their "
-         "azimuth, and one name may be of two walls; objects are the same";
+         "azimuth, and a wall of two names is in rows of one result alone; objects are the same";
 }
 
 }  // namespace sunload

@@ -104,7 +104,7 @@ constexpr std::array table{
     ResultVariable{"sky_view_factor", "patch", float64, "1", total, "cosine-weighted share of the hemisphere that is sky"},
     ResultVariable{"patch_lines", "patch", float64, "1", total, "lines that the patch cast, over all realizations"},
     ResultVariable{"power_load", "patch", float64, kwh_m2, total, "outgoing diffuse energy per area: reflected and emitted"},
-    ResultVariable{"diffuse_reflectance", "patch", float64, "1", total, "share of incident light that is reflected diffusely"},
+    ResultVariable{"diffuse_reflectance", "patch", float64, "1", total, "share of incident light that is reflected diffusely; not where seasons change it"},
     ResultVariable{"emitted_exitance", "patch", float64, w_m2, total, "diffuse light that emitters send of their own, where there are any"},
     ResultVariable{"facade_light_load", "facade", float64, kwh_m2, total, "light load, mean over the facade", "", "area: mean"},
     ResultVariable{"facade_light_load_se", "facade", float64, kwh_m2, total, "standard error of facade_light_load"},
