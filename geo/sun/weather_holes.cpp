@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "geo/base/units.h"
 
@@ -36,18 +37,18 @@ std::vector<DatedWeather> sunlit_records(const WeatherHole& hole, int count,
   const double length = (hole.end - hole.begin) / count;
   const auto is_up = [&](UnixTime at) { return sun(at).elevation_deg > 0; };
   std::vector<DatedWeather> records;
-  bool is_day = false;
+  bool is_day = false, ends_up = is_up(hole.begin);
   for (int k = 0; k < count; ++k) {
     const UnixTime begin = hole.begin + k * length, end = begin + length;
-    const bool begins_up = is_up(begin), ends_up = is_up(end),
+    const bool begins_up = std::exchange(ends_up, is_up(end)),
                is_middle_up = is_up((begin + end) / 2);
-    const bool is_whole = begins_up && ends_up && is_middle_up;
-    const bool is_all_of_a_day = !begins_up && !ends_up && is_middle_up;
+    // Up from its beginning to its end, or all of a day between two nights.
+    const bool is_no_edge = is_middle_up && begins_up == ends_up;
     const bool is_long = length > longest_edge_s && ((begins_up && is_up(begin + longest_edge_s)) ||
                                                      (ends_up && is_up(end - longest_edge_s)));
     if (is_middle_up || is_long) records.push_back({begin, end, {}, hole.line});
     // What is up between two records shines on both.
-    is_day = is_day || is_whole || is_all_of_a_day || is_long || (k > 0 && begins_up);
+    is_day = is_day || is_no_edge || is_long || (k > 0 && begins_up);
   }
   return is_day ? records : std::vector<DatedWeather>();
 }

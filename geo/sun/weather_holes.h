@@ -15,8 +15,9 @@ struct WeatherHole {
   UnixTime begin = 0, end = 0;
   int line = 0;        ///< of the record behind it
   int whole_days = 0;  ///< as long as so many
-  /// Without values, of the length of the record before it: those in whose middle the sun is up.
-  /// None where they are of two days: that is another campaign, or hours that nobody measures.
+  /// Without values, of the length of the record before it: those with sun in their middle, or for
+  /// an hour. None where they are of two days: that is another campaign, or hours that nobody
+  /// measures.
   std::vector<DatedWeather> records;
 };
 

@@ -21,6 +21,7 @@
 #include "tests/support/program.h"
 #include "tests/support/result_check.h"
 #include "tests/support/small_study.h"
+#include "tests/support/square_folder.h"
 
 namespace sunload::test {
 namespace {
@@ -277,15 +278,14 @@ TEST(Variants, AllThatIsWrongIsSaidBeforeAnythingIsComputed) {
 
 /// What reflected light is off by where patches are others, beside the standard errors.
 TEST(Variants, OfOtherPatchesHaveAnErrorOfTheMesh) {
-  const WorkFolder folder;
-  folder.write("square.obj", square_obj);
-  folder.write("square.yaml", square_study("totals", "", "3") +
-                                  "variants:\n  - {name: base}\n  - {name: dark, scene: "
-                                  "{materials: {paving: {diffuse: 0.1}}}}\n  - {name: coarse, "
-                                  "mesh: {max_edge_m: 6}}\n");
-  ASSERT_EQ(program(folder, {"run", "square.yaml"}).code, 0);
+  const SquareFolder square(square_study("totals", "", "3") +
+                            "variants:\n  - {name: base}\n  - {name: dark, scene: {materials: "
+                            "{paving: {diffuse: 0.1}}}}\n  - {name: coarse, mesh: {max_edge_m: "
+                            "6}}\n");
+  ASSERT_EQ(square.run("results").code, 0);
   const auto compared = [&](const char* variant, const char* how) {
-    return program(folder, {"compare", "square.yaml", "base", variant, "--least", "1", how}).out;
+    return program(square.folder, {"compare", "square.yaml", "base", variant, "--least", "1", how})
+        .out;
   };
   const auto dark = nlohmann::json::parse(compared("dark", "--json"))["rows"];
   ASSERT_FALSE(dark.empty());
@@ -293,7 +293,7 @@ TEST(Variants, OfOtherPatchesHaveAnErrorOfTheMesh) {
   EXPECT_EQ(compared("dark", "--storey-m=3").find("mesh:"), std::string::npos);
 
   const auto reflected = [&](const char* variant) {
-    const ResultReader result(folder / ("results/square/" + std::string(variant) + ".h5"));
+    const ResultReader result(square.result("results", variant));
     const auto area = result.doubles("patch_area"), load = result.doubles("light_load_reflected");
     double sum = 0, all = 0;
     for (std::size_t i = 0; i < area.size(); ++i) sum += area[i] * load[i], all += area[i];
@@ -311,19 +311,17 @@ TEST(Variants, OfOtherPatchesHaveAnErrorOfTheMesh) {
 
 /// Selections and storeys have patches by their middles: those of other meshes lie elsewhere.
 TEST(Variants, OfOtherPatchesAreComparedInTheSamePlaces) {
-  const WorkFolder folder;
-  folder.write("square.obj", square_obj);
-  folder.write("square.yaml", square_study("totals", "", "1.2") +
-                                  "selections:\n  low: {object: house, surface: wall, height_m: "
-                                  "[0, 2.5]}\nvariants:\n  - {name: base}\n  - {name: coarse, "
-                                  "mesh: {max_edge_m: 5}}\n");
-  ASSERT_EQ(program(folder, {"run", "square.yaml"}).code, 0);
+  const SquareFolder square(square_study("totals", "", "1.2") +
+                            "selections:\n  low: {object: house, surface: wall, height_m: "
+                            "[0, 2.5]}\nvariants:\n  - {name: base}\n  - {name: coarse, "
+                            "mesh: {max_edge_m: 5}}\n");
+  ASSERT_EQ(square.run("results").code, 0);
   using Row = std::pair<double, double>;  // area that is compared, difference
   std::map<std::string, Row> there, back;
   for (const auto& [one, other, found] :
        {std::tuple{"base", "coarse", &there}, {"coarse", "base", &back}}) {
     const auto rows = nlohmann::json::parse(
-        program(folder, {"compare", "square.yaml", one, other, "--storey-m", "3", "--json"})
+        program(square.folder, {"compare", "square.yaml", one, other, "--storey-m", "3", "--json"})
             .out)["rows"];
     for (const auto& row : rows) {
       if (row["group"] != "selection" && row["group"] != "storey") continue;

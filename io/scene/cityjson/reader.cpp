@@ -84,7 +84,7 @@ class CityReader {
     if (!axes.is_known() || !axes.is_in_degrees()) return;
     const Vec3 p = model_.vertices.front();
     const auto zone = [](double east, double north) {
-      return std::string(utm_at(north, east)).substr(std::string_view("EPSG:").size());
+      return utm_at(north, east).substr(std::string_view("EPSG:").size());
     };
     const bool fits = axes.is_in_use_at(p.x, p.y), fits_exchanged = axes.is_in_use_at(p.y, p.x);
     std::string zones = fits ? zone(p.x, p.y) : std::string();

@@ -73,7 +73,9 @@ class FootprintReader {
  private:
   using Feature = std::unique_ptr<void, DestroyFeature>;
 
-  [[noreturn]] void fail_without_polygons() { fail("has no polygons", "footprints were expected"); }
+  [[noreturn]] void fail_without_polygons() const {
+    fail("has no polygons", "footprints were expected");
+  }
   [[noreturn]] void fail(const std::string& what, const std::string& why = {},
                          const std::string& hint = {}) const {
     throw InputError({path_}, what, why.empty() ? messages_.first() : why, hint);
@@ -156,7 +158,7 @@ class FootprintReader {
   // ---- place
 
   /// The extent that a GeoPackage stores is for information, and often that of a whole country.
-  OGREnvelope extent_of_geometries() {
+  OGREnvelope extent_of_polygons() const {
     OGREnvelope all;
     OGR_L_ResetReading(layer_);
     while (const Feature feature{OGR_L_GetNextFeature(layer_)}) {
@@ -167,7 +169,6 @@ class FootprintReader {
       OGR_G_GetEnvelope(geometry, &one);
       all.Merge(one);
     }
-    OGR_L_ResetReading(layer_);
     if (all.IsInit() == 0) fail_without_polygons();
     return all;
   }
@@ -179,7 +180,7 @@ class FootprintReader {
       model_.crs = crs_name(crs);
       return;
     }
-    const OGREnvelope extent = extent_of_geometries();
+    const OGREnvelope extent = extent_of_polygons();
     const double longitude = (extent.MinX + extent.MaxX) / 2,
                  latitude = (extent.MinY + extent.MaxY) / 2;
     constexpr double most_degrees = 3, half_turn = 180, zone_width = 6;
