@@ -261,7 +261,7 @@ TEST(WeatherLight, OfDaysWhoseDarkHasNoRowsTheDarkIsDark) {
                                          "weather: dark.csv, stamp: start"));
   ASSERT_EQ(series.intervals.size(), 24u);
   EXPECT_GT(series.intervals[18].mean.dni, 0);
-  for (const std::size_t hour : {20, 21, 22, 23}) EXPECT_EQ(series.intervals[hour].mean.dhi, 0);
+  for (std::size_t hour = 20; hour < 24; ++hour) EXPECT_EQ(series.intervals[hour].mean.dhi, 0);
   EXPECT_TRUE(says(series.weather, "intervals in the dark have no rows"));
   // The twin: in the morning the sun is up.
   write_text("morning.csv", csv_with_hole(2, 0, 8));
