@@ -62,8 +62,7 @@ std::vector<WeatherHole> sunlit_holes(const std::vector<DatedWeather>& weather,
   std::vector<WeatherHole> holes;
   for (std::size_t i = 1; i < weather.size(); ++i) {
     const DatedWeather &before = weather[i - 1], &behind = weather[i];
-    const double records_long =
-        std::round((behind.begin - before.end) / (before.end - before.begin));
+    const double records_long = rows_left_out(before, behind);
     if (!(records_long >= 1)) continue;
     const auto whole_days = static_cast<int>((behind.begin - before.end + 1) / seconds_per_day);
     WeatherHole hole{before.end, behind.begin, behind.line, whole_days, {}};

@@ -3,6 +3,7 @@
 /// Stretches of time that the rows of a weather file leave out.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "geo/sun/sun.h"
@@ -27,6 +28,12 @@ struct WeatherHole {
 /// tells: stamps may be in UTC.
 std::vector<WeatherHole> sunlit_holes(const std::vector<DatedWeather>& weather,
                                       const SunEphemeris& sun, double longitude_deg);
+
+/// How many rows as long as the first of two are missing between them; less than a half is rounding
+/// of stamps, or another clock.
+inline double rows_left_out(const DatedWeather& before, const DatedWeather& behind) {
+  return std::round((behind.begin - before.end) / (before.end - before.begin));
+}
 
 /// Both in order.
 std::vector<DatedWeather> with_records_of(const std::vector<WeatherHole>& holes,

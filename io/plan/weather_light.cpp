@@ -251,13 +251,13 @@ void StudyWeather::expect_covered(const SunPath& path, const std::vector<std::si
 
 /// Where whole rows are left out about it: shorter gaps are another clock.
 bool StudyWeather::lies_between_records(const SunInterval& when) const {
+  constexpr double rounding_s = 1;
   if (when.begin < dated_.front().begin || when.end > dated_.back().end) return false;
   auto next = std::upper_bound(dated_.begin(), dated_.end(), when.begin,
                                [](UnixTime t, const DatedWeather& w) { return t < w.begin; });
   for (; next != dated_.end(); ++next) {
     const DatedWeather& before = *std::prev(next);
-    const double gap = next->begin - before.end, step = before.end - before.begin;
-    if (gap > 1 && gap < step / 2) return false;
+    if (next->begin - before.end > rounding_s && rows_left_out(before, *next) < 1) return false;
     if (next->begin >= when.end) break;
   }
   return true;

@@ -34,19 +34,20 @@ void expect_room_for(const WorkEstimate& work, PatchesAre patches, const std::st
     if (!problem.empty()) throw MachineError(problem);
 }
 
-InputError of_another_state(const WorkFolder& folder, const std::string& hash, const char* hint) {
+InputError of_another_state(const WorkFolder& folder, const ResultState& is, const char* hint) {
   const ResultReader result(folder.result());
   if (result.number_attribute("numerics_version") != numerics_version)
     return {{folder.result()},
             "is the result of another version of the program",
             "by " + result.text_attribute("source") + ", whose numbers are others",
             hint};
+  const ResultState wanted = folder.wanted_state();
   const char* why =
-      "its content hash differs: the study, a file, or a variant that shares its mesh is another";
-  if (hash.starts_with(folder.wanted_hash() + "-"))
-    why = "it lacks series that the study stores";
-  else if (hash.starts_with(folder.content_hash()))
-    why = "its measures or selections differ";
+      is.content_hash != wanted.content_hash
+          ? "its content hash differs: the study, a file, or a variant that shares its mesh is "
+            "another"
+      : is.measures_hash != wanted.measures_hash ? "its measures or selections differ"
+                                                 : "it lacks series that the study stores";
   return {{folder.result()}, "is the result of another state of the study", why, hint};
 }
 
@@ -83,10 +84,10 @@ VariantJob::~VariantJob() = default;
 void VariantJob::expect_may_run() const {
   refuse_other_isa();
   if (is_overwritten()) return;
-  const auto hash = folder_.result_hash();
-  if (!hash) return;
-  if (hash != folder_.wanted_hash())
-    throw of_another_state(folder_, *hash, "use --overwrite to replace it, or --output");
+  const auto state = folder_.state();
+  if (!state) return;
+  if (state != folder_.wanted_state())
+    throw of_another_state(folder_, *state, "use --overwrite to replace it, or --output");
   // Of a shard's variants others may be finished by other shards before it comes.
   if (work_.options.existing == Existing::refuse && work_.options.shard.is_whole())
     throw InputError({folder_.result()}, "is there already, of this very study",
@@ -96,9 +97,9 @@ void VariantJob::expect_may_run() const {
 
 void VariantJob::expect_may_merge() const {
   if (is_overwritten()) return;
-  const auto hash = folder_.result_hash();
-  if (hash && hash != folder_.wanted_hash() && folder_.batches_not_there().empty())
-    throw of_another_state(folder_, *hash, "use --overwrite to replace it");
+  const auto state = folder_.state();
+  if (state && state != folder_.wanted_state() && folder_.batches_not_there().empty())
+    throw of_another_state(folder_, *state, "use --overwrite to replace it");
 }
 
 /// Shards on machines of different instruction sets would not fit together.
@@ -122,7 +123,7 @@ void VariantJob::refuse_other_isa() const {
 /// A result that cannot be read is no obstacle to --overwrite.
 bool VariantJob::is_merged() const {
   try {
-    return folder_.result_hash() == folder_.wanted_hash();
+    return folder_.state() == folder_.wanted_state();
   } catch (const InputError&) {
     if (is_overwritten()) return false;
     throw;

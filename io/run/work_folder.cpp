@@ -43,18 +43,12 @@ void remove_files(const fs::path& work) {
   fs::remove(work, ignored);
 }
 
-std::string with_measures(const std::string& content, const std::string& measures) {
-  return measures.empty() ? content : content + "+" + measures;
-}
-
-/// "-irradiance_sky…": series that a result was written without, and that are wanted now.
-std::string lacking_series(const ResultReader& result, const std::vector<std::string>& unwanted) {
-  std::string lacking;
+/// A result was written without series that are wanted now.
+bool lacks_series(const ResultReader& result, const std::vector<std::string>& unwanted) {
   std::istringstream left_out(result.text_attribute("series_left_out"));
   for (std::string series; left_out >> series;)
-    if (std::find(unwanted.begin(), unwanted.end(), series) == unwanted.end())
-      lacking += "-" + series;
-  return lacking;
+    if (std::find(unwanted.begin(), unwanted.end(), series) == unwanted.end()) return true;
+  return false;
 }
 
 bool exists(const std::string& path) {
@@ -83,7 +77,7 @@ WorkFolder::WorkFolder(const std::string& folder, const Study& study, std::strin
     : work_(work_of_study(folder, study.name)),
       variant_(study.variant),
       content_hash_(std::move(content_hash)),
-      wanted_hash_(with_measures(content_hash_, measures_hash(study))),
+      measures_hash_(measures_hash(study)),
       result_(result_path(folder, study)),
       path_(work_ + "/" + variant_ + "-" + content_hash_),
       unwanted_(unwanted_series(study)),
@@ -104,12 +98,11 @@ std::string WorkFolder::merge_lock() const { return work_ + "/" + variant_ + ".l
 
 bool WorkFolder::is_there() const { return exists(path_); }
 
-std::optional<std::string> WorkFolder::result_hash() const {
+std::optional<ResultState> WorkFolder::state() const {
   if (!exists(result_)) return {};
   const ResultReader result(result_);
-  return with_measures(result.text_attribute("study_sha256"),
-                       result.text_attribute("measures_sha256")) +
-         lacking_series(result, unwanted_);
+  return ResultState{result.text_attribute("study_sha256"),
+                     result.text_attribute("measures_sha256"), lacks_series(result, unwanted_)};
 }
 
 BatchCheck WorkFolder::check(std::size_t number) const {

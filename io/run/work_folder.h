@@ -23,6 +23,15 @@ struct MissingBatches {
   std::vector<std::string> reasons;
 };
 
+/// What a result is of.
+struct ResultState {
+  std::string content_hash;
+  std::string measures_hash;  ///< of measures and selections, where there are any
+  bool lacks_series = false;  ///< that the study stores
+
+  bool operator==(const ResultState&) const = default;
+};
+
 /// Result, batches, prepared file, locks of one variant at one content hash. Knows names alone: no
 /// scene, no light. Nothing is made or removed but by the functions that say so.
 class WorkFolder {
@@ -45,12 +54,11 @@ class WorkFolder {
   std::string merge_lock() const;
 
   bool is_there() const;
-  /// Content hash of the finished result, with that of its measures and selections where it has any
-  /// and the names of series that it lacks; none where there is no result. Throws InputError where
-  /// it cannot be read.
-  std::optional<std::string> result_hash() const;
+  /// Of the finished result; none where there is no result. Throws InputError where it cannot be
+  /// read.
+  std::optional<ResultState> state() const;
   /// What it is to be.
-  const std::string& wanted_hash() const { return wanted_hash_; }
+  ResultState wanted_state() const { return {content_hash_, measures_hash_, false}; }
   /// A batch's file, all of it read.
   BatchCheck check(std::size_t number) const;
   /// All batches' files, all of them read.
@@ -74,8 +82,8 @@ class WorkFolder {
   void remove_finished_work() const;
 
  private:
-  std::string work_, variant_, content_hash_, wanted_hash_, result_, path_;
-  std::vector<std::string> unwanted_;  ///< series that batches may lack
+  std::string work_, variant_, content_hash_, measures_hash_, result_, path_;
+  std::vector<std::string> unwanted_;  ///< series that batches and result may lack
   std::size_t batches_;
 };
 

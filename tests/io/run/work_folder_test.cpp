@@ -62,7 +62,7 @@ TEST(WorkFolder, PathsAreThoseOfTheContract) {
 TEST(WorkFolder, LookingMakesNothing) {
   const Results results;
   EXPECT_FALSE(results.work.is_there());
-  EXPECT_FALSE(results.work.result_hash());
+  EXPECT_FALSE(results.work.state());
   EXPECT_EQ(results.work.batches_not_there(), (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_EQ(results.work.missing_batches().numbers, (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_EQ(results.work.bytes_there(), 0);
@@ -90,7 +90,7 @@ TEST(WorkFolder, AResultThatCannotBeReadIsNamed) {
   const Results results;
   results.folder.write("results/street/glazed.h5", "no HDF5");
   try {
-    results.work.result_hash();
+    results.work.state();
     ADD_FAILURE() << "nothing was thrown";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("glazed.h5"), std::string::npos) << error.what();
