@@ -53,7 +53,7 @@ IntervalLight IntervalLights::of_parts(const LitInterval& interval, std::size_t 
 }
 
 std::vector<SunSample> samples_of(const LitInterval& interval) {
-  if (interval.joined) return interval.sun_samples;
+  if (interval.joined || !interval.sun_samples.empty()) return interval.sun_samples;
   std::vector<SunSample> samples;
   const double share = 1 / static_cast<double>(interval.when.sun_samples.size());
   for (const Vec3 sun : interval.when.sun_samples) samples.push_back({sun, share, share});

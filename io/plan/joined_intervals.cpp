@@ -67,12 +67,16 @@ struct PartSun {
   double dni_s = 0, sunlit_s = 0;
 };
 
-std::vector<PartSun> suns_of(std::span<const LitInterval> parts) {
+/// A low sun has fewer lumens per watt than a high one: what they bring is that of the quantity.
+std::vector<PartSun> suns_of(std::span<const LitInterval> parts, Quantity quantity) {
   std::vector<PartSun> suns;
   for (const LitInterval& part : parts) {
     const SunInterval& when = part.when;
     if (when.sunlit_s <= 0 || when.direction.z <= 0) continue;
-    const double dni_s = part.mean.dni * when.length_s();
+    const double dni_s = source_means(part, quantity).dni * when.length_s();
+    for (const SunSample& sun : part.sun_samples)
+      suns.push_back({sun.direction, dni_s * sun.dni_share, when.sunlit_s * sun.time_share});
+    if (!part.sun_samples.empty()) continue;
     if (when.sun_samples.empty()) suns.push_back({when.direction, dni_s, when.sunlit_s});
     const auto count = static_cast<double>(when.sun_samples.size());
     for (const Vec3 sun : when.sun_samples)
@@ -168,7 +172,7 @@ Irradiance mean_of(std::span<const LitInterval> parts, const Seconds& seconds, c
   return {sum.dni / all_s, sum.dhi / all_s, sum.ghi / all_s};
 }
 
-LitInterval joined(std::span<LitInterval> parts) {
+LitInterval joined(std::span<LitInterval> parts, Quantity quantity) {
   LitInterval whole;
   whole.when = time_of(parts);
   whole.mean = mean_of(
@@ -180,7 +184,7 @@ LitInterval joined(std::span<LitInterval> parts) {
   const LitInterval& middle = parts[middle_of(parts)];
   whole.lm_per_w = middle.lm_per_w;
   whole.albedo = middle.albedo;
-  const auto suns = suns_of(parts);
+  const auto suns = suns_of(parts, quantity);
   if (!suns.empty()) {
     whole.sun_samples = in_runs(suns, sent_on_sun_s);
     whole.direct_suns = in_runs(suns, direct_sun_s);
@@ -225,7 +229,8 @@ void join_short_intervals(const Study& study, LightSeries& series) {
   std::size_t first = 0;
   for (const std::size_t end : ends) {
     const auto parts = std::span(series.intervals).subspan(first, end - first);
-    whole.push_back(parts.size() == 1 ? std::move(parts.front()) : joined(parts));
+    whole.push_back(parts.size() == 1 ? std::move(parts.front())
+                                      : joined(parts, study.light.quantity));
     first = end;
   }
   series.intervals = std::move(whole);

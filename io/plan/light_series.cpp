@@ -3,10 +3,12 @@
 #include "io/plan/light_series.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "io/base/hash.h"
 #include "io/plan/joined_intervals.h"
@@ -50,6 +52,21 @@ class ClearSky {
   /// Mean while the sun is up, hills or not.
   Irradiance mean_while_up(const SunInterval& when) const {
     return mean(when, {when.up_begin, when.up_end, when.up_s}, Horizon());
+  }
+
+  /// The suns that stand for an interval, each with its own DNI: a low one brings less.
+  std::vector<SunSample> suns_of(const SunInterval& when) const {
+    std::vector<double> dni;
+    for (const Vec3 sun : when.sun_samples) {
+      SunPosition at_sun = when.sun;
+      at_sun.elevation_deg = degrees(std::asin(sun.z));
+      dni.push_back(at(when.sun_time, at_sun).dni);
+    }
+    const double all = std::accumulate(dni.begin(), dni.end(), 0.0);
+    std::vector<SunSample> suns;
+    for (std::size_t s = 0; s < dni.size() && all > 0; ++s)
+      suns.push_back({when.sun_samples[s], dni[s] / all, 1 / static_cast<double>(dni.size())});
+    return suns;
   }
 
   /// Mean while no hill hides the sun.
@@ -189,9 +206,15 @@ double hour_angle_doubt_deg(UnixTime utc) {
   return deg_per_s * (largest_s + s_per_day * std::max(0.0, utc - last_leap) / day_s);
 }
 
+/// `series` has the notes of its times so far: a clock may have skipped all of them.
+InputError without_intervals(const Study& study, const LightSeries& series) {
+  return {study.period.where, "period has no intervals",
+          fmt::format("{}", fmt::join(series.notes, "; "))};
+}
+
 SunPath path_of(const std::vector<PeriodStep>& steps, const Study& study, const Site& site,
                 LightSeries& series) {
-  if (steps.empty()) throw InputError(study.period.where, "period has no intervals");
+  if (steps.empty()) throw without_intervals(study, series);
   if (study.sun.ut1_utc == Ut1::table && !ut1_table_covers(steps.back().end)) {
     constexpr double worth_telling_deg = 0.01;
     if (const double doubt_deg = hour_angle_doubt_deg(steps.back().end);
@@ -341,6 +364,23 @@ void note_dark_instants(LightSeries& series) {
         count));
 }
 
+/// Nobody who writes days of 24 hours as steps means that the sun stands still from morning to
+/// evening.
+void note_long_intervals(LightSeries& series, bool has_dni_of_each_sun) {
+  constexpr double longest_s = 3 * seconds_per_hour;
+  double most_s = 0;
+  for (const LitInterval& interval : series.intervals) {
+    const auto suns = static_cast<double>(has_dni_of_each_sun ? interval.suns() : 1);
+    most_s = std::max(most_s, interval.when.sunlit_s / suns);
+  }
+  if (most_s <= longest_s) return;
+  series.notes.push_back(fmt::format(
+      "one {} stands for up to {:.3g} h of sun: direct light may be off by tens of per cent; for "
+      "values of days or months write a period.step_min of 60 or less, with output: {{series_step: "
+      "day}}",
+      has_dni_of_each_sun ? "sun" : "DNI", most_s / seconds_per_hour));
+}
+
 LightSeries series_of(const Study& study, const Site& site) {
   LightSeries series;
   if (study.light.source == LightSource::weather) {
@@ -351,7 +391,7 @@ LightSeries series_of(const Study& study, const Site& site) {
   series.times_are_synthetic = positions != nullptr;
   const SunPath path =
       positions ? positions_path(*positions, site) : dated_path(study, site, series);
-  if (path.empty()) throw InputError(study.period.where, "period has no intervals");
+  if (path.empty()) throw without_intervals(study, series);
   if (study.light.source == LightSource::fixed || positions) {
     for (const auto& when : path) series.intervals.push_back(fixed_light(when, study.light));
     return series;
@@ -363,6 +403,7 @@ LightSeries series_of(const Study& study, const Site& site) {
     LitInterval interval{when, {}, {}};
     if (when.up_s > 0) {
       interval.of_the_sky = sky.mean_while_up(when);
+      interval.sun_samples = sky.suns_of(when);
       if (study.light.sky_scale == SkyScale::absolute) make_sky_absolute(interval, study.light);
       interval.mean = over_interval(when, interval.of_the_sky,
                                     when.sunlit_s == when.up_s ? interval.of_the_sky
@@ -378,7 +419,10 @@ LightSeries series_of(const Study& study, const Site& site) {
 
 LightSeries light_series(const Study& study, const Site& site) {
   LightSeries series = series_of(study, site);
-  if (std::holds_alternative<InstantsPeriod>(study.period.kind)) note_dark_instants(series);
+  if (std::holds_alternative<InstantsPeriod>(study.period.kind))
+    note_dark_instants(series);
+  else if (!series.times_are_synthetic)
+    note_long_intervals(series, study.light.source != LightSource::weather);
   join_short_intervals(study, series);
   return series;
 }

@@ -26,10 +26,12 @@ struct LitInterval {
   std::optional<LuminousEfficacy> lm_per_w{};
   /// Of the ground on that day, in (0, 1), where the study asks for it and the weather tells it.
   std::optional<double> albedo{};
-  /// Where short intervals are solved together (io/plan/joined_intervals.h): these, and the suns
-  /// that stand for them; else null, and none.
+  /// Where short intervals are solved together (io/plan/joined_intervals.h): these; else null.
   std::shared_ptr<const std::vector<LitInterval>> joined{};
-  std::vector<SunSample> sun_samples{}, direct_suns{};
+  /// Suns that stand for it, with what each brings: of joined intervals, and of a clear sky; where
+  /// there are none those of `when`, which bring alike.
+  std::vector<SunSample> sun_samples{};
+  std::vector<SunSample> direct_suns{};  ///< of joined intervals, for straight light alone
 
   std::span<const LitInterval> parts() const;
 

@@ -90,8 +90,10 @@ void fill_in_date(MeasureParameters& of, const MeasureRule& rule, const VariantP
   const auto [month, day] = *rule.day;
   // Years of weather begin some hours before those of a zone that is behind the station's.
   const auto& intervals = plan.light.intervals;
+  const bool is_of_weather = std::holds_alternative<WeatherPeriod>(plan.study.period.kind);
   const UnixTime when =
-      std::min(intervals.front().when.begin + seconds_per_day, intervals.back().when.begin);
+      std::min(intervals.front().when.begin + (is_of_weather ? seconds_per_day : 0),
+               intervals.back().when.begin);
   of.date = {zone.civil_from_utc(when).year, month, day};
 }
 

@@ -87,9 +87,11 @@ double sum_of(const std::vector<SunSample>& suns, double SunSample::*share) {
                          [&](double sum, const SunSample& sun) { return sum + sun.*share; });
 }
 
-TEST(JoinedIntervals, HaveTheLightOfTheirParts) {
-  const VariantPlan each = plan_with("short_intervals: each", "series_step: 60 min"),
-                    together = plan_with("", "series_step: 60 min");
+/// `full`: what light may be [W m-2, or lx].
+void expect_light_of_parts(const std::string& light, double full) {
+  const std::string days = "start: 2026-06-01, end: 2026-06-04, step_min: 1";
+  const VariantPlan each = plan_with("short_intervals: each", "series_step: 60 min", days, light),
+                    together = plan_with("", "series_step: 60 min", days, light);
   const SkyGrid grid;
   const IntervalLights lights(each.study, each.built.site, grid);
   std::size_t first = 0, with_sun = 0;
@@ -108,13 +110,13 @@ TEST(JoinedIntervals, HaveTheLightOfTheirParts) {
       sky.resize(std::max(sky.size(), part.sky.size()), 0);
       for (std::size_t c = 0; c < part.sky.size(); ++c) sky[c] += part.sky[c] / 60;
     }
-    EXPECT_NEAR(whole.dni, dni, rounding * 1000);
-    EXPECT_NEAR(whole.dhi, dhi, rounding * 1000);
-    EXPECT_NEAR(whole.ground_exitance, ground, rounding * 1000);
+    EXPECT_NEAR(whole.dni, dni, rounding * full);
+    EXPECT_NEAR(whole.dhi, dhi, rounding * full);
+    EXPECT_NEAR(whole.ground_exitance, ground, rounding * full);
     EXPECT_NEAR(whole.sunlit_s, sunlit_s, 1e-6);
     EXPECT_NEAR(hour.when.up_s, up_s, 1e-6);
     ASSERT_EQ(whole.sky.size(), sky.size());
-    for (std::size_t c = 0; c < sky.size(); ++c) EXPECT_NEAR(whole.sky[c], sky[c], 1e-9 * 1000);
+    for (std::size_t c = 0; c < sky.size(); ++c) EXPECT_NEAR(whole.sky[c], sky[c], rounding * full);
     if (sunlit_s <= 0) {
       EXPECT_TRUE(whole.direct_suns.empty() && whole.sun_samples.empty());
       continue;
@@ -138,6 +140,15 @@ TEST(JoinedIntervals, HaveTheLightOfTheirParts) {
     }
   }
   EXPECT_GT(with_sun, 8u);
+}
+
+TEST(JoinedIntervals, HaveTheLightOfTheirParts) {
+  expect_light_of_parts("source: clear_sky", 1000);
+}
+
+// Of which a low sun has less for its watts.
+TEST(JoinedIntervals, HaveTheLumensOfTheirParts) {
+  expect_light_of_parts("source: clear_sky, quantity: illuminance", 1e5);
 }
 
 TEST(JoinedIntervals, EndAtGapsAndAtTheEndOfThePeriod) {

@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "io/plan/interval_lights.h"
 #include "tests/support/study_plan.h"
 
 namespace sunload::test {
@@ -48,6 +49,34 @@ TEST(ClearSkyOfAnInterval, KnowsNightInItsMiddle) {
 
 TEST(ClearSkyOfAnInterval, KnowsSunriseWithinAnHour) {
   expect_alike("latitude_deg: 50, longitude_deg: 14, timezone: UTC", "2026-03-21", 60, 5e-4);
+}
+
+/// Direct light of a winter's day on level ground, by the suns that stand for its steps [J m-2].
+double direct_on_ground(int step_min, const std::string& suns) {
+  const VariantPlan plan = plan_of(
+      "format: sunload-study-1\nname: day\nsite: {latitude_deg: 50, longitude_deg: 14, timezone: "
+      "UTC}\nperiod: {days: [2026-12-21], step_min: " +
+      std::to_string(step_min) +
+      "}\nlight: {source: clear_sky}\nscene: {builtin: {name: box_on_plane}}\n"
+      "solver: {sun_samples_per_interval: " +
+      suns + "}\n");
+  const SkyGrid grid;
+  double sum = 0;
+  for (const IntervalLight& light : suns_of(plan, grid)) {
+    if (light.sun_samples.empty()) sum += light.dni * light.direction.z * light.length_s;
+    for (const SunSample& sun : light.sun_samples)
+      sum += light.dni * sun.dni_share * sun.direction.z * light.length_s;
+  }
+  return sum;
+}
+
+/// A low sun brings less than a high one: suns of an hour that all brought its mean would take 1.2
+/// % of a winter's day from level ground.
+TEST(SunsOfAnInterval, BringWhatTheirHeightsHave) {
+  const double fine = direct_on_ground(2, "1");
+  EXPECT_NEAR(direct_on_ground(60, "auto"), fine, 2e-3 * fine);
+  EXPECT_NEAR(direct_on_ground(60, "12"), fine, 1e-3 * fine);
+  EXPECT_GT(fine - direct_on_ground(60, "1"), 4e-3 * fine) << "one sun stands for an hour";
 }
 
 }  // namespace
