@@ -189,6 +189,8 @@ std::vector<Foot> settle(Mesh& mesh, const PrepareRules& rules, const PolygonMod
   const auto kind = model.is_city_format ? SceneKind::city : SceneKind::plain;
   auto feet = rules.ground ? find_feet(mesh, bodies, kind) : std::vector<Foot>{};
   const Standing standing = standing_on(mesh, feet, rules.ground, bodies.bodies.size());
+  if (rules.orientation == Orientation::outward)
+    report.looks_down = find_looking_down(mesh, bodies, kind);
   decide_surfaces(mesh, bodies, kind, standing);
   if (!standing.on_ground.empty()) take_floors(mesh, feet);
   return feet;
@@ -294,6 +296,12 @@ void add_warnings(PrepareReport& r, Orientation orientation) {
        "bodies with an odd number there count as open");
   warn("open edges", r.open_edges,
        "bodies with such edges are not closed: they keep the file's fronts and have no volume");
+  if (r.looks_down.objects > 0)
+    r.warnings.push_back(counted(r.looks_down.objects, "object") +
+                         " with open surfaces that look down (" + text_of(r.looks_down.area_m2) +
+                         " m2, the largest: " + r.looks_down.largest +
+                         "): light from above meets their backs, which absorb it unless their "
+                         "material has sides: two; turn their faces in the file");
 }
 
 }  // namespace

@@ -16,7 +16,12 @@ using Triangle = std::array<std::int32_t, 3>;
 
 constexpr double largest_offset_m = 0.01;      // planarity in val3dity (Ledoux 2018): 1 cm
 constexpr double largest_offset_ratio = 1e-3;  // the same for models of centimetres
-constexpr double better_ratio = 1 + 1e-9;      // equal diagonals must not be chosen by rounding
+// Less of an area than this share of one of its corners is what rounding of coordinates leaves of
+// lobes that cancel each other out, or so thin that the corner tells its plane better.
+constexpr double cancelled = 1e-3;
+constexpr double noise = 1e-9;             // of that area: tells no side
+constexpr double larger = 1.0001;          // of corners that are alike the first tells the side
+constexpr double better_ratio = 1 + 1e-9;  // equal diagonals must not be chosen by rounding
 
 /// Two triangles for a strictly convex quad, none for other shapes.
 std::vector<Triangle> cut_quad(const std::vector<Vec3>& vertices, const Ring& quad, Vec3 normal) {
@@ -57,12 +62,13 @@ class ModelTriangulator {
       append(p, {rings_[0][0], rings_[0][1], rings_[0][2]});
       return;
     }
-    const Vec3 area_vector2 = newell(mesh_.vertices, rings_[0]);
-    if (norm(area_vector2) == 0) {
+    const Vec3 area_vector2 = newell(mesh_.vertices, rings_[0]), corner = largest_corner();
+    const Vec3 upright = plane_normal2(area_vector2, corner);
+    if (norm(upright) == 0) {
       ++counts.collapsed;
       return;
     }
-    PlanePolygon polygon{rings_, Plane(middle(), normalized(area_vector2)), norm(area_vector2)};
+    PlanePolygon polygon{rings_, Plane(middle(), normalized(upright)), norm(area_vector2)};
     if (!is_planar(polygon)) ++counts.nonplanar;
     if (rings_.size() == 1 && rings_[0].size() == 4) {
       const auto halves = cut_quad(mesh_.vertices, rings_[0], polygon.plane.normal());
@@ -81,7 +87,9 @@ class ModelTriangulator {
   void add_general(std::size_t p, const PlanePolygon& polygon) {
     const auto result = delaunay_triangles(mesh_.vertices, polygon);
     if (result.outcome == PolygonTriangles::Outcome::crossing) ++counts.crossing;
-    if (result.outcome == PolygonTriangles::Outcome::failed) ++counts.untriangulated;
+    const bool has_failed = result.outcome == PolygonTriangles::Outcome::failed;
+    if (has_failed) ++counts.untriangulated;
+    if (result.triangles.empty() && !has_failed) ++counts.collapsed;
     for (const auto& triangle : result.triangles) append(p, triangle);
   }
 
@@ -104,6 +112,30 @@ class ModelTriangulator {
         return;
       }
     }
+  }
+
+  /// Twice the area vector of the largest triangle of three corners in turn: where lobes of a ring
+  /// that crosses itself cancel each other, a rectangle with two corners exchanged, it tells the
+  /// plane.
+  Vec3 largest_corner() const {
+    const Ring& ring = rings_[0];
+    const auto at = [&](std::size_t k) {
+      return mesh_.vertices[static_cast<std::size_t>(ring[k % ring.size()])];
+    };
+    Vec3 largest;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Vec3 area2 = cross(at(k + 1) - at(k), at(k + 2) - at(k));
+      if (dot(area2, area2) > larger * dot(largest, largest)) largest = area2;
+    }
+    return largest;
+  }
+
+  /// Along the normal of a ring's plane, to the side that its area vector tells.
+  static Vec3 plane_normal2(Vec3 area_vector2, Vec3 corner) {
+    const double area2 = norm(area_vector2), corner2 = norm(corner);
+    if (area2 > cancelled * corner2) return area_vector2;
+    const bool tells_side = area2 > noise * corner2;
+    return tells_side && dot(area_vector2, corner) < 0 ? -corner : corner;
   }
 
   Vec3 middle() const {

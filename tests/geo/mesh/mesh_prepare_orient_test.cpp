@@ -198,6 +198,40 @@ TEST(Orient, AMoebiusBandIsReported) {
   EXPECT_EQ(builder.prepared().report.unorientable, 1u);
 }
 
+// A land, and a house without floor, wound the wrong way round: nothing else would tell that they
+// receive nothing.
+TEST(Orient, OpenSurfacesThatLookDownAreTold) {
+  const auto model_of = [](bool is_down, bool is_city) {
+    auto builder = ModelBuilder().object("land");
+    const auto add = [&](const std::vector<Vec3>& ring) {
+      builder.ring(is_down ? reversed(ring) : ring);
+    };
+    add({{0, 0, 0}, {50, 0, 0}, {50, 40, 1}, {0, 40, 0}});
+    builder.object("house");
+    const auto faces = ModelBuilder::box_faces({10, 10, 2}, {20, 20, 9});
+    for (std::size_t f = 1; f < 6; ++f) add(faces[f]);  // all but the lowest
+    builder.object("ceiling").ring({{30, 10, 5}, {30, 20, 5}, {40, 20, 5}, {40, 10, 5}});
+    PolygonModel model = builder.model();
+    model.is_city_format = is_city;
+    return model;
+  };
+  const auto looks_down = [&](bool is_down, bool is_city, Orientation orientation) {
+    return prepare(model_of(is_down, is_city), {.ground = {}, .orientation = orientation}).report;
+  };
+  const auto city = looks_down(true, true, Orientation::outward);
+  EXPECT_EQ(city.looks_down.objects, 3u);
+  EXPECT_NEAR(city.looks_down.area_m2, 50 * 40 + 10 * 10 + 10 * 10, rounding * 2200);
+  EXPECT_EQ(city.looks_down.largest, "land");
+  EXPECT_NE(city.warnings.back().find("3 objects with open surfaces that look down (2.2e+03 m2"),
+            std::string::npos)
+      << city.warnings.back();
+  EXPECT_EQ(looks_down(false, true, Orientation::outward).looks_down.largest, "ceiling");
+  EXPECT_EQ(looks_down(true, false, Orientation::outward).looks_down.objects, 3u);
+  // Ceilings of rooms.
+  EXPECT_EQ(looks_down(false, false, Orientation::outward).looks_down.objects, 0u);
+  EXPECT_EQ(looks_down(true, true, Orientation::keep).looks_down.objects, 0u);
+}
+
 TEST(Orient, AllSplitsTJointsSoThatTheBodyCloses) {
   // Walls in one piece, the top in four with corners in the middle of the walls' edges.
   auto builder = ModelBuilder().object("block");

@@ -220,5 +220,43 @@ TEST(Triangulate, APrismWithAShaftHasItsVolumeFromPolygonsWithHoles) {
   }
 }
 
+// A rectangle with two corners exchanged: its lobes are alike, and their area vectors cancel each
+// other out but for rounding, wherever it lies; of coordinates in millimetres, too.
+TEST(Triangulate, LobesOfEqualAreaAreFilled) {
+  const Vec3 normal{-0.5, 0, std::sqrt(0.75)};  // of a roof of 30 degrees
+  for (const double turn : {0.0, 0.1, 0.4, 1.9})
+    for (const double away : {0.0, 500000.0})
+      for (const double grid_m : {1e-9, 1e-3}) {
+        const auto at = [&](double x, double y) {
+          const double u = x * std::cos(turn) - y * std::sin(turn),
+                       v = x * std::sin(turn) + y * std::cos(turn);
+          const auto on_grid = [&](double c) { return std::round(c / grid_m) * grid_m; };
+          return Vec3{away + on_grid(u * normal.z), away + on_grid(v), on_grid(3 - u * normal.x)};
+        };
+        const auto p = ModelBuilder()
+                           .object("roof")
+                           .ring({at(0, 0), at(10, 10), at(10, 0), at(0, 10)})
+                           .prepared();
+        EXPECT_EQ(p.report.polygons_crossing, 1u) << turn << " " << away << " " << grid_m;
+        EXPECT_EQ(p.report.degenerates_dropped, 0u) << turn << " " << away << " " << grid_m;
+        Vec3 area;
+        for (std::size_t t = 0; t < p.mesh.triangle_count(); ++t)
+          area += p.mesh.area_vector2(t) / 2;
+        EXPECT_NEAR(norm(area), 50, 50 * grid_m) << turn << " " << away << " " << grid_m;
+        EXPECT_NEAR(std::abs(dot(area, normal)), norm(area), 50 * grid_m) << turn << " " << away;
+      }
+}
+
+// There and back again.
+TEST(Triangulate, RingsWithoutAreaAreCounted) {
+  const auto p = ModelBuilder()
+                     .object("roof")
+                     .ring({{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {4, 0, 0}})
+                     .ring({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}})
+                     .prepared();
+  EXPECT_EQ(p.report.degenerates_dropped, 1u);
+  EXPECT_EQ(p.mesh.triangle_count(), 1u);
+}
+
 }  // namespace
 }  // namespace sunload::test
