@@ -122,6 +122,11 @@ Colour map_colour(Palette palette, double share) {
   return clamped(srgb_from_lab({lightness, chroma * std::cos(hue), chroma * std::sin(hue)}));
 }
 
+Colour no_value_colour(Palette palette) {
+  constexpr Colour pale_blue{0.56, 0.70, 0.90};
+  return palette == Palette::grey ? pale_blue : back_colour;
+}
+
 Ticks round_ticks(double largest, int count) {
   Ticks ticks;
   const double rough = largest / count;

@@ -25,7 +25,7 @@ struct Colour {
   double red = 0, green = 0, blue = 0;
 };
 
-/// Of what has no value: backs of surfaces, values that are not known.
+/// Of what has no value: backs of surfaces, values that are not known (`no_value_colour`).
 inline constexpr Colour back_colour{0.72, 0.72, 0.72};
 
 /// CIELAB coordinates (CIE 1976): lightness 0 … 100, a from green to red, b from blue to yellow.
@@ -47,6 +47,8 @@ enum class Palette { false_colour, grey, hue, difference };
 
 /// Colour of `share` in [0, 1]; beyond, that of the nearer end.
 Colour map_colour(Palette palette, double share);
+/// Of what has no value, beside the colours of a palette.
+Colour no_value_colour(Palette palette);
 
 /// Round ticks 0, step, 2·step … ≤ `largest`, with a step of 1, 2, 2.5 or 5
 /// times a power of ten, at most `count` steps. Heckbert (1990), Nice Numbers

@@ -52,6 +52,17 @@ std::string read_whole_file(const std::string& path) {
   return read_bytes(path, size);
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  return text.starts_with(mark) ? text.substr(mark.size()) : text;
+}
+
+std::string read_text_file(const std::string& path) {
+  std::string text = read_whole_file(path);
+  text.erase(0, text.size() - without_byte_order_mark(text).size());
+  return text;
+}
+
 std::string read_file_head(const std::string& path, std::size_t byte_count) {
   return read_bytes(path, std::min<std::uintmax_t>(size_of_regular_file(path), byte_count));
 }

@@ -16,6 +16,10 @@ namespace sunload {
 /// The bytes of a regular file of at most 2 GB; throws InputError otherwise.
 std::string read_whole_file(const std::string& path);
 
+/// The same without the mark of UTF-8 that editors put before a text.
+std::string read_text_file(const std::string& path);
+std::string_view without_byte_order_mark(std::string_view text);
+
 /// The first bytes of a file, enough to tell its format.
 std::string read_file_head(const std::string& path, std::size_t byte_count);
 

@@ -158,9 +158,9 @@ int render_study(RenderOptions options) {
   return exit_code::done;
 }
 
-void write_scene(const PolygonModel& model, const std::string& path) {
+void write_scene(const PolygonModel& model, const std::string& path, double crs_unit_m = 1) {
   if (path.ends_with(".obj")) return write_obj(model, path);
-  if (path.ends_with(".json")) return write_cityjson(model, path);
+  if (path.ends_with(".json")) return write_cityjson(model, path, crs_unit_m);
   throw InputError({path}, "is of no format that scenes are written in", "",
                    "let its name end in .obj or .city.json");
 }
@@ -185,7 +185,7 @@ int write_edited(const BuiltinOptions& options) {
   expect_scene_not_read(options.path, model.files);
   if (!study.site.crs.empty()) model.crs = study.site.crs;
   for (const auto& note : model.notes) tell("note: " + note);
-  write_scene(model, options.path);
+  write_scene(model, options.path, crs_unit_m(study.scene, model.crs));
   return exit_code::done;
 }
 

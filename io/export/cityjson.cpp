@@ -133,10 +133,19 @@ json vertices(const ResultPatches& patches) {
   return list;
 }
 
-json metadata(const ResultReader& result, const ResultPatches& patches) {
+/// Of the result, and where one quantity is asked for with what it is and when.
+std::string title(const ResultReader& result, const ExportRules& rules) {
+  const std::string whole = result.text_attribute("title");
+  if (!rules.quantity.empty() || !rules.time.empty())
+    return whole + "; " + export_caption(result, export_quantity(result, rules));
+  return result.chosen().any() ? whole + "; " + result.chosen().words() : whole;
+}
+
+json metadata(const ResultReader& result, const ResultPatches& patches, const ExportRules& rules) {
   const Box box = bounding_box(patches.vertices);
-  const Vec3 low = box.low + patches.origin, high = box.high + patches.origin;
-  json about{{"title", result.text_attribute("title")},
+  const double unit_m = crs_unit_m(result);
+  const Vec3 low = (box.low + patches.origin) / unit_m, high = (box.high + patches.origin) / unit_m;
+  json about{{"title", title(result, rules)},
              {"geographicalExtent", {low.x, low.y, low.z, high.x, high.y, high.z}}};
   if (const auto crs = reference_system(result.text_attribute("crs")); !crs.empty())
     about["referenceSystem"] = crs;
@@ -148,14 +157,16 @@ void write_patches(const ResultReader& result, const ExportRules& rules,
   const ResultPatches patches(result);
   const SurfaceValues values(result, rules);
   const auto surface = result.integers("patch_surface");
-  json city{{"type", "CityJSON"},
-            {"version", "2.0"},
-            {"metadata", metadata(result, patches)},
-            {"transform",
-             {{"scale", {grid_m, grid_m, grid_m}},
-              {"translate", {patches.origin.x, patches.origin.y, patches.origin.z}}}},
-            {"CityObjects", json::object()},
-            {"vertices", vertices(patches)}};
+  // In the unit of the map that is named.
+  const double unit_m = crs_unit_m(result), step = grid_m / unit_m;
+  const Vec3 origin = patches.origin / unit_m;
+  json city{
+      {"type", "CityJSON"},
+      {"version", "2.0"},
+      {"metadata", metadata(result, patches, rules)},
+      {"transform", {{"scale", {step, step, step}}, {"translate", {origin.x, origin.y, origin.z}}}},
+      {"CityObjects", json::object()},
+      {"vertices", vertices(patches)}};
   const auto objects = city_objects(result, patches);
   for (std::size_t k = 0; k < objects.size(); ++k) {
     if (objects[k].patches.empty()) continue;

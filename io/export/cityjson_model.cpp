@@ -148,9 +148,7 @@ class ModelWriter {
   /// The document, or header and features of a sequence, each on its line.
   void write(std::ostream& out) {
     const auto bytes = read_whole_file(path_);
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    std::string_view text = bytes;
-    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+    std::string_view text = without_byte_order_mark(bytes);
     json header;
     for (int line = 0; text.find_first_not_of(" \t\r\n") != text.npos; ++line) {
       const auto end = std::min(first_json_value_end(path_, text), text.size());

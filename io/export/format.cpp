@@ -27,7 +27,7 @@ std::int32_t palette_step(double value, const ExportColours& scale) {
 }  // namespace
 
 Colour export_colour(Palette palette, std::int32_t step) {
-  return step < 0 ? back_colour
+  return step < 0 ? no_value_colour(palette)
                   : map_colour(palette, static_cast<double>(step) / (export_palette_steps - 1));
 }
 
@@ -74,6 +74,11 @@ std::string column_name(const ResultReader& result, const std::string& dataset) 
 
 std::string column_name(const ShownQuantity& shown) {
   return with_units(shown.dataset, shown.stored_units);
+}
+
+double crs_unit_m(const ResultReader& result) {
+  const double unit_m = result.number_attribute("crs_unit_m");
+  return unit_m > 0 ? unit_m : 1;
 }
 
 std::string export_caption(const ResultReader& result, const ShownQuantity& shown) {

@@ -48,6 +48,8 @@ ExportColours export_colours(const ResultReader& result, const ExportRules& rule
 std::string column_name(const ResultReader& result, const std::string& dataset);
 std::string column_name(const ShownQuantity& shown);
 
+/// Length of the unit of the scene's CRS [m], in which formats that name it have coordinates.
+double crs_unit_m(const ResultReader& result);
 /// "result.h5: light load kWh/m², when": a line for a head or comment.
 std::string export_caption(const ResultReader& result, const ShownQuantity& shown);
 

@@ -58,23 +58,24 @@ class MemoryFile {
   std::string path_;
 };
 
-/// Triangles of patches in absolute coordinates.
+/// Triangles of patches in absolute coordinates, in the unit of their map.
 class Shapes {
  public:
-  explicit Shapes(const ResultPatches& patches) : patches_(patches) {}
+  Shapes(const ResultPatches& patches, double unit_m) : patches_(patches), unit_m_(unit_m) {}
 
   OGRGeometryH triangle(std::size_t patch) const {
     OGRGeometryH ring = OGR_G_CreateGeometry(wkbLinearRing);
     for (const std::size_t k : {0U, 1U, 2U, 0U}) {
       const Vec3 at =
-          patches_.vertices[static_cast<std::size_t>(patches_.corners[patch][k])] + patches_.origin;
+          on_map(patches_.vertices[static_cast<std::size_t>(patches_.corners[patch][k])]);
       OGR_G_AddPoint(ring, at.x, at.y, at.z);
     }
     OGRGeometryH polygon = OGR_G_CreateGeometry(wkbPolygon25D);
     OGR_G_AddGeometryDirectly(polygon, ring);
     return polygon;
   }
-  static OGRGeometryH point(Vec3 at) {
+  OGRGeometryH point(Vec3 in_scene) const {
+    const Vec3 at = on_map(in_scene);
     OGRGeometryH shape = OGR_G_CreateGeometry(wkbPoint25D);
     OGR_G_SetPoint(shape, 0, at.x, at.y, at.z);
     return shape;
@@ -86,7 +87,10 @@ class Shapes {
   }
 
  private:
+  Vec3 on_map(Vec3 in_scene) const { return (in_scene + patches_.origin) / unit_m_; }
+
   const ResultPatches& patches_;
+  double unit_m_;
 };
 
 using Words = std::vector<std::pair<std::string, std::string>>;
@@ -161,7 +165,7 @@ class ResultLayers {
         crs_(crs),
         patches_(result),
         values_(result, rules),
-        shapes_(patches_),
+        shapes_(patches_, crs_unit_m(result)),
         shown_(export_quantity(result, rules)),
         largest_(scale_end(rules.largest, shown_.sizes(), patches_.area)),
         side_(result.integers("patch_side")) {}
@@ -264,7 +268,7 @@ class ResultLayers {
     for (std::size_t row = 0; row < table.names.size(); ++row) {
       const double* at = position.data() + 3 * table.entries[row];
       rows.add({{"sensor", table.names[row]}}, numbers(table, row),
-               Shapes::point(patches_.origin + Vec3{at[0], at[1], at[2]}));
+               shapes_.point({at[0], at[1], at[2]}));
     }
     const auto load = result_.doubles("sensor_light_load");
     styles_.push_back({"sensors", "light load",

@@ -60,7 +60,7 @@ std::string LightMap::png() const {
   Picture picture(width(), height());
   std::vector<Colour> texels(columns_ * block_ * block_);
   for (std::size_t row = 0; row < rows_; ++row) {
-    std::fill(texels.begin(), texels.end(), back_colour);
+    std::fill(texels.begin(), texels.end(), no_value_colour(colours_.palette));
     const std::size_t first = row * columns_, end = std::min(first + columns_, patches_);
     for (std::size_t patch = first; patch < end; ++patch)
       for (std::size_t y = 0; y < block_; ++y)

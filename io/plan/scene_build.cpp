@@ -78,14 +78,16 @@ void expect_true_lengths(const Study& study, const std::string& crs, Vec3 middle
   built.warnings.push_back(message({}, what, why, hint));
 }
 
+bool is_any_in_metres(const SceneStudy& scene) {
+  return std::any_of(scene.files.begin(), scene.files.end(), [&](const SceneFileStudy& file) {
+    return !file.is_placed() && file.unit_m.value_or(scene.unit_m) == 1;
+  });
+}
+
 /// Coordinates of a map in feet that nobody makes metres of.
 std::string unit_warning(const SceneStudy& scene, const std::string& crs) {
   const MapAxes axes(crs);
-  if (!axes.is_known() || axes.unit_m() == 1) return {};
-  const bool is_any_in_metres = std::any_of(
-      scene.files.begin(), scene.files.end(),
-      [&](const SceneFileStudy& file) { return file.unit_m.value_or(scene.unit_m) == 1; });
-  if (!is_any_in_metres) return {};
+  if (!axes.is_known() || axes.unit_m() == 1 || !is_any_in_metres(scene)) return {};
   return message(scene.where,
                  fmt::format("'{}' is in units of {:.6g} m, and the model is taken to be in metres",
                              crs, axes.unit_m()),
@@ -241,6 +243,7 @@ BuiltScene scene_before_materials(const Study& study) {
   built.files = model.files;
   built.notes = model.notes;
   built.crs = study.site.crs.empty() ? model.crs : study.site.crs;
+  built.crs_unit_m = crs_unit_m(study.scene, built.crs);
   PreparedMesh prepared = prepare(model, prepare_rules(study, model, built.site));
   built.report = std::move(prepared.report);
   built.warnings.insert(built.warnings.end(), built.report.warnings.begin(),
@@ -366,6 +369,12 @@ void give_materials(const Study& study, BuiltScene& built) {
                                             built.report.bounds, built.warnings);
   built.scene.sensors =
       place_sensors(study.sensors, built.scene.mesh, built.report.bounds, built.warnings);
+}
+
+double crs_unit_m(const SceneStudy& scene, const std::string& crs) {
+  if (crs.empty() || is_any_in_metres(scene)) return 1;
+  const MapAxes axes(crs);
+  return axes.is_known() ? axes.unit_m() : 1;
 }
 
 BuiltScene build_scene(const Study& study) {

@@ -22,6 +22,7 @@ struct BuiltScene {
   Site site;                          ///< position and north, from study or CRS
   std::string site_source;            ///< in words: where position and north come from
   std::string crs;                    ///< of the scene's coordinates; empty: none is known
+  double crs_unit_m = 1;              ///< length of its unit, where metres were made of it
   std::vector<std::string> files;     ///< of the scene, with those that they draw in
   std::vector<std::string> notes;     ///< what readers counted
   std::vector<std::string> warnings;  ///< each states its consequence
@@ -31,6 +32,10 @@ struct BuiltScene {
   Bodies bodies;                      ///< with `seals`: of the mesh, until what is covered is cut
   std::vector<std::uint8_t> seals;
 };
+
+/// Length of the unit of a map [m], where `scene.unit_m` makes metres of its coordinates; else 1:
+/// of maps in metres, and where files are taken as they are.
+double crs_unit_m(const SceneStudy& scene, const std::string& crs);
 
 /// Throws InputError with every problem found.
 BuiltScene build_scene(const Study& study);

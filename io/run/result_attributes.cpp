@@ -164,6 +164,7 @@ void add_place(Attributes& a, const VariantPlan& plan) {
                                {"site_source", built.site_source},
                                {"sun_sampling", sun_sampling(plan)}});
   if (!built.crs.empty()) a.text.emplace_back("crs", built.crs);
+  if (built.crs_unit_m != 1) a.numbers.emplace_back("crs_unit_m", built.crs_unit_m);
   a.numbers.insert(a.numbers.end(), {{"latitude_deg", built.site.latitude_deg},
                                      {"longitude_deg", built.site.longitude_deg},
                                      {"elevation_m", built.site.elevation_m},

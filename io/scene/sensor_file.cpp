@@ -36,8 +36,7 @@ class SensorTable {
   explicit SensorTable(const std::string& path) : path_(path) {}
 
   void read(std::string_view text) {
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+    text = without_byte_order_mark(text);
     for (int line = 1; !text.empty() && problems_.list().size() < most_problems; ++line) {
       const auto end = std::min(text.find('\n'), text.size());
       const std::string_view written = text.substr(0, end);

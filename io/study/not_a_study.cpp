@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "geo/base/check.h"
+#include "io/base/file_text.h"
 
 namespace sunload {
 
@@ -29,8 +30,7 @@ std::string first_bytes(const std::string& path) {
 }
 
 FileKind kind_of(const std::string& path, std::string_view head) {
-  constexpr std::string_view mark = "\xef\xbb\xbf";
-  if (head.starts_with(mark)) head.remove_prefix(mark.size());
+  head = without_byte_order_mark(head);
   const auto has = [&](std::string_view text) { return head.find(text) != std::string_view::npos; };
   const std::string ending = fs::path(path).extension().string();
   const auto ends_with = [&](std::initializer_list<std::string_view> endings) {

@@ -59,9 +59,7 @@ WeatherText::WeatherText(const std::string& path) : path_(path), text_(read_whol
   const std::size_t zero = text_.find('\0');
   if (zero != text_.npos)
     throw InputError(place_in_text(path, text_, zero), "is no text file", "it has a zero byte");
-  std::string_view rest = text_;
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
+  std::string_view rest = without_byte_order_mark(text_);
   while (!rest.empty()) {
     const auto end = std::min(rest.find('\n'), rest.size());
     auto line = rest.substr(0, end);

@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/base/indexed_faces.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 namespace sunload {
@@ -65,7 +70,26 @@ void IndexedFaces::end_face() {
   model_.facts.push_back(facts_);
 }
 
+void IndexedFaces::is_in_single_precision(Vec3 as_read) {
+  for (const double x : {as_read.x, as_read.y, as_read.z})
+    largest_single_ = std::max(largest_single_, std::abs(x));
+}
+
+void IndexedFaces::tell_coarse_steps() {
+  constexpr double coarse_m = 0.002, largest_of_maps = 1e9;
+  if (!(largest_single_ < largest_of_maps)) return;
+  const auto largest = static_cast<float>(largest_single_);
+  const double step = static_cast<double>(
+      std::nextafter(largest, std::numeric_limits<float>::infinity()) - largest);
+  if (const double step_m = step * scene_from_file_.unit_m(); step_m > coarse_m)
+    notes_.say(
+        fmt::format("coordinates as large as {:.0f} are in single precision: places are "
+                    "rounded to {:.2g} m; move the model to its origin before it is written",
+                    largest_single_, step_m));
+}
+
 PolygonModel IndexedFaces::finish() {
+  tell_coarse_steps();
   std::vector<std::int32_t> place(vertices_.size(), -1);
   for (const auto vertex : model_.ring_vertex) place[static_cast<std::size_t>(vertex)] = 0;
   std::int32_t used = 0;

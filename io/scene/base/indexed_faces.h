@@ -24,6 +24,8 @@ class IndexedFaces {
 
   /// False where the position is beyond all coordinates on Earth.
   bool add_vertex(Vec3 in_file);
+  /// Tells that a position was read in single precision: far from the origin that is coarse.
+  void is_in_single_precision(Vec3 as_read);
   std::size_t vertex_count() const { return vertices_.size(); }
   std::size_t corner_count() const { return model_.ring_vertex.size(); }
 
@@ -46,6 +48,9 @@ class IndexedFaces {
   PolygonModel finish();
 
  private:
+  /// What single precision leaves of coordinates far from the origin.
+  void tell_coarse_steps();
+
   SceneFromFile scene_from_file_;
   PolygonModel model_;
   NoteCounter notes_;
@@ -53,6 +58,7 @@ class IndexedFaces {
   std::unordered_map<std::string, ObjectId> objects_;
   std::string object_name_, object_kind_;
   PolygonModel::Facts facts_;
+  double largest_single_ = 0;  ///< coordinate that was read in single precision
 };
 
 }  // namespace sunload

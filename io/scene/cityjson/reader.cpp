@@ -291,9 +291,7 @@ void read_sequence(CityReader& reader, const std::string& path, std::string_view
 
 PolygonModel read_scene_cityjson(const std::string& path, const SceneFileRules& rules) {
   const auto bytes = read_whole_file(path);
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  std::string_view text = bytes;
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  const std::string_view text = without_byte_order_mark(bytes);
   CityReader reader(path, rules, text.size());
   const auto first_end = first_json_value_end(path, text);
   const auto rest = first_end == text.npos ? std::string_view{} : text.substr(first_end);

@@ -40,8 +40,9 @@ const char* semantic_of(Surface surface) {
 
 class CityText {
  public:
-  explicit CityText(const PolygonModel& model)
+  CityText(const PolygonModel& model, double crs_unit_m)
       : model_(model),
+        crs_unit_m_(crs_unit_m),
         tree_(model.object_names, model.object_kinds, model.families),
         polygons_(model.object_names.size()),
         members_(tree_.size()) {
@@ -59,7 +60,8 @@ class CityText {
 
   std::string text() {
     text_ = R"({"type":"CityJSON","version":"2.0")";
-    add(R"(,"transform":{{"scale":[{0},{0},{0}],"translate":[0,0,0]}})", step_m);
+    // In the unit of the map that is named.
+    add(R"(,"transform":{{"scale":[{0},{0},{0}],"translate":[0,0,0]}})", step_m / crs_unit_m_);
     if (!model_.crs.empty()) add(R"(,"metadata":{{"referenceSystem":{}}})", quoted(model_.crs));
     add_materials();
     text_ += ",\n\"CityObjects\":{";
@@ -241,6 +243,7 @@ class CityText {
   }
 
   const PolygonModel& model_;
+  double crs_unit_m_;
   FamilyTree tree_;
   std::vector<std::vector<std::size_t>> polygons_;  ///< of each object
   std::vector<bool> is_solid_;                      ///< the same
@@ -252,8 +255,8 @@ class CityText {
 
 }  // namespace
 
-void write_cityjson(const PolygonModel& model, const std::string& path) {
-  write_file(path, CityText(model).text());
+void write_cityjson(const PolygonModel& model, const std::string& path, double crs_unit_m) {
+  write_file(path, CityText(model, crs_unit_m).text());
 }
 
 }  // namespace sunload

@@ -19,6 +19,7 @@ namespace sunload {
 /// Kinds of surface as semantics where CityJSON has a name for them, materials with their
 /// reflectance as grey diffuseColor. Coordinates in metres, rounded to micrometres.
 /// CityJSON has no mirrors and no emitters. Throws MachineError where the file cannot be written.
-void write_cityjson(const PolygonModel& model, const std::string& path);
+/// `crs_unit_m`: length of the unit of the model's CRS, in which coordinates are written.
+void write_cityjson(const PolygonModel& model, const std::string& path, double crs_unit_m = 1);
 
 }  // namespace sunload

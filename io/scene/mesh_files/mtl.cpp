@@ -30,7 +30,7 @@ bool asks_for_reflected_rays(double illumination_model) {
 class LibraryReader {
  public:
   LibraryReader(const std::string& path, NoteCounter& notes)
-      : path_(path), text_(read_whole_file(path)), words_(text_), notes_(notes) {}
+      : path_(path), text_(read_text_file(path)), words_(text_), notes_(notes) {}
 
   std::map<std::string, FileMaterial> read() {
     for (; !words_.at_end(); words_.go_to_next_line()) read_statement(words_.next());

@@ -39,7 +39,7 @@ class ObjReader {
  public:
   ObjReader(const std::string& path, const SceneFileRules& rules)
       : path_(path),
-        text_(read_whole_file(path)),
+        text_(read_text_file(path)),
         words_(text_),
         scene_from_file_(rules, 'z', path) {
     model_.source = path;

@@ -15,7 +15,7 @@ namespace {
 class OffReader {
  public:
   OffReader(const std::string& path, const SceneFileRules& rules)
-      : path_(path), text_(read_whole_file(path)), words_(text_), faces_(path, rules, 'z') {}
+      : path_(path), text_(read_text_file(path)), words_(text_), faces_(path, rules, 'z') {}
 
   PolygonModel read() {
     auto word = next_word();

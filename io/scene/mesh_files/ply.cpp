@@ -311,8 +311,10 @@ class BodyReader {
 
   void read_vertices() {
     int axes = 0;
+    bool are_single = false;
     for (const auto& p : element_->properties) {
       axes += axis_of(p) >= 0;
+      are_single = are_single || (axis_of(p) >= 0 && p.type == Type::float32);
       if (p.name == "red") faces_.notes().count("colours per vertex ignored", element_->count);
     }
     if (axes != 3) fail(0, "has no x, y and z", "its properties were read from the header");
@@ -325,6 +327,7 @@ class BodyReader {
         else
           xyz[static_cast<std::size_t>(axis)] = number(p.type, v);
       }
+      if (are_single) faces_.is_in_single_precision({xyz[0], xyz[1], xyz[2]});
       if (!faces_.add_vertex({xyz[0], xyz[1], xyz[2]})) {
         fail(v, "is no point on Earth", "a coordinate is no finite number below 1e10 m",
              "is unit_m right?");
@@ -387,7 +390,7 @@ class BodyReader {
 
 PolygonModel read_scene_ply(const std::string& path, const SceneFileRules& rules) {
   IndexedFaces faces(path, rules, 'z');
-  const std::string text = read_whole_file(path);
+  const std::string text = read_text_file(path);
   const Header header = HeaderReader(path, text).read();
   if (header.encoding == Encoding::ascii) {
     BodyReader(path, text, header, AsciiNumbers(text, header.end), faces).read();

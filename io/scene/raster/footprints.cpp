@@ -219,15 +219,44 @@ class FootprintReader {
 
   // ---- features
 
-  std::optional<double> number(OGRFeatureH feature, int column) const {
+  /// A number of a column and what is written behind it. Texts that are no number are counted.
+  struct Written {
+    double value = 0;
+    std::string unit;
+  };
+  std::optional<Written> written(OGRFeatureH feature, int column) {
     if (column < 0 || OGR_F_IsFieldSetAndNotNull(feature, column) == 0) return {};
-    const std::string text = OGR_F_GetFieldAsString(feature, column);
+    const std::string text(trimmed(OGR_F_GetFieldAsString(feature, column)));
+    if (text.empty()) return {};
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
-    // OpenStreetMap has units behind some: `12 m`.
-    while (*end == ' ' || *end == 'm') ++end;
-    if (text.empty() || *end != '\0' || !std::isfinite(value)) return {};
-    return value;
+    const std::string unit(trimmed(end));
+    const bool is_known = unit.empty() || unit == "m" || is_foot(unit);
+    if (end != text.c_str() && is_known && std::isfinite(value)) return Written{value, unit};
+    count_unread(text);
+    return {};
+  }
+  void count_unread(const std::string& text) {
+    constexpr std::size_t enough = 20;
+    if (unread_++ == 0) first_unread_ = text.substr(0, enough);
+  }
+  static bool is_foot(const std::string& unit) { return unit == "ft" || unit == "'"; }
+
+  std::optional<double> number(OGRFeatureH feature, int column) {
+    const auto found = written(feature, column);
+    if (!found || found->unit.empty()) return found ? std::optional(found->value) : std::nullopt;
+    count_unread(fmt::format("{:g} {}", found->value, found->unit));
+    return {};
+  }
+
+  /// In the unit that stands behind it, as OpenStreetMap has it (`12 m`, `40'`), or in the file's.
+  std::optional<double> length_m(OGRFeatureH feature, int column) {
+    constexpr double international_foot_m = 0.3048;
+    const auto found = written(feature, column);
+    if (!found) return {};
+    return found->value * (found->unit.empty()    ? unit_m_
+                           : is_foot(found->unit) ? international_foot_m
+                                                  : 1);
   }
 
   std::string title(OGRFeatureH feature) const {
@@ -236,11 +265,11 @@ class FootprintReader {
     return fmt::format("building_{}", OGR_F_GetFID(feature) + 1);
   }
 
-  std::optional<double> height_m(OGRFeatureH feature) const {
-    if (const auto height = number(feature, height_); height && *height > 0)
-      return *height * unit_m_;
+  std::optional<double> height_m(OGRFeatureH feature) {
+    if (const auto height = length_m(feature, height_); height && *height > 0) return *height;
     if (const auto count = number(feature, storeys_); count && *count > 0)
       return *count * rules_.storey_m;
+    if (rules_.default_height_m) ++of_default_height_;
     return rules_.default_height_m;
   }
 
@@ -309,7 +338,7 @@ class FootprintReader {
 
   double foot_m(OGRFeatureH feature, const std::vector<PlanArea>& areas, double lowest_z,
                 const std::string& name) {
-    if (const auto base = number(feature, base_)) return *base * unit_m_;
+    if (const auto base = length_m(feature, base_)) return *base;
     if (terrain_) {
       double lowest = std::numeric_limits<double>::infinity();
       for (const auto& area : areas)
@@ -335,9 +364,15 @@ class FootprintReader {
   }
 
   void tell() {
-    if (rules_.default_height_m)
+    if (of_default_height_ > 0)
+      notes_.say(fmt::format("{} of {} footprints have no height above 0 and are {:g} m high",
+                             of_default_height_, model_.object_names.size(),
+                             *rules_.default_height_m));
+    if (unread_ > 0)
       notes_.say(
-          fmt::format("footprints without height are {:g} m high", *rules_.default_height_m));
+          fmt::format("{} values of heights, storeys or feet are no numbers, such as '{}': "
+                      "they count as not written",
+                      unread_, first_unread_));
     if (storeys_ >= 0) notes_.say(fmt::format("a storey is {:g} m high", rules_.storey_m));
     model_.notes = notes_.lines();
   }
@@ -354,7 +389,8 @@ class FootprintReader {
   PolygonModel model_;
   NoteCounter notes_;
   UniqueNames unique_;
-  std::size_t without_height_ = 0, corners_ = 0;
+  std::size_t without_height_ = 0, corners_ = 0, of_default_height_ = 0, unread_ = 0;
+  std::string first_unread_;
   std::string named_;  ///< the first of those without height
 };
 

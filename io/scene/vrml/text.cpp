@@ -323,8 +323,7 @@ bool begins_with_any(std::string_view text, std::initializer_list<std::string_vi
 VrmlText read_vrml_text(const std::string& path) {
   VrmlText file{path, read_whole_file(path)};
   if (is_gzip(file.text)) file.text = unpack_gzip(file.text, path);
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (file.text.starts_with(byte_order_mark)) file.text.erase(0, byte_order_mark.size());
+  file.text.erase(0, file.text.size() - without_byte_order_mark(file.text).size());
   file.is_vrml97 = file.text.starts_with("#VRML V2.0");
   const auto first_line = file.text.substr(0, file.text.find_first_of("\r\n"));
   if (!file.is_vrml97 && !begins_with_any(first_line, {"#VRML V1.0", "#Inventor V"})) {

@@ -203,5 +203,24 @@ TEST(Footprints, OfEveryFormatAreTheSame) {
   }
 }
 
+TEST(Footprints, HeightsThatAreNoNumbersAreTold) {
+  SceneFileRules rules;
+  rules.footprints.default_height_m = 6;
+  const auto model =
+      read_text("plan.geojson",
+                plan({feature(R"("height": "12,5")", "[" + square(500000, 5500000, 5) + "]"),
+                      feature(R"("height": "40 ft")", "[" + square(500010, 5500000, 5) + "]"),
+                      feature(R"("height": "30'")", "[" + square(500020, 5500000, 5) + "]"),
+                      feature(R"("height": 0)", "[" + square(500030, 5500000, 5) + "]"),
+                      feature(R"("height": " 8 ")", "[" + square(500040, 5500000, 5) + "]")}),
+                rules);
+  const double heights[] = {6, 40 * 0.3048, 30 * 0.3048, 6, 8};
+  for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(extent(model, k).second, heights[k], 1e-9) << k;
+  EXPECT_TRUE(has_note(model, "2 of 5 footprints have no height above 0 and are 6 m high"));
+  EXPECT_TRUE(has_note(model,
+                       "1 values of heights, storeys or feet are no numbers, such as '12,5': they "
+                       "count as not written"));
+}
+
 }  // namespace
 }  // namespace sunload

@@ -290,5 +290,22 @@ TEST(SceneGltf, DamagedTextNeverCrashes) {
   EXPECT_GT(read, 0u);
 }
 
+// Half a metre is what single precision leaves of a northing.
+TEST(ScenePly, SinglePrecisionFarFromTheOriginIsTold) {
+  const auto notes_of = [](const std::string& type, const char* y) {
+    const std::string end = std::string(" ") + y + " 0\n";
+    std::string text = "ply\nformat ascii 1.0\nelement vertex 3\n";
+    for (const char* axis : {"x", "y", "z"}) text += "property " + type + " " + axis + "\n";
+    text += "element face 1\nproperty list uchar int vertex_indices\nend_header\n691000.5" + end +
+            "691010.25" + end + "691000.5 9 0\n3 0 1 2\n";
+    std::string notes;
+    for (const auto& line : read_text("far.ply", text).notes) notes += line;
+    return notes;
+  };
+  EXPECT_NE(notes_of("float", "5335000.5").find("in single precision: places are rounded to 0.5 m"),
+            std::string::npos);
+  EXPECT_EQ(notes_of("double", "5335000.5").find("single"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace sunload

@@ -140,5 +140,16 @@ TEST(SceneFile, FormatsByContentThenByName) {
   EXPECT_THROW(read_scene_file(TempDir(), {}), InputError);
 }
 
+// Editors put it before a text, and the first statement is lost with it.
+TEST(SceneObj, AByteOrderMarkIsNoPartOfTheText) {
+  const std::string mark = "\xEF\xBB\xBF";
+  write_text("marked.mtl", mark + "newmtl red\nKd 0.6 0.6 0.6\n");
+  const auto model = read_text("marked.obj", mark +
+                                                 "mtllib marked.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                                                 "usemtl red\nf 1 2 3\n");
+  ASSERT_EQ(model.materials.size(), 1u);
+  EXPECT_TRUE(model.materials[0].diffuse.has_value());
+}
+
 }  // namespace
 }  // namespace sunload

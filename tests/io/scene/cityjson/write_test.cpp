@@ -47,5 +47,22 @@ TEST(WriteCityJson, PartsOfNothingAreBuildings) {
     EXPECT_TRUE(kind == "Building" || kind == "GenericCityObject") << kind;
 }
 
+// A map in US survey feet has coordinates in feet, whoever reads it.
+TEST(WriteCityJson, IsInTheUnitOfItsMap) {
+  constexpr double foot_m = 1200.0 / 3937;
+  auto model = read_text("town.city.json", family_town());
+  model.crs = "EPSG:2263";
+  const auto path = folder_of_test() / "feet.city.json";
+  write_cityjson(model, path, foot_m);
+  const auto in_feet = read_scene_file(path, {}),
+             again = read_scene_file(path, {0, foot_m, "highest"});
+  ASSERT_EQ(again.vertices.size(), model.vertices.size());
+  constexpr double rounding_m = 2e-6;
+  for (std::size_t v = 0; v < model.vertices.size(); ++v) {
+    EXPECT_LT(norm(again.vertices[v] - model.vertices[v]), rounding_m) << v;
+    EXPECT_LT(norm(in_feet.vertices[v] - model.vertices[v] / foot_m), rounding_m / foot_m) << v;
+  }
+}
+
 }  // namespace
 }  // namespace sunload
