@@ -104,4 +104,11 @@ PicturePoint Camera::image_direction(Vec3 direction) const {
   return {dot(direction, right_), -dot(direction, up_)};
 }
 
+PicturePoint Camera::ground_direction(Vec3 direction) const {
+  const PicturePoint at = image_direction(direction);
+  constexpr double sine_of_45_deg = 0.70710678118654752;
+  const bool looks_up = back_.z < 0 && back_.z > -sine_of_45_deg;
+  return {at.x, looks_up ? -at.y : at.y};
+}
+
 }  // namespace sunload

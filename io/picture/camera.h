@@ -36,6 +36,10 @@ class Camera {
   double pixel_size(double distance) const;
   /// Direction in the image (x right, y down) of a direction of the scene.
   PicturePoint image_direction(Vec3 direction) const;
+  /// The same of a level direction, as ground below the viewer shows it: what is farther away lies
+  /// higher in the image, also where the camera looks a little upward. Where it looks up by more
+  /// than 45 degrees it shows no ground.
+  PicturePoint ground_direction(Vec3 direction) const;
 
  private:
   enum class Projection { central, parallel };

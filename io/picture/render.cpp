@@ -212,7 +212,7 @@ class Renderer {
                    ", sun path of " + period_in_words(result_) + named_in_words(rules_.parts));
     draw_kinds(*picture, kinds.entries);
     draw_sun_path(*picture, sun_track(result_),
-                  camera_->image_direction(scene_direction({0, 0}, north_deg_)));
+                  camera_->ground_direction(scene_direction({0, 0}, north_deg_)));
     return picture;
   }
 
@@ -248,7 +248,7 @@ class Renderer {
         *picture, title(result_) + band_title(result_),
         shown.name + ", " + shown.when + named_in_words(rules_.parts) +
             (in_rgb ? fmt::format(", in colour, white: {:.4g} {}", largest, shown.units) : "") +
-            (result_.is_place_map() ? "; green: the place itself" : "") + grey_in_words(shown));
+            (result_.is_place_map() ? "; green: the place itself" : "") + no_value_in_words(shown));
     const auto marked_where = [&](const auto& is_beyond) {
       return std::any_of(shown.values.begin(), shown.values.end(), is_beyond)
                  ? Legend::Above::marked
@@ -260,17 +260,18 @@ class Renderer {
           {shown.units, largest, palette,
            marked_where([&](double value) { return value > largest; }), colours.least,
            marked_where([&](double value) { return value < colours.least; }), colours.scale});
-    draw_north(*picture, camera_->image_direction(scene_direction({0, 0}, north_deg_)));
+    draw_north(*picture, camera_->ground_direction(scene_direction({0, 0}, north_deg_)));
     return picture;
   }
 
  private:
   /// What surfaces without a value are.
-  static std::string grey_in_words(const ShownQuantity& shown) {
+  std::string no_value_in_words(const ShownQuantity& shown) const {
     if (std::none_of(shown.values.begin(), shown.values.end(),
                      [](double value) { return std::isnan(value); }))
       return "";
-    return shown.is_difference ? "; grey: no counterpart" : "; grey: not measured";
+    if (shown.is_difference) return "; grey: no counterpart";
+    return fmt::format("; {}: not measured", rules_.palette == Palette::grey ? "blue" : "grey");
   }
 
   void trace(std::size_t interval, PictureArea area) {

@@ -65,6 +65,14 @@ std::string tick_text(double value, int decimals) {
 
 namespace {
 
+/// Smaller letters where a text is wider than its room; hinted ones do not shrink evenly.
+void shrink_into(double room, const Picture& picture, const std::string& text, TextStyle& style) {
+  constexpr double least_step = 0.99, smallest = 1;
+  for (double width = picture.text_width(text, style); width > room && style.size > smallest;
+       width = picture.text_width(text, style))
+    style.size *= std::min(least_step, room / width);
+}
+
 /// Values beside the bar, with their words.
 std::vector<std::pair<double, std::string>> ticks_of(const Legend& legend) {
   std::vector<std::pair<double, std::string>> named;
@@ -93,8 +101,7 @@ void draw_legend(Picture& picture, const Legend& legend) {
   const double bottom = std::round(picture.height() - 2 * margin * u);
   TextStyle units{u, Align::left, Weight::bold, ink};
   const double room = picture.width() - x - line_width * u;
-  if (const double width = picture.text_width(legend.units, units); width > room)
-    units.size *= room / width;
+  shrink_into(room, picture, legend.units, units);
   picture.write({x, top - 2 * margin * u}, legend.units, units);
   const int rows = static_cast<int>(bottom - top);
   for (int row = 0; row < rows; ++row)
@@ -119,11 +126,8 @@ void draw_legend(Picture& picture, const Legend& legend) {
   const double end = x + (bar_width + tick_length) * u;
   const double left = end + tick_length * u;
   TextStyle numbers{u, Align::left, Weight::normal, ink};
-  double widest = 0;
   for (const auto& [value, text] : ticks)
-    widest = std::max(widest, picture.text_width(text, numbers));
-  if (const double space = picture.width() - left - line_width * u; widest > space)
-    numbers.size *= space / widest;
+    shrink_into(picture.width() - left - line_width * u, picture, text, numbers);
   for (const auto& [value, text] : ticks) {
     const double y =
         bottom - rows * colour_share(legend.scale, value, legend.least, legend.largest);
@@ -165,8 +169,7 @@ void draw_kinds(Picture& picture, const std::vector<KindEntry>& kinds) {
   double y = (title_strip + margin) * u;
   const auto write = [&](double at, const std::string& text, Weight weight) {
     TextStyle style{u, Align::left, weight, ink};
-    const double width = picture.text_width(text, style);
-    if (width > room) style.size *= room / width;
+    shrink_into(room, picture, text, style);
     picture.write({x, at}, text, style);
   };
   for (std::size_t k = 0; k < kinds.size(); ++k) {

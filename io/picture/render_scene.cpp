@@ -144,7 +144,7 @@ class Painter {
   const Background& background_;
   std::vector<Colour> palette_;
   Colour plain_ = linear_light(plain_sky), far_ground_ = linear_light(far_ground),
-         back_ = linear_light(back_colour), mark_ = linear_light(mark_colour);
+         back_ = linear_light(no_value_colour(colours_.palette)), mark_ = linear_light(mark_colour);
 };
 
 }  // namespace

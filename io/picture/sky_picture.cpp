@@ -35,11 +35,12 @@ void paint_dome(Picture& picture, const DomeChart& chart,
 }
 
 /// End of the scale: what nearly all of the sky stays below, so that the glow around the sun
-/// does not make the rest dark.
+/// does not make the rest dark [kcd m-2].
 double scale_end(const SkyDome& dome) {
   constexpr double share = 0.98;
   std::vector<double> values;
-  for (const auto& row : sky_rows(dome, {})) values.push_back(row.radiance);
+  for (const auto& row : sky_rows(dome, {}))
+    values.push_back(row.luminance / candelas_per_kilocandela);
   const auto nth =
       values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
   std::nth_element(values.begin(), nth, values.end());
@@ -47,11 +48,11 @@ double scale_end(const SkyDome& dome) {
 }
 
 void paint_luminance(Picture& picture, const DomeChart& chart, const SkyDome& dome) {
-  const double kcd_per_radiance = dome.efficacy() / candelas_per_kilocandela;
-  const double end = scale_end(dome) * kcd_per_radiance;
+  const double end = scale_end(dome);
   const double largest = end > 0 ? rounded_up(end) : 1;
   paint_dome(picture, chart, [&](Horizontal w) {
-    return map_colour(Palette::false_colour, dome.radiance(w) * kcd_per_radiance / largest);
+    return map_colour(Palette::false_colour,
+                      dome.luminance(w) / candelas_per_kilocandela / largest);
   });
   draw_legend(picture, {"kcd/m²", largest, Palette::false_colour, Legend::Above::marked});
 }

@@ -93,6 +93,10 @@ double SkyDome::radiance(Horizontal w) const {
   return hills.is_above(w) ? sky.radiance(enu_direction(w)) : ground_radiance;
 }
 
+double SkyDome::luminance(Horizontal w) const {
+  return hills.is_above(w) ? sky.radiance(enu_direction(w)) * efficacy() : ground_luminance;
+}
+
 SkyDome sky_dome(const Study& study, const std::string& time) {
   const TimeZone zone(study.site.timezone);
   std::vector<std::string> notes;
@@ -101,11 +105,13 @@ SkyDome sky_dome(const Study& study, const std::string& time) {
   Site site = build_scene(study).site;
   site.north_deg = 0;  // axes of the dome: x east, y north
   const LitInterval light = light_at(study, site, utc, notes);
+  const double albedo = FarGround(study).albedo(light);
   const bool has_place = !std::holds_alternative<PositionsPeriod>(study.period.kind);
   return {light,
           sky_of(light, study.light),
           site.horizon,
-          FarGround(study).albedo(light) * light.mean.ghi / pi,
+          albedo * light.mean.ghi / pi,
+          albedo * source_means(light, Quantity::illuminance).ghi / pi,
           study.name + (has_place ? ", " + position_text(site) : ""),
           sky_words(study.light),
           iso_local(utc, zone),
@@ -114,11 +120,16 @@ SkyDome sky_dome(const Study& study, const std::string& time) {
 
 namespace {
 
-SkyRow row_of(const SkyDome& dome, Vec3 middle, double radiance, double solid_angle,
+/// `open`: share that hills leave free, where the sky has this radiance.
+SkyRow row_of(const SkyDome& dome, Vec3 middle, double open, double radiance, double solid_angle,
               double projected) {
   const Horizontal at = horizontal(middle);
-  return {at.azimuth_deg, at.elevation_deg, radiance,
-          solid_angle,    projected,        radiance * dome.efficacy()};
+  return {at.azimuth_deg,
+          at.elevation_deg,
+          open * radiance + (1 - open) * dome.ground_radiance,
+          solid_angle,
+          projected,
+          open * radiance * dome.efficacy() + (1 - open) * dome.ground_luminance};
 }
 
 }  // namespace
@@ -135,20 +146,16 @@ std::vector<SkyRow> sky_rows(const SkyDome& dome, std::optional<Subdivision> sub
     const auto radiance = grid.mean_radiance(dome.sky, dome.light.mean.dhi);
     for (int cell = 0; cell < grid.cell_count(); ++cell) {
       const auto c = static_cast<std::size_t>(cell);
-      const double share = open.empty() ? 1 : open[c];
-      rows.push_back(row_of(dome, grid.direction(cell, 0.5, 0.5),
-                            share * radiance[c] + (1 - share) * dome.ground_radiance,
-                            grid.solid_angle(), grid.projected()[c]));
+      rows.push_back(row_of(dome, grid.direction(cell, 0.5, 0.5), open.empty() ? 1 : open[c],
+                            radiance[c], grid.solid_angle(), grid.projected()[c]));
     }
     return rows;
   }
   const auto patches = sky_patches(*subdivision);
   const auto radiance = mean_radiance(patches, dome.sky);
   for (std::size_t p = 0; p < patches.size(); ++p) {
-    const double share = open_share(patches[p], dome.hills);
-    rows.push_back(row_of(dome, patches[p].direction,
-                          share * radiance[p] + (1 - share) * dome.ground_radiance,
-                          patches[p].solid_angle, patches[p].projected));
+    rows.push_back(row_of(dome, patches[p].direction, open_share(patches[p], dome.hills),
+                          radiance[p], patches[p].solid_angle, patches[p].projected));
   }
   return rows;
 }

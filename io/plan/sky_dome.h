@@ -21,11 +21,13 @@ struct SkyDome {
   Sky sky;
   Horizon hills;
   double ground_radiance = 0;      ///< of the far ground and the hills [W m-2 sr-1]
+  double ground_luminance = 0;     ///< of the same, which sun and sky light [cd m-2]
   std::string place, model, when;  ///< in words
   std::vector<std::string> notes;  ///< what the user should know of time and light
 
   /// Radiance of sky or hills [W m-2 sr-1] in a direction above the horizon.
   double radiance(Horizontal w) const;
+  double luminance(Horizontal w) const;  ///< of the same [cd m-2]
   /// Lumens per watt of the sky's light; 0 where it has none.
   double efficacy() const;
 };
@@ -41,7 +43,7 @@ struct SkyRow {
   double radiance = 0;                        ///< mean over the patch [W m-2 sr-1]
   double solid_angle = 0;                     ///< [sr]
   double projected = 0;  ///< ∫ sin(elevation) dω [sr]: times the radiance it is irradiance
-  double luminance = 0;  ///< by the efficacy of the sky's light [cd m-2]
+  double luminance = 0;  ///< by the efficacy of what shines or lights it [cd m-2]
 };
 /// Patches of a subdivision, or without one the 64 × 64 equal cells that the solver uses.
 /// Hills count by the share of a patch that they fill.
@@ -50,7 +52,8 @@ std::vector<SkyRow> sky_rows(const SkyDome& dome, std::optional<Subdivision> sub
 /// luminance_cd_m2`.
 std::string sky_csv(const std::vector<SkyRow>& rows);
 
-/// luminance: false colour [kcd m-2], by Perez's luminous efficacy of the diffuse light.
+/// luminance: false colour [kcd m-2], by Perez's luminous efficacy of the diffuse light (of hills:
+/// of what lights them).
 /// colour: as the eye sees it, by the models of Holubář (2007), for clear skies.
 enum class SkyPicture { luminance, colour };
 /// What a picture of the sky shows.

@@ -93,10 +93,14 @@ void view_html(const std::vector<std::string>& paths, const ViewRules& rules,
                      rules.step ? "" : ", to stay small; --step sets this"));
 
   ViewBlocks blocks;
-  nlohmann::json about{{"false", palette(Palette::false_colour)},
-                       {"grey", palette(Palette::grey)},
-                       {"surfaces", colours(surface_colour_count, surface_colour)},
-                       {"materials", colours(material_colour_count, material_colour)}};
+  nlohmann::json about{
+      {"false", palette(Palette::false_colour)},
+      {"grey", palette(Palette::grey)},
+      {"no_value",
+       {{"false", colours(1, [](std::size_t) { return no_value_colour(Palette::false_colour); })},
+        {"grey", colours(1, [](std::size_t) { return no_value_colour(Palette::grey); })}}},
+      {"surfaces", colours(surface_colour_count, surface_colour)},
+      {"materials", colours(material_colour_count, material_colour)}};
   for (const auto& result : results) {
     warn_of_lacking(result);
     if (result.shape("patch_area").at(0) == 0)

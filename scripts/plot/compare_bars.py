@@ -6,7 +6,8 @@
 Differences are those of `sunload compare`: of the surfaces that both have, with its
 errors, paired realization by realization where results carry the same pairing_id and
 independent (Welch, with degrees of freedom by the means of all that each has) elsewhere.
-Whiskers are 95 % confidence intervals (Student's t)."""
+Whiskers are 95 % confidence intervals (Student's t); those of differences are longer by what
+unlike meshes may put them off (`mesh` of `sunload compare`)."""
 
 import interpreter  # first: finds a Python that has the other packages
 
@@ -81,12 +82,15 @@ class Differences:
         return all(row["paired"] for row in self.rows.values())
 
     def whisker(self, name):
-        """Half width of the confidence interval."""
+        """Half width of the confidence interval, and what unlike meshes may put the difference off."""
         counts = [len(groups.realizations) for groups in (self.base, self.variant)]
         if min(counts) < 2:
             return np.nan
         degrees = counts[0] - 1 if self.rows[name]["paired"] else self.welch_degrees(name)
-        return self.number(name, "se") * student_t(degrees)
+        return self.number(name, "se") * student_t(degrees) + self.mesh_error(name)
+
+    def mesh_error(self, name):
+        return np.nan_to_num(self.number(name, "mesh_error"))
 
     def welch_degrees(self, name):
         parts = [(groups.realizations[:, groups.place[name]].var(ddof=1) / len(groups.realizations),
@@ -149,13 +153,13 @@ def bar_look(k):
 
 def rows(differences, names):
     units = "klx_h" if "lx" in differences[0].base.result.units("light_load") else "kwh_m2"
-    yield ["variant", "name", "area_m2", *(f"{word}_{units}" for word in ("base", "variant", "difference", "se", "whisker")),
+    yield ["variant", "name", "area_m2", *(f"{word}_{units}" for word in ("base", "variant", "difference", "se", "mesh_error", "whisker")),
            "paired"]
     for one in differences:
         for name in names:
             yield [one.variant.result.attribute("variant"), name] + \
                 [one.number(name, word) for word in ("area", "base", "variant", "difference", "se")] + \
-                [float(one.whisker(name)), str(one.rows[name]["paired"]).lower()]
+                [float(one.mesh_error(name)), float(one.whisker(name)), str(one.rows[name]["paired"]).lower()]
 
 
 def have_one_period(results):
@@ -176,7 +180,9 @@ def heading_words(base, differences, shown, of_all, arguments):
     which = f"; the {shown} of {of_all} that change most" if shown < of_all else ""
     results = [base.result, *(one.variant.result for one in differences)]
     period = base.result.period() if have_one_period(results) else "periods differ"
-    return f"light load by {arguments.by}, {period}{which}\nwhiskers: 95 % confidence, {how}"
+    mesh = "; of differences longer by what unlike meshes may put them off" \
+        if any(one.mesh_error(name) > 0 for one in differences for name in one.rows) else ""
+    return f"light load by {arguments.by}, {period}{which}\nwhiskers: 95 % confidence, {how}{mesh}"
 
 
 def main(argv):

@@ -23,8 +23,6 @@ MOST_DAYS_JOINED = 12
 LONGEST_STEP_S = 3700
 # Of the direct normal irradiance: less is a sun in the very plane of the surface (rounding).
 LEAST_COSINE = 1e-4
-# Of sunlight, about (Perez et al. 1990): the direct normal irradiance of a result is in W/m² always.
-LUMENS_PER_WATT = 100
 # Between the highest suns of two days: numbers of their hours would lie on each other.
 LEAST_DEGREES_BETWEEN_LABELS = 6
 
@@ -41,18 +39,24 @@ def direct_series(result):
 
 
 def lit_share(result, target):
-    """Share of the target's area that the sun reaches straight, for each interval."""
+    """Share of the target's area that the sun reaches straight, for each interval: of each patch what it receives of
+    what it would in full sun."""
     dataset = result.need(direct_series(result), "the diagram shows what the sun lights straight; add direct to "
                           "the study's output.series")
     first, last = int(target.patches.min()), int(target.patches.max()) + 1
     weight = np.zeros(last - first)
     weight[target.patches - first] = target.area / target.area.sum()
     rows, shares = dataset.chunks[0] if dataset.chunks else 64, []
-    least = LEAST_COSINE * result.numbers("dni") * (LUMENS_PER_WATT if result.has("illuminance_direct") else 1)
+    beam = result.numbers("direct_normal_illuminance" if result.has("illuminance_direct") else "dni")
+    normal, to_sun = result.numbers("patch_normal")[first:last], result.numbers("sun_direction")
     for k in range(0, dataset.shape[0], rows):
-        block = dataset[k:k + rows, first:last]
+        block, of_block = dataset[k:k + rows, first:last], slice(k, k + rows)
         is_missing = np.isnan(block).any(axis=1, where=weight > 0)
-        shares.append(np.where(is_missing, np.nan, (block > least[k:k + rows, None]) @ weight))
+        # Where several suns stand for an interval some may shine from beyond the surface's horizon.
+        cosine = np.maximum(to_sun[of_block] @ normal.T, LEAST_COSINE)
+        full = np.maximum(beam[of_block, None] * cosine, np.finfo(float).tiny)
+        lit = np.where(block > LEAST_COSINE * beam[of_block, None], np.minimum(block / full, 1), 0)
+        shares.append(np.where(is_missing, np.nan, lit @ weight))
     return np.concatenate(shares)
 
 

@@ -280,7 +280,7 @@ export async function readPage() {
   const results = [];
   for (const one of about.results) results.push(await Result.read(one, halves));
   nameApart(results);
-  return { results, palettes: { false: about.false, grey: about.grey, difference: differencePalette(), surfaces: about.surfaces, materials: about.materials } };
+  return { results, noValue: about.no_value, palettes: { false: about.false, grey: about.grey, difference: differencePalette(), surfaces: about.surfaces, materials: about.materials } };
 }
 
 /** Blue, near white, orange: lightness falls equally to both sides (CIELAB), told apart by all colour vision. */

@@ -22,10 +22,11 @@ const pathBeyond = 1.15, aroundHeight = 0.3;
 const highestStreetM = 2;
 
 class Viewer {
-  constructor({ results, palettes }) {
+  constructor({ results, palettes, noValue }) {
     this.results = results;
     this.canvas = $("scene");
     this.palettes = palettes;
+    this.noValue = noValue;
     this.textures = Object.fromEntries(Object.entries(palettes).map(([name, colours]) => [name, paletteTexture(colours)]));
     this.known = knownNames(results);
     this.match = results.length > 1 ? results[0].matched(results[1]) : null;
@@ -158,6 +159,7 @@ class Viewer {
       mesh.showAs(isShape(quantity), shade === "all" || (shade === "shapes" && isShape(quantity)));
       uniforms.kinds.value = quantity === materials || quantity === kinds;
       uniforms.palette.value = this.textures[isApart ? "difference" : uniforms.kinds.value ? quantity : colours];
+      uniforms.none.value.fromArray(this.noValue[isApart ? "false" : colours]).divideScalar(255);
       for (const [name, value] of Object.entries(scale)) uniforms[name].value = value;
       mesh.showLines(lines);
       mesh.foldLines.visible = edges;

@@ -19,16 +19,17 @@ void main() {
 }`;
 
 // Colours are those of the legend, unless the user wants some shade: level surfaces keep them then, too,
-// and others are darker by as much as the legend shows. Backs of one-sided patches are grey.
+// and others are darker by as much as the legend shows. Backs of one-sided patches are as what has no value.
 const lightFragmentShader = `
 uniform sampler2D palette;
+uniform vec3 none;
 uniform float low;
 uniform float high;
 uniform bool isLogarithmic;
 varying float vValue;
 varying float vShade;
 void main() {
-  vec3 colour = vec3(0.72);
+  vec3 colour = none;
   if (gl_FrontFacing && vValue > -1e29) {
     float share = isLogarithmic ? log(max(vValue, low) / low) / log(high / low) : (vValue - low) / (high - low);
     share = clamp(share, 0.0, 1.0);
@@ -103,7 +104,7 @@ export class PatchMesh {
     geometry.setAttribute("value", this.value);
     if (twoSidedCorners > 0) geometry.addGroup(0, twoSidedCorners, 0);
     if (twoSidedCorners < corners) geometry.addGroup(twoSidedCorners, corners - twoSidedCorners, 1);
-    this.uniforms = { palette: { value: null }, low: { value: 0 }, high: { value: 1 }, isLogarithmic: { value: false }, kinds: { value: false },
+    this.uniforms = { palette: { value: null }, none: { value: new THREE.Vector3() }, low: { value: 0 }, high: { value: 1 }, isLogarithmic: { value: false }, kinds: { value: false },
       shade: { value: 0 }, light: { value: new THREE.Vector3(0.4, -0.6, 0.7) } };
     const ofSides = (vertexShader, fragmentShader) => [THREE.FrontSide, THREE.DoubleSide].map((side) => new THREE.ShaderMaterial({
       vertexShader, fragmentShader, side, uniforms: this.uniforms, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));

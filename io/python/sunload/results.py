@@ -17,6 +17,11 @@ import xarray
 from . import program
 
 
+def _zone(result: xarray.Dataset) -> str:
+    zone = result.attrs.get("timezone") or "UTC"
+    return "UTC" if zone == "Z" else zone
+
+
 def open(path: Union[str, os.PathLike]) -> xarray.Dataset:  # pylint: disable=redefined-builtin
     """A result file (docs/result-file.md), read as it is asked for. Beside what the file has, patches have the
     coordinates `object_of`, `facade_of`, `material_of`, `surface_of`: names, '' for none. Raises InputError where the
@@ -148,7 +153,8 @@ class Accessor:
     def plot_map(self, quantity: str = "light_load", time: Optional[Any] = None, ax: Optional[Any] = None,
                  **options: Any) -> Any:
         """A map of what is seen from above, higher patches over lower ones, by matplotlib; returns its axes. `time`: of
-        a series, in UTC, as of xarray's `sel(method="nearest")`. Options go to PolyCollection."""
+        a series, in UTC as all times of the dataset: the interval whose time is nearest, the brightest where left out; the
+        title tells it in civil time of the site. Options go to PolyCollection."""
         from matplotlib import pyplot  # needed here alone
         from matplotlib.collections import PolyCollection
         result = self._result
@@ -168,6 +174,9 @@ class Accessor:
         ax.autoscale_view()
         ax.set_xlabel("x [m]")
         ax.set_ylabel("y [m]")
+        if "time" in values.coords and not result.attrs.get("time_is_synthetic", 0):
+            when = pandas.Timestamp(values["time"].values).tz_localize("UTC")
+            ax.set_title(f"{when.tz_convert(_zone(result)).floor('s'):%Y-%m-%d %H:%M:%S%z}")
         units = values.attrs.get("units", "")
         ax.figure.colorbar(drawn, ax=ax, label=f"{quantity} [{units}]" if units else quantity)
         return ax

@@ -75,6 +75,21 @@ TEST(SkyDome, LuminanceGivesTheDiffuseIlluminance) {
   EXPECT_NEAR(lux, truth, rounding * truth);
 }
 
+// Sunlight has another efficacy than the sky's.
+TEST(SkyDome, HillsHaveTheLuminanceOfWhatLightsThem) {
+  Study study = study_at_prague();
+  study.site.horizon = Horizon({{0, 30}});
+  const SkyDome dome = sky_dome(study, "2026-06-21T12:00");
+  const auto rows = sky_rows(dome, Subdivision::tregenza);
+  const double lux = source_means(dome.light, Quantity::illuminance).ghi;
+  constexpr double albedo = 0.2, rounding = 1e-12;
+  ASSERT_EQ(study.light.far_ground_albedo, albedo);
+  EXPECT_NEAR(rows.front().luminance, albedo * lux / pi, rounding * lux);
+  EXPECT_EQ(rows.front().luminance, dome.luminance({0, 10}));
+  EXPECT_NE(rows.front().luminance, rows.front().radiance * dome.efficacy());
+  EXPECT_EQ(rows.back().luminance, rows.back().radiance * dome.efficacy());
+}
+
 TEST(SkyDome, LuminanceOfTheZenithIsAsItIsGiven) {
   constexpr double given = 3000;
   Study study = study_at_prague();
