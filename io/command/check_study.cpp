@@ -84,9 +84,8 @@ std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
                     thread_count(), work.is_of_this_machine ? ", by a trial on this machine" : "");
 }
 
-/// What each selection chooses; `empty` gets a warning for those of nothing.
-std::string selections_text(const VariantPlan& plan, const Hierarchy& hierarchy,
-                            std::vector<std::string>& empty) {
+/// What each selection chooses.
+std::string selections_text(const VariantPlan& plan, const Hierarchy& hierarchy) {
   std::string text;
   for (const NamedSelection& selection : plan.study.selections) {
     const ChosenParts chosen = selected_patches(selection, plan.built, hierarchy);
@@ -97,7 +96,6 @@ std::string selections_text(const VariantPlan& plan, const Hierarchy& hierarchy,
       ++count;
       area_m2 += hierarchy.area()[i];
     }
-    if (count == 0) empty.push_back(empty_selection_warning(selection.name));
     text += fmt::format("  {}: {} patches, {:.1f} m2\n", selection.name, count, area_m2);
   }
   return text;
@@ -127,6 +125,20 @@ std::string seasons_section(const VariantPlan& plan) {
   return text;
 }
 
+/// Those of the run, and of selections in which nothing lies.
+std::vector<std::string> warnings_of(const VariantPlan& plan, const Hierarchy& mesh) {
+  std::vector<std::string> all;
+  for (const auto& list :
+       {plan.built.warnings, plan.light.notes, expected_error_warnings(plan, mesh)})
+    all.insert(all.end(), list.begin(), list.end());
+  for (const NamedSelection& selection : plan.study.selections) {
+    const ChosenParts chosen = selected_patches(selection, plan.built, mesh);
+    if (std::none_of(chosen.begin(), chosen.end(), [](auto in) { return in != 0; }))
+      all.push_back(empty_selection_warning(selection.name));
+  }
+  return all;
+}
+
 CheckText text_of(const VariantPlan& plan, const VariantMesh& made, const WorkEstimate& work,
                   const CheckRules& rules, SunTexts& suns) {
   CheckText text{fmt::format("study {}, variant {} (content {})", plan.study.name,
@@ -148,16 +160,13 @@ CheckText text_of(const VariantPlan& plan, const VariantMesh& made, const WorkEs
     mesh += "  not refined here (--no-refine): a run has these patches or more\n";
   mesh += "  largest   " + largest_patches_text(plan, *made.mesh) + "\n";
   add("mesh", mesh);
-  std::vector<std::string> empty_selections;
-  add("selections", selections_text(plan, *made.mesh, empty_selections));
+  add("selections", selections_text(plan, *made.mesh));
   std::string measures;
   for (const auto& line : measures_in_words(plan, *made.mesh)) measures += "  " + line + "\n";
   add("measures", measures);
   add("work", work_text(plan, work));
   std::string warnings;
-  for (const auto& list : {plan.built.warnings, plan.light.notes,
-                           expected_error_warnings(plan, *made.mesh), empty_selections})
-    for (const auto& line : list) warnings += "warning: " + line + "\n";
+  for (const auto& line : warnings_of(plan, *made.mesh)) warnings += "warning: " + line + "\n";
   add("", warnings);
   return text;
 }
@@ -176,7 +185,7 @@ nlohmann::ordered_json as_json(const VariantPlan& plan, const WorkEstimate& work
                               {"hash", plan.content_hash},
                               {"patches", work.patches},
                               {"intervals", plan.intervals()},
-                              {"lit", plan.light.lit_count()},
+                              {"lit", lit_intervals(plan)},
                               {"batches", plan.batches()},
                               {"lines", work.line_rays},
                               {"memory_bytes", static_cast<std::uint64_t>(work.memory_bytes)},
@@ -207,6 +216,19 @@ WorkEstimate estimated(const VariantPlan& plan, const VariantMesh& made, CheckMe
   return estimate_work(plan, patches, paces.of(plan, made.mesh));
 }
 
+/// Where each variant finds room, but not all of them: when the largest one is merged the results
+/// of the others are there, about half of what these took with their batches.
+void tell_disk_of_all(const std::vector<WorkEstimate>& works, const std::string& folder) {
+  if (works.size() < 2) return;
+  const auto smaller = [](const auto& a, const auto& b) { return a.disk_bytes < b.disk_bytes; };
+  WorkEstimate all = *std::max_element(works.begin(), works.end(), smaller);
+  if (!disk_problem(all, folder).empty()) return;
+  all.disk_bytes /= 2;
+  for (const WorkEstimate& work : works) all.disk_bytes += work.disk_bytes / 2;
+  if (const auto problem = disk_problem(all, folder); !problem.empty())
+    tell_warnings({problem}, "all variants");
+}
+
 }  // namespace
 
 int check_study(const std::string& path, const RunOptions& options, const CheckRules& rules) {
@@ -224,6 +246,7 @@ int check_study(const std::string& path, const RunOptions& options, const CheckR
   StudyPaces paces;
   VariantTexts texts;
   SunTexts suns;
+  std::vector<WorkEstimate> works;
   const std::vector<Study> chosen = chosen_variants(file, options);
   expect_measured_somewhere(file, chosen, planner);
   for (const auto& study : chosen) {
@@ -234,20 +257,27 @@ int check_study(const std::string& path, const RunOptions& options, const CheckR
       const VariantMesh& made = meshes.of(plan);
       const WorkEstimate work = estimated(plan, made, rules.mesh, paces);
       // A warning: the machine that runs it may be another.
-      for (const auto& problem : {memory_problem(work), disk_problem(work, folder)})
+      for (const auto& problem : {memory_problem(work), disk_problem(work, folder),
+                                  accuracy_pilot_problem(plan, made.mesh->patch_count())})
         if (!problem.empty()) tell_warnings({problem}, plan.study.variant);
+      works.push_back(work);
       units += plan.batches();
       json["variants"].push_back(as_json(plan, work, rules.mesh));
       json["batch_suns"] = plan.batch_suns();
       if (rules.format == CheckFormat::text)
         texts.print(plan.study.variant, text_of(plan, made, work, rules, suns));
+      else
+        tell_warnings(warnings_of(plan, *made.mesh), plan.study.variant);
     } catch (const InputError& error) {
       problems.add(error);
     }
   }
   problems.throw_if_any();
   json["units"] = units;
-  if (rules.format == CheckFormat::json) std::cout << json.dump(2) << "\n";
+  tell_disk_of_all(works, folder);
+  // Names may be anything.
+  if (rules.format == CheckFormat::json)
+    std::cout << json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
   return exit_code::done;
 }
 

@@ -20,6 +20,17 @@ std::string memory_problem(const WorkEstimate& work, PatchesAre patches) {
       work.samples > 0 ? ", and a larger power_per_sample_w or auto" : "");
 }
 
+std::string accuracy_pilot_problem(const VariantPlan& plan, std::size_t patches) {
+  if (!plan.study.solver.accuracy) return {};
+  const double needed = accuracy_pilot_memory_bytes(plan, patches), left = available_memory_bytes();
+  if (needed <= left) return {};
+  return fmt::format(
+      "too little memory for the pilot of the accuracy asked for: about {} are needed for {} "
+      "patches, {} are available; use a larger mesh.max_edge_m, or lines_per_patch without "
+      "accuracy",
+      bytes_text(needed), patches, bytes_text(left));
+}
+
 std::string disk_problem(const WorkEstimate& work, const std::string& folder,
                          double finished_bytes) {
   if (const auto problem = folder_problem(folder); !problem.empty())

@@ -16,6 +16,9 @@ enum class PatchesAre { counted, at_least };
 /// Why memory does not suffice, and what to try; empty where it does.
 std::string memory_problem(const WorkEstimate& work, PatchesAre patches = PatchesAre::counted);
 
+/// The same of the pilot that decides the counts where `solver.accuracy` asks for it.
+std::string accuracy_pilot_problem(const VariantPlan& plan, std::size_t patches);
+
 /// The same of the disk that results go to, `finished_bytes` of which are there already: it may
 /// also be read-only, or have no inodes for more files.
 std::string disk_problem(const WorkEstimate& work, const std::string& folder,

@@ -16,6 +16,7 @@
 #include "io/base/waiting_lock.h"
 #include "io/batch/batch_tally.h"
 #include "io/batch/file.h"
+#include "io/plan/room.h"
 #include "io/plan/rules_of_study.h"
 #include "io/plan/work_estimate.h"
 #include "io/run/mpi_world.h"
@@ -55,6 +56,11 @@ std::string counts_text(const VariantPlan& plan, const SampleCounts& counts) {
   if (counts.share < share_to_be_met)
     text += fmt::format("; {} lines and samples at most cannot give more (max_lines_per_patch)",
                         plan.study.solver.max_lines_per_patch);
+  // Errors of what lamps bring fall faster with more lines than by the pilot's law.
+  if (counts.share < share_to_be_met && has_lamps(plan))
+    text +=
+        "; of lamps it expects too large errors: lines_per_patch as large as that, without "
+        "accuracy, may reach it";
   return text;
 }
 
@@ -220,7 +226,8 @@ SolverRules VariantRun::decided_rules() {
     suns[p] = lights.of(plan_.light.intervals[k], k);
   });
   const AccuracyGoal goal = accuracy_goal(plan_.study);
-  refuse_too_much(accuracy_pilot_memory_bytes(plan_, mesh_->patch_count()));
+  if (const auto problem = accuracy_pilot_problem(plan_, mesh_->patch_count()); !problem.empty())
+    throw MachineError(problem);
   const PatchSpread spread = accuracy_pilot_spread(
       plan_.built.scene, mesh_, rules, suns,
       {choice.weight, plan_.batch_suns(), goal.irradiance_relative.has_value()}, progress_);

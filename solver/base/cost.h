@@ -81,7 +81,7 @@ inline constexpr double s_per_form_factor = 1.5e-6, s_per_factor_solved = 3e-10;
 
 // Memory.
 inline constexpr double double_bytes = 8, float_bytes = 4;
-inline constexpr double program_bytes = 3.6e7, bytes_per_line = 6.4, bytes_per_patch = 1400;
+inline constexpr double program_bytes = 6.7e7, bytes_per_line = 6.4, bytes_per_patch = 1400;
 inline constexpr double bytes_per_interval = 500;
 /// Of each season after the first, beside its lines: a scene of its own (Delft, 2 seasons).
 inline constexpr double season_bytes_per_patch = 680, season_bytes_per_triangle = 240;
