@@ -75,6 +75,7 @@ Camera Camera::parallel(const std::vector<Vec3>& points, Vec3 towards_viewer, Ve
   const bool is_along = norm(cross(up, normalized(towards_viewer))) < vertical;
   Camera camera(Projection::parallel, towards_viewer, is_along ? Vec3{0, 1, 0} : up, width, height);
   std::vector<Vec3> projected;
+  projected.reserve(points.size());
   for (const Vec3 p : points)
     projected.push_back({dot(p, camera.right_), dot(p, camera.up_), dot(p, camera.back_)});
   const Box box = bounding_box(projected);

@@ -25,11 +25,14 @@ void paint_dome(Picture& picture, const DomeChart& chart,
   const auto left = static_cast<int>(chart.centre().x - chart.radius()) - 1;
   const auto top = static_cast<int>(chart.centre().y - chart.radius()) - 1;
   const int size = static_cast<int>(2 * chart.radius()) + 3;
-  std::vector<Colour> pixels(static_cast<std::size_t>(size * size), Colour{1, 1, 1});
+  const auto columns = static_cast<std::size_t>(size);
+  std::vector<Colour> pixels(columns * columns, Colour{1, 1, 1});
   for (int row = 0; row < size; ++row)
     for (int column = 0; column < size; ++column) {
       const auto place = chart.place({left + column + 0.5, top + row + 0.5});
-      if (place) pixels[static_cast<std::size_t>(row * size + column)] = colour(*place);
+      if (place)
+        pixels[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)] =
+            colour(*place);
     }
   picture.paint(left, top, size, pixels);
 }

@@ -70,7 +70,7 @@ class ModelBuilder {
     return *this;
   }
   PolygonModel& model() { return model_; }
-  PreparedMesh prepared(PrepareRules rules = {}) const { return prepare(model_, rules); }
+  PreparedMesh prepared(const PrepareRules& rules = {}) const { return prepare(model_, rules); }
 
  private:
   PolygonModel model_;
