@@ -84,21 +84,26 @@ std::string work_text(const VariantPlan& plan, const WorkEstimate& work) {
                     thread_count(), work.is_of_this_machine ? ", by a trial on this machine" : "");
 }
 
-/// What each selection chooses.
-std::string selections_text(const VariantPlan& plan, const Hierarchy& hierarchy) {
-  std::string text;
+/// What a selection chooses.
+struct SelectionSize {
+  std::string name;
+  std::size_t patches = 0;
+  double area_m2 = 0;
+};
+
+std::vector<SelectionSize> selection_sizes(const VariantPlan& plan, const Hierarchy& hierarchy) {
+  std::vector<SelectionSize> sizes;
   for (const NamedSelection& selection : plan.study.selections) {
     const ChosenParts chosen = selected_patches(selection, plan.built, hierarchy);
-    std::size_t count = 0;
-    double area_m2 = 0;
+    SelectionSize size{selection.name};
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       if (chosen[i] == 0) continue;
-      ++count;
-      area_m2 += hierarchy.area()[i];
+      ++size.patches;
+      size.area_m2 += hierarchy.area()[i];
     }
-    text += fmt::format("  {}: {} patches, {:.1f} m2\n", selection.name, count, area_m2);
+    sizes.push_back(std::move(size));
   }
-  return text;
+  return sizes;
 }
 
 /// The sun in words, made once for variants that have it in common.
@@ -126,16 +131,14 @@ std::string seasons_section(const VariantPlan& plan) {
 }
 
 /// Those of the run, and of selections in which nothing lies.
-std::vector<std::string> warnings_of(const VariantPlan& plan, const Hierarchy& mesh) {
+std::vector<std::string> warnings_of(const VariantPlan& plan, const Hierarchy& mesh,
+                                     const std::vector<SelectionSize>& selections) {
   std::vector<std::string> all;
   for (const auto& list :
        {plan.built.warnings, plan.light.notes, expected_error_warnings(plan, mesh)})
     all.insert(all.end(), list.begin(), list.end());
-  for (const NamedSelection& selection : plan.study.selections) {
-    const ChosenParts chosen = selected_patches(selection, plan.built, mesh);
-    if (std::none_of(chosen.begin(), chosen.end(), [](auto in) { return in != 0; }))
-      all.push_back(empty_selection_warning(selection.name));
-  }
+  for (const SelectionSize& selection : selections)
+    if (selection.patches == 0) all.push_back(empty_selection_warning(selection.name));
   return all;
 }
 
@@ -160,13 +163,18 @@ CheckText text_of(const VariantPlan& plan, const VariantMesh& made, const WorkEs
     mesh += "  not refined here (--no-refine): a run has these patches or more\n";
   mesh += "  largest   " + largest_patches_text(plan, *made.mesh) + "\n";
   add("mesh", mesh);
-  add("selections", selections_text(plan, *made.mesh));
+  const auto selections = selection_sizes(plan, *made.mesh);
+  std::string chosen;
+  for (const auto& [name, patches, area_m2] : selections)
+    chosen += fmt::format("  {}: {} patches, {:.1f} m2\n", name, patches, area_m2);
+  add("selections", chosen);
   std::string measures;
   for (const auto& line : measures_in_words(plan, *made.mesh)) measures += "  " + line + "\n";
   add("measures", measures);
   add("work", work_text(plan, work));
   std::string warnings;
-  for (const auto& line : warnings_of(plan, *made.mesh)) warnings += "warning: " + line + "\n";
+  for (const auto& line : warnings_of(plan, *made.mesh, selections))
+    warnings += "warning: " + line + "\n";
   add("", warnings);
   return text;
 }
@@ -267,7 +275,8 @@ int check_study(const std::string& path, const RunOptions& options, const CheckR
       if (rules.format == CheckFormat::text)
         texts.print(plan.study.variant, text_of(plan, made, work, rules, suns));
       else
-        tell_warnings(warnings_of(plan, *made.mesh), plan.study.variant);
+        tell_warnings(warnings_of(plan, *made.mesh, selection_sizes(plan, *made.mesh)),
+                      plan.study.variant);
     } catch (const InputError& error) {
       problems.add(error);
     }

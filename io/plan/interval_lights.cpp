@@ -52,20 +52,12 @@ IntervalLight IntervalLights::of_parts(const LitInterval& interval, std::size_t 
   return sum;
 }
 
-std::vector<SunSample> samples_of(const LitInterval& interval) {
-  if (interval.joined || !interval.sun_samples.empty()) return interval.sun_samples;
-  std::vector<SunSample> samples;
-  const double share = 1 / static_cast<double>(interval.when.sun_samples.size());
-  for (const Vec3 sun : interval.when.sun_samples) samples.push_back({sun, share, share});
-  return samples;
-}
-
 IntervalLight IntervalLights::of(const LitInterval& interval, std::size_t number) const {
   const SunInterval& when = interval.when;
   IntervalLight sun = interval.joined ? of_parts(interval, number) : IntervalLight();
   sun.number = static_cast<std::uint32_t>(number);
   sun.direction = when.direction;
-  sun.sun_samples = samples_of(interval);
+  sun.sun_samples = interval.sun_samples;
   sun.direct_suns = interval.direct_suns;
   sun.length_s = when.length_s();
   sun.sunlit_s = when.sunlit_s;

@@ -50,9 +50,6 @@ class IntervalLights {
   std::vector<double> open_share_;  ///< per cell; empty with an open horizon
 };
 
-/// The suns that stand for an interval, where several do.
-std::vector<SunSample> samples_of(const LitInterval& interval);
-
 /// The light of a series; both must outlive it. `counts`: 0 for each interval that shall be dark;
 /// empty: for none.
 class SeriesLight : public LitPeriod {
@@ -73,7 +70,7 @@ class SeriesLight : public LitPeriod {
   }
   std::vector<Vec3> suns(std::size_t interval) const override {
     std::vector<Vec3> suns;
-    for (const SunSample& sun : samples_of(series_.intervals[interval]))
+    for (const SunSample& sun : series_.intervals[interval].sun_samples)
       suns.push_back(sun.direction);
     if (suns.empty()) suns.push_back(series_.intervals[interval].when.direction);
     return suns;

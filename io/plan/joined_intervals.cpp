@@ -76,11 +76,7 @@ std::vector<PartSun> suns_of(std::span<const LitInterval> parts, Quantity quanti
     const double dni_s = source_means(part, quantity).dni * when.length_s();
     for (const SunSample& sun : part.sun_samples)
       suns.push_back({sun.direction, dni_s * sun.dni_share, when.sunlit_s * sun.time_share});
-    if (!part.sun_samples.empty()) continue;
-    if (when.sun_samples.empty()) suns.push_back({when.direction, dni_s, when.sunlit_s});
-    const auto count = static_cast<double>(when.sun_samples.size());
-    for (const Vec3 sun : when.sun_samples)
-      suns.push_back({sun, dni_s / count, when.sunlit_s / count});
+    if (part.sun_samples.empty()) suns.push_back({when.direction, dni_s, when.sunlit_s});
   }
   return suns;
 }

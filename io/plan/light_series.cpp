@@ -63,8 +63,9 @@ class ClearSky {
       dni.push_back(at(when.sun_time, at_sun).dni);
     }
     const double all = std::accumulate(dni.begin(), dni.end(), 0.0);
+    if (all <= 0) return {};
     std::vector<SunSample> suns;
-    for (std::size_t s = 0; s < dni.size() && all > 0; ++s)
+    for (std::size_t s = 0; s < dni.size(); ++s)
       suns.push_back({when.sun_samples[s], dni[s] / all, 1 / static_cast<double>(dni.size())});
     return suns;
   }
@@ -381,6 +382,16 @@ void note_long_intervals(LightSeries& series, bool has_dni_of_each_sun) {
       has_dni_of_each_sun ? "sun" : "DNI", most_s / seconds_per_hour));
 }
 
+/// Suns of an interval of which nobody knows what each brings.
+void share_alike(LightSeries& series) {
+  for (LitInterval& interval : series.intervals) {
+    const auto& suns = interval.when.sun_samples;
+    if (suns.empty() || !interval.sun_samples.empty()) continue;
+    const double share = 1 / static_cast<double>(suns.size());
+    for (const Vec3 sun : suns) interval.sun_samples.push_back({sun, share, share});
+  }
+}
+
 LightSeries series_of(const Study& study, const Site& site) {
   LightSeries series;
   if (study.light.source == LightSource::weather) {
@@ -419,6 +430,7 @@ LightSeries series_of(const Study& study, const Site& site) {
 
 LightSeries light_series(const Study& study, const Site& site) {
   LightSeries series = series_of(study, site);
+  share_alike(series);
   if (std::holds_alternative<InstantsPeriod>(study.period.kind))
     note_dark_instants(series);
   else if (!series.times_are_synthetic)

@@ -28,8 +28,8 @@ struct LitInterval {
   std::optional<double> albedo{};
   /// Where short intervals are solved together (io/plan/joined_intervals.h): these; else null.
   std::shared_ptr<const std::vector<LitInterval>> joined{};
-  /// Suns that stand for it, with what each brings: of joined intervals, and of a clear sky; where
-  /// there are none those of `when`, which bring alike.
+  /// Where several suns stand for it: these, with what each brings. Under a clear sky what its
+  /// height has, else alike.
   std::vector<SunSample> sun_samples{};
   std::vector<SunSample> direct_suns{};  ///< of joined intervals, for straight light alone
 

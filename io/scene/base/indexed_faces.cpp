@@ -70,7 +70,7 @@ void IndexedFaces::end_face() {
   model_.facts.push_back(facts_);
 }
 
-void IndexedFaces::is_in_single_precision(Vec3 as_read) {
+void IndexedFaces::note_single_precision(Vec3 as_read) {
   for (const double x : {as_read.x, as_read.y, as_read.z})
     largest_single_ = std::max(largest_single_, std::abs(x));
 }

@@ -24,8 +24,8 @@ class IndexedFaces {
 
   /// False where the position is beyond all coordinates on Earth.
   bool add_vertex(Vec3 in_file);
-  /// Tells that a position was read in single precision: far from the origin that is coarse.
-  void is_in_single_precision(Vec3 as_read);
+  /// That a position was read in single precision: far from the origin that is coarse.
+  void note_single_precision(Vec3 as_read);
   std::size_t vertex_count() const { return vertices_.size(); }
   std::size_t corner_count() const { return model_.ring_vertex.size(); }
 

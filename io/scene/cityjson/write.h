@@ -17,9 +17,9 @@ namespace sunload {
 /// tunnels keep theirs where what they belong to is written with them: an object, or one of which
 /// no surface was read, without geometry. LoD 2.
 /// Kinds of surface as semantics where CityJSON has a name for them, materials with their
-/// reflectance as grey diffuseColor. Coordinates in metres, rounded to micrometres.
-/// CityJSON has no mirrors and no emitters. Throws MachineError where the file cannot be written.
-/// `crs_unit_m`: length of the unit of the model's CRS, in which coordinates are written.
+/// reflectance as grey diffuseColor. Coordinates in the unit of the model's CRS,
+/// which is `crs_unit_m` long, rounded to micrometres. CityJSON has no mirrors and no emitters.
+/// Throws MachineError where the file cannot be written.
 void write_cityjson(const PolygonModel& model, const std::string& path, double crs_unit_m = 1);
 
 }  // namespace sunload

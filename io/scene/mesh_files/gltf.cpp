@@ -210,7 +210,7 @@ class GltfReader {
     if (faces_.vertex_count() + points.size() > most_corners_of(file_.bytes()))
       file_.fail("has too many vertices", "shared meshes make too many for its size");
     for (const Vec3 point : points) {
-      faces_.is_in_single_precision(point);
+      faces_.note_single_precision(point);
       if (!faces_.add_vertex(file_from_mesh(point)))
         file_.fail("has a vertex beyond all coordinates on Earth",
                    "a coordinate is no finite number below 1e10 m", "is unit_m right?");

@@ -327,7 +327,7 @@ class BodyReader {
         else
           xyz[static_cast<std::size_t>(axis)] = number(p.type, v);
       }
-      if (are_single) faces_.is_in_single_precision({xyz[0], xyz[1], xyz[2]});
+      if (are_single) faces_.note_single_precision({xyz[0], xyz[1], xyz[2]});
       if (!faces_.add_vertex({xyz[0], xyz[1], xyz[2]})) {
         fail(v, "is no point on Earth", "a coordinate is no finite number below 1e10 m",
              "is unit_m right?");

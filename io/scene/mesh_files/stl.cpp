@@ -91,7 +91,7 @@ class StlReader {
       for (int corner = 0; corner < 3; ++corner, at += 3 * sizeof(float)) {
         const Vec3 point{little_float(at), little_float(at + sizeof(float)),
                          little_float(at + 2 * sizeof(float))};
-        faces_.is_in_single_precision(point);
+        faces_.note_single_precision(point);
         if (!add_point(point)) {
           throw InputError({path_}, fmt::format("triangle {} has a point that is none on Earth", t),
                            "a coordinate is no finite number below 1e10 m", "is unit_m right?");
