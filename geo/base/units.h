@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "geo/base/vec.h"
@@ -11,6 +12,7 @@
 namespace sunload {
 
 inline constexpr double pi = std::numbers::pi;
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double radians_per_degree = pi / 180;
 inline constexpr double degrees_per_radian = 180 / pi;
 inline constexpr double seconds_per_minute = 60;

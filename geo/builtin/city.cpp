@@ -11,8 +11,6 @@
 namespace sunload::builtin {
 namespace {
 
-constexpr double joint = 0.005;  // between bodies that would touch [m]
-constexpr double plate_thickness = 0.3;
 constexpr double plot_width = 20, plot_depth = 24;  // half of the streets around it included
 constexpr double wall_grey = 0.3;                   // Oke (1987), table 7.4
 constexpr double roof_grey = 0.25, land_grey = 0.2;

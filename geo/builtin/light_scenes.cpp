@@ -13,8 +13,6 @@
 namespace sunload::builtin {
 namespace {
 
-constexpr double joint = 0.005;  // between bodies that would touch [m]
-constexpr double plate_thickness = 0.3;
 constexpr double grey = 0.5;           // reflectance of surfaces that are just there
 constexpr double street_grey = 0.3;    // of walls and roads: Oke (1987), table 7.4
 constexpr double mirror_glass = 0.85;  // of the historic windows

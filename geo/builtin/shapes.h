@@ -19,6 +19,10 @@
 
 namespace sunload::builtin {
 
+/// Between bodies and plates that would touch [m].
+inline constexpr double joint = 0.005;
+inline constexpr double plate_thickness = 0.3;  ///< of the ground [m]
+
 /// A point in the plane of a face [m].
 struct Point2 {
   double u = 0, v = 0;

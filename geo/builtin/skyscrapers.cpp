@@ -10,8 +10,7 @@
 namespace sunload::builtin {
 namespace {
 
-constexpr double joint = 0.005;  // between bodies [m]
-constexpr double plaza_level = 0.15, plate_foot = -0.5;
+constexpr double plaza_level = 0.15, plaza_foot = -0.5;
 
 /// Only the cladding of tower_1 has a mirror reflectance (0.85, as the historic
 /// windows). Others within the ranges of Oke (1987), table 7.4; the windows of
@@ -170,13 +169,13 @@ void add_ground(Builder& b, const TowerMaterials& m, const std::vector<Tower>& t
     return PrismFinish{buried, {material, Surface::ground}, buried, buried};
   };
   b.begin_object("plaza");
-  prism(b, ring(0), plate_foot, plaza_level, finish(m.paving), shafts);
+  prism(b, ring(0), plaza_foot, plaza_level, finish(m.paving), shafts);
   b.begin_object("kerb");
   PrismFinish kerb = finish(m.stone);
   kerb.side.surface = Surface::ground;  // seen from the road
   prism(b, ring(kerb_width), 0, plaza_level, kerb, {ring(joint)});
   b.begin_object("road");
-  prism(b, ring(kerb_width + road_width), plate_foot, 0, finish(m.asphalt),
+  prism(b, ring(kerb_width + road_width), plaza_foot, 0, finish(m.asphalt),
         {ring(kerb_width + joint)});
 }
 

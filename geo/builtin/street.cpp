@@ -11,7 +11,6 @@ namespace sunload::builtin {
 namespace {
 
 // Ground plan [m]: y = 0 is the middle of the street, fronts stand at ±8.
-constexpr double joint = 0.005;       // between plates of the ground
 constexpr double party_joint = 0.05;  // expansion joint between houses
 constexpr double front_line = 8;
 constexpr double kerb_line = 4.5;  // half the carriageway: two lanes and parking

@@ -56,7 +56,8 @@ std::vector<std::optional<std::size_t>> carriers_of(const FamilyTree& tree,
     if (owner)
       carriers[place] = carriers[*owner] ? carriers[*owner] : owner;
     else if (const auto found = parts.find(tops[place]); found != parts.end())
-      carriers[place] = nearest_in_plan(found->second, in_plan(extents[place].middle()), extents);
+      carriers[place] =
+          nearest_in_plan(found->second, plan_point(extents[place].middle()), extents);
   }
   return carriers;
 }

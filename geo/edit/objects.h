@@ -41,7 +41,7 @@ bool holds_in_plan(const Rings& rings, Point2 at, const Plan& plan) {
     }
   return inside;
 }
-inline Point2 in_plan(Vec3 p) { return {p.x, p.y}; }
+inline Point2 plan_point(Vec3 p) { return {p.x, p.y}; }
 
 /// An object's bounding box; of one without polygons `low` is above `high`.
 struct ObjectExtent {

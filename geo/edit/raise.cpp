@@ -23,7 +23,7 @@ struct Leaning {
   double height_at(double x, double y) const {
     return through.z - (normal.x * (x - through.x) + normal.y * (y - through.y)) / normal.z;
   }
-  bool covers(double x, double y) const { return holds_in_plan(face->rings, {x, y}, in_plan); }
+  bool covers(double x, double y) const { return holds_in_plan(face->rings, {x, y}, plan_point); }
 };
 
 std::vector<Leaning> leaning_of(const std::vector<LooseFace>& faces) {

@@ -168,7 +168,7 @@ const std::string& kind_of(const PolygonModel& model, std::size_t object) {
 /// Height of a face over a place in plan; nothing of upright ones and of others.
 std::optional<double> height_at(const LooseFace& face, Point2 place) {
   const Vec3 normal = area_vector2(face);
-  if (normal.z == 0 || !holds_in_plan(face.rings, place, in_plan)) return {};
+  if (normal.z == 0 || !holds_in_plan(face.rings, place, plan_point)) return {};
   const Vec3 through = face.rings[0][0];
   return through.z -
          (normal.x * (place.u - through.x) + normal.y * (place.v - through.y)) / normal.z;

@@ -24,10 +24,10 @@ constexpr int most_halvings = 16;
 struct VertexInfo {
   std::int32_t vertex = -1;  // of the mesh
 };
-struct FaceInfo {
+struct CoverInfo {
   CoverState state = CoverState::open;
 };
-using Delaunay = ConstrainedDelaunay<VertexInfo, FaceInfo>;
+using CoverDelaunay = ConstrainedDelaunay<VertexInfo, CoverInfo>;
 using Polygon = std::vector<Point2>;
 using Line2 = std::array<Point2, 2>;
 
@@ -245,7 +245,7 @@ class Cutter {
       delaunay_.insert_constraint(nodes_[on[i - 1].second].handle, nodes_[on[i].second].handle);
   }
 
-  Polygon corners_of(Delaunay::Face_handle face) const {
+  Polygon corners_of(CoverDelaunay::Face_handle face) const {
     Polygon p;
     for (int k = 0; k < 3; ++k)
       p.push_back({face->vertex(k)->point().x(), face->vertex(k)->point().y()});
@@ -264,8 +264,8 @@ class Cutter {
       const auto other = face->neighbor(k);
       if (delaunay_.is_infinite(face) || delaunay_.is_infinite(other)) continue;
       if (face->info().state == other->info().state) continue;
-      const auto& a = face->vertex(Delaunay::cw(k))->point();
-      const auto& b = face->vertex(Delaunay::ccw(k))->point();
+      const auto& a = face->vertex(CoverDelaunay::cw(k))->point();
+      const auto& b = face->vertex(CoverDelaunay::ccw(k))->point();
       Line2 border{Point2{a.x(), a.y()}, Point2{b.x(), b.y()}};
       if (is_before(border[1], border[0])) std::swap(border[0], border[1]);
       borders.push_back(border);
@@ -311,9 +311,9 @@ class Cutter {
   std::optional<std::size_t> first_taker_;
   struct Node {
     Point2 at;
-    Delaunay::Vertex_handle handle;
+    CoverDelaunay::Vertex_handle handle;
   };
-  Delaunay delaunay_;  // of the last division
+  CoverDelaunay delaunay_;  // of the last division
   std::vector<Node> nodes_;
 };
 

@@ -114,16 +114,24 @@ bool Covers::is_buried(std::size_t t, Vec3 at) const {
   return inside > 0 || is_below_land || (is_land_[t] && is_sealed(p));
 }
 
-/// Land at `p` under a floor, or in the pocket that it closes.
+/// Land just below `p` under a floor, in the pocket that it closes, or inside of what stands on it:
+/// above a floor that lies deeper something else of its object must be. Over a cellar land is open.
 bool Covers::is_sealed(Vec3 p) const {
-  bool is_sealed = false;
-  if (seals_.empty()) return is_sealed;
+  if (seals_.empty()) return false;
+  const double land = p.z - 3 * contact_;
+  std::vector<ObjectId> floors_below, above;
+  bool is_under_floor = false;
   tree_.visit_column(p.x, p.y, [&](std::size_t u) {
-    if (seals(u) && slope_of(mesh_, u) == Slope::downward)
-      is_sealed |= height_at(mesh_.corner(u, 0), mesh_.corner(u, 1), mesh_.corner(u, 2), p.x, p.y)
-                       .has_value();
+    const auto z = height_at(mesh_.corner(u, 0), mesh_.corner(u, 1), mesh_.corner(u, 2), p.x, p.y);
+    if (!z || is_land_[u]) return;
+    const bool is_floor = seals(u) && slope_of(mesh_, u) == Slope::downward;
+    if (is_floor && *z >= land) is_under_floor = true;
+    if (is_floor || *z > land)
+      (*z > land ? above : floors_below).push_back(mesh_.triangle_object[u]);
   });
-  return is_sealed;
+  return is_under_floor || std::ranges::any_of(floors_below, [&](ObjectId object) {
+           return std::ranges::find(above, object) != above.end();
+         });
 }
 
 bool Covers::is_in_solid(std::size_t t) const {

@@ -3,10 +3,10 @@
 #include "geo/mesh/feet.h"
 
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <string_view>
 
+#include "geo/base/units.h"
 #include "geo/mesh/box_tree.h"
 #include "geo/mesh/edge_table.h"
 #include "geo/mesh/slope.h"
@@ -15,7 +15,6 @@ namespace sunload {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double steepest_edge = 1.7321;  // tan 60 degrees: steeper edges are corners of walls
 constexpr double inside_m = 0.05;         // behind a wall one asks what is below it
 constexpr double half = 0.5;

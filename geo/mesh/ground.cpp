@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
 #include "geo/base/check.h"
+#include "geo/base/units.h"
 #include "geo/base/unused_name.h"
 #include "geo/mesh/box_tree.h"
 #include "geo/mesh/land.h"
@@ -18,7 +18,6 @@ namespace sunload {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_told = 10;
 constexpr double below_land_m = 0.05;  // walls drawn down end there
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "geo/base/check.h"
+#include "geo/base/units.h"
 #include "geo/mesh/box_tree.h"
 #include "geo/mesh/constrained_delaunay.h"
 #include "geo/mesh/land_points.h"
@@ -18,7 +18,6 @@ namespace sunload {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int border_points = 32;  // on each side of the rectangle, where the land is not level
 // Lines of n pieces may cross n² times; houses that overlap cross a few times each.
 constexpr std::size_t crossings_per_line = 8, fewest_crossings = 100;
@@ -26,7 +25,7 @@ constexpr std::size_t crossings_per_line = 8, fewest_crossings = 100;
 struct PointInfo {
   std::int32_t point = -1;
 };
-using Delaunay = ConstrainedDelaunay<PointInfo>;
+using LandDelaunay = ConstrainedDelaunay<PointInfo>;
 
 Box box_near(const Segment& line) { return widened(box_around({line[0], line[1]}), land_snap_m); }
 
@@ -69,7 +68,7 @@ class LandMaker {
   }
 
   void insert_lines() {
-    Delaunay::Face_handle near{};
+    LandDelaunay::Face_handle near{};
     for (std::size_t p = 0; p < points_.size(); ++p) {
       handles_.push_back(delaunay_.insert({points_[p].x, points_[p].y}, near));
       handles_[p]->info().point = static_cast<std::int32_t>(p);
@@ -191,7 +190,7 @@ class LandMaker {
   /// Points between the lines, on the triangles that are there.
   void fill_open_land() {
     std::vector<Vec3> open = open_land_points(lines_, near_lines_);
-    Delaunay::Face_handle near{};
+    LandDelaunay::Face_handle near{};
     for (Vec3& p : open) {
       near = delaunay_.locate({p.x, p.y}, near);
       p.z = delaunay_.is_infinite(near) ? -infinity : height_on(near, p.x, p.y);
@@ -207,7 +206,7 @@ class LandMaker {
   }
 
   /// Where `height_at` would refuse what rounding puts beside an edge.
-  double height_on(Delaunay::Face_handle face, double x, double y) const {
+  double height_on(LandDelaunay::Face_handle face, double x, double y) const {
     const auto corner = [&](int k) {
       return points_[static_cast<std::size_t>(face->vertex(k)->info().point)];
     };
@@ -238,8 +237,8 @@ class LandMaker {
   double reach_ = 0, steepest_beyond_ = 0;
   Box near_lines_;  ///< of the rectangle, as far as land slopes
   std::vector<Vec3> points_;
-  Delaunay delaunay_;
-  std::vector<Delaunay::Vertex_handle> handles_;
+  LandDelaunay delaunay_;
+  std::vector<LandDelaunay::Vertex_handle> handles_;
 };
 
 }  // namespace

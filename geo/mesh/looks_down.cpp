@@ -13,14 +13,14 @@ namespace {
 
 /// More of the plan than this looks down: a net share, of which edges of slabs and eaves fall
 /// short.
-constexpr double clear_majority = 0.5;
+constexpr double downward_majority = 0.5;
 /// Less is nobody's ground or roof [m2].
 constexpr double least_m2 = 1;
 
 /// Areas of the plan [m2].
 struct Plan {
   double up = 0, all = 0;
-  bool looks_down() const { return all > least_m2 && -up > clear_majority * all; }
+  bool looks_down() const { return all > least_m2 && -up > downward_majority * all; }
   void add(double upward_m2) {
     up += upward_m2;
     all += std::abs(upward_m2);

@@ -17,7 +17,7 @@ namespace {
 
 // Of area^1.5: less is a sheet folded onto itself (1 m^2 of it 1 nm thick).
 constexpr double least_volume = 1e-9;
-constexpr double half = 0.5;                 // winding numbers are whole but for rounding
+constexpr double inside = 0.5;               // winding numbers are whole but for rounding
 constexpr double clear_majority = 1 + 1e-9;  // equal areas must not be decided by rounding
 
 /// Triangles of all bodies, body by body.
@@ -195,7 +195,7 @@ class Orienter {
                              std::abs(bodies_[static_cast<std::size_t>(result)].volume)) {
         continue;
       }
-      if (std::abs(winding_number(mesh_, members_.of(c), g_.flip, p)) > half) {
+      if (std::abs(winding_number(mesh_, members_.of(c), g_.flip, p)) > inside) {
         result = static_cast<std::int64_t>(c);
       }
     }

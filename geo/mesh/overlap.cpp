@@ -26,7 +26,7 @@ double overlap_m2(const std::array<Vec3, 3>& a, Vec3 normal, const std::array<Ve
 namespace {
 
 /// Of the smaller triangle: less is an edge in common.
-constexpr double least_share = 1e-6;
+constexpr double least_overlap = 1e-6;
 
 struct Facing {
   std::array<Vec3, 3> corner;
@@ -79,7 +79,7 @@ Doubled find_doubled(const Mesh& mesh) {
     tree.visit_meeting(boxes[i], [&](std::size_t u) {
       if (u >= i || !lies_in(facings[u], t, within_m) || !lies_in(t, facings[u], within_m)) return;
       const double area = overlap_m2(facings[u].corner, facings[u].normal, t.corner);
-      if (area <= least_share * std::min(t.area_m2, facings[u].area_m2)) return;
+      if (area <= least_overlap * std::min(t.area_m2, facings[u].area_m2)) return;
       if (area > most_m2 || (area == most_m2 && u < nearest)) nearest = u;
       most_m2 = std::max(most_m2, area);
     });

@@ -12,13 +12,14 @@ namespace sunload {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 /// The first number of a file; infinite for `max`, and where there is none.
 double first_number(const fs::path& path) {
   std::ifstream file(path);
   double number = 0;
-  if (!(file >> number)) return unlimited;
+  if (!(file >> number)) return no_limit;
   return number;
 }
 
@@ -53,26 +54,26 @@ double files_in_memory(const fs::path& group, const std::string& prefix) {
 double memory_left(const fs::path& group, const char* limit_file, const char* usage_file,
                    const std::string& prefix) {
   const double limit = first_number(group / limit_file), usage = first_number(group / usage_file);
-  if (limit == unlimited || usage == unlimited) return unlimited;
+  if (limit == no_limit || usage == no_limit) return no_limit;
   return std::max(0.0, limit - std::max(0.0, usage - files_in_memory(group, prefix)));
 }
 
 double quota_v2(const fs::path& group) {
   std::ifstream file(group / "cpu.max");
   double quota = 0, period = 0;
-  return file >> quota >> period && period > 0 ? quota / period : unlimited;
+  return file >> quota >> period && period > 0 ? quota / period : no_limit;
 }
 
 double quota_v1(const fs::path& group) {
   const double quota = first_number(group / "cpu.cfs_quota_us"),
                period = first_number(group / "cpu.cfs_period_us");
-  const bool has_one = quota > 0 && quota != unlimited && period > 0 && period != unlimited;
-  return has_one ? quota / period : unlimited;
+  const bool has_one = quota > 0 && quota != no_limit && period > 0 && period != no_limit;
+  return has_one ? quota / period : no_limit;
 }
 
 template <class Left>
 double least(const std::vector<fs::path>& groups, const Left& left) {
-  double least = unlimited;
+  double least = no_limit;
   for (const auto& group : groups) least = std::min(least, left(group));
   return least;
 }

@@ -15,7 +15,7 @@
 namespace sunload {
 namespace {
 
-constexpr std::size_t read_bytes = 1 << 20;  // per read: large against the cost of a call
+constexpr std::size_t bytes_per_read = 1 << 20;  // per read: large against the cost of a call
 
 }  // namespace
 
@@ -76,7 +76,7 @@ std::string sha256(const std::string& bytes) {
 std::string sha256_of_file(const std::string& path) {
   errno = 0;
   std::ifstream file(path, std::ios::binary);
-  std::string buffer(read_bytes, '\0');
+  std::string buffer(bytes_per_read, '\0');
   Sha256 hash;
   while (file.good()) {
     file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));

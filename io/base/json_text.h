@@ -3,6 +3,7 @@
 /// JSON texts of users: parsed with the place of an error, guarded against bombs.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -16,5 +17,10 @@ std::size_t first_json_value_end(const std::string& file, std::string_view text)
 
 /// The tree of one JSON text; throws InputError with file:line:column.
 nlohmann::json parse_json(const std::string& file, std::string_view text, int first_line = 1);
+
+/// null for NaN.
+inline nlohmann::ordered_json json_number(double value) {
+  return std::isnan(value) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(value);
+}
 
 }  // namespace sunload

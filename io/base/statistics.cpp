@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "geo/base/check.h"
@@ -13,8 +12,6 @@
 
 namespace sunload {
 namespace {
-
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 double square(double x) { return x * x; }
 

@@ -3,6 +3,7 @@
 /// Small-sample statistics of realizations (Boost.Math for Student's t).
 #pragma once
 
+#include <limits>
 #include <vector>
 
 namespace sunload {
@@ -10,6 +11,9 @@ namespace sunload {
 /// Share of a family's comparisons at which one false alarm is risked, and
 /// 1 minus the level of the confidence intervals that people are shown.
 inline constexpr double significance_level = 0.05;
+
+/// In place of a number that nobody knows.
+inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 /// Quantile of Student's t: P(T ≤ t) = `probability` in (0, 1), degrees of freedom > 0.
 double student_t_quantile(double probability, double degrees_of_freedom);

@@ -44,6 +44,10 @@ std::string csv_number(double value) {
   return std::isnan(value) ? std::string() : fmt::format("{:.9g}", value);
 }
 
+std::string cell_text(double value, const char* format) {
+  return std::isnan(value) ? std::string("-") : fmt::format(fmt::runtime(format), value);
+}
+
 std::string spaced(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;

@@ -14,6 +14,9 @@ std::string csv_text(const std::string& text);
 /// Nine digits: more than float values carry. Empty for NaN.
 std::string csv_number(double value);
 
+/// A number as `format` of fmt says; "-" for NaN.
+std::string cell_text(double value, const char* format);
+
 /// A name in words: "light_load" → "light load".
 std::string spaced(std::string name);
 /// With a capital letter at its begin.

@@ -43,18 +43,18 @@ std::size_t aligned(std::size_t offset) {
 }
 
 /// A file being written; errors name `path`, the name that it shall get.
-class Output {
+class ContainerOutput {
  public:
-  Output(const std::string& aside, std::string path) : path_(std::move(path)) {
+  ContainerOutput(const std::string& aside, std::string path) : path_(std::move(path)) {
     constexpr mode_t as_umask_allows = 0666;
     file_ = ::open(aside.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, as_umask_allows);
     if (file_ < 0) throw_cannot_write(path_, errno);
   }
-  ~Output() {
+  ~ContainerOutput() {
     if (file_ >= 0) ::close(file_);
   }
-  Output(const Output&) = delete;
-  Output& operator=(const Output&) = delete;
+  ContainerOutput(const ContainerOutput&) = delete;
+  ContainerOutput& operator=(const ContainerOutput&) = delete;
 
   void write(const void* bytes, std::size_t count) {
     if (const int error = write_all(file_, {static_cast<const char*>(bytes), count}))
@@ -103,7 +103,7 @@ void write_container(const std::string& path, json header, const std::vector<Blo
   prologue.prologue_crc = crc32(&prologue, offsetof(Prologue, prologue_crc));
 
   FileAside target(path);
-  Output output(target.aside(), path);
+  ContainerOutput output(target.aside(), path);
   output.write(&prologue, sizeof prologue);
   output.write(text.data(), text.size());
   output.pad_to(data);

@@ -16,11 +16,11 @@ namespace sunload {
 
 namespace {
 
-// Layout, in the byte order of the machine: magic, content hash and counts, CRC-32
+// Layout, in the byte order of the machine: prepared_magic, content hash and counts, CRC-32
 // of these, the arrays of `visit_set`, CRC-32 of all before, then of each band that has
 // nodes the reduction and the arrays of SolvedNodes, an empty array, CRC-32 of all before.
 // An array is its length and its bytes.
-constexpr char magic[16] = "sunload-lines-7";
+constexpr char prepared_magic[16] = "sunload-lines-7";
 
 /// Calls `array` for every array of the lines, in the order of the file.
 template <class Set, class Array>
@@ -32,9 +32,9 @@ void visit_set(Set& set, Array&& array) {
   array(set.mirrored_fates);
 }
 
-class Output {
+class PreparedOutput {
  public:
-  explicit Output(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+  explicit PreparedOutput(const std::string& path) : path_(path), file_(path, std::ios::binary) {
     if (!file_) error_ = errno;
   }
   void bytes(const void* data, std::size_t count) {
@@ -151,8 +151,8 @@ Reduction reduction_of(const std::vector<double>& numbers) {
 void write_prepared(const std::string& path, const std::string& content_hash, const Lines& lines,
                     const std::vector<const SolvedNodes*>& nodes) {
   FileAside target(path);
-  Output out(target.aside());
-  out.bytes(magic, sizeof(magic));
+  PreparedOutput out(target.aside());
+  out.bytes(prepared_magic, sizeof(prepared_magic));
   out(std::vector<char>(content_hash.begin(), content_hash.end()));
   out(std::vector<std::uint64_t>{lines.realizations.size(), lines.pooled.ends.size(), lines.rays,
                                  lines.pooled.patches.targets(), lines.pooled.sky.targets()});
@@ -174,8 +174,10 @@ void write_prepared(const std::string& path, const std::string& content_hash, co
 
 std::optional<Prepared> read_prepared(const std::string& path, const std::string& content_hash) {
   Input in(path);
-  char word[sizeof(magic)];
-  if (!in.take(word, sizeof(word)) || std::memcmp(word, magic, sizeof(magic)) != 0) return {};
+  char word[sizeof(prepared_magic)];
+  if (!in.take(word, sizeof(word)) ||
+      std::memcmp(word, prepared_magic, sizeof(prepared_magic)) != 0)
+    return {};
   std::vector<char> hash;
   std::vector<std::uint64_t> counts;
   in(hash);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "geo/base/check.h"
@@ -18,7 +17,6 @@ namespace sunload {
 namespace {
 
 using Kind = ExplainedRow::Kind;
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 std::array<double, column_count> unknown_columns() {
   std::array<double, column_count> columns{};
@@ -128,6 +126,10 @@ void sort_objects(std::vector<ExplainedRow>& rows) {
 }  // namespace
 
 void expect_explainable(const ResultReader& result) {
+  if (const std::string lacking = result.lacking(); !lacking.empty())
+    throw InputError({result.path()}, "is incomplete: " + lacking,
+                     "what objects take and give is that of the whole period",
+                     "explain the result of a finished run");
   const std::string needed = result.chosen().any() ? "light_load" : "power_load";
   if (!result.has(needed))
     throw InputError({result.path()}, "has no " + needed, "it is what objects give",

@@ -16,7 +16,6 @@ namespace sunload {
 
 namespace {
 
-using Kind = ExplainedRow::Kind;
 constexpr std::size_t objects_shown = 20;  // a screen; CSV and JSON have all
 
 std::string cell(double value, int digits) {
@@ -79,15 +78,15 @@ std::vector<double> numbers_of(const ExplainedRow& row) {
 
 std::string row_words(const ExplainedRow& row, const Explanation& of) {
   switch (row.kind) {
-    case Kind::open:
+    case ExplainedRow::Kind::open:
       return "in the open";
-    case Kind::object:
+    case ExplainedRow::Kind::object:
       return row.name;
-    case Kind::sum:
+    case ExplainedRow::Kind::sum:
       return "adds up to";
-    case Kind::result:
+    case ExplainedRow::Kind::result:
       return of.base.empty() ? "the result" : "the results";
-    case Kind::remainder:
+    case ExplainedRow::Kind::remainder:
       return "remainder";
   }
   return {};
@@ -98,11 +97,11 @@ std::vector<ExplainedRow> shown_rows(const Explanation& explanation, std::size_t
   std::optional<ExplainedRow> others;
   std::size_t met = 0;
   for (const auto& row : explanation.rows) {
-    if (row.kind == Kind::sum && others) {
+    if (row.kind == ExplainedRow::Kind::sum && others) {
       others->name = fmt::format("{} others", met - objects);
       shown.push_back(*others);
     }
-    if (row.kind != Kind::object || ++met <= objects)
+    if (row.kind != ExplainedRow::Kind::object || ++met <= objects)
       shown.push_back(row);
     else
       others = others ? together(*others, row) : row;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <tuple>
 
@@ -17,13 +16,11 @@ namespace sunload {
 
 namespace {
 
-using Kind = PaintedRow::Kind;
 constexpr double painted_step = 0.1;
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 /// Patches that become brighter together.
 struct Surface {
-  Kind kind;
+  PaintedRow::Kind kind;
   std::string material, object;
   auto operator<=>(const Surface&) const = default;
 };
@@ -36,8 +33,9 @@ Surfaces surfaces_of(const ResultReader& result) {
   for (std::size_t i = 0; i < material.size(); ++i) {
     if (material[i] < 0) continue;
     const auto& name = materials[static_cast<std::size_t>(material[i])];
-    surfaces[{Kind::material, name, {}}].push_back(i);
-    surfaces[{Kind::surface, name, objects[static_cast<std::size_t>(object[i])]}].push_back(i);
+    surfaces[{PaintedRow::Kind::material, name, {}}].push_back(i);
+    surfaces[{PaintedRow::Kind::surface, name, objects[static_cast<std::size_t>(object[i])]}]
+        .push_back(i);
   }
   return surfaces;
 }

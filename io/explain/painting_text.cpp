@@ -13,7 +13,6 @@ namespace sunload {
 
 namespace {
 
-using Kind = PaintedRow::Kind;
 constexpr std::size_t rows_shown = 15;  // of each kind, a screen; CSV and JSON have all
 constexpr std::size_t texts = 3;        // keys before the numbers
 
@@ -29,11 +28,11 @@ std::vector<double> numbers_of(const PaintedRow& row) {
 }
 
 std::string kind_name(const PaintedRow& row) {
-  return row.kind == Kind::material ? "material" : "surface";
+  return row.kind == PaintedRow::Kind::material ? "material" : "surface";
 }
 
 std::string words_of(const PaintedRow& row) {
-  return row.kind == Kind::material ? row.material : row.object + ": " + row.material;
+  return row.kind == PaintedRow::Kind::material ? row.material : row.object + ": " + row.material;
 }
 
 std::string table(const std::vector<PaintedRow>& rows, const std::string& title) {
@@ -62,12 +61,12 @@ std::string painting_text(const Painting& painting) {
   if (!painting.part.empty()) text += ", " + painting.part;
   text += fmt::format(": has {:.5g} {}, and more of it where diffuse reflectances rise by 0.1\n\n",
                       painting.load, units);
-  for (const auto& [kind, title] :
-       {std::pair(Kind::material, "material, everywhere"), std::pair(Kind::surface, "surface")}) {
+  for (const auto& [kind, title] : {std::pair(PaintedRow::Kind::material, "material, everywhere"),
+                                    std::pair(PaintedRow::Kind::surface, "surface")}) {
     std::vector<PaintedRow> rows;
     std::copy_if(painting.rows.begin(), painting.rows.end(), std::back_inserter(rows),
                  [of = kind](const PaintedRow& row) { return row.kind == of; });
-    text += table(rows, title) + (kind == Kind::material ? "\n" : "");
+    text += table(rows, title) + (kind == PaintedRow::Kind::material ? "\n" : "");
   }
   return text;
 }
@@ -87,9 +86,10 @@ std::string painting_json(const Painting& painting) {
   const auto keys = keys_of(painting);
   Json rows = Json::array();
   for (const auto& row : painting.rows) {
-    Json entry{{"row", kind_name(row)},
-               {"material", row.material},
-               {"object", row.kind == Kind::surface ? Json(row.object) : Json(nullptr)}};
+    Json entry{
+        {"row", kind_name(row)},
+        {"material", row.material},
+        {"object", row.kind == PaintedRow::Kind::surface ? Json(row.object) : Json(nullptr)}};
     const auto numbers = numbers_of(row);
     for (std::size_t k = 0; k < numbers.size(); ++k)
       entry[keys[k + texts]] = std::isnan(numbers[k]) ? Json(nullptr) : Json(numbers[k]);

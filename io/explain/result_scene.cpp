@@ -23,7 +23,7 @@ InputError other_state(const ResultReader& result, const std::string& why) {
       {result.path()},
       "its scene cannot be made again: its study or a file of it is not what it was computed from",
       why,
-      "name the folder of its study with --study-folder, or run the study again"};
+      "name the folder of its study with --study-folder, or run the study with --overwrite"};
 }
 
 /// Of another state, or by a program whose numbers are others for the same state.

@@ -23,13 +23,13 @@ constexpr double same_instant_s = 1e-3;
 bool is_same(double one, double other) { return std::abs(one - other) < same_instant_s; }
 
 /// Begins of the intervals in local standard time [s since 1970], and their length.
-struct Year {
+struct ShadingYear {
   std::vector<double> begin;
   double step_s = 0;
 };
 
 /// EnergyPlus wants every step of a year, in local standard time, a whole number in an hour.
-Year expected_year(const ResultReader& result) {
+ShadingYear expected_year(const ResultReader& result) {
   if (const std::string step = series_step(result); !step.empty())
     throw InputError({result.path()}, "series are means over steps: " + step,
                      "sunlit fractions are those of the sun of each interval",
@@ -43,7 +43,7 @@ Year expected_year(const ResultReader& result) {
   const auto bounds = result.doubles("time_bounds");
   const std::size_t count = bounds.size() / 2;
   if (count == 0) throw not_a_year;
-  Year year;
+  ShadingYear year;
   year.step_s = bounds[1] - bounds[0];
   const auto middle = calendar_from_utc(bounds[2 * (count / 2)]);
   const double offset_s = result_zone(result).standard_offset_s(middle.year);
@@ -133,7 +133,7 @@ void export_energyplus(const ResultReader& result, const ExportRules& rules,
   if (!rules.parts.objects.empty() || !rules.parts.sensors.empty())
     throw InputError({}, "--object and --sensor with --to energyplus", "the file holds facades",
                      "write --facade");
-  const Year year = expected_year(result);
+  const ShadingYear year = expected_year(result);
   const Direct direct = direct_light(result);
   const Facades facades(result);
   auto& out = target.stream;

@@ -12,7 +12,7 @@ namespace sunload {
 namespace {
 
 template <class Number>
-void append(std::string& bytes, Number number) {
+void append_little(std::string& bytes, Number number) {
   append_bytes<std::endian::little>(bytes, number);
 }
 
@@ -64,15 +64,15 @@ void export_ply(const ResultReader& result, const ExportRules& rules, const Expo
   const auto properties = face_properties(result, colours.shown);
   std::string bytes = head(result, patches, colours, properties);
   for (const auto& p : patches.vertices)
-    for (const double coordinate : {p.x, p.y, p.z}) append(bytes, coordinate);
+    for (const double coordinate : {p.x, p.y, p.z}) append_little(bytes, coordinate);
   for (std::size_t i = 0; i < patches.corners.size(); ++i) {
-    append(bytes, std::uint8_t{3});
-    for (const auto corner : patches.corners[i]) append(bytes, corner);
+    append_little(bytes, std::uint8_t{3});
+    for (const auto corner : patches.corners[i]) append_little(bytes, corner);
     const Colour c = export_colour(colours.palette, colours.patch_step[i]);
     for (const double channel : {c.red, c.green, c.blue})
-      append(bytes, static_cast<std::uint8_t>(std::lround(255 * channel)));
-    append(bytes, patches.object[i]);
-    for (const auto& property : properties) append(bytes, property.values[i]);
+      append_little(bytes, static_cast<std::uint8_t>(std::lround(255 * channel)));
+    append_little(bytes, patches.object[i]);
+    for (const auto& property : properties) append_little(bytes, property.values[i]);
   }
   target.stream << bytes;
 }

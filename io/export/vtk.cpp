@@ -15,7 +15,7 @@ constexpr std::size_t longest_title = 255;
 
 /// Numbers of a legacy file are big-endian, whatever the machine.
 template <class Number>
-void append(std::string& text, Number number) {
+void append_big(std::string& text, Number number) {
   append_bytes<std::endian::big>(text, number);
 }
 
@@ -25,11 +25,11 @@ void append_string(std::string& text, const std::string& string) {
   constexpr std::size_t short_end = std::size_t{1} << 6, middle_end = std::size_t{1} << 14;
   const auto length = static_cast<std::uint32_t>(string.size());
   if (string.size() < short_end)
-    append(text, static_cast<std::uint8_t>(0xC0u | length));
+    append_big(text, static_cast<std::uint8_t>(0xC0u | length));
   else if (string.size() < middle_end)
-    append(text, static_cast<std::uint16_t>(0x8000u | length));
+    append_big(text, static_cast<std::uint16_t>(0x8000u | length));
   else
-    append(text, 0x40000000u | length);
+    append_big(text, 0x40000000u | length);
   text += string;
 }
 
@@ -42,7 +42,7 @@ template <class Number>
 std::string array_text(const std::string& name, std::size_t components,
                        const std::vector<Number>& numbers, const char* type) {
   std::string text = array_head(name, components, numbers.size() / components, type);
-  for (const auto number : numbers) append(text, number);
+  for (const auto number : numbers) append_big(text, number);
   return text + "\n";
 }
 
@@ -65,7 +65,7 @@ std::string one_line(std::string title) {
 std::string points_text(const ResultPatches& patches) {
   std::string text = fmt::format("POINTS {} double\n", patches.vertices.size());
   for (const auto& p : patches.vertices)
-    for (const double coordinate : {p.x, p.y, p.z}) append(text, coordinate);
+    for (const double coordinate : {p.x, p.y, p.z}) append_big(text, coordinate);
   return text + "\n";
 }
 
@@ -73,8 +73,8 @@ std::string triangles_text(const ResultPatches& patches) {
   const std::size_t count = patches.corners.size();
   std::string text = fmt::format("POLYGONS {} {}\n", count, 4 * count);
   for (const auto& corners : patches.corners) {
-    append(text, std::int32_t{3});
-    for (const auto corner : corners) append(text, corner);
+    append_big(text, std::int32_t{3});
+    for (const auto corner : corners) append_big(text, corner);
   }
   return text + "\n";
 }

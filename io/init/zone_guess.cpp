@@ -57,8 +57,9 @@ std::optional<ZoneGuess> guessed_zone(double latitude_deg, double longitude_deg,
                                       std::optional<double> standard_offset_s,
                                       const std::string& area) {
   const std::string country_meant = area.empty() ? std::string() : country_of(area);
-  // From the least that is asked to the most.
-  enum Asked { nothing, of_country, of_offset, of_both, count };
+  // From the least that is asked to the most: a map's country is certain, the station of a weather
+  // file may be far away.
+  enum Asked { nothing, of_offset, of_country, of_both, count };
   std::array<std::optional<ZoneGuess>, count> nearest;
   std::ifstream table("/usr/share/zoneinfo/zone.tab");
   for (std::string line; std::getline(table, line);) {

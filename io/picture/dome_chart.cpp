@@ -17,7 +17,7 @@ constexpr double circle_step_deg = 10, ray_step_deg = 30, tick_step_deg = 10;
 constexpr double labelled_circle_step_deg = 30;
 // Shares of the picture, and of the chart's radius.
 constexpr double title_share = 0.06, foot_share = 0.03, texts_per_height = 64;
-constexpr double tick_length = 0.015, azimuth_label = 0.045, label_height = 0.03;
+constexpr double tick_share = 0.015, azimuth_label = 0.045, label_height = 0.03;
 constexpr double thin = 0.06, strong = 0.14;  // line widths in texts
 constexpr double half_capital = 0.36;         // capitals are some 0.72 of the font's height
 
@@ -72,8 +72,8 @@ void DomeChart::draw_grid(Picture& picture, Colour colour) const {
   }
   for (double azimuth = 0; azimuth < full_turn_deg; azimuth += tick_step_deg) {
     const bool is_ray = std::fmod(azimuth, ray_step_deg) == 0;
-    picture.draw_lines({is_ray ? centre_ : beyond_horizon(azimuth, -tick_length),
-                        beyond_horizon(azimuth, tick_length)},
+    picture.draw_lines({is_ray ? centre_ : beyond_horizon(azimuth, -tick_share),
+                        beyond_horizon(azimuth, tick_share)},
                        thin * text_size_, colour);
     if (!is_ray) continue;
     const bool is_wind = std::fmod(azimuth, quarter_turn_deg) == 0;

@@ -36,6 +36,9 @@ struct TextStyle {
   Colour colour;
 };
 
+/// Of texts and lines.
+inline constexpr Colour ink{0.13, 0.13, 0.15};
+
 /// A canvas in memory; colours are encoded sRGB.
 class Picture {
  public:

@@ -12,7 +12,6 @@
 namespace sunload {
 namespace {
 
-constexpr Colour ink{0.13, 0.13, 0.15};
 constexpr int most_ticks = 6;
 
 /// Lengths grow with the picture: one unit is the height of small text.

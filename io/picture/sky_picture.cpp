@@ -15,9 +15,9 @@ namespace sunload {
 
 namespace {
 
-constexpr int picture_width = 1200, picture_height = 1100;
+constexpr int dome_width = 1200, dome_height = 1100;
 constexpr double legend_width = 150;
-constexpr Colour ink{0.13, 0.13, 0.15}, hills_in_colour{0.20, 0.22, 0.18};
+constexpr Colour hills_in_colour{0.20, 0.22, 0.18};
 constexpr double candelas_per_kilocandela = 1000;
 
 void paint_dome(Picture& picture, const DomeChart& chart,
@@ -83,7 +83,7 @@ void mark_sun(Picture& picture, const DomeChart& chart, const SunPosition& sun) 
 }  // namespace
 
 void draw_sky(const SkyDome& dome, const SkyPictureRules& rules, const std::string& path) {
-  Picture picture(picture_width, picture_height);
+  Picture picture(dome_width, dome_height);
   const bool is_luminance = rules.kind == SkyPicture::luminance;
   const DomeChart chart(picture, DomeProjection::equidistant, is_luminance ? legend_width : 0);
   if (is_luminance) {

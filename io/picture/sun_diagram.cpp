@@ -19,11 +19,10 @@ namespace sunload {
 
 namespace {
 
-constexpr int picture_width = 1100, picture_height = 1180;
+constexpr int diagram_width = 1100, diagram_height = 1180;
 constexpr Colour grid_colour{0.72, 0.72, 0.74}, hills_colour{0.87, 0.85, 0.80},
     hills_line{0.45, 0.38, 0.28}, arc_colour{0.30, 0.30, 0.33}, rising_half{0.20, 0.42, 0.75},
-    falling_half{0.78, 0.32, 0.25}, dot_colour{0.95, 0.62, 0.05}, hidden_colour{0.25, 0.25, 0.25},
-    ink{0.13, 0.13, 0.15};
+    falling_half{0.78, 0.32, 0.25}, dot_colour{0.95, 0.62, 0.05}, hidden_colour{0.25, 0.25, 0.25};
 constexpr double day_label_room = 0.11;  // of the radius, for "21 May"
 constexpr int months_per_year = 12, hours_per_day = 24, day_of_month = 21;
 constexpr double half_day_s = seconds_per_day / 2;
@@ -56,7 +55,7 @@ class SunDiagram {
         site_(site),
         light_(light),
         zone_(study.site.timezone),
-        picture_(picture_width, picture_height),
+        picture_(diagram_width, diagram_height),
         chart_(picture_, DomeProjection::stereographic, 0, day_label_room) {}
 
   void draw(const std::string& path) {

@@ -26,7 +26,7 @@ constexpr double axis_room = 34, note_room = 44;
 constexpr double most_of_names = 260, room_for_numbers = 150, gap = 12;
 constexpr double half_digit = 0.36;  // digits are some 0.72 of the font's height
 
-constexpr Colour ink{0.13, 0.13, 0.15}, faint{0.86, 0.86, 0.88}, zero_colour{0.45, 0.45, 0.48},
+constexpr Colour faint{0.86, 0.86, 0.88}, zero_colour{0.45, 0.45, 0.48},
     plain_bar{0.42, 0.42, 0.46};
 /// In the order of `Column`: warm for the sun, blue for the sky, brown for the ground; what objects
 /// give apart from these.

@@ -155,7 +155,8 @@ SunInterval time_of(std::span<const LitInterval> parts) {
 
 /// Σ seconds · light / Σ seconds.
 template <class Seconds, class Light>
-Irradiance mean_of(std::span<const LitInterval> parts, const Seconds& seconds, const Light& light) {
+Irradiance mean_light_of(std::span<const LitInterval> parts, const Seconds& seconds,
+                         const Light& light) {
   Irradiance sum;
   double all_s = 0;
   for (const LitInterval& part : parts) {
@@ -171,10 +172,10 @@ Irradiance mean_of(std::span<const LitInterval> parts, const Seconds& seconds, c
 LitInterval joined(std::span<LitInterval> parts, Quantity quantity) {
   LitInterval whole;
   whole.when = time_of(parts);
-  whole.mean = mean_of(
+  whole.mean = mean_light_of(
       parts, [](const LitInterval& part) { return part.when.length_s(); },
       [](const LitInterval& part) -> const Irradiance& { return part.mean; });
-  whole.of_the_sky = mean_of(
+  whole.of_the_sky = mean_light_of(
       parts, [](const LitInterval& part) { return part.when.up_s; },
       [](const LitInterval& part) -> const Irradiance& { return part.of_the_sky; });
   const LitInterval& middle = parts[middle_of(parts)];

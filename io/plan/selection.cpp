@@ -151,7 +151,7 @@ ChosenObjects Selector::objects(const SceneObjects& all) const {
   };
   const auto areas = areas_in_scene(wanted_.polygon, frame_.crs, subject_, where_);
   if (!areas.empty())
-    keep_if([&](const ObjectExtent& of) { return lies_in(areas, in_plan(of.middle())); });
+    keep_if([&](const ObjectExtent& of) { return lies_in(areas, plan_point(of.middle())); });
   if (wanted_.near) {
     refuse_far(*wanted_.near, all.extents, subject_, where_);
     if (wanted_.within_m)
@@ -181,7 +181,7 @@ Selector::Sight Selector::sight_of(const SceneObjects& all) const {
 bool Selector::holds(const Sight& sight, const SceneObjects& all,
                      const std::vector<Facade>& facades, const Part& part) const {
   if (sight.objects[part.object.index()] == 0) return false;
-  const Point2 at = in_plan(part.middle);
+  const Point2 at = plan_point(part.middle);
   if (!sight.areas.empty() && !lies_in(sight.areas, at)) return false;
   if (wanted_.near && wanted_.within_m &&
       std::hypot(at.u - wanted_.near->u, at.v - wanted_.near->v) > *wanted_.within_m)

@@ -19,7 +19,6 @@
 namespace sunload {
 namespace {
 
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 // Loads may be stored as float: below its spacing a difference is rounding.
 constexpr double rounding_share = std::numeric_limits<float>::epsilon();
 

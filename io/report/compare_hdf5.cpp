@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "geo/base/check.h"
@@ -18,8 +17,6 @@
 
 namespace sunload {
 namespace {
-
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 /// Patches are the same where middle, normal and area are, to the tenth of a millimetre.
 using PatchKey = std::array<std::int64_t, 7>;

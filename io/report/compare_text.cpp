@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "io/base/json_text.h"
 #include "io/base/statistics.h"
 #include "io/base/text.h"
 #include "io/report/compare.h"
@@ -26,13 +27,9 @@ bool is_paired(const Comparison& comparison, const ComparisonRow& row) {
   return comparison.errors == Comparison::Errors::paired && row.base_kwh_m2 && row.variant_kwh_m2;
 }
 
-std::string cell(double value, const char* format) {
-  return std::isnan(value) ? std::string("-") : fmt::format(fmt::runtime(format), value);
-}
-
 std::string p_in_words(double p) {
   constexpr double least_shown = 0.001;
-  return p < least_shown ? fmt::format("<{}", least_shown) : cell(p, "{:.3f}");
+  return p < least_shown ? fmt::format("<{}", least_shown) : cell_text(p, "{:.3f}");
 }
 
 std::string errors_in_words(const Comparison& c) {
@@ -72,14 +69,14 @@ std::string table_row(const Comparison& comparison, const ComparisonRow& row, st
   const char* state = row.significant ? "*" : "";
   if (!row.base_kwh_m2) state = "only in the variant";
   if (!row.variant_kwh_m2) state = "only in the base";
-  auto text =
-      fmt::format("  {:<{}} {:>10} {:>9} {:>9} {:>11} {:>9}{}  {}", row.name, width,
-                  cell(row.area_m2, "{:.1f}"), cell(or_nan(row.base_kwh_m2), "{:.4g}"),
-                  cell(or_nan(row.variant_kwh_m2), "{:.4g}"),
-                  cell(row.difference_kwh_m2, "{:+.4g}"), cell(row.difference_percent, "{:+.2f}%"),
-                  error_cells(comparison, cell(row.se_kwh_m2, "{:.2g}"),
-                              cell(row.mesh_error_kwh_m2, "{:.2g}"), p_in_words(row.p_corrected)),
-                  state);
+  auto text = fmt::format(
+      "  {:<{}} {:>10} {:>9} {:>9} {:>11} {:>9}{}  {}", row.name, width,
+      cell_text(row.area_m2, "{:.1f}"), cell_text(or_nan(row.base_kwh_m2), "{:.4g}"),
+      cell_text(or_nan(row.variant_kwh_m2), "{:.4g}"), cell_text(row.difference_kwh_m2, "{:+.4g}"),
+      cell_text(row.difference_percent, "{:+.2f}%"),
+      error_cells(comparison, cell_text(row.se_kwh_m2, "{:.2g}"),
+                  cell_text(row.mesh_error_kwh_m2, "{:.2g}"), p_in_words(row.p_corrected)),
+      state);
   text.erase(text.find_last_not_of(' ') + 1);
   return text + '\n';
 }
@@ -130,11 +127,7 @@ std::string counts_in_words(const Comparison& comparison) {
 }
 
 // A screen holds about so many rows of a kind; machines read the CSV.
-constexpr std::size_t rows_shown = 16;
-
-nlohmann::ordered_json json_number(double value) {
-  return std::isnan(value) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(value);
-}
+constexpr std::size_t rows_shown_of_a_kind = 16;
 
 /// What is compared, in which unit, and how sure it is.
 std::string heading(const Comparison& comparison) {
@@ -206,10 +199,10 @@ std::string comparison_table(const Comparison& comparison) {
     const auto rows = rows_of_kind(comparison, kind);
     if (rows.empty()) continue;
     text += "\n" + table_head(comparison, kind, width);
-    for (std::size_t i = 0; i < std::min(rows.size(), rows_shown); ++i)
+    for (std::size_t i = 0; i < std::min(rows.size(), rows_shown_of_a_kind); ++i)
       text += table_row(comparison, rows[i], width);
-    if (rows.size() > rows_shown)
-      text += fmt::format("  … and {} more: see --csv\n", rows.size() - rows_shown);
+    if (rows.size() > rows_shown_of_a_kind)
+      text += fmt::format("  … and {} more: see --csv\n", rows.size() - rows_shown_of_a_kind);
   }
   text += counts_in_words(comparison);
   double common = 0, only_in_base = 0, only_in_variant = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "io/base/text.h"
 #include "io/report/info.h"
 
 namespace sunload {
@@ -13,15 +14,11 @@ namespace {
 
 constexpr std::size_t widest_name = 48;
 
-std::string cell(double value, const char* format) {
-  return std::isnan(value) ? std::string("-") : fmt::format(fmt::runtime(format), value);
-}
-
 /// Right-aligned cells below their head.
 class TextColumn {
  public:
   explicit TextColumn(const TableColumn& column) : heads_{column.word, column.units} {
-    for (const double value : column.values) cells_.push_back(cell(value, column.format));
+    for (const double value : column.values) cells_.push_back(cell_text(value, column.format));
     for (const auto* texts : {&heads_, &cells_})
       for (const auto& text : *texts) width_ = std::max(width_, fmt::formatted_size("{}", text));
   }

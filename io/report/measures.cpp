@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "io/base/json_text.h"
 #include "io/base/name_pattern.h"
 #include "io/base/text.h"
 
@@ -19,11 +20,7 @@ namespace sunload {
 
 namespace {
 
-constexpr std::size_t rows_shown = 24;  // of changes: a screen
-
-std::string cell(double value, const char* format) {
-  return std::isnan(value) ? std::string("-") : fmt::format(fmt::runtime(format), value);
-}
+constexpr std::size_t changes_shown = 24;  // of changes: a screen
 
 std::string levels_text(const MeasureWords& words) {
   std::string text;
@@ -84,16 +81,14 @@ std::string heading(const MeasureWords& words) {
 
 std::string row_text(const MeasureRow& row, std::size_t width) {
   auto line = fmt::format("  {:<10}{:<{}}{:>9}{:>9}{:>9}{:>9}{:>9}  {}", row.kind, row.name, width,
-                          cell(row.area_m2, "{:.1f}"), cell(row.mean, "{:.2f}"),
-                          cell(row.reached, "{:.2f}"), cell(row.margin, "{:+.2f}"),
-                          cell(row.passing_percent, "{:.0f} %"), row.level);
+                          cell_text(row.area_m2, "{:.1f}"), cell_text(row.mean, "{:.2f}"),
+                          cell_text(row.reached, "{:.2f}"), cell_text(row.margin, "{:+.2f}"),
+                          cell_text(row.passing_percent, "{:.0f} %"), row.level);
   line.erase(line.find_last_not_of(' ') + 1);
   line += "\n";
   if (!row.spans.empty()) line += "            spans " + row.spans + "\n";
   return line;
 }
-
-Json json_number(double value) { return std::isnan(value) ? Json(nullptr) : Json(value); }
 
 /// Whether it is what rules are about: a facade, a selection, a sensor.
 bool is_judged(const MeasureRow& row) {
@@ -181,9 +176,9 @@ std::string levels_changed_text(const std::vector<MeasureChange>& changes) {
                                   change.base_reached, change.variant_reached,
                                   display_units(change.units)));
   std::string text;
-  for (std::size_t i = 0; i < std::min(lines.size(), rows_shown); ++i) text += lines[i];
-  if (lines.size() > rows_shown)
-    text += fmt::format("  … and {} more: see --json\n", lines.size() - rows_shown);
+  for (std::size_t i = 0; i < std::min(lines.size(), changes_shown); ++i) text += lines[i];
+  if (lines.size() > changes_shown)
+    text += fmt::format("  … and {} more: see --json\n", lines.size() - changes_shown);
   return text;
 }
 
@@ -249,18 +244,18 @@ std::string measures_line(const ResultReader& result) {
   for (const auto& name : measure_names(result)) {
     const MeasureWords words = measure_words(result, name);
     std::map<std::string, std::map<std::string, int>> reached;  // kind, level
-    std::string line = name + ":";
+    std::string line;
     for (const MeasureRow& row : rows) {
       if (row.measure != name) continue;
       if (row.kind == "whole")
-        line += fmt::format(" mean {:.3g} {}", row.mean, display_units(words.units));
+        line += fmt::format(", mean {:.3g} {}", row.mean, display_units(words.units));
       if (is_judged(row)) ++reached[row.kind][row.level];
     }
-    if (!has_values(result, name)) line += " no value";
+    if (!has_values(result, name)) line += ", no value";
     for (const auto& [kind, levels] : reached)
       for (const auto& [level, count] : levels)
         line += fmt::format(", {} {}{} {}", count, kind, count == 1 ? "" : "s", level);
-    text += (text.empty() ? "" : "\n") + line;
+    text += (text.empty() ? "" : "\n") + name + ":" + (line.empty() ? line : line.substr(1));
   }
   return text;
 }

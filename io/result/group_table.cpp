@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
@@ -18,7 +17,6 @@
 namespace sunload {
 namespace {
 
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 // Below this share of its length along the level a sensor looks straight up or down.
 constexpr double upright = 1e-6;
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <sstream>
 
 #include "geo/base/check.h"
@@ -18,7 +17,7 @@ namespace sunload {
 
 namespace {
 
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN(), percent = 100, half = 0.5;
+constexpr double percent = 100, half = 0.5;
 
 std::vector<std::string> split(const std::string& text) {
   std::istringstream words(text);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "geo/base/check.h"
@@ -58,7 +59,14 @@ bool has_long_steps(const ResultReader& result) {
 }
 
 std::size_t brightest_interval(const ResultReader& result) {
-  const auto shares = result.chosen_shares();
+  auto shares = result.chosen_shares();
+  // Of a result that lacks batches only rows that are there.
+  if (!result.lacking().empty() && result.has("power_sun")) {
+    const auto power = result.doubles("power_sun");
+    const std::size_t bands = shares.empty() ? 1 : power.size() / shares.size();
+    for (std::size_t k = 0; k < shares.size(); ++k)
+      if (std::isnan(power[k * bands])) shares[k] = 0;
+  }
   const auto largest = [&](const std::vector<double>& values) {
     std::optional<std::size_t> place;
     for (std::size_t k = 0; k < values.size(); ++k)

@@ -20,7 +20,9 @@ std::vector<Study> chosen_variants(const StudyFile& file, const RunOptions& opti
     const auto found = std::find_if(file.variants.begin(), file.variants.end(),
                                     [&](const Study& s) { return s.variant == name; });
     if (found != file.variants.end()) {
-      chosen.push_back(*found);
+      const bool is_chosen = std::any_of(chosen.begin(), chosen.end(),
+                                         [&](const Study& s) { return s.variant == name; });
+      if (!is_chosen) chosen.push_back(*found);
       continue;
     }
     std::string names;

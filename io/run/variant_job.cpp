@@ -83,11 +83,8 @@ VariantJob::~VariantJob() = default;
 
 void VariantJob::expect_may_run() const {
   refuse_other_isa();
-  if (is_overwritten()) return;
-  const auto state = folder_.state();
-  if (!state) return;
-  if (state != folder_.wanted_state())
-    throw of_another_state(folder_, *state, "use --overwrite to replace it, or --output");
+  if (is_overwritten() || !folder_.state()) return;
+  refuse_other_state("use --overwrite to replace it, or --output");
   // Of a shard's variants others may be finished by other shards before it comes.
   if (work_.options.existing == Existing::refuse && work_.options.shard.is_whole())
     throw InputError({folder_.result()}, "is there already, of this very study",
@@ -96,10 +93,14 @@ void VariantJob::expect_may_run() const {
 }
 
 void VariantJob::expect_may_merge() const {
+  if (folder_.batches_not_there().empty()) refuse_other_state("use --overwrite to replace it");
+}
+
+/// Of the study as it was, or as somebody has changed it meanwhile.
+void VariantJob::refuse_other_state(const char* hint) const {
   if (is_overwritten()) return;
   const auto state = folder_.state();
-  if (state && state != folder_.wanted_state() && folder_.batches_not_there().empty())
-    throw of_another_state(folder_, *state, "use --overwrite to replace it");
+  if (state && state != folder_.wanted_state()) throw of_another_state(folder_, *state, hint);
 }
 
 /// Shards on machines of different instruction sets would not fit together.
@@ -346,6 +347,7 @@ VariantJob::Merging VariantJob::merge_once() {
       warn(fmt::format("the file system has no locks ({}): let no other process merge meanwhile",
                        lock.problem()));
     if (!folder_.batches_not_there().empty()) return Merging::incomplete;
+    refuse_other_state("it was written meanwhile: use --overwrite to replace it, or --output");
     make_mesh();
     if (work_.options.batches == Batches::keep) folder_.keep_work();
     for (const auto& warning :

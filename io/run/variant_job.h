@@ -93,6 +93,7 @@ class VariantJob {
   bool has_result() const;
   OwnBatches tell_missing(const std::vector<std::size_t>& missing, const UnitQueue& own) const;
   void refuse_other_isa() const;
+  void refuse_other_state(const char* hint) const;
   UnitQueue own_units(MpiWorld* world) const;
   void begin(const UnitQueue& units);
   void make_mesh();

@@ -25,7 +25,7 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double grid_tolerance = 1e-3;  // of a cell: files round their corners
 
 /// Columns on a grid of cells, each from its bottom, which may slope, to its flat top.
-struct Columns {
+struct BlockColumns {
   std::vector<double> top;     ///< per cell; NaN: no column
   std::vector<double> bottom;  ///< per cell; empty: the land is
 
@@ -162,7 +162,7 @@ class BlockReader {
     return {cell % surface_.columns + column, cell / surface_.columns + row};
   }
 
-  double bottom_at(const Columns& columns, std::size_t cell, std::size_t corner) const {
+  double bottom_at(const BlockColumns& columns, std::size_t cell, std::size_t corner) const {
     return columns.bottom.empty() ? land_[corner] : columns.bottom[cell];
   }
 
@@ -223,11 +223,11 @@ class BlockReader {
     return row + 1 == surface_.rows ? none : cell + surface_.columns;
   }
 
-  bool has_neighbour(const Columns& columns, std::size_t other) const {
+  bool has_neighbour(const BlockColumns& columns, std::size_t other) const {
     return other < cell_count() && columns.has(other);
   }
 
-  void add_bodies(const Columns& columns, const std::string& name, const std::string& kind,
+  void add_bodies(const BlockColumns& columns, const std::string& name, const std::string& kind,
                   const Kinds& kinds) {
     levels_ = levels_of(columns);
     std::vector<bool> is_done(cell_count(), false);
@@ -250,7 +250,7 @@ class BlockReader {
   }
 
   /// Heights at which columns around a corner begin and end: vertices of all faces that pass there.
-  std::map<std::size_t, std::vector<double>> levels_of(const Columns& columns) const {
+  std::map<std::size_t, std::vector<double>> levels_of(const BlockColumns& columns) const {
     std::map<std::size_t, std::vector<double>> levels;
     for (std::size_t cell = 0; cell < cell_count(); ++cell) {
       if (!columns.has(cell)) continue;
@@ -267,7 +267,7 @@ class BlockReader {
     return levels;
   }
 
-  void add_column(const Columns& columns, std::size_t cell, const Kinds& kinds) {
+  void add_column(const BlockColumns& columns, std::size_t cell, const Kinds& kinds) {
     const double top = columns.top[cell];
     faces_.use_surface(kinds.top);
     for (int k = 0; k < 4; ++k) faces_.add_corner(vertex(corner_of(cell, k), top));
@@ -280,7 +280,7 @@ class BlockReader {
   }
 
   /// What the neighbour does not cover of the side from corner k to k + 1.
-  void add_sides(const Columns& columns, std::size_t cell, int k) {
+  void add_sides(const BlockColumns& columns, std::size_t cell, int k) {
     const Corner p = corner_of(cell, k), q = corner_of(cell, k + 1);
     const double top = columns.top[cell];
     const double low_p = bottom_at(columns, cell, corner_index(p));
@@ -324,7 +324,7 @@ class BlockReader {
   IndexedFaces faces_;
   Raster surface_, terrain_, canopy_;
   std::array<Corner, 4> ring_{{{0, 0}, {0, 1}, {1, 1}, {1, 0}}};  ///< of a cell
-  Columns buildings_, crowns_;
+  BlockColumns buildings_, crowns_;
   std::vector<double> land_;  ///< per corner
   std::map<std::size_t, std::vector<double>> levels_;
   std::map<std::pair<std::size_t, double>, std::int32_t> vertices_;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <optional>
 #include <string_view>
@@ -143,6 +144,15 @@ std::pair<std::size_t, int> after_tilt(const std::string& path, std::string_view
                    "luminaires are read from files of ANSI/IES LM-63 (.ies)");
 }
 
+/// Files of 1986 begin without a name of their format; those of 1991 name it IESNA91. Programs put
+/// a byte order mark or blanks before it.
+bool names_its_format(std::string_view text) {
+  text = without_byte_order_mark(text);
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  const std::string name = lower_case(std::string(text.substr(0, std::strlen("IESNA:"))));
+  return name.starts_with("iesna:") || name.starts_with("ies:");
+}
+
 }  // namespace
 
 IntensityWeb read_ies_file(const std::string& path) {
@@ -166,7 +176,7 @@ IntensityWeb read_ies_file(const std::string& path) {
   // Of 1986 and 1991 a second factor, then a number that is 1 or means something else.
   const double second =
       numbers.next("the ballast-lamp factor, or what stands for it", -large, large);
-  const bool is_old = !text.starts_with("IESNA:") && !text.starts_with("IES:");
+  const bool is_old = !names_its_format(text);
   numbers.next("input watts", 0, large);
 
   IntensityWeb web;

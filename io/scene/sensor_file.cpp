@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 6> column_names{"x", "y", "z", "nx", "ny"
 constexpr std::size_t most_problems = 20;  // of a file with another meaning, the first will do
 
 using Fields = std::vector<std::string_view>;
-using Columns = std::array<std::size_t, column_names.size()>;
+using SensorColumns = std::array<std::size_t, column_names.size()>;
 
 /// Without quotes, in lower case.
 std::string plain(std::string_view field) {
@@ -88,8 +88,8 @@ class SensorTable {
   }
 
   /// Columns of a first row; without a header they follow one another.
-  Columns header(int line, const Fields& fields) {
-    Columns columns{0, 1, 2, 3, 4, 5};
+  SensorColumns header(int line, const Fields& fields) {
+    SensorColumns columns{0, 1, 2, 3, 4, 5};
     if (table_number(fields[0])) return columns;
     has_header_ = true;
     column_count_ = fields.size();
@@ -115,7 +115,7 @@ class SensorTable {
   }
 
   std::string path_;
-  std::optional<Columns> columns_;
+  std::optional<SensorColumns> columns_;
   bool has_header_ = false;
   std::size_t column_count_ = column_names.size();  ///< as the header has them
   std::vector<SensorPoint> points_;

@@ -9,7 +9,7 @@ namespace sunload::study_sections {
 
 namespace {
 
-constexpr Range distances_m{0.01, 1e5};
+constexpr Range photometric_distances_m{0.01, 1e5};
 // The narrowest searchlights have some 0.3 deg; of far less the solid angle drowns in rounding.
 constexpr Range beams_deg{0.1, 360};
 constexpr Range intensities_cd{0, 1e12, Range::Low::excluded};
@@ -37,7 +37,7 @@ LuminaireStudy read_luminaire(YamlMap& map, const std::string& folder) {
   map.require("position_m", "a luminaire hangs somewhere");
   luminaire.position = read_vector(map, "position_m").value_or(Vec3{0, 0, 0});
   luminaire.to = read_vector(map, "to_m");
-  luminaire.every_m = map.number("every_m", distances_m, 0);
+  luminaire.every_m = map.number("every_m", photometric_distances_m, 0);
   check_row(map, "luminaires");
   luminaire.towards = read_vector(map, "towards").value_or(luminaire.towards);
   if (norm(luminaire.towards) < shortest_normal)

@@ -22,7 +22,6 @@ constexpr Range latitudes_deg{-90, 90, Range::Low::included, "are latitude and l
 constexpr Range longitudes_deg{-180, 180};
 constexpr Range elevations_m{-500, 9000};  // the shore of the Dead Sea, the top of Everest
 constexpr Range azimuths_deg{0, 360}, sun_elevations_deg{-90, 90};
-constexpr Range turns_deg{-360, 360};
 // Doubles tell instants to 1e-6 s: the shortest is known to 1e-4 of itself. Up to a leap year.
 constexpr Range lengths_min{0.001, 527040};
 constexpr int first_year = 1800, last_year = 2200;  // of the sun's theory with some margin

@@ -19,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Range shares{0, 1};
 constexpr Range emissions_w_m2{0, 1e7};  // the surface of the sun has 6.3e7
 constexpr Range emissions_lm_m2{0, 1e10};
 constexpr Range powers_w{0, 1e15};  // of a light in a file: to the sun's on a thousand km2
@@ -32,7 +31,6 @@ constexpr int most_panes = 10;
 constexpr Range normal_transmittances{0, 1, Range::Low::excluded};  // check_clear_glass: below 1
 constexpr Range exponents{0, 1e5};                                  // a lobe of some 0.4 degrees
 constexpr Range margins_m{0, 1e5};
-constexpr Range heights_m{-1e5, 1e5};
 constexpr Range edges_m{1e-6, 1e9};
 constexpr Range areas_m2{0, 1e6};
 constexpr Range tolerances{1e-4, 1e3};

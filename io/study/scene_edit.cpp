@@ -17,11 +17,8 @@ namespace sunload::study_sections {
 
 namespace {
 
-constexpr Range coordinates_m{-1e10, 1e10};  // as for scene.files
-constexpr Range turns_deg{-360, 360};
 constexpr Range sizes_m{0, 1e5, Range::Low::excluded};
 constexpr Range distances_m{0, 1e6};
-constexpr Range heights_m{-1e5, 1e5};
 constexpr Range raises_m{-1e3, 1e3};
 constexpr Range storey_heights_m{1, 20};
 constexpr int most_storeys = 300;

@@ -15,9 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Range coordinates_m{-1e10, 1e10};  // no map projection of the Earth goes farther
-constexpr Range turns_deg{-360, 360};
-constexpr Range heights_m{-1e4, 1e5};
+constexpr Range base_heights_m{-1e4, 1e5};
 constexpr Range least_heights_m{0, 1000};
 constexpr Range storeys_m{0.1, 100};
 constexpr Range building_heights_m{0.01, 2000};
@@ -25,7 +23,7 @@ constexpr Range trunk_shares{0, 0.99};  // crowns have a height
 
 void read_position(YamlMap& map, SceneFileStudy& file) {
   file.position = read_vector(map, "position_m");
-  const double height_m = map.number("height_m", heights_m, 0);
+  const double height_m = map.number("height_m", base_heights_m, 0);
   const auto text = map.text("position");
   if (map.has("height_m") && !text)
     map.warn("height_m", "is not used", "it belongs to position; position_m has a z of its own");

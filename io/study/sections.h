@@ -33,6 +33,11 @@ LightStudy read_light(YamlMap& map, const std::string& folder);
 SceneStudy read_scene(YamlMap& map, const std::string& folder);
 /// A model in micrometres, one in thousands of kilometres.
 inline constexpr Range units_m{1e-6, 1e6};
+// What several sections have.
+inline constexpr Range shares{0, 1};
+inline constexpr Range turns_deg{-360, 360};
+inline constexpr Range coordinates_m{-1e10, 1e10};  ///< no map projection of the Earth goes farther
+inline constexpr Range heights_m{-1e5, 1e5};
 void check_lod(YamlMap& map, const std::string& lod);
 /// `scene.files`; paths are relative to `folder`.
 std::vector<SceneFileStudy> read_scene_files(YamlMap& scene, const std::string& folder);

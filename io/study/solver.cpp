@@ -19,7 +19,6 @@ constexpr int most_lines = 1'000'000, most_realizations = 1024;
 constexpr int most_batch_suns = 65536;
 constexpr int fewest_realizations = 2;  // one has no spread
 constexpr int strongest_compression = 9;
-constexpr Range shares{0, 1};
 constexpr Range watts{0, 1e12, Range::Low::excluded};
 constexpr Range relative_errors{1e-4, 1};  // below, no number of lines would do
 

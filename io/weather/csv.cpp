@@ -15,8 +15,6 @@ namespace sunload {
 
 namespace {
 
-constexpr double no_code = 1e11;
-
 struct Head {
   std::map<std::string, std::pair<std::string_view, std::size_t>> comments;  // with their lines
   std::size_t line = 0;  ///< of the column names; 0: there is none

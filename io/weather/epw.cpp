@@ -32,9 +32,8 @@ constexpr std::size_t fewest_fields = 16;  // up to the diffuse irradiance
 constexpr double missing_from = 9999;
 constexpr int hours_per_day = 24, most_records_per_hour = 60;
 constexpr std::size_t most_header_lines = 100;  // 8 as a rule
-constexpr int leap_year = 2000;
 
-struct Header {
+struct EpwHeader {
   WeatherPlace place;
   double offset_s = 0;
   int records_per_hour = 1;
@@ -46,7 +45,7 @@ bool begins_with_word(std::string_view line, std::string_view word) {
   return lower_case(std::string(trimmed(line).substr(0, word.size()))) == word;
 }
 
-void read_location(const WeatherText& text, std::size_t line, Header& header) {
+void read_location(const WeatherText& text, std::size_t line, EpwHeader& header) {
   const auto fields = fields_of(text.line(line), ',');
   constexpr std::size_t wanted = 10;
   if (fields.size() < wanted)
@@ -58,7 +57,7 @@ void read_location(const WeatherText& text, std::size_t line, Header& header) {
   header.place.elevation_m = text.number(fields[9], line, "elevation [m]", -1000, 9999.9);
 }
 
-void read_data_periods(const WeatherText& text, std::size_t line, Header& header) {
+void read_data_periods(const WeatherText& text, std::size_t line, EpwHeader& header) {
   const auto fields = fields_of(text.line(line), ',');
   constexpr std::size_t wanted = 7;
   if (fields.size() < wanted)
@@ -77,8 +76,8 @@ void read_data_periods(const WeatherText& text, std::size_t line, Header& header
   header.line = line;
 }
 
-Header read_header(const WeatherText& text) {
-  Header header;
+EpwHeader read_header(const WeatherText& text) {
+  EpwHeader header;
   read_location(text, 1, header);
   for (std::size_t line = 2; line <= std::min(text.line_count(), most_header_lines); ++line) {
     if (!begins_with_word(text.line(line), "data periods")) continue;
@@ -176,7 +175,7 @@ void expect_day(const WeatherText& text, const WeatherRecord& record, std::strin
 bool is_epw(const WeatherText& text) { return begins_with_word(text.line(1), "location,"); }
 
 WeatherFile read_epw(const WeatherText& text) {
-  const Header header = read_header(text);
+  const EpwHeader header = read_header(text);
   WeatherFile file{text.path(), "EPW", header.place, header.offset_s, {}, {}};
   IrradianceReader irradiance(text, missing_from);
   HourCounter hours(text, header.records_per_hour);

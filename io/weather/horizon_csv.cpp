@@ -37,7 +37,7 @@ std::vector<Line> lines_of(std::string_view text) {
 }
 
 /// Columns of the two angles, and azimuth = written + `turn_deg`.
-struct Header {
+struct HorizonColumns {
   std::size_t azimuth = 0, elevation = 0;
   double turn_deg = 0;
   bool ends_at_empty_line = false;
@@ -49,11 +49,11 @@ std::optional<std::size_t> column(const Line& line, std::string_view name) {
   return static_cast<std::size_t>(found - line.fields.begin());
 }
 
-std::optional<Header> header_in(const Line& line) {
+std::optional<HorizonColumns> header_in(const Line& line) {
   const auto azimuth = column(line, "azimuth_deg"), elevation = column(line, "elevation_deg");
-  if (azimuth && elevation) return Header{*azimuth, *elevation, 0, false};
+  if (azimuth && elevation) return HorizonColumns{*azimuth, *elevation, 0, false};
   const auto a = column(line, "A"), height = column(line, "H_hor");
-  if (a && height) return Header{*a, *height, south_deg, true};
+  if (a && height) return HorizonColumns{*a, *height, south_deg, true};
   return {};
 }
 
@@ -66,7 +66,7 @@ double number_in(const std::string& path, const Line& line, std::size_t column) 
   return *value;
 }
 
-Horizontal point_in(const std::string& path, const Line& line, const Header& header) {
+Horizontal point_in(const std::string& path, const Line& line, const HorizonColumns& header) {
   if (may_have_decimal_commas(line.text)) throw decimal_commas({path, line.number});
   const std::size_t last = std::max(header.azimuth, header.elevation);
   if (line.fields.size() <= last)
@@ -79,7 +79,7 @@ Horizontal point_in(const std::string& path, const Line& line, const Header& hea
 }  // namespace
 
 Horizon read_horizon_csv(const std::string& path) {
-  std::optional<Header> header;
+  std::optional<HorizonColumns> header;
   std::vector<Horizontal> points;
   const std::string text = read_whole_file(path);
   for (const Line& line : lines_of(text)) {

@@ -22,7 +22,6 @@ namespace {
 constexpr double least_measured_w_m2 = -4;
 /// Above the sun outside of the atmosphere (1408 at perihelion) with a bright cloud beside it.
 constexpr double most_measured_w_m2 = 2000;
-constexpr int leap_year = 2000;
 constexpr std::size_t longest_shown = 40;
 constexpr double shortest_step_s = 1;  // no file resolves less
 /// Steps that are rounded in the file (decimal hours) differ by less than this.

@@ -14,6 +14,11 @@
 
 namespace sunload {
 
+/// Stands for the year where a record has none.
+inline constexpr int leap_year = 2000;
+/// Where a format has no number for missing values: beyond any.
+inline constexpr double no_code = 1e11;
+
 /// The lines of a text file; throws InputError for a file that is no text.
 class WeatherText {
  public:

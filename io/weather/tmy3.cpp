@@ -15,7 +15,6 @@ namespace sunload {
 namespace {
 
 constexpr std::size_t names_line = 2, first_row = 3;
-constexpr double no_code_above = 1e11;  // missing values are negative here
 constexpr std::string_view date_name = "date (mm/dd/yyyy)", time_name = "time (hh:mm)";
 
 /// Numbers of the columns that are read; absent where the file has none of that name.
@@ -91,7 +90,7 @@ WeatherFile read_tmy3(const WeatherText& text, std::optional<Stamp> stamp) {
   if (!columns.ghi && !columns.dni && !columns.dhi)
     text.fail(names_line, "no column of irradiance",
               "GHI (W/m^2), DNI (W/m^2), DHI (W/m^2) are sought");
-  IrradianceReader irradiance(text, no_code_above);
+  IrradianceReader irradiance(text, no_code);  // missing values are negative
   std::vector<StampedRow> rows;
   for (std::size_t line = first_row; line <= text.line_count(); ++line) {
     if (trimmed(text.line(line)).empty()) continue;

@@ -14,7 +14,6 @@ namespace sunload {
 
 namespace {
 
-constexpr double no_code = 1e11;
 constexpr double degrees_per_hour = 15;
 /// Hours have three decimals; nearer than this to a whole minute they mean it.
 constexpr double hour_rounding_s = 2;

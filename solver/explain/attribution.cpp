@@ -12,6 +12,7 @@
 #include "solver/first_light/beam_raster.h"
 #include "solver/first_light/sun_beams.h"
 #include "solver/light/sun_samples.h"
+#include "solver/traced/light_iteration.h"
 
 namespace sunload {
 
@@ -119,10 +120,7 @@ Mirrored mirrored(const TracedScene& traced, const IntervalLight& sun, bool is_f
                        {rules.mirror_depth, rules.faint_glint, rules.most_sun_beams,
                         traced.caster.offset_m()}),
               {}};
-  if (is_for_sensors && by.beams.size() == 0)
-    by.beams = SunBeams(
-        traced.mirrors, sun,
-        {.mirror_depth = std::min(rules.mirror_depth, 1), .most_beams = rules.most_sensor_beams});
+  if (is_for_sensors) by.beams = beams_on_sensors(traced, sun, by.beams);
   for (std::size_t b = 0; b < by.beams.size(); ++b)
     by.rasters.emplace_back(by.beams[b].section, by.beams[b].image, by.beams.spread(), raster_size);
   return by;
@@ -199,6 +197,7 @@ class Looks {
 
   void see_sun(const Packet& origins, const PacketDirections& suns, std::uint32_t active,
                std::size_t packet, double energy) {
+    if (place_.is_of_sensors) return see_sun_of_sensor(origins, suns, active, packet, energy);
     const auto hits =
         traced_.caster.first_hits(origins, suns, active, RayCaster::Coherence::parallel);
     for (std::size_t l = 0; l < packet_size; ++l) {
@@ -206,6 +205,18 @@ class Looks {
       const std::size_t r = receivers_.sampler.realization(packet * packet_size + l);
       into_.add_open(Attribution::Open::sun, r, energy);
       if (hits.triangle[l] >= 0) into_.add_flow(body_of(hits[l]), Flow::takes_sun, r, energy);
+    }
+  }
+
+  /// What crowns and screens let through is no chance (solver/first_light/direct_sun.h).
+  void see_sun_of_sensor(const Packet& origins, const PacketDirections& suns, std::uint32_t active,
+                         std::size_t packet, double energy) {
+    for (std::size_t l = 0; l < packet_size; ++l) {
+      if (!(active >> l & 1U)) continue;
+      const std::size_t r = receivers_.sampler.realization(packet * packet_size + l);
+      into_.add_open(Attribution::Open::sun, r, energy);
+      for (const auto& [hit, share] : traced_.caster.takers(at(origins, l), at(suns, l)))
+        into_.add_flow(body_of(hit), Flow::takes_sun, r, energy * share);
     }
   }
 

@@ -20,7 +20,7 @@ namespace {
 
 // Glimpses so far out in the lobe are not asked: what they would bring, relative to one in
 // the lobe's middle, is below the rounding of the float series.
-constexpr double least_lobe = 1e-8;
+constexpr double least_glimpse = 1e-8;
 
 }  // namespace
 
@@ -58,7 +58,7 @@ class GlossySun::Chunk {
     if (cos_a <= 0) return;
     const double n = g_.scene_.material_of(glimpse.triangle).glossy_exponent;
     const double lobe = lobe_value(cos_a, n);
-    if (lobe < least_lobe * lobe_value(1, n)) return;
+    if (lobe < least_glimpse * lobe_value(1, n)) return;
     origins_.x[waiting_] = glimpse.at[0];
     origins_.y[waiting_] = glimpse.at[1];
     origins_.z[waiting_] = glimpse.at[2];

@@ -40,13 +40,19 @@ double ParallelBeams::Beam::way(std::size_t s, Vec3 x) const {
   const double way = source.depth - dot(x, to_source_);
   const Flat p = flat(x);
   const auto& [a, b, c] = source.corner;
-  const bool inside =
-      twice_area(a, b, p) >= 0 && twice_area(b, c, p) >= 0 && twice_area(c, a, p) >= 0;
+  const bool inside = is_left(a, b, p) && is_left(b, c, p) && is_left(c, a, p);
   return way > 0 && inside ? way : 0;
 }
 
 double ParallelBeams::Beam::twice_area(Flat a, Flat b, Flat c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// Of two triangles that share an edge one has its points, the other none: both see the edge from
+/// the same end.
+bool ParallelBeams::Beam::is_left(Flat a, Flat b, Flat p) {
+  const bool is_upward = a.y != b.y ? a.y < b.y : a.x > b.x;
+  return is_upward ? twice_area(a, b, p) >= 0 : twice_area(b, a, p) < 0;
 }
 
 /// By the boxes about two triangles.

@@ -43,6 +43,7 @@ class ParallelBeams {
     };
     Flat flat(Vec3 p) const { return {dot(p, axes_.tangent), dot(p, axes_.bitangent)}; }
     static double twice_area(Flat a, Flat b, Flat c);
+    static bool is_left(Flat a, Flat b, Flat p);
     static bool may_overlap(const std::array<Flat, 3>& p, const std::array<Flat, 3>& q);
 
     Vec3 to_source_;

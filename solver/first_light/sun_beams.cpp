@@ -29,14 +29,37 @@ SunBeams::SunBeams(const MirrorGroups& groups, const IntervalLight& sun, const B
                    std::span<const std::uint8_t> dark)
     : groups_(&groups), rules_(rules), spread_(sun.disk_spread()) {
   if (!sun.has_sun() || sun.dni <= 0 || rules.mirror_depth < 1) return;
-  std::vector<SunBeam> level = first_level(sun, dark);
+  follow(first_level(sun, dark));
+}
+
+void SunBeams::follow(std::vector<SunBeam> level) {
   while (!level.empty() &&
-         beams_.size() + level.size() <= static_cast<std::size_t>(rules.most_beams)) {
+         beams_.size() + level.size() <= static_cast<std::size_t>(rules_.most_beams)) {
     const std::size_t begin = beams_.size();
     append(std::move(level));
-    if (beams_.back().reflections == rules.mirror_depth) return;
+    if (beams_.back().reflections == rules_.mirror_depth) return;
     level = next_level(begin);
   }
+}
+
+SunBeams SunBeams::followed_on(double faint_glint, int most_beams) const {
+  if (!leaves_out_faint_) return *this;
+  SunBeams further(*groups_);
+  further.rules_ = rules_;
+  further.rules_.faint_glint = faint_glint;
+  further.rules_.most_beams = most_beams;
+  further.spread_ = spread_;
+  std::vector<SunBeam> first;
+  for (const SunBeam& beam : beams_)
+    if (beam.reflections == 1) {
+      first.push_back(beam);
+      first.back().next.clear();
+    }
+  further.follow(std::move(first));
+  // Levels are whole or left out: more beams may end earlier.
+  const bool ends_earlier =
+      further.size() == 0 || further.beams_.back().reflections < beams_.back().reflections;
+  return ends_earlier ? *this : further;
 }
 
 std::int32_t SunBeams::next(std::int32_t beam, std::size_t group) const {
@@ -79,7 +102,7 @@ std::vector<SunBeam> SunBeams::first_level(const IntervalLight& sun,
   return level;
 }
 
-std::vector<SunBeam> SunBeams::next_level(std::size_t begin) const {
+std::vector<SunBeam> SunBeams::next_level(std::size_t begin) {
   std::vector<SunBeam> level;
   for (std::size_t b = begin; b < beams_.size(); ++b) {
     const SunBeam& beam = beams_[b];
@@ -90,7 +113,10 @@ std::vector<SunBeam> SunBeams::next_level(std::size_t begin) const {
       const double cos_theta = dot(beam.image, n);
       if (cos_theta <= least_cosine) continue;
       const double strongest = beam.strongest * groups_->strongest(g, cos_theta);
-      if (strongest < rules_.faint_glint) continue;
+      if (strongest < rules_.faint_glint) {
+        leaves_out_faint_ |= strongest > 0;
+        continue;
+      }
       auto lit = section.lit(*groups_, g);
       if (lit.empty()) continue;
       level.push_back({g,

@@ -57,6 +57,9 @@ class SunBeams {
   /// `dark`: 1 for each triangle of which nothing sees the sun; empty: this is known of none.
   SunBeams(const MirrorGroups& groups, const IntervalLight& sun, const BeamRules& rules,
            std::span<const std::uint8_t> dark = {});
+  /// The same, followed on to reflections of less than `faint_glint` of the sun, where no more than
+  /// `most_beams` are; else these.
+  SunBeams followed_on(double faint_glint, int most_beams) const;
   std::size_t size() const { return beams_.size(); }
   const SunBeam& operator[](std::size_t beam) const { return beams_[beam]; }
   double spread() const { return spread_; }
@@ -66,12 +69,14 @@ class SunBeams {
  private:
   std::vector<SunBeam> first_level(const IntervalLight& sun,
                                    std::span<const std::uint8_t> dark) const;
-  std::vector<SunBeam> next_level(std::size_t begin) const;
+  std::vector<SunBeam> next_level(std::size_t begin);
+  void follow(std::vector<SunBeam> first_level);
   void append(std::vector<SunBeam> level);
 
   const MirrorGroups* groups_;
   BeamRules rules_;
-  double spread_ = 0;  ///< tangent of the half angle of the sun's disk
+  double spread_ = 0;              ///< tangent of the half angle of the sun's disk
+  bool leaves_out_faint_ = false;  ///< reflections
   std::vector<SunBeam> beams_;
   std::vector<std::pair<std::size_t, std::int32_t>> first_;
 };

@@ -16,7 +16,7 @@ namespace {
 double times_log(double u, double r) { return r > 0 ? u * std::log(r) : 0; }
 
 /// A straight edge.
-struct Edge {
+struct SourceEdge {
   Vec3 begin, along;  ///< along: unit
   double length = 0;
 
@@ -32,8 +32,8 @@ struct Edge {
   }
 };
 
-std::vector<Edge> edges_of(std::span<const Vec3> polygon, Vec3 origin, double unit_m) {
-  std::vector<Edge> edges;
+std::vector<SourceEdge> edges_of(std::span<const Vec3> polygon, Vec3 origin, double unit_m) {
+  std::vector<SourceEdge> edges;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const Vec3 a = (polygon[k] - origin) / unit_m;
     const Vec3 b = (polygon[(k + 1) % polygon.size()] - origin) / unit_m;
@@ -56,7 +56,7 @@ constexpr std::array<GaussPoint, 5> gauss{{{0.046910077030668, 0.118463442528095
 /// ∫ over [low, high] of `outer` of the inner integral over `inner`.
 class EdgePair {
  public:
-  EdgePair(const Edge& outer, const Edge& inner, double tolerance)
+  EdgePair(const SourceEdge& outer, const SourceEdge& inner, double tolerance)
       : outer_(outer), inner_(inner), tolerance_(tolerance) {}
   double integral() const { return refined(0, outer_.length, on(0, outer_.length), deepest); }
 
@@ -76,8 +76,8 @@ class EdgePair {
     return refined(low, middle, first, depth - 1) + refined(middle, high, second, depth - 1);
   }
 
-  const Edge& outer_;
-  const Edge& inner_;
+  const SourceEdge& outer_;
+  const SourceEdge& inner_;
   double tolerance_;
 };
 
@@ -127,8 +127,8 @@ double exchange_area(std::span<const Vec3> from, std::span<const Vec3> to) {
   const auto outer = edges_of(from, origin, unit_m), inner = edges_of(to, origin, unit_m);
   const double goal = relative * 2 * pi * rough_exchange(from, to) / (unit_m * unit_m);
   double sum = 0;
-  for (const Edge& a : outer)
-    for (const Edge& b : inner) {
+  for (const SourceEdge& a : outer)
+    for (const SourceEdge& b : inner) {
       const double cosine = dot(a.along, b.along);
       if (cosine == 0) continue;
       const double pairs = static_cast<double>(outer.size() * inner.size());

@@ -32,8 +32,6 @@ std::size_t packets_for(double area_m2, double min_area_m2) {
   return static_cast<std::size_t>(std::clamp(packets, 1.0, static_cast<double>(most_packets)));
 }
 
-constexpr std::uint32_t all_rays = (1u << packet_size) - 1u;
-
 struct Moments {
   double mean = 0, variance = 0;
 };

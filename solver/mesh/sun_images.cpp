@@ -21,8 +21,6 @@ constexpr std::uint32_t first_words = 6;
 /// By so many offsets of rays a box is wider than its mirrors: floats place both to a part of one.
 constexpr double box_offsets = 8;
 
-constexpr std::uint32_t all_rays = (1u << packet_size) - 1u;
-
 Vec3 along(const SunImage& image, Vec3 p) {
   return {dot(p, image.axes.tangent), dot(p, image.axes.bitangent), dot(p, image.direction)};
 }

@@ -122,17 +122,19 @@ class Passage {
  public:
   struct Crossing {
     unsigned ray, triangle;
-    float distance;
+    float distance, u, v;
     bool front, at_edge;  ///< of the triangle
+    float transmittance = 1;
   };
 
   Passage() { share_.fill(1); }
   const RayCaster::Shares& share() const { return share_; }
-  void cross(const Crossing& at, float transmittance) {
+  const std::vector<Crossing>& crossed() const { return crossed_; }
+  void cross(const Crossing& at) {
     const auto is_known = [&](const Crossing& known) { return is_same(known, at); };
     if (std::any_of(crossed_.begin(), crossed_.end(), is_known)) return;
     crossed_.push_back(at);
-    share_[at.ray] *= transmittance;
+    share_[at.ray] *= at.transmittance;
   }
 
  private:
@@ -171,6 +173,8 @@ Passage::Crossing crossing_of(const RTCFilterFunctionNArguments* hits, unsigned 
   return {.ray = RTCRayN_id(hits->ray, hits->N, r),
           .triangle = RTCHitN_primID(hits->hit, hits->N, r),
           .distance = RTCRayN_tfar(hits->ray, hits->N, r),
+          .u = u,
+          .v = v,
           .front = facing < 0,
           .at_edge = std::min({u, v, 1 - u - v}) < edge};
 }
@@ -182,7 +186,9 @@ void note_crossings(const RTCFilterFunctionNArguments* hits, const Screens& scre
     if (hits->valid[r] == 0) continue;
     const float T = screens.transmittance[RTCHitN_primID(hits->hit, hits->N, r)];
     if (T <= 0) continue;
-    passage.cross(crossing_of(hits, r), T);
+    Passage::Crossing crossing = crossing_of(hits, r);
+    crossing.transmittance = T;
+    passage.cross(crossing);
     hits->valid[r] = 0;
   }
 }
@@ -255,8 +261,9 @@ PacketDirections same_for_all(Vec3 direction) {
   return directions;
 }
 
-Hit RayCaster::first_hit(Vec3 origin, Vec3 direction) const {
-  Context context(Coherence::none);
+namespace {
+
+Hit first_hit_in(RTCScene scene, Context& context, Vec3 origin, Vec3 direction) {
   RTCRayHit query{};
   query.ray.org_x = static_cast<float>(origin.x);
   query.ray.org_y = static_cast<float>(origin.y);
@@ -267,7 +274,7 @@ Hit RayCaster::first_hit(Vec3 origin, Vec3 direction) const {
   query.ray.tfar = no_end;
   query.ray.mask = ~0u;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(embree_->scene, &context.embree, &query);
+  rtcIntersect1(scene, &context.embree, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   const double facing = static_cast<double>(query.hit.Ng_x) * direction.x +
                         static_cast<double>(query.hit.Ng_y) * direction.y +
@@ -275,6 +282,33 @@ Hit RayCaster::first_hit(Vec3 origin, Vec3 direction) const {
   return {static_cast<std::int32_t>(query.hit.primID), static_cast<double>(query.hit.u),
           static_cast<double>(query.hit.v), static_cast<double>(query.ray.tfar) * norm(direction),
           facing < 0};
+}
+
+}  // namespace
+
+Hit RayCaster::first_hit(Vec3 origin, Vec3 direction) const {
+  Context context(Coherence::none);
+  return first_hit_in(embree_->scene, context, origin, direction);
+}
+
+std::vector<RayCaster::Taker> RayCaster::takers(Vec3 origin, Vec3 direction) const {
+  Passage passage;
+  Context context(Coherence::none, &passage);
+  const Hit end = first_hit_in(embree_->scene, context, origin, direction);
+  auto crossed = passage.crossed();
+  std::ranges::sort(crossed, {}, &Passage::Crossing::distance);
+  std::vector<Taker> takers;
+  double left = 1;
+  for (const auto& at : crossed) {
+    const double distance_m = static_cast<double>(at.distance) * norm(direction);
+    if (!end.left_scene() && distance_m > end.distance_m) break;
+    takers.push_back({{static_cast<std::int32_t>(at.triangle), static_cast<double>(at.u),
+                       static_cast<double>(at.v), distance_m, at.front},
+                      left * (1 - static_cast<double>(at.transmittance))});
+    left *= static_cast<double>(at.transmittance);
+  }
+  if (!end.left_scene()) takers.push_back({end, left});
+  return takers;
 }
 
 PacketHits RayCaster::first_hits(const Packet& origins, const PacketDirections& directions,

@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "geo/mesh/mesh.h"
 #include "solver/surface/material.h"
@@ -45,6 +46,7 @@ inline Vec3 lifted_point(const Mesh& mesh, const Hit& hit, Vec3 normal, double o
 }
 
 inline constexpr std::size_t packet_size = 16;
+inline constexpr std::uint32_t all_rays = (1u << packet_size) - 1u;  ///< of a packet
 
 /// Up to 16 ray origins, already offset from their surfaces.
 struct Packet {
@@ -133,6 +135,15 @@ class RayCaster {
   /// The same of what is between origin and origin + direction.
   Shares passed_up_to(const Packet& origins, const PacketDirections& ways,
                       std::uint32_t active) const;
+
+  /// What a ray of light from along `direction` meets on its way to `origin`, nearest the origin
+  /// first, and the share of that light which each takes of what others nearer would let through:
+  /// without chance, what `first_hit` is on the mean of many rays.
+  struct Taker {
+    Hit hit;
+    double share;
+  };
+  std::vector<Taker> takers(Vec3 origin, Vec3 direction) const;
 
  private:
   Shares passed(const Packet& origins, const PacketDirections& directions, float end,

@@ -30,15 +30,10 @@ std::vector<SunBeams> beams_of(const TracedScene& traced, Suns suns, const Colum
   return beams;
 }
 
-/// Suns of too many mirrors for beams (curved glass) get those of the first reflection: sensors are
-/// few, and no chain of mirrors ends on them.
-std::vector<SunBeams> with_first_reflections(const TracedScene& traced, std::vector<SunBeams> beams,
-                                             Suns suns) {
-  const BeamRules of_first{.mirror_depth = std::min(traced.rules.mirror_depth, 1),
-                           .most_beams = traced.rules.most_sensor_beams};
-  parallel_for(beams.size(), [&](std::size_t k) {
-    if (beams[k].size() == 0) beams[k] = SunBeams(traced.mirrors, suns[k], of_first);
-  });
+std::vector<SunBeams> on_sensors(const TracedScene& traced, std::vector<SunBeams> beams,
+                                 Suns suns) {
+  parallel_for(beams.size(),
+               [&](std::size_t k) { beams[k] = beams_on_sensors(traced, suns[k], beams[k]); });
   return beams;
 }
 
@@ -225,9 +220,8 @@ std::uint64_t add_mirrors_on_sensors(const TracedScene& traced, const SunsOneByO
   std::uint64_t cast = 0;
   for (std::size_t s = 0; s < suns.size(); ++s) {
     if (!beams[s].empty())
-      cast += traced.mirror_sun.add_light(
-          sensors.sampler, suns[s], with_first_reflections(traced, std::move(beams[s]), suns[s]),
-          into);
+      cast += traced.mirror_sun.add_light(sensors.sampler, suns[s],
+                                          on_sensors(traced, std::move(beams[s]), suns[s]), into);
     if (!traced.optics.any_glossy) continue;
     cast +=
         traced.glossy_sun.add_light_on_sensors(sensors.lines, traced.lobe_images, suns[s], into);
@@ -305,6 +299,15 @@ BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources
   work.add(Work::sensor_rays, light_sensors(traced, sources.suns, suns, std::move(beams),
                                             rays.on_sensors, of_sensors));
   return rays;
+}
+
+SunBeams beams_on_sensors(const TracedScene& traced, const IntervalLight& sun,
+                          const SunBeams& on_patches) {
+  const SolverRules& rules = traced.rules;
+  if (on_patches.size() > 0) return on_patches.followed_on(rules.unshot, rules.most_faint_beams);
+  return SunBeams(
+      traced.mirrors, sun,
+      {.mirror_depth = std::min(rules.mirror_depth, 1), .most_beams = rules.most_sensor_beams});
 }
 
 std::vector<Columns> shares_of_patches(const TracedScene& traced, const BlockSources& sources,

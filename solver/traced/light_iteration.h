@@ -8,6 +8,7 @@
 
 #include "solver/first_light/mirror_chains.h"
 #include "solver/first_light/ray_light.h"
+#include "solver/first_light/sun_beams.h"
 #include "solver/gather/block_light.h"
 #include "solver/gather/time_sums.h"
 #include "solver/light/work.h"
@@ -36,6 +37,11 @@ BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources
 /// LitShares::of the block, one for each of `suns_one_by_one`.
 std::vector<Columns> shares_of_patches(const TracedScene& traced, const BlockSources& sources,
                                        WorkDone& work);
+/// The beams of a sun that sensors ask: no chains of mirrors end on them, so that these go on to
+/// fainter reflections than those of patches, `on_patches`. Suns of too many mirrors for beams
+/// (curved glass) get those of the first reflection: sensors are few.
+SunBeams beams_on_sensors(const TracedScene& traced, const IntervalLight& sun,
+                          const SunBeams& on_patches);
 /// Only the straight sun on patches, as `light_iteration` has it: the columns of the realizations.
 /// `shares`: shares_of_patches.
 RayLight direct_on_patches(const TracedScene& traced, const BlockSources& sources,

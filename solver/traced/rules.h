@@ -29,6 +29,9 @@ struct SolverRules {
   int mirror_depth = 8;
   double faint_glint = 0.02;  ///< share of the sun below which light reflected again is no beam
   int most_sun_beams = 128;   ///< sequences of mirror orientations per sun that are beams
+  /// On sensors no chains of mirrors end: beams go on to `unshot` of the sun where no more than so
+  /// many sequences are there.
+  int most_faint_beams = 512;
   /// Where no beams stand, sensors get the first reflection by mirrors; from a sun that more than
   /// so many orientations face they get none.
   int most_sensor_beams = 1 << 16;

@@ -17,13 +17,13 @@
 namespace sunload::test {
 namespace {
 
-struct Square : SquareFolder {
-  explicit Square(const std::string& solver, const std::string& max_edge_m = "1.5")
+struct AccurateSquare : SquareFolder {
+  explicit AccurateSquare(const std::string& solver, const std::string& max_edge_m = "1.5")
       : SquareFolder(square_study("totals", solver, max_edge_m)) {}
 };
 
 TEST(AccuracyStudy, DecidesCountsOnceForThreadsAndShards) {
-  const Square square(", accuracy: {light_load_relative: 0.02}, max_lines_per_patch: 8192");
+  const AccurateSquare square(", accuracy: {light_load_relative: 0.02}, max_lines_per_patch: 8192");
   const Ran check = program(square.folder, {"check", "square.yaml"});
   EXPECT_NE(check.out.find("counts are decided at the start of the run"), std::string::npos)
       << check.out;
@@ -56,7 +56,7 @@ TEST(AccuracyStudy, DecidesCountsOnceForThreadsAndShards) {
 TEST(AccuracyStudy, MeetsAGoalAtEveryInstant) {
   const std::string goal = ", accuracy: {irradiance_relative: 0.06}, max_lines_per_patch: 8192";
   for (const std::string transport : {"gather", "shoot"}) {
-    const Square square(goal + ", transport: " + transport, "4");
+    const AccurateSquare square(goal + ", transport: " + transport, "4");
     square.folder.write("square.yaml",
                         square_study("instants", goal + ", transport: " + transport, "4"));
     const Ran ran = square.run("one", {"--threads", "1"});
@@ -77,7 +77,7 @@ TEST(AccuracyStudy, MeetsAGoalAtEveryInstant) {
     EXPECT_EQ(ledger_problem(square.result("one")), "");
   }
   // Planted fault: the same counts for all patches, and no more than at first.
-  const Square square("", "4");
+  const AccurateSquare square("", "4");
   square.folder.write("square.yaml", square_study("instants", "", "4"));
   ASSERT_EQ(square.run("few").code, 0);
   const ResultReader few(square.result("few"));
@@ -92,7 +92,7 @@ TEST(AccuracyStudy, MeetsAGoalAtEveryInstant) {
 }
 
 TEST(AccuracyStudy, PairsVariantsWhoseCountsDiffer) {
-  const Square square("", "4");
+  const AccurateSquare square("", "4");
   square.folder.write("square.yaml",
                       square_study("totals", ", accuracy: {light_load_relative: 0.05}", "4") +
                           "variants:\n"
@@ -109,7 +109,7 @@ TEST(AccuracyStudy, PairsVariantsWhoseCountsDiffer) {
 }
 
 TEST(AccuracyStudy, NeedsAGoal) {
-  const Square square(", accuracy: {}");
+  const AccurateSquare square(", accuracy: {}");
   const Ran check = program(square.folder, {"check", "square.yaml"});
   EXPECT_EQ(check.code, 2);
   EXPECT_NE(check.err.find("solver.accuracy.light_load_relative is missing"), std::string::npos)
@@ -119,7 +119,7 @@ TEST(AccuracyStudy, NeedsAGoal) {
 
 TEST(AccuracyStudy, DecidesWhatIsShot) {
   for (const std::string power : {"auto", "100"}) {
-    const Square square(
+    const AccurateSquare square(
         ", accuracy: {light_load_relative: 0.03}, max_lines_per_patch: 8192, "
         "transport: shoot, power_per_sample_w: " +
             power,
@@ -142,7 +142,7 @@ TEST(AccuracyStudy, DecidesWhatIsShot) {
 }
 
 TEST(AccuracyStudy, SaysWhereTheMostIsTooLittle) {
-  const Square square(", accuracy: {light_load_relative: 0.001}, max_lines_per_patch: 128");
+  const AccurateSquare square(", accuracy: {light_load_relative: 0.001}, max_lines_per_patch: 128");
   const Ran ran = square.run("a");
   ASSERT_EQ(ran.code, 0) << ran.err;
   EXPECT_NE(ran.err.find("128 lines and samples at most cannot give more (max_lines_per_patch)"),

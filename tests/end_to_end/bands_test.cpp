@@ -22,7 +22,7 @@ namespace {
 
 const std::string sensors = "sensors: {points: [{position_m: [0, -5, 1.5], normal: [0, -1, 0]}]}\n";
 
-struct Square : SquareFolder {
+struct ColouredSquare : SquareFolder {
   enum class Walls { by_light, grey };
   /// Walls are grey under white light, else as asked for.
   void write(const std::string& solver, const std::string& errors = "totals",
@@ -42,7 +42,7 @@ using Strings = std::vector<std::string>;
 using Shape = std::vector<std::size_t>;
 
 TEST(BandStudy, SameBitsForThreadsShardsAndResumedRuns) {
-  const Square square;
+  const ColouredSquare square;
   for (const char* errors : {"instants", "totals"}) {
     square.write(", bands: rgb", errors);
     const Ran one = square.run("one", {"--threads", "1", "--overwrite"});
@@ -65,7 +65,7 @@ TEST(BandStudy, SameBitsForThreadsShardsAndResumedRuns) {
 
 // The pilot takes broadband light; what is met is the mean of the bands.
 TEST(BandStudy, MayAskForAnAccuracy) {
-  const Square square;
+  const ColouredSquare square;
   square.write(", bands: rgb, accuracy: {light_load_relative: 0.2}, max_lines_per_patch: 128");
   const Ran ran = square.run("accurate", {"--threads", "1"});
   ASSERT_EQ(ran.code, 0) << ran.err;
@@ -76,7 +76,7 @@ TEST(BandStudy, MayAskForAnAccuracy) {
 
 // White light on grey surfaces: series bit for bit, what realizations bring but for rounding.
 TEST(BandStudy, EveryBandOfWhiteLightOnGreyIsTheBroadbandResult) {
-  const Square square;
+  const ColouredSquare square;
   square.write("", "totals", "white");
   ASSERT_EQ(square.run("broad", {"--threads", "1"}).code, 0);
   square.write(", bands: rgb", "totals", "white");
@@ -101,7 +101,7 @@ TEST(BandStudy, EveryBandOfWhiteLightOnGreyIsTheBroadbandResult) {
 
 // Bands are at their largest at different times: reddish at sunrise, bluish in the shade.
 TEST(BandStudy, LargestOfTheMeanIsOfTheMeansSeries) {
-  const Square square;
+  const ColouredSquare square;
   square.write(", bands: rgb");
   ASSERT_EQ(square.run("rgb", {"--threads", "1"}).code, 0);
   const ResultReader mean(square.result("rgb"));
@@ -130,7 +130,7 @@ TEST(BandStudy, LargestOfTheMeanIsOfTheMeansSeries) {
 // Each band's light is reflected by that band's reflectance: the mean is of the products. At an
 // instant and over the period, from the series and from the totals.
 TEST(BandStudy, RadianceIsTheMeanOfTheBands) {
-  const Square square;
+  const ColouredSquare square;
   square.write(", bands: rgb");
   ASSERT_EQ(square.run("rgb", {"--threads", "1"}).code, 0);
   const std::string path = square.result("rgb"), noon = "2026-03-21T12:30";
@@ -165,10 +165,10 @@ TEST(BandStudy, RadianceIsTheMeanOfTheBands) {
 // Transport is linear: on grey surfaces the mean of coloured bands is the broadband light,
 // whichever part of a sky of many colours comes by lines or by samples about the sun.
 TEST(BandStudy, MeanOfColouredLightOnGreyIsTheBroadbandResult) {
-  const Square square;
-  square.write("", "totals", "sky", Square::Walls::grey);
+  const ColouredSquare square;
+  square.write("", "totals", "sky", ColouredSquare::Walls::grey);
   ASSERT_EQ(square.run("broad", {"--threads", "1"}).code, 0);
-  square.write(", bands: rgb", "totals", "sky", Square::Walls::grey);
+  square.write(", bands: rgb", "totals", "sky", ColouredSquare::Walls::grey);
   ASSERT_EQ(square.run("rgb", {"--threads", "1"}).code, 0);
   const ResultReader broadband(square.result("broad")), mean(square.result("rgb"));
   for (const char* name : {"irradiance", "irradiance_sky", "irradiance_reflected",
@@ -188,7 +188,7 @@ TEST(BandStudy, MeanOfColouredLightOnGreyIsTheBroadbandResult) {
   }
 }
 
-constexpr const char* check = R"(
+constexpr const char* band_check = R"(
 import sys, xarray
 data = xarray.open_dataset(sys.argv[1], engine='h5netcdf')
 assert list(data.band.values) == ['red', 'green', 'blue'], data.band
@@ -209,14 +209,14 @@ print(float(abs(data.light_load.mean('band').sum())))
 )";
 
 TEST(BandStudy, IsReadByXarrayAndByEveryCommand) {
-  const Square square;
+  const ColouredSquare square;
   square.write(", bands: rgb");
   const Ran ran = square.run("rgb", {"--threads", "1"});
   ASSERT_EQ(ran.code, 0) << ran.err;
   for (const char* band : {"  red", "  green", "  blue"})  // the ledger of each
     EXPECT_NE(ran.err.find(band), std::string::npos) << ran.err;
   const std::string result = square.result("rgb");
-  const Ran read = python(square.folder, check, {result});
+  const Ran read = python(square.folder, band_check, {result});
   EXPECT_EQ(read.code, 0) << read.err;
 
   const ResultReader mean(result), red(result, 0), blue(result, 2);

@@ -32,8 +32,8 @@ Lines lines_of(const std::string& text) {
   return lines;
 }
 
-struct Square : SquareFolder {
-  explicit Square(const std::string& more = "") : SquareFolder(square_study() + more) {}
+struct CommandedSquare : SquareFolder {
+  explicit CommandedSquare(const std::string& more = "") : SquareFolder(square_study() + more) {}
   Ran run(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin() + 1, "square.yaml");
     return program(folder, arguments);
@@ -64,7 +64,7 @@ const std::string two_variants =
 /// A run would refine; what is told without it are the least patches, and variants that differ in
 /// their materials alone share what is read and computed.
 TEST(Commands, CheckWithoutRefinement) {
-  const Square square(two_variants);
+  const CommandedSquare square(two_variants);
   const auto refining = [&](const std::string& text) {
     auto study = text;
     const std::string none = "oracle: none, ";
@@ -90,7 +90,7 @@ TEST(Commands, CheckWithoutRefinement) {
 }
 
 TEST(Commands, CheckAsJson) {
-  const Square square(two_variants);
+  const CommandedSquare square(two_variants);
   const Ran ran = square.run({"check", "--json"});
   ASSERT_EQ(ran.code, 0) << ran.err;
   const auto json = nlohmann::ordered_json::parse(ran.out);
@@ -117,7 +117,7 @@ TEST(Commands, CheckAsJson) {
 }
 
 TEST(Commands, SunAsCsv) {
-  const Square square;
+  const CommandedSquare square;
   square.change("from: \"06:00\", to: \"18:00\", ", "");
   const Ran ran = square.run({"sun"});
   ASSERT_EQ(ran.code, 0) << ran.err;
@@ -144,7 +144,7 @@ TEST(Commands, SunAsCsv) {
 }
 
 TEST(Commands, CompareAsCsvInfoAndPictures) {
-  const Square square(two_variants);
+  const CommandedSquare square(two_variants);
   ASSERT_EQ(square.run({"run"}).code, 0);
   for (const char* variant : {"mirror", "dull"}) {
     EXPECT_EQ(ledger_problem(square.result(variant)), "");
@@ -167,7 +167,7 @@ TEST(Commands, CompareAsCsvInfoAndPictures) {
 }
 
 TEST(Commands, CheckTellsOfVariantsWhatDiffers) {
-  const Square square(two_variants);
+  const CommandedSquare square(two_variants);
   const Ran ran = square.run({"check", "--no-refine"});
   ASSERT_EQ(ran.code, 0) << ran.err;
   const auto second = ran.out.find("study square, variant dull");
@@ -184,7 +184,7 @@ TEST(Commands, CheckTellsOfVariantsWhatDiffers) {
 
 /// Each is found anew in the variant's own model.
 TEST(Commands, CheckTellsWhatSelectionsChooseInLaterVariants) {
-  const Square square(
+  const CommandedSquare square(
       "selections: {south: {surface: wall, azimuth_deg: [135, 225]}, paving: {object: square}}\n"
       "variants:\n  - {name: as_is}\n"
       "  - {name: higher, scene: {edit: [{object: house, raise: {by_m: 3}}]}}\n");
@@ -196,7 +196,7 @@ TEST(Commands, CheckTellsWhatSelectionsChooseInLaterVariants) {
 }
 
 TEST(Commands, PicturesOfAStudyNeedNoRun) {
-  const Square square(two_variants);
+  const CommandedSquare square(two_variants);
   const auto render = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {"render", "square.yaml", "-o", "scene.png", "--size", "400x320"});
     return program(square.folder, more);
@@ -216,7 +216,7 @@ TEST(Commands, PicturesOfAStudyNeedNoRun) {
 }
 
 TEST(Commands, InfoGivesTheErrorOfTheEnergyAlsoWithErrorsOfInstants) {
-  const Square square;
+  const CommandedSquare square;
   square.change("standard_error: totals", "standard_error: instants");
   ASSERT_EQ(square.run({"run"}).code, 0);
   const Energy energy = energy_of(square.result());
@@ -228,7 +228,7 @@ TEST(Commands, InfoGivesTheErrorOfTheEnergyAlsoWithErrorsOfInstants) {
 }
 
 TEST(Commands, OnlyTheVariantsAskedFor) {
-  const Square square(two_variants);
+  const CommandedSquare square(two_variants);
   ASSERT_EQ(square.run({"run", "--variant", "dull"}).code, 0);
   EXPECT_FALSE(std::filesystem::exists(square.result("mirror")));
   EXPECT_EQ(square.run({"run", "--resume"}).code, 0);
@@ -236,7 +236,7 @@ TEST(Commands, OnlyTheVariantsAskedFor) {
 }
 
 TEST(Commands, RunAgain) {
-  const Square square;
+  const CommandedSquare square;
   ASSERT_EQ(square.run({"run"}).code, 0);
   const std::string first = square.folder.read("results/square/baseline.h5");
   const auto is_untouched = [&] {
@@ -250,7 +250,7 @@ TEST(Commands, RunAgain) {
 }
 
 TEST(Commands, WhatChangesTheHash) {
-  const Square square;
+  const CommandedSquare square;
   ASSERT_EQ(square.run({"run"}).code, 0);
   const std::string first = square.folder.read("results/square/baseline.h5");
   square.change("name: square\n", "name: square  # a comment\n");
@@ -273,7 +273,7 @@ TEST(Commands, WhatChangesTheHash) {
 
 // Batches hold no other series than the study wants: with more of them they are computed again.
 TEST(Commands, SeriesOfKeptBatchesMayBeFewerNotMore) {
-  const Square square;
+  const CommandedSquare square;
   ASSERT_EQ(square.run({"run", "--output", "all"}).code, 0);
   square.change("folder: results, ", "folder: results, series: [total, sky], ");
   ASSERT_EQ(square.run({"run", "--keep-batches"}).code, 0);
@@ -298,7 +298,7 @@ TEST(Commands, SeriesOfKeptBatchesMayBeFewerNotMore) {
 }
 
 TEST(Commands, RoundedSeriesAreThoseOfTheUnroundedRun) {
-  const Square square;
+  const CommandedSquare square;
   ASSERT_EQ(square.run({"run", "--output", "all"}).code, 0);
   square.change("folder: results, ", "folder: results, significant_bits: 9, ");
   const Ran rounded_run = square.run({"run"});
@@ -317,7 +317,7 @@ TEST(Commands, RoundedSeriesAreThoseOfTheUnroundedRun) {
 }
 
 TEST(Commands, DamagedResultIsNamedAndReplaced) {
-  const Square square;
+  const CommandedSquare square;
   ASSERT_EQ(square.run({"run"}).code, 0);
   std::filesystem::resize_file(square.result(), 5000);
   for (const auto& arguments : {Lines{"run"}, Lines{"run", "--resume"}, Lines{"merge"}}) {
@@ -330,7 +330,7 @@ TEST(Commands, DamagedResultIsNamedAndReplaced) {
 }
 
 TEST(Commands, MergeTwiceIsNoWork) {
-  const Square square;
+  const CommandedSquare square;
   ASSERT_EQ(square.run({"run", "--keep-batches"}).code, 0);
   const std::string first = square.folder.read("results/square/baseline.h5");
   const auto content = square.folder.content();
@@ -347,7 +347,7 @@ TEST(Commands, MergeTwiceIsNoWork) {
 }
 
 TEST(Commands, MergeListsWhatIsMissing) {
-  const Square square;
+  const CommandedSquare square;
   ASSERT_EQ(square.run({"run", "--keep-batches"}).code, 0);
   std::filesystem::rename(square.result(), square.folder / "first.h5");
   std::filesystem::remove(square.batch(1));
@@ -361,7 +361,7 @@ TEST(Commands, MergeListsWhatIsMissing) {
 }
 
 TEST(Commands, MergeBeforeAnythingIsThere) {
-  const Square square;
+  const CommandedSquare square;
   const Ran merge = square.run({"merge"});
   EXPECT_EQ(merge.code, 75) << merge.err;
   EXPECT_NE(merge.err.find("6 of 6 batches are missing"), std::string::npos) << merge.err;
@@ -369,7 +369,7 @@ TEST(Commands, MergeBeforeAnythingIsThere) {
 }
 
 TEST(Commands, DamagedBatchIsNamedAndComputedAgain) {
-  const Square square;
+  const CommandedSquare square;
   ASSERT_EQ(square.run({"run", "--keep-batches"}).code, 0);
   std::filesystem::rename(square.result(), square.folder / "first.h5");
   const std::string damaged = square.batch(2), cut = square.batch(3);
@@ -392,7 +392,7 @@ TEST(Commands, DamagedBatchIsNamedAndComputedAgain) {
 
 /// A difference of sums is not 0 to the last digit: "unshot -7e-09" of kilowatt-hours is nothing.
 TEST(Commands, InfoLeavesOutWhatRoundingMakesOfTheLedger) {
-  const Square square;
+  const CommandedSquare square;
   ASSERT_EQ(square.run({"run"}).code, 0);
   const auto unshot_of = [&](const std::string& watts) {
     const Ran set = python(square.folder,

@@ -57,7 +57,7 @@ void expect_adds_up(const json& explanation) {
 
 std::string coarse_square() { return square_study("totals", "", "5"); }
 
-const std::string two_variants =
+const std::string explained_variants =
     "sensors: {points: [{position_m: [0, -5, 1.5], normal: [0, 1, 0]}]}\n"
     "variants:\n"
     "  - {name: base, scene: {materials: {glass: {diffuse: 0.3, mirror: 0}}}}\n"
@@ -98,7 +98,7 @@ TEST(Explain, FollowsLightInTheSeasonThatIsChosen) {
 }
 
 TEST(Explain, AddsUpAndNamesWhoChangesWhat) {
-  const SquareFolder square(coarse_square() + two_variants);
+  const SquareFolder square(coarse_square() + explained_variants);
   const Ran ran = square.run("results");
   ASSERT_EQ(ran.code, 0) << ran.err;
   const std::string base = square.result("results", "base"),
@@ -282,7 +282,7 @@ double sum_over(const ResultReader& map, const std::string& dataset,
 }
 
 TEST(Explain, MapsWhichPatchesGiveAndTake) {
-  const SquareFolder square(coarse_square() + two_variants);
+  const SquareFolder square(coarse_square() + explained_variants);
   ASSERT_EQ(square.run("results").code, 0);
   const std::string result = square.result("results", "glazed"), map = square.folder / "map.h5";
   for (const std::vector<std::string>& place :

@@ -31,7 +31,7 @@ const std::string tower =
     "v -9 -2 0.01\nv 9 -2 0.01\nv 9 1 0.01\nv -9 1 0.01\nv -9 -2 30\nv 9 -2 30\nv 9 1 30\nv -9 1 "
     "30\n"
     "f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\nf 4 3 2 1\n";
-const std::string variants =
+const std::string measured_variants =
     "variants:\n  - {name: base}\n  - {name: towered, scene: {files: [square.obj, tower.obj]}}\n";
 
 void write(const WorkFolder& folder, const std::string& more) {
@@ -40,7 +40,7 @@ void write(const WorkFolder& folder, const std::string& more) {
   folder.write("square.yaml", square_study() + more);
 }
 
-constexpr const char* base = "results/square/base.h5";
+constexpr const char* base_result = "results/square/base.h5";
 
 MeasureRow row_of(const ResultReader& result, const std::string& measure,
                   const std::string& facade) {
@@ -59,11 +59,11 @@ TEST(Measures, VerdictsAgreeWithWhatIsReached) {
         "  sky_{}: {{rule: bre_209_vsc, least_percent: {}, of: {{surface: wall}}}}\n", p, p);
   folder.write("square.obj", square_obj);
   folder.write("tower.obj", tower);
-  folder.write("square.yaml", square_study("totals", "", "1000") + more + variants);
+  folder.write("square.yaml", square_study("totals", "", "1000") + more + measured_variants);
   const Ran ran = program(folder, {"run", "square.yaml"});
   ASSERT_EQ(ran.code, 0) << ran.err;
   int halves = 0, judged = 0;
-  for (const char* path : {base, "results/square/towered.h5"})
+  for (const char* path : {base_result, "results/square/towered.h5"})
     for (const MeasureRow& row : measure_table(ResultReader(folder / path), {})) {
       if (row.level.empty()) continue;
       ++judged;
@@ -77,10 +77,10 @@ TEST(Measures, VerdictsAgreeWithWhatIsReached) {
 
 TEST(Measures, HaveVerdictsAndTellWhoLoses) {
   const WorkFolder folder;
-  write(folder, measures + variants);
+  write(folder, measures + measured_variants);
   const Ran ran = program(folder, {"run", "square.yaml"});
   ASSERT_EQ(ran.code, 0) << ran.err;
-  const ResultReader result(folder / base);
+  const ResultReader result(folder / base_result);
   EXPECT_EQ(result.text_attribute("measures"), "exposure czech sunny sky glints");
   // Open to the south at the equinox.
   const MeasureRow south = row_of(result, "exposure", "house/south_1");
@@ -98,9 +98,9 @@ TEST(Measures, HaveVerdictsAndTellWhoLoses) {
     EXPECT_FALSE(result.text_attribute(dataset, attribute).empty()) << attribute;
   const auto parameters = nlohmann::json::parse(result.text_attribute(dataset, "parameters"));
   EXPECT_EQ(parameters["date"], nlohmann::json({2026, 3, 1}));
-  EXPECT_EQ(sums_problem(folder / base), "");
+  EXPECT_EQ(sums_problem(folder / base_result), "");
 
-  const Ran table = program(folder, {"info", base, "--measures", "--csv"});
+  const Ran table = program(folder, {"info", base_result, "--measures", "--csv"});
   EXPECT_EQ(table.out.rfind("measure,group,name,area_m2,mean,reached,units,level,margin,"
                             "passing_percent,spans\n",
                             0),
@@ -112,12 +112,12 @@ TEST(Measures, HaveVerdictsAndTellWhoLoses) {
   EXPECT_NE(line.find(",2026-12-21T07:"), std::string::npos) << line;
   EXPECT_EQ(std::count(line.begin(), line.end(), '/'), 1) << line;
   const auto json =
-      nlohmann::json::parse(program(folder, {"info", base, "--measures", "--json"}).out);
+      nlohmann::json::parse(program(folder, {"info", base_result, "--measures", "--json"}).out);
   EXPECT_EQ(json["measures"][0]["levels"].size(), 3u);
-  const Ran screen = program(folder, {"info", base});
+  const Ran screen = program(folder, {"info", base_result});
   EXPECT_NE(screen.out.find("exposure: mean"), std::string::npos) << screen.out;
 
-  const Ran compared = program(folder, {"compare", base, "results/square/towered.h5"});
+  const Ran compared = program(folder, {"compare", base_result, "results/square/towered.h5"});
   EXPECT_NE(compared.out.find("facade house/south_1: high → fail"), std::string::npos)
       << compared.out;
   // Of what a measure has values for: nothing of this model is a ground.
@@ -127,15 +127,15 @@ TEST(Measures, HaveVerdictsAndTellWhoLoses) {
         "glints: pass in the base → in the variant: 1 → 1 of 1 sensor\n"})
     EXPECT_NE(compared.out.find(counts), std::string::npos) << counts << compared.out;
   for (const char* quantity : {"measure_exposure", "measure_sky"}) {
-    const Ran drawn = program(
-        folder, {"render", base, "-o", "a.png", "--size", "320x320", "--quantity", quantity});
+    const Ran drawn = program(folder, {"render", base_result, "-o", "a.png", "--size", "320x320",
+                                       "--quantity", quantity});
     EXPECT_EQ(drawn.code, 0) << drawn.err;
-    const Ran exported =
-        program(folder, {"export", base, "--to", "csv", "-o", "a.csv", "--quantity", quantity});
+    const Ran exported = program(
+        folder, {"export", base_result, "--to", "csv", "-o", "a.csv", "--quantity", quantity});
     EXPECT_EQ(exported.code, 0) << exported.err;
   }
-  EXPECT_EQ(program(folder, {"view", base, "-o", "a.html"}).code, 0);
-  const Ran part = program(folder, {"info", base, "--measures", "--hours", "8-12"});
+  EXPECT_EQ(program(folder, {"view", base_result, "-o", "a.html"}).code, 0);
+  const Ran part = program(folder, {"info", base_result, "--measures", "--hours", "8-12"});
   EXPECT_EQ(part.code, 2);
   EXPECT_NE(part.err.find("no measures of a part of the period"), std::string::npos) << part.err;
 }

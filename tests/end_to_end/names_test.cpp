@@ -15,7 +15,7 @@ namespace {
 
 bool is_utf8(const std::string& text) { return utf8_text(text) == text; }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
+std::string all_replaced(std::string text, const std::string& from, const std::string& to) {
   for (auto at = text.find(from); at != text.npos; at = text.find(from, at + to.size()))
     text.replace(at, from.size(), to);
   return text;
@@ -25,14 +25,14 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 /// the material in UTF-8.
 struct Strange : SquareFolder {
   Strange() {
-    std::string obj = replaced(square_obj, "usemtl plaster",
-                               "usemtl Au\xDF"
-                               "enputz");
-    obj = replaced(obj, "o house", "o Geb\xE4ude");
-    obj = replaced(obj, "o awning", "o =HYPERLINK(\"x\")");
-    obj = replaced(obj, "o lamp", "o \x1B[31mlamp");
+    std::string obj = all_replaced(square_obj, "usemtl plaster",
+                                   "usemtl Au\xDF"
+                                   "enputz");
+    obj = all_replaced(obj, "o house", "o Geb\xE4ude");
+    obj = all_replaced(obj, "o awning", "o =HYPERLINK(\"x\")");
+    obj = all_replaced(obj, "o lamp", "o \x1B[31mlamp");
     folder.write("square.obj", obj);
-    write_study(replaced(square_study(), "    plaster:", "    Außenputz:"));
+    write_study(all_replaced(square_study(), "    plaster:", "    Außenputz:"));
     const Ran ran = run("results");
     EXPECT_EQ(ran.code, 0) << ran.err;
     err = ran.err;

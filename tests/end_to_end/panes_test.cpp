@@ -29,7 +29,7 @@ std::string study_with(const std::string& glass, const std::string& canvas) {
   return study;
 }
 
-double sum(const std::vector<double>& values) {
+double sum_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
@@ -58,7 +58,7 @@ TEST(Materials, EveryKindBalances) {
       return says_of_glass.find(words) != std::string::npos;
     };
     const bool has_panes = says("1.52") || says("normal_transmittance");
-    EXPECT_EQ(sum(ResultReader(path).doubles("power_transmitted")) > 0, has_panes) << glass;
+    EXPECT_EQ(sum_of(ResultReader(path).doubles("power_transmitted")) > 0, has_panes) << glass;
   }
 }
 
@@ -133,7 +133,7 @@ TEST(Materials, WindowsOfDenverTransmitAsPublished) {
     const auto loads = result.doubles("light_load"), areas = result.doubles("patch_area");
     const double received =
         std::inner_product(loads.begin(), loads.end(), areas.begin(), 0.0) / area_m2;
-    const double transmitted = sum(result.doubles("power_transmitted")) * hours_to_kwh / area_m2;
+    const double transmitted = sum_of(result.doubles("power_transmitted")) * hours_to_kwh / area_m2;
     const Row published = row("annual transmitted unshaded", name);
     std::vector<double> shares;
     for (const char* program_name : {"BSIMAC", "CSE", "DeST", "EnergyPlus", "ESP-r", "TRNSYS"})

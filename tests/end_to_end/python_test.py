@@ -68,6 +68,13 @@ def expect_result(sunload, result):
     assert "did you mean 'light_load'" in raised(ValueError, lambda: result.sunload.mean("light_lode"))
     ax = result.sunload.plot_map()
     assert len(ax.collections[0].get_paths()) == int((result.patch_normal.values[:, 2] > 1e-6).sum())
+    assert result.sunload.plot_map() is not ax
+    assert "has no time" in raised(ValueError, lambda: result.sunload.plot_map(time=result.time.values[0]))
+    bounds = result.time_bounds.values
+    last = result.sunload.plot_map("irradiance", time=bounds[-1][1] - np.timedelta64(1, "s")).collections[0].get_array()
+    seen = np.sort(result.irradiance.values[-1][result.patch_normal.values[:, 2] > 1e-6])
+    assert np.array_equal(np.sort(last), seen), (last, seen)
+    assert "in no interval" in raised(ValueError, lambda: result.sunload.plot_map("irradiance", time=bounds[-1][1]))
 
 
 def main():

@@ -24,7 +24,7 @@ namespace {
 
 /// Eight hours of a day in winter, of one in spring, of one in summer; batches end within days.
 /// In winter snow lies and the awning is rolled up, in spring its cloth is thin.
-const std::string three_days =
+const std::string three_season_days =
     "period: {days: [2026-01-20, 2026-03-21, 2026-06-21], from: \"08:00\", to: \"16:00\", "
     "step_min: 60}\n"
     "solver: {lines_per_patch: 64, realizations: 16, batch_suns: 5}\n"
@@ -42,7 +42,7 @@ std::string study(const std::string& name, const std::string& materials,
          materials +
          "mesh: {oracle: none, max_edge_m: 3}\n"
          "sensors: {points: [{position_m: [-5, -4, 1], normal: [0, 0, 1]}]}\n" +
-         (more.empty() ? three_days : more);
+         (more.empty() ? three_season_days : more);
 }
 
 const std::string usual =

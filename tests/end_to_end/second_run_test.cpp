@@ -13,7 +13,7 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-const std::string selections = "selections:\n  front: {facade: 'house/south*'}\n";
+const std::string front_selection = "selections:\n  front: {facade: 'house/south*'}\n";
 
 /// With what `output` says besides.
 std::string study_that_stores(const std::string& output) {
@@ -22,7 +22,7 @@ std::string study_that_stores(const std::string& output) {
 }
 
 TEST(SecondRun, OfAStudyWithSelectionsKnowsItsResult) {
-  const SquareFolder square(square_study() + selections);
+  const SquareFolder square(square_study() + front_selection);
   ASSERT_EQ(square.run("o").code, 0);
   const Ran again = square.run("o", {"--resume"});
   EXPECT_EQ(again.code, 0) << again.err;
@@ -34,7 +34,7 @@ TEST(SecondRun, OfAStudyWithSelectionsKnowsItsResult) {
 }
 
 TEST(SecondRun, OfAStudyWithOtherSelectionsIsRefused) {
-  const SquareFolder square(square_study() + selections);
+  const SquareFolder square(square_study() + front_selection);
   ASSERT_EQ(square.run("o").code, 0);
   square.write_study(square_study());
   const Ran refused = square.run("o", {"--resume"});
@@ -44,7 +44,7 @@ TEST(SecondRun, OfAStudyWithOtherSelectionsIsRefused) {
 }
 
 TEST(SecondRun, OfShardsWithSelectionsGoesOnAfterTheFirstVariantIsMerged) {
-  const SquareFolder square(square_study("totals", ", year: each") + selections +
+  const SquareFolder square(square_study("totals", ", year: each") + front_selection +
                             "variants:\n  - {name: a}\n  - {name: b, solver: {seed: 2}}\n");
   ASSERT_EQ(square.run("whole").code, 0);
   for (const char* shard : {"0/2", "1/2"}) {

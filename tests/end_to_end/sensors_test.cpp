@@ -26,8 +26,9 @@ const std::string three_sensors =
     "    - {position_m: [-12, -12, 0], normal: [0, 0, 1]}\n"
     "    - {position_m: [0, 6, 3], normal: [0, 0, 2]}\n";
 
-struct Square : SquareFolder {
-  explicit Square(const std::string& more = three_sensors, const std::string& errors = "totals")
+struct SensedSquare : SquareFolder {
+  explicit SensedSquare(const std::string& more = three_sensors,
+                        const std::string& errors = "totals")
       : SquareFolder(square_study(errors) + more) {}
   void write(const std::string& more, const std::string& errors = "totals") const {
     write_study(square_study(errors) + more);
@@ -41,7 +42,7 @@ double sum(const std::vector<double>& values) {
 }
 
 TEST(SensorStudy, ResultHasWhatPatchesHave) {
-  const Square square(three_sensors, "instants");
+  const SensedSquare square(three_sensors, "instants");
   const Ran ran = square.run("a");
   ASSERT_EQ(ran.code, 0) << ran.err;
   const ResultReader result(square.result("a"));
@@ -79,7 +80,7 @@ TEST(SensorStudy, ResultHasWhatPatchesHave) {
 
 // They look along the ground on which they stand; their twins a millimetre above it see the same.
 TEST(SensorStudy, OnTheGroundSeeWhatIsJustAboveItSees) {
-  const Square square(
+  const SensedSquare square(
       "sensors: {points: [{position_m: [-12, -12, 0], normal: [0, -1, 0]}, "
       "{position_m: [-12, -12, 0.001], normal: [0, -1, 0]}, "
       "{position_m: [-12, -12, 0], normal: [0, -1, -0.0001]}]}\n");
@@ -101,7 +102,7 @@ TEST(SensorStudy, OnTheGroundSeeWhatIsJustAboveItSees) {
 }
 
 TEST(SensorStudy, TablesAndGeoPackageHaveThem) {
-  const Square square;
+  const SensedSquare square;
   ASSERT_EQ(square.run("a").code, 0);
   const std::string path = square.result("a");
   const Ran csv = program(square.folder, {"info", path, "--sensor", "0", "--sensor", "1", "--csv"});
@@ -125,7 +126,7 @@ TEST(SensorStudy, TablesAndGeoPackageHaveThem) {
 }
 
 TEST(SensorStudy, ChangesNoPatchAndHasTheSameBitsByShardsThreadsAndFile) {
-  const Square square("");
+  const SensedSquare square("");
   ASSERT_EQ(square.run("without").code, 0);
   square.write(three_sensors);
   ASSERT_EQ(square.run("one", {"--threads", "1"}).code, 0);
@@ -151,7 +152,7 @@ TEST(SensorStudy, ChangesNoPatchAndHasTheSameBitsByShardsThreadsAndFile) {
 }
 
 TEST(SensorStudy, MistakesAreToldWithTheirPlace) {
-  const Square square;
+  const SensedSquare square;
   const auto refused = [&](const std::string& sensors, const std::string& text) {
     square.write(sensors);
     const Ran ran = program(square.folder, {"check", "square.yaml"});

@@ -27,7 +27,7 @@ using namespace std::chrono_literals;
 constexpr const char* result = "results/street/baseline.h5";
 
 /// The result of one process that nobody disturbed.
-const std::string& undisturbed() {
+const std::string& without_shards() {
   static const WorkFolder folder;
   static const std::string path = [] {
     folder.write("street.yaml", street_study());
@@ -40,7 +40,7 @@ const std::string& undisturbed() {
 }
 
 void expect_same_result(const WorkFolder& folder) {
-  EXPECT_EQ(different_data(folder / result, undisturbed()), std::vector<std::string>{});
+  EXPECT_EQ(different_data(folder / result, without_shards()), std::vector<std::string>{});
 }
 
 std::vector<std::string> files(const WorkFolder& folder, const std::string& end) {
@@ -95,6 +95,11 @@ TEST(Shards, APartialResultSaysWhatIsMissing) {
   const auto partial = files(folder, "partial.h5");
   ASSERT_EQ(partial.size(), 1u);
   const std::string file = "results/" + partial.front();
+  const Ran explained = program(folder, {"explain", file});
+  EXPECT_EQ(explained.code, 2);
+  EXPECT_NE(explained.err.find("is incomplete"), std::string::npos) << explained.err;
+  // The brightest hour may be one that lacks.
+  EXPECT_EQ(program(folder, {"info", file}).out.find("nan"), std::string::npos);
   for (const auto& words : {std::vector<std::string>{"info", file},
                             {"export", file, "--to", "csv"},
                             {"compare", file, file}}) {

@@ -30,8 +30,8 @@ std::string day_of(const std::string& name, const std::string& solver,
          solver + "}\noutput: {folder: results, " + output + "}\n";
 }
 
-std::string run(const WorkFolder& folder, const std::string& name, const std::string& study,
-                std::vector<std::string> options = {}) {
+std::string result_of_run(const WorkFolder& folder, const std::string& name,
+                          const std::string& study, std::vector<std::string> options = {}) {
   folder.write("square.obj", square_obj);
   folder.write(name + ".yaml", study);
   options.insert(options.begin(), {"run", name + ".yaml"});
@@ -49,8 +49,9 @@ double total_of(const std::vector<double>& values, const std::vector<double>& ar
 TEST(ShortIntervals, TogetherHaveTheLightOfEach) {
   const WorkFolder folder;
   const ResultReader each(
-      run(folder, "each", day_of("each", ", year: each, short_intervals: each"))),
-      together(run(folder, "together", day_of("together", ", short_intervals: together")));
+      result_of_run(folder, "each", day_of("each", ", year: each, short_intervals: each"))),
+      together(
+          result_of_run(folder, "together", day_of("together", ", short_intervals: together")));
   const auto area = each.doubles("patch_area");
   EXPECT_EQ(each.doubles("time_bounds"), together.doubles("time_bounds"));
   // Sky and reflected light come from the same lines, and from the mean of what they carry.
@@ -90,7 +91,7 @@ TEST(ShortIntervals, TogetherAreServedByFewSolutions) {
     std::string study = day_of(name, ", short_intervals: together, year: " + year);
     study.replace(study.find("end: 2026-06-22, step_min: 5"), 28, "end: 2026-06-28, step_min: 10");
     study.replace(study.find("batch_suns: 4"), 13, "batch_suns: 64");
-    return run(folder, name, study);
+    return result_of_run(folder, name, study);
   };
   const ResultReader each(week("each", "each")), modes(week("modes", "modes"));
   EXPECT_GT(modes.number_attribute("year_suns"), 0);
@@ -113,10 +114,10 @@ TEST(ShortIntervals, TogetherAreServedByFewSolutions) {
 TEST(ShortIntervals, AreTheSameBitsInShardsAndByThreads) {
   const WorkFolder folder;
   const std::string study = day_of("together", ", short_intervals: together");
-  const std::string whole = run(folder, "together", study, {"--threads", "1"});
+  const std::string whole = result_of_run(folder, "together", study, {"--threads", "1"});
   const WorkFolder other;
-  run(other, "together", study, {"--threads", "3", "--shard", "1/2", "--resume"});
-  run(other, "together", study, {"--threads", "2", "--shard", "0/2", "--resume"});
+  result_of_run(other, "together", study, {"--threads", "3", "--shard", "1/2", "--resume"});
+  result_of_run(other, "together", study, {"--threads", "2", "--shard", "0/2", "--resume"});
   EXPECT_EQ(different_data(whole, other / "results/together/baseline.h5"),
             std::vector<std::string>{});
 }
@@ -129,7 +130,7 @@ TEST(ShortIntervals, NoIntervalDependsOnThoseBesideIt) {
     study.replace(study.find("start: 2026-06-21, end: 2026-06-22, step_min: 5"), 47,
                   "days: [2026-06-21, 2026-06-22], from: \"16:00\", to: \"19:05\", step_min: 5");
     study.replace(study.find("batch_suns: 4"), 13, "batch_suns: " + batch);
-    const ResultReader result(run(folder, "t", study));
+    const ResultReader result(result_of_run(folder, "t", study));
     return std::pair(result.doubles("irradiance_max"), result.doubles("light_load_direct"));
   };
   const auto one = values("1"), all = values("16");

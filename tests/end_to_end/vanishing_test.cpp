@@ -50,7 +50,7 @@ Ran run_beside(const SquareFolder& square,
   return process.wait();
 }
 
-std::string undisturbed() {
+std::string without_vanishing() {
   static const SquareFolder square;
   static const int code = square.run("results").code;
   EXPECT_EQ(code, 0);
@@ -60,7 +60,8 @@ std::string undisturbed() {
 void expect_result(const SquareFolder& square, const Ran& ran) {
   ASSERT_EQ(ran.code, 0) << ran.err;
   ASSERT_TRUE(fs::exists(square.result("results"))) << ran.err;
-  EXPECT_EQ(different_data(square.result("results"), undisturbed()), std::vector<std::string>{});
+  EXPECT_EQ(different_data(square.result("results"), without_vanishing()),
+            std::vector<std::string>{});
 }
 
 bool is_removed(const fs::path& path) {

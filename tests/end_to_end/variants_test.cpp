@@ -34,7 +34,7 @@ const Names variants{"first", "second", "third"};
 constexpr std::ptrdiff_t batches_of_a_variant = 6;
 const Names only_results{"square/", "square/first.h5", "square/second.h5", "square/third.h5"};
 
-std::string study(const std::string& plaster = "0.6") {
+std::string variants_study(const std::string& plaster = "0.6") {
   return std::regex_replace(square_study(), std::regex("plaster: \\{diffuse: 0.6\\}"),
                             "plaster: {diffuse: " + plaster + "}") +
          "variants:\n"
@@ -110,10 +110,10 @@ TEST(Examples, OfVariantsRun) {
 /// Written and read back: types, CRS, closed bodies, and what the steps did.
 TEST(Scene, WritesTheEditedModelOfAStudy) {
   const WorkFolder folder;
-  const std::string study = source_folder() + "/configs/storeys.yaml";
+  const std::string variants_study = source_folder() + "/configs/storeys.yaml";
   const auto written = [&](const std::string& variant) {
     const std::string name = variant + ".city.json";
-    const Ran ran = program(folder, {"scene", study, "--variant", variant, "-o", name});
+    const Ran ran = program(folder, {"scene", variants_study, "--variant", variant, "-o", name});
     EXPECT_EQ(ran.code, 0) << ran.err;
     return read_scene_file(folder / name, {});
   };
@@ -131,8 +131,10 @@ TEST(Scene, WritesTheEditedModelOfAStudy) {
   ASSERT_NE(lime, low.object_names.end());
   EXPECT_EQ(low.object_kinds[static_cast<std::size_t>(lime - low.object_names.begin())],
             "SolitaryVegetationObject");
-  EXPECT_EQ(program(folder, {"scene", study, "--variant", "storeys-9", "-o", "x.city.json"}).code,
-            2);
+  EXPECT_EQ(
+      program(folder, {"scene", variants_study, "--variant", "storeys-9", "-o", "x.city.json"})
+          .code,
+      2);
   EXPECT_EQ(program(folder, {"scene", "street", "--variant", "a", "-o", "x.obj"}).code, 2);
 }
 
@@ -140,7 +142,7 @@ struct Three {
   WorkFolder folder;
   Three() {
     folder.write("square.obj", square_obj);
-    folder.write("square.yaml", study());
+    folder.write("square.yaml", variants_study());
   }
   Ran run(const Names& options = {}) const {
     Names words{"run", "square.yaml"};
@@ -177,7 +179,7 @@ struct Three {
 };
 
 /// The results of a run that nobody disturbed.
-const Three& undisturbed() {
+const Three& undisturbed_variants() {
   static const Three three;
   static const Ran ran = three.run();
   EXPECT_EQ(ran.code, 0) << ran.err;
@@ -186,7 +188,8 @@ const Three& undisturbed() {
 
 void expect_same_results(const Three& three) {
   for (const auto& variant : variants)
-    EXPECT_EQ(different_data(three.result(variant), undisturbed().result(variant)), Names{})
+    EXPECT_EQ(different_data(three.result(variant), undisturbed_variants().result(variant)),
+              Names{})
         << variant;
   EXPECT_EQ(three.folder.content("results"), only_results);
 }
@@ -224,9 +227,9 @@ TEST(Variants, ResultsAfterAllBatchesAreNotEarly) {
 
 TEST(Variants, OverwritingComesAgainWithoutComputingTwice) {
   const Three three;
-  three.folder.write("square.yaml", study("0.5"));
+  three.folder.write("square.yaml", variants_study("0.5"));
   ASSERT_EQ(three.run().code, 0);
-  three.folder.write("square.yaml", study());
+  three.folder.write("square.yaml", variants_study());
   const auto before = fs::last_write_time(three.result("first"));
   const Ran killed = three.killed_when(
       {"--overwrite"}, [&] { return fs::last_write_time(three.result("first")) != before; });

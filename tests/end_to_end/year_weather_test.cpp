@@ -33,7 +33,7 @@ std::string cloudy_csv() {
   return text;
 }
 
-std::string study(const char* year) {
+std::string year_study(const char* year) {
   return std::string(
              "format: sunload-study-1\n"
              "name: court\n"
@@ -88,7 +88,7 @@ TEST(YearOfWeather, HoursOfFacadesAndPartsOfTheLightAreThoseOfEachInterval) {
   const WorkFolder folder;
   folder.write("cloudy.csv", cloudy_csv());
   for (const char* year : {"modes", "each"}) {
-    folder.write("court.yaml", study(year));
+    folder.write("court.yaml", year_study(year));
     const Ran ran = program(folder, {"run", "court.yaml", "--output", year});
     ASSERT_EQ(ran.code, 0) << ran.err;
   }

@@ -33,7 +33,7 @@ struct Body {
   double slack_m2 = 0;
   bool has_kinds = false;  ///< the file says what wall and roof are
 };
-using Bodies = std::map<std::string, Body>;
+using CityBodies = std::map<std::string, Body>;
 
 Point minus(Point a, Point b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Point times(Point a, Point b) {
@@ -61,7 +61,7 @@ class Document {
   }
 
   /// The solids of an object in its finest level of detail that are closed in the file.
-  void add_bodies(Bodies& bodies) const {
+  void add_bodies(CityBodies& bodies) const {
     for (const auto& [id, object] : text_.at("CityObjects").items()) {
       const auto geometries = object.value("geometry", json::array());
       const auto level = [](const json& g) {
@@ -178,8 +178,8 @@ std::string text_of(const std::filesystem::path& path) {
   return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
 }
 
-Bodies bodies_of_file(const std::filesystem::path& path) {
-  Bodies bodies;
+CityBodies bodies_of_file(const std::filesystem::path& path) {
+  CityBodies bodies;
   if (path.extension() != ".jsonl") {
     const auto document = json::parse(text_of(path));
     Document(document, document).add_bodies(bodies);
@@ -196,8 +196,8 @@ Bodies bodies_of_file(const std::filesystem::path& path) {
 }
 
 /// The same of the prepared mesh.
-Bodies bodies_of_mesh(const Mesh& mesh) {
-  Bodies bodies;
+CityBodies bodies_of_mesh(const Mesh& mesh) {
+  CityBodies bodies;
   std::map<std::int32_t, Vec3> about;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const auto object = mesh.triangle_object[t];
@@ -239,7 +239,7 @@ struct Comparison {
   }
 };
 
-Comparison compared(const Bodies& raw, const Mesh& mesh) {
+Comparison compared(const CityBodies& raw, const Mesh& mesh) {
   const auto prepared = bodies_of_mesh(mesh);
   Comparison comparison;
   for (const auto& [name, body] : raw) {

@@ -18,7 +18,7 @@ namespace {
 
 /// The ledger of shooting closes to this share of what comes in (docs/developer/design.md, Result
 /// and ledger).
-constexpr double closes = 1e-6;
+constexpr double glass_closes = 1e-6;
 
 constexpr double T0 = 0.85, diffuse = 0.02, mirror = 0.1;
 
@@ -28,7 +28,7 @@ Material clear_glass(double mirrored = mirror) {
   return m;
 }
 
-SolverRules rules_of(Transport transport) {
+SolverRules glass_rules(Transport transport) {
   SolverRules rules = test_rules();
   rules.transport = transport;
   return rules;
@@ -54,7 +54,7 @@ TEST(ClearGlass, DividesTheSunAtItsAngle) {
       for (const double zenith : {0.0, 30.0, 50.0, 80.0}) {
         const Vec3 sun = sun_at(zenith);
         const auto solved =
-            solve(plate(clear_glass(rho_s)), {one_second(sun, 800)}, rules_of(transport));
+            solve(plate(clear_glass(rho_s)), {one_second(sun, 800)}, glass_rules(transport));
         const double power = 4 * 800 * sun.z, T = clear_glass_transmittance(T0, sun.z);
         const Ledger& ledger = solved.tally.ledger[0];
         EXPECT_NEAR(ledger[Term::transmitted], T * power, float_rounding * power) << zenith;
@@ -72,7 +72,7 @@ TEST(ClearGlass, TransmitsTheSkyAtEveryAngle) {
   for (const auto transport : both) {
     const auto solved =
         solve(plate(clear_glass()), {with_uniform_sky(one_second({0, 0, -1}, 0), 100)},
-              rules_of(transport));
+              glass_rules(transport));
     const auto transmitted = solved.ledger([](const Ledger& l) { return l[Term::transmitted]; });
     const Verdict verdict = expect_mean(transmitted, truth);
     EXPECT_TRUE(verdict) << verdict.text;
@@ -110,10 +110,10 @@ TEST(ClearGlass, ReflectsWhatItIsGiven) {
     // Images of the sun: every point of the ground near the facade sees one. All of it is shot
     // onto a ground that is large enough.
     const auto gathered =
-        solve(facade(rho_s, 0.2, 1), {one_second(sun, 700)}, rules_of(Transport::gather));
+        solve(facade(rho_s, 0.2, 1), {one_second(sun, 700)}, glass_rules(Transport::gather));
     EXPECT_NEAR(mirrored_w(gathered), 700 * sun.z * rho_s * 2 * 0.8, 700 * float_rounding);
     const auto shot =
-        solve(facade(rho_s, 0, 3), {one_second(sun, 700)}, rules_of(Transport::shoot));
+        solve(facade(rho_s, 0, 3), {one_second(sun, 700)}, glass_rules(Transport::shoot));
     EXPECT_NEAR(mirrored_w(shot), 700 * sun.x * rho_s * 4, 700 * 4 * float_rounding);
   }
 }
@@ -134,7 +134,7 @@ Scene turned() {
 
 TEST(ClearGlass, DividesMirroredSunAtItsAngle) {
   for (const auto transport : both) {
-    SolverRules rules = rules_of(transport);
+    SolverRules rules = glass_rules(transport);
     rules.bounces = 0;
     const auto solved = solve(turned(), {one_second({0, 0, 1}, 900)}, rules);
     const double sent = 900 * 4 * 0.7, T = clear_glass_transmittance(T0, std::cos(radians(30)));
@@ -154,7 +154,7 @@ TEST(ClearGlass, DividesParallelLightAtItsAngle) {
   Scene scene = plate(clear_glass());
   // Along (0.6, 0, -0.8), wider than the plate.
   add_parallel_source(scene, {-6, -2, 2}, {0, 6, 0}, {9.6, 0, 7.2}, 50);
-  const auto solved = solve(scene, {night}, rules_of(Transport::gather));
+  const auto solved = solve(scene, {night}, glass_rules(Transport::gather));
   const double power = 50 * 0.8 * 4, T = clear_glass_transmittance(T0, 0.8);
   for (const auto& ledger : solved.tally.ledger) {
     EXPECT_NEAR(ledger[Term::emitted], power, float_rounding * power);
@@ -187,7 +187,7 @@ const SplitRules court_mesh{.max_edge_m = 4};
 TEST(ClearGlass, LedgerOfACourtCloses) {
   for (const auto transport : both)
     for (const int depth : {0, 4}) {
-      SolverRules rules = rules_of(transport);
+      SolverRules rules = glass_rules(transport);
       rules.bounces = 20;
       rules.mirror_depth = depth;
       const auto solved = solve(court_of_clear_glass(), three_suns(), rules, court_mesh);
@@ -204,7 +204,7 @@ TEST(ClearGlass, LedgerOfACourtCloses) {
                                  0, float_rounding * in));
       if (transport == Transport::gather) continue;
       for (const auto& ledger : solved.tally.ledger)
-        EXPECT_LE(std::abs(ledger.residual()), closes * ledger.in()) << depth;
+        EXPECT_LE(std::abs(ledger.residual()), glass_closes * ledger.in()) << depth;
     }
 }
 
@@ -212,7 +212,7 @@ TEST(ClearGlass, LedgerOfACourtCloses) {
 TEST(ClearGlass, TransportsAgreeOnWhatPasses) {
   std::vector<double> of[2];
   for (const auto transport : both) {
-    SolverRules rules = rules_of(transport);
+    SolverRules rules = glass_rules(transport);
     rules.bounces = 20;
     rules.seed = transport == Transport::shoot ? 2 : 1;
     of[transport == Transport::shoot] =

@@ -67,7 +67,7 @@ TEST(Street, PanesReflectWhatMirrorsSendAtItsAngle) {
 }
 
 /// The built-in street with its glass house, and all windows of the other houses of glass as well.
-Scene glazed_street() {
+Scene shot_street() {
   Scene scene;
   scene.mesh = prepare(builtin_scene({"street", {{"house_3", "glazed"}}}), {}).mesh;
   for (const auto& m : scene.mesh.file_materials) {
@@ -79,7 +79,7 @@ Scene glazed_street() {
 }
 
 TEST(Street, OfGlassOnBothSidesKeepsItsEnergy) {
-  const Scene scene = glazed_street();
+  const Scene scene = shot_street();
   const Vec3 sun = normalized({0.25, -0.8, 0.35});
   auto rules = glint_rules(By::images, 8);
   rules.direct_samples = 32 * 2;

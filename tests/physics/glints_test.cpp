@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* mirrors = "05_radiosity/mirrors.json";
+constexpr const char* mirror_cases = "05_radiosity/mirrors.json";
 
 // Two perpendicular mirrors on a floor: near the corner every point sees the sun in
 // each of them and once in both (the double image is one, not two).
@@ -64,7 +64,7 @@ TEST(Periscope, BringsItsBeamToTheScreen) {
   builder.quad({2, -1, -4}, {6, -1, -4}, {6, 2, -4}, {2, 2, -4}, black);
   builder.quad({0, 0, 0}, {1, 0, -1}, {1, 1, -1}, {0, 1, 0}, first);
   builder.quad({3, -1, 1}, {3, 2, 1}, {5, 2, -1}, {5, -1, -1}, second);
-  const double H = number(reference_cases(mirrors, "periscope").front()["H"]);
+  const double H = number(reference_cases(mirror_cases, "periscope").front()["H"]);
   const Vec3 above{0, 0, 1};
   constexpr double edge = 0.2;
   for (const By by : {By::images, By::shooting}) {
@@ -112,7 +112,7 @@ TEST(Periscope, BringsItsBeamToTheScreen) {
 // Light that enters through a hole above three perpendicular mirrors comes back
 // antiparallel, to the point symmetric about the corner.
 TEST(CornerCube, SendsBackAntiparallel) {
-  const double factor = number(reference_cases(mirrors, "corner_cube").front()["factor"]);
+  const double factor = number(reference_cases(mirror_cases, "corner_cube").front()["factor"]);
   constexpr double rho = 0.95, size = 4, half_hole = 0.2, half_screen = 4;
   SceneBuilder builder;
   const int black = builder.material({"black", 0, 0, 0}),
@@ -170,7 +170,7 @@ TEST(CornerCube, SendsBackAntiparallel) {
 
 // Two facing mirrors above a floor, open at the top.
 TEST(LightPipe, TransmitsWhatItsReflectionsLeave) {
-  for (const auto& c : reference_cases(mirrors, "light_pipe"))
+  for (const auto& c : reference_cases(mirror_cases, "light_pipe"))
     for (const By by : {By::images, By::shooting}) {
       const double gap = number(c["gap"]), length = number(c["length"]), rho = number(c["rm"]);
       const double t = number(c["angle_deg"]) * radians_per_degree;

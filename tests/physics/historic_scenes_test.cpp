@@ -159,14 +159,14 @@ TEST(HistoricScenes, BadParametersAreWarnedAboutWithTheErrorToExpect) {
 }
 
 /// Where mirrored light falls on an object in interval k: power and centre.
-struct Glint {
+struct HistoricGlint {
   double power = 0;
   Vec3 centre;
 };
-Glint glint(const SolvedPlan& s, const std::string& object, std::size_t k) {
+HistoricGlint glint(const SolvedPlan& s, const std::string& object, std::size_t k) {
   const auto& mirror = s.tally.irradiance[static_cast<std::size_t>(Part::mirror)];
   const auto& sky = s.tally.irradiance[static_cast<std::size_t>(Part::sky)];
-  Glint g;
+  HistoricGlint g;
   for (std::size_t i = 0; i < s.mesh().patch_count(); ++i) {
     const std::size_t at = k * s.mesh().patch_count() + i;
     // The sky by way of mirrors is everywhere: a glint outshines the sky.
@@ -199,9 +199,9 @@ TEST(HistoricScenes, TheGlintOfTheMirrorTowerMovesWithTheSun) {
   for (std::size_t i = 0; i < s.mesh().patch_count(); ++i)
     if (s.mesh().normal(i).z > 0.99 && s.mesh().centroid(i).z < 1) objects.insert(s.object(i));
   for (std::size_t k = 0; k < s.tally.intervals; ++k) {
-    Glint all;
+    HistoricGlint all;
     for (const auto& object : objects) {
-      const Glint g = glint(s, object, k);
+      const HistoricGlint g = glint(s, object, k);
       all.centre = all.centre + g.centre * g.power;
       all.power += g.power;
     }

@@ -50,12 +50,12 @@ double brute_force(const Scene& scene, const RayCaster& caster, Vec3 x, Vec3 n, 
 }
 
 /// Irradiance at a point of a mesh of constant patches [W m-2].
-struct Seen {
+struct SceneSeen {
   double value = -1, error = 0, area_m2 = 0;
 };
 
 /// What a mesh says at (x, y) of the horizontal plane `object`.
-Seen seen_at(const SolvedPlan& s, const std::string& object, double x, double y) {
+SceneSeen seen_at(const SolvedPlan& s, const std::string& object, double x, double y) {
   for (std::size_t i = 0; i < s.mesh().patch_count(); ++i) {
     if (s.object(i) != object || s.mesh().normal(i).z < 0.5) continue;
     const Vec3 a = s.mesh().corner(i, 0), b = s.mesh().corner(i, 1), c = s.mesh().corner(i, 2);
@@ -102,7 +102,7 @@ double worst_error(const SolvedPlan& s, const std::vector<Vec3>& points, int sid
   for (const auto& p : points) {
     const double truth = brute_force(scene, caster, p, {0, 0, 1}, side);
     largest = std::max(largest, truth);
-    const Seen seen = seen_at(s, "plane", p.x, p.y);
+    const SceneSeen seen = seen_at(s, "plane", p.x, p.y);
     // Constant light on leaves is a model error of its own: what lies about the point counts.
     worst = std::max(worst, std::abs(seen.value - truth) - 4 * seen.error);
   }
@@ -154,7 +154,7 @@ TEST(LightScenes, LargeExtentHasACleanShadowBorder) {
   for (double x = 0; x < 10 - 2 * leaf; x += 1.1)
     for (double y = 0; y < 10 - 2 * leaf; y += 1.1) {
       const double limit = most_by_small(x, y);
-      const Seen fine = seen_at(s, "plane", x + 0.01, y + 0.013);
+      const SceneSeen fine = seen_at(s, "plane", x + 0.01, y + 0.013);
       worst_leak = std::max(worst_leak, fine.value - 4 * fine.error - limit);
       historic_leak =
           std::max(historic_leak, seen_at(coarse, "plane", x + 0.01, y + 0.013).value - limit);

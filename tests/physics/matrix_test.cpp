@@ -20,11 +20,6 @@ namespace {
 
 using Facing = SceneBuilder::Facing;
 
-/// What a test may do to reflectances on purpose.
-using Change = double (*)(double);
-double as_it_is(double rho) { return rho; }
-double squared(double rho) { return rho * rho; }
-
 constexpr int bounces = 4;
 
 struct Small {
@@ -68,7 +63,7 @@ Scene box_on_ground(Change change) {
   return builder.scene();
 }
 
-Scene court(Change change) {
+Scene changed_court(Change change) {
   SceneBuilder builder;
   add_ground(builder, change, 3);
   const int wall = builder.material({"wall", change(0.65), 0, 0});
@@ -97,16 +92,6 @@ Scene glowing_room(Change change) {
   return builder.scene();
 }
 
-Scene lamp_room(Change change) {
-  SceneBuilder builder;
-  const int wall = builder.material({"wall", change(0.6), 0, 0});
-  builder.object("room").box({0, 0, 0}, {4, 3, 2.5}, wall, Facing::inward);
-  builder.object("lamp").quad({1, 1, 2.4}, {1, 2, 2.4}, {2, 2, 2.4}, {2, 1, 2.4},
-                              builder.material({"lamp", change(0.4), 0, 50}));
-  builder.sides(Sides::two).object("screen").quad({3, 0, 0}, {3, 3, 0}, {3, 3, 2}, {3, 0, 2}, wall);
-  return builder.scene();
-}
-
 Scene wedge(Change change) {
   SceneBuilder builder;
   const int grey = builder.material({"grey", change(0.6), 0, 0});
@@ -117,16 +102,10 @@ Scene wedge(Change change) {
 
 /// Under a parallel source, with a sensor.
 Scene beamed_court(Change change) {
-  Scene scene = court(change);
+  Scene scene = changed_court(change);
   add_parallel_source(scene, {-4, -7, 9}, {0, 6, -4}, {11, 0, 0}, 400);
   scene.sensors = {sensor_at({0, 0, 1.5}, {0, 1, 0}), sensor_at({-1, 1, 0}, {0, 0, 1})};
   return scene;
-}
-
-std::vector<IntervalLight> numbered_suns() {
-  auto light = three_suns();
-  for (std::size_t k = 0; k < light.size(); ++k) light[k].number = static_cast<std::uint32_t>(k);
-  return light;
 }
 
 std::vector<Small> ten_scenes(Change change) {
@@ -135,7 +114,7 @@ std::vector<Small> ten_scenes(Change change) {
           {"canyon", canyon(change, 3, 4), suns},
           {"narrow canyon", canyon(change, 1, 5), suns},
           {"box on ground", box_on_ground(change), suns, 2},
-          {"court", court(change), suns, 2},
+          {"court", changed_court(change), suns, 2},
           {"table", table(change), suns},
           {"glowing room", glowing_room(change), {night}, 1},
           {"lamp room", lamp_room(change), {night}, 1.5},
@@ -153,7 +132,7 @@ Solved solved_by(Transport transport, const Small& small) {
 }
 
 /// One quantity by two transports.
-struct Comparison {
+struct MatrixComparison {
   std::string what;
   SampleMean a, b;
   double bias = 0;  ///< bound of that by lines that are used again
@@ -217,7 +196,7 @@ std::vector<Quantity> quantities(const Scene& scene, const Solved& solved) {
 /// Of everything by every pair of transports, and by gathering and a matrix of a scene with a
 /// planted fault.
 struct Families {
-  std::vector<Comparison> sound, faulty;
+  std::vector<MatrixComparison> sound, faulty;
 };
 
 Families families(Change fault) {
@@ -230,9 +209,9 @@ Families families(Change fault) {
     const auto matrix = quantities(scene, solved_by(Transport::matrix, scenes[s]));
     const auto faulty = quantities(scene, solved_by(Transport::matrix, others[s]));
     const auto of = [&](const Quantity& a, const Quantity& b, const char* pair) {
-      return Comparison{scenes[s].name + ", " + a.name + ", " + pair, sample_mean(a.realizations),
-                        sample_mean(b.realizations),
-                        a.reuse() + b.reuse() + float_rounding * a.series};
+      return MatrixComparison{scenes[s].name + ", " + a.name + ", " + pair,
+                              sample_mean(a.realizations), sample_mean(b.realizations),
+                              a.reuse() + b.reuse() + float_rounding * a.series};
     };
     for (std::size_t q = 0; q < gathered.size(); ++q) {
       all.sound.push_back(of(gathered[q], shot[q], "gather and shoot"));
@@ -245,7 +224,7 @@ Families families(Change fault) {
 }
 
 /// Level of the whole family (Bonferroni).
-double family_t(const std::vector<Comparison>& family) {
+double family_t(const std::vector<MatrixComparison>& family) {
   constexpr double level = 0.01, degrees_of_freedom = 15;  // 16 realizations of either
   return student_t_quantile(1 - level / (2 * static_cast<double>(family.size())),
                             degrees_of_freedom);
@@ -254,10 +233,10 @@ double family_t(const std::vector<Comparison>& family) {
 TEST(Matrix, AgreesWithGatheringAndShootingOnTenScenes) {
   const Families both = families(squared);
   const double t = family_t(both.sound);
-  for (const Comparison& c : both.sound)
+  for (const MatrixComparison& c : both.sound)
     EXPECT_LE(std::abs(c.difference()), c.limit(t)) << c.what << ": " << c.a.mean;
   std::map<std::string, int> noticed;
-  for (const Comparison& c : both.faulty) {
+  for (const MatrixComparison& c : both.faulty) {
     int& of_scene = noticed[c.what.substr(0, c.what.find(','))];
     of_scene += std::abs(c.difference()) > c.limit(t);
   }
@@ -267,7 +246,7 @@ TEST(Matrix, AgreesWithGatheringAndShootingOnTenScenes) {
 }
 
 TEST(Matrix, FollowsAllReflectionsAtOnceAsManyBouncesDo) {
-  const Small small{"court", court(as_it_is), numbered_suns(), 2};
+  const Small small{"court", changed_court(as_it_is), numbered_suns(), 2};
   SolverRules rules = test_rules();
   rules.transport = Transport::matrix;
   rules.bounces = 60;

@@ -25,7 +25,7 @@ Material pane(double index = 1.52, int count = 1, double absorption_per_m = 0) {
 
 constexpr Metal sheet_metal{.refractive_index = 1.44, .extinction_coefficient = 5.23};
 
-Vec3 sun_at(double zenith_deg) {
+Vec3 sun_at_zenith(double zenith_deg) {
   const double zenith = zenith_deg * radians_per_degree;
   return {std::sin(zenith), 0, std::cos(zenith)};
 }
@@ -41,7 +41,7 @@ TEST(Pane, TransmitsTheSunAtItsAngle) {
   for (const double zenith : {0.0, 40.0, 75.0}) {
     Material glass = pane(1.526, 2, 12);
     glass.diffuse = 0.1;
-    const auto solved = alone(glass, one_second(sun_at(zenith), 800));
+    const auto solved = alone(glass, one_second(sun_at_zenith(zenith), 800));
     const double power = 4 * 800 * std::cos(zenith * radians_per_degree);
     const PaneShares shares =
         pane_shares({1.526, 12 * 0.004, 2}, std::cos(zenith * radians_per_degree));
@@ -80,7 +80,7 @@ TEST(Pane, ReflectsTheSunToTheGround) {
       const int black = builder.material({"black"}), mirror = builder.material(glass);
       builder.object("ground").quad({0.2, -1, 0}, {1, -1, 0}, {1, 1, 0}, {0.2, 1, 0}, black);
       builder.object("facade").quad({0, -50, 0}, {0, 50, 0}, {0, 50, 90}, {0, -50, 90}, mirror);
-      const Vec3 sun = sun_at(zenith);
+      const Vec3 sun = sun_at_zenith(zenith);
       const auto solved = solve(builder.scene(), {one_second(sun, 700)}, test_rules());
       const double R =
           metal ? metal_reflectance(1.44, 5.23, sun.x) : pane_shares({1.52, 0, 1}, sun.x).reflected;

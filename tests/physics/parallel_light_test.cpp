@@ -52,6 +52,23 @@ TEST(ParallelLight, OnATiltedPlateIsExact) {
               float_rounding * exitance);
 }
 
+// Both triangles of a source have the edge between them.
+TEST(ParallelLight, OnTheSeamOfItsTrianglesIsThatOfOne) {
+  SceneBuilder builder;
+  const int black = builder.material({"black", 0, 0, 0});
+  builder.object("ground").quad({-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, black);
+  Scene scene = builder.scene();
+  add_lamp_above(scene);
+  for (const double d : {-1.5, -0.3, 0.0, 0.7, 1.1}) {
+    scene.sensors.push_back(sensor_at({d, d, 0}, {0, 0.6, 0.8}));
+    scene.sensors.push_back(sensor_at({d, -d, 0}, {0, 0.6, 0.8}));
+  }
+  const auto solved = solve(scene, {night}, lamp_rules(0), {});
+  for (std::size_t s = 0; s < scene.sensors.size(); ++s)
+    EXPECT_NEAR(solved.tally.sensors.exposure[lamps][s], exitance * 0.8, float_rounding * exitance)
+        << s;
+}
+
 TEST(ParallelLight, CastsTheShadowOfABox) {
   SceneBuilder builder;
   const int grey = builder.material({"grey", 0.4, 0, 0});

@@ -18,7 +18,7 @@ namespace {
 using Facing = SceneBuilder::Facing;
 using nlohmann::json;
 
-constexpr const char* exact_systems = "05_radiosity/exact_systems.json";
+constexpr const char* systems_file = "05_radiosity/exact_systems.json";
 
 /// Both transports must have the same truth.
 class Radiosity : public testing::TestWithParam<Transport> {
@@ -35,7 +35,7 @@ INSTANTIATE_TEST_SUITE_P(By, Radiosity, testing::Values(Transport::gather, Trans
                            return by.param == Transport::gather ? "gathering" : "shooting";
                          });
 
-constexpr TruthCheck check{.fault_factor = 1.02, .standard_error = 0.005};
+constexpr TruthCheck radiosity_check{.fault_factor = 1.02, .standard_error = 0.005};
 
 // One unknown per triangle with exact form factors: B = E + rho H.
 TEST_P(Radiosity, RoomOfTwelveTrianglesHasTheExactRadiosity) {
@@ -77,22 +77,22 @@ Scene cavity(double rho, double M) {
 }
 
 TEST_P(Radiosity, ClosedCavityUniformWallsAndTruncatedBounces) {
-  for (const auto& c : reference_cases(exact_systems, "uniform_closed_")) {
+  for (const auto& c : reference_cases(systems_file, "uniform_closed_")) {
     const double rho = number(c["rho"]), M = number(c["E"]);
     constexpr double negligible = 1e-6;
     const int bounces = static_cast<int>(std::log(negligible) / std::log(rho));
     const auto solved = solve(cavity(rho, M), {night}, rules_of(64, bounces));
     // Every realization sums to exactly one per row: no spread, and rounding of each bounce.
     const double left = std::pow(rho, bounces + 1) / (1 - rho);
-    check(c["id"], solved.means(everywhere), number(c["H"]), left * M);
+    radiosity_check(c["id"], solved.means(everywhere), number(c["H"]), left * M);
   }
-  for (const auto& c : reference_cases(exact_systems, "bounce_truncation_")) {
+  for (const auto& c : reference_cases(systems_file, "bounce_truncation_")) {
     const double rho = number(c["rho"]);
     // B of k reflections is M + rho · H of k - 1.
     const auto solved = solve(cavity(rho, 1), {night}, rules_of(64, c["k"].get<int>() - 1));
     auto B = solved.means(everywhere);
     for (auto& b : B) b = 1 + rho * b;
-    check(c["id"], B, number(c["B"]), 0);
+    radiosity_check(c["id"], B, number(c["B"]), 0);
   }
 }
 
@@ -114,7 +114,7 @@ Scene plates(const json& rho, const json& M) {
 
 // B1 = M1 + rho1 B2, B2 = M2 + rho2 B1. Mirrors are taken as perfect and as many.
 TEST_P(Radiosity, InfinitePlatesBetweenMirrors) {
-  for (const auto& c : reference_cases(exact_systems, "infinite_parallel_plates_")) {
+  for (const auto& c : reference_cases(systems_file, "infinite_parallel_plates_")) {
     const Scene scene = plates(c["rho"], c["E"]);
     constexpr int bounces = 200;
     const auto solved = solve(scene, {night}, rules_of(256, bounces));
@@ -122,7 +122,7 @@ TEST_P(Radiosity, InfinitePlatesBetweenMirrors) {
       const auto side = static_cast<std::size_t>(plate);
       auto B = solved.means([&](std::size_t i) { return solved.patches[i].triangle / 2 == plate; });
       for (auto& b : B) b = number(c["E"][side]) + number(c["rho"][side]) * b;
-      check(c["id"], B, number(c["B"][side]), 0);
+      radiosity_check(c["id"], B, number(c["B"][side]), 0);
     }
   }
 }
@@ -131,7 +131,7 @@ TEST_P(Radiosity, InfinitePlatesBetweenMirrors) {
 // as uniform in the reference, hence by the solver only where one patch is one rectangle.
 // Two triangles per rectangle differ from that by what halving the mesh changes.
 TEST_P(Radiosity, OpenRectanglesSeeEachOther) {
-  for (const auto& c : reference_cases(exact_systems, "two_open_rectangles_")) {
+  for (const auto& c : reference_cases(systems_file, "two_open_rectangles_")) {
     const double x = number(c["size"][0]), y = number(c["size"][1]), d = number(c["distance"]);
     const auto solved_with = [&](double max_edge) {
       SceneBuilder builder;
@@ -151,14 +151,14 @@ TEST_P(Radiosity, OpenRectanglesSeeEachOther) {
       };
       const auto B = B_of(solved);
       const double bias = std::abs(mean_error(B).mean - mean_error(B_of(halved)).mean);
-      check(c["id"], B, number(c["B"][side]), bias, 1.05);
+      radiosity_check(c["id"], B, number(c["B"][side]), bias, 1.05);
     }
   }
 }
 
 // Radiance L from everywhere, every surface sending (1 - rho) pi L of its own: B = pi L.
 TEST_P(Radiosity, FurnaceOfAnOpenScene) {
-  for (const auto& c : reference_cases(exact_systems, "furnace_open_")) {
+  for (const auto& c : reference_cases(systems_file, "furnace_open_")) {
     const double rho = number(c["rho"]), glow = pi * number(c["L"]);
     SceneBuilder builder;
     const int m = builder.material({"m", rho, 0, (1 - rho) * glow});
@@ -171,8 +171,8 @@ TEST_P(Radiosity, FurnaceOfAnOpenScene) {
     const auto solved = solve(builder.scene(), {light}, rules, {.max_edge_m = 1});
     double area = 0;
     for (const double a : solved.area) area += a;
-    check(c["id"], solved.means(everywhere), number(c["B"]),
-          std::abs(solved.tally.ledger[0][Term::unshot]) / area);
+    radiosity_check(c["id"], solved.means(everywhere), number(c["B"]),
+                    std::abs(solved.tally.ledger[0][Term::unshot]) / area);
   }
 }
 
@@ -217,7 +217,7 @@ TEST_P(Radiosity, StreetCanyonWithSunAndSky) {
       const auto values = of(fine);
       const double bias = std::abs(mean_error(of(coarse)).mean - mean_error(values).mean);
       const std::string id = c["id"].get<std::string>() + " " + name;
-      check(id, values, number(c["converged_mean_irradiance"][name]), bias, 1.05);
+      radiosity_check(id, values, number(c["converged_mean_irradiance"][name]), bias, 1.05);
     };
     check_surface("floor", 0);
     check_surface("sunlit_wall", 1);
@@ -227,8 +227,8 @@ TEST_P(Radiosity, StreetCanyonWithSunAndSky) {
     const auto before = coarse.ledger([](const Ledger& l) { return l[Term::escaped] / l.in(); });
     const double bias = std::abs(mean_error(escaping).mean - mean_error(before).mean);
     if (number(c["DNI"]) > 0 && number(c["sky_radiance"]) == 0)
-      check(c["id"].get<std::string>() + " escaping", escaping, number(c["escaping_fraction"]),
-            bias, 1.05);
+      radiosity_check(c["id"].get<std::string>() + " escaping", escaping,
+                      number(c["escaping_fraction"]), bias, 1.05);
   }
 }
 

@@ -27,7 +27,7 @@ using nlohmann::json;
 
 constexpr const char* closed_forms = "04_form_factors/closed_forms.json";
 
-constexpr TruthCheck check{.fault_factor = 1.02, .standard_error = 0.002};
+constexpr TruthCheck factor_check{.fault_factor = 1.02, .standard_error = 0.002};
 
 /// Irradiance per realization at the origin, looking up.
 std::vector<double> at_origin(const Scene& scene, int lines) {
@@ -79,8 +79,9 @@ TEST(Disks, SeeEachOther) {
     const double bias = std::abs(coaxial_disks(r1 * within_polygon, r2, h) - F) +
                         std::abs(coaxial_disks(r1, r2 * within_polygon, h) - F) +
                         lift(std::max(r1, r2)) / h;
-    check(c["id"], received(stage.builder.scene(), 192, [](std::size_t t) { return t < corners; }),
-          F, bias);
+    factor_check(c["id"],
+                 received(stage.builder.scene(), 192, [](std::size_t t) { return t < corners; }), F,
+                 bias);
   }
 }
 
@@ -98,7 +99,7 @@ TEST(Disks, AreSeenFromAPoint) {
     const double ring = pi * r * r * (1 - within_polygon * within_polygon);
     const double nearest = std::max(offset - r, 0.0), s2 = nearest * nearest + h * h;
     const double bias = ring * h * h / (pi * s2 * s2) + lift(offset + r) / h;
-    check(c["id"], at_origin(stage.builder.scene(), 1 << 12), F, bias);
+    factor_check(c["id"], at_origin(stage.builder.scene(), 1 << 12), F, bias);
     ++cases;
   }
   EXPECT_GE(cases, 3);
@@ -146,7 +147,7 @@ TEST(Spheres, AreSeenFromAPoint) {
     EXPECT_NEAR(sphere_form_factor(R, d, angle), F, 1e-4 * F) << c["id"];
     const double bias = F - sphere_form_factor(inner, d, angle) + 1e-4 * F + lift(d) / (d - R);
     const int lines = F < 0.01 ? 1 << 16 : 1 << 15;
-    check(c["id"], at_origin(stage.builder.scene(), lines), F, bias);
+    factor_check(c["id"], at_origin(stage.builder.scene(), lines), F, bias);
     ++cases;
   }
   EXPECT_GE(cases, 4);
@@ -166,8 +167,9 @@ TEST(Spheres, SeeACoaxialDisk) {
     const auto of_radius = [&](double radius) { return (1 - 1 / std::hypot(1, radius / h)) / 2; };
     const double bias = F * (R * R / (inner * inner) - 1) + F - of_radius(r * within_polygon) +
                         lift(std::max(r, h)) / (h - R);
-    check(c["id"], received(stage.builder.scene(), 4, [&](std::size_t t) { return t < facets; }), F,
-          bias);
+    factor_check(c["id"],
+                 received(stage.builder.scene(), 4, [&](std::size_t t) { return t < facets; }), F,
+                 bias);
   }
 }
 
@@ -193,8 +195,8 @@ TEST(Spheres, SeeTheirOwnInside) {
       received(scene, 16, [&](std::size_t t) { return scene.mesh.corner(t, 0).z > 0.6; });
   for (auto* values : {&everywhere, &opposite})
     for (auto& v : *values) v *= scale;
-  check("sphere_interior_0 everywhere", everywhere, share, 0);
-  check("sphere_interior_0 opposite", opposite, share, share * (1 - inner * inner));
+  factor_check("sphere_interior_0 everywhere", everywhere, share, 0);
+  factor_check("sphere_interior_0 opposite", opposite, share, share * (1 - inner * inner));
 }
 
 // ---- cylinders and rooms ---------------------------------------------------------------
@@ -212,8 +214,8 @@ TEST(Cylinders, SeeThemselves) {
     // Side to itself is 1 - (base / side) · 2 · (1 - base to base): both change by the square
     // of the angle of a facet.
     const double facet = pi / corners;
-    check(c["id"], received(stage.builder.scene(), 64, [](std::size_t) { return true; }), F,
-          2 * facet * facet + lift(std::max(r, h)) / r);
+    factor_check(c["id"], received(stage.builder.scene(), 64, [](std::size_t) { return true; }), F,
+                 2 * facet * facet + lift(std::max(r, h)) / r);
   }
 }
 
@@ -228,9 +230,10 @@ TEST(Rooms, TetrahedronAndCube) {
     return reference_cases(closed_forms, prefix).front();
   };
   for (std::size_t face = 1; face < 4; ++face)
-    check("regular_tetrahedron_inside_0 face " + std::to_string(face),
-          received(tetrahedron.builder.scene(), 1 << 12, [&](std::size_t t) { return t == face; }),
-          number(case_of("regular_tetrahedron_inside")["F12"]), 10 * lift(1));
+    factor_check(
+        "regular_tetrahedron_inside_0 face " + std::to_string(face),
+        received(tetrahedron.builder.scene(), 1 << 12, [&](std::size_t t) { return t == face; }),
+        number(case_of("regular_tetrahedron_inside")["F12"]), 10 * lift(1));
   LampStage cube;
   cube.builder.quad({0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}, cube.lamp);
   cube.builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, cube.black);
@@ -238,9 +241,9 @@ TEST(Rooms, TetrahedronAndCube) {
   cube.builder.quad({1, 0, 0}, {1, 0, 1}, {1, 1, 1}, {1, 1, 0}, cube.black);
   cube.builder.quad({0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}, cube.black);
   cube.builder.quad({0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}, cube.black);
-  check("cube_adjacent_faces_0",
-        received(cube.builder.scene(), 1 << 12, [](std::size_t t) { return t >= 4; }),
-        number(case_of("cube_adjacent_faces")["F12"]), 10 * lift(1));
+  factor_check("cube_adjacent_faces_0",
+               received(cube.builder.scene(), 1 << 12, [](std::size_t t) { return t >= 4; }),
+               number(case_of("cube_adjacent_faces")["F12"]), 10 * lift(1));
 }
 
 }  // namespace

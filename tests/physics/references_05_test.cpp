@@ -21,7 +21,7 @@ using nlohmann::json;
 
 constexpr const char* exact_systems = "05_radiosity/exact_systems.json";
 
-constexpr TruthCheck check{.fault_factor = 1.03, .standard_error = 0.005};
+constexpr TruthCheck system_check{.fault_factor = 1.03, .standard_error = 0.005};
 
 /// Light that is left when reflections end, as a share of all.
 double left_after(int bounces, double rho) { return std::pow(rho, bounces + 1) / (1 - rho); }
@@ -112,8 +112,9 @@ TEST(BoxOfSixUnknowns, HasTheReferenceIrradiance) {
       for (std::size_t f = 0; f < faces; ++f) H[f].push_back(solution[f]);
     }
     for (std::size_t f = 0; f < faces; ++f)
-      check(c["id"].get<std::string>() + " " + std::to_string(f), H[f], number(c["irradiance"][f]),
-            number(c["irradiance"][f]) / lines);  // reuse of lines
+      system_check(c["id"].get<std::string>() + " " + std::to_string(f), H[f],
+                   number(c["irradiance"][f]),
+                   number(c["irradiance"][f]) / lines);  // reuse of lines
   }
 }
 
@@ -148,10 +149,10 @@ TEST(ConvergedBox, MeansOfFacesAndTheirCentres) {
       const double left = left_after(bounces, most(c["reflectance"]));
       const double mean = number(c["face_mean_irradiance"][f]);
       const double point = number(c["face_centre_irradiance"][f]);
-      check(id + " mean", mean_of(fine), mean,
-            halving(mean_of) + left * mean + number(c["estimated_error_mean"]));
-      check(id + " centre", at_centre(fine), point,
-            halving(at_centre) + left * point + number(c["estimated_error_centre"]), 1.05);
+      system_check(id + " mean", mean_of(fine), mean,
+                   halving(mean_of) + left * mean + number(c["estimated_error_mean"]));
+      system_check(id + " centre", at_centre(fine), point,
+                   halving(at_centre) + left * point + number(c["estimated_error_centre"]), 1.05);
     }
   }
 }
@@ -220,8 +221,8 @@ void check_concentric(const json& c, const Scene& coarse_scene, const Scene& fin
     const auto B = B_of(fine, fine_scene);
     const double bias = std::abs(mean_error(B).mean - mean_error(B_of(coarse, coarse_scene)).mean) +
                         left_after(bounces, rho_most) * number(c["B"][body]);
-    check(c["id"].get<std::string>() + (body == 0 ? " inner" : " outer"), B, number(c["B"][body]),
-          bias);
+    system_check(c["id"].get<std::string>() + (body == 0 ? " inner" : " outer"), B,
+                 number(c["B"][body]), bias);
   }
 }
 
@@ -258,8 +259,8 @@ TEST(IntegratingCube, MeanIndirectIrradiance) {
     auto indirect = solved.means([&](std::size_t i) { return solved.patches[i].triangle < 12; });
     for (auto& E : indirect) E -= flux / surface;  // the lamp's own light all falls on walls
     const double truth = number(c["mean_indirect"]);
-    check(c["id"], indirect, truth,
-          truth * (lamp_by_room * lamp_by_room + left_after(bounces, rho)));
+    system_check(c["id"], indirect, truth,
+                 truth * (lamp_by_room * lamp_by_room + left_after(bounces, rho)));
   }
 }
 
@@ -272,7 +273,7 @@ TEST(TiltedPlane, OverInfiniteGroundUnderAUniformSky) {
     IntervalLight light = with_uniform_sky(night, 1);
     light.ground_exitance = rho;
     const Solved solved = solve(builder.scene(), {light}, diffuse_rules(4096, 0));
-    check(c["id"], solved.means(everywhere), number(c["H"]), 0);
+    system_check(c["id"], solved.means(everywhere), number(c["H"]), 0);
   }
 }
 

@@ -20,7 +20,7 @@
 namespace sunload::test {
 namespace {
 
-constexpr double hour_s = 3600, hour_min = 60;
+constexpr double one_hour_s = 3600, hour_min = 60;
 constexpr double demanded_error = 0.005;  // of the truth, as a standard error
 
 /// A square of 1 m² that faces that way; it receives on its front alone.
@@ -33,7 +33,7 @@ Scene plane(double tilt_deg, double azimuth_deg) {
   return builder.scene();
 }
 
-SolverRules sun_rules() {
+SolverRules day_rules() {
   SolverRules rules = test_rules();
   rules.lines_per_patch = rules.realizations;
   rules.direct_samples = rules.realizations;
@@ -47,9 +47,9 @@ struct Day {
   double hours_in_front = 0;
 };
 Day day_on(const Scene& scene, const std::vector<IntervalLight>& suns) {
-  const Solved solved = solve(scene, suns, sun_rules());
-  Day day{solved.means([](std::size_t) { return true; }), solved.tally.sunlit_s[0] / hour_s};
-  for (auto& e : day.energy) e /= hour_s;
+  const Solved solved = solve(scene, suns, day_rules());
+  Day day{solved.means([](std::size_t) { return true; }), solved.tally.sunlit_s[0] / one_hour_s};
+  for (auto& e : day.energy) e /= one_hour_s;
   return day;
 }
 
@@ -94,7 +94,7 @@ TEST(ClearDay, EnergyAndHoursOnAPlane) {
     double up_s = 0;
     for (const auto& sun : suns) up_s += sun.sunlit_s;
     // The sun's rise and set divide an interval; the front of a plane takes whole parts.
-    EXPECT_NEAR(up_s / hour_s, number(row, "hours_sun_up"), 2 / hour_min) << id;
+    EXPECT_NEAR(up_s / one_hour_s, number(row, "hours_sun_up"), 2 / hour_min) << id;
     EXPECT_NEAR(day.hours_in_front, number(row, "hours_sun_in_front"), step_min / hour_min) << id;
   }
 }
@@ -119,7 +119,7 @@ std::vector<IntervalLight> day_of(double latitude, double declination, int steps
     if (end <= begin) continue;
     IntervalLight light = one_second(sun_at(latitude, declination, (begin + end) / 2), 1);
     light.number = static_cast<std::uint32_t>(k);
-    light.length_s = light.sunlit_s = 24 * hour_s * (end - begin) / (2 * pi);
+    light.length_s = light.sunlit_s = 24 * one_hour_s * (end - begin) / (2 * pi);
     suns.push_back(light);
   }
   return suns;

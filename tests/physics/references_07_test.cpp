@@ -16,7 +16,7 @@
 namespace sunload::test {
 namespace {
 
-constexpr double demanded_error = 0.005;  // of the truth, as a standard error
+constexpr double demanded_sky_error = 0.005;  // of the truth, as a standard error
 
 /// Shares of the sun's power per realization: a pane of 1 m² alone, the sun at that angle.
 std::vector<double> share(const Solved& solved, Term term) {
@@ -51,7 +51,7 @@ TEST(Glass, TransmitsReflectsAndKeepsTheReferencesShares) {
       const Verdict verdict = expect_mean(values, truth, float_rounding);
       std::cout << id << ": " << verdict.text << "\n";
       EXPECT_TRUE(verdict) << id << ": " << verdict.text;
-      EXPECT_LE(verdict.standard_error, demanded_error * truth + 1e-15) << id;
+      EXPECT_LE(verdict.standard_error, demanded_sky_error * truth + 1e-15) << id;
       if (truth > float_rounding) {
         EXPECT_FALSE(expect_mean(share(lower, term), truth, float_rounding))
             << id << ": planted fault unnoticed";
@@ -73,7 +73,7 @@ TEST(Glass, KnownByItsNormalTransmittanceTransmitsTheReferencesShare) {
     const Verdict verdict = expect_mean(transmitted, T, float_rounding);
     std::cout << id << ": " << verdict.text << "\n";
     EXPECT_TRUE(verdict) << id << ": " << verdict.text;
-    EXPECT_LE(verdict.standard_error, demanded_error * T) << id;
+    EXPECT_LE(verdict.standard_error, demanded_sky_error * T) << id;
     // Nothing stands around: both reflected parts leave. The rest is kept.
     EXPECT_TRUE(expect_mean(share(solved, Term::escaped), 0.08, float_rounding)) << id;
     EXPECT_TRUE(expect_mean(share(solved, Term::absorbed), 0.92 - T, float_rounding)) << id;

@@ -20,9 +20,9 @@ using nlohmann::json;
 
 constexpr const char* cases_file = "08_smits_jensen_style/cases.json";
 
-constexpr TruthCheck check{.fault_factor = 1.03, .standard_error = 0.005};
+constexpr TruthCheck luminaire_check{.fault_factor = 1.03, .standard_error = 0.005};
 
-struct Stage : LampStage {
+struct ReferenceStage : LampStage {
   /// Square of side s at height h over the origin, facing down.
   void square_lamp(double s, double h) {
     const double a = s / 2;
@@ -45,12 +45,12 @@ TEST(Emission, SquareAtEveryPointHoweverFaint) {
     for (std::size_t k = 0; k < c["points"].size(); ++k) {
       const Vec3 p = point(c["points"][k]);
       const double h = number(c["h"]), E = number(c["irradiance"][k]);
-      Stage stage;
+      ReferenceStage stage;
       stage.square_lamp(number(c["s"]), h);
       // Lifting the point takes as much from both cosines, hence twice.
       const double bias = 2 * E * lift(std::hypot(p.x, p.y) + h + 1) / h;
-      check(c["id"].get<std::string>() + " " + std::to_string(k),
-            on_ground(stage.builder.scene(), p, lines), E, bias);
+      luminaire_check(c["id"].get<std::string>() + " " + std::to_string(k),
+                      on_ground(stage.builder.scene(), p, lines), E, bias);
     }
 }
 
@@ -58,15 +58,17 @@ TEST(Emission, WhatTheReceiverMissesLeavesTheScene) {
   for (const auto& c : reference_cases(cases_file, "emission_total")) {
     const double s = number(c["s"]), h = number(c["h"]), F = number(c["mean_irradiance"]),
                  a = s / 2;
-    Stage stage;
+    ReferenceStage stage;
     stage.builder.quad({-a, -a, 0}, {a, -a, 0}, {a, a, 0}, {-a, a, 0}, stage.black);
     stage.square_lamp(s, h);
     const Solved solved = solve(stage.builder.scene(), {night}, diffuse_rules(1 << 12));
     const double bias = F * lift(s + h) / h;
-    check(c["id"], solved.means([&](std::size_t i) { return solved.patches[i].triangle < 2; }), F,
-          bias);
-    check(c["id"].get<std::string>() + " escaping",
-          solved.ledger([&](const Ledger& l) { return l[Term::escaped] / (s * s); }), 1 - F, bias);
+    luminaire_check(c["id"],
+                    solved.means([&](std::size_t i) { return solved.patches[i].triangle < 2; }), F,
+                    bias);
+    luminaire_check(c["id"].get<std::string>() + " escaping",
+                    solved.ledger([&](const Ledger& l) { return l[Term::escaped] / (s * s); }),
+                    1 - F, bias);
   }
 }
 
@@ -74,20 +76,20 @@ TEST(Emission, WhatTheReceiverMissesLeavesTheScene) {
 TEST(Scale, MakesNoDifference) {
   for (const auto& c : reference_cases(cases_file, "scale_")) {
     const double scale = number(c["scale"]), E = number(c["irradiance"]);
-    Stage stage;
+    ReferenceStage stage;
     stage.square_lamp(scale, scale);
-    check(c["id"], on_ground(stage.builder.scene(), {0.5 * scale, 0.5 * scale, 0}, lines), E,
-          2 * E * lift(2));
+    luminaire_check(c["id"], on_ground(stage.builder.scene(), {0.5 * scale, 0.5 * scale, 0}, lines),
+                    E, 2 * E * lift(2));
   }
 }
 
 TEST(LargeExtent, TendsToAll) {
   for (const auto& c : reference_cases(cases_file, "large_extent")) {
     const double side = number(c["side"]), h = number(c["height"]);
-    Stage stage;
+    ReferenceStage stage;
     stage.square_lamp(side, h);
-    check(c["id"], on_ground(stage.builder.scene(), point(c["point"]), lines),
-          number(c["irradiance"]), lift(side) / h);
+    luminaire_check(c["id"], on_ground(stage.builder.scene(), point(c["point"]), lines),
+                    number(c["irradiance"]), lift(side) / h);
   }
 }
 
@@ -95,11 +97,12 @@ TEST(Slivers, AreAsBrightAsTheirWhole) {
   for (const auto& c : reference_cases(cases_file, "sliver_fan")) {
     const Vec3 fan = point(c["fan_point"]);
     const Vec3 corner[] = {{-0.5, -0.5, 1}, {-0.5, 0.5, 1}, {0.5, 0.5, 1}, {0.5, -0.5, 1}};
-    Stage stage;
+    ReferenceStage stage;
     for (std::size_t k = 0; k < 4; ++k)
       stage.builder.triangle(fan, corner[k], corner[(k + 1) % 4], stage.lamp);
     const double E = number(c["irradiance"]);
-    check(c["id"], on_ground(stage.builder.scene(), point(c["point"]), lines), E, 2 * E * lift(2));
+    luminaire_check(c["id"], on_ground(stage.builder.scene(), point(c["point"]), lines), E,
+                    2 * E * lift(2));
   }
 }
 

@@ -23,19 +23,19 @@ namespace {
 using nlohmann::json;
 using Polygon = std::vector<Vec3>;
 
-SolverRules rules_of(int lines_per_realization) {
+SolverRules sensor_rules(int lines_per_realization) {
   return diffuse_rules(lines_per_realization, 0, 32);
 }
 
 /// A scene, and the sensors in it.
-struct Stage : LampStage {
+struct SensorStage : LampStage {
   std::vector<Sensor> sensors;
 
-  Stage& add(const Polygon& p, int material) {
+  SensorStage& add(const Polygon& p, int material) {
     for (std::size_t k = 2; k < p.size(); ++k) builder.triangle(p[0], p[k - 1], p[k], material);
     return *this;
   }
-  Stage& at(Vec3 position, Vec3 normal) {
+  SensorStage& at(Vec3 position, Vec3 normal) {
     sensors.push_back(sensor_at(position, normal));
     return *this;
   }
@@ -63,7 +63,7 @@ TEST(SensorFormFactors, ToPolygons) {
   for (const auto& c : reference_cases("04_form_factors/closed_forms.json")) {
     const auto& g = c["geometry"];
     if (!g.contains("point") || !g.contains("P2")) continue;
-    Stage stage;
+    SensorStage stage;
     // Which side faces the point is not stated.
     stage.builder.sides(Sides::two);
     stage.add(polygon(g["P2"]), stage.lamp).at(point(g["point"]), point(g["normal"]));
@@ -73,7 +73,7 @@ TEST(SensorFormFactors, ToPolygons) {
       largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
       nearest = std::min(nearest, norm(v - point(g["point"])));
     }
-    check(c["id"], of_sensor(stage.light(night, rules_of(lines_for(truth))), 0), truth,
+    check(c["id"], of_sensor(stage.light(night, sensor_rules(lines_for(truth))), 0), truth,
           lift(largest) / nearest);
     ++cases;
   }
@@ -98,11 +98,11 @@ TEST(SensorFormFactors, ToDisks) {
     const auto& g = c["geometry"];
     if (!g.contains("r")) continue;
     const double offset = g.contains("offset") ? number(g["offset"]) : 0;
-    Stage stage;
+    SensorStage stage;
     stage.add(disk({offset, 0, number(g["h"])}, number(g["r"]), corners), stage.lamp)
         .at({0, 0, 0}, {0, 0, 1});
     const double truth = number(c["F12"]);
-    check(c["id"], of_sensor(stage.light(night, rules_of(lines_for(truth) / 4)), 0), truth,
+    check(c["id"], of_sensor(stage.light(night, sensor_rules(lines_for(truth) / 4)), 0), truth,
           truth * (pi / corners) * (pi / corners) + lift(4) / number(g["h"]), 1.05);
     ++cases;
   }
@@ -117,7 +117,7 @@ TEST(SensorFormFactors, SkyFromCanyonFloors) {
     const auto& g = c["geometry"];
     const double W = number(g["W"]), H = number(g["H"]);
     const double x = kind == "canyon_svf_floor_centre" ? W / 2 : W * number(g["x_over_W"]);
-    Stage stage;
+    SensorStage stage;
     // Ends of a canyon of length 2L are seen within a share of about W·H / L².
     const double L = 50 * std::max(W, H);
     stage.add({{0, L, 0}, {0, -L, 0}, {0, -L, H}, {0, L, H}}, stage.black)
@@ -125,7 +125,7 @@ TEST(SensorFormFactors, SkyFromCanyonFloors) {
         .add({{0, -L, 0}, {W, -L, 0}, {W, L, 0}, {0, L, 0}}, stage.black)
         .at({x, 0, 0}, {0, 0, 1});
     const double truth = number(c["F12"]);
-    check(c["id"], of_sensor(stage.light(with_uniform_sky(night, 1), rules_of(1024)), 0), truth,
+    check(c["id"], of_sensor(stage.light(with_uniform_sky(night, 1), sensor_rules(1024)), 0), truth,
           W * H / (L * L) + 2 * lift(L) / std::min(H, x), 1.05);
     ++cases;
   }
@@ -135,7 +135,8 @@ TEST(SensorFormFactors, SkyFromCanyonFloors) {
 // ---- lamps -----------------------------------------------------------------------------
 
 /// Square of side s at height h, facing down, cut into pieces².
-void add_square(Stage& stage, double s, double h, int material, Vec3 centre = {}, int pieces = 1) {
+void add_square(SensorStage& stage, double s, double h, int material, Vec3 centre = {},
+                int pieces = 1) {
   const double step = s / pieces;
   for (int i = 0; i < pieces; ++i)
     for (int j = 0; j < pieces; ++j) {
@@ -151,29 +152,29 @@ TEST(SensorLamps, SquareEmitters) {
       const double truth = number(c["irradiance"][p]), h = number(c["h"]);
       // Below a thousandth, a line in thousands counts: lamps so small are not gathered well.
       if (truth < 1e-3) continue;
-      Stage stage;
+      SensorStage stage;
       add_square(stage, number(c["s"]), h, stage.lamp);
       stage.at(point(c["points"][p]), {0, 0, 1});
       check(c["id"].get<std::string>() + " " + std::to_string(p),
-            of_sensor(stage.light(night, rules_of(lines_for(truth))), 0), truth, lift(5) / h,
+            of_sensor(stage.light(night, sensor_rules(lines_for(truth))), 0), truth, lift(5) / h,
             truth < 0.01 ? 1.1 : 1.02);
     }
 }
 
 TEST(SensorLamps, TilingMakesNoDifference) {
   for (const auto& c : reference_cases("08_smits_jensen_style/cases.json", "emission_tiling")) {
-    Stage stage;
+    SensorStage stage;
     add_square(stage, number(c["s"]), number(c["h"]), stage.lamp, {}, c["n"].get<int>());
     stage.at(point(c["point"]), {0, 0, 1});
     const double truth = number(c["irradiance"]);
-    check(c["id"], of_sensor(stage.light(night, rules_of(lines_for(truth) / 2)), 0), truth,
+    check(c["id"], of_sensor(stage.light(night, sensor_rules(lines_for(truth) / 2)), 0), truth,
           lift(1) / number(c["h"]));
   }
 }
 
 TEST(SensorLamps, ShadowsOfSquares) {
   for (const auto& c : reference_cases("08_smits_jensen_style/cases.json", "shadow_square")) {
-    Stage stage;
+    SensorStage stage;
     add_square(stage, number(c["s"]), number(c["h"]), stage.lamp);
     const auto& at = c["blocker_centre"];
     stage.builder.sides(Sides::two);
@@ -181,7 +182,7 @@ TEST(SensorLamps, ShadowsOfSquares) {
                {number(at[0]), number(at[1]), 0});
     stage.at(point(c["point"]), {0, 0, 1});
     const double truth = number(c["irradiance"]), open = number(c["unoccluded"]);
-    const auto E = of_sensor(stage.light(night, rules_of(lines_for(open))), 0);
+    const auto E = of_sensor(stage.light(night, sensor_rules(lines_for(open))), 0);
     const double bias = lift(4) / number(c["blocker_height"]);
     if (truth > 1e-9 && truth < open) {
       check(c["id"], E, truth, bias, 1.05);
@@ -196,7 +197,7 @@ TEST(SensorLamps, ShadowsOfSquares) {
 TEST(SensorLamps, InMirrors) {
   for (const char* kind : {"one_infinite_mirror", "corner_two_mirrors", "finite_mirror"})
     for (const auto& c : reference_cases("05_radiosity/mirrors.json", kind)) {
-      Stage stage;
+      SensorStage stage;
       const int mirror = stage.builder.material({"m", 0, number(c["mirror_reflectance"]), 0});
       const std::string id = c["id"];
       const bool finite = c.contains("mirror_rect_y"), corner = id.starts_with("corner");
@@ -210,7 +211,7 @@ TEST(SensorLamps, InMirrors) {
         stage.builder.quad({most, 0, 0}, {0, 0, 0}, {0, 0, most}, {most, 0, most}, mirror);
       stage.add(polygon(c["emitter"]), stage.lamp).at(point(c["point"]), {0, 0, 1});
       const double truth = number(c["H_total"]), direct = number(c["H_direct"]);
-      const auto E = of_sensor(stage.light(night, rules_of(1 << 13)), 0);
+      const auto E = of_sensor(stage.light(night, sensor_rules(1 << 13)), 0);
       const double bias = lift(most) / number(c["emitter"][0][2]);
       // Planted fault: the mirror forgotten, or 2 % where it shows nothing.
       check(id, E, truth, bias, truth > direct ? direct / truth : 1.02);
@@ -221,7 +222,7 @@ TEST(SensorLamps, InMirrors) {
 
 TEST(SensorSun, MirroredOntoTheGround) {
   for (const auto& c : reference_cases("05_radiosity/mirrors.json", "sun_on_mirror")) {
-    Stage stage;
+    SensorStage stage;
     const double w = number(c["w"]), z0 = number(c["z0"]), z1 = z0 + number(c["h"]);
     const int mirror = stage.builder.material({"m", 0, number(c["mirror_reflectance"]), 0});
     stage.builder.quad({0, 0, z0}, {0, w, z0}, {0, w, z1}, {0, 0, z1}, mirror);
@@ -233,7 +234,7 @@ TEST(SensorSun, MirroredOntoTheGround) {
     const double elevation = radians(number(c["sun_elevation_deg"]));
     const Vec3 sun{std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation),
                    std::sin(elevation)};
-    SolverRules rules = rules_of(1);
+    SolverRules rules = sensor_rules(1);
     rules.direct_samples = rules.realizations;
     const auto tally = stage.light(one_second(sun, number(c["DNI"])), rules);
     const auto mirrored = tally.sensors.exposure[static_cast<std::size_t>(Part::mirror)];
@@ -245,16 +246,38 @@ TEST(SensorSun, MirroredOntoTheGround) {
   }
 }
 
+// Once by the high wall, and once more by the low one: of glass that reflects 10 % the second is 1
+// %.
+TEST(SensorSun, ReflectedTwiceByFaintMirrors) {
+  for (const double rho : {0.1, 0.15, 0.5}) {
+    SensorStage stage;
+    const int mirror = stage.builder.material({"m", 0, rho, 0});
+    stage.builder.quad({-50, 10, 0}, {50, 10, 0}, {50, 10, 30}, {-50, 10, 30}, mirror);
+    stage.builder.quad({50, -8, 0}, {-50, -8, 0}, {-50, -8, 6}, {50, -8, 6}, mirror);
+    stage.at({1, -6, 2.01}, {0, 0, 1});
+    const double azimuth = radians(190), elevation = radians(50), dni = 800;
+    const Vec3 sun{std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation),
+                   std::sin(elevation)};
+    SolverRules rules = sensor_rules(1);
+    rules.direct_samples = rules.realizations;
+    const auto tally = stage.light(one_second(sun, dni), rules);
+    const double truth = dni * std::sin(elevation) * (rho + rho * rho);
+    EXPECT_NEAR(tally.sensors.exposure[static_cast<std::size_t>(Part::mirror)][0], truth,
+                float_rounding * truth)
+        << rho;
+  }
+}
+
 TEST(SensorReflection, FromALitRectangle) {
   const auto name = "07_cie171_bestest/cie171_style.json";
   for (const auto& c : reference_cases(name, "diffuse_reflection")) {
     const auto& r = c["rectangle"];
-    Stage stage;
+    SensorStage stage;
     const int grey = stage.builder.material({"grey", number(c["rho"]), 0, 0});
     const double x0 = number(r[0]), y0 = number(r[1]), x1 = number(r[2]), y1 = number(r[3]);
     stage.builder.quad({x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0}, grey);
     stage.at(point(c["points"][0]), point(c["normals"][0]));
-    SolverRules rules = rules_of(1 << 11);
+    SolverRules rules = sensor_rules(1 << 11);
     rules.bounces = 1;
     const auto sun = one_second({0, 0, 1}, number(c["E"]));
     check(c["id"], of_sensor(stage.light(sun, rules), 0), number(c["irradiance"][0]), 0);
@@ -265,12 +288,12 @@ TEST(SensorReflection, FromALitRectangle) {
 // rho whose walls all emit M, every receiver gets M (1 + rho + … + rho^n).
 TEST(SensorReflection, CountsTheSameBouncesAsPatches) {
   for (const int bounces : {0, 1, 3}) {
-    Stage stage;
+    SensorStage stage;
     constexpr double rho = 0.6;
     const int wall = stage.builder.material({"wall", rho, 0, 1});
     stage.builder.box({0, 0, 0}, {2, 1, 3}, wall, SceneBuilder::Facing::inward);
     stage.at({1, 0.5, 1.5}, {1, 2, 3}).at({0.3, 0.2, 0}, {0, 0, 1});
-    SolverRules rules = rules_of(256);
+    SolverRules rules = sensor_rules(256);
     rules.bounces = bounces;
     const auto tally = stage.light(night, rules);
     const double truth = (1 - std::pow(rho, bounces + 1)) / (1 - rho);
@@ -308,7 +331,7 @@ IntervalLight percent_sky(const json& c) {
 
 /// Wall or ceiling with a rectangular hole: the plane is spanned by x and y from `corner`,
 /// fronts to cross(x, y).
-void add_with_hole(Stage& stage, Vec3 corner, Vec3 x, Vec3 y, double x0, double x1, double y0,
+void add_with_hole(SensorStage& stage, Vec3 corner, Vec3 x, Vec3 y, double x0, double x1, double y0,
                    double y1, double width, double height) {
   const auto part = [&](double a, double b, double c, double d) {
     if (b > a && d > c)
@@ -322,7 +345,7 @@ void add_with_hole(Stage& stage, Vec3 corner, Vec3 x, Vec3 y, double x0, double 
 }
 
 /// Walls and floor of the room, but for the ceiling or the east wall.
-void add_room(Stage& stage, bool roof_opening, double side) {
+void add_room(SensorStage& stage, bool roof_opening, double side) {
   auto& b = stage.builder;
   b.quad({0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, stage.black);
   b.quad({0, 0, 0}, {0, 0, 3}, {4, 0, 3}, {4, 0, 0}, stage.black);
@@ -355,10 +378,10 @@ TEST(SensorSky, ThroughARoofOpening) {
   int cases = 0;
   for (const auto& c : reference_cases(name, "roof_")) {
     const std::string id = c["id"];
-    Stage stage;
+    SensorStage stage;
     add_room(stage, true, id.starts_with("roof_1") ? 1 : 4);
     for (const auto& p : c["points"]) stage.at(point(p), point(c["normal"]));
-    const auto tally = stage.light(percent_sky(c), rules_of(2048));
+    const auto tally = stage.light(percent_sky(c), sensor_rules(2048));
     for (std::size_t s = 0; s < stage.sensors.size(); ++s)
       check_percent(id + " " + std::to_string(s), of_sensor(tally, s),
                     number(c["sky_component_percent"][s]));
@@ -373,7 +396,7 @@ TEST(SensorSky, ThroughAFacadeOpeningUnderOverhangAndBehindMask) {
   for (const char* kind : {"facade", "overhang", "vertical_mask"})
     for (const auto& c : reference_cases(name, kind)) {
       const std::string id = c["id"];
-      Stage stage;
+      SensorStage stage;
       add_room(stage, false, 0);
       constexpr double far = 200;  // stands for infinitely wide
       stage.builder.sides(Sides::two);
@@ -383,7 +406,7 @@ TEST(SensorSky, ThroughAFacadeOpeningUnderOverhangAndBehindMask) {
         stage.builder.quad({9, -far, 0}, {9, far, 0}, {9, far, 4}, {9, -far, 4}, stage.black);
       for (std::size_t s = 0; s < c["points"].size(); ++s)
         stage.at(point(c["points"][s]), point(c["normals"][s]));
-      const auto tally = stage.light(percent_sky(c), rules_of(2048));
+      const auto tally = stage.light(percent_sky(c), sensor_rules(2048));
       for (std::size_t s = 0; s < stage.sensors.size(); ++s)
         check_percent(id + " " + std::to_string(s), of_sensor(tally, s),
                       number(c["sky_component_percent"][s]));
@@ -395,13 +418,13 @@ TEST(SensorSky, ThroughAFacadeOpeningUnderOverhangAndBehindMask) {
 TEST(SensorSky, FarGroundThroughAFacadeOpening) {
   const auto name = "07_cie171_bestest/cie171_style.json";
   for (const auto& c : reference_cases(name, "ground_reflected")) {
-    Stage stage;
+    SensorStage stage;
     add_room(stage, false, 0);
     stage.at(point(c["points"][0]), point(c["normals"][0]));
     IntervalLight light = night;
     light.dhi = 100;  // not dark
     light.ground_exitance = number(c["ground_reflectance"]) * 100;
-    const auto E = of_sensor(stage.light(light, rules_of(1 << 12)), 0);
+    const auto E = of_sensor(stage.light(light, sensor_rules(1 << 12)), 0);
     check(c["id"], E, number(c["external_component_percent"][0]), lift(4));
   }
 }
@@ -409,8 +432,8 @@ TEST(SensorSky, FarGroundThroughAFacadeOpening) {
 // ---- what sensors are and are not ----------------------------------------------------------
 
 /// A wall on a floor, and the sun: something of every kind of light.
-Stage yard() {
-  Stage stage;
+SensorStage yard() {
+  SensorStage stage;
   const int grey = stage.builder.material({"grey", 0.4, 0, 0});
   const int pane = stage.builder.material({"pane", 0.1, 0.7, 0});
   stage.builder.quad({-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}, grey);
@@ -422,13 +445,13 @@ Stage yard() {
 IntervalLight noon() { return with_uniform_sky(one_second({0.3, -0.6, 0.7}, 800), 100); }
 
 TEST(Sensors, OpenFieldIsGlobalHorizontalIrradiance) {
-  Stage stage;
+  SensorStage stage;
   stage.builder.triangle({1000, 1000, -1}, {1001, 1000, -1}, {1000, 1001, -1}, stage.black);
   stage.at({0, 0, 1}, {0, 0, 1}).at({0, 0, 1}, {0, -1, 0}).at({0, 0, 1}, {0, 0, -2});
   IntervalLight light = noon();
   const double ghi = light.dni * light.direction.z + light.dhi;
   light.ground_exitance = 0.2 * ghi;
-  const SolverRules rules = rules_of(256);
+  const SolverRules rules = sensor_rules(256);
   Scene scene = stage.builder.scene();
   scene.sensors = stage.sensors;
   Watch watch;
@@ -447,8 +470,8 @@ TEST(Sensors, OpenFieldIsGlobalHorizontalIrradiance) {
 }
 
 TEST(Sensors, LeaveEveryPatchAsItWas) {
-  const Stage without = yard();
-  Stage with = yard();
+  const SensorStage without = yard();
+  SensorStage with = yard();
   with.at({0, 0, 1}, {0, 0, 1}).at({0, 0, 0}, {0, 0, 1}).at({2, 0.99, 1}, {0, -1, 0});
   for (const auto errors : {Errors::totals, Errors::instants}) {
     SolverRules rules = test_rules();
@@ -463,7 +486,7 @@ TEST(Sensors, LeaveEveryPatchAsItWas) {
 }
 
 TEST(Sensors, HaveBitsOfTheirOwnWhateverElseThereIs) {
-  Stage one = yard(), many = yard();
+  SensorStage one = yard(), many = yard();
   const Vec3 place{-1, 0.5, 1}, look{0.5, 0.5, 1};
   one.at(place, look);
   many.at({0, 0, 1}, {0, 0, 1}).at(place, look);
@@ -479,13 +502,13 @@ TEST(Sensors, HaveBitsOfTheirOwnWhateverElseThereIs) {
 }
 
 TEST(Sensors, OnASurfaceSeeItsHemisphereAndWithinABodyItsBacks) {
-  Stage stage;
+  SensorStage stage;
   stage.builder.box({-2, -2, 0}, {2, 2, 3}, stage.black, SceneBuilder::Facing::outward);
   stage.at({0.5, 0.25, 3}, {0, 0, 1}).at({0, 0, 1.5}, {0, 0, 1});
   Scene scene = stage.builder.scene();
   scene.sensors = stage.sensors;
   Watch watch;
-  const auto traced = trace_scene(scene, SplitRules{}, rules_of(64), watch);
+  const auto traced = trace_scene(scene, SplitRules{}, sensor_rules(64), watch);
   const auto& ends = traced->sensors.lines.pooled.ends;
   EXPECT_EQ(ends[0].sky, 1.0f);
   EXPECT_EQ(ends[0].fate.backs, 0.0f);
@@ -496,12 +519,12 @@ TEST(Sensors, OnASurfaceSeeItsHemisphereAndWithinABodyItsBacks) {
 // Where a large receiver is lit alike everywhere, a sensor on it gets what its patches get, part
 // by part; and its errors per instant are those of its totals.
 TEST(Sensors, AgreeWithPatchesPartByPart) {
-  Stage open;
+  SensorStage open;
   const int wall = open.builder.material({"wall", 0.5, 0, 0});
   open.builder.quad({0, 0, 0}, {0.02, 0, 0}, {0.02, 0.02, 0}, {0, 0.02, 0}, wall);
   open.builder.quad({-3, 2, 0}, {3, 2, 0}, {3, 2, 4}, {-3, 2, 4}, wall);
   open.at({0.01, 0.01, 0}, {0, 0, 1});
-  SolverRules rules = rules_of(1024);
+  SolverRules rules = sensor_rules(1024);
   rules.bounces = 2;
   rules.errors = Errors::instants;
   const auto tally = open.light(noon(), rules);
@@ -526,13 +549,13 @@ TEST(Sensors, AgreeWithPatchesPartByPart) {
 
 // The edge of a shadow under a sun with a disk: half of it is seen from the edge's middle.
 TEST(Sensors, SeeAPartOfTheSunsDisk) {
-  Stage stage;
+  SensorStage stage;
   stage.builder.sides(Sides::two);
   stage.builder.quad({0, -50, 10}, {50, -50, 10}, {50, 50, 10}, {0, 50, 10}, stage.black);
   stage.at({0, 0, 0}, {0, 0, 1}).at({-1, 0, 0}, {0, 0, 1}).at({1, 0, 0}, {0, 0, 1});
   IntervalLight light = one_second({0, 0, 1}, 1000);
   light.disk_half_angle = radians(0.2666);
-  SolverRules rules = rules_of(1);
+  SolverRules rules = sensor_rules(1);
   rules.direct_samples = rules.realizations * 64;
   const auto tally = stage.light(light, rules);
   check("half", of_sensor(tally, 0), 500, 0);
@@ -541,8 +564,8 @@ TEST(Sensors, SeeAPartOfTheSunsDisk) {
 }
 
 /// A screen of transmittance 0.3 five metres up, and another one a metre above.
-Stage under_screens() {
-  Stage stage;
+SensorStage under_screens() {
+  SensorStage stage;
   Material crown{"crown"};
   crown.transmittance = 0.3;
   const int screen = stage.builder.material(crown);
@@ -556,11 +579,11 @@ Stage under_screens() {
 // passes. The sun's straight way through (0, 0, 5) is that of two triangles of one screen.
 TEST(Sensors, SeeTheSunThroughScreensWithoutChance) {
   for (const double disk : {0.0, 0.2666}) {
-    Stage stage = under_screens();
+    SensorStage stage = under_screens();
     stage.at({1, 2, 0.5}, {0, 0, 1}).at({7, 0, 0}, {0, 0, 1}).at({1000, 2, 0.5}, {0, 0, 1});
     IntervalLight sun = one_second({0.1, 0.2, 1}, 1000);
     sun.disk_half_angle = radians(disk);
-    SolverRules rules = rules_of(1);
+    SolverRules rules = sensor_rules(1);
     rules.direct_samples = rules.realizations;
     const auto tally = stage.light(sun, rules);
     const double E = 1000 / std::sqrt(1.05);
@@ -574,9 +597,9 @@ TEST(Sensors, SeeTheSunThroughScreensWithoutChance) {
 }
 
 TEST(Sensors, CrossAScreenOnceWhereItsTrianglesMeet) {
-  Stage stage = under_screens();
+  SensorStage stage = under_screens();
   stage.at({0, 0, 0}, {0, 0, 1}).at({2, 2, 0}, {0, 0, 1}).at({7, 7, 0}, {0, 0, 1});
-  SolverRules rules = rules_of(1);
+  SolverRules rules = sensor_rules(1);
   rules.direct_samples = rules.realizations;
   const auto tally = stage.light(one_second({0, 0, 1}, 1000), rules);
   for (std::size_t s = 0; s < 3; ++s)
@@ -585,9 +608,9 @@ TEST(Sensors, CrossAScreenOnceWhereItsTrianglesMeet) {
 
 // Behind clouds nothing but the share of the sun's time is told.
 TEST(Sensors, SeeACloudedSunThroughScreens) {
-  Stage stage = under_screens();
+  SensorStage stage = under_screens();
   stage.at({1, 2, 0.5}, {0, 0, 1}).at({1000, 2, 0.5}, {0, 0, 1});
-  const auto tally = stage.light(one_second({0.1, 0.2, 1}, 0), rules_of(1));
+  const auto tally = stage.light(one_second({0.1, 0.2, 1}, 0), sensor_rules(1));
   EXPECT_NEAR(tally.sensors.sunlit_s[0], 0.3, 1e-6);
   EXPECT_NEAR(tally.sensors.sunlit_s[1], 1, 1e-6);
 }

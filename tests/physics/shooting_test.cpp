@@ -27,7 +27,8 @@ constexpr double closes = 1e-6;
 
 constexpr int realizations = 16;
 
-SolverRules rules_of(Transport transport, int bounces = 5, Jacobi jacobi = Jacobi::incremental) {
+SolverRules shooting_rules(Transport transport, int bounces = 5,
+                           Jacobi jacobi = Jacobi::incremental) {
   SolverRules rules = test_rules();
   rules.realizations = realizations;
   rules.lines_per_patch = realizations * 16;
@@ -38,18 +39,6 @@ SolverRules rules_of(Transport transport, int bounces = 5, Jacobi jacobi = Jacob
   rules.seed = transport == Transport::shoot ? 2 : 1;  // no line in common
   return rules;
 }
-
-/// Each with random numbers of its own.
-std::vector<IntervalLight> numbered_suns() {
-  auto light = three_suns();
-  for (std::size_t k = 0; k < light.size(); ++k) light[k].number = static_cast<std::uint32_t>(k);
-  return light;
-}
-
-/// What a test may do to reflectances on purpose.
-using Change = double (*)(double);
-double as_it_is(double rho) { return rho; }
-double squared(double rho) { return rho * rho; }
 
 struct Case {
   const char* name;
@@ -81,16 +70,6 @@ Scene room(Change change) {
 }
 
 /// A room lit by a lamp under its ceiling, half of it behind a screen.
-Scene lamp_room(Change change) {
-  SceneBuilder builder;
-  const int wall = builder.material({"wall", change(0.6), 0, 0});
-  builder.object("room").box({0, 0, 0}, {4, 3, 2.5}, wall, Facing::inward);
-  builder.object("lamp").quad({1, 1, 2.4}, {1, 2, 2.4}, {2, 2, 2.4}, {2, 1, 2.4},
-                              builder.material({"lamp", change(0.4), 0, 50}));
-  builder.sides(Sides::two).object("screen").quad({3, 0, 0}, {3, 3, 0}, {3, 3, 2}, {3, 0, 2}, wall);
-  return builder.scene();
-}
-
 /// Two facing mirrors with a lamp between them, open above and at the sides.
 Scene facing_mirrors(Change change) {
   SceneBuilder builder;
@@ -162,12 +141,13 @@ Compared compared(const Solved& gathered, const Solved& shot, const Scene& scene
 TEST(Shooting, AgreesWithGathering) {
   for (const Case& c : cases()) {
     const Scene scene = c.scene(as_it_is);
-    const Solved gathered = solve(scene, c.light, rules_of(Transport::gather, c.bounces), c.split);
+    const Solved gathered =
+        solve(scene, c.light, shooting_rules(Transport::gather, c.bounces), c.split);
     for (const Jacobi jacobi : {Jacobi::incremental, Jacobi::regular}) {
       const Solved shot =
-          solve(scene, c.light, rules_of(Transport::shoot, c.bounces, jacobi), c.split);
-      const Solved faulty =
-          solve(c.scene(squared), c.light, rules_of(Transport::shoot, c.bounces, jacobi), c.split);
+          solve(scene, c.light, shooting_rules(Transport::shoot, c.bounces, jacobi), c.split);
+      const Solved faulty = solve(c.scene(squared), c.light,
+                                  shooting_rules(Transport::shoot, c.bounces, jacobi), c.split);
       int noticed = 0;
       for (const auto& object : scene.mesh.object_names) {
         if (object == "object") continue;  // empty
@@ -201,9 +181,9 @@ TEST(Shooting, LightsSensorsAsGatheringDoes) {
   const auto tally_of = [&](const Scene& lit, const SolverRules& rules) {
     return solve(lit, numbered_suns(), rules, {.max_edge_m = 3}).tally;
   };
-  const BatchTally gathered = tally_of(scene, rules_of(Transport::gather, bounces));
+  const BatchTally gathered = tally_of(scene, shooting_rules(Transport::gather, bounces));
   for (const Jacobi jacobi : {Jacobi::incremental, Jacobi::regular}) {
-    SolverRules rules = rules_of(Transport::shoot, bounces, jacobi);
+    SolverRules rules = shooting_rules(Transport::shoot, bounces, jacobi);
     rules.errors = Errors::instants;
     const BatchTally shot = tally_of(scene, rules),
                      faulty = tally_of(court_under_a_beam(squared), rules);
@@ -229,8 +209,8 @@ TEST(Shooting, LightsSensorsAsGatheringDoes) {
 // A deposit on j must be divided by the area of j.
 TEST(Shooting, AgreesPatchByPatch) {
   const Scene scene = room(as_it_is);
-  const Solved gathered = solve(scene, {night}, rules_of(Transport::gather, 30));
-  const Solved shot = solve(scene, {night}, rules_of(Transport::shoot, 30));
+  const Solved gathered = solve(scene, {night}, shooting_rules(Transport::gather, 30));
+  const Solved shot = solve(scene, {night}, shooting_rules(Transport::shoot, 30));
   double mean_area = 0;
   for (const double area : shot.area) mean_area += area / static_cast<double>(shot.area.size());
   int noticed = 0;
@@ -256,7 +236,7 @@ TEST(Shooting, LedgerClosesForEverySunAndRealization) {
   for (const Case& c : cases())
     for (const Jacobi jacobi : {Jacobi::incremental, Jacobi::regular}) {
       const Solved solved =
-          solve(c.scene(as_it_is), c.light, rules_of(Transport::shoot, 3, jacobi), c.split);
+          solve(c.scene(as_it_is), c.light, shooting_rules(Transport::shoot, 3, jacobi), c.split);
       const double residual = largest_residual(solved);
       std::cout << c.name << ": residual " << residual << " of in\n";
       EXPECT_LE(residual, closes) << c.name;
@@ -284,7 +264,7 @@ TEST(Shooting, SendsLightToElementsThatAreSmallAsSeenFromAPatch) {
   const Scene scene = street(as_it_is);
   constexpr int bounces = 2;
   const auto shot = [&](const Scene& lit, double link_threshold) {
-    SolverRules rules = rules_of(Transport::shoot, bounces);
+    SolverRules rules = shooting_rules(Transport::shoot, bounces);
     rules.link_threshold = link_threshold;
     rules.seed = link_threshold > 0 ? 2 : 3;  // no sample in common
     // The sky would bring noise of its own.
@@ -316,7 +296,7 @@ TEST(Shooting, LedgerClosesAtEveryMirrorDepth) {
   disk.number = 1;
   double unshot_before = 1e300;
   for (const int depth : {0, 1, 2, 5, 40}) {
-    SolverRules rules = rules_of(Transport::shoot, 30);
+    SolverRules rules = shooting_rules(Transport::shoot, 30);
     rules.mirror_depth = depth;
     const Solved solved = solve(facing_mirrors(as_it_is), {light, disk}, rules, {.max_edge_m = 1});
     const double residual = largest_residual(solved), unshot = solved.tally.energy[Term::unshot];
@@ -329,7 +309,7 @@ TEST(Shooting, LedgerClosesAtEveryMirrorDepth) {
 }
 
 TEST(Shooting, SeriesAreTheMeanOfRealizations) {
-  auto rules = rules_of(Transport::shoot);
+  auto rules = shooting_rules(Transport::shoot);
   rules.errors = Errors::instants;
   const Solved solved = solve(court(), numbered_suns(), rules, {.max_edge_m = 3});
   const std::size_t patches = solved.area.size();
@@ -355,7 +335,7 @@ TEST(Shooting, SameBitsForAnyNumberOfThreads) {
   std::vector<BatchTally> tallies;
   for (const int threads : {1, 2, 3}) {
     set_thread_count(threads);
-    auto rules = rules_of(Transport::shoot);
+    auto rules = shooting_rules(Transport::shoot);
     rules.errors = Errors::instants;
     tallies.push_back(solve(court(), numbered_suns(), rules, {.max_edge_m = 1}).tally);
   }
@@ -372,7 +352,7 @@ TEST(Shooting, SameBitsForAnyNumberOfThreads) {
 
 TEST(Shooting, NumberOfSamplesIsPowerByPowerPerSample) {
   const Scene scene = lamp_room(as_it_is);
-  SolverRules rules = rules_of(Transport::shoot, 0);
+  SolverRules rules = shooting_rules(Transport::shoot, 0);
   constexpr double lamp_w = 50, per_sample = 0.003;
   rules.power_per_sample_w = per_sample;
   // The two patches of the lamp shoot, in every realization.
@@ -413,7 +393,7 @@ TEST(Shooting, IsUnbiasedForTheFewestSamples) {
                      builder.material({"m" + std::to_string(t), rho, 0, number(c["emission"][t])}));
   }
   constexpr int bounces = 30;
-  SolverRules rules = rules_of(Transport::shoot, bounces);
+  SolverRules rules = shooting_rules(Transport::shoot, bounces);
   rules.realizations = rules.lines_per_patch = rules.direct_samples = 2048;
   rules.power_per_sample_w = 1e9;
   const Solved solved = solve(builder.scene(), {night}, rules);
@@ -438,7 +418,7 @@ TEST(Shooting, VarianceFallsWithTheNumberOfSamples) {
   const Scene scene = lamp_room(as_it_is);
   constexpr int many_realizations = 64;
   const auto variance = [&](double per_sample, std::uint64_t seed) {
-    SolverRules rules = rules_of(Transport::shoot, 4);
+    SolverRules rules = shooting_rules(Transport::shoot, 4);
     rules.realizations = rules.direct_samples = rules.lines_per_patch = many_realizations;
     rules.power_per_sample_w = per_sample;
     rules.seed = seed;
@@ -478,7 +458,7 @@ TEST(Shooting, FloorSeesTheCeilingInMirrorWalls) {
       const Vec3 a = corner[k], b = corner[(k + 1) % 4];
       builder.quad(b, a, a + up, b + up, mirror);
     }
-    SolverRules rules = rules_of(Transport::shoot, 0);
+    SolverRules rules = shooting_rules(Transport::shoot, 0);
     rules.mirror_depth = 1000;
     rules.lines_per_patch = realizations * 2048;
     const Solved solved = solve(builder.scene(), {night}, rules);
@@ -504,7 +484,7 @@ TEST(Shooting, SunIsSentOnByMoreThanOneMirror) {
   builder.quad({3, -1, 1}, {3, 2, 1}, {5, 2, -1}, {5, -1, -1}, second);
   builder.object("plate").quad({2, -2, -9}, {6, -2, -9}, {6, 3, -9}, {2, 3, -9}, wall);
   const Solved solved = solve(builder.scene(), {one_second({0, 0, 1}, 1000)},
-                              rules_of(Transport::shoot), {.max_edge_m = 0.5});
+                              shooting_rules(Transport::shoot), {.max_edge_m = 0.5});
   const auto mirrored = static_cast<std::size_t>(Part::mirror);
   double power = 0;
   for (std::size_t i = 0; i < solved.area.size(); ++i)

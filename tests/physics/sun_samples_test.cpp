@@ -89,7 +89,7 @@ struct Yard {
   }
 };
 
-SolverRules rules_of(Transport transport) {
+SolverRules sampled_rules(Transport transport) {
   SolverRules rules = test_rules();
   rules.transport = transport;
   rules.realizations = 32;
@@ -118,7 +118,7 @@ TEST(SunSamples, AnIntervalHasTheLightOfItsSunsOneAfterTheOther) {
         wall.glossy_exponent = 30;
       }
       const Yard yard(wall);
-      const SolverRules rules = rules_of(transport);
+      const SolverRules rules = sampled_rules(transport);
       const SplitRules split{.max_edge_m = 4};
       const Solved whole = solve(yard.scene, {of_three()}, rules, split);
       const Solved thirds = solve(yard.scene, one_after_the_other(), rules, split);
@@ -146,7 +146,7 @@ TEST(SunSamples, AnIntervalHasTheLightOfItsSunsOneAfterTheOther) {
 
 TEST(SunSamples, ManyForWhatIsStraightAndFewForMirrorsAreTheLightOfAll) {
   const Yard yard({"wall", 0.1, 0.8, 0});
-  const SolverRules rules = rules_of(Transport::gather);
+  const SolverRules rules = sampled_rules(Transport::gather);
   const SplitRules split{.max_edge_m = 2};
   const auto parts = twelve_in_turn();
   const Solved each = solve(yard.scene, parts, rules, split);
@@ -194,7 +194,7 @@ TEST(SunSamples, OpenGroundHasTheirMeanCosineAndAllOfTheSunsTime) {
   SceneBuilder builder;
   const int black = builder.material({"black", 0, 0, 0});
   builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, black);
-  const Solved solved = solve(builder.scene(), {of_three()}, rules_of(Transport::gather));
+  const Solved solved = solve(builder.scene(), {of_three()}, sampled_rules(Transport::gather));
   double cosine = 0;
   for (const Vec3 w : three_directions) cosine += w.z / 3;
   for (std::size_t i = 0; i < solved.area.size(); ++i) {
@@ -209,7 +209,7 @@ TEST(SunSamples, WhatASurfaceTurnsAwayFromIsNotItsSun) {
   SceneBuilder builder;
   const int black = builder.material({"black", 0, 0, 0});
   builder.quad({0, 1, 0}, {0, 0, 0}, {0, 0, 1}, {0, 1, 1}, black);
-  const Solved solved = solve(builder.scene(), {of_three()}, rules_of(Transport::gather));
+  const Solved solved = solve(builder.scene(), {of_three()}, sampled_rules(Transport::gather));
   for (std::size_t i = 0; i < solved.area.size(); ++i) {
     const auto total = static_cast<double>(solved.tally.irradiance[0][i]);
     EXPECT_NEAR(total, dni * -three_directions[2].x / 3, float_rounding * dni);
@@ -224,7 +224,7 @@ TEST(SunSamples, IntervalsMayHaveUnlikeNumbersOfThem) {
   IntervalLight one = one_second(three_directions[0], dni);
   one.number = 1;
   const Solved solved =
-      solve(builder.scene(), {of_three(), one, night}, rules_of(Transport::gather));
+      solve(builder.scene(), {of_three(), one, night}, sampled_rules(Transport::gather));
   const std::size_t patches = solved.area.size();
   for (std::size_t i = 0; i < patches; ++i) {
     EXPECT_NEAR(static_cast<double>(solved.tally.irradiance[0][patches + i]),

@@ -73,7 +73,7 @@ struct ByLamps {
 };
 
 /// A closed room: what emitters send arrives.
-SceneBuilder room() {
+SceneBuilder bright_room() {
   SceneBuilder builder;
   builder.box({0, 0, 0}, {4, 3, 2.5}, builder.material({"wall", 0.5, 0, 0}), Facing::inward);
   return builder;
@@ -93,7 +93,7 @@ void expect_power(const ByLamps& light, double truth) {
 }
 
 TEST(Lamps, ASmallOneIsNotMissed) {
-  SceneBuilder builder = room();
+  SceneBuilder builder = bright_room();
   const int lamp = builder.material({"lamp", 0, 0, exitance});
   builder.object("lamp").quad({2, 1, 2.2}, {2, 1.1, 2.2}, {2.1, 1.1, 2.2}, {2.1, 1, 2.2}, lamp);
   builder.object("back").quad({2, 1, 2.21}, {2.1, 1, 2.21}, {2.1, 1.1, 2.21}, {2, 1.1, 2.21},
@@ -108,7 +108,7 @@ TEST(Lamps, ASmallOneIsNotMissed) {
 
 // Lamps of all kinds: in the corner of two walls, of two sides, behind a box, of many parts.
 TEST(Lamps, TheirPowerArrives) {
-  SceneBuilder builder = room();
+  SceneBuilder builder = bright_room();
   const int wall = builder.material({"box", 0.3, 0, 0});
   const int lamp = builder.material({"lamp", 0.1, 0, exitance});
   builder.object("box").box({1, 1, 0.001}, {2, 2, 1}, wall, Facing::outward);
@@ -123,7 +123,7 @@ TEST(Lamps, TheirPowerArrives) {
 }
 
 TEST(Lamps, MoreThanAPatchCanWeighOneByOne) {
-  SceneBuilder builder = room();
+  SceneBuilder builder = bright_room();
   const int lamp = builder.material({"lamp", 0, 0, exitance});
   constexpr int rows = 20;
   for (int i = 0; i < rows; ++i)
@@ -155,7 +155,7 @@ std::vector<double> received(const ByLamps& light, const Scene& scene, std::size
   return means;
 }
 
-constexpr TruthCheck check{.fault_factor = 1.02};
+constexpr TruthCheck bright_check{.fault_factor = 1.02};
 
 // Unit squares, one over the other at distance 1, lit by each other; and at a right angle,
 // where both touch (reference 04).
@@ -187,10 +187,10 @@ TEST(Lamps, LightEachOtherThoughTheyTouch) {
     const double F = number(c["F12"]);
     // Lines start, and shadow rays end, 16 roundings above their surfaces: a rim of that width.
     const double bias = 2 * 16 * largest / (1 << 24) * rim / std::min(area[0], area[1]);
-    check(c["id"].get<std::string>() + " forth", received(light, builder.scene(), 1), F,
-          bias + float_rounding * F);
-    check(c["id"].get<std::string>() + " back", received(light, builder.scene(), 2),
-          F * area[0] / area[1], bias + float_rounding * F * area[0] / area[1]);
+    bright_check(c["id"].get<std::string>() + " forth", received(light, builder.scene(), 1), F,
+                 bias + float_rounding * F);
+    bright_check(c["id"].get<std::string>() + " back", received(light, builder.scene(), 2),
+                 F * area[0] / area[1], bias + float_rounding * F * area[0] / area[1]);
     // The same where what is lit fills most of the view: lines keep all of it.
     EXPECT_LE(light.variance(light.both), light.variance(light.lines)) << c["id"];
     ++cases;
@@ -218,8 +218,9 @@ TEST(Lamps, AreSeenInMirrors) {
   const ByLamps in_mirror(by_mirror.scene(), {}, 32768), image(straight.scene(), {}, 32768);
   const auto truth = mean_error(received(image, straight.scene(), 1));
   const double seen = 0.8 * truth.mean;
-  check("lamp in a mirror", received(in_mirror, by_mirror.scene(), 1), seen,
-        0.8 * accepted_t(in_mirror.both.size()) * truth.standard_error + float_rounding * seen);
+  bright_check(
+      "lamp in a mirror", received(in_mirror, by_mirror.scene(), 1), seen,
+      0.8 * accepted_t(in_mirror.both.size()) * truth.standard_error + float_rounding * seen);
 }
 
 /// Irradiance by surfaces of a radiosity that grows with height, from links alone.
@@ -238,7 +239,7 @@ std::vector<double> linked_power(const Lines& lines, const Hierarchy& mesh) {
 
 // A guide may be wrong: it decides how noisy links are, not what they carry.
 TEST(BrightSurfaces, LinksDoNotDependOnTheGuide) {
-  SceneBuilder builder = room();
+  SceneBuilder builder = bright_room();
   builder.object("box").box({1, 1, 0.5}, {2, 2, 1.5}, builder.material({"box", 0.3, 0, 0}),
                             Facing::outward);
   builder.object("screen").quad(

@@ -15,13 +15,13 @@ namespace sunload::test {
 namespace {
 
 using Facing = SceneBuilder::Facing;
-constexpr int realizations = 64, lines_each = 64;
+constexpr int line_realizations = 64, lines_each = 64;
 
 SolverRules line_rules() {
   SolverRules rules = test_rules();
-  rules.realizations = realizations;
-  rules.lines_per_patch = realizations * lines_each;
-  rules.direct_samples = realizations;
+  rules.realizations = line_realizations;
+  rules.lines_per_patch = line_realizations * lines_each;
+  rules.direct_samples = line_realizations;
   return rules;
 }
 
@@ -38,7 +38,7 @@ Variances variances(const Scene& scene, const SplitRules& split) {
   for (std::size_t i = 0; i < h.patch_count(); ++i) {
     std::vector<double> by_lines, by_random;
     const Tangents axes = tangents(h.normal(i));
-    for (std::uint32_t r = 0; r < realizations; ++r) {
+    for (std::uint32_t r = 0; r < line_realizations; ++r) {
       by_lines.push_back(static_cast<double>(traced->patches.lines.realizations[r].ends[i].sky));
       int sky = 0;
       for (std::uint32_t l = 0; l < lines_each; ++l) {
@@ -54,8 +54,8 @@ Variances variances(const Scene& scene, const SplitRules& split) {
       }
       by_random.push_back(static_cast<double>(sky) / lines_each);
     }
-    sum.lines += std::pow(mean_error(by_lines).standard_error, 2) * realizations;
-    sum.random += std::pow(mean_error(by_random).standard_error, 2) * realizations;
+    sum.lines += std::pow(mean_error(by_lines).standard_error, 2) * line_realizations;
+    sum.random += std::pow(mean_error(by_random).standard_error, 2) * line_realizations;
   }
   return sum;
 }

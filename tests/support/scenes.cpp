@@ -126,6 +126,22 @@ std::vector<IntervalLight> three_suns() {
   return light;
 }
 
+std::vector<IntervalLight> numbered_suns() {
+  auto light = three_suns();
+  for (std::size_t k = 0; k < light.size(); ++k) light[k].number = static_cast<std::uint32_t>(k);
+  return light;
+}
+
+Scene lamp_room(Change change) {
+  SceneBuilder builder;
+  const int wall = builder.material({"wall", change(0.6), 0, 0});
+  builder.object("room").box({0, 0, 0}, {4, 3, 2.5}, wall, SceneBuilder::Facing::inward);
+  builder.object("lamp").quad({1, 1, 2.4}, {1, 2, 2.4}, {2, 2, 2.4}, {2, 1, 2.4},
+                              builder.material({"lamp", change(0.4), 0, 50}));
+  builder.sides(Sides::two).object("screen").quad({3, 0, 0}, {3, 3, 0}, {3, 3, 2}, {3, 0, 2}, wall);
+  return builder.scene();
+}
+
 std::vector<double> Solved::means(const std::function<bool(std::size_t)>& chosen) const {
   std::vector<double> means;
   for (const auto& exposure : tally.exposure_realization) {

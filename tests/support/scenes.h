@@ -51,6 +51,16 @@ IntervalLight with_uniform_sky(IntervalLight light, double dhi, const SkyGrid& g
 
 /// Suns of different heights, each under a uniform sky and over a far ground of albedo 0.2.
 std::vector<IntervalLight> three_suns();
+/// The same, each with random numbers of its own.
+std::vector<IntervalLight> numbered_suns();
+
+/// What a test may do to reflectances on purpose.
+using Change = double (*)(double);
+inline double as_it_is(double rho) { return rho; }
+inline double squared(double rho) { return rho * rho; }
+
+/// A closed room with a lamp below its ceiling and a screen.
+Scene lamp_room(Change change);
 /// Neither sun nor sky.
 inline const IntervalLight night = one_second({0, 0, -1}, 0);
 

@@ -150,24 +150,37 @@ class Accessor:
         path = other.sunload.path if isinstance(other, xarray.Dataset) else os.fspath(other)
         return _rows(program.run(["compare", self.path, path, "--quantity", quantity, "--json"]))
 
+    def _interval_at(self, time: Any) -> int:
+        """The interval that holds a time in UTC."""
+        bounds, when = self._result["time_bounds"].values, np.datetime64(pandas.Timestamp(time).to_datetime64())
+        held = np.flatnonzero((bounds[:, 0] <= when) & (when < bounds[:, 1]))
+        if not len(held):
+            raise ValueError(f"{when} (UTC) is in no interval of the result: it has {bounds.min()} ... {bounds.max()}")
+        return int(held[0])
+
     def plot_map(self, quantity: str = "light_load", time: Optional[Any] = None, ax: Optional[Any] = None,
                  **options: Any) -> Any:
         """A map of what is seen from above, higher patches over lower ones, by matplotlib; returns its axes. `time`: of
-        a series, in UTC as all times of the dataset: the interval whose time is nearest, the brightest where left out; the
-        title tells it in civil time of the site. Options go to PolyCollection."""
+        a series, in UTC as all times of the dataset: the interval that holds it, the brightest where left out; the title
+        tells it in civil time of the site. `ax`: the current axes while they are empty, else new ones. Options go to
+        PolyCollection. Raises ValueError for a time in no interval, and for one of a total."""
         from matplotlib import pyplot  # needed here alone
         from matplotlib.collections import PolyCollection
         result = self._result
         values = self._of_patches(quantity)
         if "time" in values.dims:
-            values = values.isel(time=int(np.nanargmax(result["ghi"].values))) if time is None else \
-                values.sel(time=time, method="nearest")
+            values = values.isel(time=int(np.nanargmax(result["ghi"].values)) if time is None else self._interval_at(time))
+        elif time is not None:
+            raise ValueError(f"{quantity} is of the whole period: it has no time")
         if values.dims != ("patch",):
             raise ValueError(f"{quantity} has the dimensions {values.dims}; a map is of patches")
         corners = result["vertex_position"].values[result["patch_vertices"].values.astype(int)]
         seen = np.flatnonzero(result["patch_normal"].values[:, 2] > 1e-6)
         seen = seen[np.argsort(corners[seen, :, 2].max(axis=1), kind="stable")]
-        ax = pyplot.gca() if ax is None else ax
+        if ax is None:
+            ax = pyplot.gca()
+            if ax.has_data():
+                ax = pyplot.figure().add_subplot()
         drawn = ax.add_collection(PolyCollection(corners[seen][:, :, :2], array=values.values[seen],
                                                  **{"cmap": "inferno", "edgecolors": "face", **options}))
         ax.set_aspect("equal")

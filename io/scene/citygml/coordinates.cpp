@@ -11,7 +11,7 @@ namespace sunload {
 
 namespace {
 
-constexpr int deepest = 40;  // elements of curves inside of curves
+constexpr int deepest_curve = 40;  // elements of curves inside of curves
 
 bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
 
@@ -137,7 +137,7 @@ void CityCoordinates::add_coord(XmlElement coord) {
 }
 
 void CityCoordinates::gather(XmlElement curve, int depth) {
-  if (depth > deepest)
+  if (depth > deepest_curve)
     document_.file().fail(curve, "curves nest too deep", "do its links form a circle?");
   for (const auto child : curve.children()) {
     document_.spend(child, 1);

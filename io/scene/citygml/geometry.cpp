@@ -17,7 +17,7 @@ namespace {
 
 using Names = std::unordered_set<std::string_view>;
 
-constexpr int deepest = 60;  // geometries inside of geometries
+constexpr int deepest_geometry = 60;  // geometries inside of geometries
 
 bool is_polygon(std::string_view geometry) {
   return geometry == "Polygon" || geometry == "PolygonPatch" || geometry == "Triangle" ||
@@ -63,7 +63,7 @@ class Collector {
         notes_(notes) {}
 
   void collect(XmlElement geometry, bool is_flipped, MaterialId material, int depth) {
-    if (depth > deepest)
+    if (depth > deepest_geometry)
       document_.file().fail(geometry, "geometries nest too deep", "do its links form a circle?");
     document_.spend(geometry, 1);
     const auto name = geometry.name();

@@ -17,7 +17,7 @@ namespace {
 
 using Names = std::unordered_set<std::string_view>;
 
-constexpr int deepest = 40;  // features inside of features
+constexpr int deepest_feature = 40;  // features inside of features
 
 /// Where CityGML has another name than CityJSON.
 std::string_view of_cityjson(std::string_view feature) {
@@ -121,7 +121,7 @@ class ObjectReader {
   };
 
   void walk(XmlElement feature, CityObject& object, SemanticSurface surface, Walk walk) {
-    if (walk.depth > deepest)
+    if (walk.depth > deepest_feature)
       document_.file().fail(feature, "features nest too deep", "do its links form a circle?");
     for (const auto property : feature.children()) {
       const auto name = property.name();

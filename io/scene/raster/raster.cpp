@@ -128,7 +128,7 @@ class RasterReader {
 
   void read_crs() {
     auto* crs = GDALGetSpatialRef(dataset_.get());
-    if (crs == nullptr) return notes_.say("the raster names no CRS: site.crs may");
+    if (crs == nullptr) return notes_.say("the raster itself names no CRS: site.crs or --crs may");
     if (OSRIsGeographic(crs)) {
       fail("has coordinates in degrees", "distances are needed in metres",
            "project it first, for example with gdalwarp -t_srs EPSG:…");

@@ -27,8 +27,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t longest_message = 400;  ///< characters kept of one of Coin
 constexpr int most_repairs = 200;             ///< kinds of unknown fields; each reads anew
 
-std::string text_of(const SbName& name) { return name.getString(); }
-
 }  // namespace
 
 VrmlFiles::VrmlFiles(NoteCounter& notes) : notes_(notes) {
@@ -141,7 +139,8 @@ SoProto* VrmlFiles::proto_of(const SbString* urls, int count) {
     const auto& paths = search.getPaths();
     for (int p = 0; p < paths.getLength(); ++p) {
       auto* proto = static_cast<SoProto*>(paths[p]->getTail());
-      if (hash == url.npos ? p == 0 : url.substr(hash + 1) == text_of(proto->getProtoName())) {
+      if (hash == url.npos ? p == 0
+                           : url.substr(hash + 1) == coin::text_of(proto->getProtoName())) {
         home_[proto] = &file;
         return proto;
       }

@@ -28,6 +28,7 @@ inline constexpr std::size_t deepest_inline = 64;  ///< files within files
 /// Coin's nodes and values, as ours.
 namespace coin {
 
+inline std::string text_of(const SbName& name) { return name.getString(); }
 inline Vec3 vec(const SbVec3f& v) { return {v[0], v[1], v[2]}; }
 
 /// Coin's matrices act on row vectors.

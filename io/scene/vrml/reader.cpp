@@ -27,13 +27,13 @@ namespace fs = std::filesystem;
 using coin::affine;
 using coin::as;
 using coin::plain;
+using coin::text_of;
 using coin::vec;
 
 /// Of nodes, where files are inlined many times: seconds.
 constexpr std::size_t most_visits = 10'000'000;
 
 std::array<double, 3> colour(const SbColor& c) { return {c[0], c[1], c[2]}; }
-std::string text_of(const SbName& name) { return name.getString(); }
 
 Affine affine(const SbRotation& rotation) {
   SbMatrix m;

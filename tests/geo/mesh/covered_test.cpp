@@ -39,7 +39,7 @@ Cut cut(const ModelBuilder& builder, PrepareRules rules = {},
   for (const auto object : mesh.triangle_object)
     is_opaque.push_back(mesh.object_names[object.index()] != transparent_object);
   const double before = area(mesh);
-  result.cut = cut_covered(mesh, result.p.bodies, is_opaque);
+  result.cut = cut_covered(mesh, result.p.bodies, is_opaque, result.p.seals);
   EXPECT_NEAR(area(mesh) + result.cut.taken.area_m2, before, rounding);  // nothing is lost
   EXPECT_EQ(result.cut.source.size(), mesh.triangle_count());
   EXPECT_EQ(result.p.bodies.triangle_body.size(), mesh.triangle_count());
@@ -154,6 +154,19 @@ TEST(Covered, BelowLandIsCovered) {
   EXPECT_EQ(c.covered("under the deck", Surface::wall), 0);
 }
 
+// Floors are where land ends, but not those of a garage.
+TEST(Covered, LandOverACellarIsOpen) {
+  auto builder = ModelBuilder().city().object("terrain", "TINRelief").with(Surface::ground);
+  builder.ring({{0, 0, 0}, {60, 0, 0}, {60, 60, 0}, {0, 60, 0}}).with(Surface::other);
+  builder.object("garage", "Building").box({5, 5, -6}, {15, 15, -3});
+  builder.object("house", "Building").box({25, 25, -1}, {35, 35, 9});
+  builder.object("above its cellar", "Building").box({5, 25, 0}, {15, 35, 9});
+  builder.object("cellar", "Building").box({5, 25, -3}, {15, 35, -0.5});
+  builder.object("hovers", "Building").box({40, 5, 0.3}, {50, 15, 9});
+  const auto c = cut(builder, {.ground = GroundRules{5}});
+  EXPECT_NEAR(c.covered("terrain", Surface::ground), 3 * 100, rounding);
+}
+
 TEST(Covered, RandomBoxesAgreeWithPointsTried) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> at(0, 10), size(1, 5);
@@ -227,7 +240,7 @@ Cut plates(double z, bool up, Sides sides_of_second, const std::string& transpar
   return cut(builder, {.repair = Repair::safe, .ground = {}}, transparent);
 }
 
-double area_of(const Cut& c, const std::string& object) {
+double cut_area_of(const Cut& c, const std::string& object) {
   double sum = 0;
   for (std::size_t t = 0; t < c.p.mesh.triangle_count(); ++t)
     if (c.p.mesh.object_names[c.p.mesh.triangle_object[t].index()] == object)
@@ -238,16 +251,16 @@ double area_of(const Cut& c, const std::string& object) {
 TEST(Covered, OfPlatesInOnePlaceTheFirstStays) {
   const auto c = plates(0, true, Sides::one);
   EXPECT_NEAR(c.cut.taken.area_m2, 12, rounding);
-  EXPECT_EQ(area_of(c, "second"), 0);
-  EXPECT_NEAR(area_of(c, "first"), 100, rounding);
+  EXPECT_EQ(cut_area_of(c, "second"), 0);
+  EXPECT_NEAR(cut_area_of(c, "first"), 100, rounding);
   EXPECT_LT(c.cut.taken.first[0], 2u);  // the two of "first"
   EXPECT_GE(c.cut.taken.first[1], 2u);
 }
 
 TEST(Covered, WhatFacesBothWaysStays) {
   const auto c = plates(0, true, Sides::two);
-  EXPECT_NEAR(area_of(c, "second"), 12, rounding);
-  EXPECT_NEAR(area_of(c, "first"), 88, rounding);
+  EXPECT_NEAR(cut_area_of(c, "second"), 12, rounding);
+  EXPECT_NEAR(cut_area_of(c, "first"), 88, rounding);
 }
 
 TEST(Covered, LampsInAWallStay) {
@@ -262,8 +275,8 @@ TEST(Covered, LampsInAWallStay) {
   const CoveredCut found = cut_covered(p.mesh, p.bodies, opaque, {}, emits);
   EXPECT_NEAR(found.taken.area_m2, 2, rounding);
   const Cut c{std::move(p), found};
-  EXPECT_NEAR(area_of(c, "lamp"), 2, rounding);
-  EXPECT_NEAR(area_of(c, "wall"), 48, rounding);
+  EXPECT_NEAR(cut_area_of(c, "lamp"), 2, rounding);
+  EXPECT_NEAR(cut_area_of(c, "wall"), 48, rounding);
 }
 
 TEST(Covered, BackToBackVeilsAndAMillimetreAboveStay) {
@@ -354,7 +367,7 @@ TEST(Covered, ManyCrossingsOnOneTriangle) {
   const auto c = cut(builder, {.repair = Repair::none, .ground = {}});
   const double whole_m2 = wide_m * wide_m;  // strips cover three quarters of it
   EXPECT_NEAR(open_area(c, {0, 0, 1}), whole_m2, whole_m2 * 1e-6);
-  EXPECT_NEAR(area_of(c, "all"), whole_m2 / 4, whole_m2 * 1e-6);
+  EXPECT_NEAR(cut_area_of(c, "all"), whole_m2 / 4, whole_m2 * 1e-6);
 }
 
 TEST(Covered, EqualInputGivesEqualBits) {

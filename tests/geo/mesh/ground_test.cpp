@@ -18,7 +18,7 @@
 namespace sunload::test {
 namespace {
 
-constexpr double rounding = 1e-9;
+constexpr double ground_rounding = 1e-9;
 
 PrepareRules on_feet(double margin_m = 20) { return {.ground = GroundRules{margin_m}}; }
 
@@ -56,8 +56,8 @@ TEST(Ground, LevelFeetGetAPlateWithoutWhatLiesUnderThem) {
   EXPECT_EQ(p.report.ground->standing, 2u);
   EXPECT_EQ(p.report.ground->low_m, 2);
   EXPECT_EQ(p.report.ground->high_m, 2);
-  EXPECT_NEAR(plan_area(p.mesh, false) + plan_area(p.mesh, true), 28 * 30, rounding * 1000);
-  EXPECT_NEAR(plan_area(p.mesh, true), 200 + 9, rounding * 1000);
+  EXPECT_NEAR(plan_area(p.mesh, false) + plan_area(p.mesh, true), 28 * 30, ground_rounding * 1000);
+  EXPECT_NEAR(plan_area(p.mesh, true), 200 + 9, ground_rounding * 1000);
   EXPECT_NEAR(p.report.covered_m2[static_cast<std::size_t>(Surface::ground)], 209, 1e-6);
   EXPECT_NEAR(area_of(p, Surface::floor), 209, 1e-6);
 }
@@ -74,8 +74,8 @@ TEST(Ground, GoesThroughFeetOfAllHeights) {
   EXPECT_FALSE(p.report.ground->is_level);
   EXPECT_EQ(p.report.ground->standing, 25u);
   EXPECT_EQ(p.report.ground->hovering.size(), 0u);
-  EXPECT_NEAR(p.report.ground->gap_m.front(), 0, rounding);
-  EXPECT_NEAR(p.report.ground->gap_m.back(), 0, rounding);
+  EXPECT_NEAR(p.report.ground->gap_m.front(), 0, ground_rounding);
+  EXPECT_NEAR(p.report.ground->gap_m.back(), 0, ground_rounding);
   EXPECT_NEAR(plan_area(p.mesh, true), 25 * 99, 1e-6);
   EXPECT_NEAR(plan_area(p.mesh, false), 129 * 131 - 25 * 99, 1e-6);
   // By another way: the height beside each wall.
@@ -85,7 +85,7 @@ TEST(Ground, GoesThroughFeetOfAllHeights) {
       const Vec3 v = p.mesh.corner(t, k);
       const auto heights = ground_at(p.mesh, v.x, v.y);
       ASSERT_FALSE(heights.empty());
-      for (const double z : heights) EXPECT_NEAR(z, v.z, rounding);
+      for (const double z : heights) EXPECT_NEAR(z, v.z, ground_rounding);
     }
   }
 }
@@ -94,8 +94,8 @@ TEST(Ground, IsLevelBeyondTheOutermostFeet) {
   auto builder = ModelBuilder().object("low").box({0, 0, 0}, {10, 10, 5});
   builder.object("high").box({40, 0, 3}, {50, 10, 9});
   const auto p = builder.prepared(on_feet());
-  for (const double z : ground_at(p.mesh, -15, 5)) EXPECT_NEAR(z, 0, rounding);
-  for (const double z : ground_at(p.mesh, 65, 5)) EXPECT_NEAR(z, 3, rounding);
+  for (const double z : ground_at(p.mesh, -15, 5)) EXPECT_NEAR(z, 0, ground_rounding);
+  for (const double z : ground_at(p.mesh, 65, 5)) EXPECT_NEAR(z, 3, ground_rounding);
   for (const double z : ground_at(p.mesh, 25, 5)) EXPECT_NEAR(z, 1.5, 0.01);
 }
 
@@ -108,8 +108,8 @@ TEST(Ground, OfSlopingFeetIsTheSlope) {
   builder.moved([](Vec3 v) { return Vec3{v.x, v.y, v.z + 0.15 * v.x - 0.08 * v.y}; });
   const auto p = builder.prepared(on_feet());
   EXPECT_EQ(p.report.ground->standing, 16u);
-  EXPECT_NEAR(p.report.ground->gap_m.back(), 0, rounding);
-  EXPECT_NEAR(p.report.ground->gap_m.front(), 0, rounding);
+  EXPECT_NEAR(p.report.ground->gap_m.back(), 0, ground_rounding);
+  EXPECT_NEAR(p.report.ground->gap_m.front(), 0, ground_rounding);
   // Beside the houses, between them, and to the margin's rim.
   for (const auto& [x, y] : {std::pair{15.0, 15.0},
                              {33.0, 50.0},
@@ -121,7 +121,7 @@ TEST(Ground, OfSlopingFeetIsTheSlope) {
                              {-12.0, 85.0}}) {
     const auto heights = ground_at(p.mesh, x, y);
     EXPECT_EQ(heights.size(), 1u);
-    for (const double z : heights) EXPECT_NEAR(z, 0.15 * x - 0.08 * y, rounding);
+    for (const double z : heights) EXPECT_NEAR(z, 0.15 * x - 0.08 * y, ground_rounding);
   }
   EXPECT_NEAR(p.report.ground->steepest_beyond, 0.17, 1e-6);
 }
@@ -175,7 +175,7 @@ TEST(Ground, BodiesOnBodiesBaysAndBalconiesAreNoFeet) {
   EXPECT_EQ(p.report.ground->hovering[0].object, "house");
   EXPECT_NEAR(p.report.ground->hovering[0].gap_m, 5, 0.05);
   EXPECT_EQ(p.report.ground->high_m, 1);
-  EXPECT_NEAR(p.report.ground->gap_m.back(), 0, rounding);
+  EXPECT_NEAR(p.report.ground->gap_m.back(), 0, ground_rounding);
 }
 
 TEST(Ground, HousesWithoutFloorsCoverTheGround) {
@@ -205,7 +205,7 @@ TEST(Ground, ACourtyardIsOpenGround) {
   builder.object("other", "Building").box({50, 0, 0}, {60, 10, 9});
   const auto p = builder.prepared(on_feet());
   EXPECT_NEAR(plan_area(p.mesh, true), 800 + 100, 1e-6);
-  for (const double z : ground_at(p.mesh, 15, 15)) EXPECT_NEAR(z, 1, rounding);
+  for (const double z : ground_at(p.mesh, 15, 15)) EXPECT_NEAR(z, 1, ground_rounding);
 }
 
 TEST(Ground, TerrainOfTheModelGoesFirst) {
@@ -253,7 +253,7 @@ TEST(Ground, WallsThatEndAboveTheTerrainAreDrawnDown) {
   builder.object("mast", "Building").box({30, 30, 9}, {31, 31, 22});     // land: 3 to 3.1 m
   auto p = builder.prepared(on_feet());
   EXPECT_EQ(p.report.ground->drawn, 1u);
-  EXPECT_NEAR(p.report.ground->longest_drawn_m, 0.6, rounding);
+  EXPECT_NEAR(p.report.ground->longest_drawn_m, 0.6, ground_rounding);
   EXPECT_EQ(p.report.ground->floating, 1u);
   EXPECT_EQ(p.report.ground->worst.front().object, "mast");
   for (std::size_t t = 1; t < p.mesh.triangle_count(); ++t)
@@ -278,11 +278,11 @@ TEST(Ground, LevelLiesWhereItIsTold) {
   EXPECT_TRUE(p.report.ground->is_level);
   EXPECT_EQ(p.report.ground->low_m, 1.2);
   EXPECT_EQ(p.report.ground->floating, 2u);
-  EXPECT_NEAR(p.report.ground->gap_m.front(), 0.8, rounding);
-  EXPECT_NEAR(p.report.ground->gap_m.back(), 1.3, rounding);
+  EXPECT_NEAR(p.report.ground->gap_m.front(), 0.8, ground_rounding);
+  EXPECT_NEAR(p.report.ground->gap_m.back(), 1.3, ground_rounding);
   EXPECT_EQ(p.report.ground->worst.front().object, "b");
   EXPECT_EQ(p.report.floors, 0u);  // both hover
-  EXPECT_NEAR(plan_area(p.mesh, true), 0, rounding);
+  EXPECT_NEAR(plan_area(p.mesh, true), 0, ground_rounding);
   rules.ground->height_m.reset();
   const auto lowest = builder.prepared(rules);
   EXPECT_EQ(lowest.report.ground->low_m, 2);

@@ -10,7 +10,7 @@
 namespace sunload::test {
 namespace {
 
-constexpr double rounding = 1e-12;
+constexpr double orient_rounding = 1e-12;
 
 PrepareRules repair(Repair r) { return {.repair = r, .ground = {}}; }
 
@@ -31,8 +31,8 @@ TEST(Orient, TurnsAClosedBodyOutwardWhateverTheFileSays) {
       builder.ring(is_turned ? reversed(faces[f]) : faces[f]);
     }
     const auto p = builder.prepared();
-    EXPECT_NEAR(volume(p.mesh), 24, rounding);
-    EXPECT_NEAR(p.report.volume_m3, 24, rounding);
+    EXPECT_NEAR(volume(p.mesh), 24, orient_rounding);
+    EXPECT_NEAR(p.report.volume_m3, 24, orient_rounding);
     EXPECT_EQ(p.report.triangles_flipped, expected);
     EXPECT_EQ(p.report.closed_bodies, 1u);
   }
@@ -43,7 +43,7 @@ TEST(Orient, NoneChangesNothingAndSaysSo) {
   for (const auto& face : ModelBuilder::box_faces({0, 0, 0}, {1, 1, 1}))
     builder.ring(reversed(face));
   const auto p = builder.prepared(repair(Repair::none));
-  EXPECT_NEAR(volume(p.mesh), -1, rounding);
+  EXPECT_NEAR(volume(p.mesh), -1, orient_rounding);
   EXPECT_EQ(p.report.inside_out_bodies, 1u);
   EXPECT_EQ(p.report.triangles_flipped, 0u);
   ASSERT_EQ(p.report.warnings.size(), 1u);
@@ -61,8 +61,8 @@ TEST(Orient, ACavityStaysACavity) {
     }
     const auto p = builder.prepared();
     EXPECT_EQ(p.report.closed_bodies, 2u);
-    EXPECT_NEAR(p.report.volume_m3, 64 - 8, rounding);
-    EXPECT_NEAR(volume(p.mesh), 64 - 8, rounding);
+    EXPECT_NEAR(p.report.volume_m3, 64 - 8, orient_rounding);
+    EXPECT_NEAR(volume(p.mesh), 64 - 8, orient_rounding);
   }
 }
 
@@ -83,7 +83,7 @@ TEST(Orient, ABodyBesideAnotherIsNoCavity) {
   }
   const auto p = builder.prepared();
   EXPECT_EQ(p.report.closed_bodies, 2u);
-  EXPECT_NEAR(p.report.volume_m3, 7 * 2 + 1, rounding);
+  EXPECT_NEAR(p.report.volume_m3, 7 * 2 + 1, orient_rounding);
   EXPECT_EQ(p.report.triangles_flipped, 12u);
 }
 
@@ -97,7 +97,7 @@ TEST(Orient, BodiesOfDifferentObjectsThatTouchBothClose) {
   EXPECT_EQ(p.report.closed_bodies, 2u);
   EXPECT_EQ(p.report.duplicates_dropped, 0u);
   EXPECT_EQ(p.report.nonmanifold_edges, 0u);
-  EXPECT_NEAR(p.report.volume_m3, 2, rounding);
+  EXPECT_NEAR(p.report.volume_m3, 2, orient_rounding);
 }
 
 TEST(Orient, CellsOfOneObjectThatShareAWallCloseTogether) {
@@ -109,7 +109,7 @@ TEST(Orient, CellsOfOneObjectThatShareAWallCloseTogether) {
       builder.ring(is_mixed && !is_shared_wall ? reversed(faces[f]) : faces[f]);
     }
     const auto p = builder.prepared();
-    EXPECT_NEAR(p.report.volume_m3, 2, rounding) << is_mixed;
+    EXPECT_NEAR(p.report.volume_m3, 2, orient_rounding) << is_mixed;
     EXPECT_EQ(p.report.closed_bodies, 1u);
     EXPECT_EQ(p.report.duplicates_dropped, 2u);
   }
@@ -126,7 +126,7 @@ TEST(Orient, CubesThatShareAnEdgeCloseInAnyWinding) {
     }
     const auto p = builder.prepared();
     EXPECT_EQ(p.report.nonmanifold_edges, 1u);
-    EXPECT_NEAR(p.report.volume_m3, 2, rounding);
+    EXPECT_NEAR(p.report.volume_m3, 2, orient_rounding);
     EXPECT_EQ(p.report.unorientable, 0u);
   }
 }
@@ -177,7 +177,7 @@ TEST(Orient, ABodyWhoseFacesAllHaveBacksIsAClosedBody) {
     builder.ring(reversed(face));
   const auto p = builder.prepared();
   EXPECT_EQ(p.report.closed_bodies, 1u);
-  EXPECT_NEAR(p.report.volume_m3, 1, rounding);
+  EXPECT_NEAR(p.report.volume_m3, 1, orient_rounding);
   EXPECT_EQ(p.report.sheets_merged, 0u);
   EXPECT_EQ(p.mesh.triangle_sides[0], Sides::one);
 }
@@ -220,7 +220,7 @@ TEST(Orient, OpenSurfacesThatLookDownAreTold) {
   };
   const auto city = looks_down(true, true, Orientation::outward);
   EXPECT_EQ(city.looks_down.objects, 3u);
-  EXPECT_NEAR(city.looks_down.area_m2, 50 * 40 + 10 * 10 + 10 * 10, rounding * 2200);
+  EXPECT_NEAR(city.looks_down.area_m2, 50 * 40 + 10 * 10 + 10 * 10, orient_rounding * 2200);
   EXPECT_EQ(city.looks_down.largest, "land");
   EXPECT_NE(city.warnings.back().find("3 objects with open surfaces that look down (2.2e+03 m2"),
             std::string::npos)
@@ -247,8 +247,8 @@ TEST(Orient, AllSplitsTJointsSoThatTheBodyCloses) {
   EXPECT_EQ(p.report.t_joints_split, 6u);
   EXPECT_EQ(p.report.closed_bodies, 1u);
   EXPECT_EQ(p.report.open_edges, 0u);
-  EXPECT_NEAR(p.report.volume_m3, 24, rounding);
-  EXPECT_NEAR(area(p.mesh), 2 * (8 + 12 + 6), rounding);
+  EXPECT_NEAR(p.report.volume_m3, 24, orient_rounding);
+  EXPECT_NEAR(area(p.mesh), 2 * (8 + 12 + 6), orient_rounding);
 }
 
 /// A closed room from a file, its faces inward: kept so, it is lit inside.

@@ -14,7 +14,7 @@
 namespace sunload::test {
 namespace {
 
-constexpr double rounding = 1e-10;  // sums of some hundred areas
+constexpr double surface_rounding = 1e-10;  // sums of some hundred areas
 
 std::map<std::string, Facade> facades(const PreparedMesh& p) {
   std::map<std::string, Facade> result;
@@ -44,16 +44,16 @@ void add_wall_with_windows(ModelBuilder& builder, double width, double height, d
 TEST(SurfaceKind, ABoxOnAGroundHasWallsRoofAndFloor) {
   const auto p =
       ModelBuilder().object("box").box({0, 0, 0}, {2, 3, 4}).prepared({.ground = GroundRules{}});
-  EXPECT_NEAR(area_of(p, Surface::wall), 2 * (8 + 12), rounding);
-  EXPECT_NEAR(area_of(p, Surface::roof), 6, rounding);
-  EXPECT_NEAR(area_of(p, Surface::floor), 6, rounding);
+  EXPECT_NEAR(area_of(p, Surface::wall), 2 * (8 + 12), surface_rounding);
+  EXPECT_NEAR(area_of(p, Surface::roof), 6, surface_rounding);
+  EXPECT_NEAR(area_of(p, Surface::floor), 6, surface_rounding);
   EXPECT_EQ(p.report.floors, 2u);
 }
 
 TEST(SurfaceKind, WhatTheReaderSaysStays) {
   auto builder = ModelBuilder().object("box").with(Surface::window).box({0, 0, 0}, {2, 3, 4});
   const auto p = builder.prepared();
-  EXPECT_NEAR(area_of(p, Surface::window), 52, rounding);
+  EXPECT_NEAR(area_of(p, Surface::window), 52, surface_rounding);
 }
 
 TEST(SurfaceKind, BodiesThatHoverHaveNoFloor) {
@@ -82,13 +82,13 @@ TEST(SurfaceKind, WhereNothingIsBelowTheGroundDecides) {
   builder.object("high").box({20, 0, 1}, {22, 2, 4});
   // Without a ground both are lit from below.
   const auto p = builder.prepared();
-  EXPECT_NEAR(area_of(p, Surface::floor), 0, rounding);
-  EXPECT_NEAR(area_of(p, Surface::other), 8, rounding);
+  EXPECT_NEAR(area_of(p, Surface::floor), 0, surface_rounding);
+  EXPECT_NEAR(area_of(p, Surface::other), 8, surface_rounding);
   const auto on_plate = builder.prepared({.ground = GroundRules{5, GroundSurface::level}});
-  EXPECT_NEAR(area_of(on_plate, Surface::floor), 4, rounding);
-  EXPECT_NEAR(area_of(on_plate, Surface::other), 4, rounding);
+  EXPECT_NEAR(area_of(on_plate, Surface::floor), 4, surface_rounding);
+  EXPECT_NEAR(area_of(on_plate, Surface::other), 4, surface_rounding);
   const auto on_feet = builder.prepared({.ground = GroundRules{5}});
-  EXPECT_NEAR(area_of(on_feet, Surface::floor), 8, rounding);
+  EXPECT_NEAR(area_of(on_feet, Surface::floor), 8, surface_rounding);
 }
 
 TEST(SurfaceKind, AFloorIsWhatTouchesNotWhatLooksDown) {
@@ -98,7 +98,7 @@ TEST(SurfaceKind, AFloorIsWhatTouchesNotWhatLooksDown) {
   const auto p = builder.prepared();
   EXPECT_EQ(p.report.floors, 0u);  // the first is cut where the table ends
   builder.object("on it").box({6, 6, 1}, {7, 7, 2});
-  EXPECT_NEAR(area_of(builder.prepared(), Surface::floor), 1, rounding);
+  EXPECT_NEAR(area_of(builder.prepared(), Surface::floor), 1, surface_rounding);
 }
 
 TEST(SurfaceKind, OpenSheetsOfPlainFilesOnlyHaveWalls) {
@@ -106,7 +106,7 @@ TEST(SurfaceKind, OpenSheetsOfPlainFilesOnlyHaveWalls) {
   builder.ring({{0, 0, 0}, {9, 0, 0}, {9, 9, 1}, {0, 9, 1}});
   builder.ring({{0, 9, 1}, {9, 9, 1}, {9, 9, 4}, {0, 9, 4}});
   const auto p = builder.prepared();
-  EXPECT_NEAR(area_of(p, Surface::wall), 27, rounding);
+  EXPECT_NEAR(area_of(p, Surface::wall), 27, surface_rounding);
   EXPECT_GT(area_of(p, Surface::other), 81);
   EXPECT_EQ(p.report.floors, 0u);
 }
@@ -119,10 +119,10 @@ TEST(SurfaceKind, CitiesKnowLandAndPlants) {
   auto faces = ModelBuilder::box_faces({30, 0, 1}, {32, 2, 4});
   for (std::size_t f = 0; f < 5; ++f) builder.ring(faces[f]);  // one wall is missing
   const auto p = builder.prepared();
-  EXPECT_NEAR(area_of(p, Surface::ground), 81, rounding);
-  EXPECT_NEAR(area_of(p, Surface::other), 24, rounding);
-  EXPECT_NEAR(area_of(p, Surface::floor), 4, rounding);
-  EXPECT_NEAR(area_of(p, Surface::wall), 18, rounding);
+  EXPECT_NEAR(area_of(p, Surface::ground), 81, surface_rounding);
+  EXPECT_NEAR(area_of(p, Surface::other), 24, surface_rounding);
+  EXPECT_NEAR(area_of(p, Surface::floor), 4, surface_rounding);
+  EXPECT_NEAR(area_of(p, Surface::wall), 18, surface_rounding);
   EXPECT_EQ(p.mesh.facades.size(), 3u);
 }
 
@@ -130,12 +130,12 @@ TEST(Facade, ABoxHasFour) {
   const auto p = ModelBuilder().object("house_3").box({0, 0, 0}, {2, 3, 4}).prepared();
   const auto f = facades(p);
   ASSERT_EQ(f.size(), 4u);
-  EXPECT_NEAR(f.at("house_3/north_1").area_m2, 8, rounding);
-  EXPECT_NEAR(f.at("house_3/north_1").azimuth_deg, 0, rounding);
-  EXPECT_NEAR(f.at("house_3/east_1").area_m2, 12, rounding);
-  EXPECT_NEAR(f.at("house_3/east_1").azimuth_deg, 90, rounding);
-  EXPECT_NEAR(f.at("house_3/south_1").azimuth_deg, 180, rounding);
-  EXPECT_NEAR(f.at("house_3/west_1").azimuth_deg, 270, rounding);
+  EXPECT_NEAR(f.at("house_3/north_1").area_m2, 8, surface_rounding);
+  EXPECT_NEAR(f.at("house_3/north_1").azimuth_deg, 0, surface_rounding);
+  EXPECT_NEAR(f.at("house_3/east_1").area_m2, 12, surface_rounding);
+  EXPECT_NEAR(f.at("house_3/east_1").azimuth_deg, 90, surface_rounding);
+  EXPECT_NEAR(f.at("house_3/south_1").azimuth_deg, 180, surface_rounding);
+  EXPECT_NEAR(f.at("house_3/west_1").azimuth_deg, 270, surface_rounding);
   EXPECT_EQ(p.mesh.facades[0].name, "house_3/north_1");
   EXPECT_EQ(p.mesh.facades[3].name, "house_3/west_1");
 }
@@ -144,8 +144,8 @@ TEST(Facade, NamesFollowTrueNorthAndAzimuthsTheScene) {
   auto builder = ModelBuilder().object("h").box({0, 0, 0}, {2, 3, 4});
   const auto p = builder.prepared({.repair = Repair::safe, .ground = {}, .north_deg = 90});
   const auto f = facades(p);
-  EXPECT_NEAR(f.at("h/east_1").azimuth_deg, 0, rounding);
-  EXPECT_NEAR(f.at("h/east_1").area_m2, 8, rounding);
+  EXPECT_NEAR(f.at("h/east_1").azimuth_deg, 0, surface_rounding);
+  EXPECT_NEAR(f.at("h/east_1").area_m2, 8, surface_rounding);
 }
 
 /// Of a star of houses, one of them against another: what is covered loses its facade.
@@ -194,7 +194,8 @@ TEST(Facade, RecessedWindowsBelongToTheirWallAndRevealsDoNot) {
   const auto p = builder.prepared();
   ASSERT_EQ(p.mesh.facades.size(), 1u);
   EXPECT_EQ(p.mesh.facades[0].name, "house/south_1");
-  EXPECT_NEAR(p.mesh.facades[0].area_m2, 200, rounding);  // openings are filled by the windows
+  EXPECT_NEAR(p.mesh.facades[0].area_m2, 200,
+              surface_rounding);  // openings are filled by the windows
   for (std::size_t t = 0; t < p.mesh.triangle_count(); ++t) {
     const bool is_reveal = std::abs(p.mesh.area_vector2(t).x) > 0;
     EXPECT_EQ(p.mesh.triangle_facade[t].exists(), !is_reveal);
@@ -209,9 +210,9 @@ TEST(Facade, WingsApartAreNumberedByArea) {
   builder.box({0, 0, 0}, {5, 4, 3}).box({10, 0, 0}, {18, 4, 3});
   builder.box({30, 0, 0}, {36, 4, 3}).box({36.5, 0, 0}, {42, 4, 3});  // a gap of 0.5 m
   const auto f = facades(builder.prepared());
-  EXPECT_NEAR(f.at("school/south_1").area_m2, 34.5, rounding);
-  EXPECT_NEAR(f.at("school/south_2").area_m2, 24, rounding);
-  EXPECT_NEAR(f.at("school/south_3").area_m2, 15, rounding);
+  EXPECT_NEAR(f.at("school/south_1").area_m2, 34.5, surface_rounding);
+  EXPECT_NEAR(f.at("school/south_2").area_m2, 24, surface_rounding);
+  EXPECT_NEAR(f.at("school/south_3").area_m2, 15, surface_rounding);
   EXPECT_EQ(f.count("school/south_4"), 0u);
 }
 
@@ -246,7 +247,7 @@ TEST(Facade, AreasAndOrderDoNotDependOnTheOrderOfTheFile) {
   ASSERT_EQ(results[0].size(), 8u);
   for (std::size_t i = 0; i < 8; ++i) {
     EXPECT_EQ(results[0][i].name, results[1][i].name);
-    EXPECT_NEAR(results[0][i].area_m2, results[1][i].area_m2, rounding);
+    EXPECT_NEAR(results[0][i].area_m2, results[1][i].area_m2, surface_rounding);
   }
 }
 

@@ -14,7 +14,7 @@ namespace sunload::test {
 namespace {
 
 // Sums of a few dozen products of numbers up to 100: some 100 roundings of 1e-16.
-constexpr double rounding = 1e-13;
+constexpr double prepare_rounding = 1e-13;
 
 TEST(MeshPrepare, ClosesACubeOfLooseFaces) {
   const auto p = ModelBuilder().object("cube").box({0, 0, 0}, {1, 2, 3}).prepared();
@@ -24,8 +24,8 @@ TEST(MeshPrepare, ClosesACubeOfLooseFaces) {
   EXPECT_EQ(p.report.vertices_welded, 16u);
   EXPECT_EQ(p.report.closed_bodies, 1u);
   EXPECT_EQ(p.report.open_edges, 0u);
-  EXPECT_NEAR(p.report.volume_m3, 6, rounding);
-  EXPECT_NEAR(area(p.mesh), 22, rounding);
+  EXPECT_NEAR(p.report.volume_m3, 6, prepare_rounding);
+  EXPECT_NEAR(area(p.mesh), 22, prepare_rounding);
   EXPECT_EQ(p.mesh.origin, Vec3{});
   EXPECT_TRUE(p.report.warnings.empty());
 }
@@ -141,7 +141,7 @@ TEST(MeshPrepare, WeldsWhereverTheModelStands) {
 TEST(MeshPrepare, SmallModelsAreNotWeldedAway) {
   const auto p = ModelBuilder().object("bead").box({0, 0, 0}, {1e-4, 1e-4, 1e-4}).prepared();
   EXPECT_EQ(p.mesh.vertices.size(), 8u);
-  EXPECT_NEAR(p.report.volume_m3 / 1e-12, 1, rounding);
+  EXPECT_NEAR(p.report.volume_m3 / 1e-12, 1, prepare_rounding);
 }
 
 TEST(MeshPrepare, NegativeZeroIsZero) {
@@ -172,7 +172,7 @@ TEST(MeshPrepare, DropsDegeneratesAndDuplicates) {
   EXPECT_EQ(p.report.degenerates_dropped, 2u);
   EXPECT_EQ(p.report.duplicates_dropped, 2u);
   EXPECT_EQ(p.mesh.triangle_count(), 12u);
-  EXPECT_NEAR(p.report.volume_m3, 1, rounding);
+  EXPECT_NEAR(p.report.volume_m3, 1, prepare_rounding);
   EXPECT_FALSE(p.report.warnings.empty());
   EXPECT_THROW(builder.prepared({.repair = Repair::none, .ground = {}}), InputError);
 }
@@ -195,7 +195,7 @@ TEST(MeshPrepare, ATriangleWithoutAreaDoesNotOpenItsBody) {
   EXPECT_EQ(p.report.degenerates_dropped, 1u);
   EXPECT_EQ(p.mesh.triangle_count(), 5u);
   // Tetrahedron a, b, (1,1,1), (1,-1,0): base area 1, height 1.
-  EXPECT_NEAR(p.report.volume_m3, 1.0 / 3, rounding);
+  EXPECT_NEAR(p.report.volume_m3, 1.0 / 3, prepare_rounding);
 }
 
 TEST(MeshPrepare, OrdersTrianglesByObject) {
@@ -210,7 +210,7 @@ TEST(MeshPrepare, GroundPlateLiesAtTheLowestPoint) {
   const auto p = builder.prepared({.repair = Repair::safe, .ground = GroundRules{5}});
   ASSERT_GT(p.mesh.triangle_count(), 14u);  // what lies under the box is apart
   EXPECT_EQ(p.mesh.object_names.back(), "ground_2");
-  EXPECT_NEAR(area_of(p, Surface::ground), 20 * 30, rounding * 600);
+  EXPECT_NEAR(area_of(p, Surface::ground), 20 * 30, prepare_rounding * 600);
   for (std::size_t t = 12; t < p.mesh.triangle_count(); ++t) {
     EXPECT_EQ(p.mesh.triangle_surface[t], Surface::ground);
     EXPECT_GT(p.mesh.area_vector2(t).z, 0);

@@ -11,7 +11,7 @@
 namespace sunload::test {
 namespace {
 
-constexpr double rounding = 1e-12;  // relative, of sums over some hundred products
+constexpr double triangulate_rounding = 1e-12;  // relative, of sums over some hundred products
 
 /// A frame that is nowhere parallel to an axis, and a shift.
 Vec3 tilted(Vec3 p) {
@@ -43,7 +43,7 @@ TEST(Triangulate, ConcaveShapesKeepTheirAreaInAnyAttitude) {
         if (is_tilted) std::transform(ring.begin(), ring.end(), points.begin(), tilted);
         if (is_reversed) std::reverse(points.begin(), points.end());
         const auto p = alone({points});
-        EXPECT_NEAR(area(p.mesh), truth, rounding);
+        EXPECT_NEAR(area(p.mesh), truth, triangulate_rounding);
         EXPECT_EQ(p.mesh.triangle_count(), ring.size() - 2);
         EXPECT_EQ(p.mesh.vertices.size(), ring.size());
         // Fronts stay fronts: the area vectors add up to the ring's own.
@@ -53,7 +53,7 @@ TEST(Triangulate, ConcaveShapesKeepTheirAreaInAnyAttitude) {
         }
         Vec3 n = is_tilted ? normalized(Vec3{1, 2, 3}) : Vec3{0, 0, 1};
         if (is_reversed) n = -n;
-        EXPECT_NEAR(dot(sum, n), truth, rounding);
+        EXPECT_NEAR(dot(sum, n), truth, triangulate_rounding);
         EXPECT_EQ(p.report.polygons_crossing + p.report.polygons_nonplanar, 0u);
       }
     }
@@ -72,7 +72,7 @@ TEST(Triangulate, HolesStayOpenWhateverTheirWinding) {
       for (auto& ring : rings) std::transform(ring.begin(), ring.end(), ring.begin(), tilted);
     }
     const auto p = alone(rings);
-    EXPECT_NEAR(area(p.mesh) / truth, 1, rounding);
+    EXPECT_NEAR(area(p.mesh) / truth, 1, triangulate_rounding);
     EXPECT_EQ(p.report.polygons_with_holes, 1u);
     EXPECT_EQ(p.report.polygons_crossing, 0u);
     // Euler: a disc with h holes and v vertices has v + 2h - 2 triangles.
@@ -92,7 +92,7 @@ TEST(Triangulate, ABridgeToAHoleIsNoBoundary) {
                          {3, 3, 0},
                          {3, 1, 0},
                          {1, 1, 0}}});
-  EXPECT_NEAR(area(p.mesh), 12, rounding);
+  EXPECT_NEAR(area(p.mesh), 12, triangulate_rounding);
   EXPECT_EQ(p.report.polygons_crossing, 0u);
 }
 
@@ -109,17 +109,17 @@ TEST(Triangulate, ABridgeInPiecesIsNoBoundaryEither) {
                          {3, 1, 0},
                          {1, 1, 0},
                          {0.5, 0.5, 0}}});
-  EXPECT_NEAR(area(p.mesh), 12, rounding);
+  EXPECT_NEAR(area(p.mesh), 12, triangulate_rounding);
 }
 
 TEST(Triangulate, HolesMayTouchTheOuterRing) {
   // Half of the square is a hole that shares an edge with it.
   const auto p = alone(
       {{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, {{0, 0, 0}, {0, 2, 0}, {1, 2, 0}, {1, 0, 0}}});
-  EXPECT_NEAR(area(p.mesh), 2, rounding);
+  EXPECT_NEAR(area(p.mesh), 2, triangulate_rounding);
   const auto q =
       alone({{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}, {{0, 0, 0}, {2, 1, 0}, {1, 2, 0}}});
-  EXPECT_NEAR(area(q.mesh), 16 - 1.5, rounding);
+  EXPECT_NEAR(area(q.mesh), 16 - 1.5, triangulate_rounding);
 }
 
 TEST(Triangulate, CrossingRingsAreFilledAndCounted) {
@@ -127,16 +127,16 @@ TEST(Triangulate, CrossingRingsAreFilledAndCounted) {
       alone({{{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 1, 0}}});  // not symmetric: has a normal
   EXPECT_EQ(p.report.polygons_crossing, 1u);
   EXPECT_GT(p.mesh.triangle_count(), 0u);
-  for (const auto& v : p.mesh.vertices) EXPECT_NEAR(v.z, 0, rounding);
+  for (const auto& v : p.mesh.vertices) EXPECT_NEAR(v.z, 0, triangulate_rounding);
   // The diagonal y = x meets y = 1 - x/2 at x = 2/3: triangles of area 1/3 and 4/3.
-  EXPECT_NEAR(area(p.mesh), 1.0 / 3 + 4.0 / 3, rounding);
+  EXPECT_NEAR(area(p.mesh), 1.0 / 3 + 4.0 / 3, triangulate_rounding);
   EXPECT_NE(p.report.warnings[0].find("even-odd"), std::string::npos);
 }
 
 TEST(Triangulate, AHoleOutsideItsPolygonAddsNoArea) {
   const auto p = alone(
       {{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}, {{5, 0, 0}, {6, 0, 0}, {6, 1, 0}, {5, 1, 0}}});
-  EXPECT_NEAR(area(p.mesh), 16, rounding);
+  EXPECT_NEAR(area(p.mesh), 16, triangulate_rounding);
   EXPECT_EQ(p.report.polygons_crossing, 1u);
 }
 
@@ -149,7 +149,7 @@ TEST(Triangulate, PointsOnALineMakeNoSlivers) {
     auto points = ring;
     if (is_tilted) std::transform(ring.begin(), ring.end(), points.begin(), tilted);
     const auto p = alone({points});
-    EXPECT_NEAR(area(p.mesh), 2, rounding);
+    EXPECT_NEAR(area(p.mesh), 2, triangulate_rounding);
     EXPECT_LT(p.report.worst_aspect, 100);
     EXPECT_EQ(p.report.degenerates_dropped, 0u);
   }

@@ -23,7 +23,7 @@ using test::Row;
 
 constexpr double seconds_per_year = 365.25 * seconds_per_day;
 
-UnixTime instant(const std::string& text) { return utc_from_calendar(parse_time(text).civil); }
+UnixTime instant_of(const std::string& text) { return utc_from_calendar(parse_time(text).civil); }
 
 Site site_of(const Row& row) {
   Site site;
@@ -41,7 +41,7 @@ Horizontal true_place(const SunPosition& sun) { return {sun.azimuth_deg, sun.tru
 
 TEST(Sun, ReferenceAlmanac) {
   for (const auto& row : read_csv("01_solar_position/almanac.csv")) {
-    const UnixTime tt = instant(row.at("tt").substr(0, row.at("tt").find(' ')));
+    const UnixTime tt = instant_of(row.at("tt").substr(0, row.at("tt").find(' ')));
     const auto place = apparent_place(time_scales_with_tt_minus_ut1(tt, 0));
     test::expect_reference("ra_app_deg", place.right_ascension_deg, number(row, "ra_app_deg"),
                            number(row, "tol_deg"));
@@ -55,7 +55,7 @@ TEST(Sun, ReferenceAlmanac) {
 TEST(Sun, ReferenceApparentPlaces) {
   for (const auto& row : read_csv("01_solar_position/erfa_apparent_radec.csv")) {
     SCOPED_TRACE(row.at("id"));
-    const auto when = time_scales(instant(row.at("utc")), Ut1::zero);
+    const auto when = time_scales(instant_of(row.at("utc")), Ut1::zero);
     const auto place = apparent_place(when);
     const double tolerance_deg = number(row, "tol_radec_deg");
     test::expect_reference("ra_app_deg", place.right_ascension_deg, number(row, "ra_app_deg"),
@@ -73,7 +73,7 @@ TEST(Sun, ReferenceTopocentric) {
   double worst_deg = 0;
   for (const auto& row : read_csv("01_solar_position/erfa_topocentric.csv")) {
     SCOPED_TRACE(row.at("id"));
-    const UnixTime utc = instant(row.at("utc"));
+    const UnixTime utc = instant_of(row.at("utc"));
     const Site site = site_of(row);
     const auto when = time_scales(utc, Ut1::zero);
     EXPECT_NEAR((when.tt.fraction - when.utc.fraction) * seconds_per_day,
@@ -100,7 +100,7 @@ TEST(Sun, ReferencePublishedInstants) {
   for (const auto& row : read_csv("01_solar_position/published_instants.csv")) {
     SCOPED_TRACE(row.at("id"));
     const auto when =
-        time_scales_with_tt_minus_ut1(instant(row.at("utc")), number(row, "delta_t_s"));
+        time_scales_with_tt_minus_ut1(instant_of(row.at("utc")), number(row, "delta_t_s"));
     const Air air{.pressure_pa = number(row, "pressure_hPa") * 100,
                   .temperature_c = number(row, "temp_C")};
     const auto sun = sun_position(when, site_of(row), Refraction::spa, air);
@@ -207,7 +207,7 @@ TEST(SunEphemeris, AgreesWithTheDirectCall) {
 
 TEST(SunEphemeris, DoesNotDependOnTheSpan) {
   const Site site = sites_of_all_kinds()[5];
-  const UnixTime t = instant("2026-06-21T10:17:03");
+  const UnixTime t = instant_of("2026-06-21T10:17:03");
   const SunEphemeris day(t, t, site, Refraction::spa, Ut1::table, {});
   const SunEphemeris year(t - 100.3 * seconds_per_day, t + 200 * seconds_per_day, site,
                           Refraction::spa, Ut1::table, {});
@@ -219,7 +219,7 @@ TEST(SunEphemeris, DoesNotDependOnTheSpan) {
 
 TEST(SunEphemeris, IsFast) {
   const Site site = sites_of_all_kinds()[5];
-  const UnixTime begin = instant("2026-01-01");
+  const UnixTime begin = instant_of("2026-01-01");
   const auto seconds_for = [&](int positions, double step_s) {
     const auto start = std::chrono::steady_clock::now();
     const SunEphemeris sun(begin, begin + 365 * seconds_per_day, site, Refraction::spa, Ut1::table,

@@ -14,15 +14,16 @@ namespace sunload {
 namespace {
 
 const Site prague{.latitude_deg = 50.09, .longitude_deg = 14.42, .elevation_m = 200};
-constexpr double hour = seconds_per_hour;
+constexpr double one_hour = seconds_per_hour;
 
 /// Hours of consecutive days from midnight UTC on.
 std::vector<WeatherRecord> hours(int year, int month, int day, int count, WeatherValues values) {
   std::vector<WeatherRecord> records;
   const UnixTime begin = utc_from_calendar({year, month, day, 0, 0, 0});
   for (int i = 0; i < count; ++i) {
-    const CivilTime t = calendar_from_utc(begin + i * hour);
-    records.push_back({year, t.month, t.day, t.hour * hour, (t.hour + 1) * hour, values, i + 1});
+    const CivilTime t = calendar_from_utc(begin + i * one_hour);
+    records.push_back(
+        {year, t.month, t.day, t.hour * one_hour, (t.hour + 1) * one_hour, values, i + 1});
   }
   return records;
 }
@@ -67,11 +68,11 @@ TEST(WeatherYears, TypicalOnesMayBeginInAnyMonth) {
 
 TEST(WeatherYears, StandardTimeWithHalfHoursAndLeapDays) {
   const auto records = hours(2016, 2, 28, 72, {});
-  const auto own = dated(records, {}, 5.5 * hour);
+  const auto own = dated(records, {}, 5.5 * one_hour);
   ASSERT_EQ(own.size(), 72u);
   EXPECT_EQ(iso_utc(own.front().begin), "2016-02-27T18:30:00Z");
   EXPECT_EQ(iso_utc(own.back().end), "2016-03-01T18:30:00Z");
-  const auto other = dated(records, 2001, 5.5 * hour);
+  const auto other = dated(records, 2001, 5.5 * one_hour);
   EXPECT_EQ(other.size(), 48u) << "2001 has no 29 February";
   EXPECT_EQ(dated(records, 2004, 0).size(), 72u);
 }
@@ -97,7 +98,7 @@ TEST(MissingWeather, ShortGapsAreLinearLongOnesTakeTheHourOfOtherDays) {
   ASSERT_EQ(source, WeatherSource::dni_and_dhi);
   const auto filled = fill_missing(holes, source, Missing::interpolate);
   EXPECT_EQ(filled.records, 32u);
-  EXPECT_EQ(filled.longest_gap_s, 30 * hour);
+  EXPECT_EQ(filled.longest_gap_s, 30 * one_hour);
   // All is linear in hour and in day, so that both ways give it back; nothing before day 1 …
   for (std::size_t i = 0; i < weather.size(); ++i) {
     EXPECT_NEAR(*filled.weather[i].values.dni, *weather[i].values.dni, 1e-9);
@@ -199,8 +200,9 @@ TEST(Resample, OwnStepsComeBackAndEnergyIsKept) {
       total = {total.dni + m.dni * step, total.dhi + m.dhi * step, total.ghi + m.ghi * step};
     return total;
   };
-  const Irradiance own = sum(same.mean, hour);
-  for (const double step : {hour / 12, hour / 4, 2 * hour, 8 * hour, 24 * hour}) {
+  const Irradiance own = sum(same.mean, one_hour);
+  for (const double step :
+       {one_hour / 12, one_hour / 4, 2 * one_hour, 8 * one_hour, 24 * one_hour}) {
     const auto steps = steps_of(weather.front().begin, weather.back().end, step);
     const auto other = sum(resample(light.intervals, steps).mean, step);
     // The stretches with sun are found to the microsecond, for each step on its own.
@@ -214,7 +216,7 @@ TEST(Resample, BeamComesWhileTheSunIsUp) {
   auto weather = dated(hours(2001, 3, 20, 24, {600, 50, {}}), 2001, 0);
   const auto light =
       with_sun(weather, path_of(weather), WeatherSource::dni_and_dhi, Decomposition::erbs, 0);
-  const auto path = steps_of(weather.front().begin, weather.back().end, hour / 6);
+  const auto path = steps_of(weather.front().begin, weather.back().end, one_hour / 6);
   const auto fine = resample(light.intervals, path);
   for (std::size_t i = 0; i < path.size(); ++i) {
     EXPECT_NEAR(fine.mean[i].dhi, 50, 1e-9);
@@ -236,7 +238,7 @@ TEST(Resample, ANightInsideOfARecordTakesNoBeam) {
              {weather[48].begin, weather[71].end, weather[0].values, 3}};
   const auto light = with_sun(weather, path_of(weather, tokyo), WeatherSource::dni_and_dhi,
                               Decomposition::erbs, 0);
-  for (const double step : {hour / 4, hour, 6 * hour}) {
+  for (const double step : {one_hour / 4, one_hour, 6 * one_hour}) {
     const auto path = steps_of(weather.front().begin, weather.back().end, step, tokyo);
     double dni = 0;
     const auto means = resample(light.intervals, path).mean;
@@ -246,7 +248,7 @@ TEST(Resample, ANightInsideOfARecordTakesNoBeam) {
         EXPECT_EQ(means[i].dni, 0);
       }
     }
-    EXPECT_NEAR(dni, 150 * 72 * hour, 1e-4 * 150 * 72 * hour) << step;
+    EXPECT_NEAR(dni, 150 * 72 * one_hour, 1e-4 * 150 * 72 * one_hour) << step;
   }
 }
 
@@ -254,7 +256,7 @@ TEST(Resample, FindsWhatIsNotCovered) {
   const auto weather = dated(hours(2001, 3, 20, 24, {600, 50, {}}), 2001, 0);
   const auto light =
       with_sun(weather, path_of(weather), WeatherSource::dni_and_dhi, Decomposition::erbs, 0);
-  const auto path = steps_of(weather.front().begin, weather.back().end + 2 * hour, hour);
+  const auto path = steps_of(weather.front().begin, weather.back().end + 2 * one_hour, one_hour);
   EXPECT_EQ(resample(light.intervals, path).uncovered, (std::vector<std::size_t>{24, 25}));
 }
 
@@ -265,12 +267,12 @@ TEST(ClosureCheck, FindsShiftedStamps) {
                          Ut1::table, standard_air(prague.elevation_m));
   for (const double shift : {0.0, 0.5, -1.0}) {
     for (std::size_t i = 0; i < weather.size(); ++i) {
-      const double elevation_deg = sun(path[i].sun_time + shift * hour).elevation_deg;
+      const double elevation_deg = sun(path[i].sun_time + shift * one_hour).elevation_deg;
       weather[i].values = {700, 100, 100 + 700 * std::max(0.0, std::sin(radians(elevation_deg)))};
     }
     const Closure c = closure(weather, path, sun);
     EXPECT_GT(c.intervals, 300u);
-    EXPECT_EQ(c.best_shift_s, shift * hour);
+    EXPECT_EQ(c.best_shift_s, shift * one_hour);
     if (shift == 0) {
       EXPECT_LT(c.rms, 1e-9);
       EXPECT_NEAR(c.bias, 0, 1e-9);

@@ -265,6 +265,8 @@ TEST(Init, ZonesAreThoseOfTheNearestPlaceWithTheOffset) {
   EXPECT_EQ(guessed_zone(57.7, 12.0, {}, "Sweden - onshore and offshore.")->name,
             "Europe/Stockholm");
   EXPECT_EQ(guessed_zone(50.1, 14.4, {}, "Czechia; Slovakia.")->name, "Europe/Prague");
+  // Weather of Santiago for a map of the Netherlands.
+  EXPECT_EQ(guessed_zone(51.9, 4.5, -4 * 3600, "Netherlands - onshore.")->name, "Europe/Amsterdam");
 }
 
 TEST(Init, RulesOfPlanningAreWrittenReadyToRun) {

@@ -14,10 +14,10 @@ namespace {
 
 using Unit = SeriesStepStudy::Unit;
 
-const TimeZone prague("Europe/Prague");
+const TimeZone prague_zone("Europe/Prague");
 
 UnixTime at(int month, int day, int hour = 0) {
-  return prague.utc_from_civil({.year = 2026, .month = month, .day = day, .hour = hour}).utc;
+  return prague_zone.utc_from_civil({.year = 2026, .month = month, .day = day, .hour = hour}).utc;
 }
 
 /// Intervals of that length; the sun is up from 4:00 to 18:00 UTC.

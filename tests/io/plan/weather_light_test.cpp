@@ -27,7 +27,7 @@ using test::write_text;
 
 const std::string weather_folder = "data/weather/";
 
-Study study_of(const std::string& site, const std::string& period, const std::string& light) {
+Study weather_study(const std::string& site, const std::string& period, const std::string& light) {
   write_text("flat.obj", "v 0 0 0\nv 10 0 0\nv 0 10 0\nf 1 2 3\n");
   const std::string text = fmt::format(
       "format: sunload-study-1\nname: w\n{}period: {{{}}}\nlight: {{source: weather, {}}}\n"
@@ -46,7 +46,7 @@ std::string refused(const Study& study) {
   return test::refusal_of([&] { series_of(study); });
 }
 
-bool says(const std::vector<std::string>& lines, const std::string& part) {
+bool tells(const std::vector<std::string>& lines, const std::string& part) {
   for (const auto& line : lines)
     if (line.find(part) != line.npos) return true;
   return false;
@@ -67,7 +67,7 @@ const std::string roof =
 
 TEST(WeatherLight, YearOfAnEpwIsItsRecordsAndFast) {
   SUNLOAD_NEEDS_MODEL(weather_folder + "WD100_denver.epw");
-  const Study study = study_of("", "year_of: weather", shared("WD100_denver.epw"));
+  const Study study = weather_study("", "year_of: weather", shared("WD100_denver.epw"));
   const auto built = build_scene(study);
   EXPECT_NE(built.site_source.find("weather station Denver"), std::string::npos);
   EXPECT_EQ(built.site.latitude_deg, 39.833);
@@ -94,9 +94,9 @@ TEST(WeatherLight, YearOfAnEpwIsItsRecordsAndFast) {
     }
   }
   EXPECT_NEAR(ghi, 1670, 0.5);  // README of the weather files, whole kWh
-  EXPECT_EQ(says(series.weather, "of direct light dropped"), dropped > 0);
-  EXPECT_TRUE(says(series.weather, "typical year written as 2001"));
-  EXPECT_TRUE(says(series.weather, "closure DNI sin(elevation) + DHI - GHI"));
+  EXPECT_EQ(tells(series.weather, "of direct light dropped"), dropped > 0);
+  EXPECT_TRUE(tells(series.weather, "typical year written as 2001"));
+  EXPECT_TRUE(tells(series.weather, "closure DNI sin(elevation) + DHI - GHI"));
   EXPECT_EQ(iso_utc(series.intervals.front().when.begin), "2001-01-01T07:00:00Z");
   EXPECT_TRUE(series.notes.empty());
 }
@@ -105,7 +105,7 @@ TEST(WeatherLight, TypicalYearsSayThatTheyHaveNoLeapDay) {
   write_text("typical.epw", test::small_epw());
   const auto why = [](const std::string& day) {
     return refused(
-        study_of("timezone: Europe/Berlin", "days: [" + day + "]", "weather: typical.epw"));
+        weather_study("timezone: Europe/Berlin", "days: [" + day + "]", "weather: typical.epw"));
   };
   EXPECT_NE(why("2024-02-29").find("have no 29 February"), std::string::npos) << why("2024-02-29");
   EXPECT_EQ(why("2024-02-28"), "");
@@ -114,7 +114,7 @@ TEST(WeatherLight, TypicalYearsSayThatTheyHaveNoLeapDay) {
 TEST(WeatherLight, SolverGetsDiffuseLightInTheDark) {
   const auto file =
       write_text("day.csv", csv_day("2026-06-21", "100,40", "dni_w_m2,dhi_w_m2", roof));
-  const Study study = study_of("", "year_of: weather", "weather: day.csv, stamp: end");
+  const Study study = weather_study("", "year_of: weather", "weather: day.csv, stamp: end");
   const auto series = series_of(study);
   ASSERT_EQ(series.intervals.size(), 24u);
   const SkyGrid grid;
@@ -139,11 +139,11 @@ TEST(WeatherLight, SolverGetsDiffuseLightInTheDark) {
 
 TEST(WeatherLight, TypicalYearsServeForTheDatesOfThePeriod) {
   write_text("typical.epw", test::small_epw());
-  const auto own = series_of(study_of("", "year_of: weather", "weather: typical.epw"));
+  const auto own = series_of(weather_study("", "year_of: weather", "weather: typical.epw"));
   const auto day =
-      series_of(study_of("latitude_deg: 48.13, longitude_deg: 11.7, elevation_m: 529, "
-                         "timezone: Europe/Berlin",
-                         "days: [2028-06-21]", "weather: typical.epw"));
+      series_of(weather_study("latitude_deg: 48.13, longitude_deg: 11.7, elevation_m: 529, "
+                              "timezone: Europe/Berlin",
+                              "days: [2028-06-21]", "weather: typical.epw"));
   ASSERT_EQ(day.intervals.size(), 24u);
   EXPECT_EQ(iso_utc(day.intervals.front().when.begin), "2028-06-20T22:00:00Z");
   // 00:00 of summer time is 23:00 of 20 June in standard time: the 24th hour of the 171st day.
@@ -151,43 +151,45 @@ TEST(WeatherLight, TypicalYearsServeForTheDatesOfThePeriod) {
     EXPECT_EQ(day.intervals[i].mean.dhi, own.intervals[170 * 24 + 23 + i].mean.dhi) << i;
     EXPECT_NEAR(day.intervals[i].mean.dni, own.intervals[170 * 24 + 23 + i].mean.dni, 1e-9) << i;
   }
-  EXPECT_TRUE(says(day.weather, "taken for the dates of the period"));
+  EXPECT_TRUE(tells(day.weather, "taken for the dates of the period"));
   const auto leap =
-      refused(study_of("timezone: UTC", "days: [2028-02-29]", "weather: typical.epw"));
+      refused(weather_study("timezone: UTC", "days: [2028-02-29]", "weather: typical.epw"));
   EXPECT_NE(leap.find("the weather does not cover"), std::string::npos) << leap;
   const auto across = series_of(
-      study_of("timezone: UTC", "start: 2026-12-31, end: 2027-01-02", "weather: typical.epw"));
+      weather_study("timezone: UTC", "start: 2026-12-31, end: 2027-01-02", "weather: typical.epw"));
   EXPECT_EQ(across.intervals.size(), 48u);
 }
 
 TEST(WeatherLight, ActualYearsKeepTheirDates) {
   SUNLOAD_NEEDS_MODEL(weather_folder + "zurich_sma_2016_leap.epw");
   const std::string zurich = shared("zurich_sma_2016_leap.epw");
-  const auto missing = refused(study_of("", "year_of: weather", zurich));
+  const auto missing = refused(weather_study("", "year_of: weather", zurich));
   EXPECT_NE(missing.find("epw:7201: irradiance is missing here (120 of 8784 records"),
             std::string::npos)
       << missing;
-  const auto leap_day = series_of(study_of("timezone: UTC", "days: [2016-02-29]", zurich));
+  const auto leap_day = series_of(weather_study("timezone: UTC", "days: [2016-02-29]", zurich));
   EXPECT_EQ(leap_day.intervals.size(), 24u);
-  EXPECT_NE(refused(study_of("timezone: UTC", "days: [2026-06-21]", zurich))
+  EXPECT_NE(refused(weather_study("timezone: UTC", "days: [2026-06-21]", zurich))
                 .find("does not cover 2026-06-21T00:00:00Z"),
             std::string::npos);
   for (const char* how : {"interpolate", "zero"}) {
-    const auto filled = series_of(study_of("", "year_of: weather", zurich + ", missing: " + how));
+    const auto filled =
+        series_of(weather_study("", "year_of: weather", zurich + ", missing: " + how));
     EXPECT_EQ(filled.intervals.size(), 8784u);
-    EXPECT_TRUE(says(filled.notes, "120 of 8784 records lack a value, the longest gap has 120 h"));
+    EXPECT_TRUE(tells(filled.notes, "120 of 8784 records lack a value, the longest gap has 120 h"));
     double light = 0;
     for (std::size_t i = 7200; i < 7312; ++i) light += filled.intervals[i].mean.dhi;
     EXPECT_EQ(light > 0, std::string(how) == "interpolate");
   }
-  EXPECT_NE(refused(study_of("", "year_of: weather, as_year: 2001", zurich + ", missing: zero"))
-                .find("2001 has no 29 February"),
-            std::string::npos);
-  EXPECT_EQ(
-      iso_utc(series_of(study_of("", "year_of: weather, as_year: 2004", zurich + ", missing: zero"))
-                  .intervals.back()
-                  .when.end),
-      "2004-12-31T23:00:00Z");
+  EXPECT_NE(
+      refused(weather_study("", "year_of: weather, as_year: 2001", zurich + ", missing: zero"))
+          .find("2001 has no 29 February"),
+      std::string::npos);
+  EXPECT_EQ(iso_utc(series_of(weather_study("", "year_of: weather, as_year: 2004",
+                                            zurich + ", missing: zero"))
+                        .intervals.back()
+                        .when.end),
+            "2004-12-31T23:00:00Z");
 }
 
 /// Hours of consecutive days in June, but for the hours that begin in [from, to) of the first day.
@@ -202,7 +204,7 @@ std::string csv_with_hole(int days, int from, int to) {
 TEST(WeatherLight, RowsThatAreMissingWithinADayAreMissingValues) {
   write_text("hole.csv", csv_with_hole(3, 9, 11));
   const auto with = [](const std::string& period, const std::string& missing) {
-    return study_of("timezone: UTC", period, "weather: hole.csv, stamp: start" + missing);
+    return weather_study("timezone: UTC", period, "weather: hole.csv, stamp: start" + missing);
   };
   for (const char* period :
        {"year_of: weather", "days: [2026-06-20], from: '08:00', to: '12:00'"}) {
@@ -218,8 +220,8 @@ TEST(WeatherLight, RowsThatAreMissingWithinADayAreMissingValues) {
   ASSERT_EQ(zero.intervals.size(), 72u);
   EXPECT_EQ(zero.intervals[9].mean.dni, 0);
   EXPECT_TRUE(
-      says(zero.notes, "2 of 72 records lack a value, the longest gap has 2 h; 0 is taken"));
-  EXPECT_TRUE(says(zero.notes, "2 of them have no row"));
+      tells(zero.notes, "2 of 72 records lack a value, the longest gap has 2 h; 0 is taken"));
+  EXPECT_TRUE(tells(zero.notes, "2 of them have no row"));
   const auto filled = series_of(with("year_of: weather", ", missing: interpolate"));
   ASSERT_EQ(filled.intervals.size(), 72u);
   EXPECT_NEAR(filled.intervals[9].mean.dni, 109, 1e-9);
@@ -234,13 +236,13 @@ TEST(WeatherLight, ValuesThatAreMissingBetweenTheDaysOfThePeriodAreNoOnes) {
         fmt::format("2026-06-{:02}T{:02}:00,{},40\n", 20 + h / 24, h % 24, h == 36 ? "" : "100");
   write_text("gap.csv", text);
   const auto of = [](const char* days) {
-    return study_of("timezone: UTC", std::string("days: ") + days,
-                    "weather: gap.csv, stamp: start");
+    return weather_study("timezone: UTC", std::string("days: ") + days,
+                         "weather: gap.csv, stamp: start");
   };
   const auto around = series_of(of("[2026-06-20, 2026-06-22]"));
   ASSERT_EQ(around.intervals.size(), 48u);
   EXPECT_EQ(around.intervals[36].mean.dni, 100);
-  EXPECT_FALSE(says(around.notes, "lack a value"));
+  EXPECT_FALSE(tells(around.notes, "lack a value"));
   EXPECT_NE(refused(of("[2026-06-20, 2026-06-21]")).find("(1 of 48 records"), std::string::npos);
 }
 
@@ -248,8 +250,8 @@ TEST(WeatherLight, ValuesThatAreMissingBetweenTheDaysOfThePeriodAreNoOnes) {
 /// 20:14.
 TEST(WeatherLight, RowsOfTheDarkMayBeMissing) {
   write_text("dark.csv", csv_with_hole(2, 21, 27));
-  const auto series =
-      series_of(study_of("timezone: UTC", "year_of: weather", "weather: dark.csv, stamp: start"));
+  const auto series = series_of(
+      weather_study("timezone: UTC", "year_of: weather", "weather: dark.csv, stamp: start"));
   EXPECT_EQ(series.intervals.size(), 42u);
   EXPECT_TRUE(series.notes.empty());
 }
@@ -257,18 +259,18 @@ TEST(WeatherLight, RowsOfTheDarkMayBeMissing) {
 /// Whole days may be asked for, too.
 TEST(WeatherLight, OfDaysWhoseDarkHasNoRowsTheDarkIsDark) {
   write_text("dark.csv", csv_with_hole(2, 21, 27));
-  const auto series = series_of(study_of("timezone: UTC", "start: 2026-06-20, end: 2026-06-21",
-                                         "weather: dark.csv, stamp: start"));
+  const auto series = series_of(weather_study("timezone: UTC", "start: 2026-06-20, end: 2026-06-21",
+                                              "weather: dark.csv, stamp: start"));
   ASSERT_EQ(series.intervals.size(), 24u);
   EXPECT_GT(series.intervals[18].mean.dni, 0);
   for (std::size_t hour = 20; hour < 24; ++hour) EXPECT_EQ(series.intervals[hour].mean.dhi, 0);
-  EXPECT_TRUE(says(series.weather, "intervals in the dark have no rows"));
+  EXPECT_TRUE(tells(series.weather, "intervals in the dark have no rows"));
   // The twin: in the morning the sun is up.
   write_text("morning.csv", csv_with_hole(2, 0, 8));
-  EXPECT_NE(
-      refused(study_of("timezone: UTC", "days: [2026-06-20]", "weather: morning.csv, stamp: start"))
-          .find("does not cover"),
-      std::string::npos);
+  EXPECT_NE(refused(weather_study("timezone: UTC", "days: [2026-06-20]",
+                                  "weather: morning.csv, stamp: start"))
+                .find("does not cover"),
+            std::string::npos);
 }
 
 /// What is left out must be dark, at sunrise or at sunset: not the noon of a short day between two
@@ -283,8 +285,8 @@ TEST(WeatherLight, DaylightThatHasNoRowIsNotTakenForDark) {
   };
   const auto of = [](const std::string& name, const std::string& text, const std::string& days) {
     write_text(name, text);
-    return study_of("timezone: '+01:00'", "days: [" + days + "]",
-                    "weather: " + name + ", stamp: start");
+    return weather_study("timezone: '+01:00'", "days: [" + days + "]",
+                         "weather: " + name + ", stamp: start");
   };
   EXPECT_NE(refused(of("long.csv", rows("12", 6, 30, 42), "2026-12-21")), "");
   EXPECT_NE(refused(of("short_day.csv", rows("12", 12, 24, 36), "2026-12-21")), "");
@@ -310,8 +312,8 @@ TEST(WeatherLight, DaysOfAStationAreThoseOfItsSun) {
       text += fmt::format("2026-12-{:02}T{:02}:00,100,40\n", 10 + h / 24, h % 24);
   write_text("sydney.csv", text);
   const auto with = [](const std::string& missing) {
-    return study_of("timezone: Australia/Sydney", "year_of: weather",
-                    "weather: sydney.csv, stamp: start" + missing);
+    return weather_study("timezone: Australia/Sydney", "year_of: weather",
+                         "weather: sydney.csv, stamp: start" + missing);
   };
   EXPECT_NE(refused(with("")).find("rows are missing before this one"), std::string::npos);
   EXPECT_EQ(series_of(with(", missing: interpolate")).intervals.size(), 72u);
@@ -325,8 +327,8 @@ TEST(WeatherLight, EndsOfFebruaryStayInItInOtherYears) {
     text += fmt::format("2027-{:02}-{:02}T{:02}:00,{},40\n", h < 24 ? 2 : 3,
                         h < 24 ? 28 : 1 + (h - 24) / 24, h % 24, h);
   write_text("march.csv", text);
-  const auto series = series_of(study_of("timezone: '+01:00'", "year_of: weather, as_year: 2028",
-                                         "weather: march.csv, stamp: end"));
+  const auto series = series_of(weather_study(
+      "timezone: '+01:00'", "year_of: weather, as_year: 2028", "weather: march.csv, stamp: end"));
   ASSERT_EQ(series.intervals.size(), 48u);
   EXPECT_EQ(iso_utc(series.intervals[23].when.begin), "2028-02-28T22:00:00Z");
   EXPECT_EQ(iso_utc(series.intervals[24].when.begin), "2028-02-29T23:00:00Z");
@@ -340,8 +342,8 @@ TEST(WeatherLight, ZonesThatChangeTheirStandardTimeNeedAnOffset) {
       for (int h = 0; h < 24; ++h) text += fmt::format("{}T{:02}:00,100,40\n", date, h);
     write_text("turkey.csv", text);
     const auto message =
-        refused(study_of("latitude_deg: 41, longitude_deg: 29, timezone: Europe/Istanbul",
-                         "year_of: weather", "weather: turkey.csv, stamp: start"));
+        refused(weather_study("latitude_deg: 41, longitude_deg: 29, timezone: Europe/Istanbul",
+                              "year_of: weather", "weather: turkey.csv, stamp: start"));
     EXPECT_EQ(
         message.find("standard time of Europe/Istanbul was UTC+02:00 in 2016") != std::string::npos,
         expected)
@@ -352,37 +354,39 @@ TEST(WeatherLight, ZonesThatChangeTheirStandardTimeNeedAnOffset) {
 TEST(WeatherLight, WholeDaysThatAreMissingAreToldInAWarning) {
   write_text("campaigns.csv", csv_with_hole(5, 14, 24 * 3 + 8));
   const auto series = series_of(
-      study_of("timezone: UTC", "year_of: weather", "weather: campaigns.csv, stamp: start"));
+      weather_study("timezone: UTC", "year_of: weather", "weather: campaigns.csv, stamp: start"));
   EXPECT_EQ(series.intervals.size(), 24u * 5 - (24 * 3 + 8 - 14));
-  EXPECT_TRUE(says(series.notes,
-                   "2 whole days have no rows, from 2026-06-20 14:00 +01:00 to 2026-06-23 08:00 "
-                   "+01:00 (line 21); they are no part of the period"));
+  EXPECT_TRUE(tells(series.notes,
+                    "2 whole days have no rows, from 2026-06-20 14:00 +01:00 to 2026-06-23 08:00 "
+                    "+01:00 (line 21); they are no part of the period"));
 }
 
 /// As of stations that nobody reads in the evening.
 TEST(WeatherLight, HoursThatNobodyMeasuresAreToldInAWarning) {
   write_text("daytime.csv", csv_with_hole(2, 17, 24 + 9));
   const auto series = series_of(
-      study_of("timezone: UTC", "year_of: weather", "weather: daytime.csv, stamp: start"));
+      weather_study("timezone: UTC", "year_of: weather", "weather: daytime.csv, stamp: start"));
   EXPECT_EQ(series.intervals.size(), 48u - 16);
-  EXPECT_TRUE(says(series.notes,
-                   "hours with sun before or after midnight have no rows, from "
-                   "2026-06-20 17:00 +01:00 to 2026-06-21 09:00 +01:00"));
+  EXPECT_TRUE(tells(series.notes,
+                    "hours with sun before or after midnight have no rows, from "
+                    "2026-06-20 17:00 +01:00 to 2026-06-21 09:00 +01:00"));
 }
 
 TEST(WeatherLight, FilteredYearsLackNothing) {
   SUNLOAD_NEEDS_MODEL(weather_folder + "chicago_filtered.wea");
-  const auto series = series_of(study_of("", "year_of: weather", shared("chicago_filtered.wea")));
+  const auto series =
+      series_of(weather_study("", "year_of: weather", shared("chicago_filtered.wea")));
   EXPECT_EQ(series.intervals.size(), 4427u);
 }
 
 TEST(WeatherLight, GlobalIrradianceNamesItsDecomposition) {
   const auto file = write_text("day.csv", csv_day("2026-06-21", "400", "ghi_w_m2", roof));
-  const auto erbs = series_of(study_of("", "year_of: weather", "weather: day.csv, stamp: end"));
+  const auto erbs =
+      series_of(weather_study("", "year_of: weather", "weather: day.csv, stamp: end"));
   const auto disc = series_of(
-      study_of("", "year_of: weather", "weather: day.csv, stamp: end, decomposition: disc"));
-  EXPECT_TRUE(says(erbs.weather, "after Erbs, Klein & Duffie (1982)"));
-  EXPECT_TRUE(says(disc.weather, "by DISC, Maxwell (1987)"));
+      weather_study("", "year_of: weather", "weather: day.csv, stamp: end, decomposition: disc"));
+  EXPECT_TRUE(tells(erbs.weather, "after Erbs, Klein & Duffie (1982)"));
+  EXPECT_TRUE(tells(disc.weather, "by DISC, Maxwell (1987)"));
   EXPECT_GT(erbs.intervals[12].mean.dni, 0);
   EXPECT_NE(erbs.intervals[12].mean.dni, disc.intervals[12].mean.dni);
   EXPECT_EQ(erbs.intervals[12].mean.ghi, 400);
@@ -391,32 +395,33 @@ TEST(WeatherLight, GlobalIrradianceNamesItsDecomposition) {
 TEST(WeatherLight, TimesOfACsvWithoutZoneAreStandardTimeOfTheSite) {
   write_text("day.csv", csv_day("2026-06-21", "100,40", "dni,dhi", ""));
   const auto series =
-      series_of(study_of("latitude_deg: 50, longitude_deg: 14, timezone: Europe/Prague",
-                         "year_of: weather", "weather: day.csv, stamp: end"));
+      series_of(weather_study("latitude_deg: 50, longitude_deg: 14, timezone: Europe/Prague",
+                              "year_of: weather", "weather: day.csv, stamp: end"));
   EXPECT_EQ(iso_utc(series.intervals.front().when.begin), "2026-06-20T23:00:00Z");
-  EXPECT_TRUE(says(series.weather, "from site.timezone"));
+  EXPECT_TRUE(tells(series.weather, "from site.timezone"));
 }
 
 TEST(WeatherLight, FarStationsAreWarnedAbout) {
   write_text("typical.epw", test::small_epw());
-  const auto far = series_of(study_of("latitude_deg: 59.33, longitude_deg: 18.07",
-                                      "year_of: weather", "weather: typical.epw"));
-  EXPECT_TRUE(says(far.notes, "km from the site"));
-  EXPECT_TRUE(series_of(study_of("", "year_of: weather", "weather: typical.epw")).notes.empty());
+  const auto far = series_of(weather_study("latitude_deg: 59.33, longitude_deg: 18.07",
+                                           "year_of: weather", "weather: typical.epw"));
+  EXPECT_TRUE(tells(far.notes, "km from the site"));
+  EXPECT_TRUE(
+      series_of(weather_study("", "year_of: weather", "weather: typical.epw")).notes.empty());
 }
 
 TEST(WeatherLight, ShiftedStampsAreWarnedAbout) {
   SUNLOAD_NEEDS_MODEL(weather_folder + "gothenburg_tmyx.epw");
   // Its radiation belongs to the sun at the end of the hours (reanalysis at full hours).
-  const auto near = series_of(study_of("", "year_of: weather", shared("gothenburg_tmyx.epw")));
+  const auto near = series_of(weather_study("", "year_of: weather", shared("gothenburg_tmyx.epw")));
   ASSERT_EQ(near.notes.size(), 1u);
-  EXPECT_TRUE(says(near.notes, "the sun 30 min later fits")) << near.notes[0];
+  EXPECT_TRUE(tells(near.notes, "the sun 30 min later fits")) << near.notes[0];
 }
 
 TEST(WeatherLight, HashKnowsTheBytesAndTheRulesOfTheFile) {
   const auto hash = [](const std::string& values, const std::string& rules) {
     write_text("day.csv", csv_day("2026-06-21", values, "dni,dhi", roof));
-    return make_plan(study_of("", "year_of: weather", "weather: day.csv, stamp: end" + rules))
+    return make_plan(weather_study("", "year_of: weather", "weather: day.csv, stamp: end" + rules))
         .content_hash;
   };
   const auto base = hash("100,40", "");

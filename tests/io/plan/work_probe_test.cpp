@@ -24,11 +24,11 @@ std::string study(const std::string& house, const std::string& period) {
          "}}\n"
          "mesh: {max_edge_m: 20, oracle: none}\nsolver: {bounces: 2}\n";
 }
-const std::string day = "days: [2026-06-21], step_min: 60",
+const std::string one_day = "days: [2026-06-21], step_min: 60",
                   night = "days: [2026-06-21], from: \"00:00\", to: \"01:00\", step_min: 60";
 
 TEST(WorkProbe, MeasuresEveryStageThatThereIs) {
-  const auto glazed = test::plan_of(study("glazed", day));
+  const auto glazed = test::plan_of(study("glazed", one_day));
   const auto pace = measured_pace(glazed, unrefined_mesh(glazed).mesh);
   ASSERT_TRUE(pace);
   EXPECT_TRUE(pace->is_measured);
@@ -67,8 +67,8 @@ TEST(WorkProbe, HasNothingToMeasureAtNight) {
 
 TEST(WorkProbe, IsMadeOnceForVariantsThatAreMuchAlike) {
   StudyPaces paces;
-  const auto first = test::plan_of(study("glazed", day)),
-             second = test::plan_of(study("brick", day));
+  const auto first = test::plan_of(study("glazed", one_day)),
+             second = test::plan_of(study("brick", one_day));
   const WorkPace a = paces.of(first, unrefined_mesh(first).mesh);
   const WorkPace b = paces.of(second, unrefined_mesh(second).mesh);  // its windows are mirrors, too
   EXPECT_EQ(a.lines, b.lines);
@@ -77,7 +77,7 @@ TEST(WorkProbe, IsMadeOnceForVariantsThatAreMuchAlike) {
 
 /// Gathered lines look for lamps: a trial that forgot it would take them for slow.
 TEST(WorkProbe, KnowsWhatLampsCost) {
-  const std::string brick = study("brick", day);
+  const std::string brick = study("brick", one_day);
   std::string lamps = brick;
   lamps.replace(lamps.find("scene: {"), 8,
                 "scene: {materials: {brick: {diffuse: 0.3, emission_w_m2: 5}}, ");
@@ -89,7 +89,7 @@ TEST(WorkProbe, KnowsWhatLampsCost) {
 
 /// Every stage of the estimate takes as much longer as the trial did; starting and files do not.
 TEST(WorkProbe, ScalesTheStagesOfTheEstimate) {
-  const auto plan = test::plan_of(study("glazed", day));
+  const auto plan = test::plan_of(study("glazed", one_day));
   constexpr std::size_t patches = 100'000;
   const auto seconds = [&](const WorkPace& pace) {
     return estimate_work(plan, patches, pace).seconds;

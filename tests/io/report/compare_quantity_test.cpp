@@ -22,13 +22,13 @@ using nlohmann::json;
 using test::SmallResult;
 using test::write_small_result;
 
-constexpr double rounding = 1e-12;
+constexpr double quantity_rounding = 1e-12;
 const double not_measured = std::nan("");
 // Of write_small_result: houses of 10 m × 8 m, 9 and 6 m high.
 constexpr double south_of_1 = 10 * 9, roof_of_2 = 10 * 8;
 
-const ComparisonRow& row(const Comparison& comparison, const std::string& kind,
-                         const std::string& name) {
+const ComparisonRow& quantity_row(const Comparison& comparison, const std::string& kind,
+                                  const std::string& name) {
   for (const auto& r : comparison.rows)
     if (r.kind == kind && r.name == name) return r;
   throw std::out_of_range(kind + " " + name);
@@ -64,12 +64,13 @@ TEST(CompareQuantity, GroupsHaveTheirMeansByArea) {
   const ResultReader variant(write_small_result(with_other_hours(), "hours_other"));
   const auto comparison = compare_results(base, variant, {.dataset = "sun_hours"});
   EXPECT_EQ(comparison.units, "h");
-  EXPECT_NEAR(row(comparison, "facade", "house_1/south_1").difference_kwh_m2, -1, rounding);
-  const auto& house = row(comparison, "object", "house_1");
-  EXPECT_NEAR(house.difference_kwh_m2, -south_of_1 / house.area_m2, rounding);
-  const auto& whole = row(comparison, "whole", "whole");
-  EXPECT_NEAR(whole.difference_kwh_m2, (roof_of_2 - south_of_1) / whole.area_m2, rounding);
-  EXPECT_EQ(row(comparison, "object", "ground").difference_kwh_m2, 0);
+  EXPECT_NEAR(quantity_row(comparison, "facade", "house_1/south_1").difference_kwh_m2, -1,
+              quantity_rounding);
+  const auto& house = quantity_row(comparison, "object", "house_1");
+  EXPECT_NEAR(house.difference_kwh_m2, -south_of_1 / house.area_m2, quantity_rounding);
+  const auto& whole = quantity_row(comparison, "whole", "whole");
+  EXPECT_NEAR(whole.difference_kwh_m2, (roof_of_2 - south_of_1) / whole.area_m2, quantity_rounding);
+  EXPECT_EQ(quantity_row(comparison, "object", "ground").difference_kwh_m2, 0);
 }
 
 TEST(CompareQuantity, WithoutRealizationsThereAreNoErrors) {
@@ -188,16 +189,16 @@ TEST(CompareQuantity, MeasuresAreComparedWhereBothHaveThem) {
     const double walls = 2 * (10 + 8) * 9, walls_of_2 = 2 * (10 + 8) * 6;
     // Were what is not measured taken as 0, or left out on one side alone, these would be others.
     for (const auto& [kind, name] : {std::pair("whole", "whole"), {"object", "house_1"}}) {
-      const auto& r = row(comparison, kind, name);
+      const auto& r = quantity_row(comparison, kind, name);
       EXPECT_NEAR(r.area_m2, walls, 1e-6) << other.variant;
-      EXPECT_NEAR(*r.base_kwh_m2, 3, rounding) << other.variant;
-      EXPECT_NEAR(*r.variant_kwh_m2, 1, rounding) << other.variant;
+      EXPECT_NEAR(*r.base_kwh_m2, 3, quantity_rounding) << other.variant;
+      EXPECT_NEAR(*r.variant_kwh_m2, 1, quantity_rounding) << other.variant;
     }
-    const auto& alone = row(comparison, "object", "house_2");
+    const auto& alone = quantity_row(comparison, "object", "house_2");
     EXPECT_FALSE(alone.variant_kwh_m2) << other.variant;
     EXPECT_NEAR(alone.area_m2, walls_of_2, 1e-6) << other.variant;
     EXPECT_EQ(comparison.notes.size(), other.cells == 2 ? 0u : 1u);
-    EXPECT_THROW(row(comparison, "object", "ground"), std::out_of_range);
+    EXPECT_THROW(quantity_row(comparison, "object", "ground"), std::out_of_range);
   }
 }
 
@@ -297,7 +298,7 @@ TEST(CompareQuantity, FilesHoldTheDifferencesOfItsPatches) {
   ASSERT_NE(south, facades.end());
   EXPECT_NEAR(file.doubles(
                   "facade_sun_hours_difference")[static_cast<std::size_t>(south - facades.begin())],
-              -1, rounding);
+              -1, quantity_rounding);
   EXPECT_TRUE(has(patches_csv(file, {}), ",base_h,variant_h,difference_h,se_h\n"));
 }
 

@@ -27,7 +27,7 @@ constexpr double cell = 2;
 using Value = std::function<double(std::size_t column, std::size_t row)>;
 
 /// Rows from north to south, the south-west corner at (1000, 2000).
-std::string grid(const Value& value) {
+std::string grid_text(const Value& value) {
   std::string text = fmt::format(
       "ncols {}\nnrows {}\nxllcorner 1000\nyllcorner 2000\ncellsize {}\nnodata_value -9999\n",
       columns, rows, cell);
@@ -42,9 +42,9 @@ double land(std::size_t, std::size_t row) { return 10 - 0.5 * static_cast<double
 
 PolygonModel blocks(const Value& surface, const Value& terrain, const Value& canopy = {},
                     RasterFiles files = {}) {
-  files.surface = write_text("dsm.asc", grid(surface));
-  files.terrain = write_text("dem.asc", grid(terrain));
-  if (canopy) files.canopy = write_text("cdsm.asc", grid(canopy));
+  files.surface = write_text("dsm.asc", grid_text(surface));
+  files.terrain = write_text("dem.asc", grid_text(terrain));
+  if (canopy) files.canopy = write_text("cdsm.asc", grid_text(canopy));
   return read_scene_blocks(files, {});
 }
 
@@ -158,9 +158,10 @@ TEST(SceneBlocks, CrownsStandOnTrunks) {
 
 TEST(SceneBlocks, CrownsAreOfTheTablesMaterial) {
   const WorkFolder folder;
-  folder.write("dsm.asc", grid(houses));
-  folder.write("dem.asc", grid(land));
-  folder.write("cdsm.asc", grid([](std::size_t c, std::size_t) { return c == 0 ? 8.0 : 0.0; }));
+  folder.write("dsm.asc", grid_text(houses));
+  folder.write("dem.asc", grid_text(land));
+  folder.write("cdsm.asc",
+               grid_text([](std::size_t c, std::size_t) { return c == 0 ? 8.0 : 0.0; }));
   const auto built = [&](const std::string& more) {
     return build_scene(
         read_study(
@@ -188,10 +189,10 @@ TEST(SceneBlocks, CrownsAreOfTheTablesMaterial) {
 }
 
 TEST(SceneBlocks, OtherGridsAreRefused) {
-  const auto surface = write_text("dsm.asc", grid(houses));
-  auto moved = grid(land);
+  const auto surface = write_text("dsm.asc", grid_text(houses));
+  auto moved = grid_text(land);
   moved.replace(moved.find("1000"), 4, "1001");
-  auto shorter = grid(land);
+  auto shorter = grid_text(land);
   shorter.replace(shorter.find("nrows 4"), 7, "nrows 3");
   for (const auto& [text, part] :
        {std::pair{moved, "lies on another grid"}, {shorter, "has 5 × 3 cells"}}) {

@@ -380,7 +380,7 @@ TEST(SceneBuiltin, ParametersChangeTheScene) {
   EXPECT_EQ(box.high.z, 7.5);
 }
 
-std::string refusal(const BuiltinRules& rules) {
+std::string builtin_refusal(const BuiltinRules& rules) {
   return test::refusal_of([&] { builtin_scene(rules); });
 }
 
@@ -391,7 +391,7 @@ TEST(SceneBuiltin, CityHasTheTrianglesAskedFor) {
   expect_clean(p, "city");
   EXPECT_EQ(prepared({"city", {{"triangles", "100"}}}).mesh.triangle_count(), 96u);
   for (const char* wrong : {"47", "1e8", "100.5", "many"})
-    EXPECT_NE(refusal({"city", {{"triangles", wrong}}}), "") << wrong;
+    EXPECT_NE(builtin_refusal({"city", {{"triangles", wrong}}}), "") << wrong;
 }
 
 TEST(SceneBuiltin, CityJsonReadsBackAsTheSameScene) {
@@ -421,14 +421,16 @@ TEST(SceneBuiltin, CityJsonReadsBackAsTheSameScene) {
 }
 
 TEST(SceneBuiltin, RefusesWithTheNearestName) {
-  EXPECT_NE(refusal({"steet", {}}).find("'street'"), std::string::npos);
-  EXPECT_NE(refusal({"street", {{"house3", "brick"}}}).find("'house_3'"), std::string::npos);
-  EXPECT_NE(refusal({"street", {{"house_3", "glased"}}}).find("'glazed'"), std::string::npos);
-  EXPECT_NE(refusal({"shadow", {{"height", "3"}}}), "");
+  EXPECT_NE(builtin_refusal({"steet", {}}).find("'street'"), std::string::npos);
+  EXPECT_NE(builtin_refusal({"street", {{"house3", "brick"}}}).find("'house_3'"),
+            std::string::npos);
+  EXPECT_NE(builtin_refusal({"street", {{"house_3", "glased"}}}).find("'glazed'"),
+            std::string::npos);
+  EXPECT_NE(builtin_refusal({"shadow", {{"height", "3"}}}), "");
   for (const char* wrong : {"0", "-1", "nan", "inf", "1e9", "3 m", ""})
-    EXPECT_NE(refusal({"canyon", {{"height", wrong}}}), "") << wrong;
-  EXPECT_NE(refusal({"box_on_plane", {{"plane", "5"}}}), "");
-  const auto both = refusal({"canyon", {{"height", "x"}, {"hight", "3"}}});
+    EXPECT_NE(builtin_refusal({"canyon", {{"height", wrong}}}), "") << wrong;
+  EXPECT_NE(builtin_refusal({"box_on_plane", {{"plane", "5"}}}), "");
+  const auto both = builtin_refusal({"canyon", {{"height", "x"}, {"hight", "3"}}});
   EXPECT_NE(both.find("'x'"), std::string::npos) << both;
   EXPECT_NE(both.find("'hight'"), std::string::npos) << both;
 }

@@ -12,7 +12,7 @@
 namespace sunload::test {
 namespace {
 
-IntensityWeb read(const std::string& text) {
+IntensityWeb read_ies(const std::string& text) {
   const WorkFolder folder;
   return read_ies_file(folder.write("lamp.ies", text));
 }
@@ -36,7 +36,7 @@ std::string file_of(const std::string& planes, int count,
 }
 
 TEST(IesFile, OnePlaneStandsForAll) {
-  const IntensityWeb web = read(file_of("0", 1));
+  const IntensityWeb web = read_ies(file_of("0", 1));
   EXPECT_EQ(web.planes_deg, (std::vector<double>{0}));
   EXPECT_EQ(web.gammas_deg, (std::vector<double>{0, 45, 90}));
   EXPECT_EQ(web.intensities, (std::vector<double>{200, 202, 204}));  // the multiplier is 2
@@ -47,39 +47,42 @@ TEST(IesFile, PlanesThatSymmetryLeavesOutAreFilledIn) {
   const auto seen = [](const IntensityWeb& web, double plane) {
     return (web.at(plane, 45) - 2) / 200;
   };
-  const IntensityWeb quarter = read(file_of("0 30 90", 3));
+  const IntensityWeb quarter = read_ies(file_of("0 30 90", 3));
   EXPECT_EQ(quarter.planes_deg, (std::vector<double>{0, 30, 90, 150, 180, 210, 270, 330, 360}));
   for (const double plane : {30, 150, 210, 330}) EXPECT_DOUBLE_EQ(seen(quarter, plane), 2);
   for (const double plane : {0, 180, 360}) EXPECT_DOUBLE_EQ(seen(quarter, plane), 1);
   for (const double plane : {90, 270}) EXPECT_DOUBLE_EQ(seen(quarter, plane), 3);
 
-  const IntensityWeb half = read(file_of("0 30 180", 3));
+  const IntensityWeb half = read_ies(file_of("0 30 180", 3));
   EXPECT_EQ(half.planes_deg, (std::vector<double>{0, 30, 180, 330, 360}));
   EXPECT_DOUBLE_EQ(seen(half, 330), 2);
   EXPECT_DOUBLE_EQ(seen(half, 180), 3);
 
-  const IntensityWeb sides = read(file_of("90 100 180 270", 4));
+  const IntensityWeb sides = read_ies(file_of("90 100 180 270", 4));
   EXPECT_EQ(sides.planes_deg, (std::vector<double>{0, 80, 90, 100, 180, 270, 360}));
   for (const double plane : {80, 100}) EXPECT_DOUBLE_EQ(seen(sides, plane), 2);
   for (const double plane : {0, 180, 360}) EXPECT_DOUBLE_EQ(seen(sides, plane), 3);
   EXPECT_DOUBLE_EQ(seen(sides, 270), 4);
 
-  EXPECT_EQ(read(file_of("0 120 240 360", 4)).planes_deg, (std::vector<double>{0, 120, 240, 360}));
-  const IntensityWeb open = read(file_of("0 120 240", 3));  // its last plane is left out
+  EXPECT_EQ(read_ies(file_of("0 120 240 360", 4)).planes_deg,
+            (std::vector<double>{0, 120, 240, 360}));
+  const IntensityWeb open = read_ies(file_of("0 120 240", 3));  // its last plane is left out
   EXPECT_EQ(open.planes_deg, (std::vector<double>{0, 120, 240, 360}));
   EXPECT_DOUBLE_EQ(seen(open, 360), 1);
 }
 
 TEST(IesFile, FactorsOfItsEdition) {
   // The second one dims by the lamp until 1991; later it means nothing, or how it was measured.
-  EXPECT_DOUBLE_EQ(read(file_of("0", 1, "IESNA:LM-63-1995", "0.5 0.9 40")).at(0, 0), 100);
-  EXPECT_DOUBLE_EQ(read(file_of("0", 1, "IES:LM-63-2019", "0.5 1.10100 40")).at(0, 0), 100);
-  EXPECT_DOUBLE_EQ(read(file_of("0", 1, "IESNA91", "0.5 0.9 40")).at(0, 0), 90);
-  EXPECT_DOUBLE_EQ(read(file_of("0", 1, "a lamp of 1986", "0.5 0.9 40")).at(0, 0), 90);
+  EXPECT_DOUBLE_EQ(read_ies(file_of("0", 1, "IESNA:LM-63-1995", "0.5 0.9 40")).at(0, 0), 100);
+  EXPECT_DOUBLE_EQ(read_ies(file_of("0", 1, "IES:LM-63-2019", "0.5 1.10100 40")).at(0, 0), 100);
+  for (const char* head : {"\xEF\xBB\xBFIES:LM-63-2019", " IESNA:LM-63-1995", "iesna:LM-63-1995"})
+    EXPECT_DOUBLE_EQ(read_ies(file_of("0", 1, head, "0.5 1.1 40")).at(0, 0), 100) << head;
+  EXPECT_DOUBLE_EQ(read_ies(file_of("0", 1, "IESNA91", "0.5 0.9 40")).at(0, 0), 90);
+  EXPECT_DOUBLE_EQ(read_ies(file_of("0", 1, "a lamp of 1986", "0.5 0.9 40")).at(0, 0), 90);
 }
 
 TEST(IesFile, LinesBreakWhereTheyLike) {
-  const IntensityWeb web = read(
+  const IntensityWeb web = read_ies(
       "IESNA:LM-63-2002\r\nTILT= NONE\r\n1,1000,1\r\n2 1 1\r\n2 0 0 0 1 1\r\n40 0\r\n"
       "180\r\n\r\n0\r\n7\r\n9");
   EXPECT_EQ(web.gammas_deg, (std::vector<double>{0, 180}));

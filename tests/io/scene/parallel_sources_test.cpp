@@ -34,7 +34,7 @@ VariantPlan plan_of(const WorkFolder& folder, const std::string& scene) {
   return make_plan(read_study(folder.write("beam.yaml", study_text(scene))).variants.front());
 }
 
-std::string refusal(const WorkFolder& folder, const std::string& scene) {
+std::string study_refusal(const WorkFolder& folder, const std::string& scene) {
   return refusal_of([&] { plan_of(folder, scene); });
 }
 
@@ -72,10 +72,10 @@ TEST(ParallelSources, AreInTheContentHash) {
 TEST(ParallelSources, AreRefusedByName) {
   const WorkFolder folder;
   write_models(folder);
-  EXPECT_NE(refusal(folder, "parallel_sources: none.obj")
+  EXPECT_NE(study_refusal(folder, "parallel_sources: none.obj")
                 .find("scene.parallel_sources: 'none.obj' is not there"),
             std::string::npos);
-  EXPECT_NE(refusal(folder, "parallel_sources: lamps.obj").find("emits"), std::string::npos);
+  EXPECT_NE(study_refusal(folder, "parallel_sources: lamps.obj").find("emits"), std::string::npos);
 }
 
 }  // namespace

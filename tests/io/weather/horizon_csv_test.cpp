@@ -14,7 +14,7 @@
 namespace sunload {
 namespace {
 
-Horizon read(const std::string& text) {
+Horizon read_horizon(const std::string& text) {
   return read_horizon_csv(test::folder_of_test().write("hills.csv", text));
 }
 
@@ -24,7 +24,7 @@ TEST(HorizonCsv, ReadsNamedColumns) {
         "# hills\nelevation_deg; azimuth_deg; note\r\n10; 90; east\r\n\r\n20; 270; west\r\n",
         "\xEF\xBB\xBF"
         "azimuth_deg elevation_deg\n+90 10 # east\n270 20"}) {
-    const Horizon horizon = read(text);
+    const Horizon horizon = read_horizon(text);
     ASSERT_EQ(horizon.points().size(), 2u) << text;
     EXPECT_EQ(horizon.elevation_deg(90), 10);
     EXPECT_EQ(horizon.elevation_deg(270), 20);
@@ -33,7 +33,7 @@ TEST(HorizonCsv, ReadsNamedColumns) {
 
 // The layout of PVGIS's horizon table; west is +90 there, and 270 here.
 TEST(HorizonCsv, ReadsPvgisTables) {
-  const Horizon horizon = read(
+  const Horizon horizon = read_horizon(
       "Latitude (decimal degrees):\t45.815\nLongitude (decimal degrees):\t8.611\n\n"
       "A\t\tH_hor\tA_sun(w)\tH_sun(w)\tA_sun(s)\tH_sun(s)\n"
       "-180.0\t3.0\t-180.0\t-67.6\t-180.0\t-20.7\n-90.0\t10.0\t0\t0\t0\t0\n"
@@ -48,7 +48,7 @@ TEST(HorizonCsv, ReadsPvgisTables) {
 
 void expect_refused(const std::string& text, const std::string& part) {
   try {
-    read(text);
+    read_horizon(text);
     ADD_FAILURE() << text << " was read";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
@@ -79,7 +79,7 @@ TEST(HorizonCsv, ReadsOrRefusesGarbage) {
     for (unsigned k = random() % 4; k > 0 && !text.empty(); --k)
       text[random() % text.size()] = static_cast<char>(random());
     try {
-      const Horizon horizon = read(text);
+      const Horizon horizon = read_horizon(text);
       EXPECT_GE(horizon.points().size(), 2u) << text;
       for (int azimuth_deg = 0; azimuth_deg < 360; azimuth_deg += 30) {
         EXPECT_GE(horizon.elevation_deg(azimuth_deg), 0) << text;

@@ -137,6 +137,25 @@ TEST(Attribution, ShadowsAndImagesOfTheSunNameTheirObjects) {
   }
 }
 
+// Two crowns, of which the nearer one's triangles meet where the sun is seen.
+TEST(Attribution, OfSensorsCrownsTakeTheirShareOfTheSun) {
+  SceneBuilder builder;
+  Material leaves{"leaves"};
+  leaves.transmittance = 0.3;
+  const int crown = builder.material(leaves);
+  builder.sides(Sides::two)
+      .object("near")
+      .quad({-9, -9, 5}, {9, -9, 5}, {9, 9, 5}, {-9, 9, 5}, crown);
+  builder.object("far").quad({-9, -9, 8}, {9, -9, 8}, {9, 9, 8}, {-9, 9, 8}, crown);
+  const Scene scene = builder.scene();
+  const IntervalLight sun = one_second({0, 0, 1}, 800);
+  const Attribution taken = of_sensor_in(scene, {0, 0, 0}, {0, 0, 1}, sun);
+  for (std::size_t r = 0; r < taken.realizations(); ++r) {
+    EXPECT_NEAR(taken.flow(object_named(scene, "near"), Flow::takes_sun, r), 800 * 0.7, 1e-3);
+    EXPECT_NEAR(taken.flow(object_named(scene, "far"), Flow::takes_sun, r), 800 * 0.3 * 0.7, 1e-3);
+  }
+}
+
 /// The sum of all rows less the solution's own load, of every realization.
 std::vector<double> remainders(const Scene& scene, const std::string& object, bool with_mirrors) {
   const std::vector<IntervalLight> lights = three_suns();

@@ -19,7 +19,7 @@ namespace {
 /// Points know shares in steps of 1/250.
 constexpr double step = 0.5 / 250 + 1e-6;
 
-Vec3 sun_at(double azimuth_deg, double elevation_deg) {
+Vec3 sun_at_deg(double azimuth_deg, double elevation_deg) {
   const double a = radians(azimuth_deg), e = radians(elevation_deg);
   return {std::cos(e) * std::sin(a), std::cos(e) * std::cos(a), std::sin(e)};
 }
@@ -29,7 +29,7 @@ std::vector<IntervalLight> suns_of_a_day(std::size_t count, double highest_deg =
   std::vector<IntervalLight> suns;
   for (std::size_t k = 0; k < count; ++k) {
     const double t = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
-    suns.push_back(one_second(sun_at(70 + 220 * t, highest_deg * std::sin(pi * t)), 1000));
+    suns.push_back(one_second(sun_at_deg(70 + 220 * t, highest_deg * std::sin(pi * t)), 1000));
   }
   return suns;
 }
@@ -69,7 +69,7 @@ TEST(ShareGrid, OpenGroundIsWhollyLitFromWhereverTheSunStands) {
   for (const double elevation : {0.01, 0.3, 7.0, 45.0, 89.9, 90.0}) {
     std::vector<IntervalLight> suns;
     for (std::size_t k = 0; k < block_width; ++k)
-      suns.push_back(one_second(sun_at(22.5 * static_cast<double>(k), elevation), 0));
+      suns.push_back(one_second(sun_at_deg(22.5 * static_cast<double>(k), elevation), 0));
     const Columns shares = grid.of(suns);
     for (const float share : shares) EXPECT_EQ(share, 1.0f) << elevation;
   }
@@ -172,7 +172,7 @@ TEST(ShareGrid, WhatWasAskedBeforeAndTheThreadsChangeNothing) {
 }
 
 TEST(ShareGrid, SaysHowManyPointsItNeeds) {
-  const std::vector<Vec3> one{sun_at(180, 40)};
+  const std::vector<Vec3> one{sun_at_deg(180, 40)};
   EXPECT_EQ(ShareGrid::points_about(one), 4u);
   const std::vector<Vec3> same(100, one.front());
   EXPECT_EQ(ShareGrid::points_about(same), 4u);

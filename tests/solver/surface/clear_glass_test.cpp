@@ -17,7 +17,7 @@
 namespace sunload::test {
 namespace {
 
-double cosine(double angle_deg) { return std::cos(angle_deg * radians_per_degree); }
+double cosine_deg(double angle_deg) { return std::cos(angle_deg * radians_per_degree); }
 
 Material clear_glass(double normal_transmittance, double diffuse = 0, double mirror = 0) {
   Material m{"clear glass", diffuse, mirror};
@@ -32,12 +32,13 @@ TEST(ClearGlass, ReferenceCases) {
   for (const auto& c : cases) {
     const double T0 = number(c["T0"]), angle = number(c["angle_deg"]), T = number(c["T"]);
     constexpr double last_digit = 1e-7;
-    EXPECT_NEAR(clear_glass_transmittance(T0, cosine(angle)), T, last_digit) << c["id"];
+    EXPECT_NEAR(clear_glass_transmittance(T0, cosine_deg(angle)), T, last_digit) << c["id"];
     // Planted faults: no factor; the square of the sine, which the normal does not notice.
-    EXPECT_GT(std::abs(clear_glass_transmittance(T0, cosine(angle)) / clear_glass_factor - T),
+    EXPECT_GT(std::abs(clear_glass_transmittance(T0, cosine_deg(angle)) / clear_glass_factor - T),
               last_digit);
     const double s = std::sin(radians(angle));
-    square_refused += std::abs(1.018 * T0 * cosine(angle) * (1 + s * s) - T) > last_digit ? 1 : 0;
+    square_refused +=
+        std::abs(1.018 * T0 * cosine_deg(angle) * (1 + s * s) - T) > last_digit ? 1 : 0;
   }
   EXPECT_EQ(square_refused, 3);
 }
@@ -46,7 +47,7 @@ TEST(ClearGlass, PassesMostOfLightFromTheNormalAndNothingThatGrazes) {
   double before = clear_glass_transmittance(0.9, 1);
   EXPECT_DOUBLE_EQ(before, 1.018 * 0.9);
   for (int tenth = 1; tenth <= 900; ++tenth) {
-    const double T = clear_glass_transmittance(0.9, cosine(tenth / 10.0));
+    const double T = clear_glass_transmittance(0.9, cosine_deg(tenth / 10.0));
     // At 30° the formula is level to the second order.
     EXPECT_LE(T, before) << tenth;
     before = T;
@@ -73,7 +74,8 @@ TEST(ClearGlass, NeverSendsOnMoreThanArrives) {
   EXPECT_FALSE(accepts(clear_glass(most + 1e-6, diffuse, mirror)));
   EXPECT_FALSE(accepts(clear_glass(-0.1)));
   for (int degree = 0; degree <= 90; ++degree) {
-    const SmoothShares shares = smooth_shares(clear_glass(most, diffuse, mirror), cosine(degree));
+    const SmoothShares shares =
+        smooth_shares(clear_glass(most, diffuse, mirror), cosine_deg(degree));
     EXPECT_EQ(shares.mirror, mirror);
     EXPECT_LE(diffuse + shares.mirror + shares.transmitted, 1 + 1e-12) << degree;
   }
