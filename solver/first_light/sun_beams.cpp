@@ -113,8 +113,9 @@ std::vector<SunBeam> SunBeams::next_level(std::size_t begin) {
       const double cos_theta = dot(beam.image, n);
       if (cos_theta <= least_cosine) continue;
       const double strongest = beam.strongest * groups_->strongest(g, cos_theta);
+      if (strongest <= 0) continue;
       if (strongest < rules_.faint_glint) {
-        leaves_out_faint_ |= strongest > 0;
+        leaves_out_faint_ = true;
         continue;
       }
       auto lit = section.lit(*groups_, g);

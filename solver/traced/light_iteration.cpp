@@ -304,7 +304,9 @@ BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources
 SunBeams beams_on_sensors(const TracedScene& traced, const IntervalLight& sun,
                           const SunBeams& on_patches) {
   const SolverRules& rules = traced.rules;
-  if (on_patches.size() > 0) return on_patches.followed_on(rules.unshot, rules.most_faint_beams);
+  if (on_patches.size() > 0)
+    return on_patches.followed_on(std::min(rules.unshot, rules.faint_glint),
+                                  rules.most_faint_beams);
   return SunBeams(
       traced.mirrors, sun,
       {.mirror_depth = std::min(rules.mirror_depth, 1), .most_beams = rules.most_sensor_beams});

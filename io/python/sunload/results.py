@@ -152,7 +152,7 @@ class Accessor:
 
     def _interval_at(self, time: Any) -> int:
         """The interval that holds a time in UTC."""
-        bounds, when = self._result["time_bounds"].values, np.datetime64(pandas.Timestamp(time).to_datetime64())
+        bounds, when = self._result["time_bounds"].values, pandas.Timestamp(getattr(time, "values", time)).to_datetime64()
         held = np.flatnonzero((bounds[:, 0] <= when) & (when < bounds[:, 1]))
         if not len(held):
             raise ValueError(f"{when} (UTC) is in no interval of the result: it has {bounds.min()} ... {bounds.max()}")
