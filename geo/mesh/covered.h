@@ -33,7 +33,8 @@ struct CoveredCut {
 /// below land (open surfaces of kind ground but roads and railways, which may be bridges). Surfaces
 /// for which `is_opaque` is 0 cover nothing, nor do bodies that have some. Two-sided surfaces are
 /// covered inside of bodies and below land only. Land is covered below floors that are closed
-/// at their rim: `seals` are these floors and the walls at their rim (geo/mesh/ground).
+/// at their rim, and above such a floor where more of its object is above the land: `seals` are
+/// these floors and the walls at their rim (geo/mesh/ground).
 ///
 /// Left out is what lies in the place of another opaque surface and faces where that does: the
 /// first of them stays, but before others what `emits` (empty: nothing), then two-sided surfaces.

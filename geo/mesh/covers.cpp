@@ -122,8 +122,9 @@ bool Covers::is_sealed(Vec3 p) const {
   std::vector<ObjectId> floors_below, above;
   bool is_under_floor = false;
   tree_.visit_column(p.x, p.y, [&](std::size_t u) {
+    if (is_land_[u]) return;
     const auto z = height_at(mesh_.corner(u, 0), mesh_.corner(u, 1), mesh_.corner(u, 2), p.x, p.y);
-    if (!z || is_land_[u]) return;
+    if (!z) return;
     const bool is_floor = seals(u) && slope_of(mesh_, u) == Slope::downward;
     if (is_floor && *z >= land) is_under_floor = true;
     if (is_floor || *z > land)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "io/base/json_text.h"
 #include "io/base/text.h"
 #include "io/explain/painting.h"
 
@@ -92,7 +93,7 @@ std::string painting_json(const Painting& painting) {
         {"object", row.kind == PaintedRow::Kind::surface ? Json(row.object) : Json(nullptr)}};
     const auto numbers = numbers_of(row);
     for (std::size_t k = 0; k < numbers.size(); ++k)
-      entry[keys[k + texts]] = std::isnan(numbers[k]) ? Json(nullptr) : Json(numbers[k]);
+      entry[keys[k + texts]] = json_number(numbers[k]);
     rows.push_back(std::move(entry));
   }
   const Json document = {{"study", painting.study},

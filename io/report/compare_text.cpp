@@ -19,9 +19,7 @@
 namespace sunload {
 namespace {
 
-double or_nan(const std::optional<double>& value) {
-  return value.value_or(std::numeric_limits<double>::quiet_NaN());
-}
+double or_nan(const std::optional<double>& value) { return value.value_or(not_known); }
 
 bool is_paired(const Comparison& comparison, const ComparisonRow& row) {
   return comparison.errors == Comparison::Errors::paired && row.base_kwh_m2 && row.variant_kwh_m2;

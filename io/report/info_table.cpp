@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "io/base/json_text.h"
 #include "io/base/text.h"
 #include "io/report/info.h"
 
@@ -75,7 +76,7 @@ std::string group_table_json(const ResultReader& result, const GroupTable& table
     Json& object = rows.emplace_back(Json{{"name", table.names[row]}});
     for (const auto& column : table.columns) {
       const double value = column.values[row];
-      object[column.key] = std::isnan(value) ? Json(nullptr) : Json(value);
+      object[column.key] = json_number(value);
     }
   }
   const Json document = {{"study", result.text_attribute("study")},

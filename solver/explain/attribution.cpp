@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
@@ -120,7 +121,7 @@ Mirrored mirrored(const TracedScene& traced, const IntervalLight& sun, bool is_f
                        {rules.mirror_depth, rules.faint_glint, rules.most_sun_beams,
                         traced.caster.offset_m()}),
               {}};
-  if (is_for_sensors) by.beams = beams_on_sensors(traced, sun, by.beams);
+  if (is_for_sensors) by.beams = beams_on_sensors(traced, sun, std::move(by.beams));
   for (std::size_t b = 0; b < by.beams.size(); ++b)
     by.rasters.emplace_back(by.beams[b].section, by.beams[b].image, by.beams.spread(), raster_size);
   return by;

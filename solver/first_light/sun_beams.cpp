@@ -42,8 +42,8 @@ void SunBeams::follow(std::vector<SunBeam> level) {
   }
 }
 
-SunBeams SunBeams::followed_on(double faint_glint, int most_beams) const {
-  if (!leaves_out_faint_) return *this;
+void SunBeams::follow_on(double faint_glint, int most_beams) {
+  if (!leaves_out_faint_) return;
   SunBeams further(*groups_);
   further.rules_ = rules_;
   further.rules_.faint_glint = faint_glint;
@@ -57,9 +57,8 @@ SunBeams SunBeams::followed_on(double faint_glint, int most_beams) const {
     }
   further.follow(std::move(first));
   // Levels are whole or left out: more beams may end earlier.
-  const bool ends_earlier =
-      further.size() == 0 || further.beams_.back().reflections < beams_.back().reflections;
-  return ends_earlier ? *this : further;
+  if (further.size() > 0 && further.beams_.back().reflections >= beams_.back().reflections)
+    *this = std::move(further);
 }
 
 std::int32_t SunBeams::next(std::int32_t beam, std::size_t group) const {

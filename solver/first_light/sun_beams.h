@@ -57,9 +57,8 @@ class SunBeams {
   /// `dark`: 1 for each triangle of which nothing sees the sun; empty: this is known of none.
   SunBeams(const MirrorGroups& groups, const IntervalLight& sun, const BeamRules& rules,
            std::span<const std::uint8_t> dark = {});
-  /// The same, followed on to reflections of less than `faint_glint` of the sun, where no more than
-  /// `most_beams` are; else these.
-  SunBeams followed_on(double faint_glint, int most_beams) const;
+  /// Follows on to reflections of `faint_glint` of the sun where no more than `most_beams` are.
+  void follow_on(double faint_glint, int most_beams);
   std::size_t size() const { return beams_.size(); }
   const SunBeam& operator[](std::size_t beam) const { return beams_[beam]; }
   double spread() const { return spread_; }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "solver/base/stopwatch.h"
 #include "solver/base/threads.h"
@@ -32,8 +33,9 @@ std::vector<SunBeams> beams_of(const TracedScene& traced, Suns suns, const Colum
 
 std::vector<SunBeams> on_sensors(const TracedScene& traced, std::vector<SunBeams> beams,
                                  Suns suns) {
-  parallel_for(beams.size(),
-               [&](std::size_t k) { beams[k] = beams_on_sensors(traced, suns[k], beams[k]); });
+  parallel_for(beams.size(), [&](std::size_t k) {
+    beams[k] = beams_on_sensors(traced, suns[k], std::move(beams[k]));
+  });
   return beams;
 }
 
@@ -301,15 +303,14 @@ BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources
   return rays;
 }
 
-SunBeams beams_on_sensors(const TracedScene& traced, const IntervalLight& sun,
-                          const SunBeams& on_patches) {
+SunBeams beams_on_sensors(const TracedScene& traced, const IntervalLight& sun, SunBeams beams) {
   const SolverRules& rules = traced.rules;
-  if (on_patches.size() > 0)
-    return on_patches.followed_on(std::min(rules.unshot, rules.faint_glint),
-                                  rules.most_faint_beams);
-  return SunBeams(
-      traced.mirrors, sun,
-      {.mirror_depth = std::min(rules.mirror_depth, 1), .most_beams = rules.most_sensor_beams});
+  if (beams.size() == 0)
+    return SunBeams(
+        traced.mirrors, sun,
+        {.mirror_depth = std::min(rules.mirror_depth, 1), .most_beams = rules.most_sensor_beams});
+  beams.follow_on(std::min(rules.unshot, rules.faint_glint), rules.most_faint_beams);
+  return beams;
 }
 
 std::vector<Columns> shares_of_patches(const TracedScene& traced, const BlockSources& sources,

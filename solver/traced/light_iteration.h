@@ -38,10 +38,9 @@ BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources
 std::vector<Columns> shares_of_patches(const TracedScene& traced, const BlockSources& sources,
                                        WorkDone& work);
 /// The beams of a sun that sensors ask: no chains of mirrors end on them, so that these go on to
-/// fainter reflections than those of patches, `on_patches`. Suns of too many mirrors for beams
+/// fainter reflections than `beams` of patches. Suns of too many mirrors for beams
 /// (curved glass) get those of the first reflection: sensors are few.
-SunBeams beams_on_sensors(const TracedScene& traced, const IntervalLight& sun,
-                          const SunBeams& on_patches);
+SunBeams beams_on_sensors(const TracedScene& traced, const IntervalLight& sun, SunBeams beams);
 /// Only the straight sun on patches, as `light_iteration` has it: the columns of the realizations.
 /// `shares`: shares_of_patches.
 RayLight direct_on_patches(const TracedScene& traced, const BlockSources& sources,

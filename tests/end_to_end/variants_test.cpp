@@ -110,10 +110,10 @@ TEST(Examples, OfVariantsRun) {
 /// Written and read back: types, CRS, closed bodies, and what the steps did.
 TEST(Scene, WritesTheEditedModelOfAStudy) {
   const WorkFolder folder;
-  const std::string variants_study = source_folder() + "/configs/storeys.yaml";
+  const std::string storeys = source_folder() + "/configs/storeys.yaml";
   const auto written = [&](const std::string& variant) {
     const std::string name = variant + ".city.json";
-    const Ran ran = program(folder, {"scene", variants_study, "--variant", variant, "-o", name});
+    const Ran ran = program(folder, {"scene", storeys, "--variant", variant, "-o", name});
     EXPECT_EQ(ran.code, 0) << ran.err;
     return read_scene_file(folder / name, {});
   };
@@ -131,10 +131,8 @@ TEST(Scene, WritesTheEditedModelOfAStudy) {
   ASSERT_NE(lime, low.object_names.end());
   EXPECT_EQ(low.object_kinds[static_cast<std::size_t>(lime - low.object_names.begin())],
             "SolitaryVegetationObject");
-  EXPECT_EQ(
-      program(folder, {"scene", variants_study, "--variant", "storeys-9", "-o", "x.city.json"})
-          .code,
-      2);
+  EXPECT_EQ(program(folder, {"scene", storeys, "--variant", "storeys-9", "-o", "x.city.json"}).code,
+            2);
   EXPECT_EQ(program(folder, {"scene", "street", "--variant", "a", "-o", "x.obj"}).code, 2);
 }
 
