@@ -43,9 +43,12 @@ struct UsedNodes {
   }
 };
 
-/// Σ_j nodes[j] weights[j][k] is added to rows [begin, end), which begin at `out`, aligned.
+/// Σ_j nodes[j] weights[j][k] is added to rows [begin, end), which begin at `out`, aligned. Memory is
+/// asked meanwhile for the same rows of `next`, or null: each is read once, a chunk at a time, too
+/// short for the processor to see what comes.
 SUNLOAD_VECTOR_CODE void add_rows(const PackedColumns& nodes, const UsedNodes& used,
-                                  std::size_t begin, std::size_t end, float* out) {
+                                  std::size_t begin, std::size_t end, const PackedColumns* next,
+                                  float* out) {
   constexpr std::size_t together = 4;  // sums that need not wait for each other
   Row* const sums = reinterpret_cast<Row*>(out);
   alignas(64) float codes[together][block_width];
@@ -53,8 +56,10 @@ SUNLOAD_VECTOR_CODE void add_rows(const PackedColumns& nodes, const UsedNodes& u
     // Of the last few rows some are made twice, and added once.
     const std::size_t last = end - 1;
     for (std::size_t r = 0; r < together; ++r) {
-      const auto* of_row = reinterpret_cast<const Codes*>(nodes.codes(std::min(i + r, last)));
+      const std::size_t row = std::min(i + r, last);
+      const auto* of_row = reinterpret_cast<const Codes*>(nodes.codes(row));
       *reinterpret_cast<Row*>(codes[r]) = __builtin_convertvector(*of_row, Row);
+      if (next) __builtin_prefetch(next->codes(row));
     }
     Row a{}, b{}, c{}, d{};
     for (std::size_t n = 0; n < used.count; ++n) {
@@ -87,11 +92,15 @@ struct TimedNodes {
 SUNLOAD_VECTOR_CODE void add_exposure(const std::vector<TimedNodes>& all, std::size_t begin,
                                       std::size_t end, double* exposure) {
   using Sums = TimedNodes::Sums;
+  constexpr std::size_t rows_ahead = 16;  // asked of memory
   for (std::size_t i = begin; i < end; ++i) {
     Sums of_lanes{};  // sums that need not wait for each other
     for (const TimedNodes& block : all) {
+      __builtin_prefetch(block.nodes->codes(std::min(i + rows_ahead, end - 1)));
       const auto* codes = reinterpret_cast<const Codes*>(block.nodes->codes(i));
-      of_lanes += __builtin_convertvector(*codes, Sums) * block.seconds *
+      // By way of floats, which hold codes exactly: compilers know how.
+      const Row exact = __builtin_convertvector(*codes, Row);
+      of_lanes += __builtin_convertvector(exact, Sums) * block.seconds *
                   static_cast<double>(block.nodes->of_row(i));
     }
     double sum = exposure[i];
@@ -111,8 +120,9 @@ void combine(const std::vector<const PackedColumns*>& nodes,
   parallel_chunks(out.size() / block_width, receivers_per_chunk,
                   [&](std::size_t begin, std::size_t end) {
                     float* const rows = out.data() + begin * block_width;
-                    for (const auto& [of_nodes, used] : parts)
-                      add_rows(*of_nodes, used, begin, end, rows);
+                    for (std::size_t p = 0; p < parts.size(); ++p)
+                      add_rows(*parts[p].first, parts[p].second, begin, end,
+                               p + 1 < parts.size() ? parts[p + 1].first : nullptr, rows);
                     for (float* value = rows; value != rows + (end - begin) * block_width; ++value)
                       *value = std::max(*value, 0.0f);
                   });
