@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <iostream>
+#include <memory>
 
 #include "io/base/exit_code.h"
 #include "io/base/output_target.h"
@@ -34,6 +35,15 @@ std::string text_of(const Made& made, ExplainOptions::Format format,
   return text(made);
 }
 
+/// Refuses, before the work, what cannot be explained.
+std::unique_ptr<const ResultReader> opened_to_explain(const NamedResult& named,
+                                                      const NamedParts& parts) {
+  auto result = opened(named);
+  expect_explainable(*result);
+  place_named(*result, parts);
+  return result;
+}
+
 }  // namespace
 
 int explain(const ExplainOptions& options) {
@@ -41,15 +51,13 @@ int explain(const ExplainOptions& options) {
   if (!options.map.empty()) expect_map_name(options.map);
   ResultScenes scenes(options.study_folder);
   if (options.what == ExplainOptions::What::painting) {
-    const auto result = opened(options.result);
-    place_named(*result, options.parts);  // refuses before the work
+    const auto result = opened_to_explain(options.result, options.parts);
     std::cout << text_of(painted(*result, *scenes.of(*result), options.parts), options.format,
                          painting_text, painting_csv, painting_json);
     return exit_code::done;
   }
   const auto explanation_of = [&](const NamedResult& named) {
-    const auto result = opened(named);
-    place_named(*result, options.parts);  // refuses before the work
+    const auto result = opened_to_explain(named, options.parts);
     const auto scene = scenes.of(*result);
     for (const auto& output : {options.map, options.picture})
       expect_not_read(output, scene->files());

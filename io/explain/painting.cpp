@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "io/base/statistics.h"
+#include "io/explain/explanation.h"
 #include "io/explain/light_of_part.h"
 #include "io/explain/place.h"
 #include "solver/explain/importance.h"
@@ -82,6 +83,7 @@ PaintedRow row_of(const Surface& surface, const std::vector<std::size_t>& patche
 }  // namespace
 
 Painting painted(const ResultReader& result, const ResultScene& scene, const NamedParts& parts) {
+  expect_explainable(result);
   scene.expect_one_season();
   const Place place = place_named(result, parts);
   Painting painting;

@@ -187,15 +187,20 @@ class Result:
             raise InputError(f"--time {text}: no time (ISO 8601); write e.g. 2026-06-21T12:00") from error
         when = when if when.tzinfo else when.replace(tzinfo=self.zone)
         bounds, seconds = self.bounds(), when.timestamp()
-        held = np.flatnonzero((bounds[:, 0] <= seconds) & (seconds < bounds[:, 1]))
+        held = np.flatnonzero((bounds[:, 0] <= seconds) & ((seconds < bounds[:, 1]) | (seconds == bounds[-1, 1])))
         if len(held) == 0:
             raise InputError(f"{self.path}: no interval holds {text} (the result covers {self.period()}, "
                              "with its gaps); choose a time within")
         return int(held[0])
 
     def brightest(self):
-        """Interval of the largest global irradiance."""
-        return int(np.nanargmax(self.numbers("ghi")))
+        """Interval of the largest global irradiance, of those that are there where batches are missing."""
+        ghi = np.array(self.numbers("ghi"), dtype=float)
+        if "power_sun" in self.file:
+            lacking = np.isnan(self.numbers("power_sun")).reshape(len(ghi), -1).any(axis=1)
+            if not lacking.all():
+                ghi[lacking] = np.nan
+        return int(np.nanargmax(ghi))
 
     def period(self):
         if self.is_synthetic:

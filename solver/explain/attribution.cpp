@@ -238,8 +238,15 @@ class Looks {
       energy *= traced_.mirrors.weight_of_hit(hit.triangle, -dot(n, w));
       from = lifted_point(traced_.scene.mesh, hit, n, traced_.caster.offset_m());
     }
-    if (traced_.caster.first_hit(from, sun).left_scene())
-      into_.add_flow(*seen, Flow::mirrors, r, energy);
+    into_.add_flow(*seen, Flow::mirrors, r, energy * share_of_sun(from, sun));
+  }
+
+  /// That arrives: as receivers of the place take it, on patches by chance (see_sun).
+  double share_of_sun(Vec3 from, Vec3 sun) const {
+    if (!place_.is_of_sensors) return traced_.caster.first_hit(from, sun).left_scene() ? 1 : 0;
+    double left = 1;
+    for (const auto& taker : traced_.caster.takers(from, sun)) left -= taker.share;
+    return left;
   }
 
   void along_line(const CastLine& line, std::size_t r, double share) {

@@ -33,8 +33,11 @@ SunBeams::SunBeams(const MirrorGroups& groups, const IntervalLight& sun, const B
 }
 
 void SunBeams::follow(std::vector<SunBeam> level) {
-  while (!level.empty() &&
-         beams_.size() + level.size() <= static_cast<std::size_t>(rules_.most_beams)) {
+  while (!level.empty()) {
+    if (beams_.size() + level.size() > static_cast<std::size_t>(rules_.most_beams)) {
+      leaves_out_ = true;
+      return;
+    }
     const std::size_t begin = beams_.size();
     append(std::move(level));
     if (beams_.back().reflections == rules_.mirror_depth) return;
@@ -43,7 +46,7 @@ void SunBeams::follow(std::vector<SunBeam> level) {
 }
 
 void SunBeams::follow_on(double faint_glint, int most_beams) {
-  if (!leaves_out_faint_) return;
+  if (!leaves_out_) return;
   SunBeams further(*groups_);
   further.rules_ = rules_;
   further.rules_.faint_glint = faint_glint;
@@ -114,7 +117,7 @@ std::vector<SunBeam> SunBeams::next_level(std::size_t begin) {
       const double strongest = beam.strongest * groups_->strongest(g, cos_theta);
       if (strongest <= 0) continue;
       if (strongest < rules_.faint_glint) {
-        leaves_out_faint_ = true;
+        leaves_out_ = true;
         continue;
       }
       auto lit = section.lit(*groups_, g);

@@ -74,8 +74,8 @@ class SunBeams {
 
   const MirrorGroups* groups_;
   BeamRules rules_;
-  double spread_ = 0;              ///< tangent of the half angle of the sun's disk
-  bool leaves_out_faint_ = false;  ///< reflections
+  double spread_ = 0;        ///< tangent of the half angle of the sun's disk
+  bool leaves_out_ = false;  ///< reflections, as faint or as too many
   std::vector<SunBeam> beams_;
   std::vector<std::pair<std::size_t, std::int32_t>> first_;
 };

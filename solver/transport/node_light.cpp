@@ -43,9 +43,9 @@ struct UsedNodes {
   }
 };
 
-/// Σ_j nodes[j] weights[j][k] is added to rows [begin, end), which begin at `out`, aligned. Memory is
-/// asked meanwhile for the same rows of `next`, or null: each is read once, a chunk at a time, too
-/// short for the processor to see what comes.
+/// Σ_j nodes[j] weights[j][k] is added to rows [begin, end), which begin at `out`, aligned. Memory
+/// is asked meanwhile for the same rows of `next`, or null: each is read once, a chunk at a time,
+/// too short for the processor to see what comes.
 SUNLOAD_VECTOR_CODE void add_rows(const PackedColumns& nodes, const UsedNodes& used,
                                   std::size_t begin, std::size_t end, const PackedColumns* next,
                                   float* out) {

@@ -95,9 +95,13 @@ TEST(Shards, APartialResultSaysWhatIsMissing) {
   const auto partial = files(folder, "partial.h5");
   ASSERT_EQ(partial.size(), 1u);
   const std::string file = "results/" + partial.front();
-  const Ran explained = program(folder, {"explain", file, "--object", "house_1"});
-  EXPECT_EQ(explained.code, 2);
-  EXPECT_NE(explained.err.find("is incomplete"), std::string::npos) << explained.err;
+  for (const auto& more : {std::vector<std::string>{}, {"--paint"}, {"--map", "map.h5"}}) {
+    std::vector<std::string> words{"explain", file, "--object", "house_1"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Ran explained = program(folder, words);
+    EXPECT_EQ(explained.code, 2);
+    EXPECT_NE(explained.err.find("is incomplete"), std::string::npos) << explained.err;
+  }
   // The brightest hour may be one that lacks.
   const std::string info = program(folder, {"info", file}).out;
   const auto brightest = info.find("irradiance");

@@ -246,26 +246,49 @@ TEST(SensorSun, MirroredOntoTheGround) {
   }
 }
 
-// Once by the high wall, and once more by the low one: of glass that reflects 10 % the second is 1
-// %.
-TEST(SensorSun, ReflectedTwiceByFaintMirrors) {
-  for (const double rho : {0.1, 0.15, 0.5}) {
-    SensorStage stage;
-    const int mirror = stage.builder.material({"m", 0, rho, 0});
-    stage.builder.quad({-50, 10, 0}, {50, 10, 0}, {50, 10, 30}, {-50, 10, 30}, mirror);
-    stage.builder.quad({50, -8, 0}, {-50, -8, 0}, {-50, -8, 6}, {50, -8, 6}, mirror);
-    stage.at({1, -6, 2.01}, {0, 0, 1});
-    const double azimuth = radians(190), elevation = radians(50), dni = 800;
+/// The sun between a high mirror and a low one, seen by both.
+struct BetweenMirrors : SensorStage {
+  double elevation = radians(50), dni = 800, rho;
+
+  explicit BetweenMirrors(double reflectance) : rho(reflectance) {
+    const int mirror = builder.material({"m", 0, rho, 0});
+    builder.quad({-50, 10, 0}, {50, 10, 0}, {50, 10, 30}, {-50, 10, 30}, mirror);
+    builder.quad({50, -8, 0}, {-50, -8, 0}, {-50, -8, 6}, {50, -8, 6}, mirror);
+    at({1, -6, 2.01}, {0, 0, 1});
+  }
+  double by_mirrors() const {
+    const double azimuth = radians(190);
     const Vec3 sun{std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation),
                    std::sin(elevation)};
     SolverRules rules = sensor_rules(1);
     rules.direct_samples = rules.realizations;
-    const auto tally = stage.light(one_second(sun, dni), rules);
-    const double truth = dni * std::sin(elevation) * (rho + rho * rho);
-    EXPECT_NEAR(tally.sensors.exposure[static_cast<std::size_t>(Part::mirror)][0], truth,
-                float_rounding * truth)
-        << rho;
+    const auto tally = light(one_second(sun, dni), rules);
+    return tally.sensors.exposure[static_cast<std::size_t>(Part::mirror)][0];
   }
+  /// Once by the high mirror, and once more by the low one.
+  double truth() const { return dni * std::sin(elevation) * (rho + rho * rho); }
+};
+
+// Of glass that reflects 10 % the second is 1 %.
+TEST(SensorSun, ReflectedTwiceByFaintMirrors) {
+  for (const double rho : {0.1, 0.15, 0.5}) {
+    const BetweenMirrors stage(rho);
+    EXPECT_NEAR(stage.by_mirrors(), stage.truth(), float_rounding * stage.truth()) << rho;
+  }
+}
+
+// A glass bay far away reflects the sun from pane to pane in more ways than patches have beams for.
+TEST(SensorSun, ReflectedTwiceWhereManyMirrorsMakeManyBeams) {
+  BetweenMirrors stage(0.5);
+  const int mirror = stage.builder.material({"bay", 0, stage.rho, 0});
+  constexpr int panes = 64;
+  const auto on_arc = [](int k, double z) {
+    const double angle = pi * k / panes;
+    return Vec3{300 + 10 * std::cos(angle), 10 * std::sin(angle), z};
+  };
+  for (int k = 0; k < panes; ++k)
+    stage.builder.quad(on_arc(k, 0), on_arc(k, 60), on_arc(k + 1, 60), on_arc(k + 1, 0), mirror);
+  EXPECT_NEAR(stage.by_mirrors(), stage.truth(), float_rounding * stage.truth());
 }
 
 TEST(SensorReflection, FromALitRectangle) {

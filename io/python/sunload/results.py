@@ -153,10 +153,18 @@ class Accessor:
     def _interval_at(self, time: Any) -> int:
         """The interval that holds a time in UTC."""
         bounds, when = self._result["time_bounds"].values, pandas.Timestamp(getattr(time, "values", time)).to_datetime64()
-        held = np.flatnonzero((bounds[:, 0] <= when) & (when < bounds[:, 1]))
+        held = np.flatnonzero((bounds[:, 0] <= when) & ((when < bounds[:, 1]) | (when == bounds[-1, 1])))
         if not len(held):
             raise ValueError(f"{when} (UTC) is in no interval of the result: it has {bounds.min()} ... {bounds.max()}")
         return int(held[0])
+
+    def _brightest(self) -> int:
+        """The interval of the largest global irradiance, of those that are there where batches are missing."""
+        ghi = self._result["ghi"].values.astype(float)
+        if "power_sun" in self._result:
+            lacking = np.isnan(self._result["power_sun"].values).reshape(len(ghi), -1).any(axis=1)
+            ghi = ghi if lacking.all() else np.where(lacking, np.nan, ghi)
+        return int(np.nanargmax(ghi))
 
     def plot_map(self, quantity: str = "light_load", time: Optional[Any] = None, ax: Optional[Any] = None,
                  **options: Any) -> Any:
@@ -169,7 +177,7 @@ class Accessor:
         result = self._result
         values = self._of_patches(quantity)
         if "time" in values.dims:
-            values = values.isel(time=int(np.nanargmax(result["ghi"].values)) if time is None else self._interval_at(time))
+            values = values.isel(time=self._brightest() if time is None else self._interval_at(time))
         elif time is not None:
             raise ValueError(f"{quantity} is of the whole period: it has no time")
         if values.dims != ("patch",):

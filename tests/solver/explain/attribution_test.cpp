@@ -156,6 +156,29 @@ TEST(Attribution, OfSensorsCrownsTakeTheirShareOfTheSun) {
   }
 }
 
+// Between the sun and the mirror that the sensor sees it in.
+TEST(Attribution, OfSensorsCrownsTakeTheirShareOfTheMirroredSun) {
+  const double rho_s = 0.5, dni = 800;
+  SceneBuilder builder;
+  Material leaves{"leaves"};
+  leaves.transmittance = 0.3;
+  builder.object("wall").quad({10, 9, 0}, {10, -9, 0}, {10, -9, 30}, {10, 9, 30},
+                              builder.material({"mirror", 0, rho_s}));
+  builder.sides(Sides::two)
+      .object("crown")
+      .quad({-1, -9, 20}, {1, -9, 20}, {1, 9, 20}, {-1, 9, 20}, builder.material(leaves));
+  const Scene scene = builder.scene();
+  const auto by_mirror = [&](Vec3 to_sun) {
+    const IntervalLight sun = one_second(normalized(to_sun), dni);
+    return flows(of_sensor_in(scene, {0, 0, 0}, {0, 0, 1}, sun), object_named(scene, "wall"),
+                 Flow::mirrors);
+  };
+  // What the mirror shows besides the sun is the same where it stands behind the wall.
+  const auto before = by_mirror({-1, 0, 1}), behind = by_mirror({1, 0, 1});
+  for (std::size_t r = 0; r < before.size(); ++r)
+    EXPECT_NEAR(before[r] - behind[r], rho_s * 0.3 * dni * std::sqrt(0.5), 1e-3);
+}
+
 /// The sum of all rows less the solution's own load, of every realization.
 std::vector<double> remainders(const Scene& scene, const std::string& object, bool with_mirrors) {
   const std::vector<IntervalLight> lights = three_suns();
