@@ -67,8 +67,9 @@ Standing standing_on(const Mesh& mesh, const std::vector<Foot>& feet,
 /// What add_ground has made.
 struct GroundMade {
   GroundReport report;
-  /// Per triangle 1: a wall drawn down, or a floor that such walls or the terrain close: no light
-  /// reaches the land below. Empty where there are none.
+  /// Per triangle 1: a wall drawn down, or a floor that such walls or the terrain close. No light
+  /// reaches land under such a floor, nor between one and what stands on it. Empty where there are
+  /// none.
   std::vector<std::uint8_t> seals;
 };
 
