@@ -43,11 +43,11 @@ LooksDown find_looking_down(const Mesh& mesh, const Bodies& bodies, SceneKind ki
     whole.add(upward_m2);
   }
   LooksDown found;
-  if (kind != SceneKind::city && !whole.looks_down()) return found;
+  const bool of_each = kind == SceneKind::city || whole.looks_down();
   double largest_m2 = 0;
   for (std::size_t o = 0; o < of_object.size(); ++o) {
     const Plan& plan = of_object[o];
-    if (!plan.looks_down()) continue;
+    if (!plan.looks_down() || !(of_each || is_land(mesh.object_kinds[o]))) continue;
     ++found.objects;
     found.area_m2 += plan.all;
     if (plan.all <= largest_m2) continue;

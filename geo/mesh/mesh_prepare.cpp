@@ -192,6 +192,7 @@ std::vector<Foot> settle(Mesh& mesh, const PrepareRules& rules, const PolygonMod
   if (rules.orientation == Orientation::outward)
     report.looks_down = find_looking_down(mesh, bodies, kind);
   decide_surfaces(mesh, bodies, kind, standing);
+  if (kind == SceneKind::plain) report.sunk = find_sunk_walls(mesh, bodies);
   if (!standing.on_ground.empty()) take_floors(mesh, feet);
   return feet;
 }
@@ -268,6 +269,9 @@ void drop_degenerates(Mesh& mesh, Repair repair, const std::string& source, Prep
   drop_unused_vertices(mesh);
 }
 
+/// Less is not worth a word [m2].
+constexpr double least_sunk_m2 = 1;
+
 void add_warnings(PrepareReport& r, Orientation orientation) {
   const auto warn = [&](const std::string& what, std::size_t count,
                         const std::string& consequence) {
@@ -302,6 +306,15 @@ void add_warnings(PrepareReport& r, Orientation orientation) {
                          " m2, the largest: " + r.looks_down.largest +
                          "): light from above meets their backs, which absorb it unless their "
                          "material has sides: two; turn their faces in the file");
+  if (r.sunk.area_m2 >= least_sunk_m2)
+    r.warnings.push_back(text_of(r.sunk.area_m2) + " m2 of walls go on below the open surface of " +
+                         r.sunk.sheet + " (most of " + r.sunk.wall +
+                         "): they are lit from beneath, and facades have them in their means" +
+                         (r.sunk.sheet == r.sunk.wall
+                              ? "; if it is the terrain, make it an object of its own and name it "
+                                "in scene.land"
+                              : "; scene.land: [" + r.sunk.sheet +
+                                    "] calls it the terrain, and what lies below is cut off"));
 }
 
 }  // namespace

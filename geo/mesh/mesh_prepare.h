@@ -41,6 +41,7 @@
 #include "geo/mesh/looks_down.h"
 #include "geo/mesh/mesh.h"
 #include "geo/mesh/orient.h"
+#include "geo/mesh/sunk_walls.h"
 
 namespace sunload {
 
@@ -84,6 +85,7 @@ struct PrepareReport {
   std::size_t unorientable = 0;       ///< bodies with edges that no orientation satisfies
   std::size_t open_edges = 0, nonmanifold_edges = 0;
   LooksDown looks_down;    ///< open surfaces, which keep the file's fronts
+  SunkWalls sunk;          ///< below sheets that are no land
   std::size_t floors = 0;  ///< triangles that touch the ground: cast shadows, are no patches
   std::array<double, surface_names.size()> area_m2{};     ///< per surface kind
   std::array<double, surface_names.size()> covered_m2{};  ///< of it: no light can reach it

@@ -16,6 +16,7 @@
 #include "io/plan/material_assign.h"
 #include "io/plan/scene_doubts.h"
 #include "io/plan/scene_edit.h"
+#include "io/plan/scene_land.h"
 #include "io/plan/scene_models.h"
 #include "io/plan/weather_light.h"
 #include "io/scene/file.h"
@@ -232,6 +233,7 @@ void warn_of_gaps(const Study& study, BuiltScene& built) {
 BuiltScene scene_before_materials(const Study& study) {
   BuiltScene built;
   PolygonModel as_read = read_models(study);
+  call_land(study.scene, as_read);
   // Steps that edit it leave the site where it is: variants have one sun, and stay paired.
   const bool is_empty = as_read.vertices.empty(), had_polygons = as_read.polygon_count() > 0;
   if (!is_empty) built.site = resolve_site(study, as_read, built);

@@ -88,11 +88,14 @@ void refuse_far(Point2 place, const std::vector<ObjectExtent>& extents, const st
          "write the place in these");
 }
 
-ChosenObjects objects_named(const std::string& pattern, const Mesh& mesh) {
-  ChosenObjects chosen =
-      places_named(pattern, {mesh.object_names, mesh.object_kinds, mesh.families});
-  chosen.resize(mesh.object_names.size());
+ChosenObjects objects_named(const std::string& pattern, const FamilyTree& tree) {
+  ChosenObjects chosen = places_named(pattern, tree);
+  chosen.resize(tree.object_count());
   return chosen;
+}
+
+ChosenObjects objects_named(const std::string& pattern, const Mesh& mesh) {
+  return objects_named(pattern, FamilyTree(mesh.object_names, mesh.object_kinds, mesh.families));
 }
 
 Selector::ChosenFamilies Selector::families_of(const SceneObjects& all) const {

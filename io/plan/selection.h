@@ -34,6 +34,7 @@ struct SceneObjects {
 };
 
 /// Objects whose name, or that of something that they belong to, matches the pattern.
+ChosenObjects objects_named(const std::string& pattern, const FamilyTree& tree);
 ChosenObjects objects_named(const std::string& pattern, const Mesh& mesh);
 
 /// One selection at work on a scene.

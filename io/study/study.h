@@ -221,6 +221,12 @@ struct GroundStudy {
   std::optional<double> height_m;  ///< of a level one; absent: the lowest point of the scene
 };
 
+/// One name of `scene.land`.
+struct LandName {
+  std::string pattern;  ///< of objects, or of what they belong to
+  Where where;
+};
+
 /// Key `scene.builtin`: a scene that comes with the program (io/scene/builtin.h).
 struct BuiltinStudy {
   std::string name;
@@ -335,6 +341,7 @@ struct SceneStudy {
   Orientation orient = Orientation::outward;
   std::vector<MaterialStudy> materials;
   std::vector<AssignRule> assign;
+  std::vector<LandName> land;         ///< objects that are terrain
   std::optional<GroundStudy> ground;  ///< absent: the default of the format
   std::vector<EditStep> edit;         ///< one after the other, before preparation
   Where where;

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geo/mesh/sunk_walls.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "geo/mesh/box_tree.h"
+#include "geo/mesh/slope.h"
+
+namespace sunload {
+
+namespace {
+
+/// Less far below nobody is sunk: terrains are drawn to decimetres.
+constexpr double sunk_m = 0.3;
+/// From the wall outward, where the sheet is asked for its height.
+constexpr double aside_m = 0.01;
+/// Of the way from the foot of a triangle to its middle, to be beside its edges.
+constexpr double inward = 0.01;
+
+bool holds_in_plan(const Box& outer, const Box& inner) {
+  return outer.low.x < inner.low.x && inner.high.x < outer.high.x && outer.low.y < inner.low.y &&
+         inner.high.y < outer.high.y;
+}
+
+/// Open sheets that look up.
+class Sheets {
+ public:
+  Sheets(const Mesh& mesh, const Bodies& bodies) : mesh_(mesh), bodies_(bodies) {
+    std::vector<Box> boxes;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+      if (!is_sheet(t)) continue;
+      upward_.push_back(t);
+      boxes.push_back(box_around({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}));
+    }
+    tree_ = BoxTree(std::move(boxes));
+  }
+  bool any() const { return !upward_.empty(); }
+
+  struct Above {
+    ObjectId object = ObjectId::none();
+    double z = 0;
+  };
+  /// The lowest one that `p` of a body lies below, and that the body stands out of.
+  Above above(Vec3 p, const Body& body) const {
+    Above lowest{ObjectId::none(), body.box.high.z - sunk_m};
+    tree_.visit_column(p.x, p.y, [&](std::size_t i) {
+      const std::size_t t = upward_[i];
+      const auto z =
+          height_at(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), p.x, p.y);
+      if (!z || *z < p.z + sunk_m || *z > lowest.z) return;
+      const auto of = static_cast<std::size_t>(bodies_.triangle_body[t]);
+      if (holds_in_plan(bodies_.bodies[of].box, body.box)) lowest = {mesh_.triangle_object[t], *z};
+    });
+    return lowest;
+  }
+
+ private:
+  bool is_sheet(std::size_t t) const {
+    const auto b = bodies_.triangle_body[t];
+    return b >= 0 && !bodies_.bodies[static_cast<std::size_t>(b)].is_closed &&
+           mesh_.triangle_surface[t] != Surface::ground && slope_of(mesh_, t) == Slope::upward &&
+           !is_plant(mesh_.object_kinds[mesh_.triangle_object[t].index()]);
+  }
+
+  const Mesh& mesh_;
+  const Bodies& bodies_;
+  std::vector<std::size_t> upward_;
+  BoxTree tree_;
+};
+
+/// The area of what of a triangle lies below a height.
+double area_below(std::array<Vec3, 3> corners, double z) {
+  std::ranges::sort(corners, {}, &Vec3::z);
+  const auto& [a, b, c] = corners;
+  const double all = norm(cross(b - a, c - a)) / 2;
+  if (z >= c.z) return all;
+  if (z <= a.z) return 0;
+  if (z <= b.z) return all * (z - a.z) * (z - a.z) / ((b.z - a.z) * (c.z - a.z));
+  return all * (1 - (c.z - z) * (c.z - z) / ((c.z - a.z) * (c.z - b.z)));
+}
+
+std::string largest(const std::map<std::size_t, double>& areas, const Mesh& mesh) {
+  const auto most = std::max_element(
+      areas.begin(), areas.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == areas.end() ? std::string() : mesh.object_names[most->first];
+}
+
+}  // namespace
+
+SunkWalls find_sunk_walls(const Mesh& mesh, const Bodies& bodies) {
+  SunkWalls sunk;
+  const Sheets sheets(mesh, bodies);
+  if (!sheets.any()) return sunk;
+  std::map<std::size_t, double> of_sheets, of_walls;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const auto b = bodies.triangle_body[t];
+    if (b < 0 || slope_of(mesh, t) != Slope::upright) continue;
+    const std::array corners{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+    const Vec3 normal = mesh.area_vector2(t), middle = (corners[0] + corners[1] + corners[2]) / 3;
+    const Vec3 foot = *std::ranges::min_element(corners, {}, &Vec3::z);
+    const auto sheet =
+        sheets.above(foot + inward * (middle - foot) + normal * (aside_m / norm(normal)),
+                     bodies.bodies[static_cast<std::size_t>(b)]);
+    if (!sheet.object.exists()) continue;
+    const double area = area_below(corners, sheet.z);
+    sunk.area_m2 += area;
+    of_sheets[sheet.object.index()] += area;
+    of_walls[mesh.triangle_object[t].index()] += area;
+  }
+  sunk.sheet = largest(of_sheets, mesh);
+  sunk.wall = largest(of_walls, mesh);
+  return sunk;
+}
+
+}  // namespace sunload

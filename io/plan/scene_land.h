@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Objects that the study calls land: formats without types of objects cannot tell.
+#pragma once
+
+#include "geo/mesh/mesh.h"
+#include "io/study/study.h"
+
+namespace sunload {
+
+/// Gives the objects that `scene.land` names the type of a terrain (TINRelief): their open surfaces
+/// that look up are ground, and what lies below is covered. Throws InputError for every name that
+/// matches none.
+void call_land(const SceneStudy& scene, PolygonModel& model);
+
+}  // namespace sunload

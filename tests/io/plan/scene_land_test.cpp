@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Objects of plain files that the study calls land.
+#include "io/plan/scene_land.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "geo/base/check.h"
+#include "io/plan/scene_build.h"
+#include "tests/support/work_folder.h"
+
+namespace sunload::test {
+namespace {
+
+PolygonModel model_of(const std::vector<std::string>& names) {
+  PolygonModel model;
+  model.object_names = names;
+  return model;
+}
+
+TEST(SceneLand, IsTerrainByName) {
+  PolygonModel model = model_of({"house", "terrain_1", "terrain_2"});
+  SceneStudy scene;
+  scene.land = {{"terrain_*", {"study.yaml", 3, 7}}};
+  call_land(scene, model);
+  EXPECT_EQ(model.object_kinds, (std::vector<std::string>{"", "TINRelief", "TINRelief"}));
+}
+
+TEST(SceneLand, ThatIsNotThereIsRefusedEachByItself) {
+  PolygonModel model = model_of({"house", "terrain"});
+  SceneStudy scene;
+  scene.land = {{"terain", {"study.yaml", 3, 7}}, {"lake", {"study.yaml", 3, 15}}};
+  try {
+    call_land(scene, model);
+    FAIL() << "refused";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.problems().size(), 2u);
+    EXPECT_NE(error.problems()[0].find("study.yaml:3:7: scene.land: no object is called 'terain'"),
+              std::string::npos)
+        << error.problems()[0];
+    EXPECT_NE(error.problems()[0].find("did you mean 'terrain'?"), std::string::npos);
+  }
+  EXPECT_TRUE(model.object_kinds.empty());
+}
+
+/// A house three metres deep in a flat terrain, of an OBJ file.
+BuiltScene house_in_terrain(const WorkFolder& folder, const std::string& land) {
+  folder.write("town.obj",
+               "o terrain\nv -50 -50 0\nv 50 -50 0\nv 50 50 0\nv -50 50 0\nf 1 2 3 4\n"
+               "o house\nv -5 -5 -3\nv 5 -5 -3\nv 5 5 -3\nv -5 5 -3\n"
+               "v -5 -5 6\nv 5 -5 6\nv 5 5 6\nv -5 5 6\n"
+               "f 8 7 6 5\nf 9 10 11 12\nf 5 6 10 9\nf 6 7 11 10\nf 7 8 12 11\nf 8 5 9 12\n");
+  const std::string study =
+      folder.write("town.yaml",
+                   "format: sunload-study-1\nname: town\n"
+                   "site: {latitude_deg: 52, longitude_deg: 4.4, timezone: UTC}\n"
+                   "period: {days: [2026-03-21]}\nscene: {files: [town.obj]" +
+                       land + "}\n");
+  return build_scene(read_study(study).variants.front());
+}
+
+double lit_walls_m2(const BuiltScene& built) {
+  const auto wall = static_cast<std::size_t>(Surface::wall);
+  return built.report.area_m2[wall] - built.report.covered_m2[wall];
+}
+
+bool warns_of_sunk_walls(const BuiltScene& built) {
+  return std::ranges::any_of(built.warnings, [](const std::string& warning) {
+    return warning.starts_with("120 m2 of walls go on below the open surface of terrain");
+  });
+}
+
+TEST(SceneLand, CoversWhatLiesBelow) {
+  const WorkFolder folder;
+  constexpr double above_m2 = 4 * 10 * 6, below_m2 = 4 * 10 * 3, rounding_m2 = 1e-6;
+  const BuiltScene plain = house_in_terrain(folder, "");
+  EXPECT_NEAR(lit_walls_m2(plain), above_m2 + below_m2, rounding_m2);
+  EXPECT_TRUE(warns_of_sunk_walls(plain));
+  const BuiltScene on_land = house_in_terrain(folder, ", land: [terrain]");
+  EXPECT_NEAR(lit_walls_m2(on_land), above_m2, rounding_m2);
+  EXPECT_FALSE(warns_of_sunk_walls(on_land));
+}
+
+}  // namespace
+}  // namespace sunload::test
