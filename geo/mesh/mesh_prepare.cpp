@@ -192,7 +192,7 @@ std::vector<Foot> settle(Mesh& mesh, const PrepareRules& rules, const PolygonMod
   if (rules.orientation == Orientation::outward)
     report.looks_down = find_looking_down(mesh, bodies, kind);
   decide_surfaces(mesh, bodies, kind, standing);
-  if (kind == SceneKind::plain) report.sunk = find_sunk_walls(mesh, bodies);
+  report.sunk = find_sunk_walls(mesh, bodies);
   if (!standing.on_ground.empty()) take_floors(mesh, feet);
   return feet;
 }

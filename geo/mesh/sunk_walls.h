@@ -17,8 +17,8 @@ struct SunkWalls {
   std::string wall;    ///< object with most of it
 };
 
-/// A sheet counts where it looks up, is neither land (Surface::ground) nor plants, and reaches
-/// beyond the wall's body on all sides, which stands out of it: balconies and leaves do not. `mesh`
+/// A sheet counts where it looks up, is neither ground nor of any type that a city model gives, and
+/// reaches beyond the wall's body on all sides, which stands out of it: balconies and leaves do not. `mesh`
 /// has its kinds of surface. Cost: a look at what is above each wall.
 SunkWalls find_sunk_walls(const Mesh& mesh, const Bodies& bodies);
 

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <deque>
 #include <optional>
 
@@ -88,9 +89,24 @@ const CLI::App* chosen_command(const CLI::App& app) {
   return chosen;
 }
 
+/// The message, in the name of the variable where an option has its value from the environment.
+std::string blamed_on_environment(std::string message, const CLI::App& app,
+                                  const std::vector<std::string>& words) {
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string name = option->get_name() + ":", variable = option->get_envname();
+    const bool is_written = std::ranges::any_of(
+        words, [&](const std::string& word) { return word.starts_with(option->get_name()); });
+    if (!variable.empty() && !is_written && message.starts_with(name) &&
+        std::getenv(variable.c_str()))
+      return variable + message.substr(name.size() - 1);
+  }
+  return message;
+}
+
 /// Tells what is wrong with the command line, in one line, and the nearest right word.
 [[noreturn]] void refuse(const CLI::App& app, const CLI::ParseError& error,
-                         const std::string& first) {
+                         const std::vector<std::string>& words) {
+  const std::string first = words.empty() ? "" : words.front();
   const CLI::App* chosen = chosen_command(app);
   const std::string help = chosen ? "sunload " + chosen->get_name() + " --help" : "sunload --help";
   if (!chosen && !first.empty() && first.front() != '-')
@@ -102,7 +118,7 @@ const CLI::App* chosen_command(const CLI::App& app) {
     throw InputError({}, "unknown argument '" + word + "'", {},
                      nearest_word(word, names_of_options(blamed), help));
   }
-  throw InputError({}, error.what(), {}, "see " + help);
+  throw InputError({}, blamed_on_environment(error.what(), blamed, words), {}, "see " + help);
 }
 
 /// Only the options of the command that was called have values.
@@ -277,7 +293,7 @@ int CommandLine::run(int argc, char** argv) {
     parts_->app.exit(asked);
     return exit_code::done;
   } catch (const CLI::ParseError& error) {
-    refuse(parts_->app, error, argc > 1 ? argv[1] : "");
+    refuse(parts_->app, error, {argv + std::min(argc, 1), argv + argc});
   }
   for (const auto& command : parts_->commands) expect_none_read_and_written(command);
   return parts_->action();
