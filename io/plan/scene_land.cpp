@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -21,12 +23,58 @@ std::string offer(const std::vector<std::string>& names) {
                        : fmt::format("did you mean '{}'?", fmt::join(names, "', '"));
 }
 
+/// Calls `visit` with the first and last corner, in ring_vertex, of each ring of a polygon.
+template <class Visit>
+void visit_rings(const PolygonModel& model, std::size_t polygon, const Visit& visit) {
+  for (auto r = model.polygon_ring[polygon]; r < model.polygon_ring[polygon + 1]; ++r)
+    visit(model.ring_begin[static_cast<std::size_t>(r)],
+          model.ring_begin[static_cast<std::size_t>(r) + 1]);
+}
+
+/// Twice the area of a polygon in plan, below 0 where it looks down.
+double upward_area2(const PolygonModel& model, std::size_t polygon) {
+  double sum = 0;
+  visit_rings(model, polygon, [&](auto begin, auto end) {
+    for (auto k = begin; k < end; ++k) {
+      const auto corner = [&](auto at) {
+        return model
+            .vertices[static_cast<std::size_t>(model.ring_vertex[static_cast<std::size_t>(at)])];
+      };
+      const Vec3 a = corner(k), b = corner(k + 1 < end ? k + 1 : begin), o = corner(begin);
+      sum += (a.x - o.x) * (b.y - o.y) - (b.x - o.x) * (a.y - o.y);
+    }
+  });
+  return sum;
+}
+
+/// Turns over the faces of land that all in all looks down: light comes from above.
+void turn_upward(const ChosenObjects& is_land, PolygonModel& model) {
+  constexpr double most = 0.5;  // of its plan, net: a terrain has no undersides, a plate both
+  std::vector<double> net(is_land.size(), 0), all(is_land.size(), 0);
+  for (std::size_t p = 0; p < model.polygon_count(); ++p) {
+    const double area2 = upward_area2(model, p);
+    net[model.facts[p].object.index()] += area2;
+    all[model.facts[p].object.index()] += std::abs(area2);
+  }
+  const auto looks_down = [&](std::size_t o) { return is_land[o] && -net[o] > most * all[o]; };
+  for (std::size_t p = 0; p < model.polygon_count(); ++p)
+    if (looks_down(model.facts[p].object.index()))
+      visit_rings(model, p, [&](auto begin, auto end) {
+        std::reverse(model.ring_vertex.begin() + begin + 1, model.ring_vertex.begin() + end);
+      });
+  for (std::size_t o = 0; o < is_land.size(); ++o)
+    if (looks_down(o))
+      model.notes.push_back(model.object_names[o] +
+                            ": land that looked down, its faces are turned over");
+}
+
 }  // namespace
 
 void call_land(const SceneStudy& scene, PolygonModel& model) {
   Problems problems;
   std::vector<std::string> kinds = model.object_kinds;
   kinds.resize(model.object_names.size());
+  ChosenObjects is_land(kinds.size(), 0);
   for (const auto& [pattern, where] : scene.land) {
     const ChosenObjects named =
         objects_named(pattern, FamilyTree(model.object_names, model.object_kinds, model.families));
@@ -35,6 +83,7 @@ void call_land(const SceneStudy& scene, PolygonModel& model) {
       if (!named[o]) continue;
       any = true;
       kinds[o] = type_of_land;
+      is_land[o] = 1;
     }
     if (!any)
       problems.add(where, fmt::format("scene.land: no object is called '{}'", pattern),
@@ -42,6 +91,8 @@ void call_land(const SceneStudy& scene, PolygonModel& model) {
   }
   problems.throw_if_any();
   model.object_kinds = std::move(kinds);
+  if (scene.orient == Orientation::outward && scene.repair != Repair::none)
+    turn_upward(is_land, model);
 }
 
 }  // namespace sunload

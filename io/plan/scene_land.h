@@ -9,7 +9,8 @@
 namespace sunload {
 
 /// Gives the objects that `scene.land` names the type of a terrain (TINRelief): their open surfaces
-/// that look up are ground, and what lies below is covered. Throws InputError for every name that
+/// that look up are ground, and what lies below is covered. Land that looks down is turned over,
+/// with a note, unless the study keeps fronts or repairs nothing. Throws InputError for every name that
 /// matches none.
 void call_land(const SceneStudy& scene, PolygonModel& model);
 

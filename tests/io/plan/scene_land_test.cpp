@@ -45,6 +45,24 @@ TEST(SceneLand, ThatIsNotThereIsRefusedEachByItself) {
   EXPECT_TRUE(model.object_kinds.empty());
 }
 
+TEST(SceneLand, ThatLooksDownIsTurnedOverUnlessFrontsAreKept) {
+  for (const auto orient : {Orientation::outward, Orientation::keep}) {
+    PolygonModel model = model_of({"terrain", "house"});
+    model.vertices = {{0, 0, 0}, {0, 9, 1}, {9, 9, 2}, {9, 0, 1}, {3, 3, 1}, {6, 3, 1}, {3, 6, 1}};
+    model.add_polygon({{0, 1, 2, 3}, {4, 5, 6}}, {ObjectId{0}});  // with a hole
+    model.add_triangle(0, 1, 2, {ObjectId{1}});
+    SceneStudy scene;
+    scene.land = {{"terrain", {}}};
+    scene.orient = orient;
+    call_land(scene, model);
+    const bool is_turned = orient == Orientation::outward;
+    EXPECT_EQ(model.notes.size(), is_turned ? 1u : 0u);
+    EXPECT_EQ(model.ring_vertex, is_turned
+                                     ? std::vector<std::int32_t>({0, 3, 2, 1, 4, 6, 5, 0, 1, 2})
+                                     : std::vector<std::int32_t>({0, 1, 2, 3, 4, 5, 6, 0, 1, 2}));
+  }
+}
+
 /// A house three metres deep in a flat terrain, of an OBJ file.
 BuiltScene house_in_terrain(const WorkFolder& folder, const std::string& land) {
   folder.write("town.obj",

@@ -1245,6 +1245,7 @@ std::vector<json> values_of(const std::string& path, const json& schema) {
       {"scene.assign[].type", {"a"}},
       {"scene.assign[].material", {"m", "n"}},
       {"scene.ground.material", {"m", "n"}},
+      {"scene.land", {{"a"}, {"b"}}},
       {"scene.edit[].object", {"a", "b"}},
       {"scene.files[].footprints.height", {"a"}},
       {"scene.files[].footprints.storeys", {"a"}},
