@@ -93,17 +93,28 @@ class Cutter {
 
  private:
   void find_lines() {
+    using Meets = Covers::Meets;
+    std::vector<std::size_t> overlapping, up_to;
     covers_.visit_near(t_, piece_.corners, [&](std::size_t u) {
       if (covers_.is_taken(t_, u)) {
-        if (add_overlap(u, taken_)) first_taker_ = std::min(first_taker_.value_or(u), u);
+        if (!add_overlap(u, taken_)) return;
+        first_taker_ = std::min(first_taker_.value_or(u), u);
+        overlapping.push_back(u);
       } else if (covers_.are_of_one_body(t_, u)) {
         return;
       } else if (covers_.is_against(t_, u)) {
-        add_overlap(u, against_);
-      } else if (covers_.may_end_at(t_, u)) {
-        if (const auto line = cut_by(u)) lines_.push_back(*line);
+        if (add_overlap(u, against_)) overlapping.push_back(u);
+      } else if (const Meets meets = covers_.ending(t_, u); meets == Meets::through) {
+        if (const auto line = cut_by(u, 0)) lines_.push_back(*line);
+      } else if (meets == Meets::up_to) {
+        up_to.push_back(u);
       }
     });
+    // What stands on this one ends at it, and has told where by what touches it.
+    for (const std::size_t u : up_to)
+      if (std::ranges::none_of(overlapping,
+                               [&](std::size_t v) { return covers_.are_of_one_body(u, v); }))
+        if (const auto line = cut_by(u, covers_.looked_at_m())) lines_.push_back(*line);
     sort_lines(lines_);
   }
 
@@ -127,13 +138,13 @@ class Cutter {
     return true;
   }
 
-  /// Where the triangle `u` goes through this one.
-  std::optional<Line2> cut_by(std::size_t u) const {
+  /// Where the triangle `u` goes through this one, or through the plane so far before it.
+  std::optional<Line2> cut_by(std::size_t u, double before_m) const {
     const auto corners = covers_.corners(u);
     std::vector<Point2> ends;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 a = corners[k], b = corners[(k + 1) % 3];
-      const double of_a = plane_.offset(a), of_b = plane_.offset(b);
+      const double of_a = plane_.offset(a) - before_m, of_b = plane_.offset(b) - before_m;
       if ((of_a < 0) == (of_b < 0)) continue;
       ends.push_back(plane_.seen(a + (of_a / (of_a - of_b)) * (b - a)));
     }

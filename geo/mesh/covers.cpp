@@ -86,13 +86,17 @@ bool Covers::is_against(std::size_t t, std::size_t u) const {
          (is_near_plane(t, u, contact_) || is_near_plane(u, t, contact_));
 }
 
-bool Covers::may_end_at(std::size_t t, std::size_t u) const {
+Covers::Meets Covers::ending(std::size_t t, std::size_t u) const {
   const bool may_end = is_in_solid(u) || (is_land_[u] && !is_land_[t]) || (is_land_[t] && seals(u));
-  return may_end && is_cut(t, u) && is_cut(u, t);
+  if (!may_end || !is_cut(u, t)) return Meets::not_at_all;
+  if (is_cut(t, u)) return Meets::through;
+  const auto is_before = [&](Vec3 corner) { return distance(t, corner) > looked_at_m(); };
+  const auto before = std::ranges::count_if(corners(u), is_before);
+  return before > 0 && before < 3 ? Meets::up_to : Meets::not_at_all;
 }
 
 bool Covers::is_buried(std::size_t t, Vec3 at) const {
-  const Vec3 p = at + 2 * contact_ * normal_[t];
+  const Vec3 p = at + looked_at_m() * normal_[t];
   const auto own = bodies_.triangle_body[t];
   // A cavity's fronts look into it: that is no part of the body around.
   int inside = own >= 0 && bodies_.bodies[static_cast<std::size_t>(own)].is_closed &&

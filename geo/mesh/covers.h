@@ -47,8 +47,12 @@ class Covers {
   bool is_taken(std::size_t t, std::size_t u) const;
   /// Front against front, as near as the contact where they overlap.
   bool is_against(std::size_t t, std::size_t u) const;
-  /// Whether the inside of a solid or the land ends where `u` cuts `t`.
-  bool may_end_at(std::size_t t, std::size_t u) const;
+  /// How far before a surface it is looked whether it is buried [m].
+  double looked_at_m() const { return 2 * contact_; }
+  /// How a face, where the inside of a solid or the land ends, meets `t`: it goes through the plane
+  /// of t, or ends at it, as land does that has a hole for the house.
+  enum class Meets { not_at_all, through, up_to };
+  Meets ending(std::size_t t, std::size_t u) const;
   /// Whether the front of `t` at this point of it is inside of a body or below land.
   bool is_buried(std::size_t t, Vec3 at) const;
 

@@ -70,13 +70,17 @@ struct Side {
   std::vector<std::vector<double>> realizations;  ///< of `common`, [group][realization]
 };
 
-/// What of a division is not in common; `counted`: 1 or 0 per patch; empty: all.
+/// What of a division is not in common; `counted`: 1 or 0 per patch; empty: all. Of a patch that is
+/// divided, parts add up to it but for rounding.
 PatchMembers alone(const PatchDivision& division, const PatchMembers& common,
                    const std::vector<char>& counted, std::vector<double> area) {
   for (std::size_t i = 0; i < area.size(); ++i)
     if (!counted.empty() && counted[i] == 0) area[i] = 0;
-  for (const PatchMember& member : common.members)
-    area[member.patch] = std::max(0.0, area[member.patch] - member.area_m2);
+  constexpr double rounding = 1e-9;  // of a patch
+  std::vector<double> left = area;
+  for (const PatchMember& member : common.members) left[member.patch] -= member.area_m2;
+  for (std::size_t i = 0; i < area.size(); ++i)
+    area[i] = left[i] > rounding * area[i] ? left[i] : 0;
   return members_of(division, area);
 }
 

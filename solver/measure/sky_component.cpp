@@ -7,7 +7,6 @@
 
 #include "geo/base/units.h"
 #include "solver/base/chunks.h"
-#include "solver/base/sampling.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
@@ -20,14 +19,15 @@ struct SkyRay {
   double weight = 0;
 };
 
+/// A spiral of equal solid angles, each turned by the golden angle (Swinbank & Purser 2006,
+/// Fibonacci grids, Q. J. R. Meteorol. Soc. 132): no rows of them lie along the walls of a court.
 std::vector<SkyRay> sky_rays(const std::function<bool(Vec3)>& is_open) {
+  const double golden_angle = pi * (3 - std::sqrt(5.0));
   std::vector<SkyRay> rays;
   double level = 0;
   for (std::uint32_t i = 0; i < sky_directions; ++i) {
-    // Of equal solid angles; halves, so that no direction lies in the horizon or the north.
-    const double u = (sobol(i, 0) * 0x1p-32) + 0.5 / sky_directions;
-    const double v = (sobol(i, 1) * 0x1p-32) + 0.5 / sky_directions;
-    const double level_part = std::sqrt(1 - u * u), azimuth = 2 * pi * v;
+    const double u = (i + 0.5) / sky_directions, azimuth = i * golden_angle;
+    const double level_part = std::sqrt(1 - u * u);
     const Vec3 w{level_part * std::sin(azimuth), level_part * std::cos(azimuth), u};
     const double radiance = 1 + 2 * u;
     level += radiance * u;

@@ -12,8 +12,9 @@
 namespace sunload {
 
 /// Directions of the sky that are looked at, of which a wall faces half. They are the same for all
-/// points. Against closed forms of long obstructions the share is right within 0.003.
-inline constexpr std::uint32_t sky_directions = 2048;
+/// points. In courts of any shape and direction, on walls and on the ground, the share is right
+/// within 0.004 (root mean square 0.001).
+inline constexpr std::uint32_t sky_directions = 4096;
 
 /// For every point ∫ L cosθ dω over the sky that it sees, divided by the same of an open level
 /// surface, with L of the CIE standard overcast sky, 1 + 2 sin(elevation) (Moon & Spencer 1942).

@@ -154,6 +154,53 @@ TEST(Covered, BelowLandIsCovered) {
   EXPECT_EQ(c.covered("under the deck", Surface::wall), 0);
 }
 
+// Tiles of land end at the walls, or 1 mm before or behind them, and go on below the house or not.
+TEST(Covered, BelowLandThatEndsAtTheWallIsCovered) {
+  for (const double beside : {0.0, 0.001, -0.001})
+    for (const bool has_hole : {false, true}) {
+      auto builder = ModelBuilder().city().object("land", "LandUse");
+      const std::array ends{-50.0, -beside, 10 + beside, 60.0};
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+          if (!has_hole || i != 1 || j != 1)
+            builder.ring({{ends[i], ends[j], 0},
+                          {ends[i + 1], ends[j], 0},
+                          {ends[i + 1], ends[j + 1], 0},
+                          {ends[i], ends[j + 1], 0}});
+      builder.object("house", "Building").box({0, 0, -8}, {10, 10, 6});
+      const auto c = cut(builder);
+      EXPECT_NEAR(c.covered("house", Surface::wall), 4 * 10 * 8, rounding)
+          << beside << " " << has_hole;
+      EXPECT_NEAR(c.covered("land", Surface::ground), has_hole ? 0 : 100, 0.1);
+    }
+}
+
+// A tower in a podium whose roof is divided along the tower's walls.
+TEST(Covered, WallsInABodyThatIsDividedAtThemAreCovered) {
+  auto builder = ModelBuilder().object("podium");
+  builder.ring({{0, 0, 0},
+                {0, 10, 0},
+                {0, 20, 0},
+                {10, 20, 0},
+                {20, 20, 0},
+                {20, 10, 0},
+                {20, 0, 0},
+                {10, 0, 0}});
+  for (const double x : {0.0, 10.0})
+    for (const double y : {0.0, 10.0})
+      builder.ring({{x, y, 3}, {x + 10, y, 3}, {x + 10, y + 10, 3}, {x, y + 10, 3}});
+  const std::array<Vec3, 5> round{Vec3{0, 0, 0}, {20, 0, 0}, {20, 20, 0}, {0, 20, 0}, {0, 0, 0}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec3 a = round[k], b = round[k + 1], m = 0.5 * (a + b), up{0, 0, 3};
+    builder.ring({a, m, m + up, a + up});
+    builder.ring({m, b, b + up, m + up});
+  }
+  builder.object("tower").box({0.5, 10, 0}, {10, 19.5, 9});
+  const auto c = cut(builder);
+  EXPECT_EQ(c.p.report.closed_bodies, 2u);
+  EXPECT_NEAR(c.covered("tower", Surface::wall), 4 * 9.5 * 3, rounding);
+}
+
 // Floors are where land ends, but not those of a garage.
 TEST(Covered, LandOverACellarIsOpen) {
   auto builder = ModelBuilder().city().object("terrain", "TINRelief").with(Surface::ground);

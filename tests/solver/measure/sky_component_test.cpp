@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geo/base/units.h"
@@ -14,7 +16,7 @@ namespace sunload::test {
 namespace {
 
 // What the header promises.
-constexpr double right_within = 0.003;
+constexpr double right_within = 0.004;
 
 bool no_hills(Vec3 /*direction*/) { return true; }
 
@@ -57,6 +59,48 @@ TEST(SkyComponent, OfAWallIsThatOfItsObstructionAngle) {
   EXPECT_NEAR(behind_a_wall(25), 0.27, 0.005);
   // Planted fault: an obstruction of 3° more.
   EXPECT_GT(std::abs(component(28, {0, 1, 0}) - behind_a_wall(25)), 2 * right_within);
+}
+
+/// Of the middle of a court's ground: along each azimuth the sky above the eaves.
+double in_a_court(double half_width, double half_length, double height) {
+  constexpr int azimuths = 100000;
+  double hidden = 0;
+  for (int i = 0; i < azimuths; ++i) {
+    const double azimuth = (i + 0.5) / azimuths * pi / 2;
+    const double away = std::min(half_width / std::sin(azimuth), half_length / std::cos(azimuth));
+    const double s = height / std::hypot(height, away);  // ∫ (1 + 2 sin) sin d sin up to there
+    hidden += (s * s / 2 + 2 * s * s * s / 3) / azimuths;
+  }
+  return 1 - hidden / (1.0 / 2 + 2.0 / 3);
+}
+
+TEST(SkyComponent, OfACourtIsThatAboveItsEaves) {
+  struct Court {
+    double half_width, half_length, height;
+  };
+  for (const auto& [a, b, h] :
+       {Court{10, 10, 14.55}, {10, 10, 5}, {5, 15, 10}, {6, 6, 12}, {20, 8, 16}})
+    for (const double turned_deg : {0.0, 30.0}) {
+      SceneBuilder builder;
+      const int wall = builder.material({"wall", 0.3, 0, 0});
+      const double c = std::cos(radians(turned_deg)), s = std::sin(radians(turned_deg));
+      const auto at = [&](double x, double y, double z) {
+        return Vec3{c * x - s * y, s * x + c * y, z};
+      };
+      const std::array<std::array<double, 2>, 5> round{
+          {{a, b}, {-a, b}, {-a, -b}, {a, -b}, {a, b}}};
+      for (std::size_t k = 0; k < 4; ++k) {
+        const auto [x0, y0] = round[k];
+        const auto [x1, y1] = round[k + 1];
+        builder.quad(at(x0, y0, 0), at(x1, y1, 0), at(x1, y1, h), at(x0, y0, h), wall);
+      }
+      const Scene scene = builder.scene();
+      const RayCaster caster(scene.mesh);
+      const std::vector<MeasuredPoint> points{{{0, 0, 0}, {0, 0, 1}}};
+      EXPECT_NEAR(overcast_sky_components(points, caster, no_hills).front(), in_a_court(a, b, h),
+                  right_within)
+          << a << " " << b << " " << h << " " << turned_deg;
+    }
 }
 
 TEST(SkyComponent, OfOpenLandIsOne) {
