@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "geo/base/check.h"
-#include "geo/mesh/constrained_delaunay.h"
 #include "geo/mesh/covered.h"
 #include "geo/mesh/overlap.h"
+#include "geo/mesh/plumb_line.h"
 #include "geo/mesh/slope.h"
 
 namespace sunload {
@@ -20,28 +20,16 @@ constexpr double contact_ratio = 1e-4;
 // Pairs of triangles compared: cities have some ten for each triangle.
 constexpr std::size_t most_pairs = 500'000'000;
 
-/// Whether a vertical line through (x, y), moved aside by nothing, meets the triangle: +1 where it
-/// looks up, -1 down, 0 not. Of triangles at an edge or corner below the line just one side is met
-/// (Edelsbrunner, Mücke 1990, Simulation of simplicity).
-int crossing(const std::array<Vec3, 3>& corners, double x, double y) {
-  const PlanKernel::Point_2 p(x, y);
-  int positive = 0, negative = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 a = corners[k], b = corners[(k + 1) % 3];
-    int side = CGAL::orientation(PlanKernel::Point_2(a.x, a.y), PlanKernel::Point_2(b.x, b.y), p);
-    if (side == 0)
-      side = a.y != b.y ? (a.y > b.y ? 1 : -1) : (a.x != b.x ? (b.x > a.x ? 1 : -1) : 0);
-    if (side == 0) return 0;
-    ++(side > 0 ? positive : negative);
-  }
-  return positive == 3 ? 1 : (negative == 3 ? -1 : 0);
-}
-
 }  // namespace
 
 Covers::Covers(const Mesh& mesh, const Bodies& bodies, const std::vector<std::uint8_t>& is_opaque,
                const std::vector<std::uint8_t>& seals, const std::vector<std::uint8_t>& emits)
-    : mesh_(mesh), bodies_(bodies), is_opaque_(is_opaque), seals_(seals), emits_(emits) {
+    : mesh_(mesh),
+      bodies_(bodies),
+      is_opaque_(is_opaque),
+      seals_(seals),
+      emits_(emits),
+      open_houses_(mesh, bodies, is_opaque) {
   const Box box = bounding_box(mesh.vertices);
   contact_ = std::min(contact_m, contact_ratio * norm(box.high - box.low));
   same_place_ = same_place_m(mesh);
@@ -87,7 +75,8 @@ bool Covers::is_against(std::size_t t, std::size_t u) const {
 }
 
 Covers::Meets Covers::ending(std::size_t t, std::size_t u) const {
-  const bool may_end = is_in_solid(u) || (is_land_[u] && !is_land_[t]) || (is_land_[t] && seals(u));
+  const bool may_end = is_in_solid(u) || (is_land_[u] && !is_land_[t]) ||
+                       (is_land_[t] && seals(u)) || (is_relief(t) && open_houses_.is_wall(u));
   if (!may_end || !is_cut(u, t)) return Meets::not_at_all;
   if (is_cut(t, u)) return Meets::through;
   const auto is_before = [&](Vec3 corner) { return distance(t, corner) > looked_at_m(); };
@@ -106,7 +95,7 @@ bool Covers::is_buried(std::size_t t, Vec3 at) const {
   bool is_below_land = false;
   tree_.visit_meeting({p, {p.x, p.y, 1e300}}, [&](std::size_t u) {
     if (is_in_solid(u) && bodies_.triangle_body[u] != own) {
-      const int side = crossing(corners(u), p.x, p.y);
+      const int side = plumb_crossing(corners(u), p.x, p.y);
       if (side != 0 && plane_height(u, p.x, p.y) > p.z) inside += side;
     }
     if (is_land_[u] && !is_land_[t] && !is_below_land) {
@@ -115,7 +104,8 @@ bool Covers::is_buried(std::size_t t, Vec3 at) const {
       is_below_land = z && *z > p.z + contact_;
     }
   });
-  return inside > 0 || is_below_land || (is_land_[t] && is_sealed(p));
+  return inside > 0 || is_below_land || (is_land_[t] && is_sealed(p)) ||
+         (is_relief(t) && open_houses_.hold(p));
 }
 
 /// Land just below `p` under a floor, in the pocket that it closes, or inside of what stands on it:
@@ -137,6 +127,11 @@ bool Covers::is_sealed(Vec3 p) const {
   return is_under_floor || std::ranges::any_of(floors_below, [&](ObjectId object) {
            return std::ranges::find(above, object) != above.end();
          });
+}
+
+/// Land of a kind that says so: what a file or a scene of rooms calls ground may be their floor.
+bool Covers::is_relief(std::size_t t) const {
+  return is_land_[t] && is_land(mesh_.object_kinds[mesh_.triangle_object[t].index()]);
 }
 
 bool Covers::is_in_solid(std::size_t t) const {

@@ -10,6 +10,7 @@
 
 #include "geo/mesh/box_tree.h"
 #include "geo/mesh/mesh.h"
+#include "geo/mesh/open_houses.h"
 #include "geo/mesh/orient.h"
 
 namespace sunload {
@@ -63,6 +64,7 @@ class Covers {
   bool faces_both(std::size_t t) const { return mesh_.triangle_sides[t] == Sides::two; }
   bool seals(std::size_t t) const { return !seals_.empty() && seals_[t] != 0; }
   bool is_sealed(Vec3 p) const;
+  bool is_relief(std::size_t t) const;
   bool is_in_solid(std::size_t t) const;
   bool is_in_closed(std::size_t t) const;
   void find_solids();
@@ -79,6 +81,7 @@ class Covers {
   const std::vector<std::uint8_t>& is_opaque_;
   const std::vector<std::uint8_t>& seals_;
   const std::vector<std::uint8_t>& emits_;
+  OpenHouses open_houses_;
   double contact_ = 0, same_place_ = 0;
   std::vector<std::uint8_t> is_solid_, is_land_;  ///< per body, per triangle
   std::vector<Vec3> normal_;
