@@ -94,28 +94,47 @@ class Cutter {
  private:
   void find_lines() {
     using Meets = Covers::Meets;
-    std::vector<std::size_t> overlapping, up_to;
+    std::vector<std::size_t> up_to;
+    std::vector<Touching> touching;
     covers_.visit_near(t_, piece_.corners, [&](std::size_t u) {
       if (covers_.is_taken(t_, u)) {
         if (!add_overlap(u, taken_)) return;
         first_taker_ = std::min(first_taker_.value_or(u), u);
-        overlapping.push_back(u);
+        touching.push_back({covers_.body(u), taken_.back()});
       } else if (covers_.are_of_one_body(t_, u)) {
         return;
       } else if (covers_.is_against(t_, u)) {
-        if (add_overlap(u, against_)) overlapping.push_back(u);
+        if (add_overlap(u, against_)) touching.push_back({covers_.body(u), against_.back()});
       } else if (const Meets meets = covers_.ending(t_, u); meets == Meets::through) {
         if (const auto line = cut_by(u, 0)) lines_.push_back(*line);
       } else if (meets == Meets::up_to) {
         up_to.push_back(u);
       }
     });
-    // What stands on this one ends at it, and has told where by what touches it.
+    std::ranges::stable_sort(touching, {}, &Touching::body);
     for (const std::size_t u : up_to)
-      if (std::ranges::none_of(overlapping,
-                               [&](std::size_t v) { return covers_.are_of_one_body(u, v); }))
-        if (const auto line = cut_by(u, covers_.looked_at_m())) lines_.push_back(*line);
+      if (const auto line = cut_by(u, covers_.looked_at_m()))
+        if (!is_told_by(touching, covers_.body(u), middle((*line)[0], (*line)[1])))
+          lines_.push_back(*line);
     sort_lines(lines_);
+  }
+
+  /// What lies in this one's plane, of a body.
+  struct Touching {
+    std::int32_t body;
+    Polygon polygon;
+  };
+  /// What stands on this one ends at it, and what touches it of the same body has told where.
+  bool is_told_by(const std::vector<Touching>& touching, std::int32_t body, Point2 at) const {
+    const auto [first, last] = std::ranges::equal_range(touching, body, {}, &Touching::body);
+    return body >= 0 && std::any_of(first, last, [&](const Touching& of) {
+             for (std::size_t k = 0; k < of.polygon.size(); ++k) {
+               const Point2 a = of.polygon[k], b = of.polygon[(k + 1) % of.polygon.size()];
+               if (turn(a, b, at) < -covers_.looked_at_m() * std::hypot(b.u - a.u, b.v - a.v))
+                 return false;
+             }
+             return true;
+           });
   }
 
   /// Where `u`, which goes to `list`, begins on this one; false where they have next to nothing in
@@ -167,6 +186,7 @@ class Cutter {
     return Line2{at(from), at(to)};
   }
 
+  static Point2 middle(Point2 a, Point2 b) { return {(a.u + b.u) / 2, (a.v + b.v) / 2}; }
   static Point2 middle(Point2 a, Point2 b, Point2 c) {
     return {(a.u + b.u + c.u) / 3, (a.v + b.v + c.v) / 3};
   }

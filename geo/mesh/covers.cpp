@@ -45,7 +45,7 @@ Covers::Covers(const Mesh& mesh, const Bodies& bodies, const std::vector<std::ui
 }
 
 /// From where on triangles are of no matter to each other.
-double Covers::reach_m() const { return std::max(contact_, same_place_); }
+double Covers::reach_m() const { return std::max(looked_at_m(), same_place_); }
 
 void Covers::count_pair() const {
   if (++pairs_ <= most_pairs) return;

@@ -41,6 +41,7 @@ class Covers {
       visit(u);
     });
   }
+  std::int32_t body(std::size_t t) const { return bodies_.triangle_body[t]; }  ///< -1: of none
   bool are_of_one_body(std::size_t t, std::size_t u) const;
 
   /// Whether `u` is in the place of `t` where they overlap, and faces where `t` does. Of two that

@@ -202,7 +202,7 @@ class GroundMaker {
     drawn_m_.assign(feet_.size(), 0);
     for (std::size_t f = 0; f < feet_.size(); ++f) {
       const Foot& foot = feet_[f];
-      if (foot.stance != Stance::ground) continue;
+      if (foot.stance != Stance::ground || hovers_over(foot, tree)) continue;
       bool is_closed = true;
       for (std::size_t e = 0; e < foot.edges.size(); ++e) {
         const Heights land = land_along(foot.edges[e], tree);
@@ -218,6 +218,15 @@ class GroundMaker {
       }
       if (is_closed) seals_.insert(seals_.end(), foot.floors.begin(), foot.floors.end());
     }
+  }
+
+  /// Of shapes that nothing says are houses those that are nowhere near the land: canopies, signs.
+  bool hovers_over(const Foot& foot, const BoxTree& tree) const {
+    if (!mesh_.object_kinds[foot.object.index()].empty()) return false;
+    return std::ranges::none_of(foot.edges, [&](const Segment& edge) {
+      const Heights land = land_along(edge, tree);
+      return land.low == infinity || std::min(edge[0].z, edge[1].z) <= land.low + highest_step_m;
+    });
   }
 
   struct Heights {

@@ -313,8 +313,8 @@ void add_warnings(PrepareReport& r, Orientation orientation) {
                          (r.sunk.sheet == r.sunk.wall
                               ? "; if it is the terrain, make it an object of its own and name it "
                                 "in scene.land"
-                              : "; scene.land: [" + r.sunk.sheet +
-                                    "] calls it the terrain, and what lies below is cut off"));
+                              : "; if it is the terrain, scene.land: [" + r.sunk.sheet +
+                                    "] says so, and what lies below is cut off"));
 }
 
 }  // namespace

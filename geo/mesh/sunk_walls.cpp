@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <utility>
 #include <vector>
@@ -32,7 +33,10 @@ class Sheets {
  public:
   Sheets(const Mesh& mesh, const Bodies& bodies) : mesh_(mesh), bodies_(bodies) {
     std::vector<Box> boxes;
+    has_walls_.assign(bodies.bodies.size(), 0);
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+      if (const auto b = bodies.triangle_body[t]; b >= 0 && slope_of(mesh, t) == Slope::upright)
+        has_walls_[static_cast<std::size_t>(b)] = 1;
       if (!is_sheet(t)) continue;
       upward_.push_back(t);
       boxes.push_back(box_around({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}));
@@ -46,7 +50,7 @@ class Sheets {
     double z = 0;
   };
   /// The lowest one that `p` of a body lies below, and that the body stands out of.
-  Above above(Vec3 p, const Body& body) const {
+  Above above(Vec3 p, const Body& body) {
     Above lowest{ObjectId::none(), body.box.high.z - sunk_m};
     tree_.visit_column(p.x, p.y, [&](std::size_t i) {
       const std::size_t t = upward_[i];
@@ -54,12 +58,40 @@ class Sheets {
           height_at(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), p.x, p.y);
       if (!z || *z < p.z + sunk_m || *z > lowest.z) return;
       const auto of = static_cast<std::size_t>(bodies_.triangle_body[t]);
-      if (holds_in_plan(bodies_.bodies[of].box, body.box)) lowest = {mesh_.triangle_object[t], *z};
+      if (holds_in_plan(bodies_.bodies[of].box, body.box) && !is_roof(of))
+        lowest = {mesh_.triangle_object[t], *z};
     });
     return lowest;
   }
 
  private:
+  /// Whether it has walls of its own, or a body stands below it, as far as boxes tell.
+  bool is_roof(std::size_t sheet) {
+    const auto [known, is_new] = is_roof_.try_emplace(sheet, false);
+    if (is_new) known->second = has_walls_[sheet] != 0 || covers_a_body(sheet);
+    return known->second;
+  }
+  bool covers_a_body(std::size_t sheet) const {
+    const Box& roof = bodies_.bodies[sheet].box;
+    return std::ranges::any_of(bodies_.bodies, [&](const Body& body) {
+      return holds_in_plan(roof, body.box) && body.box.high.z < roof.high.z &&
+             body.box.high.z - body.box.low.z > sunk_m &&
+             body.box.high.z <= height_over(sheet, body);
+    });
+  }
+  /// Of a sheet over the middle of a body.
+  double height_over(std::size_t sheet, const Body& body) const {
+    const Vec3 middle = centre_of(body.box);
+    double height = body.box.low.z;
+    tree_.visit_column(middle.x, middle.y, [&](std::size_t i) {
+      const std::size_t t = upward_[i];
+      if (static_cast<std::size_t>(bodies_.triangle_body[t]) != sheet) return;
+      if (const auto z = height_at(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2),
+                                   middle.x, middle.y))
+        height = std::max(height, *z);
+    });
+    return height;
+  }
   bool is_sheet(std::size_t t) const {
     const auto b = bodies_.triangle_body[t];
     return b >= 0 && !bodies_.bodies[static_cast<std::size_t>(b)].is_closed &&
@@ -70,6 +102,8 @@ class Sheets {
   const Mesh& mesh_;
   const Bodies& bodies_;
   std::vector<std::size_t> upward_;
+  std::vector<std::uint8_t> has_walls_;  ///< per body
+  std::map<std::size_t, bool> is_roof_;  ///< of sheets that were asked for
   BoxTree tree_;
 };
 
@@ -94,7 +128,7 @@ std::string largest(const std::map<std::size_t, double>& areas, const Mesh& mesh
 
 SunkWalls find_sunk_walls(const Mesh& mesh, const Bodies& bodies) {
   SunkWalls sunk;
-  const Sheets sheets(mesh, bodies);
+  Sheets sheets(mesh, bodies);
   if (!sheets.any()) return sunk;
   std::map<std::size_t, double> of_sheets, of_walls;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {

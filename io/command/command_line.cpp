@@ -90,16 +90,18 @@ const CLI::App* chosen_command(const CLI::App& app) {
 }
 
 /// The message, in the name of the variable where an option has its value from the environment.
+/// Options of all commands ask it, whichever is called.
 std::string blamed_on_environment(std::string message, const CLI::App& app,
                                   const std::vector<std::string>& words) {
-  for (const CLI::Option* option : app.get_options()) {
-    const std::string name = option->get_name() + ":", variable = option->get_envname();
-    const bool is_written = std::ranges::any_of(
-        words, [&](const std::string& word) { return word.starts_with(option->get_name()); });
-    if (!variable.empty() && !is_written && message.starts_with(name) &&
-        std::getenv(variable.c_str()))
-      return variable + message.substr(name.size() - 1);
-  }
+  for (const CLI::App* command : app.get_subcommands({}))
+    for (const CLI::Option* option : command->get_options()) {
+      const std::string name = option->get_name() + ":", variable = option->get_envname();
+      const bool is_written = std::ranges::any_of(
+          words, [&](const std::string& word) { return word.starts_with(option->get_name()); });
+      if (!variable.empty() && !is_written && message.starts_with(name) &&
+          std::getenv(variable.c_str()))
+        return variable + message.substr(name.size() - 1);
+    }
   return message;
 }
 
@@ -118,7 +120,7 @@ std::string blamed_on_environment(std::string message, const CLI::App& app,
     throw InputError({}, "unknown argument '" + word + "'", {},
                      nearest_word(word, names_of_options(blamed), help));
   }
-  throw InputError({}, blamed_on_environment(error.what(), blamed, words), {}, "see " + help);
+  throw InputError({}, blamed_on_environment(error.what(), app, words), {}, "see " + help);
 }
 
 /// Only the options of the command that was called have values.

@@ -95,4 +95,22 @@ void call_land(const SceneStudy& scene, PolygonModel& model) {
     turn_upward(is_land, model);
 }
 
+void warn_of_no_land(const SceneStudy& scene, const Mesh& mesh,
+                     std::vector<std::string>& warnings) {
+  std::vector<std::uint8_t> has_ground(mesh.object_names.size(), 0);
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.triangle_surface[t] == Surface::ground)
+      has_ground[mesh.triangle_object[t].index()] = 1;
+  for (const auto& [pattern, where] : scene.land) {
+    const ChosenObjects named = objects_named(pattern, mesh);
+    bool any = false;
+    for (std::size_t o = 0; o < named.size(); ++o) any |= named[o] && has_ground[o];
+    if (!any)
+      warnings.push_back(
+          message(where, fmt::format("scene.land: '{}' has no open surface that looks up", pattern),
+                  "nothing of it became ground, and only the inside of closed bodies is covered",
+                  "name the terrain's sheet"));
+  }
+}
+
 }  // namespace sunload

@@ -187,30 +187,21 @@ SunsOneByOne only(Suns block, SunsOneByOne suns, bool with_direct_suns) {
 
 /// Scales the few suns by which light is sent on, where there are more for what is straight, so
 /// that in each interval surfaces that send it on get as much power by them as by all suns
-/// (`direct`): none is made or lost on the way.
-void match_what_is_sent_on(const TracedScene& traced, Suns block, const Columns& direct,
-                           const std::vector<Columns>& shares, SunsOneByOne& suns) {
-  constexpr double share_at_edge = 0.5;  // where rays alone could tell
+/// (`by_all`, [N][block]): none is made or lost on the way. `by_few`: of each of `suns`.
+void match_what_is_sent_on(const TracedScene& traced, Suns block, const Columns& by_all,
+                           const std::vector<Columns>& by_few, SunsOneByOne& suns) {
   const auto senders = patches_that_send_on(traced);
-  std::array<double, block_width> by_all{}, by_few{};
-  for (const auto i : senders) {
-    const Vec3 normal = traced.hierarchy().normal(i);
-    const double area = traced.hierarchy().area()[i];
-    for (std::size_t k = 0; k < suns.front().size(); ++k) {
+  std::array<double, block_width> all{}, few{};
+  for (const auto i : senders)
+    for (std::size_t k = 0; k < block.size(); ++k) {
       const std::size_t at = i * block_width + k;
-      by_all[k] += area * static_cast<double>(direct[at]);
-      for (std::size_t s = 0; s < suns.size(); ++s) {
-        const IntervalLight& sun = suns[s][k];
-        if (!sun.has_sun()) continue;
-        const auto share = static_cast<double>(shares[s][at]);
-        by_few[k] += area * sun.dni * std::max(0.0, dot(normal, sun.direction)) *
-                     (share < 0 ? share_at_edge : share);
-      }
+      all[k] += traced.hierarchy().area()[i] * static_cast<double>(by_all[at]);
+      for (const Columns& by_sun : by_few)
+        few[k] += traced.hierarchy().area()[i] * static_cast<double>(by_sun[at]);
     }
-  }
   for (auto& of_intervals : suns)
     for (std::size_t k = 0; k < of_intervals.size(); ++k)
-      if (block[k].has_direct_suns() && by_few[k] > 0) of_intervals[k].dni *= by_all[k] / by_few[k];
+      if (block[k].has_direct_suns() && few[k] > 0) of_intervals[k].dni *= all[k] / few[k];
 }
 
 /// `beams`: one set for each of `suns_one_by_one`. Returns the rays cast.
@@ -242,6 +233,9 @@ std::uint64_t light_sensors(const TracedScene& traced, Suns block, const SunsOne
   return cast + add_mirrors_on_sensors(traced, suns, std::move(beams), rays, integrals);
 }
 
+/// Nobody wants any.
+RayIntegrals no_integrals() { return {{}, &TimeSums::on_patches}; }
+
 /// What is straight from the sun onto patches. Returns their shares that see the suns by which
 /// light is sent on; these are scaled where there are more for what is straight.
 std::vector<Columns> light_patches(const TracedScene& traced, Suns block, SunsOneByOne& suns,
@@ -256,19 +250,22 @@ std::vector<Columns> light_patches(const TracedScene& traced, Suns block, SunsOn
   const bool sends_on = traced.mirrors.size() > 0 || traced.optics.any_glossy;
   if (!sends_on || !any_direct_suns(block)) return shares;
   const SunsOneByOne few = only(block, suns, true);
+  std::vector<Columns> by_few;
   for (std::size_t s = 0; s < suns.size(); ++s) {
     const Columns of_few = shares_of_many(traced, few[s]);
+    RayLight alone;
+    alone.pooled.direct = alone.sunlit = columns(traced.patches.count());
+    work.add(Work::direct_rays,
+             add_sun(traced, traced.patches, few[s], of_few, alone, no_integrals()));
+    by_few.push_back(std::move(alone.pooled.direct));
     for (std::size_t at = 0; at < of_few.size(); ++at) {
       const std::size_t k = at % block_width;
       if (k < block.size() && block[k].has_direct_suns()) shares[s][at] = of_few[at];
     }
   }
-  match_what_is_sent_on(traced, block, rays.pooled.direct, shares, suns);
+  match_what_is_sent_on(traced, block, rays.pooled.direct, by_few, suns);
   return shares;
 }
-
-/// Nobody wants any.
-RayIntegrals no_integrals() { return {{}, &TimeSums::on_patches}; }
 
 }  // namespace
 
@@ -305,12 +302,18 @@ BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources
 
 SunBeams beams_on_sensors(const TracedScene& traced, const IntervalLight& sun, SunBeams beams) {
   const SolverRules& rules = traced.rules;
-  if (beams.size() == 0)
-    return SunBeams(
-        traced.mirrors, sun,
-        {.mirror_depth = std::min(rules.mirror_depth, 1), .most_beams = rules.most_sensor_beams});
-  beams.follow_on(std::min(rules.unshot, rules.faint_glint), rules.most_faint_beams);
-  return beams;
+  const double faint = std::min(rules.unshot, rules.faint_glint);
+  if (beams.size() > 0) {
+    beams.follow_on(faint, rules.most_faint_beams);
+    return beams;
+  }
+  SunBeams of_sensors(
+      traced.mirrors, sun,
+      {rules.mirror_depth, faint, rules.most_faint_beams, traced.caster.offset_m()});
+  if (of_sensors.size() > 0) return of_sensors;
+  return SunBeams(
+      traced.mirrors, sun,
+      {.mirror_depth = std::min(rules.mirror_depth, 1), .most_beams = rules.most_sensor_beams});
 }
 
 std::vector<Columns> shares_of_patches(const TracedScene& traced, const BlockSources& sources,

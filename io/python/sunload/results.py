@@ -156,7 +156,7 @@ class Accessor:
         held = np.flatnonzero((bounds[:, 0] <= when) & ((when < bounds[:, 1]) | (when == bounds[-1, 1])))
         if not len(held):
             raise ValueError(f"{when} (UTC) is in no interval of the result: it has {bounds.min()} ... {bounds.max()}")
-        return int(held[0])
+        return int(held[-1] if when == bounds[-1, 1] else held[0])  # the last one's end is its own
 
     def _brightest(self) -> int:
         """The interval of the largest global irradiance, of those that are there where batches are missing."""

@@ -154,9 +154,10 @@ TEST(Covered, BelowLandIsCovered) {
   EXPECT_EQ(c.covered("under the deck", Surface::wall), 0);
 }
 
-// Tiles of land end at the walls, or 1 mm before or behind them, and go on below the house or not.
+// Tiles of land end at the walls, or up to 3 mm before or behind them, and go on below the house or
+// not.
 TEST(Covered, BelowLandThatEndsAtTheWallIsCovered) {
-  for (const double beside : {0.0, 0.001, -0.001})
+  for (const double beside : {0.0, 0.001, -0.001, 0.003})
     for (const bool has_hole : {false, true}) {
       auto builder = ModelBuilder().city().object("land", "LandUse");
       const std::array ends{-50.0, -beside, 10 + beside, 60.0};

@@ -48,6 +48,26 @@ void expect_on_ground(const PreparedMesh& p, double tolerance) {
     EXPECT_LE(gap.gap_m, tolerance) << gap.object << " floats";
 }
 
+// Of plain files a canopy over the terrain is none of the walls that are drawn down to it.
+TEST(Ground, CanopiesOfPlainFilesHover) {
+  ModelBuilder builder;
+  builder.object("terrain", "TINRelief");
+  builder.ring({{-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}});
+  builder.object("canopy").box({0, 0, 3}, {10, 10, 3.3});
+  builder.object("house").box({20, 0, 1}, {30, 10, 7});
+  const auto made = builder.prepared({.ground = GroundRules{30}});
+  double low_of_canopy = 1e9, low_of_house = 1e9;
+  for (std::size_t t = 0; t < made.mesh.triangle_count(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const double z = made.mesh.corner(t, k).z + made.mesh.origin.z;
+      const auto& name = made.mesh.object_names[made.mesh.triangle_object[t].index()];
+      if (name == "canopy") low_of_canopy = std::min(low_of_canopy, z);
+      if (name == "house") low_of_house = std::min(low_of_house, z);
+    }
+  EXPECT_EQ(low_of_canopy, 3);
+  EXPECT_LT(low_of_house, 0);
+}
+
 TEST(Ground, LevelFeetGetAPlateWithoutWhatLiesUnderThem) {
   auto builder = ModelBuilder().object("a").box({0, 0, 2}, {10, 20, 5});
   builder.object("b").box({15, 0, 2}, {18, 3, 9});

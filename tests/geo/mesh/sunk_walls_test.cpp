@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "tests/geo/mesh/mesh_prepare_models.h"
 
 namespace sunload::test {
@@ -44,6 +46,22 @@ TEST(SunkWalls, AreNoneBelowBalconiesAndRoofs) {
   builder.object("balcony").ring({{4, -2, 3}, {7, -2, 3}, {7, 2, 3}, {4, 2, 3}});
   builder.object("carport").box({20, 0, 0}, {22, 2, 2});
   builder.object("its roof").ring({{18, -2, 3}, {24, -2, 3}, {24, 4, 3}, {18, 4, 3}});
+  EXPECT_EQ(builder.prepared().report.sunk.area_m2, 0);
+}
+
+// A chimney goes through the eaves, a tower through a podium that has no floor.
+TEST(SunkWalls, AreNoneBelowRoofsThatSomethingGoesThrough) {
+  ModelBuilder builder;
+  builder.object("house").box({-5, -5, 0}, {5, 5, 5});
+  builder.object("roof").ring({{-6, -6, 6}, {6, -6, 6}, {6, 6, 7}, {-6, 6, 7}});
+  builder.object("chimney").box({1, 1, 4}, {2, 2, 9});
+  builder.object("podium");
+  const std::array<Vec3, 5> round{Vec3{20, 0, 0}, {40, 0, 0}, {40, 20, 0}, {20, 20, 0}, {20, 0, 0}};
+  const Vec3 up{0, 0, 4};
+  for (std::size_t k = 0; k < 4; ++k)
+    builder.ring({round[k], round[k + 1], round[k + 1] + up, round[k] + up});
+  builder.ring({round[0] + up, round[1] + up, round[2] + up, round[3] + up});
+  builder.object("tower").box({25, 5, 0}, {35, 15, 30});
   EXPECT_EQ(builder.prepared().report.sunk.area_m2, 0);
 }
 

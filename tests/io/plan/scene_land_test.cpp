@@ -90,6 +90,14 @@ bool warns_of_sunk_walls(const BuiltScene& built) {
   });
 }
 
+TEST(SceneLand, ThatIsNoneIsTold) {
+  const BuiltScene built = house_in_terrain(WorkFolder(), ", land: [house]");
+  EXPECT_TRUE(std::ranges::any_of(built.warnings, [](const std::string& warning) {
+    return warning.find("scene.land: 'house' has no open surface that looks up") !=
+           std::string::npos;
+  }));
+}
+
 TEST(SceneLand, CoversWhatLiesBelow) {
   const WorkFolder folder;
   constexpr double above_m2 = 4 * 10 * 6, below_m2 = 4 * 10 * 3, rounding_m2 = 1e-6;
