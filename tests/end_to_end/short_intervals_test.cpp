@@ -85,6 +85,39 @@ TEST(ShortIntervals, TogetherHaveTheLightOfEach) {
   EXPECT_EQ(sums_problem(path), "");
 }
 
+// Two mirrors that face each other a hand apart, behind a screen: what they get of the sun only
+// rays can tell, and little of what their size would let one guess.
+TEST(ShortIntervals, MatchWhatIsSentOnWhereRaysTellIt) {
+  const WorkFolder folder;
+  folder.write("slit.obj",
+               "o mirrors\nusemtl mirror\n"
+               "v 10 -14 0\nv 14 -14 0\nv 14 -14 7\nv 10 -14 7\nf 1 2 3 4\n"
+               "v 14 -14.2 0\nv 10 -14.2 0\nv 10 -14.2 7\nv 14 -14.2 7\nf 5 6 7 8\n"
+               "o screen\nusemtl screen\n"
+               "v 16 -30 0\nv 16 10 0\nv 16 10 20\nv 16 -30 20\nf 9 10 11 12\n"
+               "o wall\nusemtl wall\nv 5 -20 0\nv 5 -8 0\nv 5 -8 9\nv 5 -20 9\nf 13 14 15 16\n");
+  const auto mirrored = [&](const std::string& intervals) {
+    folder.write(
+        intervals + ".yaml",
+        "format: sunload-study-1\nname: " + intervals +
+            "\nsite: {latitude_deg: 48.13, longitude_deg: 11.7, timezone: Europe/Berlin}\n"
+            "period: {days: [2026-06-21], from: \"06:00\", to: \"06:20\", step_min: 5}\n"
+            "light: {source: clear_sky, sky: cie_clear}\n"
+            "scene: {files: [slit.obj], materials: {mirror: {diffuse: 0.05, mirror: 0.8}, "
+            "screen: {diffuse: 0.1, transmittance: 0.6, sides: two}, wall: {diffuse: 0.5}}}\n"
+            "mesh: {oracle: none, max_edge_m: 2}\n"
+            "solver: {year: each, mirror_depth: 1, direct_samples: 256, short_intervals: " +
+            intervals + "}\noutput: {series_step: 20 min}\n");
+    const Ran ran = program(folder, {"run", intervals + ".yaml"});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    const ResultReader result(folder / ("results/" + intervals + "/baseline.h5"));
+    return total_of(result.doubles("light_load_mirror"), result.doubles("patch_area"));
+  };
+  const double each = mirrored("each"), together = mirrored("together");
+  EXPECT_GT(each, 0);
+  EXPECT_NEAR(together / each, 1, 0.1);  // of some hundred rays through the slit
+}
+
 TEST(ShortIntervals, TogetherAreServedByFewSolutions) {
   const WorkFolder folder;
   const auto week = [&](const std::string& name, const std::string& year) {
