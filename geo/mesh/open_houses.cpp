@@ -40,7 +40,7 @@ int side_of(const Corners& corners, Vec3 p, const Turned& turned) {
 
 OpenHouses::OpenHouses(const Mesh& mesh, const Bodies& bodies,
                        const std::vector<std::uint8_t>& is_opaque)
-    : mesh_(mesh), is_wall_(mesh.triangle_count(), 0) {
+    : mesh_(mesh), is_wall_(mesh.triangle_count(), 0), of_object_(mesh.object_names.size()) {
   struct Has {
     bool walls = false, roof = false;
   };
@@ -66,6 +66,9 @@ OpenHouses::OpenHouses(const Mesh& mesh, const Bodies& bodies,
     triangle_.push_back(t);
     const Corners c = corners_of(mesh, t);
     boxes.push_back(box_around({c[0], c[1], c[2]}));
+    Box& of = of_object_[mesh.triangle_object[t].index()];
+    include(of, boxes.back().low);
+    include(of, boxes.back().high);
   }
   tree_ = BoxTree(std::move(boxes));
 }
@@ -96,8 +99,9 @@ bool OpenHouses::enclose(ObjectId object, Vec3 p) const {
       }
     });
   };
-  count({{-far_away, p.y, p.z}, {far_away, p.y, p.z}}, 0, along_x);
-  count({{p.x, -far_away, p.z}, {p.x, far_away, p.z}}, 2, along_y);
+  const auto& [low, high] = of_object_[object.index()];
+  count({{low.x, p.y, p.z}, {high.x, p.y, p.z}}, 0, along_x);
+  count({{p.x, low.y, p.z}, {p.x, high.y, p.z}}, 2, along_y);
   return is_odd[0] && is_odd[1] && is_odd[2] && is_odd[3];
 }
 

@@ -29,6 +29,7 @@ class OpenHouses {
 
   const Mesh& mesh_;
   std::vector<std::uint8_t> is_wall_;  ///< per triangle
+  std::vector<Box> of_object_;
   std::vector<std::size_t> triangle_;  ///< of the tree
   BoxTree tree_;
 };

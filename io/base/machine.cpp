@@ -143,7 +143,7 @@ double peak_memory_bytes() {
 void make_writable_folder(const std::string& path) {
   // Who cleans up, or another process that leaves no empty folders, may remove parents while they
   // are made, and the folder when it has been.
-  constexpr int attempts = 20;
+  constexpr int attempts = 100;
   constexpr std::chrono::milliseconds pause{1};
   std::error_code failed;
   int no_access = 0;
