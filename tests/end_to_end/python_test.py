@@ -71,10 +71,14 @@ def expect_result(sunload, result):
     assert result.sunload.plot_map() is not ax
     assert "has no time" in raised(ValueError, lambda: result.sunload.plot_map(time=result.time.values[0]))
     bounds = result.time_bounds.values
-    last = result.sunload.plot_map("irradiance", time=bounds[-1][1] - np.timedelta64(1, "s")).collections[0].get_array()
+    # The last interval's end is its own.
     seen = np.sort(result.irradiance.values[-1][result.patch_normal.values[:, 2] > 1e-6])
-    assert np.array_equal(np.sort(last), seen), (last, seen)
-    assert "in no interval" in raised(ValueError, lambda: result.sunload.plot_map("irradiance", time=bounds[-1][1]))
+    for before in (1, 0):
+        time = bounds[-1][1] - np.timedelta64(before, "s")
+        last = result.sunload.plot_map("irradiance", time=time).collections[0].get_array()
+        assert np.array_equal(np.sort(last), seen), (before, last, seen)
+    after = bounds[-1][1] + np.timedelta64(1, "s")
+    assert "in no interval" in raised(ValueError, lambda: result.sunload.plot_map("irradiance", time=after))
 
 
 def main():
