@@ -99,8 +99,7 @@ bool Covers::is_buried(std::size_t t, Vec3 at) const {
       if (side != 0 && plane_height(u, p.x, p.y) > p.z) inside += side;
     }
     if (is_land_[u] && !is_land_[t] && !is_below_land) {
-      const auto z =
-          height_at(mesh_.corner(u, 0), mesh_.corner(u, 1), mesh_.corner(u, 2), p.x, p.y);
+      const auto z = height_at(mesh_, u, p.x, p.y);
       is_below_land = z && *z > p.z + contact_;
     }
   });
@@ -117,7 +116,7 @@ bool Covers::is_sealed(Vec3 p) const {
   bool is_under_floor = false;
   tree_.visit_column(p.x, p.y, [&](std::size_t u) {
     if (is_land_[u]) return;
-    const auto z = height_at(mesh_.corner(u, 0), mesh_.corner(u, 1), mesh_.corner(u, 2), p.x, p.y);
+    const auto z = height_at(mesh_, u, p.x, p.y);
     if (!z) return;
     const bool is_floor = seals(u) && slope_of(mesh_, u) == Slope::downward;
     if (is_floor && *z >= land) is_under_floor = true;

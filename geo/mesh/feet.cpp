@@ -232,8 +232,7 @@ class FootFinder {
         tree.visit_column(p.x, p.y, [&](std::size_t i) {
           const std::size_t t = upward[i];
           if (bodies_.triangle_body[t] == foot.body) return;
-          const auto z =
-              height_at(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), p.x, p.y);
+          const auto z = height_at(mesh_, t, p.x, p.y);
           is_supported |= z && *z <= p.z + foot_tolerance(infinity);
         });
         if (is_supported) supported += length;

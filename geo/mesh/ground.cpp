@@ -47,9 +47,7 @@ class PlanTriangles {
   void visit_heights(double x, double y, const Visit& visit) const {
     tree_.visit_column(x, y, [&](std::size_t i) {
       const std::size_t t = triangles_[i];
-      if (const auto z =
-              height_at(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), x, y))
-        visit(*z);
+      if (const auto z = height_at(mesh_, t, x, y)) visit(*z);
     });
   }
   bool is_on(Vec3 p, double distance) const {
@@ -202,10 +200,13 @@ class GroundMaker {
     drawn_m_.assign(feet_.size(), 0);
     for (std::size_t f = 0; f < feet_.size(); ++f) {
       const Foot& foot = feet_[f];
-      if (foot.stance != Stance::ground || hovers_over(foot, tree)) continue;
+      if (foot.stance != Stance::ground) continue;
+      std::vector<Heights> land_of_edges;
+      for (const Segment& edge : foot.edges) land_of_edges.push_back(land_along(edge, tree));
+      if (hovers_over(foot, land_of_edges)) continue;
       bool is_closed = true;
       for (std::size_t e = 0; e < foot.edges.size(); ++e) {
-        const Heights land = land_along(foot.edges[e], tree);
+        const Heights land = land_of_edges[e];
         if (land.low == infinity) continue;
         const auto& [a, b] = foot.edges[e];
         if (std::max(a.z, b.z) - land.low > longest_drawn_m || foot.walls[e] == no_wall) {
@@ -220,18 +221,20 @@ class GroundMaker {
     }
   }
 
-  /// Of shapes that nothing says are houses those that are nowhere near the land: canopies, signs.
-  bool hovers_over(const Foot& foot, const BoxTree& tree) const {
-    if (!mesh_.object_kinds[foot.object.index()].empty()) return false;
-    return std::ranges::none_of(foot.edges, [&](const Segment& edge) {
-      const Heights land = land_along(edge, tree);
-      return land.low == infinity || std::min(edge[0].z, edge[1].z) <= land.low + highest_step_m;
-    });
-  }
-
   struct Heights {
     double low = infinity, largest_gap = -infinity;
   };
+  /// Of shapes that nothing says are houses those that are nowhere near the land: canopies, signs.
+  bool hovers_over(const Foot& foot, const std::vector<Heights>& land_of_edges) const {
+    if (!mesh_.object_kinds[foot.object.index()].empty()) return false;
+    for (std::size_t e = 0; e < foot.edges.size(); ++e) {
+      const auto& [a, b] = foot.edges[e];
+      const double low = land_of_edges[e].low;
+      if (low == infinity || std::min(a.z, b.z) <= low + highest_step_m) return false;
+    }
+    return true;
+  }
+
   /// Of the terrain along a line in plan: at its ends, and where it crosses edges.
   Heights land_along(const Segment& line, const BoxTree& tree) const {
     const Vec3 a = line[0], b = line[1];

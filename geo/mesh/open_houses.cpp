@@ -41,6 +41,7 @@ int side_of(const Corners& corners, Vec3 p, const Turned& turned) {
 OpenHouses::OpenHouses(const Mesh& mesh, const Bodies& bodies,
                        const std::vector<std::uint8_t>& is_opaque)
     : mesh_(mesh), is_wall_(mesh.triangle_count(), 0), of_object_(mesh.object_names.size()) {
+  if (std::ranges::none_of(mesh.object_kinds, is_land)) return;
   struct Has {
     bool walls = false, roof = false;
   };
@@ -79,9 +80,7 @@ bool OpenHouses::hold(Vec3 p) const {
     const std::size_t t = triangle_[i];
     const ObjectId object = mesh_.triangle_object[t];
     if (std::ranges::find(roofs, object) != roofs.end()) return;
-    const Corners c = corners_of(mesh_, t);
-    if (const auto z = height_at(c[0], c[1], c[2], p.x, p.y); z && *z > p.z)
-      roofs.push_back(object);
+    if (const auto z = height_at(mesh_, t, p.x, p.y); z && *z > p.z) roofs.push_back(object);
   });
   return std::ranges::any_of(roofs, [&](ObjectId object) { return enclose(object, p); });
 }

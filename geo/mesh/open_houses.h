@@ -15,7 +15,7 @@ namespace sunload {
 class OpenHouses {
  public:
   /// Of objects that are neither land nor plants the opaque triangles that belong to no closed
-  /// body. All must outlive it.
+  /// body; none where no object is land. All must outlive it.
   OpenHouses(const Mesh& mesh, const Bodies& bodies, const std::vector<std::uint8_t>& is_opaque);
 
   /// Whether the triangle is a wall of one.

@@ -52,6 +52,10 @@ std::optional<double> height_at(Vec3 a, Vec3 b, Vec3 c, double x, double y) {
   return (wa * a.z + wb * b.z + wc * c.z) / whole;
 }
 
+std::optional<double> height_at(const Mesh& mesh, std::size_t t, double x, double y) {
+  return height_at(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), x, y);
+}
+
 bool is_land(const std::string& object_kind) { return contains(land_kinds, object_kind); }
 bool is_plant(const std::string& object_kind) { return contains(plant_kinds, object_kind); }
 

@@ -21,6 +21,7 @@ std::optional<Slope> slope_of(const Mesh& mesh, std::size_t triangle);
 /// Height of the triangle's plane above (x, y), where the point is inside of it in plan or on its
 /// rim; nothing for a triangle that is upright in plan.
 std::optional<double> height_at(Vec3 a, Vec3 b, Vec3 c, double x, double y);
+std::optional<double> height_at(const Mesh& mesh, std::size_t triangle, double x, double y);
 
 /// Objects of cities by the type that CityJSON has for them.
 bool is_land(const std::string& object_kind);

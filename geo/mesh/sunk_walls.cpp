@@ -54,8 +54,7 @@ class Sheets {
     Above lowest{ObjectId::none(), body.box.high.z - sunk_m};
     tree_.visit_column(p.x, p.y, [&](std::size_t i) {
       const std::size_t t = upward_[i];
-      const auto z =
-          height_at(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), p.x, p.y);
+      const auto z = height_at(mesh_, t, p.x, p.y);
       if (!z || *z < p.z + sunk_m || *z > lowest.z) return;
       const auto of = static_cast<std::size_t>(bodies_.triangle_body[t]);
       if (holds_in_plan(bodies_.bodies[of].box, body.box) && !is_roof(of))
@@ -86,9 +85,7 @@ class Sheets {
     tree_.visit_column(middle.x, middle.y, [&](std::size_t i) {
       const std::size_t t = upward_[i];
       if (static_cast<std::size_t>(bodies_.triangle_body[t]) != sheet) return;
-      if (const auto z = height_at(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2),
-                                   middle.x, middle.y))
-        height = std::max(height, *z);
+      if (const auto z = height_at(mesh_, t, middle.x, middle.y)) height = std::max(height, *z);
     });
     return height;
   }

@@ -42,7 +42,7 @@ class Supports {
     tree_.visit_column(x, y, [&](std::size_t i) {
       const std::size_t t = upward_[i];
       if (bodies_.triangle_body[t] == body) return;
-      const auto z = height_at(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), x, y);
+      const auto z = height_at(mesh_, t, x, y);
       if (z && *z < top) highest = std::max(highest, *z);
     });
     return highest;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "geo/mesh/delaunay.h"
 #include "io/base/name_pattern.h"
 #include "io/plan/selection.h"
 
@@ -35,14 +36,8 @@ void visit_rings(const PolygonModel& model, std::size_t polygon, const Visit& vi
 double upward_area2(const PolygonModel& model, std::size_t polygon) {
   double sum = 0;
   visit_rings(model, polygon, [&](auto begin, auto end) {
-    for (auto k = begin; k < end; ++k) {
-      const auto corner = [&](auto at) {
-        return model
-            .vertices[static_cast<std::size_t>(model.ring_vertex[static_cast<std::size_t>(at)])];
-      };
-      const Vec3 a = corner(k), b = corner(k + 1 < end ? k + 1 : begin), o = corner(begin);
-      sum += (a.x - o.x) * (b.y - o.y) - (b.x - o.x) * (a.y - o.y);
-    }
+    const auto corners = model.ring_vertex.begin();
+    sum += newell(model.vertices, Ring(corners + begin, corners + end)).z;
   });
   return sum;
 }
@@ -52,9 +47,11 @@ void turn_upward(const ChosenObjects& is_land, PolygonModel& model) {
   constexpr double most = 0.5;  // of its plan, net: a terrain has no undersides, a plate both
   std::vector<double> net(is_land.size(), 0), all(is_land.size(), 0);
   for (std::size_t p = 0; p < model.polygon_count(); ++p) {
+    const std::size_t object = model.facts[p].object.index();
+    if (!is_land[object]) continue;
     const double area2 = upward_area2(model, p);
-    net[model.facts[p].object.index()] += area2;
-    all[model.facts[p].object.index()] += std::abs(area2);
+    net[object] += area2;
+    all[object] += std::abs(area2);
   }
   const auto looks_down = [&](std::size_t o) { return is_land[o] && -net[o] > most * all[o]; };
   for (std::size_t p = 0; p < model.polygon_count(); ++p)
@@ -71,13 +68,14 @@ void turn_upward(const ChosenObjects& is_land, PolygonModel& model) {
 }  // namespace
 
 void call_land(const SceneStudy& scene, PolygonModel& model) {
+  if (scene.land.empty()) return;
+  const FamilyTree tree(model.object_names, model.object_kinds, model.families);
   Problems problems;
   std::vector<std::string> kinds = model.object_kinds;
   kinds.resize(model.object_names.size());
   ChosenObjects is_land(kinds.size(), 0);
   for (const auto& [pattern, where] : scene.land) {
-    const ChosenObjects named =
-        objects_named(pattern, FamilyTree(model.object_names, model.object_kinds, model.families));
+    const ChosenObjects named = objects_named(pattern, tree);
     bool any = false;
     for (std::size_t o = 0; o < kinds.size(); ++o) {
       if (!named[o]) continue;
@@ -97,6 +95,7 @@ void call_land(const SceneStudy& scene, PolygonModel& model) {
 
 void warn_of_no_land(const SceneStudy& scene, const Mesh& mesh,
                      std::vector<std::string>& warnings) {
+  if (scene.land.empty()) return;
   std::vector<std::uint8_t> has_ground(mesh.object_names.size(), 0);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
     if (mesh.triangle_surface[t] == Surface::ground)

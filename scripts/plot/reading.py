@@ -187,11 +187,13 @@ class Result:
             raise InputError(f"--time {text}: no time (ISO 8601); write e.g. 2026-06-21T12:00") from error
         when = when if when.tzinfo else when.replace(tzinfo=self.zone)
         bounds, seconds = self.bounds(), when.timestamp()
-        held = np.flatnonzero((bounds[:, 0] <= seconds) & ((seconds < bounds[:, 1]) | (seconds == bounds[-1, 1])))  # the last one's end is its own
+        held = np.flatnonzero((bounds[:, 0] <= seconds) & (seconds < bounds[:, 1]))
+        if len(held) == 0 and seconds == bounds[-1, 1]:
+            return len(bounds) - 1
         if len(held) == 0:
             raise InputError(f"{self.path}: no interval holds {text} (the result covers {self.period()}, "
                              "with its gaps); choose a time within")
-        return int(held[-1] if seconds == bounds[-1, 1] else held[0])
+        return int(held[0])
 
     def brightest(self):
         """Interval of the largest global irradiance, of those that are there where batches are missing."""

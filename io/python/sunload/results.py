@@ -153,10 +153,12 @@ class Accessor:
     def _interval_at(self, time: Any) -> int:
         """The interval that holds a time in UTC."""
         bounds, when = self._result["time_bounds"].values, pandas.Timestamp(getattr(time, "values", time)).to_datetime64()
-        held = np.flatnonzero((bounds[:, 0] <= when) & ((when < bounds[:, 1]) | (when == bounds[-1, 1])))
+        held = np.flatnonzero((bounds[:, 0] <= when) & (when < bounds[:, 1]))
+        if not len(held) and when == bounds[-1, 1]:
+            return len(bounds) - 1
         if not len(held):
             raise ValueError(f"{when} (UTC) is in no interval of the result: it has {bounds.min()} ... {bounds.max()}")
-        return int(held[-1] if when == bounds[-1, 1] else held[0])  # the last one's end is its own
+        return int(held[0])
 
     def _brightest(self) -> int:
         """The interval of the largest global irradiance, of those that are there where batches are missing."""

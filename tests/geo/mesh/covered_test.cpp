@@ -176,28 +176,13 @@ TEST(Covered, BelowLandThatEndsAtTheWallIsCovered) {
     }
 }
 
-/// A house of four walls and a roof, without a floor, whose faces are the builder's next rings.
-void add_walls_and_roof(ModelBuilder& builder, Vec3 low, Vec3 high, double apart = 0) {
-  const std::array<std::array<double, 2>, 5> round{
-      {{low.x, low.y}, {high.x, low.y}, {high.x, high.y}, {low.x, high.y}, {low.x, low.y}}};
-  for (std::size_t k = 0; k < 4; ++k) {
-    const auto [x0, y0] = round[k];
-    const auto [x1, y1] = round[k + 1];
-    builder.ring({{x0, y0, low.z}, {x1, y1, low.z}, {x1, y1, high.z}, {x0, y0, high.z}});
-  }
-  const double top = high.z + apart;
-  builder.ring(
-      {{low.x, low.y, top}, {high.x, low.y, top}, {high.x, high.y, top}, {low.x, high.y, top}});
-}
-
 // Houses without a floor, and such as do not close, have no inside; what they stand on is dark.
 TEST(Covered, LandInHousesWithoutAFloorIsCovered) {
   for (const double foot : {0.0, -1.0})
     for (const double apart : {0.0, 0.003}) {
       auto builder = ModelBuilder().object("terrain", "TINRelief");
       builder.ring({{-50, -50, 0}, {60, -50, 0}, {60, 60, 0}, {-50, 60, 0}});
-      builder.object("house");
-      add_walls_and_roof(builder, {0, 0, foot}, {10, 10, 6}, apart);
+      builder.object("house").walls_and_roof({0, 0, foot}, {10, 10, 6}, apart);
       builder.object("carport").ring({{20, 0, 3}, {25, 0, 3}, {25, 5, 3}, {20, 5, 3}});
       builder.ring({{20, 0, 0}, {20, 0, 3}, {20, 5, 3}, {20, 5, 0}});
       builder.ring({{20, 5, 0}, {20, 5, 3}, {25, 5, 3}, {25, 5, 0}});
@@ -211,7 +196,7 @@ TEST(Covered, LandInHousesWithoutAFloorIsCovered) {
 TEST(Covered, FloorsAndPassagesAreOpen) {
   auto room = ModelBuilder().object("room").with(Surface::ground);
   room.ring({{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}}).with(Surface::other);
-  add_walls_and_roof(room, {0, 0, 0}, {10, 10, 3});
+  room.walls_and_roof({0, 0, 0}, {10, 10, 3});
   EXPECT_EQ(cut(room).covered("room", Surface::ground), 0);
   auto passage = ModelBuilder().object("terrain", "TINRelief");
   passage.ring({{-50, -50, 0}, {60, -50, 0}, {60, 60, 0}, {-50, 60, 0}});

@@ -55,6 +55,12 @@ class ModelBuilder {
     for (const auto& face : box_faces(a, b)) ring(face);
     return *this;
   }
+  /// The same without the bottom; `apart`: by so much the top lies above the walls.
+  ModelBuilder& walls_and_roof(Vec3 a, Vec3 b, double apart = 0) {
+    const auto faces = box_faces(a, b);
+    for (std::size_t k = 2; k < faces.size(); ++k) ring(faces[k]);
+    return ring(box_faces(a, b + Vec3{0, 0, apart})[1]);
+  }
   /// bottom, top, south (y low), north, west (x low), east.
   static std::vector<std::vector<Vec3>> box_faces(Vec3 a, Vec3 b) {
     return {{{a.x, a.y, a.z}, {a.x, b.y, a.z}, {b.x, b.y, a.z}, {b.x, a.y, a.z}},

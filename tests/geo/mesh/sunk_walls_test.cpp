@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-
 #include "tests/geo/mesh/mesh_prepare_models.h"
 
 namespace sunload::test {
@@ -55,12 +53,7 @@ TEST(SunkWalls, AreNoneBelowRoofsThatSomethingGoesThrough) {
   builder.object("house").box({-5, -5, 0}, {5, 5, 5});
   builder.object("roof").ring({{-6, -6, 6}, {6, -6, 6}, {6, 6, 7}, {-6, 6, 7}});
   builder.object("chimney").box({1, 1, 4}, {2, 2, 9});
-  builder.object("podium");
-  const std::array<Vec3, 5> round{Vec3{20, 0, 0}, {40, 0, 0}, {40, 20, 0}, {20, 20, 0}, {20, 0, 0}};
-  const Vec3 up{0, 0, 4};
-  for (std::size_t k = 0; k < 4; ++k)
-    builder.ring({round[k], round[k + 1], round[k + 1] + up, round[k] + up});
-  builder.ring({round[0] + up, round[1] + up, round[2] + up, round[3] + up});
+  builder.object("podium").walls_and_roof({20, 0, 0}, {40, 20, 4});
   builder.object("tower").box({25, 5, 0}, {35, 15, 30});
   EXPECT_EQ(builder.prepared().report.sunk.area_m2, 0);
 }
