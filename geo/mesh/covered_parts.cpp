@@ -126,7 +126,8 @@ class Cutter {
   };
   /// What stands on this one ends at it, and what touches it of the same body has told where.
   bool is_told_by(const std::vector<Touching>& touching, std::int32_t body, Point2 at) const {
-    const auto [first, last] = std::ranges::equal_range(touching, body, {}, &Touching::body);
+    const auto first = std::ranges::lower_bound(touching, body, {}, &Touching::body);
+    const auto last = std::ranges::upper_bound(touching, body, {}, &Touching::body);
     return body >= 0 && std::any_of(first, last, [&](const Touching& of) {
              for (std::size_t k = 0; k < of.polygon.size(); ++k) {
                const Point2 a = of.polygon[k], b = of.polygon[(k + 1) % of.polygon.size()];
