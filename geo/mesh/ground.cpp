@@ -221,12 +221,15 @@ class GroundMaker {
     }
   }
 
+  /// Nothing says what it is.
+  bool is_untold(ObjectId object) const { return mesh_.object_kinds[object.index()].empty(); }
+
   struct Heights {
     double low = infinity, largest_gap = -infinity;
   };
   /// Of shapes that nothing says are houses those that are nowhere near the land: canopies, signs.
   bool hovers_over(const Foot& foot, const std::vector<Heights>& land_of_edges) const {
-    if (!mesh_.object_kinds[foot.object.index()].empty()) return false;
+    if (!is_untold(foot.object)) return false;
     for (std::size_t e = 0; e < foot.edges.size(); ++e) {
       const auto& [a, b] = foot.edges[e];
       const double low = land_of_edges[e].low;
@@ -391,6 +394,8 @@ class GroundMaker {
       if (!drawn_m_.empty() && drawn_m_[f] > land_snap_m) {
         ++r.drawn;
         r.longest_drawn_m = std::max(r.longest_drawn_m, drawn_m_[f]);
+        if (drawn_m_[f] > floating_m && is_untold(foot.object))
+          r.drawn_far.push_back({gap.object, drawn_m_[f]});
         if (gap.gap_m <= longest_drawn_m) gap.gap_m = std::min(gap.gap_m, 0.0);
       }
       if (foot.stance == Stance::ground) gaps.push_back(gap);
@@ -402,6 +407,7 @@ class GroundMaker {
                                                     : a.object < b.object;
     };
     std::sort(r.hovering.begin(), r.hovering.end(), by_size);
+    std::sort(r.drawn_far.begin(), r.drawn_far.end(), by_size);
     std::vector<double> sorted;
     sorted.reserve(gaps.size());
     for (const auto& gap : gaps) sorted.push_back(gap.gap_m);

@@ -50,6 +50,9 @@ struct GroundReport {
   std::array<double, 5> gap_m{};  ///< quantiles over standing bodies of their largest gap
   std::size_t drawn = 0;          ///< bodies whose walls were drawn down to the terrain
   double longest_drawn_m = 0;     ///< by so much at most
+  /// Objects that nothing says are houses (signs, bridges?), drawn by more than `floating_m`: the
+  /// longest first.
+  std::vector<FootGap> drawn_far;
   std::size_t floating = 0;       ///< bodies more than `floating_m` above it
   std::vector<FootGap> worst;     ///< at most ten, the largest |gap| first
   std::vector<FootGap> hovering;  ///< all that no ground can go through, likewise

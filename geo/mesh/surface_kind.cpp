@@ -84,7 +84,8 @@ class Decision {
     const Body* body = body_of(t);
     const bool is_closed = body && body->is_closed;
     const auto& word = mesh_.object_kinds[mesh_.triangle_object[t].index()];
-    if (!is_closed && is_land(word)) return on_land(s);
+    if (!is_closed && is_land(word))  // however steep: quays, pits, kerbs
+      return s == Slope::downward ? Surface::other : Surface::ground;
     if (is_plant(word)) return Surface::other;
     if (kind_ == SceneKind::plain && !is_closed)
       return s == Slope::upright ? Surface::wall : Surface::other;
@@ -95,11 +96,6 @@ class Decision {
     if (kind_ == SceneKind::city) return Surface::floor;
     low_faces_.push_back(t);
     return Surface::other;
-  }
-
-  static Surface on_land(Slope s) {
-    if (s == Slope::upright) return Surface::wall;
-    return s == Slope::upward ? Surface::ground : Surface::other;
   }
 
   Heights heights_of(const Body& body) const {

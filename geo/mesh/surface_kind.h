@@ -20,7 +20,7 @@ inline constexpr double touching_ratio = 0.005;
 /// | body | upright | upward | downward |
 /// |---|---|---|---|
 /// | closed body; any body of a city | wall | roof | floor at the foot, else other |
-/// | open land of a city (terrain, roads, water, …) | wall | ground | other |
+/// | open land (terrain, roads, water, …) | ground | ground | other |
 /// | plants of a city | other | other | other |
 /// | open sheet of a plain file | wall | other | other |
 ///

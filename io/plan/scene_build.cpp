@@ -210,22 +210,39 @@ ParallelSources read_parallel_sources(const Study& study, Vec3 origin, BuiltScen
   return sources;
 }
 
-/// Feet that the ground does not reach.
-void warn_of_gaps(const Study& study, BuiltScene& built) {
-  if (!built.report.ground || built.report.ground->floating == 0) return;
-  const GroundReport& ground = *built.report.ground;
+/// The first of those above the ground by more than `floating_m`, of `count` in all.
+std::string names_of(const std::vector<FootGap>& gaps, std::size_t count) {
+  constexpr std::size_t most = 10;
   std::string names;
-  for (const FootGap& gap : ground.worst)
-    if (gap.gap_m > floating_m)
-      names += fmt::format("{}{} by {:.2f} m", names.empty() ? "" : ", ", gap.object, gap.gap_m);
-  built.warnings.push_back(message(
-      study.scene.where,
-      fmt::format("{} of {} bodies stand more than {} m above the ground ({}{})", ground.floating,
-                  ground.standing, floating_m, names,
-                  ground.floating > ground.worst.size() ? ", …" : ""),
-      "sun and sky pass below their walls",
-      ground.surface == GroundSurface::level ? "scene.ground: {surface: feet} goes through the feet"
-                                             : "the terrain of the model lies there"));
+  std::size_t named = 0;
+  for (const FootGap& gap : gaps) {
+    if (named == most || !(gap.gap_m > floating_m)) continue;
+    names += fmt::format("{}{} by {:.2f} m", named++ > 0 ? ", " : "", gap.object, gap.gap_m);
+  }
+  return names + (count > named ? ", …" : "");
+}
+
+/// Feet that the ground does not reach, and walls that were drawn far to reach it.
+void warn_of_gaps(const Study& study, BuiltScene& built) {
+  if (!built.report.ground) return;
+  const GroundReport& ground = *built.report.ground;
+  if (ground.floating > 0)
+    built.warnings.push_back(message(
+        study.scene.where,
+        fmt::format("{} of {} bodies stand more than {} m above the ground ({})", ground.floating,
+                    ground.standing, floating_m, names_of(ground.worst, ground.floating)),
+        "sun and sky pass below their walls",
+        ground.surface == GroundSurface::level
+            ? "scene.ground: {surface: feet} goes through the feet"
+            : "the terrain of the model lies there"));
+  if (!ground.drawn_far.empty())
+    built.warnings.push_back(message(
+        study.scene.where,
+        fmt::format("walls of {} bodies are drawn down to the terrain by more than {} m ({})",
+                    ground.drawn_far.size(), floating_m,
+                    names_of(ground.drawn_far, ground.drawn_far.size())),
+        "right for houses; under a bridge or a sign no light passes",
+        "scene.ground: none leaves walls as they are"));
 }
 
 }  // namespace

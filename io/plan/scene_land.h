@@ -11,13 +11,14 @@
 
 namespace sunload {
 
-/// Gives the objects that `scene.land` names the type of a terrain (TINRelief): their open surfaces
-/// that look up are ground, and what lies below is covered. Land that looks down is turned over,
-/// with a note, unless the study keeps fronts or repairs nothing. Throws InputError for every name
-/// that matches none.
+/// Gives the objects that `scene.land` names the type of a terrain (TINRelief): their open
+/// surfaces, however steep, are ground, and what lies below is covered. Land that looks down is
+/// turned over, with a note, unless the study keeps fronts or repairs nothing: then it is none.
+/// Throws InputError for every name that matches none.
 void call_land(const SceneStudy& scene, PolygonModel& model);
 
-/// Warns of names of `scene.land` whose objects have become no ground: closed bodies, upright ones.
+/// Warns of names of `scene.land` whose objects have become no ground: closed bodies, and what
+/// looks down.
 void warn_of_no_land(const SceneStudy& scene, const Mesh& mesh, std::vector<std::string>& warnings);
 
 }  // namespace sunload

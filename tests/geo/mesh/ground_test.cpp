@@ -66,6 +66,9 @@ TEST(Ground, CanopiesOfPlainFilesHover) {
     }
   EXPECT_EQ(low_of_canopy, 3);
   EXPECT_LT(low_of_house, 0);
+  ASSERT_EQ(made.report.ground->drawn_far.size(), 1u);  // a sign could be a metre above it
+  EXPECT_EQ(made.report.ground->drawn_far[0].object, "house");
+  EXPECT_EQ(made.report.ground->drawn_far[0].gap_m, 1);
 }
 
 TEST(Ground, LevelFeetGetAPlateWithoutWhatLiesUnderThem) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "geo/base/check.h"
 #include "io/plan/scene_build.h"
@@ -63,20 +64,25 @@ TEST(SceneLand, ThatLooksDownIsTurnedOverUnlessFrontsAreKept) {
   }
 }
 
-/// A house three metres deep in a flat terrain, of an OBJ file.
-BuiltScene house_in_terrain(const WorkFolder& folder, const std::string& land) {
-  folder.write("town.obj",
-               "o terrain\nv -50 -50 0\nv 50 -50 0\nv 50 50 0\nv -50 50 0\nf 1 2 3 4\n"
-               "o house\nv -5 -5 -3\nv 5 -5 -3\nv 5 5 -3\nv -5 5 -3\n"
-               "v -5 -5 6\nv 5 -5 6\nv 5 5 6\nv -5 5 6\n"
-               "f 8 7 6 5\nf 9 10 11 12\nf 5 6 10 9\nf 6 7 11 10\nf 7 8 12 11\nf 8 5 9 12\n");
+BuiltScene scene_of(const WorkFolder& folder, const std::string& obj, const std::string& more) {
+  folder.write("town.obj", obj);
   const std::string study =
       folder.write("town.yaml",
                    "format: sunload-study-1\nname: town\n"
                    "site: {latitude_deg: 52, longitude_deg: 4.4, timezone: UTC}\n"
                    "period: {days: [2026-03-21]}\nscene: {files: [town.obj]" +
-                       land + "}\n");
+                       more + "}\n");
   return build_scene(read_study(study).variants.front());
+}
+
+/// A house three metres deep in a flat terrain.
+BuiltScene house_in_terrain(const WorkFolder& folder, const std::string& more) {
+  return scene_of(folder,
+                  "o terrain\nv -50 -50 0\nv 50 -50 0\nv 50 50 0\nv -50 50 0\nf 1 2 3 4\n"
+                  "o house\nv -5 -5 -3\nv 5 -5 -3\nv 5 5 -3\nv -5 5 -3\n"
+                  "v -5 -5 6\nv 5 -5 6\nv 5 5 6\nv -5 5 6\n"
+                  "f 8 7 6 5\nf 9 10 11 12\nf 5 6 10 9\nf 6 7 11 10\nf 7 8 12 11\nf 8 5 9 12\n",
+                  more);
 }
 
 double lit_walls_m2(const BuiltScene& built) {
@@ -107,6 +113,21 @@ TEST(SceneLand, CoversWhatLiesBelow) {
   const BuiltScene on_land = house_in_terrain(folder, ", land: [terrain]");
   EXPECT_NEAR(lit_walls_m2(on_land), above_m2, rounding_m2);
   EXPECT_FALSE(warns_of_sunk_walls(on_land));
+}
+
+/// Were the steep bank a wall, made ground would lie in its place as well.
+TEST(SceneLand, IsGroundHoweverSteep) {
+  constexpr double wide_m = 100, margin_m = 20, rounding_m2 = 1e-6;
+  const BuiltScene built = scene_of(WorkFolder(),
+                                    "o land\nv 0 0 0\nv 50 0 0\nv 51 0 10\nv 100 0 10\n"
+                                    "v 0 100 0\nv 50 100 0\nv 51 100 10\nv 100 100 10\n"
+                                    "f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\n",
+                                    ", land: [land], ground: {margin_m: 20}");
+  EXPECT_EQ(built.report.area_m2[static_cast<std::size_t>(Surface::wall)], 0);
+  ASSERT_TRUE(built.report.ground);
+  EXPECT_NEAR(built.report.ground->terrain_m2, wide_m * wide_m, rounding_m2);
+  EXPECT_NEAR(built.report.ground->made_m2, std::pow(wide_m + 2 * margin_m, 2) - wide_m * wide_m,
+              rounding_m2);
 }
 
 }  // namespace
