@@ -31,30 +31,12 @@ double sine_of_elevation(double elevation_deg) {
   return std::max(0.0, std::sin(radians(elevation_deg)));
 }
 
-using Quantity = std::optional<double> WeatherValues::*;
-
-std::vector<Quantity> needed(WeatherSource source) {
-  switch (source) {
-    case WeatherSource::dni_and_dhi:
-      return {&WeatherValues::dni, &WeatherValues::dhi};
-    case WeatherSource::ghi_and_dhi:
-      return {&WeatherValues::ghi, &WeatherValues::dhi};
-    case WeatherSource::ghi_and_dni:
-      return {&WeatherValues::ghi, &WeatherValues::dni};
-    case WeatherSource::ghi_alone:
-      return {&WeatherValues::ghi};
-    case WeatherSource::none:
-      break;
-  }
-  return {};
-}
-
 /// A run of records without a value: [first, last).
 struct Gap {
   std::size_t first, last;
 };
 
-std::vector<Gap> gaps_of(const std::vector<DatedWeather>& weather, Quantity quantity) {
+std::vector<Gap> gaps_of(const std::vector<DatedWeather>& weather, WeatherQuantity quantity) {
   std::vector<Gap> gaps;
   for (std::size_t i = 0; i < weather.size(); ++i) {
     if (weather[i].values.*quantity) continue;
@@ -85,7 +67,7 @@ double mixed(const std::optional<Neighbour>& before, const std::optional<Neighbo
 /// The values that a gap is filled from; `weather` is as it was read.
 class GapFiller {
  public:
-  GapFiller(const std::vector<DatedWeather>& weather, Quantity quantity)
+  GapFiller(const std::vector<DatedWeather>& weather, WeatherQuantity quantity)
       : weather_(weather), quantity_(quantity) {}
 
   double linear(const Gap& gap, std::size_t at) const {
@@ -121,7 +103,7 @@ class GapFiller {
   }
 
   const std::vector<DatedWeather>& weather_;
-  Quantity quantity_;
+  WeatherQuantity quantity_;
 };
 
 /// Light of a record while the sun is up, as means over the whole record.
@@ -160,6 +142,27 @@ Irradiance divided(const WeatherValues& values, const SunInterval& when, Weather
 /// Without sun all of the global irradiance is diffuse.
 double dark_dhi(const WeatherValues& values) {
   return values.dhi ? *values.dhi : values.ghi.value_or(0);
+}
+
+/// Light of a record, by night as well: no beam then. Keeps a measured GHI.
+Irradiance mean_light(const WeatherValues& values, const SunInterval& when, WeatherSource source,
+                      Decomposition decomposition, double elevation_m) {
+  Irradiance mean;
+  if (when.up_s > 0) {
+    mean = divided(values, when, source, decomposition, elevation_m);
+  } else {
+    mean.dhi = dark_dhi(values);
+  }
+  mean.ghi =
+      values.ghi ? *values.ghi : mean.dni * sine_of_elevation(when.sun.elevation_deg) + mean.dhi;
+  return mean;
+}
+
+WeatherSource source_with(bool dni, bool dhi, bool ghi) {
+  if (dni && dhi) return WeatherSource::dni_and_dhi;
+  if (ghi && dhi) return WeatherSource::ghi_and_dhi;
+  if (ghi && dni) return WeatherSource::ghi_and_dni;
+  return ghi ? WeatherSource::ghi_alone : WeatherSource::none;
 }
 
 /// Squares of closure residuals with the sun of other times.
@@ -267,22 +270,49 @@ std::size_t first_out_of_order(const std::vector<DatedWeather>& weather) {
 }
 
 WeatherSource source_of(const std::vector<DatedWeather>& weather) {
-  const auto any = [&](Quantity quantity) {
+  const auto any = [&](WeatherQuantity quantity) {
     return std::any_of(weather.begin(), weather.end(),
                        [&](const DatedWeather& w) { return (w.values.*quantity).has_value(); });
   };
-  const bool dni = any(&WeatherValues::dni), dhi = any(&WeatherValues::dhi),
-             ghi = any(&WeatherValues::ghi);
-  if (dni && dhi) return WeatherSource::dni_and_dhi;
-  if (ghi && dhi) return WeatherSource::ghi_and_dhi;
-  if (ghi && dni) return WeatherSource::ghi_and_dni;
-  return ghi ? WeatherSource::ghi_alone : WeatherSource::none;
+  return source_with(any(&WeatherValues::dni), any(&WeatherValues::dhi), any(&WeatherValues::ghi));
+}
+
+WeatherSource source_of(const WeatherValues& values) {
+  return source_with(values.dni.has_value(), values.dhi.has_value(), values.ghi.has_value());
+}
+
+std::vector<WeatherQuantity> needed(WeatherSource source) {
+  switch (source) {
+    case WeatherSource::dni_and_dhi:
+      return {&WeatherValues::dni, &WeatherValues::dhi};
+    case WeatherSource::ghi_and_dhi:
+      return {&WeatherValues::ghi, &WeatherValues::dhi};
+    case WeatherSource::ghi_and_dni:
+      return {&WeatherValues::ghi, &WeatherValues::dni};
+    case WeatherSource::ghi_alone:
+      return {&WeatherValues::ghi};
+    case WeatherSource::none:
+      break;
+  }
+  return {};
 }
 
 bool is_incomplete(const WeatherValues& values, WeatherSource source) {
   const auto quantities = needed(source);
   return std::any_of(quantities.begin(), quantities.end(),
-                     [&](Quantity q) { return !(values.*q).has_value(); });
+                     [&](WeatherQuantity q) { return !(values.*q).has_value(); });
+}
+
+WeatherValues completed(const WeatherValues& values, const SunInterval& when,
+                        Decomposition decomposition, double elevation_m) {
+  const WeatherSource own = source_of(values);
+  SUNLOAD_EXPECT(own != WeatherSource::none, "light follows from the record's own values");
+  const Irradiance light = mean_light(values, when, own, decomposition, elevation_m);
+  WeatherValues all = values;
+  all.dni = values.dni.value_or(light.dni);
+  all.dhi = values.dhi.value_or(light.dhi);
+  all.ghi = values.ghi.value_or(light.ghi);
+  return all;
 }
 
 FilledWeather fill_missing(std::vector<DatedWeather> weather, WeatherSource source,
@@ -290,7 +320,7 @@ FilledWeather fill_missing(std::vector<DatedWeather> weather, WeatherSource sour
   FilledWeather filled;
   for (const auto& w : weather)
     if (is_incomplete(w.values, source)) ++filled.records;
-  for (const Quantity quantity : needed(source)) {
+  for (const WeatherQuantity quantity : needed(source)) {
     const auto gaps = gaps_of(weather, quantity);
     if (gaps.empty()) continue;
     const auto read = weather;
@@ -317,19 +347,12 @@ WeatherLight with_sun(const std::vector<DatedWeather>& weather, const SunPath& p
   for (std::size_t i = 0; i < path.size(); ++i) {
     const WeatherValues& values = weather[i].values;
     SUNLOAD_EXPECT(!is_incomplete(values, source), "missing values are filled or refused before");
-    Irradiance mean;
-    if (path[i].up_s > 0) {
-      mean = divided(values, path[i], source, decomposition, elevation_m);
-    } else {
-      mean.dhi = dark_dhi(values);
-      if (values.dni.value_or(0) > 0) {
-        ++light.dark_beams;
-        light.dropped_dni_wh_m2 += *values.dni * path[i].length_s() / seconds_per_hour;
-      }
+    if (path[i].up_s <= 0 && values.dni.value_or(0) > 0) {
+      ++light.dark_beams;
+      light.dropped_dni_wh_m2 += *values.dni * path[i].length_s() / seconds_per_hour;
     }
-    mean.ghi = values.ghi ? *values.ghi
-                          : mean.dni * sine_of_elevation(path[i].sun.elevation_deg) + mean.dhi;
-    light.intervals.push_back({path[i], mean});
+    light.intervals.push_back(
+        {path[i], mean_light(values, path[i], source, decomposition, elevation_m)});
   }
   return light;
 }

@@ -27,6 +27,9 @@ struct WeatherValues {
   std::optional<double> albedo{};  ///< of the ground, in (0, 1)
 };
 
+/// One of them.
+using WeatherQuantity = std::optional<double> WeatherValues::*;
+
 /// One row of a weather file, in local standard time.
 struct WeatherRecord {
   int year = 0;                   ///< 0: the format has none
@@ -68,9 +71,22 @@ enum class WeatherSource {
   ghi_alone,    ///< decomposed
   none
 };
+/// By what any of the records has.
 WeatherSource source_of(const std::vector<DatedWeather>& weather);
+/// By what a record has itself.
+WeatherSource source_of(const WeatherValues& values);
+/// Quantities that light of the source is made from.
+std::vector<WeatherQuantity> needed(WeatherSource source);
 /// Whether a value that the source needs is missing.
 bool is_incomplete(const WeatherValues& values, WeatherSource source);
+
+/// Models that divide global irradiance where nothing else is measured.
+enum class Decomposition { erbs, disc };
+
+/// A record with all three quantities: what it lacks follows from what it has (any source but
+/// `none`) and its sun, as it does in a file without that column.
+WeatherValues completed(const WeatherValues& values, const SunInterval& when,
+                        Decomposition decomposition, double elevation_m);
 
 /// Weather after `fill_missing`, and how much was missing.
 struct FilledWeather {
@@ -83,9 +99,6 @@ struct FilledWeather {
 /// weighted by their distance; zero: 0. With `refuse` nothing is filled, only counted.
 FilledWeather fill_missing(std::vector<DatedWeather> weather, WeatherSource source,
                            Missing missing);
-
-/// Models that divide global irradiance where nothing else is measured.
-enum class Decomposition { erbs, disc };
 
 /// Weather with its sun: DNI is 0 where the sun is not up. Stations have an open horizon: hills
 /// around the site are none of this file's business (`up_s` counts, not `sunlit_s`).

@@ -51,10 +51,9 @@ void read_weather(const std::string& path, Findings& found) {
   constexpr int any_leap_year = 2004;  // no record is left out
   const auto weather = dated(found.weather->records, any_leap_year, 0);
   found.weather_source = source_of(weather);
-  found.records_incomplete = static_cast<std::size_t>(
-      std::count_if(weather.begin(), weather.end(), [&](const DatedWeather& record) {
-        return is_incomplete(record.values, found.weather_source);
-      }));
+  found.records_incomplete = static_cast<std::size_t>(std::count_if(
+      weather.begin(), weather.end(),
+      [&](const DatedWeather& record) { return source_of(record.values) == WeatherSource::none; }));
 }
 
 /// By its ending: what is inside has been read by then.

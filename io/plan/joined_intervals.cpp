@@ -191,6 +191,12 @@ LitInterval joined(std::span<LitInterval> parts, Quantity quantity) {
   return whole;
 }
 
+/// Steps are counted from midnight by the time passed: they lie across hours of the clock where
+/// these are no whole number of them, and on days on which clocks change by half an hour.
+bool are_of_one_hour(const TimeSpan& before, const TimeSpan& behind, const TimeZone& zone) {
+  return clock_hours({before[0], behind[1]}, zone).size() == 1;
+}
+
 /// Ends of the runs of intervals that are to be one.
 std::vector<std::size_t> ends_of_runs(const LightSeries& series, double step_s,
                                       const TimeZone& zone) {
@@ -205,7 +211,8 @@ std::vector<std::size_t> ends_of_runs(const LightSeries& series, double step_s,
   std::vector<std::size_t> ends;
   for (std::size_t k = 0; k < spans.size(); ++k) {
     const bool goes_on = k + 1 < spans.size() && step_of[k] != none &&
-                         step_of[k] == step_of[k + 1] && meet(spans[k], spans[k + 1]);
+                         step_of[k] == step_of[k + 1] && meet(spans[k], spans[k + 1]) &&
+                         are_of_one_hour(spans[k], spans[k + 1], zone);
     if (!goes_on) ends.push_back(k + 1);
   }
   return ends;

@@ -17,9 +17,10 @@
 namespace sunload {
 
 /// Joins intervals that lie within one step of the site's clock (an hour at most, and a divisor of
-/// `output.series_step`) to one, which has them as its parts. Does so where the study asks for it,
-/// or leaves the choice open and it pays: from two thousand intervals with light, and four of them
-/// in a step, on. Other intervals stay as they are. Appends a note where any were joined.
+/// `output.series_step`) and within one of its hours to one, which has them as its parts. Does so
+/// where the study asks for it, or leaves the choice open and it pays: from two thousand intervals
+/// with light, and four of them in a step, on. Other intervals stay as they are. Appends a note
+/// where any were joined.
 void join_short_intervals(const Study& study, LightSeries& series);
 
 /// All that joining depends on beside the series, in words.

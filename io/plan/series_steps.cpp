@@ -27,8 +27,12 @@ std::vector<PeriodPart> parts_of(const SeriesStepStudy& step, const std::vector<
 
 class Steps {
  public:
-  Steps(const SeriesStepStudy& step, const LightSeries& light, const TimeZone& zone)
-      : step_(step), light_(light), zone_(zone), spans_(light.spans()) {}
+  Steps(const Study& study, const LightSeries& light, const TimeZone& zone)
+      : study_(study),
+        step_(study.output.series_step),
+        light_(light),
+        zone_(zone),
+        spans_(light.spans()) {}
 
   std::vector<SeriesStep> all() const {
     if (light_.times_are_synthetic)
@@ -68,6 +72,13 @@ class Steps {
                            const std::string& hint) const {
     throw InputError(step_.where, "output.series_step: " + word_of(step_) + ": " + what, why, hint);
   }
+  /// A period that is the file's own cannot begin elsewhere.
+  std::string whole_days_words() const {
+    if (std::holds_alternative<WeatherPeriod>(study_.period.kind))
+      return "write light.stamp: start or end if the file's times are those, or period.start, end "
+             "and step_min in place of year_of: weather";
+    return "begin the period so that intervals end at midnight";
+  }
   [[noreturn]] void refuse_cut(std::size_t k) const {
     refuse(
         "interval " + interval_words(k) + " lies in several steps",
@@ -76,8 +87,8 @@ class Steps {
             : fmt::format("a step is a {} of the site's clock, of whole intervals", word_of(step_)),
         step_.unit == Unit::minutes
             ? "write a multiple of the intervals' length, and begin the period at such a time"
-            : "begin the period so that intervals end at midnight, or write output.totals: [" +
-                  word_of(step_) + "], which shares them out");
+            : whole_days_words() + ", or write output.totals: [" + word_of(step_) +
+                  "], which shares them out");
   }
   [[noreturn]] void refuse_gap(std::size_t k) const {
     refuse(fmt::format("nothing is known between {} and {}, or it is known twice",
@@ -88,6 +99,7 @@ class Steps {
                : "write series_step: interval, or output.totals: [day], whose days may have gaps");
   }
 
+  const Study& study_;
   const SeriesStepStudy& step_;
   const LightSeries& light_;
   const TimeZone& zone_;
@@ -100,7 +112,7 @@ std::vector<SeriesStep> series_steps(const Study& study, const LightSeries& ligh
   const SeriesStepStudy& step = study.output.series_step;
   if (step.is_interval()) return {};
   const TimeZone zone(study.site.timezone);
-  return Steps(step, light, zone).all();
+  return Steps(study, light, zone).all();
 }
 
 }  // namespace sunload

@@ -3,6 +3,7 @@
 #include "io/plan/weather_light.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +43,48 @@ const char* source_words(WeatherSource source, Decomposition decomposition) {
       break;
   }
   return "nothing";
+}
+
+/// What a record lacks that others have, and how it follows.
+std::string completed_words(WeatherSource has, Decomposition decomposition) {
+  switch (has) {
+    case WeatherSource::dni_and_dhi:
+      return "have no GHI: it is DNI sin(elevation) + DHI";
+    case WeatherSource::ghi_and_dhi:
+      return "have no DNI: it is (GHI - DHI) / sin(elevation)";
+    case WeatherSource::ghi_and_dni:
+      return "have no DHI: it is GHI - DNI sin(elevation)";
+    case WeatherSource::ghi_alone:
+      return std::string("have GHI alone: ") + source_words(has, decomposition);
+    case WeatherSource::none:
+      break;
+  }
+  return "have nothing";
+}
+
+const char* name_of(WeatherQuantity quantity) {
+  if (quantity == &WeatherValues::dni) return "DNI";
+  return quantity == &WeatherValues::dhi ? "DHI" : "GHI";
+}
+
+/// "DNI 12, DHI 3"
+std::string lacking_words(const std::vector<DatedWeather>& weather, WeatherSource source) {
+  std::vector<std::string> words;
+  for (const WeatherQuantity quantity : needed(source)) {
+    const auto lacking = std::count_if(weather.begin(), weather.end(), [&](const DatedWeather& w) {
+      return !(w.values.*quantity).has_value();
+    });
+    if (lacking > 0) words.push_back(fmt::format("{} {}", name_of(quantity), lacking));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// "DNI and DHI are"
+std::string missing_words(const WeatherValues& values, WeatherSource source) {
+  std::vector<std::string> names;
+  for (const WeatherQuantity quantity : needed(source))
+    if (!(values.*quantity).has_value()) names.push_back(name_of(quantity));
+  return fmt::format("{} {}", fmt::join(names, " and "), names.size() == 1 ? "is" : "are");
 }
 
 /// The records that overlap an interval of the path. What lies between its days is nobody's.
@@ -187,16 +230,10 @@ std::vector<Irradiance> StudyWeather::means(const SunPath& path) {
     date_for(path);
     fill_holes_in(path);
   }
-  source_ = source_of(dated_);
-  words_.push_back(source_words(source_, study_.light.decomposition));
-  if (source_ == WeatherSource::none)
-    throw InputError({file_.path}, "has no irradiance that light could be made from",
-                     "all values of GHI, DNI and DHI are missing");
-  const auto filled = fill_missing(dated_, source_, study_.light.missing).weather;
   const auto as_read = used_by(path, dated_);
-  say_filled(fill_missing(as_read, source_, Missing::refuse), as_read.size());
-  const auto used = used_by(path, filled);
-  if (used.empty()) refuse_uncovered(path.front());
+  if (as_read.empty()) refuse_uncovered(path.front());
+  choose_source(as_read);
+  const auto used = without_gaps(as_read, path);
   const bool own = are_same(used, path);
   const SunPath weather_path =
       own && study_.site.horizon.is_open()
@@ -218,6 +255,53 @@ std::vector<Irradiance> StudyWeather::means(const SunPath& path) {
   const Resampled resampled = resample(light.intervals, path);
   expect_covered(path, resampled.uncovered);
   return resampled.mean;
+}
+
+/// From what the period uses: a value elsewhere is no column. Where that has nothing, other days
+/// may fill it.
+void StudyWeather::choose_source(const std::vector<DatedWeather>& used) {
+  source_ = source_of(used);
+  if (source_ == WeatherSource::none) source_ = source_of(dated_);
+  words_.push_back(source_words(source_, study_.light.decomposition));
+  if (source_ == WeatherSource::none)
+    throw InputError({file_.path}, "has no irradiance that light could be made from",
+                     "all values of GHI, DNI and DHI are missing");
+}
+
+std::vector<DatedWeather> StudyWeather::without_gaps(std::vector<DatedWeather> used,
+                                                     const SunPath& path) {
+  for (const auto& [has, records] : complete(used))
+    warnings_.push_back(fmt::format("weather: {} of {} records {}", records, used.size(),
+                                    completed_words(has, study_.light.decomposition)));
+  const FilledWeather gaps = fill_missing(used, source_, Missing::refuse);
+  if (gaps.records == 0) return used;
+  say_filled(gaps);
+  auto all = dated_;  // neighbours may lie outside of the period
+  complete(all);
+  return used_by(path, fill_missing(std::move(all), source_, study_.light.missing).weather);
+}
+
+std::map<WeatherSource, std::size_t> StudyWeather::complete(
+    std::vector<DatedWeather>& weather) const {
+  std::vector<std::size_t> places;
+  std::vector<DatedWeather> lacking;
+  for (std::size_t i = 0; i < weather.size(); ++i) {
+    const WeatherValues& values = weather[i].values;
+    if (!is_incomplete(values, source_) || source_of(values) == WeatherSource::none) continue;
+    places.push_back(i);
+    lacking.push_back(weather[i]);
+  }
+  if (lacking.empty()) return {};
+  const SunPath path =
+      sun_path(steps_of(lacking), site_, study_.sun.refraction, study_.sun.ut1_utc);
+  std::map<WeatherSource, std::size_t> records;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const WeatherValues& values = lacking[k].values;
+    ++records[source_of(values)];
+    weather[places[k]].values =
+        completed(values, path[k], study_.light.decomposition, site_.elevation_m);
+  }
+  return records;
 }
 
 void StudyWeather::expect_covered(const SunPath& path, const std::vector<std::size_t>& uncovered) {
@@ -302,10 +386,10 @@ void StudyWeather::say_file() {
         file_.place->name, away / 1000));
 }
 
-void StudyWeather::say_filled(const FilledWeather& gaps, std::size_t used) {
-  if (gaps.records == 0) return;
+void StudyWeather::say_filled(const FilledWeather& gaps) {
   const std::string count =
-      fmt::format("{} of {} records lack a value, the longest gap has {:.4g} h", gaps.records, used,
+      fmt::format("{} of {} records lack a value: {}; the longest gap has {:.4g} h", gaps.records,
+                  gaps.weather.size(), lacking_words(gaps.weather, source_),
                   gaps.longest_gap_s / seconds_per_hour);
   if (study_.light.missing == Missing::refuse) {
     const auto first =
@@ -320,7 +404,8 @@ void StudyWeather::say_filled(const FilledWeather& gaps, std::size_t used) {
     if (hole != filled_holes_.end())
       throw InputError({file_.path, hole->line, 0}, "rows are missing before this one",
                        words_of(*hole) + "; in all " + count, hint);
-    throw InputError({file_.path, first->line, 0}, "irradiance is missing here", count, hint);
+    throw InputError({file_.path, first->line, 0},
+                     missing_words(first->values, source_) + " missing here", count, hint);
   }
   warnings_.push_back(
       "weather: " + count +

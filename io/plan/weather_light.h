@@ -3,6 +3,7 @@
 /// The weather file of a study as light on its intervals.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -49,10 +50,14 @@ class StudyWeather {
   void fill_holes_in(const SunPath& path);
   double offset_s(int year) const;
   int first_year() const;
-  WeatherLight sunny(std::vector<DatedWeather> used, const SunPath& path);
+  void choose_source(const std::vector<DatedWeather>& used);
+  /// `used`: by the path, as read.
+  std::vector<DatedWeather> without_gaps(std::vector<DatedWeather> used, const SunPath& path);
+  /// Records that lack something which follows from what else they have; how many, by that.
+  std::map<WeatherSource, std::size_t> complete(std::vector<DatedWeather>& weather) const;
   void say_file();
   void say_closure(const std::vector<DatedWeather>& used, const SunPath& path);
-  void say_filled(const FilledWeather& gaps, std::size_t used);
+  void say_filled(const FilledWeather& gaps);
   void say_missing_days(const std::vector<WeatherHole>& holes);
   std::string in_file_time(UnixTime time) const;
   std::string words_of(const WeatherHole& hole) const;

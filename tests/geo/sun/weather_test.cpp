@@ -157,6 +157,27 @@ TEST(SunnyWeather, TwoOfThreeQuantitiesGiveTheThird) {
   }
 }
 
+/// Bit by bit what a file has that lacks the column throughout, at night and at sunrise, too.
+TEST(SunnyWeather, RecordsAreCompletedAsWholeFilesAre) {
+  auto weather = dated(hours(2001, 6, 21, 24, {}), 2001, 0);
+  const auto path = path_of(weather);
+  for (const WeatherValues& values :
+       {WeatherValues{{}, 80, 300}, {500, {}, 600}, {500, 80, {}}, {{}, {}, 300}}) {
+    for (auto& w : weather) w.values = values;
+    const WeatherSource source = source_of(values);
+    ASSERT_EQ(source, source_of(weather));
+    const auto whole = with_sun(weather, path, source, Decomposition::erbs, 200);
+    for (std::size_t i = 0; i < path.size(); ++i)
+      weather[i].values = completed(values, path[i], Decomposition::erbs, 200);
+    const auto each = with_sun(weather, path, WeatherSource::dni_and_dhi, Decomposition::erbs, 200);
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      EXPECT_EQ(each.intervals[i].mean.dni, whole.intervals[i].mean.dni) << i;
+      EXPECT_EQ(each.intervals[i].mean.dhi, whole.intervals[i].mean.dhi) << i;
+      EXPECT_EQ(each.intervals[i].mean.ghi, whole.intervals[i].mean.ghi) << i;
+    }
+  }
+}
+
 TEST(SunnyWeather, GlobalIrradianceIsDividedAndKept) {
   const auto weather = dated(hours(2001, 6, 21, 24, {{}, {}, 300}), 2001, 0);
   const auto path = path_of(weather);

@@ -227,6 +227,20 @@ TEST(Init, RowsThatAreMissingAreMadeOfTheirNeighbours) {
   EXPECT_NE(text.find("1 records lack a value or a row"), std::string::npos) << text;
 }
 
+/// They lack nothing that does not follow.
+TEST(Init, RowsThatHaveTwoOfThreeQuantitiesAreComplete) {
+  const WorkFolder folder;
+  std::string csv =
+      "# latitude_deg: 50\n# longitude_deg: 14\n# utc_offset: +01:00\n"
+      "time,dni_w_m2,dhi_w_m2,ghi_w_m2\n";
+  for (int hour = 1; hour <= 24; ++hour)
+    csv += fmt::format("2026-06-21T{:02}:00,{},40,90\n", hour, hour == 11 ? "100" : "");
+  const auto [study, text] = begun(
+      folder, {.model = folder.write("box.obj", box), .weather = folder.write("two.csv", csv)});
+  EXPECT_EQ(study.light.missing, Missing::refuse);
+  EXPECT_EQ(text.find("lack a value"), std::string::npos) << text;
+}
+
 /// 0xe9 is é in Latin-1.
 TEST(Init, FilesThatAStudyCannotNameAreToldAsSuch) {
   const WorkFolder folder;

@@ -9,6 +9,8 @@
 #include <numeric>
 
 #include "geo/base/units.h"
+#include "geo/time/period_parts.h"
+#include "geo/time/time.h"
 #include "io/plan/interval_lights.h"
 #include "io/plan/series_steps.h"
 #include "tests/support/study_plan.h"
@@ -53,8 +55,8 @@ TEST(SeriesSteps, OfOneIntervalEachAreTheIntervals) {
 
 TEST(JoinedIntervals, AreOfStepsThatAreShorterThanAnHour) {
   EXPECT_EQ(plan_with("", "series_step: 20 min").light.intervals.size(), 3 * 72u);
-  // An hour is no divisor of these, three quarters are.
-  EXPECT_EQ(plan_with("", "series_step: 90 min").light.intervals.size(), 96u);
+  // An hour is no divisor of these, three quarters are, cut at full hours.
+  EXPECT_EQ(plan_with("", "series_step: 90 min").light.intervals.size(), 144u);
   EXPECT_EQ(plan_with("", "series: none").light.intervals.size(), 72u);
 }
 
@@ -149,6 +151,20 @@ TEST(JoinedIntervals, HaveTheLightOfTheirParts) {
 // Of which a low sun has less for its watts.
 TEST(JoinedIntervals, HaveTheLumensOfTheirParts) {
   expect_light_of_parts("source: clear_sky, quantity: illuminance", 1e5);
+}
+
+/// Clocks go back by half an hour there: steps from midnight lie across hours from then on.
+TEST(JoinedIntervals, LieInOneHourOfTheClockWhereClocksChangeByHalfAnHour) {
+  const VariantPlan plan = plan_of(
+      "format: sunload-study-1\nname: t\n"
+      "site: {latitude_deg: -31.5, longitude_deg: 159.1, timezone: Australia/Lord_Howe}\n"
+      "period: {start: 2026-04-04, end: 2026-04-07, step_min: 1}\nlight: {source: clear_sky}\n"
+      "scene: {builtin: {name: street}}\nsolver: {short_intervals: together}\n"
+      "output: {series: none}\n");
+  // From the third hour of 5 April on, steps and hours cut each other in half.
+  EXPECT_EQ(plan.light.intervals.size(), 24u + 47u + 24u);
+  const TimeZone zone("Australia/Lord_Howe");
+  for (const TimeSpan& span : plan.light.spans()) EXPECT_EQ(clock_hours(span, zone).size(), 1u);
 }
 
 TEST(JoinedIntervals, EndAtGapsAndAtTheEndOfThePeriod) {

@@ -82,6 +82,20 @@ TEST(SeriesSteps, MayBeCutByThePeriodAndByTheClock) {
   EXPECT_EQ(night.front().sun, 6U);
 }
 
+/// A year that is the file's own cannot begin elsewhere.
+TEST(SeriesSteps, TellWhatHelpsWhereIntervalsOfAFileLieAcrossMidnight) {
+  const auto refused = [](const PeriodStudy& period) {
+    Study study = with_step(Unit::day);
+    study.period = period;
+    return refusal_of([&] { series_steps(study, intervals(at(6, 1) - 300, at(6, 3), 600)); });
+  };
+  PeriodStudy own;
+  own.kind = WeatherPeriod{};
+  EXPECT_NE(refused(own).find("light.stamp: start or end"), std::string::npos) << refused(own);
+  EXPECT_EQ(refused(own).find("begin the period"), std::string::npos) << refused(own);
+  EXPECT_NE(refused({}).find("begin the period"), std::string::npos) << refused({});
+}
+
 TEST(SeriesSteps, RefuseWhatTheyAreNotMadeOf) {
   const auto refused = [](Unit unit, int minutes, const LightSeries& light) {
     return refusal_of([&] { series_steps(with_step(unit, minutes), light); });

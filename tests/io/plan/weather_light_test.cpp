@@ -164,7 +164,7 @@ TEST(WeatherLight, ActualYearsKeepTheirDates) {
   SUNLOAD_NEEDS_MODEL(weather_folder + "zurich_sma_2016_leap.epw");
   const std::string zurich = shared("zurich_sma_2016_leap.epw");
   const auto missing = refused(weather_study("", "year_of: weather", zurich));
-  EXPECT_NE(missing.find("epw:7201: irradiance is missing here (120 of 8784 records"),
+  EXPECT_NE(missing.find("epw:7201: DNI and DHI are missing here (120 of 8784 records"),
             std::string::npos)
       << missing;
   const auto leap_day = series_of(weather_study("timezone: UTC", "days: [2016-02-29]", zurich));
@@ -176,7 +176,9 @@ TEST(WeatherLight, ActualYearsKeepTheirDates) {
     const auto filled =
         series_of(weather_study("", "year_of: weather", zurich + ", missing: " + how));
     EXPECT_EQ(filled.intervals.size(), 8784u);
-    EXPECT_TRUE(tells(filled.notes, "120 of 8784 records lack a value, the longest gap has 120 h"));
+    EXPECT_TRUE(tells(filled.notes,
+                      "120 of 8784 records lack a value: DNI 120, DHI 120; the longest gap has "
+                      "120 h"));
     double light = 0;
     for (std::size_t i = 7200; i < 7312; ++i) light += filled.intervals[i].mean.dhi;
     EXPECT_EQ(light > 0, std::string(how) == "interpolate");
@@ -220,7 +222,8 @@ TEST(WeatherLight, RowsThatAreMissingWithinADayAreMissingValues) {
   ASSERT_EQ(zero.intervals.size(), 72u);
   EXPECT_EQ(zero.intervals[9].mean.dni, 0);
   EXPECT_TRUE(
-      tells(zero.notes, "2 of 72 records lack a value, the longest gap has 2 h; 0 is taken"));
+      tells(zero.notes,
+            "2 of 72 records lack a value: DNI 2, DHI 2; the longest gap has 2 h; 0 is taken"));
   EXPECT_TRUE(tells(zero.notes, "2 of them have no row"));
   const auto filled = series_of(with("year_of: weather", ", missing: interpolate"));
   ASSERT_EQ(filled.intervals.size(), 72u);
@@ -244,6 +247,82 @@ TEST(WeatherLight, ValuesThatAreMissingBetweenTheDaysOfThePeriodAreNoOnes) {
   EXPECT_EQ(around.intervals[36].mean.dni, 100);
   EXPECT_FALSE(tells(around.notes, "lack a value"));
   EXPECT_NE(refused(of("[2026-06-20, 2026-06-21]")).find("(1 of 48 records"), std::string::npos);
+}
+
+/// Three days of hours. Hours in [from, to) have `other` values, all others `values`: DNI, DHI,
+/// GHI.
+std::string csv_of_two(const std::string& values, const std::string& other, int from, int to) {
+  std::string text = roof + "time,dni_w_m2,dhi_w_m2,ghi_w_m2\n";
+  for (int h = 0; h < 72; ++h)
+    text += fmt::format("2026-06-{:02}T{:02}:00,{}\n", 20 + h / 24, h % 24,
+                        h >= from && h < to ? other : values);
+  return text;
+}
+
+LightSeries series_of_two(const std::string& values, const std::string& other, int from, int to,
+                          const std::string& missing = "") {
+  write_text("two.csv", csv_of_two(values, other, from, to));
+  return series_of(weather_study("timezone: UTC", "year_of: weather",
+                                 "weather: two.csv, stamp: start" + missing));
+}
+
+bool is_same(const Irradiance& a, const Irradiance& b) {
+  return a.dni == b.dni && a.dhi == b.dhi && a.ghi == b.ghi;
+}
+
+/// As a file does that lacks the column throughout, whatever `missing` says.
+TEST(WeatherLight, RecordsThatHaveTwoOfThreeQuantitiesLackNothing) {
+  for (const auto& [values, words] : std::vector<std::pair<std::string, std::string>>{
+           {",80,300", "71 of 72 records have no DNI: it is (GHI - DHI) / sin(elevation)"},
+           {"250,,300", "71 of 72 records have no DHI: it is GHI - DNI sin(elevation)"},
+           {",,300", "71 of 72 records have GHI alone: GHI divided into DNI and DHI after Erbs"}}) {
+    const auto whole = series_of_two(values, values, 0, 0);
+    EXPECT_TRUE(whole.notes.empty());
+    for (const char* missing : {"", ", missing: interpolate", ", missing: zero"}) {
+      const auto mixed = series_of_two(values, "200,90,260", 12, 13, missing);
+      ASSERT_EQ(mixed.intervals.size(), 72u);
+      for (std::size_t i = 0; i < 72; ++i)
+        EXPECT_EQ(is_same(mixed.intervals[i].mean, whole.intervals[i].mean), i != 12) << i;
+      EXPECT_EQ(mixed.intervals[12].mean.dni, 200);
+      EXPECT_TRUE(tells(mixed.notes, words)) << values;
+      EXPECT_FALSE(tells(mixed.notes, "lack a value"));
+    }
+  }
+}
+
+/// Neighbours are completed before others are filled from them.
+TEST(WeatherLight, WhatIsLeftIsFilledFromCompletedRecords) {
+  write_text("two.csv", [] {
+    std::string text = csv_of_two(",40,90", "50,40,90", 0, 1);
+    const std::string row = "2026-06-21T11:00,";
+    text.replace(text.find(row), row.size() + 6, row + ",40,");
+    return text;
+  }());
+  const auto study = [](const std::string& missing) {
+    return weather_study("timezone: UTC", "days: [2026-06-21]",
+                         "weather: two.csv, stamp: start" + missing);
+  };
+  const auto light = series_of(study(", missing: interpolate"));
+  // The period lacks DNI throughout: GHI is what is filled.
+  EXPECT_TRUE(tells(light.notes, "1 of 24 records lack a value: GHI 1; the longest gap has 1 h"));
+  EXPECT_NEAR(light.intervals[10].mean.ghi, 90, 1e-9);
+  const std::string why = refused(study(""));
+  EXPECT_NE(why.find("GHI is missing here (1 of 24 records"), std::string::npos) << why;
+}
+
+/// One value of another day makes no column.
+TEST(WeatherLight, SourceIsThatOfTheRecordsOfThePeriod) {
+  write_text("two.csv", csv_of_two(",80,300", "200,90,260", 60, 61));
+  const auto light = series_of(
+      weather_study("timezone: UTC", "days: [2026-06-21]", "weather: two.csv, stamp: start"));
+  EXPECT_TRUE(tells(light.weather, "DHI as it is, DNI = (GHI - DHI) / sin(elevation)"));
+  EXPECT_TRUE(light.notes.empty());
+  // Where it has nothing, other days tell what is filled.
+  write_text("two.csv", csv_of_two("200,90,", ",,", 20, 50));
+  const auto filled =
+      series_of(weather_study("timezone: UTC", "days: [2026-06-21]",
+                              "weather: two.csv, stamp: start, missing: interpolate"));
+  EXPECT_NEAR(filled.intervals[12].mean.dni, 200, 1e-9);
 }
 
 /// As in files that are filtered by irradiance: the sun of 21 June rises at 03:53 and sets at
