@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "geo/base/units.h"
+#include "geo/edit/raised_outline.h"
 #include "geo/mesh/slope.h"
 #include "geo/mesh/surface_kind.h"
 
@@ -165,6 +167,49 @@ void lift(PolygonModel& model, ObjectId object, double level_m, double by_m) {
   });
 }
 
+RaisedOutline outline_of(const std::vector<LooseFace>& faces, const std::vector<Leaning>& leaning,
+                         const std::vector<const Leaning*>& roofs, double level_m, double by_m) {
+  LiftedBody body{faces, std::vector<std::uint8_t>(faces.size()),
+                  std::vector<std::uint8_t>(faces.size()), level_m, by_m};
+  const auto place = [&](const Leaning& each) {
+    return static_cast<std::size_t>(each.face - faces.data());
+  };
+  for (const Leaning& each : leaning) body.leans[place(each)] = 1;
+  for (const Leaning* roof : roofs) body.is_roof[place(*roof)] = 1;
+  return raised_outline(body);
+}
+
+/// What is known of an object's largest wall, for one more; of an object without any the object.
+PolygonModel::Facts facts_of_walls(const std::vector<LooseFace>& faces,
+                                   const std::vector<Leaning>& leaning) {
+  PolygonModel::Facts facts{.object = faces.front().facts.object};
+  double largest = 0;
+  for (const LooseFace& face : faces) {
+    const Surface surface = face.facts.surface;
+    const bool leans = std::any_of(leaning.begin(), leaning.end(),
+                                   [&](const Leaning& each) { return each.face == &face; });
+    const double area = norm(area_vector2(face));
+    if (leans || area <= largest || (surface != Surface::wall && surface != Surface::other))
+      continue;
+    largest = area;
+    facts = face.facts;
+  }
+  facts.surface = Surface::wall;
+  return facts;
+}
+
+void add_walls(PolygonModel& model, const std::vector<std::vector<Vec3>>& walls,
+               const PolygonModel::Facts& facts) {
+  for (const auto& wall : walls) {
+    std::vector<std::int32_t> ring;
+    for (const Vec3 v : wall) {
+      ring.push_back(static_cast<std::int32_t>(model.vertices.size()));
+      model.vertices.push_back(v);
+    }
+    model.add_polygon({ring}, facts);
+  }
+}
+
 }  // namespace
 
 std::optional<double> eaves_of(const std::vector<LooseFace>& faces) {
@@ -208,7 +253,14 @@ RaisedObject raise_object(PolygonModel& model, ObjectId object, double by_m,
                   "what is lifted would come below what stays");
   for (const auto& face : faces)
     if (face.facts.surface == Surface::window && is_cut(face, raised.level_m)) ++raised.windows_cut;
+  const RaisedOutline outline = outline_of(faces, leaning, roofs, raised.level_m, by_m);
+  raised.outline_m = outline.length_m;
+  raised.bare_m = outline.bare_m;
   lift(model, object, raised.level_m, by_m);
+  raised.is_lifted = true;
+  if (outline.walls.empty()) return raised;
+  raised.added_m = outline.bare_m;
+  add_walls(model, outline.walls, facts_of_walls(faces, leaning));
   return raised;
 }
 

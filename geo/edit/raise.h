@@ -26,12 +26,18 @@ struct RaisedObject {
   double level_m = 0;           ///< corners at and above are lifted: `cut_m` less rounding of files
   std::size_t windows_cut = 0;  ///< faces of kind window that become higher
   std::string refusal, reason;  ///< what cannot be done, and why; empty: it is done
+  bool is_lifted = false;
+  double outline_m = 0;  ///< of what is lifted, in plan
+  double bare_m = 0;     ///< of that, where no wall went across the cut
+  double added_m = 0;    ///< of that, where walls were added (raised_outline.h)
 };
 
 /// Lifts all corners of an object at and above `cut_m` (absent: the eaves) by `by_m`; the lower
-/// ones stay. Corners keep their neighbours: closed bodies stay closed, upright walls plane.
-/// Changes nothing where it refuses: no roof, a roof that reaches down to the foot, a cut through a
-/// roof, or, with `by_m` below 0, walls that would vanish.
+/// ones stay. Corners keep their neighbours: closed bodies stay closed, upright walls plane. Where
+/// the outline of what rises had no wall, as between terraced houses, it gets upright ones of the
+/// kind and material of the object's others, from the old to the new height. Changes nothing where
+/// it refuses: no roof, a roof that reaches down to the foot, a cut through a roof, or, with `by_m`
+/// below 0, walls that would vanish.
 RaisedObject raise_object(PolygonModel& model, ObjectId object, double by_m,
                           std::optional<double> cut_m);
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "geo/base/unused_name.h"
@@ -120,13 +121,14 @@ class SceneEditor {
     return first;
   }
 
-  void tell(const std::string& what, const std::vector<std::string>& names) {
+  void tell(const std::string& what, const std::vector<std::string>& names,
+            const std::string& besides = {}) {
     const auto shown =
         names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), most_told));
-    model_.notes.push_back(fmt::format("scene.edit[{}]: {} {} object{}: {}{}", number_, what,
+    model_.notes.push_back(fmt::format("scene.edit[{}]: {} {} object{}: {}{}{}", number_, what,
                                        names.size(), names.size() == 1 ? "" : "s",
                                        fmt::join(names.begin(), shown, ", "),
-                                       names.size() > most_told ? ", …" : ""));
+                                       names.size() > most_told ? ", …" : "", besides));
   }
 
   // --- what it does -----------------------------------------------------------------------
@@ -155,11 +157,52 @@ class SceneEditor {
       if (stays) all[o] = 0;
       windows += raised[o].windows_cut;
     }
-    tell(fmt::format("raises by {:g} m", raise.by_m), names_of(all));
+    tell(fmt::format("raises by {:g} m", raise.by_m), names_of(all), cuts_in_words(raised));
+    tell_bare(raise, raised);
     if (windows > 0)
       model_.notes.push_back(fmt::format(
           "scene.edit[{}]: {} window face{} where the walls are extended become{} higher", number_,
           windows, windows == 1 ? "" : "s", windows == 1 ? "s" : ""));
+  }
+
+  /// Where the objects were cut, and the walls that they got: " (cut at z = 6 m; walls added along
+  /// 20 of 32 m)".
+  static std::string cuts_in_words(const std::vector<RaisedObject>& raised) {
+    double lowest = std::numeric_limits<double>::max(), highest = -lowest;
+    double outline_m = 0, added_m = 0;
+    for (const RaisedObject& each : raised) {
+      if (!each.is_lifted) continue;
+      lowest = std::min(lowest, each.cut_m);
+      highest = std::max(highest, each.cut_m);
+      outline_m += each.outline_m;
+      added_m += each.added_m;
+    }
+    if (lowest > highest) return {};
+    const auto in_cm = [](double z) { return fmt::format("{:g}", std::round(100 * z) / 100); };
+    const std::string low = in_cm(lowest), high = in_cm(highest);
+    std::string words = " (cut at z = " + low + (low == high ? "" : " … " + high) + " m";
+    if (added_m > 0)
+      words += fmt::format("; walls added along {:.4g} of {:.4g} m", added_m, outline_m);
+    return words + ")";
+  }
+
+  /// Outlines that stay open.
+  void tell_bare(const RaiseEdit& raise, const std::vector<RaisedObject>& raised) {
+    constexpr double worth_telling_m = 1;
+    std::vector<std::string> names;
+    double outline_m = 0, bare_m = 0;
+    for (std::size_t o = 0; o < raised.size(); ++o) {
+      const double bare = raised[o].bare_m - raised[o].added_m;
+      if (bare < worth_telling_m) continue;
+      names.push_back(model_.object_names[o]);
+      outline_m += raised[o].outline_m;
+      bare_m += bare;
+    }
+    if (names.empty()) return;
+    tell(raise.by_m > 0
+             ? "leaves the outline open, as there is no floor to tell inside from outside,"
+             : "lowers along lines without a wall, where neighbours may stand open now,",
+         names, fmt::format(" (along {:.4g} of {:.4g} m)", bare_m, outline_m));
   }
 
   /// Throws where one cannot be raised, but for parts of buildings that end below from_m while

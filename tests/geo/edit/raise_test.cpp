@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "geo/edit/solids.h"
@@ -163,6 +164,178 @@ TEST(Raise, TakesWhatHangsUnderTheRoofAlongAndLeavesBalconies) {
   EXPECT_NEAR(eaves_of(faces).value_or(0), 9, rounding);
   EXPECT_EQ(raise_object(model, make_id<ObjectId>(0), 3, {}).refusal, "");
   expect_closed(model, 2, 10 * 10 * 12 + 12 * 12 * 0.3 + 3 * 0.2);
+}
+
+// --- houses in a row, whose party walls are in no model ---------------------------------
+
+/// 6 m along x, 10 m along y and 6 m high: floor, roof, and walls to the south and north alone.
+ModelBuilder terraced() {
+  const auto faces = ModelBuilder::box_faces({0, 0, 0}, {6, 10, 6});
+  ModelBuilder builder;
+  builder.object("b");
+  for (std::size_t k = 0; k < 4; ++k) builder.ring(faces[k]);
+  return builder;
+}
+
+struct Walls {
+  double area_m2 = 0;  ///< of upright faces
+  Vec3 sum;            ///< of their area vectors
+};
+Walls walls_of(const PolygonModel& model) {
+  Walls walls;
+  for (const LooseFace& face : faces_of(model, make_id<ObjectId>(0))) {
+    const Vec3 area = area_vector2(face) / 2;
+    if (std::abs(area.z) > rounding) continue;
+    walls.area_m2 += norm(area);
+    walls.sum += area;
+  }
+  return walls;
+}
+struct Grown {
+  RaisedObject raised;
+  double wall_m2;  ///< by so much the walls have grown
+  Vec3 sum;
+};
+Grown grown(ModelBuilder builder, double by_m, std::optional<double> cut_m = {}) {
+  PolygonModel model = builder.model();
+  const Walls before = walls_of(model);
+  const RaisedObject raised = raise_object(model, make_id<ObjectId>(0), by_m, cut_m);
+  EXPECT_EQ(raised.refusal, "");
+  const Walls after = walls_of(model);
+  return {raised, after.area_m2 - before.area_m2, after.sum - before.sum};
+}
+void expect_lengths(const RaisedObject& raised, double outline, double bare, double added) {
+  constexpr double in_cm = 0.02;  // joints closer than a centimetre are one
+  EXPECT_NEAR(raised.outline_m, outline, in_cm);
+  EXPECT_NEAR(raised.bare_m, bare, in_cm);
+  EXPECT_NEAR(raised.added_m, added, in_cm);
+}
+
+TEST(RaiseInARow, AddsTheWallsThatAreInNoModel) {
+  const Grown b = grown(terraced(), 6);
+  expect_lengths(b.raised, 32, 20, 20);
+  EXPECT_NEAR(b.wall_m2, 32 * 6, rounding);
+  EXPECT_NEAR(norm(b.sum), 0, rounding) << "their fronts are outward";
+  // As high as what they close, of the kind of walls, the object's own.
+  PolygonModel model = terraced().model();
+  raise_object(model, make_id<ObjectId>(0), 6, {});
+  const auto faces = faces_of(model, make_id<ObjectId>(0));
+  ASSERT_EQ(faces.size(), 6u);
+  for (std::size_t f = 4; f < 6; ++f) {
+    EXPECT_EQ(faces[f].facts.surface, Surface::wall);
+    for (const Vec3 v : faces[f].rings[0]) EXPECT_TRUE(v.z == 6 || v.z == 12);
+  }
+}
+
+TEST(RaiseInARow, AddsNothingToClosedHouses) {
+  expect_lengths(grown(house(), 3).raised, 0, 0, 0);
+  ModelBuilder in_parts;  // corners of the roof in the middle of the walls' edges
+  const auto faces = ModelBuilder::box_faces({0, 0, 0}, {6, 10, 6});
+  in_parts.object("a");
+  for (std::size_t k = 0; k < 6; ++k)
+    if (k != 1) in_parts.ring(faces[k]);
+  in_parts.ring({{0, 0, 6}, {6, 0, 6}, {6, 4, 6}, {0, 4, 6}});
+  in_parts.ring({{0, 4, 6}, {6, 4, 6}, {6, 10, 6}, {0, 10, 6}});
+  const Grown a = grown(in_parts, 6);
+  expect_lengths(a.raised, 32, 0, 0);
+  EXPECT_NEAR(a.wall_m2, 32 * 6, rounding);
+}
+
+TEST(RaiseInARow, LeavesOutWhatHasAWall) {
+  // A neighbour that is less deep and 4 m high: the wall above and beside it.
+  ModelBuilder builder = terraced();
+  builder.ring({{6, 4, 0}, {6, 10, 0}, {6, 10, 6}, {6, 4, 6}});
+  expect_lengths(grown(builder, 6).raised, 32, 14, 14);
+  builder.ring({{6, 0, 4}, {6, 4, 4}, {6, 4, 6}, {6, 0, 6}});
+  const Grown b = grown(builder, 6);
+  expect_lengths(b.raised, 32, 10, 10);
+  EXPECT_NEAR(b.wall_m2, 32 * 6, rounding);
+}
+
+TEST(RaiseInARow, FollowsTheRoofOfTheNeighbour) {
+  // The neighbour's roof rises from 4 m in the south to 8 m in the north; the house has 8 m.
+  ModelBuilder builder;
+  const auto faces = ModelBuilder::box_faces({0, 0, 0}, {6, 10, 9});
+  builder.object("b");
+  for (std::size_t k = 0; k < 5; ++k) builder.ring(faces[k]);
+  builder.ring({{6, 0, 4}, {6, 10, 8}, {6, 10, 9}, {6, 0, 9}});
+  const Grown b = grown(builder, 6, 6);
+  EXPECT_NEAR(b.wall_m2, 32 * 6, rounding);
+  EXPECT_NEAR(norm(b.sum), 0, rounding);
+}
+
+TEST(RaiseInARow, ClosesBelowGablesAndSlopesOfRoofs) {
+  // Eaves at 5 m, ridge at 8 m; to the east what a neighbour of 6 m leaves free of the gable.
+  ModelBuilder builder;
+  builder.object("b")
+      .ring({{0, 6, 0}, {10, 6, 0}, {10, 0, 0}, {0, 0, 0}})
+      .ring({{0, 0, 0}, {10, 0, 0}, {10, 0, 5}, {0, 0, 5}})
+      .ring({{10, 6, 0}, {0, 6, 0}, {0, 6, 5}, {10, 6, 5}})
+      .ring({{0, 0, 5}, {10, 0, 5}, {10, 3, 8}, {0, 3, 8}})
+      .ring({{10, 6, 5}, {0, 6, 5}, {0, 3, 8}, {10, 3, 8}})
+      .ring({{10, 1, 6}, {10, 5, 6}, {10, 3, 8}});
+  const Grown b = grown(builder, 3);
+  expect_lengths(b.raised, 32, 12, 12);
+  EXPECT_NEAR(b.wall_m2, 32 * 3, rounding);
+  EXPECT_NEAR(norm(b.sum), 0, rounding);
+}
+
+TEST(RaiseInARow, AddsNothingAtStepsOfTheRoofNorAboveHolesThatOthersFill) {
+  // Two roofs, 2 m apart in height, with no wall between them; a hole for a dormer.
+  ModelBuilder builder;
+  const auto faces = ModelBuilder::box_faces({0, 0, 0}, {6, 10, 6});
+  builder.object("b");
+  for (std::size_t k = 0; k < 4; ++k)
+    if (k != 1) builder.ring(faces[k]);
+  builder.polygon(
+      {{{0, 0, 6}, {6, 0, 6}, {6, 5, 6}, {0, 5, 6}}, {{2, 2, 6}, {2, 3, 6}, {4, 3, 6}, {4, 2, 6}}});
+  builder.ring({{0, 5, 8}, {6, 5, 8}, {6, 10, 8}, {0, 10, 8}});
+  // The northern wall ends below its roof, and so does what is added there: it hung in the air.
+  const Grown b = grown(builder, 3);
+  expect_lengths(b.raised, 32, 20, 20);
+  EXPECT_NEAR(b.wall_m2, 32 * 3, rounding);
+}
+
+TEST(RaiseInARow, ClosesCourts) {
+  ModelBuilder builder;
+  const auto faces = ModelBuilder::box_faces({0, 0, 0}, {10, 10, 6});
+  builder.object("b");
+  for (std::size_t k = 2; k < 6; ++k) builder.ring(faces[k]);
+  const std::vector<Vec3> court{{3, 3, 0}, {7, 3, 0}, {7, 7, 0}, {3, 7, 0}};
+  std::vector<Vec3> above = court;
+  for (Vec3& v : above) v.z = 6;
+  builder.polygon({faces[0], court});
+  builder.polygon({faces[1], {above.rbegin(), above.rend()}});
+  const Grown b = grown(builder, 3);
+  expect_lengths(b.raised, 40 + 16, 16, 16);
+  EXPECT_NEAR(b.wall_m2, (40 + 16) * 3, rounding);
+}
+
+TEST(RaiseInARow, AddsNothingWhereHousesAreLowered) {
+  const Grown b = grown(terraced(), -2);
+  expect_lengths(b.raised, 32, 20, 0);
+  EXPECT_NEAR(b.wall_m2, -12 * 2, rounding);
+}
+
+TEST(RaiseInARow, TellsOfHousesWithoutAFloorAndKnowsEaves) {
+  const auto faces = ModelBuilder::box_faces({0, 0, 0}, {6, 10, 6});
+  const std::vector<Vec3> wide{{-1, -1, 6}, {7, -1, 6}, {7, 11, 6}, {-1, 11, 6}};
+  ModelBuilder open, eaves, on_a_floor;
+  open.object("open").with(Surface::wall).ring(faces[2]).ring(faces[3]);
+  open.with(Surface::roof).ring(faces[1]);
+  expect_lengths(grown(open, 6).raised, 32, 20, 0);
+  eaves.object("eaves").with(Surface::wall);
+  on_a_floor.object("on_a_floor").with(Surface::wall);
+  for (std::size_t k = 2; k < 6; ++k) {
+    eaves.ring(faces[k]);
+    on_a_floor.ring(faces[k]);
+  }
+  eaves.with(Surface::roof).ring(wide);
+  on_a_floor.with(Surface::floor).ring(faces[0]).with(Surface::roof).ring(wide);
+  const Grown of_eaves = grown(eaves, 6), of_both = grown(on_a_floor, 6);
+  expect_lengths(of_eaves.raised, 40, 0, 0);
+  expect_lengths(of_both.raised, 0, 0, 0);
+  EXPECT_NEAR(of_both.wall_m2, 32 * 6, rounding);
 }
 
 TEST(Solids, PrismsWithCourtsAreClosed) {

@@ -89,7 +89,8 @@ TEST_F(Families, RiseWithWhatSitsOnThem) {
   raised["mast"] = {3, 11};  // along the wall: its foot stays
   const PolygonModel made = model("{object: house, raise: {by_m: 3}}");
   EXPECT_EQ(heights(made), raised);
-  EXPECT_EQ(made.notes.back(), "scene.edit[1]: raises by 3 m 3 objects: dormer, house, mast");
+  EXPECT_EQ(made.notes.back(),
+            "scene.edit[1]: raises by 3 m 3 objects: dormer, house, mast (cut at z = 6 m)");
 }
 
 TEST_F(Families, PartsRiseAsBuildings) {

@@ -87,7 +87,21 @@ TEST_F(SceneEdit, ChoosesByNamePolygonAndNearness) {
 TEST_F(SceneEdit, TellsWhatItHasChosen) {
   const auto notes = model("{object: 'house_*', raise: {storeys: 2, storey_m: 3}}").notes;
   ASSERT_FALSE(notes.empty());
-  EXPECT_EQ(notes.back(), "scene.edit[1]: raises by 6 m 2 objects: house_1, house_2");
+  EXPECT_EQ(notes.back(),
+            "scene.edit[1]: raises by 6 m 2 objects: house_1, house_2 (cut at z = 6 m)");
+}
+
+/// Of a row, b stands between a and c: floor and roof, and walls to the south and north alone.
+TEST_F(SceneEdit, TellsOfWallsThatItAdds) {
+  folder_.write("town.obj",
+                "o b\nv 6 0 0\nv 6 10 0\nv 12 10 0\nv 12 0 0\nv 6 0 6\nv 12 0 6\nv 12 10 6\nv 6 10 "
+                "6\nf 1 2 3 4\nf 5 6 7 8\nf 1 4 6 5\nf 3 2 8 7\n");
+  EXPECT_EQ(model("{object: b, raise: {by_m: 6}}").notes.back(),
+            "scene.edit[1]: raises by 6 m 1 object: b (cut at z = 6 m; walls added along 20 of 32 "
+            "m)");
+  EXPECT_EQ(model("{object: b, raise: {by_m: -2}}").notes.back(),
+            "scene.edit[1]: lowers along lines without a wall, where neighbours may stand open "
+            "now, 1 object: b (along 20 of 32 m)");
 }
 
 TEST_F(SceneEdit, RefusesAStepThatMatchesNothing) {
