@@ -51,8 +51,12 @@ std::optional<Point2> ring_crossing(const std::vector<std::vector<Point2>>& ring
   for (const auto& ring : rings)
     for (std::size_t i = 0; i < ring.size(); ++i)
       edges.push_back({ring[i], ring[(i + 1) % ring.size()]});
+  const auto west = [](const Edge2& e) { return std::min(e.a.u, e.b.u); };
+  std::stable_sort(edges.begin(), edges.end(),
+                   [&](const Edge2& e, const Edge2& f) { return west(e) < west(f); });
   for (std::size_t i = 0; i < edges.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
+    for (std::size_t j = i + 1;
+         j < edges.size() && west(edges[j]) <= std::max(edges[i].a.u, edges[i].b.u); ++j)
       if (may_meet(edges[i], edges[j]) && cross(edges[i], edges[j]))
         return crossing(edges[i], edges[j]);
   return {};

@@ -15,6 +15,7 @@
 #include "io/command/scene_in_words.h"
 #include "io/command/variant_texts.h"
 #include "io/plan/expected_error.h"
+#include "io/plan/material_uses.h"
 #include "io/plan/mesh_family.h"
 #include "io/plan/planner.h"
 #include "io/plan/room.h"
@@ -250,6 +251,7 @@ int check_study(const std::string& path, const RunOptions& options, const CheckR
   Problems problems;
   Planner planner;
   const MeshFamilies families(file, planner);
+  MaterialUses uses(file, planner);
   CheckMeshes meshes(rules.mesh, options.progress);
   StudyPaces paces;
   VariantTexts texts;
@@ -261,6 +263,7 @@ int check_study(const std::string& path, const RunOptions& options, const CheckR
     try {
       VariantPlan plan = planner.plan(study);
       families.join(plan);
+      uses.warn_of_idle(plan);
       expect_meshable(plan);
       const VariantMesh& made = meshes.of(plan);
       const WorkEstimate work = estimated(plan, made, rules.mesh, paces);

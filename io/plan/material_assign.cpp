@@ -69,9 +69,6 @@ Where where_named(const SceneStudy& study, const std::string& material) {
   return study.where;
 }
 
-/// What is called so that no file and no rule gives a material; a study may say what it reflects.
-const std::string nameless = "default";
-
 class MaterialAssigner {
  public:
   MaterialAssigner(const Study& study, const SceneFrame& frame, Scene& scene,
@@ -236,7 +233,7 @@ class MaterialAssigner {
     const auto& ground = study_.scene.ground;
     if (ground && !ground->material.empty() && file && file->name == "ground")
       return &named(ground->material);
-    const std::string& name = file && !file->name.empty() ? file->name : nameless;
+    const std::string& name = file && !file->name.empty() ? file->name : nameless_material;
     return by_name_.contains(name) ? &named(name) : nullptr;
   }
 
@@ -327,7 +324,7 @@ class MaterialAssigner {
   Material from_file(MaterialId id, bool& is_default) {
     const FileMaterial* file = id.exists() ? &scene_.mesh.file_materials[id.index()] : nullptr;
     Material m;
-    m.name = file && !file->name.empty() ? file->name : nameless;
+    m.name = file && !file->name.empty() ? file->name : nameless_material;
     if (file && (file->diffuse || file->mirror)) {
       m.diffuse = file->diffuse.value_or(0);
       m.mirror = file->mirror.value_or(0);

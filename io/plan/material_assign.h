@@ -26,6 +26,9 @@ struct RuleUse {
 /// table 8.2: urban areas 0.10 … 0.27, mean of the range's upper half).
 inline constexpr double default_reflectance = 0.2;
 
+/// What is called so that no file and no rule gives a material; a study may say what it reflects.
+inline const std::string nameless_material = "default";
+
 /// What materials depend on besides the scene: when it is.
 struct MaterialsWhen {
   std::vector<std::string> seasons = {};  ///< in force (`scene.materials.NAME.seasons`)

@@ -97,6 +97,27 @@ void fill_in_date(MeasureParameters& of, const MeasureRule& rule, const VariantP
   of.date = {zone.civil_from_utc(when).year, month, day};
 }
 
+/// Whether faces are of what a measure names besides a selection; `facade`: of their side.
+class MeasuredFaces {
+ public:
+  MeasuredFaces(const MeasureOf& of, const Mesh& mesh)
+      : of_(of), mesh_(mesh), named_(objects_named(of.object, mesh)) {}
+
+  bool hold(std::size_t t, FacadeId facade) const {
+    if (!of_.facade.empty() &&
+        (!facade.exists() || !matches(of_.facade, mesh_.facades[facade.index()].name)))
+      return false;
+    const auto surface = surface_names[static_cast<std::size_t>(mesh_.triangle_surface[t])];
+    if (!of_.surface.empty() && of_.surface != surface) return false;
+    return named_[mesh_.triangle_object[t].index()] != 0;
+  }
+
+ private:
+  const MeasureOf& of_;
+  const Mesh& mesh_;
+  ChosenObjects named_;
+};
+
 std::vector<std::size_t> chosen_patches(const MeasureOf& of, const VariantPlan& plan,
                                         const Hierarchy& hierarchy) {
   const Mesh& mesh = plan.built.scene.mesh;
@@ -104,19 +125,14 @@ std::vector<std::size_t> chosen_patches(const MeasureOf& of, const VariantPlan& 
   for (const NamedSelection& selection : plan.study.selections)
     if (selection.name == of.selection)
       selected = selected_patches(selection, plan.built, hierarchy);
-  const ChosenObjects named = objects_named(of.object, mesh);
+  const MeasuredFaces measured_faces(of, mesh);
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < hierarchy.patch_count(); ++i) {
     if (selected[i] == 0) continue;
     const Patch& patch = hierarchy.patches()[i];
     const auto t = static_cast<std::size_t>(patch.triangle);
     const FacadeId facade = patch.side == 0 ? mesh.triangle_facade[t] : FacadeId::none();
-    const auto surface = surface_names[static_cast<std::size_t>(mesh.triangle_surface[t])];
-    if (!of.facade.empty() &&
-        (!facade.exists() || !matches(of.facade, mesh.facades[facade.index()].name)))
-      continue;
-    if (!of.surface.empty() && of.surface != surface) continue;
-    if (named[mesh.triangle_object[t].index()] != 0) chosen.push_back(i);
+    if (measured_faces.hold(t, facade)) chosen.push_back(i);
   }
   return chosen;
 }
@@ -155,6 +171,34 @@ void warn_of_absent_places(const Study& study, const BuiltScene& built,
                 fmt::format("measure {}: no {} of variant {} matches '{}'", place.of->name,
                             place.kind, study.variant, place.pattern),
                 "nothing is measured of it there"));
+}
+
+void warn_of_no_faces(const Study& study, const BuiltScene& built,
+                      std::vector<std::string>& warnings) {
+  const Mesh& mesh = built.scene.mesh;
+  const auto absent = absent_places(study, mesh);
+  for (const MeasureParameters& measure : study.measures) {
+    const MeasureOf& of = measure.of;
+    std::vector<std::string> words;
+    for (const auto& [key, value] :
+         {std::pair{"object", &of.object}, {"facade", &of.facade}, {"surface", &of.surface}})
+      if (!value->empty()) words.push_back(fmt::format("{} '{}'", key, *value));
+    if (words.empty() || std::any_of(absent.begin(), absent.end(), [&](const AbsentPlace& place) {
+          return place.of == &measure;
+        }))
+      continue;
+    const MeasuredFaces faces(of, mesh);
+    bool is_any = false;
+    for (std::size_t t = 0; t < mesh.triangle_count() && !is_any; ++t)
+      is_any = mesh.bears_patches(t) && faces.hold(t, mesh.triangle_facade[t]);
+    if (is_any) continue;
+    warnings.push_back(
+        message(measure.where,
+                fmt::format("measure {}: no surface of variant {} is of {}", measure.name,
+                            study.variant, fmt::join(words, " and ")),
+                "nothing is measured but sensors",
+                of.facade.empty() ? "" : "facades are of walls; leave one of the keys away"));
+  }
 }
 
 void expect_measurable(const Study& study, const LightSeries& light) {

@@ -22,6 +22,9 @@ void expect_measured_somewhere(const StudyFile& file, const std::vector<Study>& 
 /// Warns of objects and facades of measures that this variant does not have.
 void warn_of_absent_places(const Study& study, const BuiltScene& built,
                            std::vector<std::string>& warnings);
+/// Warns of measures whose object, facade and surface no face of this variant has at once.
+void warn_of_no_faces(const Study& study, const BuiltScene& built,
+                      std::vector<std::string>& warnings);
 /// Throws InputError where a measure needs a year that the period is not.
 void expect_measurable(const Study& study, const LightSeries& light);
 

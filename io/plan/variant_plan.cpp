@@ -68,6 +68,7 @@ VariantPlan unhashed_plan_of(const Study& study, BuiltScene built, LightSeries l
   refuse_watts_in_lux(plan);
   expect_measurable(study, plan.light);
   warn_of_absent_places(study, plan.built, plan.built.warnings);
+  warn_of_no_faces(study, plan.built, plan.built.warnings);
   warn_of_no_values(study, plan.light, plan.built.warnings);
   refuse_smooth_surfaces_in_a_matrix(plan);
   plan.pairing_id = pairing_id(study, plan.light);

@@ -15,6 +15,7 @@
 #include "geo/base/check.h"
 #include "io/base/exit_code.h"
 #include "io/base/output_target.h"
+#include "io/plan/material_uses.h"
 #include "io/plan/mesh_family.h"
 #include "io/plan/planner.h"
 #include "io/plan/study_measures.h"
@@ -50,6 +51,7 @@ std::list<VariantJob> planned_jobs(const StudyWork& work,
   const std::vector<std::string> inputs = named_files(work.file);
   Planner planner;
   const MeshFamilies families(work.file, planner);
+  MaterialUses uses(work.file, planner);
   const std::vector<Study> chosen = chosen_variants(work.file, work.options);
   expect_measured_somewhere(work.file, chosen, planner);
   expect_own_files(work, chosen, problems);
@@ -59,6 +61,7 @@ std::list<VariantJob> planned_jobs(const StudyWork& work,
       VariantPlan plan = planner.plan(study);
       expect_not_read(result_path(work.folder, study), plan.built.files);
       families.join(plan);
+      uses.warn_of_idle(plan);
       VariantJob& job = jobs.emplace_back(work, std::move(plan));
       (job.*expect_allowed)();
       if (!job.is_finished()) continue;

@@ -88,8 +88,8 @@ YamlTree put(const YamlTree& node, const MatrixValue& value, std::size_t depth,
              const std::string& path, const std::vector<std::string>& appended,
              YamlReading& reading) {
   if (depth == value.path.size())
-    return node && value.value->kind != Kind::empty ? merge_yaml(node, value.value, appended, path)
-                                                    : value.value;
+    return value.value->kind != Kind::empty ? merge_yaml(node, value.value, appended, path)
+                                            : value.value;
   const MatrixValue::Part& step = value.path[depth];
   const std::string& key = step.key;
   const std::size_t place = step.place;

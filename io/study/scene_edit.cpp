@@ -102,6 +102,14 @@ class AreaReader {
   std::string subject_;
 };
 
+void refuse_crossing(YamlMap& map, const std::string& key, const std::vector<PlanArea>& areas) {
+  for (const PlanArea& area : areas)
+    if (const auto at = ring_crossing(area))
+      map.problem(key, fmt::format("crosses itself near [{:.6g}, {:.6g}]", at->u, at->v),
+                  "which side of it is inside cannot be told",
+                  "are its corners in order around the area?");
+}
+
 AreasStudy areas_of_file(YamlMap& map, const std::string& key, const std::string& path) {
   AreasStudy found;
   try {
@@ -200,11 +208,6 @@ AddPrismEdit read_footprint(YamlMap& map, const std::string& folder) {
   AddPrismEdit prism;
   map.require("polygon");
   prism.areas = read_areas(map, "polygon", folder);
-  for (const PlanArea& area : prism.areas.areas)
-    if (const auto at = ring_crossing(area))
-      map.problem("polygon", fmt::format("crosses itself near [{:.6g}, {:.6g}]", at->u, at->v),
-                  "which side of it is inside cannot be told",
-                  "are its corners in order around the area?");
   map.require("height_m");
   prism.height_m = map.number("height_m", sizes_m, 1);
   prism.base_m = map.number("base_m", heights_m);
@@ -306,13 +309,15 @@ EditAction read_action(YamlMap& map, const std::string& folder) {
 }  // namespace
 
 AreasStudy read_areas(YamlMap& map, const std::string& key, const std::string& folder) {
+  AreasStudy found;
   if (map.kind(key) == Kind::text) {
     const std::string path = read_path(map, key, folder);
-    return path.empty() ? AreasStudy{} : areas_of_file(map, key, path);
+    if (!path.empty()) found = areas_of_file(map, key, path);
+  } else if (const YamlTree corners = map.tree(key)) {
+    found.areas.push_back(PlanArea{AreaReader(map.reading(), map.path(key)).ring(corners)});
   }
-  const YamlTree corners = map.tree(key);
-  if (!corners) return {};
-  return {{{AreaReader(map.reading(), map.path(key)).ring(corners)}}, false};
+  refuse_crossing(map, key, found.areas);
+  return found;
 }
 
 namespace {

@@ -77,7 +77,8 @@ void resolve_selections(YamlReading& reading, const std::vector<NamedSelection>&
                         SceneStudy& scene, const std::vector<MeasureParameters>& measures);
 /// What can be part of a dataset's name: letters A to Z, digits and _.
 bool is_dataset_name(const std::string& name);
-/// Corners [x, y], or a GeoJSON file relative to `folder`.
+/// Corners [x, y], or a GeoJSON file relative to `folder`. Areas that cross themselves are
+/// problems.
 AreasStudy read_areas(YamlMap& map, const std::string& key, const std::string& folder);
 MeshStudy read_mesh(YamlMap& map);
 SolverStudy read_solver(YamlMap& map);

@@ -270,9 +270,24 @@ YamlTree parse_yaml(const std::string& file, const std::string& text, Problems& 
   return builder.root();
 }
 
+namespace {
+
+/// A map without its keys that have no value, at any level: where nothing is, nothing is taken
+/// away.
+YamlTree without_empty_keys(const YamlTree& tree) {
+  if (tree->kind != Kind::map) return tree;
+  auto map = std::make_shared<YamlNode>(*tree);
+  std::erase_if(map->entries,
+                [](const YamlEntry& entry) { return entry.value->kind == Kind::empty; });
+  for (YamlEntry& entry : map->entries) entry.value = without_empty_keys(entry.value);
+  return map;
+}
+
+}  // namespace
+
 YamlTree merge_yaml(const YamlTree& base, const YamlTree& over,
                     const std::vector<std::string>& appended, const std::string& path) {
-  if (!base || base->kind != over->kind) return over;
+  if (!base || base->kind != over->kind) return without_empty_keys(over);
   if (over->kind == Kind::list) {
     if (std::find(appended.begin(), appended.end(), path) == appended.end()) return over;
     auto list = std::make_shared<YamlNode>(*base);
@@ -286,7 +301,8 @@ YamlTree merge_yaml(const YamlTree& base, const YamlTree& over,
     const auto mine = std::find_if(map->entries.begin(), map->entries.end(),
                                    [&](const YamlEntry& e) { return e.key == entry.key; });
     if (mine == map->entries.end()) {
-      if (entry.value->kind != Kind::empty) map->entries.push_back(entry);
+      if (entry.value->kind != Kind::empty)
+        map->entries.push_back({entry.key, entry.where, without_empty_keys(entry.value)});
     } else if (entry.value->kind == Kind::empty) {
       map->entries.erase(mine);
     } else {

@@ -58,9 +58,9 @@ YamlTree parse_yaml(const std::string& file, const std::string& text, Problems& 
 inline constexpr int deepest_yaml = 32;                 ///< studies need 6
 inline constexpr std::size_t largest_yaml = 4'000'000;  ///< an instant for each minute of 7 years
 
-/// `base` with the values of `over`: maps merge, an empty value removes the key,
-/// lists whose path (keys joined by dots) is in `appended` grow, all else is
-/// replaced. Values keep their places.
+/// `base` (null: nothing) with the values of `over`: maps merge, an empty value
+/// removes the key, if there is one; lists whose path (keys joined by dots) is in
+/// `appended` grow, all else is replaced. Values keep their places.
 YamlTree merge_yaml(const YamlTree& base, const YamlTree& over,
                     const std::vector<std::string>& appended, const std::string& path = {});
 

@@ -145,6 +145,23 @@ TEST(StudySelections, AreResolvedWhereTheyAreNamed) {
   EXPECT_EQ(south.polygon.areas[0][0].size(), 3u);
 }
 
+TEST(StudySelections, RefuseAreasThatCrossThemselves) {
+  const std::string bow = "polygon: [[0, 0], [9, 9], [9, 0], [0, 9]]";
+  const std::string said = "polygon: crosses itself near [4.5, 4.5]";
+  expect_problem({{"selections", "{s: {" + bow + "}}"}}, said);
+  expect_problem(steps("{" + bow + ", remove: true}"), said);
+  expect_problem(steps("{add: {footprint: {height_m: 3, " + bow + "}}}"), said);
+}
+
+TEST(StudyVariants, TakeMaterialsAwayThatTheStudyDoesNotDefine) {
+  const StudyFile file =
+      read_text(with({}) +
+                "variants:\n  - {name: a, scene: {materials: {plaster: ~, brick: "
+                "{diffuse: 0.3}}}}\n");
+  ASSERT_EQ(file.variants[0].scene.materials.size(), 1u);
+  EXPECT_EQ(file.variants[0].scene.materials[0].name, "brick");
+}
+
 TEST(StudyEdit, VariantsAppendSteps) {
   const StudyFile file = read_text(with(steps("{object: a, remove: true}")) +
                                    "variants:\n  - {name: a}\n  - {name: b, scene: {edit: "

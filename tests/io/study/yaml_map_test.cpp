@@ -214,6 +214,18 @@ TEST(Yaml, MergesMapsAndAppendsOnlyWhereAsked) {
   EXPECT_NE(base->find("s")->value->find("a"), nullptr);  // the base is as it was
 }
 
+TEST(Yaml, TakesNothingAwayWhereNothingIs) {
+  Problems problems;
+  const auto base = parse_yaml("f.yaml", "s: {a: 1}\n", problems);
+  const auto over = parse_yaml("f.yaml", "s: {m: {x: ~, y: {z: ~, w: 1}}}\nt: {u: ~}\n", problems);
+  const auto merged = merge_yaml(base, over, {});
+  const auto& m = *merged->find("s")->value->find("m")->value;
+  EXPECT_EQ(m.find("x"), nullptr);
+  EXPECT_EQ(m.find("y")->value->find("z"), nullptr);
+  EXPECT_EQ(m.find("y")->value->find("w")->value->text, "1");
+  EXPECT_TRUE(merged->find("t")->value->entries.empty());
+}
+
 TEST(KeyNames, MeasuresEdits) {
   EXPECT_EQ(edit_distance("", ""), 0);
   EXPECT_EQ(edit_distance("", "abc"), 3);
