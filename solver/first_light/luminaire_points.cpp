@@ -20,8 +20,9 @@ constexpr double least_solid_angle = 1e-3;
 /// A patch, or a sensor, before luminaires.
 class LuminairePoints::Receiver {
  public:
-  Receiver(const Luminaires& luminaires, std::size_t receiver, LampRays& rays)
-      : luminaires_(luminaires),
+  Receiver(const LuminairePoints& points, std::size_t receiver, LampRays& rays)
+      : luminaires_(points.luminaires_),
+        steps_(points.steps_),
         receiver_(receiver),
         rays_(rays),
         sampler_(rays.sampler()),
@@ -39,6 +40,11 @@ class LuminairePoints::Receiver {
                   Purpose::luminaires);
     // Of a sensor, a point, there is no solid angle.
     if (area_ > 0) {
+      if (const IntensitySteps& steps = steps_[luminaire.web]; !steps.cones.empty()) {
+        const LuminaireView view(luminaire, steps, corners_);
+        if (view.is_dark()) return;
+        if (!view.is_even()) return receive_by(luminaire, view, height);
+      }
       const auto& [a, b, c] = corners_;
       const Vec3 from = luminaire.position;
       const SphericalTriangle seen(a - from, b - from, c - from);
@@ -49,18 +55,29 @@ class LuminairePoints::Receiver {
 
  private:
   void receive_in(const Luminaire& luminaire, const SphericalTriangle& seen, double height) {
-    const double share = seen.solid_angle() / area_;
+    receive_along(luminaire, height, [&](double u, double v) {
+      return LuminaireView::Direction{seen.sample(u, v), 1 / seen.solid_angle()};
+    });
+  }
+
+  void receive_by(const Luminaire& luminaire, const LuminaireView& view, double height) {
+    receive_along(luminaire, height, [&](double u, double v) { return view.sample(u, v); });
+  }
+
+  /// `draw(u, v)`: a direction from the luminaire to the patch.
+  template <class Draw>
+  void receive_along(const Luminaire& luminaire, double height, const Draw& draw) {
     for (std::size_t p = 0; p < sampler_.packets(); ++p) {
       const ScrambledPoints points = sampler_.points(seeds_, p);
       LampRays::Look look;
       for (std::size_t l = 0; l < packet_size; ++l) {
         if ((sampler_.active(p) >> l & 1u) == 0) continue;
-        const Vec3 w = seen.sample(points.u[l] * 0x1p-32, points.v[l] * 0x1p-32);
+        const auto [w, density] = draw(points.u[l] * 0x1p-32, points.v[l] * 0x1p-32);
         const double below = -dot(geometry_.normal, w);
         const double I = luminaires_.intensity(luminaire, w);
         if (below <= 0 || I <= 0) continue;
         put(look.origins, l, luminaire.position + w * (height / below) + lifted_);
-        look.add(l, -w, height / below, share * I);
+        look.add(l, -w, height / below, I / (density * area_));
       }
       rays_.look(receiver_, p, look, Purpose::luminaires);
     }
@@ -83,6 +100,7 @@ class LuminairePoints::Receiver {
   }
 
   const Luminaires& luminaires_;
+  const std::vector<IntensitySteps>& steps_;
   std::size_t receiver_;
   LampRays& rays_;
   const SunSampler& sampler_;
@@ -93,9 +111,13 @@ class LuminairePoints::Receiver {
   SunSampler::Seeds seeds_;
 };
 
+LuminairePoints::LuminairePoints(const Luminaires& luminaires) : luminaires_(luminaires) {
+  for (const IntensityWeb& web : luminaires.webs) steps_.push_back(steps_of(web));
+}
+
 void LuminairePoints::shine_on(std::size_t receiver, LampRays& rays) const {
   if (!luminaires_.any()) return;
-  Receiver before(luminaires_, receiver, rays);
+  Receiver before(*this, receiver, rays);
   for (const Luminaire& luminaire : luminaires_.all) before.receive(luminaire);
 }
 

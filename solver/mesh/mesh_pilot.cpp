@@ -25,6 +25,8 @@ constexpr std::size_t emitter_points_per_half = 8;
 constexpr double areas_per_packet = 256;
 constexpr std::size_t most_packets = 8;
 constexpr std::size_t halves_of_light = 2;
+/// Packets of directions from a luminaire whose beam an element may hold between its points.
+constexpr std::size_t beam_packets = 2;
 
 std::size_t packets_for(double area_m2, double min_area_m2) {
   if (min_area_m2 <= 0) return 1;
@@ -57,6 +59,7 @@ struct MeshPilot::Points {
   Tangents axes;
   RandomWords direction_seeds[halves_of_light];
   RandomWords emitter_seeds[halves_of_light];
+  RandomWords beam_seeds;
   RayCorners corners;
   std::vector<Packet> packets;
 
@@ -79,6 +82,7 @@ struct MeshPilot::Points {
       emitter_seeds[h] = words(halves_of_light + h);
     }
     const RandomWords seeds = words(2 * halves_of_light);
+    beam_seeds = seeds;  // of other coordinates
     for (std::size_t p = 0; p < packet_count; ++p) {
       Packet packet;
       for (std::size_t r = 0; r < packet_size; ++r) {
@@ -105,6 +109,7 @@ MeshPilot::MeshPilot(const ElementForest& forest, const Scene& scene, const RayC
       seed_(seed),
       images_(scene, caster, light, seed),
       load_(2 * forest.elements().size(), 0.0f) {
+  for (const IntensityWeb& web : scene.luminaires.webs) steps_.push_back(steps_of(web));
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
     const double exitance = scene.material_of(t).emission_w_m2;
     if (exitance <= 0 || light.lamp_time_s <= 0) continue;
@@ -136,10 +141,11 @@ ElementLoad MeshPilot::load(std::size_t element, std::uint8_t side, double min_a
     at_point[h].assign(n, 0);
     glints[h].assign(n, 0);
   }
+  const LuminaireLoad luminaires = beams(points, element);
   for (std::size_t p = 0; p < packets; ++p) {
     double common[packet_size] = {}, common_glints[packet_size] = {};
     add_suns(points, light_.suns, points.normal, p, common, load);
-    add_luminaires(points, p, common);
+    add_luminaires(points, luminaires.even, p, common);
     images_.add(images_.of_both_halves(), points.corners, points.packets[p], points.normal,
                 common_glints);
     for (std::uint32_t h = 0; h < halves_of_light; ++h) {
@@ -156,8 +162,8 @@ ElementLoad MeshPilot::load(std::size_t element, std::uint8_t side, double min_a
   }
   const auto [mean, variance] = moments(at_point);
   const auto [glint_mean, glint_variance] = moments(glints);
-  load.mean = mean;
-  load.variance = variance;
+  load.mean = mean + luminaires.mean;
+  load.variance = variance + luminaires.variance;
   load.glint_mean = glint_mean;
   load.glint_variance = glint_variance;
   return load;
@@ -267,11 +273,70 @@ void MeshPilot::add_emitters(const Points& points, std::size_t packet, std::uint
   }
 }
 
-/// E(x) = I cosθ V / r².
-void MeshPilot::add_luminaires(const Points& points, std::size_t packet, double* sum) const {
-  if (light_.lamp_time_s <= 0) return;
-  const Packet& origins = points.packets[packet];
+MeshPilot::LuminaireLoad MeshPilot::beams(const Points& points, std::size_t element) const {
+  LuminaireLoad load;
+  if (light_.lamp_time_s <= 0) return load;
+  const std::array corners{forest_.corner(element, 0), forest_.corner(element, 1),
+                           forest_.corner(element, 2)};
   for (const Luminaire& luminaire : scene_.luminaires.all) {
+    if (dot(points.normal, luminaire.position - corners[0]) <= caster_.offset_m()) continue;
+    if (const IntensitySteps& steps = steps_[luminaire.web]; !steps.cones.empty()) {
+      const LuminaireView view(luminaire, steps, corners);
+      if (view.is_dark()) continue;
+      if (!view.is_even()) {
+        add_beam(points, luminaire, view, forest_.area(element), load);
+        continue;
+      }
+    }
+    load.even.push_back(&luminaire);
+  }
+  return load;
+}
+
+/// By directions ω of density p from the luminaire: with E = I V cosθ / r² at the point that ω
+/// meets, and dA = r² / cosθ dω,
+///
+///     mean E = 1/A ∫ I V dω,    mean E² = 1/A ∫ I V E dω
+void MeshPilot::add_beam(const Points& points, const Luminaire& luminaire,
+                         const LuminaireView& view, double area_m2, LuminaireLoad& load) const {
+  const double height = dot(points.normal, luminaire.position - points.corners[0]);
+  double mean = 0, squares = 0;
+  for (std::size_t p = 0; p < beam_packets; ++p) {
+    Packet origins{}, ways{};
+    double weight[packet_size] = {}, E[packet_size] = {};
+    std::uint32_t facing = 0;
+    for (std::size_t s = 0; s < packet_size; ++s) {
+      const auto index = static_cast<std::uint32_t>(p * packet_size + s);
+      const auto [w, density] = view.sample(scrambled_sobol(index, 2, points.beam_seeds),
+                                            scrambled_sobol(index, 3, points.beam_seeds));
+      const double cos_theta = -dot(points.normal, w);
+      const double I = scene_.luminaires.intensity(luminaire, w);
+      if (cos_theta <= 0 || I <= 0) continue;
+      const double r = height / cos_theta;
+      put(origins, s, luminaire.position + w * r);
+      put(ways, s, w * -r);
+      weight[s] = I / (density * area_m2 * beam_packets * packet_size);
+      E[s] = light_.lamp_time_s * I * cos_theta / (r * r);
+      facing |= 1u << s;
+    }
+    if (facing == 0) continue;
+    for (auto lit = caster_.unoccluded_up_to(origins, ways, facing); lit != 0; lit &= lit - 1) {
+      const auto s = static_cast<std::size_t>(std::countr_zero(lit));
+      mean += light_.lamp_time_s * weight[s];
+      squares += light_.lamp_time_s * weight[s] * E[s];
+    }
+  }
+  load.mean += mean;
+  load.variance += std::max(0.0, squares - mean * mean);
+}
+
+/// E(x) = I cosθ V / r².
+void MeshPilot::add_luminaires(const Points& points,
+                               const std::vector<const Luminaire*>& luminaires, std::size_t packet,
+                               double* sum) const {
+  const Packet& origins = points.packets[packet];
+  for (const Luminaire* each : luminaires) {
+    const Luminaire& luminaire = *each;
     PacketDirections ways{};
     double E[packet_size] = {};
     std::uint32_t facing = 0;

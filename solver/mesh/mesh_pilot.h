@@ -6,7 +6,9 @@
 /// Light comes from parallel directions (suns of the period with their exposure), from these by one
 /// mirror, from emitters of the scene, from the sky and the far ground, and from surfaces after one
 /// diffuse reflection. It is seen from the same points of the element along the same directions, so
-/// that the differences between the points are those of the light and not of its sampling.
+/// that the differences between the points are those of the light and not of its sampling. A beam
+/// of a luminaire that may lie between the points is asked by directions of its own: its mean, and
+/// how much it varies.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +18,7 @@
 #include "solver/mesh/element_forest.h"
 #include "solver/mesh/period_light.h"
 #include "solver/mesh/sun_images.h"
+#include "solver/surface/luminaire_view.h"
 #include "solver/surface/ray_caster.h"
 
 namespace sunload {
@@ -65,7 +68,16 @@ class MeshPilot {
   void look_for_suns(const Points& points, ElementLoad& load) const;
   void add_emitters(const Points& points, std::size_t packet, std::uint32_t half, double area_m2,
                     double* sum, ElementLoad& load) const;
-  void add_luminaires(const Points& points, std::size_t packet, double* sum) const;
+  /// Luminaires to which an element is even, and what the beams of the others bring.
+  struct LuminaireLoad {
+    std::vector<const Luminaire*> even;
+    double mean = 0, variance = 0;
+  };
+  LuminaireLoad beams(const Points& points, std::size_t element) const;
+  void add_beam(const Points& points, const Luminaire& luminaire, const LuminaireView& view,
+                double area_m2, LuminaireLoad& load) const;
+  void add_luminaires(const Points& points, const std::vector<const Luminaire*>& luminaires,
+                      std::size_t packet, double* sum) const;
   void add_surroundings(const Points& points, std::size_t packet, std::uint32_t half,
                         double* sum) const;
   double radiosity(const PacketHits& hits, std::size_t ray) const;
@@ -79,7 +91,8 @@ class MeshPilot {
   std::vector<Emitter> emitters_;
   double emitted_power_ = 0;  ///< of all of them [W]
   SunImages images_;
-  std::vector<float> load_;  ///< [2·element + side] J m-2
+  std::vector<IntensitySteps> steps_;  ///< per web of the luminaires
+  std::vector<float> load_;            ///< [2·element + side] J m-2
 };
 
 }  // namespace sunload

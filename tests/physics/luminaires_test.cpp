@@ -127,6 +127,68 @@ TEST(Luminaires, ABeamBringsItsFlux) {
   EXPECT_NEAR(scene.luminaires.flux(), truth, 1e-9 * truth);
 }
 
+// However narrow the beam, and whether one patch holds it or several share it.
+TEST(Luminaires, NarrowBeamsBringTheirFlux) {
+  for (const double beam_deg : {0.1, 2.0, 15.0})
+    for (const double edge_m : {20.0, 0.5}) {
+      Scene scene = floor_of({"black", 0, 0, 0}).scene();
+      add_luminaire(scene, {0.3, 0.2, 3}, beam_deg, {0.2, 0.1, -1});
+      const double truth = scene.luminaires.flux();
+      SolverRules rules = lamp_rules(0);
+      rules.direct_samples = 16;
+      const auto solved = solve(scene, {night}, rules, {.max_edge_m = edge_m});
+      const Verdict verdict = expect_mean(powers(solved, is_floor(solved)), truth, 1e-3 * truth);
+      EXPECT_TRUE(verdict) << beam_deg << ' ' << edge_m << ' ' << verdict.text;
+      EXPECT_LT(verdict.standard_error, 0.01 * truth) << beam_deg << ' ' << edge_m;
+      EXPECT_FALSE(expect_mean(powers(solved, is_floor(solved)), 1.1 * truth, 1e-3 * truth));
+    }
+}
+
+// Each patch has what its own share of the spot brings: a circle about the point below the lamp,
+// whose middle is a corner of the patches.
+TEST(Luminaires, PatchesShareASpot) {
+  Scene scene = floor_of({"black", 0, 0, 0}).scene();
+  add_luminaire(scene, {0, 0, 3}, 1);
+  SolverRules rules = lamp_rules(0);
+  rules.direct_samples = 16;
+  const auto solved = solve(scene, {night}, rules, {.max_edge_m = 20});
+  ASSERT_EQ(solved.area.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto power = powers(solved, [&](std::size_t patch) { return patch == i; });
+    const double truth = scene.luminaires.flux() / 2;
+    const Verdict verdict = expect_mean(power, truth, 1e-3 * truth);
+    EXPECT_TRUE(verdict) << verdict.text;
+  }
+}
+
+// Beside the axis, with a bright middle on a faint rest, and up and down at once.
+TEST(Luminaires, BrightLobesBringTheirFlux) {
+  std::vector<double> planes, gammas, beside, both;
+  for (int C = 0; C <= 360; C += 5) planes.push_back(C);
+  for (int gamma = 0; gamma <= 180; ++gamma) gammas.push_back(gamma);
+  const auto lobe = [](double degrees) { return 1e3 * std::exp(-degrees * degrees / 4) + 0.1; };
+  for (const double C : planes)
+    for (const double gamma : gammas) {
+      const double g = gamma * radians_per_degree, c = (C - 40) * radians_per_degree;
+      const double cosine = std::cos(g) * std::cos(0.5) + std::sin(g) * std::sin(0.5) * std::cos(c);
+      beside.push_back(lobe(std::acos(std::min(1.0, cosine)) / radians_per_degree));
+      both.push_back(lobe(gamma) + lobe(180 - gamma));
+    }
+  for (const auto& intensities : {beside, both}) {
+    Scene scene = inward_sphere(1, {{"black", 0, 0, 0}}, [](Vec3 /*everywhere*/) { return 0; });
+    add_luminaire(scene, {0.2, -0.1, 0.3});
+    scene.luminaires.webs = {{planes, gammas, intensities}};
+    const double truth = scene.luminaires.flux();
+    SolverRules rules = lamp_rules(0);
+    rules.direct_samples = 16 * 8;
+    const auto solved = solve(scene, {night}, rules, {.max_edge_m = 10});
+    const auto all = powers(solved, [](std::size_t) { return true; });
+    const Verdict verdict = expect_mean(all, truth, 1e-3 * truth);
+    EXPECT_TRUE(verdict) << verdict.text;
+    EXPECT_FALSE(expect_mean(all, 1.3 * truth, 1e-3 * truth)) << verdict.text;
+  }
+}
+
 // Plane C 0 along +x, C 90 along +y; turned with the luminaire, tilted with its axis.
 TEST(Luminaires, SendWhereTheirPlanesLook) {
   const IntensityWeb web{{0, 90, 180, 270, 360}, {0, 180}, {1, 1, 2, 2, 3, 3, 4, 4, 1, 1}};

@@ -53,5 +53,26 @@ TEST(MeshPilot, LoadOfAnOpenPlateIsThatOfItsSunsAndWhatIsAround) {
   }
 }
 
+// Of a beam that falls between the points of a large element: a spot of even light on the rest.
+TEST(MeshPilot, SeesTheSpotOfANarrowBeam) {
+  SceneBuilder builder;
+  builder.triangle({-10, -10, 0}, {30, -10, 0}, {-10, 30, 0}, builder.material({"m", 0.3, 0, 0}));
+  Scene scene = builder.scene();
+  constexpr double half_deg = 0.5, height = 3;
+  scene.luminaires.webs = {{{0}, {0, half_deg}, {1, 1}}};
+  scene.luminaires.all = {Luminaire({0.4, -0.7, height}, {0, 0, -1}, 0)};
+  const ElementForest forest(scene);
+  const RayCaster caster(scene.mesh);
+  PeriodLight light;
+  light.sky.assign(static_cast<std::size_t>(SkyGrid().cell_count()), 0);
+  light.lamp_time_s = 10;
+  const MeshPilot pilot(forest, scene, caster, light, 1);
+  const ElementLoad load = pilot.load(0, 0, 0.01);
+  const double mean = light.lamp_time_s * scene.luminaires.flux() / forest.area(0);
+  const double in_spot = light.lamp_time_s / (height * height);
+  EXPECT_NEAR(load.mean, mean, 1e-3 * mean);
+  EXPECT_NEAR(load.variance, mean * (in_spot - mean), 1e-3 * mean * in_spot);
+}
+
 }  // namespace
 }  // namespace sunload::test
