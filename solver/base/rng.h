@@ -28,6 +28,7 @@ enum class Purpose : std::uint32_t {
   clouded_sun = 14,  ///< of which only is asked how much of a patch would see it
   luminaires = 15,
   shooting = 16,
+  glossy_disk = 17,  ///< points of the sun's disk whose images patches look for in lobes
 };
 
 /// Address of a block of random words.

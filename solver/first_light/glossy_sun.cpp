@@ -36,10 +36,11 @@ GlossySun::GlossySun(const Scene& scene, const Hierarchy& hierarchy, const RayCa
 /// Irradiance of the receivers of one task by one sun.
 class GlossySun::Chunk {
  public:
-  Chunk(const GlossySun& glossy, const LobeImages* images, const IntervalLight& sun,
-        std::size_t first, std::size_t receivers)
+  Chunk(const GlossySun& glossy, const LobeImages& images, bool are_sensors,
+        const IntervalLight& sun, std::size_t first, std::size_t receivers)
       : g_(glossy),
         images_(images),
+        are_sensors_(are_sensors),
         sun_(sun),
         points_(sun),
         first_(first),
@@ -47,7 +48,7 @@ class GlossySun::Chunk {
         sum_(receivers * realizations_, 0) {}
 
   void ask(const Glimpse& glimpse) {
-    if (images_ && images_->stand_for(glimpse)) return;
+    if (images_.stand_for(glimpse)) return;
     const Vec3 normal =
         g_.scene_.mesh.normal(static_cast<std::size_t>(glimpse.triangle), glimpse.front != 0);
     const double cos_s = dot(normal, sun_.direction);
@@ -97,8 +98,8 @@ class GlossySun::Chunk {
       seeds_ = random_words({.seed = g_.rules_.seed,
                              .purpose = Purpose::sun_disk,
                              .realization = glimpse.realization,
-                             .element = images_ ? g_.scene_.sensors[glimpse.receiver].key
-                                                : g_.hierarchy_.key()[glimpse.receiver],
+                             .element = are_sensors_ ? g_.scene_.sensors[glimpse.receiver].key
+                                                     : g_.hierarchy_.key()[glimpse.receiver],
                              .sun = sun_.number});
     }
     const std::uint32_t point = taken_++;
@@ -111,7 +112,8 @@ class GlossySun::Chunk {
   Packet origins_{};  ///< of rays that wait
   PacketDirections to_sun_{};
   const GlossySun& g_;
-  const LobeImages* images_;
+  const LobeImages& images_;
+  bool are_sensors_;
   const IntervalLight& sun_;
   SunPoints points_;
   RandomWords seeds_{};  ///< of the points for the glimpses of one slot
@@ -124,7 +126,7 @@ class GlossySun::Chunk {
   std::size_t waiting_ = 0;
 };
 
-std::uint64_t GlossySun::add_light(const Lines& lines, const LobeImages* of_sensors,
+std::uint64_t GlossySun::add_light(const Lines& lines, const LobeImages& images, bool are_sensors,
                                    std::span<const IntervalLight> block,
                                    const RaySink& into) const {
   const auto& glimpses = lines.glimpses;
@@ -142,12 +144,12 @@ std::uint64_t GlossySun::add_light(const Lines& lines, const LobeImages* of_sens
         for (std::size_t k = 0; k < block.size(); ++k) {
           const IntervalLight& sun = block[k];
           if (!sun.has_sun() || sun.dni <= 0) continue;
-          Chunk chunk(*this, of_sensors, sun, begin, end - begin);
+          Chunk chunk(*this, images, are_sensors, sun, begin, end - begin);
           for (auto glimpse = first; glimpse != last; ++glimpse) chunk.ask(*glimpse);
           chunk.cast();
           rays += chunk.rays;
           for (std::size_t i = begin; i < end; ++i) {
-            const int lines_of = of_sensors ? rules_.lines_per_patch : rules_.lines_of(i);
+            const int lines_of = are_sensors ? rules_.lines_per_patch : rules_.lines_of(i);
             const double lines_each = lines_of / R;
             into.add_all(i, k, [&](std::size_t r) { return chunk.sum(i, r) / lines_each; });
           }

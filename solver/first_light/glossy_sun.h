@@ -10,9 +10,10 @@
 ///     E_i += π / lines · w · f_r(s, -line) · (s·n) · dni · visible
 ///
 /// Exact but for noise, also by way of mirrors between receiver and glossy surface, and of further
-/// lobes. Narrow lobes are noisy, as few glimpses lie in them; sensors have
-/// solver/first_light/lobe_images.h instead. Sun that a mirror sends to a glossy surface is cut
-/// there. Of a sun with a disk each glimpse asks a point of its own; s·n stays that of its centre.
+/// lobes. Few glimpses lie in narrow lobes, so these are looked for from the receivers instead
+/// (solver/first_light/lobe_images.h), but by way of mirrors and further lobes. Sun that a mirror
+/// sends to a glossy surface is cut there. Of a sun with a disk each glimpse asks a point of its
+/// own; s·n stays that of its centre.
 #pragma once
 
 #include <cstdint>
@@ -32,16 +33,17 @@ class GlossySun {
   GlossySun(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,
             const SunSampler& sampler, const PatchOptics& optics, const LineRules& rules);
 
-  /// As MirrorSun::add_light, on the patches whose lines these are.
-  std::uint64_t add_light(const Lines& lines, std::span<const IntervalLight> block,
-                          const RaySink& into) const {
-    return add_light(lines, nullptr, block, into);
+  /// As MirrorSun::add_light, on the patches whose lines these are, but for what `images`, of the
+  /// same receivers, stand for.
+  std::uint64_t add_light(const Lines& lines, const LobeImages& images,
+                          std::span<const IntervalLight> block, const RaySink& into) const {
+    return add_light(lines, images, false, block, into);
   }
-  /// The same on sensors, but for what `images` stand for.
+  /// The same on sensors.
   std::uint64_t add_light_on_sensors(const Lines& lines, const LobeImages& images,
                                      std::span<const IntervalLight> block,
                                      const RaySink& into) const {
-    return add_light(lines, &images, block, into);
+    return add_light(lines, images, true, block, into);
   }
 
   /// Adds to `fates` ([realizations]) where the direct sun ends that glossy patches receive:
@@ -50,7 +52,7 @@ class GlossySun {
 
  private:
   class Chunk;
-  std::uint64_t add_light(const Lines& lines, const LobeImages* of_sensors,
+  std::uint64_t add_light(const Lines& lines, const LobeImages& images, bool are_sensors,
                           std::span<const IntervalLight> block, const RaySink& into) const;
   void send_on(const LineFollower& follower, const IntervalLight& sun, std::size_t k,
                std::size_t patch, std::vector<SunFates>& fates) const;

@@ -26,8 +26,8 @@ constexpr double broadest = 10;
 // solver/first_light/glossy_sun.cpp).
 constexpr double least_lobe = 1e-8;
 
-// Each costs every sensor and sun.
-constexpr std::size_t most_orientations = 4096;
+// Each costs every receiver and sun; of patches there are more.
+constexpr std::size_t most_orientations_of_sensors = 4096, most_orientations_of_patches = 512;
 
 }  // namespace
 
@@ -40,13 +40,15 @@ LobeImages::LobeImages(const Scene& scene, const RayCaster& caster, const SunSam
           broadest, 2.0 * rules.lines_per_patch / static_cast<double>(receivers.samples()) - 1)),
       samples_each_(static_cast<double>(receivers.samples()) / rules.realizations) {
   if (receivers.receivers() == 0 || rules.mirror_depth < 1) return;
+  const std::size_t most =
+      receivers.are_points() ? most_orientations_of_sensors : most_orientations_of_patches;
   of_side_.assign(2 * scene.mesh.triangle_count(), -1);
   std::map<std::size_t, OrientationIndex> of_material;
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
     if (!is_narrow(scene_.material_of(t))) continue;
     add_side(t, true, of_material);
     if (scene.mesh.triangle_sides[t] == Sides::two) add_side(t, false, of_material);
-    if (orientations_.size() <= most_orientations) continue;
+    if (orientations_.size() <= most) continue;
     orientations_.clear();  // lines do it, with their noise
     least_exponent_ = std::numeric_limits<double>::infinity();
     return;
@@ -88,15 +90,21 @@ bool LobeImages::stand_for(const Glimpse& glimpse) const {
 class LobeImages::Receiver {
  public:
   Receiver(const LobeImages& images, std::size_t receiver, const IntervalLight& sun)
-      : i_(images), sun_(sun), geometry_(images.receivers_.geometry(receiver)) {
-    i_.receivers_.seed(receiver, sun.number, seeds_, Purpose::glossy_sun);
+      : i_(images),
+        receiver_(receiver),
+        sun_(sun),
+        geometry_(images.receivers_.geometry(receiver)),
+        middle_{geometry_.a[0], geometry_.a[1], geometry_.a[2]} {
+    if (i_.receivers_.are_points()) return;
+    const auto& [a, b, c] = i_.receivers_.corners(receiver);
+    middle_ = (a + b + c) / 3;
+    extent_ = std::max({norm(a - middle_), norm(b - middle_), norm(c - middle_)});
   }
 
   /// False only if nothing of the orientation can be seen along directions that would be drawn.
   bool may_see(const Orientation& o) const {
-    const Vec3 at{geometry_.a[0], geometry_.a[1], geometry_.a[2]};
-    const Vec3 to = (o.low + o.high) * 0.5 - at;
-    const double radius = norm(o.high - o.low) / 2, distance = norm(to);
+    const Vec3 to = (o.low + o.high) * 0.5 - middle_;
+    const double radius = norm(o.high - o.low) / 2 + extent_, distance = norm(to);
     if (dot(to, geometry_.normal) < -radius || dot(to, o.normal) > radius + o.apart * distance)
       return false;
     if (distance <= radius) return true;
@@ -108,9 +116,13 @@ class LobeImages::Receiver {
   /// Adds the orientation's light to that of each realization.
   void look_for(std::size_t orientation, std::vector<double>& of_realization) {
     const Orientation& o = i_.orientations_[orientation];
+    if (seeds_.u.empty()) seed();
     for (std::size_t p = 0; p < i_.receivers_.packets(); ++p) {
       const ScrambledPoints points = i_.receivers_.points(seeds_, p);
-      to_sun_ = i_.receivers_.directions_by_origins(sun_, seeds_, p);
+      // By the coordinates of origins, not of the lobe: with these they fill four dimensions. On a
+      // sensor, all but one point, that is no matter; on patches seeds of their own make it none.
+      to_sun_ = i_.receivers_.directions_by_origins(
+          sun_, i_.receivers_.are_points() ? seeds_ : disk_seeds_, p);
       PacketDirections directions{};
       std::uint32_t ahead = 0;
       for (auto bits = i_.receivers_.active(p); bits != 0; bits &= bits - 1) {
@@ -138,6 +150,12 @@ class LobeImages::Receiver {
   std::uint64_t rays = 0;
 
  private:
+  void seed() {
+    i_.receivers_.seed(receiver_, sun_.number, seeds_, Purpose::glossy_sun);
+    if (!i_.receivers_.are_points())
+      i_.receivers_.seed(receiver_, sun_.number, disk_seeds_, Purpose::glossy_disk);
+  }
+
   /// Which of the hits lie on the orientation and in the sun; sets what these bring.
   std::uint32_t lit_of(const PacketHits& hits, std::uint32_t ahead, std::size_t orientation) {
     Packet points{};
@@ -173,9 +191,12 @@ class LobeImages::Receiver {
   }
 
   const LobeImages& i_;
+  std::size_t receiver_;
   const IntervalLight& sun_;
   SunSampler::Geometry geometry_;
-  SunSampler::Seeds seeds_;
+  Vec3 middle_;        ///< of the receiver
+  double extent_ = 0;  ///< of a patch, from there
+  SunSampler::Seeds seeds_, disk_seeds_;
   PacketDirections to_sun_;
   Vec3 s_[packet_size], w_[packet_size];
   double brings_[packet_size];

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The sun's images in glossy surfaces of narrow lobes, looked for from sensors: in place of what
-/// their lines bring (solver/first_light/glossy_sun.h), few of which meet such lobes.
+/// The sun's images in glossy surfaces of narrow lobes, looked for from points of patches and from
+/// sensors: in place of what their lines bring (solver/first_light/glossy_sun.h), few of which meet
+/// such lobes.
 ///
 /// A surface of normal n is seen brightest along the image direction m = s - 2 (s·n) n of the sun,
 /// and along w its lobe is proportional to (w·m)^e. So M directions are drawn with the density
@@ -11,10 +12,11 @@
 ///     E = 1/M Σ f_r (s·n) cosθ dni visible / p
 ///
 /// which is the same for all of them but for cosθ and (s·n). Lobes are narrow where such directions
-/// are denser about m than the L lines can be: M (e+1)/(2π) > L/π. Light that reaches a sensor by
+/// are denser about m than the L lines can be: M (e+1)/(2π) > L/π. Light that reaches a receiver by
 /// way of another mirror or lobe is the lines', as is all of it where narrow lobes face in more
-/// than 4096 directions. Each sample of a sun with a disk has an s of its own; (s·n) stays that of
-/// the centre. Cost: up to 2 M rays for each sensor, sun and orientation in sight.
+/// than 4096 directions, for patches 512. Each sample of a sun with a disk has an s of its own;
+/// (s·n) stays that of the centre. Cost: up to 2 M rays for each receiver, sun and orientation in
+/// sight.
 #pragma once
 
 #include <cstdint>

@@ -122,10 +122,20 @@ void add_gloss(const TracedScene& traced, Suns suns, BlockRays& rays, const RayI
   if (!traced.optics.any_glossy) return;
   const Stopwatch time(work[Work::mirror_s]);
   work.add(Work::mirror_rays,
-           traced.glossy_sun.add_light(traced.patches.lines, suns,
+           traced.glossy_sun.add_light(traced.patches.lines, traced.lobe_images, suns,
                                        mirrored(traced, rays.on_patches, integrals.of_gloss())));
   rays.sent_on.resize(static_cast<std::size_t>(traced.rules.realizations));
   traced.glossy_sun.follow_light(suns, rays.sent_on);
+}
+
+/// Of narrow lobes: by samples, as mirrors are.
+void add_lobe_images(const TracedScene& traced, Suns suns, BlockRays& rays,
+                     const RayIntegrals& integrals, WorkDone& work) {
+  if (!traced.optics.any_glossy) return;
+  const Stopwatch time(work[Work::mirror_s]);
+  work.add(Work::mirror_rays,
+           traced.lobe_images.add_light(
+               suns, mirrored(traced, rays.on_patches, integrals.of(&RaySums::mirror))));
 }
 
 using SunsOneByOne = std::vector<std::vector<IntervalLight>>;
@@ -216,9 +226,9 @@ std::uint64_t add_mirrors_on_sensors(const TracedScene& traced, const SunsOneByO
       cast += traced.mirror_sun.add_light(sensors.sampler, suns[s],
                                           on_sensors(traced, std::move(beams[s]), suns[s]), into);
     if (!traced.optics.any_glossy) continue;
-    cast +=
-        traced.glossy_sun.add_light_on_sensors(sensors.lines, traced.lobe_images, suns[s], into);
-    cast += traced.lobe_images.add_light(suns[s], into);
+    cast += traced.glossy_sun.add_light_on_sensors(sensors.lines, traced.lobe_images_of_sensors,
+                                                   suns[s], into);
+    cast += traced.lobe_images_of_sensors.add_light(suns[s], into);
   }
   return cast;
 }
@@ -290,6 +300,8 @@ BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources
     beams[s] = beams_of(traced, suns[s], shares[s]);
     add_mirrors(traced, suns[s], beams[s], shares[s], rays, of_patches, work);
   }
+  for (const auto& of_intervals : suns)
+    add_lobe_images(traced, of_intervals, rays, of_patches, work);
   if (kept.by_samples) rays.on_patches.by_samples = summed(rays.on_patches.of_realizations);
   for (const auto& of_intervals : suns) add_gloss(traced, of_intervals, rays, of_patches, work);
   if (traced.sensors.count() == 0) return rays;

@@ -117,7 +117,8 @@ TracedScene::TracedScene(const Scene& whole, std::shared_ptr<const Hierarchy> fr
       mirror_chains(*mesh, caster, patches.sampler, mirrors,
                     {.mirror_depth = of_study.mirror_depth, .negligible = of_study.unshot}),
       glossy_sun(whole, *mesh, caster, patches.sampler, optics, line_rules(of_study)),
-      lobe_images(whole, caster, sensors.sampler, line_rules(of_study)) {
+      lobe_images(whole, caster, patches.sampler, line_rules(of_study)),
+      lobe_images_of_sensors(whole, caster, sensors.sampler, line_rules(of_study)) {
   SUNLOAD_EXPECT(!is_rgb() || rules.transport == Transport::gather, "bands are gathered");
   SUNLOAD_EXPECT(rules.transport != Transport::matrix ||
                      std::none_of(whole.materials.begin(), whole.materials.end(), goes_on_straight),

@@ -67,8 +67,9 @@ struct TracedScene {
   MirrorSun mirror_sun;
   MirrorChains mirror_chains;
   GlossySun glossy_sun;
-  LobeImages lobe_images;  ///< for sensors
-  int bounces = 0;         ///< that are followed: `rules.bounces`, or fewer for `rules.unshot`
+  LobeImages lobe_images;  ///< for patches
+  LobeImages lobe_images_of_sensors;
+  int bounces = 0;  ///< that are followed: `rules.bounces`, or fewer for `rules.unshot`
   std::vector<std::vector<float>> beyond_of_band;  ///< light_beyond; empty ones: it is left
   BounceRules bounce_rules(std::size_t band) const { return {bounces, beyond_of_band[band]}; }
   WorkDone work;  ///< that tracing took

@@ -77,6 +77,47 @@ TEST(Glossy, SunOnAPlate) {
     }
 }
 
+// The same of lobes that next to no line meets, with the counts of every day: patches look for
+// them. Where the sun is a disk, too.
+TEST(Glossy, NarrowLobesHaveLittleNoiseOnPatches) {
+  for (const double n : {1000.0, 20000.0})
+    for (const double disk : {0.0, 0.0046}) {
+      auto light = one_second({0.5, 0.1, 0.8}, 900);
+      light.disk_half_angle = disk;
+      const OverPlate scene(glossy(0.7, n));
+      auto rules = test_rules();
+      rules.lines_per_patch = rules.realizations * 16;
+      rules.direct_samples = rules.realizations * 2;
+      const auto solved = solve(scene.builder.scene(), {light}, rules);
+      const double cos_s = light.direction.z;
+      const double truth = 900 * cos_s * 0.7 * lobe_albedo(cos_s, n);
+      const Verdict verdict = expect_mean(OverPlate::means(solved), truth, 1e-3 * truth);
+      EXPECT_TRUE(verdict) << n << ": " << verdict.text;
+      EXPECT_LT(verdict.standard_error, 0.02 * truth) << n;
+    }
+}
+
+// A narrow lobe is all but a mirror: large patches have what plane mirrors of that share send them,
+// as the light that passes beside the plate's edge falls on parts of them.
+TEST(Glossy, NarrowLobesLightPatchesInPart) {
+  std::vector<double> powers[2];
+  for (const bool is_lobe : {false, true}) {
+    SceneBuilder builder;
+    const int black = builder.material({"black"});
+    const int plate = builder.material(is_lobe ? glossy(0.7, 1e6) : Material{"mirror", 0, 0.7});
+    builder.object("wall").quad({4, 6, 0}, {4, -6, 0}, {4, -6, 8}, {4, 6, 8}, black);
+    builder.object("plate").quad({0, -2, 0}, {2, -2, 0}, {2, 2, 0}, {0, 2, 0}, plate);
+    auto rules = test_rules();
+    rules.direct_samples = rules.realizations * 16;
+    const auto solved = solve(builder.scene(), {one_second({-0.6, 0.1, 0.6}, 900)}, rules);
+    powers[is_lobe] = solved.means([&](std::size_t i) { return solved.patches[i].triangle < 2; });
+  }
+  const double mirror = mean_error(powers[0]).mean, error = mean_error(powers[0]).standard_error;
+  const Verdict verdict = expect_mean(powers[1], mirror, 4 * error + 0.005 * mirror);
+  EXPECT_TRUE(verdict) << verdict.text;
+  EXPECT_FALSE(expect_mean(powers[1], 1.3 * mirror, 4 * error)) << verdict.text;
+}
+
 /// A court of glossy, mirror and transparent surfaces.
 Scene glossy_court() {
   SceneBuilder builder;

@@ -180,7 +180,7 @@ TEST(Luminaires, BrightLobesBringTheirFlux) {
     scene.luminaires.webs = {{planes, gammas, intensities}};
     const double truth = scene.luminaires.flux();
     SolverRules rules = lamp_rules(0);
-    rules.direct_samples = 16 * 8;
+    rules.direct_samples = 16 * 64;
     const auto solved = solve(scene, {night}, rules, {.max_edge_m = 10});
     const auto all = powers(solved, [](std::size_t) { return true; });
     const Verdict verdict = expect_mean(all, truth, 1e-3 * truth);
