@@ -29,15 +29,18 @@ struct CoveredCut {
 /// along the line where that begins, in their place in the order. Facades lose what is covered of
 /// them, and go where nothing is left; the names of the others stay.
 ///
-/// Covered is what has its front inside of a closed body, against the front of another surface, or
-/// below land (open surfaces of kind ground but roads and railways, which may be bridges). Surfaces
+/// Covered is what has its front inside of a closed body, against the front of another surface,
+/// hidden by one that faces the same way at twice that distance, or below land (open surfaces of
+/// kind ground but roads and railways, which may be bridges; of land also where another body of a
+/// type of land lies above it, and roads within half a metre). Surfaces
 /// for which `is_opaque` is 0 cover nothing, nor do bodies that have some. Two-sided surfaces are
 /// covered inside of bodies and below land only. Land is covered below floors that are closed
 /// at their rim, and above such a floor where more of its object is above the land: `seals` are
 /// these floors and the walls at their rim (geo/mesh/ground).
 ///
 /// Left out is what lies in the place of another opaque surface and faces where that does: the
-/// first of them stays, but before others what `emits` (empty: nothing), then two-sided surfaces.
+/// first of them stays, but before others what `emits` (empty: nothing), then windows, also before
+/// or behind their wall by as much as surfaces touch, then two-sided surfaces; last bare terrain.
 /// No ray could tell which of the two it meets.
 ///
 /// Where nothing is covered or left out, nothing changes. Throws InputError where too many

@@ -103,13 +103,17 @@ class Cutter {
         touching.push_back({covers_.body(u), taken_.back()});
       } else if (covers_.are_of_one_body(t_, u)) {
         return;
-      } else if (covers_.is_against(t_, u)) {
+      } else if (covers_.is_against(t_, u) || covers_.is_behind(t_, u)) {
         if (add_overlap(u, against_)) touching.push_back({covers_.body(u), against_.back()});
       } else if (const Meets meets = covers_.ending(t_, u); meets == Meets::through) {
         if (const auto line = cut_by(u, 0)) lines_.push_back(*line);
       } else if (meets == Meets::up_to) {
         up_to.push_back(u);
       }
+    });
+    covers_.visit_rims_above(t_, piece_.corners, [&](Vec3 a, Vec3 b) {
+      const auto line = within_outline(plane_.seen(a), plane_.seen(b));
+      if (line && !is_on_outline(*line)) lines_.push_back(*line);
     });
     std::ranges::stable_sort(touching, {}, &Touching::body);
     for (const std::size_t u : up_to)
@@ -169,8 +173,23 @@ class Cutter {
       ends.push_back(plane_.seen(a + (of_a / (of_a - of_b)) * (b - a)));
     }
     if (ends.size() != 2) return {};
+    return within_outline(ends[0], ends[1]);
+  }
+
+  /// As the rims of land beside this piece of it are.
+  bool is_on_outline(const Line2& line) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point2 a = outline_[k], b = outline_[(k + 1) % 3];
+      const double most = rounding() * std::hypot(b.u - a.u, b.v - a.v);
+      if (std::abs(turn(a, b, line[0])) <= most && std::abs(turn(a, b, line[1])) <= most)
+        return true;
+    }
+    return false;
+  }
+
+  /// What of a line lies on the piece.
+  std::optional<Line2> within_outline(Point2 a, Point2 b) const {
     double from = 0, to = 1;
-    const Point2 a = ends[0], b = ends[1];
     for (std::size_t k = 0; k < 3; ++k) {
       const double of_a = turn(outline_[k], outline_[(k + 1) % 3], a),
                    of_b = turn(outline_[k], outline_[(k + 1) % 3], b);

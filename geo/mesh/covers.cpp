@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "geo/base/check.h"
@@ -17,6 +18,8 @@ namespace sunload {
 namespace {
 
 constexpr double contact_ratio = 1e-4;
+/// A road no higher than this above land lies on it, and is no bridge.
+constexpr double road_bed_m = 0.5;
 // Pairs of triangles compared: cities have some ten for each triangle.
 constexpr std::size_t most_pairs = 500'000'000;
 
@@ -33,7 +36,7 @@ Covers::Covers(const Mesh& mesh, const Bodies& bodies, const std::vector<std::ui
   const Box box = bounding_box(mesh.vertices);
   contact_ = std::min(contact_m, contact_ratio * norm(box.high - box.low));
   same_place_ = same_place_m(mesh);
-  find_solids();
+  find_bodies();
   find_land();
   std::vector<Box> boxes;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -42,6 +45,7 @@ Covers::Covers(const Mesh& mesh, const Bodies& bodies, const std::vector<std::ui
     normal_.push_back(length > 0 ? mesh.area_vector2(t) / length : Vec3{});
   }
   tree_ = BoxTree(std::move(boxes));
+  find_rims();
 }
 
 /// From where on triangles are of no matter to each other.
@@ -59,24 +63,63 @@ bool Covers::are_of_one_body(std::size_t t, std::size_t u) const {
   return b >= 0 && b == bodies_.triangle_body[u];
 }
 
+bool Covers::may_replace(std::size_t t, std::size_t u) const {
+  if (!mesh_.bears_patches(u) || (faces_both(t) && !faces_both(u))) return false;
+  return faces_both(u) || dot(normal_[t], normal_[u]) > 0;
+}
+
+bool Covers::is_in_place_of(std::size_t t, std::size_t u) const {
+  // Windows lie on their walls in whole millimetres only.
+  const double within =
+      is_window(t) == is_window(u) ? same_place_ : std::max(same_place_, contact_);
+  return is_near_plane(t, u, within) && is_near_plane(u, t, within);
+}
+
 bool Covers::is_taken(std::size_t t, std::size_t u) const {
-  if (!is_opaque_[u] || !mesh_.bears_patches(u)) return false;
-  const auto rank = [&](std::size_t x) { return std::pair(emits(x), faces_both(x)); };
+  if (!(is_opaque_[u] || (is_window(u) && !is_window(t))) || !may_replace(t, u)) return false;
+  const auto rank = [&](std::size_t x) {
+    return std::array{emits(x), is_window(x), faces_both(x), !is_bare_terrain(x)};
+  };
   if (rank(t) == rank(u) ? u > t : rank(u) < rank(t)) return false;
-  if (faces_both(t) && !faces_both(u)) return false;
-  if (!faces_both(u) && dot(normal_[t], normal_[u]) <= 0) return false;
-  return is_near_plane(t, u, same_place_) && is_near_plane(u, t, same_place_);
+  return is_in_place_of(t, u);
+}
+
+bool Covers::is_behind(std::size_t t, std::size_t u) const {
+  if (!is_opaque_[u] || faces_both(t) || are_of_one_body(t, u) || !may_replace(t, u)) return false;
+  if (!is_near_plane(t, u, looked_at_m()) || !is_near_plane(u, t, looked_at_m())) return false;
+  if (is_in_place_of(t, u)) return false;
+  // Of two that go through each other one only: by how far they are before each other all in all.
+  double before = 0;
+  for (const Vec3 corner : corners(u)) before += distance(t, corner);
+  const double facing = dot(normal_[t], normal_[u]) > 0 ? 1 : -1;
+  for (const Vec3 corner : corners(t)) before -= facing * distance(u, corner);
+  return before > 0;
 }
 
 bool Covers::is_against(std::size_t t, std::size_t u) const {
-  return is_opaque_[u] && mesh_.triangle_sides[t] == Sides::one &&
-         dot(normal_[t], normal_[u]) < 0 &&
-         (is_near_plane(t, u, contact_) || is_near_plane(u, t, contact_));
+  if (!is_opaque_[u] || faces_both(t) || dot(normal_[t], normal_[u]) >= 0) return false;
+  const bool is_u_near = is_near_plane(t, u, contact_);
+  if (!is_u_near && !is_near_plane(u, t, contact_)) return false;
+  double before = 0;
+  for (const Vec3 corner : corners(is_u_near ? u : t))
+    before += distance(is_u_near ? t : u, corner) / 3;
+  return before >= -same_place_ || reaches_before(t, bodies_.triangle_body[u]);
+}
+
+/// Whether a body goes on before the front of `t`: one that begins just behind it, as of houses
+/// that overlap by a millimetre. Sheets back to back do not.
+bool Covers::reaches_before(std::size_t t, std::int32_t body) const {
+  if (body < 0) return false;
+  const auto b = static_cast<std::size_t>(body);
+  for (std::size_t i = body_begin_[b]; i < body_begin_[b + 1]; ++i)
+    for (const Vec3 corner : corners(of_body_[i]))
+      if (distance(t, corner) > looked_at_m()) return true;
+  return false;
 }
 
 Covers::Meets Covers::ending(std::size_t t, std::size_t u) const {
-  const bool may_end = is_in_solid(u) || (is_land_[u] && !is_land_[t]) ||
-                       (is_land_[t] && seals(u)) || (is_relief(t) && open_houses_.is_wall(u));
+  const bool may_end = is_in_solid(u) || may_bury(t, u) || (is_land_[t] && seals(u)) ||
+                       (is_relief(t) && open_houses_.is_wall(u));
   if (!may_end || !is_cut(u, t)) return Meets::not_at_all;
   if (is_cut(t, u)) return Meets::through;
   const auto is_before = [&](Vec3 corner) { return distance(t, corner) > looked_at_m(); };
@@ -98,13 +141,22 @@ bool Covers::is_buried(std::size_t t, Vec3 at) const {
       const int side = plumb_crossing(corners(u), p.x, p.y);
       if (side != 0 && plane_height(u, p.x, p.y) > p.z) inside += side;
     }
-    if (is_land_[u] && !is_land_[t] && !is_below_land) {
+    if (!is_below_land && may_bury(t, u)) {
       const auto z = height_at(mesh_, u, p.x, p.y);
-      is_below_land = z && *z > p.z + contact_;
+      // Land that lies on land in millimetres is found as what is behind it.
+      const double least = is_land_[t] ? -contact_ : contact_;
+      is_below_land = z && *z > p.z + least && !(is_road_[u] && *z > p.z + road_bed_m);
     }
   });
   return inside > 0 || is_below_land || (is_land_[t] && is_sealed(p)) ||
          (is_relief(t) && open_houses_.hold(p));
+}
+
+/// Whether what lies below `u` is below land: of land another sheet, as where one terrain has finer
+/// tiles, or streets, gardens and water lie on it.
+bool Covers::may_bury(std::size_t t, std::size_t u) const {
+  if (!is_land_[t]) return is_land_[u] != 0;
+  return is_relief(t) && (is_relief(u) || is_road_[u]) && !are_of_one_body(t, u);
 }
 
 /// Land just below `p` under a floor, in the pocket that it closes, or inside of what stands on it:
@@ -133,12 +185,26 @@ bool Covers::is_relief(std::size_t t) const {
   return is_land_[t] && is_land(mesh_.object_kinds[mesh_.triangle_object[t].index()]);
 }
 
+/// Land that says nothing of what lies on it.
+bool Covers::is_bare_terrain(std::size_t t) const {
+  return is_land_[t] && mesh_.object_kinds[mesh_.triangle_object[t].index()] == "TINRelief";
+}
+
 bool Covers::is_in_solid(std::size_t t) const {
   const auto b = bodies_.triangle_body[t];
   return b >= 0 && is_solid_[static_cast<std::size_t>(b)] != 0;
 }
 
-void Covers::find_solids() {
+void Covers::find_bodies() {
+  body_begin_.assign(bodies_.bodies.size() + 1, 0);
+  for (const auto b : bodies_.triangle_body)
+    if (b >= 0) ++body_begin_[static_cast<std::size_t>(b) + 1];
+  std::partial_sum(body_begin_.begin(), body_begin_.end(), body_begin_.begin());
+  of_body_.resize(body_begin_.back());
+  std::vector<std::size_t> next(body_begin_.begin(), body_begin_.end() - 1);
+  for (std::size_t t = 0; t < mesh_.triangle_count(); ++t)
+    if (const auto b = bodies_.triangle_body[t]; b >= 0)
+      of_body_[next[static_cast<std::size_t>(b)]++] = t;
   for (const Body& body : bodies_.bodies)
     is_solid_.push_back(body.is_closed && !body.is_inside_out);
   for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
@@ -149,13 +215,42 @@ void Covers::find_solids() {
 
 void Covers::find_land() {
   is_land_.assign(mesh_.triangle_count(), 0);
+  is_road_.assign(mesh_.triangle_count(), 0);
   for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
     if (mesh_.triangle_surface[t] != Surface::ground || is_in_closed(t)) continue;
     const auto& kind = mesh_.object_kinds[mesh_.triangle_object[t].index()];
     const bool may_be_bridge =
         kind == "Road" || kind == "Railway" || kind == "TransportSquare" || kind == "Waterway";
-    is_land_[t] = !may_be_bridge && is_opaque_[t] && mesh_.area_vector2(t).z > 0;
+    if (is_opaque_[t] && mesh_.area_vector2(t).z > 0) (may_be_bridge ? is_road_ : is_land_)[t] = 1;
   }
+}
+
+void Covers::find_rims() {
+  using Edge = std::array<std::int32_t, 2>;
+  std::vector<std::pair<Edge, std::size_t>> edges;
+  bool are_many = false;
+  for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
+    if (!is_relief(t) && !is_road_[t]) continue;
+    are_many |= !edges.empty() && !are_of_one_body(edges.front().second, t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto a = mesh_.triangles[t][k], b = mesh_.triangles[t][(k + 1) % 3];
+      edges.push_back({{std::min(a, b), std::max(a, b)}, t});
+    }
+  }
+  if (!are_many) return;
+  std::ranges::sort(edges);
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto& [edge, t] = edges[i];
+    if ((i > 0 && edges[i - 1].first == edge) ||
+        (i + 1 < edges.size() && edges[i + 1].first == edge))
+      continue;
+    rims_.push_back({{mesh_.vertices[static_cast<std::size_t>(edge[0])],
+                      mesh_.vertices[static_cast<std::size_t>(edge[1])]},
+                     t});
+    boxes.push_back(box_around({rims_.back().ends[0], rims_.back().ends[1]}));
+  }
+  rim_tree_ = BoxTree(std::move(boxes));
 }
 
 bool Covers::is_in_closed(std::size_t t) const {

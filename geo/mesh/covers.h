@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "geo/mesh/box_tree.h"
@@ -41,13 +42,30 @@ class Covers {
       visit(u);
     });
   }
+  /// Every edge where land ends above `piece` that may cover it, the end of a sheet of another
+  /// body: its ends, straight below on the plane of `t`.
+  template <class Visit>
+  void visit_rims_above(std::size_t t, const std::array<Vec3, 3>& piece, const Visit& visit) const {
+    if (rims_.empty() || !is_relief(t)) return;
+    Box above = box_around({piece[0], piece[1], piece[2]});
+    above.high.z = std::numeric_limits<double>::infinity();
+    rim_tree_.visit_meeting(above, [&](std::size_t i) {
+      const Rim& rim = rims_[i];
+      if (!may_bury(t, rim.triangle)) return;
+      count_pair();
+      visit(below(t, rim.ends[0]), below(t, rim.ends[1]));
+    });
+  }
   std::int32_t body(std::size_t t) const { return bodies_.triangle_body[t]; }  ///< -1: of none
   bool are_of_one_body(std::size_t t, std::size_t u) const;
 
   /// Whether `u` is in the place of `t` where they overlap, and faces where `t` does. Of two that
-  /// are alike the first is there; before others what emits, then what faces both ways.
+  /// are alike the first is there; before others what emits, then windows (as near as the contact,
+  /// and light may go through them), then what faces both ways; last bare terrain.
   bool is_taken(std::size_t t, std::size_t u) const;
-  /// Front against front, as near as the contact where they overlap.
+  /// Whether `u` hides `t`, which faces the same way, from as near as `looked_at_m()`.
+  bool is_behind(std::size_t t, std::size_t u) const;
+  /// Front against front, as near as the contact where they overlap; not back to back.
   bool is_against(std::size_t t, std::size_t u) const;
   /// How far before a surface it is looked whether it is buried [m].
   double looked_at_m() const { return 2 * contact_; }
@@ -64,12 +82,20 @@ class Covers {
   bool emits(std::size_t t) const { return !emits_.empty() && emits_[t] != 0; }
   bool faces_both(std::size_t t) const { return mesh_.triangle_sides[t] == Sides::two; }
   bool seals(std::size_t t) const { return !seals_.empty() && seals_[t] != 0; }
+  bool is_window(std::size_t t) const { return mesh_.triangle_surface[t] == Surface::window; }
+  bool may_replace(std::size_t t, std::size_t u) const;
+  bool is_in_place_of(std::size_t t, std::size_t u) const;
+  bool reaches_before(std::size_t t, std::int32_t body) const;
+  bool may_bury(std::size_t t, std::size_t u) const;
   bool is_sealed(Vec3 p) const;
   bool is_relief(std::size_t t) const;
+  bool is_bare_terrain(std::size_t t) const;
   bool is_in_solid(std::size_t t) const;
   bool is_in_closed(std::size_t t) const;
-  void find_solids();
+  void find_bodies();
   void find_land();
+  void find_rims();
+  Vec3 below(std::size_t t, Vec3 p) const { return {p.x, p.y, plane_height(t, p.x, p.y)}; }
   double distance(std::size_t plane, Vec3 p) const {
     return dot(p - mesh_.corner(plane, 0), normal_[plane]);
   }
@@ -84,7 +110,16 @@ class Covers {
   const std::vector<std::uint8_t>& emits_;
   OpenHouses open_houses_;
   double contact_ = 0, same_place_ = 0;
-  std::vector<std::uint8_t> is_solid_, is_land_;  ///< per body, per triangle
+  std::vector<std::uint8_t> is_solid_;             ///< per body
+  std::vector<std::size_t> body_begin_, of_body_;  ///< triangles of bodies, body by body
+  std::vector<std::uint8_t> is_land_, is_road_;    ///< per triangle: land but roads, roads
+  /// An edge that one triangle of land has alone.
+  struct Rim {
+    std::array<Vec3, 2> ends;
+    std::size_t triangle;
+  };
+  std::vector<Rim> rims_;  ///< where several bodies of land may lie above each other
+  BoxTree rim_tree_;
   std::vector<Vec3> normal_;
   BoxTree tree_;
   mutable std::size_t pairs_ = 0;  ///< visited, of two bodies

@@ -36,7 +36,7 @@ struct MapAxes::Parts {
   ProjContext context = make_proj_context();
   ProjObject crs, earth_from_crs;
   std::string name;
-  double unit_m = 1;
+  double unit_m = 1, height_unit_m = 1;
   bool is_geocentric = false, is_in_degrees = false, is_north_first = false;
   AreaOfUse area;
 };
@@ -56,6 +56,8 @@ MapAxes::MapAxes(const std::string& crs) : parts_(std::make_unique<Parts>()) {
   }
   own.name = code_of(own.crs.get(), crs);
   if (type == PJ_TYPE_PROJECTED_CRS) own.unit_m = unit_of(context, own.crs.get());
+  const ProjObject heights = vertical_part(context, crs_of_name(context, crs));
+  own.height_unit_m = heights ? unit_of(context, heights.get()) : own.unit_m;
   own.is_north_first = begins_in_the_north(context, own.crs.get());
   own.earth_from_crs = earth_from_crs(context, own.crs.get());
   own.area = area_of_use(context, own.crs.get());
@@ -68,6 +70,7 @@ bool MapAxes::is_geocentric() const { return parts_->is_geocentric; }
 bool MapAxes::is_in_degrees() const { return parts_->is_in_degrees; }
 bool MapAxes::is_north_first() const { return parts_->is_north_first; }
 double MapAxes::unit_m() const { return parts_->unit_m; }
+double MapAxes::height_unit_m() const { return parts_->height_unit_m; }
 const std::string& MapAxes::name() const { return parts_->name; }
 
 bool MapAxes::is_in_use_at(double east, double north) const {

@@ -29,6 +29,8 @@ class MapAxes {
   bool is_north_first() const;
   /// Length of the unit of a map projection [m]; 1 for all else.
   double unit_m() const;
+  /// Length of the unit of heights [m]: of a compound system its vertical part's, else as `unit_m`.
+  double height_unit_m() const;
   /// `EPSG:25832`: the code of the horizontal part; the name asked for where it has none.
   const std::string& name() const;
   /// Whether a point, east (longitude) first, in the unit of the CRS, lies where the CRS is used;

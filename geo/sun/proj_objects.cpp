@@ -42,6 +42,16 @@ ProjObject horizontal_part(PJ_CONTEXT* context, ProjObject crs) {
   return crs;
 }
 
+ProjObject vertical_part(PJ_CONTEXT* context, ProjObject crs) {
+  while (crs && proj_get_type(crs.get()) == PJ_TYPE_BOUND_CRS)
+    crs.reset(proj_get_source_crs(context, crs.get()));
+  if (!crs || proj_get_type(crs.get()) != PJ_TYPE_COMPOUND_CRS) return nullptr;
+  ProjObject heights(proj_crs_get_sub_crs(context, crs.get(), 1));
+  while (heights && proj_get_type(heights.get()) == PJ_TYPE_BOUND_CRS)
+    heights.reset(proj_get_source_crs(context, heights.get()));
+  return heights;
+}
+
 double unit_of(PJ_CONTEXT* context, const PJ* crs) {
   const ProjObject axes(proj_crs_get_coordinate_system(context, crs));
   double factor = 0;

@@ -27,6 +27,9 @@ ProjObject crs_of_name(PJ_CONTEXT* context, const std::string& name);
 /// The part of a CRS that places points on the map.
 ProjObject horizontal_part(PJ_CONTEXT* context, ProjObject crs);
 
+/// The part of a compound CRS that heights are in; null where it has none.
+ProjObject vertical_part(PJ_CONTEXT* context, ProjObject crs);
+
 /// Length of a map projection's own unit [m], e.g. a US survey foot; of degrees in radians.
 double unit_of(PJ_CONTEXT* context, const PJ* crs);
 

@@ -296,7 +296,7 @@ struct Consequence {
 };
 constexpr Consequence are_left_out{
     "that lie in other surfaces and face the same way are left out",
-    "a place receives light once; what emits keeps its name and material, or what comes first",
+    "a place receives light once; what emits stays, then windows, then what comes first",
     "leave one of the two out of the files; a plate of the model's own goes with scene.ground: "
     "{surface: none}"};
 constexpr Consequence receive_twice{
@@ -374,6 +374,8 @@ BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
   }
   warn_of_doubled(find_doubled(built.scene.mesh), built.scene.mesh, receive_twice, built);
   expect_patches(study, built.scene.mesh);
+  if (const auto buried = buried_warning(study, built.scene.mesh); !buried.empty())
+    built.warnings.push_back(buried);
   built.bodies = {};
   built.seals.clear();
   return built;

@@ -8,12 +8,19 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
+#include "geo/mesh/box_tree.h"
+#include "geo/mesh/slope.h"
 #include "io/study/material_table.h"
 
 namespace sunload {
 
 namespace {
+
+Vec3 centre_of_triangle(const Mesh& mesh, std::size_t t) {
+  return (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3;
+}
 
 /// Area and reflectance over it, by kind of surface.
 struct Reflecting {
@@ -146,6 +153,66 @@ std::string lying_warning(const Study& study, const BuiltScene& prepared, bool i
       "its walls are taken for level land and the other way round",
       fmt::format("write scene.up: {} where that axis of the file points to the zenith",
                   wide == 0 ? "x" : "y"));
+}
+
+namespace {
+
+constexpr std::size_t no_triangle = static_cast<std::size_t>(-1);
+
+/// Of objects with walls or roofs that are all covered the triangle whose middle is highest; of all
+/// others none.
+std::vector<std::size_t> tops_of_covered(const Mesh& mesh) {
+  std::vector<std::size_t> top(mesh.object_names.size(), no_triangle);
+  std::vector<std::uint8_t> is_lit(mesh.object_names.size(), 0);
+  const auto height = [&](std::size_t t) { return centre_of_triangle(mesh, t).z; };
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const Surface kind = mesh.triangle_surface[t];
+    if (kind == Surface::floor || kind == Surface::ground) continue;
+    const std::size_t object = mesh.triangle_object[t].index();
+    if (!mesh.is_covered(t)) is_lit[object] = 1;
+    if (top[object] == no_triangle || height(t) > height(top[object])) top[object] = t;
+  }
+  for (std::size_t o = 0; o < top.size(); ++o)
+    if (is_lit[o]) top[o] = no_triangle;
+  return top;
+}
+
+}  // namespace
+
+std::string buried_warning(const Study& study, const Mesh& mesh) {
+  constexpr double deep_m = 0.3;  // less lies under a terrain that is drawn to decimetres
+  constexpr std::size_t most_named = 5;
+  std::vector<std::size_t> land;
+  std::vector<Box> boxes;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.triangle_surface[t] == Surface::ground && mesh.area_vector2(t).z > 0) {
+      land.push_back(t);
+      boxes.push_back(box_around({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}));
+    }
+  const BoxTree tree(std::move(boxes));
+  const std::vector<std::size_t> tops = tops_of_covered(mesh);
+  std::string names;
+  std::size_t count = 0;
+  for (std::size_t o = 0; o < tops.size(); ++o) {
+    if (tops[o] == no_triangle) continue;
+    const Vec3 top = centre_of_triangle(mesh, tops[o]);
+    double deepest = 0;
+    tree.visit_column(top.x, top.y, [&](std::size_t i) {
+      if (const auto z = height_at(mesh, land[i], top.x, top.y))
+        deepest = std::max(deepest, *z - top.z);
+    });
+    if (deepest < deep_m) continue;
+    if (count++ < most_named)
+      names +=
+          fmt::format("{}{} by {:.2f} m", count > 1 ? ", " : "", mesh.object_names[o], deepest);
+  }
+  if (count == 0) return {};
+  return message(
+      study.scene.where,
+      fmt::format("{} object{} wholly below the land ({}{})", count, count == 1 ? " lies" : "s lie",
+                  names, count > most_named ? ", …" : ""),
+      "no light reaches them, and they are in no result",
+      "are cellars meant, or have the files heights of two systems?");
 }
 
 void warn_of_reflectances(const Study& study, BuiltScene& built) {

@@ -17,6 +17,10 @@ std::string lying_warning(const Study& study, const BuiltScene& prepared, bool i
 /// empty where shadows are as good as the same.
 std::string north_warning(const SiteStudy& given, const std::string& crs, double map_north_deg);
 
+/// Warns of objects that lie wholly below the land, as where files have heights of two systems;
+/// empty where there are none. `mesh`: after what is covered is cut.
+std::string buried_warning(const Study& study, const Mesh& mesh);
+
 /// Warns of colours for display that became reflectances, and of walls that reflect more than any
 /// real ones do. To be called after materials are given.
 void warn_of_reflectances(const Study& study, BuiltScene& built);

@@ -4,10 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <set>
 
 #include "geo/base/unused_name.h"
+#include "geo/sun/map_axes.h"
 #include "io/scene/blocks.h"
 #include "io/scene/builtin.h"
 #include "io/scene/file.h"
@@ -135,6 +137,37 @@ PolygonModel read_part(const SceneFileStudy& file, const SceneStudy& scene) {
 
 namespace {
 
+/// Heights that the CRS has in another unit than its map, such as feet over metres, become those of
+/// the map: `unit_m` is of both. Rasters have done so, and say no more of heights.
+void convert_heights(double unit_m, PolygonModel& part) {
+  if (part.crs.empty()) return;
+  const MapAxes axes(part.crs);
+  if (!axes.is_known() || axes.is_in_degrees() || axes.is_geocentric()) return;
+  const double ratio = axes.height_unit_m() / axes.unit_m();
+  constexpr double alike = 1e-5;  // feet, and feet of surveys
+  if (std::abs(ratio - 1) < alike) return;
+  const std::string text = fmt::format("{}: heights of '{}' are in units of {:.6g} m",
+                                       short_name(part.source), part.crs, axes.height_unit_m());
+  // The study's word against the file's about the coordinates: it holds for heights as well.
+  if (axes.unit_m() == 1 && unit_m != 1) {
+    part.notes.push_back(fmt::format("{}, taken for units of {:g} m by unit_m", text, unit_m));
+    return;
+  }
+  for (Vec3& p : part.vertices) p.z *= ratio;
+  part.notes.push_back(text + ", converted to " +
+                       (axes.unit_m() == 1
+                            ? std::string("metres")
+                            : fmt::format("units of {:.6g} m, as its coordinates", axes.unit_m())));
+  part.crs = axes.name();
+}
+
+/// Whether two systems have one map: with and without heights.
+bool are_of_one_map(const std::string& a, const std::string& b) {
+  if (a == b) return true;
+  const MapAxes of_a(a), of_b(b);
+  return of_a.is_known() && of_b.is_known() && of_a.name() == of_b.name();
+}
+
 /// Reads, places and appends file by file; the CRS is that of the first file that stays in place.
 class SceneJoin {
  public:
@@ -165,10 +198,9 @@ class SceneJoin {
                                ": is placed by the study, so its own CRS is not used");
         place(part, place_of(file, crs()));
       }
-      if (!model_.crs.empty() && !part.crs.empty() && model_.crs != part.crs)
-        problems_.add({file.path}, "coordinates in " + part.crs,
-                      "an earlier file of the scene has " + model_.crs,
-                      "bring all files of a scene into one CRS");
+      convert_heights(file.unit_m.value_or(study_.scene.unit_m), part);
+      if (!model_.crs.empty() && !part.crs.empty() && !are_of_one_map(model_.crs, part.crs))
+        tell_other_map(file.path, part);
       // Tens of millions of faces are not copied.
       if (model_.source.empty())
         model_ = std::move(part);
@@ -177,6 +209,19 @@ class SceneJoin {
     } catch (const InputError& error) {
       problems_.add(error);
     }
+  }
+
+  /// The study's word on the CRS is of all files.
+  void tell_other_map(const std::string& path, PolygonModel& part) {
+    if (study_.site.crs.empty())
+      problems_.add({path}, "coordinates in " + part.crs,
+                    "an earlier file of the scene has " + model_.crs,
+                    "bring all files of a scene into one CRS; site.crs says which one it is where "
+                    "a file is wrong");
+    else
+      part.notes.push_back(
+          fmt::format("{}: says its coordinates are in {}, taken for {} by site.crs",
+                      short_name(path), part.crs, study_.site.crs));
   }
 
   const Study& study_;

@@ -362,6 +362,89 @@ TEST(Covered, BackToBackVeilsAndAMillimetreAboveStay) {
   EXPECT_EQ(plates(1e-3, true, Sides::one).cut.taken.area_m2, 0);
 }
 
+/// Of kind `surface`, neither covered nor left out.
+double lit(const Cut& c, const std::string& object, Surface surface) {
+  double sum = 0;
+  for (std::size_t t = 0; t < c.p.mesh.triangle_count(); ++t)
+    if (c.p.mesh.object_names[c.p.mesh.triangle_object[t].index()] == object &&
+        c.p.mesh.triangle_surface[t] == surface && !c.p.mesh.is_covered(t))
+      sum += norm(c.p.mesh.area_vector2(t)) / 2;
+  return sum;
+}
+
+TEST(Covered, SheetsBackToBackAreOpenAndFrontsAreNot) {
+  for (const double gap : {5e-4, 1e-3, 1.9e-3})
+    for (const bool are_fronts : {false, true}) {
+      auto builder = ModelBuilder().object("sheets");
+      std::vector<Vec3> south{{0, 0, 0}, {4, 0, 0}, {4, 0, 2}, {0, 0, 2}}, north;
+      for (const Vec3 p : south) north.insert(north.begin(), p + Vec3{0, gap, 0});
+      if (are_fronts)
+        for (auto* ring : {&south, &north}) std::reverse(ring->begin(), ring->end());
+      builder.ring(south).ring(north);
+      builder.object("far").box({90, 90, 0}, {91, 91, 1}).moved(turned);
+      // Not nearer than the gap along their rims.
+      EXPECT_NEAR(all_covered(cut(builder)), are_fronts ? 16 : 0, 12 * gap) << gap;
+    }
+}
+
+// Of open houses, too, which have no inside to ask for.
+TEST(Covered, WallsThatOverlapByAMillimetreTouch) {
+  auto builder = ModelBuilder().object("a").walls_and_roof({0, 0, 0}, {10, 10, 6});
+  builder.object("b").walls_and_roof({10 - 1e-3, 0, 0}, {20, 10, 6});
+  builder.moved(turned);
+  const auto c = cut(builder);
+  EXPECT_NEAR(c.covered("a", Surface::wall), 60, 0.1);  // roofs' edges: a millimetre
+  EXPECT_NEAR(c.covered("b", Surface::wall), 60, 0.1);
+}
+
+// As two files may have it: each face is there once, that of the house which it lies further out
+// of.
+TEST(Covered, AHouseThatIsThereTwiceAMillimetreApartIsLitOnce) {
+  for (const double shift : {2e-4, 1e-3, 3e-3}) {
+    auto builder = ModelBuilder().object("once").box({0, 0, 0}, {10, 8, 6});
+    builder.object("again").box({shift, shift, 0}, {10 + shift, 8 + shift, 6 + shift});
+    builder.object("wide").box({900, 900, 0}, {910, 908, 6});
+    const auto c = cut(builder);
+    for (const Surface kind : {Surface::wall, Surface::roof})
+      EXPECT_NEAR(lit(c, "once", kind) + lit(c, "again", kind), kind == Surface::wall ? 216 : 80,
+                  36 * 2 * shift)
+          << shift;
+  }
+}
+
+TEST(Covered, WindowsOnTheirWallStay) {
+  for (const double before : {-1e-3, 0.0, 1e-3})
+    for (const char* see_through : {"", "window"}) {
+      auto builder = ModelBuilder().object("house").box({0, 0, 0}, {10, 8, 6});
+      builder.object("window").with(Surface::window);
+      builder.ring({{2, -before, 2}, {4, -before, 2}, {4, -before, 4}, {2, -before, 4}});
+      builder.moved(turned);
+      const auto c = cut(builder, {}, see_through);
+      EXPECT_NEAR(lit(c, "window", Surface::window), 4, rounding) << before << see_through;
+      EXPECT_NEAR(lit(c, "house", Surface::wall), 216 - 4, rounding) << before << see_through;
+    }
+}
+
+TEST(Covered, LandBelowLandIsCovered) {
+  const auto covered_below = [](const std::string& kind, double above, double slope = 0) {
+    auto builder = ModelBuilder().object("terrain", "TINRelief").with(Surface::ground);
+    builder.ring({{0, 0, 0}, {40, 0, 0}, {40, 40, 0}, {0, 40, 0}});
+    builder.object("upper", kind);
+    const double rise = slope * 10;
+    builder.ring(
+        {{10, 10, above}, {20, 10, above + rise}, {20, 20, above + rise}, {10, 20, above}});
+    builder.moved(turned);
+    return cut(builder).covered("terrain", Surface::ground);
+  };
+  for (const char* kind : {"TINRelief", "LandUse", "WaterBody"})
+    for (const double above : {1e-3, 3e-3, 5e-3, 0.02, 0.3, 4.0})
+      EXPECT_NEAR(covered_below(kind, above), 100, rounding) << kind << ' ' << above;
+  EXPECT_NEAR(covered_below("Road", 0.02), 100, rounding);
+  EXPECT_EQ(covered_below("Road", 3), 0);  // a bridge
+  // A slope that goes through it half-way.
+  EXPECT_NEAR(covered_below("LandUse", -1, 0.2), 50, 0.5);
+}
+
 using Rectangle = std::array<double, 4>;  // low x, low y, high x, high y
 
 std::vector<Rectangle> random_rectangles(std::mt19937& random, int count) {

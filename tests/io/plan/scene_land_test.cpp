@@ -115,6 +115,25 @@ TEST(SceneLand, CoversWhatLiesBelow) {
   EXPECT_FALSE(warns_of_sunk_walls(on_land));
 }
 
+TEST(SceneLand, TellsWhatLiesWhollyBelow) {
+  const auto is_told = [](const std::string& low, const std::string& high) {
+    const BuiltScene built =
+        scene_of(WorkFolder(),
+                 "o terrain\nv -50 -50 0\nv 50 -50 0\nv 50 50 0\nv -50 50 0\nf 1 2 3 4\n"
+                 "o house\nv -5 -5 " +
+                     low + "\nv 5 -5 " + low + "\nv 5 5 " + low + "\nv -5 5 " + low + "\nv -5 -5 " +
+                     high + "\nv 5 -5 " + high + "\nv 5 5 " + high + "\nv -5 5 " + high +
+                     "\n"
+                     "f 8 7 6 5\nf 9 10 11 12\nf 5 6 10 9\nf 6 7 11 10\nf 7 8 12 11\nf 8 5 9 12\n",
+                 ", land: [terrain]");
+    return std::ranges::any_of(built.warnings, [](const std::string& warning) {
+      return warning.find("1 object lies wholly below the land (house by 3") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(is_told("-9", "-3"));
+  EXPECT_FALSE(is_told("-6", "1"));
+}
+
 /// Were the steep bank a wall, made ground would lie in its place as well.
 TEST(SceneLand, IsGroundHoweverSteep) {
   constexpr double wide_m = 100, margin_m = 20, rounding_m2 = 1e-6;

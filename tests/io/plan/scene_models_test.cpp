@@ -147,6 +147,44 @@ TEST_F(Files, WaitForTheCrsOfAnotherFile) {
 }
 
 /// Area and volume of closed bodies do not change where they are turned and moved.
+/// A face that rises by 6 from (x, 5000000), of a system.
+std::string city_face(const std::string& crs, const std::string& x = "500000") {
+  return R"({"type": "CityJSON", "version": "1.1", "metadata": {"referenceSystem": ")" + crs +
+         R"("}, "transform": {"scale": [1, 1, 1], "translate": [)" + x + R"(, 5000000, 0]},
+  "CityObjects": {"wall": {"type": "Building", "geometry": [{"type": "MultiSurface", "lod": "1",
+    "boundaries": [[[0, 1, 2, 3]]]}]}},
+  "vertices": [[0, 0, 0], [10, 0, 0], [10, 0, 6], [0, 0, 6]]})";
+}
+
+TEST_F(Files, HaveHeightsInTheUnitOfTheirCrs) {
+  constexpr double survey_foot_m = 1200.0 / 3937;
+  const auto height = [&](const std::string& crs, const std::string& unit) {
+    folder_.write("wall.city.json", city_face(crs));
+    const auto m = model("{file: wall.city.json, unit_m: " + unit + "}");
+    return m.vertices[2].z - m.vertices[1].z;
+  };
+  constexpr double rounding = 1e-6;  // of the unit that PROJ has
+  EXPECT_NEAR(height("EPSG:26918", "1"), 6, rounding);
+  EXPECT_NEAR(height("EPSG:26918+6360", "1"), 6 * survey_foot_m, rounding);
+  // Of a map in feet, which the study makes metres of, heights are in metres, too.
+  EXPECT_NEAR(height("EPSG:2263+5703", "0.3048006096012192"), 6, rounding);
+  EXPECT_NEAR(height("EPSG:2263+6360", "0.3048006096012192"), 6 * survey_foot_m, rounding);
+  // The study's word against the file's.
+  EXPECT_NEAR(height("EPSG:26918+6360", "0.5"), 3, rounding);
+}
+
+TEST_F(Files, BelongTogetherWithAndWithoutHeights) {
+  folder_.write("flat.city.json", city_face("EPSG:28992"));
+  folder_.write("high.city.json", city_face("EPSG:7415", "500020"));
+  folder_.write("other.city.json", city_face("EPSG:25832"));
+  EXPECT_EQ(model("flat.city.json, high.city.json").facts.size(), 2u);
+  EXPECT_NE(refusal("flat.city.json, other.city.json", "latitude_deg: 50, longitude_deg: 14"), "");
+  const auto m = read_models(study("flat.city.json, other.city.json", "crs: 'EPSG:28992'"));
+  EXPECT_TRUE(std::ranges::any_of(m.notes, [](const std::string& note) {
+    return note.find("EPSG:25832, taken for EPSG:28992 by site.crs") != std::string::npos;
+  }));
+}
+
 TEST_F(Files, KeepTheirShapeInEveryPlace) {
   folder_.write("box.obj",
                 "o box\nv 0 0 0\nv 2 0 0\nv 2 3 0\nv 0 3 0\nv 0 0 4\nv 2 0 4\nv 2 3 4\nv 0 3 4\n"
