@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <iostream>
@@ -422,27 +423,43 @@ PatchSpread pilot_of_one_sun(const SceneBuilder& builder) {
                                {.of_instants = true}, watch);
 }
 
-TEST(Accuracy, PilotTakesTheSunByGlossForNoiseOfLines) {
+/// Sums over the patches before a glossy wall.
+struct GlossNoise {
+  double of_lines = 0, of_samples = 0;
+};
+std::array<GlossNoise, 2> spread_before_gloss(double exponent) {
   SceneBuilder builder;
   Material satin{"satin", 0.1, 0, 0};
   satin.glossy = 0.5;
-  satin.glossy_exponent = 40;
+  satin.glossy_exponent = exponent;
   const int grey = builder.material({"grey", 0, 0, 0}), gloss = builder.material(satin);
   builder.object("floor").quad({-3, -6, 0}, {3, -6, 0}, {3, 0, 0}, {-3, 0, 0}, grey);
   builder.object("wall").quad({-3, 0, 0}, {3, 0, 0}, {3, 0, 4}, {-3, 0, 4}, gloss);
   const PatchSpread spread = pilot_of_one_sun(builder);
-  double lines = 0, samples = 0, lines_of_load = 0, samples_of_load = 0;
+  GlossNoise irradiance, load;
   for (std::size_t i = 0; i < spread.area.size(); ++i) {
-    lines += spread.irradiance[0].of_line[i];
-    samples += spread.irradiance[0].of_sample[i];
-    lines_of_load += spread.load.of_line[i];
-    samples_of_load += spread.load.of_sample[i];
+    irradiance.of_lines += spread.irradiance[0].of_line[i];
+    irradiance.of_samples += spread.irradiance[0].of_sample[i];
+    load.of_lines += spread.load.of_line[i];
+    load.of_samples += spread.load.of_sample[i];
   }
-  // No shadow falls anywhere: every sample of the sun brings the same.
-  EXPECT_GT(lines, 1);
-  EXPECT_LT(samples, 1e-6 * lines);
-  EXPECT_GT(lines_of_load, 1);
-  EXPECT_LT(samples_of_load, 1e-6 * lines_of_load);
+  return {irradiance, load};
+}
+
+// No shadow falls anywhere: but for gloss every sample of the sun brings the same.
+TEST(Accuracy, PilotTakesTheSunByGlossForNoiseOfLines) {
+  for (const auto& sums : spread_before_gloss(20)) {
+    EXPECT_GT(sums.of_lines, 1);
+    EXPECT_LT(sums.of_samples, 1e-6 * sums.of_lines);
+  }
+}
+
+// Lobes of exponents above some 30 (256 lines, 16 samples) are looked for from the patches.
+TEST(Accuracy, PilotTakesTheSunByNarrowLobesForNoiseOfSamples) {
+  for (const auto& sums : spread_before_gloss(40)) {
+    EXPECT_GT(sums.of_samples, 1);
+    EXPECT_LT(sums.of_lines, 0.1 * sums.of_samples);  // what lines bring is diffuse light
+  }
 }
 
 TEST(Accuracy, PilotTellsTheSidesOfAScreenApart) {
