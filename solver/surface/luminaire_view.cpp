@@ -9,6 +9,7 @@
 
 #include "geo/base/keys.h"
 #include "geo/base/units.h"
+#include "geo/mesh/clip.h"
 #include "solver/base/sampling.h"
 
 namespace sunload {
@@ -150,18 +151,6 @@ std::vector<IntensitySteps::Cone> brightest_lobe(const std::vector<WebCell>& cel
   return lobe.cones();
 }
 
-/// Part of a polygon, of any shape without hollows, on one side of a plane through the origin.
-std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, Vec3 inward) {
-  std::vector<Vec3> left;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec3 p = polygon[i], q = polygon[(i + 1) % polygon.size()];
-    const double at_p = dot(inward, p), at_q = dot(inward, q);
-    if (at_p >= 0) left.push_back(p);
-    if ((at_p >= 0) != (at_q >= 0)) left.push_back(p + (q - p) * (at_p / (at_p - at_q)));
-  }
-  return left;
-}
-
 /// Inward normals of the sides of a pyramid about a cone.
 std::vector<Vec3> pyramid_about(Vec3 axis, double angle) {
   const Tangents across = tangents(axis);
@@ -301,7 +290,7 @@ void LuminaireView::add_part(Vec3 axis, double angle, double intensity) {
   }
   part.polygon.assign(corners_.begin(), corners_.end());
   for (const Vec3 side : pyramid_about(axis, pyramid_angle * angle))
-    part.polygon = clipped(part.polygon, side);
+    part.polygon = clipped(part.polygon, [&](Vec3 p) { return dot(side, p); });
   if (part.polygon.size() < 3) return;
   for (Vec3& corner : part.polygon) corner = corner / dot(axis, corner);
   const double solid_angle = size_in_cone(part.polygon, axis, angle, true);
@@ -325,13 +314,15 @@ void LuminaireView::weigh() {
   double sum = whole_;
   for (const Part& part : parts_) sum += part.weight;
   whole_ /= sum;
-  for (Part& part : parts_) part.weight /= sum;
+  weights_.push_back(whole_);
+  for (Part& part : parts_) {
+    part.weight /= sum;
+    weights_.push_back(part.weight);
+  }
 }
 
 LuminaireView::Direction LuminaireView::sample(double u, double v) const {
-  std::vector<double> weights{whole_};
-  for (const Part& part : parts_) weights.push_back(part.weight);
-  const auto [place, rest] = chosen(weights, u);
+  const auto [place, rest] = chosen(weights_, u);
   if (place == 0) {
     const Vec3 w = sample_triangle_seen(rest, v);
     return {w, density(w, nullptr)};

@@ -92,6 +92,7 @@ class LuminaireView {
   SphericalTriangle seen_;
   double whole_ = 0;  ///< Σ c of what holds all of the triangle; then its weight's share
   std::vector<Part> parts_;
+  std::vector<double> weights_;  ///< of `whole_` and the parts, for a choice
 };
 
 }  // namespace sunload
